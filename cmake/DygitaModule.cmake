@@ -1,0 +1,20 @@
+# One library per folder of src/. A module is its folder: a new law is one new file.
+
+function(dygita_target_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+    -Woverloaded-virtual -Wno-maybe-uninitialized $<$<BOOL:${DYGITA_WARNINGS_AS_ERRORS}>:-Werror>)
+  target_link_libraries(${target} PRIVATE OpenMP::OpenMP_CXX)
+endfunction()
+
+# dygita_module(NAME DEPENDS lower modules... PRIVATE_LIBRARIES third-party libraries nobody above may name)
+function(dygita_module name)
+  cmake_parse_arguments(arg "" "" "DEPENDS;PRIVATE_LIBRARIES" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp)
+  add_library(dygita_${name} STATIC ${sources})
+  target_include_directories(dygita_${name} PUBLIC ${CMAKE_SOURCE_DIR}/src)
+  list(TRANSFORM arg_DEPENDS PREPEND dygita_)
+  target_link_libraries(dygita_${name}
+    PUBLIC ${arg_DEPENDS} Eigen3::Eigen spdlog::spdlog PRIVATE ${arg_PRIVATE_LIBRARIES})
+  target_compile_definitions(dygita_${name} PUBLIC EIGEN_DONT_PARALLELIZE)
+  dygita_target_options(dygita_${name})
+endfunction()

@@ -1,0 +1,33 @@
+#include "base/log.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <mutex>
+#include <utility>
+
+namespace dygita {
+
+namespace {
+std::mutex log_mutex;
+std::vector<std::string> kept_warnings;
+}  // namespace
+
+void say(const std::string& line) {
+  const std::scoped_lock lock(log_mutex);
+  std::fputs((line + "\n").c_str(), stdout);
+  std::fflush(stdout);
+}
+
+void warn(const std::string& message) {
+  const std::scoped_lock lock(log_mutex);
+  if (std::find(kept_warnings.begin(), kept_warnings.end(), message) != kept_warnings.end()) return;
+  kept_warnings.push_back(message);
+  std::fputs(("warning: " + message + "\n").c_str(), stderr);
+}
+
+std::vector<std::string> take_warnings() {
+  const std::scoped_lock lock(log_mutex);
+  return std::exchange(kept_warnings, {});
+}
+
+}  // namespace dygita

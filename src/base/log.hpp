@@ -1,0 +1,20 @@
+// What the program says: plain lines, and warnings that are also kept for the run record.
+#pragma once
+
+#include <spdlog/fmt/fmt.h>
+
+#include <string>
+#include <vector>
+
+namespace dygita {
+
+// One line on standard output.
+void say(const std::string& line);
+
+// A warning, on standard error and kept until `take_warnings`; said once even if repeated.
+void warn(const std::string& message);
+
+// The warnings since the last call, oldest first; clears them.
+std::vector<std::string> take_warnings();
+
+}  // namespace dygita

@@ -1,0 +1,50 @@
+#include "base/names.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace dygita {
+
+namespace {
+
+size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 1; i <= a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string closest_name(const std::string& name, const std::vector<std::string>& known) {
+  std::string best;
+  size_t best_distance = std::max<size_t>(2, (name.size() + 1) / 2);
+  for (const std::string& candidate : known) {
+    const size_t distance = edit_distance(name, candidate);
+    if (distance < best_distance) {
+      best = candidate;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+std::string did_you_mean(const std::string& name, std::vector<std::string> known) {
+  std::sort(known.begin(), known.end());
+  std::string text;
+  const std::string best = closest_name(name, known);
+  if (!best.empty()) text = "did you mean '" + best + "'? ";
+  text += "known: ";
+  for (size_t i = 0; i < known.size(); ++i) text += (i ? ", " : "") + known[i];
+  return known.empty() ? text + "none" : text;
+}
+
+}  // namespace dygita

@@ -1,0 +1,38 @@
+// Meshes through gmsh's API; the .cpp is the only place that names gmsh.
+#pragma once
+
+#include <optional>
+
+#include "mesh/mesh.hpp"
+
+namespace dygita {
+
+struct GmshOptions {
+  std::string file;                     // .geo .msh .step .brep, absolute or relative to the working directory
+  std::map<std::string, double> set;    // overrides DefineConstant parameters of a .geo
+  std::optional<double> size;           // target element size (m), for .step and .brep and .geo without sizes
+  double unit = 1.0;                    // length of one unit of the file, in metres
+};
+
+// All volumes of one file, read or generated once.
+class GmshMeshes {
+ public:
+  // Throws InputError: file missing or unreadable (gmsh's own message), unknown parameter in `set` (with the known
+  // ones), no volume group, unsupported cell type (says which: hex8, prism6, tet4 are known).
+  explicit GmshMeshes(const GmshOptions& options);
+
+  // The body of physical volume `name`; its faces are the surface groups "name.x" (as "x") and every other surface
+  // group x lying on its boundary (as "x", unless "name.x" exists). A file without volume groups has one volume per
+  // CAD body, named volume1, volume2, ... and surfaces surface1, surface2, ...
+  // Throws InputError with the closest name for an unknown volume.
+  MeshPtr volume(const std::string& name) const;
+
+  std::vector<std::string> volume_names() const;
+  const std::string& digest() const { return digest_; }
+
+ private:
+  std::map<std::string, MeshPtr> volumes_;
+  std::string file_, digest_;
+};
+
+}  // namespace dygita

@@ -1,0 +1,160 @@
+// What a deck declared: plain, checked, immutable. Objects refer to each other by shared pointers to const.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/error.hpp"
+#include "material/elastic.hpp"
+#include "mesh/mesh.hpp"
+#include "signal/history.hpp"
+#include "signal/srs.hpp"
+
+namespace dygita {
+
+struct Named {
+  std::string name;
+  Origin origin;
+};
+
+struct Substructure : Named {
+  MeshPtr mesh;
+  Elastic material;
+  Vec3 place = Vec3::Zero();     // m, added to every node
+  Vec3 velocity = Vec3::Zero();  // m/s, at the start of the first dynamic step
+};
+using SubstructurePtr = std::shared_ptr<const Substructure>;
+
+// A named group of facets of a substructure's mesh.
+struct Face {
+  SubstructurePtr part;
+  std::string group;
+
+  const std::vector<Facet>& facets() const { return part->mesh->faces.at(group); }
+  std::string label() const { return part->name + "." + group; }
+};
+
+// A set of nodes of a substructure (`part:where`).
+struct Region {
+  SubstructurePtr part;
+  std::vector<int> nodes;
+  std::string label() const { return part->name + " (" + std::to_string(nodes.size()) + " nodes)"; }
+};
+
+enum class InterfaceKind { bonded, contact, plastic };
+
+struct Interface : Named {
+  InterfaceKind kind = InterfaceKind::bonded;
+  Face side_1, side_2;
+  double friction = 0.0;     // contact
+  double gap = 0.0;          // m, contact; negative is an interference
+  double yield = 0.0;        // Pa, plastic
+  double hardening = 0.0;    // Pa/m, plastic
+  bool compression = false;  // plastic: yields in compression too
+};
+using InterfacePtr = std::shared_ptr<const Interface>;
+
+enum class SupportKind { fixed, symmetry, wall, absorbing };
+
+using FaceOrRegion = std::variant<Face, Region>;
+
+struct Support : Named {
+  SupportKind kind = SupportKind::fixed;
+  std::vector<FaceOrRegion> on;  // symmetry, wall, absorbing: faces only
+  double friction = 0.0;         // wall
+  double gap = 0.0;              // wall, m
+};
+using SupportPtr = std::shared_ptr<const Support>;
+
+// What an output or a load can be on.
+using Target = std::variant<Face, Region, InterfacePtr, SupportPtr>;
+
+enum class LoadKind {
+  pressure, traction, force, velocity, displacement, base_acceleration, gravity, shortening, release
+};
+const char* load_kind_name(LoadKind kind);
+
+struct Load {
+  LoadKind kind = LoadKind::pressure;
+  Origin origin;
+  std::vector<Target> on;                  // empty for gravity (all substructures)
+  // pressure, shortening, release: [0]; traction, force, velocity, displacement, gravity: x y z;
+  // base_acceleration: [0] along `direction`. A direction left out is free (velocity, displacement) or zero.
+  std::array<std::optional<History>, 3> value;
+  std::array<bool, 3> is_number{};         // given as a plain number: ramped in a static step
+  Vec3 direction = Vec3::UnitZ();          // base_acceleration, unit
+};
+using LoadPtr = std::shared_ptr<const Load>;
+
+struct Step : Named {
+  bool is_static = false;
+  std::shared_ptr<const Step> after;       // null: from the undeformed state
+  int increments = 1;                      // static
+  double duration = 0.0, dt = 0.0;         // dynamic, s
+  std::vector<LoadPtr> loads;
+  std::optional<std::vector<SupportPtr>> supports;  // replaces the problem's in this step
+
+  int n_increments() const;                // dynamic: round(duration / dt)
+};
+using StepPtr = std::shared_ptr<const Step>;
+
+// solver.latin; negative or zero means "the default of the manual's table".
+struct LatinSettings {
+  double tolerance = 1e-6;
+  double static_tolerance = 1e-8;
+  int window = 1;               // steps; 0: the whole interval
+  double relaxation = 0.0;      // 0: .95 dynamic, .8 static and windows of many steps
+  int anderson = -1;            // -1: 5 dynamic, 20 static, 0 beyond 20 steps
+  int max_iterations = 200;
+  double numerical_damping = 0.0;
+  double push_out = 0.0;        // b of the contact law
+  double search_direction = 1.0;  // multiplies every k (studies, hard cases)
+  bool plain = false;           // iterate with full solves instead of the condensed interface (the plain path)
+};
+
+enum class OutputKind { vtk, history, resultant, srs, joint, energy };
+enum class Quantity { displacement, velocity, acceleration, stress, von_mises, pressure };
+const char* quantity_name(Quantity quantity);
+
+struct Output : Named {
+  OutputKind kind = OutputKind::energy;
+  std::vector<Target> on;                   // history, resultant, joint
+  Quantity quantity = Quantity::displacement;
+  std::optional<Vec3> direction;            // history: unit vector; none: x y z
+  int frames = 50;                          // vtk: a step
+  std::vector<std::string> fields;          // vtk
+  std::shared_ptr<const Output> of;         // srs
+  SrsSettings srs;
+};
+using OutputPtr = std::shared_ptr<const Output>;
+
+struct Problem : Named {
+  std::vector<SubstructurePtr> substructures;
+  std::vector<InterfacePtr> interfaces;
+  std::vector<SupportPtr> supports;
+  std::vector<StepPtr> steps;
+  std::vector<OutputPtr> outputs;
+  LatinSettings solver;
+};
+
+// Supports in force in a step.
+const std::vector<SupportPtr>& supports_of(const Problem& problem, const Step& step);
+
+// Index of an object in a list by identity, or -1.
+template <class T>
+int index_of(const std::vector<std::shared_ptr<const T>>& list, const T* object) {
+  for (size_t i = 0; i < list.size(); ++i)
+    if (list[i].get() == object) return static_cast<int>(i);
+  return -1;
+}
+
+// Cross-checks what no single constructor can see: names unique, every object referred to is listed, steps chained without a
+// fork or a loop, no face under a rigid support and a prescribed motion in the same direction, gaps and interferences, srs of a
+// history... Throws InputError with the object's origin: "problem 'bolted': step 'tighten' loads interface 'shank', which is
+// not in 'interfaces'".
+void check_problem(const Problem& problem);
+
+}  // namespace dygita

@@ -1,0 +1,46 @@
+// What was asked for, as tables; what a run was, as figures. Every reader (deck, CSV, run record) takes these.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace dygita {
+
+// Rows follow the steps in order. Column 0 is `time [s]` (`frequency [Hz]` for spectra).
+struct Table {
+  std::vector<std::string> names;              // "time", "normal", ... without unit
+  std::vector<std::string> units;              // "s", "N", "" where none
+  std::vector<std::vector<double>> columns;    // one vector a name, equal lengths
+  std::vector<int> step;                       // problem's step index of each row; empty for spectra
+
+  int n_rows() const { return columns.empty() ? 0 : static_cast<int>(columns.front().size()); }
+  const std::vector<double>& column(const std::string& name) const;  // CHECKs that it exists
+};
+
+struct StepSummary {
+  std::string name;
+  bool is_static = false;
+  int increments = 0;
+  int increments_not_converged = 0;
+  long iterations = 0;
+  double worst_indicator = 0.0;   // largest accepted
+  double seconds = 0.0;
+};
+
+struct RunResult {
+  std::map<const Output*, Table> tables;       // history, resultant, srs, joint, energy
+  Table convergence;                           // time, step, iterations, indicator, converged (1 or 0)
+  std::vector<StepSummary> steps;
+  bool converged = true;
+  bool interrupted = false;
+  long iterations = 0;                         // all increments of all steps
+  double mean_iterations = 0.0;
+  long n_dofs = 0, n_interface_unknowns = 0;
+  std::map<std::string, double> seconds;       // "assemble", "factor", "forward", "iterate", "backward", "output", ...
+  std::map<std::string, double> figures;       // "largest energy imbalance [%]", "largest penetration [m]", ...
+};
+
+}  // namespace dygita
