@@ -1,0 +1,63 @@
+// Sparse Cholesky factor with the interface unknowns last, and the solves that stop at the interface.
+// The only place that names CHOLMOD and METIS (factor.cpp).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "numerics/types.hpp"
+
+namespace dygita {
+
+// A = L L^T in the order [interior, interface]. Vectors passed to the solves are in this order (`order`), so that state
+// kept in it is never gathered (manual, one solve per step).
+class Factor {
+ public:
+  // matrix: symmetric positive definite, n x n, both triangles stored; node_of_dof: graph vertex of each unknown, unknowns
+  // of a node contiguous; is_interface: unknowns to order last. Fill is reduced by METIS nested dissection on nodes.
+  // Throws NumericalError, naming `what`, when the matrix is not positive definite.
+  Factor(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, const std::vector<char>& is_interface,
+         const std::string& what);
+  ~Factor();
+  Factor(Factor&&) noexcept;
+  Factor& operator=(Factor&&) noexcept;
+
+  int size() const { return static_cast<int>(order_.size()); }
+  int n_interior() const { return n_interior_; }
+  int n_interface() const { return size() - n_interior_; }
+  // order()[i] is the unknown of the matrix at position i of the factor.
+  const std::vector<int>& order() const { return order_; }
+
+  // x_I <- L_II^-1 x_I,  x_b <- x_b - L_bI x_I: what is left in x_b is the right-hand side condensed on the interface.
+  void forward(Eigen::Ref<Vec> x) const;
+  // Given x_b: x_I <- L_II^-T (x_I - L_bI^T x_b).
+  void backward(Eigen::Ref<Vec> x) const;
+  // x <- A^-1 x.
+  void solve(Eigen::Ref<Vec> x) const;
+  // Schur complement of A on the interface, L_bb L_bb^T (n_interface x n_interface, in factor order).
+  Mat interface_schur() const;
+
+  double nonzeros() const;  // entries of L that a solve reads
+
+ private:
+  struct Supernodes;
+  std::unique_ptr<Supernodes> supernodes_;
+  std::vector<int> order_;
+  int n_interior_ = 0;
+};
+
+// Inverse of a symmetric positive definite matrix, lower triangle valid on return. Throws NumericalError naming `what`.
+Mat inverse_spd(Mat matrix, const std::string& what);
+
+// y = A x with A symmetric, only its lower triangle read.
+void multiply_symmetric(const Mat& lower, const Vec& x, Vec& y);
+
+// Flushes denormals in this thread; one thread inside BLAS. Call in every thread before solving.
+void prepare_thread();
+
+// The BLAS in use ("OpenBLAS 0.3.21 ..."); warns when it is not OpenBLAS (5-10 times slower).
+std::string blas_description();
+std::string cholmod_version();
+
+}  // namespace dygita
