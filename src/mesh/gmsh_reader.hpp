@@ -8,10 +8,10 @@
 namespace dygita {
 
 struct GmshOptions {
-  std::string file;                     // .geo .msh .step .brep, absolute or relative to the working directory
-  std::map<std::string, double> set;    // overrides DefineConstant parameters of a .geo
-  std::optional<double> size;           // target element size (m), for .step and .brep and .geo without sizes
-  double unit = 1.0;                    // length of one unit of the file, in metres
+  std::string file;                   // .geo .msh .step .brep, absolute or relative to the working directory
+  std::map<std::string, double> set;  // overrides DefineConstant parameters of a .geo
+  std::optional<double> size;         // target element size (m), for .step and .brep and .geo without sizes
+  double unit = 1.0;                  // length of one unit of the file, in metres
 };
 
 // All volumes of one file, read or generated once.

@@ -11,7 +11,8 @@
 
 namespace dygita {
 
-// Node numbering of each type is VTK's (vtkHexahedron, vtkWedge, vtkTetra).
+// Node numbering of each type is VTK's (vtkHexahedron, vtkWedge, vtkTetra). Beware of vtkWedge: the normal of the
+// triangle 0 1 2 points out of the cell, away from 3 4 5 (gmsh, Abaqus and most others have it inward).
 enum class CellType { hex8, prism6, tet4 };
 
 int nodes_per_cell(CellType type);
@@ -32,7 +33,7 @@ struct Facet {
 };
 
 struct Mesh {
-  Points nodes;                                     // 3 x n_nodes, metres
+  Points nodes;  // 3 x n_nodes, metres
   std::vector<CellBlock> blocks;
   std::map<std::string, std::vector<Facet>> faces;  // every named face of this body
   std::string source;                               // "box" or the file's path, for messages and the run record
@@ -43,6 +44,18 @@ struct Mesh {
 };
 
 using MeshPtr = std::shared_ptr<const Mesh>;
+
+// The facet's nodes in increasing order (-1 first in a triangle): equal for the same facet seen from two cells.
+using FacetKey = std::array<int, 4>;
+FacetKey facet_key(const Facet& facet);
+
+struct FacetKeyHash {
+  size_t operator()(const FacetKey& key) const {
+    size_t hash = 0;
+    for (const int node : key) hash = (hash ^ static_cast<size_t>(node + 1)) * 0x9e3779b97f4a7c15u;
+    return hash ^ (hash >> 32);
+  }
+};
 
 // Facets of the cells that belong to one cell only, normals outward.
 std::vector<Facet> boundary_facets(const std::vector<CellBlock>& blocks);

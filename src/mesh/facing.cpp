@@ -1,0 +1,293 @@
+#include "mesh/facing.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "base/error.hpp"
+#include "mesh/overlap.hpp"
+
+namespace dygita {
+
+namespace {
+
+// Nodes of one face at their place in space; `index` numbers them from 0 in the order of `nodes`.
+struct FaceInSpace {
+  std::vector<int> nodes;
+  Points x;
+  std::unordered_map<int, int> index;
+
+  explicit FaceInSpace(const PlacedFace& face) : nodes(nodes_of(face.facets)), x(3, nodes.size()) {
+    for (size_t i = 0; i < nodes.size(); ++i) {
+      x.col(static_cast<long>(i)) = face.mesh->nodes.col(nodes[i]) + face.place;
+      index[nodes[i]] = static_cast<int>(i);
+    }
+  }
+
+  Polygon polygon(const Facet& facet) const {
+    Polygon corners(3, facet.n_nodes);
+    for (int a = 0; a < facet.n_nodes; ++a) corners.col(a) = x.col(index.at(facet.nodes[a]));
+    return corners;
+  }
+};
+
+double smallest_edge(const FaceInSpace& face, const std::vector<Facet>& facets) {
+  double smallest = std::numeric_limits<double>::max();
+  for (const Facet& facet : facets)
+    for (int a = 0; a < facet.n_nodes; ++a) {
+      const int i = face.index.at(facet.nodes[a]), j = face.index.at(facet.nodes[(a + 1) % facet.n_nodes]);
+      smallest = std::min(smallest, (face.x.col(i) - face.x.col(j)).norm());
+    }
+  return smallest;
+}
+
+// Points by the cell of a regular grid they lie in; the cells are as large as the smallest edge, so each holds few.
+class PointGrid {
+ public:
+  PointGrid(const Points& points, double cell) : points_(points), cell_(cell) {
+    for (int i = 0; i < points.cols(); ++i) in_cell_[key(cell_of(points.col(i)))].push_back(i);
+  }
+
+  // The nearest point within `tolerance` of x, or -1.
+  int nearest(const Vec3& x, double tolerance) const {
+    const Cell first = cell_of(x - Vec3::Constant(tolerance)), last = cell_of(x + Vec3::Constant(tolerance));
+    int best = -1;
+    double best_distance = tolerance;
+    for (long k = first[2]; k <= last[2]; ++k)
+      for (long j = first[1]; j <= last[1]; ++j)
+        for (long i = first[0]; i <= last[0]; ++i) {
+          const auto found = in_cell_.find(key({i, j, k}));
+          if (found == in_cell_.end()) continue;
+          for (const int candidate : found->second)
+            if (const double d = (points_.col(candidate) - x).norm(); d <= best_distance) {
+              best = candidate;
+              best_distance = d;
+            }
+        }
+    return best;
+  }
+
+ private:
+  using Cell = std::array<long, 3>;
+
+  Cell cell_of(const Vec3& x) const {
+    return {std::lround(std::floor(x[0] / cell_)), std::lround(std::floor(x[1] / cell_)),
+            std::lround(std::floor(x[2] / cell_))};
+  }
+  static size_t key(const Cell& c) {
+    return static_cast<size_t>(c[0]) * 73856093u ^ static_cast<size_t>(c[1]) * 19349663u ^
+           static_cast<size_t>(c[2]) * 83492791u;
+  }
+
+  const Points& points_;
+  double cell_;
+  std::unordered_map<size_t, std::vector<int>> in_cell_;
+};
+
+// Derivatives of the bilinear shape functions of a quadrangle at (r, s).
+Eigen::Matrix<double, 4, 2> quad_slopes(double r, double s) {
+  Eigen::Matrix<double, 4, 2> slopes;
+  slopes << -(1 - s), -(1 - r), 1 - s, -(1 + r), 1 + s, 1 + r, -(1 + s), 1 - r;
+  return slopes / 4;
+}
+
+// Integrals over the facet of N_a (m^2) and N_a n (m^2, 3 x n_nodes).
+std::pair<Eigen::Vector4d, Eigen::Matrix<double, 3, 4>> facet_integrals(const Points& x, const Facet& facet) {
+  Eigen::Vector4d areas = Eigen::Vector4d::Zero();
+  Eigen::Matrix<double, 3, 4> normals = Eigen::Matrix<double, 3, 4>::Zero();
+  if (facet.n_nodes == 3) {
+    const Vec3 a = x.col(facet.nodes[0]), b = x.col(facet.nodes[1]), c = x.col(facet.nodes[2]);
+    const Vec3 sixth = (b - a).cross(c - a) / 6;
+    areas.head<3>().setConstant(sixth.norm());
+    normals.leftCols<3>().colwise() = sixth;
+    return {areas, normals};
+  }
+  Eigen::Matrix<double, 3, 4> corners;
+  for (int a = 0; a < 4; ++a) corners.col(a) = x.col(facet.nodes[a]);
+  const double gauss = 1 / std::sqrt(3.0);
+  for (const double r : {-gauss, gauss})
+    for (const double s : {-gauss, gauss}) {
+      const Eigen::Matrix<double, 3, 2> tangents = corners * quad_slopes(r, s);
+      const Vec3 normal = tangents.col(0).cross(tangents.col(1));
+      const Eigen::Vector4d shape((1 - r) * (1 - s) / 4, (1 + r) * (1 - s) / 4, (1 + r) * (1 + s) / 4,
+                                  (1 - r) * (1 + s) / 4);
+      areas += shape * normal.norm();
+      normals += normal * shape.transpose();
+    }
+  return {areas, normals};
+}
+
+Vec3 facet_area_vector(const Mesh& mesh, const Facet& facet) {
+  return facet_integrals(mesh.nodes, facet).second.rowwise().sum();
+}
+
+std::string at(const Vec3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x[0], x[1], x[2]); }
+
+// Both faces with their nodes in space.
+struct Pair {
+  const PlacedFace &side_1, &side_2;
+  FaceInSpace in_space_1, in_space_2;
+};
+
+// Node of side 1 at the place of each node of side 2 that has one.
+std::unordered_map<int, int> partners_on_side_1(const Pair& pair) {
+  const double edge =
+      std::min(smallest_edge(pair.in_space_1, pair.side_1.facets), smallest_edge(pair.in_space_2, pair.side_2.facets));
+  const PointGrid grid(pair.in_space_1.x, edge);
+  std::unordered_map<int, int> partners;
+  for (size_t i = 0; i < pair.in_space_2.nodes.size(); ++i) {
+    const int found = grid.nearest(pair.in_space_2.x.col(static_cast<long>(i)), 1e-6 * edge);
+    if (found >= 0) partners[pair.in_space_2.nodes[i]] = pair.in_space_1.nodes[found];
+  }
+  return partners;
+}
+
+// The facet with each node replaced by its partner, if all have one.
+std::optional<Facet> translate(const Facet& facet, const std::unordered_map<int, int>& partners) {
+  Facet translated = facet;
+  for (int a = 0; a < facet.n_nodes; ++a) {
+    const auto found = partners.find(facet.nodes[a]);
+    if (found == partners.end()) return {};
+    translated.nodes[a] = found->second;
+  }
+  return translated;
+}
+
+// Facets of side 1 with the same corners as one of side 2, and what is left over on both sides.
+struct Matching {
+  std::vector<Facet> matched, left_1, left_2;
+  std::unordered_map<int, int> partner;  // node of side 1 -> node of side 2
+  std::vector<Facet> same_way;           // matched facets of side 1 whose normal is the partner's
+};
+
+void add_partners(const Pair& pair, const Facet& facet_2, const Facet& translated, Matching& matching) {
+  for (int a = 0; a < facet_2.n_nodes; ++a) {
+    const auto [known, is_new] = matching.partner.emplace(translated.nodes[a], facet_2.nodes[a]);
+    if (is_new || known->second == facet_2.nodes[a]) continue;
+    const Vec3 place = pair.in_space_1.x.col(pair.in_space_1.index.at(translated.nodes[a]));
+    throw InputError(
+        fmt::format("faces '{}' and '{}': '{}' has two nodes at {}, the interface could not tell them apart",
+                    pair.side_1.name, pair.side_2.name, pair.side_2.name, at(place)));
+  }
+}
+
+Matching match(const Pair& pair) {
+  struct Candidate {
+    const Facet* facet;
+    Facet translated;
+    bool is_taken = false;
+  };
+  const std::unordered_map<int, int> partners = partners_on_side_1(pair);
+  std::unordered_map<FacetKey, Candidate, FacetKeyHash> of_side_2;
+  Matching result;
+  for (const Facet& facet : pair.side_2.facets) {
+    if (const std::optional<Facet> translated = translate(facet, partners))
+      of_side_2.emplace(facet_key(*translated), Candidate{&facet, *translated});
+    else
+      result.left_2.push_back(facet);
+  }
+
+  for (const Facet& facet : pair.side_1.facets) {
+    const auto found = of_side_2.find(facet_key(facet));
+    if (found == of_side_2.end()) {
+      result.left_1.push_back(facet);
+      continue;
+    }
+    Candidate& other = found->second;
+    if (std::exchange(other.is_taken, true)) continue;  // side 1 lists the facet twice
+    result.matched.push_back(facet);
+    add_partners(pair, *other.facet, other.translated, result);
+    const Vec3 area_1 = facet_area_vector(*pair.side_1.mesh, facet);
+    if (area_1.dot(facet_area_vector(*pair.side_2.mesh, *other.facet)) > 0) result.same_way.push_back(facet);
+  }
+  for (const auto& [key, candidate] : of_side_2)
+    if (!candidate.is_taken) result.left_2.push_back(*candidate.facet);
+  return result;
+}
+
+void refuse_same_orientation(const Pair& pair, const Matching& matching) {
+  if (matching.same_way.empty()) return;
+  const Vec3 place = pair.in_space_1.polygon(matching.same_way.front()).rowwise().mean();
+  throw InputError(
+      fmt::format("faces '{}' and '{}' coincide on {} facets, the first at {}, but both have their bodies on the same "
+                  "side: the bodies lie in one another\n    check the places of both bodies, or whether a face of the "
+                  "other end was meant",
+                  pair.side_1.name, pair.side_2.name, matching.same_way.size(), at(place)));
+}
+
+void refuse_overlap(const Pair& pair, const Matching& matching) {
+  const auto polygons = [](const FaceInSpace& face, const std::vector<Facet>& facets) {
+    std::vector<Polygon> corners;
+    for (const Facet& facet : facets) corners.push_back(face.polygon(facet));
+    return corners;
+  };
+  const std::optional<Overlap> overlap =
+      find_overlap(polygons(pair.in_space_1, matching.left_1), polygons(pair.in_space_2, matching.left_2));
+  if (!overlap) return;
+  const std::string &name_1 = pair.side_1.name, &name_2 = pair.side_2.name;
+  throw InputError(fmt::format(
+      "faces '{}' and '{}' overlap with nodes that do not match: {} of {} facets of '{}' lie on {} of {} facets of "
+      "'{}' without the same nodes, around {}; {} facets match\n    mesh both faces alike over the common region",
+      name_1, name_2, overlap->n_1, pair.side_1.facets.size(), name_1, overlap->n_2, pair.side_2.facets.size(), name_2,
+      at(overlap->place), matching.matched.size()));
+}
+
+[[noreturn]] void refuse_apart(const Pair& pair) {
+  const Points &x_1 = pair.in_space_1.x, &x_2 = pair.in_space_2.x;
+  const Vec3 low_1 = x_1.rowwise().minCoeff(), high_1 = x_1.rowwise().maxCoeff();
+  const Vec3 low_2 = x_2.rowwise().minCoeff(), high_2 = x_2.rowwise().maxCoeff();
+  const double distance = (low_2 - high_1).cwiseMax(low_1 - high_2).cwiseMax(0).norm();
+  const std::string &name_1 = pair.side_1.name, &name_2 = pair.side_2.name;
+  throw InputError(
+      fmt::format("faces '{}' and '{}' do not meet: no facet of one has its nodes on a facet of the other; their "
+                  "bounding boxes are "
+                  "{:.3g} m apart\n    '{}' spans {} to {}\n    '{}' spans {} to {}",
+                  name_1, name_2, distance, name_1, at(low_1), at(high_1), name_2, at(low_2), at(high_2)));
+}
+
+}  // namespace
+
+FaceNodes face_nodes(const Mesh& mesh, const std::vector<Facet>& facets) {
+  FaceNodes result;
+  result.nodes = nodes_of(facets);
+  const auto n = static_cast<long>(result.nodes.size());
+  result.areas = Vec::Zero(n);
+  result.normals = Points::Zero(3, n);
+  for (const Facet& facet : facets) {
+    const auto [areas, normals] = facet_integrals(mesh.nodes, facet);
+    for (int a = 0; a < facet.n_nodes; ++a) {
+      const long i = std::lower_bound(result.nodes.begin(), result.nodes.end(), facet.nodes[a]) - result.nodes.begin();
+      result.areas[i] += areas[a];
+      result.normals.col(i) += normals.col(a);
+    }
+  }
+  result.normals.colwise().normalize();
+  return result;
+}
+
+Facing match_faces(const PlacedFace& side_1, const PlacedFace& side_2) {
+  for (const PlacedFace* side : {&side_1, &side_2})
+    if (side->facets.empty()) throw InputError(fmt::format("face '{}' has no facet", side->name));
+  const Pair pair{side_1, side_2, FaceInSpace(side_1), FaceInSpace(side_2)};
+
+  Matching matching = match(pair);
+  refuse_same_orientation(pair, matching);
+  refuse_overlap(pair, matching);
+  if (matching.matched.empty()) refuse_apart(pair);
+
+  FaceNodes points = face_nodes(*side_1.mesh, matching.matched);
+  Facing facing;
+  facing.facets = std::move(matching.matched);
+  facing.nodes_1 = std::move(points.nodes);
+  for (const int node : facing.nodes_1) facing.nodes_2.push_back(matching.partner.at(node));
+  facing.areas = std::move(points.areas);
+  facing.normals = std::move(points.normals);
+  return facing;
+}
+
+}  // namespace dygita

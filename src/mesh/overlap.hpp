@@ -1,0 +1,23 @@
+// Whether facets of two faces lie on one another without having the same nodes.
+#pragma once
+
+#include <optional>
+
+#include "mesh/mesh.hpp"
+
+namespace dygita {
+
+// The corners (3 x n, n = 3 or 4, m) of a facet in space.
+using Polygon = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 4>;
+
+struct Overlap {
+  int n_1 = 0, n_2 = 0;  // polygons of each side that lie on one of the other side
+  Vec3 place;            // middle of one common region
+};
+
+// Pairs that lie on nearly one plane and whose projections on it have a region in common, a thousandth of the smaller
+// polygon or more; touching along an edge is no overlap. On curved faces the chords of two meshes are a sagitta apart:
+// the distance allowed grows with the angle between the two normals. Searched in a grid: n log n for even facets.
+std::optional<Overlap> find_overlap(const std::vector<Polygon>& side_1, const std::vector<Polygon>& side_2);
+
+}  // namespace dygita

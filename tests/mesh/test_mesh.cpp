@@ -1,0 +1,190 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "mesh/box.hpp"
+#include "mesh/expect_input_error.hpp"
+#include "mesh/facing.hpp"
+#include "mesh/mesh.hpp"
+
+namespace dygita {
+namespace {
+
+Vec3 area_vector(const Mesh& mesh, const Facet& facet) {
+  Vec3 area = Vec3::Zero();
+  const Vec3 first = mesh.nodes.col(facet.nodes[0]);
+  for (int i = 1; i + 1 < facet.n_nodes; ++i)
+    area += (Vec3(mesh.nodes.col(facet.nodes[i])) - first).cross(Vec3(mesh.nodes.col(facet.nodes[i + 1])) - first) / 2;
+  return area;
+}
+
+Mesh one_cell(CellType type, const Points& nodes) {
+  Mesh mesh;
+  mesh.nodes = nodes;
+  CellBlock block{type, {}};
+  for (int i = 0; i < nodes.cols(); ++i) block.nodes.push_back(i);
+  mesh.blocks.push_back(block);
+  mesh.source = "test";
+  return mesh;
+}
+
+Points unit_tet() {
+  Points x(3, 4);
+  x << 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1;
+  return x;
+}
+
+// Base triangle turning clockwise seen from the top, as in vtkWedge.
+Points unit_prism() {
+  Points x(3, 6);
+  x << 0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 1, 0, 0, 0, 0, 1, 1, 1;
+  return x;
+}
+
+TEST(Box, is_split_into_the_asked_cells) {
+  const MeshPtr box = box_mesh({0, 0, 0}, {1, 2, 3}, {2, 3, 4});
+  EXPECT_EQ(box->n_cells(), 24);
+  EXPECT_EQ(box->n_nodes(), 3 * 4 * 5);
+  EXPECT_EQ(box->faces.at("xmin").size(), 12u);
+  EXPECT_EQ(box->faces.at("ymax").size(), 8u);
+  EXPECT_EQ(box->faces.at("zmin").size(), 6u);
+  EXPECT_EQ(box->faces.size(), 6u);
+  EXPECT_NO_THROW(check_mesh(*box, "box"));
+}
+
+TEST(Box, fills_its_volume_from_its_origin) {
+  const MeshPtr box = box_mesh({-1, 5, 0.25}, {1, 2, 3}, {2, 3, 4});
+  EXPECT_NEAR(volume(*box), 6.0, 1e-13);
+  EXPECT_TRUE(box->nodes.rowwise().minCoeff().isApprox(Vec3(-1, 5, 0.25)));
+  EXPECT_TRUE(box->nodes.rowwise().maxCoeff().isApprox(Vec3(0, 7, 3.25)));
+}
+
+TEST(Box, has_faces_whose_normals_point_outward) {
+  const MeshPtr box = box_mesh({1, 1, 1}, {1, 2, 3}, {2, 3, 4});
+  for (int axis = 0; axis < 3; ++axis)
+    for (const bool is_max : {false, true}) {
+      const std::string name = std::string(1, "xyz"[axis]) + (is_max ? "max" : "min");
+      Vec3 total = Vec3::Zero();
+      for (const Facet& facet : box->faces.at(name)) total += area_vector(*box, facet);
+      const double area = 6.0 / (axis + 1);
+      EXPECT_TRUE(total.isApprox(Vec3::Unit(axis) * (is_max ? area : -area))) << name << total.transpose();
+    }
+}
+
+TEST(Box, covers_its_boundary_by_its_six_faces) {
+  const MeshPtr box = box_mesh({0, 0, 0}, {1, 1, 1}, {3, 2, 2});
+  std::map<FacetKey, Vec3> boundary;
+  for (const Facet& facet : boundary_facets(box->blocks)) boundary[facet_key(facet)] = area_vector(*box, facet);
+  size_t n_named = 0;
+  for (const auto& [name, facets] : box->faces)
+    for (const Facet& facet : facets) {
+      ++n_named;
+      ASSERT_TRUE(boundary.count(facet_key(facet))) << name;
+      EXPECT_TRUE(boundary.at(facet_key(facet)).isApprox(area_vector(*box, facet))) << name;
+    }
+  EXPECT_EQ(n_named, boundary.size());
+}
+
+TEST(Box, refuses_sizes_and_counts_that_are_not_positive) {
+  expect_input_error([] { box_mesh({0, 0, 0}, {1, 0, 1}, {1, 1, 1}); }, {"size along y", "positive", "0 m"});
+  expect_input_error([] { box_mesh({0, 0, 0}, {1, 1, -2}, {1, 1, 1}); }, {"size along z", "-2 m"});
+  expect_input_error([] { box_mesh({0, 0, 0}, {1, 1, 1}, {0, 1, 1}); }, {"cells along x", "at least 1"});
+}
+
+TEST(Mesh, has_outward_facets_of_the_right_area_on_every_cell_type) {
+  const MeshPtr cube = box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
+  const Mesh prism = one_cell(CellType::prism6, unit_prism()), tet = one_cell(CellType::tet4, unit_tet());
+  const std::pair<const Mesh*, double> expected[] = {
+      {cube.get(), 6.0}, {&prism, 3 + std::sqrt(2.0)}, {&tet, 1.5 + std::sqrt(3.0) / 2}};
+  for (const auto& [mesh, expected_area] : expected) {
+    const Vec3 centre = mesh->nodes.rowwise().mean();
+    double area = 0;
+    for (const Facet& facet : boundary_facets(mesh->blocks)) {
+      const Vec3 normal = area_vector(*mesh, facet);
+      area += normal.norm();
+      EXPECT_GT(normal.dot(Vec3(mesh->nodes.col(facet.nodes[0])) - centre), 0) << cell_type_name(mesh->blocks[0].type);
+    }
+    EXPECT_NEAR(area, expected_area, 1e-14);
+  }
+}
+
+TEST(Mesh, measures_the_volume_of_every_cell_type) {
+  EXPECT_NEAR(volume(one_cell(CellType::tet4, unit_tet())), 1.0 / 6, 1e-15);
+  EXPECT_NEAR(volume(one_cell(CellType::prism6, unit_prism())), 0.5, 1e-15);
+  // A frustum of a pyramid: squares of side 2 and 1, height 3.
+  Points frustum(3, 8);
+  frustum << -1, 1, 1, -1, -.5, .5, .5, -.5, -1, -1, 1, 1, -.5, -.5, .5, .5, 0, 0, 0, 0, 3, 3, 3, 3;
+  EXPECT_NEAR(volume(one_cell(CellType::hex8, frustum)), 3.0 / 3 * (4 + 1 + 2), 1e-14);
+}
+
+TEST(Mesh, with_an_inverted_cell_is_refused_with_its_type_and_place) {
+  Points tet = unit_tet();
+  tet.col(1).swap(tet.col(2));
+  expect_input_error([&] { check_mesh(one_cell(CellType::tet4, tet), "bracket"); },
+                     {"bracket", "cell 0", "tet4", "(0.25, 0.25, 0.25)", "volume -0.167", "inverted"});
+  Points prism = unit_prism();
+  prism.col(1).swap(prism.col(2));
+  prism.col(4).swap(prism.col(5));
+  expect_input_error([&] { check_mesh(one_cell(CellType::prism6, prism), "bracket"); }, {"prism6", "volume -0.5"});
+}
+
+TEST(Mesh, with_a_hexahedron_folded_at_one_corner_is_refused_though_its_volume_is_positive) {
+  Mesh mesh = *box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
+  mesh.nodes.col(7) = Vec3(0.8, 0.2, 0.9);
+  EXPECT_GT(volume(mesh), 0);
+  expect_input_error([&] { check_mesh(mesh, "block"); }, {"block", "hex8", "inverted", "smallest"});
+}
+
+TEST(Mesh, with_a_flat_cell_is_refused) {
+  Points tet = unit_tet();
+  tet.col(3) = Vec3(0.3, 0.3, 0);
+  expect_input_error([&] { check_mesh(one_cell(CellType::tet4, tet), "sliver"); }, {"sliver", "flat"});
+}
+
+TEST(Mesh, with_a_lone_node_or_without_cells_is_refused) {
+  Mesh mesh = *box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
+  mesh.nodes.conservativeResize(3, 9);
+  mesh.nodes.col(8) = Vec3(4, 5, 6);
+  expect_input_error([&] { check_mesh(mesh, "block"); }, {"block", "node 8", "(4, 5, 6)", "no cell"});
+  mesh.blocks.clear();
+  expect_input_error([&] { check_mesh(mesh, "block"); }, {"block", "has no cell", "box"});
+}
+
+TEST(Mesh, has_a_digest_that_changes_with_nodes_cells_and_faces) {
+  const MeshPtr box = box_mesh({0, 0, 0}, {1, 1, 1}, {2, 2, 2});
+  EXPECT_EQ(box->digest, box_mesh({0, 0, 0}, {1, 1, 1}, {2, 2, 2})->digest);
+  EXPECT_EQ(box->digest.size(), 16u);
+  Mesh moved = *box, turned = *box, renamed = *box;
+  moved.nodes(0, 0) += 1e-15;
+  std::swap(turned.blocks[0].nodes[0], turned.blocks[0].nodes[1]);
+  auto face = renamed.faces.extract("xmin");
+  face.key() = "left";
+  renamed.faces.insert(std::move(face));
+  for (const Mesh* other : {&moved, &turned, &renamed}) EXPECT_NE(mesh_digest(*other), box->digest);
+}
+
+TEST(FaceNodes, share_the_area_of_a_face_with_unit_outward_normals) {
+  const MeshPtr box = box_mesh({0, 0, 0}, {2, 3, 1}, {2, 3, 1});
+  const FaceNodes top = face_nodes(*box, box->faces.at("zmax"));
+  EXPECT_EQ(top.nodes.size(), 12u);
+  EXPECT_NEAR(top.areas.sum(), 6.0, 1e-14);
+  EXPECT_NEAR(top.areas.minCoeff(), 0.25, 1e-15);
+  EXPECT_NEAR(top.areas.maxCoeff(), 1.0, 1e-15);
+  for (int i = 0; i < top.normals.cols(); ++i) EXPECT_TRUE(top.normals.col(i).isApprox(Vec3::UnitZ()));
+}
+
+TEST(FaceNodes, of_a_skewed_quadrangle_share_it_as_the_shape_functions_do) {
+  // A trapezium with parallel sides 2 (below) and 1 (above), height 1: the integral of N_a by hand.
+  Mesh mesh;
+  mesh.nodes.resize(3, 4);
+  mesh.nodes << 0, 2, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0;
+  const FaceNodes nodes = face_nodes(mesh, {{{0, 1, 2, 3}, 4}});
+  EXPECT_NEAR(nodes.areas.sum(), 1.5, 1e-15);
+  EXPECT_NEAR(nodes.areas[0], 5.0 / 12, 1e-15);
+  EXPECT_NEAR(nodes.areas[1], 5.0 / 12, 1e-15);
+  EXPECT_NEAR(nodes.areas[2], 1.0 / 3, 1e-15);
+  EXPECT_NEAR(nodes.areas[3], 1.0 / 3, 1e-15);
+}
+
+}  // namespace
+}  // namespace dygita
