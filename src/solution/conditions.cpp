@@ -1,0 +1,190 @@
+#include "solution/conditions.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include "mesh/facing.hpp"
+
+namespace dygita {
+
+Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> Held::free_basis() const {
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> basis(3, 3 - n);
+  int found = 0;
+  Mat3 all = directions;
+  // Complete with the axes that stand out most from what is there.
+  for (int i = n; i < 3; ++i) {
+    Vec3 best = Vec3::Zero();
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 e = Vec3::Unit(axis);
+      for (int j = 0; j < i; ++j) e -= all.col(j).dot(e) * all.col(j);
+      if (e.norm() > best.norm() + 1e-9) best = e;
+    }
+    all.col(i) = best.normalized();
+    basis.col(found++) = all.col(i);
+  }
+  return basis;
+}
+
+const Held* Conditions::at(int part, int node) const {
+  const auto it = held[part].find(node);
+  return it == held[part].end() ? nullptr : &it->second;
+}
+
+double LoadValue::at_static(int i, int n) const {
+  if (i < 0) return from;
+  const double s = static_cast<double>(i + 1) / n;
+  return is_number ? from + s * (history.value(1.0) - from) : history.value(s);
+}
+
+std::string load_key(LoadKind kind, const Target& target, int component) {
+  std::string on;
+  if (const auto* face = std::get_if<Face>(&target)) on = face->label();
+  if (const auto* region = std::get_if<Region>(&target)) {
+    on = region->part->name;
+    for (const int node : region->nodes) on += " " + std::to_string(node);
+  }
+  if (const auto* interface = std::get_if<InterfacePtr>(&target)) on = (*interface)->name;
+  if (const auto* support = std::get_if<SupportPtr>(&target)) on = (*support)->name;
+  return fmt::format("{} {} {}", static_cast<int>(kind), on, component);
+}
+
+namespace {
+
+class Builder {
+ public:
+  Builder(const Problem& problem, const Step& step, const State& start) : problem_(problem), step_(step), start_(start) {
+    result_.held.resize(problem.substructures.size());
+  }
+
+  Conditions build() {
+    for (const SupportPtr& support : supports_of(problem_, step_)) add_support(*support);
+    for (const LoadPtr& load : step_.loads)
+      if (load->kind == LoadKind::velocity || load->kind == LoadKind::displacement) add_motion(*load);
+    return std::move(result_);
+  }
+
+ private:
+  void add_support(const Support& support) {
+    const bool holds_all = support.kind == SupportKind::fixed || (support.kind == SupportKind::absorbing && step_.is_static);
+    if (!holds_all && support.kind != SupportKind::symmetry) return;
+    const std::vector<std::pair<Vec3, int>> moves = base_motions(support);
+    for (const FaceOrRegion& on : support.on) {
+      const int part = part_of(on);
+      if (support.kind == SupportKind::symmetry) {
+        const Face& face = std::get<Face>(on);
+        const FaceNodes on_face = face_nodes(*face.part->mesh, face.facets());
+        for (size_t i = 0; i < on_face.nodes.size(); ++i)
+          hold(part, on_face.nodes[i], on_face.normals.col(i), moves, &support, support.name, support.origin);
+      } else {
+        for (const int node : nodes_on(on))
+          for (int axis = 0; axis < 3; ++axis)
+            hold(part, node, Vec3::Unit(axis), moves, &support, support.name, support.origin);
+      }
+    }
+  }
+
+  // Motion of an accelerated support: absolute velocity = what it has + integral of a.
+  std::vector<std::pair<Vec3, int>> base_motions(const Support& support) {
+    std::vector<std::pair<Vec3, int>> moves;
+    if (step_.is_static) return moves;
+    const double dt = step_.dt;
+    if (const auto it = start_.base_velocity.find(&support); it != start_.base_velocity.end()) {
+      const double speed = it->second.norm();
+      if (speed > 0.0) moves.emplace_back(it->second / speed, add([speed](int) { return speed; }));
+    }
+    for (const LoadPtr& load : step_.loads) {
+      if (load->kind != LoadKind::base_acceleration) continue;
+      for (const Target& target : load->on) {
+        const auto* on = std::get_if<SupportPtr>(&target);
+        if (!on || on->get() != &support) continue;
+        const History history = *load->value[0];
+        moves.emplace_back(load->direction, add([history, dt](int i) { return history.integral(0.0, dt * (i + 1)); }));
+      }
+    }
+    return moves;
+  }
+
+  void add_motion(const Load& load) {
+    for (const Target& target : load.on) {
+      const FaceOrRegion on = std::holds_alternative<Face>(target) ? FaceOrRegion(std::get<Face>(target))
+                                                                   : FaceOrRegion(std::get<Region>(target));
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!load.value[axis]) continue;
+        const int motion = add(motion_of(load, target, axis));
+        for (const int node : nodes_on(on))
+          hold(part_of(on), node, Vec3::Unit(axis), {{Vec3::Unit(axis), motion}}, nullptr,
+               std::string("load.") + load_kind_name(load.kind), load.origin);
+      }
+    }
+  }
+
+  std::function<double(int)> motion_of(const Load& load, const Target& target, int axis) const {
+    const auto reached = start_.reached.find(load_key(load.kind, target, axis));
+    const LoadValue value{*load.value[axis], load.is_number[axis], reached == start_.reached.end() ? 0.0 : reached->second};
+    const double dt = step_.dt;
+    const int n = step_.n_increments();
+    if (step_.is_static) {
+      if (load.kind == LoadKind::velocity)
+        throw InputError(load.origin, "load.velocity has no meaning in static step '" + step_.name +
+                                          "': a static step has no time; use load.displacement");
+      return [value, n](int i) { return value.at_static(i, n) - value.at_static(i - 1, n); };
+    }
+    if (load.kind == LoadKind::velocity) return [value, dt](int i) { return value.history.value(dt * (i + 1)); };
+    // U is then the two-point mean of the prescribed displacement and nothing alternates (manual, prescribed displacement).
+    return [value, dt](int i) {
+      return (value.history.value(dt * (i + 1.5)) - value.history.value(dt * (i + 0.5))) / dt;
+    };
+  }
+
+  int add(std::function<double(int)> velocity) {
+    result_.motions.push_back({std::move(velocity)});
+    return static_cast<int>(result_.motions.size()) - 1;
+  }
+
+  // Adds direction . u = sum of motions to a node, orthogonalised against what it has.
+  void hold(int part, int node, const Vec3& direction, const std::vector<std::pair<Vec3, int>>& moves, const Support* support,
+            const std::string& name, const Origin& origin) {
+    Held& held = result_.held[part][node];
+    Vec3 rest = direction;
+    std::vector<std::pair<int, double>> motion;
+    for (const auto& [along, index] : moves)
+      if (const double factor = along.dot(direction); std::abs(factor) > 1e-12) motion.emplace_back(index, factor);
+    for (int j = 0; j < held.n; ++j) {
+      const double projection = held.directions.col(j).dot(direction);
+      rest -= projection * held.directions.col(j);
+      for (const auto& [index, factor] : held.motion[j]) motion.emplace_back(index, -projection * factor);
+    }
+    if (held.n == 3 || rest.norm() < 1e-6) {
+      if (!moves.empty() && !support)
+        throw InputError(origin, fmt::format("{} moves node {} of substructure '{}', which is already held in that direction",
+                                             name, node, problem_.substructures[part]->name));
+      return;
+    }
+    for (auto& [index, factor] : motion) factor /= rest.norm();
+    held.directions.col(held.n) = rest.normalized();
+    held.motion[held.n] = std::move(motion);
+    held.support[held.n] = support;
+    ++held.n;
+  }
+
+  int part_of(const FaceOrRegion& on) const {
+    return std::visit([&](const auto& o) { return index_of(problem_.substructures, o.part.get()); }, on);
+  }
+
+  static std::vector<int> nodes_on(const FaceOrRegion& on) {
+    if (const auto* face = std::get_if<Face>(&on)) return nodes_of(face->facets());
+    return std::get<Region>(on).nodes;
+  }
+
+  const Problem& problem_;
+  const Step& step_;
+  const State& start_;
+  Conditions result_;
+};
+
+}  // namespace
+
+Conditions make_conditions(const Problem& problem, const Step& step, const State& start) {
+  return Builder(problem, step, start).build();
+}
+
+}  // namespace dygita

@@ -1,0 +1,56 @@
+// Directions of nodes that a step holds or moves: linear conditions live in the operator, not in the iteration.
+#pragma once
+
+#include <functional>
+#include <unordered_map>
+#include <vector>
+
+#include "model/model.hpp"
+#include "solution/state.hpp"
+
+namespace dygita {
+
+// A motion common to all nodes of one load or accelerated support: a scalar velocity in time.
+struct Motion {
+  // Velocity at the end of increment i (m/s; in a static step the displacement of the increment, m).
+  std::function<double(int increment)> velocity;
+};
+
+// Held directions of one node: orthonormal; each moves as a combination of motions (none: it rests).
+struct Held {
+  int n = 0;
+  Mat3 directions = Mat3::Zero();                                   // first n columns
+  std::array<std::vector<std::pair<int, double>>, 3> motion;        // (index in Conditions::motions, factor)
+  std::array<const Support*, 3> support{};                          // who holds it, null for a load
+
+  // An orthonormal basis of what is left free: 3 x (3 - n).
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> free_basis() const;
+};
+
+struct Conditions {
+  std::vector<std::unordered_map<int, Held>> held;  // one map a substructure: node -> held directions
+  std::vector<Motion> motions;
+
+  const Held* at(int part, int node) const;
+};
+
+// Supports in force and prescribed motions of a step. Throws InputError when a motion is prescribed where something else
+// already holds the node.
+Conditions make_conditions(const Problem& problem, const Step& step, const State& start);
+
+// Value of one load component over a step: what the number or history means in a static and in a dynamic step.
+struct LoadValue {
+  History history;
+  bool is_number = false;
+  double from = 0.0;  // reached in the step before
+
+  // Static: at the end of increment i of n (i = 0 .. n - 1; i = -1 is the start).
+  double at_static(int i, int n) const;
+  // Dynamic: mean over [t0, t1].
+  double mean(double t0, double t1) const { return history.integral(t0, t1) / (t1 - t0); }
+};
+
+// Key of a load component in State::reached.
+std::string load_key(LoadKind kind, const Target& target, int component);
+
+}  // namespace dygita

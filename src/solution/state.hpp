@@ -1,0 +1,42 @@
+// What one step leaves to the next: displacements, velocities and the memory of the interfaces.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "law/law.hpp"
+#include "numerics/types.hpp"
+
+namespace dygita {
+
+// Cumulated since the beginning, J (manual, energy balance).
+struct Energies {
+  double kinetic = 0.0, strain = 0.0;                                              // now
+  double loads = 0.0, friction = 0.0, plastic = 0.0, damping = 0.0, scheme = 0.0;  // so far
+  double start = 0.0;  // kinetic + strain before anything was done: initial velocities
+
+  double balance() const { return start + loads - friction - plastic - damping - scheme - kinetic - strain; }
+};
+
+// Fields of a surface's points now; vectors in global axes, forces on side 1.
+struct SurfaceState {
+  std::vector<LawState> points;
+  double friction_work = 0.0, plastic_work = 0.0;  // J, so far
+};
+
+struct State {
+  double time = 0.0;                       // s, dynamic time elapsed
+  std::vector<Points> displacement;        // one 3 x n_nodes a substructure, m
+  std::vector<Points> velocity;            // m/s
+  std::vector<Points> force;               // N, external forces of the last increment
+  std::vector<Points> anchor;              // N, static reactions kept by absorbing supports
+  std::vector<SurfaceState> surfaces;
+  std::vector<double> shortening;          // m, of each surface, as its last step left it
+  std::map<std::string, double> reached;   // value of each load at the end of the last step, by kind and target
+  std::map<const void*, Vec3> base_velocity;  // m/s, of supports that were accelerated
+  Energies energies;
+  bool has_moved = false;                  // initial velocities have been applied
+};
+
+}  // namespace dygita

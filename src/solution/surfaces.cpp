@@ -1,0 +1,101 @@
+#include "solution/surfaces.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace dygita {
+
+PlacedFace placed(const Face& face) {
+  return {face.part->mesh.get(), face.facets(), face.part->place, face.label()};
+}
+
+namespace {
+
+// A bonded interface that is shortened or released in some step is a law of its own, never part of a group.
+bool acts_on_interface(const Problem& problem, const Interface* interface) {
+  for (const StepPtr& step : problem.steps)
+    for (const LoadPtr& load : step->loads)
+      for (const Target& target : load->on)
+        if (const auto* on = std::get_if<InterfacePtr>(&target); on && on->get() == interface) return true;
+  return false;
+}
+
+std::shared_ptr<const Law> make_law(const Problem& problem, const Interface& interface) {
+  switch (interface.kind) {
+    case InterfaceKind::contact: return std::make_shared<ContactLaw>(interface.friction);
+    case InterfaceKind::plastic:
+      return std::make_shared<PlasticLaw>(interface.yield, interface.hardening, interface.compression);
+    case InterfaceKind::bonded: break;
+  }
+  return acts_on_interface(problem, &interface) ? std::make_shared<BondedLaw>() : nullptr;
+}
+
+Facing wall_facing(const Face& face) {
+  const FaceNodes on_face = face_nodes(*face.part->mesh, face.facets());
+  return {face.facets(), on_face.nodes, {}, on_face.normals, on_face.areas};
+}
+
+// Facets named by two interfaces would carry their forces twice.
+void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces) {
+  std::map<std::pair<int, std::array<int, 4>>, const Surface*> owner;
+  const auto claim = [&](const Surface& surface, int part, std::array<int, 4> nodes) {
+    std::sort(nodes.begin(), nodes.end());
+    const auto [it, is_new] = owner.emplace(std::pair{part, nodes}, &surface);
+    if (is_new || it->second == &surface) return;
+    const Origin& origin = surface.interface ? surface.interface->origin : surface.wall->origin;
+    throw InputError(origin, "'" + surface.name() + "' and '" + it->second->name() + "' share facets of substructure '" +
+                                 problem.substructures[part]->name + "': a facet can be in one interface or wall only");
+  };
+  for (const Surface& surface : surfaces) {
+    std::map<int, int> partner;
+    for (int i = 0; i < surface.n_points(); ++i)
+      if (surface.part_2 >= 0) partner[surface.facing.nodes_1[i]] = surface.facing.nodes_2[i];
+    for (const Facet& facet : surface.facing.facets) {
+      claim(surface, surface.part_1, facet.nodes);
+      if (surface.part_2 < 0) continue;
+      std::array<int, 4> other = facet.nodes;
+      for (int i = 0; i < facet.n_nodes; ++i) other[i] = partner.at(facet.nodes[i]);
+      claim(surface, surface.part_2, other);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Surface> make_surfaces(const Problem& problem) {
+  std::vector<Surface> surfaces;
+  for (const InterfacePtr& interface : problem.interfaces) {
+    Surface surface;
+    surface.interface = interface.get();
+    surface.part_1 = index_of(problem.substructures, interface->side_1.part.get());
+    surface.part_2 = index_of(problem.substructures, interface->side_2.part.get());
+    try {
+      surface.facing = match_faces(placed(interface->side_1), placed(interface->side_2));
+    } catch (const InputError& error) {
+      throw InputError(interface->origin, "interface '" + interface->name + "': " + error.what());
+    }
+    surface.law = make_law(problem, *interface);
+    surface.initial_gap = interface->kind == InterfaceKind::contact ? interface->gap : 0.0;
+    surfaces.push_back(std::move(surface));
+  }
+  std::vector<const Support*> walls;
+  for (const StepPtr& step : problem.steps)
+    for (const SupportPtr& support : supports_of(problem, *step))
+      if (support->kind == SupportKind::wall && std::find(walls.begin(), walls.end(), support.get()) == walls.end())
+        walls.push_back(support.get());
+  for (const Support* wall : walls)
+    for (const FaceOrRegion& on : wall->on) {
+      const Face& face = std::get<Face>(on);
+      Surface surface;
+      surface.wall = wall;
+      surface.part_1 = index_of(problem.substructures, face.part.get());
+      surface.facing = wall_facing(face);
+      surface.law = std::make_shared<ContactLaw>(wall->friction);
+      surface.initial_gap = wall->gap;
+      surfaces.push_back(std::move(surface));
+    }
+  check_overlaps(problem, surfaces);
+  return surfaces;
+}
+
+}  // namespace dygita

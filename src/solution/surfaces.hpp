@@ -1,0 +1,32 @@
+// Where substructures meet each other or a rigid wall: the points of every interface and wall of a problem.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "law/law.hpp"
+#include "mesh/facing.hpp"
+#include "model/model.hpp"
+
+namespace dygita {
+
+// An interface, or a wall support seen as an interface with a rigid side 2. Independent of the step.
+struct Surface {
+  const Interface* interface = nullptr;
+  const Support* wall = nullptr;
+  int part_1 = -1, part_2 = -1;       // index in problem.substructures; -1: rigid
+  Facing facing;                      // one point a matched node; nodes_2 empty for a wall
+  std::shared_ptr<const Law> law;     // null: plain bonded in all steps, the sides become a group
+  double initial_gap = 0.0;           // m
+
+  const std::string& name() const { return interface ? interface->name : wall->name; }
+  int n_points() const { return static_cast<int>(facing.nodes_1.size()); }
+};
+
+// All interfaces in the problem's order, then every wall support used in a step, one Surface a face of it.
+// Throws InputError when faces do not match or overlap another interface's.
+std::vector<Surface> make_surfaces(const Problem& problem);
+
+PlacedFace placed(const Face& face);
+
+}  // namespace dygita
