@@ -45,6 +45,7 @@ struct Region {
 };
 
 enum class InterfaceKind { bonded, contact, plastic };
+const char* interface_kind_name(InterfaceKind kind);
 
 struct Interface : Named {
   InterfaceKind kind = InterfaceKind::bonded;
@@ -58,6 +59,7 @@ struct Interface : Named {
 using InterfacePtr = std::shared_ptr<const Interface>;
 
 enum class SupportKind { fixed, symmetry, wall, absorbing };
+const char* support_kind_name(SupportKind kind);
 
 using FaceOrRegion = std::variant<Face, Region>;
 
@@ -73,31 +75,39 @@ using SupportPtr = std::shared_ptr<const Support>;
 using Target = std::variant<Face, Region, InterfacePtr, SupportPtr>;
 
 enum class LoadKind {
-  pressure, traction, force, velocity, displacement, base_acceleration, gravity, shortening, release
+  pressure,
+  traction,
+  force,
+  velocity,
+  displacement,
+  base_acceleration,
+  gravity,
+  shortening,
+  release
 };
 const char* load_kind_name(LoadKind kind);
 
 struct Load {
   LoadKind kind = LoadKind::pressure;
   Origin origin;
-  std::vector<Target> on;                  // empty for gravity (all substructures)
+  std::vector<Target> on;  // empty for gravity (all substructures)
   // pressure, shortening, release: [0]; traction, force, velocity, displacement, gravity: x y z;
   // base_acceleration: [0] along `direction`. A direction left out is free (velocity, displacement) or zero.
   std::array<std::optional<History>, 3> value;
-  std::array<bool, 3> is_number{};         // given as a plain number: ramped in a static step
-  Vec3 direction = Vec3::UnitZ();          // base_acceleration, unit
+  std::array<bool, 3> is_number{};  // given as a plain number: ramped in a static step
+  Vec3 direction = Vec3::UnitZ();   // base_acceleration, unit
 };
 using LoadPtr = std::shared_ptr<const Load>;
 
 struct Step : Named {
   bool is_static = false;
-  std::shared_ptr<const Step> after;       // null: from the undeformed state
-  int increments = 1;                      // static
-  double duration = 0.0, dt = 0.0;         // dynamic, s
+  std::shared_ptr<const Step> after;  // null: from the undeformed state
+  int increments = 1;                 // static
+  double duration = 0.0, dt = 0.0;    // dynamic, s
   std::vector<LoadPtr> loads;
   std::optional<std::vector<SupportPtr>> supports;  // replaces the problem's in this step
 
-  int n_increments() const;                // dynamic: round(duration / dt)
+  int n_increments() const;  // dynamic: round(duration / dt)
 };
 using StepPtr = std::shared_ptr<const Step>;
 
@@ -105,28 +115,29 @@ using StepPtr = std::shared_ptr<const Step>;
 struct LatinSettings {
   double tolerance = 1e-6;
   double static_tolerance = 1e-8;
-  int window = 1;               // steps; 0: the whole interval
-  double relaxation = 0.0;      // 0: .95 dynamic, .8 static and windows of many steps
-  int anderson = -1;            // -1: 5 dynamic, 20 static, 0 beyond 20 steps
+  int window = 1;           // steps; 0: the whole interval
+  double relaxation = 0.0;  // 0: .95 dynamic, .8 static and windows of many steps
+  int anderson = -1;        // -1: 5 dynamic, 20 static, 0 beyond 20 steps
   int max_iterations = 200;
   double numerical_damping = 0.0;
-  double push_out = 0.0;        // b of the contact law
+  double push_out = 0.0;          // b of the contact law
   double search_direction = 1.0;  // multiplies every k (studies, hard cases)
-  bool plain = false;           // iterate with full solves instead of the condensed interface (the plain path)
+  bool plain = false;             // iterate with full solves instead of the condensed interface (the plain path)
 };
 
 enum class OutputKind { vtk, history, resultant, srs, joint, energy };
+const char* output_kind_name(OutputKind kind);
 enum class Quantity { displacement, velocity, acceleration, stress, von_mises, pressure };
 const char* quantity_name(Quantity quantity);
 
 struct Output : Named {
   OutputKind kind = OutputKind::energy;
-  std::vector<Target> on;                   // history, resultant, joint
+  std::vector<Target> on;  // history, resultant, joint
   Quantity quantity = Quantity::displacement;
-  std::optional<Vec3> direction;            // history: unit vector; none: x y z
-  int frames = 50;                          // vtk: a step
-  std::vector<std::string> fields;          // vtk
-  std::shared_ptr<const Output> of;         // srs
+  std::optional<Vec3> direction;     // history: unit vector; none: x y z
+  int frames = 50;                   // vtk: a step
+  std::vector<std::string> fields;   // vtk
+  std::shared_ptr<const Output> of;  // srs
   SrsSettings srs;
 };
 using OutputPtr = std::shared_ptr<const Output>;
@@ -151,10 +162,10 @@ int index_of(const std::vector<std::shared_ptr<const T>>& list, const T* object)
   return -1;
 }
 
-// Cross-checks what no single constructor can see: names unique, every object referred to is listed, steps chained without a
-// fork or a loop, no face under a rigid support and a prescribed motion in the same direction, gaps and interferences, srs of a
-// history... Throws InputError with the object's origin: "problem 'bolted': step 'tighten' loads interface 'shank', which is
-// not in 'interfaces'".
+// Cross-checks what no single constructor can see: names unique, every object referred to is listed, steps chained
+// without a fork or a loop, no face under a rigid support and a prescribed motion in the same direction, gaps and
+// interferences, srs of a history... Throws InputError with the object's origin: "problem 'bolted': step 'tighten'
+// loads interface 'shank', which is not in 'interfaces'".
 void check_problem(const Problem& problem);
 
 }  // namespace dygita

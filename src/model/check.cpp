@@ -1,0 +1,127 @@
+#include "model/check.hpp"
+
+#include <algorithm>
+
+#include "base/names.hpp"
+
+namespace dygita {
+
+void check_problem(const Problem& problem) {
+  check::names(problem);
+  check::interfaces(problem);
+  check::supports(problem);
+  check::steps(problem);
+  check::loads(problem);
+  check::outputs(problem);
+  check::doubts(problem);
+}
+
+namespace check {
+
+void fail(const Problem& problem, const Origin& origin, const std::string& text, const std::string& hint) {
+  throw InputError(origin.file.empty() ? problem.origin : origin,
+                   "problem '" + problem.name + "': " + text + (hint.empty() ? "" : "\n    " + hint));
+}
+
+std::vector<SupportPtr> all_supports(const Problem& problem) {
+  std::vector<SupportPtr> all = problem.supports;
+  for (const StepPtr& step : problem.steps) {
+    for (const SupportPtr& support : supports_of(problem, *step)) {
+      if (index_of(all, support.get()) < 0) all.push_back(support);
+    }
+  }
+  return all;
+}
+
+const Substructure& part_of(const FaceOrRegion& place) {
+  return *std::visit([](const auto& p) { return p.part; }, place);
+}
+
+std::string label_of(const FaceOrRegion& place) {
+  return std::visit([](const auto& p) { return p.label(); }, place);
+}
+
+std::vector<int> nodes_at(const FaceOrRegion& place) {
+  if (const Face* face = std::get_if<Face>(&place)) return nodes_of(face->facets());
+  std::vector<int> nodes = std::get<Region>(place).nodes;
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+bool one_in_other(const FaceOrRegion& a, const FaceOrRegion& b) {
+  if (&part_of(a) != &part_of(b)) return false;
+  const std::vector<int> nodes_a = nodes_at(a), nodes_b = nodes_at(b);
+  return std::includes(nodes_a.begin(), nodes_a.end(), nodes_b.begin(), nodes_b.end()) ||
+         std::includes(nodes_b.begin(), nodes_b.end(), nodes_a.begin(), nodes_a.end());
+}
+
+bool coincide(const FaceOrRegion& a, const FaceOrRegion& b) {
+  return &part_of(a) == &part_of(b) && nodes_at(a) == nodes_at(b);
+}
+
+void place_exists(const Problem& problem, const Origin& origin, const std::string& who, const FaceOrRegion& place) {
+  listed(problem, who + " substructure", part_of(place), problem.substructures, "substructures");
+  const Substructure& part = part_of(place);
+  if (const Face* face = std::get_if<Face>(&place)) {
+    const auto found = part.mesh->faces.find(face->group);
+    if (found == part.mesh->faces.end()) {
+      std::vector<std::string> known;
+      for (const auto& [group, facets] : part.mesh->faces) known.push_back(group);
+      fail(problem, origin, who + " face '" + face->group + "', which substructure '" + part.name + "' does not have",
+           did_you_mean(face->group, known));
+    }
+    if (found->second.empty()) fail(problem, origin, who + " face '" + face->label() + "', which has no facet");
+  } else if (std::get<Region>(place).nodes.empty()) {
+    fail(problem, origin, who + " a region of substructure '" + part.name + "' that has no node",
+         "its function answered true for no node");
+  }
+}
+
+std::string describe(const Interface& interface) {
+  return std::string("interface.") + interface_kind_name(interface.kind) + " '" + interface.name + "'";
+}
+
+std::string describe(const Support& support) {
+  return std::string("support.") + support_kind_name(support.kind) + " '" + support.name + "'";
+}
+
+std::string describe(const Target& target) {
+  if (const Face* face = std::get_if<Face>(&target)) return "face '" + face->label() + "'";
+  if (const Region* region = std::get_if<Region>(&target)) return "a region of '" + region->part->name + "'";
+  if (const InterfacePtr* interface = std::get_if<InterfacePtr>(&target)) return describe(**interface);
+  return describe(*std::get<SupportPtr>(target));
+}
+
+std::optional<FaceOrRegion> place_of(const Target& target) {
+  if (const Face* face = std::get_if<Face>(&target)) return *face;
+  if (const Region* region = std::get_if<Region>(&target)) return *region;
+  return std::nullopt;
+}
+
+void target_exists(const Problem& problem, const Origin& origin, const std::string& who, const Target& target,
+                   const std::vector<SupportPtr>& supports) {
+  if (const InterfacePtr* interface = std::get_if<InterfacePtr>(&target)) {
+    listed(problem, who + " interface", **interface, problem.interfaces, "interfaces");
+  } else if (const SupportPtr* support = std::get_if<SupportPtr>(&target)) {
+    listed(problem, who + " support", **support, supports, "supports");
+  } else {
+    place_exists(problem, origin, who, *place_of(target));
+  }
+}
+
+std::string why_not_listed(const Named& object, const std::vector<const Named*>& list, const std::string& list_name) {
+  std::vector<std::string> known;
+  for (const Named* other : list) {
+    if (other->name == object.name) {
+      const std::string where = other->origin.file.empty()
+                                    ? ""
+                                    : ", declared at " + other->origin.file + ":" + std::to_string(other->origin.line);
+      return "'" + list_name + "' has another one of that name" + where + ": is one object declared twice?";
+    }
+    known.push_back(other->name);
+  }
+  return "add it to '" + list_name + "'; " + did_you_mean(object.name, known);
+}
+
+}  // namespace check
+}  // namespace dygita

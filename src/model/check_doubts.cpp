@@ -1,0 +1,71 @@
+#include <algorithm>
+
+#include "base/log.hpp"
+#include "model/check.hpp"
+
+namespace dygita::check {
+
+namespace {
+
+void doubt(const Problem& problem, const Origin& origin, const std::string& text) {
+  warn((origin.file.empty() ? problem.origin : origin).prefix() + "problem '" + problem.name + "': " + text);
+}
+
+bool is_touched(const Problem& problem, const SubstructurePtr& part) {
+  for (const InterfacePtr& interface : problem.interfaces) {
+    if (interface->side_1.part == part || interface->side_2.part == part) return true;
+  }
+  for (const SupportPtr& support : all_supports(problem)) {
+    for (const FaceOrRegion& place : support->on) {
+      if (&part_of(place) == part.get()) return true;
+    }
+  }
+  for (const StepPtr& step : problem.steps) {
+    for (const LoadPtr& load : step->loads) {
+      for (const Target& target : load->on) {
+        const auto place = place_of(target);
+        if (place && &part_of(*place) == part.get()) return true;
+      }
+    }
+  }
+  return false;
+}
+
+void doubt_supports(const Problem& problem, bool has_dynamic_step) {
+  for (const SupportPtr& support : problem.supports) {
+    const bool is_used = std::any_of(problem.steps.begin(), problem.steps.end(), [&](const StepPtr& step) {
+      return index_of(supports_of(problem, *step), support.get()) >= 0;
+    });
+    if (!is_used) {
+      doubt(problem, support->origin, describe(*support) + " holds in no step: every step has 'supports' of its own");
+    }
+  }
+  if (has_dynamic_step) return;
+  for (const SupportPtr& support : all_supports(problem)) {
+    if (support->kind != SupportKind::absorbing) continue;
+    doubt(problem, support->origin, describe(*support) + " acts like a fixed one: there is no dynamic step");
+  }
+}
+
+}  // namespace
+
+void doubts(const Problem& problem) {
+  const bool has_dynamic_step =
+      std::any_of(problem.steps.begin(), problem.steps.end(), [](const StepPtr& step) { return !step->is_static; });
+  for (const SubstructurePtr& part : problem.substructures) {
+    const std::string who = "substructure '" + part->name + "'";
+    if (!is_touched(problem, part)) doubt(problem, part->origin, "no interface, support or load touches " + who);
+    if (!has_dynamic_step && !part->velocity.isZero()) {
+      doubt(problem, part->origin, "the velocity of " + who + " is not used: there is no dynamic step");
+    }
+  }
+  doubt_supports(problem, has_dynamic_step);
+  for (const OutputPtr& output : problem.outputs) {
+    const bool is_rate = output->quantity == Quantity::velocity || output->quantity == Quantity::acceleration;
+    if (has_dynamic_step || output->kind != OutputKind::history || !is_rate) continue;
+    doubt(problem, output->origin,
+          "output.history '" + output->name + "' is zero throughout: there is no dynamic step");
+  }
+}
+
+}  // namespace dygita::check

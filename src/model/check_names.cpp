@@ -1,0 +1,77 @@
+#include <algorithm>
+#include <set>
+
+#include "model/check.hpp"
+
+namespace dygita::check {
+
+namespace {
+
+// Names become file names in the output directory.
+bool is_fit_for_a_file(const std::string& name) {
+  return name.front() != '.' && std::none_of(name.begin(), name.end(), [](unsigned char c) {
+           return c < 0x20 || c == 0x7f || c == '/' || c == '\\';
+         });
+}
+
+void has_name(const Problem& problem, const Named& object, const std::string& what) {
+  if (object.name.empty()) fail(problem, object.origin, what + " has no name");
+  if (!is_fit_for_a_file(object.name)) {
+    fail(problem, object.origin, what + " '" + object.name + "': a name becomes a file name",
+         "allowed: anything without '/', '\\', control characters and a '.' in front");
+  }
+}
+
+template <class T>
+void has_unique_names(const Problem& problem, const std::vector<std::shared_ptr<const T>>& list,
+                      const std::string& what) {
+  for (size_t i = 0; i < list.size(); ++i) {
+    has_name(problem, *list[i], what);
+    for (size_t j = 0; j < i; ++j) {
+      if (list[j] == list[i]) fail(problem, problem.origin, what + " '" + list[i]->name + "' is listed twice");
+      if (list[j]->name != list[i]->name) continue;
+      const Origin& first = list[j]->origin;
+      fail(problem, list[i]->origin, "two " + what + "s are called '" + list[i]->name + "'",
+           first.file.empty() ? "" : "the other is declared at " + first.file + ":" + std::to_string(first.line));
+    }
+  }
+}
+
+bool has_table(const Output& output) { return output.kind != OutputKind::vtk && output.kind != OutputKind::energy; }
+
+// Tables are <name>.csv beside energy.csv and convergence.csv; ParaView's files and the energies come once a problem.
+void outputs_keep_apart(const Problem& problem) {
+  std::vector<OutputPtr> tables;
+  std::set<OutputKind> seen;
+  for (const OutputPtr& output : problem.outputs) {
+    if (has_table(*output)) {
+      if (output->name == "energy" || output->name == "convergence") {
+        fail(problem, output->origin, "output '" + output->name + "' would overwrite " + output->name + ".csv",
+             "'energy' and 'convergence' are the names of tables of the run itself");
+      }
+      tables.push_back(output);
+    } else if (!seen.insert(output->kind).second) {
+      fail(problem, output->origin,
+           std::string("'outputs' has more than one output.") + output_kind_name(output->kind));
+    }
+  }
+  has_unique_names(problem, tables, "output");
+}
+
+}  // namespace
+
+void names(const Problem& problem) {
+  has_name(problem, problem, "the problem");
+  if (problem.substructures.empty()) fail(problem, problem.origin, "'substructures' is empty");
+  if (problem.steps.empty()) {
+    fail(problem, problem.origin, "'steps' is empty", "at least one step.static or step.dynamic is needed");
+  }
+  has_unique_names(problem, problem.substructures, "substructure");
+  has_unique_names(problem, problem.interfaces, "interface");
+  has_unique_names(problem, problem.steps, "step");
+  for (const StepPtr& step : problem.steps) has_unique_names(problem, supports_of(problem, *step), "support");
+  has_unique_names(problem, all_supports(problem), "support");
+  outputs_keep_apart(problem);
+}
+
+}  // namespace dygita::check

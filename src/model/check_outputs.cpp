@@ -1,0 +1,113 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/log.hpp"
+#include "model/check.hpp"
+
+namespace dygita::check {
+
+namespace {
+
+std::string known_as(const Output& output) {
+  return std::string("output.") + output_kind_name(output.kind) + " '" + output.name + "'";
+}
+
+bool has_dynamic_step(const Problem& problem) {
+  return std::any_of(problem.steps.begin(), problem.steps.end(), [](const StepPtr& step) { return !step->is_static; });
+}
+
+bool is_wall(const Target& target) {
+  const SupportPtr* support = std::get_if<SupportPtr>(&target);
+  return support && (*support)->kind == SupportKind::wall;
+}
+
+// What an output can be on, in the deck's words; empty when `target` is.
+std::string refused(const Output& output, const Target& target) {
+  const bool is_interface = std::holds_alternative<InterfacePtr>(target);
+  const bool is_support = std::holds_alternative<SupportPtr>(target);
+  if (output.kind == OutputKind::resultant) {
+    return is_interface || is_support ? "" : "output.resultant takes an interface or a support";
+  }
+  if (output.kind == OutputKind::joint) {
+    return is_interface || is_wall(target) ? "" : "output.joint takes an interface or a support.wall";
+  }
+  if (output.quantity == Quantity::pressure) {
+    return is_interface || is_wall(target) ? "" : "quantity 'pressure' takes an interface or a support.wall";
+  }
+  const std::string quantity = quantity_name(output.quantity);
+  return is_interface || is_support ? "quantity '" + quantity + "' takes a face or a region" : "";
+}
+
+void is_on_what_it_can_be(const Problem& problem, const Output& output) {
+  if (output.on.empty()) fail(problem, output.origin, known_as(output) + " is on nothing");
+  for (const Target& target : output.on) {
+    target_exists(problem, output.origin, known_as(output) + " is on", target, all_supports(problem));
+    const std::string hint = refused(output, target);
+    if (!hint.empty()) fail(problem, output.origin, known_as(output) + " cannot be on " + describe(target), hint);
+  }
+}
+
+void direction_has_a_meaning(const Problem& problem, const Output& output) {
+  if (!output.direction) return;
+  if (output.quantity == Quantity::von_mises || output.quantity == Quantity::pressure) {
+    fail(problem, output.origin,
+         known_as(output) + ": quantity '" + quantity_name(output.quantity) + "' has no direction");
+  }
+  if (std::abs(output.direction->norm() - 1.0) > 1e-9) {
+    fail(problem, output.origin, known_as(output) + ": 'direction' is not a unit vector");
+  }
+}
+
+// A spectrum is of one absolute acceleration over dynamic steps.
+void spectrum_has_a_signal(const Problem& problem, const Output& output) {
+  const std::string who = known_as(output);
+  const std::string hint = "'of' takes an output.history of quantity 'acceleration' with a 'direction'";
+  if (!output.of) fail(problem, output.origin, who + " has no 'of'", hint);
+  listed(problem, who + " is of output", *output.of, problem.outputs, "outputs");
+  const Output& of = *output.of;
+  if (of.kind != OutputKind::history) fail(problem, output.origin, who + " is of " + known_as(of), hint);
+  if (of.quantity != Quantity::acceleration) {
+    fail(problem, output.origin, who + " is of " + known_as(of) + ", a " + quantity_name(of.quantity), hint);
+  }
+  if (!of.direction) fail(problem, output.origin, who + " is of " + known_as(of) + ", which has no direction", hint);
+  if (!has_dynamic_step(problem)) {
+    fail(problem, output.origin, who + ": the problem has no dynamic step", "a spectrum is of dynamic steps only");
+  }
+  const SrsSettings& srs = output.srs;
+  if (!(srs.from > 0.0) || !(srs.to > srs.from)) {
+    fail(problem, output.origin,
+         fmt::format("{}: 'from' = {:g} Hz and 'to' = {:g} Hz must be 0 < from < to", who, srs.from, srs.to));
+  }
+}
+
+}  // namespace
+
+void outputs(const Problem& problem) {
+  for (const OutputPtr& output : problem.outputs) {
+    switch (output->kind) {
+      case OutputKind::history:
+        is_on_what_it_can_be(problem, *output);
+        direction_has_a_meaning(problem, *output);
+        break;
+      case OutputKind::resultant:
+      case OutputKind::joint:
+        is_on_what_it_can_be(problem, *output);
+        break;
+      case OutputKind::srs:
+        spectrum_has_a_signal(problem, *output);
+        break;
+      case OutputKind::vtk:
+        if (output->frames < 1) {
+          fail(problem, output->origin,
+               fmt::format("output.vtk: 'frames' = {}, at least 1 a step is needed", output->frames));
+        }
+        break;
+      case OutputKind::energy:
+        break;
+    }
+  }
+}
+
+}  // namespace dygita::check

@@ -1,0 +1,108 @@
+#include "model/model.hpp"
+
+#include <cmath>
+
+namespace dygita {
+
+const char* interface_kind_name(InterfaceKind kind) {
+  switch (kind) {
+    case InterfaceKind::bonded:
+      return "bonded";
+    case InterfaceKind::contact:
+      return "contact";
+    case InterfaceKind::plastic:
+      return "plastic";
+  }
+  CHECK(false, "unknown kind of interface");
+  return "";
+}
+
+const char* support_kind_name(SupportKind kind) {
+  switch (kind) {
+    case SupportKind::fixed:
+      return "fixed";
+    case SupportKind::symmetry:
+      return "symmetry";
+    case SupportKind::wall:
+      return "wall";
+    case SupportKind::absorbing:
+      return "absorbing";
+  }
+  CHECK(false, "unknown kind of support");
+  return "";
+}
+
+const char* load_kind_name(LoadKind kind) {
+  switch (kind) {
+    case LoadKind::pressure:
+      return "pressure";
+    case LoadKind::traction:
+      return "traction";
+    case LoadKind::force:
+      return "force";
+    case LoadKind::velocity:
+      return "velocity";
+    case LoadKind::displacement:
+      return "displacement";
+    case LoadKind::base_acceleration:
+      return "base_acceleration";
+    case LoadKind::gravity:
+      return "gravity";
+    case LoadKind::shortening:
+      return "shortening";
+    case LoadKind::release:
+      return "release";
+  }
+  CHECK(false, "unknown kind of load");
+  return "";
+}
+
+const char* output_kind_name(OutputKind kind) {
+  switch (kind) {
+    case OutputKind::vtk:
+      return "vtk";
+    case OutputKind::history:
+      return "history";
+    case OutputKind::resultant:
+      return "resultant";
+    case OutputKind::srs:
+      return "srs";
+    case OutputKind::joint:
+      return "joint";
+    case OutputKind::energy:
+      return "energy";
+  }
+  CHECK(false, "unknown kind of output");
+  return "";
+}
+
+const char* quantity_name(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::displacement:
+      return "displacement";
+    case Quantity::velocity:
+      return "velocity";
+    case Quantity::acceleration:
+      return "acceleration";
+    case Quantity::stress:
+      return "stress";
+    case Quantity::von_mises:
+      return "von_mises";
+    case Quantity::pressure:
+      return "pressure";
+  }
+  CHECK(false, "unknown quantity");
+  return "";
+}
+
+int Step::n_increments() const {
+  if (is_static) return increments;
+  CHECK(dt > 0.0 && duration >= dt, "a dynamic step needs 0 < dt <= duration");
+  return static_cast<int>(std::lround(duration / dt));
+}
+
+const std::vector<SupportPtr>& supports_of(const Problem& problem, const Step& step) {
+  return step.supports ? *step.supports : problem.supports;
+}
+
+}  // namespace dygita
