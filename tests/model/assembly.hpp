@@ -1,0 +1,92 @@
+// A small sound problem that each test breaks in one place: two unit blocks, one on the other, screwed together.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "base/log.hpp"
+#include "mesh/box.hpp"
+#include "model/model.hpp"
+
+namespace dygita {
+
+template <class T>
+std::shared_ptr<T> declared(const std::string& name, int line) {
+  auto object = std::make_shared<T>();
+  object->name = name;
+  object->origin = Origin{"deck.lua", line};
+  return object;
+}
+
+inline std::shared_ptr<Load> load(LoadKind kind, std::vector<Target> on, double x = 1.0) {
+  auto result = std::make_shared<Load>();
+  result->kind = kind;
+  result->origin = Origin{"deck.lua", 40};
+  result->on = std::move(on);
+  result->value[0] = History::constant(x);
+  return result;
+}
+
+class Assembly : public ::testing::Test {
+ protected:
+  std::shared_ptr<Substructure> lower = declared<Substructure>("lower", 1), upper = declared<Substructure>("upper", 2);
+  std::shared_ptr<Interface> shank = declared<Interface>("shank", 10), mating = declared<Interface>("mating", 11);
+  std::shared_ptr<Support> base = declared<Support>("base", 20);
+  std::shared_ptr<Step> tighten = declared<Step>("tighten", 30), shock = declared<Step>("shock", 31);
+  std::shared_ptr<Output> above = declared<Output>("above", 50), spectrum = declared<Output>("spectrum", 51);
+  Problem problem;
+
+  Assembly() {
+    lower->mesh = box_mesh(Vec3::Zero(), Vec3::Ones(), {2, 2, 2});
+    upper->mesh = box_mesh(Vec3(0, 0, 1), Vec3::Ones(), {2, 2, 2});
+    shank->kind = InterfaceKind::plastic;
+    mating->kind = InterfaceKind::contact;
+    for (const auto& interface : {shank, mating}) {
+      interface->side_1 = Face{lower, "zmax"};
+      interface->side_2 = Face{upper, "zmin"};
+    }
+    base->on = {Face{lower, "zmin"}};
+    tighten->is_static = true;
+    tighten->loads = {load(LoadKind::shortening, {InterfacePtr(shank)}, 1e-5)};
+    shock->after = tighten;
+    shock->duration = 200e-6;
+    shock->dt = 1e-6;
+    shock->loads = {load(LoadKind::pressure, {Face{upper, "zmax"}}, 1e6)};
+    above->kind = OutputKind::history;
+    above->on = {Face{upper, "zmax"}};
+    above->quantity = Quantity::acceleration;
+    above->direction = Vec3::UnitZ();
+    spectrum->kind = OutputKind::srs;
+    spectrum->of = above;
+    problem.name = "bolted";
+    problem.origin = Origin{"deck.lua", 84};
+    problem.substructures = {lower, upper};
+    problem.interfaces = {shank, mating};
+    problem.supports = {base};
+    problem.steps = {tighten, shock};
+    problem.outputs = {above, spectrum};
+    take_warnings();
+  }
+
+  // The message to the user, whole; "" when the problem is accepted.
+  std::string complaint() const {
+    try {
+      check_problem(problem);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  std::string only_warning() const {
+    take_warnings();
+    EXPECT_EQ(complaint(), "");
+    const std::vector<std::string> warnings = take_warnings();
+    EXPECT_EQ(warnings.size(), 1U);
+    return warnings.empty() ? "" : warnings.front();
+  }
+};
+
+}  // namespace dygita
