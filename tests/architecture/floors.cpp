@@ -1,0 +1,91 @@
+#include "architecture/floors.hpp"
+
+#include <algorithm>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace dygita::architecture {
+
+namespace {
+
+// Everything below a module that is named for it; itself is understood.
+const std::map<std::string, std::set<std::string>> may_use = {
+    {"base", {}},
+    {"numerics", {"base"}},
+    {"mesh", {"base", "numerics"}},
+    {"signal", {"base", "numerics"}},
+    {"material", {"base", "numerics"}},
+    {"fem", {"base", "numerics", "mesh", "material"}},
+    {"law", {"base", "numerics", "signal", "material"}},
+    {"model", {"base", "numerics", "mesh", "signal", "material", "law"}},
+    {"solution", {"base", "numerics", "mesh", "signal", "material", "fem", "law", "model"}},
+    {"latin", {"base", "numerics", "mesh", "signal", "material", "fem", "law", "model", "solution"}},
+    {"reference", {"base", "numerics", "mesh", "signal", "material", "fem", "law", "model", "solution"}},
+    {"result", {"base", "numerics", "mesh", "signal", "material", "fem", "law", "model", "solution"}},
+    {"output", {"base", "numerics", "mesh", "model", "result"}},
+    {"deck",
+     {"base", "numerics", "mesh", "signal", "material", "fem", "law", "model", "solution", "latin", "reference",
+      "result", "output"}},
+    {"app", {"base", "signal", "result", "output", "deck"}},
+};
+
+// Third-party headers that everybody may include; the others belong to one module.
+const std::regex everybody("^(Eigen/|spdlog/|omp\\.h$)");
+const std::vector<std::pair<std::string, std::regex>> owners = {
+    {"numerics", std::regex("^(cholmod|SuiteSparse|metis|cblas|lapack|openblas)[A-Za-z_]*\\.h$")},
+    {"mesh", std::regex("^gmsh")},
+    {"output", std::regex("^(vtk|nlohmann/)")},
+    {"deck", std::regex("^(lua|lualib|lauxlib)\\.(h|hpp)$")},
+    {"app", std::regex("^CLI/")},
+};
+
+// Headers of the operating system, and whole folders of them.
+const std::regex system_header("^[a-z_0-9]+$|^(unistd|sys/[a-z]+|immintrin|xmmintrin|pmmintrin)\\.h$");
+
+bool is_owned_by(const std::string& module, const std::string& header) {
+  return std::any_of(owners.begin(), owners.end(), [&](const auto& owner) {
+    return owner.first == module && std::regex_search(header, owner.second);
+  });
+}
+
+bool is_allowed(const std::string& module, const std::string& header) {
+  if (std::regex_search(header, everybody) || std::regex_search(header, system_header)) return true;
+  if (is_owned_by(module, header)) return true;
+  const std::string from = header.substr(0, header.find('/'));
+  return from == module || may_use.at(module).contains(from);
+}
+
+std::string without_block_comments(std::string text) {
+  for (size_t open = text.find("/*"); open != std::string::npos; open = text.find("/*", open)) {
+    const size_t close = std::min(text.find("*/", open + 2), text.size() - 2) + 2;
+    std::replace_if(
+        text.begin() + open, text.begin() + close, [](char c) { return c != '\n'; }, ' ');
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> violations(const std::string& module, const std::string& text) {
+  static const std::regex include("^\\s*#\\s*include\\s*[\"<]([^\">]+)[\">]");
+  std::vector<std::string> found;
+  if (!may_use.contains(module)) return {"module '" + module + "' has no floor"};
+  std::istringstream lines(without_block_comments(text));
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    std::smatch match;
+    if (!std::regex_search(line, match, include) || is_allowed(module, match[1])) continue;
+    found.push_back("line " + std::to_string(number) + ": " + module + " may not include " + match[1].str());
+  }
+  return found;
+}
+
+std::vector<std::string> modules() {
+  std::vector<std::string> names;
+  for (const auto& [name, below] : may_use) names.push_back(name);
+  return names;
+}
+
+}  // namespace dygita::architecture
