@@ -8,7 +8,8 @@ namespace dygita {
 struct BodyMatrices {
   SparseMatrix stiffness;  // 3n x 3n, N/m, both triangles, before any support
   Vec mass;                // n, kg, lumped
-  double max_frequency;    // bound (rad/s) on the highest element frequency: critical step of central differences is 2 / it
+  double
+      max_frequency;  // bound (rad/s) on the highest element frequency: critical step of central differences is 2 / it
 };
 
 // Assembles by node pattern and 3x3 blocks, no triplets.

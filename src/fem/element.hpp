@@ -6,7 +6,7 @@
 
 namespace dygita {
 
-using CellNodes = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 8>;          // 3 x n, metres
+using CellNodes = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 8>;                  // 3 x n, metres
 using CellMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 24, 24>;  // 3n x 3n, dof = 3 node + axis
 
 // Stiffness (N/m). hex8: condensed internal modes, passes the patch test on distorted cells, no locking in bending.

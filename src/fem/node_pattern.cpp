@@ -1,0 +1,93 @@
+#include "fem/node_pattern.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "base/error.hpp"
+
+namespace dygita {
+
+namespace {
+
+// Cells of each node, as pointers to their nodes.
+struct CellsOfNodes {
+  struct Cell {
+    const int* nodes;
+    int n_nodes;
+  };
+  std::vector<int> starts;
+  std::vector<Cell> cells;
+};
+
+CellsOfNodes cells_of_nodes(const Mesh& mesh) {
+  CellsOfNodes of;
+  of.starts.assign(mesh.n_nodes() + 1, 0);
+  for (const CellBlock& block : mesh.blocks)
+    for (const int node : block.nodes) ++of.starts[node + 1];
+  for (int a = 0; a < mesh.n_nodes(); ++a) of.starts[a + 1] += of.starts[a];
+
+  of.cells.resize(of.starts.back());
+  std::vector<int> next(of.starts.begin(), of.starts.end() - 1);
+  for (const CellBlock& block : mesh.blocks) {
+    const int n_local = nodes_per_cell(block.type);
+    for (int i = 0; i < block.n_cells(); ++i)
+      for (int a = 0; a < n_local; ++a) of.cells[next[block.cell(i)[a]]++] = {block.cell(i), n_local};
+  }
+  return of;
+}
+
+}  // namespace
+
+NodePattern node_pattern(const Mesh& mesh) {
+  const CellsOfNodes of = cells_of_nodes(mesh);
+  NodePattern pattern;
+  pattern.starts.reserve(mesh.n_nodes() + 1);
+  pattern.starts.push_back(0);
+  pattern.neighbours.reserve(static_cast<size_t>(27) * mesh.n_nodes());
+
+  std::vector<int> seen_by(mesh.n_nodes(), -1);
+  for (int a = 0; a < mesh.n_nodes(); ++a) {
+    const size_t first = pattern.neighbours.size();
+    for (int i = of.starts[a]; i < of.starts[a + 1]; ++i)
+      for (int b = 0; b < of.cells[i].n_nodes; ++b) {
+        const int node = of.cells[i].nodes[b];
+        if (seen_by[node] == a) continue;
+        seen_by[node] = a;
+        pattern.neighbours.push_back(node);
+      }
+    std::sort(pattern.neighbours.begin() + static_cast<std::ptrdiff_t>(first), pattern.neighbours.end());
+    if (pattern.neighbours.size() > std::numeric_limits<int>::max() / 9)
+      throw InputError(fmt::format(
+          "mesh {}: {} nodes in one substructure are too many, its matrix would have more than 2^31 entries\n"
+          "    cut it into several substructures (about 8 million nodes each at most)",
+          mesh.source, mesh.n_nodes()));
+    pattern.starts.push_back(static_cast<int>(pattern.neighbours.size()));
+  }
+  return pattern;
+}
+
+SparseMatrix block_matrix(const NodePattern& pattern) {
+  const int n = pattern.n_nodes();
+  const auto n_entries = static_cast<Eigen::Index>(9 * pattern.neighbours.size());
+  SparseMatrix matrix(3 * n, 3 * n);
+  matrix.resizeNonZeros(n_entries);
+  int* rows = matrix.outerIndexPtr();
+  rows[0] = 0;
+
+#pragma omp parallel for schedule(static)
+  for (int a = 0; a < n; ++a) {
+    const int first = pattern.starts[a], count = pattern.starts[a + 1] - first;
+    for (int i = 0; i < 3; ++i) {
+      const int begin = 9 * first + 3 * i * count;
+      rows[3 * a + i + 1] = begin + 3 * count;
+      std::fill_n(matrix.valuePtr() + begin, 3 * count, 0.0);
+      for (int k = 0; k < 3 * count; ++k)
+        matrix.innerIndexPtr()[begin + k] = 3 * pattern.neighbours[first + k / 3] + k % 3;
+    }
+  }
+  return matrix;
+}
+
+}  // namespace dygita

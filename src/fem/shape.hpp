@@ -1,0 +1,56 @@
+// Shape functions of hex8, prism6 and tet4, sampled at their quadrature points.
+#pragma once
+
+#include <Eigen/LU>
+#include <array>
+
+#include "mesh/mesh.hpp"
+
+namespace dygita {
+
+template <int n>
+using Nodes = Eigen::Matrix<double, 3, n>;  // m
+template <int n>
+using Stiffness = Eigen::Matrix<double, 3 * n, 3 * n>;  // N/m, dof = 3 node + axis
+
+// `n` shape functions at `g` quadrature points of the reference cell.
+template <int n, int g>
+struct ShapeTable {
+  static constexpr int n_nodes = n, n_points = g;
+
+  Eigen::Matrix<double, 3, g> points;                 // reference coordinates
+  Eigen::Matrix<double, g, 1> weights;                // sum = volume of the reference cell
+  Eigen::Matrix<double, n, g> values;                 // N_a
+  std::array<Eigen::Matrix<double, n, 3>, g> slopes;  // d N_a / d xi
+  Eigen::Matrix<double, g, n> to_nodes;               // row of values at the points x this = row of values at the nodes
+};
+
+// Cube [-1, 1]^3, 2x2x2 Gauss points in the order of the nodes: exact for the volume and its first moments.
+const ShapeTable<8, 8>& hex8_shapes();
+
+// Unit triangle over [-1, 1], 3 x 2 points: exact for the volume and its first moments. Node 1 is at (0, 1), node 2 at
+// (1, 0), as in vtkWedge; the mirrored numbering gives the same element.
+const ShapeTable<6, 6>& prism6_shapes();
+
+// Unit tetrahedron, 1 point.
+const ShapeTable<4, 1>& tet4_shapes();
+
+// A quadrature point of a cell in space.
+template <int n>
+struct PointInCell {
+  Eigen::Matrix<double, n, 3> gradient;  // d N_a / d x, 1/m
+  double volume;                         // share of the cell's volume, m^3
+};
+
+// Gradients and volume at quadrature point `i` of the cell with nodes `x`; the volume of an inverted map is negative.
+template <int n, int g>
+PointInCell<n> point_in_cell(const ShapeTable<n, g>& shapes, const Nodes<n>& x, int i) {
+  const Mat3 jacobian = x * shapes.slopes[i];  // d x_p / d xi_q
+  Mat3 inverse;
+  double determinant;
+  bool is_invertible;
+  jacobian.computeInverseAndDetWithCheck(inverse, determinant, is_invertible, 0.0);
+  return {shapes.slopes[i] * inverse, determinant * shapes.weights[i]};
+}
+
+}  // namespace dygita
