@@ -1,9 +1,22 @@
 # One library per folder of src/. A module is its folder: a new law is one new file.
 
+# Faster, but the last bits of a result and the program itself then belong to this kind of processor.
+option(DYGITA_NATIVE "Compile for the processor at hand (-march=native)" ON)
+option(DYGITA_SANITIZE "Stop at memory errors, leaks and undefined behaviour" OFF)
+set(dygita_sanitizers -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+
 function(dygita_target_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-    -Woverloaded-virtual -Wno-maybe-uninitialized $<$<BOOL:${DYGITA_WARNINGS_AS_ERRORS}>:-Werror>)
+    -Woverloaded-virtual $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
+    $<$<BOOL:${DYGITA_WARNINGS_AS_ERRORS}>:-Werror>)
   target_link_libraries(${target} PRIVATE OpenMP::OpenMP_CXX)
+  if(DYGITA_NATIVE)
+    target_compile_options(${target} PRIVATE -march=native)
+  endif()
+  if(DYGITA_SANITIZE)
+    target_compile_options(${target} PRIVATE ${dygita_sanitizers})
+    target_link_options(${target} PRIVATE ${dygita_sanitizers})
+  endif()
 endfunction()
 
 # dygita_module(NAME DEPENDS lower modules... PRIVATE_LIBRARIES third-party libraries nobody above may name)

@@ -1,0 +1,159 @@
+#!/usr/bin/env bash
+# Everything from a bare Debian or Ubuntu to a result: see usage below, or ./run.sh help.
+set -euo pipefail
+
+root="$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")" && pwd)"
+build="$root/build/release"
+
+# Debian's names; the comment says what needs it.
+packages=(
+  g++ cmake ninja-build   # build
+  libeigen3-dev           # dense algebra
+  libsuitesparse-dev      # sparse Cholesky factor
+  libmetis-dev            # its ordering
+  libopenblas-dev         # its kernels, five to ten times faster than the reference BLAS
+  libgmsh-dev             # meshes
+  libvtk9-dev             # files for ParaView
+  liblua5.4-dev           # decks
+  libcli11-dev            # command line
+  libspdlog-dev           # messages
+  libgtest-dev            # tests
+)
+
+usage() {
+  cat <<'END'
+./run.sh                  install what is missing, build, run decks/bolted_flanges.lua, say which files to open
+./run.sh test             install what is missing, build, pass the tests
+./run.sh build            install what is missing, build
+./run.sh run DECK [...]   build if needed, then: dygita run DECK [...]    (--set NAME=VALUE, --out DIR, --threads N)
+./run.sh help             this
+
+Packages come from apt, with sudo when you are not root; nothing is installed when all is there.
+DYGITA_NO_INSTALL=1 never installs, for a system where the libraries come from elsewhere.
+The program is build/release/dygita afterwards. Other builds (debug, sanitize, clang): cmake --list-presets
+END
+}
+
+say() { printf '\n== %s\n' "$*"; }
+fail() {
+  printf '\nrun.sh: %s\n' "$1" >&2
+  shift
+  (($# == 0)) || printf '    %s\n' "$@" >&2
+  exit 1
+}
+
+missing_packages() {
+  local package
+  for package in "${packages[@]}"; do
+    [[ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" == installed* ]] || echo "$package"
+  done
+}
+
+as_root() {
+  if ((EUID == 0)); then
+    env DEBIAN_FRONTEND=noninteractive "$@"
+  else
+    sudo env DEBIAN_FRONTEND=noninteractive "$@"
+  fi
+}
+
+install_packages() {
+  [[ "${DYGITA_NO_INSTALL:-0}" != 1 ]] || return 0
+  if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+    fail "this is not Debian or Ubuntu: there is no apt-get" \
+      "install what these packages are called on your system, then DYGITA_NO_INSTALL=1 $0:" "${packages[*]}"
+  fi
+  local missing
+  mapfile -t missing < <(missing_packages)
+  if ((${#missing[@]} == 0)); then
+    say "Every package that is needed is installed"
+    return 0
+  fi
+
+  say "Installing ${#missing[@]} packages (VTK and what it depends on is by far the largest, some minutes):"
+  printf '    %s\n' "${missing[@]}"
+  if ((EUID != 0)) && ! command -v sudo >/dev/null; then
+    fail "installing needs root and there is no sudo: as root run" \
+      "apt-get update && apt-get install --no-install-recommends ${missing[*]}"
+  fi
+  # A mirror that is down for one list need not stop the rest: what matters is whether the packages install.
+  as_root apt-get update || printf 'run.sh: apt-get update failed, trying with the package lists at hand\n' >&2
+  as_root apt-get install -y --no-install-recommends "${missing[@]}" ||
+    fail "apt-get could not install the packages; its own message is above" \
+      "needed: ${missing[*]}" "is there a network, and does the system (Debian 12, Ubuntu 24.04 or later) have them?"
+}
+
+# One compiler takes up to about 1.5 GB with these headers.
+n_jobs() {
+  local cores memory
+  cores="$(nproc)"
+  memory="$(awk '/^MemAvailable/ { print int($2 / 1.5e6) }' /proc/meminfo 2>/dev/null || true)"
+  memory="${memory:-$cores}"
+  ((memory > 0)) || memory=1
+  echo $((memory < cores ? memory : cores))
+}
+
+build_engine() {
+  # A build folder that came along with a copied checkout belongs to another place.
+  local cache="$build/CMakeCache.txt"
+  if [[ -f "$cache" ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache"; then
+    say "build/release was configured for another folder: configuring anew"
+    rm -rf "$build"
+  fi
+  say "Building (build/release)"
+  (cd "$root" && cmake --preset release && cmake --build --preset release --parallel "$(n_jobs)") ||
+    fail "the build failed; the first error is above"
+}
+
+run_tests() {
+  say "Testing"
+  (cd "$root" && ctest --preset release --parallel "$(nproc)") ||
+    fail "tests failed; the last lines above name them" "one of them again: ctest --preset release -R NAME"
+}
+
+run_example() {
+  local deck=decks/bolted_flanges.lua results=out/bolted_flanges/base status=0 file
+  say "Running $deck"
+  (cd "$root" && "$build/dygita" run "$deck") || status=$?
+  ((status <= 1)) || fail "dygita stopped with exit code $status; its message is above"
+  ((status == 0)) || say "The run finished, but some steps did not reach their tolerance (exit code 1)"
+  say "Results are in $root/$results"
+  if [[ -f "$root/$results/bolted_flanges.pvd" ]]; then
+    echo "    paraview $root/$results/bolted_flanges.pvd      the flanges through time; Warp By Vector, displacement, x200"
+  fi
+  for file in "$root/$results"/{interfaces.pvd,report.html,run.json,*.csv}; do
+    [[ ! -f "$file" ]] || echo "    $file"
+  done
+  echo
+  echo "Next: ./run.sh run decks/crush.lua --set mu=0.6"
+  return "$status"
+}
+
+main() {
+  local command="${1:-example}"
+  (($# == 0)) || shift
+  case "$command" in
+    help | -h | --help) usage ;;
+    example | test | build)
+      (($# == 0)) || fail "'$command' takes no argument, got: $*" "./run.sh help"
+      install_packages
+      build_engine
+      case "$command" in
+        example) run_example ;;
+        test) run_tests ;;
+        build) say "Built: $build/dygita" ;;
+      esac
+      ;;
+    run)
+      (($# > 0)) || fail "'run' needs a deck: ./run.sh run DECK [--set NAME=VALUE ...]"
+      [[ -f "$1" ]] || fail "there is no deck '$1' in $PWD"
+      install_packages
+      build_engine
+      say "Running $1"
+      exec "$build/dygita" run "$@"
+      ;;
+    *) fail "unknown command '$command'; known: build, help, run, test" "./run.sh help" ;;
+  esac
+}
+
+main "$@"
