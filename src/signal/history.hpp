@@ -12,22 +12,26 @@ class History {
  public:
   History() : History(constant(0.0)) {}
 
+  // Durations in seconds, values in the unit of what they load. All throw InputError on numbers that are not finite, on
+  // a duration that is not above zero and on a negative rise, hold or fall.
   static History constant(double value);
-  static History step(double value, double at);                    // value for t >= at, 0 before
-  static History ramp(double from, double to, double duration);    // then stays at `to`
-  static History half_sine(double peak, double duration);          // then 0
-  static History haversine(double peak, double duration);          // peak sin^2, then 0
-  static History pulse(double peak, double rise, double hold, double fall);  // trapezoid
+  static History step(double value, double at);                              // value for t >= at, 0 before
+  static History ramp(double from, double to, double duration);              // then stays at `to`; `from` before t = 0
+  static History half_sine(double peak, double duration);                    // 0 before and after
+  static History haversine(double peak, double duration);                    // peak sin^2, 0 before and after
+  static History pulse(double peak, double rise, double hold, double fall);  // trapezoid; rise or fall 0 is a jump
   // Linear between the points, constant outside. Times strictly increasing (else InputError).
   static History piecewise(std::vector<double> times, std::vector<double> values);
-  // Two columns (time s, value), comma or blank separated, one optional header line. Throws InputError with file:line.
+  // Two columns (time s, value), linear between the points: see signal_file.hpp. Throws InputError with file:line.
   static History from_file(const std::string& path);
+  // Any function of time; a value that is not finite throws InputError when it is met.
   static History function(std::function<double(double)> f);
 
   double value(double t) const;
-  // Integral from t0 to t1 (t0 <= t1): exact for the named histories, Simpson on the interval for functions.
+  // Integral from t0 to t1 (s, t0 <= t1): closed form for the named histories; Simpson's rule on four equal parts of
+  // the interval for functions (exact for cubics).
   double integral(double t0, double t1) const;
-  bool is_constant() const;
+  bool is_constant() const;  // the same value at all times, as far as can be told (never for a function)
   // "half_sine(peak 1e+08, duration 4e-05)": for the run record.
   std::string description() const;
 

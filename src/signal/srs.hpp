@@ -6,20 +6,25 @@
 namespace dygita {
 
 struct SrsSettings {
-  double q_factor = 10.0;
+  double q_factor = 10.0;  // above 0.5; infinite: undamped
   double from = 100.0;     // Hz
   double to = 10000.0;     // Hz
   int per_octave = 12;
 };
 
-// One row a natural frequency; primary: during the record, residual: after it, both as maximax.
+// One entry a natural frequency (Hz), from, from 2^(1/per_octave), ... up to `to`. The others in the signal's unit,
+// none negative: `positive` and `negative` are the largest response of each sign, during the record and after it,
+// `maximax` the larger of the two; `primary` is the maximax during the record, `residual` after it, where the base
+// stands still.
 struct Srs {
   std::vector<double> frequency, maximax, positive, negative, primary, residual;
 };
 
-// Absolute-acceleration response to a base acceleration sampled every `dt` seconds (first sample at t = 0, at rest before).
-// The signal is upsampled (band-limited) to 40 times the natural frequency where it is coarser. Warns below 1/T of the
-// record. Throws InputError on an empty signal, dt <= 0, from >= to, to above the Nyquist frequency is a warning.
+// Absolute-acceleration response to a base acceleration sampled every `dt` seconds (first sample at t = 0, at rest
+// before). The signal is upsampled (band-limited) to 40 times the natural frequency where it is coarser, peaks are read
+// off the parabola through three samples. Warns below 1/T of the record and above its Nyquist frequency. Throws
+// InputError on an empty signal or a value that is not finite, dt <= 0, from <= 0, from >= to, per_octave < 1, q_factor
+// <= 0.5.
 Srs shock_response_spectrum(const std::vector<double>& signal, double dt, const SrsSettings& settings);
 
 }  // namespace dygita

@@ -1,0 +1,169 @@
+// Load histories: their integrals against quadrature, their limits, their files, their wrong arguments.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <numbers>
+
+#include "base/error.hpp"
+#include "signal/history.hpp"
+
+namespace dygita {
+namespace {
+
+// Midpoint rule on so many parts that kinks and jumps do not show.
+double quadrature(const History& history, double t0, double t1) {
+  constexpr int n = 200000;
+  double sum = 0.0;
+  for (int i = 0; i < n; ++i) sum += history.value(t0 + (t1 - t0) * (i + 0.5) / n);
+  return sum * (t1 - t0) / n;
+}
+
+std::string message_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+class HistoryFile : public ::testing::Test {
+ protected:
+  HistoryFile() : path_(std::filesystem::temp_directory_path() / "dygita_test_history.csv") {}
+  ~HistoryFile() override { std::filesystem::remove(path_); }
+  History read(const std::string& text) {
+    std::ofstream(path_) << text;
+    return History::from_file(path_.string());
+  }
+  std::string message(const std::string& text) {
+    const std::string all = message_of([&] { read(text); });
+    return all.starts_with(path_.string()) ? all.substr(path_.string().size()) : all;
+  }
+  std::filesystem::path path_;
+};
+
+TEST(History, integrates_as_a_fine_quadrature_does) {
+  const std::vector<History> histories = {
+      History::constant(3.0),
+      History::step(2.0, 0.3),
+      History::ramp(1.0, -2.0, 0.8),
+      History::half_sine(5.0, 0.7),
+      History::haversine(4.0, 0.9),
+      History::pulse(3.0, 0.2, 0.3, 0.4),
+      History::pulse(3.0, 0.0, 0.3, 0.0),
+      History::piecewise({-0.2, 0.1, 0.5, 0.6}, {1.0, 4.0, -2.0, 0.5}),
+  };
+  for (const History& history : histories) {
+    for (const auto& [t0, t1] :
+         {std::pair{-0.5, 1.5}, {0.0, 0.25}, {0.33, 0.77}, {0.65, 0.95}, {1.2, 3.0}, {-2.0, -0.1}}) {
+      EXPECT_NEAR(history.integral(t0, t1), quadrature(history, t0, t1), 3e-5) << history.description() << " " << t0;
+    }
+  }
+}
+
+TEST(History, adds_up_over_neighbouring_intervals) {
+  for (const History& history : {History::half_sine(1.0, 1.0), History::haversine(1.0, 1.0),
+                                 History::pulse(1.0, 0.1, 0.2, 0.3), History::step(1.0, 0.5)}) {
+    double sum = 0.0;
+    for (int i = -10; i < 120; ++i) sum += history.integral(i / 100.0, (i + 1) / 100.0);
+    EXPECT_NEAR(sum, history.integral(-0.1, 1.2), 1e-14) << history.description();
+  }
+}
+
+TEST(History, has_the_impulse_of_its_closed_form) {
+  EXPECT_DOUBLE_EQ(History::half_sine(1e8, 4e-5).integral(0.0, 1.0), 2.0 / std::numbers::pi * 1e8 * 4e-5);
+  EXPECT_DOUBLE_EQ(History::haversine(1e8, 4e-5).integral(0.0, 1.0), 0.5 * 1e8 * 4e-5);
+  EXPECT_DOUBLE_EQ(History::pulse(6.0, 1.0, 2.0, 3.0).integral(-1.0, 9.0), 24.0);
+  EXPECT_DOUBLE_EQ(History::step(2.0, 0.5).integral(0.0, 2.0), 3.0);
+}
+
+TEST(History, keeps_its_digits_over_a_very_short_interval) {
+  const History history = History::half_sine(2.0, 1.0);
+  EXPECT_NEAR(history.integral(0.25, 0.25 + 1e-9) / 1e-9, history.value(0.25), 1e-6);
+  EXPECT_EQ(history.integral(0.25, 0.25), 0.0);
+}
+
+TEST(History, takes_the_stated_values_at_and_outside_its_ends) {
+  EXPECT_EQ(History::step(2.0, 0.5).value(0.5), 2.0);
+  EXPECT_EQ(History::step(2.0, 0.5).value(std::nextafter(0.5, 0.0)), 0.0);
+  EXPECT_EQ(History::ramp(1.0, 3.0, 2.0).value(-1.0), 1.0);
+  EXPECT_EQ(History::ramp(1.0, 3.0, 2.0).value(1.0), 2.0);
+  EXPECT_EQ(History::ramp(1.0, 3.0, 2.0).value(9.0), 3.0);
+  EXPECT_EQ(History::half_sine(2.0, 1.0).value(0.5), 2.0);
+  EXPECT_EQ(History::half_sine(2.0, 1.0).value(1.0), 0.0);
+  EXPECT_EQ(History::haversine(2.0, 1.0).value(0.5), 2.0);
+  EXPECT_EQ(History::haversine(2.0, 1.0).value(-0.5), 0.0);
+  EXPECT_EQ(History::pulse(2.0, 0.0, 1.0, 0.0).value(0.0), 2.0);
+  EXPECT_EQ(History::pulse(2.0, 0.0, 1.0, 0.0).value(-1e-300), 0.0);
+  EXPECT_EQ(History::pulse(2.0, 0.0, 1.0, 0.0).value(1.0), 0.0);
+  EXPECT_EQ(History::piecewise({1.0}, {7.0}).value(-3.0), 7.0);
+}
+
+TEST(History, of_a_function_is_exact_for_cubics_and_close_for_a_sine) {
+  const History cubic = History::function([](double t) { return 4.0 * t * t * t - t; });
+  EXPECT_NEAR(cubic.integral(1.0, 3.0), 76.0, 1e-12);
+  const History sine = History::function([](double t) { return std::sin(t); });
+  EXPECT_NEAR(sine.integral(0.0, 1.0), 1.0 - std::cos(1.0), 1e-6);
+  EXPECT_FALSE(cubic.is_constant());
+}
+
+TEST(History, of_a_function_that_is_not_a_number_is_an_error_that_says_when) {
+  const History history = History::function([](double t) { return t < 1.0 ? 0.0 : std::nan(""); });
+  EXPECT_EQ(history.value(0.5), 0.0);
+  EXPECT_EQ(message_of([&] { history.value(2.0); }), "history: the function's value at t = 2 s is nan");
+}
+
+TEST(History, knows_when_it_is_constant_and_describes_itself) {
+  EXPECT_TRUE(History().is_constant());
+  EXPECT_EQ(History().value(3.0), 0.0);
+  EXPECT_TRUE(History::constant(4.0).is_constant());
+  EXPECT_FALSE(History::step(4.0, 1.0).is_constant());
+  EXPECT_FALSE(History::half_sine(4.0, 1.0).is_constant());
+  EXPECT_EQ(History::half_sine(1e8, 4e-5).description(), "half_sine(peak 100000000, duration 4e-05)");
+  EXPECT_EQ(History::ramp(0.0, 2.5, 1e-3).description(), "ramp(from 0, to 2.5, duration 0.001)");
+}
+
+TEST(History, refuses_what_has_no_meaning) {
+  EXPECT_EQ(message_of([] { History::half_sine(1.0, 0.0); }), "history.half_sine: 'duration' = 0 s must be above 0");
+  EXPECT_EQ(message_of([] { History::pulse(1.0, -1.0, 1.0, 1.0); }), "history.pulse: 'rise' = -1 s must be 0 or more");
+  EXPECT_EQ(message_of([] {
+              History::piecewise({0.0, 1.0, 1.0}, {0.0, 1.0, 2.0});
+            }),
+            "history.piecewise: 'times' must increase: number 3 is 1 s, after 1 s");
+  EXPECT_THROW(History::pulse(1.0, 0.0, 0.0, 0.0), InputError);
+  EXPECT_THROW(History::ramp(0.0, 1.0, -1.0), InputError);
+  EXPECT_THROW(History::haversine(std::nan(""), 1.0), InputError);
+  EXPECT_THROW(History::constant(INFINITY), InputError);
+  EXPECT_THROW(History::step(1.0, std::nan("")), InputError);
+  EXPECT_THROW(History::piecewise({}, {}), InputError);
+  EXPECT_THROW(History::piecewise({0.0, 1.0}, {0.0}), InputError);
+  EXPECT_THROW(History::constant(1.0).integral(1.0, 0.0), ContractError);
+}
+
+TEST_F(HistoryFile, is_read_with_commas_blanks_titles_and_comments) {
+  const History history =
+      read("\xEF\xBB\xBFtime [s], pressure [Pa]\r\n# measured\r\n\r\n0, 1\r\n  0.5\t+3e0\r\n1; -1\r\n");
+  EXPECT_EQ(history.value(0.25), 2.0);
+  EXPECT_EQ(history.value(2.0), -1.0);
+  EXPECT_NEAR(history.integral(0.0, 1.0), 1.5, 1e-15);
+  EXPECT_NE(history.description().find("3 points"), std::string::npos);
+}
+
+TEST_F(HistoryFile, that_is_wrong_is_named_with_its_line) {
+  EXPECT_EQ(message("0 1\n1 2\n1 3\n"), ":3: time 1 s does not come after 1 s: times must increase");
+  EXPECT_EQ(message("t v\n0 1\n1 x\n"), ":3: 'x' is not a finite number");
+  EXPECT_EQ(message("t v\nagain titles\n"), ":2: 'again' is not a finite number");
+  EXPECT_EQ(message("0 1\n1 nan\n"), ":2: 'nan' is not a finite number");
+  EXPECT_EQ(message("0,5 1,5 3\n"), ":1: 5 columns where two are expected: time (s) and value; decimals take a point");
+  EXPECT_EQ(message("7\n"), ":1: 1 number where two are expected: time (s) and value; decimals take a point");
+  EXPECT_NE(message("time value\n").find("has no points"), std::string::npos);
+  EXPECT_EQ(message_of([] { History::from_file("no/such/file.csv"); }),
+            "cannot read the signal file 'no/such/file.csv'");
+  EXPECT_THROW(History::from_file(std::filesystem::temp_directory_path().string()), InputError);
+}
+
+}  // namespace
+}  // namespace dygita
