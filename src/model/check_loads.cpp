@@ -132,16 +132,20 @@ int common_direction(const Load& a, const Load& b) {
   return -1;
 }
 
-void motion_is_prescribed_once(const Problem& problem, const Step& step, const Load& a, const Load& b) {
+// Forces, shortenings and releases of one kind on one target: which would the next step start from?
+bool are_one_load(const Load& a, const Load& b) {
+  if (a.kind != b.kind || is_prescribed_motion(a) || common_direction(a, b) < 0) return false;
+  return a.kind != LoadKind::base_acceleration || std::abs(a.direction.dot(b.direction)) > 1e-6;
+}
+
+void loads_do_not_compete(const Problem& problem, const Step& step, const Load& a, const Load& b) {
   const std::string who = "step '" + step.name + "': ";
+  const std::string in_one = "give their sum in one load; a history may be a function(t)";
+  if (are_one_load(a, b) && a.kind == LoadKind::gravity) fail(problem, b.origin, who + "two load.gravity", in_one);
   for (const Target& target_a : a.on) {
     for (const Target& target_b : b.on) {
-      const bool once_only = a.kind == b.kind && (a.kind == LoadKind::shortening || a.kind == LoadKind::release);
-      const bool same_base =
-          a.kind == LoadKind::base_acceleration && b.kind == a.kind && std::abs(a.direction.dot(b.direction)) > 1e-6;
-      if ((once_only || same_base) && same_target(target_a, target_b)) {
-        fail(problem, b.origin, who + "two " + known_as(b) + " on " + describe(target_b),
-             same_base ? "their directions are not perpendicular" : "");
+      if (are_one_load(a, b) && same_target(target_a, target_b)) {
+        fail(problem, b.origin, who + "two " + known_as(b) + " on " + describe(target_b), in_one);
       }
       if (!is_prescribed_motion(a) || !is_prescribed_motion(b)) continue;
       const int d = common_direction(a, b);
@@ -197,7 +201,7 @@ void loads(const Problem& problem) {
         if (step->loads[j] == step->loads[i]) {
           fail(problem, load.origin, "step '" + step->name + "': one " + known_as(load) + " is listed twice");
         }
-        motion_is_prescribed_once(problem, *step, *step->loads[j], load);
+        loads_do_not_compete(problem, *step, *step->loads[j], load);
       }
       if (!is_prescribed_motion(load)) continue;
       for (const SupportPtr& support : supports_of(problem, *step)) {

@@ -41,8 +41,8 @@ const std::vector<std::pair<std::string, std::regex>> owners = {
     {"app", std::regex("^CLI/")},
 };
 
-// Headers of the operating system, and whole folders of them.
-const std::regex system_header("^[a-z_0-9]+$|^(unistd|sys/[a-z]+|immintrin|xmmintrin|pmmintrin)\\.h$");
+// The standard library's and the operating system's.
+const std::regex system_header("^[a-z_0-9]+$|^(stdlib|signal|fcntl|unistd|sys/[a-z]+|[a-z]mmintrin)\\.h$");
 
 bool is_owned_by(const std::string& module, const std::string& header) {
   return std::any_of(owners.begin(), owners.end(), [&](const auto& owner) {

@@ -158,19 +158,37 @@ TEST_F(Loads, prescribe_a_direction_once) {
   EXPECT_NE(complaint().find("the motion of a region of 'upper' along x"), std::string::npos);
 }
 
+const std::string give_their_sum = "\n    give their sum in one load; a history may be a function(t)";
+
 TEST_F(Loads, shorten_a_bolt_once_a_step) {
   tighten->loads.push_back(load(LoadKind::shortening, {InterfacePtr(shank)}, 2e-5));
   EXPECT_EQ(complaint(),
-            "deck.lua:40: problem 'bolted': step 'tighten': two load.shortening on interface.plastic 'shank'");
+            "deck.lua:40: problem 'bolted': step 'tighten': two load.shortening on interface.plastic 'shank'" +
+                give_their_sum);
+}
+
+TEST_F(Loads, of_one_kind_on_one_place_are_given_as_one) {
+  const Face face{upper, "zmax"};
+  shock->loads = {load(LoadKind::pressure, {face}), load(LoadKind::pressure, {face})};
+  EXPECT_EQ(complaint(), in_shock + "two load.pressure on face 'upper.zmax'" + give_their_sum);
+  shock->loads = {load(LoadKind::gravity, {}), load(LoadKind::gravity, {})};
+  EXPECT_EQ(complaint(), in_shock + "two load.gravity" + give_their_sum);
+}
+
+TEST_F(Loads, of_different_kinds_places_or_directions_add_up) {
+  const Face face{upper, "zmax"};
+  auto along_y = load(LoadKind::traction, {face});
+  along_y->value = {std::nullopt, History::constant(1.0), std::nullopt};
+  shock->loads = {load(LoadKind::pressure, {face}), load(LoadKind::pressure, {Face{upper, "xmax"}}),
+                  load(LoadKind::traction, {face}), along_y};
+  EXPECT_EQ(complaint(), "");
 }
 
 TEST_F(Loads, shake_a_base_in_perpendicular_directions) {
   auto along_z = load(LoadKind::base_acceleration, {SupportPtr(base)});
   auto along_x = load(LoadKind::base_acceleration, {SupportPtr(base)});
   shock->loads = {along_z, along_x};
-  EXPECT_EQ(complaint(), in_shock +
-                             "two load.base_acceleration on support.fixed 'base'\n"
-                             "    their directions are not perpendicular");
+  EXPECT_EQ(complaint(), in_shock + "two load.base_acceleration on support.fixed 'base'" + give_their_sum);
   along_x->direction = Vec3::UnitX();
   EXPECT_EQ(complaint(), "");
 }
