@@ -17,6 +17,7 @@ packages=(
   liblua5.4-dev           # decks
   libcli11-dev            # command line
   libspdlog-dev           # messages
+  nlohmann-json3-dev      # run record
   libgtest-dev            # tests
 )
 
