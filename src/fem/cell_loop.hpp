@@ -1,9 +1,6 @@
 // Sums over the cells that end at nodes, in parallel, with the same result for any number of threads.
 #pragma once
 
-#include <omp.h>
-
-#include <algorithm>
 #include <exception>
 #include <vector>
 
@@ -19,35 +16,46 @@ Nodes<n> gather(const Points& values, const int* nodes) {
   return gathered;
 }
 
-// Computes `Result` of every cell of the block, and adds it at the nodes.
-//   compute(first, last, results): fills results[0 .. last - first) of cells first .. last - 1; any thread.
-//   add(i_cell, a, result): adds the share of local node a, writing only what belongs to that node; always in the order
-//   of the cells, by one thread for each node: this is what makes the sums reproducible.
-// What `compute` throws is thrown again, once all threads are back.
-template <class Result, class Compute, class Add>
-void sum_at_nodes(const CellBlock& block, Compute&& compute, Add&& add) {
-  constexpr int chunk = 32, batch = 8 * chunk;
+// Who sums at each node: slabs of the mesh across its longest extent, so that few cells touch two owners.
+struct NodeOwners {
+  int n_owners = 1;
+  std::vector<unsigned char> owner;  // of each node
+};
+
+// As many owners as threads, fewer for a small mesh, one inside a parallel region.
+NodeOwners node_owners(const Mesh& mesh);
+
+// Runs `kernel` on all cells of the block, a copy of it for each owner:
+//   kernel.compute(nodes, i_cell)  computes a cell; called by every owner that has a node of it;
+//   kernel.add(nodes, a)           adds the share of local node a of the computed cell, writing nothing but that
+//   node's; kernel.finish()                hands over what is not by node; one owner at a time, in no order.
+// One owner adds at a node, in the order of the cells: the sums do not depend on the number of owners. The owners never
+// wait for one another before the end: on a busy machine waiting costs more than the cells computed twice.
+// What a kernel throws is thrown again, once all owners are back.
+template <class Kernel>
+void sum_at_nodes(const CellBlock& block, const NodeOwners& owners, const Kernel& kernel) {
   const int n_cells = block.n_cells(), n_local = nodes_per_cell(block.type);
-  std::vector<Result> results(std::min(batch, n_cells));
   std::exception_ptr error;
 
-#pragma omp parallel
-  for (int start = 0; start < n_cells; start += batch) {
-    const int end = std::min(start + batch, n_cells);
-#pragma omp for schedule(static)
-    for (int first = start; first < end; first += chunk) try {
-        compute(first, std::min(first + chunk, end), results.data() + (first - start));
-      } catch (...) {
-#pragma omp critical(sum_at_nodes_error)
-        error = std::current_exception();
+#pragma omp parallel for schedule(static, 1) num_threads(owners.n_owners)
+  for (int owner = 0; owner < owners.n_owners; ++owner) try {
+      Kernel mine = kernel;
+      for (int i = 0; i < n_cells; ++i) {
+        const int* nodes = block.cell(i);
+        bool is_computed = false;
+        for (int a = 0; a < n_local; ++a) {
+          if (owners.owner[nodes[a]] != owner) continue;
+          if (!is_computed) mine.compute(nodes, i);
+          is_computed = true;
+          mine.add(nodes, a);
+        }
       }
-    // Stripes of 64 nodes, so that two threads seldom write near one another.
-    const int n_threads = omp_get_num_threads(), thread = omp_get_thread_num();
-    for (int i = start; i < end; ++i)
-      for (int a = 0; a < n_local; ++a)
-        if (block.cell(i)[a] / 64 % n_threads == thread) add(i, a, results[i - start]);
-#pragma omp barrier
-  }
+#pragma omp critical(sum_at_nodes)
+      mine.finish();
+    } catch (...) {
+#pragma omp critical(sum_at_nodes)
+      error = std::current_exception();
+    }
   if (error) std::rethrow_exception(error);
 }
 

@@ -6,36 +6,47 @@ namespace dygita {
 namespace {
 
 template <class Cell>
-void add_stress(const Mesh& mesh, const CellBlock& block, const Elastic& material, const Points& displacement,
-                Tensors& sum) {
-  constexpr int n = Cell::n_nodes;
-  const auto compute = [&](int first, int last, CornerStress<n>* results) {
-    for (int i = first; i < last; ++i)
-      results[i - first] =
-          Cell::stress(gather<n>(mesh.nodes, block.cell(i)), material, gather<n>(displacement, block.cell(i)));
-  };
-  const auto add = [&](int i, int a, const CornerStress<n>& stress) { sum.col(block.cell(i)[a]) += stress.col(a); };
-  sum_at_nodes<CornerStress<n>>(block, compute, add);
-}
+struct StressKernel {
+  static constexpr int n = Cell::n_nodes;
+
+  const Mesh& mesh;
+  const Elastic& material;
+  const Points& displacement;
+  Tensors& sum;
+
+  CornerStress<n> stress;
+
+  void compute(const int* nodes, int) {
+    stress = Cell::stress(gather<n>(mesh.nodes, nodes), material, gather<n>(displacement, nodes));
+  }
+  void add(const int* nodes, int a) { sum.col(nodes[a]) += stress.col(a); }
+  void finish() {}
+};
 
 template <class Cell>
-void add_volumes(const Mesh& mesh, const CellBlock& block, Vec& sum) {
-  constexpr int n = Cell::n_nodes;
-  using Volumes = Eigen::Matrix<double, n, 1>;
-  const auto compute = [&](int first, int last, Volumes* results) {
-    for (int i = first; i < last; ++i) results[i - first] = node_volumes<Cell>(gather<n>(mesh.nodes, block.cell(i)));
-  };
-  const auto add = [&](int i, int a, const Volumes& volumes) { sum[block.cell(i)[a]] += volumes[a]; };
-  sum_at_nodes<Volumes>(block, compute, add);
-}
+struct VolumeKernel {
+  static constexpr int n = Cell::n_nodes;
+
+  const Mesh& mesh;
+  Vec& sum;
+
+  Eigen::Matrix<double, n, 1> volumes;
+
+  void compute(const int* nodes, int) { volumes = node_volumes<Cell>(gather<n>(mesh.nodes, nodes)); }
+  void add(const int* nodes, int a) { sum[nodes[a]] += volumes[a]; }
+  void finish() {}
+};
 
 }  // namespace
 
 Tensors nodal_stress(const Mesh& mesh, const Elastic& material, const Points& displacement) {
+  const NodeOwners owners = node_owners(mesh);
   Tensors stress = Tensors::Zero(6, mesh.n_nodes());
   Vec n_cells = Vec::Zero(mesh.n_nodes());
   for (const CellBlock& block : mesh.blocks) {
-    with_cell(block.type, [&](auto cell) { add_stress<decltype(cell)>(mesh, block, material, displacement, stress); });
+    with_cell(block.type, [&](auto cell) {
+      sum_at_nodes(block, owners, StressKernel<decltype(cell)>{mesh, material, displacement, stress, {}});
+    });
     for (const int node : block.nodes) n_cells[node] += 1;
   }
   return stress * n_cells.cwiseInverse().asDiagonal();
@@ -49,9 +60,12 @@ Vec von_mises(const Tensors& stress) {
 }
 
 Vec nodal_volumes(const Mesh& mesh) {
+  const NodeOwners owners = node_owners(mesh);
   Vec volumes = Vec::Zero(mesh.n_nodes());
   for (const CellBlock& block : mesh.blocks)
-    with_cell(block.type, [&](auto cell) { add_volumes<decltype(cell)>(mesh, block, volumes); });
+    with_cell(block.type, [&](auto cell) {
+      sum_at_nodes(block, owners, VolumeKernel<decltype(cell)>{mesh, volumes, {}});
+    });
   return volumes;
 }
 
