@@ -22,9 +22,10 @@ class GmshMeshes {
   explicit GmshMeshes(const GmshOptions& options);
 
   // The body of physical volume `name`; its faces are the surface groups "name.x" (as "x") and every other surface
-  // group x lying on its boundary (as "x", unless "name.x" exists). A file without volume groups has one volume per
-  // CAD body, named volume1, volume2, ... and surfaces surface1, surface2, ...
-  // Throws InputError with the closest name for an unknown volume.
+  // group x lying on its boundary (as "x", unless "name.x" exists; another volume's "other.x" is left out). Without
+  // volume groups there is one volume per CAD body, named volume1, volume2, ..., without surface groups one face per
+  // CAD surface, surface1, surface2, ... Touching bodies of a .step or .brep are made to share their surfaces. Throws
+  // InputError with the closest name for an unknown volume.
   MeshPtr volume(const std::string& name) const;
 
   std::vector<std::string> volume_names() const;

@@ -3,11 +3,11 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
 #include <unordered_map>
 
 #include "base/error.hpp"
+#include "mesh/fnv1a.hpp"
 #include "mesh/jacobian.hpp"
 
 namespace dygita {
@@ -23,23 +23,6 @@ const std::vector<std::array<int, 4>>& local_facets(CellType type) {
   static const std::vector<std::array<int, 4>> tet = {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}};
   return type == CellType::hex8 ? hex : type == CellType::prism6 ? prism : tet;
 }
-
-// FNV-1a, 64 bits.
-class Fnv1a {
- public:
-  void add(const void* data, size_t size) {
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    for (size_t i = 0; i < size; ++i) hash_ = (hash_ ^ bytes[i]) * 0x100000001b3u;
-  }
-  template <typename T>
-  void add(const T& value) {
-    add(&value, sizeof value);
-  }
-  std::string hexadecimal() const { return fmt::format("{:016x}", hash_); }
-
- private:
-  uint64_t hash_ = 0xcbf29ce484222325u;
-};
 
 double longest_edge(const Points& x) {
   double longest = 0;
@@ -160,8 +143,7 @@ std::string mesh_digest(const Mesh& mesh) {
     digest.add(block.nodes.data(), sizeof(int) * block.nodes.size());
   }
   for (const auto& [name, facets] : mesh.faces) {
-    digest.add(name.size());
-    digest.add(name.data(), name.size());
+    digest.add(name);
     digest.add(facets.size());
     for (const Facet& facet : facets) digest.add(facet.nodes);
   }

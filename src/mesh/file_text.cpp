@@ -1,0 +1,125 @@
+#include "mesh/file_text.hpp"
+
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+namespace dygita {
+
+namespace {
+
+std::string text_of(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// End of the string that opens at `at`, one past its closing quote.
+size_t past_string(const std::string& text, size_t at) {
+  const size_t close = text.find('"', at + 1);
+  return close == std::string::npos ? text.size() : close + 1;
+}
+
+std::string without_comments(const std::string& text) {
+  std::string kept;
+  for (size_t i = 0; i < text.size();) {
+    if (text[i] == '"') {
+      const size_t end = past_string(text, i);
+      kept += text.substr(i, end - i);
+      i = end;
+    } else if (text.compare(i, 2, "//") == 0) {
+      i = std::min(text.find('\n', i), text.size());
+    } else if (text.compare(i, 2, "/*") == 0) {
+      const size_t close = text.find("*/", i + 2);
+      i = close == std::string::npos ? text.size() : close + 2;
+      kept += ' ';
+    } else {
+      kept += text[i++];
+    }
+  }
+  return kept;
+}
+
+bool is_name_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == ':'; }
+
+size_t past_spaces(const std::string& text, size_t at) {
+  while (at < text.size() && std::isspace(static_cast<unsigned char>(text[at]))) ++at;
+  return at;
+}
+
+// Names on the left of '=' in the list that opens at `at`: [ size = 1, n = {3, Name "cells"} ].
+void add_names(const std::string& text, size_t at, std::set<std::string>& names) {
+  int depth = 0;
+  bool expects_name = false;
+  while (at < text.size()) {
+    const char c = text[at];
+    if (c == '"') {
+      at = past_string(text, at);
+      continue;
+    }
+    if (c == '[' || c == '(' || c == '{') ++depth;
+    if (c == ']' || c == ')' || c == '}') --depth;
+    if (depth == 0) return;
+    if (depth == 1 && (c == '[' || c == '(' || c == ',')) {
+      expects_name = true;
+    } else if (expects_name && is_name_character(c)) {
+      const size_t start = at;
+      while (at < text.size() && is_name_character(text[at])) ++at;
+      names.insert(text.substr(start, at - start));
+      expects_name = false;
+      continue;
+    }
+    ++at;
+  }
+}
+
+struct Collected {
+  std::set<std::string> names, visited, unfinished;
+};
+
+void collect(const std::filesystem::path& file, Collected& collected) {
+  if (!collected.visited.insert(file.lexically_normal().string()).second) return;
+  const std::string raw = text_of(file.string()), text = without_comments(raw);
+  if (!raw.empty() && raw.back() != '\n') collected.unfinished.insert(file.lexically_normal().string());
+  for (size_t i = 0; i < text.size();) {
+    if (text[i] == '"') {
+      i = past_string(text, i);
+      continue;
+    }
+    const size_t start = i;
+    while (i < text.size() && is_name_character(text[i])) ++i;
+    const std::string word = text.substr(start, i - start);
+    const size_t next = past_spaces(text, i);
+    if (word == "DefineConstant" && next < text.size()) add_names(text, next, collected.names);
+    if (word == "Include" && next < text.size() && text[next] == '"') {
+      i = past_string(text, next);
+      collect(file.parent_path() / text.substr(next + 1, i - next - 2), collected);
+    }
+    if (i == start) ++i;
+  }
+}
+
+}  // namespace
+
+GeoFacts geo_facts(const std::string& file) {
+  Collected collected;
+  collect(std::filesystem::absolute(file), collected);
+  return {{collected.names.begin(), collected.names.end()}, {collected.unfinished.begin(), collected.unfinished.end()}};
+}
+
+std::optional<double> step_unit(const std::string& file) {
+  const std::string text = text_of(file);
+  // An inch is declared through a millimetre: the first metre found would mislead.
+  if (text.find("INCH") != std::string::npos) return {};
+  const size_t metre = text.find(".METRE."), open = text.rfind('(', metre);
+  if (metre == std::string::npos || open == std::string::npos) return {};
+  const std::string prefix = text.substr(open + 1, metre - open - 1);
+  if (prefix.find(".MILLI.") != std::string::npos) return 1e-3;
+  if (prefix.find(".CENTI.") != std::string::npos) return 1e-2;
+  if (prefix.find(".MICRO.") != std::string::npos) return 1e-6;
+  if (prefix.find('$') != std::string::npos) return 1.0;
+  return {};
+}
+
+}  // namespace dygita
