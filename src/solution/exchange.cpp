@@ -1,0 +1,266 @@
+#include "solution/exchange.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace dygita {
+
+namespace {
+
+using NodeKey = std::pair<int, int>;  // (part, node)
+
+// Union-find over the substructures' copies of a node.
+class Groups {
+ public:
+  int add(const NodeKey& key) {
+    const auto [it, is_new] = index_.emplace(key, static_cast<int>(parent_.size()));
+    if (is_new) {
+      parent_.push_back(it->second);
+      keys_.push_back(key);
+    }
+    return it->second;
+  }
+  void tie(const NodeKey& a, const NodeKey& b) { parent_[root(add(a))] = root(add(b)); }
+  int of(const NodeKey& key) { return root(add(key)); }
+  const std::vector<NodeKey>& keys() const { return keys_; }
+
+ private:
+  int root(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  std::map<NodeKey, int> index_;
+  std::vector<int> parent_;
+  std::vector<NodeKey> keys_;
+};
+
+struct LawCluster {
+  int group_1 = -1, group_2 = -1;  // -1: wall
+  const Law* law = nullptr;
+  std::vector<Member> members;
+  Vec3 normal = Vec3::Zero();      // area-weighted sum
+  double area = 0.0;
+};
+
+class Builder {
+ public:
+  Builder(const Problem& problem, const std::vector<Surface>& surfaces, const Conditions& conditions)
+      : problem_(problem), surfaces_(surfaces), conditions_(conditions) {
+    exchange_.n_unknowns.assign(problem.substructures.size(), 0);
+  }
+
+  Exchange build() {
+    make_groups();
+    make_clusters();
+    for (const LawCluster& cluster : clusters_) add_law_point(cluster);
+    for (const auto& [group, ports] : members_) {
+      // A group under one law is tied by that law's point; otherwise it needs a point of its own.
+      if (ports.size() < 2 || n_laws_[group] == 1) continue;
+      add_point(nullptr, ports, {}, false, Vec3::UnitZ(), 0.0, {});
+      point_of_group_[group] = static_cast<int>(exchange_.points.size()) - 1;
+    }
+    add_ties();
+    return std::move(exchange_);
+  }
+
+ private:
+  NodeKey side(const Surface& s, int i, int which) const {
+    return which == 1 ? NodeKey{s.part_1, s.facing.nodes_1[i]} : NodeKey{s.part_2, s.facing.nodes_2[i]};
+  }
+
+  void make_groups() {
+    for (const Surface& surface : surfaces_)
+      for (int i = 0; i < surface.n_points(); ++i) {
+        if (!surface.law && surface.part_2 >= 0) groups_.tie(side(surface, i, 1), side(surface, i, 2));
+        for (int which = 1; which <= (surface.part_2 >= 0 ? 2 : 1); ++which) {
+          groups_.add(side(surface, i, which));
+          area_[side(surface, i, which)] += surface.facing.areas[i];
+        }
+      }
+    for (const NodeKey& key : groups_.keys()) members_[groups_.of(key)].push_back(key);
+    for (auto& [group, keys] : members_) std::sort(keys.begin(), keys.end());
+  }
+
+  // Points of one surface between the same two groups become one law.
+  void make_clusters() {
+    std::map<std::tuple<int, int, int>, int> known;
+    for (size_t s = 0; s < surfaces_.size(); ++s) {
+      const Surface& surface = surfaces_[s];
+      if (!surface.law) continue;
+      for (int i = 0; i < surface.n_points(); ++i) {
+        const int group_1 = groups_.of(side(surface, i, 1));
+        const int group_2 = surface.part_2 >= 0 ? groups_.of(side(surface, i, 2)) : -1;
+        if (group_1 == group_2) fail_same_group(surface, i);
+        // Faces of one wall that meet at an edge keep their own normals: one law each.
+        const auto key = std::tuple(static_cast<int>(s), group_1, group_2);
+        const auto [it, is_new] = known.emplace(key, static_cast<int>(clusters_.size()));
+        if (is_new) {
+          clusters_.push_back({group_1, group_2, surface.law.get(), {}, Vec3::Zero(), 0.0});
+          ++n_laws_[group_1];
+          if (group_2 >= 0) ++n_laws_[group_2];
+        }
+        LawCluster& cluster = clusters_[it->second];
+        cluster.members.push_back({static_cast<int>(s), i, surface.facing.areas[i]});
+        cluster.normal += surface.facing.areas[i] * surface.facing.normals.col(i);
+        cluster.area += surface.facing.areas[i];
+      }
+    }
+    for (LawCluster& cluster : clusters_)
+      for (Member& member : cluster.members) member.share /= cluster.area;
+  }
+
+  [[noreturn]] void fail_same_group(const Surface& surface, int i) const {
+    const Vec3 x = problem_.substructures[surface.part_1]->mesh->nodes.col(surface.facing.nodes_1[i]) +
+                   problem_.substructures[surface.part_1]->place;
+    std::string path;
+    for (const Surface& other : surfaces_)
+      if (!other.law && other.part_2 >= 0) path += (path.empty() ? "'" : ", '") + other.name() + "'";
+    throw InputError(surface.interface->origin,
+                     fmt::format("interface '{}': its two sides are tied to each other at node {} of '{}' ({:.6g}, {:.6g}, {:.6g}) "
+                                 "through bonded interfaces ({}): what is tied cannot move apart there",
+                                 surface.name(), surface.facing.nodes_1[i], problem_.substructures[surface.part_1]->name, x[0],
+                                 x[1], x[2], path));
+  }
+
+  // Sides of a law at a group: all of it where this is the group's only law, else the substructures that face each other.
+  std::vector<NodeKey> ports_of(const LawCluster& cluster, int group, int which) {
+    if (n_laws_[group] == 1) return members_[group];
+    std::vector<NodeKey> keys;
+    for (const Member& member : cluster.members) {
+      const NodeKey key = side(surfaces_[member.surface], member.point, which);
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+    }
+    // One representative: the group's own point ties the others to it.
+    keys.resize(1);
+    return keys;
+  }
+
+  void add_law_point(const LawCluster& cluster) {
+    const bool is_wall = cluster.group_2 < 0;
+    const std::vector<NodeKey> ports_1 = ports_of(cluster, cluster.group_1, 1);
+    const std::vector<NodeKey> ports_2 = is_wall ? std::vector<NodeKey>{} : ports_of(cluster, cluster.group_2, 2);
+    add_point(cluster.law, ports_1, ports_2, is_wall, cluster.normal.normalized(), cluster.area, cluster.members);
+    const int index = static_cast<int>(exchange_.points.size()) - 1;
+    for (const int group : {cluster.group_1, cluster.group_2})
+      if (group >= 0 && n_laws_[group] == 1) point_of_group_[group] = index;
+  }
+
+  void add_point(const Law* law, const std::vector<NodeKey>& ports_1, const std::vector<NodeKey>& ports_2, bool is_wall,
+                 const Vec3& normal, double area, const std::vector<Member>& members) {
+    Point point;
+    point.law = law;
+    point.area = area;
+    point.is_wall = is_wall;
+    point.members = members;
+    std::vector<NodeKey> keys = ports_1;
+    keys.insert(keys.end(), ports_2.begin(), ports_2.end());
+    point.frame = make_frame(normal, keys, law != nullptr, members);
+    point.first_port = static_cast<int>(exchange_.ports.size());
+    point.first_port_2 = point.first_port + static_cast<int>(ports_1.size());
+    point.end_port = point.first_port + static_cast<int>(keys.size());
+    const bool has_group = ports_1.size() > 1 || ports_2.size() > 1;
+    for (const NodeKey& key : keys) exchange_.ports.push_back(make_port(key, point.frame));
+    for (int d = 0; d < 3; ++d) {
+      if (!has_group && !(law && law->acts_on(d))) continue;
+      for (int p = point.first_port; p < point.end_port; ++p) point.is_active[d] |= !exchange_.ports[p].is_held[d];
+      if (!point.is_active[d]) continue;
+      for (int p = point.first_port; p < point.end_port; ++p) {
+        Port& port = exchange_.ports[p];
+        if (!port.is_held[d]) port.unknown[d] = exchange_.n_unknowns[port.part]++;
+      }
+    }
+    exchange_.points.push_back(std::move(point));
+  }
+
+  Port make_port(const NodeKey& key, const Mat3& frame) const {
+    Port port;
+    std::tie(port.part, port.node) = key;
+    port.area = area_.at(key);
+    if (const Held* held = conditions_.at(port.part, port.node))
+      for (int d = 0; d < 3; ++d) {
+        const auto directions = held->directions.leftCols(held->n);
+        port.is_held[d] = (directions.transpose() * frame.col(d)).norm() > 0.999;
+      }
+    return port;
+  }
+
+  // A frame whose axes contain the held directions of every side: conditions are then per direction.
+  Mat3 make_frame(const Vec3& normal, const std::vector<NodeKey>& keys, bool needs_normal, const std::vector<Member>& members) const {
+    std::vector<Vec3> axes;  // single held directions, or the single free one
+    for (const NodeKey& key : keys) {
+      const Held* held = conditions_.at(key.first, key.second);
+      if (!held || held->n == 0 || held->n == 3) continue;
+      axes.push_back(held->n == 1 ? Vec3(held->directions.col(0)) : Vec3(held->free_basis().col(0)));
+    }
+    Vec3 n = normal;
+    if (!needs_normal && !axes.empty()) n = axes.front();
+    Vec3 t = Vec3::Zero();
+    for (const Vec3& axis : axes) {
+      const double along = std::abs(axis.dot(n));
+      if (along > 0.99) {
+        n = axis.dot(n) > 0.0 ? axis : Vec3(-axis);
+      } else if (along < 0.2 && (t.isZero() || std::abs(axis.dot(t)) > 0.999 || std::abs(axis.dot(t)) < 1e-3)) {
+        n = (n - axis.dot(n) * axis).normalized();
+        if (t.isZero()) t = axis;
+      } else {
+        fail_oblique(members, keys.front(), n, axis);
+      }
+    }
+    if (t.isZero()) {
+      int least = 0;
+      n.cwiseAbs().minCoeff(&least);
+      t = Vec3::Unit(least);
+    }
+    Mat3 frame;
+    frame.col(0) = n;
+    frame.col(1) = (t - n.dot(t) * n).normalized();
+    frame.col(2) = n.cross(frame.col(1));
+    return frame;
+  }
+
+  [[noreturn]] void fail_oblique(const std::vector<Member>& members, const NodeKey& key, const Vec3& n, const Vec3& axis) const {
+    const std::string what = members.empty() ? "bonded interfaces" : "interface '" + surfaces_[members.front().surface].name() + "'";
+    throw InputError(fmt::format("{} at node {} of '{}': the normal ({:.4f}, {:.4f}, {:.4f}) is neither along nor across the held direction "
+                                 "({:.4f}, {:.4f}, {:.4f}) of a support or prescribed motion",
+                                 what, key.second, problem_.substructures[key.first]->name, n[0], n[1], n[2], axis[0], axis[1], axis[2]));
+  }
+
+  void add_ties() {
+    for (size_t s = 0; s < surfaces_.size(); ++s) {
+      const Surface& surface = surfaces_[s];
+      if (surface.law || surface.part_2 < 0) continue;
+      for (int i = 0; i < surface.n_points(); ++i) {
+        const int index = point_of_group_.at(groups_.of(side(surface, i, 1)));
+        const Point& point = exchange_.points[index];
+        const auto port_of = [&](const NodeKey& key) {
+          for (int p = point.first_port; p < point.end_port; ++p)
+            if (NodeKey{exchange_.ports[p].part, exchange_.ports[p].node} == key) return p;
+          return -1;
+        };
+        exchange_.ties.push_back({index, port_of(side(surface, i, 1)), port_of(side(surface, i, 2)), static_cast<int>(s), i});
+      }
+    }
+  }
+
+  const Problem& problem_;
+  const std::vector<Surface>& surfaces_;
+  const Conditions& conditions_;
+  Exchange exchange_;
+  Groups groups_;
+  std::map<NodeKey, double> area_;
+  std::map<int, std::vector<NodeKey>> members_;
+  std::map<int, int> n_laws_;
+  std::map<int, int> point_of_group_;
+  std::vector<LawCluster> clusters_;
+};
+
+}  // namespace
+
+Exchange make_exchange(const Problem& problem, const std::vector<Surface>& surfaces, const Conditions& conditions) {
+  return Builder(problem, surfaces, conditions).build();
+}
+
+}  // namespace dygita

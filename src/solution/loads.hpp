@@ -1,0 +1,45 @@
+// External forces of a step on each substructure.
+#pragma once
+
+#include "solution/conditions.hpp"
+
+namespace dygita {
+
+// Nodal force pattern of one load component on one substructure, scaled by its value in time.
+struct LoadPattern {
+  int part = -1;
+  std::vector<std::pair<int, Vec3>> nodes;  // force at a node for a value of one, N
+  LoadValue value;
+  std::string key;
+};
+
+class Loads {
+ public:
+  // masses: nodal masses (kg) of each substructure, for gravity.
+  Loads(const Problem& problem, const Step& step, const State& start, const std::vector<const Vec*>& masses);
+
+  // Adds the forces (3 x n_nodes, N) on a substructure: at the end of a static increment, mean over a dynamic one.
+  void add_forces(int part, int increment, Points& force) const;
+  bool any_on(int part) const;
+
+  // Shortening (m) reached at the end of an increment by a surface whose interface is loaded, else what it had.
+  double shortening(const Interface* interface, double had, int increment) const;
+  // Has the interface let go by the middle of this increment?
+  bool is_released(const Interface* interface, int increment) const;
+
+  // Values reached at the end of the step, for the next one.
+  std::map<std::string, double> reached() const;
+
+ private:
+  void add_component(const Load& load, const Target& target, int component, const State& start);
+  void add_vanished(const State& start);
+
+  const Problem& problem_;
+  const Step& step_;
+  std::vector<LoadPattern> patterns_;
+  std::vector<std::pair<const Interface*, LoadValue>> shortenings_;
+  std::vector<std::pair<const Interface*, double>> releases_;
+  std::map<std::string, double> motions_reached_;
+};
+
+}  // namespace dygita

@@ -1,0 +1,223 @@
+// Set-up of a piece: bases of its nodes, matrix, factor, interface operator. Its increments are in piece_increment.cpp.
+#include "solution/piece.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+
+namespace dygita {
+
+Piece::Piece(Setup setup) : setup_(std::move(setup)) {
+  const Damping& damping = setup_.body->part->material.damping;
+  c0_ = setup_.scheme.c0(damping);
+  c1_ = setup_.scheme.c1(damping);
+  make_bases();
+  factorise();
+  make_couplings();
+  k_ = Vec::Zero(n_rows());
+}
+
+// A node's free directions: the rows' own where they are orthonormal, so that a row is one unknown.
+void Piece::make_bases() {
+  const int n_nodes = setup_.body->part->mesh->n_nodes();
+  special_of_.assign(n_nodes, -1);
+  n_free_of_.assign(n_nodes, 3);
+  std::unordered_map<int, std::vector<Vec3>> wanted;
+  for (const Row& row : setup_.rows) wanted[row.node].push_back(row.direction);
+  for (const auto& [node, held] : *setup_.held) wanted[node];
+  for (const auto& [node, directions] : wanted) {
+    Held basis;
+    if (const auto it = setup_.held->find(node); it != setup_.held->end()) basis = it->second;
+    const int n_held = basis.n;
+    for (int j = 0; j < n_held; ++j) held_.push_back({node, basis.directions.col(j), basis.motion[j]});
+    for (const Vec3& d : directions)
+      if (basis.n < 3 && (basis.directions.leftCols(basis.n).transpose() * d).norm() < 1e-9) basis.directions.col(basis.n++) = d;
+    const auto rest = basis.free_basis();
+    Mat3 free;
+    const int n_free = 3 - n_held;
+    for (int j = 0; j < n_free; ++j)
+      free.col(j) = n_held + j < basis.n ? Vec3(basis.directions.col(n_held + j)) : Vec3(rest.col(n_held + j - basis.n));
+    special_of_[node] = static_cast<int>(bases_.size());
+    n_free_of_[node] = n_free;
+    bases_.push_back(free);
+  }
+  first_free_.resize(n_nodes);
+  for (int node = 0; node < n_nodes; ++node) {
+    first_free_[node] = static_cast<int>(node_of_free_.size());
+    node_of_free_.insert(node_of_free_.end(), n_free_of_[node], node);
+  }
+  // held_ came out in hash order: reproducible sums need node order.
+  std::stable_sort(held_.begin(), held_.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
+  held_u_.assign(held_.size(), 0.0);
+  held_v_.assign(held_.size(), 0.0);
+  position_.resize(node_of_free_.size());
+  for (size_t i = 0; i < position_.size(); ++i) position_[i] = static_cast<int>(i);
+  for (const auto& [node, impedance] : *setup_.absorbing) absorbing_.emplace_back(node, impedance);
+  std::sort(absorbing_.begin(), absorbing_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+}
+
+Piece::Trace Piece::trace(int node, const Vec3& direction) const {
+  Trace trace;
+  for (int j = 0; j < n_free_of_[node]; ++j) {
+    const double value = special_of_[node] < 0 ? direction[j] : bases_[special_of_[node]].col(j).dot(direction);
+    if (std::abs(value) < 1e-12) continue;
+    trace.at[trace.n] = position_[first_free_[node] + j];
+    trace.value[trace.n++] = value;
+  }
+  return trace;
+}
+
+// (M/dt (1 + ...) + c1 K + absorbing + rows' stiffness) on the free unknowns, before ordering.
+SparseMatrix Piece::free_matrix(const Vec& row_stiffness) const {
+  const SparseMatrix& k = setup_.body->matrices->stiffness;
+  const Scheme& scheme = setup_.scheme;
+  const int n_nodes = setup_.body->part->mesh->n_nodes();
+  const int n = static_cast<int>(node_of_free_.size());
+  SparseMatrix a(n, n);
+  std::vector<int> count(n);
+  const auto neighbours = [&](int node) {  // blocks of three columns
+    const int begin = k.outerIndexPtr()[3 * node], end = k.outerIndexPtr()[3 * node + 1];
+    return std::pair{begin, end};
+  };
+  for (int node = 0; node < n_nodes; ++node) {
+    int columns = 0;
+    const auto [begin, end] = neighbours(node);
+    for (int e = begin; e < end; e += 3) columns += n_free_of_[k.innerIndexPtr()[e] / 3];
+    for (int j = 0; j < n_free_of_[node]; ++j) count[first_free_[node] + j] = columns;
+  }
+  a.reserve(count);
+  const double mass_factor = scheme.inverse_dt() + (1 - scheme.g) * scheme.alpha(setup_.body->part->material.damping);
+  for (int node = 0; node < n_nodes; ++node) {
+    const auto [begin, end] = neighbours(node);
+    const int rows = n_free_of_[node];
+    for (int e = 0; e < end - begin; e += 3) {
+      const int other = k.innerIndexPtr()[begin + e] / 3;
+      Mat3 block;
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) block(r, c) = c1_ * k.valuePtr()[k.outerIndexPtr()[3 * node + r] + e + c];
+      if (other == node && !scheme.is_static) block.diagonal().array() += mass_factor * setup_.body->matrices->mass[node];
+      if (special_of_[node] >= 0) block = (bases_[special_of_[node]].transpose() * block).eval();
+      if (special_of_[other] >= 0) block = (block * bases_[special_of_[other]]).eval();
+      for (int r = 0; r < rows; ++r)
+        for (int c = 0; c < n_free_of_[other]; ++c) a.insertBackUncompressed(first_free_[node] + r, first_free_[other] + c) = block(r, c);
+    }
+  }
+  a.makeCompressed();
+  const auto add_block = [&](int node, const Mat3& block) {
+    for (int r = 0; r < n_free_of_[node]; ++r)
+      for (int c = 0; c < n_free_of_[node]; ++c) {
+        const Mat3 basis = special_of_[node] < 0 ? Mat3(Mat3::Identity()) : bases_[special_of_[node]];
+        a.coeffRef(first_free_[node] + r, first_free_[node] + c) += basis.col(r).dot(block * basis.col(c));
+      }
+  };
+  for (const auto& [node, impedance] : absorbing_) add_block(node, (1 - scheme.g) * impedance);
+  for (int i = 0; i < row_stiffness.size(); ++i)
+    if (row_stiffness[i] != 0.0)
+      add_block(setup_.rows[i].node, row_stiffness[i] * setup_.rows[i].direction * setup_.rows[i].direction.transpose());
+  return a;
+}
+
+void Piece::factorise() {
+  Vec reference(n_rows());
+  for (int i = 0; i < n_rows(); ++i) reference[i] = setup_.rows[i].reference_stiffness;
+  const int n = static_cast<int>(node_of_free_.size());
+  if (n == 0) {
+    schur_.resize(0, 0);
+    mass_.resize(0);
+    schur_diagonal_ = Vec::Zero(n_rows());
+    return;
+  }
+  std::vector<char> is_interface(n, 0);
+  for (const Row& row : setup_.rows) {
+    const Trace t = trace(row.node, row.direction);
+    for (int j = 0; j < t.n; ++j) is_interface[t.at[j]] = 1;
+  }
+  factor_ = std::make_unique<Factor>(free_matrix(reference), node_of_free_, is_interface, setup_.what);
+  for (int i = 0; i < n; ++i) position_[factor_->order()[i]] = i;
+  mass_.resize(n);
+  for (int i = 0; i < n; ++i) mass_[position_[i]] = setup_.body->matrices->mass[node_of_free_[i]];
+  for (const Row& row : setup_.rows) traces_.push_back(trace(row.node, row.direction));
+  schur_ = with_search_directions(factor_->interface_schur(), -reference);
+  schur_diagonal_.resize(n_rows());
+  const int n_i = factor_->n_interior();
+  for (int i = 0; i < n_rows(); ++i) {
+    double diagonal = 0.0;
+    for (int a = 0; a < traces_[i].n; ++a)
+      for (int b = 0; b < traces_[i].n; ++b)
+        diagonal += traces_[i].value[a] * traces_[i].value[b] * schur_(traces_[i].at[a] - n_i, traces_[i].at[b] - n_i);
+    schur_diagonal_[i] = diagonal / setup_.rows[i].n_sharing;
+  }
+}
+
+// schur + T^T k T, with T the rows on the interface unknowns.
+Mat Piece::with_search_directions(const Mat& schur, const Vec& k) const {
+  Mat sum = schur;
+  const int n_i = factor_->n_interior();
+  for (int i = 0; i < n_rows(); ++i)
+    for (int a = 0; a < traces_[i].n; ++a)
+      for (int b = 0; b < traces_[i].n; ++b)
+        sum(traces_[i].at[a] - n_i, traces_[i].at[b] - n_i) += k[i] * traces_[i].value[a] * traces_[i].value[b];
+  return sum;
+}
+
+void Piece::set_search_directions(const Vec& k, bool plain) {
+  CHECK(k.size() == n_rows(), "one search direction a row");
+  k_ = k;
+  if (!factor_) return;
+  if (!plain) {
+    plain_factor_.reset();
+    h_ = inverse_spd(with_search_directions(schur_, k), setup_.what);
+    return;
+  }
+  // The plain path: another matrix, another ordering, the whole solve at every iteration. It takes vectors in this factor's order.
+  const SparseMatrix a = free_matrix(k);
+  plain_factor_ = std::make_unique<Factor>(a, node_of_free_, std::vector<char>(node_of_free_.size(), 0), setup_.what);
+}
+
+// B^T K of a unit velocity of each motion, for what moving supports do to the free unknowns.
+void Piece::make_couplings() {
+  coupling_.resize(setup_.n_motions);
+  std::vector<Points> unit(setup_.n_motions);
+  for (const HeldDirection& held : held_)
+    for (const auto& [motion, factor] : held.motion) {
+      if (unit[motion].size() == 0) unit[motion] = Points::Zero(3, setup_.body->part->mesh->n_nodes());
+      unit[motion].col(held.node) += factor * held.direction;
+      has_motions_ = true;
+    }
+  for (int m = 0; m < setup_.n_motions; ++m) {
+    if (unit[m].size() == 0) continue;
+    Points force(3, unit[m].cols());
+    Eigen::Map<Vec>(force.data(), force.size()) = setup_.body->matrices->stiffness * Eigen::Map<const Vec>(unit[m].data(), unit[m].size());
+    coupling_[m] = restrict_nodal(force);
+  }
+}
+
+Vec Piece::restrict_nodal(const Points& nodal) const {
+  Vec free(mass_.size());
+  for (size_t node = 0; node < n_free_of_.size(); ++node)
+    for (int j = 0; j < n_free_of_[node]; ++j)
+      free[position_[first_free_[node] + j]] =
+          special_of_[node] < 0 ? nodal(j, node) : bases_[special_of_[node]].col(j).dot(nodal.col(node));
+  return free;
+}
+
+Points Piece::expand(const Vec& free, const std::vector<double>& held) const {
+  Points nodal(3, n_free_of_.size());
+  for (size_t node = 0; node < n_free_of_.size(); ++node) {
+    if (special_of_[node] < 0) {
+      for (int j = 0; j < 3; ++j) nodal(j, node) = free[position_[first_free_[node] + j]];
+      continue;
+    }
+    Vec3 value = Vec3::Zero();
+    for (int j = 0; j < n_free_of_[node]; ++j) value += free[position_[first_free_[node] + j]] * bases_[special_of_[node]].col(j);
+    nodal.col(node) = value;
+  }
+  for (size_t i = 0; i < held_.size(); ++i) nodal.col(held_[i].node) += held[i] * held_[i].direction;
+  return nodal;
+}
+
+double Piece::memory() const {
+  return 8.0 * ((factor_ ? factor_->nonzeros() : 0.0) + static_cast<double>(schur_.size() + h_.size()) + 10.0 * n_free());
+}
+
+}  // namespace dygita

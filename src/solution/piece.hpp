@@ -1,0 +1,147 @@
+// One substructure in one step: the linear part that gives factor, forward, backward, interface operator and mass.
+#pragma once
+
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "fem/assembly.hpp"
+#include "numerics/factor.hpp"
+#include "solution/exchange.hpp"
+
+namespace dygita {
+
+// A substructure's matrices; shared by equal substructures and by all steps.
+struct Body {
+  const Substructure* part = nullptr;
+  std::shared_ptr<const BodyMatrices> matrices;
+};
+
+// Coefficients of the time scheme; a static step has dt = 1, g = 0 and no mass (manual, eq. S1-S5).
+struct Scheme {
+  bool is_static = true;
+  double dt = 1.0, g = 0.0;
+
+  double c0(const Damping& d) const { return g * (1 - g) * dt + g * beta(d); }              // of K V0
+  double c1(const Damping& d) const { return (1 - g) * (1 - g) * dt + (1 - g) * beta(d); }  // of K V1
+  double alpha(const Damping& d) const { return is_static ? 0.0 : d.mass; }
+  double beta(const Damping& d) const { return is_static ? 0.0 : d.stiffness; }
+  double inverse_dt() const { return is_static ? 0.0 : 1.0 / dt; }  // of M (V1 - V0)
+};
+
+// Energies of one increment (J): works of the increment, and what is stored at its end.
+struct IncrementEnergy {
+  double loads = 0.0, damping = 0.0, scheme = 0.0;
+  double kinetic = 0.0, strain = 0.0;
+};
+
+class Piece {
+ public:
+  // One unknown q of the exchange on this substructure: the velocity of a node in a direction.
+  struct Row {
+    int node;
+    Vec3 direction;
+    double reference_stiffness;  // added before factorising a floating substructure, taken off its Schur complement
+    double n_sharing;            // laws with a q each at this node and direction: sum over its rows of (d . d')^2
+  };
+  struct Setup {
+    const Body* body;
+    Scheme scheme;
+    const std::unordered_map<int, Held>* held;
+    const std::unordered_map<int, Mat3>* absorbing;  // impedance of nodes (N s/m), dynamic steps
+    std::vector<Row> rows;
+    int n_motions = 0;
+    std::string what;  // "substructure 'rod' in step 'shock'", for messages
+  };
+  // Assembles and factorises. Throws NumericalError.
+  explicit Piece(Setup setup);
+
+  int n_rows() const { return static_cast<int>(setup_.rows.size()); }
+  int n_free() const { return static_cast<int>(mass_.size()); }
+  const Setup& setup() const { return setup_; }
+  const Factor* factor() const { return factor_.get(); }
+  bool has_motions() const { return has_motions_; }
+
+  // Diagonal of the interface's own Schur complement in the rows' directions, shared between their laws (N s/m; static N/m).
+  const Vec& schur_diagonal() const { return schur_diagonal_; }
+  // Fixes the search directions k (one a row) and forms H = (S0 + k)^-1; `plain` factorises A + k and solves in full instead.
+  void set_search_directions(const Vec& k, bool plain);
+  const Vec& k() const { return k_; }
+  double node_mass(int node) const { return setup_.body->matrices->mass[node]; }
+
+  // State from nodal fields (3 x n_nodes): displacement, velocity, and the external and interface forces in balance with them.
+  void set_state(const Points& displacement, const Points& velocity, const Points& force, const Points& interface_force);
+  // Right-hand side of an increment: external force (3 x n_nodes), velocities of the motions at its end; forward solve.
+  void begin(const Points& force, const std::vector<double>& motion_velocity);
+  // Velocities at the rows for interface data q.
+  void interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity);
+  // Interior for the q last given; advances the state. interface_force: on held directions of moving nodes (3 x n_nodes), or null.
+  IncrementEnergy finish(Eigen::Ref<const Vec> q, const Points* interface_force);
+
+  Points displacement() const { return expand(u_, held_u_); }  // 3 x n_nodes, m
+  Points velocity() const { return expand(v_, held_v_); }
+  Points acceleration() const;  // mean over the last increment
+  Vec row_values(const Points& nodal) const;
+  Vec row_displacements() const;  // u at the rows
+  // Force (N) of supports and prescribed motions on the piece in the last increment, one column a node.
+  Points reactions(const Points& interface_force) const;
+  IncrementEnergy stored_energy() const;  // kinetic and strain now
+  bool is_finite() const { return v_.allFinite(); }
+
+  // The state an increment starts from: windows of several steps go back to it.
+  struct Snapshot {
+    Vec u, v, p, w, force;
+    std::vector<double> held_u, held_v;
+  };
+  Snapshot snapshot() const { return {u_, v_, p_, w_, force_, held_u_, held_v_}; }
+  void restore(const Snapshot& s);
+  double memory() const;  // bytes held by factor, interface operator and vectors
+
+ private:
+  struct HeldDirection {
+    int node;
+    Vec3 direction;
+    std::vector<std::pair<int, double>> motion;
+  };
+  struct Trace {  // a row in terms of free unknowns
+    int n = 0;
+    std::array<int, 3> at{};
+    std::array<double, 3> value{};
+  };
+
+  void make_bases();
+  Trace trace(int node, const Vec3& direction) const;
+  SparseMatrix free_matrix(const Vec& row_stiffness) const;
+  void factorise();
+  void make_couplings();
+  Vec restrict_nodal(const Points& nodal) const;
+  Points expand(const Vec& free, const std::vector<double>& held) const;
+  std::vector<double> held_stiffness(const Points& nodal) const;  // d . K nodal at every held direction
+  std::vector<double> held_forces(const Points& interface_force) const;
+  void apply_absorbing(const Vec& v, double factor, Vec& out) const;
+  Mat with_search_directions(const Mat& schur, const Vec& k) const;
+
+  Setup setup_;
+  // Free unknowns of a node: bases_[special_of_[node]] (identity for -1), numbered from first_free_[node].
+  std::vector<int> special_of_, n_free_of_, first_free_, node_of_free_;
+  std::vector<Mat3> bases_;
+  std::vector<int> position_;  // free unknown -> position in the factor (identity until ordered)
+  std::vector<HeldDirection> held_;
+  bool has_motions_ = false;
+  std::unique_ptr<Factor> factor_, plain_factor_;
+  Mat schur_, h_;
+  Vec schur_diagonal_, k_;
+  std::vector<Trace> traces_;
+  std::vector<Vec> coupling_;  // B^T K of a unit velocity of each motion; empty where the motion is elsewhere
+  Vec mass_;
+  std::vector<std::pair<int, Mat3>> absorbing_;
+  double c0_ = 0.0, c1_ = 0.0;
+
+  Vec u_, v_, p_, w_, force_;  // state, in factor order
+  std::vector<double> held_u_, held_v_;
+  Vec residual_, x_, b_, v_b_, v_old_, w_old_, start_imbalance_;
+  std::vector<double> held_v_old_, held_v_new_, held_reaction_;
+  Points nodal_force_;
+};
+
+}  // namespace dygita

@@ -1,0 +1,243 @@
+// One increment of a piece: right-hand side without a product by K, forward, interface, backward, update (manual, eq. S1-S5).
+#include "base/error.hpp"
+#include "solution/piece.hpp"
+
+namespace dygita {
+
+void Piece::set_state(const Points& displacement, const Points& velocity, const Points& force, const Points& interface_force) {
+  const SparseMatrix& k = setup_.body->matrices->stiffness;
+  const auto nodal_stiffness_times = [&](const Points& nodal) {
+    Points result(3, nodal.cols());
+    Eigen::Map<Vec>(result.data(), result.size()) = k * Eigen::Map<const Vec>(nodal.data(), nodal.size());
+    return restrict_nodal(result);
+  };
+  u_ = restrict_nodal(displacement);
+  v_ = restrict_nodal(velocity);
+  force_ = restrict_nodal(force);
+  for (size_t i = 0; i < held_.size(); ++i) {
+    held_u_[i] = held_[i].direction.dot(displacement.col(held_[i].node));
+    held_v_[i] = held_[i].motion.empty() ? 0.0 : held_[i].direction.dot(velocity.col(held_[i].node));
+  }
+  const Points held_velocity = expand(v_, held_v_);
+  w_ = c1_ * nodal_stiffness_times(held_velocity);
+  p_ = nodal_stiffness_times(displacement);
+  start_imbalance_ = p_ - force_ - restrict_nodal(interface_force);
+  p_ += c0_ / c1_ * w_;
+  nodal_force_ = force;
+  held_reaction_ = held_stiffness(displacement);
+  for (size_t i = 0; i < held_.size(); ++i)
+    held_reaction_[i] -= held_[i].direction.dot(force.col(held_[i].node) + interface_force.col(held_[i].node));
+}
+
+void Piece::restore(const Snapshot& s) {
+  u_ = s.u;
+  v_ = s.v;
+  p_ = s.p;
+  w_ = s.w;
+  force_ = s.force;
+  held_u_ = s.held_u;
+  held_v_ = s.held_v;
+}
+
+void Piece::apply_absorbing(const Vec& v, double factor, Vec& out) const {
+  for (const auto& [node, impedance] : absorbing_) {
+    const Mat3 basis = special_of_[node] < 0 ? Mat3(Mat3::Identity()) : bases_[special_of_[node]];
+    Vec3 nodal = Vec3::Zero();
+    for (int j = 0; j < n_free_of_[node]; ++j) nodal += v[position_[first_free_[node] + j]] * basis.col(j);
+    const Vec3 force = factor * (impedance * nodal);
+    for (int j = 0; j < n_free_of_[node]; ++j) out[position_[first_free_[node] + j]] += basis.col(j).dot(force);
+  }
+}
+
+void Piece::begin(const Points& force, const std::vector<double>& motion_velocity) {
+  const Scheme& scheme = setup_.scheme;
+  const double mass_factor = scheme.inverse_dt() - scheme.g * scheme.alpha(setup_.body->part->material.damping);
+  nodal_force_ = force;
+  v_old_ = v_;
+  w_old_ = w_;
+  const Vec new_force = restrict_nodal(force);
+  residual_ = new_force - p_;
+  if (!scheme.is_static) {
+    residual_ += mass_factor * mass_.cwiseProduct(v_);
+    apply_absorbing(v_, -scheme.g, residual_);
+  }
+  // Loads work with the mean force of the increment: that of the step in dynamics, of both ends in statics.
+  force_ = scheme.is_static ? Vec(0.5 * (force_ + new_force)) : new_force;
+  x_ = residual_;
+  held_v_old_ = held_v_;
+  held_v_new_.assign(held_.size(), 0.0);
+  for (size_t i = 0; i < held_.size(); ++i)
+    for (const auto& [motion, factor] : held_[i].motion) held_v_new_[i] += factor * motion_velocity[motion];
+  for (size_t m = 0; m < coupling_.size(); ++m)
+    if (coupling_[m].size() > 0) x_ -= c1_ * motion_velocity[m] * coupling_[m];
+  if (factor_ && !plain_factor_) {
+    factor_->forward(x_);
+    b_ = x_.tail(factor_->n_interface());
+  }
+}
+
+void Piece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) {
+  if (!factor_) return;
+  if (plain_factor_) {
+    // x_ keeps the right-hand side; residual order is the condensed factor's, the plain one has its own.
+    v_ = x_;
+    for (int i = 0; i < n_rows(); ++i)
+      for (int a = 0; a < traces_[i].n; ++a) v_[traces_[i].at[a]] += traces_[i].value[a] * q[i];
+    Vec ordered(v_.size());
+    for (int i = 0; i < v_.size(); ++i) ordered[i] = v_[position_[plain_factor_->order()[i]]];
+    plain_factor_->solve(ordered);
+    for (int i = 0; i < v_.size(); ++i) v_[position_[plain_factor_->order()[i]]] = ordered[i];
+    for (int i = 0; i < n_rows(); ++i) {
+      velocity[i] = 0.0;
+      for (int a = 0; a < traces_[i].n; ++a) velocity[i] += traces_[i].value[a] * v_[traces_[i].at[a]];
+    }
+    return;
+  }
+  const int n_i = factor_->n_interior();
+  thread_local Vec rhs;
+  rhs = b_;
+  for (int i = 0; i < n_rows(); ++i)
+    for (int a = 0; a < traces_[i].n; ++a) rhs[traces_[i].at[a] - n_i] += traces_[i].value[a] * q[i];
+  multiply_symmetric(h_, rhs, v_b_);
+  for (int i = 0; i < n_rows(); ++i) {
+    velocity[i] = 0.0;
+    for (int a = 0; a < traces_[i].n; ++a) velocity[i] += traces_[i].value[a] * v_b_[traces_[i].at[a] - n_i];
+  }
+}
+
+IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_force) {
+  const Scheme& scheme = setup_.scheme;
+  const Damping& damping = setup_.body->part->material.damping;
+  const double g = scheme.g, dt = scheme.dt;
+  if (factor_ && !plain_factor_) {
+    if (n_rows() > 0) x_.tail(v_b_.size()) = v_b_;
+    factor_->backward(x_);
+    v_ = x_;
+  }
+  held_v_ = held_v_new_;
+
+  // W1 from the solved equation itself, then P by recurrence: no product by K.
+  w_ = residual_;
+  for (int i = 0; i < n_rows(); ++i) {
+    double row_velocity = 0.0;
+    for (int a = 0; a < traces_[i].n; ++a) row_velocity += traces_[i].value[a] * v_[traces_[i].at[a]];
+    const double force = q[i] - k_[i] * row_velocity;
+    for (int a = 0; a < traces_[i].n; ++a) w_[traces_[i].at[a]] += traces_[i].value[a] * force;
+  }
+  if (!scheme.is_static) {
+    w_ -= (scheme.inverse_dt() + (1 - g) * scheme.alpha(damping)) * mass_.cwiseProduct(v_);
+    apply_absorbing(v_, -(1 - g), w_);
+  }
+  p_ += ((dt * g - c0_) / c1_) * w_old_ + ((dt * (1 - g) + c0_) / c1_) * w_;
+  const Vec v_mean = g * v_old_ + (1 - g) * v_;
+  u_ += dt * v_mean;
+  for (size_t i = 0; i < held_.size(); ++i) held_u_[i] += dt * (g * held_v_old_[i] + (1 - g) * held_v_[i]);
+
+  IncrementEnergy energy = stored_energy();
+  energy.loads = dt * v_mean.dot(force_);
+  if (scheme.is_static) {
+    energy.scheme = -v_.dot(start_imbalance_);
+    energy.scheme *= 0.5;
+    start_imbalance_.setZero();
+    force_ = restrict_nodal(nodal_force_);
+  } else {
+    energy.damping = dt * scheme.alpha(damping) * v_mean.dot(mass_.cwiseProduct(v_mean));
+    if (!absorbing_.empty()) {
+      Vec drag = Vec::Zero(v_.size());
+      apply_absorbing(v_mean, 1.0, drag);
+      energy.damping += dt * v_mean.dot(drag);
+    }
+    if (scheme.beta(damping) > 0.0 || g != 0.5) {
+      const double flow = v_mean.dot(g * w_old_ + (1 - g) * w_) / c1_;  // V_g . K V_g
+      energy.damping += dt * scheme.beta(damping) * flow;
+      const Vec dv = v_ - v_old_;
+      energy.scheme = (0.5 - g) * (dt * dt * flow + dv.dot(mass_.cwiseProduct(dv)));
+    }
+  }
+  if (has_motions_) {
+    CHECK(interface_force, "moving supports need the interface force on them");
+    const std::vector<double> reaction = held_forces(*interface_force);
+    for (size_t i = 0; i < held_.size(); ++i) {
+      const double mean = scheme.is_static ? 0.5 * (held_reaction_[i] + reaction[i]) : reaction[i];
+      energy.loads += dt * (g * held_v_old_[i] + (1 - g) * held_v_[i]) * mean;
+      energy.loads += dt * (g * held_v_old_[i] + (1 - g) * held_v_[i]) * held_[i].direction.dot(nodal_force_.col(held_[i].node));
+    }
+    held_reaction_ = reaction;
+  }
+  return energy;
+}
+
+IncrementEnergy Piece::stored_energy() const {
+  IncrementEnergy energy;
+  energy.strain = 0.5 * (u_.dot(p_) - c0_ / c1_ * u_.dot(w_));
+  if (has_motions_) {
+    const std::vector<double> held = held_stiffness(displacement());
+    for (size_t i = 0; i < held_.size(); ++i) energy.strain += 0.5 * held_u_[i] * held[i];
+  }
+  if (!setup_.scheme.is_static) {
+    energy.kinetic = 0.5 * v_.dot(mass_.cwiseProduct(v_));
+    for (size_t i = 0; i < held_.size(); ++i) energy.kinetic += 0.5 * node_mass(held_[i].node) * held_v_[i] * held_v_[i];
+  }
+  return energy;
+}
+
+Points Piece::acceleration() const {
+  if (setup_.scheme.is_static || v_old_.size() != v_.size() || held_v_old_.size() != held_v_.size()) return Points::Zero(3, n_free_of_.size());
+  std::vector<double> held(held_.size());
+  for (size_t i = 0; i < held_.size(); ++i) held[i] = (held_v_[i] - held_v_old_[i]) / setup_.scheme.dt;
+  return expand((v_ - v_old_) / setup_.scheme.dt, held);
+}
+
+Vec Piece::row_values(const Points& nodal) const {
+  Vec values(n_rows());
+  for (int i = 0; i < n_rows(); ++i) values[i] = setup_.rows[i].direction.dot(nodal.col(setup_.rows[i].node));
+  return values;
+}
+
+Vec Piece::row_displacements() const {
+  Vec values = Vec::Zero(n_rows());
+  for (int i = 0; i < n_rows() && factor_; ++i)
+    for (int a = 0; a < traces_[i].n; ++a) values[i] += traces_[i].value[a] * u_[traces_[i].at[a]];
+  return values;
+}
+
+std::vector<double> Piece::held_stiffness(const Points& nodal) const {
+  const SparseMatrix& k = setup_.body->matrices->stiffness;
+  const Eigen::Map<const Vec> flat(nodal.data(), nodal.size());
+  std::vector<double> values(held_.size(), 0.0);
+  for (size_t i = 0; i < held_.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      if (held_[i].direction[axis] != 0.0) values[i] += held_[i].direction[axis] * k.row(3 * held_[i].node + axis).dot(flat);
+  return values;
+}
+
+// Force of whatever holds each direction over the last increment: inertia + stiffness - external - interfaces.
+std::vector<double> Piece::held_forces(const Points& interface_force) const {
+  const Scheme& scheme = setup_.scheme;
+  const Damping& damping = setup_.body->part->material.damping;
+  // The displacement that K multiplies in the equation of the increment: U0 + c0 V0 + c1 V1.
+  const double back = scheme.dt * scheme.g, back_new = scheme.dt * (1 - scheme.g);
+  std::vector<double> held(held_.size());
+  for (size_t i = 0; i < held_.size(); ++i)
+    held[i] = held_u_[i] + (c0_ - back) * held_v_old_[i] + (c1_ - back_new) * held_v_[i];
+  std::vector<double> values = held_stiffness(expand(u_ + (c0_ - back) * v_old_ + (c1_ - back_new) * v_, held));
+  for (size_t i = 0; i < held_.size(); ++i) {
+    const int node = held_[i].node;
+    if (!scheme.is_static) {
+      values[i] += node_mass(node) * (held_v_[i] - held_v_old_[i]) / scheme.dt;
+      values[i] += node_mass(node) * scheme.alpha(damping) * (scheme.g * held_v_old_[i] + (1 - scheme.g) * held_v_[i]);
+    }
+    values[i] -= held_[i].direction.dot(nodal_force_.col(node) + interface_force.col(node));
+  }
+  return values;
+}
+
+Points Piece::reactions(const Points& interface_force) const {
+  Points result = Points::Zero(3, n_free_of_.size());
+  if (v_old_.size() != v_.size()) return result;
+  const std::vector<double> forces = held_forces(interface_force);
+  for (size_t i = 0; i < held_.size(); ++i) result.col(held_[i].node) += forces[i] * held_[i].direction;
+  return result;
+}
+
+}  // namespace dygita

@@ -1,0 +1,167 @@
+#include "solution/rigid_motions.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <Eigen/Eigenvalues>
+#include <set>
+
+#include "base/log.hpp"
+
+namespace dygita {
+
+namespace {
+
+using RigidMotion = Eigen::Matrix<double, 6, 1>;  // translation, then rotation times the size of the body
+
+struct Frame6 {
+  Vec3 centre;
+  double size;
+
+  // Displacement along d of a point under a rigid motion, as a row.
+  RigidMotion row(const Vec3& x, const Vec3& d) const {
+    RigidMotion r;
+    r.head<3>() = d;
+    r.tail<3>() = (x - centre).cross(d) / size;
+    return r;
+  }
+  Vec3 displacement(const RigidMotion& motion, const Vec3& x) const {
+    return motion.head<3>() + Vec3(motion.tail<3>()).cross(x - centre) / size;
+  }
+};
+
+Frame6 frame_of(const Substructure& part) {
+  const Vec3 low = part.mesh->nodes.rowwise().minCoeff(), high = part.mesh->nodes.rowwise().maxCoeff();
+  return {0.5 * (low + high) + part.place, (high - low).norm()};
+}
+
+Vec3 position(const Substructure& part, int node) { return part.mesh->nodes.col(node) + part.place; }
+
+std::string describe(const RigidMotion& motion) {
+  const char* names[] = {"translation along x", "translation along y", "translation along z",
+                         "rotation about x", "rotation about y", "rotation about z"};
+  int largest = 0;
+  motion.cwiseAbs().maxCoeff(&largest);
+  return names[largest];
+}
+
+// Sum of squares of all constraints on the rigid motions of all substructures: 6 n x 6 n.
+Mat constraint_gram(const Problem& problem, const Exchange& exchange, const Conditions& conditions,
+                    const std::vector<Frame6>& frames) {
+  const int n = static_cast<int>(frames.size());
+  Mat gram = Mat::Zero(6 * n, 6 * n);
+  for (int part = 0; part < n; ++part)
+    for (const auto& [node, held] : conditions.held[part])
+      for (int j = 0; j < held.n; ++j) {
+        const RigidMotion r = frames[part].row(position(*problem.substructures[part], node), held.directions.col(j));
+        gram.block<6, 6>(6 * part, 6 * part) += r * r.transpose();
+      }
+  for (const Point& point : exchange.points) {
+    const auto row_of = [&](int p, int d) {
+      const Port& port = exchange.ports[p];
+      return frames[port.part].row(position(*problem.substructures[port.part], port.node), point.frame.col(d));
+    };
+    const auto tie = [&](int p, int other, int d) {
+      const RigidMotion a = row_of(p, d);
+      const int i = 6 * exchange.ports[p].part;
+      gram.block<6, 6>(i, i) += a * a.transpose();
+      if (other < 0) return;
+      const RigidMotion b = row_of(other, d);
+      const int j = 6 * exchange.ports[other].part;
+      gram.block<6, 6>(j, j) += b * b.transpose();
+      gram.block<6, 6>(i, j) -= a * b.transpose();
+      gram.block<6, 6>(j, i) -= b * a.transpose();
+    };
+    for (int d = 0; d < 3; ++d) {
+      for (int p = point.first_port + 1; p < point.first_port_2; ++p) tie(p, point.first_port, d);
+      for (int p = point.first_port_2 + 1; p < point.end_port; ++p) tie(p, point.first_port_2, d);
+      if (!point.law || !point.law->acts_on(d)) continue;
+      tie(point.first_port, point.is_wall ? -1 : point.first_port_2, d);
+    }
+  }
+  return gram;
+}
+
+}  // namespace
+
+bool is_floating(const Substructure& part, const std::unordered_map<int, Held>& held) {
+  const Frame6 frame = frame_of(part);
+  Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();
+  double scale = 0.0;
+  for (const auto& [node, conditions] : held)
+    for (int j = 0; j < conditions.n; ++j) {
+      const RigidMotion r = frame.row(position(part, node), conditions.directions.col(j));
+      gram += r * r.transpose();
+      scale += 1.0;
+    }
+  if (scale == 0.0) return true;
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(gram).eigenvalues()[0] < 1e-8 * scale;
+}
+
+void pin_free_motions(const Problem& problem, const Step& step, const Exchange& exchange, const std::vector<Points>& force,
+                      Conditions& conditions) {
+  const int n = static_cast<int>(problem.substructures.size());
+  std::vector<Frame6> frames;
+  for (const SubstructurePtr& part : problem.substructures) frames.push_back(frame_of(*part));
+  const Mat gram = constraint_gram(problem, exchange, conditions, frames);
+  // Each body's scale: how often it is constrained; a motion nothing resists has a vanishing eigenvalue.
+  Mat scaled = gram;
+  Vec weight(6 * n);
+  for (int i = 0; i < n; ++i) weight.segment<6>(6 * i).setConstant(1.0 / std::sqrt(std::max(1.0, gram.block<6, 6>(6 * i, 6 * i).trace())));
+  scaled = weight.asDiagonal() * gram * weight.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Mat> eigen(scaled);
+  std::set<std::pair<int, int>> on_interface;
+  for (const Port& port : exchange.ports) on_interface.emplace(port.part, port.node);
+
+  std::vector<Vec> free_motions;
+  for (int m = 0; m < 6 * n && eigen.eigenvalues()[m] < 1e-9; ++m) free_motions.push_back(weight.cwiseProduct(eigen.eigenvectors().col(m)));
+  while (!free_motions.empty()) {
+    // The part that moves most, and where it moves most away from interfaces and supports.
+    Vec& motion = free_motions.back();
+    int part = 0;
+    double largest = 0.0;
+    for (int i = 0; i < n; ++i)
+      if (motion.segment<6>(6 * i).norm() > largest) {
+        largest = motion.segment<6>(6 * i).norm();
+        part = i;
+      }
+    double work = 0.0, scale = 0.0;
+    for (int i = 0; i < n; ++i)
+      for (int node = 0; node < force[i].cols(); ++node) {
+        const Vec3 u = frames[i].displacement(motion.segment<6>(6 * i), position(*problem.substructures[i], node));
+        work += force[i].col(node).dot(u);
+        scale += force[i].col(node).norm() * largest;
+      }
+    const std::string what = fmt::format("static step '{}': {} of substructure '{}'", step.name,
+                                         describe(motion.segment<6>(6 * part)), problem.substructures[part]->name);
+    if (std::abs(work) > 1e-7 * scale && scale > 0.0)
+      throw InputError(step.origin, what + " is loaded, but no support and no interface holds it");
+    warn(what + " is held by nothing; nothing loads it, it is left at zero");
+    const Substructure& body = *problem.substructures[part];
+    int best_node = -1, best_axis = 0;
+    double best = 0.0;
+    for (int node = 0; node < body.mesh->n_nodes(); ++node) {
+      if (conditions.held[part].count(node)) continue;
+      const Vec3 u = frames[part].displacement(motion.segment<6>(6 * part), position(body, node));
+      int axis = 0;
+      const double reach = u.cwiseAbs().maxCoeff(&axis) * (on_interface.count({part, node}) ? 1e-3 : 1.0);
+      if (reach > best) {
+        best = reach;
+        best_node = node;
+        best_axis = axis;
+      }
+    }
+    CHECK(best_node >= 0, "no node can be pinned against a free rigid motion");
+    Held& held = conditions.held[part][best_node];
+    held.directions.col(0) = Vec3::Unit(best_axis);
+    held.n = 1;
+    // What is left of the other free motions once this one is pinned.
+    const auto at_pin = [&](const Vec& z) {
+      return frames[part].displacement(z.segment<6>(6 * part), position(body, best_node))[best_axis];
+    };
+    const Vec pinned = motion;
+    free_motions.pop_back();
+    for (Vec& other : free_motions) other -= at_pin(other) / at_pin(pinned) * pinned;
+  }
+}
+
+}  // namespace dygita

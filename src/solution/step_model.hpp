@@ -1,0 +1,48 @@
+// Everything of one step that does not change while it is iterated: conditions, exchange, loads and factorised pieces.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solution/loads.hpp"
+#include "solution/piece.hpp"
+#include "solution/state.hpp"
+
+namespace dygita {
+
+// Matrices of every substructure; equal mesh and material share one.
+std::vector<Body> make_bodies(const Problem& problem);
+
+// The undeformed state at rest.
+State initial_state(const Problem& problem, const std::vector<Surface>& surfaces);
+
+struct StepModel {
+  const Problem* problem = nullptr;
+  const Step* step = nullptr;
+  const std::vector<Surface>* surfaces = nullptr;
+  Scheme scheme;
+  Conditions conditions;
+  Exchange exchange;
+  std::unique_ptr<Loads> loads;
+  std::vector<std::unique_ptr<Piece>> pieces;
+  std::vector<int> offset;  // of each piece in the assembled q; the last entry is its length
+
+  int n_q() const { return offset.back(); }
+  // Index in the assembled q of a port's direction; -1 where it has none.
+  int unknown(const Port& port, int d) const { return port.unknown[d] < 0 ? -1 : offset[port.part] + port.unknown[d]; }
+  // Velocities of all motions at the end of an increment.
+  std::vector<double> motion_velocities(int increment) const;
+  // Velocity of a held direction of a port, from the motions' velocities.
+  double held_velocity(const Port& port, const Vec3& direction, const std::vector<double>& motions) const;
+  // External forces on a substructure over an increment (3 x n_nodes, N), absorbing supports' anchors included.
+  Points external_force(int part, int increment, const State& state) const;
+};
+
+// Builds and factorises; substructures side by side on the threads at hand. Throws InputError, NumericalError.
+StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                          const std::vector<Body>& bodies, const State& start);
+
+// Force of all interfaces on the nodes of a substructure (3 x n_nodes, N), from the surfaces' state.
+Points interface_force(const std::vector<Surface>& surfaces, const State& state, int part);
+
+}  // namespace dygita
