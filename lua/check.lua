@@ -1,0 +1,311 @@
+-- Checks one call of the deck against its entry in the schema: nothing is ignored, nothing silently defaulted.
+-- Every message is one line that says what and where, then what is allowed.
+local native = ...
+local check = {}
+
+local hints = {
+  face = 'a face is part:face "group"',
+  region = "a region is part:where(function(x, y, z) return boolean end)",
+  mesh = 'a mesh is mesh.box{ ... } or file:volume "name"',
+}
+
+local function message(call, text, hint) return call.path .. ": " .. text .. (hint and "\n    " .. hint or "") end
+local function fail(call, text, hint) native.fail(call.line, message(call, text, hint)) end
+
+local function article(noun) return (noun:match "^[aeiou]" and "an " or "a ") .. noun end
+
+local function describe(value)
+  local kind, _, name = native.kind(value)
+  if kind then return article(kind) .. (name ~= "" and " '" .. name .. "'" or "") end
+  if type(value) == "number" then return ("the number %g"):format(value) end
+  if type(value) == "string" then return ('the text "%s"'):format(value) end
+  if type(value) == "boolean" then return tostring(value) end
+  return value == nil and "nothing" or article(type(value))
+end
+
+local function wrong_type(call, label, wanted, value, hint)
+  fail(call, ("'%s' must be %s, got %s"):format(label, wanted, describe(value)), hint)
+end
+
+local function with_unit(text, unit) return unit and text .. " " .. unit or text end
+local function of_unit(text, unit) return unit and text .. " (" .. unit .. ")" or text end
+
+local function check_number(call, argument, value, label)
+  if value ~= value or value == math.huge or value == -math.huge then
+    local text = value ~= value and "nan" or ("%g"):format(value)
+    native.fail_on_value(call.line, message(call, ("'%s' is not a finite number (%s)"):format(label, text),
+      "was something divided by zero?"))
+  end
+  local range, unit = argument.range, argument.unit
+  if range and (value < range[1] or value > range[2]) then
+    fail(call, ("'%s' = %s is outside the plausible range %s"):format(label, with_unit(("%g"):format(value), unit),
+      with_unit(("[%g, %g]"):format(range[1], range[2]), unit)),
+      unit and "a bare number is SI; was a unit forgotten, or the wrong one used?")
+  end
+  return value
+end
+
+-- A list without holes of at most `limit` items.
+local function check_list(call, value, label, wanted)
+  if type(value) ~= "table" then wrong_type(call, label, wanted, value) end
+  local n = 0
+  for key in pairs(value) do
+    if math.type(key) ~= "integer" or key < 1 then
+      fail(call, ("'%s' must be %s, got a table with '%s'"):format(label, wanted, tostring(key)))
+    end
+    n = n + 1
+  end
+  for i = 1, n do
+    if value[i] == nil then fail(call, ("'%s' has nothing at place %d"):format(label, i), "is a name misspelt?") end
+  end
+  return n
+end
+
+local function fits(value, kinds)
+  local kind, path = native.kind(value)
+  for _, wanted in ipairs(kinds) do
+    if wanted == kind or wanted == path then return true end
+  end
+  return false
+end
+
+local function one_of(kinds, prefix)
+  local texts = {}
+  for i, kind in ipairs(kinds) do texts[i] = prefix and article(kind) or kind end
+  return table.concat(texts, " or ")
+end
+
+local function hint_for(kinds, value)
+  if native.kind(value) == "mesh file" then return 'take one of its volumes: file:volume "name"' end
+  return hints[kinds[1]]
+end
+
+local function check_object(call, argument, value, label)
+  if not fits(value, argument.kinds) then
+    wrong_type(call, label, one_of(argument.kinds, true), value, hint_for(argument.kinds, value))
+  end
+  return value
+end
+
+local function check_name(call, _, value, label)
+  if type(value) ~= "string" then wrong_type(call, label, "text", value) end
+  if value == "" then fail(call, ("'%s' is empty"):format(label)) end
+  if #value > 100 then fail(call, ("'%s' is longer than 100 characters"):format(label)) end
+  if value:find '[%c/\\:*?"<>|]' or value:find "^[%. ]" or value:find "[%. ]$" then
+    fail(call, ("'%s' = \"%s\" cannot name a file"):format(label, value),
+      'no / \\ : * ? " < > | or control character in it, no dot or space at its ends')
+  end
+  return value
+end
+
+local types = { name = check_name, object = check_object }
+
+function types.number(call, argument, value, label)
+  if argument.or_table and type(value) == "table" then
+    return check.arguments(call, argument.or_table, value, label .. ".")
+  end
+  if type(value) ~= "number" then wrong_type(call, label, of_unit("a number", argument.unit), value) end
+  return check_number(call, argument, value, label)
+end
+
+function types.integer(call, argument, value, label)
+  if argument.or_word and value == argument.or_word then return value end
+  local wanted = "a whole number" .. (argument.or_word and ' or "' .. argument.or_word .. '"' or "")
+  if type(value) ~= "number" then wrong_type(call, label, wanted, value) end
+  check_number(call, argument, value, label)
+  local whole = math.tointeger(value)
+  if not whole then wrong_type(call, label, wanted, value) end
+  if argument.later_above and whole > argument.later_above then
+    fail(call, ("'%s' = %d is not built yet in dygita %s"):format(label, whole, native.version))
+  end
+  return whole
+end
+
+function types.boolean(call, _, value, label)
+  if type(value) ~= "boolean" then wrong_type(call, label, "true or false", value) end
+  return value
+end
+
+function types.choice(call, argument, value, label)
+  if type(value) ~= "string" then wrong_type(call, label, "text", value, native.did_you_mean("", argument.choices)) end
+  for _, choice in ipairs(argument.choices) do
+    if value == choice then return value end
+  end
+  fail(call, ("'%s' = \"%s\" is unknown"):format(label, value), native.did_you_mean(value, argument.choices))
+end
+
+function types.choices(call, argument, value, label)
+  for i = 1, check_list(call, value, label, "a list of names") do
+    types.choice(call, argument, value[i], ("%s[%d]"):format(label, i))
+  end
+  return value
+end
+
+function types.text(call, _, value, label)
+  if type(value) ~= "string" then wrong_type(call, label, "text", value) end
+  if value == "" then fail(call, ("'%s' is empty"):format(label)) end
+  return value
+end
+types.file = types.text
+
+function types.vector(call, argument, value, label)
+  local wanted = of_unit("three numbers { x, y, z }", argument.unit)
+  if check_list(call, value, label, wanted) ~= 3 then
+    fail(call, ("'%s' must be %s, got %d of them"):format(label, wanted, #value))
+  end
+  for i = 1, 3 do
+    if type(value[i]) ~= "number" then wrong_type(call, ("%s[%d]"):format(label, i), "a number", value[i]) end
+    check_number(call, argument, value[i], ("%s[%d]"):format(label, i))
+  end
+  return { value[1], value[2], value[3] }
+end
+
+function types.counts(call, argument, value, label)
+  local whole = {}
+  if check_list(call, value, label, "three whole numbers") ~= 3 then
+    fail(call, ("'%s' must be three whole numbers, got %d of them"):format(label, #value))
+  end
+  for i = 1, 3 do whole[i] = types.integer(call, argument, value[i], ("%s[%d]"):format(label, i)) end
+  return whole
+end
+
+function types.numbers(call, argument, value, label)
+  local numbers, n = {}, check_list(call, value, label, "a list of numbers")
+  if n < argument.at_least then fail(call, ("'%s' must have at least %d numbers"):format(label, argument.at_least)) end
+  for i = 1, n do numbers[i] = types.number(call, argument, value[i], ("%s[%d]"):format(label, i)) end
+  return numbers
+end
+
+function types.settings(call, argument, value, label)
+  if type(value) ~= "table" then wrong_type(call, label, "a table of numbers by name, as { size = 2*mm }", value) end
+  local settings = {}
+  for key, number in pairs(value) do
+    if type(key) ~= "string" then fail(call, ("'%s' takes numbers by name, as { size = 2*mm }"):format(label)) end
+    settings[key] = types.number(call, argument, number, label .. "." .. key)
+  end
+  return settings
+end
+
+types["function"] = function(call, _, value, label)
+  if type(value) ~= "function" then wrong_type(call, label, "a function", value) end
+  return value
+end
+
+function types.value(call, argument, value, label)
+  if type(value) == "number" then return check_number(call, argument, value, label) end
+  if type(value) == "function" then return value end
+  if native.kind(value) ~= "history" then
+    wrong_type(call, label, of_unit("a number", argument.unit) .. ", a history or a function of time", value)
+  end
+  -- The values of a named history are in the unit of what it drives: only here are they plausible or not.
+  local arguments = native.arguments(value)
+  for _, key in ipairs { "value", "from", "to", "peak" } do
+    if arguments[key] then check_number(call, argument, arguments[key], label .. "." .. key) end
+  end
+  return value
+end
+
+function types.objects(call, argument, value, label)
+  local what = one_of(argument.kinds)
+  if native.kind(value) and argument.or_single then return { check_object(call, argument, value, label) } end
+  if type(value) ~= "table" and argument.or_single then
+    wrong_type(call, label, one_of(argument.kinds, true) .. ", or a list", value, hint_for(argument.kinds, value))
+  end
+  local n = check_list(call, value, label, ("a list { ... } (%s)"):format(what))
+  if argument.exactly and n ~= argument.exactly then
+    fail(call, ("'%s' must be %d of %s, got %d"):format(label, argument.exactly, what, n), hints[argument.kinds[1]])
+  end
+  if argument.at_least and n < argument.at_least then fail(call, ("'%s' is empty"):format(label)) end
+  local objects, places = {}, {}
+  for i = 1, n do
+    local object = check_object(call, argument, value[i], ("%s[%d]"):format(label, i))
+    if places[object] then
+      fail(call, ("'%s' has %s twice, at places %d and %d"):format(label, describe(object), places[object], i))
+    end
+    objects[i], places[object] = object, i
+  end
+  return objects
+end
+
+local function contains(list, item)
+  for _, other in ipairs(list or {}) do
+    if other == item then return true end
+  end
+  return false
+end
+
+-- Refuses the first (in alphabetical order) key that `arguments` does not have.
+local function check_known(call, arguments, given, prefix)
+  local known, is_known, unknown = {}, {}, {}
+  for i, argument in ipairs(arguments) do
+    known[i], is_known[argument[1]] = argument[1], true
+  end
+  for key in pairs(given) do
+    if type(key) ~= "string" then
+      fail(call, ("arguments are named: %s stands alone at place %s"):format(describe(given[key]), tostring(key)),
+        native.did_you_mean("", known))
+    end
+    if not is_known[key] then unknown[#unknown + 1] = key end
+  end
+  table.sort(unknown)
+  if #unknown == 0 then return end
+  if contains(call.later, unknown[1]) then
+    fail(call, ("'%s' is not built yet in dygita %s"):format(unknown[1], native.version))
+  end
+  fail(call, ("unknown argument '%s%s'"):format(prefix, unknown[1]), native.did_you_mean(unknown[1], known))
+end
+
+-- The checked copy of `given`, defaults filled in.
+function check.arguments(call, arguments, given, prefix)
+  check_known(call, arguments, given, prefix)
+  local checked = {}
+  for _, argument in ipairs(arguments) do
+    local key = argument[1]
+    local value = given[key]
+    if value ~= nil then
+      checked[key] = types[argument.type](call, argument, value, prefix .. key)
+    elseif argument.required then
+      fail(call, ("'%s%s' is missing"):format(prefix, key), of_unit(key, argument.unit) .. ": " .. argument.doc)
+    else
+      checked[key] = argument.default
+    end
+  end
+  return checked
+end
+
+-- A call with one table of named arguments; `...` is what the deck passed.
+function check.call(entry, line, ...)
+  local call = { path = entry.path, line = line, later = entry.later }
+  local given = ...
+  if select("#", ...) ~= 1 or type(given) ~= "table" then
+    fail(call, "takes one table of named arguments, written " .. entry.path .. "{ ... }")
+  end
+  local checked = check.arguments(call, entry.arguments, given, "")
+  if entry.one_of then
+    local is_given = false
+    for _, key in ipairs(entry.one_of) do is_given = is_given or checked[key] ~= nil end
+    if not is_given then fail(call, "give at least one of " .. table.concat(entry.one_of, ", ")) end
+  end
+  return checked
+end
+
+-- A method with one plain argument.
+function check.plain(entry, line, ...)
+  local call = { path = entry.path, line = line }
+  if select("#", ...) ~= 1 then fail(call, "is written " .. entry.write) end
+  return types[entry.argument.type](call, entry.argument, (...), entry.argument[1])
+end
+
+-- param{ name = number }: the checked numbers.
+function check.parameters(line, ...)
+  local call = { path = "param", line = line }
+  local given = ...
+  if select("#", ...) ~= 1 or type(given) ~= "table" then fail(call, "is written param{ mu = 0.2, n = 4 }") end
+  for key, value in pairs(given) do
+    if type(key) ~= "string" then fail(call, "parameters are named, as in param{ mu = 0.2, n = 4 }") end
+    types.number(call, {}, value, key)
+  end
+  return given
+end
+
+return check

@@ -1,0 +1,86 @@
+-- The deck's surroundings besides its words: a closed choice of Lua's own functions, none of which reaches a file, the
+-- system, another program or this program's inside, or runs long in one call, where no limit could stop it.
+local native = ...
+
+local largest_effort = 1e9  -- elementary comparisons in one search
+
+local raw = {}
+for name, f in pairs(string) do raw[name] = f end
+
+-- Bounds the effort of a search: each repetition in a pattern may try every place of the text.
+local function check_effort(text, pattern)
+  if type(text) ~= "string" or type(pattern) ~= "string" then return end
+  local repeats = 1
+  for _ in raw.gmatch((raw.gsub(pattern, "%%[^bf%d]", "")), "[*+%-?%%]") do repeats = repeats + 1 end
+  if (#text + 1) ^ repeats > largest_effort and repeats > 1 or #text * #pattern > largest_effort then
+    error("the pattern has too many repetitions for a text of " .. #text .. " characters", 3)
+  end
+end
+
+local safe_string = {}
+for _, name in ipairs { "byte", "char", "format", "len", "lower", "reverse", "sub", "upper" } do
+  safe_string[name] = raw[name]
+end
+for _, name in ipairs { "find", "match", "gmatch", "gsub" } do
+  local search = raw[name]
+  safe_string[name] = function(text, pattern, ...)
+    check_effort(text, pattern)
+    return search(text, pattern, ...)
+  end
+end
+function safe_string.rep(text, n, separator)
+  if (text == "" or text == nil) and (separator == "" or separator == nil) then return "" end
+  return raw.rep(text, n, separator)
+end
+getmetatable("").__index = safe_string
+
+local safe_math = {}
+for name, member in pairs(math) do safe_math[name] = member end
+safe_math.randomseed = nil
+math.randomseed(1)  -- the same deck computes the same
+
+local safe_table = { concat = table.concat, insert = table.insert, pack = table.pack, remove = table.remove,
+                     sort = table.sort, unpack = table.unpack }
+
+-- A table that can be read and not written; `what` opens the message.
+local function read_only(members, what)
+  return setmetatable({}, {
+    __index = function(_, key)
+      local member = members[key]
+      if member ~= nil then return member end
+      local known = {}
+      for name in pairs(members) do known[#known + 1] = name end
+      native.fail(native.line(), ("%s has no '%s'\n    %s"):format(what, tostring(key),
+        native.did_you_mean(tostring(key), known)))
+    end,
+    __newindex = function(_, key) native.fail(native.line(), ("%s.%s cannot be changed"):format(what, tostring(key))) end,
+    __pairs = function()
+      local copy = {}
+      for name, member in pairs(members) do copy[name] = member end
+      return next, copy, nil
+    end,
+    __metatable = false,
+  })
+end
+
+-- Whether two coordinates (m) are the same but for round-off: 1e-8 m and a millionth of the larger.
+local function near(a, b)
+  if type(a) ~= "number" or type(b) ~= "number" then
+    native.fail(native.line(), "near(a, b) compares two numbers, got a " .. type(a) .. " and a " .. type(b))
+  end
+  return math.abs(a - b) <= 1e-8 + 1e-6 * math.max(math.abs(a), math.abs(b))
+end
+
+return {
+  read_only = read_only,
+  functions = {
+    math = read_only(safe_math, "math"), string = read_only(safe_string, "string"), table = read_only(safe_table, "table"),
+    ipairs = ipairs, pairs = pairs, next = next, select = select, type = type, tonumber = tonumber, tostring = tostring,
+    error = error, assert = assert, print = native.print, near = near,
+  },
+  refused = {
+    os = true, io = true, package = true, debug = true, load = true, loadstring = true, dofile = true, loadfile = true,
+    require = true, collectgarbage = true, setmetatable = true, getmetatable = true, rawget = true, rawset = true,
+    rawequal = true, rawlen = true, pcall = true, xpcall = true, coroutine = true, utf8 = true,
+  },
+}

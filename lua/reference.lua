@@ -1,0 +1,92 @@
+-- The reference of the deck language as Markdown, printed from the schema.
+local native = ...
+local schema = native.module "schema"
+local units = native.module "units"
+
+local lines = {}
+local function put(format, ...) lines[#lines + 1] = format:format(...) end
+
+local function number(x) return ("%g"):format(x) end
+
+local function type_of(argument)
+  local names = { vector = "{ x, y, z }", counts = "{ nx, ny, nz }", numbers = "list of numbers", name = "text",
+                  settings = "table of numbers", value = "number, history or function(t)", integer = "whole number",
+                  choice = "text", choices = "list of texts" }
+  local text = names[argument.type] or argument.type
+  if argument.kinds then text = table.concat(argument.kinds, " or ") end
+  if argument.exactly then text = ("list of %d: %s"):format(argument.exactly, text)
+  elseif argument.or_single then text = text .. ", or a list"
+  elseif argument.type == "objects" then text = "list of " .. text end
+  if argument.or_word then text = ('%s or "%s"'):format(text, argument.or_word) end
+  if argument.or_table then text = text .. " or table" end
+  return text
+end
+
+local function default_of(argument)
+  local default = argument.default
+  if argument.required then return "required" end
+  if argument.default_doc then return argument.default_doc end
+  if type(default) == "table" then return #default == 0 and "none" or "{ " .. table.concat(default, ", ") .. " }" end
+  if type(default) == "number" then return number(default) end
+  return default ~= nil and tostring(default) or ""
+end
+
+local function allowed(argument)
+  if argument.choices then return table.concat(argument.choices, ", ") end
+  local range = argument.range
+  if not range then return "" end
+  return ("%s to %s"):format(number(range[1]), number(argument.later_above or range[2]))
+end
+
+local function table_of(arguments)
+  if #arguments == 0 then return end
+  put "| argument | type | unit | default | plausible | meaning |"
+  put "| --- | --- | --- | --- | --- | --- |"
+  for _, a in ipairs(arguments) do
+    put("| `%s` | %s | %s | %s | %s | %s |", a[1], type_of(a), a.unit or "", default_of(a), allowed(a), a.doc)
+  end
+  put ""
+end
+
+local function entry_of(title, entry)
+  put("### %s\n", title)
+  put("%s\n", entry.doc)
+  if entry.arguments then table_of(entry.arguments) else table_of { entry.argument } end
+  if entry.one_of then put("At least one of `%s`.\n", table.concat(entry.one_of, "`, `")) end
+  if entry.later then put("Not built yet: `%s`.\n", table.concat(entry.later, "`, `")) end
+end
+
+put "# Reference of the deck language\n"
+put("Printed by `dygita schema` of dygita %s from `lua/schema.lua`.\n", native.version)
+for _, word in ipairs(schema.words) do
+  put("## %s\n", word[1])
+  put("%s\n", word.doc)
+  if word.call then entry_of(("`%s{ ... }`"):format(word[1]), word.call) end
+  for _, entry in ipairs(word) do entry_of(("`%s.%s{ ... }`"):format(word[1], entry[1]), entry) end
+  if word.later and not word.call then
+    put("Not built yet: `%s.%s`.\n", word[1], table.concat(word.later, ("`, `%s."):format(word[1])))
+  end
+end
+
+put "## Methods\n"
+for _, entry in ipairs(schema.methods) do entry_of(("`%s`"):format(entry.write), entry) end
+
+put "## param\n"
+put("`param{ mu = 0.2, n = 4 }` declares, once in a deck, the numbers that the command line may override: `--set mu=0.3`, "
+  .. "`--set tighten=0.04*mm`. It answers them by their names.\n")
+
+put "## Reading results\n"
+put "| written | answers |"
+put "| --- | --- |"
+for _, row in ipairs(schema.reading) do put("| `%s` | %s |", row[1], row[2]) end
+
+put "\n## Units\n"
+put "Units are numbers in SI: `20*mm` in, `x / um` out.\n"
+local names = {}
+for name in pairs(units) do names[#names + 1] = name end
+table.sort(names, function(a, b) return a:lower() < b:lower() or (a:lower() == b:lower() and a < b) end)
+put "| unit | SI |"
+put "| --- | --- |"
+for _, name in ipairs(names) do put("| `%s` | %s |", name, number(units[name])) end
+
+return table.concat(lines, "\n") .. "\n"

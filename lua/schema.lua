@@ -1,0 +1,437 @@
+-- Everything a deck may write, as data: what checks a deck (check.lua), what offers its words (vocabulary.lua) and what
+-- prints its reference (reference.lua) all read this one file.
+--
+-- An entry is a constructor or a method: `path` is what the deck writes, `makes` the kind of object it answers,
+-- `arguments` its named arguments in the order of the reference, `later` words of the language that are not built yet.
+--
+-- An argument: { name, type, unit, range = { smallest, largest }, default, required, doc, ... } with the types
+--   number, integer       `or_word`: a word allowed instead; `or_table`: a table of named numbers allowed instead
+--   boolean, choice       `choices`
+--   choices               a list of `choices`
+--   name                  text that may become a file name
+--   file                  a path, relative to the deck's folder
+--   vector, counts        three numbers, three whole numbers
+--   numbers               a list of numbers, at least `at_least`
+--   settings              a table of numbers by name
+--   value                 a number, a history or a function of time
+--   object, objects       one of, or a list of, the `kinds`: a kind ("face") or a constructor ("interface.plastic");
+--                         of objects `at_least`, `exactly`; `or_single`: one alone needs no list
+
+local function name_of(what)
+  return { "name", type = "name", required = true, doc = "name of the " .. what .. ", for messages and files" }
+end
+
+local function between()
+  return { "between", type = "objects", kinds = { "face" }, exactly = 2, required = true,
+           doc = "the two faces; the first is side 1, on which resultants are counted" }
+end
+
+local function on(kinds, doc)
+  return { "on", type = "objects", kinds = kinds, at_least = 1, or_single = true, required = true, doc = doc }
+end
+
+local function component(axis, what, unit, range)
+  return { axis, type = "value", unit = unit, range = range, doc = what .. " along " .. axis }
+end
+
+local function components(what, unit, range)
+  return component("x", what, unit, range), component("y", what, unit, range), component("z", what, unit, range)
+end
+
+local friction = { "friction", type = "number", range = { 0, 2 }, default = 0, doc = "Coulomb's coefficient" }
+local duration = { 1e-9, 100 }  -- s
+local any_value = { -1e15, 1e15 }
+
+local words = {}
+
+words[1] = {
+  "mesh", doc = "Bodies as cells and named groups of facets.",
+  {
+    "box", makes = "mesh", doc = "A regular box of hexahedra; its faces are xmin, xmax, ymin, ymax, zmin, zmax.",
+    arguments = {
+      { "size", type = "vector", unit = "m", range = { 1e-7, 100 }, required = true, doc = "lengths along x, y, z" },
+      { "cells", type = "counts", range = { 1, 100000 }, required = true, doc = "number of cells along x, y, z" },
+      { "origin", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 },
+        doc = "the corner of smallest x, y, z" },
+      { "order", type = "integer", range = { 1, 2 }, default = 1, later_above = 1, doc = "order of the shape functions" },
+    },
+  },
+  {
+    "gmsh", makes = "mesh file",
+    doc = "The volumes of a .geo, .msh, .step or .brep file, read or meshed by gmsh; `file:volume \"name\"` is one of them.",
+    arguments = {
+      { "file", type = "file", required = true, doc = "path, relative to the deck's folder" },
+      { "size", type = "number", unit = "m", range = { 1e-7, 100 }, doc = "size of the elements, where the file has none" },
+      { "set", type = "settings", doc = "parameters of the .geo (DefineConstant) given other values" },
+      { "unit", type = "number", unit = "m", range = { 1e-9, 1000 }, default = 1,
+        doc = "length of one unit of the file: `unit = mm` where it counts in millimetres" },
+      { "order", type = "integer", range = { 1, 2 }, default = 1, later_above = 1, doc = "order of the shape functions" },
+    },
+  },
+}
+
+words[2] = {
+  "material", doc = "What substructures are made of.",
+  {
+    "elastic", makes = "material", doc = "Isotropic linear elasticity.",
+    arguments = {
+      name_of "material",
+      { "young", type = "number", unit = "Pa", range = { 1e6, 2e12 }, required = true, doc = "Young's modulus" },
+      { "poisson", type = "number", range = { -0.9, 0.499 }, required = true, doc = "Poisson's ratio" },
+      { "density", type = "number", unit = "kg/m^3", range = { 10, 25000 }, required = true, doc = "mass per volume" },
+      { "damping", type = "number", unit = "s", range = { 0, 0.01 }, default = 0,
+        doc = "stiffness-proportional damping, or { mass = (1/s), stiffness = (s) }",
+        or_table = {
+          { "mass", type = "number", unit = "1/s", range = { 0, 1e6 }, default = 0, doc = "mass-proportional" },
+          { "stiffness", type = "number", unit = "s", range = { 0, 0.01 }, default = 0, doc = "stiffness-proportional" },
+        } },
+    },
+  },
+}
+
+words[3] = {
+  "substructure", doc = "One linear elastic part of the assembly.",
+  call = {
+    makes = "substructure", doc = "A part: a mesh made of a material, moved to its place.",
+    arguments = {
+      name_of "part",
+      { "mesh", type = "object", kinds = { "mesh" }, required = true, doc = "its body" },
+      { "material", type = "object", kinds = { "material" }, required = true, doc = "what it is made of" },
+      { "place", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 },
+        doc = "translation of the mesh" },
+      { "velocity", type = "vector", unit = "m/s", range = { -20000, 20000 }, default = { 0, 0, 0 },
+        doc = "velocity at the start of the first dynamic step" },
+    },
+  },
+}
+
+words[4] = {
+  "interface", doc = "Where two substructures meet: everything nonlinear happens here.",
+  {
+    "bonded", makes = "interface", doc = "A perfect bond.",
+    arguments = { name_of "interface", between() },
+  },
+  {
+    "contact", makes = "interface", doc = "Unilateral contact with Coulomb friction.",
+    arguments = {
+      name_of "interface", between(), friction,
+      { "gap", type = "number", unit = "m", range = { -0.01, 0.01 }, default = 0,
+        doc = "initial gap; a negative one is an interference" },
+    },
+  },
+  {
+    "plastic", makes = "interface",
+    doc = "A bond that yields along its normal, as a bolt does; unloading and reloading are rigid.",
+    arguments = {
+      name_of "interface", between(),
+      { "yield", type = "number", unit = "Pa", range = { 1e3, 1e11 }, required = true, doc = "normal traction at yield" },
+      { "hardening", type = "number", unit = "Pa/m", range = { 0, 1e17 }, default = 0,
+        doc = "traction per metre of plastic opening: H/L for an axial modulus H over a shank of length L" },
+      { "compression", type = "boolean", default = false, doc = "yields in compression too, with isotropic hardening" },
+    },
+  },
+}
+
+words[5] = {
+  "support", doc = "What the assembly stands on; rigid.",
+  {
+    "fixed", makes = "support", doc = "No displacement.",
+    arguments = { name_of "support", on({ "face", "region" }, "what is held") },
+  },
+  {
+    "symmetry", makes = "support", doc = "No displacement along the normal.",
+    arguments = { name_of "support", on({ "face" }, "faces on the plane of symmetry") },
+  },
+  {
+    "wall", makes = "support", doc = "A rigid wall: unilateral contact with friction.",
+    arguments = {
+      name_of "support", on({ "face" }, "faces that may touch the wall"), friction,
+      { "gap", type = "number", unit = "m", range = { -0.01, 0.01 }, default = 0, doc = "initial gap" },
+    },
+  },
+  {
+    "absorbing", makes = "support", doc = "Lets waves out, as if the part went on for ever.",
+    arguments = { name_of "support", on({ "face" }, "where waves leave") },
+  },
+}
+
+words[6] = {
+  "load",
+  doc = "What acts during the steps that list it. Every value is a number, a history or a function of time; in a static step a "
+    .. "number is ramped over the increments.",
+  later = { "preload" },
+  {
+    "pressure", makes = "load", doc = "Normal pressure; a positive one pushes.",
+    arguments = {
+      on({ "face" }, "loaded faces"),
+      { "history", type = "value", unit = "Pa", range = { -1e11, 1e11 }, required = true, doc = "the pressure" },
+    },
+  },
+  {
+    "traction", makes = "load", doc = "Force per area, in fixed directions.",
+    arguments = { on({ "face" }, "loaded faces"), components("traction", "Pa", { -1e11, 1e11 }) },
+    one_of = { "x", "y", "z" },
+  },
+  {
+    "force", makes = "load", doc = "A force in all, spread evenly.",
+    arguments = { on({ "face", "region" }, "loaded faces or nodes"), components("force", "N", { -1e10, 1e10 }) },
+    one_of = { "x", "y", "z" },
+  },
+  {
+    "velocity", makes = "load", doc = "Prescribed velocity; a direction left out is free.",
+    arguments = { on({ "face", "region" }, "driven faces or nodes"), components("velocity", "m/s", { -20000, 20000 }) },
+    one_of = { "x", "y", "z" },
+  },
+  {
+    "displacement", makes = "load", doc = "Prescribed displacement; a direction left out is free.",
+    arguments = { on({ "face", "region" }, "driven faces or nodes"), components("displacement", "m", { -0.1, 0.1 }) },
+    one_of = { "x", "y", "z" },
+  },
+  {
+    "base_acceleration", makes = "load", doc = "Acceleration of a support, as on a shaker or a shock table.",
+    arguments = {
+      on({ "support" }, "driven supports"),
+      { "direction", type = "vector", required = true, doc = "direction; its length does not matter" },
+      { "history", type = "value", unit = "m/s^2", range = { -1e9, 1e9 }, required = true, doc = "the acceleration" },
+    },
+  },
+  {
+    "gravity", makes = "load", doc = "A uniform acceleration field on every substructure.",
+    arguments = { components("acceleration", "m/s^2", { -1e7, 1e7 }) },
+    one_of = { "x", "y", "z" },
+  },
+  {
+    "shortening", makes = "load",
+    doc = "Brings the two sides of an interface together by a length, as a nut does; frozen when the step ends.",
+    arguments = {
+      on({ "interface.bonded", "interface.plastic" }, "shortened interfaces"),
+      { "by", type = "value", unit = "m", range = { -0.01, 0.01 }, required = true, doc = "a positive one tightens" },
+    },
+  },
+  {
+    "release", makes = "load", doc = "An interface lets go: separation.",
+    arguments = {
+      on({ "interface" }, "what lets go"),
+      { "at", type = "number", unit = "s", range = { 0, 100 }, required = true,
+        doc = "when, from the start of the step (from 0 to 1 in a static one)" },
+    },
+  },
+}
+
+words[7] = {
+  "history",
+  doc = "A value that depends on time, counted from the start of the step (from 0 to 1 in a static one). Any `function(t)` "
+    .. "does as well.",
+  {
+    "constant", makes = "history", doc = "The same at all times.",
+    arguments = { { "value", type = "number", range = any_value, required = true, doc = "the value" } },
+  },
+  {
+    "step", makes = "history", doc = "Zero, then a value.",
+    arguments = {
+      { "value", type = "number", range = any_value, required = true, doc = "value from then on" },
+      { "at", type = "number", unit = "s", range = { 0, 100 }, default = 0, doc = "when" },
+    },
+  },
+  {
+    "ramp", makes = "history", doc = "Linear from one value to another, where it stays.",
+    arguments = {
+      { "from", type = "number", range = any_value, default = 0, doc = "value at 0" },
+      { "to", type = "number", range = any_value, required = true, doc = "value at the end" },
+      { "duration", type = "number", unit = "s", range = duration, required = true, doc = "how long it rises" },
+    },
+  },
+  {
+    "half_sine", makes = "history", doc = "peak sin(pi t / duration), then zero.",
+    arguments = {
+      { "peak", type = "number", range = any_value, required = true, doc = "largest value" },
+      { "duration", type = "number", unit = "s", range = duration, required = true, doc = "of the pulse" },
+    },
+  },
+  {
+    "haversine", makes = "history", doc = "peak sin^2(pi t / duration), then zero.",
+    arguments = {
+      { "peak", type = "number", range = any_value, required = true, doc = "largest value" },
+      { "duration", type = "number", unit = "s", range = duration, required = true, doc = "of the pulse" },
+    },
+  },
+  {
+    "pulse", makes = "history", doc = "A trapezoid from zero, then zero.",
+    arguments = {
+      { "peak", type = "number", range = any_value, required = true, doc = "value of the plateau" },
+      { "rise", type = "number", unit = "s", range = { 0, 100 }, required = true, doc = "how long it rises" },
+      { "hold", type = "number", unit = "s", range = { 0, 100 }, required = true, doc = "how long it stays" },
+      { "fall", type = "number", unit = "s", range = { 0, 100 }, required = true, doc = "how long it falls" },
+    },
+  },
+  {
+    "piecewise", makes = "history", doc = "Linear between points, constant outside.",
+    arguments = {
+      { "times", type = "numbers", unit = "s", at_least = 2, required = true, doc = "instants, increasing" },
+      { "values", type = "numbers", at_least = 2, required = true, doc = "as many values" },
+    },
+  },
+  {
+    "file", makes = "history", doc = "Two columns, time (s) and value, separated by a comma or blanks, linear in between.",
+    arguments = { { "file", type = "file", required = true, doc = "path, relative to the deck's folder" } },
+  },
+}
+
+local loads = { "loads", type = "objects", kinds = { "load" }, default = {}, doc = "what acts" }
+local step_supports = { "supports", type = "objects", kinds = { "support" },
+                        doc = "where given, replaces the problem's in this step: what is taken away lets go" }
+local after = { "after", type = "object", kinds = { "step" },
+                doc = "the step before; left out: from the undeformed state" }
+
+words[8] = {
+  "step", doc = "What is computed, one after the other.",
+  {
+    "static", makes = "step", doc = "Equilibrium, in increments.",
+    arguments = {
+      name_of "step", after,
+      { "increments", type = "integer", range = { 1, 100000 }, default = 1, doc = "number of increments" },
+      loads, step_supports,
+    },
+  },
+  {
+    "dynamic", makes = "step", doc = "Motion, in equal steps of time.",
+    arguments = {
+      name_of "step", after,
+      { "duration", type = "number", unit = "s", range = duration, required = true, doc = "how long" },
+      { "dt", type = "number", unit = "s", range = { 1e-12, 0.1 }, required = true, doc = "step of time" },
+      loads, step_supports,
+    },
+  },
+}
+
+words[9] = {
+  "solver", doc = "How it is computed. Every parameter has a good default, so most decks write none.",
+  later = { "monolithic", "explicit" },
+  {
+    "latin", makes = "solver", doc = "The LATIN method.",
+    later = { "pieces" },
+    arguments = {
+      { "tolerance", type = "number", range = { 1e-14, 0.1 }, default = 1e-6, doc = "indicator at which a dynamic step stops" },
+      { "static_tolerance", type = "number", range = { 1e-14, 0.1 }, default = 1e-8, doc = "the same in static steps" },
+      { "window", type = "integer", range = { 1, 1e9 }, default = 1, or_word = "whole",
+        doc = "steps of time iterated together; \"whole\": the whole step" },
+      { "relaxation", type = "number", range = { 0.05, 1 }, default_doc = "0.95; 0.8 in static steps and long windows",
+        doc = "of the linear stage" },
+      { "anderson", type = "integer", range = { 0, 100 }, default_doc = "5; 20 in static steps; 0 in long windows",
+        doc = "depth of Anderson's acceleration; 0: none" },
+      { "max_iterations", type = "integer", range = { 1, 1000000 }, default = 200, doc = "of one window" },
+      { "numerical_damping", type = "number", range = { 0, 1 }, default = 0, doc = "of the time scheme; 0: none" },
+      { "push_out", type = "number", range = { 0, 1 }, default = 0, doc = "part of a penetration undone in a step of time" },
+      { "search_direction", type = "number", range = { 1e-6, 1e6 }, default = 1, doc = "multiplies every search direction" },
+      { "plain", type = "boolean", default = false, doc = "iterates with full solves, to check the condensed ones" },
+    },
+  },
+}
+
+local quantities = { "displacement", "velocity", "acceleration", "stress", "von_mises", "pressure" }
+local fields = { "displacement", "velocity", "stress", "von_mises" }
+
+words[10] = {
+  "output", doc = "What is kept: files in the output directory, and data for the deck (`result[output]`).",
+  {
+    "vtk", makes = "output", doc = "Frames for ParaView.",
+    arguments = {
+      { "frames", type = "integer", range = { 1, 100000 }, default = 50, doc = "frames a step" },
+      { "fields", type = "choices", choices = fields, default = fields, doc = "fields of the parts" },
+    },
+  },
+  {
+    "history", makes = "output",
+    doc = "A quantity against time, as the mean over a face or a region. Columns: the quantity where it is one number or has a "
+      .. "`direction`, else x, y, z.",
+    arguments = {
+      name_of "output",
+      on({ "face", "region", "interface", "support" }, "where; `pressure` is of an interface or a wall"),
+      { "quantity", type = "choice", choices = quantities, required = true, doc = "what" },
+      { "direction", type = "vector", doc = "its component along this direction; its length does not matter" },
+    },
+  },
+  {
+    "resultant", makes = "output", doc = "The force through an interface or a support. Columns: normal, shear, x, y, z (N).",
+    arguments = { name_of "output", on({ "interface", "support" }, "what transmits the force") },
+  },
+  {
+    "srs", makes = "output",
+    doc = "Shock response spectrum of a history. Columns: frequency, maximax, positive, negative, primary, residual.",
+    arguments = {
+      name_of "output",
+      { "of", type = "object", kinds = { "output.history" }, required = true, doc = "an acceleration with a direction" },
+      { "q_factor", type = "number", range = { 0.5, 1000 }, default = 10, doc = "amplification at resonance" },
+      { "from", type = "number", unit = "Hz", range = { 0.01, 1e8 }, default = 100, doc = "first frequency" },
+      { "to", type = "number", unit = "Hz", range = { 0.01, 1e8 }, default = 10000, doc = "last frequency" },
+      { "per_octave", type = "integer", range = { 1, 1000 }, default = 12, doc = "frequencies an octave" },
+    },
+  },
+  {
+    "joint", makes = "output",
+    doc = "All about an interface: normal, shear (N), opening, slip, plastic_opening (m), open_area, stick_area, slip_area "
+      .. "(m^2), friction_work, plastic_work (J).",
+    arguments = { name_of "output", on({ "interface", "support.wall" }, "which") },
+  },
+  {
+    "energy", makes = "output",
+    doc = "Balance of the whole. Columns: kinetic, strain, loads, friction, plastic, damping, scheme, balance (J).",
+    arguments = {},
+  },
+}
+
+words[11] = {
+  "problem", doc = "What is in. Nothing acts by having been declared: only what a problem lists is computed.",
+  call = {
+    makes = "problem", doc = "An assembly, its steps and what is asked for.",
+    arguments = {
+      name_of "problem",
+      { "substructures", type = "objects", kinds = { "substructure" }, at_least = 1, required = true, doc = "parts" },
+      { "interfaces", type = "objects", kinds = { "interface" }, default = {}, doc = "where parts meet" },
+      { "supports", type = "objects", kinds = { "support" }, default = {}, doc = "what holds them" },
+      { "steps", type = "objects", kinds = { "step" }, at_least = 1, required = true, doc = "in order" },
+      { "solver", type = "object", kinds = { "solver" }, default_doc = "solver.latin{}", doc = "how" },
+      { "outputs", type = "objects", kinds = { "output" }, default = {}, doc = "what is kept" },
+    },
+  },
+}
+
+local methods = {
+  {
+    kind = "mesh file", "volume", write = "file:volume \"name\"", makes = "mesh",
+    doc = "One volume of the file by the name of its physical group.",
+    argument = { "name", type = "text", doc = "the volume's name" },
+  },
+  {
+    kind = "substructure", "face", write = "part:face \"group\"", makes = "face",
+    doc = "A named group of facets: xmin ... zmax of a box; of a file the surface group `part.group`, or `group` on the "
+      .. "part's boundary.",
+    argument = { "group", type = "text", doc = "the group's name" },
+  },
+  {
+    kind = "substructure", "where", write = "part:where(function(x, y, z) return boolean end)", makes = "region",
+    doc = "The nodes at which the function answers true; near(a, b) compares coordinates with a tolerance.",
+    argument = { "function", type = "function", doc = "function(x, y, z), in metres" },
+  },
+  {
+    kind = "problem", "run", write = "problem:run{}", makes = "result", later = { "start_from" },
+    doc = "Computes, writes out/<problem>/<case>/ and answers the result.",
+    arguments = { { "case", type = "name", default = "base", doc = "name of this case, for its folder" } },
+  },
+}
+
+local reading = {
+  { "result[output]", "the data of an output: its columns by their names" },
+  { "result[output].normal", "one column, a series" },
+  { "series.max, .min, .first, .last", "its largest, smallest, first and last value" },
+  { "series[i], #series", "row i, from 1; the number of rows" },
+  { "series:at(t)", "the value at a time (s), linear between rows" },
+  { "series:at(step)", "the value in the last row of a step" },
+  { "series.time", "its times, a series (.frequency for a spectrum)" },
+  { "result[history].max", "a history with one column answers as that series; of x, y, z `.max` is the largest modulus" },
+  { "result.iterations", "iterations of all steps, a whole number" },
+  { "result.mean_iterations", "iterations an increment" },
+  { "result.converged", "whether every increment converged" },
+}
+
+return { words = words, methods = methods, reading = reading, version = nil }

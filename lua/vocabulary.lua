@@ -1,0 +1,173 @@
+-- The words of a deck, made from the schema: constructors and methods that check their arguments and hand them to the
+-- native side, which builds the model. Answers the deck's environment and the reader of objects.
+local native = ...
+local schema = native.module "schema"
+local units = native.module "units"
+local check = native.module "check"
+local environment = native.module "environment"
+
+local function fail(line, text, hint) native.fail(line, text .. (hint and "\n    " .. hint or "")) end
+
+local function keys_of(...)
+  local keys = {}
+  for _, members in ipairs { ... } do
+    for key in pairs(members) do keys[#keys + 1] = key end
+  end
+  return keys
+end
+
+-- Not a tail call anywhere below: native.line looks for the deck's line through these frames.
+local function constructor(entry)
+  return function(...)
+    local line = native.line()
+    local object = native.make(entry.path, entry.makes, check.call(entry, line, ...), line)
+    return object
+  end
+end
+
+local function not_built(path)
+  return function() fail(native.line(), ("%s is not built yet in dygita %s"):format(path, native.version)) end
+end
+
+local words = {}
+for _, word in ipairs(schema.words) do
+  local name = word[1]
+  if word.call then
+    word.call.path = name
+    words[name] = constructor(word.call)
+  else
+    local members = {}
+    for _, entry in ipairs(word) do
+      entry.path = name .. "." .. entry[1]
+      members[entry[1]] = constructor(entry)
+    end
+    for _, later in ipairs(word.later or {}) do members[later] = not_built(name .. "." .. later) end
+    words[name] = environment.read_only(members, name)
+  end
+end
+
+local methods = {}
+for _, entry in ipairs(schema.methods) do
+  entry.path = entry.kind .. ":" .. entry[1]
+  methods[entry.kind] = methods[entry.kind] or {}
+  methods[entry.kind][entry[1]] = function(self, ...)
+    local line = native.line()
+    if native.kind(self) ~= entry.kind then fail(line, ("%s is called with a colon: %s"):format(entry[1], entry.write)) end
+    local checked
+    if entry.argument then checked = check.plain(entry, line, ...) else checked = check.call(entry, line, ...) end
+    local answer = native.call(entry.path, self, checked, line)
+    return answer
+  end
+end
+
+local function at(self, ...)
+  local kind = native.kind(self)
+  if kind ~= "series" and kind ~= "data" then
+    fail(native.line(), "at is called with a colon: series:at(t) or series:at(step)")
+  end
+  local value = native.at(self, ...)
+  return value
+end
+methods.series, methods.data = { at = at }, { at = at }
+
+-- What the deck reads from an object: a method, the data of a result, or an argument it was declared with.
+local function read(object, key)
+  local kind, path, name = native.kind(object)
+  local own = methods[kind] or {}
+  if own[key] then return own[key] end
+  if native.is_data(object) then
+    local value = native.read(object, key)
+    return value
+  end
+  local arguments = native.arguments(object)
+  local value = arguments[key]
+  if type(value) == "table" then return table.move(value, 1, #value, 1, {}) end
+  if value ~= nil then return value end
+  fail(native.line(), ("%s has no '%s'"):format(name ~= "" and ("%s '%s'"):format(kind, name) or path, tostring(key)),
+    native.did_you_mean(tostring(key), keys_of(own, arguments)))
+end
+
+local function write(object, key)
+  local kind, path, name = native.kind(object)
+  fail(native.line(), ("%s does not change once declared ('%s' was assigned)"):format(
+    name ~= "" and ("%s '%s'"):format(kind, name) or path, tostring(key)), "declare another one")
+end
+
+-- The command line's values, each an expression in units: --set tighten=0.04*mm.
+local function evaluate(name, text)
+  local place = ("--set %s=%s"):format(name, text)
+  local known = setmetatable({}, {
+    __index = function(_, key)
+      local value = units[key]
+      if value ~= nil or key == "math" then return value or math end
+      native.refuse(("%s: '%s' is not a unit\n    %s"):format(place, key, native.did_you_mean(key, keys_of(units))))
+    end,
+  })
+  local expression = text:find "^[%w%s%.%+%-%*/%^%(%)_]+$" and native.compile("return " .. text, known)
+  local value = expression and expression()
+  if type(value) ~= "number" or value ~= value or value == math.huge or value == -math.huge then
+    native.refuse(place .. " is neither a number nor an expression in units, as in --set tighten=0.04*mm")
+  end
+  return value
+end
+
+local parameters_line
+
+local function param(...)
+  local line = native.line()
+  if parameters_line then
+    fail(line, ("param is called once in a deck, and was at line %d"):format(parameters_line), "put all parameters there")
+  end
+  parameters_line = line
+  local values = {}
+  for key, value in pairs(check.parameters(line, ...)) do values[key] = value end
+  for _, setting in ipairs(native.settings) do
+    if values[setting.name] == nil then
+      fail(line, ("--set %s: the deck has no such parameter"):format(setting.name),
+        native.did_you_mean(setting.name, keys_of(values)))
+    end
+    values[setting.name] = evaluate(setting.name, setting.text)
+  end
+  local parameters = native.make("param", "parameters", values, line)
+  return parameters
+end
+words.param = param
+
+local globals = {}
+for _, members in ipairs { environment.functions, units, words } do
+  for name, member in pairs(members) do globals[name] = member end
+end
+
+local function undefined(name)
+  local line = native.line()
+  if environment.refused[name] then
+    fail(line, ("'%s' is not there in a deck"):format(name),
+      "a deck reaches no file, system or program; files are read through mesh.gmsh and history.file")
+  end
+  local near_by = keys_of(globals)
+  for _, name_of_local in ipairs(native.locals()) do near_by[#near_by + 1] = name_of_local end
+  local best = native.closest_name(name, near_by)
+  if best ~= "" then fail(line, ("'%s' is not defined"):format(name), ("did you mean '%s'?"):format(best)) end
+  fail(line, ("'%s' is not defined"):format(name), native.did_you_mean("", keys_of(words, units)))
+end
+
+return {
+  read = read,
+  write = write,
+  environment = setmetatable({}, {
+    __index = function(_, name)
+      local member = globals[name]
+      if member ~= nil then return member end
+      undefined(tostring(name))
+    end,
+    __newindex = function(_, name)
+      name = tostring(name)
+      if globals[name] ~= nil then
+        fail(native.line(), ("'%s' is a word of the deck and cannot be assigned"):format(name),
+          ("write local %s = ... to use the name for something else"):format(name))
+      end
+      fail(native.line(), ("'%s' is assigned and not declared"):format(name), ("write local %s = ..."):format(name))
+    end,
+    __metatable = false,
+  }),
+}

@@ -1,0 +1,118 @@
+// The command line: what is asked, messages, exit codes. The only file that ends the program.
+//
+// 0 done   1 not converged   2 wrong deck, mesh or command line   3 the computation failed   4 error in this program
+// 130 stopped by the user
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "app/srs_command.hpp"
+#include "base/progress.hpp"
+#include "deck/deck.hpp"
+
+namespace {
+
+using namespace dygita;
+
+enum ExitCode { done = 0, not_converged = 1, wrong_input = 2, failed = 3, broken = 4, stopped = 130 };
+
+struct Command {
+  DeckOptions deck;
+  std::vector<std::string> settings;
+  SrsCommand srs;
+  bool is_quiet = false;
+};
+
+int say_error(const char* message, int code) {
+  std::fflush(stdout);
+  std::fprintf(stderr, "%s\n", message);
+  return code;
+}
+
+void add_deck_options(CLI::App& command, Command& asked) {
+  command.add_option("DECK", asked.deck.path, "a deck, a Lua file")->required();
+  command
+      .add_option("--set", asked.settings, "NAME=VALUE: another value of a parameter of the deck, as tighten=0.04*mm")
+      ->allow_extra_args(false);
+  command.add_option("--time-limit", asked.deck.time_limit, "s of processor time of the deck's own code")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--memory-limit", asked.deck.memory_limit, "MB of the deck's own data")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_flag("--quiet", asked.is_quiet, "no progress");
+}
+
+void add_srs_options(CLI::App& command, SrsCommand& asked) {
+  command.add_option("SIGNAL", asked.signal, "a CSV: time (s), then values; a column of step names is passed over")
+      ->required();
+  command.add_option("--q", asked.settings.q_factor, "Q, the amplification at resonance")->capture_default_str();
+  command.add_option("--from", asked.settings.from, "first frequency, Hz")->capture_default_str();
+  command.add_option("--to", asked.settings.to, "last frequency, Hz")->capture_default_str();
+  command.add_option("--per-octave", asked.settings.per_octave, "frequencies an octave")->capture_default_str();
+  command.add_option("--column", asked.column, "name of the column of values (default: the first)");
+  command.add_option("--out", asked.out, "file to write (default: standard output)");
+}
+
+int run_or_check(Command& asked, bool solves) {
+  for (const std::string& text : asked.settings) asked.deck.settings.push_back(parse_setting(text));
+  set_progress_enabled(!asked.is_quiet);
+  catch_interrupts();
+  const Engine engine{run_problem, check_report};
+  const DeckOutcome outcome = solves ? run_deck(asked.deck, engine) : check_deck(asked.deck, engine);
+  if (outcome.interrupted) return say_error("stopped; what was computed so far is written", stopped);
+  for (const std::string& name : outcome.not_converged) say_error(("not converged: " + name).c_str(), not_converged);
+  return outcome.not_converged.empty() ? done : not_converged;
+}
+
+int command_line(int argc, char** argv) {
+  CLI::App app("Dygita: shock propagation through bolted assemblies");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "dygita " + version());
+  Command asked;
+  CLI::App* run = app.add_subcommand("run", "compute a deck");
+  add_deck_options(*run, asked);
+  run->add_option("--out", asked.deck.out, "folder of the results, out/<problem>/<case>")->capture_default_str();
+  run->add_option("--threads", asked.deck.threads, "threads (default: all)")->check(CLI::Range(1, 1024));
+  CLI::App* check = app.add_subcommand("check", "declare and check a deck, say what it would compute, solve nothing");
+  add_deck_options(*check, asked);
+  CLI::App* srs = app.add_subcommand("srs", "shock response spectrum of a CSV file");
+  add_srs_options(*srs, asked.srs);
+  CLI::App* schema = app.add_subcommand("schema", "the reference of the deck language, as Markdown");
+  for (const char* later : {"continue", "report"}) {
+    app.add_subcommand(later, std::string("not built yet in ") + version())->allow_extras();
+  }
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? done : wrong_input;
+  }
+  if (run->parsed() || check->parsed()) return run_or_check(asked, run->parsed());
+  if (srs->parsed()) {
+    write_srs(asked.srs);
+  } else if (schema->parsed()) {
+    std::fputs(deck_reference().c_str(), stdout);
+  } else {
+    throw InputError("dygita " + app.get_subcommands().front()->get_name() + " is not built yet in dygita " +
+                     version());
+  }
+  return done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return command_line(argc, argv);
+  } catch (const InputError& error) {
+    return say_error(error.what(), wrong_input);
+  } catch (const NumericalError& error) {
+    return say_error(error.what(), failed);
+  } catch (const std::bad_alloc&) {
+    return say_error("not enough memory on this machine; dygita check tells what a problem needs", failed);
+  } catch (const std::exception& error) {
+    return say_error(error.what(), broken);
+  }
+}

@@ -1,0 +1,142 @@
+#include "app/srs_command.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <optional>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/log.hpp"
+#include "base/names.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr double uneven_sampling = 0.01;  // of the mean step
+
+struct Signal {
+  std::vector<double> time, values;
+  std::string name;
+};
+
+std::string trimmed(const std::string& text) {
+  const size_t first = text.find_first_not_of(" \t\r\""), last = text.find_last_not_of(" \t\r\"");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  const char separator = line.find(',') != std::string::npos ? ',' : line.find(';') != std::string::npos ? ';' : ' ';
+  std::vector<std::string> cells;
+  size_t start = 0;
+  while (start <= line.size()) {
+    const size_t end = std::min(line.find(separator, start), line.size());
+    const std::string cell = trimmed(line.substr(start, end - start));
+    if (separator != ' ' || !cell.empty()) cells.push_back(cell);
+    start = end + 1;
+  }
+  return cells;
+}
+
+std::optional<double> number_in(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+// "acceleration [m/s^2]" without its unit.
+std::string name_in(const std::string& header) { return trimmed(header.substr(0, header.find('['))); }
+
+// The column of values, from the header and the first row of numbers.
+size_t column_of(const SrsCommand& command, const std::vector<std::string>& header,
+                 const std::vector<std::string>& row) {
+  if (command.column.empty()) {
+    for (size_t i = 1; i < row.size(); ++i) {
+      if (number_in(row[i])) return i;
+    }
+    throw InputError(fmt::format("{}: no second column of numbers", command.signal));
+  }
+  std::vector<std::string> known;
+  for (size_t i = 1; i < header.size(); ++i) {
+    known.push_back(name_in(header[i]));
+    if (known.back() == command.column) return i;
+  }
+  throw InputError(
+      fmt::format("{}: no column '{}'\n    {}", command.signal, command.column, did_you_mean(command.column, known)));
+}
+
+Signal read_signal(const SrsCommand& command) {
+  std::ifstream file(command.signal);
+  if (!file) throw InputError(fmt::format("no file '{}'", command.signal));
+  Signal signal;
+  std::vector<std::string> header;
+  size_t column = 0;
+  std::string line;
+  for (int n = 1; std::getline(file, line); ++n) {
+    const auto cells = cells_of(line);
+    if (cells.empty() || trimmed(line).empty() || line[0] == '#') continue;
+    const auto time = number_in(cells[0]);
+    if (!time && signal.time.empty() && header.empty()) {
+      header = cells;
+      continue;
+    }
+    if (signal.time.empty()) column = column_of(command, header, cells);
+    const auto value = column < cells.size() ? number_in(cells[column]) : std::nullopt;
+    if (!time || !value) throw InputError(fmt::format("{}:{}: no numbers in '{}'", command.signal, n, line));
+    if (!signal.time.empty() && *time < signal.time.back()) {
+      throw InputError(
+          fmt::format("{}:{}: time {:g} s comes after {:g} s", command.signal, n, *time, signal.time.back()));
+    }
+    if (!signal.time.empty() && *time == signal.time.back()) {
+      signal.values.back() = *value;  // time stands still in static steps
+      continue;
+    }
+    signal.time.push_back(*time);
+    signal.values.push_back(*value);
+  }
+  if (signal.time.size() < 2) throw InputError(fmt::format("{}: fewer than two instants", command.signal));
+  return signal;
+}
+
+// Even samples by linear interpolation; answers the step of time.
+double make_even(Signal& signal, const std::string& file) {
+  const size_t n = signal.time.size();
+  const double start = signal.time.front(), dt = (signal.time.back() - start) / static_cast<double>(n - 1);
+  double worst = 0.0;
+  for (size_t i = 1; i < n; ++i) worst = std::max(worst, std::abs(signal.time[i] - signal.time[i - 1] - dt) / dt);
+  if (worst < uneven_sampling) return dt;
+  warn(fmt::format("{}: the steps of time differ by up to {:.0f} %; values are interpolated every {:g} s", file,
+                   100.0 * worst, dt));
+  std::vector<double> even(n);
+  size_t j = 0;
+  for (size_t i = 0; i < n; ++i) {
+    const double t = start + static_cast<double>(i) * dt;
+    while (j + 2 < n && signal.time[j + 1] < t) ++j;
+    const double share = (t - signal.time[j]) / (signal.time[j + 1] - signal.time[j]);
+    even[i] = signal.values[j] + std::min(share, 1.0) * (signal.values[j + 1] - signal.values[j]);
+  }
+  signal.values = std::move(even);
+  return dt;
+}
+
+}  // namespace
+
+void write_srs(const SrsCommand& command) {
+  Signal signal = read_signal(command);
+  const double dt = make_even(signal, command.signal);
+  const Srs srs = shock_response_spectrum(signal.values, dt, command.settings);
+  std::FILE* file = command.out.empty() ? stdout : std::fopen(command.out.c_str(), "w");
+  if (!file) throw InputError(fmt::format("cannot write '{}'", command.out));
+  std::fputs("frequency [Hz],maximax,positive,negative,primary,residual\n", file);
+  for (size_t i = 0; i < srs.frequency.size(); ++i) {
+    std::fprintf(file, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", srs.frequency[i], srs.maximax[i], srs.positive[i],
+                 srs.negative[i], srs.primary[i], srs.residual[i]);
+  }
+  if (file != stdout) std::fclose(file);
+}
+
+}  // namespace dygita

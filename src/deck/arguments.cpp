@@ -1,0 +1,128 @@
+#include "deck/arguments.hpp"
+
+namespace dygita {
+
+int Arguments::type(const char* key) const {
+  push(key);
+  const int found = lua_type(L_, -1);
+  lua_pop(L_, 1);
+  return found;
+}
+
+bool Arguments::has(const char* key) const { return type(key) != LUA_TNIL; }
+bool Arguments::is_number(const char* key) const { return type(key) == LUA_TNUMBER; }
+bool Arguments::is_table(const char* key) const { return type(key) == LUA_TTABLE; }
+bool Arguments::is_function(const char* key) const { return type(key) == LUA_TFUNCTION; }
+
+double Arguments::number(const char* key) const {
+  CHECK(is_number(key), std::string("argument '") + key + "' is not a number");
+  push(key);
+  const double value = lua_tonumber(L_, -1);
+  lua_pop(L_, 1);
+  return value;
+}
+
+int Arguments::integer(const char* key) const { return static_cast<int>(number(key)); }
+
+bool Arguments::boolean(const char* key) const {
+  push(key);
+  const bool value = lua_toboolean(L_, -1) != 0;
+  lua_pop(L_, 1);
+  return value;
+}
+
+std::string Arguments::text(const char* key) const {
+  CHECK(type(key) == LUA_TSTRING, std::string("argument '") + key + "' is not text");
+  push(key);
+  size_t length = 0;
+  const char* characters = lua_tolstring(L_, -1, &length);
+  std::string value(characters, length);
+  lua_pop(L_, 1);
+  return value;
+}
+
+std::vector<double> Arguments::numbers(const char* key) const {
+  std::vector<double> values;
+  push(key);
+  const auto n = static_cast<lua_Integer>(lua_rawlen(L_, -1));
+  for (lua_Integer i = 1; i <= n; ++i) {
+    lua_rawgeti(L_, -1, i);
+    values.push_back(lua_tonumber(L_, -1));
+    lua_pop(L_, 1);
+  }
+  lua_pop(L_, 1);
+  return values;
+}
+
+Vec3 Arguments::vector(const char* key) const {
+  const std::vector<double> values = numbers(key);
+  CHECK(values.size() == 3, std::string("argument '") + key + "' is not a vector");
+  return {values[0], values[1], values[2]};
+}
+
+std::array<int, 3> Arguments::counts(const char* key) const {
+  const Vec3 values = vector(key);
+  return {static_cast<int>(values[0]), static_cast<int>(values[1]), static_cast<int>(values[2])};
+}
+
+std::vector<std::string> Arguments::texts(const char* key) const {
+  std::vector<std::string> values;
+  push(key);
+  const auto n = static_cast<lua_Integer>(lua_rawlen(L_, -1));
+  for (lua_Integer i = 1; i <= n; ++i) {
+    lua_rawgeti(L_, -1, i);
+    values.emplace_back(lua_tostring(L_, -1));
+    lua_pop(L_, 1);
+  }
+  lua_pop(L_, 1);
+  return values;
+}
+
+std::map<std::string, double> Arguments::settings(const char* key) const {
+  std::map<std::string, double> values;
+  push(key);
+  if (lua_istable(L_, -1)) {
+    for (lua_pushnil(L_); lua_next(L_, -2); lua_pop(L_, 1)) values[lua_tostring(L_, -2)] = lua_tonumber(L_, -1);
+  }
+  lua_pop(L_, 1);
+  return values;
+}
+
+const Object& Arguments::object(const char* key) const {
+  push(key);
+  const Object& object = the_object_at(L_, -1);
+  lua_pop(L_, 1);  // the table of arguments keeps it alive
+  return object;
+}
+
+std::vector<const Object*> Arguments::objects(const char* key) const {
+  std::vector<const Object*> items;
+  push(key);
+  if (const Object* single = object_at(L_, -1)) {
+    items.push_back(single);
+  } else if (lua_istable(L_, -1)) {
+    const auto n = static_cast<lua_Integer>(lua_rawlen(L_, -1));
+    for (lua_Integer i = 1; i <= n; ++i) {
+      lua_rawgeti(L_, -1, i);
+      items.push_back(&the_object_at(L_, -1));
+      lua_pop(L_, 1);
+    }
+  }
+  lua_pop(L_, 1);
+  return items;
+}
+
+std::vector<int> Arguments::ids() const {
+  std::vector<int> found;
+  const auto note = [&] {
+    if (const Object* object = object_at(L_, -1); object && object->id >= 0) found.push_back(object->id);
+  };
+  for (lua_pushnil(L_); lua_next(L_, index_); lua_pop(L_, 1)) {
+    note();
+    if (!lua_istable(L_, -1)) continue;
+    for (lua_pushnil(L_); lua_next(L_, -2); lua_pop(L_, 1)) note();
+  }
+  return found;
+}
+
+}  // namespace dygita

@@ -1,0 +1,70 @@
+#include "deck/build_model.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include "base/names.hpp"
+
+namespace dygita {
+
+namespace {
+
+Builder builder_of(const std::string& path) {
+  for (const Builders* builders : {&part_builders(), &load_builders(), &study_builders()}) {
+    const auto found = builders->find(path);
+    if (found != builders->end()) return found->second;
+  }
+  CHECK(false, "lua/schema.lua has '" + path + "', which nothing builds");
+  return nullptr;
+}
+
+bool begins_with(const std::string& text, const std::string& start) { return text.rfind(start, 0) == 0; }
+
+}  // namespace
+
+Held build(const Declaration& declaration) {
+  const Builder builder = builder_of(declaration.path);
+  try {
+    return builder(declaration);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    if (begins_with(message, declaration.lua.deck_name() + ":")) throw;
+    const bool names_itself = begins_with(message, declaration.path);
+    throw InputError(declaration.origin, names_itself ? message : declaration.path + ": " + message);
+  }
+}
+
+MeshPtr volume_of(const GmshMeshes& file, const std::string& name, const Origin& origin) {
+  try {
+    return file.volume(name);
+  } catch (const InputError& error) {
+    throw InputError(origin, error.what());
+  }
+}
+
+Face face_of(const SubstructurePtr& part, const std::string& group, const Origin& origin) {
+  const auto& faces = part->mesh->faces;
+  if (faces.count(group)) return {part, group};
+  std::vector<std::string> known;
+  for (const auto& [name, facets] : faces) known.push_back(name);
+  throw InputError(origin, fmt::format("substructure '{}' has no face '{}' in its mesh\n    {}", part->name, group,
+                                       did_you_mean(group, known)));
+}
+
+std::string file_of(const Declaration& declaration) {
+  const std::string written = declaration.arguments.text("file");
+  const std::filesystem::path path = declaration.folder / written;  // an absolute one stands for itself
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    throw InputError(declaration.origin,
+                     fmt::format("{}: no file '{}'\n    looked for {}", declaration.path, written, path.string()));
+  }
+  return path.string();
+}
+
+Vec3 unit_direction(const Declaration& declaration) {
+  const Vec3 direction = declaration.arguments.vector("direction");
+  if (direction.norm() > 0.0) return direction.normalized();
+  throw InputError(declaration.origin, declaration.path + ": 'direction' is zero\n    as in direction = { 0, 0, 1 }");
+}
+
+}  // namespace dygita

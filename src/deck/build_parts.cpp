@@ -1,0 +1,160 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+#include "base/log.hpp"
+#include "deck/build_model.hpp"
+#include "deck/geo_script.hpp"
+#include "mesh/box.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr double bytes_per_cell = 100.0;                   // of a box: coordinates, connectivity, facets
+constexpr double smallest_part = 1e-6, largest_part = 50;  // m, beyond them a unit is probably wrong
+constexpr double locking_poisson = 0.45;
+
+Held build_box(const Declaration& d) {
+  const auto cells = d.arguments.counts("cells");
+  const double bytes = bytes_per_cell * cells[0] * cells[1] * cells[2];
+  if (bytes > static_cast<double>(d.lua.bytes_limit())) {
+    throw InputError(d.origin,
+                     fmt::format("mesh.box: {} x {} x {} cells take about {:.3g} MB\n    --memory-limit raises "
+                                 "the limit of {:g} MB",
+                                 cells[0], cells[1], cells[2], bytes / (1 << 20),
+                                 static_cast<double>(d.lua.bytes_limit()) / (1 << 20)));
+  }
+  return box_mesh(d.arguments.vector("origin"), d.arguments.vector("size"), cells);
+}
+
+Held build_gmsh(const Declaration& d) {
+  GmshOptions options;
+  options.file = file_of(d);
+  check_script(options.file);
+  options.set = d.arguments.settings("set");
+  if (d.arguments.has("size")) options.size = d.arguments.number("size");
+  options.unit = d.arguments.number("unit");
+  const LuaState::Pause pause(d.lua);
+  return std::make_shared<const GmshMeshes>(options);
+}
+
+Held build_elastic(const Declaration& d) {
+  auto material = std::make_shared<Elastic>();
+  material->name = d.arguments.text("name");
+  material->young = d.arguments.number("young");
+  material->poisson = d.arguments.number("poisson");
+  material->density = d.arguments.number("density");
+  if (d.arguments.is_number("damping")) {
+    material->damping.stiffness = d.arguments.number("damping");
+  } else {
+    const auto damping = d.arguments.settings("damping");
+    material->damping = {damping.at("mass"), damping.at("stiffness")};
+  }
+  return std::shared_ptr<const Elastic>(material);
+}
+
+void doubt_size(const Substructure& part) {
+  const Points& nodes = part.mesh->nodes;
+  if (nodes.cols() == 0) return;
+  const double size = (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).maxCoeff();
+  if (size >= smallest_part && size <= largest_part) return;
+  warn(fmt::format("{}substructure '{}' measures {:g} m; coordinates are metres unless mesh.gmsh says unit = mm",
+                   part.origin.prefix(), part.name, size));
+}
+
+void doubt_locking(const Substructure& part) {
+  const auto& blocks = part.mesh->blocks;
+  const bool has_tet4 =
+      std::any_of(blocks.begin(), blocks.end(), [](const CellBlock& block) { return block.type == CellType::tet4; });
+  if (!has_tet4 || part.material.poisson <= locking_poisson) return;
+  warn(fmt::format(
+      "{}substructure '{}': linear tetrahedra with a Poisson's ratio of {:g} lock; hexahedra or prisms do not",
+      part.origin.prefix(), part.name, part.material.poisson));
+}
+
+Held build_substructure(const Declaration& d) {
+  auto part = new_named<Substructure>(d);
+  part->mesh = d.arguments.object("mesh").as<MeshPtr>();
+  part->material = *d.arguments.object("material").as<std::shared_ptr<const Elastic>>();
+  part->place = d.arguments.vector("place");
+  part->velocity = d.arguments.vector("velocity");
+  doubt_size(*part);
+  doubt_locking(*part);
+  return SubstructurePtr(part);
+}
+
+std::shared_ptr<Interface> new_interface(const Declaration& d, InterfaceKind kind) {
+  auto interface = new_named<Interface>(d);
+  interface->kind = kind;
+  const auto faces = d.arguments.list<Face>("between");
+  interface->side_1 = faces[0];
+  interface->side_2 = faces[1];
+  if (faces[0].part == faces[1].part && faces[0].group == faces[1].group) {
+    throw InputError(d.origin,
+                     fmt::format("{} '{}': 'between' has face '{}' twice", d.path, interface->name, faces[0].label()));
+  }
+  return interface;
+}
+
+Held build_bonded(const Declaration& d) { return InterfacePtr(new_interface(d, InterfaceKind::bonded)); }
+
+Held build_contact(const Declaration& d) {
+  auto interface = new_interface(d, InterfaceKind::contact);
+  interface->friction = d.arguments.number("friction");
+  interface->gap = d.arguments.number("gap");
+  return InterfacePtr(interface);
+}
+
+Held build_plastic(const Declaration& d) {
+  auto interface = new_interface(d, InterfaceKind::plastic);
+  interface->yield = d.arguments.number("yield");
+  interface->hardening = d.arguments.number("hardening");
+  interface->compression = d.arguments.boolean("compression");
+  return InterfacePtr(interface);
+}
+
+Held build_support(const Declaration& d) {
+  static const std::map<std::string, SupportKind> kinds = {{"support.fixed", SupportKind::fixed},
+                                                           {"support.symmetry", SupportKind::symmetry},
+                                                           {"support.wall", SupportKind::wall},
+                                                           {"support.absorbing", SupportKind::absorbing}};
+  auto support = new_named<Support>(d);
+  support->kind = kinds.at(d.path);
+  for (const Object* object : d.arguments.objects("on")) {
+    if (object->kind == "face") {
+      support->on.emplace_back(object->as<Face>());
+    } else {
+      support->on.emplace_back(object->as<Region>());
+    }
+  }
+  if (support->kind == SupportKind::wall) {
+    support->friction = d.arguments.number("friction");
+    support->gap = d.arguments.number("gap");
+  }
+  return SupportPtr(support);
+}
+
+Held build_parameters(const Declaration&) { return std::monostate(); }
+
+}  // namespace
+
+const Builders& part_builders() {
+  static const Builders builders = {
+      {"mesh.box", build_box},
+      {"mesh.gmsh", build_gmsh},
+      {"material.elastic", build_elastic},
+      {"substructure", build_substructure},
+      {"interface.bonded", build_bonded},
+      {"interface.contact", build_contact},
+      {"interface.plastic", build_plastic},
+      {"support.fixed", build_support},
+      {"support.symmetry", build_support},
+      {"support.wall", build_support},
+      {"support.absorbing", build_support},
+      {"param", build_parameters},
+  };
+  return builders;
+}
+
+}  // namespace dygita

@@ -1,0 +1,144 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+
+#include "base/log.hpp"
+#include "deck/build_model.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr double most_steps_of_time = 1e7;
+
+std::shared_ptr<Step> new_step(const Declaration& d) {
+  auto step = new_named<Step>(d);
+  if (d.arguments.has("after")) step->after = d.arguments.object("after").as<StepPtr>();
+  step->loads = d.arguments.list<LoadPtr>("loads");
+  if (d.arguments.has("supports")) step->supports = d.arguments.list<SupportPtr>("supports");
+  return step;
+}
+
+Held build_static(const Declaration& d) {
+  auto step = new_step(d);
+  step->is_static = true;
+  step->increments = d.arguments.integer("increments");
+  return StepPtr(step);
+}
+
+Held build_dynamic(const Declaration& d) {
+  auto step = new_step(d);
+  step->duration = d.arguments.number("duration");
+  step->dt = d.arguments.number("dt");
+  const double n = step->duration / step->dt;
+  if (n < 1.0 - 1e-6) {
+    throw InputError(fmt::format("'dt' = {:g} s is longer than 'duration' = {:g} s", step->dt, step->duration));
+  }
+  if (n > most_steps_of_time)
+    throw InputError(fmt::format("{:.3g} steps of time are more than {:g}", n, most_steps_of_time));
+  if (std::abs(n - std::round(n)) > 1e-6 * n) {
+    warn(fmt::format("{}step '{}': 'duration' is {:g} times 'dt'; {:.0f} steps of time are computed", d.origin.prefix(),
+                     step->name, n, std::round(n)));
+  }
+  return StepPtr(step);
+}
+
+Held build_latin(const Declaration& d) {
+  const Arguments& a = d.arguments;
+  auto settings = std::make_shared<LatinSettings>();
+  settings->tolerance = a.number("tolerance");
+  settings->static_tolerance = a.number("static_tolerance");
+  settings->window = a.is_number("window") ? a.integer("window") : 0;  // the only word is "whole"
+  settings->relaxation = a.number_or("relaxation", settings->relaxation);
+  settings->anderson = a.has("anderson") ? a.integer("anderson") : settings->anderson;
+  settings->max_iterations = a.integer("max_iterations");
+  settings->numerical_damping = a.number("numerical_damping");
+  settings->push_out = a.number("push_out");
+  settings->search_direction = a.number("search_direction");
+  settings->plain = a.boolean("plain");
+  return std::shared_ptr<const LatinSettings>(settings);
+}
+
+Held build_vtk(const Declaration& d) {
+  auto output = std::make_shared<Output>();
+  output->name = "vtk";
+  output->origin = d.origin;
+  output->kind = OutputKind::vtk;
+  output->frames = d.arguments.integer("frames");
+  output->fields = d.arguments.texts("fields");
+  return OutputPtr(output);
+}
+
+Held build_energy(const Declaration& d) {
+  auto output = std::make_shared<Output>();
+  output->name = "energy";
+  output->origin = d.origin;
+  output->kind = OutputKind::energy;
+  return OutputPtr(output);
+}
+
+Held build_history(const Declaration& d) {
+  static const std::map<std::string, Quantity> quantities = {
+      {"displacement", Quantity::displacement}, {"velocity", Quantity::velocity},
+      {"acceleration", Quantity::acceleration}, {"stress", Quantity::stress},
+      {"von_mises", Quantity::von_mises},       {"pressure", Quantity::pressure}};
+  auto output = new_named<Output>(d);
+  output->kind = OutputKind::history;
+  output->on = targets_of(d);
+  output->quantity = quantities.at(d.arguments.text("quantity"));
+  if (d.arguments.has("direction")) output->direction = unit_direction(d);
+  return OutputPtr(output);
+}
+
+Held build_resultant(const Declaration& d) {
+  auto output = new_named<Output>(d);
+  output->kind = OutputKind::resultant;
+  output->on = targets_of(d);
+  return OutputPtr(output);
+}
+
+Held build_joint(const Declaration& d) {
+  auto output = new_named<Output>(d);
+  output->kind = OutputKind::joint;
+  output->on = targets_of(d);
+  return OutputPtr(output);
+}
+
+Held build_srs(const Declaration& d) {
+  const Arguments& a = d.arguments;
+  auto output = new_named<Output>(d);
+  output->kind = OutputKind::srs;
+  output->of = a.object("of").as<OutputPtr>();
+  output->srs = {a.number("q_factor"), a.number("from"), a.number("to"), a.integer("per_octave")};
+  if (output->srs.from >= output->srs.to) {
+    throw InputError(fmt::format("'from' = {:g} Hz is not below 'to' = {:g} Hz", output->srs.from, output->srs.to));
+  }
+  return OutputPtr(output);
+}
+
+Held build_problem(const Declaration& d) {
+  const Arguments& a = d.arguments;
+  auto problem = new_named<Problem>(d);
+  problem->substructures = a.list<SubstructurePtr>("substructures");
+  problem->interfaces = a.list<InterfacePtr>("interfaces");
+  problem->supports = a.list<SupportPtr>("supports");
+  problem->steps = a.list<StepPtr>("steps");
+  problem->outputs = a.list<OutputPtr>("outputs");
+  if (a.has("solver")) problem->solver = *a.object("solver").as<std::shared_ptr<const LatinSettings>>();
+  check_problem(*problem);
+  return std::shared_ptr<const Problem>(problem);
+}
+
+}  // namespace
+
+const Builders& study_builders() {
+  static const Builders builders = {
+      {"step.static", build_static}, {"step.dynamic", build_dynamic},   {"solver.latin", build_latin},
+      {"output.vtk", build_vtk},     {"output.history", build_history}, {"output.resultant", build_resultant},
+      {"output.joint", build_joint}, {"output.srs", build_srs},         {"output.energy", build_energy},
+      {"problem", build_problem},
+  };
+  return builders;
+}
+
+}  // namespace dygita

@@ -1,0 +1,184 @@
+#include "deck/deck.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "base/log.hpp"
+#include "deck/deck_state.hpp"
+#include "deck/results.hpp"
+#include "deck/series.hpp"
+
+namespace dygita {
+
+namespace {
+
+std::string text_of(const std::filesystem::path& path) {
+  std::error_code ignored;
+  std::ifstream stream(path, std::ios::binary);
+  if (!std::filesystem::is_regular_file(path, ignored) || !stream) {
+    throw InputError(fmt::format("no deck '{}'", path.string()));
+  }
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+// FNV-1a, 64 bits.
+std::string digest_of(const std::string& text) {
+  uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return fmt::format("{:016x}", hash);
+}
+
+LuaLimits limits_of(const DeckOptions& options) {
+  return {options.time_limit, static_cast<size_t>(options.memory_limit * (1 << 20))};
+}
+
+int length(LuaState& lua, lua_State* L) { return length_of(L, lua.origin(lua.line(L))); }
+
+// Loads the Lua side and leaves the deck's environment on the stack.
+int load_vocabulary(lua_State* L) {
+  push_native(DeckState::of(LuaState::of(L)));
+  lua_getfield(L, -1, "module");
+  lua_pushliteral(L, "vocabulary");
+  lua_call(L, 1, 1);
+  lua_getfield(L, -1, "read");
+  lua_getfield(L, -2, "write");
+  set_object_metatable(L, lua_absindex(L, -2), lua_absindex(L, -1), guarded<length>);
+  lua_pop(L, 2);
+  lua_getfield(L, -1, "environment");
+  return 1;
+}
+
+// Values on the command line for which the deck has no place are told before anything runs without them.
+void check_settings(const DeckState& state) {
+  if (state.has_parameters || state.options.settings.empty()) return;
+  throw InputError(fmt::format("--set {}: deck '{}' declares no parameters with param{{ ... }}",
+                               state.options.settings.front().first, state.deck_name()));
+}
+
+void run_text(DeckState& state, const std::string& text) {
+  lua_State* L = state.raw();
+  lua_pushcfunction(L, load_vocabulary);
+  state.call(0, 1);
+  state.load(text, "@" + state.deck_name());
+  lua_insert(L, -2);
+  lua_setupvalue(L, -2, 1);  // its _ENV
+  state.call(0, 0);
+  check_settings(state);
+}
+
+void warn_of_unused(const DeckState& state) {
+  for (const std::string& warning : state.declared.unused()) warn(warning);
+  if (state.outcome.n_runs == 0) warn(state.deck_name() + " runs no problem: nothing was computed");
+}
+
+DeckOutcome execute(const DeckOptions& options, const Engine& engine, bool solves) {
+  const std::string text = text_of(options.path);
+  DeckState state(options, engine, solves);
+  state.deck_digest = digest_of(text);
+  try {
+    run_text(state, text);
+    warn_of_unused(state);
+  } catch (const DeckStopped&) {
+    state.outcome.interrupted = true;
+  } catch (const DeckScriptError& error) {
+    if (!state.has_read_hollow) throw;
+    say(fmt::format("the check ends here, where the deck uses results that a check does not compute:\n    {}",
+                    error.what()));
+  }
+  return state.outcome;
+}
+
+RunRequest request_of(const DeckState& state, const Problem& problem, const std::string& case_name) {
+  RunRequest request;
+  request.out = state.options.out;
+  request.case_name = case_name;
+  request.threads = state.options.threads;
+  request.write_files = state.options.write_files;
+  request.identity.deck_path = state.options.path.string();
+  request.identity.deck_digest = state.deck_digest;
+  request.identity.parameters = state.parameters;
+  request.identity.threads = state.options.threads;
+  for (const SubstructurePtr& part : problem.substructures) {
+    request.identity.mesh_digests.emplace_back(part->name, part->mesh->digest);
+  }
+  return request;
+}
+
+// Runs or checks one problem while the deck's clock stands still.
+DeckResultPtr compute(DeckState& state, std::shared_ptr<const Problem> problem, const std::string& case_name) {
+  const LuaState::Pause pause(state);
+  if (!state.is_solving) {
+    say(state.engine.check(*problem));
+    return std::make_shared<const DeckResult>(DeckResult{problem, hollow_result(*problem), true});
+  }
+  auto run = state.engine.run(*problem, request_of(state, *problem, case_name));
+  return std::make_shared<const DeckResult>(DeckResult{problem, std::move(run), false});
+}
+
+}  // namespace
+
+DeckState::DeckState(const DeckOptions& deck_options, const Engine& deck_engine, bool solves)
+    : LuaState(deck_options.path.filename().string(), limits_of(deck_options)),
+      options(deck_options),
+      engine(deck_engine),
+      is_solving(solves),
+      folder(deck_options.path.parent_path()) {}
+
+int run_from_deck(DeckState& state, lua_State* L) {
+  check_settings(state);
+  const Object& self = the_object_at(L, 2);
+  const auto& problem = self.as<std::shared_ptr<const Problem>>();
+  lua_getfield(L, 3, "case");
+  const std::string case_name = lua_tostring(L, -1);
+  const Origin origin = state.origin(static_cast<int>(lua_tointeger(L, 4)));
+  const std::string label = fmt::format("problem '{}', case '{}'", problem->name, case_name);
+  if (!state.cases.emplace(problem->name, case_name).second) {
+    throw InputError(origin,
+                     fmt::format("{} has run before in this deck and would be overwritten\n    give each run its "
+                                 "own: run{{ case = \"...\" }}",
+                                 label));
+  }
+  state.declared.mark_used(self.id);
+  ++state.outcome.n_runs;
+  DeckResultPtr result = compute(state, problem, case_name);
+  if (!result->run->converged) state.outcome.not_converged.push_back(label);
+  if (result->run->interrupted) throw DeckStopped();
+  push_object(L, {"result", "result", problem->name, -1, result});
+  return 1;
+}
+
+DeckOutcome run_deck(const DeckOptions& options, const Engine& engine) { return execute(options, engine, true); }
+
+DeckOutcome check_deck(const DeckOptions& options, const Engine& engine) { return execute(options, engine, false); }
+
+std::pair<std::string, std::string> parse_setting(const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+    throw InputError(fmt::format("--set {}: write NAME=VALUE, as in --set mu=0.3 or --set tighten=0.04*mm", text));
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+std::string deck_reference() {
+  const DeckOptions options;
+  const Engine engine;
+  DeckState state(options, engine, false);
+  lua_State* L = state.raw();
+  lua_pushcfunction(L, [](lua_State* l) {
+    push_native(DeckState::of(LuaState::of(l)));
+    lua_getfield(l, -1, "module");
+    lua_pushliteral(l, "reference");
+    lua_call(l, 1, 1);
+    return 1;
+  });
+  state.call(0, 1);
+  return lua_tostring(L, -1);
+}
+
+std::string version() { return DYGITA_VERSION; }
+
+}  // namespace dygita

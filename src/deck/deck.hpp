@@ -1,0 +1,53 @@
+// Runs a deck: a Lua program that declares problems and runs them (manual: the deck language). No Lua shows here.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "deck/run_problem.hpp"
+
+namespace dygita {
+
+// Who computes: run_problem and check_report, or a test's own.
+struct Engine {
+  std::function<std::shared_ptr<const RunResult>(const Problem&, const RunRequest&)> run;
+  std::function<std::string(const Problem&)> check;
+};
+
+struct DeckOptions {
+  std::filesystem::path path;
+  std::vector<std::pair<std::string, std::string>> settings;  // --set: name, number or expression in units
+  std::filesystem::path out = "out";
+  int threads = 0;
+  double time_limit = 60.0;      // s of processor time of the deck's own code
+  double memory_limit = 1024.0;  // MB of the deck's own data
+  bool write_files = true;
+};
+
+struct DeckOutcome {
+  int n_runs = 0;
+  std::vector<std::string> not_converged;  // "problem 'crush', case 'base'"
+  bool interrupted = false;                // by the user; what was computed is written
+};
+
+// Runs the deck to its end. Throws InputError (deck, mesh, limits; with file:line), NumericalError.
+DeckOutcome run_deck(const DeckOptions& options, const Engine& engine);
+
+// Declares and checks everything, says what each problem:run would compute, solves nothing. The deck goes on with nan
+// for every result; what fails because of that is said and is not an error.
+DeckOutcome check_deck(const DeckOptions& options, const Engine& engine);
+
+// "tighten=0.04*mm" as name and expression. Throws InputError.
+std::pair<std::string, std::string> parse_setting(const std::string& text);
+
+// The reference of the deck language, Markdown.
+std::string deck_reference();
+
+// "0.1.0".
+std::string version();
+
+}  // namespace dygita

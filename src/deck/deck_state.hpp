@@ -1,0 +1,37 @@
+// The Lua state of a deck with all that its callbacks need.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "deck/deck.hpp"
+#include "deck/lua_state.hpp"
+#include "deck/register.hpp"
+
+namespace dygita {
+
+struct DeckState : LuaState {
+  DeckState(const DeckOptions& deck_options, const Engine& deck_engine, bool solves);
+
+  static DeckState& of(LuaState& state) { return static_cast<DeckState&>(state); }
+
+  const DeckOptions& options;
+  const Engine& engine;
+  const bool is_solving;         // false: dygita check
+  std::filesystem::path folder;  // the deck's
+  std::string deck_digest;
+  Register declared;
+  std::vector<std::pair<std::string, double>> parameters;
+  std::set<std::pair<std::string, std::string>> cases;  // problem and case names that ran
+  DeckOutcome outcome;
+  bool has_parameters = false;   // param{} was called
+  bool has_read_hollow = false;  // the deck has read a value that was not computed
+};
+
+// Pushes the table of functions that the Lua side calls `native`.
+void push_native(DeckState& state);
+
+// problem:run{}: arguments on the stack as in native.call.
+int run_from_deck(DeckState& state, lua_State* L);
+
+}  // namespace dygita

@@ -1,0 +1,258 @@
+// The functions that lua/*.lua call on the C++ side.
+#include <spdlog/fmt/fmt.h>
+
+#include "base/log.hpp"
+#include "base/names.hpp"
+#include "deck/build_model.hpp"
+#include "deck/deck_state.hpp"
+#include "deck/embedded_lua.hpp"
+#include "deck/results.hpp"
+
+namespace dygita {
+
+namespace {
+
+std::vector<std::string> names_at(lua_State* L, int index) {
+  std::vector<std::string> names;
+  const auto n = static_cast<lua_Integer>(lua_rawlen(L, index));
+  for (lua_Integer i = 1; i <= n; ++i) {
+    lua_rawgeti(L, index, i);
+    names.push_back(to_text(L, -1));
+    lua_pop(L, 1);
+  }
+  return names;
+}
+
+int push_text(lua_State* L, const std::string& text) {
+  lua_pushlstring(L, text.data(), text.size());
+  return 1;
+}
+
+// module(name): the result of an embedded file, loaded once.
+int module(LuaState& state, lua_State* L) {
+  const std::string name = luaL_checkstring(L, 1);
+  const auto found = embedded_lua().find(name);
+  CHECK(found != embedded_lua().end(), "lua/" + name + ".lua is not in the program");
+  state.load(found->second, "=dygita/" + name + ".lua");
+  lua_getfield(L, LUA_REGISTRYINDEX, "native");
+  lua_call(L, 1, 1);
+  return 1;
+}
+
+// line(): the deck's line at work. Nothing can be declared while the engine asks for a function's value.
+int line(LuaState& state, lua_State* L) {
+  const int found = state.line(L);
+  if (state.is_paused()) {
+    throw InputError(state.origin(found),
+                     "a function of time only computes: nothing is declared, read or run inside it");
+  }
+  lua_pushinteger(L, found);
+  return 1;
+}
+
+int fail(LuaState& state, lua_State* L) {
+  throw InputError(state.origin(static_cast<int>(lua_tointeger(L, 1))), lua_tostring(L, 2));
+}
+
+// A value is wrong, and not a word: in a deck that is checked it may come from results that are not there.
+int fail_on_value(LuaState& state, lua_State* L) {
+  throw DeckScriptError(state.origin(static_cast<int>(lua_tointeger(L, 1))), lua_tostring(L, 2));
+}
+
+int refuse(LuaState&, lua_State* L) { throw InputError(lua_tostring(L, 1)); }
+
+int did_you_mean_names(LuaState&, lua_State* L) {
+  return push_text(L, did_you_mean(lua_tostring(L, 1), names_at(L, 2)));
+}
+
+int closest(LuaState&, lua_State* L) { return push_text(L, closest_name(lua_tostring(L, 1), names_at(L, 2))); }
+
+int print(LuaState& lua, lua_State* L) {
+  std::string text;
+  for (int i = 1; i <= lua_gettop(L); ++i) text += (i > 1 ? "\t" : "") + to_text(L, i);
+  if (!DeckState::of(lua).has_read_hollow) say(text);
+  return 0;
+}
+
+// kind(value): kind, constructor and name of an object, or nothing.
+int kind(LuaState&, lua_State* L) {
+  const Object* object = object_at(L, 1);
+  if (!object) return 0;
+  push_text(L, object->kind);
+  push_text(L, object->path);
+  push_text(L, object->name);
+  return 3;
+}
+
+int arguments(LuaState&, lua_State* L) {
+  the_object_at(L, 1);
+  if (lua_getiuservalue(L, 1, 1) != LUA_TTABLE) lua_newtable(L);
+  return 1;
+}
+
+int is_data(LuaState&, lua_State* L) {
+  const std::string& what = the_object_at(L, 1).kind;
+  lua_pushboolean(L, what == "result" || what == "data" || what == "series");
+  return 1;
+}
+
+void keep_parameters(DeckState& state, lua_State* L, int index) {
+  std::map<std::string, double> sorted;
+  for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1)) sorted[lua_tostring(L, -2)] = lua_tonumber(L, -1);
+  state.has_parameters = true;
+  state.parameters.assign(sorted.begin(), sorted.end());
+}
+
+// make(path, kind, arguments, line): the object that a constructor declares.
+int make(LuaState& lua, lua_State* L) {
+  DeckState& state = DeckState::of(lua);
+  const std::string path = lua_tostring(L, 1);
+  const Origin origin = state.origin(static_cast<int>(lua_tointeger(L, 4)));
+  const Arguments values(L, 3);
+  Object object{lua_tostring(L, 2), path, "", -1, build({state, state.folder, path, origin, values})};
+  if (path == "param") {
+    keep_parameters(state, L, 3);
+  } else {
+    if (values.has("name")) object.name = values.text("name");
+    object.id = state.declared.add(object.label(), origin, values.ids());
+  }
+  push_object(L, std::move(object), 3);
+  return 1;
+}
+
+std::string extent(const Points& nodes, const Vec3& place) {
+  std::string text;
+  for (int i = 0; i < 3; ++i) {
+    text += fmt::format("{}{} [{:g}, {:g}]", i ? ", " : "", "xyz"[i], nodes.row(i).minCoeff() + place[i],
+                        nodes.row(i).maxCoeff() + place[i]);
+  }
+  return text + " m";
+}
+
+// part:where(function): the predicate at stack index 3.
+Region region_of(const SubstructurePtr& part, lua_State* L, const Origin& origin) {
+  Region region{part, {}};
+  const Points& nodes = part->mesh->nodes;
+  for (int i = 0; i < part->mesh->n_nodes(); ++i) {
+    const Vec3 x = nodes.col(i) + part->place;
+    lua_pushvalue(L, 3);
+    for (int d = 0; d < 3; ++d) lua_pushnumber(L, x[d]);
+    lua_call(L, 3, 1);
+    if (!lua_isboolean(L, -1)) {
+      throw InputError(origin,
+                       fmt::format("substructure '{}': the function of 'where' must answer true or false, got {}\n"
+                                   "    is its 'return' missing?",
+                                   part->name, luaL_typename(L, -1)));
+    }
+    if (lua_toboolean(L, -1)) region.nodes.push_back(i);
+    lua_pop(L, 1);
+  }
+  if (region.nodes.empty()) {
+    throw InputError(origin,
+                     fmt::format("substructure '{}': 'where' finds none of its {} nodes\n    they span {}; compare "
+                                 "coordinates with near(a, b)",
+                                 part->name, part->mesh->n_nodes(), extent(nodes, part->place)));
+  }
+  return region;
+}
+
+// call(method, object, argument, line).
+int call_method(LuaState& lua, lua_State* L) {
+  DeckState& state = DeckState::of(lua);
+  const std::string method = lua_tostring(L, 1);
+  const Object& self = the_object_at(L, 2);
+  const Origin origin = state.origin(static_cast<int>(lua_tointeger(L, 4)));
+  if (method == "problem:run") return run_from_deck(state, L);
+  if (method == "mesh file:volume") {
+    const std::string name = lua_tostring(L, 3);
+    push_object(
+        L, {"mesh", method, name, self.id, volume_of(*self.as<std::shared_ptr<const GmshMeshes>>(), name, origin)});
+  } else if (method == "substructure:face") {
+    const Face face = face_of(self.as<SubstructurePtr>(), lua_tostring(L, 3), origin);
+    push_object(L, {"face", method, face.label(), self.id, face});
+  } else {
+    CHECK(method == "substructure:where", "lua/schema.lua has method '" + method + "', which nothing does");
+    const Region region = region_of(self.as<SubstructurePtr>(), L, origin);
+    push_object(L, {"region", method, self.name, self.id, region});
+  }
+  return 1;
+}
+
+void note_reading(DeckState& state) { state.has_read_hollow = state.has_read_hollow || !state.is_solving; }
+
+int read(LuaState& lua, lua_State* L) {
+  note_reading(DeckState::of(lua));
+  return read_data(L, lua.origin(lua.line(L)));
+}
+
+int at(LuaState& lua, lua_State* L) {
+  note_reading(DeckState::of(lua));
+  return value_at(L, lua.origin(lua.line(L)));
+}
+
+// compile(text, environment): a function, or nothing where the text is no Lua.
+int compile(LuaState&, lua_State* L) {
+  if (luaL_loadbufferx(L, lua_tostring(L, 1), lua_rawlen(L, 1), "=--set", "t") != LUA_OK) return 0;
+  lua_pushvalue(L, 2);
+  lua_setupvalue(L, -2, 1);
+  return 1;
+}
+
+// locals(): names of the local variables that the deck's line sees.
+int locals(LuaState& state, lua_State* L) {
+  lua_Debug frame;
+  lua_newtable(L);
+  lua_Integer n = 0;
+  for (int level = 0; lua_getstack(L, level, &frame); ++level) {
+    lua_getinfo(L, "S", &frame);
+    if (frame.source != "@" + state.deck_name()) continue;
+    for (int i = 1; const char* name = lua_getlocal(L, &frame, i); ++i) {
+      lua_pop(L, 1);
+      if (name[0] == '(') continue;  // Lua's own temporaries
+      lua_pushstring(L, name);
+      lua_rawseti(L, -2, ++n);
+    }
+  }
+  return 1;
+}
+
+}  // namespace
+
+void push_native(DeckState& state) {
+  static const luaL_Reg functions[] = {{"module", guarded<module>},
+                                       {"line", guarded<line>},
+                                       {"fail", guarded<fail>},
+                                       {"fail_on_value", guarded<fail_on_value>},
+                                       {"refuse", guarded<refuse>},
+                                       {"did_you_mean", guarded<did_you_mean_names>},
+                                       {"closest_name", guarded<closest>},
+                                       {"print", guarded<print>},
+                                       {"kind", guarded<kind>},
+                                       {"arguments", guarded<arguments>},
+                                       {"is_data", guarded<is_data>},
+                                       {"make", guarded<make>},
+                                       {"call", guarded<call_method>},
+                                       {"read", guarded<read>},
+                                       {"at", guarded<at>},
+                                       {"compile", guarded<compile>},
+                                       {"locals", guarded<locals>},
+                                       {nullptr, nullptr}};
+  lua_State* L = state.raw();
+  luaL_newlib(L, functions);
+  push_text(L, version());
+  lua_setfield(L, -2, "version");
+  lua_newtable(L);
+  for (size_t i = 0; i < state.options.settings.size(); ++i) {
+    lua_newtable(L);
+    push_text(L, state.options.settings[i].first);
+    lua_setfield(L, -2, "name");
+    push_text(L, state.options.settings[i].second);
+    lua_setfield(L, -2, "text");
+    lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
+  }
+  lua_setfield(L, -2, "settings");
+  lua_pushvalue(L, -1);
+  lua_setfield(L, LUA_REGISTRYINDEX, "native");
+}
+
+}  // namespace dygita

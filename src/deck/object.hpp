@@ -1,0 +1,74 @@
+// What a deck holds of the model and of results: one kind of Lua userdata that refers to immutable C++ objects.
+#pragma once
+
+#include <lua.hpp>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "mesh/gmsh_reader.hpp"
+#include "model/model.hpp"
+#include "result/result.hpp"
+
+namespace dygita {
+
+// A run of a problem as the deck sees it. Where nothing was solved (dygita check) every value is nan.
+struct DeckResult {
+  std::shared_ptr<const Problem> problem;
+  std::shared_ptr<const RunResult> run;
+  bool is_hollow = false;
+};
+using DeckResultPtr = std::shared_ptr<const DeckResult>;
+
+// result[output].
+struct OutputData {
+  DeckResultPtr result;
+  OutputPtr output;
+  const Table* table = nullptr;  // in *result->run
+};
+
+// One column of an output against its first column.
+struct Series {
+  DeckResultPtr result;
+  std::string name;      // "bolt.normal", for messages
+  std::string abscissa;  // "time" or "frequency"
+  std::vector<double> values, at;
+  std::vector<int> step;  // problem's step of each row; empty for spectra
+};
+
+using Held = std::variant<std::monostate, MeshPtr, std::shared_ptr<const GmshMeshes>, std::shared_ptr<const Elastic>,
+                          SubstructurePtr, Face, Region, InterfacePtr, SupportPtr, LoadPtr,
+                          std::shared_ptr<const History>, StepPtr, std::shared_ptr<const LatinSettings>, OutputPtr,
+                          std::shared_ptr<const Problem>, DeckResultPtr, OutputData, std::shared_ptr<const Series>>;
+
+struct Object {
+  std::string kind;  // "substructure", "face", "series"; the schema's `makes`
+  std::string path;  // the constructor: "interface.contact"
+  std::string name;  // may be empty
+  int id = -1;       // in the declaration register; -1: not declared by itself
+  Held held;
+
+  template <class T>
+  const T& as() const {
+    CHECK(std::holds_alternative<T>(held), "the deck object '" + path + "' holds something else");
+    return std::get<T>(held);
+  }
+  // "interface 'shank'", "history.half_sine".
+  std::string label() const { return name.empty() ? path : kind + " '" + name + "'"; }
+};
+
+// Pushes a new userdata; the table of arguments at index `arguments` (0: none) stays readable from the deck.
+void push_object(lua_State* L, Object object, int arguments = 0);
+
+// The object at `index`, or null if it is something else.
+Object* object_at(lua_State* L, int index);
+
+// The object at `index`; CHECKs that it is one (the Lua side has checked it).
+Object& the_object_at(lua_State* L, int index);
+
+// Registers the metatable; `read` and `write` are the stack indices of Lua functions (object, key) and of `length`
+// (object).
+void set_object_metatable(lua_State* L, int read, int write, lua_CFunction length);
+
+}  // namespace dygita
