@@ -59,12 +59,12 @@ end
 put "# Reference of the deck language\n"
 put("Printed by `dygita schema` of dygita %s from `lua/schema.lua`.\n", native.version)
 for _, word in ipairs(schema.words) do
-  put("## %s\n", word[1])
+  put("## %s\n", word.name)
   put("%s\n", word.doc)
-  if word.call then entry_of(("`%s{ ... }`"):format(word[1]), word.call) end
-  for _, entry in ipairs(word) do entry_of(("`%s.%s{ ... }`"):format(word[1], entry[1]), entry) end
+  if word.call then entry_of(("`%s{ ... }`"):format(word.name), word.call) end
+  for _, entry in ipairs(word) do entry_of(("`%s.%s{ ... }`"):format(word.name, entry[1]), entry) end
   if word.later and not word.call then
-    put("Not built yet: `%s.%s`.\n", word[1], table.concat(word.later, ("`, `%s."):format(word[1])))
+    put("Not built yet: `%s.%s`.\n", word.name, table.concat(word.later, ("`, `%s."):format(word.name)))
   end
 end
 

@@ -45,7 +45,7 @@ local any_value = { -1e15, 1e15 }
 local words = {}
 
 words[1] = {
-  "mesh", doc = "Bodies as cells and named groups of facets.",
+  name = "mesh", doc = "Bodies as cells and named groups of facets.",
   {
     "box", makes = "mesh", doc = "A regular box of hexahedra; its faces are xmin, xmax, ymin, ymax, zmin, zmax.",
     arguments = {
@@ -71,7 +71,7 @@ words[1] = {
 }
 
 words[2] = {
-  "material", doc = "What substructures are made of.",
+  name = "material", doc = "What substructures are made of.",
   {
     "elastic", makes = "material", doc = "Isotropic linear elasticity.",
     arguments = {
@@ -90,7 +90,7 @@ words[2] = {
 }
 
 words[3] = {
-  "substructure", doc = "One linear elastic part of the assembly.",
+  name = "substructure", doc = "One linear elastic part of the assembly.",
   call = {
     makes = "substructure", doc = "A part: a mesh made of a material, moved to its place.",
     arguments = {
@@ -106,7 +106,7 @@ words[3] = {
 }
 
 words[4] = {
-  "interface", doc = "Where two substructures meet: everything nonlinear happens here.",
+  name = "interface", doc = "Where two substructures meet: everything nonlinear happens here.",
   {
     "bonded", makes = "interface", doc = "A perfect bond.",
     arguments = { name_of "interface", between() },
@@ -133,7 +133,7 @@ words[4] = {
 }
 
 words[5] = {
-  "support", doc = "What the assembly stands on; rigid.",
+  name = "support", doc = "What the assembly stands on; rigid.",
   {
     "fixed", makes = "support", doc = "No displacement.",
     arguments = { name_of "support", on({ "face", "region" }, "what is held") },
@@ -156,7 +156,7 @@ words[5] = {
 }
 
 words[6] = {
-  "load",
+  name = "load", 
   doc = "What acts during the steps that list it. Every value is a number, a history or a function of time; in a static step a "
     .. "number is ramped over the increments.",
   later = { "preload" },
@@ -219,7 +219,7 @@ words[6] = {
 }
 
 words[7] = {
-  "history",
+  name = "history", 
   doc = "A value that depends on time, counted from the start of the step (from 0 to 1 in a static one). Any `function(t)` "
     .. "does as well.",
   {
@@ -284,7 +284,7 @@ local after = { "after", type = "object", kinds = { "step" },
                 doc = "the step before; left out: from the undeformed state" }
 
 words[8] = {
-  "step", doc = "What is computed, one after the other.",
+  name = "step", doc = "What is computed, one after the other.",
   {
     "static", makes = "step", doc = "Equilibrium, in increments.",
     arguments = {
@@ -305,7 +305,7 @@ words[8] = {
 }
 
 words[9] = {
-  "solver", doc = "How it is computed. Every parameter has a good default, so most decks write none.",
+  name = "solver", doc = "How it is computed. Every parameter has a good default, so most decks write none.",
   later = { "monolithic", "explicit" },
   {
     "latin", makes = "solver", doc = "The LATIN method.",
@@ -332,7 +332,7 @@ local quantities = { "displacement", "velocity", "acceleration", "stress", "von_
 local fields = { "displacement", "velocity", "stress", "von_mises" }
 
 words[10] = {
-  "output", doc = "What is kept: files in the output directory, and data for the deck (`result[output]`).",
+  name = "output", doc = "What is kept: files in the output directory, and data for the deck (`result[output]`).",
   {
     "vtk", makes = "output", doc = "Frames for ParaView.",
     arguments = {
@@ -381,7 +381,7 @@ words[10] = {
 }
 
 words[11] = {
-  "problem", doc = "What is in. Nothing acts by having been declared: only what a problem lists is computed.",
+  name = "problem", doc = "What is in. Nothing acts by having been declared: only what a problem lists is computed.",
   call = {
     makes = "problem", doc = "An assembly, its steps and what is asked for.",
     arguments = {
@@ -434,4 +434,4 @@ local reading = {
   { "result.converged", "whether every increment converged" },
 }
 
-return { words = words, methods = methods, reading = reading, version = nil }
+return { words = words, methods = methods, reading = reading }

@@ -31,7 +31,7 @@ end
 
 local words = {}
 for _, word in ipairs(schema.words) do
-  local name = word[1]
+  local name = word.name
   if word.call then
     word.call.path = name
     words[name] = constructor(word.call)
