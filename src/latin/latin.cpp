@@ -1,0 +1,159 @@
+// The dynamic LATIN method, readable top to bottom (manual, chapter "Method").
+//
+// The only unknown that is iterated is q = F_hat + k W_hat on the interfaces. The linear stage answers with V, F = q - k V of each
+// substructure; the local stage answers with F_hat, W_hat of each interface point; they agree when the step is solved.
+#include "latin/latin.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "base/log.hpp"
+#include "base/progress.hpp"
+#include "latin/anderson.hpp"
+#include "latin/indicator.hpp"
+#include "latin/local_stage.hpp"
+#include "latin/search_direction.hpp"
+#include "latin/step_run.hpp"
+
+namespace dygita {
+
+// Linear stage: velocities at the interfaces for data q, every substructure by itself.
+void StepRun::linear_stage() {
+  for_each_piece([&](Piece& piece, int i) {
+    piece.interface_velocity(q_.segment(model_.offset[i], piece.n_rows()), velocity_.segment(model_.offset[i], piece.n_rows()));
+  });
+}
+
+// Right-hand sides of an increment, and all that it changes on the interfaces before any iteration.
+void StepRun::begin_increment(int increment) {
+  motions_ = model_.motion_velocities(increment);
+  for_each_piece([&](Piece& piece, int i) { piece.begin(model_.external_force(i, increment, state_), motions_); });
+  local_.begin(increment, motions_);
+}
+
+// Interiors of an increment for the q at hand.
+void StepRun::finish_increment() {
+  for_each_piece([&](Piece& piece, int i) {
+    const Points held = piece.has_motions() ? local_.held_force(i) : Points();
+    energy_[i] = piece.finish(q_.segment(model_.offset[i], piece.n_rows()), piece.has_motions() ? &held : nullptr);
+  });
+}
+
+// One step of time: forward once, iterate on the interfaces alone, backward once.
+void StepRun::solve_increment(int increment) {
+  begin_increment(increment);
+  anderson_.clear();
+  Outcome best;
+  Vec q_best = q_;
+  int n = 0;
+  for (;;) {
+    linear_stage();
+    const Outcome outcome = indicator_.measure(local_.run(velocity_, q_, image_));
+    ++n;
+    check_finite(outcome, increment);
+    if (outcome.eta < best.eta) {
+      best = outcome;
+      q_best = q_;
+    }
+    if (outcome.eta <= tolerance_ || n >= max_iterations_) break;
+    anderson_.advance(q_, image_);
+  }
+  if (best.eta > tolerance_) {  // not converged: the best there was is what is shown
+    q_ = q_best;
+    linear_stage();
+    local_.run(velocity_, q_, image_);
+  }
+  indicator_.accept(best);
+  finish_increment();
+  accept_increment(increment, n, best.eta);
+}
+
+// A window of several steps, as the paper has the whole interval: each iteration sweeps all of it.
+void StepRun::solve_window(int first, int last) {
+  const int n_steps = last - first;
+  const Start start = remember();
+  std::vector<Vec> q(n_steps, q_), image(n_steps);
+  Vec all(n_steps * q_.size()), all_image(all.size());
+  Anderson anderson(window_depth_, window_relaxation_, weight_.replicate(n_steps, 1));
+  for (int n = 1;; ++n) {
+    const Indicator before = indicator_;
+    Outcome worst{0.0};
+    for (int i = 0; i < n_steps; ++i) {
+      begin_increment(first + i);
+      q_ = q[i];
+      linear_stage();
+      const Outcome outcome = indicator_.measure(local_.run(velocity_, q_, image[i]));
+      indicator_.accept(outcome);
+      worst.eta = std::max(worst.eta, outcome.eta);
+      check_finite(outcome, first + i);
+      finish_increment();
+      local_.accept(nullptr);
+    }
+    indicator_ = before;
+    go_back(start);
+    if (worst.eta <= tolerance_ || n >= max_iterations_) {
+      for (int i = 0; i < n_steps; ++i) replay(first + i, q[i], i == 0 ? n : 0, worst.eta);
+      return;
+    }
+    for (int i = 0; i < n_steps; ++i) {
+      all.segment(i * q_.size(), q_.size()) = q[i];
+      all_image.segment(i * q_.size(), q_.size()) = image[i];
+    }
+    anderson.advance(all, all_image);
+    for (int i = 0; i < n_steps; ++i) q[i] = all.segment(i * q_.size(), q_.size());
+  }
+}
+
+// The last sweep of a window once more, this time shown.
+void StepRun::replay(int increment, const Vec& q, int iterations, double eta) {
+  begin_increment(increment);
+  q_ = q;
+  linear_stage();
+  indicator_.accept(indicator_.measure(local_.run(velocity_, q_, image_)));
+  finish_increment();
+  accept_increment(increment, iterations, eta);
+}
+
+void StepRun::run() {
+  const int n = model_.step->n_increments();
+  Progress progress(model_.step->name, n);
+  for (int i = 0; i < n && !interrupt_requested(); i += window_) {
+    const int last = std::min(i + window_, n);
+    if (window_ == 1)
+      solve_increment(i);
+    else
+      solve_window(i, last);
+    progress.update(last, describe_progress());
+  }
+}
+
+SolverFigures solve(const Problem& problem, Observer& observer) {
+  using clock = std::chrono::steady_clock;
+  const auto seconds_since = [](clock::time_point t) { return std::chrono::duration<double>(clock::now() - t).count(); };
+  SolverFigures figures;
+  prepare_thread();
+  auto start = clock::now();
+  const std::vector<Surface> surfaces = make_surfaces(problem);
+  const std::vector<Body> bodies = make_bodies(problem);
+  State state = initial_state(problem, surfaces);
+  figures.seconds["assemble"] = seconds_since(start);
+  for (const StepPtr& step : problem.steps) {
+    if (interrupt_requested()) break;
+    start = clock::now();
+    StepModel model = make_step_model(problem, *step, surfaces, bodies, state);
+    StepRun run(problem, model, state, observer);
+    figures.seconds["factor"] += seconds_since(start);
+    start = clock::now();
+    run.run();
+    run.leave_state();
+    figures.steps.push_back(run.figures());
+    figures.steps.back().seconds = seconds_since(start);
+    run.add_to(figures);
+  }
+  figures.interrupted = interrupt_requested();
+  return figures;
+}
+
+}  // namespace dygita

@@ -1,0 +1,64 @@
+// The local stage: at each interface point, the law; nothing global.
+#pragma once
+
+#include "solution/step_model.hpp"
+
+namespace dygita {
+
+// Sums of the indicator over the points (manual, eq. I1), W.
+struct IndicatorSums {
+  double distance = 0.0, size = 0.0;
+};
+
+// Copyable: a window of several steps keeps the copy it starts from.
+class LocalStage {
+ public:
+  // Takes the laws' memory from `start`. k: search directions, length n_q.
+  LocalStage(const StepModel& model, const State& start, const Vec& k);
+
+  // Interface data that continues the state: q = F_hat + k W_hat with the forces and velocities at hand.
+  Vec initial_q() const;
+  // What an increment changes before any iteration: jumps, shortenings, velocities of held sides (motions: at its end).
+  void begin(int increment, const std::vector<double>& motions);
+  // From velocities V and data q of the linear stage: F_hat, W_hat and their q (the fixed-point image).
+  IndicatorSums run(const Vec& velocity, const Vec& q, Vec& image);
+  // Accepts the fields of the last `run`: the laws move on; with a state, forces, gaps, slips and works go into it.
+  void accept(State* state);
+  // Force of the laws on held directions of a substructure's nodes (3 x n_nodes, N).
+  Points held_force(int part) const;
+
+ private:
+  struct PortState {
+    Vec3 u = Vec3::Zero(), offset = Vec3::Zero();    // m; rate that closes the jump inside the group, m/s
+    Vec3 w_old = Vec3::Zero(), w = Vec3::Zero();      // W_hat at the start and now, m/s
+    Vec3 f_old = Vec3::Zero(), f = Vec3::Zero();      // F_hat of the last increment and now, N
+  };
+  struct PointData {
+    LawState law;
+    Trial trial;
+    bool is_released = false;
+    Vec3 force = Vec3::Zero();
+    double shortening_old = 0.0;
+  };
+  struct Side {
+    Vec3 r = Vec3::Zero(), inverse_k = Vec3::Zero();
+  };
+
+  Side gather(int first, int end, const Vec& velocity, const Vec& q) const;
+  void scatter(int first, int end, const Side& side, const Vec3& force, const Vec& velocity, const Vec& q, Vec& image,
+               IndicatorSums& sums);
+  IndicatorSums run_point(size_t i_point, const Vec& velocity, const Vec& q, Vec& image);
+  Vec3 mean_displacement(int first, int end) const;
+  void start_law(const Point& point, PointData& p, const State& start) const;
+  void book_work(const Point& point, const PointData& p, const LawState& end, State& state) const;
+  void show(const Point& point, const PointData& p, State& state) const;
+  void show_ties(State& state) const;
+
+  const StepModel* model_;
+  Vec k_;
+  std::vector<PortState> ports_;
+  std::vector<PointData> points_;
+  Increment increment_;
+};
+
+}  // namespace dygita

@@ -1,0 +1,12 @@
+// Search directions k, chosen from the interface's own operators: no constant asked of the user (manual, search directions).
+#pragma once
+
+#include "solution/step_model.hpp"
+
+namespace dygita {
+
+// k of every unknown (length n_q). Static: diagonal of the Schur complement S0. Dynamic: the same up to a local CFL of 2, above it
+// the geometric mean with k_step, k_step^2 = ((1-g) rho c A)^2 + (m/dt)^2.
+Vec search_directions(const StepModel& model, double multiplier);
+
+}  // namespace dygita

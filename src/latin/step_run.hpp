@@ -1,0 +1,70 @@
+// One step while it runs: what the stages of latin.cpp work on. The method is in latin.cpp, the bookkeeping in step_run.cpp.
+#pragma once
+
+#include <chrono>
+
+#include "latin/anderson.hpp"
+#include "latin/indicator.hpp"
+#include "latin/latin.hpp"
+#include "latin/local_stage.hpp"
+
+namespace dygita {
+
+class StepRun {
+ public:
+  StepRun(const Problem& problem, StepModel& model, State& state, Observer& observer);
+
+  void run();
+  // Writes displacements, velocities and what loads had reached into the state: the next step starts from it.
+  void leave_state();
+  const StepFigures& figures() const { return figures_; }
+  void add_to(SolverFigures& figures) const;
+
+ private:
+  // The stages (latin.cpp).
+  void linear_stage();
+  void begin_increment(int increment);
+  void finish_increment();
+  void solve_increment(int increment);
+  void solve_window(int first, int last);
+  void replay(int increment, const Vec& q, int iterations, double eta);
+
+  // Bookkeeping (step_run.cpp).
+  struct Start {
+    std::vector<Piece::Snapshot> pieces;
+    LocalStage local;
+  };
+  Start remember() const;
+  void go_back(const Start& start);
+  void start_pieces();
+  void accept_increment(int increment, int iterations, double eta);
+  void check_finite(const Outcome& outcome, int increment) const;
+  std::string describe_progress() const;
+  Instant instant(int increment, int iterations, double eta) const;
+  template <class Function>
+  void for_each_piece(Function&& f) {
+    const int n = static_cast<int>(model_.pieces.size());
+#pragma omp parallel for schedule(dynamic) if (n > 1)
+    for (int i = 0; i < n; ++i) {
+      prepare_thread();
+      f(*model_.pieces[i], i);
+    }
+  }
+
+  const Problem& problem_;
+  StepModel& model_;
+  State& state_;
+  Observer& observer_;
+  int i_step_ = 0, window_ = 1, max_iterations_ = 200, window_depth_ = 0;
+  double tolerance_ = 1e-6, window_relaxation_ = 0.8;
+  Vec weight_, q_, velocity_, image_;
+  LocalStage local_;
+  Anderson anderson_;
+  Indicator indicator_;
+  std::vector<double> motions_;
+  std::vector<IncrementEnergy> energy_;
+  StepFigures figures_;
+  double output_seconds_ = 0.0;
+};
+
+}  // namespace dygita
