@@ -62,11 +62,23 @@ TEST(Cad, in_a_brep_file_is_read_in_the_unit_given) {
   fs::remove(file);
 }
 
+double mean_edge(const Mesh& mesh) {
+  double sum = 0;
+  const CellBlock& tetrahedra = mesh.blocks[0];
+  for (int i = 0; i < tetrahedra.n_cells(); ++i)
+    for (int a = 0; a < 4; ++a)
+      for (int b = 0; b < a; ++b)
+        sum += (mesh.nodes.col(tetrahedra.cell(i)[a]) - mesh.nodes.col(tetrahedra.cell(i)[b])).norm();
+  return sum / (6 * tetrahedra.n_cells());
+}
+
 TEST(Cad, is_meshed_to_the_asked_size) {
   const std::string file = write_blocks("dygita_sized.brep");
-  const int coarse = GmshMeshes({file, {}, 0.005, 1e-3}).volume("volume2")->n_cells();
-  const int fine = GmshMeshes({file, {}, 0.0025, 1e-3}).volume("volume2")->n_cells();
-  EXPECT_GT(fine, 4 * coarse);
+  for (const double size : {0.005, 0.0025, 0.001}) {
+    const GmshMeshes meshes({file, {}, size, 1e-3});
+    for (const std::string& name : meshes.volume_names())
+      EXPECT_NEAR(mean_edge(*meshes.volume(name)) / size, 1.1, 0.2) << name << " at " << size;
+  }
   fs::remove(file);
 }
 
