@@ -4,7 +4,10 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "output/files.hpp"
 #include "result/frame.hpp"
 #include "result/result.hpp"
 
@@ -12,31 +15,45 @@ namespace dygita {
 
 // What the run record tells beside the result.
 struct RunIdentity {
-  std::string deck_path, deck_digest;                              // digest of the deck's text
-  std::vector<std::pair<std::string, double>> parameters;          // param{} after --set
-  std::vector<std::pair<std::string, std::string>> mesh_digests;   // substructure, digest
+  std::string deck_path, deck_digest;                             // digest of the deck's text
+  std::vector<std::pair<std::string, double>> parameters;         // param{} after --set
+  std::vector<std::pair<std::string, std::string>> mesh_digests;  // substructure, digest; left out: the mesh's own
   int threads = 1;
+  std::vector<std::pair<std::string, std::string>>
+      libraries;  // name, version, beside those that output itself can name
 };
+
+// "0.1.0"
+const char* program_version();
 
 class RunWriter {
  public:
-  // Creates `directory` (out/<problem>/<case>); removes the files of a former run of ours in it, nothing else.
-  // Throws InputError when it cannot be written.
+  // Creates `directory` (out/<problem>/<case>); removes the files of a former run of ours in it (those that its hidden
+  // list .dygita-files names), nothing else. Throws InputError when it cannot be written or the name is that of another
+  // file here.
   RunWriter(std::filesystem::path directory, std::string problem_name);
   ~RunWriter();
 
-  // One .vtu a substructure and one a file of all interfaces; the .pvd files are rewritten after each frame, so that an
-  // interrupted run can be opened. Inline binary, zlib: Debian's ParaView cannot read appended data.
+  // <problem>.pvd with one .vtu a substructure and interfaces.pvd with one .vtu of all interfaces, both in frames/. The
+  // .pvd are rewritten after each frame, so that an interrupted run can be opened. Inline binary, zlib: Debian's
+  // ParaView cannot read appended data. `label_time` must increase (else ContractError). Throws InputError when it
+  // cannot write.
   void write_frame(const Frame& frame);
 
-  // <output name>.csv for each table, energy.csv, convergence.csv, run.json (versions, digests, parameters, figures, warnings).
+  // <output name>.csv for each table, energy.csv, convergence.csv, and last run.json (versions, digests, parameters,
+  // figures, warnings): where it stands the run came to its end. Throws InputError when it cannot write.
   void write_result(const Problem& problem, const RunResult& result, const RunIdentity& identity,
                     const std::vector<std::string>& warnings);
+
+  // The path for a file that somebody else writes here (state, report): run.json names it, the next run removes it.
+  std::filesystem::path path_of(const std::string& file_name);
 
   const std::filesystem::path& directory() const { return directory_; }
 
  private:
   struct Index;  // the frames written so far
+  void write(const std::string& file_name, const std::string& text);
+
   std::filesystem::path directory_;
   std::string problem_name_;
   std::unique_ptr<Index> index_;

@@ -1,0 +1,45 @@
+#include "output/collection.hpp"
+
+#include "base/log.hpp"
+
+namespace dygita {
+
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+void Collection::add(double time, int part, const std::string& name, const std::filesystem::path& file) {
+  // The shortest text that reads back as the same number: no two frames fall together.
+  entries_ += fmt::format("    <DataSet timestep=\"{}\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n", time, part,
+                          escaped(name), escaped(file.generic_string()));
+}
+
+std::string Collection::text() const {
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n" + entries_ +
+         "  </Collection>\n</VTKFile>\n";
+}
+
+}  // namespace dygita

@@ -1,0 +1,114 @@
+#include "output/run_record.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "base/log.hpp"
+#include "numerics/factor.hpp"
+#include "output/vtk_writer.hpp"
+
+namespace dygita {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Pairs>
+Json object(const Pairs& pairs) {
+  Json json = Json::object();
+  for (const auto& [name, value] : pairs) json[name] = value;
+  return json;
+}
+
+Json libraries(const RunIdentity& identity) {
+  Json json = {{"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+               {"CHOLMOD", cholmod_version()},
+               {"BLAS", blas_description()},
+               {"VTK", vtk_version()}};
+  json.update(object(identity.libraries));
+  return json;
+}
+
+Json substructures(const Problem& problem, const RunIdentity& identity) {
+  Json list = Json::array();
+  for (const SubstructurePtr& part : problem.substructures) {
+    Json json = {{"name", part->name},
+                 {"mesh", part->mesh->source},
+                 {"digest", part->mesh->digest},
+                 {"nodes", part->mesh->n_nodes()},
+                 {"cells", part->mesh->n_cells()},
+                 {"material", part->material.name}};
+    for (const auto& [name, digest] : identity.mesh_digests) {
+      if (name == part->name) json["digest"] = digest;
+    }
+    list.push_back(json);
+  }
+  return list;
+}
+
+std::string label(const Target& target) {
+  if (const auto* face = std::get_if<Face>(&target)) return face->label();
+  if (const auto* region = std::get_if<Region>(&target)) return region->label();
+  if (const auto* interface = std::get_if<InterfacePtr>(&target)) return (*interface)->name;
+  return std::get<SupportPtr>(target)->name;
+}
+
+Json loads(const Step& step) {
+  Json list = Json::array();
+  for (const LoadPtr& load : step.loads) {
+    Json on = Json::array(), value = Json::array();
+    for (const Target& target : load->on) on.push_back(label(target));
+    for (const auto& history : load->value) value.push_back(history ? Json(history->description()) : Json());
+    while (!value.empty() && value.back().is_null()) value.erase(value.size() - 1);
+    list.push_back({{"kind", load_kind_name(load->kind)}, {"on", on}, {"value", value}});
+  }
+  return list;
+}
+
+Json steps(const Problem& problem, const RunResult& result) {
+  Json list = Json::array();
+  for (size_t i = 0; i < result.steps.size(); ++i) {
+    const StepSummary& step = result.steps[i];
+    Json json = {{"name", step.name},
+                 {"kind", step.is_static ? "static" : "dynamic"},
+                 {"increments", step.increments},
+                 {"increments_not_converged", step.increments_not_converged},
+                 {"iterations", step.iterations},
+                 {"worst_indicator", step.worst_indicator},
+                 {"seconds", step.seconds}};
+    if (i < problem.steps.size()) json["loads"] = loads(*problem.steps[i]);
+    list.push_back(json);
+  }
+  return list;
+}
+
+}  // namespace
+
+const char* program_version() { return DYGITA_VERSION; }
+
+const char* verdict(const RunResult& result) {
+  return result.interrupted ? "interrupted" : result.converged ? "converged" : "not converged";
+}
+
+std::string run_record(const Problem& problem, const RunResult& result, const RunIdentity& identity,
+                       const std::vector<std::string>& warnings, const std::vector<std::string>& files) {
+  const Json json = {
+      {"program", {{"name", "dygita"}, {"version", program_version()}}},
+      {"problem", problem.name},
+      {"verdict", verdict(result)},
+      {"warnings", warnings},
+      {"deck", {{"path", identity.deck_path}, {"digest", identity.deck_digest}}},
+      {"parameters", object(identity.parameters)},
+      {"substructures", substructures(problem, identity)},
+      {"size", {{"dofs", result.n_dofs}, {"interface_unknowns", result.n_interface_unknowns}}},
+      {"iterations", {{"all", result.iterations}, {"mean", result.mean_iterations}}},
+      {"steps", steps(problem, result)},
+      {"figures", object(result.figures)},
+      {"seconds", object(result.seconds)},
+      {"threads", identity.threads},
+      {"libraries", libraries(identity)},
+      {"files", files},
+  };
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace dygita

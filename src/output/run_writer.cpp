@@ -1,0 +1,108 @@
+#include "output/run_writer.hpp"
+
+#include <set>
+
+#include "base/error.hpp"
+#include "base/log.hpp"
+#include "output/collection.hpp"
+#include "output/csv.hpp"
+#include "output/manifest.hpp"
+#include "output/run_record.hpp"
+#include "output/vtk_writer.hpp"
+
+namespace dygita {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* interfaces_file = "interfaces.pvd";
+constexpr const char* frames_folder = "frames";
+
+std::vector<std::string> step_names(const Problem& problem) {
+  std::vector<std::string> names;
+  for (const StepPtr& step : problem.steps) names.push_back(step->name);
+  return names;
+}
+
+}  // namespace
+
+struct RunWriter::Index {
+  explicit Index(const fs::path& directory) : manifest(directory) {}
+
+  Manifest manifest;
+  Collection parts, interfaces;
+  int n_frames = 0;
+  double last_time = 0.0;
+};
+
+RunWriter::RunWriter(fs::path directory, std::string problem_name)
+    : directory_(std::move(directory)), problem_name_(std::move(problem_name)) {
+  if (file_name_of(problem_name_) + ".pvd" == interfaces_file) {
+    throw InputError("a problem cannot be called '" + problem_name_ + "': its file " + interfaces_file +
+                     " is that of the interface fields");
+  }
+  make_directory(directory_);
+  index_ = std::make_unique<Index>(directory_);
+}
+
+RunWriter::~RunWriter() = default;
+
+void RunWriter::write_frame(const Frame& frame) {
+  CHECK(index_->n_frames == 0 || frame.label_time > index_->last_time, "frames come in the order of their label_time");
+  make_directory(directory_ / frames_folder / "interfaces");
+  const std::string number = fmt::format("_{:05}.vtu", index_->n_frames);
+  const auto listed = [this](const fs::path& file) {
+    index_->manifest.add(file);
+    return directory_ / file;
+  };
+
+  // The frame's files first, then the lists that name them: a list never names what is not there.
+  int i_part = 0;
+  for (const PartFrame& part : frame.parts) {
+    const fs::path file = fs::path(frames_folder) / (file_name_of(part.part->name) + number);
+    write_part(part, frame, listed(file));
+    index_->parts.add(frame.label_time, i_part++, part.part->name, file);
+  }
+  if (!frame.interfaces.empty()) {
+    const fs::path file = fs::path(frames_folder) / "interfaces" / ("interfaces" + number);
+    write_interfaces(frame, listed(file));
+    index_->interfaces.add(frame.label_time, 0, "interfaces", file);
+  }
+  if (!index_->parts.is_empty()) write(file_name_of(problem_name_) + ".pvd", index_->parts.text());
+  if (!index_->interfaces.is_empty()) write(interfaces_file, index_->interfaces.text());
+  index_->last_time = frame.label_time;
+  ++index_->n_frames;
+}
+
+void RunWriter::write_result(const Problem& problem, const RunResult& result, const RunIdentity& identity,
+                             const std::vector<std::string>& warnings) {
+  const std::vector<std::string> steps = step_names(problem);
+  std::set<std::string> written;
+  for (const OutputPtr& output : problem.outputs) {  // in the deck's order
+    const auto found = result.tables.find(output.get());
+    if (found == result.tables.end()) continue;
+    const std::string name = output->kind == OutputKind::energy ? "energy" : file_name_of(output->name);
+    CHECK(written.insert(name).second && name != "convergence", "two tables are called '" + name + "'");
+    write(name + ".csv", csv_text(found->second, steps));
+  }
+  if (!result.convergence.columns.empty()) write("convergence.csv", csv_text(result.convergence, steps));
+
+  // Name the files but for the frames, which the .pvd list.
+  const fs::path record = path_of("run.json");
+  std::vector<std::string> files;
+  for (const fs::path& file : index_->manifest.files()) {
+    if (*file.begin() != frames_folder) files.push_back(file.generic_string());
+  }
+  write_text(record, run_record(problem, result, identity, warnings, files));
+}
+
+fs::path RunWriter::path_of(const std::string& file_name) {
+  CHECK(file_name == file_name_of(file_name), "a plain file name: '" + file_name + "'");
+  index_->manifest.add(file_name);
+  return directory_ / file_name;
+}
+
+void RunWriter::write(const std::string& file_name, const std::string& text) { write_text(path_of(file_name), text); }
+
+}  // namespace dygita

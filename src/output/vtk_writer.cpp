@@ -1,0 +1,215 @@
+#include "output/vtk_writer.hpp"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVersion.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <limits>
+
+#include "base/error.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr const char* displacement_name = "displacement";
+
+int vtk_cell_type(CellType type) {
+  switch (type) {
+    case CellType::hex8:
+      return VTK_HEXAHEDRON;
+    case CellType::prism6:
+      return VTK_WEDGE;
+    case CellType::tet4:
+      return VTK_TETRA;
+  }
+  CHECK(false, "unknown cell type");
+}
+
+// Cells gathered one by one, for all grids here.
+class Cells {
+ public:
+  Cells() { types_->SetNumberOfComponents(1); }
+
+  void add(int type, const int* nodes, int n_nodes, int first_node) {
+    cells_->InsertNextCell(n_nodes);
+    for (int i = 0; i < n_nodes; ++i) cells_->InsertCellPoint(first_node + nodes[i]);
+    types_->InsertNextValue(static_cast<unsigned char>(type));
+  }
+  void give_to(vtkUnstructuredGrid* grid) const { grid->SetCells(types_, cells_); }
+
+ private:
+  vtkNew<vtkUnsignedCharArray> types_;
+  vtkNew<vtkCellArray> cells_;
+};
+
+void set_points(vtkUnstructuredGrid* grid, const Points& x) {
+  vtkNew<vtkDoubleArray> coordinates;
+  coordinates->SetNumberOfComponents(3);
+  coordinates->SetNumberOfTuples(x.cols());
+  std::copy_n(x.data(), x.size(), coordinates->GetPointer(0));
+  vtkNew<vtkPoints> points;
+  points->SetData(coordinates);
+  grid->SetPoints(points);
+}
+
+template <class Array>
+void add_point_array(vtkUnstructuredGrid* grid, const std::string& name, const Eigen::Ref<const Mat>& values) {
+  CHECK(values.cols() == grid->GetNumberOfPoints(), "field '" + name + "' has a value for each point");
+  vtkNew<Array> array;
+  array->SetName(name.c_str());
+  array->SetNumberOfComponents(static_cast<int>(values.rows()));
+  array->SetNumberOfTuples(values.cols());
+  if (values.rows() == 6) {
+    constexpr const char* components[] = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+    for (int i = 0; i < 6; ++i) array->SetComponentName(i, components[i]);
+  }
+  auto* to = array->GetPointer(0);
+  for (Eigen::Index j = 0; j < values.cols(); ++j) {
+    for (Eigen::Index i = 0; i < values.rows(); ++i) {
+      *to++ = static_cast<std::remove_reference_t<decltype(*to)>>(values(i, j));
+    }
+  }
+  grid->GetPointData()->AddArray(array);
+}
+
+void add_field(vtkUnstructuredGrid* grid, const std::string& name, const Mat& values) {
+  if (name == displacement_name) {
+    add_point_array<vtkDoubleArray>(grid, name, values);
+  } else {
+    add_point_array<vtkFloatArray>(grid, name, values);
+  }
+}
+
+void add_text(vtkUnstructuredGrid* grid, const char* name, const std::vector<std::string>& texts) {
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  for (const std::string& text : texts) array->InsertNextValue(text);
+  grid->GetFieldData()->AddArray(array);
+}
+
+void add_instant(vtkUnstructuredGrid* grid, const Frame& frame) {
+  vtkNew<vtkDoubleArray> time;
+  time->SetName("time");
+  time->InsertNextValue(frame.time);
+  grid->GetFieldData()->AddArray(time);
+  add_text(grid, "step", {frame.step});
+}
+
+void write(vtkUnstructuredGrid* grid, const std::filesystem::path& path) {
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetFileName(path.c_str());
+  writer->SetInputData(grid);
+  writer->SetDataModeToBinary();
+  writer->SetCompressorTypeToZLib();
+  vtkObject::GlobalWarningDisplayOff();  // VTK would print pages where one line does
+  errno = 0;
+  if (writer->Write() != 1 || writer->GetErrorCode() != vtkErrorCode::NoError) {
+    throw InputError("cannot write '" + path.string() +
+                     "': " + (errno == 0 ? "VTK gives no reason" : std::strerror(errno)));
+  }
+}
+
+// Names of all fields of all interfaces, in the order of their first appearance, and their numbers of components.
+std::vector<std::pair<std::string, Eigen::Index>> all_fields(const std::vector<InterfaceFrame>& interfaces) {
+  std::vector<std::pair<std::string, Eigen::Index>> all;
+  for (const InterfaceFrame& interface : interfaces) {
+    for (const NamedField& field : interface.fields) {
+      const auto known = std::find_if(all.begin(), all.end(), [&](const auto& f) { return f.first == field.name; });
+      if (known == all.end()) {
+        all.emplace_back(field.name, field.values.rows());
+      } else {
+        CHECK(known->second == field.values.rows(), "field '" + field.name + "' has the same components everywhere");
+      }
+    }
+  }
+  return all;
+}
+
+Mat gathered(const std::vector<InterfaceFrame>& interfaces, const std::string& name, Eigen::Index n_components,
+             Eigen::Index n_points) {
+  const double missing = name == displacement_name ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+  Mat all = Mat::Constant(n_components, n_points, missing);
+  Eigen::Index first = 0;
+  for (const InterfaceFrame& interface : interfaces) {
+    for (const NamedField& field : interface.fields) {
+      if (field.name == name) all.middleCols(first, interface.points.cols()) = field.values;
+    }
+    first += interface.points.cols();
+  }
+  return all;
+}
+
+}  // namespace
+
+void write_part(const PartFrame& frame_of_part, const Frame& frame, const std::filesystem::path& path) {
+  const Mesh& mesh = *frame_of_part.part->mesh;
+  vtkNew<vtkUnstructuredGrid> grid;
+  set_points(grid, mesh.nodes.colwise() + frame_of_part.part->place);
+  Cells cells;
+  for (const CellBlock& block : mesh.blocks) {
+    for (int i = 0; i < block.n_cells(); ++i) {
+      cells.add(vtk_cell_type(block.type), block.cell(i), nodes_per_cell(block.type), 0);
+    }
+  }
+  cells.give_to(grid);
+  add_field(grid, displacement_name, frame_of_part.displacement);
+  for (const NamedField& field : frame_of_part.fields) {
+    if (field.name != displacement_name) add_field(grid, field.name, field.values);
+  }
+  add_instant(grid, frame);
+  write(grid, path);
+}
+
+void write_interfaces(const Frame& frame, const std::filesystem::path& path) {
+  // Put the interfaces' points one after the other.
+  Eigen::Index n_points = 0;
+  for (const InterfaceFrame& interface : frame.interfaces) n_points += interface.points.cols();
+  Points points(3, n_points);
+  Cells cells;
+  vtkNew<vtkIntArray> index;
+  index->SetName("interface");
+  std::vector<std::string> names;
+  int first = 0;
+  for (const InterfaceFrame& interface : frame.interfaces) {
+    points.middleCols(first, interface.points.cols()) = interface.points;
+    for (const Facet& facet : interface.facets) {
+      cells.add(facet.n_nodes == 3 ? VTK_TRIANGLE : VTK_QUAD, facet.nodes.data(), facet.n_nodes, first);
+      index->InsertNextValue(static_cast<int>(names.size()));
+    }
+    names.push_back(interface.name);
+    first += static_cast<int>(interface.points.cols());
+  }
+
+  // Fill the grid.
+  vtkNew<vtkUnstructuredGrid> grid;
+  set_points(grid, points);
+  cells.give_to(grid);
+  grid->GetCellData()->AddArray(index);
+  add_text(grid, "interface_name", names);
+  for (const auto& [name, n_components] : all_fields(frame.interfaces)) {
+    add_field(grid, name, gathered(frame.interfaces, name, n_components, n_points));
+  }
+  add_instant(grid, frame);
+  write(grid, path);
+}
+
+std::string vtk_version() { return vtkVersion::GetVTKVersion(); }
+
+}  // namespace dygita

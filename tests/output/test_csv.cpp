@@ -1,0 +1,79 @@
+// Tables as text, names as files.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "output/csv.hpp"
+#include "output/files.hpp"
+
+namespace dygita {
+namespace {
+
+TEST(Csv, has_a_title_with_units_and_the_step_as_second_column) {
+  Table table;
+  table.names = {"time", "normal", "ratio"};
+  table.units = {"s", "N", ""};
+  table.columns = {{0.0, 1e-6, 0.1 + 0.2}, {-1234.56789012, -0.0, 1e300}, {1.0, std::nan(""), 1.0 / 3.0}};
+  table.step = {0, 1, 1};
+  EXPECT_EQ(csv_text(table, {"tighten", "shock"}),
+            "time [s],step,normal [N],ratio\n"
+            "0,tighten,-1234.56789,1\n"
+            "1e-06,shock,0,nan\n"
+            "0.3,shock,1e+300,0.333333333\n");
+}
+
+TEST(Csv, of_a_spectrum_has_no_step) {
+  Table table;
+  table.names = {"frequency", "maximax"};
+  table.units = {"Hz", "m/s^2"};
+  table.columns = {{100.0}, {9.80665}};
+  EXPECT_EQ(csv_text(table, {}), "frequency [Hz],maximax [m/s^2]\n100,9.80665\n");
+}
+
+TEST(Csv, quotes_texts_that_would_break_a_line) {
+  Table table;
+  table.names = {"time"};
+  table.units = {"s"};
+  table.columns = {{0.5}};
+  table.step = {0};
+  EXPECT_EQ(csv_text(table, {"hold, then \"pull\""}), "time [s],step\n0.5,\"hold, then \"\"pull\"\"\"\n");
+}
+
+TEST(Csv, of_columns_that_do_not_match_is_a_broken_contract) {
+  Table table;
+  table.names = {"time", "x"};
+  table.units = {"s", "m"};
+  table.columns = {{0.0, 1.0}, {0.0}};
+  EXPECT_THROW(csv_text(table, {}), ContractError);
+  table.columns = {{0.0}, {0.0}};
+  table.step = {1};
+  EXPECT_THROW(csv_text(table, {"only"}), ContractError);
+}
+
+TEST(FileName, keeps_what_a_problem_may_be_called_and_disarms_the_rest) {
+  EXPECT_EQ(file_name_of("crush mu=0.3"), "crush mu=0.3");
+  EXPECT_EQ(file_name_of("pièce"), "pièce");
+  EXPECT_EQ(file_name_of("../../etc/passwd"), "_._.._etc_passwd");
+  EXPECT_EQ(file_name_of(".."), "_.");
+  EXPECT_EQ(file_name_of("a\\b\nc"), "a_b_c");
+  EXPECT_EQ(file_name_of(""), "unnamed");
+}
+
+TEST(Table, answers_a_column_by_name_and_names_the_known_ones) {
+  Table table;
+  table.names = {"time", "normal"};
+  table.units = {"s", "N"};
+  table.columns = {{0.0, 1.0}, {5.0, 6.0}};
+  EXPECT_EQ(table.column("normal"), (std::vector<double>{5.0, 6.0}));
+  EXPECT_EQ(table.n_rows(), 2);
+  try {
+    table.column("norml");
+    FAIL() << "no error";
+  } catch (const ContractError& error) {
+    EXPECT_NE(std::string(error.what()).find("normal"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace dygita
