@@ -1,0 +1,40 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "material/elastic.hpp"
+
+namespace dygita::test {
+namespace {
+
+// Values of a steel worked out by hand: E = 210 GPa, nu = 0.3, rho = 7800 kg/m^3.
+Elastic steel() { return {"steel", 210e9, 0.3, 7800.0, {}}; }
+
+TEST(Elastic, has_the_moduli_and_the_wave_speeds_of_a_steel) {
+  EXPECT_NEAR(steel().shear_modulus(), 80.769230769e9, 1.0);
+  EXPECT_NEAR(steel().p_wave_modulus(), 282.692307692e9, 1.0);
+  EXPECT_NEAR(steel().p_wave_speed(), 6020.18, 0.01);
+  EXPECT_NEAR(steel().s_wave_speed(), 3217.92, 0.01);
+}
+
+// Uniaxial tension: strain 1/E along, -nu/E across; shear: 1/G; all-round pressure: 1/K with K = E / (3 (1 - 2 nu)).
+TEST(Elastic, has_the_hooke_matrix_whose_inverse_is_the_compliance_of_the_engineer) {
+  const Elastic m = steel();
+  const Eigen::Matrix<double, 6, 6> compliance = m.hooke().inverse();
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) {
+      const double expected = i != j ? (i < 3 && j < 3 ? -0.3 / m.young : 0.0) : i < 3 ? 1 / m.young : 2.6 / m.young;
+      EXPECT_NEAR(compliance(i, j) * m.young, expected * m.young, 1e-13) << i << ", " << j;
+    }
+  EXPECT_EQ(m.hooke(), m.hooke().transpose());
+}
+
+TEST(Elastic, carries_waves_without_lateral_effect_at_zero_poisson_ratio) {
+  const Elastic m{"foam", 900.0, 0.0, 1.0, {}};
+  EXPECT_DOUBLE_EQ(m.p_wave_modulus(), 900.0);
+  EXPECT_DOUBLE_EQ(m.p_wave_speed(), 30.0);
+  EXPECT_DOUBLE_EQ(m.s_wave_speed(), std::sqrt(450.0));
+}
+
+}  // namespace
+}  // namespace dygita::test
