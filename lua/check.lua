@@ -15,8 +15,11 @@ local function fail(call, text, hint) native.fail(call.line, message(call, text,
 local function article(noun) return (noun:match "^[aeiou]" and "an " or "a ") .. noun end
 
 local function describe(value)
-  local kind, _, name = native.kind(value)
-  if kind then return article(kind) .. (name ~= "" and " '" .. name .. "'" or "") end
+  local kind, path, name = native.kind(value)
+  if kind then
+    local is_own_kind = path:sub(1, #kind + 1) == kind .. "."  -- "interface.contact" says more than "interface"
+    return article(is_own_kind and path or kind) .. (name ~= "" and " '" .. name .. "'" or "")
+  end
   if type(value) == "number" then return ("the number %g"):format(value) end
   if type(value) == "string" then return ('the text "%s"'):format(value) end
   if type(value) == "boolean" then return tostring(value) end
@@ -211,9 +214,9 @@ function types.objects(call, argument, value, label)
   if type(value) ~= "table" and argument.or_single then
     wrong_type(call, label, one_of(argument.kinds, true) .. ", or a list", value, hint_for(argument.kinds, value))
   end
-  local n = check_list(call, value, label, ("a list { ... } (%s)"):format(what))
+  local n = check_list(call, value, label, ("a list { ... } of %ss"):format(what))
   if argument.exactly and n ~= argument.exactly then
-    fail(call, ("'%s' must be %d of %s, got %d"):format(label, argument.exactly, what, n), hints[argument.kinds[1]])
+    fail(call, ("'%s' must be %d %ss, got %d"):format(label, argument.exactly, what, n), hints[argument.kinds[1]])
   end
   if argument.at_least and n < argument.at_least then fail(call, ("'%s' is empty"):format(label)) end
   local objects, places = {}, {}

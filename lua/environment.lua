@@ -32,7 +32,9 @@ function safe_string.rep(text, n, separator)
   if (text == "" or text == nil) and (separator == "" or separator == nil) then return "" end
   return raw.rep(text, n, separator)
 end
-getmetatable("").__index = safe_string
+local of_texts = getmetatable("")
+for event in pairs(of_texts) do of_texts[event] = nil end  -- "10" * mm is an error, not a number
+of_texts.__index = safe_string
 
 local safe_math = {}
 for name, member in pairs(math) do safe_math[name] = member end
@@ -79,7 +81,7 @@ return {
     error = error, assert = assert, print = native.print, near = near,
   },
   refused = {
-    os = true, io = true, package = true, debug = true, load = true, loadstring = true, dofile = true, loadfile = true,
+    os = true, io = true, package = true, debug = true, loadstring = true, dofile = true, loadfile = true,
     require = true, collectgarbage = true, setmetatable = true, getmetatable = true, rawget = true, rawset = true,
     rawequal = true, rawlen = true, pcall = true, xpcall = true, coroutine = true, utf8 = true,
   },

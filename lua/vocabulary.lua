@@ -144,8 +144,8 @@ local function undefined(name)
     fail(line, ("'%s' is not there in a deck"):format(name),
       "a deck reaches no file, system or program; files are read through mesh.gmsh and history.file")
   end
-  local near_by = keys_of(globals)
-  for _, name_of_local in ipairs(native.locals()) do near_by[#near_by + 1] = name_of_local end
+  local near_by = native.locals()  -- first: of two names as near, the deck's own
+  table.move(keys_of(globals), 1, #keys_of(globals), #near_by + 1, near_by)
   local best = native.closest_name(name, near_by)
   if best ~= "" then fail(line, ("'%s' is not defined"):format(name), ("did you mean '%s'?"):format(best)) end
   fail(line, ("'%s' is not defined"):format(name), native.did_you_mean("", keys_of(words, units)))

@@ -25,6 +25,7 @@ size_t edit_distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string closest_name(const std::string& name, const std::vector<std::string>& known) {
+  if (name.empty()) return "";
   std::string best;
   size_t best_distance = std::max<size_t>(2, (name.size() + 1) / 2);
   for (const std::string& candidate : known) {

@@ -1,0 +1,222 @@
+// From the deck's words to the model.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/log.hpp"
+#include "deck/fake_engine.hpp"
+
+namespace dygita::test {
+
+namespace {
+
+// The problem of a deck of two blocks with more in it.
+Problem built(const std::string& text, const std::string& more = "") {
+  FakeEngine fake;
+  run_text(std::string(two_blocks) + text +
+               "\nlocal p = problem{ name = 'p', substructures = { low, high }, interfaces = { glue }, "
+               "supports = { base }, steps = { s }, " +
+               more + " }\np:run{}",
+           fake);
+  return fake.problems.at(0);
+}
+
+Load load_built(const std::string& load,
+                const std::string& step = "step.dynamic{ name = 's', duration = 4*us, dt = 1*us") {
+  return *built("local l = " + load + "\nlocal s = " + step + ", loads = { l } }").steps.at(0)->loads.at(0);
+}
+
+TEST(Build, makes_materials_and_substructures) {
+  FakeEngine fake;
+  run_text(R"(
+local soft = material.elastic{ name = "soft", young = 4.2*GPa, poisson = 0.35, density = 1200,
+                               damping = { mass = 3, stiffness = 2*us } }
+local bar = substructure{ name = "bar", material = soft, place = { 1*mm, 2*mm, 3*mm }, velocity = { 0, 0, -5 },
+                          mesh = mesh.box{ size = { 1*mm, 2*mm, 3*mm }, cells = { 1, 2, 3 }, origin = { 0, 0, 1*mm } } }
+local s = step.dynamic{ name = "s", duration = 1*us, dt = 0.1*us }
+problem{ name = "p", substructures = { bar }, steps = { s },
+         supports = { support.fixed{ name = "f", on = bar:face "zmin" } } }:run{}
+)",
+           fake);
+  const Substructure& bar = *fake.problems.at(0).substructures.at(0);
+  EXPECT_EQ(bar.material.young, 4.2e9);
+  EXPECT_EQ(bar.material.damping.mass, 3.0);
+  EXPECT_EQ(bar.material.damping.stiffness, 2e-6);
+  EXPECT_EQ(bar.place, Vec3(1e-3, 2e-3, 3e-3));
+  EXPECT_EQ(bar.velocity, Vec3(0, 0, -5));
+  EXPECT_EQ(bar.mesh->n_cells(), 6);
+  EXPECT_DOUBLE_EQ(bar.mesh->nodes.row(2).minCoeff(), 1e-3);
+  EXPECT_EQ(fake.problems.at(0).steps.at(0)->n_increments(), 10);
+}
+
+TEST(Build, makes_interfaces) {
+  FakeEngine fake;
+  run_text(std::string(two_blocks) + R"(
+local faces = { low:face "zmax", high:face "zmin" }
+local function run(interface)
+  problem{ name = interface.name, substructures = { low, high }, interfaces = { interface }, supports = { base },
+           steps = { hold } }:run{}
+end
+run(interface.contact{ name = "c", between = faces, friction = 0.2, gap = 10*um })
+run(interface.plastic{ name = "p", between = faces, yield = 640*MPa, hardening = 50*MPa/mm, compression = true })
+)",
+           fake);
+  const Interface& contact = *fake.problems.at(0).interfaces.at(0);
+  EXPECT_EQ(contact.kind, InterfaceKind::contact);
+  EXPECT_EQ(contact.friction, 0.2);
+  EXPECT_DOUBLE_EQ(contact.gap, 1e-5);
+  EXPECT_EQ(contact.side_1.label(), "low.zmax");
+  EXPECT_EQ(contact.side_2.label(), "high.zmin");
+  const Interface& plastic = *fake.problems.at(1).interfaces.at(0);
+  EXPECT_EQ(plastic.kind, InterfaceKind::plastic);
+  EXPECT_EQ(plastic.yield, 640e6);
+  EXPECT_DOUBLE_EQ(plastic.hardening, 5e10);
+  EXPECT_TRUE(plastic.compression);
+}
+
+TEST(Build, makes_regions_of_the_nodes_in_place) {
+  const Problem problem = built(R"(
+local s = hold
+local top = high:where(function(x, y, z) return near(z, 20*mm) end)
+local h = output.history{ name = "h", on = { top, high:face "xmin" }, quantity = "velocity", direction = { 0, 3, 4 } })",
+                                "outputs = { h }");
+  const Output& output = *problem.outputs.at(0);
+  ASSERT_EQ(output.on.size(), 2u);
+  EXPECT_EQ(std::get<Region>(output.on[0]).nodes.size(), 4u);
+  EXPECT_EQ(std::get<Face>(output.on[1]).group, "xmin");
+  EXPECT_NEAR((*output.direction - Vec3(0, 0.6, 0.8)).norm(), 0.0, 1e-15);
+  EXPECT_EQ(output.quantity, Quantity::velocity);
+}
+
+TEST(Build, knows_numbers_from_histories_in_loads) {
+  const Load load =
+      load_built("load.traction{ on = high:face 'zmax', x = 3*MPa, z = history.ramp{ to = 1*MPa, duration = 2*us } }");
+  EXPECT_EQ(load.kind, LoadKind::traction);
+  EXPECT_TRUE(load.is_number[0]);
+  EXPECT_EQ(load.value[0]->value(1.0), 3e6);
+  EXPECT_FALSE(load.value[1].has_value());
+  EXPECT_FALSE(load.is_number[2]);
+  EXPECT_DOUBLE_EQ(load.value[2]->value(1e-6), 5e5);
+}
+
+TEST(Build, makes_every_history) {
+  const auto value = [](const std::string& history, double t) {
+    return load_built("load.pressure{ on = high:face 'zmax', history = " + history + " }").value[0]->value(t);
+  };
+  EXPECT_EQ(value("history.constant{ value = 5 }", 1.0), 5.0);
+  EXPECT_EQ(value("history.step{ value = 5, at = 2*us }", 1e-6), 0.0);
+  EXPECT_EQ(value("history.step{ value = 5, at = 2*us }", 3e-6), 5.0);
+  EXPECT_DOUBLE_EQ(value("history.ramp{ from = 1, to = 3, duration = 2*us }", 1e-6), 2.0);
+  EXPECT_DOUBLE_EQ(value("history.half_sine{ peak = 8, duration = 2*us }", 1e-6), 8.0);
+  EXPECT_NEAR(value("history.haversine{ peak = 8, duration = 2*us }", 0.5e-6), 4.0, 1e-12);
+  EXPECT_DOUBLE_EQ(value("history.pulse{ peak = 8, rise = 1*us, hold = 1*us, fall = 2*us }", 3e-6), 4.0);
+  EXPECT_DOUBLE_EQ(value("history.piecewise{ times = { 0, 1*us }, values = { 2, 4 } }", 0.5e-6), 3.0);
+}
+
+TEST(Build, reads_files_beside_the_deck) {
+  const Folder folder;
+  folder.write("pulse.csv", "time,value\n0,0\n1e-6,10\n");
+  FakeEngine fake;
+  DeckOptions options;
+  options.path = folder.write("deck.lua", std::string(two_blocks) + R"(
+local push = load.pressure{ on = high:face "zmax", history = history.file{ file = "pulse.csv" } }
+local s = step.dynamic{ name = "s", duration = 1*us, dt = 0.1*us, loads = { push } }
+problem{ name = "p", substructures = { low, high }, interfaces = { glue }, supports = { base }, steps = { s } }:run{})");
+  run_deck(options, fake.engine());
+  EXPECT_DOUBLE_EQ(fake.problems.at(0).steps[0]->loads[0]->value[0]->value(0.5e-6), 5.0);
+}
+
+TEST(Build, makes_the_other_loads) {
+  const Load shake = load_built("load.base_acceleration{ on = base, direction = { 0, 0, 2 }, history = 100*g0 }");
+  EXPECT_EQ(shake.direction, Vec3(0, 0, 1));
+  EXPECT_DOUBLE_EQ(shake.value[0]->value(0.0), 980.665);
+  EXPECT_EQ(std::get<SupportPtr>(shake.on.at(0))->name, "base");
+  const Load tighten =
+      load_built("load.shortening{ on = glue, by = 40*um }", "step.static{ name = 's', increments = 2");
+  EXPECT_EQ(tighten.kind, LoadKind::shortening);
+  EXPECT_TRUE(tighten.is_number[0]);
+  EXPECT_DOUBLE_EQ(tighten.value[0]->value(0.0), 40e-6);
+  const Load release = load_built("load.release{ on = { glue }, at = 2*us }");
+  EXPECT_EQ(release.kind, LoadKind::release);
+  EXPECT_DOUBLE_EQ(release.value[0]->value(0.0), 2e-6);
+  const Load gravity = load_built("load.gravity{ z = -g0 }", "step.static{ name = 's'");
+  EXPECT_TRUE(gravity.on.empty());
+  EXPECT_DOUBLE_EQ(gravity.value[2]->value(0.0), -9.80665);
+}
+
+TEST(Build, makes_steps_with_supports_of_their_own) {
+  const Problem problem = built("local s = step.dynamic{ name = 's', duration = 1*us, dt = 1*us, supports = {} }");
+  ASSERT_TRUE(problem.steps.at(0)->supports.has_value());
+  EXPECT_TRUE(problem.steps.at(0)->supports->empty());
+  EXPECT_FALSE(built("local s = hold").steps.at(0)->supports.has_value());
+}
+
+TEST(Build, fills_in_the_solver) {
+  const LatinSettings standard = built("local s = hold").solver,
+                      empty = built("local s = hold", "solver = solver.latin{}").solver;
+  EXPECT_EQ(empty.tolerance, standard.tolerance);
+  EXPECT_EQ(empty.static_tolerance, standard.static_tolerance);
+  EXPECT_EQ(empty.window, standard.window);
+  EXPECT_EQ(empty.relaxation, standard.relaxation);
+  EXPECT_EQ(empty.anderson, standard.anderson);
+  EXPECT_EQ(empty.max_iterations, standard.max_iterations);
+  EXPECT_EQ(empty.numerical_damping, standard.numerical_damping);
+  EXPECT_EQ(empty.push_out, standard.push_out);
+  EXPECT_EQ(empty.search_direction, standard.search_direction);
+  EXPECT_EQ(empty.plain, standard.plain);
+  const LatinSettings asked =
+      built("local s = hold", "solver = solver.latin{ window = 'whole', relaxation = 0.8, anderson = 0, plain = true }")
+          .solver;
+  EXPECT_EQ(asked.window, 0);
+  EXPECT_EQ(asked.relaxation, 0.8);
+  EXPECT_EQ(asked.anderson, 0);
+  EXPECT_TRUE(asked.plain);
+}
+
+TEST(Build, makes_outputs) {
+  const Problem problem = built(R"(
+local s = step.dynamic{ name = "s", duration = 4*us, dt = 1*us }
+local a = output.history{ name = "a", on = high:face "zmax", quantity = "acceleration", direction = { 0, 0, 1 } }
+local r = output.srs{ name = "r", of = a, q_factor = 25, from = 1*kHz, to = 50*kHz, per_octave = 24 }
+local f = output.resultant{ name = "f", on = { glue, base } })",
+                                "outputs = { a, r, f, output.vtk{ frames = 7 }, output.energy{} }");
+  EXPECT_EQ(problem.outputs.at(1)->of, problem.outputs.at(0));
+  EXPECT_EQ(problem.outputs[1]->srs.q_factor, 25.0);
+  EXPECT_EQ(problem.outputs[1]->srs.from, 1e3);
+  EXPECT_EQ(problem.outputs[1]->srs.to, 5e4);
+  EXPECT_EQ(problem.outputs[1]->srs.per_octave, 24);
+  EXPECT_EQ(problem.outputs[2]->on.size(), 2u);
+  EXPECT_EQ(problem.outputs[3]->frames, 7);
+  const std::vector<std::string> fields = {"displacement", "velocity", "stress", "von_mises"};
+  EXPECT_EQ(problem.outputs[3]->fields, fields);
+  EXPECT_EQ(problem.outputs[4]->kind, OutputKind::energy);
+}
+
+TEST(Build, doubts_a_part_of_implausible_size) {
+  take_warnings();
+  FakeEngine fake;
+  run_text(R"(
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local bolt = substructure{ name = "bolt", material = steel, mesh = mesh.box{ size = { 80, 1, 1 }, cells = { 1, 1, 1 } } }
+)",
+           fake);
+  const std::vector<std::string> warnings = take_warnings();
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_EQ(warnings[0].find("deck.lua:3: substructure 'bolt' measures 80 m"), 0u) << warnings[0];
+}
+
+TEST(Objects, answer_their_arguments) {
+  EXPECT_EQ(message_of(std::string(two_blocks) + R"(
+assert(steel.young == 210*GPa and near(math.sqrt(steel.young / steel.density), 5188.745))
+assert(ring.dt == 1*us and ring.after == hold and low.material == steel)
+local place = high.place
+place[3] = 7
+assert(high.place[3] == 10*mm)
+assert(tostring(steel) == "material 'steel'")
+)"),
+            "");
+}
+
+}  // namespace
+
+}  // namespace dygita::test

@@ -1,0 +1,2 @@
+local length = "10 mm"
+local area = length * {}

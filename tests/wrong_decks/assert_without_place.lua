@@ -1,0 +1,2 @@
+local mu = -1
+assert(mu > 0, "mu must be positive")

@@ -1,0 +1,1 @@
+error("mu must be positive")

@@ -1,0 +1,1 @@
+local h = history.constant{ value = true }

@@ -1,0 +1,1 @@
+local h = history.half_sine{ peak = 80*MPa, duration = 1500 }

@@ -1,0 +1,1 @@
+local h = history.haversine{ peak = 80*MPa, length = 15*us }

@@ -1,0 +1,1 @@
+local h = history.ramp{ to = 3*MPa }

@@ -1,0 +1,1 @@
+local h = history.step{ value = 1, at = -1*us }

@@ -1,0 +1,1 @@
+local steel = material.elastic("steel", 210*GPa)

@@ -1,0 +1,3 @@
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local file = mesh.gmsh{ file = "block.geo" }
+local s = substructure{ name = "s", mesh = file, material = steel }

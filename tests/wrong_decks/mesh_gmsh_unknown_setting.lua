@@ -1,0 +1,1 @@
+local file = mesh.gmsh{ file = "block.geo", set = { sze = 2*mm } }

@@ -1,0 +1,2 @@
+local file = mesh.gmsh{ file = "block.geo" }
+local m = file:volume "blok"

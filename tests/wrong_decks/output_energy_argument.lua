@@ -1,0 +1,1 @@
+local e = output.energy{ name = "energy" }

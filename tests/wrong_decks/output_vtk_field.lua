@@ -1,0 +1,1 @@
+local v = output.vtk{ frames = 10, fields = { "displacment" } }

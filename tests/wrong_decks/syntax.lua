@@ -1,0 +1,2 @@
+local steel = material.elastic{ name = "steel"
+local x = 3

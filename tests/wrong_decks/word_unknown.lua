@@ -1,0 +1,1 @@
+local m = material.elastc{ name = "steel" }
