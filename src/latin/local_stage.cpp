@@ -1,6 +1,8 @@
 #include "latin/local_stage.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
 
 namespace dygita {
 
@@ -223,6 +225,9 @@ void LocalStage::accept(State* state) {
       end.force.setZero();
       end.status = PointState::open;
     }
+    if (point.law && point.law->rubs())
+      gap_difference_ = std::max(gap_difference_, std::abs((*model_->surfaces)[point.members.front().surface].initial_gap +
+                                                           p.trial.jump[0] - p.law.gap));
     if (state) book_work(point, p, end, *state);
     p.law = end;
     if (state) show(point, p, *state);

@@ -24,6 +24,8 @@ class LocalStage {
   IndicatorSums run(const Vec& velocity, const Vec& q, Vec& image);
   // Accepts the fields of the last `run`: the laws move on; with a state, forces, gaps, slips and works go into it.
   void accept(State* state);
+  // Largest difference so far between a contact law's gap and that of the displacements, m.
+  double gap_difference() const { return gap_difference_; }
   // Force of the laws on held directions of a substructure's nodes (3 x n_nodes, N).
   Points held_force(int part) const;
 
@@ -59,6 +61,7 @@ class LocalStage {
   std::vector<PortState> ports_;
   std::vector<PointData> points_;
   Increment increment_;
+  double gap_difference_ = 0.0;
 };
 
 }  // namespace dygita

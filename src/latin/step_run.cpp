@@ -168,6 +168,7 @@ void StepRun::add_to(SolverFigures& figures) const {
   for (const auto& piece : model_.pieces) bytes += piece->memory();
   figures.factor_bytes = std::max(figures.factor_bytes, bytes);
   figures.n_interface_unknowns = model_.n_q();
+  figures.gap_difference = std::max(figures.gap_difference, local_.gap_difference());
   figures.seconds["output"] += output_seconds_;
 }
 

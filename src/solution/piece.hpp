@@ -85,6 +85,8 @@ class Piece {
   Vec row_displacements() const;  // u at the rows
   // Force (N) of supports and prescribed motions on the piece in the last increment, one column a node.
   Points reactions(const Points& interface_force) const;
+  // Force (N) of absorbing supports on the piece in the last increment, one column a node.
+  Points absorbing_force() const;
   IncrementEnergy stored_energy() const;  // kinetic and strain now
   bool is_finite() const { return v_.allFinite(); }
 

@@ -232,6 +232,14 @@ std::vector<double> Piece::held_forces(const Points& interface_force) const {
   return values;
 }
 
+Points Piece::absorbing_force() const {
+  Points force = Points::Zero(3, n_free_of_.size());
+  if (v_old_.size() != v_.size()) return force;
+  const Points mean = expand(setup_.scheme.g * v_old_ + (1 - setup_.scheme.g) * v_, held_v_);
+  for (const auto& [node, impedance] : absorbing_) force.col(node) = -impedance * mean.col(node);
+  return force;
+}
+
 Points Piece::reactions(const Points& interface_force) const {
   Points result = Points::Zero(3, n_free_of_.size());
   if (v_old_.size() != v_.size()) return result;

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <set>
 
 #include "base/log.hpp"

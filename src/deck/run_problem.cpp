@@ -1,0 +1,104 @@
+#include "deck/run_problem.hpp"
+
+#include <omp.h>
+#include <spdlog/fmt/fmt.h>
+
+#include <chrono>
+
+#include "base/log.hpp"
+#include "latin/latin.hpp"
+#include "result/collector.hpp"
+#include "solution/step_model.hpp"
+
+namespace dygita {
+
+namespace {
+
+void summarise(const Problem& problem, const SolverFigures& figures, RunResult& result) {
+  int increments = 0;
+  for (size_t i = 0; i < figures.steps.size(); ++i) {
+    const StepFigures& f = figures.steps[i];
+    const Step& step = *problem.steps[i];
+    result.steps.push_back({step.name, step.is_static, f.increments, f.not_converged, f.iterations, f.worst_indicator, f.seconds});
+    result.iterations += f.iterations;
+    increments += f.increments;
+    if (f.not_converged > 0) result.converged = false;
+  }
+  result.mean_iterations = increments ? static_cast<double>(result.iterations) / increments : 0.0;
+  result.interrupted = figures.interrupted;
+  result.n_dofs = figures.n_dofs;
+  result.n_interface_unknowns = figures.n_interface_unknowns;
+  result.seconds = figures.seconds;
+  result.figures["memory of factors and interface operators [MB]"] = figures.factor_bytes / 1e6;
+  result.figures["largest difference between the interface gap and the displacements' [m]"] = figures.gap_difference;
+}
+
+void say_summary(const RunResult& result, const std::filesystem::path& directory, double seconds) {
+  for (const StepSummary& step : result.steps) {
+    std::string line = fmt::format("  {} '{}': {} increments, {:.1f} iterations each, {:.2f} s", step.is_static ? "static" : "dynamic",
+                                   step.name, step.increments, step.increments ? double(step.iterations) / step.increments : 0.0, step.seconds);
+    if (step.increments_not_converged > 0)
+      line += fmt::format("; {} NOT CONVERGED (worst indicator {:.1e})", step.increments_not_converged, step.worst_indicator);
+    say(line);
+  }
+  say(fmt::format("  energy balance closes within {:.3g} %, the scheme dissipates {:.3g} % and creates {:.3g} %",
+                  result.figures.at("energy imbalance [%]"), result.figures.at("energy dissipated by the scheme [%]"),
+                  result.figures.at("energy created by the scheme [%]")));
+  if (!directory.empty()) say(fmt::format("  {:.2f} s in all; results in {}", seconds, directory.string()));
+}
+
+}  // namespace
+
+std::shared_ptr<const RunResult> run_problem(const Problem& problem, const RunRequest& request) {
+  const auto start = std::chrono::steady_clock::now();
+  if (request.threads > 0) omp_set_num_threads(request.threads);
+  check_problem(problem);
+  say(fmt::format("problem '{}', case '{}': {} substructures, {} interfaces, {} steps", problem.name, request.case_name,
+                  problem.substructures.size(), problem.interfaces.size(), problem.steps.size()));
+  std::unique_ptr<RunWriter> writer;
+  Collector::FrameSink sink;
+  if (request.write_files) {
+    writer = std::make_unique<RunWriter>(request.out / problem.name / request.case_name, problem.name);
+    sink = [&](const Frame& frame) { writer->write_frame(frame); };
+  }
+  Collector collector(problem, sink);
+  auto result = std::make_shared<RunResult>();
+  const SolverFigures figures = solve(problem, collector);
+  summarise(problem, figures, *result);
+  collector.finish(*result);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result->seconds["all"] = seconds;
+  const std::vector<std::string> warnings = take_warnings();
+  if (writer) writer->write_result(problem, *result, request.identity, warnings);
+  say_summary(*result, writer ? writer->directory() : std::filesystem::path(), seconds);
+  return result;
+}
+
+std::string check_report(const Problem& problem) {
+  check_problem(problem);
+  const std::vector<Surface> surfaces = make_surfaces(problem);
+  State state = initial_state(problem, surfaces);
+  long n_dofs = 0;
+  std::string text = fmt::format("problem '{}'\n", problem.name);
+  for (const SubstructurePtr& part : problem.substructures) {
+    check_mesh(*part->mesh, part->name);
+    n_dofs += 3L * part->mesh->n_nodes();
+    text += fmt::format("  substructure '{}': {} nodes, {} cells, {}\n", part->name, part->mesh->n_nodes(), part->mesh->n_cells(), part->material.name);
+  }
+  for (const Surface& surface : surfaces)
+    text += fmt::format("  {} '{}': {} points, {:.4g} mm^2\n", surface.interface ? "interface" : "wall", surface.name(), surface.n_points(),
+                        surface.facing.areas.sum() * 1e6);
+  long increments = 0;
+  for (const StepPtr& step : problem.steps) {
+    const Conditions conditions = make_conditions(problem, *step, state);
+    const Exchange exchange = make_exchange(problem, surfaces, conditions);
+    long unknowns = 0;
+    for (const int n : exchange.n_unknowns) unknowns += n;
+    text += fmt::format("  {} step '{}': {} increments{}, {} interface unknowns\n", step->is_static ? "static" : "dynamic", step->name,
+                        step->n_increments(), step->is_static ? "" : fmt::format(" of {:.4g} us", step->dt * 1e6), unknowns);
+    increments += step->n_increments();
+  }
+  return text + fmt::format("  {} degrees of freedom, {} increments in all; nothing was solved\n", n_dofs, increments);
+}
+
+}  // namespace dygita

@@ -1,0 +1,132 @@
+#include "result/collector.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/log.hpp"
+#include "signal/srs.hpp"
+
+namespace dygita {
+
+Collector::Collector(const Problem& problem, FrameSink sink) : problem_(problem), sink_(std::move(sink)) {
+  for (const OutputPtr& output : problem.outputs) {
+    switch (output->kind) {
+      case OutputKind::history: samplers_[output.get()] = make_history_sampler(problem, *output); break;
+      case OutputKind::resultant: samplers_[output.get()] = make_resultant_sampler(problem, *output); break;
+      case OutputKind::joint: samplers_[output.get()] = make_joint_sampler(problem, *output); break;
+      case OutputKind::energy: samplers_[output.get()] = make_energy_sampler(); break;
+      case OutputKind::vtk: slip_ = std::make_shared<FrictionlessSlip>(); break;
+      case OutputKind::srs: break;
+    }
+  }
+  convergence_.names = {"time", "iterations", "indicator", "converged"};
+  convergence_.units = {"s", "", "", ""};
+  convergence_.columns.resize(4);
+}
+
+void Collector::begin_step(const Instant& start) {
+  for (auto& [output, sampler] : samplers_) sampler->begin_step(start);
+  if (slip_) slip_->begin_step(start);
+  if (start.i_step == 0) maybe_frame(start);
+}
+
+void Collector::accept(const Instant& instant) {
+  if (slip_) slip_->accept(instant);
+  for (auto& [output, sampler] : samplers_) sampler->accept(instant);
+  const double row[] = {instant.time(), static_cast<double>(instant.iterations), instant.indicator, instant.converged ? 1.0 : 0.0};
+  for (int i = 0; i < 4; ++i) convergence_.columns[i].push_back(row[i]);
+  convergence_.step.push_back(instant.i_step);
+  watch(instant);
+  maybe_frame(instant);
+}
+
+void Collector::maybe_frame(const Instant& instant) {
+  for (const OutputPtr& output : problem_.outputs) {
+    if (output->kind != OutputKind::vtk || !sink_) continue;
+    const int n = instant.model.step->n_increments(), frames = std::min(output->frames, n), i = instant.increment + 1;
+    // Evenly over the step, its last increment always.
+    if (i > 0 && (i * static_cast<long>(frames)) / n == ((i - 1) * static_cast<long>(frames)) / n) continue;
+    Frame frame = make_frame(instant, *output, *slip_);
+    frame.label_time = label_time(instant);
+    sink_(frame);
+  }
+}
+
+// Static increments take a hundredth of the dynamic time each, so that frames follow one another; the first dynamic step
+// starts at zero.
+double Collector::label_time(const Instant& instant) const {
+  double dynamic = 0.0;
+  for (const StepPtr& step : problem_.steps)
+    if (!step->is_static) dynamic += step->duration;
+  const double unit = dynamic > 0.0 ? dynamic / 100.0 : 1.0;
+  int before_dynamic = 0, so_far = 0;
+  bool seen_dynamic = false;
+  for (size_t i = 0; i < problem_.steps.size(); ++i) {
+    const Step& step = *problem_.steps[i];
+    seen_dynamic |= !step.is_static;
+    if (!step.is_static) continue;
+    if (!seen_dynamic) before_dynamic += step.increments;
+    if (static_cast<int>(i) < instant.i_step) so_far += step.increments;
+    if (static_cast<int>(i) == instant.i_step) so_far += instant.increment + 1;
+  }
+  return instant.time() + unit * (so_far - (seen_dynamic ? before_dynamic : 0));
+}
+
+void Collector::watch(const Instant& instant) {
+  const Energies& e = instant.state.energies;
+  extremes_.energy = std::max(extremes_.energy, e.kinetic + e.strain + std::abs(e.loads));
+  extremes_.imbalance = std::max(extremes_.imbalance, std::abs(e.balance()));
+  extremes_.scheme_loss = std::max(extremes_.scheme_loss, e.scheme);
+  extremes_.scheme_gain = std::max(extremes_.scheme_gain, -e.scheme);
+  for (size_t s = 0; s < instant.model.surfaces->size(); ++s) {
+    const Surface& surface = (*instant.model.surfaces)[s];
+    if (!surface.law || !surface.law->rubs()) continue;
+    for (const LawState& p : instant.state.surfaces[s].points) extremes_.penetration = std::max(extremes_.penetration, -p.gap);
+  }
+}
+
+namespace {
+
+// A spectrum takes the dynamic rows of a history; steps of different dt are brought to the smallest.
+Table spectrum_table(const Problem& problem, const Output& output, const Table& history) {
+  std::vector<double> time, value;
+  double dt = 0.0;
+  for (int i = 0; i < history.n_rows(); ++i) {
+    const Step& step = *problem.steps[history.step[i]];
+    if (step.is_static) continue;
+    time.push_back(history.columns[0][i]);
+    value.push_back(history.columns[1][i]);
+    dt = dt == 0.0 ? step.dt : std::min(dt, step.dt);
+  }
+  if (time.empty()) return {};
+  std::vector<double> signal;
+  size_t i = 0;
+  for (long s = 0; time.front() + s * dt <= time.back() + 1e-6 * dt; ++s) {
+    const double t = time.front() + s * dt;
+    while (i + 2 < time.size() && time[i + 1] <= t) ++i;
+    const double x = i + 1 < time.size() ? std::clamp((t - time[i]) / (time[i + 1] - time[i]), 0.0, 1.0) : 0.0;
+    signal.push_back(value[i] + x * ((i + 1 < value.size() ? value[i + 1] : value[i]) - value[i]));
+  }
+  const Srs srs = shock_response_spectrum(signal, dt, output.srs);
+  const std::string unit = history.units[1];
+  return {{"frequency", "maximax", "positive", "negative", "primary", "residual"},
+          {"Hz", unit, unit, unit, unit, unit},
+          {srs.frequency, srs.maximax, srs.positive, srs.negative, srs.primary, srs.residual}, {}};
+}
+
+}  // namespace
+
+void Collector::finish(RunResult& result) {
+  for (auto& [output, sampler] : samplers_) result.tables[output] = sampler->take();
+  for (const OutputPtr& output : problem_.outputs)
+    if (output->kind == OutputKind::srs) result.tables[output.get()] = spectrum_table(problem_, *output, result.tables.at(output->of.get()));
+  result.convergence = std::move(convergence_);
+  const double percent = extremes_.energy > 0.0 ? 100.0 / extremes_.energy : 0.0;
+  result.figures["largest energy [J]"] = extremes_.energy;
+  result.figures["energy imbalance [%]"] = percent * extremes_.imbalance;
+  result.figures["energy dissipated by the scheme [%]"] = percent * extremes_.scheme_loss;
+  result.figures["energy created by the scheme [%]"] = percent * extremes_.scheme_gain;
+  result.figures["largest penetration [m]"] = extremes_.penetration;
+}
+
+}  // namespace dygita

@@ -1,0 +1,81 @@
+// Watches a run and keeps what the problem's outputs ask for; nothing else is computed.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "result/frame.hpp"
+#include "result/result.hpp"
+#include "solution/observer.hpp"
+
+namespace dygita {
+
+// Rows of one output, filled as the run goes.
+class Sampler {
+ public:
+  virtual ~Sampler() = default;
+  virtual void begin_step(const Instant&) {}
+  virtual void accept(const Instant& instant) = 0;
+  Table take() { return std::move(table_); }
+
+ protected:
+  explicit Sampler(Table table) : table_(std::move(table)) { table_.columns.resize(table_.names.size()); }
+  void add_row(const Instant& instant, double time, const std::vector<double>& values);
+  // Time of quantities that are means over an increment: its middle; the end in a static step.
+  static double mean_time(const Instant& instant);
+
+ private:
+  Table table_;
+};
+
+std::unique_ptr<Sampler> make_history_sampler(const Problem& problem, const Output& output);
+std::unique_ptr<Sampler> make_resultant_sampler(const Problem& problem, const Output& output);
+std::unique_ptr<Sampler> make_joint_sampler(const Problem& problem, const Output& output);
+std::unique_ptr<Sampler> make_energy_sampler();
+
+// Relative tangential displacement (m) accumulated while closed, of contact without friction: its law has no tangential unknown.
+class FrictionlessSlip {
+ public:
+  void begin_step(const Instant& instant);
+  void accept(const Instant& instant);
+  // Slip vector of a surface's point, from the law where it has friction.
+  Vec3 slip(const Instant& instant, int surface, int point) const;
+
+ private:
+  bool tracks(const Surface& surface) const;
+  Points relative_displacement(const Instant& instant, int surface) const;
+  std::vector<Points> before_, slip_;
+};
+
+// Largest imbalances and penetrations of the run, in percent of the largest energy and in metres.
+struct Extremes {
+  double energy = 0.0, imbalance = 0.0, scheme_loss = 0.0, scheme_gain = 0.0, penetration = 0.0;
+};
+
+class Collector : public Observer {
+ public:
+  using FrameSink = std::function<void(const Frame&)>;
+  Collector(const Problem& problem, FrameSink sink);
+
+  void begin_step(const Instant& start) override;
+  void accept(const Instant& instant) override;
+  // Tables of all outputs, spectra included, convergence and figures.
+  void finish(RunResult& result);
+
+ private:
+  void maybe_frame(const Instant& instant);
+  double label_time(const Instant& instant) const;
+  void watch(const Instant& instant);
+
+  const Problem& problem_;
+  FrameSink sink_;
+  std::map<const Output*, std::unique_ptr<Sampler>> samplers_;
+  std::shared_ptr<FrictionlessSlip> slip_;
+  Table convergence_;
+  Extremes extremes_;
+};
+
+// The frame of an instant with the fields of one vtk output.
+Frame make_frame(const Instant& instant, const Output& output, const FrictionlessSlip& slip);
+
+}  // namespace dygita

@@ -1,0 +1,77 @@
+// Frames for ParaView: only the fields asked for are computed.
+#include <algorithm>
+
+#include "fem/assembly.hpp"
+#include "result/collector.hpp"
+
+namespace dygita {
+
+namespace {
+
+PartFrame part_frame(const Instant& instant, int part, const std::vector<std::string>& fields) {
+  const Substructure& body = *instant.model.problem->substructures[part];
+  PartFrame frame;
+  frame.part = &body;
+  frame.displacement = instant.displacement(part);
+  const auto wants = [&](const char* name) { return std::find(fields.begin(), fields.end(), name) != fields.end(); };
+  Tensors stress;
+  if (wants("stress") || wants("von_mises")) stress = nodal_stress(*body.mesh, body.material, frame.displacement);
+  for (const std::string& name : fields) {
+    if (name == "displacement") frame.fields.push_back({name, frame.displacement});
+    if (name == "velocity") frame.fields.push_back({name, instant.velocity(part)});
+    if (name == "acceleration") frame.fields.push_back({name, instant.acceleration(part)});
+    if (name == "stress") frame.fields.push_back({name, stress});
+    if (name == "von_mises") frame.fields.push_back({name, von_mises(stress).transpose()});
+  }
+  return frame;
+}
+
+InterfaceFrame interface_frame(const Instant& instant, int s, const FrictionlessSlip& slip) {
+  const Surface& surface = (*instant.model.surfaces)[s];
+  const Substructure& body = *instant.model.problem->substructures[surface.part_1];
+  const std::vector<LawState>& state = instant.state.surfaces[s].points;
+  const int n = surface.n_points();
+  InterfaceFrame frame;
+  frame.name = surface.name();
+  frame.points.resize(3, n);
+  std::map<int, int> point_of;
+  Mat pressure(1, n), gap(1, n), plastic(1, n), status(1, n), slips(3, n), traction(3, n), displacement(3, n);
+  const Points u = instant.displacement(surface.part_1);
+  for (int i = 0; i < n; ++i) {
+    const int node = surface.facing.nodes_1[i];
+    point_of[node] = i;
+    frame.points.col(i) = body.mesh->nodes.col(node) + body.place;
+    const Vec3 normal = surface.facing.normals.col(i);
+    const Vec3 t = state[i].force / surface.facing.areas[i];
+    pressure(0, i) = -t.dot(normal);
+    traction.col(i) = t - t.dot(normal) * normal;
+    gap(0, i) = surface.law && surface.law->rubs() ? state[i].gap : 0.0;
+    plastic(0, i) = state[i].plastic_opening;
+    slips.col(i) = slip.slip(instant, s, i);
+    status(0, i) = static_cast<double>(state[i].status);
+    displacement.col(i) = u.col(node);
+  }
+  for (const Facet& facet : surface.facing.facets) {
+    Facet local = facet;
+    for (int i = 0; i < facet.n_nodes; ++i) local.nodes[i] = point_of.at(facet.nodes[i]);
+    frame.facets.push_back(local);
+  }
+  frame.fields = {{"displacement", displacement}, {"pressure", pressure}, {"gap", gap},       {"slip", slips},
+                  {"friction_traction", traction}, {"plastic_opening", plastic}, {"state", status}};
+  return frame;
+}
+
+}  // namespace
+
+Frame make_frame(const Instant& instant, const Output& output, const FrictionlessSlip& slip) {
+  Frame frame;
+  frame.time = instant.time();
+  frame.step = instant.model.step->name;
+  for (size_t i = 0; i < instant.model.problem->substructures.size(); ++i)
+    frame.parts.push_back(part_frame(instant, static_cast<int>(i), output.fields));
+  for (size_t s = 0; s < instant.model.surfaces->size(); ++s)
+    frame.interfaces.push_back(interface_frame(instant, static_cast<int>(s), slip));
+  return frame;
+}
+
+}  // namespace dygita
