@@ -27,8 +27,16 @@ double eigenvalue_bound(const Matrix& a) {
   return (rho + beta) / 2 + std::sqrt((rho - beta) * (rho - beta) / 4 + residual2);
 }
 
-// Keeps the largest of the bounds of the elements it has seen, whatever their order. The frequencies of a mesh with
-// lumped mass are at most those of its elements (Irons and Treharne).
+// The same by the norm of A^4, dearer: exceeds the eigenvalue by rank^(1/8) at worst, 1.44 for a hex8.
+template <class Matrix>
+double fourth_power_bound(const Matrix& a) {
+  const Matrix square = a * a, fourth = square * square;
+  return std::sqrt(std::sqrt(fourth.norm()));
+}
+
+// Keeps the largest of the bounds of the elements it has seen, whatever their order: at most 1.2 times the highest
+// frequency of an element. The frequencies of a mesh with lumped mass are at most those of its elements (Irons and
+// Treharne).
 class FrequencyBound {
  public:
   // stiffness: 3n x 3n, N/m, dof = 3 node + axis; mass: n, kg.
@@ -39,9 +47,11 @@ class FrequencyBound {
     Stiffness scaled;
     for (int j = 0; j < factor.size(); ++j) scaled.col(j) = stiffness.col(j).cwiseProduct(factor[j] * factor);
 
-    // The Frobenius norm is a bound too, and cheaper: most elements stop here.
-    const double rough = scaled.norm();
-    if (rough > eigenvalue_) eigenvalue_ = std::max(eigenvalue_, std::min(rough, eigenvalue_bound(scaled)));
+    // Three bounds, each closer and dearer than the last: those that cannot raise the maximum stop early.
+    double bound = scaled.norm();
+    if (bound > eigenvalue_) bound = std::min(bound, eigenvalue_bound(scaled));
+    if (bound > eigenvalue_) bound = std::min(bound, fourth_power_bound(scaled));
+    eigenvalue_ = std::max(eigenvalue_, bound);
   }
 
   void see(const FrequencyBound& other) { eigenvalue_ = std::max(eigenvalue_, other.eigenvalue_); }

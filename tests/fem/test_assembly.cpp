@@ -144,7 +144,7 @@ TEST(MaxFrequency, bounds_the_frequencies_of_the_elements_closely) {
           exact = std::max(exact, exact_frequency(type, nodes_of_cell(mesh, mesh.blocks[0], i), material));
         const double ratio = assemble(mesh, material).max_frequency / exact;
         EXPECT_GE(ratio, 1.0 - 1e-12) << cell_type_name(type) << ", nu " << poisson << ", " << edges.transpose();
-        EXPECT_LT(ratio, 1.5) << cell_type_name(type) << ", nu " << poisson << ", " << edges.transpose();
+        EXPECT_LT(ratio, 1.2) << cell_type_name(type) << ", nu " << poisson << ", " << edges.transpose();
         worst = std::max(worst, ratio);
         if (edges == Vec3::Ones())
           std::cout << "bound on the frequency / highest element frequency, " << cell_type_name(type) << " cube, nu "
