@@ -29,7 +29,8 @@ void StepRun::linear_stage() {
 // Right-hand sides of an increment, and all that it changes on the interfaces before any iteration.
 void StepRun::begin_increment(int increment) {
   motions_ = model_.motion_velocities(increment);
-  for_each_piece([&](Piece& piece, int i) { piece.begin(model_.external_force(i, increment, state_), motions_); });
+  model_.loads->evaluate(increment);
+  for_each_piece([&](Piece& piece, int i) { piece.begin(model_.external_force(i, state_), motions_); });
   local_.begin(increment, motions_);
 }
 

@@ -133,13 +133,12 @@ Instant StepRun::instant(int increment, int iterations, double eta) const {
 }
 
 void StepRun::leave_state() {
-  const int last = std::max(0, figures_.increments - 1);
   for (size_t i = 0; i < model_.pieces.size(); ++i) {
     const int part = static_cast<int>(i);
     state_.displacement[i] = model_.pieces[i]->displacement();
     state_.velocity[i] = model_.pieces[i]->velocity();
     if (model_.scheme.is_static) state_.velocity[i].setZero();
-    state_.force[i] = model_.external_force(part, last, state_);
+    state_.force[i] = model_.external_force(part, state_);
     if (!model_.scheme.is_static) continue;
     // What an absorbing support held in the static step it keeps holding while waves pass through it.
     state_.anchor[i].setZero();

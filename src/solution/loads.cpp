@@ -110,18 +110,18 @@ void Loads::add_vanished(const State& start) {
     }
 }
 
-void Loads::add_forces(int part, int increment, Points& force) const {
-  for (const LoadPattern& pattern : patterns_) {
-    if (pattern.part != part) continue;
-    const double value = step_.is_static ? pattern.value.at_static(increment, step_.increments)
-                                         : pattern.value.mean(step_.dt * increment, step_.dt * (increment + 1));
-    if (value == 0.0) continue;
-    for (const auto& [node, unit] : pattern.nodes) force.col(node) += value * unit;
-  }
+void Loads::evaluate(int increment) {
+  values_.clear();
+  for (const LoadPattern& pattern : patterns_)
+    values_.push_back(step_.is_static ? pattern.value.at_static(increment, step_.increments)
+                                      : pattern.value.mean(step_.dt * increment, step_.dt * (increment + 1)));
 }
 
-bool Loads::any_on(int part) const {
-  return std::any_of(patterns_.begin(), patterns_.end(), [&](const LoadPattern& p) { return p.part == part; });
+void Loads::add_forces(int part, Points& force) const {
+  for (size_t i = 0; i < patterns_.size(); ++i) {
+    if (patterns_[i].part != part || values_[i] == 0.0) continue;
+    for (const auto& [node, unit] : patterns_[i].nodes) force.col(node) += values_[i] * unit;
+  }
 }
 
 double Loads::shortening(const Interface* interface, double had, int increment) const {

@@ -18,9 +18,11 @@ class Loads {
   // masses: nodal masses (kg) of each substructure, for gravity.
   Loads(const Problem& problem, const Step& step, const State& start, const std::vector<const Vec*>& masses);
 
-  // Adds the forces (3 x n_nodes, N) on a substructure: at the end of a static increment, mean over a dynamic one.
-  void add_forces(int part, int increment, Points& force) const;
-  bool any_on(int part) const;
+  // Evaluates all loads for an increment: at its end in a static step, mean over it in a dynamic one. One thread only: a history
+  // may be a function of the deck.
+  void evaluate(int increment);
+  // Adds the forces (3 x n_nodes, N) on a substructure, as last evaluated.
+  void add_forces(int part, Points& force) const;
 
   // Shortening (m) reached at the end of an increment by a surface whose interface is loaded, else what it had.
   double shortening(const Interface* interface, double had, int increment) const;
@@ -37,6 +39,7 @@ class Loads {
   const Problem& problem_;
   const Step& step_;
   std::vector<LoadPattern> patterns_;
+  std::vector<double> values_;  // of each pattern
   std::vector<std::pair<const Interface*, LoadValue>> shortenings_;
   std::vector<std::pair<const Interface*, double>> releases_;
   std::map<std::string, double> motions_reached_;

@@ -55,9 +55,9 @@ double StepModel::held_velocity(const Port& port, const Vec3& direction, const s
   return velocity;
 }
 
-Points StepModel::external_force(int part, int increment, const State& state) const {
+Points StepModel::external_force(int part, const State& state) const {
   Points force = scheme.is_static ? Points(Points::Zero(3, state.anchor[part].cols())) : state.anchor[part];
-  loads->add_forces(part, increment, force);
+  loads->add_forces(part, force);
   return force;
 }
 
@@ -172,7 +172,8 @@ StepModel make_step_model(const Problem& problem, const Step& step, const std::v
   model.loads = std::make_unique<Loads>(problem, step, start, masses);
   if (step.is_static) {
     std::vector<Points> force;
-    for (size_t i = 0; i < bodies.size(); ++i) force.push_back(model.external_force(static_cast<int>(i), step.increments - 1, start));
+    model.loads->evaluate(step.increments - 1);
+    for (size_t i = 0; i < bodies.size(); ++i) force.push_back(model.external_force(static_cast<int>(i), start));
     pin_free_motions(problem, step, model.exchange, force, model.conditions);
     model.exchange = make_exchange(problem, in_force, model.conditions);
   }

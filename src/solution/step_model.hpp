@@ -34,8 +34,8 @@ struct StepModel {
   std::vector<double> motion_velocities(int increment) const;
   // Velocity of a held direction of a port, from the motions' velocities.
   double held_velocity(const Port& port, const Vec3& direction, const std::vector<double>& motions) const;
-  // External forces on a substructure over an increment (3 x n_nodes, N), absorbing supports' anchors included.
-  Points external_force(int part, int increment, const State& state) const;
+  // External forces on a substructure (3 x n_nodes, N) as the loads were last evaluated, absorbing supports' anchors included.
+  Points external_force(int part, const State& state) const;
 };
 
 // Builds and factorises; substructures side by side on the threads at hand. Throws InputError, NumericalError.

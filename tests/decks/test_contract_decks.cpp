@@ -1,0 +1,76 @@
+// The three contract decks with their expected numbers, at more than one mesh size.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "decks/engine.hpp"
+
+namespace dygita::test {
+namespace {
+
+// In every deck the balance closes, and the scheme creates next to nothing.
+void expect_sound(const DeckRun& run) {
+  EXPECT_TRUE(run.result->converged);
+  EXPECT_LT(run.figure("energy imbalance [%]"), 0.5);
+  EXPECT_LT(run.figure("energy created by the scheme [%]"), 0.1);
+}
+
+TEST(PlasticBeam, transmits_its_yield_stress) {
+  for (const char* n : {"1", "2"}) {
+    const DeckRun run = run_file(deck("plastic_beam.lua"), {{"n", n}}).at(0);
+    expect_sound(run);
+    EXPECT_NEAR(largest(run.column("through", "normal")) / 25e-6, 120e6, 0.01 * 120e6) << n;
+  }
+}
+
+TEST(PlasticBeam, is_a_bonded_beam_below_its_yield_stress) {
+  const DeckRun run = run_file(deck("plastic_beam.lua"), {{"yield", "500*MPa"}}).at(0);
+  EXPECT_EQ(largest(run.column("yielding", "plastic_opening")), 0.0);
+  // The step of 200 MPa passes, and doubles at the fixed end.
+  double at_12us = 0.0;
+  const Table& through = run.table("through");
+  for (int i = 0; i < through.n_rows(); ++i)
+    if (through.columns[0][i] > 11e-6 && through.columns[0][i] < 13e-6) at_12us = std::max(at_12us, through.column("normal")[i] / 25e-6);
+  EXPECT_NEAR(at_12us, 200e6, 0.12 * 200e6);  // with the ringing of a step on a lumped mesh
+}
+
+TEST(Crush, converges_with_the_same_ease_for_any_friction) {
+  std::vector<double> spread, iterations;
+  for (const char* mu : {"0", "0.3", "1", "5"}) {
+    const DeckRun run = run_file(deck("crush.lua"), {{"mu", mu}}).at(0);
+    expect_sound(run);
+    spread.push_back(*std::max_element(run.column("spread", "displacement").begin(), run.column("spread", "displacement").end()));
+    iterations.push_back(run.result->mean_iterations);
+    std::cout << "mu " << mu << ": spread " << spread.back() * 1e6 << " um, " << iterations.back() << " iterations a step\n";
+  }
+  for (size_t i = 1; i < spread.size(); ++i) EXPECT_LE(spread[i], spread[i - 1] * 1.0001);
+  for (const double n : iterations) EXPECT_LT(n, 1.6 * *std::min_element(iterations.begin(), iterations.end()));
+}
+
+TEST(Crush, gives_the_same_spread_on_a_finer_mesh_within_a_tenth) {
+  const auto spread = [](const char* n) {
+    const DeckRun run = run_file(deck("crush.lua"), {{"n", n}}).at(0);
+    expect_sound(run);
+    return *std::max_element(run.column("spread", "displacement").begin(), run.column("spread", "displacement").end());
+  };
+  const double coarse = spread("4"), fine = spread("6");
+  std::cout << "spread " << coarse * 1e6 << " um (n = 4), " << fine * 1e6 << " um (n = 6)\n";
+  EXPECT_NEAR(coarse, fine, 0.1 * fine);
+}
+
+TEST(BoltedFlanges, tightens_and_shocks_at_two_mesh_sizes) {
+  std::vector<double> tightened;
+  for (const char* size : {"4*mm", "3*mm"}) {
+    const DeckRun run = run_file(deck("bolted_flanges.lua"), {{"size", size}}).at(0);
+    expect_sound(run);
+    tightened.push_back(run.column("bolt", "normal").at(1));
+    std::cout << "size " << size << ": " << run.result->n_dofs << " dof, bolt force " << tightened.back() / 1e3 << " kN, "
+              << run.result->mean_iterations << " iterations an increment, imbalance " << run.figure("energy imbalance [%]") << " %\n";
+    // What pulls in the bolt pushes in the mating plane.
+    EXPECT_NEAR(run.column("joint", "normal").at(1), -tightened.back(), 1e-6 * tightened.back());
+  }
+  EXPECT_NEAR(tightened[0], tightened[1], 0.05 * tightened[1]);
+}
+
+}  // namespace
+}  // namespace dygita::test

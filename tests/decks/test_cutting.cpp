@@ -1,0 +1,103 @@
+// A body cut into bonded pieces is the uncut body; the answer does not depend on window, form or threads.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "decks/engine.hpp"
+
+namespace dygita::test {
+namespace {
+
+// A 6 x 6 x 8 block on a rigid wall with friction, hit obliquely on top; cut into nx x ny x nz bonded bricks.
+const std::string cut_block = R"(
+local p = param{ nx = 1, ny = 1, nz = 1, friction = 0.3, window = 1, plain = 0, tolerance = 1e-9, contact = 0, shock = 40 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local size, cells = { 6*mm, 6*mm, 8*mm }, { 6, 6, 8 }
+local n = { p.nx, p.ny, p.nz }
+local bricks, faces, top, bottom, ties = {}, {}, {}, {}, {}
+local function key(i, j, k) return i .. "." .. j .. "." .. k end
+for i = 1, n[1] do for j = 1, n[2] do for k = 1, n[3] do
+  local c = { cells[1] // n[1], cells[2] // n[2], cells[3] // n[3] }
+  local s = { size[1] / n[1], size[2] / n[2], size[3] / n[3] }
+  local part = substructure{ name = "brick" .. key(i, j, k), material = steel,
+    mesh = mesh.box{ origin = { (i-1)*s[1], (j-1)*s[2], (k-1)*s[3] }, size = s, cells = c } }
+  bricks[#bricks + 1] = part
+  faces[key(i, j, k)] = part
+end end end
+for i = 1, n[1] do for j = 1, n[2] do for k = 1, n[3] do
+  local a = faces[key(i, j, k)]
+  if k == n[3] then top[#top + 1] = a:face "zmax" end
+  if k == 1 then bottom[#bottom + 1] = a:face "zmin" end
+  if i < n[1] then ties[#ties + 1] = interface.bonded{ name = "x" .. key(i, j, k), between = { a:face "xmax", faces[key(i+1, j, k)]:face "xmin" } } end
+  if j < n[2] then ties[#ties + 1] = interface.bonded{ name = "y" .. key(i, j, k), between = { a:face "ymax", faces[key(i, j+1, k)]:face "ymin" } } end
+  if k < n[3] then
+    local face = { a:face "zmax", faces[key(i, j, k+1)]:face "zmin" }
+    if p.contact == 1 then ties[#ties + 1] = interface.contact{ name = "z" .. key(i, j, k), between = face, friction = p.friction }
+    else ties[#ties + 1] = interface.bonded{ name = "z" .. key(i, j, k), between = face } end
+  end
+end end end
+local wall = support.wall{ name = "wall", on = bottom, friction = p.friction }
+local hit = step.dynamic{ name = "hit", duration = 8*us, dt = 0.2*us, loads = {
+  load.traction{ on = top, x = history.half_sine{ peak = p.shock*MPa, duration = 3*us }, z = history.half_sine{ peak = -100*MPa, duration = 4*us } } } }
+local corner = output.history{ name = "corner", quantity = "velocity",
+  on = faces[key(n[1], n[2], n[3])]:where(function(x, y, z) return near(x, 6*mm) and near(y, 6*mm) and near(z, 8*mm) end) }
+local foot = output.joint{ name = "foot", on = wall }
+problem{ name = "block", substructures = bricks, interfaces = ties, supports = { wall }, steps = { hit },
+  solver = solver.latin{ tolerance = p.tolerance, window = p.window, plain = p.plain == 1, max_iterations = 2000 },
+  outputs = { corner, foot, output.energy{} } }:run{}
+)";
+
+DeckRun block(const Settings& settings, int threads = 0) { return run_text(cut_block, settings, threads).at(0); }
+
+TEST(Cutting, a_cut_and_bonded_body_is_the_uncut_one) {
+  const DeckRun whole = block({});
+  EXPECT_TRUE(whole.result->converged);
+  for (const Settings& cut : {Settings{{"nz", "2"}}, Settings{{"nx", "2"}, {"ny", "2"}, {"nz", "2"}}, Settings{{"nx", "3"}, {"ny", "2"}, {"nz", "4"}}}) {
+    const DeckRun pieces = block(cut);
+    EXPECT_TRUE(pieces.result->converged);
+    for (const char* axis : {"x", "y", "z"})
+      EXPECT_LT(difference(whole.column("corner", axis), pieces.column("corner", axis)), 1e-6) << axis;
+    EXPECT_LT(difference(whole.column("foot", "normal"), pieces.column("foot", "normal")), 1e-6);
+    EXPECT_LT(difference(whole.column("foot", "shear"), pieces.column("foot", "shear")), 1e-6);
+    std::cout << pieces.problem.substructures.size() << " pieces: " << pieces.result->mean_iterations << " iterations a step, corner x differs by "
+              << difference(whole.column("corner", "x"), pieces.column("corner", "x")) << "\n";
+  }
+}
+
+TEST(Cutting, pieces_across_a_contact_plane_give_the_same_contact) {
+  const DeckRun slabs = block({{"nz", "2"}, {"contact", "1"}});
+  const DeckRun pieces = block({{"nx", "2"}, {"ny", "3"}, {"nz", "2"}, {"contact", "1"}});
+  EXPECT_TRUE(pieces.result->converged);
+  EXPECT_LT(difference(slabs.column("corner", "z"), pieces.column("corner", "z")), 1e-6);
+  EXPECT_LT(difference(slabs.column("corner", "x"), pieces.column("corner", "x")), 1e-6);
+}
+
+TEST(Window, any_window_gives_the_answer_of_any_other) {
+  const DeckRun one = block({{"nz", "2"}});
+  for (const char* window : {"4", "7", "20"}) {
+    const DeckRun many = block({{"nz", "2"}, {"window", window}});
+    EXPECT_TRUE(many.result->converged) << window;
+    EXPECT_LT(difference(one.column("corner", "x"), many.column("corner", "x")), 1e-6) << window;
+    EXPECT_LT(difference(one.column("foot", "normal"), many.column("foot", "normal")), 1e-6) << window;
+  }
+}
+
+TEST(Forms, the_condensed_form_equals_full_solves) {
+  const DeckRun condensed = block({{"nx", "2"}, {"nz", "2"}, {"contact", "1"}});
+  const DeckRun plain = block({{"nx", "2"}, {"nz", "2"}, {"contact", "1"}, {"plain", "1"}});
+  EXPECT_LT(difference(condensed.column("corner", "x"), plain.column("corner", "x")), 1e-8);
+  EXPECT_LT(difference(condensed.column("foot", "normal"), plain.column("foot", "normal")), 1e-8);
+  EXPECT_EQ(condensed.result->iterations, plain.result->iterations);
+}
+
+TEST(Threads, any_number_of_threads_gives_the_same_bits) {
+  const Settings cut{{"nx", "2"}, {"ny", "2"}, {"nz", "2"}};
+  const DeckRun one = block(cut, 1), two = block(cut, 2), three = block(cut, 3);
+  EXPECT_EQ(one.column("corner", "x"), two.column("corner", "x"));
+  EXPECT_EQ(one.column("foot", "normal"), two.column("foot", "normal"));
+  EXPECT_EQ(one.column("foot", "normal"), three.column("foot", "normal"));
+  EXPECT_EQ(one.column("energy", "balance"), two.column("energy", "balance"));
+}
+
+}  // namespace
+}  // namespace dygita::test
