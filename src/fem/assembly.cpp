@@ -1,6 +1,8 @@
 #include "fem/assembly.hpp"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 
 #include "fem/cell_loop.hpp"
 #include "fem/frequency.hpp"
@@ -43,12 +45,14 @@ struct AssemblyKernel {
   BodyMatrices& body;
   FrequencyBound& highest;
 
+  std::array<int, n> order;  // of the cell's nodes, increasing: their neighbours are walked once
   int computed = -1;
   Stiffness<n> stiffness;
   Eigen::Matrix<double, n, 1> mass;
   FrequencyBound seen;
 
-  void compute(const int*, int i_cell) {
+  void compute(const int* nodes, int i_cell) {
+    std::sort(order.begin(), order.end(), [nodes](int a, int b) { return nodes[a] < nodes[b]; });
     if (model[i_cell] == computed) return;
     computed = model[i_cell];
     const Nodes<n> x = gather<n>(mesh.nodes, block.cell(computed));
@@ -62,8 +66,9 @@ struct AssemblyKernel {
     const int first = pattern.starts[nodes[a]], count = pattern.starts[nodes[a] + 1] - first;
     const int* neighbours = pattern.neighbours.data() + first;
     double* row = body.stiffness.valuePtr() + 9 * static_cast<std::ptrdiff_t>(first);
-    for (int b = 0; b < n; ++b) {
-      const auto slot = std::lower_bound(neighbours, neighbours + count, nodes[b]) - neighbours;
+    int slot = 0;
+    for (const int b : order) {
+      while (neighbours[slot] != nodes[b]) ++slot;
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)  // by columns: the cell's matrix is symmetric
           row[3 * (i * count + slot) + j] += stiffness(3 * b + j, 3 * a + i);
@@ -84,8 +89,9 @@ BodyMatrices assemble(const Mesh& mesh, const Elastic& material) {
     with_cell(block.type, [&](auto cell) {
       using Cell = decltype(cell);
       const std::vector<int> model = models<Cell::n_nodes>(mesh.nodes, block);
-      sum_at_nodes(block, owners,
-                   AssemblyKernel<Cell>{mesh, block, material, pattern, model, body, highest, -1, {}, {}, {}});
+      AssemblyKernel<Cell> kernel{mesh, block, material, pattern, model, body, highest, {}, -1, {}, {}, {}};
+      std::iota(kernel.order.begin(), kernel.order.end(), 0);
+      sum_at_nodes(block, owners, kernel);
     });
   body.max_frequency = highest.frequency();
   return body;
