@@ -343,7 +343,7 @@ words[10] = {
   {
     "history", makes = "output",
     doc = "A quantity against time, as the mean over a face or a region. Columns: the quantity where it is one number or has a "
-      .. "`direction`, else x, y, z.",
+      .. "`direction`, else x, y, z (of stress xx, yy, zz, xy, yz, zx).",
     arguments = {
       name_of "output",
       on({ "face", "region", "interface", "support" }, "where; `pressure` is of an interface or a wall"),

@@ -81,6 +81,7 @@ local function read(object, key)
   end
   local arguments = native.arguments(object)
   local value = arguments[key]
+  if value ~= nil and path == "param" then native.note_parameter(key) end
   if type(value) == "table" then return table.move(value, 1, #value, 1, {}) end
   if value ~= nil then return value end
   fail(native.line(), ("%s has no '%s'"):format(name ~= "" and ("%s '%s'"):format(kind, name) or path, tostring(key)),

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "app/srs_command.hpp"
+#include "base/names.hpp"
 #include "base/progress.hpp"
 #include "deck/deck.hpp"
 
@@ -66,6 +67,17 @@ int run_or_check(Command& asked, bool solves) {
   return outcome.not_converged.empty() ? done : not_converged;
 }
 
+// The name of an unknown command, which CLI11 would only call missing.
+void check_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    known.push_back(command->get_name());
+    if (known.back() == argv[1]) return;
+  }
+  throw InputError(std::string("no command '") + argv[1] + "'\n    " + did_you_mean(argv[1], known));
+}
+
 int command_line(int argc, char** argv) {
   CLI::App app("Dygita: shock propagation through bolted assemblies");
   app.require_subcommand(1);
@@ -84,6 +96,7 @@ int command_line(int argc, char** argv) {
     app.add_subcommand(later, std::string("not built yet in ") + version())->allow_extras();
   }
 
+  check_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

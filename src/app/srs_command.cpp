@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/names.hpp"
+#include "output/csv.hpp"
 
 namespace dygita {
 
@@ -21,7 +22,7 @@ constexpr double uneven_sampling = 0.01;  // of the mean step
 
 struct Signal {
   std::vector<double> time, values;
-  std::string name;
+  std::string unit;
 };
 
 std::string trimmed(const std::string& text) {
@@ -50,6 +51,11 @@ std::optional<double> number_in(const std::string& text) {
 
 // "acceleration [m/s^2]" without its unit.
 std::string name_in(const std::string& header) { return trimmed(header.substr(0, header.find('['))); }
+
+std::string unit_in(const std::string& header) {
+  const size_t open = header.find('['), close = header.find(']');
+  return open < close && close != std::string::npos ? header.substr(open + 1, close - open - 1) : "";
+}
 
 // The column of values, from the header and the first row of numbers.
 size_t column_of(const SrsCommand& command, const std::vector<std::string>& header,
@@ -84,7 +90,10 @@ Signal read_signal(const SrsCommand& command) {
       header = cells;
       continue;
     }
-    if (signal.time.empty()) column = column_of(command, header, cells);
+    if (signal.time.empty()) {
+      column = column_of(command, header, cells);
+      if (column < header.size()) signal.unit = unit_in(header[column]);
+    }
     const auto value = column < cells.size() ? number_in(cells[column]) : std::nullopt;
     if (!time || !value) throw InputError(fmt::format("{}:{}: no numbers in '{}'", command.signal, n, line));
     if (!signal.time.empty() && *time < signal.time.back()) {
@@ -129,14 +138,16 @@ void write_srs(const SrsCommand& command) {
   Signal signal = read_signal(command);
   const double dt = make_even(signal, command.signal);
   const Srs srs = shock_response_spectrum(signal.values, dt, command.settings);
+  const std::string& unit = signal.unit;
+  const Table table{{"frequency", "maximax", "positive", "negative", "primary", "residual"},
+                    {"Hz", unit, unit, unit, unit, unit},
+                    {srs.frequency, srs.maximax, srs.positive, srs.negative, srs.primary, srs.residual},
+                    {}};
   std::FILE* file = command.out.empty() ? stdout : std::fopen(command.out.c_str(), "w");
   if (!file) throw InputError(fmt::format("cannot write '{}'", command.out));
-  std::fputs("frequency [Hz],maximax,positive,negative,primary,residual\n", file);
-  for (size_t i = 0; i < srs.frequency.size(); ++i) {
-    std::fprintf(file, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", srs.frequency[i], srs.maximax[i], srs.positive[i],
-                 srs.negative[i], srs.primary[i], srs.residual[i]);
-  }
-  if (file != stdout) std::fclose(file);
+  const bool is_written = std::fputs(csv_text(table, {}).c_str(), file) >= 0;
+  const bool is_closed = file == stdout ? std::fflush(file) == 0 : std::fclose(file) == 0;
+  if (!is_written || !is_closed) throw InputError(fmt::format("cannot write all of '{}'", command.out));
 }
 
 }  // namespace dygita

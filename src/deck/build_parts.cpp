@@ -17,15 +17,11 @@ constexpr double locking_poisson = 0.45;
 
 Held build_box(const Declaration& d) {
   const auto cells = d.arguments.counts("cells");
-  const double bytes = bytes_per_cell * cells[0] * cells[1] * cells[2];
-  if (bytes > static_cast<double>(d.lua.bytes_limit())) {
-    throw InputError(d.origin,
-                     fmt::format("mesh.box: {} x {} x {} cells take about {:.3g} MB\n    --memory-limit raises "
-                                 "the limit of {:g} MB",
-                                 cells[0], cells[1], cells[2], bytes / (1 << 20),
-                                 static_cast<double>(d.lua.bytes_limit()) / (1 << 20)));
-  }
-  return box_mesh(d.arguments.vector("origin"), d.arguments.vector("size"), cells);
+  const auto bytes = static_cast<size_t>(bytes_per_cell * cells[0] * cells[1] * cells[2]);
+  d.lua.reserve(fmt::format("mesh.box: {} x {} x {} cells", cells[0], cells[1], cells[2]), bytes);
+  const MeshPtr mesh = box_mesh(d.arguments.vector("origin"), d.arguments.vector("size"), cells);
+  d.lua.hold_reserved(mesh, bytes);
+  return mesh;
 }
 
 Held build_gmsh(const Declaration& d) {

@@ -20,9 +20,12 @@ std::string text_of(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, ignored) || !stream) {
     throw InputError(fmt::format("no deck '{}'", path.string()));
   }
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
+  std::ostringstream content;
+  content << stream.rdbuf();
+  std::string text = content.str();
+  if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);  // byte order mark of some editors
+  if (text.rfind("#!", 0) == 0) text.replace(0, 2, "--");
+  return text;
 }
 
 // FNV-1a, 64 bits.
@@ -72,6 +75,10 @@ void run_text(DeckState& state, const std::string& text) {
 
 void warn_of_unused(const DeckState& state) {
   for (const std::string& warning : state.declared.unused()) warn(warning);
+  for (const auto& [name, value] : state.parameters) {
+    if (state.parameters_read.count(name)) continue;
+    warn(fmt::format("{}parameter '{}' is declared and never used", state.parameters_origin.prefix(), name));
+  }
   if (state.outcome.n_runs == 0) warn(state.deck_name() + " runs no problem: nothing was computed");
 }
 
@@ -119,6 +126,19 @@ DeckResultPtr compute(DeckState& state, std::shared_ptr<const Problem> problem, 
   return std::make_shared<const DeckResult>(DeckResult{problem, std::move(run), false});
 }
 
+// What the engine finds wrong and has no line for is told at the line that runs it.
+DeckResultPtr compute_at(const Origin& origin, DeckState& state, std::shared_ptr<const Problem> problem,
+                         const std::string& case_name) {
+  try {
+    return compute(state, problem, case_name);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    if (message.rfind(state.deck_name() + ":", 0) == 0) throw;
+    const std::string who = "problem '" + problem->name + "': ";
+    throw InputError(origin, message.rfind("problem '", 0) == 0 ? message : who + message);
+  }
+}
+
 }  // namespace
 
 DeckState::DeckState(const DeckOptions& deck_options, const Engine& deck_engine, bool solves)
@@ -144,7 +164,7 @@ int run_from_deck(DeckState& state, lua_State* L) {
   }
   state.declared.mark_used(self.id);
   ++state.outcome.n_runs;
-  DeckResultPtr result = compute(state, problem, case_name);
+  DeckResultPtr result = compute_at(origin, state, problem, case_name);
   if (!result->run->converged) state.outcome.not_converged.push_back(label);
   if (result->run->interrupted) throw DeckStopped();
   push_object(L, {"result", "result", problem->name, -1, result});

@@ -24,6 +24,8 @@ struct DeckState : LuaState {
   std::vector<std::pair<std::string, double>> parameters;
   std::set<std::pair<std::string, std::string>> cases;  // problem and case names that ran
   DeckOutcome outcome;
+  std::set<std::string> parameters_read;
+  Origin parameters_origin;
   bool has_parameters = false;   // param{} was called
   bool has_read_hollow = false;  // the deck has read a value that was not computed
 };

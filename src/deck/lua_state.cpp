@@ -160,6 +160,25 @@ void LuaState::raise(int status) {
   throw DeckScriptError(message);
 }
 
+size_t LuaState::outside_bytes() {
+  std::erase_if(outside_, [](const auto& held) { return held.first.expired(); });
+  size_t bytes = 0;
+  for (const auto& held : outside_) bytes += held.second;
+  return bytes;
+}
+
+void LuaState::reserve(const std::string& what, size_t bytes) {
+  if (used_bytes_ + outside_bytes() + bytes <= limits_.bytes) return;
+  lua_gc(L_, LUA_GCCOLLECT);
+  if (used_bytes_ + outside_bytes() + bytes <= limits_.bytes) return;
+  constexpr double megabyte = 1 << 20;
+  throw InputError(
+      origin(line(L_)),
+      fmt::format("{} take about {:.3g} MB; the deck may hold {:g} MB\n    --memory-limit "
+                  "raises the limit",
+                  what, static_cast<double>(bytes) / megabyte, static_cast<double>(limits_.bytes) / megabyte));
+}
+
 LuaState::Pause::Pause(LuaState& state) : state_(state) {
   state_.spent_ += processor_seconds() - state_.section_start_;
   state_.is_paused_ = true;

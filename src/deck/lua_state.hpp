@@ -9,6 +9,8 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/error.hpp"
 
@@ -62,8 +64,14 @@ class LuaState {
    private:
     LuaState& state_;
   };
-  size_t bytes_limit() const { return limits_.bytes; }
   bool is_paused() const { return is_paused_; }
+
+  // Throws InputError if the deck cannot hold `bytes` more outside Lua's own memory; afterwards they count for as long
+  // as `holder` lives.
+  void reserve(const std::string& what, size_t bytes);
+  void hold_reserved(std::weak_ptr<const void> holder, size_t bytes) {
+    outside_.emplace_back(std::move(holder), bytes);
+  }
 
   // Value of the Lua function kept under `reference` at t, called by the engine during a Pause from whichever thread.
   // Throws InputError (with file:line) on a Lua error or a value that is not a finite number.
@@ -76,6 +84,7 @@ class LuaState {
   std::shared_ptr<const bool> alive() const { return alive_; }
 
  private:
+  size_t outside_bytes();
   static void* allocate(void* self, void* block, size_t old_size, size_t new_size);
   static void hook(lua_State* L, lua_Debug* event);
   void watch();
@@ -92,6 +101,7 @@ class LuaState {
   double spent_ = 0.0, section_start_ = 0.0;  // s
   int last_line_ = 0;
   bool is_paused_ = false;
+  std::vector<std::pair<std::weak_ptr<const void>, size_t>> outside_;
   std::exception_ptr held_;
   std::recursive_mutex function_mutex_;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);

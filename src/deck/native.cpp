@@ -90,16 +90,23 @@ int arguments(LuaState&, lua_State* L) {
   return 1;
 }
 
+// note_parameter(name): the deck has read it.
+int note_parameter(LuaState& lua, lua_State* L) {
+  DeckState::of(lua).parameters_read.insert(lua_tostring(L, 1));
+  return 0;
+}
+
 int is_data(LuaState&, lua_State* L) {
   const std::string& what = the_object_at(L, 1).kind;
   lua_pushboolean(L, what == "result" || what == "data" || what == "series");
   return 1;
 }
 
-void keep_parameters(DeckState& state, lua_State* L, int index) {
+void keep_parameters(DeckState& state, lua_State* L, int index, const Origin& origin) {
   std::map<std::string, double> sorted;
   for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1)) sorted[lua_tostring(L, -2)] = lua_tonumber(L, -1);
   state.has_parameters = true;
+  state.parameters_origin = origin;
   state.parameters.assign(sorted.begin(), sorted.end());
 }
 
@@ -111,7 +118,7 @@ int make(LuaState& lua, lua_State* L) {
   const Arguments values(L, 3);
   Object object{lua_tostring(L, 2), path, "", -1, build({state, state.folder, path, origin, values})};
   if (path == "param") {
-    keep_parameters(state, L, 3);
+    keep_parameters(state, L, 3, origin);
   } else {
     if (values.has("name")) object.name = values.text("name");
     object.id = state.declared.add(object.label(), origin, values.ids());
@@ -229,6 +236,7 @@ void push_native(DeckState& state) {
                                        {"print", guarded<print>},
                                        {"kind", guarded<kind>},
                                        {"arguments", guarded<arguments>},
+                                       {"note_parameter", guarded<note_parameter>},
                                        {"is_data", guarded<is_data>},
                                        {"make", guarded<make>},
                                        {"call", guarded<call_method>},

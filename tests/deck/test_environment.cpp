@@ -125,6 +125,15 @@ TEST(MemoryLimit, stops_a_deck_that_fills_the_memory) {
   }
 }
 
+TEST(MemoryLimit, counts_meshes_for_as_long_as_they_live) {
+  const std::string box = "mesh.box{ size = { 1*mm, 1*mm, 1*mm }, cells = { 40, 40, 40 } }";  // about 6 MB
+  EXPECT_EQ(message_with_limits("for i = 1, 20 do local m = " + box + " end", 20, 32), "");
+  const std::string message =
+      message_with_limits("local kept = {}\nfor i = 1, 20 do kept[i] = " + box + " end", 20, 32);
+  EXPECT_TRUE(contains(message, "deck.lua:2: mesh.box: 40 x 40 x 40 cells take about 6.1 MB; the deck may hold 32 MB"))
+      << message;
+}
+
 TEST(MemoryLimit, can_be_raised) {
   EXPECT_NE(message_with_limits("local s = ('x'):rep(3e7)", 20, 16), "");
   EXPECT_EQ(message_with_limits("local s = ('x'):rep(3e7)", 20, 200), "");

@@ -82,6 +82,22 @@ TEST(Run, lets_the_engines_errors_out_as_they_are) {
   EXPECT_THROW(run_text(std::string(two_blocks) + "local r = " + pair + ":run{}", fake), std::bad_alloc);
 }
 
+TEST(Run, gives_the_engines_complaints_a_line) {
+  FakeEngine fake;
+  fake.during = [](const Problem&) { throw InputError("faces 'low.zmax' and 'high.zmin' do not meet"); };
+  try {
+    run_text(std::string(two_blocks) + "local p = " + pair + "\nlocal r = p:run{}", fake);
+    FAIL() << "nothing thrown";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "deck.lua:15: problem 'pair': faces 'low.zmax' and 'high.zmin' do not meet");
+  }
+}
+
+TEST(Deck, may_begin_with_a_byte_order_mark_or_the_name_of_its_program) {
+  EXPECT_EQ(message_of("\xEF\xBB\xBFlocal x = 1"), "");
+  EXPECT_EQ(message_of("#!/usr/bin/env dygita\nlocal x = y").substr(0, 12), "deck.lua:2: ");
+}
+
 TEST(Check, solves_nothing_and_says_what_would_be_computed) {
   FakeEngine fake;
   const DeckOutcome outcome = check_text(std::string(two_blocks) + "local r = " + pair + ":run{}", fake);
@@ -128,6 +144,12 @@ TEST(Unused, objects_that_serve_an_unused_one_are_not_told_apart) {
   const std::string text = std::string(two_blocks) + "local r = " + pair + ":run{}\n" +
                            "local s = step.static{ name = 's', loads = { load.gravity{ z = -g0 } } }";
   EXPECT_EQ(warnings_of(text), std::vector<std::string>{"deck.lua:15: step 's' is declared and never used"});
+}
+
+TEST(Unused, parameters_are_warned_of) {
+  const std::string text =
+      "local p = param{ mu = 0.3, n = 4 }" + std::string(two_blocks) + "local r = " + pair + ":run{}\nlocal n = p.n";
+  EXPECT_EQ(warnings_of(text), std::vector<std::string>{"deck.lua:1: parameter 'mu' is declared and never used"});
 }
 
 TEST(Unused, problems_are_those_never_run) {
