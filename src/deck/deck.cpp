@@ -119,7 +119,9 @@ RunRequest request_of(const DeckState& state, const Problem& problem, const std:
 DeckResultPtr compute(DeckState& state, std::shared_ptr<const Problem> problem, const std::string& case_name) {
   const LuaState::Pause pause(state);
   if (!state.is_solving) {
-    say(state.engine.check(*problem));
+    std::string report = state.engine.check(*problem);
+    while (!report.empty() && report.back() == '\n') report.pop_back();
+    say(report);
     return std::make_shared<const DeckResult>(DeckResult{problem, hollow_result(*problem), true});
   }
   auto run = state.engine.run(*problem, request_of(state, *problem, case_name));
