@@ -38,7 +38,7 @@ local function components(what, unit, range)
   return component("x", what, unit, range), component("y", what, unit, range), component("z", what, unit, range)
 end
 
-local friction = { "friction", type = "number", range = { 0, 2 }, default = 0, doc = "Coulomb's coefficient" }
+local friction = { "friction", type = "number", range = { 0, 1000 }, default = 0, doc = "Coulomb's coefficient" }
 local duration = { 1e-9, 100 }  -- s
 local any_value = { -1e15, 1e15 }
 

@@ -10,6 +10,7 @@
 #include "app/srs_command.hpp"
 #include "base/names.hpp"
 #include "base/progress.hpp"
+#include "base/threads.hpp"
 #include "deck/deck.hpp"
 
 namespace {
@@ -117,6 +118,7 @@ int command_line(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  wait_passively(argv);
   try {
     return command_line(argc, argv);
   } catch (const InputError& error) {

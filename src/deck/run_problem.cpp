@@ -3,6 +3,7 @@
 #include <omp.h>
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "base/log.hpp"
@@ -89,16 +90,20 @@ std::string check_report(const Problem& problem) {
     text += fmt::format("  {} '{}': {} points, {:.4g} mm^2\n", surface.interface ? "interface" : "wall", surface.name(), surface.n_points(),
                         surface.facing.areas.sum() * 1e6);
   long increments = 0;
+  double bytes = 0.0;
+  const std::vector<Body> bodies = make_bodies(problem);
   for (const StepPtr& step : problem.steps) {
-    const Conditions conditions = make_conditions(problem, *step, state);
-    const Exchange exchange = make_exchange(problem, surfaces, conditions);
-    long unknowns = 0;
-    for (const int n : exchange.n_unknowns) unknowns += n;
-    text += fmt::format("  {} step '{}': {} increments{}, {} interface unknowns\n", step->is_static ? "static" : "dynamic", step->name,
-                        step->n_increments(), step->is_static ? "" : fmt::format(" of {:.4g} us", step->dt * 1e6), unknowns);
+    const StepSize size = predict_step(problem, *step, surfaces, bodies, state);
+    text += fmt::format("  {} step '{}': {} increments{}, {} interface unknowns, {:.4g} MB\n", step->is_static ? "static" : "dynamic",
+                        step->name, step->n_increments(), step->is_static ? "" : fmt::format(" of {:.4g} us", step->dt * 1e6),
+                        size.n_unknowns, size.bytes / 1e6);
     increments += step->n_increments();
+    bytes = std::max(bytes, size.bytes);
   }
-  return text + fmt::format("  {} degrees of freedom, {} increments in all; nothing was solved\n", n_dofs, increments);
+  double matrices = 0.0;
+  for (const Body& body : bodies) matrices += 12.0 * static_cast<double>(body.matrices->stiffness.nonZeros());
+  return text + fmt::format("  {} degrees of freedom, {} increments in all, {:.4g} MB for factors and interface operators, {:.4g} MB for "
+                            "matrices; nothing was solved\n", n_dofs, increments, bytes / 1e6, matrices / 1e6);
 }
 
 }  // namespace dygita

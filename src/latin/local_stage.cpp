@@ -54,6 +54,7 @@ void LocalStage::start_law(const Point& point, PointData& p, const State& start)
     p.law.force += point.frame.transpose() * m.force;
     p.law.status = m.status;
   }
+  p.is_released = start.released[point.members.front().surface] != 0;
   p.shortening_old = p.trial.shortening = start.shortening[point.members.front().surface];
   if (model_->scheme.is_static) return;
   Vec3 rate = Vec3::Zero();
@@ -277,6 +278,7 @@ void LocalStage::show(const Point& point, const PointData& p, State& state) cons
     shown.slip = point.frame * p.law.slip;
     shown.rate = point.frame * p.law.rate;
     state.shortening[member.surface] = p.trial.shortening;
+    state.released[member.surface] = p.is_released;
   }
 }
 

@@ -69,6 +69,15 @@ void StepRun::start_pieces() {
                                 interface_force(*model_.surfaces, state_, static_cast<int>(i)));
     velocity = model_.pieces[i]->velocity();
   }
+  // A wall that is no longer a support has let go.
+  for (size_t s = 0; s < model_.surfaces->size(); ++s) {
+    const Support* wall = (*model_.surfaces)[s].wall;
+    if (!wall || index_of(supports_of(problem_, *model_.step), wall) >= 0) continue;
+    for (LawState& point : state_.surfaces[s].points) {
+      point.force.setZero();
+      point.status = PointState::open;
+    }
+  }
   Energies& energies = state_.energies;
   const double before = energies.kinetic + energies.strain;
   energies.kinetic = energies.strain = 0.0;
@@ -164,7 +173,7 @@ void StepRun::add_to(SolverFigures& figures) const {
     figures.n_dofs += 3 * piece->setup().body->part->mesh->n_nodes();
   }
   double bytes = 0.0;
-  for (const auto& piece : model_.pieces) bytes += piece->memory();
+  for (const auto& piece : model_.pieces) bytes += piece->bytes();
   figures.factor_bytes = std::max(figures.factor_bytes, bytes);
   figures.n_interface_unknowns = model_.n_q();
   figures.gap_difference = std::max(figures.gap_difference, local_.gap_difference());

@@ -142,18 +142,12 @@ void Factor::Supernodes::backward(double* x, int end, std::vector<double>& work)
   }
 }
 
-Factor::Factor(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, const std::vector<char>& is_interface,
-               const std::string& what)
-    : supernodes_(std::make_unique<Supernodes>()) {
-  const int n = static_cast<int>(matrix.rows());
-  CHECK(n > 0 && matrix.cols() == n && static_cast<int>(node_of_dof.size()) == n &&
-            static_cast<int>(is_interface.size()) == n, "factor of an ill-shaped matrix");
-  std::vector<int> order = interface_last_order(matrix, node_of_dof, is_interface);
-  n_interior_ = static_cast<int>(std::count(is_interface.begin(), is_interface.end(), 0));
+namespace {
 
-  // A symmetric matrix by rows is the same by columns: CHOLMOD reads the upper triangle in place.
+// A symmetric matrix by rows is the same by columns: CHOLMOD reads the upper triangle in place.
+cholmod_sparse view_of(const SparseMatrix& matrix) {
   cholmod_sparse a{};
-  a.nrow = a.ncol = static_cast<size_t>(n);
+  a.nrow = a.ncol = static_cast<size_t>(matrix.rows());
   a.nzmax = static_cast<size_t>(matrix.nonZeros());
   a.p = const_cast<int*>(matrix.outerIndexPtr());
   a.i = const_cast<int*>(matrix.innerIndexPtr());
@@ -163,19 +157,42 @@ Factor::Factor(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, 
   a.xtype = CHOLMOD_REAL;
   a.dtype = CHOLMOD_DOUBLE;
   a.sorted = a.packed = 1;
+  return a;
+}
 
+}  // namespace
+
+Factor::Factor() : supernodes_(std::make_unique<Supernodes>()) {}
+
+void Factor::analyse(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, const std::vector<char>& is_interface,
+                     const std::string& what) {
+  const int n = static_cast<int>(matrix.rows());
+  CHECK(n > 0 && matrix.cols() == n && static_cast<int>(node_of_dof.size()) == n &&
+            static_cast<int>(is_interface.size()) == n, "factor of an ill-shaped matrix");
+  std::vector<int> order = interface_last_order(matrix, node_of_dof, is_interface);
+  n_interior_ = static_cast<int>(std::count(is_interface.begin(), is_interface.end(), 0));
+  cholmod_sparse a = view_of(matrix);
   // Postordering groups the supernodes; where it would move an interface unknown forward it is left out.
   cholmod_common& common = supernodes_->common;
   for (const int postorder : {1, 0}) {
     common.postorder = postorder;
     cholmod_free_factor(&supernodes_->l, &common);
     supernodes_->l = cholmod_analyze_p(&a, order.data(), nullptr, 0, &common);
-    if (!supernodes_->l) throw NumericalError(what + ": the factorisation cannot be laid out: out of memory or more than 2^31 entries");
+    if (!supernodes_->l)
+      throw NumericalError(what + ": the factorisation cannot be laid out: out of memory, or more than 2^31 entries");
     const int* perm = static_cast<const int*>(supernodes_->l->Perm);
     order_.assign(perm, perm + n);
     if (std::all_of(order_.begin() + n_interior_, order_.end(), [&](int dof) { return is_interface[dof] != 0; })) break;
     CHECK(postorder == 1, "interface unknowns are not last in the factor");
   }
+}
+
+Factor::Factor(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, const std::vector<char>& is_interface,
+               const std::string& what)
+    : Factor() {
+  analyse(matrix, node_of_dof, is_interface, what);
+  cholmod_sparse a = view_of(matrix);
+  cholmod_common& common = supernodes_->common;
   cholmod_factorize(&a, supernodes_->l, &common);
   if (common.status == CHOLMOD_NOT_POSDEF) {
     const int dof = order_[supernodes_->l->minor];
@@ -184,6 +201,15 @@ Factor::Factor(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, 
   }
   if (common.status != CHOLMOD_OK) throw NumericalError(what + ": factorisation failed: out of memory");
 }
+
+double Factor::predicted_bytes(const SparseMatrix& matrix, const std::vector<int>& node_of_dof,
+                               const std::vector<char>& is_interface) {
+  Factor factor;
+  factor.analyse(matrix, node_of_dof, is_interface, "prediction");
+  return factor.bytes();
+}
+
+double Factor::bytes() const { return 8.0 * static_cast<double>(supernodes_->l->xsize) + 4.0 * static_cast<double>(supernodes_->l->ssize); }
 
 Factor::~Factor() = default;
 Factor::Factor(Factor&&) noexcept = default;

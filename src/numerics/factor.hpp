@@ -38,10 +38,17 @@ class Factor {
   // Schur complement of A on the interface, L_bb L_bb^T (n_interface x n_interface, in factor order).
   Mat interface_schur() const;
 
-  double nonzeros() const;  // entries of L that a solve reads
+  double nonzeros() const;  // entries of L that a forward or backward solve reads
+  double bytes() const;     // held by the factor
+  // The same before factorising, from the ordering and the pattern alone.
+  static double predicted_bytes(const SparseMatrix& matrix, const std::vector<int>& node_of_dof,
+                                const std::vector<char>& is_interface);
 
  private:
   struct Supernodes;
+  void analyse(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, const std::vector<char>& is_interface,
+               const std::string& what);
+  Factor();
   std::unique_ptr<Supernodes> supernodes_;
   std::vector<int> order_;
   int n_interior_ = 0;

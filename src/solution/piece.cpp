@@ -13,6 +13,7 @@ Piece::Piece(Setup setup) : setup_(std::move(setup)) {
   c1_ = setup_.scheme.c1(damping);
   make_bases();
   factorise();
+  if (setup_.is_prediction) return;
   make_couplings();
   k_ = Vec::Zero(n_rows());
 }
@@ -132,7 +133,13 @@ void Piece::factorise() {
     const Trace t = trace(row.node, row.direction);
     for (int j = 0; j < t.n; ++j) is_interface[t.at[j]] = 1;
   }
+  n_interface_ = static_cast<int>(std::count(is_interface.begin(), is_interface.end(), 1));
+  if (setup_.is_prediction) {
+    predicted_factor_bytes_ = Factor::predicted_bytes(free_matrix(reference), node_of_free_, is_interface);
+    return;
+  }
   factor_ = std::make_unique<Factor>(free_matrix(reference), node_of_free_, is_interface, setup_.what);
+  predicted_factor_bytes_ = factor_->bytes();
   for (int i = 0; i < n; ++i) position_[factor_->order()[i]] = i;
   mass_.resize(n);
   for (int i = 0; i < n; ++i) mass_[position_[i]] = setup_.body->matrices->mass[node_of_free_[i]];
@@ -216,8 +223,14 @@ Points Piece::expand(const Vec& free, const std::vector<double>& held) const {
   return nodal;
 }
 
-double Piece::memory() const {
-  return 8.0 * ((factor_ ? factor_->nonzeros() : 0.0) + static_cast<double>(schur_.size() + h_.size()) + 10.0 * n_free());
+double Piece::predicted_bytes() const {
+  const double n_b = n_interface_, n = static_cast<double>(node_of_free_.size());
+  return predicted_factor_bytes_ + 8.0 * (2.0 * n_b * n_b + 12.0 * n);
+}
+
+double Piece::bytes() const {
+  return (factor_ ? factor_->bytes() : 0.0) + (plain_factor_ ? plain_factor_->bytes() : 0.0) +
+         8.0 * (static_cast<double>(schur_.size() + h_.size()) + 12.0 * n_free());
 }
 
 }  // namespace dygita

@@ -52,6 +52,7 @@ class Piece {
     std::vector<Row> rows;
     int n_motions = 0;
     std::string what;  // "substructure 'rod' in step 'shock'", for messages
+    bool is_prediction = false;  // lays the factor out and goes no further: only predicted_bytes() then has a meaning
   };
   // Assembles and factorises. Throws NumericalError.
   explicit Piece(Setup setup);
@@ -97,7 +98,8 @@ class Piece {
   };
   Snapshot snapshot() const { return {u_, v_, p_, w_, force_, held_u_, held_v_}; }
   void restore(const Snapshot& s);
-  double memory() const;  // bytes held by factor, interface operator and vectors
+  double bytes() const;            // held by factor, interface operators and vectors
+  double predicted_bytes() const;  // the same, known before factorising
 
  private:
   struct HeldDirection {
@@ -136,6 +138,8 @@ class Piece {
   std::vector<Trace> traces_;
   std::vector<Vec> coupling_;  // B^T K of a unit velocity of each motion; empty where the motion is elsewhere
   Vec mass_;
+  double predicted_factor_bytes_ = 0.0;
+  int n_interface_ = 0;
   std::vector<std::pair<int, Mat3>> absorbing_;
   double c0_ = 0.0, c1_ = 0.0;
 

@@ -33,6 +33,7 @@ struct State {
   std::vector<Points> anchor;              // N, static reactions kept by absorbing supports
   std::vector<SurfaceState> surfaces;
   std::vector<double> shortening;          // m, of each surface, as its last step left it
+  std::vector<char> released;              // surfaces that have let go for good
   std::map<std::string, double> reached;   // value of each load at the end of the last step, by kind and target
   std::map<const void*, Vec3> base_velocity;  // m/s, of supports that were accelerated
   Energies energies;

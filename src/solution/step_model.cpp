@@ -36,6 +36,7 @@ State initial_state(const Problem& problem, const std::vector<Surface>& surfaces
     if (surface.law && surface.law->rubs()) start.status = PointState::open;
     state.surfaces.push_back({std::vector<LawState>(surface.n_points(), start)});
     state.shortening.push_back(0.0);
+    state.released.push_back(0);
   }
   return state;
 }
@@ -127,7 +128,7 @@ std::vector<Piece::Row> rows_of(const StepModel& model, int part) {
   return rows;
 }
 
-void make_pieces(StepModel& model, const std::vector<Body>& bodies) {
+void make_pieces(StepModel& model, const std::vector<Body>& bodies, bool is_prediction) {
   const int n = static_cast<int>(bodies.size());
   model.pieces.resize(n);
   model.offset.assign(1, 0);
@@ -142,7 +143,7 @@ void make_pieces(StepModel& model, const std::vector<Body>& bodies) {
     try {
       const std::string what = "substructure '" + bodies[i].part->name + "' in step '" + model.step->name + "'";
       model.pieces[i] = std::make_unique<Piece>(Piece::Setup{&bodies[i], model.scheme, &model.conditions.held[i], &absorbing[i],
-                                                             rows_of(model, i), static_cast<int>(model.conditions.motions.size()), what});
+                                                             rows_of(model, i), static_cast<int>(model.conditions.motions.size()), what, is_prediction});
     } catch (...) {
       const std::scoped_lock lock(mutex);
       failure = std::current_exception();
@@ -151,10 +152,8 @@ void make_pieces(StepModel& model, const std::vector<Body>& bodies) {
   if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace
-
-StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
-                          const std::vector<Body>& bodies, const State& start) {
+StepModel make_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                     const std::vector<Body>& bodies, const State& start, bool is_prediction) {
   StepModel model;
   model.problem = &problem;
   model.step = &step;
@@ -177,8 +176,24 @@ StepModel make_step_model(const Problem& problem, const Step& step, const std::v
     pin_free_motions(problem, step, model.exchange, force, model.conditions);
     model.exchange = make_exchange(problem, in_force, model.conditions);
   }
-  make_pieces(model, bodies);
+  make_pieces(model, bodies, is_prediction);
   return model;
+}
+
+}  // namespace
+
+StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                          const std::vector<Body>& bodies, const State& start) {
+  return make_model(problem, step, surfaces, bodies, start, false);
+}
+
+StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces, const std::vector<Body>& bodies,
+                      const State& start) {
+  const StepModel model = make_model(problem, step, surfaces, bodies, start, true);
+  StepSize size;
+  for (const auto& piece : model.pieces) size.bytes += piece->predicted_bytes();
+  size.n_unknowns = model.n_q();
+  return size;
 }
 
 }  // namespace dygita

@@ -42,6 +42,14 @@ struct StepModel {
 StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                           const std::vector<Body>& bodies, const State& start);
 
+// Memory (bytes) that a step's pieces will hold, and its interface unknowns; nothing is factorised.
+struct StepSize {
+  double bytes = 0.0;
+  long n_unknowns = 0;
+};
+StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces, const std::vector<Body>& bodies,
+                      const State& start);
+
 // Force of all interfaces on the nodes of a substructure (3 x n_nodes, N), from the surfaces' state.
 Points interface_force(const std::vector<Surface>& surfaces, const State& state, int part);
 

@@ -26,12 +26,16 @@ TEST(PlasticBeam, transmits_its_yield_stress) {
 TEST(PlasticBeam, is_a_bonded_beam_below_its_yield_stress) {
   const DeckRun run = run_file(deck("plastic_beam.lua"), {{"yield", "500*MPa"}}).at(0);
   EXPECT_EQ(largest(run.column("yielding", "plastic_opening")), 0.0);
-  // The step of 200 MPa passes, and doubles at the fixed end.
-  double at_12us = 0.0;
+  // The step of 200 MPa passes at 10 us; its reflection from the fixed end comes back at 30 us. The mean takes the mesh's ringing out.
   const Table& through = run.table("through");
+  double sum = 0.0;
+  int n = 0;
   for (int i = 0; i < through.n_rows(); ++i)
-    if (through.columns[0][i] > 11e-6 && through.columns[0][i] < 13e-6) at_12us = std::max(at_12us, through.column("normal")[i] / 25e-6);
-  EXPECT_NEAR(at_12us, 200e6, 0.12 * 200e6);  // with the ringing of a step on a lumped mesh
+    if (through.columns[0][i] > 12e-6) {
+      sum += through.column("normal")[i] / 25e-6;
+      ++n;
+    }
+  EXPECT_NEAR(sum / n, 200e6, 0.01 * 200e6);
 }
 
 TEST(Crush, converges_with_the_same_ease_for_any_friction) {

@@ -12,9 +12,9 @@ namespace {
 //   sleeve: 8 x 4 frame made of one box beside the rod's box; the heads are two plates across both.
 const std::string rod_in_sleeve = R"(
 local p = param{ shorten = 20*um, pull = 0, back = 0, rest = 0 }
-local rod_metal    = material.elastic{ name = "rod metal",    young = 200*GPa, poisson = 0, density = 7800 }
-local sleeve_metal = material.elastic{ name = "sleeve metal", young = 70*GPa,  poisson = 0, density = 2700 }
-local rigid        = material.elastic{ name = "head metal",   young = 2e15,    poisson = 0, density = 7800 }
+local rod_metal    = material.elastic{ name = "rod metal",    young = 20*MPa,  poisson = 0, density = 7800 }
+local sleeve_metal = material.elastic{ name = "sleeve metal", young = 7*MPa,  poisson = 0, density = 2700 }
+local rigid        = material.elastic{ name = "head metal",   young = 2e12,    poisson = 0, density = 7800 }
 local l = 20*mm
 local function box(x, w, z, h, cells) return mesh.box{ origin = { x, 0, z }, size = { w, 2*mm, h }, cells = cells } end
 -- Two sleeve halves left and right of the rod: nothing bends.
@@ -56,7 +56,7 @@ problem{ name = "rod_in_sleeve", substructures = { rod, left, right, head, foot 
 )";
 
 // k = E A / L of rod and sleeve.
-constexpr double k_rod = 200e9 * 4e-6 / 20e-3, k_sleeve = 70e9 * 16e-6 / 20e-3;
+constexpr double k_rod = 20e6 * 4e-6 / 20e-3, k_sleeve = 7e6 * 16e-6 / 20e-3;
 
 TEST(RodInSleeve, carries_the_force_of_the_two_springs) {
   const DeckRun run = run_text(rod_in_sleeve).at(0);
@@ -80,15 +80,12 @@ TEST(RodInSleeve, shares_a_pull_by_stiffness_opens_at_the_separation_load_and_co
   EXPECT_NEAR(beyond.column("seat", "open_area").at(5), 8e-6, 1e-12);
   EXPECT_NEAR(bolt.at(7), force, 1e-5 * force);
   // Left alone it stays at rest: velocity against wave speed times strain.
-  const double scale = std::sqrt(200e9 / 7800) * force / (200e9 * 4e-6);
+  const double scale = std::sqrt(20e6 / 7800) * force / (20e6 * 4e-6);
   EXPECT_LT(largest(beyond.column("rod_velocity", "z")), 1e-6 * scale);
   EXPECT_LT(beyond.figure("energy imbalance [%]"), 0.5);
 }
 
 TEST(BoltedFlanges, stays_at_rest_when_nothing_loads_it) {
-  const std::string shock = R"(
-local p = param{}
-)";
   // The contract deck with its pull taken off.
   std::ifstream file(deck("bolted_flanges.lua"));
   std::string text((std::istreambuf_iterator<char>(file)), {});
@@ -141,7 +138,6 @@ local block = substructure{ name = "block", material = m, velocity = { 0.5, 0, 0
   mesh = mesh.box{ size = { 20*mm, 20*mm, 10*mm }, cells = { 2, 2, 1 } } }
 local floor = support.wall{ name = "floor", on = block:face "zmin", friction = 0.5 }
 local guide = support.symmetry{ name = "guide", on = block:face "ymin" }
-local settle = step.static{ name = "settle", loads = { load.gravity{ z = -1000 } }, supports = { support.wall{ name = "rough", on = block:face "zmin", friction = 5 }, guide } }
 local slide = step.dynamic{ name = "slide", duration = 1500*us, dt = 1*us, loads = { load.gravity{ z = -1000 } } }
 problem{ name = "slide", substructures = { block }, supports = { floor, guide }, steps = { slide },
   outputs = { output.history{ name = "way", on = block:face "zmin", quantity = "displacement", direction = { 1, 0, 0 } },
@@ -235,11 +231,13 @@ problem{ name = "chain", substructures = { a, b }, interfaces = { weld }, suppor
   EXPECT_NEAR(weld.at(1), 100.0, 1e-5);
   EXPECT_NEAR(weld.at(2), 50.0, 1e-5);
   EXPECT_NEAR(run.column("foot", "z").at(2), -50.0, 1e-5);
-  EXPECT_NEAR(run.column("end", "displacement").at(2), 50.0 / 1e-6 / 200e9 * 100e-3, 1e-9);
+  EXPECT_NEAR(run.column("end", "displacement").at(3), 50.0 / 1e-6 / 200e9 * 100e-3, 1e-9);
   // After 10 us the weld carries nothing.
   const Table& table = run.table("weld");
   for (int i = 0; i < table.n_rows(); ++i)
-    if (table.step[i] >= 2 && table.columns[0][i] > 10.2e-6) ASSERT_EQ(table.column("normal")[i], 0.0);
+    if (table.step[i] >= 2 && table.columns[0][i] > 10.2e-6) {
+      ASSERT_EQ(table.column("normal")[i], 0.0);
+    }
   EXPECT_LT(run.figure("energy imbalance [%]"), 0.5);
   EXPECT_EQ(run.column("foot", "z").back(), 0.0);  // no longer a support
 }

@@ -1,0 +1,129 @@
+// The factor with the interface last, against dense algebra.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <random>
+
+#include "base/error.hpp"
+#include "numerics/factor.hpp"
+
+namespace dygita {
+namespace {
+
+struct Grid {
+  SparseMatrix matrix;
+  std::vector<int> node_of_dof;
+  std::vector<char> is_interface;
+};
+
+// A random positive definite matrix on an n x n x n grid with `per_node` unknowns a node; the plane i = 0 is the interface.
+Grid grid(int n, int per_node) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> in(-1.0, 1.0);
+  const auto index = [&](int i, int j, int k) { return (i * n + j) * n + k; };
+  const int size = n * n * n * per_node;
+  Mat dense = Mat::Zero(size, size);
+  Grid g;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) {
+        const int a = index(i, j, k);
+        for (int d = 0; d < per_node; ++d) {
+          g.node_of_dof.push_back(a);
+          g.is_interface.push_back(i == 0 && d < 2);
+        }
+        for (const int b : {i + 1 < n ? index(i + 1, j, k) : -1, j + 1 < n ? index(i, j + 1, k) : -1, k + 1 < n ? index(i, j, k + 1) : -1}) {
+          if (b < 0) continue;
+          for (int r = 0; r < per_node; ++r)
+            for (int c = 0; c < per_node; ++c)
+              dense(a * per_node + r, b * per_node + c) = dense(b * per_node + c, a * per_node + r) = in(random);
+        }
+      }
+  for (int r = 0; r < size; ++r) dense(r, r) = dense.row(r).cwiseAbs().sum() + 0.1;
+  g.matrix = dense.sparseView();
+  return g;
+}
+
+Vec ordered(const Factor& factor, const Vec& x) {
+  Vec y(x.size());
+  for (int i = 0; i < x.size(); ++i) y[i] = x[factor.order()[i]];
+  return y;
+}
+
+TEST(Factor, solves_as_dense_algebra_does) {
+  for (const int per_node : {1, 3}) {
+    const Grid g = grid(7, per_node);
+    const Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid");
+    const Vec b = Vec::LinSpaced(g.matrix.rows(), -1.0, 2.0);
+    const Vec exact = Mat(g.matrix).ldlt().solve(b);
+    Vec x = ordered(factor, b);
+    factor.solve(x);
+    EXPECT_LT((x - ordered(factor, exact)).norm(), 1e-12 * exact.norm());
+  }
+}
+
+TEST(Factor, puts_the_interface_last) {
+  const Grid g = grid(6, 3);
+  const Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid");
+  EXPECT_EQ(factor.n_interface(), 2 * 36);
+  for (int i = 0; i < factor.size(); ++i) EXPECT_EQ(g.is_interface[factor.order()[i]] != 0, i >= factor.n_interior());
+}
+
+TEST(Factor, forward_interface_and_backward_make_the_whole_solve) {
+  const Grid g = grid(7, 3);
+  const Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid");
+  const Vec b = Vec::LinSpaced(g.matrix.rows(), -1.0, 2.0);
+  Vec whole = ordered(factor, b), x = whole;
+  factor.solve(whole);
+  factor.forward(x);
+  const Mat h = inverse_spd(factor.interface_schur(), "schur");
+  Vec v;
+  multiply_symmetric(h, x.tail(factor.n_interface()), v);
+  x.tail(factor.n_interface()) = v;
+  factor.backward(x);
+  EXPECT_LT((x - whole).norm(), 1e-12 * whole.norm());
+}
+
+TEST(Factor, has_the_schur_complement_of_the_matrix) {
+  const Grid g = grid(5, 3);
+  const Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid");
+  const int n_i = factor.n_interior(), n_b = factor.n_interface();
+  const Mat dense = g.matrix;
+  Mat a(dense.rows(), dense.cols());
+  for (int i = 0; i < a.rows(); ++i)
+    for (int j = 0; j < a.cols(); ++j) a(i, j) = dense(factor.order()[i], factor.order()[j]);
+  const Mat schur = a.bottomRightCorner(n_b, n_b) - a.bottomLeftCorner(n_b, n_i) * a.topLeftCorner(n_i, n_i).ldlt().solve(a.topRightCorner(n_i, n_b));
+  EXPECT_LT((factor.interface_schur() - schur).norm(), 1e-11 * schur.norm());
+}
+
+TEST(Factor, works_without_interface_and_with_nothing_else) {
+  Grid g = grid(4, 3);
+  g.is_interface.assign(g.is_interface.size(), 0);
+  const Factor none(g.matrix, g.node_of_dof, g.is_interface, "grid");
+  EXPECT_EQ(none.interface_schur().size(), 0);
+  g.is_interface.assign(g.is_interface.size(), 1);
+  const Factor all(g.matrix, g.node_of_dof, g.is_interface, "grid");
+  EXPECT_EQ(all.n_interior(), 0);
+  EXPECT_EQ(all.nonzeros(), 0.0);
+}
+
+TEST(Factor, predicts_the_entries_it_then_has) {
+  const Grid g = grid(7, 3);
+  const Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid");
+  const double predicted = Factor::predicted_bytes(g.matrix, g.node_of_dof, g.is_interface);
+  EXPECT_NEAR(predicted, factor.bytes(), 0.01 * factor.bytes());
+}
+
+TEST(Factor, names_what_is_not_positive_definite) {
+  Grid g = grid(4, 3);
+  g.matrix.coeffRef(5, 5) = -1e6;
+  try {
+    const Factor factor(g.matrix, g.node_of_dof, g.is_interface, "substructure 'rod' in step 'shock'");
+    FAIL();
+  } catch (const NumericalError& error) {
+    EXPECT_NE(std::string(error.what()).find("substructure 'rod' in step 'shock': the matrix is not positive definite"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace dygita
