@@ -5,8 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
+#include <memory>
 
 #include "base/error.hpp"
 
@@ -43,11 +43,9 @@ CellsOfNodes cells_of_nodes(const Mesh& mesh) {
 
 // Asks for large memory pages: a matrix is gigabytes, and taking them 4 KiB at a time costs more than filling them.
 void prefer_large_pages(void* data, size_t n_bytes) {
-  const auto page = static_cast<uintptr_t>(sysconf(_SC_PAGESIZE));
-  const uintptr_t begin = (reinterpret_cast<uintptr_t>(data) + page - 1) / page * page;
-  const uintptr_t end = (reinterpret_cast<uintptr_t>(data) + n_bytes) / page * page;
+  const auto page = static_cast<size_t>(sysconf(_SC_PAGESIZE));
   // A refusal changes the speed only.
-  if (end > begin) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  if (std::align(page, page, data, n_bytes)) madvise(data, n_bytes / page * page, MADV_HUGEPAGE);
 }
 
 }  // namespace
