@@ -85,9 +85,10 @@ class Builder {
     for (auto& [group, keys] : members_) std::sort(keys.begin(), keys.end());
   }
 
-  // Points of one surface between the same two groups become one law.
+  // Points between the same two groups that have the same law and nearly the same normal become one law: faces of several
+  // substructures that lie side by side are one contact.
   void make_clusters() {
-    std::map<std::tuple<int, int, int>, int> known;
+    std::map<std::tuple<const Law*, int, int>, std::vector<int>> known;
     for (size_t s = 0; s < surfaces_.size(); ++s) {
       const Surface& surface = surfaces_[s];
       if (!surface.law) continue;
@@ -95,22 +96,30 @@ class Builder {
         const int group_1 = groups_.of(side(surface, i, 1));
         const int group_2 = surface.part_2 >= 0 ? groups_.of(side(surface, i, 2)) : -1;
         if (group_1 == group_2) fail_same_group(surface, i);
-        // Faces of one wall that meet at an edge keep their own normals: one law each.
-        const auto key = std::tuple(static_cast<int>(s), group_1, group_2);
-        const auto [it, is_new] = known.emplace(key, static_cast<int>(clusters_.size()));
-        if (is_new) {
-          clusters_.push_back({group_1, group_2, surface.law.get(), {}, Vec3::Zero(), 0.0});
+        const Vec3 normal = surface.facing.normals.col(i);
+        LawCluster& cluster = cluster_of(known[{surface.law.get(), group_1, group_2}], normal);
+        if (cluster.members.empty()) {
+          cluster.group_1 = group_1;
+          cluster.group_2 = group_2;
+          cluster.law = surface.law.get();
           ++n_laws_[group_1];
           if (group_2 >= 0) ++n_laws_[group_2];
         }
-        LawCluster& cluster = clusters_[it->second];
         cluster.members.push_back({static_cast<int>(s), i, surface.facing.areas[i]});
-        cluster.normal += surface.facing.areas[i] * surface.facing.normals.col(i);
+        cluster.normal += surface.facing.areas[i] * normal;
         cluster.area += surface.facing.areas[i];
       }
     }
     for (LawCluster& cluster : clusters_)
       for (Member& member : cluster.members) member.share /= cluster.area;
+  }
+
+  // The cluster among these whose normal is within 25 degrees, or a new one.
+  LawCluster& cluster_of(std::vector<int>& known, const Vec3& normal) {
+    for (const int c : known)
+      if (clusters_[c].normal.normalized().dot(normal) > 0.9) return clusters_[c];
+    known.push_back(static_cast<int>(clusters_.size()));
+    return clusters_.emplace_back();
   }
 
   [[noreturn]] void fail_same_group(const Surface& surface, int i) const {

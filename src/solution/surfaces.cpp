@@ -20,9 +20,24 @@ bool acts_on_interface(const Problem& problem, const Interface* interface) {
   return false;
 }
 
-std::shared_ptr<const Law> make_law(const Problem& problem, const Interface& interface) {
+// Contacts of equal friction and gap share one law: where such faces meet at a node they act as one (exchange.cpp).
+class ContactLaws {
+ public:
+  std::shared_ptr<const Law> of(double friction, double gap) {
+    auto& law = known_[{friction, gap}];
+    if (!law) law = std::make_shared<ContactLaw>(friction);
+    return law;
+  }
+
+ private:
+  std::map<std::pair<double, double>, std::shared_ptr<const Law>> known_;
+};
+
+std::shared_ptr<const Law> make_law(const Problem& problem, const Interface& interface, ContactLaws& contacts) {
   switch (interface.kind) {
-    case InterfaceKind::contact: return std::make_shared<ContactLaw>(interface.friction);
+    case InterfaceKind::contact:
+      if (acts_on_interface(problem, &interface)) return std::make_shared<ContactLaw>(interface.friction);
+      return contacts.of(interface.friction, interface.gap);
     case InterfaceKind::plastic:
       return std::make_shared<PlasticLaw>(interface.yield, interface.hardening, interface.compression);
     case InterfaceKind::bonded: break;
@@ -64,6 +79,7 @@ void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces
 
 std::vector<Surface> make_surfaces(const Problem& problem) {
   std::vector<Surface> surfaces;
+  ContactLaws contacts;
   for (const InterfacePtr& interface : problem.interfaces) {
     Surface surface;
     surface.interface = interface.get();
@@ -74,7 +90,7 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
     } catch (const InputError& error) {
       throw InputError(interface->origin, "interface '" + interface->name + "': " + error.what());
     }
-    surface.law = make_law(problem, *interface);
+    surface.law = make_law(problem, *interface, contacts);
     surface.initial_gap = interface->kind == InterfaceKind::contact ? interface->gap : 0.0;
     surfaces.push_back(std::move(surface));
   }
@@ -90,7 +106,7 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
       surface.wall = wall;
       surface.part_1 = index_of(problem.substructures, face.part.get());
       surface.facing = wall_facing(face);
-      surface.law = std::make_shared<ContactLaw>(wall->friction);
+      surface.law = contacts.of(wall->friction, wall->gap);
       surface.initial_gap = wall->gap;
       surfaces.push_back(std::move(surface));
     }
