@@ -6,6 +6,7 @@
 #include <pmmintrin.h>
 
 #include <algorithm>
+#include <mutex>
 #include <numeric>
 
 #include "base/error.hpp"
@@ -44,6 +45,9 @@ std::vector<int> nested_dissection(const SparseMatrix& matrix, const std::vector
     idx_t options[METIS_NOPTIONS];
     METIS_SetDefaultOptions(options);
     options[METIS_OPTION_SEED] = 1;
+    // METIS draws from the C library's one random sequence, seeded at each call: side by side, two orderings would mix theirs.
+    static std::mutex mutex;
+    const std::scoped_lock lock(mutex);
     const int status = METIS_NodeND(&n, start.data(), neighbours.data(), nullptr, options, perm.data(), inverse.data());
     CHECK(status == METIS_OK, "METIS could not order the unknowns");
   }
