@@ -18,7 +18,11 @@ struct Instant {
   bool is_static() const { return model.scheme.is_static; }
   // 3 x n_nodes each: m, m/s, m/s^2 (mean over the increment).
   Points displacement(int part) const { return model.pieces[part]->displacement(); }
-  Points velocity(int part) const { return model.pieces[part]->velocity(); }
+  Points velocity(int part) const {
+    // What a static increment calls V is a displacement; the body rests.
+    if (is_static()) return Points::Zero(3, model.problem->substructures[part]->mesh->n_nodes());
+    return model.pieces[part]->velocity();
+  }
   Points acceleration(int part) const { return model.pieces[part]->acceleration(); }
   // Force (N) on nodes of a substructure from whatever holds or moves them, mean over the increment.
   Points reactions(int part) const {
