@@ -23,9 +23,8 @@ def panel(pvd, time, half, warp, field, colours, camera, text):
     view.UseColorPaletteForBackground = 0
     view.Background = [1, 1, 1]
     reader = pv.PVDReader(FileName=pvd)
-    view.ViewTime = time
-    reader.UpdatePipeline(time)
-    source = pv.MergeBlocks(Input=reader, MergePoints=0)  # parts that touch keep their own points
+    instant = pv.ForceTime(Input=reader, ForcedTime=time, IgnorePipelineTime=1)  # whatever the scene's clock says
+    source = pv.MergeBlocks(Input=instant, MergePoints=0)  # parts that touch keep their own points
     if half:
         source = pv.Clip(Input=source, ClipType="Plane", Invert=0)
         source.ClipType.Origin = [0, 0, 0]
