@@ -19,12 +19,14 @@ packages=(
   libspdlog-dev           # messages
   nlohmann-json3-dev      # run record
   libgtest-dev            # tests
+  libbenchmark-dev        # timings
 )
 
 usage() {
   cat <<'END'
 ./run.sh                  install what is missing, build, run decks/bolted_flanges.lua, say which files to open
 ./run.sh test             install what is missing, build, pass the tests
+./run.sh bench            time the main job by phase, at three mesh sizes, on one thread and two
 ./run.sh build            install what is missing, build
 ./run.sh run DECK [...]   build if needed, then: dygita run DECK [...]    (--set NAME=VALUE, --out DIR, --threads N)
 ./run.sh help             this
@@ -112,6 +114,12 @@ run_tests() {
     fail "tests failed; the last lines above name them" "one of them again: ctest --preset release -R NAME"
 }
 
+run_bench() {
+  say "Timing decks/bolted_flanges.lua: no files are written; compare as ratios within this run"
+  (cd "$root" && cmake --build --preset release --target bench_decks) || fail "the benchmark failed to build"
+  "$build/tests/bench_decks" --benchmark_counters_tabular=true 2> >(grep -v warning >&2) | grep -vE "^(problem|  static|  dynamic|  energy|bolt force)"
+}
+
 run_example() {
   local deck=decks/bolted_flanges.lua results=out/bolted_flanges/base status=0 file
   say "Running $deck"
@@ -120,7 +128,7 @@ run_example() {
   ((status == 0)) || say "The run finished, but some steps did not reach their tolerance (exit code 1)"
   say "Results are in $root/$results"
   if [[ -f "$root/$results/bolted_flanges.pvd" ]]; then
-    echo "    paraview $root/$results/bolted_flanges.pvd      the flanges through time; Warp By Vector, displacement, x200"
+    echo "    paraview $root/$results/bolted_flanges.pvd      the flanges through time; Warp By Vector, displacement, x20"
   fi
   for file in "$root/$results"/{interfaces.pvd,report.html,run.json,*.csv}; do
     [[ ! -f "$file" ]] || echo "    $file"

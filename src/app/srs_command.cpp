@@ -23,6 +23,7 @@ constexpr double uneven_sampling = 0.01;  // of the mean step
 struct Signal {
   std::vector<double> time, values;
   std::string unit;
+  bool starts_in_static_step = false;  // time stood still at its first instant
 };
 
 std::string trimmed(const std::string& text) {
@@ -102,10 +103,19 @@ Signal read_signal(const SrsCommand& command) {
     }
     if (!signal.time.empty() && *time == signal.time.back()) {
       signal.values.back() = *value;  // time stands still in static steps
+      signal.starts_in_static_step |= signal.time.size() == 1;
       continue;
     }
     signal.time.push_back(*time);
     signal.values.push_back(*value);
+  }
+  // Means over a step start half a step after the static rows: those are no sample of the signal.
+  if (signal.starts_in_static_step && signal.time.size() > 3) {
+    const double first = signal.time[1] - signal.time[0], dt = signal.time[2] - signal.time[1];
+    if (std::abs(first - dt) > uneven_sampling * dt) {
+      signal.time.erase(signal.time.begin());
+      signal.values.erase(signal.values.begin());
+    }
   }
   if (signal.time.size() < 2) throw InputError(fmt::format("{}: fewer than two instants", command.signal));
   return signal;

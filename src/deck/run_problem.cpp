@@ -34,6 +34,16 @@ void summarise(const Problem& problem, const SolverFigures& figures, RunResult& 
   result.figures["largest difference between the interface gap and the displacements' [m]"] = figures.gap_difference;
 }
 
+// What the scheme takes or gives is the price of dt and mesh at impacts: above a few percent the answer is not to be trusted.
+void warn_of_losses(const RunResult& result) {
+  const double lost = result.figures.at("energy dissipated by the scheme [%]"), gained = result.figures.at("energy created by the scheme [%]");
+  const double open = result.figures.at("energy imbalance [%]");
+  if (lost > 5.0)
+    warn(fmt::format("the scheme dissipates {:.1f} % of the energy, mostly at impacts: a smaller dt or elements of its size lose less", lost));
+  if (gained > 0.5) warn(fmt::format("the scheme creates {:.2f} % of the energy: take a smaller dt or tolerance", gained));
+  if (open > 0.5) warn(fmt::format("the energy balance is open by {:.2f} %: take a smaller tolerance", open));
+}
+
 void say_summary(const RunResult& result, const std::filesystem::path& directory, double seconds) {
   for (const StepSummary& step : result.steps) {
     std::string line = fmt::format("  {} '{}': {} increments, {:.1f} iterations each, {:.2f} s", step.is_static ? "static" : "dynamic",
@@ -69,8 +79,11 @@ std::shared_ptr<const RunResult> run_problem(const Problem& problem, const RunRe
   collector.finish(*result);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result->seconds["all"] = seconds;
+  warn_of_losses(*result);
   const std::vector<std::string> warnings = take_warnings();
-  if (writer) writer->write_result(problem, *result, request.identity, warnings);
+  RunIdentity identity = request.identity;
+  identity.threads = omp_get_max_threads();
+  if (writer) writer->write_result(problem, *result, identity, warnings);
   say_summary(*result, writer ? writer->directory() : std::filesystem::path(), seconds);
   return result;
 }

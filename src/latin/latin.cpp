@@ -21,13 +21,21 @@ namespace dygita {
 
 // Linear stage: velocities at the interfaces for data q, every substructure by itself.
 void StepRun::linear_stage() {
+  const Stopwatch watch(seconds_.interface);
   for_each_piece([&](Piece& piece, int i) {
     piece.interface_velocity(q_.segment(model_.offset[i], piece.n_rows()), velocity_.segment(model_.offset[i], piece.n_rows()));
   });
 }
 
+// Local stage: the law at every interface point; image_ = F_hat + k W_hat.
+IndicatorSums StepRun::local_stage() {
+  const Stopwatch watch(seconds_.local);
+  return local_.run(velocity_, q_, image_);
+}
+
 // Right-hand sides of an increment, and all that it changes on the interfaces before any iteration.
 void StepRun::begin_increment(int increment) {
+  const Stopwatch watch(seconds_.forward);
   motions_ = model_.motion_velocities(increment);
   model_.loads->evaluate(increment);
   for_each_piece([&](Piece& piece, int i) { piece.begin(model_.external_force(i, state_), motions_); });
@@ -36,6 +44,7 @@ void StepRun::begin_increment(int increment) {
 
 // Interiors of an increment for the q at hand.
 void StepRun::finish_increment() {
+  const Stopwatch watch(seconds_.backward);
   for_each_piece([&](Piece& piece, int i) {
     const Points held = piece.has_motions() ? local_.held_force(i) : Points();
     energy_[i] = piece.finish(q_.segment(model_.offset[i], piece.n_rows()), piece.has_motions() ? &held : nullptr);
@@ -51,7 +60,7 @@ void StepRun::solve_increment(int increment) {
   int n = 0;
   for (;;) {
     linear_stage();
-    const Outcome outcome = indicator_.measure(local_.run(velocity_, q_, image_));
+    const Outcome outcome = indicator_.measure(local_stage());
     ++n;
     check_finite(outcome, increment);
     if (outcome.eta < best.eta) {
@@ -59,12 +68,13 @@ void StepRun::solve_increment(int increment) {
       q_best = q_;
     }
     if (outcome.eta <= tolerance_ || n >= max_iterations_) break;
+    const Stopwatch watch(seconds_.accelerate);
     anderson_.advance(q_, image_);
   }
   if (best.eta > tolerance_) {  // not converged: the best there was is what is shown
     q_ = q_best;
     linear_stage();
-    local_.run(velocity_, q_, image_);
+    local_stage();
   }
   indicator_.accept(best);
   finish_increment();
@@ -85,7 +95,8 @@ void StepRun::solve_window(int first, int last) {
       begin_increment(first + i);
       q_ = q[i];
       linear_stage();
-      const Outcome outcome = indicator_.measure(local_.run(velocity_, q_, image[i]));
+      const Outcome outcome = indicator_.measure(local_stage());
+      image[i] = image_;
       indicator_.accept(outcome);
       worst.eta = std::max(worst.eta, outcome.eta);
       check_finite(outcome, first + i);
@@ -112,7 +123,7 @@ void StepRun::replay(int increment, const Vec& q, int iterations, double eta) {
   begin_increment(increment);
   q_ = q;
   linear_stage();
-  indicator_.accept(indicator_.measure(local_.run(velocity_, q_, image_)));
+  indicator_.accept(indicator_.measure(local_stage()));
   finish_increment();
   accept_increment(increment, iterations, eta);
 }

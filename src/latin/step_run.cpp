@@ -103,7 +103,10 @@ void StepRun::go_back(const Start& start) {
 }
 
 void StepRun::accept_increment(int increment, int iterations, double eta) {
-  local_.accept(&state_);
+  {
+    const Stopwatch watch(seconds_.accept);
+    local_.accept(&state_);
+  }
   Energies& energies = state_.energies;
   energies.kinetic = energies.strain = 0.0;
   for (const IncrementEnergy& e : energy_) {
@@ -119,9 +122,8 @@ void StepRun::accept_increment(int increment, int iterations, double eta) {
   figures_.iterations += iterations;
   figures_.worst_indicator = std::max(figures_.worst_indicator, eta);
   if (eta > tolerance_) ++figures_.not_converged;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch(seconds_.output);
   observer_.accept(instant(increment, iterations, eta));
-  output_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 void StepRun::check_finite(const Outcome& outcome, int increment) const {
@@ -177,7 +179,13 @@ void StepRun::add_to(SolverFigures& figures) const {
   figures.factor_bytes = std::max(figures.factor_bytes, bytes);
   figures.n_interface_unknowns = model_.n_q();
   figures.gap_difference = std::max(figures.gap_difference, local_.gap_difference());
-  figures.seconds["output"] += output_seconds_;
+  figures.seconds["forward"] += seconds_.forward;
+  figures.seconds["interface operator"] += seconds_.interface;
+  figures.seconds["local stage"] += seconds_.local;
+  figures.seconds["acceleration"] += seconds_.accelerate;
+  figures.seconds["backward"] += seconds_.backward;
+  figures.seconds["laws and energies"] += seconds_.accept;
+  figures.seconds["output"] += seconds_.output;
 }
 
 }  // namespace dygita

@@ -23,6 +23,7 @@ class StepRun {
  private:
   // The stages (latin.cpp).
   void linear_stage();
+  IndicatorSums local_stage();
   void begin_increment(int increment);
   void finish_increment();
   void solve_increment(int increment);
@@ -64,7 +65,21 @@ class StepRun {
   std::vector<double> motions_;
   std::vector<IncrementEnergy> energy_;
   StepFigures figures_;
-  double output_seconds_ = 0.0;
+  // Wall time by phase of the step.
+  class Stopwatch {
+   public:
+    explicit Stopwatch(double& sum) : sum_(sum), start_(std::chrono::steady_clock::now()) {}
+    ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+   private:
+    double& sum_;
+    std::chrono::steady_clock::time_point start_;
+  };
+  struct {
+    double forward = 0.0, interface = 0.0, local = 0.0, accelerate = 0.0, backward = 0.0, accept = 0.0, output = 0.0;
+  } seconds_;
 };
 
 }  // namespace dygita

@@ -137,7 +137,7 @@ double Loads::shortening(const Interface* interface, double had, int increment) 
 
 bool Loads::is_released(const Interface* interface, int increment) const {
   for (const auto& [on, at] : releases_)
-    if (on == interface && (step_.is_static || step_.dt * (increment + 0.5) >= at)) return true;
+    if (on == interface && (step_.is_static ? (increment + 1.0) / step_.increments : step_.dt * (increment + 0.5)) >= at) return true;
   return false;
 }
 
