@@ -3,6 +3,7 @@
 #include <cblas.h>
 #include <cholmod.h>
 #include <metis.h>
+#include <omp.h>
 #include <pmmintrin.h>
 
 #include <algorithm>
@@ -166,6 +167,27 @@ cholmod_sparse view_of(const SparseMatrix& matrix) {
 
 }  // namespace
 
+namespace {
+
+// CHOLMOD opens a team of threads at every supernode, which costs more than it gains and far more on a busy machine. Inside our own
+// team that is off already; outside it is switched off here.
+class SerialRegion {
+ public:
+  SerialRegion() : levels_(omp_get_max_active_levels()) {
+    if (omp_get_active_level() == 0) omp_set_max_active_levels(0);
+  }
+  ~SerialRegion() {
+    if (omp_get_active_level() == 0) omp_set_max_active_levels(levels_);
+  }
+  SerialRegion(const SerialRegion&) = delete;
+  SerialRegion& operator=(const SerialRegion&) = delete;
+
+ private:
+  int levels_;
+};
+
+}  // namespace
+
 Factor::Factor() : supernodes_(std::make_unique<Supernodes>()) {}
 
 void Factor::analyse(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, const std::vector<char>& is_interface,
@@ -197,7 +219,10 @@ Factor::Factor(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, 
   analyse(matrix, node_of_dof, is_interface, what);
   cholmod_sparse a = view_of(matrix);
   cholmod_common& common = supernodes_->common;
-  cholmod_factorize(&a, supernodes_->l, &common);
+  {
+    const SerialRegion serial;
+    cholmod_factorize(&a, supernodes_->l, &common);
+  }
   if (common.status == CHOLMOD_NOT_POSDEF) {
     const int dof = order_[supernodes_->l->minor];
     throw NumericalError(fmt::format("{}: the matrix is not positive definite (node {}): a rigid motion that nothing holds, "
