@@ -1,6 +1,5 @@
 #include "latin/local_stage.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +7,7 @@ namespace dygita {
 
 LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k) : model_(&model), k_(k) {
   const Scheme& scheme = model.scheme;
-  increment_ = {scheme.dt, scheme.g, scheme.is_static, model.problem->solver.push_out};
+  increment_ = increment_of(scheme, model.problem->solver.push_out);
   const Exchange& exchange = model.exchange;
   ports_.resize(exchange.ports.size());
   points_.resize(exchange.points.size());
@@ -19,7 +18,7 @@ LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k)
       ports_[p].u = point.frame.transpose() * start.displacement[port.part].col(port.node);
       if (!scheme.is_static) ports_[p].w = point.frame.transpose() * start.velocity[port.part].col(port.node);
     }
-    start_law(point, points_[i], start);
+    points_[i] = start_point(model, point, start);
     // Forces of the step before, on whichever port carries the node.
     for (const Member& member : point.members) {
       const Surface& surface = (*model.surfaces)[member.surface];
@@ -28,48 +27,27 @@ LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k)
         const Port& port = exchange.ports[p];
         const bool is_first = p < point.first_port_2;
         const int part = is_first ? surface.part_1 : surface.part_2;
-        const int node = is_first ? surface.facing.nodes_1[member.point] : part < 0 ? -1 : surface.facing.nodes_2[member.point];
+        const int node = is_first   ? surface.facing.nodes_1[member.point]
+                         : part < 0 ? -1
+                                    : surface.facing.nodes_2[member.point];
         if (port.part == part && port.node == node) ports_[p].f += is_first ? force : Vec3(-force);
       }
     }
   }
   for (const Tie& tie : exchange.ties) {
-    const Vec3 force = exchange.points[tie.point].frame.transpose() * start.surfaces[tie.surface].points[tie.surface_point].force;
+    const Vec3 force =
+        exchange.points[tie.point].frame.transpose() * start.surfaces[tie.surface].points[tie.surface_point].force;
     ports_[tie.port_1].f += force;
     ports_[tie.port_2].f -= force;
   }
-}
-
-// The law's memory in the point's frame; members of one point share it.
-void LocalStage::start_law(const Point& point, PointData& p, const State& start) const {
-  p.trial.area = point.area;
-  if (!point.law) return;
-  p.law.gap = p.law.plastic_opening = p.law.hardening_opening = 0.0;
-  for (const Member& member : point.members) {
-    const LawState& m = start.surfaces[member.surface].points[member.point];
-    p.law.gap += member.share * m.gap;
-    p.law.plastic_opening += member.share * m.plastic_opening;
-    p.law.hardening_opening += member.share * m.hardening_opening;
-    p.law.slip += member.share * (point.frame.transpose() * m.slip);
-    p.law.force += point.frame.transpose() * m.force;
-    p.law.status = m.status;
-  }
-  p.is_released = start.released[point.members.front().surface] != 0;
-  p.shortening_old = p.trial.shortening = start.shortening[point.members.front().surface];
-  if (model_->scheme.is_static) return;
-  Vec3 rate = Vec3::Zero();
-  for (int i = point.first_port; i < point.end_port; ++i) {
-    const bool first = i < point.first_port_2;
-    rate += ports_[i].w * (first ? -1.0 / (point.first_port_2 - point.first_port) : 1.0 / (point.end_port - point.first_port_2));
-  }
-  p.law.rate = rate;
 }
 
 Vec LocalStage::initial_q() const {
   Vec q = Vec::Zero(model_->n_q());
   for (size_t p = 0; p < ports_.size(); ++p)
     for (int d = 0; d < 3; ++d)
-      if (const int i = model_->unknown(model_->exchange.ports[p], d); i >= 0) q[i] = ports_[p].f[d] + k_[i] * ports_[p].w[d];
+      if (const int i = model_->unknown(model_->exchange.ports[p], d); i >= 0)
+        q[i] = ports_[p].f[d] + k_[i] * ports_[p].w[d];
   return q;
 }
 
@@ -109,13 +87,7 @@ void LocalStage::begin(int increment, const std::vector<double>& motions) {
     for (int p = point.first_port; p < point.end_port; ++p)
       ports_[p].offset = (ports_[p].u - (p < point.first_port_2 ? mean_1 : mean_2)) / model_->scheme.dt;
     if (!point.law) continue;
-    PointData& state = points_[i];
-    state.trial.jump = (point.is_wall ? Vec3(Vec3::Zero()) : mean_2) - mean_1;
-    state.shortening_old = state.trial.shortening;
-    if (const Interface* interface = (*model_->surfaces)[point.members.front().surface].interface) {
-      state.trial.shortening = model_->loads->shortening(interface, state.trial.shortening, increment);
-      state.is_released = state.is_released || model_->loads->is_released(interface, increment);
-    }
+    begin_point(*model_, point, (point.is_wall ? Vec3(Vec3::Zero()) : mean_2) - mean_1, increment, points_[i]);
   }
 }
 
@@ -143,8 +115,8 @@ LocalStage::Side LocalStage::gather(int first, int end, const Vec& velocity, con
   return side;
 }
 
-void LocalStage::scatter(int first, int end, const Side& side, const Vec3& force, const Vec& velocity, const Vec& q, Vec& image,
-                         IndicatorSums& sums) {
+void LocalStage::scatter(int first, int end, const Side& side, const Vec3& force, const Vec& velocity, const Vec& q,
+                         Vec& image, IndicatorSums& sums) {
   for (int d = 0; d < 3; ++d) {
     const double w_side = side.r[d] + side.inverse_k[d] * force[d];
     double balance = force[d];  // what a held port of the group takes
@@ -167,7 +139,8 @@ void LocalStage::scatter(int first, int end, const Side& side, const Vec3& force
       image[i] = f_hat + k_[i] * w_hat;
       const double df = f_linear - f_hat, dv = velocity[i] - w_hat;
       sums.distance += df * df / k_[i] + k_[i] * dv * dv;
-      sums.size += 0.5 * ((f_linear * f_linear + f_hat * f_hat) / k_[i] + k_[i] * (velocity[i] * velocity[i] + w_hat * w_hat));
+      sums.size +=
+          0.5 * ((f_linear * f_linear + f_hat * f_hat) / k_[i] + k_[i] * (velocity[i] * velocity[i] + w_hat * w_hat));
     }
     if (held_port >= 0) ports_[held_port].f[d] = balance;
   }
@@ -175,7 +148,7 @@ void LocalStage::scatter(int first, int end, const Side& side, const Vec3& force
 
 IndicatorSums LocalStage::run_point(size_t i_point, const Vec& velocity, const Vec& q, Vec& image) {
   const Point& point = model_->exchange.points[i_point];
-  PointData& state = points_[i_point];
+  PointRecord& state = points_[i_point];
   const Side side_1 = gather(point.first_port, point.first_port_2, velocity, q);
   const Side side_2 = gather(point.first_port_2, point.end_port, velocity, q);
   state.force.setZero();
@@ -219,109 +192,32 @@ IndicatorSums LocalStage::run(const Vec& velocity, const Vec& q, Vec& image) {
 void LocalStage::accept(State* state) {
   for (size_t i = 0; i < points_.size(); ++i) {
     const Point& point = model_->exchange.points[i];
-    PointData& p = points_[i];
-    LawState end = p.law;
-    if (point.law && !p.is_released) end = point.law->advance(p.trial, increment_, p.law, p.force);
-    if (point.law && p.is_released) {
-      end.force.setZero();
-      end.status = PointState::open;
-    }
-    if (point.law && point.law->rubs())
-      gap_difference_ = std::max(gap_difference_, std::abs((*model_->surfaces)[point.members.front().surface].initial_gap +
-                                                           p.trial.jump[0] - p.law.gap));
-    if (state) book_work(point, p, end, *state);
+    PointRecord& p = points_[i];
+    const LawState end = end_of_point(point, p, increment_);
+    gap_difference_ = std::max(gap_difference_, dygita::gap_difference(*model_, point, p));
+    if (state) book_work(point, p, end, increment_, work_on_pieces(point), *state);
     p.law = end;
-    if (state) show(point, p, *state);
+    if (state && point.law) show_point(point, p, *state);
   }
   for (size_t i = 0; i < ports_.size(); ++i) {
     const Port& port = model_->exchange.ports[i];
     for (int d = 0; d < 3; ++d)
-      if (port.is_held[d]) ports_[i].u[d] += increment_.dt * (increment_.g * ports_[i].w_old[d] + (1 - increment_.g) * ports_[i].w[d]);
+      if (port.is_held[d])
+        ports_[i].u[d] += increment_.dt * (increment_.g * ports_[i].w_old[d] + (1 - increment_.g) * ports_[i].w[d]);
   }
-  if (state) show_ties(*state);
+  if (!state) return;
+  std::vector<Vec3> port_force;
+  for (const PortState& port : ports_) port_force.push_back(port.f);
+  show_ties(*model_, points_, port_force, *state);
 }
 
-// Where the work of the interface goes: friction, plasticity, the tool that shortens the bolt, and the scheme (impacts, residuals).
-void LocalStage::book_work(const Point& point, const PointData& p, const LawState& end, State& state) const {
-  const double g = increment_.g, dt = increment_.dt;
-  double on_pieces = 0.0;
+double LocalStage::work_on_pieces(const Point& point) const {
+  double work = 0.0;
   for (int i = point.first_port; i < point.end_port; ++i) {
-    const Vec3 motion = dt * (g * ports_[i].w_old + (1 - g) * ports_[i].w);
-    on_pieces += (increment_.is_static ? Vec3(0.5 * (ports_[i].f_old + ports_[i].f)) : ports_[i].f).dot(motion);
+    const Vec3 motion = increment_.dt * (increment_.g * ports_[i].w_old + (1 - increment_.g) * ports_[i].w);
+    work += (increment_.is_static ? Vec3(0.5 * (ports_[i].f_old + ports_[i].f)) : ports_[i].f).dot(motion);
   }
-  Energies& energies = state.energies;
-  double friction = 0.0, plastic = 0.0, given = 0.0;
-  if (point.law) {
-    const Vec3 force = increment_.is_static ? Vec3(0.5 * (p.law.force + end.force)) : end.force;
-    const Vec3 motion = dt * (g * p.law.rate + (1 - g) * end.rate);
-    if (point.law->rubs()) friction = force.tail<2>().dot(motion.tail<2>());
-    plastic = point.law->plastic_work(end, point.area) - point.law->plastic_work(p.law, point.area);
-    given = force[0] * (p.trial.shortening - p.shortening_old);
-    // An interference pressed out in a static step is work done from outside.
-    if (increment_.is_static && point.law->rubs() && p.law.gap < 0.0) given -= force[0] * motion[0];
-    for (const Member& member : point.members) {
-      state.surfaces[member.surface].friction_work += member.share * friction;
-      state.surfaces[member.surface].plastic_work += member.share * plastic;
-    }
-  }
-  energies.friction += friction;
-  energies.plastic += plastic;
-  energies.loads += given;
-  energies.scheme += given - on_pieces - friction - plastic;
-}
-
-void LocalStage::show(const Point& point, const PointData& p, State& state) const {
-  for (const Member& member : point.members) {
-    LawState& shown = state.surfaces[member.surface].points[member.point];
-    shown = p.law;
-    shown.force = member.share * (point.frame * p.law.force);
-    shown.slip = point.frame * p.law.slip;
-    shown.rate = point.frame * p.law.rate;
-    state.shortening[member.surface] = p.trial.shortening;
-    state.released[member.surface] = p.is_released;
-  }
-}
-
-// A substructure's force inside a group, split over its bonded interfaces: least norm weighted with nodal areas.
-void LocalStage::show_ties(State& state) const {
-  const Exchange& exchange = model_->exchange;
-  std::vector<std::vector<const Tie*>> ties_of(exchange.points.size());
-  for (const Tie& tie : exchange.ties) ties_of[tie.point].push_back(&tie);
-  for (size_t i = 0; i < ties_of.size(); ++i) {
-    if (ties_of[i].empty()) continue;
-    const Point& point = exchange.points[i];
-    const int n_ports = point.end_port - point.first_port, n_ties = static_cast<int>(ties_of[i].size());
-    Eigen::Matrix3Xd net(3, n_ports);
-    for (int p = 0; p < n_ports; ++p) net.col(p) = ports_[point.first_port + p].f;
-    // The law's own share on each port is not the tie's.
-    for (const Member& member : point.members) {
-      const Surface& surface = (*model_->surfaces)[member.surface];
-      for (int p = 0; p < n_ports; ++p) {
-        const Port& port = exchange.ports[point.first_port + p];
-        if (port.part == surface.part_1 && port.node == surface.facing.nodes_1[member.point])
-          net.col(p) -= member.share * points_[i].law.force;
-        if (port.part == surface.part_2 && port.node == surface.facing.nodes_2[member.point])
-          net.col(p) += member.share * points_[i].law.force;
-      }
-    }
-    Mat incidence = Mat::Zero(n_ports, n_ties);
-    Vec root_area(n_ties);
-    for (int t = 0; t < n_ties; ++t) {
-      const Tie& tie = *ties_of[i][t];
-      root_area[t] = std::sqrt((*model_->surfaces)[tie.surface].facing.areas[tie.surface_point]);
-      incidence(tie.port_1 - point.first_port, t) = root_area[t];
-      incidence(tie.port_2 - point.first_port, t) = -root_area[t];
-    }
-    const Mat split = n_ties == 1 ? Mat(net.col(ties_of[i][0]->port_1 - point.first_port).transpose() / root_area[0])
-                                  : Mat(incidence.completeOrthogonalDecomposition().solve(Mat(net.transpose())));
-    for (int t = 0; t < n_ties; ++t) {
-      const Tie& tie = *ties_of[i][t];
-      const Vec3 force = root_area[t] * split.row(t).transpose();
-      LawState& shown = state.surfaces[tie.surface].points[tie.surface_point];
-      shown.force = point.frame * force;
-      shown.status = PointState::stick;
-    }
-  }
+  return work;
 }
 
 Points LocalStage::held_force(int part) const {

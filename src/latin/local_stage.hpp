@@ -1,7 +1,7 @@
 // The local stage: at each interface point, the law; nothing global.
 #pragma once
 
-#include "solution/step_model.hpp"
+#include "solution/point_record.hpp"
 
 namespace dygita {
 
@@ -31,16 +31,9 @@ class LocalStage {
 
  private:
   struct PortState {
-    Vec3 u = Vec3::Zero(), offset = Vec3::Zero();    // m; rate that closes the jump inside the group, m/s
-    Vec3 w_old = Vec3::Zero(), w = Vec3::Zero();      // W_hat at the start and now, m/s
-    Vec3 f_old = Vec3::Zero(), f = Vec3::Zero();      // F_hat of the last increment and now, N
-  };
-  struct PointData {
-    LawState law;
-    Trial trial;
-    bool is_released = false;
-    Vec3 force = Vec3::Zero();
-    double shortening_old = 0.0;
+    Vec3 u = Vec3::Zero(), offset = Vec3::Zero();  // m; rate that closes the jump inside the group, m/s
+    Vec3 w_old = Vec3::Zero(), w = Vec3::Zero();   // W_hat at the start and now, m/s
+    Vec3 f_old = Vec3::Zero(), f = Vec3::Zero();   // F_hat of the last increment and now, N
   };
   struct Side {
     Vec3 r = Vec3::Zero(), inverse_k = Vec3::Zero();
@@ -51,15 +44,12 @@ class LocalStage {
                IndicatorSums& sums);
   IndicatorSums run_point(size_t i_point, const Vec& velocity, const Vec& q, Vec& image);
   Vec3 mean_displacement(int first, int end) const;
-  void start_law(const Point& point, PointData& p, const State& start) const;
-  void book_work(const Point& point, const PointData& p, const LawState& end, State& state) const;
-  void show(const Point& point, const PointData& p, State& state) const;
-  void show_ties(State& state) const;
+  double work_on_pieces(const Point& point) const;
 
   const StepModel* model_;
   Vec k_;
   std::vector<PortState> ports_;
-  std::vector<PointData> points_;
+  std::vector<PointRecord> points_;
   Increment increment_;
   double gap_difference_ = 0.0;
 };

@@ -1,0 +1,139 @@
+#include "solution/point_record.hpp"
+
+#include <Eigen/QR>
+#include <cmath>
+
+namespace dygita {
+
+Increment increment_of(const Scheme& scheme, double push_out) {
+  return {scheme.dt, scheme.g, scheme.is_static, push_out};
+}
+
+PointRecord start_point(const StepModel& model, const Point& point, const State& start) {
+  PointRecord record;
+  record.trial.area = point.area;
+  if (!point.law) return record;
+  LawState& law = record.law;
+  for (const Member& member : point.members) {
+    const LawState& m = start.surfaces[member.surface].points[member.point];
+    law.gap += member.share * m.gap;
+    law.plastic_opening += member.share * m.plastic_opening;
+    law.hardening_opening += member.share * m.hardening_opening;
+    law.slip += member.share * (point.frame.transpose() * m.slip);
+    law.force += point.frame.transpose() * m.force;
+    law.status = m.status;
+  }
+  record.is_released = start.released[point.members.front().surface] != 0;
+  record.shortening_old = record.trial.shortening = start.shortening[point.members.front().surface];
+  if (model.scheme.is_static) return record;
+  const int n_1 = point.first_port_2 - point.first_port, n_2 = point.end_port - point.first_port_2;
+  for (int p = point.first_port; p < point.end_port; ++p) {
+    const Port& port = model.exchange.ports[p];
+    const double share = p < point.first_port_2 ? -1.0 / n_1 : 1.0 / n_2;
+    law.rate += share * (point.frame.transpose() * start.velocity[port.part].col(port.node));
+  }
+  return record;
+}
+
+void begin_point(const StepModel& model, const Point& point, const Vec3& jump, int increment, PointRecord& record) {
+  record.trial.jump = jump;
+  record.shortening_old = record.trial.shortening;
+  const Interface* interface = (*model.surfaces)[point.members.front().surface].interface;
+  if (!interface) return;
+  record.trial.shortening = model.loads->shortening(interface, record.trial.shortening, increment);
+  record.is_released = record.is_released || model.loads->is_released(interface, increment);
+}
+
+LawState end_of_point(const Point& point, const PointRecord& record, const Increment& increment) {
+  if (!point.law) return record.law;
+  if (!record.is_released) return point.law->advance(record.trial, increment, record.law, record.force);
+  LawState end = record.law;
+  end.force.setZero();
+  end.status = PointState::open;
+  return end;
+}
+
+double gap_difference(const StepModel& model, const Point& point, const PointRecord& record) {
+  if (!point.law || !point.law->rubs()) return 0.0;
+  return std::abs((*model.surfaces)[point.members.front().surface].initial_gap + record.trial.jump[0] - record.law.gap);
+}
+
+void book_work(const Point& point, const PointRecord& record, const LawState& end, const Increment& increment,
+               double on_pieces, State& state) {
+  double friction = 0.0, plastic = 0.0, given = 0.0;
+  if (point.law) {
+    const LawState& start = record.law;
+    const Vec3 force = increment.is_static ? Vec3(0.5 * (start.force + end.force)) : end.force;
+    const Vec3 motion = increment.dt * (increment.g * start.rate + (1 - increment.g) * end.rate);
+    if (point.law->rubs()) friction = force.tail<2>().dot(motion.tail<2>());
+    plastic = point.law->plastic_work(end, point.area) - point.law->plastic_work(start, point.area);
+    given = force[0] * (record.trial.shortening - record.shortening_old);
+    // An interference pressed out in a static step is work done from outside.
+    if (increment.is_static && point.law->rubs() && start.gap < 0.0) given -= force[0] * motion[0];
+    for (const Member& member : point.members) {
+      state.surfaces[member.surface].friction_work += member.share * friction;
+      state.surfaces[member.surface].plastic_work += member.share * plastic;
+    }
+  }
+  Energies& energies = state.energies;
+  energies.friction += friction;
+  energies.plastic += plastic;
+  energies.loads += given;
+  energies.scheme += given - on_pieces - friction - plastic;
+}
+
+void show_point(const Point& point, const PointRecord& record, State& state) {
+  for (const Member& member : point.members) {
+    LawState& shown = state.surfaces[member.surface].points[member.point];
+    shown = record.law;
+    shown.force = member.share * (point.frame * record.law.force);
+    shown.slip = point.frame * record.law.slip;
+    shown.rate = point.frame * record.law.rate;
+    state.shortening[member.surface] = record.trial.shortening;
+    state.released[member.surface] = record.is_released;
+  }
+}
+
+void show_ties(const StepModel& model, const std::vector<PointRecord>& records, const std::vector<Vec3>& port_force,
+               State& state) {
+  const Exchange& exchange = model.exchange;
+  std::vector<std::vector<const Tie*>> ties_of(exchange.points.size());
+  for (const Tie& tie : exchange.ties) ties_of[tie.point].push_back(&tie);
+  for (size_t i = 0; i < ties_of.size(); ++i) {
+    if (ties_of[i].empty()) continue;
+    const Point& point = exchange.points[i];
+    const int n_ports = point.end_port - point.first_port, n_ties = static_cast<int>(ties_of[i].size());
+    Eigen::Matrix3Xd net(3, n_ports);
+    for (int p = 0; p < n_ports; ++p) net.col(p) = port_force[point.first_port + p];
+    // The law's own share on each port is not the tie's.
+    for (const Member& member : point.members) {
+      const Surface& surface = (*model.surfaces)[member.surface];
+      for (int p = 0; p < n_ports; ++p) {
+        const Port& port = exchange.ports[point.first_port + p];
+        if (port.part == surface.part_1 && port.node == surface.facing.nodes_1[member.point])
+          net.col(p) -= member.share * records[i].law.force;
+        if (port.part == surface.part_2 && port.node == surface.facing.nodes_2[member.point])
+          net.col(p) += member.share * records[i].law.force;
+      }
+    }
+    Mat incidence = Mat::Zero(n_ports, n_ties);
+    Vec root_area(n_ties);
+    for (int t = 0; t < n_ties; ++t) {
+      const Tie& tie = *ties_of[i][t];
+      root_area[t] = std::sqrt((*model.surfaces)[tie.surface].facing.areas[tie.surface_point]);
+      incidence(tie.port_1 - point.first_port, t) = root_area[t];
+      incidence(tie.port_2 - point.first_port, t) = -root_area[t];
+    }
+    const Mat split = n_ties == 1 ? Mat(net.col(ties_of[i][0]->port_1 - point.first_port).transpose() / root_area[0])
+                                  : Mat(incidence.completeOrthogonalDecomposition().solve(Mat(net.transpose())));
+    for (int t = 0; t < n_ties; ++t) {
+      const Tie& tie = *ties_of[i][t];
+      const Vec3 force = root_area[t] * split.row(t).transpose();
+      LawState& shown = state.surfaces[tie.surface].points[tie.surface_point];
+      shown.force = point.frame * force;
+      shown.status = PointState::stick;
+    }
+  }
+}
+
+}  // namespace dygita

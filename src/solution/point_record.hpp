@@ -1,0 +1,40 @@
+// The memory of one interface point through a step, and where its force and works go: the same for any solver.
+#pragma once
+
+#include "solution/step_model.hpp"
+
+namespace dygita {
+
+// What an increment is to a law. push_out: b of the contact law.
+Increment increment_of(const Scheme& scheme, double push_out);
+
+// Vectors in the point's frame; members of one point share it.
+struct PointRecord {
+  LawState law;  // at the start of the increment
+  Trial trial;   // jump, shortening and area are set by begin_point; s and y are the solver's
+  bool is_released = false;
+  Vec3 force = Vec3::Zero();    // N, found by the solver
+  double shortening_old = 0.0;  // m
+};
+
+// The record a step starts from, for a point with or without a law.
+PointRecord start_point(const StepModel& model, const Point& point, const State& start);
+// Jump (m, u' - u), shortening and release of an increment, for a point with a law.
+void begin_point(const StepModel& model, const Point& point, const Vec3& jump, int increment, PointRecord& record);
+// The law's state at the end of the increment, with the force found.
+LawState end_of_point(const Point& point, const PointRecord& record, const Increment& increment);
+// Largest difference between a contact law's gap and that of the displacements, m; zero for other laws.
+double gap_difference(const StepModel& model, const Point& point, const PointRecord& record);
+
+// Where the work of a point goes: friction, plasticity, the tool that shortens the bolt, and the scheme (impacts,
+// residuals). on_pieces: work of the interface on the substructures during the increment, J.
+void book_work(const Point& point, const PointRecord& record, const LawState& end, const Increment& increment,
+               double on_pieces, State& state);
+// Forces, gaps and slips of a point with a law into the surfaces' state, once record.law is that of the end.
+void show_point(const Point& point, const PointRecord& record, State& state);
+// A substructure's force inside a group, split over its bonded interfaces: least norm weighted with nodal areas.
+// port_force: of the interfaces on each port, in its point's frame, N.
+void show_ties(const StepModel& model, const std::vector<PointRecord>& records, const std::vector<Vec3>& port_force,
+               State& state);
+
+}  // namespace dygita

@@ -1,0 +1,27 @@
+// What a solver tells of a run.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dygita {
+
+// What a run was, step by step.
+struct StepFigures {
+  int increments = 0, not_converged = 0;
+  long iterations = 0;
+  double worst_indicator = 0.0;  // largest accepted
+  double seconds = 0.0;
+};
+
+struct SolverFigures {
+  std::vector<StepFigures> steps;
+  bool interrupted = false;
+  long n_dofs = 0, n_interface_unknowns = 0;
+  double factor_bytes = 0.0;              // factors and interface operators of the largest step
+  double gap_difference = 0.0;            // m, largest between the laws' gaps and the displacements'
+  std::map<std::string, double> seconds;  // by phase: set up, linear, iterate, output
+};
+
+}  // namespace dygita

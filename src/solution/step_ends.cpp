@@ -1,0 +1,64 @@
+#include "solution/step_ends.hpp"
+
+namespace dygita {
+
+void start_step(StepModel& model, State& state) {
+  const bool is_static = model.scheme.is_static;
+  const bool first_dynamic = !is_static && !state.has_moved;
+  for (size_t i = 0; i < model.pieces.size(); ++i) {
+    Points& velocity = state.velocity[i];
+    if (is_static) velocity.setZero();
+    if (first_dynamic) velocity.colwise() += model.problem->substructures[i]->velocity;
+    model.pieces[i]->set_state(state.displacement[i], velocity, state.force[i],
+                               interface_force(*model.surfaces, state, static_cast<int>(i)));
+    velocity = model.pieces[i]->velocity();
+  }
+  // A wall that is no longer a support has let go.
+  for (size_t s = 0; s < model.surfaces->size(); ++s) {
+    const Support* wall = (*model.surfaces)[s].wall;
+    if (!wall || index_of(supports_of(*model.problem, *model.step), wall) >= 0) continue;
+    for (LawState& point : state.surfaces[s].points) {
+      point.force.setZero();
+      point.status = PointState::open;
+    }
+  }
+  Energies& energies = state.energies;
+  const double before = energies.kinetic + energies.strain;
+  energies.kinetic = energies.strain = 0.0;
+  for (const auto& piece : model.pieces) {
+    const IncrementEnergy now = piece->stored_energy();
+    energies.kinetic += now.kinetic;
+    energies.strain += now.strain;
+  }
+  const double jump = energies.kinetic + energies.strain - before;
+  (first_dynamic ? energies.start : energies.scheme) += first_dynamic ? jump : -jump;
+  if (first_dynamic) state.has_moved = true;
+}
+
+void end_step(const StepModel& model, State& state) {
+  for (size_t i = 0; i < model.pieces.size(); ++i) {
+    const int part = static_cast<int>(i);
+    state.displacement[i] = model.pieces[i]->displacement();
+    state.velocity[i] = model.pieces[i]->velocity();
+    if (model.scheme.is_static) state.velocity[i].setZero();
+    state.force[i] = model.external_force(part, state);
+    if (!model.scheme.is_static) continue;
+    // What an absorbing support held in the static step it keeps holding while waves pass through it.
+    state.anchor[i].setZero();
+    const Points reactions = model.pieces[i]->reactions(interface_force(*model.surfaces, state, part));
+    for (const auto& [node, held] : model.conditions.held[i])
+      if (held.n > 0 && held.support[0] && held.support[0]->kind == SupportKind::absorbing)
+        state.anchor[i].col(node) = reactions.col(node);
+  }
+  state.reached = model.loads->reached();
+  if (model.scheme.is_static) return;
+  for (const LoadPtr& load : model.step->loads)
+    if (load->kind == LoadKind::base_acceleration)
+      for (const Target& target : load->on)
+        if (const auto* support = std::get_if<SupportPtr>(&target)) {
+          auto [it, is_new] = state.base_velocity.emplace(support->get(), Vec3::Zero());
+          it->second += load->direction * load->value[0]->integral(0.0, model.step->duration);
+        }
+}
+
+}  // namespace dygita
