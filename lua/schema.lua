@@ -306,7 +306,7 @@ words[8] = {
 
 words[9] = {
   name = "solver", doc = "How it is computed. Every parameter has a good default, so most decks write none.",
-  later = { "monolithic", "explicit" },
+  later = { "explicit" },
   {
     "latin", makes = "solver", doc = "The LATIN method.",
     later = { "pieces" },
@@ -324,6 +324,16 @@ words[9] = {
       { "push_out", type = "number", range = { 0, 1 }, default = 0, doc = "part of a penetration undone in a step of time" },
       { "search_direction", type = "number", range = { 1e-6, 1e6 }, default = 1, doc = "multiplies every search direction" },
       { "plain", type = "boolean", default = false, doc = "iterates with full solves, to check the condensed ones" },
+    },
+  },
+  {
+    "monolithic", makes = "solver",
+    doc = "The whole assembly in one implicit system, contact and plasticity by Newton's method: a check of LATIN. Dense in the "
+      .. "unknowns of contact, plastic and shortened interfaces, for which there is a limit.",
+    arguments = {
+      { "tolerance", type = "number", range = { 1e-14, 0.1 }, default = 1e-10, doc = "relative residual at which an increment stops" },
+      { "max_iterations", type = "integer", range = { 1, 1000000 }, default = 50, doc = "of one increment" },
+      { "numerical_damping", type = "number", range = { 0, 1 }, default = 0, doc = "of the time scheme; 0: none" },
     },
   },
 }

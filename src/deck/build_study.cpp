@@ -59,6 +59,15 @@ Held build_latin(const Declaration& d) {
   return std::shared_ptr<const LatinSettings>(settings);
 }
 
+Held build_monolithic(const Declaration& d) {
+  const Arguments& a = d.arguments;
+  auto settings = std::make_shared<MonolithicSettings>();
+  settings->tolerance = a.number("tolerance");
+  settings->max_iterations = a.integer("max_iterations");
+  settings->numerical_damping = a.number("numerical_damping");
+  return std::shared_ptr<const MonolithicSettings>(settings);
+}
+
 Held build_vtk(const Declaration& d) {
   auto output = std::make_shared<Output>();
   output->name = "vtk";
@@ -124,7 +133,13 @@ Held build_problem(const Declaration& d) {
   problem->supports = a.list<SupportPtr>("supports");
   problem->steps = a.list<StepPtr>("steps");
   problem->outputs = a.list<OutputPtr>("outputs");
-  if (a.has("solver")) problem->solver = *a.object("solver").as<std::shared_ptr<const LatinSettings>>();
+  if (a.has("solver")) {
+    const Object& solver = a.object("solver");
+    if (std::holds_alternative<std::shared_ptr<const MonolithicSettings>>(solver.held))
+      problem->monolithic = *solver.as<std::shared_ptr<const MonolithicSettings>>();
+    else
+      problem->solver = *solver.as<std::shared_ptr<const LatinSettings>>();
+  }
   check_problem(*problem);
   return std::shared_ptr<const Problem>(problem);
 }
@@ -134,6 +149,7 @@ Held build_problem(const Declaration& d) {
 const Builders& study_builders() {
   static const Builders builders = {
       {"step.static", build_static}, {"step.dynamic", build_dynamic},   {"solver.latin", build_latin},
+      {"solver.monolithic", build_monolithic},
       {"output.vtk", build_vtk},     {"output.history", build_history}, {"output.resultant", build_resultant},
       {"output.joint", build_joint}, {"output.srs", build_srs},         {"output.energy", build_energy},
       {"problem", build_problem},

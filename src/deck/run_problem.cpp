@@ -8,6 +8,7 @@
 
 #include "base/log.hpp"
 #include "latin/latin.hpp"
+#include "reference/monolithic.hpp"
 #include "result/collector.hpp"
 #include "solution/step_model.hpp"
 
@@ -74,7 +75,7 @@ std::shared_ptr<const RunResult> run_problem(const Problem& problem, const RunRe
   }
   Collector collector(problem, sink);
   auto result = std::make_shared<RunResult>();
-  const SolverFigures figures = solve(problem, collector);
+  const SolverFigures figures = problem.monolithic ? solve_monolithic(problem, collector) : solve(problem, collector);
   summarise(problem, figures, *result);
   collector.finish(*result);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

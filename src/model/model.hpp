@@ -125,6 +125,13 @@ struct LatinSettings {
   bool plain = false;             // iterate with full solves instead of the condensed interface (the plain path)
 };
 
+// solver.monolithic: the whole assembly in one implicit system.
+struct MonolithicSettings {
+  double tolerance = 1e-10;
+  int max_iterations = 50;  // of an increment
+  double numerical_damping = 0.0;
+};
+
 enum class OutputKind { vtk, history, resultant, srs, joint, energy };
 const char* output_kind_name(OutputKind kind);
 enum class Quantity { displacement, velocity, acceleration, stress, von_mises, pressure };
@@ -149,6 +156,9 @@ struct Problem : Named {
   std::vector<StepPtr> steps;
   std::vector<OutputPtr> outputs;
   LatinSettings solver;
+  std::optional<MonolithicSettings> monolithic;  // where set, takes the place of LATIN
+
+  double numerical_damping() const { return monolithic ? monolithic->numerical_damping : solver.numerical_damping; }
 };
 
 // Supports in force in a step.

@@ -134,6 +134,13 @@ void Piece::factorise() {
     for (int j = 0; j < t.n; ++j) is_interface[t.at[j]] = 1;
   }
   n_interface_ = static_cast<int>(std::count(is_interface.begin(), is_interface.end(), 1));
+  if (setup_.is_assembled) {
+    mass_.resize(n);
+    for (int i = 0; i < n; ++i) mass_[i] = setup_.body->matrices->mass[node_of_free_[i]];
+    for (const Row& row : setup_.rows) traces_.push_back(trace(row.node, row.direction));
+    schur_diagonal_ = Vec::Zero(n_rows());
+    return;
+  }
   if (setup_.is_prediction) {
     predicted_factor_bytes_ = Factor::predicted_bytes(free_matrix(reference), node_of_free_, is_interface);
     return;

@@ -52,6 +52,7 @@ class Piece {
     std::vector<Row> rows;
     int n_motions = 0;
     std::string what;  // "substructure 'rod' in step 'shock'", for messages
+    bool is_assembled = false;   // the system is solved elsewhere, with other substructures' in it: no factor of its own
     bool is_prediction = false;  // lays the factor out and goes no further: only predicted_bytes() then has a meaning
   };
   // Assembles and factorises. Throws NumericalError.
@@ -76,6 +77,14 @@ class Piece {
   void begin(const Points& force, const std::vector<double>& motion_velocity);
   // Velocities at the rows for interface data q.
   void interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity);
+  // For a system solved elsewhere (is_assembled): matrix and right-hand side of this increment on the free unknowns, those of a
+  // node (n_free of them from first_free, along the columns of its basis), and the velocities found.
+  SparseMatrix matrix() const { return free_matrix(Vec::Zero(n_rows())); }
+  const Vec& right_hand_side() const { return x_; }
+  int first_free(int node) const { return first_free_[node]; }
+  int n_free(int node) const { return n_free_of_[node]; }
+  Mat3 basis(int node) const { return special_of_[node] < 0 ? Mat3(Mat3::Identity()) : bases_[special_of_[node]]; }
+  void set_velocity(const Vec& free) { v_ = free; }
   // Interior for the q last given; advances the state. interface_force: on held directions of moving nodes (3 x n_nodes), or null.
   IncrementEnergy finish(Eigen::Ref<const Vec> q, const Points* interface_force);
 

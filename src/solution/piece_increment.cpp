@@ -196,7 +196,7 @@ Vec Piece::row_values(const Points& nodal) const {
 
 Vec Piece::row_displacements() const {
   Vec values = Vec::Zero(n_rows());
-  for (int i = 0; i < n_rows() && factor_; ++i)
+  for (size_t i = 0; i < traces_.size(); ++i)
     for (int a = 0; a < traces_[i].n; ++a) values[i] += traces_[i].value[a] * u_[traces_[i].at[a]];
   return values;
 }

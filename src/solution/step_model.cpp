@@ -128,7 +128,10 @@ std::vector<Piece::Row> rows_of(const StepModel& model, int part) {
   return rows;
 }
 
-void make_pieces(StepModel& model, const std::vector<Body>& bodies, bool is_prediction) {
+// What the pieces are for: to be solved one by one, together by someone else, or only to know their size.
+enum class Purpose { alone, assembled, prediction };
+
+void make_pieces(StepModel& model, const std::vector<Body>& bodies, Purpose purpose) {
   const int n = static_cast<int>(bodies.size());
   model.pieces.resize(n);
   model.offset.assign(1, 0);
@@ -143,7 +146,7 @@ void make_pieces(StepModel& model, const std::vector<Body>& bodies, bool is_pred
     try {
       const std::string what = "substructure '" + bodies[i].part->name + "' in step '" + model.step->name + "'";
       model.pieces[i] = std::make_unique<Piece>(Piece::Setup{&bodies[i], model.scheme, &model.conditions.held[i], &absorbing[i],
-                                                             rows_of(model, i), static_cast<int>(model.conditions.motions.size()), what, is_prediction});
+                                                             rows_of(model, i), static_cast<int>(model.conditions.motions.size()), what, purpose == Purpose::assembled, purpose == Purpose::prediction});
     } catch (...) {
       const std::scoped_lock lock(mutex);
       failure = std::current_exception();
@@ -153,12 +156,12 @@ void make_pieces(StepModel& model, const std::vector<Body>& bodies, bool is_pred
 }
 
 StepModel make_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
-                     const std::vector<Body>& bodies, const State& start, bool is_prediction) {
+                     const std::vector<Body>& bodies, const State& start, Purpose purpose) {
   StepModel model;
   model.problem = &problem;
   model.step = &step;
   model.surfaces = &surfaces;
-  if (!step.is_static) model.scheme = {false, step.dt, 0.5 * (1.0 - problem.solver.numerical_damping)};
+  if (!step.is_static) model.scheme = {false, step.dt, 0.5 * (1.0 - problem.numerical_damping())};
   // A wall that is not among this step's supports has let go.
   std::vector<Surface> in_force = surfaces;
   const std::vector<SupportPtr>& supports = supports_of(problem, step);
@@ -176,20 +179,20 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
     pin_free_motions(problem, step, model.exchange, force, model.conditions);
     model.exchange = make_exchange(problem, in_force, model.conditions);
   }
-  make_pieces(model, bodies, is_prediction);
+  make_pieces(model, bodies, purpose);
   return model;
 }
 
 }  // namespace
 
 StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
-                          const std::vector<Body>& bodies, const State& start) {
-  return make_model(problem, step, surfaces, bodies, start, false);
+                          const std::vector<Body>& bodies, const State& start, bool is_assembled) {
+  return make_model(problem, step, surfaces, bodies, start, is_assembled ? Purpose::assembled : Purpose::alone);
 }
 
 StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces, const std::vector<Body>& bodies,
                       const State& start) {
-  const StepModel model = make_model(problem, step, surfaces, bodies, start, true);
+  const StepModel model = make_model(problem, step, surfaces, bodies, start, Purpose::prediction);
   StepSize size;
   for (const auto& piece : model.pieces) size.bytes += piece->predicted_bytes();
   size.n_unknowns = model.n_q();

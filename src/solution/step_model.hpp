@@ -39,8 +39,9 @@ struct StepModel {
 };
 
 // Builds and factorises; substructures side by side on the threads at hand. Throws InputError, NumericalError.
+// is_assembled: builds only, for a solver that factorises the substructures together.
 StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
-                          const std::vector<Body>& bodies, const State& start);
+                          const std::vector<Body>& bodies, const State& start, bool is_assembled = false);
 
 // Memory (bytes) that a step's pieces will hold, and its interface unknowns; nothing is factorised.
 struct StepSize {

@@ -1,0 +1,235 @@
+// The whole assembly at once (manual, "The monolithic reference"), readable top to bottom.
+#include "reference/monolithic.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "base/progress.hpp"
+#include "reference/interface_newton.hpp"
+#include "reference/merged_assembly.hpp"
+#include "solution/step_ends.hpp"
+
+namespace dygita {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
+
+class MonolithicRun {
+ public:
+  MonolithicRun(const Problem& problem, StepModel& model, State& state, Observer& observer)
+      : model_(model),
+        state_(state),
+        observer_(observer),
+        i_step_(index_of(problem.steps, model.step)),
+        increment_(increment_of(model.scheme, 0.0)),
+        assembly_(model),
+        newton_(model, assembly_, *problem.monolithic) {
+    start_step(model, state);
+    for (const Point& point : model.exchange.points) records_.push_back(start_point(model, point, state));
+    energy_.resize(model.pieces.size());
+    observer_.begin_step(instant(-1, {}));
+  }
+
+  void run();
+  void add_to(SolverFigures& figures) const;
+  const StepFigures& figures() const { return figures_; }
+
+ private:
+  void solve_increment(int increment);
+  void begin_increment(int increment);
+  void finish_increment();
+  void accept_increment(const InterfaceNewton::Outcome& outcome);
+  Vec3 side_displacement(const Point& point, int first, int end, const std::vector<Points>& displacement) const;
+  Instant instant(int increment, const InterfaceNewton::Outcome& outcome) const {
+    return {model_, state_, i_step_, increment, outcome.iterations, outcome.residual, outcome.converged};
+  }
+
+  StepModel& model_;
+  State& state_;
+  Observer& observer_;
+  int i_step_;
+  Increment increment_;
+  MergedAssembly assembly_;
+  InterfaceNewton newton_;
+  std::vector<PointRecord> records_;
+  std::vector<IncrementEnergy> energy_;
+  std::vector<Vec3> port_force_;
+  StepFigures figures_;
+  double gap_difference_ = 0.0;
+  struct {
+    double forward = 0.0, newton = 0.0, backward = 0.0, accept = 0.0, output = 0.0;
+  } seconds_;
+};
+
+// Mean of the tied copies on a side of a point, in its frame; a held copy decides.
+Vec3 MonolithicRun::side_displacement(const Point& point, int first, int end,
+                                      const std::vector<Points>& displacement) const {
+  Vec3 place = Vec3::Zero();
+  for (int d = 0; d < 3; ++d) {
+    double sum = 0.0;
+    for (int p = first; p < end; ++p) {
+      const Port& port = model_.exchange.ports[p];
+      const double u = point.frame.col(d).dot(displacement[port.part].col(port.node));
+      if (port.is_held[d]) {
+        sum = u * (end - first);
+        break;
+      }
+      sum += u;
+    }
+    if (end > first) place[d] = sum / (end - first);
+  }
+  return place;
+}
+
+// Right-hand side of the assembly, and all that an increment changes on the interfaces before any force is known.
+void MonolithicRun::begin_increment(int increment) {
+  const std::vector<double> motions = model_.motion_velocities(increment);
+  model_.loads->evaluate(increment);
+  std::vector<Points> displacement;
+  for (size_t i = 0; i < model_.pieces.size(); ++i) {
+    displacement.push_back(model_.pieces[i]->displacement());
+    model_.pieces[i]->begin(model_.external_force(static_cast<int>(i), state_), motions);
+  }
+  for (size_t i = 0; i < records_.size(); ++i) {
+    const Point& point = model_.exchange.points[i];
+    if (!point.law) continue;
+    Vec3 jump = -side_displacement(point, point.first_port, point.first_port_2, displacement);
+    if (!point.is_wall) jump += side_displacement(point, point.first_port_2, point.end_port, displacement);
+    begin_point(model_, point, jump, increment, records_[i]);
+  }
+  assembly_.begin(motions, displacement);
+}
+
+// Velocities of the whole assembly, then every substructure's own update with the forces that act on it.
+void MonolithicRun::finish_increment() {
+  assembly_.finish(newton_.reduced_force());
+  std::vector<Vec3> point_force;
+  for (const PointRecord& record : records_) point_force.push_back(record.force);
+  port_force_ = assembly_.port_forces(point_force);
+  Vec q = Vec::Zero(model_.n_q());
+  std::vector<Points> held;
+  for (const auto& piece : model_.pieces)
+    held.emplace_back(Points::Zero(3, piece->setup().body->part->mesh->n_nodes()));
+  for (const Point& point : model_.exchange.points)
+    for (int p = point.first_port; p < point.end_port; ++p) {
+      const Port& port = model_.exchange.ports[p];
+      for (int d = 0; d < 3; ++d) {
+        if (const int i = model_.unknown(port, d); i >= 0) q[i] = port_force_[p][d];
+        if (port.is_held[d]) held[port.part].col(port.node) += port_force_[p][d] * point.frame.col(d);
+      }
+    }
+  for (size_t i = 0; i < model_.pieces.size(); ++i) {
+    Piece& piece = *model_.pieces[i];
+    energy_[i] = piece.finish(q.segment(model_.offset[i], piece.n_rows()), piece.has_motions() ? &held[i] : nullptr);
+  }
+}
+
+void MonolithicRun::accept_increment(const InterfaceNewton::Outcome& outcome) {
+  for (size_t i = 0; i < records_.size(); ++i) {
+    const Point& point = model_.exchange.points[i];
+    if (!point.law) continue;
+    PointRecord& record = records_[i];
+    const LawState end = end_of_point(point, record, increment_);
+    gap_difference_ = std::max(gap_difference_, gap_difference(model_, point, record));
+    const Vec3 force = increment_.is_static ? Vec3(0.5 * (record.law.force + end.force)) : end.force;
+    const Vec3 motion = increment_.dt * (increment_.g * record.law.rate + (1 - increment_.g) * end.rate);
+    book_work(point, record, end, increment_, -force.dot(motion), state_);
+    record.law = end;
+    show_point(point, record, state_);
+  }
+  show_ties(model_, records_, port_force_, state_);
+  Energies& energies = state_.energies;
+  energies.kinetic = energies.strain = 0.0;
+  for (const IncrementEnergy& e : energy_) {
+    energies.kinetic += e.kinetic;
+    energies.strain += e.strain;
+    energies.loads += e.loads;
+    energies.damping += e.damping;
+    energies.scheme += e.scheme;
+  }
+  newton_.raise_floor(energies.kinetic + energies.strain + std::abs(energies.loads), model_.scheme.dt);
+  if (!increment_.is_static) state_.time += increment_.dt;
+  ++figures_.increments;
+  figures_.iterations += outcome.iterations;
+  figures_.worst_indicator = std::max(figures_.worst_indicator, outcome.residual);
+  if (!outcome.converged) ++figures_.not_converged;
+}
+
+void MonolithicRun::solve_increment(int increment) {
+  auto start = Clock::now();
+  const auto lap = [&](double& sum) {
+    sum += seconds_since(start);
+    start = Clock::now();
+  };
+  begin_increment(increment);
+  lap(seconds_.forward);
+  const InterfaceNewton::Outcome outcome = newton_.solve(records_, increment_);
+  lap(seconds_.newton);
+  finish_increment();
+  lap(seconds_.backward);
+  accept_increment(outcome);
+  lap(seconds_.accept);
+  observer_.accept(instant(increment, outcome));
+  lap(seconds_.output);
+}
+
+void MonolithicRun::run() {
+  const int n = model_.step->n_increments();
+  Progress progress(model_.step->name, n);
+  for (int i = 0; i < n && !interrupt_requested(); ++i) {
+    solve_increment(i);
+    progress.update(i + 1,
+                    fmt::format("{:.1f} iterations an increment", static_cast<double>(figures_.iterations) / (i + 1)));
+  }
+}
+
+void MonolithicRun::add_to(SolverFigures& figures) const {
+  figures.n_dofs = 0;
+  double bytes = assembly_.bytes();
+  for (const auto& piece : model_.pieces) {
+    figures.n_dofs += 3 * piece->setup().body->part->mesh->n_nodes();
+    bytes += piece->bytes();
+  }
+  figures.factor_bytes = std::max(figures.factor_bytes, bytes);
+  figures.n_interface_unknowns = assembly_.n_rows();
+  figures.gap_difference = std::max(figures.gap_difference, gap_difference_);
+  figures.seconds["forward"] += seconds_.forward;
+  figures.seconds["newton"] += seconds_.newton;
+  figures.seconds["backward"] += seconds_.backward;
+  figures.seconds["laws and energies"] += seconds_.accept;
+  figures.seconds["output"] += seconds_.output;
+}
+
+}  // namespace
+
+SolverFigures solve_monolithic(const Problem& problem, Observer& observer) {
+  CHECK(problem.monolithic, "the problem asks for another solver");
+  SolverFigures figures;
+  prepare_thread();
+  auto start = Clock::now();
+  const std::vector<Surface> surfaces = make_surfaces(problem);
+  const std::vector<Body> bodies = make_bodies(problem);
+  State state = initial_state(problem, surfaces);
+  figures.seconds["assemble"] = seconds_since(start);
+  for (const StepPtr& step : problem.steps) {
+    if (interrupt_requested()) break;
+    start = Clock::now();
+    StepModel model = make_step_model(problem, *step, surfaces, bodies, state, true);
+    MonolithicRun run(problem, model, state, observer);
+    figures.seconds["factor"] += seconds_since(start);
+    start = Clock::now();
+    run.run();
+    end_step(model, state);
+    figures.steps.push_back(run.figures());
+    figures.steps.back().seconds = seconds_since(start);
+    run.add_to(figures);
+  }
+  figures.interrupted = interrupt_requested();
+  return figures;
+}
+
+}  // namespace dygita

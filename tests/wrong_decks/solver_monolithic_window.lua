@@ -1,0 +1,1 @@
+local s = solver.monolithic{ window = 4 }
