@@ -34,12 +34,12 @@ IndicatorSums StepRun::local_stage() {
 }
 
 // Right-hand sides of an increment, and all that it changes on the interfaces before any iteration.
-void StepRun::begin_increment(int increment) {
+void StepRun::begin_increment(int increment, bool starts_window) {
   const Stopwatch watch(seconds_.forward);
   motions_ = model_.motion_velocities(increment);
   model_.loads->evaluate(increment);
   for_each_piece([&](Piece& piece, int i) { piece.begin(model_.external_force(i, state_), motions_); });
-  local_.begin(increment, motions_);
+  local_.begin(increment, motions_, starts_window);
 }
 
 // Interiors of an increment for the q at hand.
@@ -53,7 +53,7 @@ void StepRun::finish_increment() {
 
 // One step of time: forward once, iterate on the interfaces alone, backward once.
 void StepRun::solve_increment(int increment) {
-  begin_increment(increment);
+  begin_increment(increment, true);
   anderson_.clear();
   Outcome best;
   Vec q_best = q_;
@@ -92,7 +92,7 @@ void StepRun::solve_window(int first, int last) {
     const Indicator before = indicator_;
     Outcome worst{0.0};
     for (int i = 0; i < n_steps; ++i) {
-      begin_increment(first + i);
+      begin_increment(first + i, i == 0);
       q_ = q[i];
       linear_stage();
       const Outcome outcome = indicator_.measure(local_stage());
@@ -106,7 +106,7 @@ void StepRun::solve_window(int first, int last) {
     indicator_ = before;
     go_back(start);
     if (worst.eta <= tolerance_ || n >= max_iterations_) {
-      for (int i = 0; i < n_steps; ++i) replay(first + i, q[i], i == 0 ? n : 0, worst.eta);
+      for (int i = 0; i < n_steps; ++i) replay(first + i, q[i], i == 0, n, worst.eta);
       return;
     }
     for (int i = 0; i < n_steps; ++i) {
@@ -119,8 +119,8 @@ void StepRun::solve_window(int first, int last) {
 }
 
 // The last sweep of a window once more, this time shown.
-void StepRun::replay(int increment, const Vec& q, int iterations, double eta) {
-  begin_increment(increment);
+void StepRun::replay(int increment, const Vec& q, bool starts_window, int iterations, double eta) {
+  begin_increment(increment, starts_window);
   q_ = q;
   linear_stage();
   indicator_.accept(indicator_.measure(local_stage()));

@@ -66,10 +66,10 @@ Vec3 LocalStage::mean_displacement(int first, int end) const {
   return mean;
 }
 
-void LocalStage::begin(int increment, const std::vector<double>& motions) {
+void LocalStage::begin(int increment, const std::vector<double>& motions, bool starts_window) {
   const Exchange& exchange = model_->exchange;
   std::vector<Vec> displacement(model_->pieces.size());
-  for (size_t i = 0; i < displacement.size(); ++i) displacement[i] = model_->pieces[i]->row_displacements();
+  for (size_t i = 0; i < displacement.size() && starts_window; ++i) displacement[i] = model_->pieces[i]->row_displacements();
   for (size_t i = 0; i < exchange.points.size(); ++i) {
     const Point& point = exchange.points[i];
     for (int p = point.first_port; p < point.end_port; ++p) {
@@ -78,7 +78,7 @@ void LocalStage::begin(int increment, const std::vector<double>& motions) {
       state.w_old = model_->scheme.is_static ? Vec3(Vec3::Zero()) : state.w;
       state.f_old = state.f;
       for (int d = 0; d < 3; ++d) {
-        if (port.unknown[d] >= 0) state.u[d] = displacement[port.part][port.unknown[d]];
+        if (port.unknown[d] >= 0 && starts_window) state.u[d] = displacement[port.part][port.unknown[d]];
         if (port.is_held[d]) state.w[d] = model_->held_velocity(port, point.frame.col(d), motions);
       }
     }
@@ -199,12 +199,7 @@ void LocalStage::accept(State* state) {
     p.law = end;
     if (state && point.law) show_point(point, p, *state);
   }
-  for (size_t i = 0; i < ports_.size(); ++i) {
-    const Port& port = model_->exchange.ports[i];
-    for (int d = 0; d < 3; ++d)
-      if (port.is_held[d])
-        ports_[i].u[d] += increment_.dt * (increment_.g * ports_[i].w_old[d] + (1 - increment_.g) * ports_[i].w[d]);
-  }
+  for (PortState& port : ports_) port.u += increment_.dt * (increment_.g * port.w_old + (1 - increment_.g) * port.w);
   if (!state) return;
   std::vector<Vec3> port_force;
   for (const PortState& port : ports_) port_force.push_back(port.f);

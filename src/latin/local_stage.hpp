@@ -18,8 +18,10 @@ class LocalStage {
 
   // Interface data that continues the state: q = F_hat + k W_hat with the forces and velocities at hand.
   Vec initial_q() const;
-  // What an increment changes before any iteration: jumps, shortenings, velocities of held sides (motions: at its end).
-  void begin(int increment, const std::vector<double>& motions);
+  // What an increment changes before any iteration: jumps, shortenings, velocities of held sides (motions: at its end). Jumps
+  // come from the substructures' displacements at the start of a window; inside a window of several steps from W_hat, since the
+  // displacements of an unfinished iteration would be answered with a velocity of jump / dt.
+  void begin(int increment, const std::vector<double>& motions, bool starts_window);
   // From velocities V and data q of the linear stage: F_hat, W_hat and their q (the fixed-point image).
   IndicatorSums run(const Vec& velocity, const Vec& q, Vec& image);
   // Accepts the fields of the last `run`: the laws move on; with a state, forces, gaps, slips and works go into it.

@@ -1,4 +1,5 @@
-// One step while it runs: what the stages of latin.cpp work on. The method is in latin.cpp, the bookkeeping in step_run.cpp.
+// One step while it runs: what the stages of latin.cpp work on. The method is in latin.cpp, the bookkeeping in
+// step_run.cpp.
 #pragma once
 
 #include <chrono>
@@ -24,11 +25,11 @@ class StepRun {
   // The stages (latin.cpp).
   void linear_stage();
   IndicatorSums local_stage();
-  void begin_increment(int increment);
+  void begin_increment(int increment, bool starts_window);
   void finish_increment();
   void solve_increment(int increment);
   void solve_window(int first, int last);
-  void replay(int increment, const Vec& q, int iterations, double eta);
+  void replay(int increment, const Vec& q, bool starts_window, int iterations, double eta);
 
   // Bookkeeping (step_run.cpp).
   struct Start {
@@ -37,7 +38,6 @@ class StepRun {
   };
   Start remember() const;
   void go_back(const Start& start);
-  void start_pieces();
   void accept_increment(int increment, int iterations, double eta);
   void check_finite(const Outcome& outcome, int increment) const;
   std::string describe_progress() const;
