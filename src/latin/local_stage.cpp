@@ -125,6 +125,7 @@ void LocalStage::scatter(int first, int end, const Side& side, const Vec3& force
       const Port& port = model_->exchange.ports[p];
       const int i = model_->unknown(port, d);
       if (port.is_held[d]) {
+        ports_[p].f[d] = 0.0;  // one of several held copies takes it all
         held_port = p;
         continue;
       }
