@@ -15,6 +15,9 @@ namespace {
 constexpr double fast_enough = 0.2;
 // Newton steps in vain before Gauss-Seidel sweeps take over for a while, and how many of them.
 constexpr int most_in_vain = 3, n_sweeps = 20;
+// A step that raises the residual by more than this is not taken.
+constexpr double too_bad = 10.0;
+constexpr double regularisation = 1e-8;
 
 }  // namespace
 
@@ -29,6 +32,10 @@ InterfaceNewton::InterfaceNewton(const StepModel& model, const MergedAssembly& a
   for (size_t i = 0; i < model.exchange.points.size(); ++i) {
     const int t1 = assembly.row(i, 1), t2 = assembly.row(i, 2);
     if (t1 >= 0 && t2 >= 0) y_[t1] = y_[t2] = 0.5 * (y_[t1] + y_[t2]);
+  }
+  for (const SubstructurePtr& part : model.problem->substructures) {
+    const Points& nodes = part->mesh->nodes;
+    extent_ += (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).norm();
   }
 }
 
@@ -135,8 +142,8 @@ void InterfaceNewton::factorise(const Vec& f, const std::vector<PointRecord>& re
   }
   tangent_passive_ = j.rightCols(n - n_active);
   Mat square = j.leftCols(n_active);
-  // Ties in a loop are redundant and make J singular; the residual has no part there.
-  square.diagonal().array() += 1e-12;
+  // Laws in a loop share forces in more than one way, which makes J singular; the residual has no part there.
+  square.diagonal().array() += regularisation;
   lu_.compute(square);
   has_factor_ = true;
 }
@@ -188,6 +195,8 @@ InterfaceNewton::Outcome InterfaceNewton::solve(std::vector<PointRecord>& record
       if (const int i = assembly_->row(p, d); i >= 0) f_[i] = records[p].law.force[d];
   Residual residual = evaluate(f_, records, increment);
   Outcome outcome;
+  Vec best = f_;
+  double best_distance = residual.distance;
   int in_vain = 0;
   while (relative(residual) > settings_.tolerance && outcome.iterations < settings_.max_iterations) {
     ++outcome.iterations;
@@ -198,17 +207,38 @@ InterfaceNewton::Outcome InterfaceNewton::solve(std::vector<PointRecord>& record
     const double ratio = std::sqrt(next.distance / residual.distance);
     if (ratio > fast_enough) has_factor_ = false;
     if (!is_fresh && ratio >= 1.0) continue;  // the old tangent misleads
-    f_ = f_new;
-    residual = std::move(next);
-    if (ratio < 1.0 || ++in_vain < most_in_vain) continue;
-    in_vain = 0;
-    for (int i = 0; i < n_sweeps; ++i) sweep(f_, records, increment);
+    if (ratio >= 1.0) ++in_vain;
+    if (ratio < too_bad) {
+      f_ = f_new;
+      residual = std::move(next);
+    } else {
+      in_vain = most_in_vain;
+    }
+    if (in_vain >= most_in_vain) {
+      in_vain = 0;
+      f_ = best;
+      for (int i = 0; i < n_sweeps; ++i) sweep(f_, records, increment);
+      residual = evaluate(f_, records, increment);
+    }
+    if (residual.distance < best_distance) {
+      best = f_;
+      best_distance = residual.distance;
+    }
+  }
+  if (residual.distance > best_distance) {  // not converged: the best there was is what is shown
+    f_ = best;
     residual = evaluate(f_, records, increment);
   }
   outcome.residual = relative(residual);
   outcome.converged = outcome.residual <= settings_.tolerance;
   largest_ = std::max(largest_, residual.size);
   const Vec rate = rate_of(f_), force = force_of(f_, rate);
+  // A singular system has been "solved" by going very far.
+  if (increment.is_static && rate.size() > 0 && rate.cwiseAbs().maxCoeff() > extent_)
+    throw NumericalError(fmt::format(
+        "step '{}': sides of an interface move apart by more than the assembly's size; likely cause: a body "
+        "that was held by contact alone has come off, so that there is no equilibrium",
+        model_->step->name));
   for (size_t p = 0; p < records.size(); ++p) {
     PointRecord& record = records[p];
     record.trial = trial_of(p, rate, force, record);

@@ -49,6 +49,7 @@ class InterfaceNewton {
   Eigen::PartialPivLU<Mat> lu_;
   bool has_factor_ = false;
   double largest_ = 0.0, floor_ = 0.0;
+  double extent_ = 0.0;  // m, of all substructures
 };
 
 }  // namespace dygita
