@@ -30,10 +30,26 @@ local wall = support.wall{ name = "wall", on = lower:face "zmin", friction = p.f
 local wait = step.dynamic{ name = "wait", duration = p.steps * 1*us, dt = 1*us, loads = { load.gravity{ z = -1000 } } }
 local sole, energy = output.joint{ name = "seat", on = seat }, output.energy{}
 local motion = output.history{ name = "motion", on = upper:face "zmax", quantity = "velocity" }
+local outputs, corners = { sole, energy, motion }, {}
+for _, at in ipairs{ { 0, 0 }, { side, 0 }, { 0, side }, { side, side } } do
+  for _, seen in ipairs{ { lower, 0 }, { lower, side }, { upper, side } } do
+    local part, height = table.unpack(seen)
+    local corner = part:where(function(x, y, z) return near(x, at[1]) and near(y, at[2]) and near(z, height) end)
+    local probe = output.history{ name = "corner_" .. #corners, on = corner, quantity = "velocity", direction = { 0, 0, 1 } }
+    corners[#corners + 1] = probe
+    outputs[#outputs + 1] = probe
+  end
+end
 local result = problem{
   name = "long_run", substructures = { lower, upper }, interfaces = { seat }, supports = { wall }, steps = { wait },
-  outputs = { sole, energy, motion },
+  outputs = outputs,
 }:run{}
+local closing = 0                                -- on the wall, and of the upper on the lower, at a corner
+for i = 1, #corners, 3 do
+  local foot, top, sole_ = result[corners[i]], result[corners[i + 1]], result[corners[i + 2]]
+  for k = 1, #foot do closing = math.max(closing, -foot[k], top[k] - sole_[k]) end
+end
+print(("fastest closing of a corner, m/s: %.3f"):format(closing))
 local created, largest = 0, 0
 local scheme, kinetic, strain = result[energy].scheme, result[energy].kinetic, result[energy].strain
 for i = 1, #scheme do
