@@ -214,5 +214,31 @@ problem{ name = "release", substructures = { low, top }, interfaces = { joint },
   EXPECT_EQ(runs.monolithic.column("joint_force", "normal").back(), 0.0);
 }
 
+TEST(Reference, refuses_more_law_rows_than_its_dense_matrices_are_made_for) {
+  try {
+    run_text(choice + R"(
+local plate = substructure{ name = "plate", material = steel, mesh = mesh.box{ size = { 50*mm, 50*mm, 1*mm }, cells = { 50, 50, 1 } } }
+local wall = support.wall{ name = "wall", on = plate:face "zmin", friction = 0.3 }
+problem{ name = "many", substructures = { plate }, supports = { wall }, steps = { step.dynamic{ name = "wait", duration = 1*us, dt = 1*us } },
+  solver = pick }:run{}
+)",
+             {{"monolithic", "1"}});
+    FAIL() << "7803 rows were taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("7803 of them, at most 6000 are allowed"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Reference, does_not_call_a_body_pulled_off_its_wall_in_equilibrium) {
+  const std::string pulled = choice + R"(
+local block = substructure{ name = "block", material = steel, mesh = mesh.box{ size = { 4*mm, 4*mm, 4*mm }, cells = { 2, 2, 2 } } }
+local wall = support.wall{ name = "wall", on = block:face "zmin" }
+local pull = step.static{ name = "pull", loads = { load.force{ on = block:face "zmax", z = 100 } } }
+problem{ name = "pulled", substructures = { block }, supports = { wall }, steps = { pull }, solver = pick }:run{}
+)";
+  EXPECT_FALSE(run_text(pulled, {{"monolithic", "1"}}).at(0).result->converged);
+}
+
 }  // namespace
 }  // namespace dygita::test
