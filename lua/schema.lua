@@ -424,9 +424,13 @@ local methods = {
     argument = { "function", type = "function", doc = "function(x, y, z), in metres" },
   },
   {
-    kind = "problem", "run", write = "problem:run{}", makes = "result", later = { "start_from" },
+    kind = "problem", "run", write = "problem:run{}", makes = "result",
     doc = "Computes, writes out/<problem>/<case>/ and answers the result.",
-    arguments = { { "case", type = "name", default = "base", doc = "name of this case, for its folder" } },
+    arguments = {
+      { "case", type = "name", default = "base", doc = "name of this case, for its folder" },
+      { "start_from", type = "object", kinds = { "result" }, doc = "result of an earlier case: the iteration of each "
+        .. "increment starts from its interface fields; the answer stays the same to the tolerance" },
+    },
   },
 }
 

@@ -1,5 +1,7 @@
 #include "deck/deck.hpp"
 
+#include "deck/arguments.hpp"
+
 #include <spdlog/fmt/fmt.h>
 
 #include <fstream>
@@ -116,7 +118,8 @@ RunRequest request_of(const DeckState& state, const Problem& problem, const std:
 }
 
 // Runs or checks one problem while the deck's clock stands still.
-DeckResultPtr compute(DeckState& state, std::shared_ptr<const Problem> problem, const std::string& case_name) {
+DeckResultPtr compute(DeckState& state, std::shared_ptr<const Problem> problem, const std::string& case_name,
+                      const DeckResultPtr& start_from) {
   const LuaState::Pause pause(state);
   if (!state.is_solving) {
     std::string report = state.engine.check(*problem);
@@ -124,15 +127,17 @@ DeckResultPtr compute(DeckState& state, std::shared_ptr<const Problem> problem, 
     say(report);
     return std::make_shared<const DeckResult>(DeckResult{problem, hollow_result(*problem), true});
   }
-  auto run = state.engine.run(*problem, request_of(state, *problem, case_name));
+  RunRequest request = request_of(state, *problem, case_name);
+  if (start_from) request.start_from = start_from->run;
+  auto run = state.engine.run(*problem, request);
   return std::make_shared<const DeckResult>(DeckResult{problem, std::move(run), false});
 }
 
 // What the engine finds wrong and has no line for is told at the line that runs it.
 DeckResultPtr compute_at(const Origin& origin, DeckState& state, std::shared_ptr<const Problem> problem,
-                         const std::string& case_name) {
+                         const std::string& case_name, const DeckResultPtr& start_from) {
   try {
-    return compute(state, problem, case_name);
+    return compute(state, problem, case_name, start_from);
   } catch (const InputError& error) {
     const std::string message = error.what();
     if (message.rfind(state.deck_name() + ":", 0) == 0) throw;
@@ -166,7 +171,9 @@ int run_from_deck(DeckState& state, lua_State* L) {
   }
   state.declared.mark_used(self.id);
   ++state.outcome.n_runs;
-  DeckResultPtr result = compute_at(origin, state, problem, case_name);
+  const Arguments arguments(L, 3);
+  const DeckResultPtr start_from = arguments.has("start_from") ? arguments.object("start_from").as<DeckResultPtr>() : nullptr;
+  DeckResultPtr result = compute_at(origin, state, problem, case_name, start_from);
   if (!result->run->converged) state.outcome.not_converged.push_back(label);
   if (result->run->interrupted) throw DeckStopped();
   push_object(L, {"result", "result", problem->name, -1, result});

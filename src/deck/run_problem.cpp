@@ -40,8 +40,9 @@ void warn_of_losses(const RunResult& result) {
   const double lost = result.figures.at("energy dissipated by the scheme [%]"), gained = result.figures.at("energy created by the scheme [%]");
   const double open = result.figures.at("energy imbalance [%]");
   if (lost > 5.0)
-    warn(fmt::format("the scheme dissipates {:.1f} % of the energy, mostly at impacts: a smaller dt or elements of its size lose less", lost));
-  if (gained > 0.5) warn(fmt::format("the scheme creates {:.2f} % of the energy: take a smaller dt or tolerance", gained));
+    warn(fmt::format("the scheme dissipates {:.1f} % of the energy (impacts; static increments that close a gap): a smaller dt, smaller "
+                     "elements or more static increments lose less", lost));
+  if (gained > 0.5) warn(fmt::format("the scheme creates {:.2f} % of the energy: take a smaller dt or tolerance, or more static increments", gained));
   if (open > 0.5) warn(fmt::format("the energy balance is open by {:.2f} %: take a smaller tolerance", open));
 }
 
@@ -75,7 +76,10 @@ std::shared_ptr<const RunResult> run_problem(const Problem& problem, const RunRe
   }
   Collector collector(problem, sink);
   auto result = std::make_shared<RunResult>();
-  const SolverFigures figures = problem.monolithic ? solve_monolithic(problem, collector) : solve(problem, collector);
+  const SolverFigures figures = problem.monolithic
+                                    ? solve_monolithic(problem, collector)
+                                    : solve(problem, collector, request.start_from ? request.start_from->interface_fields.get() : nullptr);
+  result->interface_fields = figures.interface_fields;
   summarise(problem, figures, *result);
   collector.finish(*result);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

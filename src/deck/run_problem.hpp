@@ -17,6 +17,7 @@ struct RunRequest {
   int threads = 0;                    // 0: as many as the machine has
   bool write_files = true;
   RunIdentity identity;
+  std::shared_ptr<const RunResult> start_from;  // an earlier case: the iteration starts from its interface fields
 };
 
 // Computes and writes; says what it does in a few lines. Throws InputError, NumericalError.

@@ -54,6 +54,7 @@ void StepRun::finish_increment() {
 // One step of time: forward once, iterate on the interfaces alone, backward once.
 void StepRun::solve_increment(int increment) {
   begin_increment(increment, true);
+  if (const Vec* kept = start_from_ ? start_from_->at(i_step_, increment, q_.size()) : nullptr) q_ = *kept;
   anderson_.clear();
   Outcome best;
   Vec q_best = q_;
@@ -86,6 +87,8 @@ void StepRun::solve_window(int first, int last) {
   const int n_steps = last - first;
   const Start start = remember();
   std::vector<Vec> q(n_steps, q_), image(n_steps);
+  for (int i = 0; i < n_steps && start_from_; ++i)
+    if (const Vec* kept = start_from_->at(i_step_, first + i, q_.size())) q[i] = *kept;
   Vec all(n_steps * q_.size()), all_image(all.size());
   Anderson anderson(window_depth_, window_relaxation_, weight_.replicate(n_steps, 1));
   for (int n = 1;; ++n) {
@@ -141,10 +144,11 @@ void StepRun::run() {
   }
 }
 
-SolverFigures solve(const Problem& problem, Observer& observer) {
+SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceFields* start_from) {
   using clock = std::chrono::steady_clock;
   const auto seconds_since = [](clock::time_point t) { return std::chrono::duration<double>(clock::now() - t).count(); };
   SolverFigures figures;
+  auto kept = std::make_shared<InterfaceFields>();
   prepare_thread();
   auto start = clock::now();
   const std::vector<Surface> surfaces = make_surfaces(problem);
@@ -155,7 +159,8 @@ SolverFigures solve(const Problem& problem, Observer& observer) {
     if (interrupt_requested()) break;
     start = clock::now();
     StepModel model = make_step_model(problem, *step, surfaces, bodies, state);
-    StepRun run(problem, model, state, observer);
+    if (interrupt_requested()) break;  // the factorisation may have taken long
+    StepRun run(problem, model, state, observer, start_from);
     figures.seconds["factor"] += seconds_since(start);
     start = clock::now();
     run.run();
@@ -163,7 +168,9 @@ SolverFigures solve(const Problem& problem, Observer& observer) {
     figures.steps.push_back(run.figures());
     figures.steps.back().seconds = seconds_since(start);
     run.add_to(figures);
+    kept->q.push_back(run.take_fields());
   }
+  figures.interface_fields = kept;
   figures.interrupted = interrupt_requested();
   return figures;
 }

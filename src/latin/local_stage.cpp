@@ -139,9 +139,10 @@ void LocalStage::scatter(int first, int end, const Side& side, const Vec3& force
       balance -= f_hat;
       image[i] = f_hat + k_[i] * w_hat;
       const double df = f_linear - f_hat, dv = velocity[i] - w_hat;
-      sums.distance += df * df / k_[i] + k_[i] * dv * dv;
-      sums.size +=
-          0.5 * ((f_linear * f_linear + f_hat * f_hat) / k_[i] + k_[i] * (velocity[i] * velocity[i] + w_hat * w_hat));
+      sums.force_distance += df * df / k_[i];
+      sums.velocity_distance += k_[i] * dv * dv;
+      sums.force_size += 0.5 * (f_linear * f_linear + f_hat * f_hat) / k_[i];
+      sums.velocity_size += 0.5 * k_[i] * (velocity[i] * velocity[i] + w_hat * w_hat);
     }
     if (held_port >= 0) ports_[held_port].f[d] = balance;
   }
@@ -177,16 +178,9 @@ IndicatorSums LocalStage::run(const Vec& velocity, const Vec& q, Vec& image) {
   std::vector<IndicatorSums> partial(n_chunks);
 #pragma omp parallel for schedule(static) if (n_chunks > 8)
   for (int c = 0; c < n_chunks; ++c)
-    for (int i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) {
-      const IndicatorSums s = run_point(i, velocity, q, image);
-      partial[c].distance += s.distance;
-      partial[c].size += s.size;
-    }
+    for (int i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) partial[c].add(run_point(i, velocity, q, image));
   IndicatorSums sums;
-  for (const IndicatorSums& s : partial) {
-    sums.distance += s.distance;
-    sums.size += s.size;
-  }
+  for (const IndicatorSums& s : partial) sums.add(s);
   return sums;
 }
 

@@ -7,7 +7,15 @@ namespace dygita {
 
 // Sums of the indicator over the points (manual, eq. I1), W.
 struct IndicatorSums {
-  double distance = 0.0, size = 0.0;
+  double force_distance = 0.0, velocity_distance = 0.0;  // sum (F - F_hat)^2 / k,  sum k (V - W_hat)^2
+  double force_size = 0.0, velocity_size = 0.0;          // sum (F^2 + F_hat^2) / 2k,  sum k (V^2 + W_hat^2) / 2
+
+  void add(const IndicatorSums& other) {
+    force_distance += other.force_distance;
+    velocity_distance += other.velocity_distance;
+    force_size += other.force_size;
+    velocity_size += other.velocity_size;
+  }
 };
 
 // Copyable: a window of several steps keeps the copy it starts from.

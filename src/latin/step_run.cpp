@@ -3,6 +3,9 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
+#include <limits>
+
+#include "base/log.hpp"
 
 #include "latin/search_direction.hpp"
 #include "solution/step_ends.hpp"
@@ -44,14 +47,16 @@ LocalStage make_local_stage(const Problem& problem, StepModel& model, const Stat
 
 }  // namespace
 
-StepRun::StepRun(const Problem& problem, StepModel& model, State& state, Observer& observer)
+StepRun::StepRun(const Problem& problem, StepModel& model, State& state, Observer& observer, const InterfaceFields* start_from)
     : problem_(problem),
       model_(model),
       state_(state),
       observer_(observer),
+      start_from_(start_from),
       i_step_(index_of(problem.steps, model.step)),
       local_((start_step(model, state), make_local_stage(problem, model, state))),
-      anderson_(0, 1.0, {}) {
+      anderson_(0, 1.0, {}),
+      indicator_(0.0) {
   const LatinSettings& s = problem.solver;
   const bool is_static = model.scheme.is_static;
   window_ = window_length(s, *model.step);
@@ -63,6 +68,7 @@ StepRun::StepRun(const Problem& problem, StepModel& model, State& state, Observe
   for (size_t i = 0; i < model.pieces.size(); ++i)
     k.segment(model.offset[i], model.pieces[i]->n_rows()) = model.pieces[i]->k();
   weight_ = k.cwiseSqrt().cwiseInverse();
+  if (is_static) indicator_ = Indicator(k.sum() * assembly_size() * assembly_size());
   anderson_ = Anderson(anderson_depth(s, is_static), relaxation(s, is_static), weight_);
   q_ = local_.initial_q();
   velocity_ = Vec::Zero(q_.size());
@@ -95,14 +101,39 @@ void StepRun::accept_increment(int increment, int iterations, double eta) {
     energies.damping += e.damping;
     energies.scheme += e.scheme;
   }
+  if (!std::isfinite(energies.kinetic + energies.strain + energies.loads))
+    throw NumericalError(fmt::format("step '{}', increment {} (t = {:.6g} s): the energies are not finite; likely cause: a load out of proportion",
+                                     model_.step->name, increment + 1, state_.time));
+  if (has_flown_off()) eta = std::numeric_limits<double>::infinity();
   indicator_.raise_floor(energies.kinetic + energies.strain + std::abs(energies.loads), model_.scheme.dt);
   if (!model_.scheme.is_static) state_.time += model_.scheme.dt;
   ++figures_.increments;
+  fields_.push_back(q_);
   figures_.iterations += iterations;
   figures_.worst_indicator = std::max(figures_.worst_indicator, eta);
   if (eta > tolerance_) ++figures_.not_converged;
   const Stopwatch watch(seconds_.output);
   observer_.accept(instant(increment, iterations, eta));
+}
+
+// A static increment that moves bodies by many times the assembly's size has found no equilibrium, whatever the indicator says.
+bool StepRun::has_flown_off() const {
+  if (!model_.scheme.is_static || velocity_.size() == 0) return false;
+  const double moved = velocity_.cwiseAbs().maxCoeff(), size = assembly_size();
+  if (moved <= 10.0 * size) return false;
+  warn(fmt::format("static step '{}': an increment moves a substructure by {:.3g} m, {:.0f} times the size of the assembly: nothing "
+                   "holds it, a limit load is exceeded, or the iteration has lost its way", model_.step->name, moved, moved / size));
+  return true;
+}
+
+// Length of the diagonal of the box around all substructures, m.
+double StepRun::assembly_size() const {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const SubstructurePtr& part : problem_.substructures) {
+    low = low.cwiseMin(part->mesh->nodes.rowwise().minCoeff() + part->place);
+    high = high.cwiseMax(part->mesh->nodes.rowwise().maxCoeff() + part->place);
+  }
+  return (high - low).norm();
 }
 
 void StepRun::check_finite(const Outcome& outcome, int increment) const {

@@ -13,13 +13,15 @@ namespace dygita {
 
 class StepRun {
  public:
-  StepRun(const Problem& problem, StepModel& model, State& state, Observer& observer);
+  StepRun(const Problem& problem, StepModel& model, State& state, Observer& observer, const InterfaceFields* start_from);
 
   void run();
   // Writes displacements, velocities and what loads had reached into the state: the next step starts from it.
   void leave_state();
   const StepFigures& figures() const { return figures_; }
   void add_to(SolverFigures& figures) const;
+  // q of every increment: the solution of the step.
+  std::vector<Vec> take_fields() { return std::move(fields_); }
 
  private:
   // The stages (latin.cpp).
@@ -39,6 +41,8 @@ class StepRun {
   Start remember() const;
   void go_back(const Start& start);
   void accept_increment(int increment, int iterations, double eta);
+  bool has_flown_off() const;
+  double assembly_size() const;
   void check_finite(const Outcome& outcome, int increment) const;
   std::string describe_progress() const;
   Instant instant(int increment, int iterations, double eta) const;
@@ -56,6 +60,7 @@ class StepRun {
   StepModel& model_;
   State& state_;
   Observer& observer_;
+  const InterfaceFields* start_from_;
   int i_step_ = 0, window_ = 1, max_iterations_ = 200, window_depth_ = 0;
   double tolerance_ = 1e-6, window_relaxation_ = 0.8;
   Vec weight_, q_, velocity_, image_;
@@ -64,6 +69,7 @@ class StepRun {
   Indicator indicator_;
   std::vector<double> motions_;
   std::vector<IncrementEnergy> energy_;
+  std::vector<Vec> fields_;
   StepFigures figures_;
   // Wall time by phase of the step.
   class Stopwatch {

@@ -1,5 +1,6 @@
 // The joint's columns: forces, largest opening and slip, areas by state, works.
 #include <algorithm>
+#include <cmath>
 
 #include "result/surface_sums.hpp"
 
@@ -51,8 +52,9 @@ class JointSampler : public Sampler {
       const bool is_contact = (*instant.model.surfaces)[s].law && (*instant.model.surfaces)[s].law->rubs();
       for (size_t i = 0; i < surface.points.size(); ++i) {
         const LawState& p = surface.points[i];
-        joint.opening = std::max(joint.opening, is_contact ? p.gap : p.plastic_opening);
-        joint.plastic_opening = std::max(joint.plastic_opening, p.plastic_opening);
+        const double opening = is_contact ? std::max(p.gap, 0.0) : p.plastic_opening;
+        if (std::abs(opening) > std::abs(joint.opening)) joint.opening = opening;
+        if (std::abs(p.plastic_opening) > std::abs(joint.plastic_opening)) joint.plastic_opening = p.plastic_opening;
         joint.slip = std::max(joint.slip, slip_.slip(instant, s, static_cast<int>(i)).norm());
       }
       joint.friction_work += surface.friction_work;

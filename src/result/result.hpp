@@ -2,10 +2,12 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "model/model.hpp"
+#include "solution/interface_fields.hpp"
 
 namespace dygita {
 
@@ -34,6 +36,7 @@ struct RunResult {
   std::map<const Output*, Table> tables;       // history, resultant, srs, joint, energy
   Table convergence;                           // time, step, iterations, indicator, converged (1 or 0)
   std::vector<StepSummary> steps;
+  std::shared_ptr<const InterfaceFields> interface_fields;  // what start_from takes; null: the solver keeps none
   bool converged = true;
   bool interrupted = false;
   long iterations = 0;                         // all increments of all steps

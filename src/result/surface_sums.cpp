@@ -37,6 +37,7 @@ Vec3 part_of_reaction(const Held& held, const Support* support, const Vec3& reac
 }
 
 void add_support(Resultant& r, Vec3& tangential, const Instant& instant, const Problem& problem, const Support& support) {
+  std::set<std::pair<int, int>> counted;  // nodes that faces of the support share
   for (const FaceOrRegion& on : support.on) {
     const SubstructurePtr& body = std::visit([](const auto& o) -> const SubstructurePtr& { return o.part; }, on);
     const int part = index_of(problem.substructures, body.get());
@@ -54,6 +55,7 @@ void add_support(Resultant& r, Vec3& tangential, const Instant& instant, const P
     const Points force = is_absorbing ? Points(instant.model.pieces[part]->absorbing_force() + instant.state.anchor[part])
                                       : instant.reactions(part);
     for (size_t i = 0; i < nodes.size(); ++i) {
+      if (!counted.emplace(part, nodes[i]).second) continue;
       const Held* held = instant.model.conditions.at(part, nodes[i]);
       if (is_absorbing)
         add(r, tangential, force.col(nodes[i]), normals.col(i));

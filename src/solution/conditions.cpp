@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "base/log.hpp"
 #include "mesh/facing.hpp"
 
 namespace dygita {
@@ -129,6 +130,11 @@ class Builder {
       return [value, n](int i) { return value.at_static(i, n) - value.at_static(i - 1, n); };
     }
     if (load.kind == LoadKind::velocity) return [value, dt](int i) { return value.history.value(dt * (i + 1)); };
+    const double start = value.history.value(0.0);
+    if (std::abs(start - value.from) > 1e-9 + 1e-6 * std::abs(start))
+      warn(fmt::format("{}load.displacement in dynamic step '{}' starts at {:.6g} m where {:.6g} m has been reached: only its changes in the "
+                       "step move the nodes; start the history from there, or bring it there in a static step",
+                       load.origin.prefix(), step_.name, start, value.from));
     // U is then the two-point mean of the prescribed displacement and nothing alternates (manual, prescribed displacement).
     return [value, dt](int i) {
       return (value.history.value(dt * (i + 1.5)) - value.history.value(dt * (i + 0.5))) / dt;

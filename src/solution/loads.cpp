@@ -81,12 +81,14 @@ void Loads::add_component(const Load& load, const Target& target, int component,
     patterns_.push_back({part_of(problem_, target), unit_pattern(load.kind, target, component), value, key});
   } else if (load.kind == LoadKind::shortening) {
     const Interface* interface = std::get<InterfacePtr>(target).get();
-    // The bolt keeps the length its last step gave it: a later shortening starts from there.
-    shortenings_.emplace_back(interface, value);
+    // The bolt keeps the length its last step gave it: a later shortening starts from there. Interfaces are the first surfaces.
+    LoadValue from_there = value;
+    from_there.from = start.shortening.at(index_of(problem_.interfaces, interface));
+    shortenings_.emplace_back(interface, from_there);
   } else if (load.kind == LoadKind::release) {
     releases_.emplace_back(std::get<InterfacePtr>(target).get(), load.value[component]->value(0.0));
-  } else if (load.kind == LoadKind::displacement && step_.is_static) {
-    motions_reached_[key] = value.at_static(step_.increments - 1, step_.increments);
+  } else if (load.kind == LoadKind::displacement) {
+    motions_reached_[key] = step_.is_static ? value.at_static(step_.increments - 1, step_.increments) : value.history.value(step_.duration);
   }
 }
 
@@ -118,7 +120,7 @@ void Loads::evaluate(int increment) {
 }
 
 void Loads::add_forces(int part, Points& force) const {
-  for (size_t i = 0; i < patterns_.size(); ++i) {
+  for (size_t i = 0; i < values_.size(); ++i) {
     if (patterns_[i].part != part || values_[i] == 0.0) continue;
     for (const auto& [node, unit] : patterns_[i].nodes) force.col(node) += values_[i] * unit;
   }
@@ -128,9 +130,7 @@ double Loads::shortening(const Interface* interface, double had, int increment) 
   double d = had;
   for (const auto& [on, value] : shortenings_) {
     if (on != interface || !step_.is_static) continue;
-    LoadValue from_had = value;
-    from_had.from = had;
-    d = from_had.at_static(increment, step_.increments);
+    d = value.at_static(increment, step_.increments);
   }
   return d;
 }

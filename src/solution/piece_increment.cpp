@@ -1,4 +1,6 @@
 // One increment of a piece: right-hand side without a product by K, forward, interface, backward, update (manual, eq. S1-S5).
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "solution/piece.hpp"
 
@@ -170,7 +172,7 @@ IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_f
 IncrementEnergy Piece::stored_energy() const {
   IncrementEnergy energy;
   energy.strain = 0.5 * (u_.dot(p_) - c0_ / c1_ * u_.dot(w_));
-  if (has_motions_) {
+  if (std::any_of(held_u_.begin(), held_u_.end(), [](double u) { return u != 0.0; })) {
     const std::vector<double> held = held_stiffness(displacement());
     for (size_t i = 0; i < held_.size(); ++i) energy.strain += 0.5 * held_u_[i] * held[i];
   }

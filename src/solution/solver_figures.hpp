@@ -2,8 +2,11 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "solution/interface_fields.hpp"
 
 namespace dygita {
 
@@ -17,6 +20,7 @@ struct StepFigures {
 
 struct SolverFigures {
   std::vector<StepFigures> steps;
+  std::shared_ptr<const InterfaceFields> interface_fields;  // null: the solver keeps none
   bool interrupted = false;
   long n_dofs = 0, n_interface_unknowns = 0;
   double factor_bytes = 0.0;              // factors and interface operators of the largest step

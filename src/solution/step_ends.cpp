@@ -2,6 +2,25 @@
 
 namespace dygita {
 
+namespace {
+
+// A wall that is a support now and was none in the step before stands where it was declared: its gap is that of the displacements.
+void place_returning_walls(const StepModel& model, State& state) {
+  const int i_step = index_of(model.problem->steps, model.step);
+  if (i_step <= 0) return;
+  const auto& before = supports_of(*model.problem, *model.problem->steps[i_step - 1]);
+  const auto& now = supports_of(*model.problem, *model.step);
+  for (size_t s = 0; s < model.surfaces->size(); ++s) {
+    const Surface& surface = (*model.surfaces)[s];
+    if (!surface.wall || index_of(now, surface.wall) < 0 || index_of(before, surface.wall) >= 0) continue;
+    for (int i = 0; i < surface.n_points(); ++i)
+      state.surfaces[s].points[i].gap = surface.initial_gap - surface.facing.normals.col(i).dot(
+                                                                  state.displacement[surface.part_1].col(surface.facing.nodes_1[i]));
+  }
+}
+
+}  // namespace
+
 void start_step(StepModel& model, State& state) {
   const bool is_static = model.scheme.is_static;
   const bool first_dynamic = !is_static && !state.has_moved;
@@ -22,6 +41,7 @@ void start_step(StepModel& model, State& state) {
       point.status = PointState::open;
     }
   }
+  place_returning_walls(model, state);
   Energies& energies = state.energies;
   const double before = energies.kinetic + energies.strain;
   energies.kinetic = energies.strain = 0.0;
@@ -51,7 +71,10 @@ void end_step(const StepModel& model, State& state) {
         state.anchor[i].col(node) = reactions.col(node);
   }
   state.reached = model.loads->reached();
-  if (model.scheme.is_static) return;
+  if (model.scheme.is_static) {
+    state.base_velocity.clear();  // at rest
+    return;
+  }
   for (const LoadPtr& load : model.step->loads)
     if (load->kind == LoadKind::base_acceleration)
       for (const Target& target : load->on)

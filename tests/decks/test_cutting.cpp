@@ -94,6 +94,23 @@ TEST(Window, the_whole_interval_gives_the_yielding_beam_too) {
   std::cout << whole.result->mean_iterations << " sweeps of 240 steps, step by step " << steps.result->mean_iterations << " iterations\n";
 }
 
+// The interface fields are the solution: a case that starts from them is solved before it begins.
+TEST(StartFrom, an_equal_case_needs_one_iteration_a_step_and_another_case_gives_its_own_answer) {
+  std::string text = cut_block;
+  text.replace(text.find("problem{ name"), 7, "local function block(friction) wall = support.wall{ name = 'wall', on = bottom, friction = friction }\n  foot = output.joint{ name = 'foot', on = wall }\n  return problem");
+  text.replace(text.find("local wall = "), 6, "local wall; ");
+  text.replace(text.find("local foot = "), 6, "local foot; ");
+  text.replace(text.find(":run{}"), 6, " end\nlocal first = block(0.3):run{ case = 'first' }\nblock(0.3):run{ case = 'again', start_from = first }\n"
+                                       "block(0.6):run{ case = 'rougher', start_from = first }\nblock(0.6):run{ case = 'cold' }");
+  const std::vector<DeckRun> runs = run_text(text, {{"nx", "2"}, {"nz", "2"}});
+  const DeckRun &first = runs.at(0), &again = runs.at(1), &rougher = runs.at(2), &cold = runs.at(3);
+  EXPECT_EQ(again.result->mean_iterations, 1.0);
+  EXPECT_LT(difference(first.column("corner", "x"), again.column("corner", "x")), 1e-7);
+  EXPECT_LT(difference(cold.column("corner", "x"), rougher.column("corner", "x")), 1e-6);
+  EXPECT_GT(difference(cold.column("corner", "x"), first.column("corner", "x")), 1e-3);
+  std::cout << "cold " << cold.result->mean_iterations << ", started from another friction " << rougher.result->mean_iterations << " iterations a step\n";
+}
+
 TEST(Forms, the_condensed_form_equals_full_solves) {
   const DeckRun condensed = block({{"nx", "2"}, {"nz", "2"}, {"contact", "1"}});
   const DeckRun plain = block({{"nx", "2"}, {"nz", "2"}, {"contact", "1"}, {"plain", "1"}});

@@ -10,4 +10,4 @@ local p = problem{
   name = "pair", substructures = { low, high }, interfaces = { glue }, supports = { base }, steps = { shot },
 }
 local one = p:run{}
-local two = p:run{ case = "two", start_from = one }
+local two = p:run{ case = "two", start_from = p }
