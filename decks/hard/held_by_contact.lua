@@ -8,8 +8,7 @@
 -- Run        dygita run decks/hard/held_by_contact.lua
 -- See        out/held_by_contact/holds/held_by_contact.pvd
 -- Expect     a pull of 0.5 of what friction can hold: equilibrium, the jaws' forces sum to the pull (error 4e-9). A pull
---            of 1.5: there is no equilibrium and the engine should say so; at present it calls a block that has gone
---            300 m 'converged'. --set friction=0 pull=0.5: an error that names the rigid motion
+--            of 1.5: there is no equilibrium: NOT converged, and a warning of a block that moves away. --set friction=0 pull=0.5: an error that names the rigid motion
 -- Read next  plastic_cycle.lua
 
 local p = param{ friction = 0.4, n = 2, pull = 0, iterations = 1000 }

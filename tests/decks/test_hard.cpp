@@ -97,8 +97,7 @@ TEST(HeldByContact, without_friction_the_loaded_rigid_motion_is_an_error) {
   EXPECT_THROW(run_printing("hard/held_by_contact.lua", {{"pull", "0.5"}, {"friction", "0"}}), InputError);
 }
 
-// Known defect: the block slides off for hundreds of metres and the step is called converged.
-TEST(HeldByContact, DISABLED_a_pull_beyond_friction_has_no_equilibrium_and_is_not_called_converged) {
+TEST(HeldByContact, a_pull_beyond_friction_has_no_equilibrium_and_is_not_called_converged) {
   const PrintedRun clamp = run_printing("hard/held_by_contact.lua", {{"pull", "1.5"}});
   EXPECT_FALSE(clamp.runs.at(0).result->converged);
 }
