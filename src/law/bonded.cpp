@@ -38,10 +38,11 @@ LawState BondedLaw::advance(const Trial& trial, const Increment&, const LawState
 
 double PlasticLaw::opening_rate(const Trial& trial, const Increment& increment, const LawState& start) const {
   const double z = trial.s[0] - closing_rate(trial, increment, start.plastic_opening)[0];
-  const double limit = trial.area * (yield_ + hardening_ * start.hardening_opening);
+  const double hardened = start.hardening_opening + increment.g * increment.dt * std::abs(start.opening_rate);
+  const double limit = trial.area * (yield_ + hardening_ * hardened);
   const double excess = (compression_ ? std::abs(z) : z) - trial.y[0] * limit;
   if (excess <= 0.0 || trial.y[0] <= 0.0) return 0.0;
-  const double rate = excess / (1.0 + trial.y[0] * trial.area * hardening_ * increment.dt);
+  const double rate = excess / (1.0 + trial.y[0] * trial.area * hardening_ * (1.0 - increment.g) * increment.dt);
   return z < 0.0 ? -rate : rate;
 }
 
@@ -54,10 +55,11 @@ Vec3 PlasticLaw::force(const Trial& trial, const Increment& increment, const Law
 LawState PlasticLaw::advance(const Trial& trial, const Increment& increment, const LawState& start,
                              const Vec3& force) const {
   LawState end = common_end(trial, start, force);
-  const double opening = increment.dt * opening_rate(trial, increment, start);
-  end.plastic_opening += opening;
-  end.hardening_opening += std::abs(opening);
-  if (opening != 0.0) end.status = PointState::slip;
+  const double rate = opening_rate(trial, increment, start), before = start.opening_rate;
+  end.plastic_opening += increment.dt * (increment.g * before + (1.0 - increment.g) * rate);
+  end.hardening_opening += increment.dt * (increment.g * std::abs(before) + (1.0 - increment.g) * std::abs(rate));
+  end.opening_rate = increment.is_static ? 0.0 : rate;
+  if (rate != 0.0) end.status = PointState::slip;
   return end;
 }
 

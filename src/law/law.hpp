@@ -15,6 +15,7 @@ struct LawState {
   double gap = 0.0;               // m, contact: from the hat fields, so that closed is exactly closed
   double plastic_opening = 0.0;   // m, signed
   double hardening_opening = 0.0; // m, accumulated: what hardens
+  double opening_rate = 0.0;      // m/s, plastic, of the last dynamic increment; zero after a static one
   Vec3 slip = Vec3::Zero();       // m, relative tangential displacement while closed
   Vec3 rate = Vec3::Zero();       // m/s, V' - V at the end of the last increment
   Vec3 force = Vec3::Zero();      // N, of the last increment
@@ -60,7 +61,8 @@ class BondedLaw : public Law {
   LawState advance(const Trial& trial, const Increment& increment, const LawState& start, const Vec3& force) const override;
 };
 
-// Rigid-plastic in the normal direction, bonded in the tangents (eq. L2-L3).
+// Rigid-plastic in the normal direction, bonded in the tangents (eq. L2-L3). The plastic opening follows the same two-point sum as
+// the jump does: with p + dt l the sides would be pushed apart at each yielding step, without bound at large steps.
 class PlasticLaw : public BondedLaw {
  public:
   // yield (Pa), hardening (Pa per metre of plastic opening), compression: yields in compression too.

@@ -19,6 +19,7 @@ PointRecord start_point(const StepModel& model, const Point& point, const State&
     law.gap += member.share * m.gap;
     law.plastic_opening += member.share * m.plastic_opening;
     law.hardening_opening += member.share * m.hardening_opening;
+    law.opening_rate += member.share * m.opening_rate;
     law.slip += member.share * (point.frame.transpose() * m.slip);
     law.force += point.frame.transpose() * m.force;
     law.status = m.status;
