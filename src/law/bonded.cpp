@@ -38,11 +38,13 @@ LawState BondedLaw::advance(const Trial& trial, const Increment&, const LawState
 
 double PlasticLaw::opening_rate(const Trial& trial, const Increment& increment, const LawState& start) const {
   const double z = trial.s[0] - closing_rate(trial, increment, start.plastic_opening)[0];
-  const double hardened = start.hardening_opening + increment.g * increment.dt * std::abs(start.opening_rate);
+  // A dynamic force is the mean of the increment: it hardens with the opening half way, and its work is then exact.
+  const double half = increment.is_static ? 1.0 : 0.5;
+  const double hardened = start.hardening_opening + half * increment.g * increment.dt * std::abs(start.opening_rate);
   const double limit = trial.area * (yield_ + hardening_ * hardened);
   const double excess = (compression_ ? std::abs(z) : z) - trial.y[0] * limit;
   if (excess <= 0.0 || trial.y[0] <= 0.0) return 0.0;
-  const double rate = excess / (1.0 + trial.y[0] * trial.area * hardening_ * (1.0 - increment.g) * increment.dt);
+  const double rate = excess / (1.0 + trial.y[0] * trial.area * hardening_ * half * (1.0 - increment.g) * increment.dt);
   return z < 0.0 ? -rate : rate;
 }
 
