@@ -143,13 +143,14 @@ main() {
   (($# == 0)) || shift
   case "$command" in
     help | -h | --help) usage ;;
-    example | test | build)
+    example | test | build | bench)
       (($# == 0)) || fail "'$command' takes no argument, got: $*" "./run.sh help"
       install_packages
       build_engine
       case "$command" in
         example) run_example ;;
         test) run_tests ;;
+        bench) run_bench ;;
         build) say "Built: $build/dygita" ;;
       esac
       ;;
@@ -161,7 +162,7 @@ main() {
       say "Running $1"
       exec "$build/dygita" run "$@"
       ;;
-    *) fail "unknown command '$command'; known: build, help, run, test" "./run.sh help" ;;
+    *) fail "unknown command '$command'; known: bench, build, help, run, test" "./run.sh help" ;;
   esac
 }
 
