@@ -339,7 +339,7 @@ words[9] = {
 }
 
 local quantities = { "displacement", "velocity", "acceleration", "stress", "von_mises", "pressure" }
-local fields = { "displacement", "velocity", "stress", "von_mises" }
+local fields = { "displacement", "velocity", "stress", "von_mises", "stress_error" }
 
 words[10] = {
   name = "output", doc = "What is kept: files in the output directory, and data for the deck (`result[output]`).",

@@ -46,6 +46,24 @@ void warn_of_losses(const RunResult& result) {
   if (open > 0.5) warn(fmt::format("the energy balance is open by {:.2f} %: take a smaller tolerance", open));
 }
 
+// The run's own estimates, where they are too large to build on.
+void warn_of_errors(const Problem& problem, const RunResult& result) {
+  const auto figure = [&](const char* name) { return result.figures.contains(name) ? result.figures.at(name) : 0.0; };
+  const double iteration = figure("error estimate, iteration [%]"), still = figure("error estimate, static, iteration [%]");
+  if (!problem.monolithic && iteration > 1.0 && result.converged)
+    warn(fmt::format("the tolerance {:g} leaves about {:.2g} % of error (energy norm) on the shock: {:.1g} would leave 0.1 %",
+                     problem.solver.tolerance, iteration, 0.1 * problem.solver.tolerance / iteration));
+  if (!problem.monolithic && still > 1.0 && result.converged)
+    warn(fmt::format("the static tolerance {:g} leaves about {:.2g} % of error (energy norm) in the static steps: {:.1g} would leave 0.1 %",
+                     problem.solver.static_tolerance, still, 0.1 * problem.solver.static_tolerance / still));
+  if (const double e = figure("error estimate, time step [%]"); e > 30.0)
+    warn(fmt::format("the step of time leaves about {:.2g} % of error (energy norm) on the shock, which moves at {:.3g} kHz on average: a "
+                     "smaller dt leaves less", e, figure("mean frequency of the motion [Hz]") / 1e3));
+  for (const auto& [name, text] : {std::pair{"error estimate, mesh [%]", "on the shock"}, {"error estimate, static, mesh [%]", "in the static steps"}})
+    if (const double e = figure(name); e > 40.0)
+      warn(fmt::format("the mesh leaves about {:.2g} % of error (energy norm) {}: smaller cells leave less, 'stress_error' shows where", e, text));
+}
+
 void say_summary(const RunResult& result, const std::filesystem::path& directory, double seconds) {
   for (const StepSummary& step : result.steps) {
     std::string line = fmt::format("  {} '{}': {} increments, {:.1f} iterations each, {:.2f} s", step.is_static ? "static" : "dynamic",
@@ -93,6 +111,7 @@ std::shared_ptr<const RunResult> run_problem(const Problem& problem, const RunRe
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result->seconds["all"] = seconds;
   warn_of_losses(*result);
+  warn_of_errors(problem, *result);
   const std::vector<std::string> warnings = take_warnings();
   RunIdentity identity = request.identity;
   identity.threads = omp_get_max_threads();

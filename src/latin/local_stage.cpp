@@ -139,6 +139,7 @@ void LocalStage::scatter(int first, int end, const Side& side, const Vec3& force
       balance -= f_hat;
       image[i] = f_hat + k_[i] * w_hat;
       const double df = f_linear - f_hat, dv = velocity[i] - w_hat;
+      ports_[p].residual[d] = df;
       sums.force_distance += df * df / k_[i];
       sums.velocity_distance += k_[i] * dv * dv;
       sums.force_size += 0.5 * (f_linear * f_linear + f_hat * f_hat) / k_[i];
@@ -199,6 +200,20 @@ void LocalStage::accept(State* state) {
   std::vector<Vec3> port_force;
   for (const PortState& port : ports_) port_force.push_back(port.f);
   show_ties(*model_, points_, port_force, *state);
+  show_residuals(*state);
+}
+
+// The constitutive-relation error as a field: |F - F_hat| of the worse side of every surface point.
+void LocalStage::show_residuals(State& state) const {
+  const Exchange& exchange = model_->exchange;
+  for (const Point& point : exchange.points) {
+    double worst = 0.0;
+    for (int p = point.first_port; p < point.end_port; ++p) worst = std::max(worst, ports_[p].residual.norm());
+    for (const Member& member : point.members) state.surfaces[member.surface].residual[member.point] = member.share * worst;
+  }
+  for (const Tie& tie : exchange.ties)
+    state.surfaces[tie.surface].residual[tie.surface_point] =
+        std::max(ports_[tie.port_1].residual.norm(), ports_[tie.port_2].residual.norm());
 }
 
 double LocalStage::work_on_pieces(const Point& point) const {

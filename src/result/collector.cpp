@@ -76,7 +76,7 @@ double Collector::label_time(const Instant& instant) const {
 
 void Collector::watch(const Instant& instant) {
   const Energies& e = instant.state.energies;
-  extremes_.energy = std::max(extremes_.energy, e.kinetic + e.strain + std::abs(e.loads));
+  extremes_.energy = std::max({extremes_.energy, e.start, e.kinetic + e.strain + std::abs(e.loads)});
   extremes_.imbalance = std::max(extremes_.imbalance, std::abs(e.balance()));
   extremes_.scheme_loss = std::max(extremes_.scheme_loss, e.scheme);
   extremes_.scheme_gain = std::max(extremes_.scheme_gain, -e.scheme);

@@ -34,7 +34,7 @@ State initial_state(const Problem& problem, const std::vector<Surface>& surfaces
     LawState start;
     start.gap = surface.initial_gap;
     if (surface.law && surface.law->rubs()) start.status = PointState::open;
-    state.surfaces.push_back({std::vector<LawState>(surface.n_points(), start)});
+    state.surfaces.push_back({std::vector<LawState>(surface.n_points(), start), std::vector<double>(surface.n_points(), 0.0)});
     state.shortening.push_back(0.0);
     state.released.push_back(0);
   }
