@@ -55,6 +55,7 @@ Held build_latin(const Declaration& d) {
   settings->numerical_damping = a.number("numerical_damping");
   settings->push_out = a.number("push_out");
   settings->search_direction = a.number("search_direction");
+  settings->mass = {a.text("mass") == "tuned", a.boolean("massless_contact")};
   settings->plain = a.boolean("plain");
   return std::shared_ptr<const LatinSettings>(settings);
 }
@@ -65,6 +66,7 @@ Held build_monolithic(const Declaration& d) {
   settings->tolerance = a.number("tolerance");
   settings->max_iterations = a.integer("max_iterations");
   settings->numerical_damping = a.number("numerical_damping");
+  settings->mass.is_tuned = a.text("mass") == "tuned";
   return std::shared_ptr<const MonolithicSettings>(settings);
 }
 

@@ -136,7 +136,7 @@ std::string check_report(const Problem& problem) {
                         surface.facing.areas.sum() * 1e6);
   long increments = 0;
   double bytes = 0.0;
-  const std::vector<Body> bodies = make_bodies(problem);
+  const std::vector<Body> bodies = make_bodies(problem, surfaces);
   for (const StepPtr& step : problem.steps) {
     const StepSize size = predict_step(problem, *step, surfaces, bodies, state);
     text += fmt::format("  {} step '{}': {} increments{}, {} interface unknowns, {:.4g} MB\n", step->is_static ? "static" : "dynamic",

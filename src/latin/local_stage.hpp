@@ -57,6 +57,13 @@ class LocalStage {
   Vec3 mean_displacement(int first, int end) const;
   double work_on_pieces(const Point& point) const;
   void show_residuals(State& state) const;
+  // Points between nodes without mass take the force and the gap of the step's end (manual, eq. S9).
+  bool is_massless(const Point& point) const;
+  Increment increment_at(const Point& point) const {
+    Increment increment = increment_;
+    if (is_massless(point)) increment.g = 0.0;
+    return increment;
+  }
 
   const StepModel* model_;
   Vec k_;

@@ -111,6 +111,12 @@ struct Step : Named {
 };
 using StepPtr = std::shared_ptr<const Step>;
 
+// What stands for the mass of the cells in dynamic steps.
+struct MassSettings {
+  bool is_tuned = false;              // between lumped and consistent, so that mesh and time step undo each other's error
+  bool is_moved_from_contact = false;  // nodes in contact have none
+};
+
 // solver.latin; negative or zero means "the default of the manual's table".
 struct LatinSettings {
   double tolerance = 1e-6;
@@ -122,6 +128,7 @@ struct LatinSettings {
   double numerical_damping = 0.0;
   double push_out = 0.0;          // b of the contact law
   double search_direction = 1.0;  // multiplies every k (studies, hard cases)
+  MassSettings mass;
   bool plain = false;             // iterate with full solves instead of the condensed interface (the plain path)
 };
 
@@ -130,6 +137,7 @@ struct MonolithicSettings {
   double tolerance = 1e-10;
   int max_iterations = 50;  // of an increment
   double numerical_damping = 0.0;
+  MassSettings mass;
 };
 
 enum class OutputKind { vtk, history, resultant, srs, joint, energy };
@@ -158,6 +166,7 @@ struct Problem : Named {
   LatinSettings solver;
   std::optional<MonolithicSettings> monolithic;  // where set, takes the place of LATIN
 
+  const MassSettings& mass() const { return monolithic ? monolithic->mass : solver.mass; }
   double numerical_damping() const { return monolithic ? monolithic->numerical_damping : solver.numerical_damping; }
 };
 

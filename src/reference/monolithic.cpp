@@ -213,7 +213,7 @@ SolverFigures solve_monolithic(const Problem& problem, Observer& observer) {
   prepare_thread();
   auto start = Clock::now();
   const std::vector<Surface> surfaces = make_surfaces(problem);
-  const std::vector<Body> bodies = make_bodies(problem);
+  const std::vector<Body> bodies = make_bodies(problem, surfaces);
   State state = initial_state(problem, surfaces);
   figures.seconds["assemble"] = seconds_since(start);
   for (const StepPtr& step : problem.steps) {

@@ -82,7 +82,7 @@ inline Points on_finer(const Points& coarse, int n_coarse, int n_fine) {
 
 // Largest error of a run against a reference, in percent.
 inline double true_error(const EstimatedRun& a, const EstimatedRun& reference, int n = 0, int n_reference = 0) {
-  const std::vector<Body> bodies = make_bodies(reference.problem);
+  const std::vector<Body> bodies = make_bodies(reference.problem, make_surfaces(reference.problem));
   double worst = 0.0, kinetic = 0.0;
   for (size_t i = 0; i < reference.fields.velocity.size(); ++i) {
     double error = 0.0, now = 0.0;
