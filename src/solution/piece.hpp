@@ -187,7 +187,7 @@ class Piece {
   Vec u_, v_, p_, w_, force_;  // state, in factor order
   Vec z_;                      // dt K G V, where there are unknowns without mass
   std::vector<double> held_u_, held_v_;
-  Vec residual_, x_, b_, v_b_, v_old_, w_old_, start_imbalance_;
+  Vec residual_, x_, b_, v_b_, v_old_, w_old_, start_imbalance_, force_old_;
   std::vector<double> held_v_old_, held_v_new_, held_reaction_;
   Points nodal_force_;
 };

@@ -135,6 +135,7 @@ void Piece::begin(const Points& force, const std::vector<double>& motion_velocit
     apply_absorbing(v_, -scheme.g, residual_);
   }
   // Loads work with the mean force of the increment: that of the step in dynamics, of both ends in statics.
+  force_old_ = massless_.empty() ? Vec() : force_;
   force_ = scheme.is_static ? Vec(0.5 * (force_ + new_force)) : new_force;
   x_ = residual_;
   held_v_old_ = held_v_;
@@ -215,6 +216,8 @@ IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_f
 
   IncrementEnergy energy = stored_energy();
   energy.loads = dt * v_mean.dot(force_);
+  // What has no mass is in balance at both ends of the step, and its forces work with their mean.
+  for (const int i : massless_) energy.loads += 0.5 * dt * v_[i] * (force_old_[i] - force_[i]);
   if (scheme.is_static) {
     energy.scheme = -v_.dot(start_imbalance_);
     energy.scheme *= 0.5;
