@@ -77,8 +77,8 @@ words[2] = {
     arguments = {
       name_of "material",
       { "young", type = "number", unit = "Pa", range = { 1e6, 2e12 }, required = true, doc = "Young's modulus" },
-      { "poisson", type = "number", range = { -0.9, 0.499 }, required = true, doc = "Poisson's ratio" },
-      { "density", type = "number", unit = "kg/m^3", range = { 10, 25000 }, required = true, doc = "mass per volume" },
+      { "poisson", type = "number", range = { -0.9, 0.4999 }, required = true, doc = "Poisson's ratio" },
+      { "density", type = "number", unit = "kg/m^3", range = { 10, 100000 }, required = true, doc = "mass per volume" },
       { "damping", type = "number", unit = "s", range = { 0, 0.01 }, default = 0,
         doc = "stiffness-proportional damping, or { mass = (1/s), stiffness = (s) }",
         or_table = {
