@@ -5,6 +5,7 @@ local schema = native.module "schema"
 local units = native.module "units"
 local check = native.module "check"
 local environment = native.module "environment"
+local command_line = native.module "command_line"
 
 local function fail(line, text, hint) native.fail(line, text .. (hint and "\n    " .. hint or "")) end
 
@@ -20,7 +21,12 @@ end
 local function constructor(entry)
   return function(...)
     local line = native.line()
-    local object = native.make(entry.path, entry.makes, check.call(entry, line, ...), line)
+    local arguments = check.call(entry, line, ...)
+    local other = entry.path == "problem" and command_line.solver(line)
+    if other then  -- the deck's own is kept as used
+      arguments.solver_of_deck, arguments.solver = arguments.solver, other
+    end
+    local object = native.make(entry.path, entry.makes, arguments, line)
     return object
   end
 end
@@ -94,24 +100,6 @@ local function write(object, key)
     name ~= "" and ("%s '%s'"):format(kind, name) or path, tostring(key)), "declare another one")
 end
 
--- The command line's values, each an expression in units: --set tighten=0.04*mm.
-local function evaluate(name, text)
-  local place = ("--set %s=%s"):format(name, text)
-  local known = setmetatable({}, {
-    __index = function(_, key)
-      local value = units[key]
-      if value ~= nil or key == "math" then return value or math end
-      native.refuse(("%s: '%s' is not a unit\n    %s"):format(place, key, native.did_you_mean(key, keys_of(units))))
-    end,
-  })
-  local expression = text:find "^[%w%s%.%+%-%*/%^%(%)_]+$" and native.compile("return " .. text, known)
-  local value = expression and expression()
-  if type(value) ~= "number" or value ~= value or value == math.huge or value == -math.huge then
-    native.refuse(place .. " is neither a number nor an expression in units, as in --set tighten=0.04*mm")
-  end
-  return value
-end
-
 local parameters_line
 
 local function param(...)
@@ -127,7 +115,7 @@ local function param(...)
       fail(line, ("--set %s: the deck has no such parameter"):format(setting.name),
         native.did_you_mean(setting.name, keys_of(values)))
     end
-    values[setting.name] = evaluate(setting.name, setting.text)
+    values[setting.name] = command_line.parameter(setting.name, setting.text)
   end
   local parameters = native.make("param", "parameters", values, line)
   return parameters

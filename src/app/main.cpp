@@ -23,7 +23,7 @@ struct Command {
   DeckOptions deck;
   std::vector<std::string> settings;
   SrsCommand srs;
-  bool is_quiet = false;
+  bool is_quiet = false, has_no_frames = false;
 };
 
 int say_error(const char* message, int code) {
@@ -36,6 +36,10 @@ void add_deck_options(CLI::App& command, Command& asked) {
   command.add_option("DECK", asked.deck.path, "a deck, a Lua file")->required();
   command
       .add_option("--set", asked.settings, "NAME=VALUE: another value of a parameter of the deck, as tighten=0.04*mm")
+      ->allow_extra_args(false);
+  command
+      .add_option("--solver", asked.deck.solver,
+                  "solver of every problem in place of the deck's, as monolithic or 'latin{ tolerance = 1e-4 }'")
       ->allow_extra_args(false);
   command.add_option("--time-limit", asked.deck.time_limit, "s of processor time of the deck's own code")
       ->check(CLI::PositiveNumber)
@@ -59,6 +63,7 @@ void add_srs_options(CLI::App& command, SrsCommand& asked) {
 
 int run_or_check(Command& asked, bool solves) {
   for (const std::string& text : asked.settings) asked.deck.settings.push_back(parse_setting(text));
+  asked.deck.write_frames = !asked.has_no_frames;
   set_progress_enabled(!asked.is_quiet);
   catch_interrupts();
   const Engine engine{run_problem, check_report};
@@ -88,6 +93,7 @@ int command_line(int argc, char** argv) {
   add_deck_options(*run, asked);
   run->add_option("--out", asked.deck.out, "folder of the results, out/<problem>/<case>")->capture_default_str();
   run->add_option("--threads", asked.deck.threads, "threads (default: all)")->check(CLI::Range(1, 1024));
+  run->add_flag("--no-frames", asked.has_no_frames, "no frames for ParaView; tables and run.json are written");
   CLI::App* check = app.add_subcommand("check", "declare and check a deck, say what it would compute, solve nothing");
   add_deck_options(*check, asked);
   CLI::App* srs = app.add_subcommand("srs", "shock response spectrum of a CSV file");

@@ -107,9 +107,11 @@ RunRequest request_of(const DeckState& state, const Problem& problem, const std:
   request.case_name = case_name;
   request.threads = state.options.threads;
   request.write_files = state.options.write_files;
+  request.write_frames = state.options.write_frames;
   request.identity.deck_path = state.options.path.string();
   request.identity.deck_digest = state.deck_digest;
   request.identity.parameters = state.parameters;
+  request.identity.solver = state.options.solver;
   request.identity.threads = state.options.threads;
   for (const SubstructurePtr& part : problem.substructures) {
     request.identity.mesh_digests.emplace_back(part->name, part->mesh->digest);

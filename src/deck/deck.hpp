@@ -26,6 +26,8 @@ struct DeckOptions {
   double time_limit = 60.0;      // s of processor time of the deck's own code
   double memory_limit = 1024.0;  // MB of the deck's own data
   bool write_files = true;
+  bool write_frames = true;  // those of output.vtk
+  std::string solver;        // --solver: an expression that takes the place of every problem's solver; empty: the deck's
 };
 
 struct DeckOutcome {

@@ -197,9 +197,10 @@ int at(LuaState& lua, lua_State* L) {
   return value_at(L, lua.origin(lua.line(L)));
 }
 
-// compile(text, environment): a function, or nothing where the text is no Lua.
+// compile(text, environment, name): a function, or nothing where the text is no Lua.
 int compile(LuaState&, lua_State* L) {
-  if (luaL_loadbufferx(L, lua_tostring(L, 1), lua_rawlen(L, 1), "=--set", "t") != LUA_OK) return 0;
+  const std::string name = std::string("=") + lua_tostring(L, 3);
+  if (luaL_loadbufferx(L, lua_tostring(L, 1), lua_rawlen(L, 1), name.c_str(), "t") != LUA_OK) return 0;
   lua_pushvalue(L, 2);
   lua_setupvalue(L, -2, 1);
   return 1;
@@ -259,6 +260,8 @@ void push_native(DeckState& state) {
     lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
   }
   lua_setfield(L, -2, "settings");
+  push_text(L, state.options.solver);
+  lua_setfield(L, -2, "solver");
   lua_pushvalue(L, -1);
   lua_setfield(L, LUA_REGISTRYINDEX, "native");
 }

@@ -72,7 +72,7 @@ std::shared_ptr<const RunResult> run_problem(const Problem& problem, const RunRe
   Collector::FrameSink sink;
   if (request.write_files) {
     writer = std::make_unique<RunWriter>(request.out / problem.name / request.case_name, problem.name);
-    sink = [&](const Frame& frame) { writer->write_frame(frame); };
+    if (request.write_frames) sink = [&](const Frame& frame) { writer->write_frame(frame); };
   }
   Collector collector(problem, sink);
   auto result = std::make_shared<RunResult>();

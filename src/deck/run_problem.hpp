@@ -16,6 +16,7 @@ struct RunRequest {
   std::string case_name = "base";
   int threads = 0;                    // 0: as many as the machine has
   bool write_files = true;
+  bool write_frames = true;  // those of output.vtk
   RunIdentity identity;
   std::shared_ptr<const RunResult> start_from;  // an earlier case: the iteration starts from its interface fields
 };

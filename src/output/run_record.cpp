@@ -45,6 +45,12 @@ Json substructures(const Problem& problem, const RunIdentity& identity) {
   return list;
 }
 
+Json solver(const Problem& problem, const RunIdentity& identity) {
+  Json json = {{"name", problem.monolithic ? "monolithic" : "latin"}};
+  if (!identity.solver.empty()) json["command_line"] = identity.solver;
+  return json;
+}
+
 std::string label(const Target& target) {
   if (const auto* face = std::get_if<Face>(&target)) return face->label();
   if (const auto* region = std::get_if<Region>(&target)) return region->label();
@@ -98,6 +104,7 @@ std::string run_record(const Problem& problem, const RunResult& result, const Ru
       {"warnings", warnings},
       {"deck", {{"path", identity.deck_path}, {"digest", identity.deck_digest}}},
       {"parameters", object(identity.parameters)},
+      {"solver", solver(problem, identity)},
       {"substructures", substructures(problem, identity)},
       {"size", {{"dofs", result.n_dofs}, {"interface_unknowns", result.n_interface_unknowns}}},
       {"iterations", {{"all", result.iterations}, {"mean", result.mean_iterations}}},

@@ -90,11 +90,13 @@ local joint = output.joint{ name = "bolt", on = glue }
 )";
 
 // Runs `text` as deck.lua with the engine; settings as on the command line.
-inline DeckOutcome run_text(const std::string& text, FakeEngine& fake, const std::vector<std::string>& settings = {}) {
+inline DeckOutcome run_text(const std::string& text, FakeEngine& fake, const std::vector<std::string>& settings = {},
+                            const std::string& solver = "") {
   const Folder folder;
   DeckOptions options;
   options.path = folder.write("deck.lua", text);
   options.time_limit = 20.0;
+  options.solver = solver;
   for (const std::string& setting : settings) options.settings.push_back(parse_setting(setting));
   return run_deck(options, fake.engine());
 }
