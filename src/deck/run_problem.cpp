@@ -57,6 +57,14 @@ void say_summary(const RunResult& result, const std::filesystem::path& directory
   say(fmt::format("  energy balance closes within {:.3g} %, the scheme dissipates {:.3g} % and creates {:.3g} %",
                   result.figures.at("energy imbalance [%]"), result.figures.at("energy dissipated by the scheme [%]"),
                   result.figures.at("energy created by the scheme [%]")));
+  const auto figure = [&](const char* name) { return result.figures.at(name); };
+  if (result.figures.contains("error estimate, mesh [%]"))
+    say(fmt::format("  estimated errors (energy norm, {:.3g} kHz on average): iteration {:.2g} %, time step {:.2g} %, mesh {:.2g} %",
+                    figure("mean frequency of the motion [Hz]") / 1e3, figure("error estimate, iteration [%]"),
+                    figure("error estimate, time step [%]"), figure("error estimate, mesh [%]")));
+  if (result.figures.contains("error estimate, static, mesh [%]"))
+    say(fmt::format("  estimated errors of static steps: iteration {:.2g} %, mesh {:.2g} %", figure("error estimate, static, iteration [%]"),
+                    figure("error estimate, static, mesh [%]")));
   if (!directory.empty()) say(fmt::format("  {:.2f} s in all; results in {}", seconds, directory.string()));
 }
 

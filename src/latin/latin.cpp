@@ -30,7 +30,7 @@ void StepRun::linear_stage() {
 // Local stage: the law at every interface point; image_ = F_hat + k W_hat.
 IndicatorSums StepRun::local_stage() {
   const Stopwatch watch(seconds_.local);
-  return local_.run(velocity_, q_, image_);
+  return sums_ = local_.run(velocity_, q_, image_);
 }
 
 // Right-hand sides of an increment, and all that it changes on the interfaces before any iteration.

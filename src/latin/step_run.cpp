@@ -151,7 +151,7 @@ std::string StepRun::describe_progress() const {
 }
 
 Instant StepRun::instant(int increment, int iterations, double eta) const {
-  return {model_, state_, i_step_, increment, iterations, eta, eta <= tolerance_};
+  return {model_, state_, i_step_, increment, iterations, eta, eta <= tolerance_, model_.scheme.dt * sums_.force_distance};
 }
 
 void StepRun::leave_state() { end_step(model_, state_); }

@@ -67,6 +67,7 @@ class StepRun {
   LocalStage local_;
   Anderson anderson_;
   Indicator indicator_;
+  IndicatorSums sums_;  // of the last local stage
   std::vector<double> motions_;
   std::vector<IncrementEnergy> energy_;
   std::vector<Vec> fields_;

@@ -27,11 +27,13 @@ Collector::Collector(const Problem& problem, FrameSink sink) : problem_(problem)
 void Collector::begin_step(const Instant& start) {
   for (auto& [output, sampler] : samplers_) sampler->begin_step(start);
   if (slip_) slip_->begin_step(start);
+  errors_.begin_step(start);
   if (start.i_step == 0) maybe_frame(start);
 }
 
 void Collector::accept(const Instant& instant) {
   if (slip_) slip_->accept(instant);
+  errors_.accept(instant);
   for (auto& [output, sampler] : samplers_) sampler->accept(instant);
   const double row[] = {instant.time(), static_cast<double>(instant.iterations), instant.indicator, instant.converged ? 1.0 : 0.0};
   for (int i = 0; i < 4; ++i) convergence_.columns[i].push_back(row[i]);
@@ -114,6 +116,26 @@ Table spectrum_table(const Problem& problem, const Output& output, const Table& 
           {srs.frequency, srs.maximax, srs.positive, srs.negative, srs.primary, srs.residual}, {}};
 }
 
+void add_error_figures(const ErrorEstimator& errors, const Problem& problem, RunResult& result) {
+  const auto has = [&](bool is_static) {
+    return std::any_of(problem.steps.begin(), problem.steps.end(), [&](const StepPtr& s) { return s->is_static == is_static; });
+  };
+  if (has(true)) {
+    const ErrorEstimator::Estimate e = errors.static_steps();
+    result.figures["error estimate, static, iteration [%]"] = 100 * e.iteration;
+    result.figures["error estimate, static, mesh [%]"] = 100 * e.mesh;
+    result.figures["interface constitutive-relation error, static [J]"] = e.interface_energy;
+  }
+  if (has(false)) {
+    const ErrorEstimator::Estimate e = errors.dynamic_steps();
+    result.figures["error estimate, iteration [%]"] = 100 * e.iteration;
+    result.figures["error estimate, time step [%]"] = 100 * e.time_step;
+    result.figures["error estimate, mesh [%]"] = 100 * e.mesh;
+    result.figures["interface constitutive-relation error [J]"] = e.interface_energy;
+    result.figures["mean frequency of the motion [Hz]"] = e.mean_frequency;
+  }
+}
+
 }  // namespace
 
 void Collector::finish(RunResult& result) {
@@ -127,6 +149,7 @@ void Collector::finish(RunResult& result) {
   result.figures["energy dissipated by the scheme [%]"] = percent * extremes_.scheme_loss;
   result.figures["energy created by the scheme [%]"] = percent * extremes_.scheme_gain;
   result.figures["largest penetration [m]"] = extremes_.penetration;
+  add_error_figures(errors_, problem_, result);
 }
 
 }  // namespace dygita

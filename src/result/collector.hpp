@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "result/error_estimator.hpp"
 #include "result/frame.hpp"
 #include "result/result.hpp"
 #include "solution/observer.hpp"
@@ -73,6 +74,7 @@ class Collector : public Observer {
   std::shared_ptr<FrictionlessSlip> slip_;
   Table convergence_;
   Extremes extremes_;
+  ErrorEstimator errors_;
 };
 
 // The frame of an instant with the fields of one vtk output.

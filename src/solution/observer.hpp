@@ -13,6 +13,7 @@ struct Instant {
   int iterations = 0;
   double indicator = 0.0;
   bool converged = true;
+  double interface_energy = 0.0;  // J, constitutive-relation error of the interfaces in this increment (manual, eq. Q1)
 
   double time() const { return state.time; }
   bool is_static() const { return model.scheme.is_static; }

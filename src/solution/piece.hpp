@@ -97,6 +97,9 @@ class Piece {
   Points reactions(const Points& interface_force) const;
   // Force (N) of absorbing supports on the piece in the last increment, one column a node.
   Points absorbing_force() const;
+  // Velocities (m/s) of the free unknowns and their masses (kg), both in this piece's own order: for norms.
+  const Vec& free_velocity() const { return v_; }
+  const Vec& free_mass() const { return mass_; }
   IncrementEnergy stored_energy() const;  // kinetic and strain now
   bool is_finite() const { return v_.allFinite(); }
 

@@ -1,0 +1,17 @@
+// How far the stress of the cells is from a smooth one: an indication of the mesh error.
+#pragma once
+
+#include "fem/assembly.hpp"
+
+namespace dygita {
+
+struct StressError {
+  double energy = 0.0;  // J, 1/2 of the integral of (s* - s) : C^-1 : (s* - s)
+  Vec at_nodes;         // Pa, largest von Mises stress of s* - s among the cells at each node
+};
+
+// s is the stress of the cells, s* that of nodal_stress (Pa), interpolated; displacement: 3 x n_nodes, m. O. C. Zienkiewicz, J. Z. Zhu
+// (Int. J. Numer. Methods Eng. 24, 1987); manual, eq. Q5.
+StressError stress_error(const Mesh& mesh, const Elastic& material, const Points& displacement);
+
+}  // namespace dygita

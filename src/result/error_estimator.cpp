@@ -1,0 +1,146 @@
+#include "result/error_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fem/stress_error.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr int n_samples = 8;  // of the stress error, a dynamic step: each costs about a step of time
+
+// Energy (J) of the stress error of all substructures, and the strain energy of the same displacements.
+std::pair<double, double> stress_energies(const Instant& instant, const std::vector<Points>* start) {
+  double error = 0.0, strain = 0.0;
+  for (size_t i = 0; i < instant.model.pieces.size(); ++i) {
+    const Body& body = *instant.model.pieces[i]->setup().body;
+    Points u = instant.displacement(static_cast<int>(i));
+    if (start) u -= (*start)[i];
+    error += stress_error(*body.part->mesh, body.part->material, u).energy;
+    const Eigen::Map<const Vec> flat(u.data(), u.size());
+    strain += 0.5 * flat.dot(body.matrices->stiffness * flat);
+  }
+  return {error, strain};
+}
+
+double ratio(double energy, double of) { return of > 0.0 ? std::sqrt(std::max(0.0, energy) / of) : 0.0; }
+
+}  // namespace
+
+void OctaveBank::add(size_t i_octave, const Vec& velocity) {
+  if (i_octave == octaves_.size()) octaves_.emplace_back();
+  Octave& octave = octaves_[i_octave];
+  std::vector<Vec>& last = octave.last;
+  if (last.size() == 3) {
+    // The third difference passes what turns by a right angle a sample, the middle of the octave, with the factor 2^(3/2).
+    constexpr double quarter = std::numbers::pi / 2, gain = 2.0 * std::numbers::sqrt2;
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < velocity.size(); ++i) {
+      const double difference = velocity[i] - last[2][i] - 3.0 * (last[0][i] - last[1][i]);
+      sum += mass_[i] * difference * difference;
+    }
+    const double content = std::sqrt(sum) / gain, steps = std::exp2(i_octave);
+    octave.content = std::max(octave.content, content);
+    octave.phase += steps * std::pow(quarter / steps, 3) / 12.0 * content;
+  }
+  // Every other sample, smoothed, goes to the octave below.
+  if (octave.n_samples++ % 2 == 1 && last.size() >= 2) {
+    const Vec smooth = 0.25 * (velocity + 2.0 * last[0] + last[1]);
+    Vec mine = velocity;
+    last.insert(last.begin(), std::move(mine));
+    if (last.size() > 3) last.pop_back();
+    add(i_octave + 1, smooth);  // may move the octaves: nothing of this one is used after it
+    return;
+  }
+  last.insert(last.begin(), velocity);
+  if (last.size() > 3) last.pop_back();
+}
+
+double OctaveBank::phase_error(double factor) const {
+  double sum = 0.0;
+  for (const Octave& octave : octaves_)
+    sum += std::pow(std::min(factor * octave.phase, std::numbers::sqrt2 * octave.content), 2);
+  return std::sqrt(sum);
+}
+
+void ErrorEstimator::begin_step(const Instant& start) {
+  if (bank_) {
+    const Estimate so_far = dynamic_steps();
+    before_ = so_far.time_step * std::sqrt(2.0 * kinetic_);
+    bank_.reset();
+  }
+  if (start.is_static()) return;
+  Eigen::Index n = 0;
+  for (const auto& piece : start.model.pieces) n += piece->free_mass().size();
+  mass_.resize(n);
+  velocity_.resize(n);
+  n = 0;
+  for (const auto& piece : start.model.pieces) {
+    mass_.segment(n, piece->free_mass().size()) = piece->free_mass();
+    n += piece->free_mass().size();
+  }
+  velocity_old_.resize(0);
+  bank_.emplace(mass_);
+  dt_ = start.model.scheme.dt;
+  start_.clear();
+  for (size_t i = 0; i < start.model.pieces.size(); ++i) start_.push_back(start.displacement(static_cast<int>(i)));
+}
+
+void ErrorEstimator::accept_static(const Instant& instant) {
+  static_.interface_energy += instant.interface_energy;
+  const double strain = instant.state.energies.strain;
+  static_.iteration = std::max(static_.iteration, ratio(instant.interface_energy, strain));
+  if (instant.increment + 1 < instant.model.step->n_increments()) return;
+  const auto [error, of] = stress_energies(instant, nullptr);
+  static_.mesh = std::max(static_.mesh, ratio(error, of));
+}
+
+void ErrorEstimator::sample_stress(const Instant& instant) {
+  const auto [error, strain] = stress_energies(instant, &start_);
+  stress_energy_ = std::max(stress_energy_, error);
+  stress_sum_ += error;
+  strain_sum_ += strain;
+  ++n_stress_;
+}
+
+void ErrorEstimator::accept(const Instant& instant) {
+  if (instant.is_static()) return accept_static(instant);
+  dynamic_.interface_energy += instant.interface_energy;
+  kinetic_ = std::max(kinetic_, instant.state.energies.kinetic);
+  Eigen::Index n = 0;
+  for (const auto& piece : instant.model.pieces) {
+    velocity_.segment(n, piece->free_velocity().size()) = piece->free_velocity();
+    n += piece->free_velocity().size();
+  }
+  if (velocity_old_.size() > 0) {
+    for (Eigen::Index i = 0; i < n; ++i) rate_ += mass_[i] * std::pow((velocity_[i] - velocity_old_[i]) / dt_, 2);
+    ++n_rates_;
+  }
+  bank_->add(velocity_);
+  velocity_old_ = velocity_;
+  const long all = instant.model.step->n_increments(), i = instant.increment + 1;
+  if ((i * n_samples) / all != ((i - 1) * n_samples) / all) sample_stress(instant);
+}
+
+ErrorEstimator::Estimate ErrorEstimator::dynamic_steps() const {
+  Estimate estimate = dynamic_;
+  const double energy = 2.0 * kinetic_;  // of a wave, half of it strain
+  if (energy <= 0.0) return estimate;
+  const double root = std::sqrt(energy);
+  estimate.iteration = std::sqrt(dynamic_.interface_energy) / root;
+  estimate.time_step = (before_ + (bank_ ? bank_->phase_error() : 0.0)) / root;
+  if (n_stress_ == 0 || n_rates_ == 0 || strain_sum_ <= 0.0) return estimate;
+  // Rayleigh's quotient of the accelerations: blind to rigid motion and to what was stressed before.
+  const double frequency2 = (rate_ / static_cast<double>(n_rates_)) / (2.0 * strain_sum_ / n_stress_);
+  estimate.mean_frequency = std::sqrt(frequency2) / (2 * std::numbers::pi);
+  // Cells of length h leave (k h)^2 / 12 of the strain energy in the stress error, and turn a wave by w dt (k h)^2 / 24 too little.
+  const double turned = frequency2 > 0.0 ? 6.0 * stress_sum_ / strain_sum_ / (frequency2 * dt_ * dt_) : 0.0;
+  const double phase = bank_ ? bank_->phase_error(turned) / root : 0.0;
+  estimate.mesh = std::hypot(phase, ratio(stress_energy_, energy));
+  return estimate;
+}
+
+}  // namespace dygita

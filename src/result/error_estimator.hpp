@@ -1,0 +1,68 @@
+// What a run's answer is worth, told by the run itself: errors of iteration, time step and mesh in energy norm (manual, eq. Q1-Q6).
+//
+// Each is the square root of the energy of the estimated error over that of the shock, at its worst instant.
+#pragma once
+
+#include <optional>
+
+#include "solution/observer.hpp"
+
+namespace dygita {
+
+// Content of the velocities by octave of frequency, and the phase error that the time scheme gives each (eq. Q2-Q4): a trapezoidal
+// step turns a motion of angular frequency w by (w dt)^3 / 12 too little, until it has nothing in common with the exact one.
+class OctaveBank {
+ public:
+  // mass: kg, weight of each unknown.
+  explicit OctaveBank(Vec mass) : mass_(std::move(mass)) {}
+
+  void add(const Vec& velocity) { add(0, velocity); }
+  // Norm (sqrt of J) of the accumulated phase error; `factor` multiplies the phases.
+  double phase_error(double factor = 1.0) const;
+
+ private:
+  struct Octave {
+    std::vector<Vec> last;  // up to three samples, the latest first
+    long n_samples = 0;
+    double content = 0.0;  // largest norm so far
+    double phase = 0.0;    // sum of content x phase error of a sample
+  };
+  void add(size_t i_octave, const Vec& velocity);
+  double norm2(const Vec& v) const { return v.dot(mass_.cwiseProduct(v)); }
+
+  Vec mass_;
+  std::vector<Octave> octaves_;
+};
+
+class ErrorEstimator {
+ public:
+  void begin_step(const Instant& start);
+  void accept(const Instant& instant);
+
+  struct Estimate {
+    double iteration = 0.0, time_step = 0.0, mesh = 0.0;  // relative, energy norm
+    double interface_energy = 0.0;                        // J, constitutive-relation error of the interfaces, summed over the increments
+    double mean_frequency = 0.0;                          // Hz, of the energy of the velocities
+  };
+  Estimate static_steps() const { return static_; }
+  Estimate dynamic_steps() const;
+
+ private:
+  void accept_static(const Instant& instant);
+  void sample_stress(const Instant& instant);
+
+  Estimate static_, dynamic_;
+  std::optional<OctaveBank> bank_;      // of the step
+  double before_ = 0.0, before_mesh_ = 0.0;  // phase errors (norms, sqrt of J) of the dynamic steps before
+  Vec velocity_, velocity_old_, mass_;  // of all substructures' free unknowns, in their order
+  double dt_ = 0.0;
+  std::vector<Points> start_;           // displacements at the start of the dynamic steps: what they add is the shock
+  double kinetic_ = 0.0;                // J, largest so far
+  double stress_energy_ = 0.0;          // J, largest of the samples
+  double stress_sum_ = 0.0, strain_sum_ = 0.0;  // of the samples: stress error and strain energy of the shock
+  int n_stress_ = 0;
+  double rate_ = 0.0;                   // sum of |dV / dt|^2, in the norm of the mass
+  long n_rates_ = 0;
+};
+
+}  // namespace dygita
