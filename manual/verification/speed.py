@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import figures
 from exact_pages import number
-from runs import seconds  # noqa: F401  (what `cost` means: see Program.timed)
 from scenes import SCENES, TOLERANCES, WINDOWS
 
+ESTIMATES = [f"error estimate, {what} [%]" for what in ("iteration", "time step", "mesh")]   # figures of run.json
 LEVELS = [0.10, 0.03, 0.01, 0.003]
 LINES = {"mesh": "-", "dt": "--", "tolerance": ":", "window": "-.", "safety": "--", "penalty": ":"}
 COLOUR = {"latin": "#0b5394", "monolithic": "#c75b12", "explicit one_point": "#2e7d32", "explicit full": "#8e24aa"}
@@ -97,10 +97,11 @@ def write_csv(path, rows):
     with open(path, "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["scene", "solver", "knob", "value", "settings", "solver option", "exit code", "dof", "steps", "iterations",
-                         "seconds", "error", "error 2"])
+                         "seconds", "error", "error 2", *ESTIMATES])
         for r in rows:
             writer.writerow([r.scene, r.solver, r.knob, r.value, r.settings, r.option, r.exit_code, r.dofs, r.steps, r.iterations,
-                             "" if r.seconds is None else f"{r.seconds:.4g}", *(f"{e:.5g}" for e in r.errors)])
+                             "" if r.seconds is None else f"{r.seconds:.4g}", *(f"{e:.5g}" for e in r.errors),
+                             *("" if name not in (r.estimates or {}) else f"{r.estimates[name]:.4g}" for name in ESTIMATES)])
 
 
 def figure(scene, rows):
@@ -119,14 +120,20 @@ def figure(scene, rows):
             ends.append((*max(points), f"{solver}, {knob}", colour))
         a.set_title(f"relative error: {scene.quantities[panel]}")
         a.set_xlabel("seconds of computation, one thread")
-        low, high = a.get_ylim()
-        for level in LEVELS:
-            if low < level < high:
-                a.axhline(level, color="#bbbbbb", linewidth=0.9, zorder=0)
-                a.text(0.01, level, f"{100 * level:g} %", transform=a.get_yaxis_transform(), fontsize=7, color="#777777", va="bottom")
+        percent_axis(a)
         a.figure.canvas.draw()
         to_the_right(a, ends)
     return fig
+
+
+def percent_axis(axes):
+    """Errors in percent at 1, 3, 10, 30 ..., from one of them to another."""
+    ticks = [mantissa * 10.0**k for k in range(-8, 3) for mantissa in (1, 3)]
+    low, high = axes.get_ylim()
+    low, high = max(t for t in ticks if t <= low), min((t for t in ticks if t >= high), default=high)
+    axes.set_ylim(low, high)
+    axes.set_yticks([t for t in ticks if low <= t <= high], [f"{100 * t:g} %" for t in ticks if low <= t <= high])
+    axes.minorticks_off()
 
 
 def to_the_right(axes, ends):
