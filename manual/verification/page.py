@@ -73,7 +73,8 @@ def speed_section(done):
              "the critical step (*safety*) and stiffness of contact (*penalty*). Tables: the cheapest setting that reaches an error; `-`: none of "
              "those tried does. All runs are in [speed.csv](verification/speed.csv)."]
     for scene, rows, told in done:
-        parts += [f"### {scene.title}", f"`{scene.deck}`. {told}", picture(f"speed_{scene.name}", scene.title)]
+        parts += [f"### {scene.title}", f"`{scene.deck}`. {told}", picture(f"speed_{scene.name}", scene.title),
+                  f"{speed.against_latin(rows)} {scene.why}"]
         for panel, quantity in enumerate(scene.quantities):
             heads, cells = speed.cheapest(rows, panel)
             parts.append(table([quantity] + heads[1:], cells))

@@ -55,9 +55,9 @@ def curves(scene, solvers, quick):
 
 
 def reference_run(scene, program, quick, say):
-    """The run that errors are taken against and a sentence on it; (None, "") where the solution is exact."""
+    """The run that errors are taken against, how far the next coarser one is off, and a sentence on it; None where exact."""
     if scene.exact:
-        return None, "Errors are against the exact solution."
+        return None, None, "Errors are against the exact solution."
     fine, coarser = scene.quick_reference if quick else scene.reference
     runs = []
     for settings in (fine, coarser):
@@ -66,9 +66,9 @@ def reference_run(scene, program, quick, say):
     off = scene.errors(runs[1], runs[0])
     told = ", ".join(f"{k} = {v}" for k, v in fine.items())
     before = ", ".join(f"{k} = {v}" for k, v in coarser.items())
-    return runs[0], (f"Errors are against solver.monolithic with {told}; the next coarser one ({before}) differs from it by "
+    return runs[0], off, (f"Errors are against solver.monolithic with {told}; the next coarser one ({before}) differs from it by "
                      f"{number(100 * off[0])} % in the {scene.quantities[0]} and {number(100 * off[1])} % in the {scene.quantities[1]}: "
-                     "errors below that say nothing.")
+                     "errors below that (grey band) say little.")
 
 
 def measure(scene, program, solvers, reference, quick, say):
@@ -104,8 +104,11 @@ def write_csv(path, rows):
                              *("" if name not in (r.estimates or {}) else f"{r.estimates[name]:.4g}" for name in ESTIMATES)])
 
 
-def figure(scene, rows):
-    """Error against seconds for both quantities; colour tells the solver, the line the knob; names at the curves' ends."""
+def figure(scene, rows, floors):
+    """Error against seconds for both quantities; colour tells the solver, the line the knob; names at the curves' ends.
+
+    `floors` are the errors of the reference, drawn as a grey band, or None where the solution is exact.
+    """
     fig, axes = figures.plt.subplots(1, 2, figsize=(9.4, 3.9))
     fig.subplots_adjust(wspace=0.62)
     for panel, a in enumerate(axes):
@@ -121,6 +124,8 @@ def figure(scene, rows):
         a.set_title(f"relative error: {scene.quantities[panel]}")
         a.set_xlabel("seconds of computation, one thread")
         percent_axis(a)
+        if floors and floors[panel] > a.get_ylim()[0]:
+            a.axhspan(a.get_ylim()[0], floors[panel], color="#e9e9e9", zorder=0)
         a.figure.canvas.draw()
         to_the_right(a, ends)
     return fig
@@ -168,6 +173,15 @@ def cheapest(rows, panel):
     return ["solver"] + [f"{100 * level:g} %" for level in LEVELS], table
 
 
+def against_latin(rows):
+    """How other solvers' seconds compare with latin's at the same settings, the mesh knob."""
+    told, cost = [], {(r.solver, r.settings): r.seconds for r in rows if r.knob == "mesh" and r.seconds}
+    for solver in dict.fromkeys(solver for solver, _ in cost if solver != "latin"):
+        ratios = [s / cost["latin", key] for (name, key), s in cost.items() if name == solver and ("latin", key) in cost]
+        told.append(f"{solver} {number(min(ratios), 2)} to {number(max(ratios), 2)}")
+    return "Seconds over those of latin at the same meshes and dt: " + "; ".join(told) + "." if told else ""
+
+
 def known_solvers(program):
     """Which of the solvers and options this program has."""
     found = {name for name in ("monolithic", "explicit") if program.has_solver(name)}
@@ -180,9 +194,9 @@ def scenes(program, folder, say, quick=False, only=None):
     for scene in SCENES:
         if only and scene.name != only:
             continue
-        reference, told = reference_run(scene, program, quick, say)
+        reference, floors, told = reference_run(scene, program, quick, say)
         rows = measure(scene, program, solvers, reference, quick, say)
-        figures.save(figure(scene, rows), folder / f"speed_{scene.name}.svg")
+        figures.save(figure(scene, rows, floors), folder / f"speed_{scene.name}.svg")
         done.append((scene, rows, told))
     if not only:
         write_csv(folder / "speed.csv", [row for _, rows, _ in done for row in rows])
