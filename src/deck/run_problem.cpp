@@ -8,6 +8,7 @@
 
 #include "base/log.hpp"
 #include "latin/latin.hpp"
+#include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
 #include "result/collector.hpp"
 #include "solution/step_model.hpp"
@@ -31,6 +32,7 @@ void summarise(const Problem& problem, const SolverFigures& figures, RunResult& 
   result.n_dofs = figures.n_dofs;
   result.n_interface_unknowns = figures.n_interface_unknowns;
   result.seconds = figures.seconds;
+  result.figures.insert(figures.of_solver.begin(), figures.of_solver.end());
   result.figures["memory of factors and interface operators [MB]"] = figures.factor_bytes / 1e6;
   result.figures["largest difference between the interface gap and the displacements' [m]"] = figures.gap_difference;
 }
@@ -102,7 +104,8 @@ std::shared_ptr<const RunResult> run_problem(const Problem& problem, const RunRe
   }
   Collector collector(problem, sink);
   auto result = std::make_shared<RunResult>();
-  const SolverFigures figures = problem.monolithic
+  const SolverFigures figures = problem.explicit_dynamics ? solve_explicit(problem, collector)
+                                : problem.monolithic
                                     ? solve_monolithic(problem, collector)
                                     : solve(problem, collector, request.start_from ? request.start_from->interface_fields.get() : nullptr);
   result->interface_fields = figures.interface_fields;

@@ -15,6 +15,7 @@ class SymmetricBlocks {
 
   // y += K x, both 3n long.
   void add_product(const double* x, double* y) const;
+  int n_dofs() const { return 3 * (static_cast<int>(starts_.size()) - 1); }
   double bytes() const {
     return 4.0 * static_cast<double>(starts_.size() + nodes_.size()) + 8.0 * static_cast<double>(values_.size());
   }
