@@ -350,7 +350,7 @@ table.insert(words[9], {
   arguments = {
     { "safety", type = "number", range = { 0.01, 2 }, default = 0.9, doc = "substep, of the critical one; above 1 it is unstable" },
     { "penalty", type = "number", range = { 1e-4, 100 }, default = 0.1,
-      doc = "stiffness of contact, of that of the layer of elements behind it; plastic, released interfaces: ten times that" },
+      doc = "stiffness of contact, of that of the layer of elements behind it; plastic and releasable interfaces: 1 at least" },
     { "integration", type = "choice", choices = { "one_point", "full" }, default = "one_point",
       doc = "of hexahedra; full: the elements of the other solvers" },
     { "hourglass", type = "number", range = { 0, 1 }, default = 0.1, doc = "stiffness against hourglass modes, one_point only" },

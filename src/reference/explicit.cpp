@@ -30,7 +30,7 @@ class Runner {
   Runner(const Problem& problem, Observer& observer) : problem_(problem), observer_(observer) {
     const auto start = Clock::now();
     surfaces_ = make_surfaces(problem);
-    bodies_ = make_bodies(problem);
+    bodies_ = make_bodies(problem, surfaces_);
     state_ = initial_state(problem, surfaces_);
     figures_.seconds["assemble"] = seconds_since(start);
   }

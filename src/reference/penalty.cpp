@@ -7,8 +7,8 @@ namespace dygita {
 
 namespace {
 
-// What holds has no reason to be as soft as contact, whose stiffness makes impacts chatter.
-constexpr double tie_over_contact = 10.0;
+// What holds does not open and close: it can be as stiff as the cells behind it without making impacts chatter.
+constexpr double least_tie = 1.0;
 // Of the masses' own rule, Z = m / dt^2 (LS-DYNA's "soft" contact).
 constexpr double soft_rule = 0.5;
 
@@ -61,7 +61,7 @@ PenaltySprings::PenaltySprings(const StepModel& model, const std::vector<PointRe
     spring.dof_2 = point.is_wall ? -1 : dof(point.first_port_2);
     spring.frame = point.frame;
     const bool is_contact = point.law->rubs();
-    const double k = stiffness_of(model, point, is_contact ? penalty : tie_over_contact * penalty, 2.0 / frequency);
+    const double k = stiffness_of(model, point, is_contact ? penalty : std::max(least_tie, penalty), 2.0 / frequency);
     const LawState& law = start[i].law;
     for (int d = 0; d < 3; ++d) spring.stiffness[d] = point.law->acts_on(d) ? k : 0.0;
     spring.force = law.force;
