@@ -306,7 +306,6 @@ words[8] = {
 
 words[9] = {
   name = "solver", doc = "How it is computed. Every parameter has a good default, so most decks write none.",
-  later = { "explicit" },
   {
     "latin", makes = "solver", doc = "The LATIN method.",
     later = { "pieces" },
@@ -323,6 +322,10 @@ words[9] = {
       { "numerical_damping", type = "number", range = { 0, 1 }, default = 0, doc = "of the time scheme; 0: none" },
       { "push_out", type = "number", range = { 0, 1 }, default = 0, doc = "part of a penetration undone in a step of time" },
       { "search_direction", type = "number", range = { 1e-6, 1e6 }, default = 1, doc = "multiplies every search direction" },
+      { "mass", type = "choice", choices = { "tuned", "lumped" }, default = "lumped",
+        doc = "of the cells: tuned to dt so that waves keep their speed, or all at the nodes" },
+      { "massless_contact", type = "boolean", default = false,
+        doc = "nodes in contact give their mass to those behind them: an impact then costs no energy" },
       { "plain", type = "boolean", default = false, doc = "iterates with full solves, to check the condensed ones" },
     },
   },
@@ -334,12 +337,29 @@ words[9] = {
       { "tolerance", type = "number", range = { 1e-14, 0.1 }, default = 1e-10, doc = "relative residual at which an increment stops" },
       { "max_iterations", type = "integer", range = { 1, 1000000 }, default = 50, doc = "of one increment" },
       { "numerical_damping", type = "number", range = { 0, 1 }, default = 0, doc = "of the time scheme; 0: none" },
+      { "mass", type = "choice", choices = { "tuned", "lumped" }, default = "lumped",
+        doc = "of the cells: tuned to dt so that waves keep their speed, or all at the nodes" },
     },
   },
 }
 
+table.insert(words[9], {
+  "explicit", makes = "solver",
+  doc = "The classic explicit code: central differences with lumped mass and penalty contact, in as many equal substeps of each `dt` "
+    .. "as stability asks for. A rival of LATIN and an independent check. Static steps are computed as by solver.monolithic.",
+  arguments = {
+    { "safety", type = "number", range = { 0.01, 2 }, default = 0.9, doc = "substep, of the critical one; above 1 it is unstable" },
+    { "penalty", type = "number", range = { 1e-4, 100 }, default = 0.1,
+      doc = "stiffness of contact, of that of the layer of elements behind it; plastic and releasable interfaces: 1 at least" },
+    { "integration", type = "choice", choices = { "one_point", "full" }, default = "one_point",
+      doc = "of hexahedra; full: the elements of the other solvers" },
+    { "hourglass", type = "number", range = { 0, 1 }, default = 0.1, doc = "stiffness against hourglass modes, one_point only" },
+    { "bulk_viscosity", type = "boolean", default = true, doc = "linear 0.06, quadratic 1.2, against the ringing of fronts" },
+  },
+})
+
 local quantities = { "displacement", "velocity", "acceleration", "stress", "von_mises", "pressure" }
-local fields = { "displacement", "velocity", "stress", "von_mises" }
+local fields = { "displacement", "velocity", "stress", "von_mises", "stress_error" }
 
 words[10] = {
   name = "output", doc = "What is kept: files in the output directory, and data for the deck (`result[output]`).",

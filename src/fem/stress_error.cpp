@@ -63,8 +63,9 @@ StressError stress_error(const Mesh& mesh, const Elastic& material, const Points
   Vec energy = Vec::Zero(mesh.n_nodes());
   for (const CellBlock& block : mesh.blocks)
     with_cell(block.type, [&](auto cell) {
-      sum_at_nodes(block, owners,
-                   ErrorKernel<decltype(cell)>{mesh, material, displacement, smooth, energy, error.at_nodes, {}, 0.0, {}});
+      sum_at_nodes(
+          block, owners,
+          ErrorKernel<decltype(cell)>{mesh, material, displacement, smooth, energy, error.at_nodes, {}, 0.0, {}});
     });
   error.energy = energy.sum();
   return error;

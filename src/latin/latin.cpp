@@ -152,7 +152,7 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
   prepare_thread();
   auto start = clock::now();
   const std::vector<Surface> surfaces = make_surfaces(problem);
-  const std::vector<Body> bodies = make_bodies(problem);
+  const std::vector<Body> bodies = make_bodies(problem, surfaces);
   State state = initial_state(problem, surfaces);
   figures.seconds["assemble"] = seconds_since(start);
   for (const StepPtr& step : problem.steps) {

@@ -139,6 +139,7 @@ void LocalStage::scatter(int first, int end, const Side& side, const Vec3& force
       balance -= f_hat;
       image[i] = f_hat + k_[i] * w_hat;
       const double df = f_linear - f_hat, dv = velocity[i] - w_hat;
+      ports_[p].residual[d] = df;
       sums.force_distance += df * df / k_[i];
       sums.velocity_distance += k_[i] * dv * dv;
       sums.force_size += 0.5 * (f_linear * f_linear + f_hat * f_hat) / k_[i];
@@ -162,7 +163,7 @@ IndicatorSums LocalStage::run_point(size_t i_point, const Vec& velocity, const V
       state.trial.s[d] = side_2.r[d] - side_1.r[d];
       state.trial.y[d] = side_1.inverse_k[d] + side_2.inverse_k[d];
     }
-    if (!state.is_released) state.force = point.law->force(state.trial, increment_, state.law);
+    if (!state.is_released) state.force = point.law->force(state.trial, increment_at(point), state.law);
   }
   IndicatorSums sums;
   scatter(point.first_port, point.first_port_2, side_1, state.force, velocity, q, image, sums);
@@ -188,24 +189,50 @@ void LocalStage::accept(State* state) {
   for (size_t i = 0; i < points_.size(); ++i) {
     const Point& point = model_->exchange.points[i];
     PointRecord& p = points_[i];
-    const LawState end = end_of_point(point, p, increment_);
+    const Increment increment = increment_at(point);
+    const LawState end = end_of_point(point, p, increment);
     gap_difference_ = std::max(gap_difference_, dygita::gap_difference(*model_, point, p));
-    if (state) book_work(point, p, end, increment_, work_on_pieces(point), *state);
+    if (state) book_work(point, p, end, increment, work_on_pieces(point), *state);
     p.law = end;
     if (state && point.law) show_point(point, p, *state);
   }
-  for (PortState& port : ports_) port.u += increment_.dt * (increment_.g * port.w_old + (1 - increment_.g) * port.w);
+  for (const Point& point : model_->exchange.points) {
+    const double g = increment_at(point).g;
+    for (int i = point.first_port; i < point.end_port; ++i)
+      ports_[i].u += increment_.dt * (g * ports_[i].w_old + (1 - g) * ports_[i].w);
+  }
   if (!state) return;
   std::vector<Vec3> port_force;
   for (const PortState& port : ports_) port_force.push_back(port.f);
   show_ties(*model_, points_, port_force, *state);
+  show_residuals(*state);
+}
+
+// The constitutive-relation error as a field: |F - F_hat| of the worse side of every surface point.
+void LocalStage::show_residuals(State& state) const {
+  const Exchange& exchange = model_->exchange;
+  for (const Point& point : exchange.points) {
+    double worst = 0.0;
+    for (int p = point.first_port; p < point.end_port; ++p) worst = std::max(worst, ports_[p].residual.norm());
+    for (const Member& member : point.members) state.surfaces[member.surface].residual[member.point] = member.share * worst;
+  }
+  for (const Tie& tie : exchange.ties)
+    state.surfaces[tie.surface].residual[tie.surface_point] =
+        std::max(ports_[tie.port_1].residual.norm(), ports_[tie.port_2].residual.norm());
+}
+
+bool LocalStage::is_massless(const Point& point) const {
+  const Port& port = model_->exchange.ports[point.first_port];
+  return model_->pieces[port.part]->is_massless(port.node);
 }
 
 double LocalStage::work_on_pieces(const Point& point) const {
   double work = 0.0;
+  const double g = increment_at(point).g;
+  const bool has_force_of_end = increment_.is_static || is_massless(point);
   for (int i = point.first_port; i < point.end_port; ++i) {
-    const Vec3 motion = increment_.dt * (increment_.g * ports_[i].w_old + (1 - increment_.g) * ports_[i].w);
-    work += (increment_.is_static ? Vec3(0.5 * (ports_[i].f_old + ports_[i].f)) : ports_[i].f).dot(motion);
+    const Vec3 motion = increment_.dt * (g * ports_[i].w_old + (1 - g) * ports_[i].w);
+    work += (has_force_of_end ? Vec3(0.5 * (ports_[i].f_old + ports_[i].f)) : ports_[i].f).dot(motion);
   }
   return work;
 }

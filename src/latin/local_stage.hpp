@@ -44,6 +44,7 @@ class LocalStage {
     Vec3 u = Vec3::Zero(), offset = Vec3::Zero();  // m; rate that closes the jump inside the group, m/s
     Vec3 w_old = Vec3::Zero(), w = Vec3::Zero();   // W_hat at the start and now, m/s
     Vec3 f_old = Vec3::Zero(), f = Vec3::Zero();   // F_hat of the last increment and now, N
+    Vec3 residual = Vec3::Zero();                  // F - F_hat, N
   };
   struct Side {
     Vec3 r = Vec3::Zero(), inverse_k = Vec3::Zero();
@@ -55,6 +56,14 @@ class LocalStage {
   IndicatorSums run_point(size_t i_point, const Vec& velocity, const Vec& q, Vec& image);
   Vec3 mean_displacement(int first, int end) const;
   double work_on_pieces(const Point& point) const;
+  void show_residuals(State& state) const;
+  // Points between nodes without mass take the force and the gap of the step's end (manual, eq. S9).
+  bool is_massless(const Point& point) const;
+  Increment increment_at(const Point& point) const {
+    Increment increment = increment_;
+    if (is_massless(point)) increment.g = 0.0;
+    return increment;
+  }
 
   const StepModel* model_;
   Vec k_;

@@ -14,6 +14,7 @@ void check_problem(const Problem& problem) {
   check::loads(problem);
   check::outputs(problem);
   check::doubts(problem);
+  check::resolution(problem);
 }
 
 namespace check {

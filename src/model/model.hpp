@@ -111,6 +111,12 @@ struct Step : Named {
 };
 using StepPtr = std::shared_ptr<const Step>;
 
+// What stands for the mass of the cells in dynamic steps.
+struct MassSettings {
+  bool is_tuned = false;              // between lumped and consistent, so that mesh and time step undo each other's error
+  bool is_moved_from_contact = false;  // nodes in contact have none
+};
+
 // solver.latin; negative or zero means "the default of the manual's table".
 struct LatinSettings {
   double tolerance = 1e-6;
@@ -122,6 +128,7 @@ struct LatinSettings {
   double numerical_damping = 0.0;
   double push_out = 0.0;          // b of the contact law
   double search_direction = 1.0;  // multiplies every k (studies, hard cases)
+  MassSettings mass;
   bool plain = false;             // iterate with full solves instead of the condensed interface (the plain path)
 };
 
@@ -130,6 +137,16 @@ struct MonolithicSettings {
   double tolerance = 1e-10;
   int max_iterations = 50;  // of an increment
   double numerical_damping = 0.0;
+  MassSettings mass;
+};
+
+// solver.explicit: central differences with lumped mass, penalty contact.
+struct ExplicitSettings {
+  double safety = 0.9;    // of the critical time step
+  double penalty = 0.1;   // of the stiffness of the layer of elements at an interface
+  bool one_point = true;  // hexahedra: one point and hourglass control; false: the stiffness of the other solvers
+  double hourglass = 0.1;
+  bool bulk_viscosity = true;
 };
 
 enum class OutputKind { vtk, history, resultant, srs, joint, energy };
@@ -158,7 +175,17 @@ struct Problem : Named {
   LatinSettings solver;
   std::optional<MonolithicSettings> monolithic;  // where set, takes the place of LATIN
 
-  double numerical_damping() const { return monolithic ? monolithic->numerical_damping : solver.numerical_damping; }
+  std::optional<ExplicitSettings> explicit_dynamics;  // the same
+
+  const char* solver_name() const { return explicit_dynamics ? "explicit" : monolithic ? "monolithic" : "latin"; }
+  MassSettings mass() const {
+    if (explicit_dynamics) return {};
+    return monolithic ? monolithic->mass : solver.mass;
+  }
+  double numerical_damping() const {
+    if (explicit_dynamics) return 0.0;
+    return monolithic ? monolithic->numerical_damping : solver.numerical_damping;
+  }
 };
 
 // Supports in force in a step.

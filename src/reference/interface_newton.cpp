@@ -230,6 +230,7 @@ InterfaceNewton::Outcome InterfaceNewton::solve(std::vector<PointRecord>& record
     residual = evaluate(f_, records, increment);
   }
   outcome.residual = relative(residual);
+  outcome.distance = residual.distance;
   outcome.converged = outcome.residual <= settings_.tolerance;
   largest_ = std::max(largest_, residual.size);
   const Vec rate = rate_of(f_), force = force_of(f_, rate);

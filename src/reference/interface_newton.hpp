@@ -17,6 +17,7 @@ class InterfaceNewton {
   struct Outcome {
     int iterations = 0;
     double residual = 0.0;  // relative, as LATIN's indicator is
+    double distance = 0.0;  // W, what the residual is of: sum Y phi^2
     bool converged = true;
   };
   // Solves for the records' forces, from those at hand, and completes their trials. Throws NumericalError.

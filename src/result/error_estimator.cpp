@@ -35,7 +35,8 @@ void OctaveBank::add(size_t i_octave, const Vec& velocity) {
   Octave& octave = octaves_[i_octave];
   std::vector<Vec>& last = octave.last;
   if (last.size() == 3) {
-    // The third difference passes what turns by a right angle a sample, the middle of the octave, with the factor 2^(3/2).
+    // The third difference passes what turns by a right angle a sample, the middle of the octave, with the factor
+    // 2^(3/2).
     constexpr double quarter = std::numbers::pi / 2, gain = 2.0 * std::numbers::sqrt2;
     double sum = 0.0;
     for (Eigen::Index i = 0; i < velocity.size(); ++i) {
@@ -69,10 +70,10 @@ double OctaveBank::phase_error(double factor) const {
 void ErrorEstimator::begin_step(const Instant& start) {
   if (bank_) {
     const Estimate so_far = dynamic_steps();
-    before_ = so_far.time_step * std::sqrt(2.0 * kinetic_);
+    before_ = so_far.time_step * std::sqrt(std::max(2.0 * kinetic_, 1e-8 * stored_));
     bank_.reset();
   }
-  if (start.is_static()) return;
+  if (start.is_static() || start.fields) return;
   Eigen::Index n = 0;
   for (const auto& piece : start.model.pieces) n += piece->free_mass().size();
   mass_.resize(n);
@@ -108,8 +109,11 @@ void ErrorEstimator::sample_stress(const Instant& instant) {
 
 void ErrorEstimator::accept(const Instant& instant) {
   if (instant.is_static()) return accept_static(instant);
+  if (instant.fields) return;  // another scheme: its errors are others
   dynamic_.interface_energy += instant.interface_energy;
-  kinetic_ = std::max(kinetic_, instant.state.energies.kinetic);
+  const Energies& energies = instant.state.energies;
+  kinetic_ = std::max(kinetic_, energies.kinetic);
+  stored_ = std::max(stored_, energies.kinetic + energies.strain);
   Eigen::Index n = 0;
   for (const auto& piece : instant.model.pieces) {
     velocity_.segment(n, piece->free_velocity().size()) = piece->free_velocity();
@@ -127,7 +131,8 @@ void ErrorEstimator::accept(const Instant& instant) {
 
 ErrorEstimator::Estimate ErrorEstimator::dynamic_steps() const {
   Estimate estimate = dynamic_;
-  const double energy = 2.0 * kinetic_;  // of a wave, half of it strain
+  // Twice the kinetic energy, as of a wave; at rest there is no shock to compare with, but what is stored.
+  const double energy = std::max(2.0 * kinetic_, 1e-8 * stored_);
   if (energy <= 0.0) return estimate;
   const double root = std::sqrt(energy);
   estimate.iteration = std::sqrt(dynamic_.interface_energy) / root;
@@ -136,7 +141,8 @@ ErrorEstimator::Estimate ErrorEstimator::dynamic_steps() const {
   // Rayleigh's quotient of the accelerations: blind to rigid motion and to what was stressed before.
   const double frequency2 = (rate_ / static_cast<double>(n_rates_)) / (2.0 * strain_sum_ / n_stress_);
   estimate.mean_frequency = std::sqrt(frequency2) / (2 * std::numbers::pi);
-  // Cells of length h leave (k h)^2 / 12 of the strain energy in the stress error, and turn a wave by w dt (k h)^2 / 24 too little.
+  // Cells of length h leave (k h)^2 / 12 of the strain energy in the stress error, and turn a wave by w dt (k h)^2 / 24
+  // too little.
   const double turned = frequency2 > 0.0 ? 6.0 * stress_sum_ / strain_sum_ / (frequency2 * dt_ * dt_) : 0.0;
   const double phase = bank_ ? bank_->phase_error(turned) / root : 0.0;
   estimate.mesh = std::hypot(phase, ratio(stress_energy_, energy));

@@ -1,4 +1,5 @@
-// What a run's answer is worth, told by the run itself: errors of iteration, time step and mesh in energy norm (manual, eq. Q1-Q6).
+// What a run's answer is worth, told by the run itself: errors of iteration, time step and mesh in energy norm (manual,
+// eq. Q1-Q6).
 //
 // Each is the square root of the energy of the estimated error over that of the shock, at its worst instant.
 #pragma once
@@ -9,8 +10,9 @@
 
 namespace dygita {
 
-// Content of the velocities by octave of frequency, and the phase error that the time scheme gives each (eq. Q2-Q4): a trapezoidal
-// step turns a motion of angular frequency w by (w dt)^3 / 12 too little, until it has nothing in common with the exact one.
+// Content of the velocities by octave of frequency, and the phase error that the time scheme gives each (eq. Q2-Q4): a
+// trapezoidal step turns a motion of angular frequency w by (w dt)^3 / 12 too little, until it has nothing in common
+// with the exact one.
 class OctaveBank {
  public:
   // mass: kg, weight of each unknown.
@@ -41,8 +43,8 @@ class ErrorEstimator {
 
   struct Estimate {
     double iteration = 0.0, time_step = 0.0, mesh = 0.0;  // relative, energy norm
-    double interface_energy = 0.0;                        // J, constitutive-relation error of the interfaces, summed over the increments
-    double mean_frequency = 0.0;                          // Hz, of the energy of the velocities
+    double interface_energy = 0.0;  // J, constitutive-relation error of the interfaces, summed over the increments
+    double mean_frequency = 0.0;    // Hz, of the energy of the velocities
   };
   Estimate static_steps() const { return static_; }
   Estimate dynamic_steps() const;
@@ -52,16 +54,16 @@ class ErrorEstimator {
   void sample_stress(const Instant& instant);
 
   Estimate static_, dynamic_;
-  std::optional<OctaveBank> bank_;      // of the step
+  std::optional<OctaveBank> bank_;           // of the step
   double before_ = 0.0, before_mesh_ = 0.0;  // phase errors (norms, sqrt of J) of the dynamic steps before
-  Vec velocity_, velocity_old_, mass_;  // of all substructures' free unknowns, in their order
+  Vec velocity_, velocity_old_, mass_;       // of all substructures' free unknowns, in their order
   double dt_ = 0.0;
-  std::vector<Points> start_;           // displacements at the start of the dynamic steps: what they add is the shock
-  double kinetic_ = 0.0;                // J, largest so far
-  double stress_energy_ = 0.0;          // J, largest of the samples
+  std::vector<Points> start_;            // displacements at the start of the dynamic steps: what they add is the shock
+  double kinetic_ = 0.0, stored_ = 0.0;  // J, largest so far: kinetic, kinetic + strain
+  double stress_energy_ = 0.0;           // J, largest of the samples
   double stress_sum_ = 0.0, strain_sum_ = 0.0;  // of the samples: stress error and strain energy of the shock
   int n_stress_ = 0;
-  double rate_ = 0.0;                   // sum of |dV / dt|^2, in the norm of the mass
+  double rate_ = 0.0;  // sum of |dV / dt|^2, in the norm of the mass
   long n_rates_ = 0;
 };
 

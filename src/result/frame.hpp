@@ -24,7 +24,7 @@ struct InterfaceFrame {
   std::string name;
   Points points;                    // 3 x n, undeformed
   std::vector<Facet> facets;        // node numbers into `points`
-  std::vector<NamedField> fields;   // pressure gap slip friction_traction plastic_opening state displacement
+  std::vector<NamedField> fields;   // pressure gap slip friction_traction plastic_opening state displacement constitutive_error
 };
 
 struct Frame {

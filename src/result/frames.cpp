@@ -1,7 +1,7 @@
 // Frames for ParaView: only the fields asked for are computed.
 #include <algorithm>
 
-#include "fem/assembly.hpp"
+#include "fem/stress_error.hpp"
 #include "result/collector.hpp"
 
 namespace dygita {
@@ -21,6 +21,7 @@ PartFrame part_frame(const Instant& instant, int part, const std::vector<std::st
     if (name == "velocity") frame.fields.push_back({name, instant.velocity(part)});
     if (name == "acceleration") frame.fields.push_back({name, instant.acceleration(part)});
     if (name == "stress") frame.fields.push_back({name, stress});
+    if (name == "stress_error") frame.fields.push_back({name, stress_error(*body.mesh, body.material, frame.displacement).at_nodes.transpose()});
     if (name == "von_mises") frame.fields.push_back({name, von_mises(stress).transpose()});
   }
   return frame;
@@ -35,7 +36,7 @@ InterfaceFrame interface_frame(const Instant& instant, int s, const Frictionless
   frame.name = surface.name();
   frame.points.resize(3, n);
   std::map<int, int> point_of;
-  Mat pressure(1, n), gap(1, n), plastic(1, n), status(1, n), slips(3, n), traction(3, n), displacement(3, n);
+  Mat pressure(1, n), gap(1, n), plastic(1, n), status(1, n), residual(1, n), slips(3, n), traction(3, n), displacement(3, n);
   const Points u = instant.displacement(surface.part_1);
   for (int i = 0; i < n; ++i) {
     const int node = surface.facing.nodes_1[i];
@@ -49,6 +50,7 @@ InterfaceFrame interface_frame(const Instant& instant, int s, const Frictionless
     plastic(0, i) = state[i].plastic_opening;
     slips.col(i) = slip.slip(instant, s, i);
     status(0, i) = static_cast<double>(state[i].status);
+    residual(0, i) = instant.state.surfaces[s].residual[i] / surface.facing.areas[i];
     displacement.col(i) = u.col(node);
   }
   for (const Facet& facet : surface.facing.facets) {
@@ -57,7 +59,7 @@ InterfaceFrame interface_frame(const Instant& instant, int s, const Frictionless
     frame.facets.push_back(local);
   }
   frame.fields = {{"displacement", displacement}, {"pressure", pressure}, {"gap", gap},       {"slip", slips},
-                  {"friction_traction", traction}, {"plastic_opening", plastic}, {"state", status}};
+                  {"friction_traction", traction}, {"plastic_opening", plastic}, {"state", status}, {"constitutive_error", residual}};
   return frame;
 }
 

@@ -11,10 +11,18 @@
 
 namespace dygita {
 
+// The mass of a substructure in dynamic steps.
+struct Mass {
+  Vec lumped;                     // kg, of each node
+  SparseMatrix matrix;            // n_nodes x n_nodes, kg, row sums as above; empty: lumped
+  std::vector<char> is_massless;  // nodes whose mass has been moved inside (manual, eq. S9); empty: none
+};
+
 // A substructure's matrices; shared by equal substructures and by all steps.
 struct Body {
   const Substructure* part = nullptr;
   std::shared_ptr<const BodyMatrices> matrices;
+  std::shared_ptr<const Mass> mass;
 };
 
 // Coefficients of the time scheme; a static step has dt = 1, g = 0 and no mass (manual, eq. S1-S5).
@@ -69,7 +77,12 @@ class Piece {
   // Fixes the search directions k (one a row) and forms H = (S0 + k)^-1; `plain` factorises A + k and solves in full instead.
   void set_search_directions(const Vec& k, bool plain);
   const Vec& k() const { return k_; }
-  double node_mass(int node) const { return setup_.body->matrices->mass[node]; }
+  // Has the node given its mass away in this step (manual, eq. S9)?
+  bool is_massless(int node) const {
+    const std::vector<char>& massless = setup_.body->mass->is_massless;
+    return !setup_.scheme.is_static && !massless.empty() && massless[node];
+  }
+  double node_mass(int node) const { return setup_.body->mass->lumped[node]; }
 
   // State from nodal fields (3 x n_nodes): displacement, velocity, and the external and interface forces in balance with them.
   void set_state(const Points& displacement, const Points& velocity, const Points& force, const Points& interface_force);
@@ -105,10 +118,10 @@ class Piece {
 
   // The state an increment starts from: windows of several steps go back to it.
   struct Snapshot {
-    Vec u, v, p, w, force;
+    Vec u, v, p, w, z, force;
     std::vector<double> held_u, held_v;
   };
-  Snapshot snapshot() const { return {u_, v_, p_, w_, force_, held_u_, held_v_}; }
+  Snapshot snapshot() const { return {u_, v_, p_, w_, z_, force_, held_u_, held_v_}; }
   void restore(const Snapshot& s);
   double bytes() const;            // held by factor, interface operators and vectors
   double predicted_bytes() const;  // the same, known before factorising
@@ -135,6 +148,16 @@ class Piece {
   std::vector<double> held_stiffness(const Points& nodal) const;  // d . K nodal at every held direction
   std::vector<double> held_forces(const Points& interface_force) const;
   void apply_absorbing(const Vec& v, double factor, Vec& out) const;
+  void make_mass();
+  void make_massless();
+  Vec mass_times(const Vec& v) const;
+  Points nodal_mass_times(const Points& nodal) const;
+  Vec momentum() const;  // of the free unknowns, what moving supports bring included
+  double kinetic_energy() const;
+  std::vector<double> held_mass(const Points& nodal) const;  // d . M nodal at every held direction
+  Vec mean_velocity() const;  // of the last increment: g V0 + (1 - g) V1, and V1 where there is no mass
+  void start_massless();
+  void advance_massless();
   Mat with_search_directions(const Mat& schur, const Vec& k) const;
 
   Setup setup_;
@@ -148,14 +171,21 @@ class Piece {
   Mat schur_, h_;
   Vec schur_diagonal_, k_;
   std::vector<Trace> traces_;
-  std::vector<Vec> coupling_;  // B^T K of a unit velocity of each motion; empty where the motion is elsewhere
-  Vec mass_;
+  std::vector<Vec> coupling_, mass_coupling_;  // B^T K, B^T M of a unit velocity of each motion; empty where the motion is elsewhere
+  Vec mass_;                   // lumped
+  SparseMatrix mass_matrix_;   // of the free unknowns in factor order; empty: lumped
+  Vec momentum_;               // M v, kept from one increment to the next
+  // Unknowns without mass in a dynamic step: their force is that of the step's end (manual, eq. S9).
+  std::vector<int> massless_;
+  SparseMatrix massless_columns_;  // of K, one a massless unknown
+  Vec end_factor_;                 // D: 1 - g, and 1 for them
   double predicted_factor_bytes_ = 0.0;
   int n_interface_ = 0;
   std::vector<std::pair<int, Mat3>> absorbing_;
   double c0_ = 0.0, c1_ = 0.0;
 
   Vec u_, v_, p_, w_, force_;  // state, in factor order
+  Vec z_;                      // dt K G V, where there are unknowns without mass
   std::vector<double> held_u_, held_v_;
   Vec residual_, x_, b_, v_b_, v_old_, w_old_, start_imbalance_;
   std::vector<double> held_v_old_, held_v_new_, held_reaction_;

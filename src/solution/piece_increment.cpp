@@ -24,7 +24,12 @@ void Piece::set_state(const Points& displacement, const Points& velocity, const 
   w_ = c1_ * nodal_stiffness_times(held_velocity);
   p_ = nodal_stiffness_times(displacement);
   start_imbalance_ = p_ - force_ - restrict_nodal(interface_force);
-  p_ += c0_ / c1_ * w_;
+  if (massless_.empty()) {
+    p_ += c0_ / c1_ * w_;
+  } else {
+    start_massless();
+  }
+  momentum_ = momentum();
   nodal_force_ = force;
   held_reaction_ = held_stiffness(displacement);
   for (size_t i = 0; i < held_.size(); ++i)
@@ -36,9 +41,75 @@ void Piece::restore(const Snapshot& s) {
   v_ = s.v;
   p_ = s.p;
   w_ = s.w;
+  z_ = s.z;
   force_ = s.force;
   held_u_ = s.held_u;
   held_v_ = s.held_v;
+  momentum_ = momentum();
+}
+
+Vec Piece::mass_times(const Vec& v) const {
+  if (mass_matrix_.size() > 0) return mass_matrix_ * v;
+  return mass_.cwiseProduct(v);
+}
+
+Points Piece::nodal_mass_times(const Points& nodal) const {
+  const Mass& mass = *setup_.body->mass;
+  if (mass.matrix.size() == 0) return nodal * mass.lumped.asDiagonal();
+  return (mass.matrix * nodal.transpose()).transpose();
+}
+
+Vec Piece::momentum() const {
+  if (has_motions_ && mass_matrix_.size() > 0) return restrict_nodal(nodal_mass_times(expand(v_, held_v_)));
+  return mass_times(v_);
+}
+
+double Piece::kinetic_energy() const {
+  if (!has_motions_) return 0.5 * v_.dot(momentum_);
+  const Points nodal = expand(v_, held_v_);
+  return 0.5 * nodal.cwiseProduct(nodal_mass_times(nodal)).sum();
+}
+
+std::vector<double> Piece::held_mass(const Points& nodal) const {
+  const Mass& mass = *setup_.body->mass;
+  std::vector<double> values(held_.size(), 0.0);
+  for (size_t i = 0; i < held_.size(); ++i) {
+    const int node = held_[i].node;
+    if (mass.matrix.size() == 0) {
+      values[i] = mass.lumped[node] * held_[i].direction.dot(nodal.col(node));
+      continue;
+    }
+    for (int e = mass.matrix.outerIndexPtr()[node]; e < mass.matrix.outerIndexPtr()[node + 1]; ++e)
+      values[i] += mass.matrix.valuePtr()[e] * held_[i].direction.dot(nodal.col(mass.matrix.innerIndexPtr()[e]));
+  }
+  return values;
+}
+
+Vec Piece::mean_velocity() const {
+  Vec mean = setup_.scheme.g * v_old_ + (1 - setup_.scheme.g) * v_;
+  for (const int i : massless_) mean[i] = v_[i];
+  return mean;
+}
+
+// p_ holds K U: adds what begin() expects of the velocities.
+void Piece::start_massless() {
+  const double g = setup_.scheme.g;
+  Vec own(static_cast<Eigen::Index>(massless_.size()));
+  for (size_t i = 0; i < massless_.size(); ++i) own[i] = v_[massless_[i]];
+  // w_ = c1 K V with all velocities; z is without those of the massless unknowns.
+  z_ = g * setup_.scheme.dt * (w_ / c1_ - massless_columns_ * own);
+  p_ += end_factor_.cwiseProduct(z_);
+}
+
+// P of the next increment from W = dt D K D V1: K U1 + D Z1 with Z = dt K G V, G being g, and 0 for massless unknowns (manual, eq. S9).
+void Piece::advance_massless() {
+  const double g = setup_.scheme.g;
+  Vec own(static_cast<Eigen::Index>(massless_.size()));
+  for (size_t i = 0; i < massless_.size(); ++i) own[i] = v_[massless_[i]];
+  const Vec end = w_.cwiseQuotient(end_factor_);  // dt K D V1
+  p_ += z_ - end_factor_.cwiseProduct(z_) + end;
+  z_ = g / (1 - g) * (end - setup_.scheme.dt * (massless_columns_ * own));
+  p_ += end_factor_.cwiseProduct(z_);
 }
 
 void Piece::apply_absorbing(const Vec& v, double factor, Vec& out) const {
@@ -60,7 +131,7 @@ void Piece::begin(const Points& force, const std::vector<double>& motion_velocit
   const Vec new_force = restrict_nodal(force);
   residual_ = new_force - p_;
   if (!scheme.is_static) {
-    residual_ += mass_factor * mass_.cwiseProduct(v_);
+    residual_ += mass_factor * momentum_;
     apply_absorbing(v_, -scheme.g, residual_);
   }
   // Loads work with the mean force of the increment: that of the step in dynamics, of both ends in statics.
@@ -70,8 +141,11 @@ void Piece::begin(const Points& force, const std::vector<double>& motion_velocit
   held_v_new_.assign(held_.size(), 0.0);
   for (size_t i = 0; i < held_.size(); ++i)
     for (const auto& [motion, factor] : held_[i].motion) held_v_new_[i] += factor * motion_velocity[motion];
-  for (size_t m = 0; m < coupling_.size(); ++m)
+  for (size_t m = 0; m < coupling_.size(); ++m) {
     if (coupling_[m].size() > 0) x_ -= c1_ * motion_velocity[m] * coupling_[m];
+    if (mass_coupling_[m].size() > 0)
+      x_ -= (scheme.inverse_dt() + (1 - scheme.g) * scheme.alpha(setup_.body->part->material.damping)) * motion_velocity[m] * mass_coupling_[m];
+  }
   if (factor_ && !plain_factor_) {
     factor_->forward(x_);
     b_ = x_.tail(factor_->n_interface());
@@ -127,11 +201,15 @@ IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_f
     for (int a = 0; a < traces_[i].n; ++a) w_[traces_[i].at[a]] += traces_[i].value[a] * force;
   }
   if (!scheme.is_static) {
-    w_ -= (scheme.inverse_dt() + (1 - g) * scheme.alpha(damping)) * mass_.cwiseProduct(v_);
+    momentum_ = momentum();
+    w_ -= (scheme.inverse_dt() + (1 - g) * scheme.alpha(damping)) * momentum_;
     apply_absorbing(v_, -(1 - g), w_);
   }
-  p_ += ((dt * g - c0_) / c1_) * w_old_ + ((dt * (1 - g) + c0_) / c1_) * w_;
-  const Vec v_mean = g * v_old_ + (1 - g) * v_;
+  if (massless_.empty())
+    p_ += ((dt * g - c0_) / c1_) * w_old_ + ((dt * (1 - g) + c0_) / c1_) * w_;
+  else
+    advance_massless();
+  const Vec v_mean = mean_velocity();
   u_ += dt * v_mean;
   for (size_t i = 0; i < held_.size(); ++i) held_u_[i] += dt * (g * held_v_old_[i] + (1 - g) * held_v_[i]);
 
@@ -143,7 +221,7 @@ IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_f
     start_imbalance_.setZero();
     force_ = restrict_nodal(nodal_force_);
   } else {
-    energy.damping = dt * scheme.alpha(damping) * v_mean.dot(mass_.cwiseProduct(v_mean));
+    if (scheme.alpha(damping) > 0.0) energy.damping = dt * scheme.alpha(damping) * v_mean.dot(mass_times(v_mean));
     if (!absorbing_.empty()) {
       Vec drag = Vec::Zero(v_.size());
       apply_absorbing(v_mean, 1.0, drag);
@@ -153,7 +231,7 @@ IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_f
       const double flow = v_mean.dot(g * w_old_ + (1 - g) * w_) / c1_;  // V_g . K V_g
       energy.damping += dt * scheme.beta(damping) * flow;
       const Vec dv = v_ - v_old_;
-      energy.scheme = (0.5 - g) * (dt * dt * flow + dv.dot(mass_.cwiseProduct(dv)));
+      energy.scheme = (0.5 - g) * (dt * dt * flow + dv.dot(mass_times(dv)));
     }
   }
   if (has_motions_) {
@@ -171,14 +249,13 @@ IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_f
 
 IncrementEnergy Piece::stored_energy() const {
   IncrementEnergy energy;
-  energy.strain = 0.5 * (u_.dot(p_) - c0_ / c1_ * u_.dot(w_));
+  energy.strain = 0.5 * (u_.dot(p_) - (massless_.empty() ? c0_ / c1_ * u_.dot(w_) : u_.dot(end_factor_.cwiseProduct(z_))));
   if (std::any_of(held_u_.begin(), held_u_.end(), [](double u) { return u != 0.0; })) {
     const std::vector<double> held = held_stiffness(displacement());
     for (size_t i = 0; i < held_.size(); ++i) energy.strain += 0.5 * held_u_[i] * held[i];
   }
   if (!setup_.scheme.is_static) {
-    energy.kinetic = 0.5 * v_.dot(mass_.cwiseProduct(v_));
-    for (size_t i = 0; i < held_.size(); ++i) energy.kinetic += 0.5 * node_mass(held_[i].node) * held_v_[i] * held_v_[i];
+    energy.kinetic = kinetic_energy();
   }
   return energy;
 }
@@ -222,15 +299,17 @@ std::vector<double> Piece::held_forces(const Points& interface_force) const {
   std::vector<double> held(held_.size());
   for (size_t i = 0; i < held_.size(); ++i)
     held[i] = held_u_[i] + (c0_ - back) * held_v_old_[i] + (c1_ - back_new) * held_v_[i];
-  std::vector<double> values = held_stiffness(expand(u_ + (c0_ - back) * v_old_ + (c1_ - back_new) * v_, held));
-  for (size_t i = 0; i < held_.size(); ++i) {
-    const int node = held_[i].node;
-    if (!scheme.is_static) {
-      values[i] += node_mass(node) * (held_v_[i] - held_v_old_[i]) / scheme.dt;
-      values[i] += node_mass(node) * scheme.alpha(damping) * (scheme.g * held_v_old_[i] + (1 - scheme.g) * held_v_[i]);
-    }
-    values[i] -= held_[i].direction.dot(nodal_force_.col(node) + interface_force.col(node));
+  Vec there = u_ + (c0_ - back) * v_old_ + (c1_ - back_new) * v_;
+  for (const int i : massless_) there[i] = u_[i] - scheme.g * scheme.dt * v_[i];
+  std::vector<double> values = held_stiffness(expand(there, held));
+  if (!scheme.is_static) {
+    std::vector<double> held_mean(held_.size());
+    for (size_t i = 0; i < held_.size(); ++i) held_mean[i] = scheme.g * held_v_old_[i] + (1 - scheme.g) * held_v_[i];
+    const std::vector<double> inertia = held_mass(acceleration() + scheme.alpha(damping) * expand(mean_velocity(), held_mean));
+    for (size_t i = 0; i < held_.size(); ++i) values[i] += inertia[i];
   }
+  for (size_t i = 0; i < held_.size(); ++i)
+    values[i] -= held_[i].direction.dot(nodal_force_.col(held_[i].node) + interface_force.col(held_[i].node));
   return values;
 }
 

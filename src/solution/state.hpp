@@ -22,6 +22,7 @@ struct Energies {
 // Fields of a surface's points now; vectors in global axes, forces on side 1.
 struct SurfaceState {
   std::vector<LawState> points;
+  std::vector<double> residual;  // N, of each point: what is left between the force of the substructure and that of the law
   double friction_work = 0.0, plastic_work = 0.0;  // J, so far
 };
 

@@ -9,18 +9,6 @@
 
 namespace dygita {
 
-std::vector<Body> make_bodies(const Problem& problem) {
-  std::map<std::tuple<std::string, double, double, double>, std::shared_ptr<const BodyMatrices>> known;
-  std::vector<Body> bodies;
-  for (const SubstructurePtr& part : problem.substructures) {
-    const Elastic& m = part->material;
-    auto& matrices = known[{part->mesh->digest, m.young, m.poisson, m.density}];
-    if (!matrices) matrices = std::make_shared<const BodyMatrices>(assemble(*part->mesh, m));
-    bodies.push_back({part.get(), matrices});
-  }
-  return bodies;
-}
-
 State initial_state(const Problem& problem, const std::vector<Surface>& surfaces) {
   State state;
   for (const SubstructurePtr& part : problem.substructures) {
@@ -34,7 +22,7 @@ State initial_state(const Problem& problem, const std::vector<Surface>& surfaces
     LawState start;
     start.gap = surface.initial_gap;
     if (surface.law && surface.law->rubs()) start.status = PointState::open;
-    state.surfaces.push_back({std::vector<LawState>(surface.n_points(), start)});
+    state.surfaces.push_back({std::vector<LawState>(surface.n_points(), start), std::vector<double>(surface.n_points(), 0.0)});
     state.shortening.push_back(0.0);
     state.released.push_back(0);
   }
@@ -170,7 +158,7 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
   model.conditions = make_conditions(problem, step, start);
   model.exchange = make_exchange(problem, in_force, model.conditions);
   std::vector<const Vec*> masses;
-  for (const Body& body : bodies) masses.push_back(&body.matrices->mass);
+  for (const Body& body : bodies) masses.push_back(&body.mass->lumped);
   model.loads = std::make_unique<Loads>(problem, step, start, masses);
   if (step.is_static) {
     std::vector<Points> force;

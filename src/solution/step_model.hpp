@@ -4,14 +4,12 @@
 #include <memory>
 #include <vector>
 
+#include "solution/bodies.hpp"
 #include "solution/loads.hpp"
 #include "solution/piece.hpp"
 #include "solution/state.hpp"
 
 namespace dygita {
-
-// Matrices of every substructure; equal mesh and material share one.
-std::vector<Body> make_bodies(const Problem& problem);
 
 // The undeformed state at rest.
 State initial_state(const Problem& problem, const std::vector<Surface>& surfaces);

@@ -187,7 +187,7 @@ local f = output.resultant{ name = "f", on = { glue, base } })",
   EXPECT_EQ(problem.outputs[1]->srs.per_octave, 24);
   EXPECT_EQ(problem.outputs[2]->on.size(), 2u);
   EXPECT_EQ(problem.outputs[3]->frames, 7);
-  const std::vector<std::string> fields = {"displacement", "velocity", "stress", "von_mises"};
+  const std::vector<std::string> fields = {"displacement", "velocity", "stress", "von_mises", "stress_error"};
   EXPECT_EQ(problem.outputs[3]->fields, fields);
   EXPECT_EQ(problem.outputs[4]->kind, OutputKind::energy);
 }

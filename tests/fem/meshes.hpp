@@ -72,6 +72,14 @@ inline void distort(Mesh& mesh, const Vec3& size, double amplitude) {
 }
 
 // Coordinates of the nodes of a cell.
+// All three cell types, none of them regular, in 1 x 1.2 x 0.9.
+inline Mesh distorted_mixed_box() {
+  const Vec3 size(1.0, 1.2, 0.9);
+  Mesh mesh = mixed_box(size, {4, 3, 3});
+  distort(mesh, size, 0.05);
+  return mesh;
+}
+
 inline CellNodes nodes_of_cell(const Mesh& mesh, const CellBlock& block, int i_cell) {
   CellNodes x(3, nodes_per_cell(block.type));
   for (int a = 0; a < x.cols(); ++a) x.col(a) = mesh.nodes.col(block.cell(i_cell)[a]);

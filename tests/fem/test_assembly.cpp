@@ -13,12 +13,6 @@ namespace {
 
 const Vec3 size(1.0, 1.2, 0.9);
 
-Mesh distorted_mixed_box() {
-  Mesh mesh = mixed_box(size, {4, 3, 3});
-  distort(mesh, size, 0.05);
-  return mesh;
-}
-
 // The plain way: element by element through the public functions and a list of entries.
 Eigen::SparseMatrix<double, Eigen::RowMajor> from_triplets(const Mesh& mesh, const Elastic& material) {
   std::vector<Eigen::Triplet<double>> entries;

@@ -1,0 +1,105 @@
+// Can the step of time and the mesh carry what the loads bring and the spectra ask for? Said with warn().
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/log.hpp"
+#include "model/check.hpp"
+#include "signal/spectrum.hpp"
+
+namespace dygita::check {
+
+namespace {
+
+constexpr double share = 0.95;            // of a load's energy that must be carried
+constexpr double steps_a_period = 10.0;   // a trapezoidal step then turns a wave by 3 % too little each period
+constexpr double cells_a_wavelength = 5;  // a mesh turns it by 7 %
+
+struct Content {
+  double frequency = 0.0;  // Hz
+  std::string of;          // "load.pressure on face 'rod.zmax'"
+  Origin origin;
+};
+
+double load_frequency(const Load& load, const Step& step) {
+  double highest = 0.0;
+  for (const auto& history : load.value) {
+    if (!history || history->is_constant()) continue;
+    const int n = std::clamp(4 * step.n_increments(), 256, 2048);
+    std::vector<double> samples(n + 1);
+    for (int i = 0; i <= n; ++i) samples[i] = history->value(step.duration * i / n);
+    highest = std::max(highest, band_limit(samples, step.duration / n, share));
+  }
+  return highest;
+}
+
+std::string label(const Load& load) {
+  std::string text = std::string("load.") + load_kind_name(load.kind);
+  return load.on.empty() ? text : text + " on " + describe(load.on.front());
+}
+
+std::string in_unit(double frequency) {
+  return frequency < 1e3   ? fmt::format("{:.3g} Hz", frequency)
+         : frequency < 1e6 ? fmt::format("{:.3g} kHz", frequency / 1e3)
+                           : fmt::format("{:.3g} MHz", frequency / 1e6);
+}
+
+// What the step must carry: the highest of its loads, and the spectra asked for.
+std::vector<Content> contents(const Problem& problem, const Step& step) {
+  std::vector<Content> list;
+  for (const LoadPtr& load : step.loads)
+    if (const double f = load_frequency(*load, step); f > 0.0)
+      list.push_back(
+          {f, fmt::format("{:.0f} % of the energy of {} lies below", 100 * share, label(*load)), load->origin});
+  for (const OutputPtr& output : problem.outputs)
+    if (output->kind == OutputKind::srs)
+      list.push_back({output->srs.to, fmt::format("output.srs '{}' asks for", output->name), output->origin});
+  return list;
+}
+
+// Size of a part's cells: the cubic root of their mean volume, m. A bar one cell across is as fine as its slices.
+double cell_size(const Substructure& part) { return std::cbrt(volume(*part.mesh) / part.mesh->n_cells()); }
+
+void say(const Problem& problem, const Content& content, const std::string& text) {
+  const Origin& origin = content.origin.file.empty() ? problem.origin : content.origin;
+  warn(fmt::format("{}problem '{}': {} {}; {}", origin.prefix(), problem.name, content.of, in_unit(content.frequency),
+                   text));
+}
+
+}  // namespace
+
+void resolution(const Problem& problem) {
+  std::vector<double> size;
+  for (const StepPtr& step : problem.steps) {
+    if (step->is_static) continue;
+    const std::vector<Content> all = contents(problem, *step);
+    for (const Content& content : all) {
+      const double steps = 1.0 / (content.frequency * step->dt);
+      if (steps < steps_a_period)
+        say(problem, content,
+            fmt::format("step '{}' makes {:.2g} steps a period there: {:.0f} are wanted, dt = {:.2g} us", step->name,
+                        steps, steps_a_period, 1e6 / (steps_a_period * content.frequency)));
+    }
+    const auto highest = std::max_element(all.begin(), all.end(),
+                                          [](const Content& a, const Content& b) { return a.frequency < b.frequency; });
+    if (highest == all.end()) continue;
+    if (size.empty())
+      for (const SubstructurePtr& part : problem.substructures) size.push_back(cell_size(*part));
+    size_t worst = 0;
+    const auto cells = [&](size_t i) {
+      return problem.substructures[i]->material.s_wave_speed() / highest->frequency / size[i];
+    };
+    for (size_t i = 1; i < size.size(); ++i)
+      if (cells(i) < cells(worst)) worst = i;
+    if (cells(worst) < cells_a_wavelength)
+      say(problem, *highest,
+          fmt::format("the cells of substructure '{}', {:.3g} mm on average, are {:.2g} to the wavelength of shear "
+                      "waves there, {:.3g} mm: {:.0f} "
+                      "are wanted",
+                      problem.substructures[worst]->name, 1e3 * size[worst], cells(worst),
+                      1e3 * cells(worst) * size[worst], cells_a_wavelength));
+  }
+}
+
+}  // namespace dygita::check

@@ -1,0 +1,153 @@
+#include "solution/bodies.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "fem/mass.hpp"
+
+namespace dygita {
+
+namespace {
+
+void take_off(const Target& target, const SubstructurePtr& part, std::vector<char>& marked) {
+  const auto take_off_place = [&](const FaceOrRegion& place) {
+    if (const Face* face = std::get_if<Face>(&place); face && face->part == part)
+      for (const Facet& facet : face->facets())
+        for (int i = 0; i < facet.n_nodes; ++i) marked[facet.nodes[i]] = 0;
+    if (const Region* region = std::get_if<Region>(&place); region && region->part == part)
+      for (const int node : region->nodes) marked[node] = 0;
+  };
+  if (const Face* face = std::get_if<Face>(&target)) take_off_place(*face);
+  if (const Region* region = std::get_if<Region>(&target)) take_off_place(*region);
+  if (const SupportPtr* support = std::get_if<SupportPtr>(&target))
+    for (const FaceOrRegion& place : (*support)->on) take_off_place(place);
+}
+
+// Nodes of a substructure that can do without mass: in contact and in nothing else that counts on it.
+std::vector<char> nodes_in_contact_alone(const Problem& problem, const std::vector<Surface>& surfaces, int i_part) {
+  const SubstructurePtr& part = problem.substructures[i_part];
+  std::vector<char> marked(part->mesh->n_nodes(), 0);
+  if (part->material.damping.stiffness > 0.0) return marked;  // the force at the end of a step would not be symmetric
+  const auto mark = [&](const Surface& surface, char value) {
+    if (surface.part_1 == i_part)
+      for (const int node : surface.facing.nodes_1) marked[node] = value;
+    if (surface.part_2 == i_part)
+      for (const int node : surface.facing.nodes_2) marked[node] = value;
+  };
+  const auto is_contact = [](const Surface& surface) { return surface.law && surface.law->rubs(); };
+  for (const Surface& surface : surfaces)
+    if (is_contact(surface)) mark(surface, 1);
+  for (const Surface& surface : surfaces)
+    if (!is_contact(surface)) mark(surface, 0);
+  for (const StepPtr& step : problem.steps) {
+    for (const SupportPtr& support : supports_of(problem, *step))
+      if (support->kind == SupportKind::absorbing) take_off(support, part, marked);
+    for (const LoadPtr& load : step->loads)
+      if (load->kind == LoadKind::velocity || load->kind == LoadKind::displacement || load->kind == LoadKind::base_acceleration)
+        for (const Target& target : load->on) take_off(target, part, marked);
+  }
+  return marked;
+}
+
+// Both sides of a contact, or none.
+void agree(const std::vector<Surface>& surfaces, std::vector<std::vector<char>>& marked) {
+  for (bool has_changed = true; has_changed;) {
+    has_changed = false;
+    for (const Surface& surface : surfaces) {
+      if (surface.part_1 < 0 || surface.part_2 < 0 || !surface.law || !surface.law->rubs()) continue;
+      for (int i = 0; i < surface.n_points(); ++i) {
+        char& one = marked[surface.part_1][surface.facing.nodes_1[i]];
+        char& two = marked[surface.part_2][surface.facing.nodes_2[i]];
+        if (one == two) continue;
+        one = two = 0;
+        has_changed = true;
+      }
+    }
+  }
+}
+
+// Neighbours of a node that stay, the nearest of them (several where they are as near).
+std::vector<int> nearest_inside(const Mesh& mesh, const SparseMatrix& stiffness, const std::vector<char>& marked, int node) {
+  std::vector<std::pair<double, int>> inside;
+  for (int e = stiffness.outerIndexPtr()[3 * node]; e < stiffness.outerIndexPtr()[3 * node + 1]; e += 3)
+    if (const int other = stiffness.innerIndexPtr()[e] / 3; !marked[other])
+      inside.emplace_back((mesh.nodes.col(other) - mesh.nodes.col(node)).norm(), other);
+  std::vector<int> nearest;
+  if (inside.empty()) return nearest;
+  const double distance = std::min_element(inside.begin(), inside.end())->first;
+  for (const auto& [d, other] : inside)
+    if (d <= (1 + 1e-6) * distance) nearest.push_back(other);
+  return nearest;
+}
+
+// A node with no neighbour to leave its mass to keeps it.
+void keep_where_there_is_no_inside(const Problem& problem, const std::vector<Body>& bodies, const std::vector<Surface>& surfaces,
+                                   std::vector<std::vector<char>>& marked) {
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    const std::vector<char> before = marked[i];
+    for (size_t node = 0; node < before.size(); ++node)
+      if (before[node] &&
+          nearest_inside(*problem.substructures[i]->mesh, bodies[i].matrices->stiffness, before, static_cast<int>(node)).empty())
+        marked[i][node] = 0;
+  }
+  agree(surfaces, marked);
+}
+
+void move_inside(const Mesh& mesh, const SparseMatrix& stiffness, const std::vector<char>& marked, Mass& mass) {
+  const Vec lumped = mass.lumped;
+  for (int node = 0; node < mesh.n_nodes(); ++node) {
+    if (!marked[node]) continue;
+    const std::vector<int> inside = nearest_inside(mesh, stiffness, marked, node);
+    const double share = lumped[node] / static_cast<double>(inside.size());
+    for (const int other : inside) {
+      mass.lumped[other] += share;
+      if (mass.matrix.size() > 0) mass.matrix.coeffRef(other, other) += share;
+    }
+    mass.lumped[node] = 0.0;
+    if (mass.matrix.size() > 0) mass.matrix.coeffRef(node, node) = 0.0;  // its cells are lumped: nothing else in its row
+  }
+}
+
+}  // namespace
+
+std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>& surfaces) {
+  double dt = 0.0;
+  for (const StepPtr& step : problem.steps)
+    if (!step->is_static) dt = dt == 0.0 ? step->dt : std::min(dt, step->dt);
+  std::map<std::tuple<std::string, double, double, double>, Body> known;
+  std::vector<Body> bodies;
+  for (const SubstructurePtr& part : problem.substructures) {
+    const Elastic& m = part->material;
+    Body& body = known[{part->mesh->digest, m.young, m.poisson, m.density}];
+    if (!body.matrices) body.matrices = std::make_shared<const BodyMatrices>(assemble(*part->mesh, m));
+    bodies.push_back({part.get(), body.matrices, nullptr});
+  }
+  std::vector<std::vector<char>> marked(bodies.size());
+  if (problem.mass().is_moved_from_contact && dt > 0.0) {
+    for (size_t i = 0; i < bodies.size(); ++i) marked[i] = nodes_in_contact_alone(problem, surfaces, static_cast<int>(i));
+    agree(surfaces, marked);
+    keep_where_there_is_no_inside(problem, bodies, surfaces, marked);
+  }
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    const Mesh& mesh = *problem.substructures[i]->mesh;
+    const Elastic& m = problem.substructures[i]->material;
+    const bool has_massless = std::find(marked[i].begin(), marked[i].end(), 1) != marked[i].end();
+    Body& equal = known[{mesh.digest, m.young, m.poisson, m.density}];
+    if (!has_massless && equal.mass) {
+      bodies[i].mass = equal.mass;
+      continue;
+    }
+    Mass mass{bodies[i].matrices->mass, {}, {}};
+    if (problem.mass().is_tuned && dt > 0.0) mass.matrix = tuned_mass(mesh, m, dt, has_massless ? marked[i] : std::vector<char>());
+    if (has_massless) {
+      move_inside(mesh, bodies[i].matrices->stiffness, marked[i], mass);
+      mass.is_massless = marked[i];
+    }
+    bodies[i].mass = std::make_shared<const Mass>(std::move(mass));
+    if (!has_massless) equal.mass = bodies[i].mass;
+  }
+  return bodies;
+}
+
+}  // namespace dygita

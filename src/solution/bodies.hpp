@@ -1,0 +1,12 @@
+// The matrices of a problem's substructures.
+#pragma once
+
+#include "solution/piece.hpp"
+#include "solution/surfaces.hpp"
+
+namespace dygita {
+
+// Matrices of every substructure, with the mass that the problem's solver asks for; equal mesh and material share one.
+std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>& surfaces);
+
+}  // namespace dygita
