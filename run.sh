@@ -21,12 +21,14 @@ packages=(
   libgtest-dev            # tests
   libbenchmark-dev        # timings
 )
+report_packages=(python3 python3-numpy python3-matplotlib)  # of ./run.sh report alone
 
 usage() {
   cat <<'END'
 ./run.sh                  install what is missing, build, run decks/bolted_flanges.lua, say which files to open
 ./run.sh test             install what is missing, build, pass the tests
 ./run.sh bench            time the main job by phase, at three mesh sizes, on one thread and two
+./run.sh report [...]     run all verification, rewrite manual/verification.md and its figures (--quick, --only CASE)
 ./run.sh build            install what is missing, build
 ./run.sh run DECK [...]   build if needed, then: dygita run DECK [...]    (--set NAME=VALUE, --out DIR, --threads N)
 ./run.sh help             this
@@ -120,6 +122,14 @@ run_bench() {
   "$build/tests/bench_decks" --benchmark_counters_tabular=true 2> >(grep -v warning >&2) | grep -vE "^(problem|  static|  dynamic|  energy|bolt force)"
 }
 
+run_report() {
+  local python=/usr/bin/python3 # Debian's has the packages; another one in PATH may not
+  [[ -x "$python" ]] || python=python3
+  say "Verification: all cases, figures and tables"
+  (cd "$root" && cmake --build --preset release --target effectivity) || fail "the study of error estimates failed to build"
+  (cd "$root" && "$python" manual/verification/report.py "$@")
+}
+
 run_example() {
   local deck=decks/bolted_flanges.lua results=out/bolted_flanges/base status=0 file
   say "Running $deck"
@@ -154,6 +164,12 @@ main() {
         build) say "Built: $build/dygita" ;;
       esac
       ;;
+    report)
+      packages+=("${report_packages[@]}")
+      install_packages
+      build_engine
+      run_report "$@"
+      ;;
     run)
       (($# > 0)) || fail "'run' needs a deck: ./run.sh run DECK [--set NAME=VALUE ...]"
       [[ -f "$1" ]] || fail "there is no deck '$1' in $PWD"
@@ -162,7 +178,7 @@ main() {
       say "Running $1"
       exec "$build/dygita" run "$@"
       ;;
-    *) fail "unknown command '$command'; known: bench, build, help, run, test" "./run.sh help" ;;
+    *) fail "unknown command '$command'; known: bench, build, help, report, run, test" "./run.sh help" ;;
   esac
 }
 

@@ -77,8 +77,8 @@ words[2] = {
     arguments = {
       name_of "material",
       { "young", type = "number", unit = "Pa", range = { 1e6, 2e12 }, required = true, doc = "Young's modulus" },
-      { "poisson", type = "number", range = { -0.9, 0.499 }, required = true, doc = "Poisson's ratio" },
-      { "density", type = "number", unit = "kg/m^3", range = { 10, 25000 }, required = true, doc = "mass per volume" },
+      { "poisson", type = "number", range = { -0.9, 0.4999 }, required = true, doc = "Poisson's ratio" },
+      { "density", type = "number", unit = "kg/m^3", range = { 10, 100000 }, required = true, doc = "mass per volume" },
       { "damping", type = "number", unit = "s", range = { 0, 0.01 }, default = 0,
         doc = "stiffness-proportional damping, or { mass = (1/s), stiffness = (s) }",
         or_table = {
@@ -306,7 +306,6 @@ words[8] = {
 
 words[9] = {
   name = "solver", doc = "How it is computed. Every parameter has a good default, so most decks write none.",
-  later = { "explicit" },
   {
     "latin", makes = "solver", doc = "The LATIN method.",
     later = { "pieces" },
@@ -343,6 +342,21 @@ words[9] = {
     },
   },
 }
+
+table.insert(words[9], {
+  "explicit", makes = "solver",
+  doc = "The classic explicit code: central differences with lumped mass and penalty contact, in as many equal substeps of each `dt` "
+    .. "as stability asks for. A rival of LATIN and an independent check. Static steps are computed as by solver.monolithic.",
+  arguments = {
+    { "safety", type = "number", range = { 0.01, 2 }, default = 0.9, doc = "substep, of the critical one; above 1 it is unstable" },
+    { "penalty", type = "number", range = { 1e-4, 100 }, default = 0.1,
+      doc = "stiffness of contact, of that of the layer of elements behind it; plastic and releasable interfaces: 1 at least" },
+    { "integration", type = "choice", choices = { "one_point", "full" }, default = "one_point",
+      doc = "of hexahedra; full: the elements of the other solvers" },
+    { "hourglass", type = "number", range = { 0, 1 }, default = 0.1, doc = "stiffness against hourglass modes, one_point only" },
+    { "bulk_viscosity", type = "boolean", default = true, doc = "linear 0.06, quadratic 1.2, against the ringing of fronts" },
+  },
+})
 
 local quantities = { "displacement", "velocity", "acceleration", "stress", "von_mises", "pressure" }
 local fields = { "displacement", "velocity", "stress", "von_mises", "stress_error" }

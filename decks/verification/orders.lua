@@ -3,7 +3,7 @@
 --         free |=====================|--> traction sin^4, for 0.6 T
 --                      bar                                        T = L / c
 --
--- Run        dygita run decks/verification/orders.lua
+-- Run        dygita run decks/verification/orders.lua             --set sizes=4
 -- See        the table on screen
 -- Expect     orders fitted between the two finest (theory 2, but 1 with numerical damping), L2 in space of the displacement
 --            over 20 sections at 0.9 T, of the exact one's: h: hex8 1.97, prism6 1.97, tet4 1.95;
@@ -13,7 +13,7 @@
 --
 -- Exact: u = 1 / (rho c) times the integral of the traction at t - (L - z) / c (nu = 0).
 
-local p = param{ peak = 100*MPa, coarse = 40, fine_dt = 1000, fine_n = 640 }
+local p = param{ peak = 100*MPa, coarse = 40, fine_dt = 1000, fine_n = 640, sizes = 3 }
 
 local E, rho, L, side = 200*GPa, 8000, 50*mm, 5*mm
 local c = math.sqrt(E / rho)
@@ -58,15 +58,20 @@ end
 
 local function series(name, kind, ns, steps, damping)
   local errors = {}
-  for i = 1, 3 do errors[i] = distance(name .. "_" .. i, kind, ns[i], steps[i], damping) end
-  print(("%-22s errors %.3e %.3e %.3e   order: %.3f"):format(
-    name, errors[1], errors[2], errors[3], math.log(errors[2] / errors[3]) / math.log(2)))
+  local shown = {}
+  for i = 1, p.sizes do
+    errors[i] = distance(name .. "_" .. i, kind, ns(i), steps(i), damping)
+    shown[i] = ("%.3e"):format(errors[i])
+  end
+  print(("%-22s errors %s   order: %.3f"):format(
+    name, table.concat(shown, " "), math.log(errors[p.sizes - 1] / errors[p.sizes]) / math.log(2)))
 end
+local function always(value) return function() return value end end
+local function from(value) return function(i) return math.floor(value * 2^(i - 1)) end end
 
-local ns, short = { p.coarse, 2 * p.coarse, 4 * p.coarse }, { p.fine_dt, p.fine_dt, p.fine_dt }
+local ns, short = from(p.coarse), always(p.fine_dt)
 series("h_hex8", "hex8", ns, short, 0)
 series("h_prism6", "prism6", ns, short, 0)
 series("h_tet4", "tet4", ns, short, 0)
-local fine, steps = { p.fine_n, p.fine_n, p.fine_n }, { 30, 60, 120 }
-series("dt_undamped", "hex8", fine, steps, 0)
-series("dt_damped_0.2", "hex8", fine, { 120, 240, 480 }, 0.2)
+series("dt_undamped", "hex8", always(p.fine_n), from(30), 0)
+series("dt_damped_0.2", "hex8", always(p.fine_n), from(120), 0.2)

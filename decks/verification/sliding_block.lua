@@ -12,7 +12,7 @@
 --            within 0.4 % (its sole sticks until the shear has come down)
 -- Read next  patch.lua
 
-local p = param{ mu = 0.5, n = 2, g = 1000, velocity = 0.5 }
+local p = param{ mu = 0.5, n = 2, g = 1000, velocity = 0.5, dt = 1*us }
 
 local side, height = 20*mm, 10*mm
 local steel = material.elastic{ name = "steel", young = 100*GPa, poisson = 0, density = 1000 }
@@ -29,7 +29,7 @@ local function slide(name, velocity, angle, duration)
   local guide = support.symmetry{ name = "guide", on = block:face "ymin" }
   local weight = load.gravity{ z = -p.g * math.cos(angle), x = p.g * math.sin(angle) }
   local settle = step.static{ name = "settle", loads = { load.gravity{ z = -p.g * math.cos(angle) } } }
-  local go = step.dynamic{ name = "go", after = settle, duration = duration, dt = 1*us, loads = { weight } }
+  local go = step.dynamic{ name = "go", after = settle, duration = duration, dt = p.dt, loads = { weight } }
   local way = output.history{ name = "way", on = block:face "zmin", quantity = "displacement", direction = { 1, 0, 0 } }
   local sole = output.joint{ name = "sole", on = floor }
   local result = problem{

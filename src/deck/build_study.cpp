@@ -70,6 +70,17 @@ Held build_monolithic(const Declaration& d) {
   return std::shared_ptr<const MonolithicSettings>(settings);
 }
 
+Held build_explicit(const Declaration& d) {
+  const Arguments& a = d.arguments;
+  auto settings = std::make_shared<ExplicitSettings>();
+  settings->safety = a.number("safety");
+  settings->penalty = a.number("penalty");
+  settings->one_point = a.text("integration") == "one_point";
+  settings->hourglass = a.number("hourglass");
+  settings->bulk_viscosity = a.boolean("bulk_viscosity");
+  return std::shared_ptr<const ExplicitSettings>(settings);
+}
+
 Held build_vtk(const Declaration& d) {
   auto output = std::make_shared<Output>();
   output->name = "vtk";
@@ -139,6 +150,8 @@ Held build_problem(const Declaration& d) {
     const Object& solver = a.object("solver");
     if (std::holds_alternative<std::shared_ptr<const MonolithicSettings>>(solver.held))
       problem->monolithic = *solver.as<std::shared_ptr<const MonolithicSettings>>();
+    else if (std::holds_alternative<std::shared_ptr<const ExplicitSettings>>(solver.held))
+      problem->explicit_dynamics = *solver.as<std::shared_ptr<const ExplicitSettings>>();
     else
       problem->solver = *solver.as<std::shared_ptr<const LatinSettings>>();
   }
@@ -151,7 +164,7 @@ Held build_problem(const Declaration& d) {
 const Builders& study_builders() {
   static const Builders builders = {
       {"step.static", build_static}, {"step.dynamic", build_dynamic},   {"solver.latin", build_latin},
-      {"solver.monolithic", build_monolithic},
+      {"solver.monolithic", build_monolithic}, {"solver.explicit", build_explicit},
       {"output.vtk", build_vtk},     {"output.history", build_history}, {"output.resultant", build_resultant},
       {"output.joint", build_joint}, {"output.srs", build_srs},         {"output.energy", build_energy},
       {"problem", build_problem},

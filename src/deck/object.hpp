@@ -40,7 +40,7 @@ struct Series {
 using Held = std::variant<std::monostate, MeshPtr, std::shared_ptr<const GmshMeshes>, std::shared_ptr<const Elastic>,
                           SubstructurePtr, Face, Region, InterfacePtr, SupportPtr, LoadPtr,
                           std::shared_ptr<const History>, StepPtr, std::shared_ptr<const LatinSettings>,
-                          std::shared_ptr<const MonolithicSettings>, OutputPtr,
+                          std::shared_ptr<const MonolithicSettings>, std::shared_ptr<const ExplicitSettings>, OutputPtr,
                           std::shared_ptr<const Problem>, DeckResultPtr, OutputData, std::shared_ptr<const Series>>;
 
 struct Object {

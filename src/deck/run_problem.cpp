@@ -8,6 +8,7 @@
 
 #include "base/log.hpp"
 #include "latin/latin.hpp"
+#include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
 #include "result/collector.hpp"
 #include "solution/step_model.hpp"
@@ -31,14 +32,23 @@ void summarise(const Problem& problem, const SolverFigures& figures, RunResult& 
   result.n_dofs = figures.n_dofs;
   result.n_interface_unknowns = figures.n_interface_unknowns;
   result.seconds = figures.seconds;
+  result.figures.insert(figures.of_solver.begin(), figures.of_solver.end());
   result.figures["memory of factors and interface operators [MB]"] = figures.factor_bytes / 1e6;
   result.figures["largest difference between the interface gap and the displacements' [m]"] = figures.gap_difference;
 }
 
 // What the scheme takes or gives is the price of dt and mesh at impacts: above a few percent the answer is not to be trusted.
-void warn_of_losses(const RunResult& result) {
+void warn_of_losses(const Problem& problem, const RunResult& result) {
   const double lost = result.figures.at("energy dissipated by the scheme [%]"), gained = result.figures.at("energy created by the scheme [%]");
   const double open = result.figures.at("energy imbalance [%]");
+  if (problem.explicit_dynamics) {
+    if (lost > 5.0)
+      warn(fmt::format("the springs of contact hold up to {:.1f} % of the energy: a larger 'penalty' of solver.explicit lets the sides overlap less", lost));
+    if (const double hourglass = result.figures.at("largest hourglass energy [%]"); hourglass > 10.0)
+      warn(fmt::format("hourglass modes hold up to {:.1f} % of the energy: take smaller elements or integration = \"full\"", hourglass));
+    if (open > 0.5) warn(fmt::format("the energy balance is open by {:.2f} %: take a smaller 'safety' of solver.explicit", open));
+    return;
+  }
   if (lost > 5.0)
     warn(fmt::format("the scheme dissipates {:.1f} % of the energy (impacts; static increments that close a gap): a smaller dt, smaller "
                      "elements or more static increments lose less", lost));
@@ -50,10 +60,10 @@ void warn_of_losses(const RunResult& result) {
 void warn_of_errors(const Problem& problem, const RunResult& result) {
   const auto figure = [&](const char* name) { return result.figures.contains(name) ? result.figures.at(name) : 0.0; };
   const double iteration = figure("error estimate, iteration [%]"), still = figure("error estimate, static, iteration [%]");
-  if (!problem.monolithic && iteration > 1.0 && result.converged)
+  if (!problem.monolithic && !problem.explicit_dynamics && iteration > 1.0 && result.converged)
     warn(fmt::format("the tolerance {:g} leaves about {:.2g} % of error (energy norm) on the shock: {:.1g} would leave 0.1 %",
                      problem.solver.tolerance, iteration, 0.1 * problem.solver.tolerance / iteration));
-  if (!problem.monolithic && still > 1.0 && result.converged)
+  if (!problem.monolithic && !problem.explicit_dynamics && still > 1.0 && result.converged)
     warn(fmt::format("the static tolerance {:g} leaves about {:.2g} % of error (energy norm) in the static steps: {:.1g} would leave 0.1 %",
                      problem.solver.static_tolerance, still, 0.1 * problem.solver.static_tolerance / still));
   if (const double e = figure("error estimate, time step [%]"); e > 30.0)
@@ -64,10 +74,11 @@ void warn_of_errors(const Problem& problem, const RunResult& result) {
       warn(fmt::format("the mesh leaves about {:.2g} % of error (energy norm) {}: smaller cells leave less, 'stress_error' shows where", e, text));
 }
 
-void say_summary(const RunResult& result, const std::filesystem::path& directory, double seconds) {
+void say_summary(const Problem& problem, const RunResult& result, const std::filesystem::path& directory, double seconds) {
   for (const StepSummary& step : result.steps) {
-    std::string line = fmt::format("  {} '{}': {} increments, {:.1f} iterations each, {:.2f} s", step.is_static ? "static" : "dynamic",
-                                   step.name, step.increments, step.increments ? double(step.iterations) / step.increments : 0.0, step.seconds);
+    std::string line = fmt::format("  {} '{}': {} increments, {:.1f} {} each, {:.2f} s", step.is_static ? "static" : "dynamic",
+                                   step.name, step.increments, step.increments ? double(step.iterations) / step.increments : 0.0,
+                                   problem.explicit_dynamics && !step.is_static ? "substeps" : "iterations", step.seconds);
     if (step.increments_not_converged > 0)
       line += fmt::format("; {} NOT CONVERGED (worst indicator {:.1e})", step.increments_not_converged, step.worst_indicator);
     say(line);
@@ -102,7 +113,8 @@ std::shared_ptr<const RunResult> run_problem(const Problem& problem, const RunRe
   }
   Collector collector(problem, sink);
   auto result = std::make_shared<RunResult>();
-  const SolverFigures figures = problem.monolithic
+  const SolverFigures figures = problem.explicit_dynamics ? solve_explicit(problem, collector)
+                                : problem.monolithic
                                     ? solve_monolithic(problem, collector)
                                     : solve(problem, collector, request.start_from ? request.start_from->interface_fields.get() : nullptr);
   result->interface_fields = figures.interface_fields;
@@ -110,13 +122,13 @@ std::shared_ptr<const RunResult> run_problem(const Problem& problem, const RunRe
   collector.finish(*result);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result->seconds["all"] = seconds;
-  warn_of_losses(*result);
+  warn_of_losses(problem, *result);
   warn_of_errors(problem, *result);
   const std::vector<std::string> warnings = take_warnings();
   RunIdentity identity = request.identity;
   identity.threads = omp_get_max_threads();
   if (writer) writer->write_result(problem, *result, identity, warnings);
-  say_summary(*result, writer ? writer->directory() : std::filesystem::path(), seconds);
+  say_summary(problem, *result, writer ? writer->directory() : std::filesystem::path(), seconds);
   return result;
 }
 
@@ -138,6 +150,14 @@ std::string check_report(const Problem& problem) {
   double bytes = 0.0;
   const std::vector<Body> bodies = make_bodies(problem, surfaces);
   for (const StepPtr& step : problem.steps) {
+    if (problem.explicit_dynamics && !step->is_static) {
+      const ExplicitSize size = predict_explicit(problem, *step, surfaces, bodies, state);
+      text += fmt::format("  dynamic step '{}': {} increments of {:.4g} us in {} substeps each (critical time step {:.4g} us), {:.4g} MB\n",
+                          step->name, step->n_increments(), step->dt * 1e6, size.n_substeps, size.critical * 1e6, size.bytes / 1e6);
+      increments += step->n_increments();
+      bytes = std::max(bytes, size.bytes);
+      continue;
+    }
     const StepSize size = predict_step(problem, *step, surfaces, bodies, state);
     text += fmt::format("  {} step '{}': {} increments{}, {} interface unknowns, {:.4g} MB\n", step->is_static ? "static" : "dynamic",
                         step->name, step->n_increments(), step->is_static ? "" : fmt::format(" of {:.4g} us", step->dt * 1e6),

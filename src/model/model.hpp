@@ -140,6 +140,15 @@ struct MonolithicSettings {
   MassSettings mass;
 };
 
+// solver.explicit: central differences with lumped mass, penalty contact.
+struct ExplicitSettings {
+  double safety = 0.9;    // of the critical time step
+  double penalty = 0.1;   // of the stiffness of the layer of elements at an interface
+  bool one_point = true;  // hexahedra: one point and hourglass control; false: the stiffness of the other solvers
+  double hourglass = 0.1;
+  bool bulk_viscosity = true;
+};
+
 enum class OutputKind { vtk, history, resultant, srs, joint, energy };
 const char* output_kind_name(OutputKind kind);
 enum class Quantity { displacement, velocity, acceleration, stress, von_mises, pressure };
@@ -166,8 +175,17 @@ struct Problem : Named {
   LatinSettings solver;
   std::optional<MonolithicSettings> monolithic;  // where set, takes the place of LATIN
 
-  const MassSettings& mass() const { return monolithic ? monolithic->mass : solver.mass; }
-  double numerical_damping() const { return monolithic ? monolithic->numerical_damping : solver.numerical_damping; }
+  std::optional<ExplicitSettings> explicit_dynamics;  // the same
+
+  const char* solver_name() const { return explicit_dynamics ? "explicit" : monolithic ? "monolithic" : "latin"; }
+  MassSettings mass() const {
+    if (explicit_dynamics) return {};
+    return monolithic ? monolithic->mass : solver.mass;
+  }
+  double numerical_damping() const {
+    if (explicit_dynamics) return 0.0;
+    return monolithic ? monolithic->numerical_damping : solver.numerical_damping;
+  }
 };
 
 // Supports in force in a step.

@@ -46,7 +46,7 @@ Json substructures(const Problem& problem, const RunIdentity& identity) {
 }
 
 Json solver(const Problem& problem, const RunIdentity& identity) {
-  Json json = {{"name", problem.monolithic ? "monolithic" : "latin"}};
+  Json json = {{"name", problem.solver_name()}};
   if (!identity.solver.empty()) json["command_line"] = identity.solver;
   return json;
 }

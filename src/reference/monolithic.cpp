@@ -20,14 +20,15 @@ double seconds_since(Clock::time_point t) { return std::chrono::duration<double>
 
 class MonolithicRun {
  public:
-  MonolithicRun(const Problem& problem, StepModel& model, State& state, Observer& observer)
+  MonolithicRun(const Problem& problem, const MonolithicSettings& settings, StepModel& model, State& state,
+                Observer& observer)
       : model_(model),
         state_(state),
         observer_(observer),
         i_step_(index_of(problem.steps, model.step)),
         increment_(increment_of(model.scheme, 0.0)),
         assembly_(model),
-        newton_(model, assembly_, *problem.monolithic) {
+        newton_(model, assembly_, settings) {
     start_step(model, state);
     for (const Point& point : model.exchange.points) records_.push_back(start_point(model, point, state));
     energy_.resize(model.pieces.size());
@@ -207,6 +208,21 @@ void MonolithicRun::add_to(SolverFigures& figures) const {
 
 }  // namespace
 
+void run_monolithic_step(const Problem& problem, const Step& step, const MonolithicSettings& settings,
+                         const std::vector<Surface>& surfaces, const std::vector<Body>& bodies, State& state,
+                         Observer& observer, SolverFigures& figures) {
+  auto start = Clock::now();
+  StepModel model = make_step_model(problem, step, surfaces, bodies, state, true);
+  MonolithicRun run(problem, settings, model, state, observer);
+  figures.seconds["factor"] += seconds_since(start);
+  start = Clock::now();
+  run.run();
+  end_step(model, state);
+  figures.steps.push_back(run.figures());
+  figures.steps.back().seconds = seconds_since(start);
+  run.add_to(figures);
+}
+
 SolverFigures solve_monolithic(const Problem& problem, Observer& observer) {
   CHECK(problem.monolithic, "the problem asks for another solver");
   SolverFigures figures;
@@ -218,16 +234,7 @@ SolverFigures solve_monolithic(const Problem& problem, Observer& observer) {
   figures.seconds["assemble"] = seconds_since(start);
   for (const StepPtr& step : problem.steps) {
     if (interrupt_requested()) break;
-    start = Clock::now();
-    StepModel model = make_step_model(problem, *step, surfaces, bodies, state, true);
-    MonolithicRun run(problem, model, state, observer);
-    figures.seconds["factor"] += seconds_since(start);
-    start = Clock::now();
-    run.run();
-    end_step(model, state);
-    figures.steps.push_back(run.figures());
-    figures.steps.back().seconds = seconds_since(start);
-    run.add_to(figures);
+    run_monolithic_step(problem, *step, *problem.monolithic, surfaces, bodies, state, observer, figures);
   }
   figures.interrupted = interrupt_requested();
   return figures;

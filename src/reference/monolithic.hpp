@@ -12,4 +12,9 @@ namespace dygita {
 // a result.
 SolverFigures solve_monolithic(const Problem& problem, Observer& observer);
 
+// One step of it from `state`, which is then what the step leaves; adds to `figures`.
+void run_monolithic_step(const Problem& problem, const Step& step, const MonolithicSettings& settings,
+                         const std::vector<Surface>& surfaces, const std::vector<Body>& bodies, State& state,
+                         Observer& observer, SolverFigures& figures);
+
 }  // namespace dygita

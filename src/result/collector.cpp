@@ -126,7 +126,7 @@ void add_error_figures(const ErrorEstimator& errors, const Problem& problem, Run
     result.figures["error estimate, static, mesh [%]"] = 100 * e.mesh;
     result.figures["interface constitutive-relation error, static [J]"] = e.interface_energy;
   }
-  if (has(false)) {
+  if (has(false) && !problem.explicit_dynamics) {  // the estimates are of the implicit scheme
     const ErrorEstimator::Estimate e = errors.dynamic_steps();
     result.figures["error estimate, iteration [%]"] = 100 * e.iteration;
     result.figures["error estimate, time step [%]"] = 100 * e.time_step;

@@ -73,7 +73,7 @@ void ErrorEstimator::begin_step(const Instant& start) {
     before_ = so_far.time_step * std::sqrt(std::max(2.0 * kinetic_, 1e-8 * stored_));
     bank_.reset();
   }
-  if (start.is_static()) return;
+  if (start.is_static() || start.fields) return;
   Eigen::Index n = 0;
   for (const auto& piece : start.model.pieces) n += piece->free_mass().size();
   mass_.resize(n);
@@ -109,6 +109,7 @@ void ErrorEstimator::sample_stress(const Instant& instant) {
 
 void ErrorEstimator::accept(const Instant& instant) {
   if (instant.is_static()) return accept_static(instant);
+  if (instant.fields) return;  // another scheme: its errors are others
   dynamic_.interface_energy += instant.interface_energy;
   const Energies& energies = instant.state.energies;
   kinetic_ = std::max(kinetic_, energies.kinetic);

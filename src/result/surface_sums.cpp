@@ -52,7 +52,7 @@ void add_support(Resultant& r, Vec3& tangential, const Instant& instant, const P
       normals = Points::Zero(3, nodes.size());
     }
     const bool is_absorbing = support.kind == SupportKind::absorbing && !instant.is_static();
-    const Points force = is_absorbing ? Points(instant.model.pieces[part]->absorbing_force() + instant.state.anchor[part])
+    const Points force = is_absorbing ? Points(instant.absorbing_force(part) + instant.state.anchor[part])
                                       : instant.reactions(part);
     for (size_t i = 0; i < nodes.size(); ++i) {
       if (!counted.emplace(part, nodes[i]).second) continue;

@@ -90,7 +90,7 @@ class Builder {
     const double dt = step_.dt;
     if (const auto it = start_.base_velocity.find(&support); it != start_.base_velocity.end()) {
       const double speed = it->second.norm();
-      if (speed > 0.0) moves.emplace_back(it->second / speed, add([speed](int) { return speed; }));
+      if (speed > 0.0) moves.emplace_back(it->second / speed, add({[speed](int) { return speed; }, speed}));
     }
     for (const LoadPtr& load : step_.loads) {
       if (load->kind != LoadKind::base_acceleration) continue;
@@ -98,7 +98,7 @@ class Builder {
         const auto* on = std::get_if<SupportPtr>(&target);
         if (!on || on->get() != &support) continue;
         const History history = *load->value[0];
-        moves.emplace_back(load->direction, add([history, dt](int i) { return history.integral(0.0, dt * (i + 1)); }));
+        moves.emplace_back(load->direction, add({[history, dt](int i) { return history.integral(0.0, dt * (i + 1)); }}));
       }
     }
     return moves;
@@ -118,7 +118,7 @@ class Builder {
     }
   }
 
-  std::function<double(int)> motion_of(const Load& load, const Target& target, int axis) const {
+  Motion motion_of(const Load& load, const Target& target, int axis) const {
     const auto reached = start_.reached.find(load_key(load.kind, target, axis));
     const LoadValue value{*load.value[axis], load.is_number[axis], reached == start_.reached.end() ? 0.0 : reached->second};
     const double dt = step_.dt;
@@ -127,22 +127,24 @@ class Builder {
       if (load.kind == LoadKind::velocity)
         throw InputError(load.origin, "load.velocity has no meaning in static step '" + step_.name +
                                           "': a static step has no time; use load.displacement");
-      return [value, n](int i) { return value.at_static(i, n) - value.at_static(i - 1, n); };
+      return {[value, n](int i) { return value.at_static(i, n) - value.at_static(i - 1, n); }};
     }
-    if (load.kind == LoadKind::velocity) return [value, dt](int i) { return value.history.value(dt * (i + 1)); };
+    if (load.kind == LoadKind::velocity) 
+      return {[value, dt](int i) { return value.history.value(dt * (i + 1)); }, value.history.value(0.0)};
     const double start = value.history.value(0.0);
     if (std::abs(start - value.from) > 1e-9 + 1e-6 * std::abs(start))
       warn(fmt::format("{}load.displacement in dynamic step '{}' starts at {:.6g} m where {:.6g} m has been reached: only its changes in the "
                        "step move the nodes; start the history from there, or bring it there in a static step",
                        load.origin.prefix(), step_.name, start, value.from));
     // U is then the two-point mean of the prescribed displacement and nothing alternates (manual, prescribed displacement).
-    return [value, dt](int i) {
-      return (value.history.value(dt * (i + 1.5)) - value.history.value(dt * (i + 0.5))) / dt;
+    const auto mean = [value, dt](double i) {
+      return (value.history.value(dt * (i + 0.5)) - value.history.value(dt * (i - 0.5))) / dt;
     };
+    return {[mean](int i) { return mean(i + 1.0); }, mean(0.5)};
   }
 
-  int add(std::function<double(int)> velocity) {
-    result_.motions.push_back({std::move(velocity)});
+  int add(Motion motion) {
+    result_.motions.push_back(std::move(motion));
     return static_cast<int>(result_.motions.size()) - 1;
   }
 

@@ -14,6 +14,7 @@ namespace dygita {
 struct Motion {
   // Velocity at the end of increment i (m/s; in a static step the displacement of the increment, m).
   std::function<double(int increment)> velocity;
+  double at_start = 0.0;  // m/s, at the start of a dynamic step, for solvers that divide its increments
 };
 
 // Held directions of one node: orthonormal; each moves as a combination of motions (none: it rests).

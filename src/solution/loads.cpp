@@ -119,6 +119,11 @@ void Loads::evaluate(int increment) {
                                       : pattern.value.mean(step_.dt * increment, step_.dt * (increment + 1)));
 }
 
+void Loads::evaluate_mean(double t0, double t1) {
+  values_.clear();
+  for (const LoadPattern& pattern : patterns_) values_.push_back(pattern.value.mean(t0, t1));
+}
+
 void Loads::add_forces(int part, Points& force) const {
   for (size_t i = 0; i < values_.size(); ++i) {
     if (patterns_[i].part != part || values_[i] == 0.0) continue;

@@ -21,6 +21,10 @@ class Loads {
   // Evaluates all loads for an increment: at its end in a static step, mean over it in a dynamic one. One thread only: a history
   // may be a function of the deck.
   void evaluate(int increment);
+  // The same in a dynamic step for the mean over [t0, t1], s from the start of the step.
+  void evaluate_mean(double t0, double t1);
+  const std::vector<LoadPattern>& patterns() const { return patterns_; }
+  const std::vector<double>& values() const { return values_; }  // of each pattern, as last evaluated
   // Adds the forces (3 x n_nodes, N) on a substructure, as last evaluated.
   void add_forces(int part, Points& force) const;
 

@@ -5,6 +5,17 @@
 
 namespace dygita {
 
+// Nodal fields of a solver that does not leave them to the pieces; as the functions of Instant.
+class NodalFields {
+ public:
+  virtual ~NodalFields() = default;
+  virtual Points displacement(int part) const = 0;
+  virtual Points velocity(int part) const = 0;
+  virtual Points acceleration(int part) const = 0;
+  virtual Points reactions(int part) const = 0;
+  virtual Points absorbing_force(int part) const = 0;
+};
+
 struct Instant {
   const StepModel& model;
   const State& state;       // surfaces, energies and time are those of this instant; nodal fields come from the pieces
@@ -14,20 +25,30 @@ struct Instant {
   double indicator = 0.0;
   bool converged = true;
   double interface_energy = 0.0;  // J, constitutive-relation error of the interfaces in this increment (manual, eq. Q1)
+  const NodalFields* fields = nullptr;  // null: the pieces have them
 
   double time() const { return state.time; }
   bool is_static() const { return model.scheme.is_static; }
   // 3 x n_nodes each: m, m/s, m/s^2 (mean over the increment).
-  Points displacement(int part) const { return model.pieces[part]->displacement(); }
+  Points displacement(int part) const {
+    return fields ? fields->displacement(part) : model.pieces[part]->displacement();
+  }
   Points velocity(int part) const {
     // What a static increment calls V is a displacement; the body rests.
     if (is_static()) return Points::Zero(3, model.problem->substructures[part]->mesh->n_nodes());
-    return model.pieces[part]->velocity();
+    return fields ? fields->velocity(part) : model.pieces[part]->velocity();
   }
-  Points acceleration(int part) const { return model.pieces[part]->acceleration(); }
+  Points acceleration(int part) const {
+    return fields ? fields->acceleration(part) : model.pieces[part]->acceleration();
+  }
   // Force (N) on nodes of a substructure from whatever holds or moves them, mean over the increment.
   Points reactions(int part) const {
+    if (fields) return fields->reactions(part);
     return model.pieces[part]->reactions(interface_force(*model.surfaces, state, part));
+  }
+  // Force (N) of absorbing supports beside what they kept of a static step, mean over the increment.
+  Points absorbing_force(int part) const {
+    return fields ? fields->absorbing_force(part) : model.pieces[part]->absorbing_force();
   }
 };
 

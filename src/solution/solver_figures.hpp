@@ -25,6 +25,7 @@ struct SolverFigures {
   long n_dofs = 0, n_interface_unknowns = 0;
   double factor_bytes = 0.0;              // factors and interface operators of the largest step
   double gap_difference = 0.0;            // m, largest between the laws' gaps and the displacements'
+  std::map<std::string, double> of_solver;  // the solver's own, with unit in the name: for the run record
   std::map<std::string, double> seconds;  // by phase: set up, linear, iterate, output
 };
 

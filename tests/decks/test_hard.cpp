@@ -32,7 +32,7 @@ void expect_said(const DeckRun& run) {
 
 TEST(HardImpact, every_extreme_converges_or_says_so_and_creates_nothing) {
   const PrintedRun impact = run_printing("hard/impact.lua");
-  ASSERT_EQ(impact.runs.size(), 25u);
+  ASSERT_EQ(impact.runs.size(), 28u);
   int not_converged = 0;
   for (const DeckRun& run : impact.runs) {
     // v dt / 2 of the first impact, and a thousandth for those that follow.
@@ -42,8 +42,8 @@ TEST(HardImpact, every_extreme_converges_or_says_so_and_creates_nothing) {
   }
   // Measured 3: friction 1000, search directions 1e-3 and 1e3; goal 0.
   EXPECT_LE(not_converged, 3);
-  for (const char* name : {"plain", "friction_5", "stiffer_1e6", "softer_1e6", "denser_2500", "lighter_2500", "cfl_0.1",
-                           "cfl_100", "poisson_0.499", "aspect_flat_100", "aspect_long_100"}) {
+  for (const char* name : {"plain", "friction_5", "stiffer_1e6", "softer_1e6", "denser_1e4", "lighter_1e4", "cfl_0.1",
+                           "cfl_100", "poisson_0.4999", "aspect_flat_100", "aspect_long_100"}) {
     const size_t at = impact.text.find("\n" + std::string(name) + " ");
     ASSERT_NE(at, std::string::npos) << name;
     const std::string line = impact.text.substr(at + 1, impact.text.find('\n', at + 1) - at - 1);
@@ -53,10 +53,10 @@ TEST(HardImpact, every_extreme_converges_or_says_so_and_creates_nothing) {
 
 TEST(HardImpact, a_poisson_s_ratio_beyond_the_range_is_refused_with_the_range) {
   try {
-    run_text(R"(local m = material.elastic{ name = "m", young = 70*GPa, poisson = 0.4999, density = 2700 })");
-    FAIL() << "0.4999 was taken";
+    run_text(R"(local m = material.elastic{ name = "m", young = 70*GPa, poisson = 0.49995, density = 2700 })");
+    FAIL() << "0.49995 was taken";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("[-0.9, 0.499]"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("[-0.9, 0.4999]"), std::string::npos) << error.what();
   }
 }
 

@@ -1,0 +1,235 @@
+"""The exact cases: decks, the sizes they run at, what is measured, and the goals of verification."""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+
+@dataclass
+class Quantity:
+    """A number that a deck prints, and the goal it is held against."""
+
+    label: str                  # in the deck's line
+    name: str                   # in tables
+    unit: str = "%"
+    goal: float = None          # |measured - target| at most this; None: no goal is set
+    target: float = 0.0
+    goal_text: str = None
+    theory: float = None        # order of convergence of theory, held within 0.1
+    plotted: bool = True        # in the figure of error against size
+    fitted: bool = True         # an order is worth fitting
+
+    def missed(self, value):
+        return not abs(value - self.target) <= self.goal * (1 + 1e-12)
+
+    def goal_shown(self):
+        if self.goal_text:
+            return self.goal_text
+        return "none set" if self.goal is None else f"{self.goal:g} {self.unit}".strip()
+
+
+@dataclass
+class Case:
+    number: str                 # in the design's list of exact cases
+    name: str
+    title: str
+    deck: str
+    what: str
+    exact: str
+    knob: str                   # what changes from size to size
+    sizes: list                 # (value of the knob as text, settings)
+    quantities: list
+    goal_at: int = 0            # index of the size at which the goals hold
+    x: list = field(default_factory=list)   # the knob as a number that errors fall with, by default 1/n
+
+    note: str = ""
+    history: str = None         # name of the function of histories.py that draws left of the errors
+
+    def widths(self):
+        return self.x or [1 / float(label) for label, _ in self.sizes]
+
+
+def of_n(*values, **more):
+    return [(f"{n}", {"n": n, **more}) for n in values]
+
+
+def percent(label, name, goal=None, **more):
+    return Quantity(label, name, "%", goal, **more)
+
+
+BOUNCING_BAR = Case(
+    "1", "bouncing_bar", "Bouncing bar", "decks/verification/bouncing_bar.lua",
+    "An elastic bar falls on a rigid wall, bounces twice and is back where it was dropped after 16/3 "
+    "(Doyen, Ern, Piperno 2011). The impacts are what costs: a lumped end node stops at each.",
+    "d'Alembert: in contact for 2 L/c from t = 1 and from t = 11/3, pressure 300 to 500 and 500 to 300, energy kept.",
+    "n", of_n(50, 100, 200, 400), [
+        percent("place until the release", "place until the first release, max of the drop height", 0.5),
+        percent("place after a period", "place after a whole period, of the drop height", 4),
+        percent("place over a period", "place on the way, max of the drop height", None),
+        percent("pressure in impact 1", "pressure in the first impact, rms of its mean", 2),
+        percent("pressure in impact 2", "pressure in the second impact, rms of its mean", 2),
+        Quantity("spells of contact in impact 1", "spells of contact, first impact", "", 0, 1, "1", plotted=False, fitted=False),
+        Quantity("spells of contact in impact 2", "spells of contact, second impact", "", 0, 1, "1", plotted=False, fitted=False),
+        percent("impulse of impact 1", "impulse of the first impact", plotted=False),
+        percent("impulse of impact 2", "impulse of the second impact", plotted=False),
+        percent("energy exchanged", "energy lost to the scheme, of weight x drop", 1),
+    ], 1, history="bouncing_bar",
+    note="dt = 0.5 h/c. Impacts have no order of theory: a front is lost over some cells, and each impact takes the end node's "
+         "share of the mass, of order h. The second impact begins late and with the rounded fronts of the first.")
+
+TWO_BARS = Case(
+    "2", "two_bars", "Two equal bars head on", "decks/verification/two_bars.lua",
+    "Two equal bars meet at 100 m/s each, turn all their motion into strain at L/c, and part at 2 L/c.",
+    "stress -rho c v = -100 MPa for 2 L/c = 2 us, then none; at 1 us the strain energy is all there is.",
+    "n", of_n(50, 100, 200, 400), [
+        percent("rms error", "stress, rms over the contact but 5 % at each end", 1),
+        percent("the same, max error", "stress, max over the same", 1),
+        Quantity("release, steps late", "release, steps late", "steps", 2, plotted=False, fitted=False),
+        Quantity("spells of contact", "spells of contact", "", 0, 1, "1", plotted=False, fitted=False),
+        percent("strain energy at L / c", "strain energy at L/c, of all", plotted=False, fitted=False),
+        percent("energy exchanged", "energy lost to the scheme, of all"),
+    ], 1, history="two_bars", note="dt = 0.5 h/c. With `--set cfl=1` the release is 2 steps late.")
+
+UNEQUAL_BARS = Case(
+    "3", "unequal_bars", "Unequal bars", "decks/verification/unequal_bars.lua",
+    "A short stiff bar runs into a long soft one: the contact force ends in stages.",
+    "characteristics: v Z1 Z2/(Z1 + Z2) = 105.4 MPa for 2 T, a third of it for 2 T, a ninth for T, then free.",
+    "n", of_n(20, 40, 80, 160), [
+        percent("stress on the plateaus", "stress on the plateaus, rms of the first"),
+        Quantity("release, part of T late", "release, part of T late", "T", plotted=True),
+        percent("momentum of the right bar", "momentum of the right bar", plotted=False, fitted=False),
+    ], 1, history="unequal_bars", note="n cells a transit T of the short bar, dt = 0.5 T/n.")
+
+YIELDING = Case(
+    "4", "yielding_interface", "Wave through a yielding interface", "decks/verification/yielding_interface.lua",
+    "A tension step of 200 MPa meets an interface that yields at 120 MPa, without hardening and with 5 MPa/um.",
+    "without hardening the yield stress gets through, and it opens at 2 (s - yield)/(rho c); with h the stress is "
+    "s - (s - yield) exp(-2 h t/(rho c)).",
+    "n", of_n(30, 60, 120, 240), [
+        percent("perfect: stress", "transmitted stress, perfect, max", 0.5, plotted=False, fitted=False),
+        percent("perfect: opening", "opening at the end, perfect"),
+        percent("hardening: the same, rms", "transmitted stress, hardening, rms of the incident"),
+        percent("hardening: opening", "opening at the end, hardening"),
+    ], 1, history="yielding_interface", note="dt = 0.5 h/c. What is left is the front, which is not sharp.")
+
+ROD = Case(
+    "5", "rod_in_sleeve", "Prestressed rod in a sleeve", "decks/verification/rod_in_sleeve.lua",
+    "A rod is tightened in a sleeve, pulled to below and to beyond separation, let go, and left alone for 200 steps.",
+    "springs: F = d/(1/k_r + 1/k_s); it carries F + P k_r/(k_r + k_s), beyond separation all of P, then F again.",
+    "head stiffness (GPa)", [(f"{head}", {"head": f"{head}*GPa"}) for head in (2, 20, 200, 2000)], [
+        Quantity("force tightened", "force tightened", "", 1e-6),
+        Quantity("share of a pull below", "share of a pull below separation", "", 1e-6),
+        Quantity("all of a pull beyond", "all of a pull beyond separation", "", 1e-6, fitted=False),
+        Quantity("force after the pull", "force after the pull", "", 1e-6),
+        Quantity("open area beyond", "open area beyond separation, of all", "", 1e-9, 1, "1", plotted=False, fitted=False),
+        Quantity("velocity left alone", "velocity left alone, of wave speed x strain", "", 1e-6, fitted=False),
+    ], 3, x=[20e6 / (head * 1e9) for head in (2, 20, 200, 2000)],
+    note="The exact solution has rigid heads; the bars are exact at any mesh, so the error that is left is the heads', of first "
+         "order in their compliance. Static tolerance 1e-12.")
+
+SLIDING = Case(
+    "6", "sliding_block", "Sliding block", "decks/verification/sliding_block.lua",
+    "A block thrown along a rough wall stops; on an incline it stays below the angle of friction and slides above it.",
+    "Coulomb: stops after v^2/(2 mu g), all kinetic energy goes into friction; slides g (sin - mu cos) t^2/2 beyond tan = mu.",
+    "n", [(f"{n}", {"n": n, "dt": f"{2 / n}*us"}) for n in (1, 2, 4, 8)], [
+        percent("thrown: distance", "way to stop", fitted=False),
+        percent("thrown: work of friction", "work of friction", fitted=False),
+        percent("shallow: way", "way on a shallow incline, of that without friction", fitted=False),
+        percent("steep: way", "way on a steep incline", fitted=False),
+    ], 1, note="dt = 2/n us. The block is elastic: on the shallow incline it leans, on the steep one its sole "
+    "sticks until the shear has come down, so these two do not fall with the mesh.")
+
+PATCH = Case(
+    "7", "patch", "Patch tests", "decks/verification/patch.lua",
+    "A constant stress (three pressures; with shear too) passes through two distorted blocks that are bonded or in closed "
+    "contact, in a static step and at rest in a dynamic one; hexahedra, prisms and tetrahedra, 12 runs.",
+    "the stress is the same everywhere, displacements are linear.",
+    "tolerance", [(t, {"tolerance": t}) for t in ("1e-7", "1e-9", "1e-11", "1e-13")], [
+        Quantity("largest error of all", "largest error of stress and displacement, 12 runs", "", 1e-10),
+        Quantity("hex8_contact_shear, velocity", "velocity at rest of c x strain, hex8, contact and shear", "", 1e-10),
+    ], 3, x=[1e-7, 1e-9, 1e-11, 1e-13])
+
+BONDED = Case(
+    "8", "bonded_is_monolithic", "Bonded is monolithic", "decks/verification/bonded_is_monolithic.lua",
+    "A block cut into 2, 8 and 36 bonded pieces against the uncut one: a static step, then 40 steps of a pulse.",
+    "the uncut body, at every instant and 27 nodes.",
+    "tolerance", [(t, {"tolerance": t}) for t in ("1e-4", "1e-6", "1e-8", "1e-10")], [
+        Quantity("1x1x2 pieces", "displacement, 2 pieces, max of the largest", "", 1e-6),
+        Quantity("2x2x2 pieces", "displacement, 8 pieces", "", 1e-6),
+        Quantity("3x3x4 pieces", "displacement, 36 pieces", "", 1e-6),
+    ], 3, x=[1e-4, 1e-6, 1e-8, 1e-10])
+
+SPECTRUM = Case(
+    "10", "spectrum", "Shock response spectrum", "decks/verification/spectrum.lua",
+    "The spectrum of a half-sine of 1 g and 11 ms, from a shaken base: Q = 10, 10 to 1000 Hz.",
+    "the oscillator's response in closed form: 0.4052, 0.7831, 1.3615, 1.6483 g at 10, 20, 40, 80 Hz, 1.6516 g at 75 Hz.",
+    "dt (ms)", [(f"{dt}", {"dt": f"{dt}*ms"}) for dt in (0.4, 0.2, 0.1, 0.05)], [
+        percent("maximax over the spectrum", "maximax, largest error over 10 to 1000 Hz", 0.05,
+                goal_text="0.05 % (four digits of the table)"),
+    ], 3, x=[0.4, 0.2, 0.1, 0.05], history="spectrum")
+
+CASES = [BOUNCING_BAR, TWO_BARS, UNEQUAL_BARS, YIELDING, ROD, SLIDING, PATCH, BONDED, SPECTRUM]
+
+SERIES = {  # of decks/verification/orders.lua: name in its lines -> (name in tables, theory, sizes, what x is)
+    "h_hex8": ("h, hexahedra", 2, [40, 80, 160, 320], "n"),
+    "h_prism6": ("h, prisms", 2, [40, 80, 160, 320], "n"),
+    "h_tet4": ("h, tetrahedra", 2, [40, 80, 160, 320], "n"),
+    "dt_undamped": ("dt, no damping", 2, [30, 60, 120, 240], "steps"),
+    "dt_damped_0.2": ("dt, numerical damping 0.2", 1, [120, 240, 480, 960], "steps"),
+}
+
+
+@dataclass
+class Measured:
+    """A case at all its sizes."""
+
+    case: Case
+    runs: list
+    values: list                # by quantity, by size
+
+    def at_goal(self, i_quantity):
+        return self.values[i_quantity][self.case.goal_at]
+
+    def order(self, i_quantity):
+        """Slope of log error over log width, by least squares; None where nothing is to fit."""
+        quantity, values = self.case.quantities[i_quantity], self.values[i_quantity]
+        return fitted_order(self.case.widths(), values) if quantity.fitted else None
+
+
+def fitted_order(widths, errors):
+    """Least squares in logarithms; None with fewer than three errors that are not zero."""
+    points = [(math.log(x), math.log(abs(e))) for x, e in zip(widths, errors) if e != 0 and math.isfinite(e)]
+    if len(points) < 3:
+        return None
+    x, y = np.array(points).T
+    return float(np.polyfit(x, y, 1)[0])
+
+
+def measure(case, program, say):
+    """Runs the case at every size."""
+    runs, values = [], [[] for _ in case.quantities]
+    for label, settings in case.sizes:
+        say(f"  {case.name}: {case.knob} = {label}")
+        run = program.run(case.deck, settings)
+        if run.exit_code != 0:
+            say(f"    exit code {run.exit_code}: {run.text.strip().splitlines()[-1:]}")
+        runs.append(run)
+        for of_quantity, quantity in zip(values, case.quantities):
+            try:
+                of_quantity.append(run.number(quantity.label))
+            except KeyError:
+                of_quantity.append(math.nan)
+    return Measured(case, runs, values)
+
+
+def measure_orders(program, say):
+    """Errors of each series of orders.lua and the fitted order: name -> (errors, order)."""
+    say("  orders: h for hexahedra, prisms, tetrahedra; dt")
+    run = program.run("decks/verification/orders.lua", {"sizes": 4, "fine_dt": 2000, "fine_n": 1280})
+    found = {}
+    for series, (_, _, sizes, _) in SERIES.items():
+        lines = [line for line in run.text.splitlines() if line.startswith(series + " ")]
+        errors = [float(word) for word in lines[0].split("errors")[1].split("order")[0].split()]
+        found[series] = (errors, fitted_order([1 / n for n in sizes], errors))
+    return run, found

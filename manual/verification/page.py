@@ -1,0 +1,95 @@
+"""The chapter verification.md from its parts."""
+
+import effectivity
+import exact_pages
+import hard
+import speed
+
+
+def table(heads, rows):
+    lines = ["| " + " | ".join(heads) + " |", "| " + " | ".join("---" for _ in heads) + " |"]
+    return "\n".join(lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows])
+
+
+def picture(name, words):
+    return f"![{words}](verification/{name}.svg)"
+
+
+def opening(summary, machine, quick):
+    missed = sum("MISSED" in row[-1] for row in summary)
+    goals = sum(row[-1] != "no goal" for row in summary)
+    return f"""# Verification
+
+Written by `./run.sh report`{" (quick version: fewer sizes and runs)" if quick else ""}; every number and every figure below is of that one run.
+{machine}
+
+Of {goals} goals {goals - missed} are met and {missed} missed. *Measured* is at the size the goal holds for (bold in the tables further down), *order* is the
+slope of log error over log size over all sizes, by least squares. Errors of exact cases are against the exact solution, in the norm
+that the row names. Goals are those of the project's design; where it sets none the row says so.
+
+{table(exact_pages.HEADS, summary)}
+
+Not there yet: Hertz and Cattaneo-Mindlin (case 9 of the design, needs quadratic faces or far finer meshes) and the measured
+Brake-Reuss beam (case 12).
+
+Contents: [Exact cases](#exact-cases) · [Hard cases](#hard-cases) · [Speed against error](#speed-against-error) ·
+[Error estimates](#error-estimates)
+"""
+
+
+def exact_section(done, orders_rows):
+    parts = ["## Exact cases\n\nGrey is exact, blue computed."]
+    for measured in done:
+        case = measured.case
+        heads, rows = exact_pages.size_table(measured)
+        parts.append("\n\n".join(filter(None, [
+            f"### {case.number} {case.title}", f"{case.what} `{case.deck}`", f"*Exact:* {case.exact}",
+            picture(case.name, case.title), table(heads, rows), case.note])))
+    if orders_rows:
+        heads = ["series", "size", "1", "2", "3", "4", "order"]
+        parts.append("\n\n".join([
+            "### 11 Order of convergence", "A smooth pulse (sin^4) runs along a bar; relative L2 error of the displacement over 20 sections "
+            "at 0.9 L/c. `decks/verification/orders.lua`", "*Exact:* d'Alembert. *Theory:* 2 in h and dt, 1 in dt with numerical damping.",
+            picture("orders", "Orders of convergence"), table(heads, orders_rows)]))
+    return "\n\n".join(parts)
+
+
+def hard_section(outcomes):
+    n_missed = sum(bool(o.complaints) for o in outcomes)
+    said = sum(o.said.startswith("says") for o in outcomes)
+    return "\n\n".join([
+        "## Hard cases", "Each must converge or say that it did not (exit code 1), and never return a number that is none, create more than "
+        f"{hard.CREATED_GOAL} % of energy, hang, or penetrate more than v dt/2 of its fastest impact. Of {len(outcomes)} variants "
+        f"{len(outcomes) - n_missed} do and {n_missed} do not; {said} say that some steps did not converge. Decks are in `decks/hard/`.",
+        picture("hard", "Hard cases: iterations, energy created, penetration"),
+        "*Red:* a goal is missed. *Orange:* met, and the run says that it did not converge. Energy below 1e-6 % is drawn there.",
+        table(hard.HEADS, hard.rows(outcomes))])
+
+
+def speed_section(done):
+    parts = ["## Speed against error", "Every solver and knob on the same machine in one run, one thread each: seconds of computation (all phases of "
+             "run.json but the output; the median of three where under one second) against the relative L2 error in time of what one would look at. "
+             "*mesh*: cells and dt together; *dt* alone; *tolerance* of the iteration; *window*: steps iterated together (1, 5, 20); explicit: part of "
+             "the critical step (*safety*) and stiffness of contact (*penalty*). Tables: the cheapest setting that reaches an error; `-`: none of "
+             "those tried does. All runs are in [speed.csv](verification/speed.csv)."]
+    for scene, rows, told in done:
+        parts += [f"### {scene.title}", f"`{scene.deck}`. {told}", picture(f"speed_{scene.name}", scene.title),
+                  f"{speed.against_latin(rows)} {scene.why}"]
+        for panel, quantity in enumerate(scene.quantities):
+            heads, cells = speed.cheapest(rows, panel)
+            parts.append(table([quantity] + heads[1:], cells))
+        failed = [f"{r.solver} {r.knob} {r.value} (exit code {r.exit_code})" for r in rows if r.exit_code != 0]
+        if failed:
+            parts.append("Not converged or failed: " + ", ".join(failed) + ".")
+    return "\n\n".join(parts)
+
+
+def estimates_section(rows):
+    parts = ["## Error estimates", "Every run estimates its own errors (`figures` in run.json, the lines *estimated errors*). Here they are held "
+             "against true ones in the same norm (energy, worst instant): of the iteration against a tolerance of 1e-11, of the step of time against dt/16, "
+             "of the mesh against cells 8 times shorter."]
+    if rows is None:
+        return "\n\n".join(parts + ["This program has none, or its study was not built."])
+    return "\n\n".join(parts + [effectivity.worst(rows), picture("effectivity", "Estimated against true errors"),
+                                "Grey: estimated as it is. Above it an estimate is on the safe side.",
+                                table(effectivity.HEADS, effectivity.shown(rows))])

@@ -1,0 +1,203 @@
+"""Speed against error: every solver and knob on the scenes, as a table of runs, figures and the cheapest settings."""
+
+import csv
+import math
+from dataclasses import dataclass
+
+import figures
+from exact_pages import number
+from scenes import SCENES, TOLERANCES, WINDOWS
+
+ESTIMATES = [f"error estimate, {what} [%]" for what in ("iteration", "time step", "mesh")]   # figures of run.json
+LEVELS = [0.10, 0.03, 0.01, 0.003]
+LINES = {"mesh": "-", "dt": "--", "tolerance": ":", "window": "-.", "safety": "--", "penalty": ":"}
+COLOUR = {"latin": "#0b5394", "monolithic": "#c75b12", "explicit one_point": "#2e7d32", "explicit full": "#8e24aa"}
+
+
+@dataclass
+class Row:
+    """One run: what was set, what it cost, how far off it is."""
+
+    scene: str
+    solver: str         # "explicit one_point" is solver.explicit with that integration
+    knob: str
+    value: str
+    settings: str
+    option: str         # of --solver
+    exit_code: int
+    dofs: int = None
+    steps: int = None
+    iterations: int = None
+    seconds: float = None
+    errors: tuple = (math.nan, math.nan)
+    estimates: dict = None
+
+
+def curves(scene, solvers, quick):
+    """[(solver, knob, [(value, settings, --solver)])] of a scene for the solvers that the program has."""
+    def every(values):
+        return values[1:-1] if quick else values
+
+    found = [("latin", "mesh", [(v, s, "latin") for v, s in every(scene.mesh)]),
+             ("latin", "dt", [(v, s, "latin") for v, s in every(scene.dt)])]
+    if "option" in solvers:
+        found += [("latin", "tolerance", [(t, scene.base, f"latin{{ tolerance = {t} }}") for t in every(TOLERANCES)]),
+                  ("latin", "window", [(w, scene.base, f"latin{{ window = {w} }}") for w in WINDOWS])]
+    if "monolithic" in solvers:
+        found += [("monolithic", "mesh", [(v, s, "monolithic") for v, s in every(scene.mesh)]),
+                  ("monolithic", "dt", [(v, s, "monolithic") for v, s in every(scene.dt)])]
+    if "explicit" in solvers:
+        found += [("explicit one_point", "mesh", [(v, s, "explicit") for v, s in every(scene.mesh)]),
+                  ("explicit one_point", "safety", [(v, scene.base, f"explicit{{ safety = {v} }}") for v in ("0.9", "0.45", "0.2")]),
+                  ("explicit one_point", "penalty", [(v, scene.base, f"explicit{{ penalty = {v} }}") for v in ("0.01", "0.1", "1")]),
+                  ("explicit full", "mesh", [(v, s, 'explicit{ integration = "full" }') for v, s in every(scene.mesh)])]
+    return found
+
+
+def reference_run(scene, program, quick, say):
+    """The run that errors are taken against, how far the next coarser one is off, and a sentence on it; None where exact."""
+    if scene.exact:
+        return None, None, "Errors are against the exact solution."
+    fine, coarser = scene.quick_reference if quick else scene.reference
+    runs = []
+    for settings in (fine, coarser):
+        say(f"  {scene.name}: reference {settings}")
+        runs.append(program.run(scene.deck, settings, "monolithic" if program.takes_solver else None, threads=2))
+    off = scene.errors(runs[1], runs[0])
+    told = ", ".join(f"{k} = {v}" for k, v in fine.items())
+    before = ", ".join(f"{k} = {v}" for k, v in coarser.items())
+    return runs[0], off, (f"Errors are against solver.monolithic with {told}; the next coarser one ({before}) differs from it by "
+                     f"{number(100 * off[0])} % in the {scene.quantities[0]} and {number(100 * off[1])} % in the {scene.quantities[1]}: "
+                     "errors below that (grey band) say little.")
+
+
+def measure(scene, program, solvers, reference, quick, say):
+    """All runs of a scene."""
+    rows = []
+    for solver, knob, points in curves(scene, solvers, quick):
+        say(f"  {scene.name}: {solver}, {knob}")
+        for value, settings, option in points:
+            told = " ".join(f"{k}={v}" for k, v in settings.items())
+            run, cost = program.timed(scene.deck, settings, option if program.takes_solver else None, limit=240)
+            row = Row(scene.name, solver, knob, value, told, option, run.exit_code)
+            if run.cases and run.exit_code in (0, 1):
+                record = run.record()
+                row.dofs, row.seconds = record["size"]["dofs"], cost
+                row.steps = sum(step["increments"] for step in record["steps"])
+                row.iterations = record["iterations"]["all"]
+                row.estimates = {k: v for k, v in record["figures"].items() if k.startswith("error estimate")}
+                row.errors = scene.errors(run, reference)
+            else:
+                say(f"    {value}: exit code {run.exit_code}: {run.text.strip().splitlines()[-1:]}")
+            rows.append(row)
+    return rows
+
+
+def write_csv(path, rows):
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["scene", "solver", "knob", "value", "settings", "solver option", "exit code", "dof", "steps", "iterations",
+                         "seconds", "error", "error 2", *ESTIMATES])
+        for r in rows:
+            writer.writerow([r.scene, r.solver, r.knob, r.value, r.settings, r.option, r.exit_code, r.dofs, r.steps, r.iterations,
+                             "" if r.seconds is None else f"{r.seconds:.4g}", *(f"{e:.5g}" for e in r.errors),
+                             *("" if name not in (r.estimates or {}) else f"{r.estimates[name]:.4g}" for name in ESTIMATES)])
+
+
+def figure(scene, rows, floors):
+    """Error against seconds for both quantities; colour tells the solver, the line the knob; names at the curves' ends.
+
+    `floors` are the errors of the reference, drawn as a grey band, or None where the solution is exact.
+    """
+    fig, axes = figures.plt.subplots(1, 2, figsize=(9.4, 3.9))
+    fig.subplots_adjust(wspace=0.62)
+    for panel, a in enumerate(axes):
+        ends = []
+        for solver, knob in dict.fromkeys((r.solver, r.knob) for r in rows):
+            points = [(r.seconds, r.errors[panel]) for r in rows if (r.solver, r.knob) == (solver, knob)
+                      and r.seconds and math.isfinite(r.errors[panel]) and r.errors[panel] > 0]
+            if not points:
+                continue
+            colour = COLOUR.get(solver, "#555555")
+            a.loglog(*zip(*points), LINES.get(knob, "-"), color=colour, marker="o", markersize=3.5)
+            ends.append((*max(points), f"{solver}, {knob}", colour))
+        a.set_title(f"relative error: {scene.quantities[panel]}")
+        a.set_xlabel("seconds of computation, one thread")
+        percent_axis(a)
+        if floors and floors[panel] > a.get_ylim()[0]:
+            a.axhspan(a.get_ylim()[0], floors[panel], color="#e9e9e9", zorder=0)
+        a.figure.canvas.draw()
+        to_the_right(a, ends)
+    return fig
+
+
+def percent_axis(axes):
+    """Errors in percent at 1, 3, 10, 30 ..., from one of them to another."""
+    ticks = [mantissa * 10.0**k for k in range(-8, 3) for mantissa in (1, 3)]
+    low, high = axes.get_ylim()
+    low, high = max(t for t in ticks if t <= low), min((t for t in ticks if t >= high), default=high)
+    axes.set_ylim(low, high)
+    axes.set_yticks([t for t in ticks if low <= t <= high], [f"{100 * t:g} %" for t in ticks if low <= t <= high])
+    axes.minorticks_off()
+
+
+def to_the_right(axes, ends):
+    """Names in a column right of the axes with thin leaders, in the order of the curves' ends."""
+    right = axes.get_xlim()[1]
+    low, high = axes.get_ylim()
+    height = axes.get_position().height * axes.figure.get_figheight() * 72
+    at = [(math.log(y / low) / math.log(high / low) * height, x, y, text, colour) for x, y, text, colour in sorted(ends, key=lambda e: e[1])]
+    spots, last = [], -1e9
+    for want, *_ in at:
+        last = max(want, last + 10)
+        spots.append(last)
+    spots = [spot - max(0.0, (spots[-1] if spots else 0) - height) for spot in spots]
+    for i in range(len(spots) - 2, -1, -1):
+        spots[i] = min(spots[i], spots[i + 1] - 10)
+    for spot, (_, x, y, text, colour) in zip(spots, at):
+        y_text = math.exp(math.log(low) + spot / height * math.log(high / low))
+        axes.annotate(text, (x, y), xytext=(right * 1.12, y_text), textcoords="data", color=colour, fontsize=7.5, va="center",
+                      annotation_clip=False, arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.5, "shrinkA": 0, "shrinkB": 3})
+
+
+def cheapest(rows, panel):
+    """A row a solver: the cheapest setting that reaches each level, in seconds and as it is set."""
+    table = []
+    for solver in dict.fromkeys(r.solver for r in rows):
+        cells = [solver]
+        for level in LEVELS:
+            good = [r for r in rows if r.solver == solver and r.seconds and r.errors[panel] <= level]
+            best = min(good, key=lambda r: r.seconds) if good else None
+            cells.append("-" if best is None else f"{number(best.seconds, 2)} s ({best.knob} {best.value})")
+        table.append(cells)
+    return ["solver"] + [f"{100 * level:g} %" for level in LEVELS], table
+
+
+def against_latin(rows):
+    """How other solvers' seconds compare with latin's at the same settings, the mesh knob."""
+    told, cost = [], {(r.solver, r.settings): r.seconds for r in rows if r.knob == "mesh" and r.seconds}
+    for solver in dict.fromkeys(solver for solver, _ in cost if solver != "latin"):
+        ratios = [s / cost["latin", key] for (name, key), s in cost.items() if name == solver and ("latin", key) in cost]
+        told.append(f"{solver} {number(min(ratios), 2)} to {number(max(ratios), 2)}")
+    return "Seconds over those of latin at the same meshes and dt: " + "; ".join(told) + "." if told else ""
+
+
+def known_solvers(program):
+    """Which of the solvers and options this program has."""
+    found = {name for name in ("monolithic", "explicit") if program.has_solver(name)}
+    return found | ({"option"} if program.takes_solver else set())
+
+
+def scenes(program, folder, say, quick=False, only=None):
+    """Runs every scene: [(Scene, rows, sentence on the reference)], and writes figures and speed.csv."""
+    solvers, done = known_solvers(program), []
+    for scene in SCENES:
+        if only and scene.name != only:
+            continue
+        reference, floors, told = reference_run(scene, program, quick, say)
+        rows = measure(scene, program, solvers, reference, quick, say)
+        figures.save(figure(scene, rows, floors), folder / f"speed_{scene.name}.svg")
+        done.append((scene, rows, told))
+    if not only:
+        write_csv(folder / "speed.csv", [row for _, rows, _ in done for row in rows])
+    return done

@@ -1,0 +1,292 @@
+#include "reference/explicit_run.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/progress.hpp"
+
+namespace dygita {
+
+namespace {
+
+// Energy from nowhere, of all that was ever put in: beyond it the step is unstable, not merely coarse.
+constexpr double unstable = 1.0;
+
+}  // namespace
+
+std::vector<char> tied_surfaces(const StepModel& model, const State& start) {
+  std::vector<char> is_tied;
+  for (size_t s = 0; s < model.surfaces->size(); ++s) {
+    const Interface* interface = (*model.surfaces)[s].interface;
+    is_tied.push_back(interface && interface->kind == InterfaceKind::bonded && !start.released[s] &&
+                      !model.loads->is_released(interface, model.step->n_increments() - 1));
+  }
+  return is_tied;
+}
+
+namespace {
+
+std::vector<PointRecord> start_records(const StepModel& model, const State& state) {
+  std::vector<PointRecord> records;
+  for (const Point& point : model.exchange.points) records.push_back(start_point(model, point, state));
+  return records;
+}
+
+}  // namespace
+
+ExplicitRun::ExplicitRun(StepModel& model, const std::vector<Body>& bodies, InternalForce& internal,
+                         const ExplicitMemory& memory, State& state, Observer& observer)
+    : model_(model),
+      internal_(internal),
+      state_(state),
+      observer_(observer),
+      i_step_(index_of(model.problem->steps, model.step)),
+      records_(start_records(model, state)),
+      springs_(model, records_, tied_surfaces(model, state), internal),
+      shared_(model, tied_surfaces(model, state), internal) {
+  start(bodies, memory);
+  find_substeps();
+  collect_loads();
+  internal_.start_from(moved_);
+  evaluate_forces(substep_, true);
+  cells_ = {};
+  spring_energy_ = springs_.energy();
+  observer_.begin_step(instant(-1));
+}
+
+void ExplicitRun::start(const std::vector<Body>& bodies, const ExplicitMemory& memory) {
+  const int n = internal_.n_dofs();
+  moved_ = Vec::Zero(n);
+  velocity_.resize(n);
+  prestress_ = memory.internal;
+  if (prestress_.size() == 0) prestress_.resize(n);
+  mass_.resize(n);
+  base_external_.resize(n);
+  for (int part = 0; part < internal_.n_parts(); ++part) {
+    const int first = internal_.first(part), size = internal_.first(part + 1) - first;
+    const Eigen::Map<const Vec> displacement(state_.displacement[part].data(), size);
+    if (memory.internal.size() == 0) prestress_.segment(first, size) = bodies[part].matrices->stiffness * displacement;
+    velocity_.segment(first, size) = Eigen::Map<const Vec>(state_.velocity[part].data(), size);
+    base_external_.segment(first, size) = Eigen::Map<const Vec>(state_.anchor[part].data(), size);
+    for (int i = 0; i < size; ++i) mass_[first + i] = bodies[part].matrices->mass[i / 3];
+  }
+  base_external_ -= prestress_;
+  inverse_mass_ = mass_.cwiseInverse();
+  for (int i = 0; i < n; ++i)
+    if (shared_.is_shared(i)) inverse_mass_[i] = 0.0;
+  shared_.average(velocity_);
+  find_mass_damping(bodies);
+  for (const Motion& motion : model_.conditions.motions) motions_new_.push_back(motion.at_start);
+  start_strain_ = state_.energies.strain;
+  supplied_ = state_.energies.kinetic + state_.energies.strain;
+}
+
+void ExplicitRun::find_mass_damping(const std::vector<Body>& bodies) {
+  Vec damping(internal_.n_dofs());
+  for (int part = 0; part < internal_.n_parts(); ++part)
+    damping.segment(internal_.first(part), internal_.first(part + 1) - internal_.first(part))
+        .setConstant(bodies[part].part->material.damping.mass);
+  if (damping.isZero(0.0)) return;
+  shared_.average(damping);
+  mass_damping_ = damping;
+}
+
+void ExplicitRun::find_substeps() {
+  const double frequency = highest_frequency(internal_, springs_, shared_, mass_);
+  critical_ = critical_step(frequency, internal_);
+  const double dt = model_.step->dt, longest = model_.problem->explicit_dynamics->safety * critical_;
+  n_substeps_ = std::max(1, static_cast<int>(std::ceil(dt / longest * (1.0 - 1e-9))));
+  substep_ = dt / n_substeps_;
+}
+
+void ExplicitRun::collect_loads() {
+  for (const LoadPattern& pattern : model_.loads->patterns())
+    for (const auto& [node, unit] : pattern.nodes)
+      for (int d = 0; d < 3; ++d)
+        if (unit[d] != 0.0) loaded_.push_back(internal_.first(pattern.part) + 3 * node + d);
+  std::sort(loaded_.begin(), loaded_.end());
+  loaded_.erase(std::unique(loaded_.begin(), loaded_.end()), loaded_.end());
+  external_ = base_external_;
+  load_ = Vec::Zero(internal_.n_dofs());
+}
+
+void ExplicitRun::apply_loads(double from, double to) {
+  if (loaded_.empty()) return;
+  model_.loads->evaluate_mean(from, to);
+  if (model_.loads->values() == load_values_) return;
+  load_values_ = model_.loads->values();
+  for (const int i : loaded_) load_[i] = 0.0;
+  for (size_t p = 0; p < load_values_.size(); ++p) {
+    const LoadPattern& pattern = model_.loads->patterns()[p];
+    if (load_values_[p] == 0.0) continue;
+    for (const auto& [node, unit] : pattern.nodes)
+      load_.segment<3>(internal_.first(pattern.part) + 3 * node) += load_values_[p] * unit;
+  }
+  for (const int i : loaded_) external_[i] = base_external_[i] + load_[i];
+}
+
+// Velocities by the forces at hand over tau, then displacements over `drift`; works by the mean velocity of the kick.
+void ExplicitRun::kick(double tau, double theta, double motion_share, double drift) {
+  std::vector<double> motions(motions_new_.size());
+  for (size_t m = 0; m < motions.size(); ++m)
+    motions[m] = (1 - motion_share) * motions_old_[m] + motion_share * motions_new_[m];
+  const auto count_work = [&] {
+    double load = 0.0;
+    for (const int i : loaded_) load += load_[i] * velocity_[i];
+    load_work_ += 0.5 * tau * load;
+    if (resisted_.size() > 0) internal_work_ += 0.5 * tau * resisted_.dot(velocity_);
+  };
+  count_work();
+  damp_masses(tau);
+  shared_.kick(external_, force_, tau, theta, motions, velocity_);
+  const int n = static_cast<int>(velocity_.size());
+  double* const v = velocity_.data();
+  double* const u = moved_.data();
+  const double *const p = external_.data(), *const f = force_.data(), *const w = inverse_mass_.data();
+#pragma omp simd
+  for (int i = 0; i < n; ++i) {
+    v[i] += tau * w[i] * (p[i] - f[i]);
+    u[i] += drift * v[i];
+  }
+  count_work();
+}
+
+// Decay of all velocities, held ones excepted since the kick sets them.
+void ExplicitRun::damp_masses(double tau) {
+  if (mass_damping_.size() == 0) return;
+  const double before = velocity_.cwiseAbs2().dot(mass_);
+  velocity_.array() *= (-tau * mass_damping_).array().exp();
+  drag_work_ += 0.5 * (before - velocity_.cwiseAbs2().dot(mass_));
+}
+
+void ExplicitRun::evaluate_forces(double dt, bool has_energy) {
+  const CellEnergy energy = internal_.damped(moved_, velocity_, dt, has_energy, force_);
+  cells_ = {energy.strain, energy.hourglass, cells_.dissipated + energy.dissipated};
+  if (internal_.has_stiffness_damping()) resisted_ = force_;
+  springs_.add_force(moved_, force_);
+}
+
+void ExplicitRun::solve_increment(int increment) {
+  const double start = model_.step->dt * increment, h = substep_;
+  motions_old_.swap(motions_new_);
+  motions_new_ = model_.motion_velocities(increment);
+  velocity_old_ = velocity_;
+  state_.energies.scheme += springs_.release(model_, increment);
+  springs_.weigh(0.5);
+  for (int i = 0; i < n_substeps_; ++i) {
+    const double t = start + i * h;
+    const bool is_first = i == 0, is_last = i + 1 == n_substeps_;
+    apply_loads(is_first ? t : t - 0.5 * h, t + 0.5 * h);
+    kick(is_first ? 0.5 * h : h, is_first ? 0.0 : 0.5, (i + 0.5) / n_substeps_, h);
+    evaluate_forces(h, is_last);
+    springs_.weigh(is_last ? 0.5 : 1.0);
+  }
+  apply_loads(start + (n_substeps_ - 0.5) * h, start + n_substeps_ * h);
+  kick(0.5 * h, 1.0, 1.0, 0.0);
+}
+
+// What the increment did, and what is stored now (eq. X13).
+void ExplicitRun::book_energies() {
+  Energies& energies = state_.energies;
+  double dissipated = cells_.dissipated;
+  if (internal_.has_stiffness_damping()) {
+    // Not from the damped forces: what resisted took more than what is stored.
+    const double before = stored_;
+    cells_ = internal_.elastic(moved_, elastic_);
+    stored_ = cells_.strain + cells_.hourglass;
+    dissipated = internal_work_ - (stored_ - before);
+  }
+  energies.kinetic = 0.5 * velocity_.cwiseAbs2().dot(mass_);
+  energies.strain = start_strain_ + prestress_.dot(moved_) + cells_.strain;
+  energies.damping += dissipated + drag_work_ + shared_.take_absorbed_work() + cells_.hourglass - hourglass_;
+  energies.loads += load_work_ + shared_.take_motion_work();
+  const double in_springs = springs_.energy();
+  energies.scheme += in_springs - spring_energy_;
+  spring_energy_ = in_springs;
+  hourglass_ = cells_.hourglass;
+  cells_.dissipated = load_work_ = drag_work_ = internal_work_ = 0.0;
+  const double all = energies.kinetic + energies.strain + std::abs(energies.loads);
+  if (all > 0.0) hourglass_share_ = std::max(hourglass_share_, hourglass_ / all);
+}
+
+void ExplicitRun::check_stability(int increment) const {
+  const Energies& e = state_.energies;
+  const double created = -e.balance(), limit = unstable * (supplied_ + std::abs(e.loads));
+  if (std::isfinite(created) && (created <= limit || created <= 1e-9 * e.kinetic)) return;
+  throw NumericalError(fmt::format(
+      "step '{}': unstable at {:.4g} s after its start: {:.3g} J appeared from nowhere\n    the substep is {:.4g} s, "
+      "{:.3f} of the critical {:.4g} s; likely cause: 'safety' above 1, take 0.9 or less",
+      model_.step->name, (increment + 1) * model_.step->dt, created, substep_, substep_ / critical_, critical_));
+}
+
+void ExplicitRun::accept(int increment) {
+  book_energies();
+  springs_.show(model_, records_, state_);
+  check_stability(increment);
+  shared_.end_increment(velocity_old_, velocity_, model_.step->dt, state_);
+  state_.time += model_.step->dt;
+  ++figures_.increments;
+  figures_.iterations += n_substeps_;
+  observer_.accept(instant(increment));
+}
+
+void ExplicitRun::run() {
+  const int n = model_.step->n_increments();
+  Progress progress(model_.step->name, n);
+  for (int i = 0; i < n && !interrupt_requested(); ++i) {
+    solve_increment(i);
+    accept(i);
+    progress.update(i + 1, fmt::format("{} substeps each", n_substeps_));
+  }
+}
+
+// The pieces take the state to the step's end as those of any solver do.
+void ExplicitRun::finish(ExplicitMemory& memory) {
+  springs_.keep(model_, records_, state_);
+  for (size_t i = 0; i < model_.pieces.size(); ++i) {
+    const int part = static_cast<int>(i);
+    model_.pieces[i]->set_state(displacement(part), velocity(part), model_.external_force(part, state_),
+                                interface_force(*model_.surfaces, state_, part));
+  }
+  internal_.elastic(moved_, elastic_);
+  memory.internal = prestress_ + elastic_;
+}
+
+Points ExplicitRun::nodal(const Vec& all, int part) const {
+  return Eigen::Map<const Points>(all.data() + internal_.first(part), 3, state_.displacement[part].cols());
+}
+
+Points ExplicitRun::displacement(int part) const { return state_.displacement[part] + nodal(moved_, part); }
+
+Points ExplicitRun::acceleration(int part) const {
+  if (figures_.increments == 0) return Points::Zero(3, state_.displacement[part].cols());
+  return (nodal(velocity_, part) - nodal(velocity_old_, part)) / model_.step->dt;
+}
+
+Points ExplicitRun::reactions(int part) const {
+  Points force = Points::Zero(3, state_.displacement[part].cols());
+  shared_.add_reactions(part, force);
+  return force;
+}
+
+Points ExplicitRun::absorbing_force(int part) const {
+  Points force = Points::Zero(3, state_.displacement[part].cols());
+  shared_.add_absorbing(part, force);
+  return force;
+}
+
+Instant ExplicitRun::instant(int increment) const {
+  Instant now{model_, state_, i_step_, increment};
+  now.iterations = increment < 0 ? 0 : n_substeps_;
+  now.fields = this;
+  return now;
+}
+
+double ExplicitRun::bytes() const {
+  return internal_.bytes() + springs_.bytes() + shared_.bytes() + 8.0 * 11 * static_cast<double>(internal_.n_dofs());
+}
+
+}  // namespace dygita

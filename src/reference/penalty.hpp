@@ -1,0 +1,61 @@
+// Springs at the points of contact, plastic and released interfaces (manual, eq. X8-X12).
+#pragma once
+
+#include "reference/internal_force.hpp"
+#include "solution/point_record.hpp"
+
+namespace dygita {
+
+class PenaltySprings {
+ public:
+  // Springs of a step whose points start with these records; points of interfaces that `is_tied` says to be held
+  // otherwise have none. first: of each part's dofs.
+  PenaltySprings(const StepModel& model, const std::vector<PointRecord>& start, const std::vector<char>& is_tied,
+                 const InternalForce& internal);
+
+  int size() const { return static_cast<int>(springs_.size()); }
+  // Lets the springs of released interfaces go; returns the energy (J) that was in them.
+  double release(const StepModel& model, int increment);
+  // Adds the force (N, as internal force: M a = external - force) for the displacements since the step's start.
+  void add_force(const Vec& displacement, Vec& force);
+  // The same with every spring closed and sticking: what stability has to reckon with.
+  void add_closed_force(const Vec& displacement, Vec& force) const;
+  // Counts the present forces with this weight in the mean that `show` will give.
+  void weigh(double weight);
+
+  // Elastic energy in the springs now, J.
+  double energy() const;
+  // Means of the increment and present states into the records and the surfaces, works into the energies.
+  void show(const StepModel& model, std::vector<PointRecord>& records, State& state);
+  // The forces now in place of the means: what the next step starts from.
+  void keep(const StepModel& model, const std::vector<PointRecord>& records, State& state) const;
+  double bytes() const { return static_cast<double>(springs_.size() * sizeof(Spring)); }
+
+ private:
+  enum class Kind { contact, plastic, tie };
+  struct Spring {
+    int point, dof_1, dof_2;  // dof_2 < 0: a wall
+    Kind kind;
+    Mat3 frame;
+    Vec3 stiffness;                                       // N/m
+    double friction = 0.0, yield = 0.0, hardening = 0.0;  // yield N, hardening N/m
+    bool yields_in_compression = false, is_released = false;
+    double start_gap = 0.0, offset = 0.0;  // m: force = stiffness (gap + offset) where that is negative
+    Vec3 jump = Vec3::Zero(), force = Vec3::Zero(), sum = Vec3::Zero();
+    double weight = 0.0;
+    double plastic = 0.0, accumulated = 0.0, friction_work = 0.0;  // since the step's start; work since last shown
+    double start_plastic = 0.0, start_accumulated = 0.0;
+    Vec3 slip = Vec3::Zero();
+    PointState status = PointState::open;
+  };
+  static double energy_of(const Spring& spring);
+  Vec3 jump_of(const Spring& spring, const Vec& displacement) const;
+  static void add_contact(Spring& spring, const Vec3& jump);
+  static void add_bond(Spring& spring, const Vec3& jump);
+  static void put(const Spring& spring, const Vec3& force, Vec& all);
+  LawState state_of(const Spring& spring, const LawState& start, const Vec3& force) const;
+
+  std::vector<Spring> springs_;
+};
+
+}  // namespace dygita

@@ -1,0 +1,250 @@
+#include "reference/shared_nodes.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace dygita {
+
+namespace {
+
+double motion_velocity(const Held& held, int j, const std::vector<double>& motions) {
+  double velocity = 0.0;
+  for (const auto& [motion, factor] : held.motion[j]) velocity += factor * motions[motion];
+  return velocity;
+}
+
+// Disjoint sets of nodes.
+struct Sets {
+  std::vector<int> parent;
+  explicit Sets(int n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }
+  int of(int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  }
+};
+
+// Adds direction . v = motions to what is held, orthogonalised; in the span of the others it is theirs.
+void add_held(const Vec3& direction, const std::vector<std::pair<int, double>>& motion, const Support* support,
+              Held& held) {
+  Vec3 rest = direction;
+  std::map<int, double> sum(motion.begin(), motion.end());
+  for (int j = 0; j < held.n; ++j) {
+    const double along = held.directions.col(j).dot(direction);
+    rest -= along * held.directions.col(j);
+    for (const auto& [m, factor] : held.motion[j]) sum[m] -= along * factor;
+  }
+  const double length = rest.norm();
+  if (length < 1e-6) return;
+  held.directions.col(held.n) = rest / length;
+  held.support[held.n] = support;
+  for (const auto& [m, factor] : sum)
+    if (factor != 0.0) held.motion[held.n].emplace_back(m, factor / length);
+  ++held.n;
+}
+
+}  // namespace
+
+SharedNodes::SharedNodes(const StepModel& model, const std::vector<char>& is_tied, const InternalForce& internal)
+    : is_shared_(internal.n_dofs() / 3, 0), moved_mass_(internal.n_dofs()) {
+  for (int part = 0; part < internal.n_parts(); ++part)
+    for (int dof = internal.first(part); dof < internal.first(part + 1); ++dof)
+      moved_mass_[dof] = model.pieces[part]->node_mass((dof - internal.first(part)) / 3);
+  collect(model, is_tied, internal);
+  for (Group& group : groups_) {
+    hold(model, group);
+    make_split(model, group);
+    for (const Copy& copy : group.copies) moved_mass_.segment<3>(copy.dof).setConstant(group.mass);
+  }
+}
+
+// Groups of nodes tied to each other; those alone count where they are held or absorb.
+void SharedNodes::collect(const StepModel& model, const std::vector<char>& is_tied, const InternalForce& internal) {
+  const int n_nodes = internal.n_dofs() / 3;
+  Sets sets(n_nodes);
+  const auto node_of = [&](int part, int node) { return internal.first(part) / 3 + node; };
+  for (size_t s = 0; s < model.surfaces->size(); ++s) {
+    const Surface& surface = (*model.surfaces)[s];
+    for (int i = 0; is_tied[s] && i < surface.n_points(); ++i) {
+      const int a = node_of(surface.part_1, surface.facing.nodes_1[i]);
+      const int b = node_of(surface.part_2, surface.facing.nodes_2[i]);
+      is_shared_[a] = is_shared_[b] = 1;
+      sets.parent[sets.of(a)] = sets.of(b);
+    }
+  }
+  for (int part = 0; part < internal.n_parts(); ++part) {
+    for (const auto& [node, held] : model.conditions.held[part])
+      if (held.n > 0) is_shared_[node_of(part, node)] = 1;
+    for (const auto& [node, impedance] : *model.pieces[part]->setup().absorbing) is_shared_[node_of(part, node)] = 1;
+  }
+  std::map<int, int> group_of;
+  std::map<int, int> copy_of;
+  for (int part = 0; part < internal.n_parts(); ++part)
+    for (int node = 0; node < (internal.first(part + 1) - internal.first(part)) / 3; ++node) {
+      const int global = node_of(part, node);
+      if (!is_shared_[global]) continue;
+      const auto [it, is_new] = group_of.emplace(sets.of(global), static_cast<int>(groups_.size()));
+      if (is_new) groups_.emplace_back();
+      Group& group = groups_[it->second];
+      copy_of[global] = static_cast<int>(group.copies.size());
+      Copy copy{part, node, 3 * global, model.pieces[part]->node_mass(node)};
+      const auto& absorbing = *model.pieces[part]->setup().absorbing;
+      if (const auto found = absorbing.find(node); found != absorbing.end()) copy.impedance = found->second;
+      group.mass += copy.mass;
+      group.impedance += copy.impedance;
+      group.absorbs |= !copy.impedance.isZero(0.0);
+      group.copies.push_back(copy);
+    }
+  for (size_t s = 0; s < model.surfaces->size(); ++s) {
+    const Surface& surface = (*model.surfaces)[s];
+    for (int i = 0; is_tied[s] && i < surface.n_points(); ++i) {
+      const int a = node_of(surface.part_1, surface.facing.nodes_1[i]);
+      const int b = node_of(surface.part_2, surface.facing.nodes_2[i]);
+      groups_[group_of.at(sets.of(a))].edges.push_back(
+          {static_cast<int>(s), i, copy_of.at(a), copy_of.at(b), std::sqrt(surface.facing.areas[i])});
+    }
+  }
+}
+
+void SharedNodes::hold(const StepModel& model, Group& group) const {
+  for (const Copy& copy : group.copies) {
+    const Held* held = model.conditions.at(copy.part, copy.node);
+    for (int j = 0; held && j < held->n; ++j)
+      add_held(held->directions.col(j), held->motion[j], held->support[j], group.held);
+  }
+  for (int j = 0; j < group.held.n; ++j) group.is_moved |= !group.held.motion[j].empty();
+}
+
+// Tie forces balance every copy in its free directions; where they are not unique the least, weighted with areas.
+void SharedNodes::make_split(const StepModel& model, Group& group) {
+  int n_rows = 0;
+  for (const Copy& copy : group.copies) {
+    const Held* held = model.conditions.at(copy.part, copy.node);
+    group.free.push_back(held ? Mat(held->free_basis()) : Mat(Mat3::Identity()));
+    n_rows += static_cast<int>(group.free.back().cols());
+  }
+  const int n_edges = static_cast<int>(group.edges.size());
+  if (n_edges == 0) return;
+  Mat balance = Mat::Zero(n_rows, 3 * n_edges);
+  for (int e = 0; e < n_edges; ++e) {
+    int row = 0;
+    for (size_t c = 0; c < group.copies.size(); ++c) {
+      const Edge& edge = group.edges[e];
+      const double sign = (edge.copy_1 == static_cast<int>(c)) - (edge.copy_2 == static_cast<int>(c));
+      const Mat& free = group.free[c];
+      balance.block(row, 3 * e, free.cols(), 3) = sign * edge.root_area * free.transpose();
+      row += static_cast<int>(free.cols());
+    }
+  }
+  group.split = balance.completeOrthogonalDecomposition().pseudoInverse();
+}
+
+void SharedNodes::average(Vec& field) const {
+  for (const Group& group : groups_) {
+    Vec3 mean = Vec3::Zero();
+    for (const Copy& copy : group.copies) mean += copy.mass / group.mass * field.segment<3>(copy.dof);
+    for (const Copy& copy : group.copies) field.segment<3>(copy.dof) = mean;
+  }
+}
+
+void SharedNodes::kick(const Vec& external, const Vec& internal, double tau, double theta,
+                       const std::vector<double>& motions, Vec& velocity) {
+  for (Group& group : groups_) {
+    Vec3 force = Vec3::Zero();
+    for (Copy& copy : group.copies) {
+      const Vec3 own = external.segment<3>(copy.dof) - internal.segment<3>(copy.dof);
+      force += own;
+      copy.impulse += tau * own;
+    }
+    const Vec3 before = velocity.segment<3>(group.copies.front().dof);
+    Vec3 after;
+    if (group.absorbs) {
+      const Mat3 inertia = group.mass / tau * Mat3::Identity();
+      const Vec3 rest = (inertia - (1 - theta) * group.impedance) * before + force;
+      after = (inertia + theta * group.impedance).inverse() * rest;
+    } else {
+      after = before + tau / group.mass * force;
+    }
+    if (group.held.n > 0) {
+      const Vec3 free = after;
+      for (int j = 0; j < group.held.n; ++j) {
+        const Vec3 d = group.held.directions.col(j);
+        after += (motion_velocity(group.held, j, motions) - d.dot(free)) * d;
+      }
+      if (group.is_moved) motion_work_ += group.mass * (after - free).dot(0.5 * (before + after));
+    }
+    if (group.absorbs) {
+      const Vec3 mean = (1 - theta) * before + theta * after;
+      for (Copy& copy : group.copies) copy.drag -= tau * (copy.impedance * mean);
+      absorbed_work_ += tau * mean.dot(group.impedance * mean);
+    }
+    for (const Copy& copy : group.copies) velocity.segment<3>(copy.dof) = after;
+  }
+}
+
+void SharedNodes::restrict_force(Vec& force) const {
+  for (const Group& group : groups_) {
+    Vec3 sum = Vec3::Zero();
+    for (const Copy& copy : group.copies) sum += force.segment<3>(copy.dof);
+    for (int j = 0; j < group.held.n; ++j) sum -= group.held.directions.col(j).dot(sum) * group.held.directions.col(j);
+    for (const Copy& copy : group.copies) force.segment<3>(copy.dof) = sum;
+  }
+}
+
+void SharedNodes::end_increment(const Vec& velocity_old, const Vec& velocity, double dt, State& state) {
+  for (Group& group : groups_) split_forces(group, velocity_old, velocity, dt, state);
+}
+
+void SharedNodes::split_forces(Group& group, const Vec& velocity_old, const Vec& velocity, double dt, State& state) {
+  std::vector<Vec3> felt;  // from ties and supports
+  Vec free(group.split.cols());
+  int row = 0;
+  for (size_t c = 0; c < group.copies.size(); ++c) {
+    Copy& copy = group.copies[c];
+    const Vec3 gained = copy.mass * (velocity.segment<3>(copy.dof) - velocity_old.segment<3>(copy.dof));
+    felt.push_back((gained - copy.impulse - copy.drag) / dt);
+    copy.absorbing = copy.drag / dt;
+    copy.impulse.setZero();
+    copy.drag.setZero();
+    if (group.edges.empty()) continue;
+    free.segment(row, group.free[c].cols()) = group.free[c].transpose() * felt.back();
+    row += static_cast<int>(group.free[c].cols());
+  }
+  if (!group.edges.empty()) {
+    const Vec weighted = group.split * free;
+    for (size_t e = 0; e < group.edges.size(); ++e) {
+      const Edge& edge = group.edges[e];
+      const Vec3 force = edge.root_area * weighted.segment<3>(3 * e);
+      felt[edge.copy_1] -= force;
+      felt[edge.copy_2] += force;
+      LawState& shown = state.surfaces[edge.surface].points[edge.point];
+      shown.force = force;
+      shown.status = PointState::stick;
+    }
+  }
+  for (size_t c = 0; c < group.copies.size(); ++c) group.copies[c].reaction = felt[c];
+}
+
+void SharedNodes::add_reactions(int part, Points& force) const {
+  for (const Group& group : groups_)
+    for (const Copy& copy : group.copies)
+      if (copy.part == part) force.col(copy.node) += copy.reaction;
+}
+
+void SharedNodes::add_absorbing(int part, Points& force) const {
+  for (const Group& group : groups_)
+    for (const Copy& copy : group.copies)
+      if (copy.part == part) force.col(copy.node) += copy.absorbing;
+}
+
+double SharedNodes::bytes() const {
+  double sum = 8.0 * static_cast<double>(moved_mass_.size());
+  for (const Group& group : groups_)
+    sum += static_cast<double>(sizeof(Group) + group.copies.size() * sizeof(Copy) + group.edges.size() * sizeof(Edge)) +
+           8.0 * static_cast<double>(group.split.size());
+  return sum;
+}
+
+}  // namespace dygita
