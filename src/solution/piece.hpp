@@ -154,6 +154,7 @@ class Piece {
   Points nodal_mass_times(const Points& nodal) const;
   Vec momentum() const;  // of the free unknowns, what moving supports bring included
   double kinetic_energy() const;
+  double damped_energy(const Vec& v) const;
   std::vector<double> held_mass(const Points& nodal) const;  // d . M nodal at every held direction
   Vec mean_velocity() const;  // of the last increment: g V0 + (1 - g) V1, and V1 where there is no mass
   void start_massless();
