@@ -28,7 +28,8 @@ struct DeckRun {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-inline std::vector<DeckRun> run_file(const std::filesystem::path& path, const Settings& settings = {}, int threads = 0) {
+inline std::vector<DeckRun> run_file(const std::filesystem::path& path, const Settings& settings = {}, int threads = 0,
+                                     const std::string& solver = "") {
   set_progress_enabled(false);
   std::vector<DeckRun> runs;
   const Engine engine{[&](const Problem& problem, const RunRequest& request) {
@@ -42,6 +43,7 @@ inline std::vector<DeckRun> run_file(const std::filesystem::path& path, const Se
   options.path = path;
   options.settings = settings;
   options.threads = threads;
+  options.solver = solver;
   options.write_files = false;
   run_deck(options, engine);
   return runs;
