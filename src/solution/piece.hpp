@@ -70,6 +70,7 @@ class Piece {
   int n_free() const { return static_cast<int>(mass_.size()); }
   const Setup& setup() const { return setup_; }
   const Factor* factor() const { return factor_.get(); }
+  const std::vector<std::pair<int, Mat3>>& absorbing() const { return absorbing_; }  // node, impedance (N s/m), by node
   bool has_motions() const { return has_motions_; }
 
   // Diagonal of the interface's own Schur complement in the rows' directions, shared between their laws (N s/m; static N/m).
