@@ -55,6 +55,19 @@ def size_table(measured):
     return heads, rows
 
 
+def solver_table(measured):
+    """One row a quantity, one column a solver, at the size of the goals; None where only one solver ran."""
+    if not measured.others:
+        return None
+    case = measured.case
+    rows = []
+    for i, quantity in enumerate(case.quantities):
+        values = [measured.at_goal(i)] + [values[i] for values in measured.others.values()]
+        rows.append([quantity.name + (f" ({quantity.unit})" if quantity.unit else ""), quantity.goal_shown()] +
+                    [number(v) + (" !" if quantity.goal is not None and quantity.missed(v) else "") for v in values])
+    return [f"{case.knob} = {case.sizes[case.goal_at][0]}", "goal", "latin"] + list(measured.others), rows
+
+
 def exact_cases(program, folder, say, only=None):
     """Runs the exact cases, writes their figures and CSV; answers [(Measured, ...)] in order."""
     done = []
