@@ -97,7 +97,7 @@ def orders(program, folder, say):
             panel = 0 if series.startswith("h") else 1
             inverse = [1 / n for n in sizes]
             axes[panel].loglog(inverse, errors, color=figures.COLOURS[k], marker=figures.MARKERS[k])
-            ends[panel].append((inverse[0], errors[0], f"{name.split(', ')[1]}, slope {order:.2f}", figures.COLOURS[k]))
+            ends[panel].append((inverse[0], errors[0], f"{name.split(', ')[1].replace('numerical ', '')}, slope {order:.2f}", figures.COLOURS[k]))
             missed = abs(order - theory) > 0.1
             rows.append([name, x] + [f"{n}: {number(e)}" for n, e in zip(sizes, errors)] + [f"{order:.2f}"])
             summary.append(["11 [Order of convergence](#11-order-of-convergence)", name, f"{theory} within 0.1", f"{order:.2f}", f"{order:.2f}",
