@@ -44,6 +44,7 @@ local energy = output.energy{}
 local drop_test = problem{
   name = "bouncing_bar", substructures = { bar }, supports = { wall }, steps = { fall },
   outputs = { lower, push, energy, output.vtk{ frames = 64 } },
+  solver = solver.latin{ mass = "tuned", massless_contact = true },
 }
 local result = drop_test:run{}
 

@@ -30,6 +30,7 @@ local push, energy = output.resultant{ name = "push", on = touch }, output.energ
 local impact = problem{
   name = "two_bars", substructures = { left, right }, interfaces = { touch }, steps = { meet },
   outputs = { push, energy, output.vtk{ frames = 60 } },
+  solver = solver.latin{ mass = "tuned", massless_contact = true },
 }
 local result = impact:run{}
 

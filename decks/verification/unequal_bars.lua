@@ -44,6 +44,7 @@ local drift = output.history{
 local impact = problem{
   name = "unequal_bars", substructures = { left, right }, interfaces = { touch }, steps = { run_in },
   outputs = { push, drift, energy, output.vtk{ frames = 70 } },
+  solver = solver.latin{ mass = "tuned", massless_contact = true },
 }
 local result = impact:run{}
 

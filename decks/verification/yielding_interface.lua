@@ -38,6 +38,7 @@ local function case(name, h)
   local beam = problem{
     name = "yielding_interface", substructures = { left, right }, interfaces = { joint }, supports = { out },
     steps = { pull }, outputs = { through, state, output.energy{}, output.vtk{ frames = 60 } },
+    solver = solver.latin{ mass = "tuned" },
   }
   local result = beam:run{ case = name }
 

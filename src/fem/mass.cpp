@@ -11,8 +11,8 @@ namespace dygita {
 
 namespace {
 
-// Share of the consistent mass along a length h: linear cells with lumped mass turn a wave by (k h)^2 / 24 too little and those with
-// consistent mass by as much too much; a trapezoidal step turns it by (w dt)^2 / 12 too little.
+// Share of the consistent mass along a length h: linear cells with lumped mass turn a wave by (k h)^2 / 24 too little
+// and those with consistent mass by as much too much; a trapezoidal step turns it by (w dt)^2 / 12 too little.
 double consistent_share(double speed, double dt, double h) { return std::min(1.0, 0.5 + std::pow(speed * dt / h, 2)); }
 
 // Integrals of rho N_a N_b of a hexahedron by two points a direction, at +-s: s = 1 is lumped, s^2 = 1/3 consistent.
@@ -27,7 +27,8 @@ Eigen::Matrix<double, 8, 8> cell_mass(const Nodes<8>& x, const Elastic& material
   for (int i = 0; i < 8; ++i) {
     const Vec3 corner = shapes.points.col(i).cwiseSign();
     Eigen::Matrix<double, 8, 1> values;
-    for (int a = 0; a < 8; ++a) values[a] = (Vec3::Ones() + shapes.points.col(a).cwiseSign().cwiseProduct(corner).cwiseProduct(s)).prod() / 8.0;
+    for (int a = 0; a < 8; ++a)
+      values[a] = (Vec3::Ones() + shapes.points.col(a).cwiseSign().cwiseProduct(corner).cwiseProduct(s)).prod() / 8.0;
     const double volume = (x * shapes.slopes[i]).eval().determinant() * shapes.weights[i];
     mass += material.density * volume * values * values.transpose();
   }
@@ -35,7 +36,8 @@ Eigen::Matrix<double, 8, 8> cell_mass(const Nodes<8>& x, const Elastic& material
 }
 
 template <class Cell>
-Eigen::Matrix<double, Cell::n_nodes, Cell::n_nodes> cell_mass(const Nodes<Cell::n_nodes>& x, const Elastic& material, double dt, Cell) {
+Eigen::Matrix<double, Cell::n_nodes, Cell::n_nodes> cell_mass(const Nodes<Cell::n_nodes>& x, const Elastic& material,
+                                                              double dt, Cell) {
   constexpr int n = Cell::n_nodes;
   const auto& shapes = Cell::shapes();
   double volume = 0.0;
@@ -73,7 +75,8 @@ struct MassKernel {
   void add(const int* nodes, int a) {
     const int first = pattern.starts[nodes[a]], end = pattern.starts[nodes[a] + 1];
     const auto entry = [&](int node) -> double& {
-      return values[std::lower_bound(pattern.neighbours.begin() + first, pattern.neighbours.begin() + end, node) - pattern.neighbours.begin()];
+      return values[std::lower_bound(pattern.neighbours.begin() + first, pattern.neighbours.begin() + end, node) -
+                    pattern.neighbours.begin()];
     };
     double rest = lumped[a];
     for (int b = 0; b < n; ++b) {

@@ -44,7 +44,8 @@ std::vector<char> nodes_in_contact_alone(const Problem& problem, const std::vect
     for (const SupportPtr& support : supports_of(problem, *step))
       if (support->kind == SupportKind::absorbing) take_off(support, part, marked);
     for (const LoadPtr& load : step->loads)
-      if (load->kind == LoadKind::velocity || load->kind == LoadKind::displacement || load->kind == LoadKind::base_acceleration)
+      if (load->kind == LoadKind::velocity || load->kind == LoadKind::displacement ||
+          load->kind == LoadKind::base_acceleration)
         for (const Target& target : load->on) take_off(target, part, marked);
   }
   return marked;
@@ -68,7 +69,8 @@ void agree(const std::vector<Surface>& surfaces, std::vector<std::vector<char>>&
 }
 
 // Neighbours of a node that stay, the nearest of them (several where they are as near).
-std::vector<int> nearest_inside(const Mesh& mesh, const SparseMatrix& stiffness, const std::vector<char>& marked, int node) {
+std::vector<int> nearest_inside(const Mesh& mesh, const SparseMatrix& stiffness, const std::vector<char>& marked,
+                                int node) {
   std::vector<std::pair<double, int>> inside;
   for (int e = stiffness.outerIndexPtr()[3 * node]; e < stiffness.outerIndexPtr()[3 * node + 1]; e += 3)
     if (const int other = stiffness.innerIndexPtr()[e] / 3; !marked[other])
@@ -82,13 +84,14 @@ std::vector<int> nearest_inside(const Mesh& mesh, const SparseMatrix& stiffness,
 }
 
 // A node with no neighbour to leave its mass to keeps it.
-void keep_where_there_is_no_inside(const Problem& problem, const std::vector<Body>& bodies, const std::vector<Surface>& surfaces,
-                                   std::vector<std::vector<char>>& marked) {
+void keep_where_there_is_no_inside(const Problem& problem, const std::vector<Body>& bodies,
+                                   const std::vector<Surface>& surfaces, std::vector<std::vector<char>>& marked) {
   for (size_t i = 0; i < bodies.size(); ++i) {
     const std::vector<char> before = marked[i];
     for (size_t node = 0; node < before.size(); ++node)
       if (before[node] &&
-          nearest_inside(*problem.substructures[i]->mesh, bodies[i].matrices->stiffness, before, static_cast<int>(node)).empty())
+          nearest_inside(*problem.substructures[i]->mesh, bodies[i].matrices->stiffness, before, static_cast<int>(node))
+              .empty())
         marked[i][node] = 0;
   }
   agree(surfaces, marked);
@@ -105,7 +108,8 @@ void move_inside(const Mesh& mesh, const SparseMatrix& stiffness, const std::vec
       if (mass.matrix.size() > 0) mass.matrix.coeffRef(other, other) += share;
     }
     mass.lumped[node] = 0.0;
-    if (mass.matrix.size() > 0) mass.matrix.coeffRef(node, node) = 0.0;  // its cells are lumped: nothing else in its row
+    if (mass.matrix.size() > 0)
+      mass.matrix.coeffRef(node, node) = 0.0;  // its cells are lumped: nothing else in its row
   }
 }
 
@@ -125,7 +129,8 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
   }
   std::vector<std::vector<char>> marked(bodies.size());
   if (problem.mass().is_moved_from_contact && dt > 0.0) {
-    for (size_t i = 0; i < bodies.size(); ++i) marked[i] = nodes_in_contact_alone(problem, surfaces, static_cast<int>(i));
+    for (size_t i = 0; i < bodies.size(); ++i)
+      marked[i] = nodes_in_contact_alone(problem, surfaces, static_cast<int>(i));
     agree(surfaces, marked);
     keep_where_there_is_no_inside(problem, bodies, surfaces, marked);
   }
@@ -139,7 +144,8 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
       continue;
     }
     Mass mass{bodies[i].matrices->mass, {}, {}};
-    if (problem.mass().is_tuned && dt > 0.0) mass.matrix = tuned_mass(mesh, m, dt, has_massless ? marked[i] : std::vector<char>());
+    if (problem.mass().is_tuned && dt > 0.0)
+      mass.matrix = tuned_mass(mesh, m, dt, has_massless ? marked[i] : std::vector<char>());
     if (has_massless) {
       move_inside(mesh, bodies[i].matrices->stiffness, marked[i], mass);
       mass.is_massless = marked[i];

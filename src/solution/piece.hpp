@@ -154,6 +154,7 @@ class Piece {
   Points nodal_mass_times(const Points& nodal) const;
   Vec momentum() const;  // of the free unknowns, what moving supports bring included
   double kinetic_energy() const;
+  double damped_energy(const Vec& v) const;
   std::vector<double> held_mass(const Points& nodal) const;  // d . M nodal at every held direction
   Vec mean_velocity() const;  // of the last increment: g V0 + (1 - g) V1, and V1 where there is no mass
   void start_massless();
@@ -187,7 +188,7 @@ class Piece {
   Vec u_, v_, p_, w_, force_;  // state, in factor order
   Vec z_;                      // dt K G V, where there are unknowns without mass
   std::vector<double> held_u_, held_v_;
-  Vec residual_, x_, b_, v_b_, v_old_, w_old_, start_imbalance_;
+  Vec residual_, x_, b_, v_b_, v_old_, w_old_, start_imbalance_, force_old_;
   std::vector<double> held_v_old_, held_v_new_, held_reaction_;
   Points nodal_force_;
 };

@@ -135,6 +135,7 @@ void Piece::begin(const Points& force, const std::vector<double>& motion_velocit
     apply_absorbing(v_, -scheme.g, residual_);
   }
   // Loads work with the mean force of the increment: that of the step in dynamics, of both ends in statics.
+  force_old_ = massless_.empty() ? Vec() : force_;
   force_ = scheme.is_static ? Vec(0.5 * (force_ + new_force)) : new_force;
   x_ = residual_;
   held_v_old_ = held_v_;
@@ -215,21 +216,25 @@ IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_f
 
   IncrementEnergy energy = stored_energy();
   energy.loads = dt * v_mean.dot(force_);
+  // What has no mass is in balance at both ends of the step, and its forces work with their mean.
+  for (const int i : massless_) energy.loads += 0.5 * dt * v_[i] * (force_old_[i] - force_[i]);
   if (scheme.is_static) {
     energy.scheme = -v_.dot(start_imbalance_);
     energy.scheme *= 0.5;
     start_imbalance_.setZero();
     force_ = restrict_nodal(nodal_force_);
   } else {
-    if (scheme.alpha(damping) > 0.0) energy.damping = dt * scheme.alpha(damping) * v_mean.dot(mass_times(v_mean));
+    const double alpha = scheme.alpha(damping), beta = scheme.beta(damping);
+    const double flow = beta > 0.0 || g != 0.5 ? v_mean.dot(g * w_old_ + (1 - g) * w_) / c1_ : 0.0;  // V_g . K V_g
+    if (alpha > 0.0) energy.damping += dt * alpha * v_mean.dot(mass_times(v_mean));
+    energy.damping += dt * beta * flow;
+    if (has_motions_ && alpha + beta > 0.0) energy.damping = damped_energy(v_mean);
     if (!absorbing_.empty()) {
       Vec drag = Vec::Zero(v_.size());
       apply_absorbing(v_mean, 1.0, drag);
       energy.damping += dt * v_mean.dot(drag);
     }
-    if (scheme.beta(damping) > 0.0 || g != 0.5) {
-      const double flow = v_mean.dot(g * w_old_ + (1 - g) * w_) / c1_;  // V_g . K V_g
-      energy.damping += dt * scheme.beta(damping) * flow;
+    if (g != 0.5) {
       const Vec dv = v_ - v_old_;
       energy.scheme = (0.5 - g) * (dt * dt * flow + dv.dot(mass_times(dv)));
     }
@@ -245,6 +250,20 @@ IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_f
     held_reaction_ = reaction;
   }
   return energy;
+}
+
+// Energy (J) that the material's damping takes in an increment, of mean velocity v of the free unknowns; moving supports count.
+double Piece::damped_energy(const Vec& v) const {
+  const Scheme& scheme = setup_.scheme;
+  const Damping& damping = setup_.body->part->material.damping;
+  std::vector<double> held(held_.size());
+  for (size_t i = 0; i < held_.size(); ++i) held[i] = scheme.g * held_v_old_[i] + (1 - scheme.g) * held_v_[i];
+  const Points nodal = expand(v, held);
+  const Eigen::Map<const Vec> flat(nodal.data(), nodal.size());
+  double power = 0.0;
+  if (scheme.alpha(damping) > 0.0) power += scheme.alpha(damping) * nodal.cwiseProduct(nodal_mass_times(nodal)).sum();
+  if (scheme.beta(damping) > 0.0) power += scheme.beta(damping) * flat.dot(setup_.body->matrices->stiffness * flat);
+  return scheme.dt * power;
 }
 
 IncrementEnergy Piece::stored_energy() const {
