@@ -65,7 +65,7 @@ def solver_table(measured):
         values = [measured.at_goal(i)] + [values[i] for values in measured.others.values()]
         rows.append([quantity.name + (f" ({quantity.unit})" if quantity.unit else ""), quantity.goal_shown()] +
                     [number(v) + (" !" if quantity.goal is not None and quantity.missed(v) else "") for v in values])
-    return [f"{case.knob} = {case.sizes[case.goal_at][0]}", "goal", "latin"] + list(measured.others), rows
+    return [f"{case.knob} = {case.sizes[case.goal_at][0]}", "goal", "the deck's own"] + list(measured.others), rows
 
 
 def exact_cases(program, folder, say, only=None):
