@@ -55,6 +55,19 @@ def size_table(measured):
     return heads, rows
 
 
+def solver_table(measured):
+    """One row a quantity, one column a solver, at the size of the goals; None where only one solver ran."""
+    if not measured.others:
+        return None
+    case = measured.case
+    rows = []
+    for i, quantity in enumerate(case.quantities):
+        values = [measured.at_goal(i)] + [values[i] for values in measured.others.values()]
+        rows.append([quantity.name + (f" ({quantity.unit})" if quantity.unit else ""), quantity.goal_shown()] +
+                    [number(v) + (" !" if quantity.goal is not None and quantity.missed(v) else "") for v in values])
+    return [f"{case.knob} = {case.sizes[case.goal_at][0]}", "goal", "the deck's own"] + list(measured.others), rows
+
+
 def exact_cases(program, folder, say, only=None):
     """Runs the exact cases, writes their figures and CSV; answers [(Measured, ...)] in order."""
     done = []
@@ -84,7 +97,7 @@ def orders(program, folder, say):
             panel = 0 if series.startswith("h") else 1
             inverse = [1 / n for n in sizes]
             axes[panel].loglog(inverse, errors, color=figures.COLOURS[k], marker=figures.MARKERS[k])
-            ends[panel].append((inverse[0], errors[0], f"{name.split(', ')[1]}, slope {order:.2f}", figures.COLOURS[k]))
+            ends[panel].append((inverse[0], errors[0], f"{name.split(', ')[1].replace('numerical ', '')}, slope {order:.2f}", figures.COLOURS[k]))
             missed = abs(order - theory) > 0.1
             rows.append([name, x] + [f"{n}: {number(e)}" for n, e in zip(sizes, errors)] + [f"{order:.2f}"])
             summary.append(["11 [Order of convergence](#11-order-of-convergence)", name, f"{theory} within 0.1", f"{order:.2f}", f"{order:.2f}",

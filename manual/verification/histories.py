@@ -50,7 +50,7 @@ def bouncing_bar(axes, measured):
     axes[1].set_title("contact pressure (0.1 MPa)")
     for a in axes:
         a.set_xlabel("time (0.1 ms)")
-    axes[1].legend(loc="upper center")
+    axes[1].legend(loc="center")
 
 
 @panels(1)
@@ -91,7 +91,7 @@ def yielding_interface(axes, measured):
         axes[0].text(x, y, case, ha="right", va="top")
     axes[0].set_title("stress that gets through (MPa), n = 60")
     axes[0].set_xlabel("time (us)")
-    axes[0].legend(*[part[:2] for part in axes[0].get_legend_handles_labels()], loc="center left")
+    axes[0].legend(*[part[:2] for part in axes[0].get_legend_handles_labels()], loc="upper left")
 
 
 def half_sine_maximax(f, duration=0.011, q_factor=10):

@@ -42,9 +42,11 @@ def exact_section(done, orders_rows):
     for measured in done:
         case = measured.case
         heads, rows = exact_pages.size_table(measured)
+        solvers = exact_pages.solver_table(measured)
         parts.append("\n\n".join(filter(None, [
             f"### {case.number} {case.title}", f"{case.what} `{case.deck}`", f"*Exact:* {case.exact}",
-            picture(case.name, case.title), table(heads, rows), case.note])))
+            picture(case.name, case.title), table(heads, rows), case.note,
+            solvers and "With the deck's own solver and with others (`!`: misses the goal; solvers as in [speed](#speed-against-error)):", solvers and table(*solvers)])))
     if orders_rows:
         heads = ["series", "size", "1", "2", "3", "4", "order"]
         parts.append("\n\n".join([
@@ -72,6 +74,8 @@ def speed_section(done):
              "*mesh*: cells and dt together; *dt* alone; *tolerance* of the iteration; *window*: steps iterated together (1, 5, 20); explicit: part of "
              "the critical step (*safety*) and stiffness of contact (*penalty*). Tables: the cheapest setting that reaches an error; `-`: none of "
              "those tried does. All runs are in [speed.csv](verification/speed.csv)."]
+    options = dict.fromkeys((r.solver, r.option) for _, rows, _ in done for r in rows if r.knob == "mesh")
+    parts.append("Solvers: " + "; ".join(f"*{name}*: `{option}`" for name, option in options if option) + ".")
     for scene, rows, told in done:
         parts += [f"### {scene.title}", f"`{scene.deck}`. {told}", picture(f"speed_{scene.name}", scene.title),
                   f"{speed.against_latin(rows)} {scene.why}"]

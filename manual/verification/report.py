@@ -2,6 +2,7 @@
 """The verification report: runs the decks, draws the figures, writes verification.md. See ./run.sh help."""
 
 import argparse
+import os
 import platform
 import sys
 import tempfile
@@ -86,7 +87,9 @@ def main():
         summary, exact = exact_parts(asked, program, folder, say)
         parts = [exact, *other_parts(asked, program, folder, say)]
     minutes = (time.monotonic() - began) / 60
-    machine = f"Machine: {processor()}; {program.count} runs in {minutes:.0f} minutes."
+    load = os.getloadavg()[2]
+    machine = (f"Machine: {processor()}, {os.cpu_count()} cores; {program.count} runs in {minutes:.0f} minutes. The last quarter of an hour "
+               f"{load:.1f} programs ran at a time: above {os.cpu_count()} they were in each other's way, and seconds below are too long.")
     chapter = "\n\n".join([page.opening(summary, machine, asked.quick), *parts]) + "\n"
     print(chapter)
     if not asked.only:

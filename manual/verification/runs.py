@@ -81,14 +81,27 @@ class Program:
     def __init__(self, path, root, scratch):
         self.path, self.root, self.scratch = Path(path), Path(root), Path(scratch)
         help_text = subprocess.run([path, "run", "--help"], capture_output=True, text=True, check=True).stdout
+        self.schema = subprocess.run([path, "schema"], capture_output=True, text=True, check=True).stdout
         self.takes_solver = "--solver" in help_text
         self.takes_no_frames = "--no-frames" in help_text
         self.count = 0
 
     def has_solver(self, name):
         """Whether decks may write solver.<name>."""
-        schema = subprocess.run([self.path, "schema"], capture_output=True, text=True, check=True).stdout
-        return self.takes_solver and f"solver.{name}{{" in schema.replace(" ", "")
+        return self.takes_solver and f"solver.{name}{{" in self.schema.replace(" ", "")
+
+    def solvers(self):
+        """{name in the report: expression for --solver} of what this program has, the default first."""
+        known = {"latin": "latin"} if self.takes_solver else {"latin": None}
+        if self.takes_solver and "`massless_contact`" in self.schema:
+            known["latin tuned"] = 'latin{ mass = "tuned", massless_contact = true }'
+        if self.has_solver("monolithic"):
+            known["monolithic"] = "monolithic"
+        if self.has_solver("explicit"):
+            # The default penalty of 0.1 lets these scenes' sides overlap by several cells: a fair rival takes 1.
+            known["explicit one_point"] = "explicit{ penalty = 1 }"
+            known["explicit full"] = 'explicit{ penalty = 1, integration = "full" }'
+        return known
 
     def run(self, deck, settings=None, solver=None, threads=1, limit=900):
         """Computes `deck` (relative to the repository) with parameters `settings`; never raises on an exit code."""

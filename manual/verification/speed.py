@@ -11,7 +11,7 @@ from scenes import SCENES, TOLERANCES, WINDOWS
 ESTIMATES = [f"error estimate, {what} [%]" for what in ("iteration", "time step", "mesh")]   # figures of run.json
 LEVELS = [0.10, 0.03, 0.01, 0.003]
 LINES = {"mesh": "-", "dt": "--", "tolerance": ":", "window": "-.", "safety": "--", "penalty": ":"}
-COLOUR = {"latin": "#0b5394", "monolithic": "#c75b12", "explicit one_point": "#2e7d32", "explicit full": "#8e24aa"}
+COLOUR = {"latin": "#0b5394", "latin tuned": "#00a0c6", "monolithic": "#c75b12", "explicit one_point": "#2e7d32", "explicit full": "#8e24aa"}
 
 
 @dataclass
@@ -34,23 +34,19 @@ class Row:
 
 
 def curves(scene, solvers, quick):
-    """[(solver, knob, [(value, settings, --solver)])] of a scene for the solvers that the program has."""
+    """[(solver, knob, [(value, settings, --solver)])] of a scene; `solvers` as Program.solvers answers them."""
     def every(values):
         return values[1:-1] if quick else values
 
-    found = [("latin", "mesh", [(v, s, "latin") for v, s in every(scene.mesh)]),
-             ("latin", "dt", [(v, s, "latin") for v, s in every(scene.dt)])]
-    if "option" in solvers:
+    found = [(name, "mesh", [(v, s, option) for v, s in every(scene.mesh)]) for name, option in solvers.items()]
+    found += [(name, "dt", [(v, s, solvers[name]) for v, s in every(scene.dt)]) for name in ("latin", "latin tuned", "monolithic")
+              if name in solvers]
+    if solvers["latin"]:
         found += [("latin", "tolerance", [(t, scene.base, f"latin{{ tolerance = {t} }}") for t in every(TOLERANCES)]),
                   ("latin", "window", [(w, scene.base, f"latin{{ window = {w} }}") for w in WINDOWS])]
-    if "monolithic" in solvers:
-        found += [("monolithic", "mesh", [(v, s, "monolithic") for v, s in every(scene.mesh)]),
-                  ("monolithic", "dt", [(v, s, "monolithic") for v, s in every(scene.dt)])]
-    if "explicit" in solvers:
-        found += [("explicit one_point", "mesh", [(v, s, "explicit") for v, s in every(scene.mesh)]),
-                  ("explicit one_point", "safety", [(v, scene.base, f"explicit{{ safety = {v} }}") for v in ("0.9", "0.45", "0.2")]),
-                  ("explicit one_point", "penalty", [(v, scene.base, f"explicit{{ penalty = {v} }}") for v in ("0.01", "0.1", "1")]),
-                  ("explicit full", "mesh", [(v, s, 'explicit{ integration = "full" }') for v, s in every(scene.mesh)])]
+    if "explicit one_point" in solvers:
+        found += [("explicit one_point", "safety", [(v, scene.base, f"explicit{{ penalty = 1, safety = {v} }}") for v in ("0.9", "0.45", "0.2")]),
+                  ("explicit one_point", "penalty", [(v, scene.base, f"explicit{{ penalty = {v} }}") for v in ("0.01", "0.1", "1", "10")])]
     return found
 
 
@@ -78,7 +74,7 @@ def measure(scene, program, solvers, reference, quick, say):
         say(f"  {scene.name}: {solver}, {knob}")
         for value, settings, option in points:
             told = " ".join(f"{k}={v}" for k, v in settings.items())
-            run, cost = program.timed(scene.deck, settings, option if program.takes_solver else None, limit=240)
+            run, cost = program.timed(scene.deck, settings, option, limit=240)
             row = Row(scene.name, solver, knob, value, told, option, run.exit_code)
             if run.cases and run.exit_code in (0, 1):
                 record = run.record()
@@ -182,15 +178,9 @@ def against_latin(rows):
     return "Seconds over those of latin at the same meshes and dt: " + "; ".join(told) + "." if told else ""
 
 
-def known_solvers(program):
-    """Which of the solvers and options this program has."""
-    found = {name for name in ("monolithic", "explicit") if program.has_solver(name)}
-    return found | ({"option"} if program.takes_solver else set())
-
-
 def scenes(program, folder, say, quick=False, only=None):
     """Runs every scene: [(Scene, rows, sentence on the reference)], and writes figures and speed.csv."""
-    solvers, done = known_solvers(program), []
+    solvers, done = program.solvers(), []
     for scene in SCENES:
         if only and scene.name != only:
             continue
