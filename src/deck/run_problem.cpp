@@ -44,7 +44,7 @@ void warn_of_losses(const Problem& problem, const RunResult& result) {
   if (problem.explicit_dynamics) {
     if (lost > 5.0)
       warn(fmt::format("the springs of contact hold up to {:.1f} % of the energy: a larger 'penalty' of solver.explicit lets the sides overlap less", lost));
-    if (const double hourglass = result.figures.at("largest hourglass energy [%]"); hourglass > 10.0)
+    if (const double hourglass = result.figures.contains("largest hourglass energy [%]") ? result.figures.at("largest hourglass energy [%]") : 0.0; hourglass > 10.0)
       warn(fmt::format("hourglass modes hold up to {:.1f} % of the energy: take smaller elements or integration = \"full\"", hourglass));
     if (open > 0.5) warn(fmt::format("the energy balance is open by {:.2f} %: take a smaller 'safety' of solver.explicit", open));
     return;
@@ -83,9 +83,10 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
       line += fmt::format("; {} NOT CONVERGED (worst indicator {:.1e})", step.increments_not_converged, step.worst_indicator);
     say(line);
   }
-  say(fmt::format("  energy balance closes within {:.3g} %, the scheme dissipates {:.3g} % and creates {:.3g} %",
-                  result.figures.at("energy imbalance [%]"), result.figures.at("energy dissipated by the scheme [%]"),
-                  result.figures.at("energy created by the scheme [%]")));
+  const double lost = result.figures.at("energy dissipated by the scheme [%]"), gained = result.figures.at("energy created by the scheme [%]");
+  say(fmt::format("  energy balance closes within {:.3g} %, ", result.figures.at("energy imbalance [%]")) +
+      (problem.explicit_dynamics ? fmt::format("the springs of contact hold up to {:.3g} %", lost)
+                                 : fmt::format("the scheme dissipates {:.3g} % and creates {:.3g} %", lost, gained)));
   const auto figure = [&](const char* name) { return result.figures.at(name); };
   if (result.figures.contains("error estimate, mesh [%]"))
     say(fmt::format("  estimated errors (energy norm, {:.3g} kHz on average): iteration {:.2g} %, time step {:.2g} %, mesh {:.2g} %",

@@ -57,7 +57,7 @@ class LocalStage {
   Vec3 mean_displacement(int first, int end) const;
   double work_on_pieces(const Point& point) const;
   void show_residuals(State& state) const;
-  // Points between nodes without mass take the force and the gap of the step's end (manual, eq. S9).
+  // Points between nodes without mass take the force and the gap of the step's end (manual, eq. S7).
   bool is_massless(const Point& point) const;
   Increment increment_at(const Point& point) const {
     Increment increment = increment_;

@@ -29,12 +29,18 @@ InternalForce::InternalForce(const std::vector<Body>& bodies, const ExplicitSett
     Part part;
     part.beta = material.damping.stiffness;
     has_stiffness_damping_ |= part.beta > 0.0;
-    UniformStrainSettings cells{true, settings.hourglass, settings.bulk_viscosity ? usual_viscosity : BulkViscosity{}};
+    const BulkViscosity none, viscosity = settings.bulk_viscosity ? usual_viscosity : none;
     for (const CellBlock& block : mesh.blocks) {
       // Prisms have no hourglass control of their own and keep their full integration.
-      cells.has_stress = settings.one_point && block.type != CellType::prism6;
-      if (cells.has_stress || settings.bulk_viscosity) part.cells.emplace_back(mesh, block, material, cells);
-      if (settings.one_point && !cells.has_stress)
+      const bool is_uniform = settings.one_point && block.type != CellType::prism6;
+      // Viscosity sees the strain alone, not what stiffness damping adds to it: at its rate that is a third derivative.
+      const bool is_apart = !is_uniform || part.beta > 0.0;
+      if (is_uniform)
+        part.cells.emplace_back(mesh, block, material,
+                                UniformStrainSettings{true, settings.hourglass, is_apart ? none : viscosity});
+      if (is_apart && settings.bulk_viscosity)
+        part.viscous.emplace_back(mesh, block, material, UniformStrainSettings{false, 0.0, viscosity});
+      if (settings.one_point && !is_uniform)
         part.stiffness = std::make_unique<SymmetricBlocks>(assemble(only(mesh, block), material).stiffness);
     }
     if (!settings.one_point) part.stiffness = std::make_unique<SymmetricBlocks>(body.matrices->stiffness);
@@ -79,14 +85,18 @@ CellEnergy InternalForce::damped(const Vec& displacement, const Vec& velocity, d
       u = damped_.data();
     }
     for (UniformStrainCells& cells : part.cells) energy += cells.add_force(u, dt, has_energy, force.data() + first_[i]);
+    for (UniformStrainCells& cells : part.viscous)
+      energy += cells.add_force(displacement.data() + first_[i], dt, false, force.data() + first_[i]);
     energy += multiply(part, u, force.data() + first_[i], has_energy);
   }
   return energy;
 }
 
 void InternalForce::start_from(const Vec& displacement) {
-  for (int i = 0; i < n_parts(); ++i)
+  for (int i = 0; i < n_parts(); ++i) {
     for (UniformStrainCells& cells : parts_[i].cells) cells.start_from(displacement.data() + first_[i]);
+    for (UniformStrainCells& cells : parts_[i].viscous) cells.start_from(displacement.data() + first_[i]);
+  }
 }
 
 double InternalForce::largest_stiffness_damping() const {
@@ -99,6 +109,7 @@ double InternalForce::bytes() const {
   double sum = 0.0;
   for (const Part& part : parts_) {
     for (const UniformStrainCells& cells : part.cells) sum += cells.bytes();
+    for (const UniformStrainCells& cells : part.viscous) sum += cells.bytes();
     if (part.stiffness) sum += part.stiffness->bytes();
   }
   return sum;

@@ -31,7 +31,8 @@ class InternalForce {
 
  private:
   struct Part {
-    std::vector<UniformStrainCells> cells;
+    std::vector<UniformStrainCells> cells;       // with their viscosity where there is no stiffness damping
+    std::vector<UniformStrainCells> viscous;     // the viscosity alone
     std::unique_ptr<SymmetricBlocks> stiffness;  // of what the cells do not resist with; may be null
     double beta = 0.0;                           // s
   };

@@ -60,52 +60,60 @@ SharedNodes::SharedNodes(const StepModel& model, const std::vector<char>& is_tie
   }
 }
 
+// Calls back with every tie: surface, its point, and the two nodes counted through all substructures.
+template <class Visit>
+void SharedNodes::for_each_tie(const StepModel& model, const std::vector<char>& is_tied, const InternalForce& internal,
+                               Visit&& visit) {
+  for (size_t s = 0; s < model.surfaces->size(); ++s) {
+    const Surface& surface = (*model.surfaces)[s];
+    for (int i = 0; is_tied[s] && i < surface.n_points(); ++i)
+      visit(static_cast<int>(s), i, internal.first(surface.part_1) / 3 + surface.facing.nodes_1[i],
+            internal.first(surface.part_2) / 3 + surface.facing.nodes_2[i]);
+  }
+}
+
 // Groups of nodes tied to each other; those alone count where they are held or absorb.
 void SharedNodes::collect(const StepModel& model, const std::vector<char>& is_tied, const InternalForce& internal) {
-  const int n_nodes = internal.n_dofs() / 3;
-  Sets sets(n_nodes);
-  const auto node_of = [&](int part, int node) { return internal.first(part) / 3 + node; };
-  for (size_t s = 0; s < model.surfaces->size(); ++s) {
-    const Surface& surface = (*model.surfaces)[s];
-    for (int i = 0; is_tied[s] && i < surface.n_points(); ++i) {
-      const int a = node_of(surface.part_1, surface.facing.nodes_1[i]);
-      const int b = node_of(surface.part_2, surface.facing.nodes_2[i]);
-      is_shared_[a] = is_shared_[b] = 1;
-      sets.parent[sets.of(a)] = sets.of(b);
-    }
-  }
+  Sets sets(internal.n_dofs() / 3);
+  for_each_tie(model, is_tied, internal, [&](int, int, int a, int b) {
+    is_shared_[a] = is_shared_[b] = 1;
+    sets.parent[sets.of(a)] = sets.of(b);
+  });
   for (int part = 0; part < internal.n_parts(); ++part) {
+    const int first = internal.first(part) / 3;
     for (const auto& [node, held] : model.conditions.held[part])
-      if (held.n > 0) is_shared_[node_of(part, node)] = 1;
-    for (const auto& [node, impedance] : *model.pieces[part]->setup().absorbing) is_shared_[node_of(part, node)] = 1;
+      if (held.n > 0) is_shared_[first + node] = 1;
+    for (const auto& [node, impedance] : model.pieces[part]->absorbing()) is_shared_[first + node] = 1;
   }
-  std::map<int, int> group_of;
-  std::map<int, int> copy_of;
-  for (int part = 0; part < internal.n_parts(); ++part)
-    for (int node = 0; node < (internal.first(part + 1) - internal.first(part)) / 3; ++node) {
-      const int global = node_of(part, node);
+  std::vector<int> group_of(sets.parent.size(), -1), copy_of(sets.parent.size(), -1);
+  for (int part = 0; part < internal.n_parts(); ++part) {
+    const Piece& piece = *model.pieces[part];
+    auto absorbing = piece.absorbing().begin();  // by node
+    for (int global = internal.first(part) / 3; global < internal.first(part + 1) / 3; ++global) {
       if (!is_shared_[global]) continue;
-      const auto [it, is_new] = group_of.emplace(sets.of(global), static_cast<int>(groups_.size()));
-      if (is_new) groups_.emplace_back();
-      Group& group = groups_[it->second];
-      copy_of[global] = static_cast<int>(group.copies.size());
-      Copy copy{part, node, 3 * global, model.pieces[part]->node_mass(node)};
-      const auto& absorbing = *model.pieces[part]->setup().absorbing;
-      if (const auto found = absorbing.find(node); found != absorbing.end()) copy.impedance = found->second;
-      group.mass += copy.mass;
-      group.impedance += copy.impedance;
-      group.absorbs |= !copy.impedance.isZero(0.0);
-      group.copies.push_back(copy);
-    }
-  for (size_t s = 0; s < model.surfaces->size(); ++s) {
-    const Surface& surface = (*model.surfaces)[s];
-    for (int i = 0; is_tied[s] && i < surface.n_points(); ++i) {
-      const int a = node_of(surface.part_1, surface.facing.nodes_1[i]);
-      const int b = node_of(surface.part_2, surface.facing.nodes_2[i]);
-      groups_[group_of.at(sets.of(a))].edges.push_back(
-          {static_cast<int>(s), i, copy_of.at(a), copy_of.at(b), std::sqrt(surface.facing.areas[i])});
+      int& group = group_of[sets.of(global)];
+      if (group < 0) {
+        group = static_cast<int>(groups_.size());
+        groups_.emplace_back();
+      }
+      const int node = global - internal.first(part) / 3;
+      Copy copy{part, node, 3 * global, piece.node_mass(node)};
+      if (absorbing != piece.absorbing().end() && absorbing->first == node) copy.impedance = (absorbing++)->second;
+      copy_of[global] = static_cast<int>(groups_[group].copies.size());
+      add_copy(copy, groups_[group]);
     }
   }
+  for_each_tie(model, is_tied, internal, [&](int s, int i, int a, int b) {
+    const double area = (*model.surfaces)[s].facing.areas[i];
+    groups_[group_of[sets.of(a)]].edges.push_back({s, i, copy_of[a], copy_of[b], std::sqrt(area)});
+  });
+}
+
+void SharedNodes::add_copy(const Copy& copy, Group& group) {
+  group.mass += copy.mass;
+  group.impedance += copy.impedance;
+  group.absorbs |= !copy.impedance.isZero(0.0);
+  group.copies.push_back(copy);
 }
 
 void SharedNodes::hold(const StepModel& model, Group& group) const {

@@ -11,8 +11,7 @@ namespace dygita {
 
 class SharedNodes {
  public:
-  // is_tied: of each surface, whether its two sides are held together all through the step. Throws InputError when one
-  // node is prescribed two motions through its ties.
+  // is_tied: of each surface, whether its two sides are held together all through the step.
   SharedNodes(const StepModel& model, const std::vector<char>& is_tied, const InternalForce& internal);
 
   // Gives every copy the mean of a field, weighted with their masses.
@@ -64,6 +63,10 @@ class SharedNodes {
     Mat split;              // from the copies' free forces to the edges' weighted ones
   };
   void collect(const StepModel& model, const std::vector<char>& is_tied, const InternalForce& internal);
+  template <class Visit>
+  static void for_each_tie(const StepModel& model, const std::vector<char>& is_tied, const InternalForce& internal,
+                           Visit&& visit);
+  static void add_copy(const Copy& copy, Group& group);
   void hold(const StepModel& model, Group& group) const;
   static void make_split(const StepModel& model, Group& group);
   void split_forces(Group& group, const Vec& velocity_old, const Vec& velocity, double dt, State& state);

@@ -45,7 +45,8 @@ void OctaveBank::add(size_t i_octave, const Vec& velocity) {
     }
     const double content = std::sqrt(sum) / gain, steps = std::exp2(i_octave);
     octave.content = std::max(octave.content, content);
-    octave.phase += steps * std::pow(quarter / steps, 3) / 12.0 * content;
+    const double turned = is_tuned_ ? std::pow(quarter / steps, 5) / 80.0 : std::pow(quarter / steps, 3) / 12.0;
+    octave.phase += steps * turned * content;
   }
   // Every other sample, smoothed, goes to the octave below.
   if (octave.n_samples++ % 2 == 1 && last.size() >= 2) {
@@ -84,7 +85,7 @@ void ErrorEstimator::begin_step(const Instant& start) {
     n += piece->free_mass().size();
   }
   velocity_old_.resize(0);
-  bank_.emplace(mass_);
+  bank_.emplace(mass_, start.model.problem->mass().is_tuned);
   dt_ = start.model.scheme.dt;
   start_.clear();
   for (size_t i = 0; i < start.model.pieces.size(); ++i) start_.push_back(start.displacement(static_cast<int>(i)));

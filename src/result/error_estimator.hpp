@@ -15,8 +15,8 @@ namespace dygita {
 // with the exact one.
 class OctaveBank {
  public:
-  // mass: kg, weight of each unknown.
-  explicit OctaveBank(Vec mass) : mass_(std::move(mass)) {}
+  // mass: kg, weight of each unknown. is_tuned: the cells' mass undoes the phase error to the next order, (w dt)^5 / 80.
+  OctaveBank(Vec mass, bool is_tuned) : mass_(std::move(mass)), is_tuned_(is_tuned) {}
 
   void add(const Vec& velocity) { add(0, velocity); }
   // Norm (sqrt of J) of the accumulated phase error; `factor` multiplies the phases.
@@ -33,6 +33,7 @@ class OctaveBank {
   double norm2(const Vec& v) const { return v.dot(mass_.cwiseProduct(v)); }
 
   Vec mass_;
+  bool is_tuned_;
   std::vector<Octave> octaves_;
 };
 

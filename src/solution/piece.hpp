@@ -15,7 +15,7 @@ namespace dygita {
 struct Mass {
   Vec lumped;                     // kg, of each node
   SparseMatrix matrix;            // n_nodes x n_nodes, kg, row sums as above; empty: lumped
-  std::vector<char> is_massless;  // nodes whose mass has been moved inside (manual, eq. S9); empty: none
+  std::vector<char> is_massless;  // nodes whose mass has been moved inside (manual, eq. S7); empty: none
 };
 
 // A substructure's matrices; shared by equal substructures and by all steps.
@@ -70,6 +70,7 @@ class Piece {
   int n_free() const { return static_cast<int>(mass_.size()); }
   const Setup& setup() const { return setup_; }
   const Factor* factor() const { return factor_.get(); }
+  const std::vector<std::pair<int, Mat3>>& absorbing() const { return absorbing_; }  // node, impedance (N s/m), by node
   bool has_motions() const { return has_motions_; }
 
   // Diagonal of the interface's own Schur complement in the rows' directions, shared between their laws (N s/m; static N/m).
@@ -77,7 +78,7 @@ class Piece {
   // Fixes the search directions k (one a row) and forms H = (S0 + k)^-1; `plain` factorises A + k and solves in full instead.
   void set_search_directions(const Vec& k, bool plain);
   const Vec& k() const { return k_; }
-  // Has the node given its mass away in this step (manual, eq. S9)?
+  // Has the node given its mass away in this step (manual, eq. S7)?
   bool is_massless(int node) const {
     const std::vector<char>& massless = setup_.body->mass->is_massless;
     return !setup_.scheme.is_static && !massless.empty() && massless[node];
@@ -176,7 +177,7 @@ class Piece {
   Vec mass_;                   // lumped
   SparseMatrix mass_matrix_;   // of the free unknowns in factor order; empty: lumped
   Vec momentum_;               // M v, kept from one increment to the next
-  // Unknowns without mass in a dynamic step: their force is that of the step's end (manual, eq. S9).
+  // Unknowns without mass in a dynamic step: their force is that of the step's end (manual, eq. S7).
   std::vector<int> massless_;
   SparseMatrix massless_columns_;  // of K, one a massless unknown
   Vec end_factor_;                 // D: 1 - g, and 1 for them

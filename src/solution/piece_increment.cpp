@@ -101,7 +101,7 @@ void Piece::start_massless() {
   p_ += end_factor_.cwiseProduct(z_);
 }
 
-// P of the next increment from W = dt D K D V1: K U1 + D Z1 with Z = dt K G V, G being g, and 0 for massless unknowns (manual, eq. S9).
+// P of the next increment from W = dt D K D V1: K U1 + D Z1 with Z = dt K G V, G being g, and 0 for massless unknowns (manual, eq. S7).
 void Piece::advance_massless() {
   const double g = setup_.scheme.g;
   Vec own(static_cast<Eigen::Index>(massless_.size()));

@@ -25,11 +25,11 @@ struct PrintedRun {
   }
 };
 
-inline PrintedRun run_printing(const std::string& name, const Settings& settings = {}) {
+inline PrintedRun run_printing(const std::string& name, const Settings& settings = {}, const std::string& solver = "") {
   testing::internal::CaptureStdout();
   PrintedRun printed;
   try {
-    printed.runs = run_file(deck(name), settings, 1);
+    printed.runs = run_file(deck(name), settings, 1, solver);
   } catch (...) {
     testing::internal::GetCapturedStdout();
     throw;

@@ -46,11 +46,12 @@ struct EstimatedRun {
   Fields fields;
 };
 
-inline EstimatedRun run_estimated(const std::filesystem::path& path, const Settings& settings, double tolerance = 0.0) {
+inline EstimatedRun run_estimated(const std::filesystem::path& path, const Settings& settings, double tolerance = 0.0, bool is_tuned = false) {
   set_progress_enabled(false);
   EstimatedRun done;
   const Engine engine{[&](Problem problem, const RunRequest&) {
                         if (tolerance > 0.0) problem.solver.tolerance = tolerance;
+                        problem.solver.mass.is_tuned = is_tuned;
                         Recorder recorder(problem);
                         solve(problem, recorder);
                         auto result = std::make_shared<RunResult>();

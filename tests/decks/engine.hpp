@@ -28,7 +28,8 @@ struct DeckRun {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-inline std::vector<DeckRun> run_file(const std::filesystem::path& path, const Settings& settings = {}, int threads = 0) {
+inline std::vector<DeckRun> run_file(const std::filesystem::path& path, const Settings& settings = {}, int threads = 0,
+                                     const std::string& solver = "") {
   set_progress_enabled(false);
   std::vector<DeckRun> runs;
   const Engine engine{[&](const Problem& problem, const RunRequest& request) {
@@ -42,16 +43,18 @@ inline std::vector<DeckRun> run_file(const std::filesystem::path& path, const Se
   options.path = path;
   options.settings = settings;
   options.threads = threads;
+  options.solver = solver;
   options.write_files = false;
   run_deck(options, engine);
   return runs;
 }
 
 // A deck given as text; its file lives beside the test's working directory.
-inline std::vector<DeckRun> run_text(const std::string& text, const Settings& settings = {}, int threads = 0) {
+inline std::vector<DeckRun> run_text(const std::string& text, const Settings& settings = {}, int threads = 0,
+                                     const std::string& solver = "") {
   const std::filesystem::path path = std::filesystem::temp_directory_path() / ("dygita_test_" + std::to_string(std::hash<std::string>{}(text)) + ".lua");
   std::ofstream(path) << text;
-  std::vector<DeckRun> runs = run_file(path, settings, threads);
+  std::vector<DeckRun> runs = run_file(path, settings, threads, solver);
   std::filesystem::remove(path);
   return runs;
 }

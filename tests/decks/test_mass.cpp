@@ -27,13 +27,16 @@ local shake = step.dynamic{ name = "shake", after = press, duration = 60*us, dt 
 problem{ name = "stack", substructures = { lower, upper }, interfaces = { touch }, supports = { base, side, ceiling },
          steps = { press, shake }, outputs = { output.energy{}, output.resultant{ name = "push", on = touch },
          output.history{ name = "top", on = upper:face "zmax", quantity = "velocity" }, output.resultant{ name = "foot", on = base } },
-         solver = solver.)" + solver + " }:run{}\n").at(0);
+         solver = solver.)" +
+                  solver + " }:run{}\n")
+      .at(0);
 }
 
 double imbalance(const DeckRun& run) { return run.figure("energy imbalance [%]"); }
 
 TEST(TunedMassInARun, is_the_same_in_latin_and_in_the_monolithic_solver_under_a_moving_base) {
-  const DeckRun latin = stack("latin{ mass = \"tuned\", tolerance = 1e-9 }"), whole = stack("monolithic{ mass = \"tuned\" }");
+  const DeckRun latin = stack("latin{ mass = \"tuned\", tolerance = 1e-9 }"),
+                whole = stack("monolithic{ mass = \"tuned\" }");
   EXPECT_TRUE(latin.result->converged);
   EXPECT_LT(difference(whole.column("push", "normal"), latin.column("push", "normal")), 1e-6);
   EXPECT_LT(difference(whole.column("top", "z"), latin.column("top", "z")), 1e-6);
@@ -60,7 +63,8 @@ TEST(MasslessContact, closes_the_energy_balance_and_converges_to_what_other_node
 TEST(MasslessContact, is_the_same_in_windows_of_several_steps_and_with_full_solves) {
   const DeckRun one = stack("latin{ massless_contact = true, mass = \"tuned\", tolerance = 1e-9 }");
   const DeckRun plain = stack("latin{ massless_contact = true, mass = \"tuned\", tolerance = 1e-9, plain = true }");
-  const DeckRun windows = stack("latin{ massless_contact = true, mass = \"tuned\", tolerance = 1e-9, window = 5, max_iterations = 2000 }");
+  const DeckRun windows =
+      stack("latin{ massless_contact = true, mass = \"tuned\", tolerance = 1e-9, window = 5, max_iterations = 2000 }");
   EXPECT_LT(difference(one.column("push", "normal"), plain.column("push", "normal")), 1e-6);
   EXPECT_LT(difference(one.column("push", "normal"), windows.column("push", "normal")), 1e-4);
 }

@@ -1,10 +1,9 @@
-#include "fem/mass.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
+#include "fem/mass.hpp"
 #include "fem/meshes.hpp"
 
 namespace dygita::test {
