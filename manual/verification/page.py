@@ -46,7 +46,8 @@ def exact_section(done, orders_rows):
         parts.append("\n\n".join(filter(None, [
             f"### {case.number} {case.title}", f"{case.what} `{case.deck}`", f"*Exact:* {case.exact}",
             picture(case.name, case.title), table(heads, rows), case.note,
-            solvers and "With the deck's own solver and with others (`!`: misses the goal; solvers as in [speed](#speed-against-error)):", solvers and table(*solvers)])))
+            solvers and "With the deck's own solver and with others (`!`: misses the goal; solvers as in [speed](#speed-against-error)):",
+            solvers and table(*solvers)])))
     if orders_rows:
         heads = ["series", "size", "1", "2", "3", "4", "order"]
         parts.append("\n\n".join([
