@@ -88,9 +88,7 @@ def main():
         summary, exact = exact_parts(asked, program, folder, say)
         parts = [exact, *other_parts(asked, program, folder, say)]
     minutes = (time.monotonic() - began) / 60
-    load = os.getloadavg()[2]
-    machine = (f"Machine: {processor()}, {os.cpu_count()} cores; {program.count} runs in {minutes:.0f} minutes. The last quarter of an hour "
-               f"{load:.1f} programs ran at a time: above {os.cpu_count()} they were in each other's way, and seconds below are too long.")
+    machine = f"Machine: {processor()}, {os.cpu_count()} cores; {program.count} runs in {minutes:.0f} minutes."
     chapter = "\n\n".join([page.opening(summary, machine, asked.quick), *parts]) + "\n"
     print(chapter)
     if not asked.only:
