@@ -51,7 +51,8 @@ def figure(rows):
             points = [p for p in points if min(p) > 0]
             values += [v for p in points for v in p]
             if points:
-                a.loglog(*zip(*points), marker=figures.MARKERS[k], color=figures.COLOURS[k], linewidth=0.8, label=scene)
+                marker, colour = figures.MARKERS[k % len(figures.MARKERS)], figures.COLOURS[k % len(figures.COLOURS)]
+                a.loglog(*zip(*points), marker=marker, color=colour, linewidth=0.8, label=scene)
         ends = [min(values), max(values)]
         a.plot(ends, ends, color=figures.EXACT, linewidth=3, alpha=0.5, zorder=0)
         a.set_title(f"{KNOBS[knob]}: estimated (%)")

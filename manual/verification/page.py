@@ -46,7 +46,8 @@ def exact_section(done, orders_rows):
         parts.append("\n\n".join(filter(None, [
             f"### {case.number} {case.title}", f"{case.what} `{case.deck}`", f"*Exact:* {case.exact}",
             picture(case.name, case.title), table(heads, rows), case.note,
-            solvers and "With the deck's own solver and with others (`!`: misses the goal; solvers as in [speed](#speed-against-error)):", solvers and table(*solvers)])))
+            solvers and "With the deck's own solver and with others (`!`: misses the goal; solvers as in [speed](#speed-against-error)):",
+            solvers and table(*solvers)])))
     if orders_rows:
         heads = ["series", "size", "1", "2", "3", "4", "order"]
         parts.append("\n\n".join([
@@ -69,8 +70,8 @@ def hard_section(outcomes):
 
 
 def speed_section(done):
-    parts = ["## Speed against error", "Every solver and knob on the same machine in one run, one thread each: seconds of computation (all phases of "
-             "run.json but the output; the median of three where under one second) against the relative L2 error in time of what one would look at. "
+    parts = ["## Speed against error", "Every solver and knob on the same machine in one run, one thread each: seconds of computation (processor "
+             "time of all phases of run.json but the output; the median of three where under one) against the relative L2 error in time of what one would look at. "
              "*mesh*: cells and dt together; *dt* alone; *tolerance* of the iteration; *window*: steps iterated together (1, 5, 20); explicit: part of "
              "the critical step (*safety*) and stiffness of contact (*penalty*). Tables: the cheapest setting that reaches an error; `-`: none of "
              "those tried does. All runs are in [speed.csv](verification/speed.csv)."]

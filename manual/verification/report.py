@@ -25,7 +25,8 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", default=str(HERE.parents[1] / "build/release/dygita"), help="the program to run")
     parser.add_argument("--quick", action="store_true", help="fewer sizes and runs, three minutes")
-    parser.add_argument("--only", metavar="CASE", help="an exact case by name, orders, hard, speed, speed_<scene> or estimates: its figures and CSV, no chapter")
+    parser.add_argument("--only", metavar="CASE", 
+                        help="an exact case by name, orders, hard, speed, speed_<scene> or estimates: its figures and CSV, no chapter")
     parser.add_argument("--effectivity", default=str(HERE.parents[1] / "build/release/tests/effectivity"),
                         help="the program that compares error estimates with true errors")
     parser.add_argument("--into", metavar="DIR", default=str(HERE.parent), help="where verification.md and verification/ are written")
@@ -87,9 +88,7 @@ def main():
         summary, exact = exact_parts(asked, program, folder, say)
         parts = [exact, *other_parts(asked, program, folder, say)]
     minutes = (time.monotonic() - began) / 60
-    load = os.getloadavg()[2]
-    machine = (f"Machine: {processor()}, {os.cpu_count()} cores; {program.count} runs in {minutes:.0f} minutes. The last quarter of an hour "
-               f"{load:.1f} programs ran at a time: above {os.cpu_count()} they were in each other's way, and seconds below are too long.")
+    machine = f"Machine: {processor()}, {os.cpu_count()} cores; {program.count} runs in {minutes:.0f} minutes."
     chapter = "\n\n".join([page.opening(summary, machine, asked.quick), *parts]) + "\n"
     print(chapter)
     if not asked.only:

@@ -4,8 +4,10 @@ import csv
 import json
 import os
 import re
+import resource
 import statistics
 import subprocess
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -46,6 +48,7 @@ class Run:
     exit_code: int          # None: stopped at the time limit
     text: str
     cases: dict             # folder of each case, in the order of computation
+    share: float = 1.0      # processor time over elapsed time, at most 1: what a busy machine left to a run on one thread
 
     def number(self, label):
         """The number printed after the first label that holds `label`; KeyError where none does."""
@@ -73,6 +76,12 @@ class Run:
 def seconds(record):
     """Seconds of computation: all phases of run.json but the output."""
     return sum(s for phase, s in record["seconds"].items() if phase not in ("all", "output"))
+
+
+def processor_seconds():
+    """Processor time (s) of all programs run so far; runs that are timed go one at a time."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 class Program:
@@ -115,20 +124,26 @@ class Program:
         if self.takes_no_frames:
             command.append("--no-frames")
         environment = dict(os.environ, OMP_WAIT_POLICY="passive", OPENBLAS_NUM_THREADS="1")
+        began, used = time.monotonic(), processor_seconds()
         try:
             done = subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=limit, env=environment)
             code, text = done.returncode, done.stdout + done.stderr
         except subprocess.TimeoutExpired as stopped:
             code, text = None, (stopped.stdout or b"").decode()
         records = sorted(out.glob("*/*/run.json"), key=lambda path: path.stat().st_mtime_ns)
-        return Run(code, text, {path.parent.name: path.parent for path in records})
+        share = min(1.0, (processor_seconds() - used) / (time.monotonic() - began))
+        return Run(code, text, {path.parent.name: path.parent for path in records}, share)
 
     def timed(self, deck, settings=None, solver=None, limit=900):
-        """A run on one thread and its seconds of computation, the median of three where they are under one."""
+        """A run on one thread and its seconds of computation, the median of three where they are under one.
+
+        They are processor time: elapsed seconds of run.json times the share of a processor that the run had.
+        """
         run = self.run(deck, settings, solver, limit=limit)
         if not run.cases:
             return run, None
-        times = [seconds(run.record())]
+        times = [run.share * seconds(run.record())]
         while times[0] < 1 and len(times) < 3:
-            times.append(seconds(self.run(deck, settings, solver).record()))
+            again = self.run(deck, settings, solver)
+            times.append(again.share * seconds(again.record()))
         return run, statistics.median(times)

@@ -101,30 +101,43 @@ def write_csv(path, rows):
 
 
 def figure(scene, rows, floors):
-    """Error against seconds for both quantities; colour tells the solver, the line the knob; names at the curves' ends.
+    """Error against seconds for both quantities: above the solvers as the mesh is refined, below the other knobs.
 
-    `floors` are the errors of the reference, drawn as a grey band, or None where the solution is exact.
+    Colour tells the solver, the line the knob; names stand at the curves' ends. `floors` are the errors of the reference, drawn as
+    a grey band, or None where the solution is exact.
     """
-    fig, axes = figures.plt.subplots(1, 2, figsize=(9.4, 3.9))
-    fig.subplots_adjust(wspace=0.62)
-    for panel, a in enumerate(axes):
-        ends = []
-        for solver, knob in dict.fromkeys((r.solver, r.knob) for r in rows):
-            points = [(r.seconds, r.errors[panel]) for r in rows if (r.solver, r.knob) == (solver, knob)
-                      and r.seconds and math.isfinite(r.errors[panel]) and r.errors[panel] > 0]
-            if not points:
-                continue
-            colour = COLOUR.get(solver, "#555555")
-            a.loglog(*zip(*points), LINES.get(knob, "-"), color=colour, marker="o", markersize=3.5)
-            ends.append((*max(points), f"{solver}, {knob}", colour))
-        a.set_title(f"relative error: {scene.quantities[panel]}")
-        a.set_xlabel("seconds of computation, one thread")
-        percent_axis(a)
-        if floors and floors[panel] > a.get_ylim()[0]:
-            a.axhspan(a.get_ylim()[0], floors[panel], color="#e9e9e9", zorder=0)
-        a.figure.canvas.draw()
-        to_the_right(a, ends)
+    fig, axes = figures.plt.subplots(2, 2, figsize=(9.6, 6.6))
+    fig.subplots_adjust(wspace=0.68, hspace=0.33)
+    for panel in (0, 1):
+        of_mesh = {(r.solver, r.knob) for r in rows if r.knob == "mesh"}
+        others = {(r.solver, r.knob) for r in rows} - of_mesh
+        pale = {curve for curve in of_mesh if any(curve[0] == solver for solver, _ in others)}
+        for a, curves_, context in ((axes[0][panel], of_mesh, set()), (axes[1][panel], others, pale)):
+            draw(a, rows, panel, curves_, context, floors and floors[panel])
+        axes[0][panel].set_title(f"{scene.quantities[panel]}: error, mesh refined")
+        axes[1][panel].set_title("the same, other knobs (pale: mesh refined)")
+        axes[1][panel].set_xlabel("seconds of computation, one thread")
     return fig
+
+
+def draw(axes, rows, panel, shown, context, floor):
+    """Curves `shown`, a set of (solver, knob), with their names; those of `context` pale and without."""
+    ends = []
+    for solver, knob in dict.fromkeys((r.solver, r.knob) for r in rows if (r.solver, r.knob) in shown | context):
+        points = [(r.seconds, r.errors[panel]) for r in rows if (r.solver, r.knob) == (solver, knob)
+                  and r.seconds and math.isfinite(r.errors[panel]) and r.errors[panel] > 0]
+        if not points:
+            continue
+        colour = COLOUR.get(solver, "#555555")
+        pale = (solver, knob) in context
+        axes.loglog(*zip(*points), LINES.get(knob, "-"), color=colour, marker="o", markersize=3.5, alpha=0.25 if pale else 1)
+        if not pale:
+            ends.append((*max(points), solver if knob == "mesh" else f"{solver}, {knob}", colour))
+    percent_axis(axes)
+    if floor and floor > axes.get_ylim()[0]:
+        axes.axhspan(axes.get_ylim()[0], floor, color="#e9e9e9", zorder=0)
+    axes.figure.canvas.draw()
+    to_the_right(axes, ends)
 
 
 def percent_axis(axes):
@@ -153,7 +166,8 @@ def to_the_right(axes, ends):
     for spot, (_, x, y, text, colour) in zip(spots, at):
         y_text = math.exp(math.log(low) + spot / height * math.log(high / low))
         axes.annotate(text, (x, y), xytext=(right * 1.12, y_text), textcoords="data", color=colour, fontsize=7.5, va="center",
-                      annotation_clip=False, arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.5, "shrinkA": 0, "shrinkB": 3})
+                      annotation_clip=False, arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.5, "relpos": (0, 0.5),
+                                                         "shrinkA": 1, "shrinkB": 3})
 
 
 def cheapest(rows, panel):
