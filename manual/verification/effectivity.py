@@ -10,7 +10,13 @@ import figures
 from exact_pages import number
 
 HEADS = ["scene", "knob", "value", "estimated (%)", "true (%)", "estimated / true"]
-KNOBS = {"tolerance": "iteration", "steps": "step of time", "cells": "mesh"}
+KNOBS = {
+    "tolerance": "iteration",
+    "steps": "step of time",
+    "cells": "mesh",
+    "cells and steps": "mesh and step",
+    "cells and steps (tuned mass)": "mesh and step, tuned mass",
+}
 
 
 def run(program, folder, say):
