@@ -17,11 +17,11 @@ namespace dygita {
 struct RunIdentity {
   std::string deck_path, deck_digest;                             // digest of the deck's text
   std::vector<std::pair<std::string, double>> parameters;         // param{} after --set
+  std::string solver;                                             // --solver; empty: the deck's own
   std::vector<std::pair<std::string, std::string>> mesh_digests;  // substructure, digest; left out: the mesh's own
   int threads = 1;
   std::vector<std::pair<std::string, std::string>>
-      libraries;            // name, version, beside those that output itself can name
-  std::string solver = {};  // --solver; empty: the deck's own
+      libraries;  // name, version, beside those that output itself can name
 };
 
 // "0.1.0"
