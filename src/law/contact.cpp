@@ -31,11 +31,25 @@ DiscForce project_on_disc(const Eigen::Vector2d& s, const Eigen::Vector2d& y, do
   return {f * (limit / f.norm()), lambda};
 }
 
+namespace {
+
+// How fast the sides may come together at the end of the increment (m/s). In dynamics a gap may close, a penetration is
+// not thrown back but for `push_out`, and sides that were parting may come back as fast: the mean of the two rates
+// never opens under pressure, so the normal force never feeds energy in, and the gap is at worst what it was (manual,
+// eq. L4).
+double closing_speed(const Increment& increment, const LawState& start) {
+  if (increment.is_static) return start.gap / increment.dt;
+  const double gap = std::max(start.gap, increment.push_out * start.gap);
+  const double parting = increment.g / (1.0 - increment.g) * start.rate[0];
+  return parting > 0.0 ? std::max(gap / increment.dt, parting) : gap / increment.dt;
+}
+
+}  // namespace
+
 Vec3 ContactLaw::force(const Trial& trial, const Increment& increment, const LawState& start) const {
   Vec3 force = Vec3::Zero();
   if (trial.y[0] <= 0.0) return force;
-  const double gap = increment.is_static ? start.gap : std::max(start.gap, increment.push_out * start.gap);
-  const double closing = -gap / increment.dt;
+  const double closing = -closing_speed(increment, start);
   force[0] = std::min((trial.s[0] - closing) / trial.y[0], 0.0);
   if (friction_ > 0.0)
     force.tail<2>() = project_on_disc(trial.s.tail<2>(), trial.y.tail<2>(), friction_ * std::abs(force[0])).force;

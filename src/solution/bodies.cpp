@@ -29,17 +29,23 @@ std::vector<char> nodes_in_contact_alone(const Problem& problem, const std::vect
   const SubstructurePtr& part = problem.substructures[i_part];
   std::vector<char> marked(part->mesh->n_nodes(), 0);
   if (part->material.damping.stiffness > 0.0) return marked;  // the force at the end of a step would not be symmetric
+  std::vector<int> n_surfaces(marked.size(), 0);
   const auto mark = [&](const Surface& surface, char value) {
-    if (surface.part_1 == i_part)
-      for (const int node : surface.facing.nodes_1) marked[node] = value;
-    if (surface.part_2 == i_part)
-      for (const int node : surface.facing.nodes_2) marked[node] = value;
+    for (const auto& [part_here, nodes] : {std::pair{surface.part_1, &surface.facing.nodes_1}, {surface.part_2, &surface.facing.nodes_2}})
+      if (part_here == i_part)
+        for (const int node : *nodes) {
+          marked[node] = value;
+          ++n_surfaces[node];
+        }
   };
   const auto is_contact = [](const Surface& surface) { return surface.law && surface.law->rubs(); };
   for (const Surface& surface : surfaces)
     if (is_contact(surface)) mark(surface, 1);
   for (const Surface& surface : surfaces)
     if (!is_contact(surface)) mark(surface, 0);
+  // In an edge or a corner: without its mass the cell there could turn about the few nodes that have some.
+  for (size_t node = 0; node < marked.size(); ++node)
+    if (n_surfaces[node] > 1) marked[node] = 0;
   for (const StepPtr& step : problem.steps) {
     for (const SupportPtr& support : supports_of(problem, *step))
       if (support->kind == SupportKind::absorbing) take_off(support, part, marked);

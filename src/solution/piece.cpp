@@ -208,6 +208,7 @@ void Piece::make_couplings() {
     Points force(3, unit[m].cols());
     Eigen::Map<Vec>(force.data(), force.size()) = setup_.body->matrices->stiffness * Eigen::Map<const Vec>(unit[m].data(), unit[m].size());
     coupling_[m] = restrict_nodal(force);
+    for (const int i : massless_) coupling_[m][i] /= 1.0 - setup_.scheme.g;  // their force is that of the step's end
     if (mass_matrix_.size() > 0) mass_coupling_[m] = restrict_nodal(nodal_mass_times(unit[m]));
   }
 }

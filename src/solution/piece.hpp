@@ -160,6 +160,7 @@ class Piece {
   Vec mean_velocity() const;  // of the last increment: g V0 + (1 - g) V1, and V1 where there is no mass
   void start_massless();
   void advance_massless();
+  double massive_flow(const Vec& v_mean) const;
   Mat with_search_directions(const Mat& schur, const Vec& k) const;
 
   Setup setup_;
@@ -181,6 +182,7 @@ class Piece {
   std::vector<int> massless_;
   SparseMatrix massless_columns_;  // of K, one a massless unknown
   Vec end_factor_;                 // D: 1 - g, and 1 for them
+  Vec change_;                     // K (U1 - U0) of the last increment, N
   double predicted_factor_bytes_ = 0.0;
   int n_interface_ = 0;
   std::vector<std::pair<int, Mat3>> absorbing_;

@@ -172,7 +172,13 @@ IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_f
     }
     if (g != 0.5) {
       const Vec dv = v_ - v_old_;
-      energy.scheme = (0.5 - g) * (dt * dt * flow + dv.dot(mass_times(dv)));
+      const double stiffness = massless_.empty() ? dt * dt * flow : dt * massive_flow(v_mean);
+      energy.scheme = (0.5 - g) * (stiffness + dv.dot(mass_times(dv)));
+    }
+    // A support or a wall that was there before the step leaves what has no mass out of balance.
+    for (const int i : massless_) {
+      energy.scheme -= 0.5 * dt * v_[i] * start_imbalance_[i];
+      start_imbalance_[i] = 0.0;
     }
   }
   if (has_motions_) {

@@ -125,6 +125,7 @@ void Piece::advance_massless() {
   Vec own(static_cast<Eigen::Index>(massless_.size()));
   for (size_t i = 0; i < massless_.size(); ++i) own[i] = v_[massless_[i]];
   const Vec end = w_.cwiseQuotient(end_factor_);  // dt K D V1
+  change_ = z_ + end;                             // K (U1 - U0)
   p_ += z_ - end_factor_.cwiseProduct(z_) + end;
   z_ = g / (1 - g) * (end - setup_.scheme.dt * (massless_columns_ * own));
   p_ += end_factor_.cwiseProduct(z_);
@@ -142,6 +143,13 @@ double Piece::damped_energy(const Vec& v) const {
   if (scheme.alpha(damping) > 0.0) power += scheme.alpha(damping) * nodal.cwiseProduct(nodal_mass_times(nodal)).sum();
   if (scheme.beta(damping) > 0.0) power += scheme.beta(damping) * flat.dot(setup_.body->matrices->stiffness * flat);
   return scheme.dt * power;
+}
+
+// Power (W) of the last increment's change of the elastic forces on what has mass.
+double Piece::massive_flow(const Vec& v_mean) const {
+  double flow = v_mean.dot(change_);
+  for (const int i : massless_) flow -= v_mean[i] * change_[i];
+  return flow;
 }
 
 }  // namespace dygita

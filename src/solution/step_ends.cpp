@@ -24,14 +24,6 @@ void place_returning_walls(const StepModel& model, State& state) {
 void start_step(StepModel& model, State& state) {
   const bool is_static = model.scheme.is_static;
   const bool first_dynamic = !is_static && !state.has_moved;
-  for (size_t i = 0; i < model.pieces.size(); ++i) {
-    Points& velocity = state.velocity[i];
-    if (is_static) velocity.setZero();
-    if (first_dynamic) velocity.colwise() += model.problem->substructures[i]->velocity;
-    model.pieces[i]->set_state(state.displacement[i], velocity, state.force[i],
-                               interface_force(*model.surfaces, state, static_cast<int>(i)));
-    velocity = model.pieces[i]->velocity();
-  }
   // A wall that is no longer a support has let go.
   for (size_t s = 0; s < model.surfaces->size(); ++s) {
     const Support* wall = (*model.surfaces)[s].wall;
@@ -40,6 +32,14 @@ void start_step(StepModel& model, State& state) {
       point.force.setZero();
       point.status = PointState::open;
     }
+  }
+  for (size_t i = 0; i < model.pieces.size(); ++i) {
+    Points& velocity = state.velocity[i];
+    if (is_static) velocity.setZero();
+    if (first_dynamic) velocity.colwise() += model.problem->substructures[i]->velocity;
+    model.pieces[i]->set_state(state.displacement[i], velocity, state.force[i],
+                               interface_force(*model.surfaces, state, static_cast<int>(i)));
+    velocity = model.pieces[i]->velocity();
   }
   place_returning_walls(model, state);
   Energies& energies = state.energies;

@@ -173,5 +173,24 @@ TEST(EarlyYield, a_bolt_yields_at_once_and_a_wide_gap_stays_open_then_closes) {
   EXPECT_LT(std::abs(bolt.number("after the second, error")), 1e-4);
 }
 
+// The sole flutters at CFL 4: contact that opens and closes within steps must not feed the motion (it created 82 %
+// once).
+TEST(SlidingAtLargeSteps, creates_no_energy) {
+  const PrintedRun block = run_printing("verification/sliding_block.lua", {{"n", "8"}, {"dt", "1*us"}});
+  for (const DeckRun& run : block.runs) {
+    EXPECT_TRUE(run.result->converged);
+    EXPECT_LT(run.figure("energy created by the scheme [%]"), 1e-9);
+  }
+  EXPECT_LT(std::abs(block.number("thrown: distance")), 2.0);
+}
+
+// A static increment from nothing to far beyond yield (its trapezoid created 11 % once).
+TEST(StaticYield, creates_no_energy_in_one_increment) {
+  for (const char* name : {"hard/early_yield.lua", "hard/plastic_cycle.lua"}) {
+    const PrintedRun bolt = run_printing(name);
+    for (const DeckRun& run : bolt.runs) EXPECT_LT(run.figure("energy created by the scheme [%]"), 1e-3) << name;
+  }
+}
+
 }  // namespace
 }  // namespace dygita::test
