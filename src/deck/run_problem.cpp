@@ -88,9 +88,11 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
       (problem.explicit_dynamics ? fmt::format("the springs of contact hold up to {:.3g} %", lost)
                                  : fmt::format("the scheme dissipates {:.3g} % and creates {:.3g} %", lost, gained)));
   const auto figure = [&](const char* name) { return result.figures.at(name); };
+  const bool is_explicit = result.figures.contains("error estimate, penalty [%]");
   if (result.figures.contains("error estimate, mesh [%]"))
-    say(fmt::format("  estimated errors (energy norm, {:.3g} kHz on average): iteration {:.2g} %, time step {:.2g} %, mesh {:.2g} %",
-                    figure("mean frequency of the motion [Hz]") / 1e3, figure("error estimate, iteration [%]"),
+    say(fmt::format("  estimated errors (energy norm, {:.3g} kHz on average): {} {:.2g} %, time step {:.2g} %, mesh {:.2g} %",
+                    figure("mean frequency of the motion [Hz]") / 1e3, is_explicit ? "penalty" : "iteration",
+                    figure(is_explicit ? "error estimate, penalty [%]" : "error estimate, iteration [%]"),
                     figure("error estimate, time step [%]"), figure("error estimate, mesh [%]")));
   if (result.figures.contains("error estimate, static, mesh [%]"))
     say(fmt::format("  estimated errors of static steps: iteration {:.2g} %, mesh {:.2g} %", figure("error estimate, static, iteration [%]"),

@@ -13,61 +13,72 @@ double energy_density(const Elastic& material, const Eigen::Matrix<double, 6, 1>
   return 0.5 * ((1 + material.poisson) * norm2 - material.poisson * trace * trace) / material.young;
 }
 
+// 1/2 of the integral of d : C^-1 : d over a cell, d interpolated from its nodes.
 template <class Cell>
-struct ErrorKernel {
-  static constexpr int n = Cell::n_nodes;
-
-  const Mesh& mesh;
-  const Elastic& material;
-  const Points& displacement;
-  const Tensors& smooth;
-  Vec& energy;    // of each node's share
-  Vec& at_nodes;  // von Mises
-
-  CornerStress<n> difference;
-  double share = 0.0;
-  Vec corner;
-
-  void compute(const int* nodes, int) {
-    const Nodes<n> x = gather<n>(mesh.nodes, nodes);
-    difference = -Cell::stress(x, material, gather<n>(displacement, nodes));
-    for (int a = 0; a < n; ++a) difference.col(a) += smooth.col(nodes[a]);
-    const auto& shapes = Cell::shapes();
-    share = 0.0;
-    if constexpr (n == 4) {  // the mean of a quadratic on a tetrahedron: one point would not see the corners
-      const double volume = point_in_cell(shapes, x, 0).volume;
-      const Eigen::Matrix<double, 6, 1> sum = difference.rowwise().sum();
-      share = energy_density(material, sum);
-      for (int a = 0; a < n; ++a) share += energy_density(material, difference.col(a));
-      share *= volume / 20.0;
-    } else {
-      for (int i = 0; i < shapes.n_points; ++i)
-        share += point_in_cell(shapes, x, i).volume * energy_density(material, difference * shapes.values.col(i));
-    }
-    share /= n;
-    corner = von_mises(difference);
+double cell_energy(const Elastic& material, const Nodes<Cell::n_nodes>& x, const CornerStress<Cell::n_nodes>& d) {
+  constexpr int n = Cell::n_nodes;
+  const auto& shapes = Cell::shapes();
+  double energy = 0.0;
+  if constexpr (n == 4) {  // the mean of a quadratic on a tetrahedron: its one point would not see the corners
+    const Eigen::Matrix<double, 6, 1> sum = d.rowwise().sum();
+    energy = energy_density(material, sum);
+    for (int a = 0; a < n; ++a) energy += energy_density(material, d.col(a));
+    return energy * point_in_cell(shapes, x, 0).volume / 20.0;
   }
-  void add(const int* nodes, int a) {
-    energy[nodes[a]] += share;
-    at_nodes[nodes[a]] = std::max(at_nodes[nodes[a]], corner[a]);
-  }
-  void finish() {}
-};
+  for (int i = 0; i < shapes.n_points; ++i)
+    energy += point_in_cell(shapes, x, i).volume * energy_density(material, d * shapes.values.col(i));
+  return energy;
+}
+
+// The stress of every cell at its nodes, column by column in the order of the block's nodes.
+template <class Cell>
+Tensors cell_stresses(const Mesh& mesh, const CellBlock& block, const Elastic& material, const Points& displacement) {
+  constexpr int n = Cell::n_nodes;
+  Tensors stress(6, static_cast<Eigen::Index>(block.nodes.size()));
+#pragma omp parallel for schedule(static)
+  for (int i = 0; i < block.n_cells(); ++i)
+    stress.middleCols<n>(n * i) =
+        Cell::stress(gather<n>(mesh.nodes, block.cell(i)), material, gather<n>(displacement, block.cell(i)));
+  return stress;
+}
 
 }  // namespace
 
 StressError stress_error(const Mesh& mesh, const Elastic& material, const Points& displacement) {
-  const Tensors smooth = nodal_stress(mesh, material, displacement);
-  const NodeOwners owners = node_owners(mesh);
-  StressError error{0.0, Vec::Zero(mesh.n_nodes())};
-  Vec energy = Vec::Zero(mesh.n_nodes());
-  for (const CellBlock& block : mesh.blocks)
+  std::vector<Tensors> of_cells;
+  Tensors smooth = Tensors::Zero(6, mesh.n_nodes());
+  Vec n_cells = Vec::Zero(mesh.n_nodes());
+  for (const CellBlock& block : mesh.blocks) {
     with_cell(block.type, [&](auto cell) {
-      sum_at_nodes(
-          block, owners,
-          ErrorKernel<decltype(cell)>{mesh, material, displacement, smooth, energy, error.at_nodes, {}, 0.0, {}});
+      of_cells.push_back(cell_stresses<decltype(cell)>(mesh, block, material, displacement));
     });
-  error.energy = energy.sum();
+    for (size_t i = 0; i < block.nodes.size(); ++i) {
+      smooth.col(block.nodes[i]) += of_cells.back().col(static_cast<Eigen::Index>(i));
+      n_cells[block.nodes[i]] += 1;
+    }
+  }
+  smooth *= n_cells.cwiseInverse().asDiagonal();
+
+  StressError error{0.0, Vec::Zero(mesh.n_nodes())};
+  for (size_t b = 0; b < mesh.blocks.size(); ++b)
+    with_cell(mesh.blocks[b].type, [&](auto cell) {
+      using Cell = decltype(cell);
+      constexpr int n = Cell::n_nodes;
+      const CellBlock& block = mesh.blocks[b];
+      Vec energy(block.n_cells());
+#pragma omp parallel for schedule(static)
+      for (int i = 0; i < block.n_cells(); ++i) {
+        auto difference = of_cells[b].middleCols<n>(n * i);
+        for (int a = 0; a < n; ++a) difference.col(a) = smooth.col(block.cell(i)[a]) - difference.col(a);
+        energy[i] = cell_energy<Cell>(material, gather<n>(mesh.nodes, block.cell(i)), difference);
+      }
+      error.energy += energy.sum();
+      const Vec corners = von_mises(of_cells[b]);
+      for (size_t i = 0; i < block.nodes.size(); ++i) {
+        double& at_node = error.at_nodes[block.nodes[i]];
+        at_node = std::max(at_node, corners[static_cast<Eigen::Index>(i)]);
+      }
+    });
   return error;
 }
 

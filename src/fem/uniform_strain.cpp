@@ -55,17 +55,41 @@ struct UniformStrainCells::Loop {
 
   template <class Cell>
   static void fill(UniformStrainCells& cells, const Mesh& mesh, const CellBlock& block, const Elastic& material);
+  template <class Cell>
+  static void set_lane(const UniformStrainCells& cells, const Nodes<Cell::n_nodes>& x, const Elastic& material,
+                       int lane, std::vector<Lanes>& geometry);
+  static Lanes resist_hourglass(const Lanes (&v)[8][3], const Lanes (&g)[3][3], Lanes stiffness, const Lanes* x_h,
+                                Lanes (&s)[3][3], Lanes (&h)[8][3]);
   template <int n, bool has_stress, bool is_viscous, bool has_energy>
   static CellEnergy run(const UniformStrainCells& cells, const double* u, double dt, double* f, Lanes* strain);
 };
+
+// x: relative to the cell's first node.
+template <class Cell>
+void UniformStrainCells::Loop::set_lane(const UniformStrainCells& cells, const Nodes<Cell::n_nodes>& x,
+                                        const Elastic& material, int lane, std::vector<Lanes>& geometry) {
+  constexpr int n = Cell::n_nodes;
+  const MeanCell<n> mean = mean_cell<Cell>(x);
+  const BulkViscosity& viscosity = cells.settings_.viscosity;
+  const double impedance = material.density * material.p_wave_speed();
+  const double length = viscosity.quadratic * mean.thickness;
+  for (int a = 0; a < n; ++a)
+    for (int d = 0; d < 3; ++d) geometry[3 * a + d][lane] = mean.gradient(a, d);
+  Lanes* scalars = geometry.data() + 3 * n;
+  scalars[0][lane] = mean.volume;
+  scalars[1][lane] = cells.settings_.hourglass / 2 * material.p_wave_modulus() * mean.hourglass_scale / 8;
+  scalars[2][lane] = mean.volume * viscosity.linear * impedance * mean.thickness;
+  scalars[3][lane] = mean.volume * material.density * length * length;
+  for (int mode = 0; n == 8 && mode < 4; ++mode)
+    for (int d = 0; d < 3; ++d)
+      for (int a = 0; a < n; ++a) scalars[4 + 3 * mode + d][lane] += hourglass_vector(mode, a) * x(d, a);
+}
 
 template <class Cell>
 void UniformStrainCells::Loop::fill(UniformStrainCells& cells, const Mesh& mesh, const CellBlock& block,
                                     const Elastic& material) {
   constexpr int n = Cell::n_nodes;
   const int size = geometry_size(n), n_cells = block.n_cells();
-  const double modulus = material.p_wave_modulus(), impedance = material.density * material.p_wave_speed();
-  const BulkViscosity& viscosity = cells.settings_.viscosity;
   cells.n_batches_ = (n_cells + n_lanes - 1) / n_lanes;
   cells.dofs_.resize(static_cast<size_t>(cells.n_batches_) * n * n_lanes);
   std::vector<Lanes> geometry(size);
@@ -89,24 +113,42 @@ void UniformStrainCells::Loop::fill(UniformStrainCells& cells, const Mesh& mesh,
         if (lane > 0) is_alike = false;
       }
       last = x;
-      const MeanCell<n> mean = mean_cell<Cell>(x);
-      for (int a = 0; a < n; ++a)
-        for (int d = 0; d < 3; ++d) geometry[3 * a + d][lane] = mean.gradient(a, d);
-      Lanes* scalars = geometry.data() + 3 * n;
-      scalars[0][lane] = mean.volume;
-      scalars[1][lane] = cells.settings_.hourglass / 2 * modulus * mean.hourglass_scale / 8;
-      scalars[2][lane] = mean.volume * viscosity.linear * impedance * mean.thickness;
-      scalars[3][lane] =
-          mean.volume * material.density * viscosity.quadratic * viscosity.quadratic * mean.thickness * mean.thickness;
-      if (n != 8) continue;
-      for (int mode = 0; mode < 4; ++mode)
-        for (int d = 0; d < 3; ++d)
-          for (int a = 0; a < n; ++a) geometry[3 * n + 4 + 3 * mode + d][lane] += hourglass_vector(mode, a) * x(d, a);
+      set_lane<Cell>(cells, x, material, lane, geometry);
     }
     if (!is_same) cells.geometries_.insert(cells.geometries_.end(), geometry.begin(), geometry.end());
     cells.geometry_of_.push_back(static_cast<int>(cells.geometries_.size()) - size);
     is_uniform = is_alike;
   }
+}
+
+// Forces of the hourglass stiffness on the corners (h), what it takes from the stress x volume (s); twice its energy.
+inline Lanes UniformStrainCells::Loop::resist_hourglass(const Lanes (&v)[8][3], const Lanes (&g)[3][3], Lanes stiffness,
+                                                        const Lanes* x_h, Lanes (&s)[3][3], Lanes (&h)[8][3]) {
+  Lanes energy = zero;
+  for (int i = 0; i < 3; ++i) {
+    Lanes sum[4], difference[4], q[4];
+    for (int a = 0; a < 4; ++a) {
+      sum[a] = v[a][i] + v[a + 4][i];
+      difference[a] = v[a][i] - v[a + 4][i];
+    }
+    q[0] = (difference[0] + difference[1]) - (difference[2] + difference[3]);
+    q[1] = (difference[0] - difference[1]) - (difference[2] - difference[3]);
+    q[2] = (sum[0] - sum[1]) + (sum[2] - sum[3]);
+    q[3] = (difference[1] - difference[0]) + (difference[3] - difference[2]);
+    for (int mode = 0; mode < 4; ++mode) {
+      for (int j = 0; j < 3; ++j) q[mode] -= x_h[3 * mode + j] * g[i][j];
+      energy += stiffness * q[mode] * q[mode];
+      q[mode] *= stiffness;
+      for (int j = 0; j < 3; ++j) s[i][j] -= x_h[3 * mode + j] * q[mode];
+    }
+    const Lanes odd[4] = {q[0] + q[1] - q[3], q[0] - q[1] + q[3], -q[0] - q[1] - q[3], q[1] - q[0] + q[3]};
+    for (int a = 0; a < 4; ++a) {
+      const Lanes even = a % 2 == 0 ? q[2] : -q[2];
+      h[a][i] = even + odd[a];
+      h[a + 4][i] = even - odd[a];
+    }
+  }
+  return energy;
 }
 
 // One pass over the cells: gather, mean gradient, stress (times volume), hourglass forces, scatter.
@@ -149,29 +191,8 @@ CellEnergy UniformStrainCells::Loop::run(const UniformStrainCells& cells, const 
     }
     Lanes h[n][3] = {};
     if constexpr (n == 8 && has_stress) {
-      for (int i = 0; i < 3; ++i) {
-        Lanes sum[4], difference[4], q[4];
-        for (int a = 0; a < 4; ++a) {
-          sum[a] = v[a][i] + v[a + 4][i];
-          difference[a] = v[a][i] - v[a + 4][i];
-        }
-        q[0] = (difference[0] + difference[1]) - (difference[2] + difference[3]);
-        q[1] = (difference[0] - difference[1]) - (difference[2] - difference[3]);
-        q[2] = (sum[0] - sum[1]) + (sum[2] - sum[3]);
-        q[3] = (difference[1] - difference[0]) + (difference[3] - difference[2]);
-        for (int mode = 0; mode < 4; ++mode) {
-          for (int j = 0; j < 3; ++j) q[mode] -= x_h[3 * mode + j] * g[i][j];
-          if (has_energy) hourglass += scalars[1] * q[mode] * q[mode];
-          q[mode] *= scalars[1];
-          for (int j = 0; j < 3; ++j) s[i][j] -= x_h[3 * mode + j] * q[mode];
-        }
-        const Lanes odd[4] = {q[0] + q[1] - q[3], q[0] - q[1] + q[3], -q[0] - q[1] - q[3], q[1] - q[0] + q[3]};
-        for (int a = 0; a < 4; ++a) {
-          const Lanes even = a % 2 == 0 ? q[2] : -q[2];
-          h[a][i] = even + odd[a];
-          h[a + 4][i] = even - odd[a];
-        }
-      }
+      const Lanes energy = resist_hourglass(v, g, scalars[1], x_h, s, h);
+      if (has_energy) hourglass += energy;
     }
     for (int a = 0; a < n; ++a)
       for (int i = 0; i < 3; ++i) {

@@ -93,14 +93,7 @@ void StepRun::accept_increment(int increment, int iterations, double eta) {
     local_.accept(&state_);
   }
   Energies& energies = state_.energies;
-  energies.kinetic = energies.strain = 0.0;
-  for (const IncrementEnergy& e : energy_) {
-    energies.kinetic += e.kinetic;
-    energies.strain += e.strain;
-    energies.loads += e.loads;
-    energies.damping += e.damping;
-    energies.scheme += e.scheme;
-  }
+  book_increment(energy_, energies);
   if (!std::isfinite(energies.kinetic + energies.strain + energies.loads))
     throw NumericalError(fmt::format("step '{}', increment {} (t = {:.6g} s): the energies are not finite; likely cause: a load out of proportion",
                                      model_.step->name, increment + 1, state_.time));

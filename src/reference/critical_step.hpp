@@ -1,4 +1,4 @@
-// The longest stable step of central differences (manual, eq. X3).
+// The longest stable step of central differences (manual, eq. X2, X3).
 #pragma once
 
 #include "reference/penalty.hpp"

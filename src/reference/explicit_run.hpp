@@ -1,4 +1,4 @@
-// One dynamic step of the explicit reference: central differences in substeps of its dt (manual, eq. X1-X3).
+// One dynamic step of the explicit reference: central differences in substeps of its dt (manual, eq. X1-X3, X13).
 #pragma once
 
 #include "reference/critical_step.hpp"

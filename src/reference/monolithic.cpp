@@ -145,14 +145,7 @@ void MonolithicRun::accept_increment(const InterfaceNewton::Outcome& outcome) {
   }
   show_ties(model_, records_, port_force_, state_);
   Energies& energies = state_.energies;
-  energies.kinetic = energies.strain = 0.0;
-  for (const IncrementEnergy& e : energy_) {
-    energies.kinetic += e.kinetic;
-    energies.strain += e.strain;
-    energies.loads += e.loads;
-    energies.damping += e.damping;
-    energies.scheme += e.scheme;
-  }
+  book_increment(energy_, energies);
   newton_.raise_floor(energies.kinetic + energies.strain + std::abs(energies.loads), model_.scheme.dt);
   if (!increment_.is_static) state_.time += increment_.dt;
   ++figures_.increments;

@@ -1,5 +1,5 @@
 // Nodes that do not move as they please: tied to copies of themselves, held or moved, or on an absorbing support
-// (manual, eq. X2, X3). Copies that are tied share one motion; what they do to each other is found afterwards.
+// (manual, eq. X1). Copies that are tied share one motion; what they do to each other is found afterwards.
 #pragma once
 
 #include <utility>

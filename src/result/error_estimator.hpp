@@ -58,7 +58,7 @@ class ErrorEstimator {
   std::optional<OctaveBank> bank_;           // of the step
   double before_ = 0.0, before_mesh_ = 0.0;  // phase errors (norms, sqrt of J) of the dynamic steps before
   Vec velocity_, velocity_old_, mass_;       // of all substructures' free unknowns, in their order
-  double dt_ = 0.0;
+  double dt_ = 0.0, phase_factor_ = 1.0;
   std::vector<Points> start_;            // displacements at the start of the dynamic steps: what they add is the shock
   double kinetic_ = 0.0, stored_ = 0.0;  // J, largest so far: kinetic, kinetic + strain
   double stress_energy_ = 0.0;           // J, largest of the samples

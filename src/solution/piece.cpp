@@ -167,69 +167,6 @@ void Piece::factorise() {
   }
 }
 
-// Masses of the free unknowns; in factor order once that is known.
-void Piece::make_mass() {
-  const Mass& mass = *setup_.body->mass;
-  const int n = static_cast<int>(node_of_free_.size());
-  mass_.resize(n);
-  for (int i = 0; i < n; ++i) mass_[position_[i]] = mass.lumped[node_of_free_[i]];
-  if (setup_.scheme.is_static) return;
-  make_massless();
-  if (mass.matrix.size() == 0) return;
-
-  // Rows of B^T M B: a node whose axes are the global ones has one entry a neighbour and direction, others a block.
-  const int* starts = mass.matrix.outerIndexPtr();
-  const auto entries_with = [&](int a, int b) { return special_of_[a] < 0 && special_of_[b] < 0 ? 1 : n_free_of_[b]; };
-  std::vector<int> count(n, 0);
-  for (int a = 0; a < mass.matrix.rows(); ++a)
-    for (int e = starts[a]; e < starts[a + 1]; ++e)
-      for (int j = 0; j < n_free_of_[a]; ++j) count[position_[first_free_[a] + j]] += entries_with(a, mass.matrix.innerIndexPtr()[e]);
-  mass_matrix_.resize(n, n);
-  mass_matrix_.outerIndexPtr()[0] = 0;
-  for (int i = 0; i < n; ++i) mass_matrix_.outerIndexPtr()[i + 1] = mass_matrix_.outerIndexPtr()[i] + count[i];
-  mass_matrix_.resizeNonZeros(mass_matrix_.outerIndexPtr()[n]);
-  for (int a = 0; a < mass.matrix.rows(); ++a)
-    for (int j = 0; j < n_free_of_[a]; ++j) {
-      int at = mass_matrix_.outerIndexPtr()[position_[first_free_[a] + j]];
-      for (int e = starts[a]; e < starts[a + 1]; ++e) {
-        const int b = mass.matrix.innerIndexPtr()[e];
-        const bool is_plain = entries_with(a, b) == 1 && special_of_[a] < 0 && special_of_[b] < 0;
-        for (int c = is_plain ? j : 0; c < (is_plain ? j + 1 : n_free_of_[b]); ++c) {
-          mass_matrix_.innerIndexPtr()[at] = position_[first_free_[b] + c];
-          mass_matrix_.valuePtr()[at++] = mass.matrix.valuePtr()[e] * (is_plain ? 1.0 : basis(a).col(j).dot(basis(b).col(c)));
-        }
-      }
-    }
-}
-
-// Unknowns without mass, and their columns of K.
-void Piece::make_massless() {
-  const int n_nodes = setup_.body->part->mesh->n_nodes();
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int node = 0; node < n_nodes; ++node) {
-    if (!is_massless(node)) continue;
-    const SparseMatrix& k = setup_.body->matrices->stiffness;
-    for (int j = 0; j < n_free_of_[node]; ++j) {
-      const int column = static_cast<int>(massless_.size());
-      massless_.push_back(position_[first_free_[node] + j]);
-      for (int e = k.outerIndexPtr()[3 * node]; e < k.outerIndexPtr()[3 * node + 1]; e += 3) {
-        const int other = k.innerIndexPtr()[e] / 3, shift = e - k.outerIndexPtr()[3 * node];
-        Vec3 force;  // K is symmetric: the column of a node is its rows
-        for (int c = 0; c < 3; ++c) {
-          force[c] = 0.0;
-          for (int r = 0; r < 3; ++r) force[c] += k.valuePtr()[k.outerIndexPtr()[3 * node + r] + shift + c] * basis(node)(r, j);
-        }
-        for (int c = 0; c < n_free_of_[other]; ++c)
-          entries.emplace_back(position_[first_free_[other] + c], column, basis(other).col(c).dot(force));
-      }
-    }
-  }
-  massless_columns_.resize(static_cast<Eigen::Index>(node_of_free_.size()), static_cast<Eigen::Index>(massless_.size()));
-  massless_columns_.setFromTriplets(entries.begin(), entries.end());
-  end_factor_ = Vec::Constant(massless_columns_.rows(), 1.0 - setup_.scheme.g);
-  for (const int i : massless_) end_factor_[i] = 1.0;
-}
-
 // schur + T^T k T, with T the rows on the interface unknowns.
 Mat Piece::with_search_directions(const Mat& schur, const Vec& k) const {
   Mat sum = schur;

@@ -48,70 +48,6 @@ void Piece::restore(const Snapshot& s) {
   momentum_ = momentum();
 }
 
-Vec Piece::mass_times(const Vec& v) const {
-  if (mass_matrix_.size() > 0) return mass_matrix_ * v;
-  return mass_.cwiseProduct(v);
-}
-
-Points Piece::nodal_mass_times(const Points& nodal) const {
-  const Mass& mass = *setup_.body->mass;
-  if (mass.matrix.size() == 0) return nodal * mass.lumped.asDiagonal();
-  return (mass.matrix * nodal.transpose()).transpose();
-}
-
-Vec Piece::momentum() const {
-  if (has_motions_ && mass_matrix_.size() > 0) return restrict_nodal(nodal_mass_times(expand(v_, held_v_)));
-  return mass_times(v_);
-}
-
-double Piece::kinetic_energy() const {
-  if (!has_motions_) return 0.5 * v_.dot(momentum_);
-  const Points nodal = expand(v_, held_v_);
-  return 0.5 * nodal.cwiseProduct(nodal_mass_times(nodal)).sum();
-}
-
-std::vector<double> Piece::held_mass(const Points& nodal) const {
-  const Mass& mass = *setup_.body->mass;
-  std::vector<double> values(held_.size(), 0.0);
-  for (size_t i = 0; i < held_.size(); ++i) {
-    const int node = held_[i].node;
-    if (mass.matrix.size() == 0) {
-      values[i] = mass.lumped[node] * held_[i].direction.dot(nodal.col(node));
-      continue;
-    }
-    for (int e = mass.matrix.outerIndexPtr()[node]; e < mass.matrix.outerIndexPtr()[node + 1]; ++e)
-      values[i] += mass.matrix.valuePtr()[e] * held_[i].direction.dot(nodal.col(mass.matrix.innerIndexPtr()[e]));
-  }
-  return values;
-}
-
-Vec Piece::mean_velocity() const {
-  Vec mean = setup_.scheme.g * v_old_ + (1 - setup_.scheme.g) * v_;
-  for (const int i : massless_) mean[i] = v_[i];
-  return mean;
-}
-
-// p_ holds K U: adds what begin() expects of the velocities.
-void Piece::start_massless() {
-  const double g = setup_.scheme.g;
-  Vec own(static_cast<Eigen::Index>(massless_.size()));
-  for (size_t i = 0; i < massless_.size(); ++i) own[i] = v_[massless_[i]];
-  // w_ = c1 K V with all velocities; z is without those of the massless unknowns.
-  z_ = g * setup_.scheme.dt * (w_ / c1_ - massless_columns_ * own);
-  p_ += end_factor_.cwiseProduct(z_);
-}
-
-// P of the next increment from W = dt D K D V1: K U1 + D Z1 with Z = dt K G V, G being g, and 0 for massless unknowns (manual, eq. S7).
-void Piece::advance_massless() {
-  const double g = setup_.scheme.g;
-  Vec own(static_cast<Eigen::Index>(massless_.size()));
-  for (size_t i = 0; i < massless_.size(); ++i) own[i] = v_[massless_[i]];
-  const Vec end = w_.cwiseQuotient(end_factor_);  // dt K D V1
-  p_ += z_ - end_factor_.cwiseProduct(z_) + end;
-  z_ = g / (1 - g) * (end - setup_.scheme.dt * (massless_columns_ * own));
-  p_ += end_factor_.cwiseProduct(z_);
-}
-
 void Piece::apply_absorbing(const Vec& v, double factor, Vec& out) const {
   for (const auto& [node, impedance] : absorbing_) {
     const Mat3 basis = special_of_[node] < 0 ? Mat3(Mat3::Identity()) : bases_[special_of_[node]];
@@ -250,20 +186,6 @@ IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_f
     held_reaction_ = reaction;
   }
   return energy;
-}
-
-// Energy (J) that the material's damping takes in an increment, of mean velocity v of the free unknowns; moving supports count.
-double Piece::damped_energy(const Vec& v) const {
-  const Scheme& scheme = setup_.scheme;
-  const Damping& damping = setup_.body->part->material.damping;
-  std::vector<double> held(held_.size());
-  for (size_t i = 0; i < held_.size(); ++i) held[i] = scheme.g * held_v_old_[i] + (1 - scheme.g) * held_v_[i];
-  const Points nodal = expand(v, held);
-  const Eigen::Map<const Vec> flat(nodal.data(), nodal.size());
-  double power = 0.0;
-  if (scheme.alpha(damping) > 0.0) power += scheme.alpha(damping) * nodal.cwiseProduct(nodal_mass_times(nodal)).sum();
-  if (scheme.beta(damping) > 0.0) power += scheme.beta(damping) * flat.dot(setup_.body->matrices->stiffness * flat);
-  return scheme.dt * power;
 }
 
 IncrementEnergy Piece::stored_energy() const {

@@ -84,4 +84,15 @@ void end_step(const StepModel& model, State& state) {
         }
 }
 
+void book_increment(const std::vector<IncrementEnergy>& increment, Energies& energies) {
+  energies.kinetic = energies.strain = 0.0;
+  for (const IncrementEnergy& e : increment) {
+    energies.kinetic += e.kinetic;
+    energies.strain += e.strain;
+    energies.loads += e.loads;
+    energies.damping += e.damping;
+    energies.scheme += e.scheme;
+  }
+}
+
 }  // namespace dygita

@@ -10,7 +10,8 @@ namespace {
 class Pulse : public testing::Test {
  protected:
   void SetUp() override {
-    path_ = std::filesystem::temp_directory_path() / "dygita_test_pulse.lua";
+    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();  // tests run side by side
+    path_ = std::filesystem::temp_directory_path() / ("dygita_test_pulse_" + name + ".lua");
     std::ofstream(path_) << pulse;
   }
   void TearDown() override { std::filesystem::remove(path_); }

@@ -225,7 +225,7 @@ struct Done {
     result.iterations = 50;
     result.figures = {{"largest penetration [m]", 1e-9}, {"undefined", std::nan("")}};
     result.seconds = {{"factor", 0.5}};
-    identity = {"crush.lua", "feed", {{"mu", 0.3}}, {{"punch", "beef"}}, 2, {{"gmsh", "4.8.4"}}};
+    identity = {"crush.lua", "feed", {{"mu", 0.3}}, "latin{ window = 5 }", {{"punch", "beef"}}, 2, {{"gmsh", "4.8.4"}}};
   }
 
   void add_output(const std::string& name, OutputKind kind, const std::string& column, const std::string& unit) {
@@ -261,6 +261,7 @@ TEST(RunWriter, writes_a_record_that_tells_what_was_run_and_how_it_went) {
   EXPECT_EQ(json["warnings"][0], "a \"quoted\" warning\n\xEF\xBF\xBD");
   EXPECT_EQ(json["deck"]["digest"], "feed");
   EXPECT_EQ(json["parameters"]["mu"], 0.3);
+  EXPECT_EQ(json["solver"]["command_line"], "latin{ window = 5 }");
   EXPECT_EQ(json["substructures"][0]["digest"], "beef");
   EXPECT_EQ(json["substructures"][0]["nodes"], 11);
   EXPECT_EQ(json["steps"][0]["increments_not_converged"], 1);

@@ -1,0 +1,1 @@
+solver.explicit{ integration = "two_point" }

@@ -1,0 +1,1 @@
+local s = solver.explicit{ safety = 3 }
