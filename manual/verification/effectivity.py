@@ -10,13 +10,7 @@ import figures
 from exact_pages import number
 
 HEADS = ["scene", "knob", "value", "estimated (%)", "true (%)", "estimated / true"]
-KNOBS = {
-    "tolerance": "iteration",
-    "steps": "step of time",
-    "cells": "mesh",
-    "cells and steps": "mesh and step",
-    "cells and steps (tuned mass)": "mesh and step, tuned mass",
-}
+KNOBS = {"tolerance": "iteration", "steps": "step of time", "cells": "mesh", "cells and steps": "mesh and step of time"}
 
 
 def run(program, folder, say):
@@ -26,19 +20,35 @@ def run(program, folder, say):
         return None
     say("  effectivity of the error estimates")
     done = subprocess.run([program], capture_output=True, text=True, check=True)
-    (folder / "effectivity.csv").write_text(done.stdout)
-    return list(csv.reader(io.StringIO(done.stdout)))[1:]
+    return read(done.stdout, folder / "effectivity.csv")
+
+
+def read(text, path):
+    """The rows of six fields, without the heads; decks print other lines in between. Writes them to `path`."""
+    rows = [row for row in csv.reader(io.StringIO(text)) if len(row) == len(HEADS)]
+    with open(path, "w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows(rows)
+    return rows[1:]
 
 
 def shown(rows):
     return [[scene, knob, value, *(number(float(v)) for v in values)] for scene, knob, value, *values in rows]
 
 
+def knob_of(row):
+    return row[1].split(" (")[0]
+
+
+def scene_of(row):
+    """The scene, with what the knob says of the masses."""
+    return row[0] + row[1][len(knob_of(row)):]
+
+
 def worst(rows):
     """A sentence for each knob: between what factors the estimates are off."""
     told = []
     for knob, name in KNOBS.items():
-        ratios = [float(row[5]) for row in rows if row[1] == knob and math.isfinite(float(row[5])) and float(row[5]) > 0]
+        ratios = [float(row[5]) for row in rows if knob_of(row) == knob and math.isfinite(float(row[5])) and float(row[5]) > 0]
         if ratios:
             told.append(f"{name} {number(min(ratios), 2)} to {number(max(ratios), 2)}")
     return "Estimated over true: " + "; ".join(told) + ". Above 1 an estimate is on the safe side."
@@ -46,14 +56,14 @@ def worst(rows):
 
 def figure(rows):
     """Estimated against true errors: on the diagonal an estimate is right, above it safe."""
-    knobs = [knob for knob in KNOBS if any(row[1] == knob for row in rows)]
+    knobs = [knob for knob in KNOBS if any(knob_of(row) == knob for row in rows)]
     fig, axes = figures.plt.subplots(1, len(knobs), figsize=(3.3 * len(knobs), 3.0), squeeze=False)
     fig.subplots_adjust(wspace=0.3)
-    scenes = list(dict.fromkeys(row[0] for row in rows))
+    scenes = list(dict.fromkeys(scene_of(row) for row in rows))
     for a, knob in zip(axes[0], knobs):
         values = []
         for k, scene in enumerate(scenes):
-            points = [(float(row[4]), float(row[3])) for row in rows if row[0] == scene and row[1] == knob]
+            points = [(float(row[4]), float(row[3])) for row in rows if scene_of(row) == scene and knob_of(row) == knob]
             points = [p for p in points if min(p) > 0]
             values += [v for p in points for v in p]
             if points:
@@ -63,5 +73,5 @@ def figure(rows):
         a.plot(ends, ends, color=figures.EXACT, linewidth=3, alpha=0.5, zorder=0)
         a.set_title(f"{KNOBS[knob]}: estimated (%)")
         a.set_xlabel("true (%)")
-        a.legend(loc="upper left", fontsize=7)
+        a.legend(loc="best", fontsize=6.5)
     return fig

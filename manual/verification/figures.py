@@ -10,8 +10,8 @@ import numpy as np  # noqa: E402
 from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator  # noqa: E402
 
 EXACT, COMPUTED, MET, MISSED = "#999999", "#0b5394", "#2e7d32", "#c62828"
-COLOURS = ["#0b5394", "#c75b12", "#2e7d32", "#8e24aa", "#00838f", "#6d4c41", "#ad1457"]
-MARKERS = ["o", "s", "^", "D", "v", "P", "X"]
+COLOURS = ["#0b5394", "#c75b12", "#2e7d32", "#8e24aa", "#00838f", "#6d4c41", "#ad1457", "#455a64"]
+MARKERS = ["o", "s", "^", "D", "v", "P", "X", "*"]
 
 plt.rcParams.update({
     "svg.fonttype": "none", "svg.hashsalt": "dygita", "font.family": "sans-serif", "font.size": 9, "axes.titlesize": 9.5,

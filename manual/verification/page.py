@@ -69,7 +69,7 @@ def hard_section(outcomes):
         table(hard.HEADS, hard.rows(outcomes))])
 
 
-def speed_section(done):
+def speed_section(done, kept):
     parts = ["## Speed against error", "Every solver and knob on the same machine in one run, one thread each: seconds of computation (processor "
              "time of all phases of run.json but the output; the median of three where under one) against the relative L2 error in time of what one would look at. "
              "*mesh*: cells and dt together; *dt* alone; *tolerance* of the iteration; *window*: steps iterated together (1, 5, 20); explicit: part of "
@@ -77,6 +77,8 @@ def speed_section(done):
              "those tried does. All runs are in [speed.csv](verification/speed.csv)."]
     options = dict.fromkeys((r.solver, r.option) for _, rows, _ in done for r in rows if r.knob == "mesh")
     parts.append("Solvers: " + "; ".join(f"*{name}*: `{option}`" for name, option in options if option) + ".")
+    if kept:
+        parts.append("The runs of this section are of an earlier command, those of all others of the last one.")
     for scene, rows, told in done:
         parts += [f"### {scene.title}", f"`{scene.deck}`. {told}", picture(f"speed_{scene.name}", scene.title),
                   f"{speed.against_latin(rows)} {scene.why}"]

@@ -29,6 +29,7 @@ def arguments():
                         help="an exact case by name, orders, hard, speed, speed_<scene> or estimates: its figures and CSV, no chapter")
     parser.add_argument("--effectivity", default=str(HERE.parents[1] / "build/release/tests/effectivity"),
                         help="the program that compares error estimates with true errors")
+    parser.add_argument("--keep-speed", action="store_true", help="take the runs of speed from speed.csv; the chapter says so")
     parser.add_argument("--into", metavar="DIR", default=str(HERE.parent), help="where verification.md and verification/ are written")
     return parser.parse_args()
 
@@ -63,7 +64,8 @@ def other_parts(asked, program, folder, say):
         parts.append(page.hard_section(outcomes))
     if asked.only is None or asked.only.startswith("speed"):
         say("Speed against error: one run at a time, on one thread")
-        parts.append(page.speed_section(speed.scenes(program, folder, say, asked.quick, (asked.only or "speed")[len("speed_"):] or None)))
+        parts.append(page.speed_section(speed.scenes(program, folder, say, asked.quick, (asked.only or "speed")[len("speed_"):] or None,
+                                                    asked.keep_speed), asked.keep_speed))
     if asked.only in (None, "estimates"):
         say("Error estimates")
         rows = None if asked.quick and not asked.only else effectivity.run(asked.effectivity, folder, say)

@@ -192,16 +192,50 @@ def against_latin(rows):
     return "Seconds over those of latin at the same meshes and dt: " + "; ".join(told) + "." if told else ""
 
 
-def scenes(program, folder, say, quick=False, only=None):
-    """Runs every scene: [(Scene, rows, sentence on the reference)], and writes figures and speed.csv."""
+def write_references(path, done):
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["scene", "reference off by", "reference off by, error 2", "reference"])
+        writer.writerows([scene.name, *(floors or ("", "")), told] for scene, _, floors, told in done)
+
+
+def kept(folder):
+    """What an earlier command measured, from speed.csv and speed_references.csv: as `measured`."""
+    def number_of(text, kind=float):
+        return kind(text) if text else None
+
+    with open(folder / "speed_references.csv", newline="") as file:
+        references = {row["scene"]: row for row in csv.DictReader(file)}
+    with open(folder / "speed.csv", newline="") as file:
+        lines = list(csv.DictReader(file))
+    done = []
+    for scene in SCENES:
+        reference = references[scene.name]
+        floors = (number_of(reference["reference off by"]), number_of(reference["reference off by, error 2"]))
+        rows = [Row(r["scene"], r["solver"], r["knob"], r["value"], r["settings"], r["solver option"], number_of(r["exit code"], int),
+                    number_of(r["dof"], int), number_of(r["steps"], int), number_of(r["iterations"], int), number_of(r["seconds"]),
+                    (float(r["error"]), float(r["error 2"]))) for r in lines if r["scene"] == scene.name]
+        done.append((scene, rows, floors if floors[0] else None, reference["reference"]))
+    return done
+
+
+def measured(program, say, quick, only):
+    """Runs the scenes: [(Scene, rows, errors of the reference, sentence on it)]."""
     solvers, done = program.solvers(), []
     for scene in SCENES:
         if only and scene.name != only:
             continue
         reference, floors, told = reference_run(scene, program, quick, say)
-        rows = measure(scene, program, solvers, reference, quick, say)
-        figures.save(figure(scene, rows, floors), folder / f"speed_{scene.name}.svg")
-        done.append((scene, rows, told))
-    if not only:
-        write_csv(folder / "speed.csv", [row for _, rows, _ in done for row in rows])
+        done.append((scene, measure(scene, program, solvers, reference, quick, say), floors, told))
     return done
+
+
+def scenes(program, folder, say, quick=False, only=None, keep=False):
+    """Runs every scene, or takes what an earlier command kept; writes figures and tables: [(Scene, rows, sentence)]."""
+    done = kept(folder) if keep else measured(program, say, quick, only)
+    for scene, rows, floors, _ in done:
+        figures.save(figure(scene, rows, floors), folder / f"speed_{scene.name}.svg")
+    if not only and not keep:
+        write_csv(folder / "speed.csv", [row for _, rows, _, _ in done for row in rows])
+        write_references(folder / "speed_references.csv", done)
+    return [(scene, rows, told) for scene, rows, _, told in done]
