@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/log.hpp"
 #include "model/check.hpp"
@@ -58,8 +59,23 @@ std::vector<Content> contents(const Problem& problem, const Step& step) {
   return list;
 }
 
-// Size of a part's cells: the cubic root of their mean volume, m. A bar one cell across is as fine as its slices.
-double cell_size(const Substructure& part) { return std::cbrt(volume(*part.mesh) / part.mesh->n_cells()); }
+// Mean over a part's cells of their shortest edge, m: the length along the waves where cells are drawn out across them.
+double cell_size(const Substructure& part) {
+  const Mesh& mesh = *part.mesh;
+  double sum = 0.0;
+  for (const CellBlock& block : mesh.blocks) {
+    const int n = nodes_per_cell(block.type);
+    for (int i = 0; i < block.n_cells(); ++i) {
+      double shortest2 = std::numeric_limits<double>::infinity();
+      for (int a = 0; a < n; ++a)
+        for (int b = 0; b < a; ++b)
+          shortest2 =
+              std::min(shortest2, (mesh.nodes.col(block.cell(i)[a]) - mesh.nodes.col(block.cell(i)[b])).squaredNorm());
+      sum += std::sqrt(shortest2);
+    }
+  }
+  return sum / mesh.n_cells();
+}
 
 void say(const Problem& problem, const Content& content, const std::string& text) {
   const Origin& origin = content.origin.file.empty() ? problem.origin : content.origin;
@@ -94,7 +110,8 @@ void resolution(const Problem& problem) {
       if (cells(i) < cells(worst)) worst = i;
     if (cells(worst) < cells_a_wavelength)
       say(problem, *highest,
-          fmt::format("the cells of substructure '{}', {:.3g} mm on average, are {:.2g} to the wavelength of shear "
+          fmt::format("the cells of substructure '{}', {:.3g} mm along their shortest edge, are {:.2g} to the "
+                      "wavelength of shear "
                       "waves there, {:.3g} mm: {:.0f} "
                       "are wanted",
                       problem.substructures[worst]->name, 1e3 * size[worst], cells(worst),

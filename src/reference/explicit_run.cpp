@@ -64,16 +64,16 @@ void ExplicitRun::start(const std::vector<Body>& bodies, const ExplicitMemory& m
   prestress_ = memory.internal;
   if (prestress_.size() == 0) prestress_.resize(n);
   mass_.resize(n);
-  base_external_.resize(n);
+  anchor_.resize(n);
   for (int part = 0; part < internal_.n_parts(); ++part) {
     const int first = internal_.first(part), size = internal_.first(part + 1) - first;
     const Eigen::Map<const Vec> displacement(state_.displacement[part].data(), size);
     if (memory.internal.size() == 0) prestress_.segment(first, size) = bodies[part].matrices->stiffness * displacement;
     velocity_.segment(first, size) = Eigen::Map<const Vec>(state_.velocity[part].data(), size);
-    base_external_.segment(first, size) = Eigen::Map<const Vec>(state_.anchor[part].data(), size);
+    anchor_.segment(first, size) = Eigen::Map<const Vec>(state_.anchor[part].data(), size);
     for (int i = 0; i < size; ++i) mass_[first + i] = bodies[part].matrices->mass[i / 3];
   }
-  base_external_ -= prestress_;
+  base_external_ = -prestress_;
   inverse_mass_ = mass_.cwiseInverse();
   for (int i = 0; i < n; ++i)
     if (shared_.is_shared(i)) inverse_mass_[i] = 0.0;
@@ -107,10 +107,12 @@ void ExplicitRun::collect_loads() {
     for (const auto& [node, unit] : pattern.nodes)
       for (int d = 0; d < 3; ++d)
         if (unit[d] != 0.0) loaded_.push_back(internal_.first(pattern.part) + 3 * node + d);
+  for (int i = 0; i < anchor_.size(); ++i)
+    if (anchor_[i] != 0.0) loaded_.push_back(i);
   std::sort(loaded_.begin(), loaded_.end());
   loaded_.erase(std::unique(loaded_.begin(), loaded_.end()), loaded_.end());
-  external_ = base_external_;
-  load_ = Vec::Zero(internal_.n_dofs());
+  load_ = anchor_;
+  external_ = base_external_ + load_;
 }
 
 void ExplicitRun::apply_loads(double from, double to) {
@@ -118,7 +120,7 @@ void ExplicitRun::apply_loads(double from, double to) {
   model_.loads->evaluate_mean(from, to);
   if (model_.loads->values() == load_values_) return;
   load_values_ = model_.loads->values();
-  for (const int i : loaded_) load_[i] = 0.0;
+  for (const int i : loaded_) load_[i] = anchor_[i];
   for (size_t p = 0; p < load_values_.size(); ++p) {
     const LoadPattern& pattern = model_.loads->patterns()[p];
     if (load_values_[p] == 0.0) continue;

@@ -28,6 +28,7 @@ void Collector::begin_step(const Instant& start) {
   for (auto& [output, sampler] : samplers_) sampler->begin_step(start);
   if (slip_) slip_->begin_step(start);
   errors_.begin_step(start);
+  extremes_.before_springs = start.state.energies.scheme;
   if (start.i_step == 0) maybe_frame(start);
 }
 
@@ -80,6 +81,7 @@ void Collector::watch(const Instant& instant) {
   extremes_.imbalance = std::max(extremes_.imbalance, std::abs(e.balance()));
   extremes_.scheme_loss = std::max(extremes_.scheme_loss, e.scheme);
   extremes_.scheme_gain = std::max(extremes_.scheme_gain, -e.scheme);
+  if (instant.fields) extremes_.springs = std::max(extremes_.springs, e.scheme - extremes_.before_springs);
   for (size_t s = 0; s < instant.model.surfaces->size(); ++s) {
     const Surface& surface = (*instant.model.surfaces)[s];
     if (!surface.law || !surface.law->rubs()) continue;
@@ -151,7 +153,7 @@ void Collector::finish(RunResult& result) {
   result.figures["largest penetration [m]"] = extremes_.penetration;
   add_error_figures(errors_, problem_, result);
   // What the springs of a penalty hold is what the sides overlap: its interfaces' constitutive-relation error.
-  if (problem_.explicit_dynamics) result.figures["error estimate, penalty [%]"] = 10 * std::sqrt(percent * extremes_.scheme_loss);
+  if (problem_.explicit_dynamics) result.figures["error estimate, penalty [%]"] = 10 * std::sqrt(percent * extremes_.springs);
 }
 
 }  // namespace dygita

@@ -79,8 +79,8 @@ TEST(Warnings, name_a_step_of_time_too_large_for_the_load_and_the_one_that_would
 }
 
 TEST(Warnings, name_a_mesh_too_coarse_for_the_wavelength) {
-  const std::string said = warnings({{"n", "3"}, {"pulse", "3*us"}});
-  EXPECT_NE(said.find("the cells of substructure 'a', 7.47 mm on average"), std::string::npos) << said;
+  const std::string said = warnings({{"n", "3"}, {"pulse", "1*us"}, {"dt", "0.01*us"}});
+  EXPECT_NE(said.find("the cells of substructure 'a', 5 mm along their shortest edge"), std::string::npos) << said;
   EXPECT_NE(said.find("the mesh leaves about"), std::string::npos) << said;
 }
 
