@@ -20,7 +20,7 @@ def opening(summary, machine, quick):
     goals = sum(row[-1] != "no goal" for row in summary)
     return f"""# Verification
 
-Written by `./run.sh report`{" (quick version: fewer sizes and runs)" if quick else ""}; every number and every figure below is of that one run.
+Written by `./run.sh report`{" (quick version: fewer sizes and runs)" if quick else ""}; every number and every figure below is of that run, but where a section says that it kept those of an earlier one.
 {machine}
 
 Of {goals} goals {goals - missed} are met and {missed} missed. *Measured* is at the size the goal holds for (bold in the tables further down), *order* is the
