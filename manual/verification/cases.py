@@ -6,6 +6,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 
+ROUND_OFF = 1e-10       # relative errors below it have no order
+
+
 @dataclass
 class Quantity:
     """A number that a deck prints, and the goal it is held against."""
@@ -197,12 +200,13 @@ class Measured:
     def order(self, i_quantity):
         """Slope of log error over log width, by least squares; None where nothing is to fit."""
         quantity, values = self.case.quantities[i_quantity], self.values[i_quantity]
-        return fitted_order(self.case.widths(), values) if quantity.fitted else None
+        unit = 0.01 if quantity.unit == "%" else 1.0
+        return fitted_order(self.case.widths(), [unit * (v - quantity.target) for v in values]) if quantity.fitted else None
 
 
 def fitted_order(widths, errors):
-    """Least squares in logarithms; None with fewer than three errors that are not zero."""
-    points = [(math.log(x), math.log(abs(e))) for x, e in zip(widths, errors) if e != 0 and math.isfinite(e)]
+    """Least squares in logarithms; None with fewer than three errors that are more than round-off."""
+    points = [(math.log(x), math.log(abs(e))) for x, e in zip(widths, errors) if abs(e) > ROUND_OFF and math.isfinite(e)]
     if len(points) < 3:
         return None
     x, y = np.array(points).T

@@ -40,6 +40,9 @@ class Orders(unittest.TestCase):
         widths = [0.1, 0.05, 0.025, 0.0125]
         self.assertAlmostEqual(cases.fitted_order(widths, [-3 * h**1.7 for h in widths]), 1.7, 12)
 
+    def test_round_off_has_no_order(self):
+        self.assertIsNone(cases.fitted_order([0.1, 0.05, 0.025, 0.0125], [2e-12, 3e-12, 8e-12, 2e-11]))
+
     def test_two_points_fit_nothing(self):
         self.assertIsNone(cases.fitted_order([1, 0.5, 0.25], [1, 0, math.nan]))
 
