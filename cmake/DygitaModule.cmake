@@ -6,7 +6,7 @@ option(DYGITA_SANITIZE "Stop at memory errors, leaks and undefined behaviour" OF
 set(dygita_sanitizers -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
 
 # g++ 12 sees overruns in Eigen's vectorised small products and in std::string that are not there (its bugs 105329, 106247).
-set(dygita_gnu_false_alarms -Wno-maybe-uninitialized -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow
+set(dygita_gnu_false_alarms -Wno-uninitialized -Wno-maybe-uninitialized -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow
   -Wno-aggressive-loop-optimizations)
 
 function(dygita_target_options target)
