@@ -11,6 +11,7 @@
 #include "base/names.hpp"
 #include "base/progress.hpp"
 #include "base/threads.hpp"
+#include "numerics/factor.hpp"
 #include "deck/deck.hpp"
 
 namespace {
@@ -124,7 +125,7 @@ int command_line(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  wait_passively(argv);
+  wait_passively(argv, better_blas_kernels());
   try {
     return command_line(argc, argv);
   } catch (const InputError& error) {

@@ -6,8 +6,10 @@
 
 namespace dygita {
 
-void wait_passively(char** argv) {
-  if (std::getenv("OMP_WAIT_POLICY") && std::getenv("OPENBLAS_NUM_THREADS")) return;
+void wait_passively(char** argv, const char* blas_kernels) {
+  const bool has_kernels = !blas_kernels || std::getenv("OPENBLAS_CORETYPE");
+  if (std::getenv("OMP_WAIT_POLICY") && std::getenv("OPENBLAS_NUM_THREADS") && has_kernels) return;
+  if (!has_kernels) setenv("OPENBLAS_CORETYPE", blas_kernels, 0);
   setenv("OMP_WAIT_POLICY", "passive", 0);
   setenv("OPENBLAS_NUM_THREADS", "1", 0);
   // Where /proc is missing the program goes on as it is, only slower on a busy machine.

@@ -56,6 +56,8 @@ Held build_latin(const Declaration& d) {
   settings->push_out = a.number("push_out");
   settings->search_direction = a.number("search_direction");
   settings->mass = {a.text("mass") == "tuned", a.boolean("massless_contact")};
+  if (a.has("precision"))
+    settings->precision = a.text("precision") == "single" ? Precision::single_precision : Precision::double_precision;
   settings->plain = a.boolean("plain");
   return std::shared_ptr<const LatinSettings>(settings);
 }

@@ -129,6 +129,7 @@ struct LatinSettings {
   double push_out = 0.0;          // b of the contact law
   double search_direction = 1.0;  // multiplies every k (studies, hard cases)
   MassSettings mass;
+  std::optional<Precision> precision;  // of the stored factors in dynamic steps; none: single where a substructure is large
   bool plain = false;             // iterate with full solves instead of the condensed interface (the plain path)
 };
 

@@ -7,6 +7,7 @@
 #include <pmmintrin.h>
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <numeric>
 
@@ -80,12 +81,14 @@ std::vector<int> interface_last_order(const SparseMatrix& matrix, const std::vec
 
 }  // namespace
 
-// Owns CHOLMOD's supernodal factor and the workspace it was made with.
-struct Factor::Supernodes {
+namespace {
+
+// CHOLMOD's workspace and, in it, a supernodal factor.
+struct Cholmod {
   cholmod_common common;
   cholmod_factor* l = nullptr;
 
-  Supernodes() {
+  Cholmod() {
     cholmod_start(&common);
     common.nmethods = 1;
     common.method[0].ordering = CHOLMOD_GIVEN;
@@ -93,59 +96,26 @@ struct Factor::Supernodes {
     common.print = 0;
     common.quick_return_if_not_posdef = 1;
   }
-  ~Supernodes() {
+  ~Cholmod() {
     cholmod_free_factor(&l, &common);
     cholmod_finish(&common);
   }
-  Supernodes(const Supernodes&) = delete;
-  Supernodes& operator=(const Supernodes&) = delete;
+  Cholmod(const Cholmod&) = delete;
+  Cholmod& operator=(const Cholmod&) = delete;
 
-  // One supernode: columns [first, first + n_columns), rows listed, dense column-major block.
-  struct Block {
-    int first, n_columns, n_rows;
-    const int* rows;
-    const double* values;
-  };
-  Block block(size_t s) const {
+  size_t n_supernodes() const { return l->nsuper; }
+  // Columns of a supernode before `end`, as a dense block with all rows below them.
+  SupernodeView supernode(size_t s, int end) const {
     const int* super = static_cast<const int*>(l->super);
     const int* pi = static_cast<const int*>(l->pi);
     const int* px = static_cast<const int*>(l->px);
-    return {super[s], super[s + 1] - super[s], pi[s + 1] - pi[s], static_cast<const int*>(l->s) + pi[s],
-            static_cast<const double*>(l->x) + px[s]};
+    const int n_rows = pi[s + 1] - pi[s], m = std::clamp(end - super[s], 0, super[s + 1] - super[s]);
+    const double* values = l->x ? static_cast<const double*>(l->x) + px[s] : nullptr;
+    return {super[s], m, n_rows - m, static_cast<const int*>(l->s) + pi[s] + m, values, n_rows};
   }
-  size_t n_blocks() const { return l->nsuper; }
-
-  // Forward and backward substitution over the columns before `end`; a supernode that crosses it is cut there.
-  void forward(double* x, int end, std::vector<double>& work) const;
-  void backward(double* x, int end, std::vector<double>& work) const;
 };
 
-void Factor::Supernodes::forward(double* x, int end, std::vector<double>& work) const {
-  for (size_t s = 0; s < n_blocks(); ++s) {
-    const Block b = block(s);
-    if (b.first >= end) break;
-    const int m = std::min(b.n_columns, end - b.first);
-    const int below = b.n_rows - m;
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, m, b.values, b.n_rows, x + b.first, 1);
-    if (below == 0) continue;
-    cblas_dgemv(CblasColMajor, CblasNoTrans, below, m, 1.0, b.values + m, b.n_rows, x + b.first, 1, 0.0, work.data(), 1);
-    for (int i = 0; i < below; ++i) x[b.rows[m + i]] -= work[i];
-  }
-}
-
-void Factor::Supernodes::backward(double* x, int end, std::vector<double>& work) const {
-  for (size_t s = n_blocks(); s-- > 0;) {
-    const Block b = block(s);
-    if (b.first >= end) continue;
-    const int m = std::min(b.n_columns, end - b.first);
-    const int below = b.n_rows - m;
-    if (below > 0) {
-      for (int i = 0; i < below; ++i) work[i] = x[b.rows[m + i]];
-      cblas_dgemv(CblasColMajor, CblasTrans, below, m, -1.0, b.values + m, b.n_rows, work.data(), 1, 1.0, x + b.first, 1);
-    }
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, m, b.values, b.n_rows, x + b.first, 1);
-  }
-}
+}  // namespace
 
 namespace {
 
@@ -188,103 +158,129 @@ class SerialRegion {
 
 }  // namespace
 
-Factor::Factor() : supernodes_(std::make_unique<Supernodes>()) {}
+namespace {
 
-void Factor::analyse(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, const std::vector<char>& is_interface,
-                     const std::string& what) {
+// Ordering and pattern of the factor; returns the order of the unknowns.
+std::vector<int> analyse(Cholmod& cholmod, const SparseMatrix& matrix, const std::vector<int>& node_of_dof,
+                         const std::vector<char>& is_interface, const std::string& what) {
   const int n = static_cast<int>(matrix.rows());
   CHECK(n > 0 && matrix.cols() == n && static_cast<int>(node_of_dof.size()) == n &&
             static_cast<int>(is_interface.size()) == n, "factor of an ill-shaped matrix");
-  std::vector<int> order = interface_last_order(matrix, node_of_dof, is_interface);
-  n_interior_ = static_cast<int>(std::count(is_interface.begin(), is_interface.end(), 0));
+  std::vector<int> given = interface_last_order(matrix, node_of_dof, is_interface), order;
+  const auto n_interior = std::count(is_interface.begin(), is_interface.end(), 0);
   cholmod_sparse a = view_of(matrix);
   // Postordering groups the supernodes; where it would move an interface unknown forward it is left out.
-  cholmod_common& common = supernodes_->common;
+  cholmod_common& common = cholmod.common;
   for (const int postorder : {1, 0}) {
     common.postorder = postorder;
-    cholmod_free_factor(&supernodes_->l, &common);
-    supernodes_->l = cholmod_analyze_p(&a, order.data(), nullptr, 0, &common);
-    if (!supernodes_->l)
+    cholmod_free_factor(&cholmod.l, &common);
+    cholmod.l = cholmod_analyze_p(&a, given.data(), nullptr, 0, &common);
+    if (!cholmod.l)
       throw NumericalError(what + ": the factorisation cannot be laid out: out of memory, or more than 2^31 entries");
-    const int* perm = static_cast<const int*>(supernodes_->l->Perm);
-    order_.assign(perm, perm + n);
-    if (std::all_of(order_.begin() + n_interior_, order_.end(), [&](int dof) { return is_interface[dof] != 0; })) break;
+    const int* perm = static_cast<const int*>(cholmod.l->Perm);
+    order.assign(perm, perm + n);
+    if (std::all_of(order.begin() + n_interior, order.end(), [&](int dof) { return is_interface[dof] != 0; })) break;
     CHECK(postorder == 1, "interface unknowns are not last in the factor");
   }
+  return order;
 }
 
+PackedFactor pack(const Cholmod& cholmod, int n_interior, Precision precision, Vec row_size) {
+  PackedFactor packed(precision, std::move(row_size));
+  for (size_t s = 0; s < cholmod.n_supernodes(); ++s) {
+    const SupernodeView view = cholmod.supernode(s, n_interior);
+    if (view.n_columns == 0) break;
+    packed.add(view);
+  }
+  return packed;
+}
+
+// L_bb, lower triangle.
+Mat interface_block(const Cholmod& cholmod, int n, int n_interior) {
+  Mat l = Mat::Zero(n - n_interior, n - n_interior);
+  for (size_t s = 0; s < cholmod.n_supernodes(); ++s) {
+    const SupernodeView all = cholmod.supernode(s, n);
+    for (int j = std::max(0, n_interior - all.first); j < all.n_columns; ++j) {
+      const double* column = all.values + static_cast<size_t>(j) * all.stride;
+      const int at = all.first + j - n_interior;
+      for (int i = j; i < all.n_columns; ++i) l(all.first + i - n_interior, at) = column[i];
+      for (int i = 0; i < all.n_below; ++i) l(all.below[i] - n_interior, at) = column[all.n_columns + i];
+    }
+  }
+  return l;
+}
+
+}  // namespace
+
 Factor::Factor(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, const std::vector<char>& is_interface,
-               const std::string& what)
-    : Factor() {
-  analyse(matrix, node_of_dof, is_interface, what);
+               const std::string& what, Precision precision) {
+  Cholmod cholmod;
+  order_ = analyse(cholmod, matrix, node_of_dof, is_interface, what);
+  n_interior_ = static_cast<int>(std::count(is_interface.begin(), is_interface.end(), 0));
   cholmod_sparse a = view_of(matrix);
-  cholmod_common& common = supernodes_->common;
+  cholmod_common& common = cholmod.common;
   {
     const SerialRegion serial;
-    cholmod_factorize(&a, supernodes_->l, &common);
+    cholmod_factorize(&a, cholmod.l, &common);
   }
   if (common.status == CHOLMOD_NOT_POSDEF) {
-    const int dof = order_[supernodes_->l->minor];
+    const int dof = order_[cholmod.l->minor];
     throw NumericalError(fmt::format("{}: the matrix is not positive definite (node {}): a rigid motion that nothing holds, "
                                      "or a cell of almost no volume", what, node_of_dof[dof]));
   }
   if (common.status != CHOLMOD_OK) throw NumericalError(what + ": factorisation failed: out of memory");
+  interface_ = interface_block(cholmod, size(), n_interior_);
+  Vec row_size(size());
+  for (int i = 0; i < size(); ++i) row_size[i] = std::sqrt(matrix.coeff(order_[i], order_[i]));
+  interior_ = pack(cholmod, n_interior_, precision, std::move(row_size));
 }
 
 double Factor::predicted_bytes(const SparseMatrix& matrix, const std::vector<int>& node_of_dof,
-                               const std::vector<char>& is_interface) {
-  Factor factor;
-  factor.analyse(matrix, node_of_dof, is_interface, "prediction");
-  return factor.bytes();
+                               const std::vector<char>& is_interface, Precision precision) {
+  constexpr double single_share = 0.4;  // of the bytes in double precision, as measured (manual, what is stored)
+  Cholmod cholmod;
+  analyse(cholmod, matrix, node_of_dof, is_interface, "prediction");
+  const auto n_interior = static_cast<int>(std::count(is_interface.begin(), is_interface.end(), 0));
+  double bytes = 0.0;
+  for (size_t s = 0; s < cholmod.n_supernodes(); ++s) {
+    const SupernodeView view = cholmod.supernode(s, n_interior);
+    if (view.n_columns == 0) break;
+    bytes += (precision == Precision::double_precision ? 1.0 : single_share) * supernode_bytes(view.n_columns, view.n_below) + 4.0 * view.n_below;
+  }
+  return bytes;
 }
 
-double Factor::bytes() const { return 8.0 * static_cast<double>(supernodes_->l->xsize) + 4.0 * static_cast<double>(supernodes_->l->ssize); }
+double Factor::bytes() const { return interior_.bytes() + 8.0 * static_cast<double>(interface_.size()); }
+double Factor::nonzeros() const { return interior_.nonzeros(); }
 
-Factor::~Factor() = default;
-Factor::Factor(Factor&&) noexcept = default;
-Factor& Factor::operator=(Factor&&) noexcept = default;
+void Factor::forward(Eigen::Ref<Mat> x) const { interior_.forward(x.data(), static_cast<int>(x.cols()), x.outerStride()); }
+void Factor::backward(Eigen::Ref<Mat> x) const { interior_.backward(x.data(), static_cast<int>(x.cols()), x.outerStride()); }
 
-namespace {
-// A workspace a thread: solves of different pieces run side by side.
-std::vector<double>& thread_work(int n) {
-  thread_local std::vector<double> work;
-  if (static_cast<int>(work.size()) < n) work.resize(n);
-  return work;
-}
-}  // namespace
-
-void Factor::forward(Eigen::Ref<Vec> x) const { supernodes_->forward(x.data(), n_interior_, thread_work(size())); }
-void Factor::backward(Eigen::Ref<Vec> x) const { supernodes_->backward(x.data(), n_interior_, thread_work(size())); }
-
-void Factor::solve(Eigen::Ref<Vec> x) const {
-  supernodes_->forward(x.data(), size(), thread_work(size()));
-  supernodes_->backward(x.data(), size(), thread_work(size()));
+void Factor::solve(Eigen::Ref<Mat> x) const {
+  CHECK(interface_.rows() == n_interface(), "the factor's interface was released");
+  forward(x);
+  if (n_interface() > 0) {
+    const auto lower = interface_.triangularView<Eigen::Lower>();
+    auto on_interface = x.bottomRows(n_interface());
+    lower.solveInPlace(on_interface);
+    lower.transpose().solveInPlace(on_interface);
+  }
+  backward(x);
 }
 
 Mat Factor::interface_schur() const {
+  CHECK(interface_.rows() == n_interface(), "the factor's interface was released");
   const int n_b = n_interface();
-  Mat l = Mat::Zero(n_b, n_b);
-  for (size_t s = 0; s < supernodes_->n_blocks(); ++s) {
-    const Supernodes::Block b = supernodes_->block(s);
-    for (int j = std::max(0, n_interior_ - b.first); j < b.n_columns; ++j)
-      for (int i = j; i < b.n_rows; ++i)
-        l(b.rows[i] - n_interior_, b.first + j - n_interior_) = b.values[static_cast<size_t>(j) * b.n_rows + i];
-  }
   Mat schur(n_b, n_b);
-  if (n_b > 0)
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, n_b, n_b, 1.0, l.data(), n_b, 0.0, schur.data(), n_b);
+  // Rows and columns of L_bb end at its diagonal: by block columns, a third of the operations of L_bb L_bb^T.
+  constexpr int block = 256;
+  for (int j = 0; j < n_b; j += block) {
+    const int width = std::min(block, n_b - j), end = j + width;
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n_b - j, width, end, 1.0, interface_.data() + j, n_b, interface_.data() + j, n_b,
+                0.0, schur.data() + static_cast<size_t>(j) * n_b + j, n_b);
+  }
   schur.triangularView<Eigen::StrictlyUpper>() = schur.transpose();
   return schur;
-}
-
-double Factor::nonzeros() const {
-  double count = 0;
-  for (size_t s = 0; s < supernodes_->n_blocks(); ++s) {
-    const Supernodes::Block b = supernodes_->block(s);
-    const double m = std::clamp(n_interior_ - b.first, 0, b.n_columns);
-    count += m * b.n_rows - m * (m - 1) / 2;
-  }
-  return count;
 }
 
 Mat inverse_spd(Mat matrix, const std::string& what) {
@@ -310,7 +306,21 @@ void prepare_thread() {
   openblas_set_num_threads(1);
 }
 
-std::string blas_description() { return openblas_get_config(); }
+const char* better_blas_kernels() {
+#if defined(__x86_64__)
+  const std::string chosen = openblas_get_corename();
+  for (const char* old : {"Prescott", "Core2", "Penryn", "Dunnington", "Nehalem", "Sandybridge", "Generic", "Atom"}) {
+    if (chosen != old) continue;
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
+        __builtin_cpu_supports("avx512dq"))
+      return "SkylakeX";
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "Haswell";
+  }
+#endif
+  return nullptr;
+}
+
+std::string blas_description() { return fmt::format("{}, kernels {}", openblas_get_config(), openblas_get_corename()); }
 
 std::string cholmod_version() {
   return fmt::format("{}.{}.{}", CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION);

@@ -2,26 +2,23 @@
 // The only place that names CHOLMOD and METIS (factor.cpp).
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
+#include "numerics/packed_factor.hpp"
 #include "numerics/types.hpp"
 
 namespace dygita {
 
 // A = L L^T in the order [interior, interface]. Vectors passed to the solves are in this order (`order`), so that state
-// kept in it is never gathered (manual, one solve per step).
+// kept in it is never gathered (manual, one solve per step). n_rhs right-hand sides: columns of a matrix.
 class Factor {
  public:
   // matrix: symmetric positive definite, n x n, both triangles stored; node_of_dof: graph vertex of each unknown, unknowns
   // of a node contiguous; is_interface: unknowns to order last. Fill is reduced by METIS nested dissection on nodes.
   // Throws NumericalError, naming `what`, when the matrix is not positive definite.
   Factor(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, const std::vector<char>& is_interface,
-         const std::string& what);
-  ~Factor();
-  Factor(Factor&&) noexcept;
-  Factor& operator=(Factor&&) noexcept;
+         const std::string& what, Precision precision = Precision::double_precision);
 
   int size() const { return static_cast<int>(order_.size()); }
   int n_interior() const { return n_interior_; }
@@ -30,28 +27,28 @@ class Factor {
   const std::vector<int>& order() const { return order_; }
 
   // x_I <- L_II^-1 x_I,  x_b <- x_b - L_bI x_I: what is left in x_b is the right-hand side condensed on the interface.
-  void forward(Eigen::Ref<Vec> x) const;
+  void forward(Eigen::Ref<Mat> x) const;
   // Given x_b: x_I <- L_II^-T (x_I - L_bI^T x_b).
-  void backward(Eigen::Ref<Vec> x) const;
-  // x <- A^-1 x.
-  void solve(Eigen::Ref<Vec> x) const;
-  // Schur complement of A on the interface, L_bb L_bb^T (n_interface x n_interface, in factor order).
+  void backward(Eigen::Ref<Mat> x) const;
+  // x <- A^-1 x. Not after release_interface.
+  void solve(Eigen::Ref<Mat> x) const;
+  // Schur complement of A on the interface, L_bb L_bb^T (n_interface x n_interface, in factor order). Not after release_interface.
   Mat interface_schur() const;
+  // Frees L_bb: what is left of the factor is its interior.
+  void release_interface() { interface_.resize(0, 0); }
 
   double nonzeros() const;  // entries of L that a forward or backward solve reads
   double bytes() const;     // held by the factor
-  // The same before factorising, from the ordering and the pattern alone.
+  // The same before factorising, from the ordering and the pattern alone, once the interface is released; in single precision an
+  // estimate, since entries take the bytes that their size asks for.
   static double predicted_bytes(const SparseMatrix& matrix, const std::vector<int>& node_of_dof,
-                                const std::vector<char>& is_interface);
+                                const std::vector<char>& is_interface, Precision precision = Precision::double_precision);
 
  private:
-  struct Supernodes;
-  void analyse(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, const std::vector<char>& is_interface,
-               const std::string& what);
-  Factor();
-  std::unique_ptr<Supernodes> supernodes_;
   std::vector<int> order_;
   int n_interior_ = 0;
+  Mat interface_;  // L_bb, lower triangle
+  PackedFactor interior_;
 };
 
 // Inverse of a symmetric positive definite matrix, lower triangle valid on return. Throws NumericalError naming `what`.
@@ -62,6 +59,10 @@ void multiply_symmetric(const Mat& lower, const Vec& x, Vec& y);
 
 // Flushes denormals in this thread; one thread inside BLAS. Call in every thread before solving.
 void prepare_thread();
+
+// Kernels to ask OpenBLAS for (its OPENBLAS_CORETYPE): a release older than the processor does not know it and takes those of 2004,
+// five times slower. Null where its own choice is good.
+const char* better_blas_kernels();
 
 // The BLAS in use ("OpenBLAS 0.3.21 ..."); warns when it is not OpenBLAS (5-10 times slower).
 std::string blas_description();

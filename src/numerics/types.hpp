@@ -14,4 +14,7 @@ using Points = Eigen::Matrix3Xd;                              // one column a no
 using Tensors = Eigen::Matrix<double, 6, Eigen::Dynamic>;     // one column a node: xx yy zz xy yz zx
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
+// How the entries of a factor or an interface operator are kept; arithmetic is in double precision either way.
+enum class Precision { double_precision, single_precision };
+
 }  // namespace dygita

@@ -61,6 +61,7 @@ class Piece {
     int n_motions = 0;
     std::string what;  // "substructure 'rod' in step 'shock'", for messages
     bool is_assembled = false;   // the system is solved elsewhere, with other substructures' in it: no factor of its own
+    Precision precision = Precision::double_precision;  // of what is stored of the factor and of H
     bool is_prediction = false;  // lays the factor out and goes no further: only predicted_bytes() then has a meaning
   };
   // Assembles and factorises. Throws NumericalError.
@@ -119,10 +120,10 @@ class Piece {
 
   // The state an increment starts from: windows of several steps go back to it.
   struct Snapshot {
-    Vec u, v, p, w, z, force;
+    Vec u, v, p, w, z, force, held_pull;
     std::vector<double> held_u, held_v;
   };
-  Snapshot snapshot() const { return {u_, v_, p_, w_, z_, force_, held_u_, held_v_}; }
+  Snapshot snapshot() const { return {u_, v_, p_, w_, z_, force_, held_pull_, held_u_, held_v_}; }
   void restore(const Snapshot& s);
   double bytes() const;            // held by factor, interface operators and vectors
   double predicted_bytes() const;  // the same, known before factorising
@@ -149,6 +150,18 @@ class Piece {
   std::vector<double> held_stiffness(const Points& nodal) const;  // d . K nodal at every held direction
   std::vector<double> held_forces(const Points& interface_force) const;
   void apply_absorbing(const Vec& v, double factor, Vec& out) const;
+  // Increments are solved for the change of velocity, so that what single precision takes from the factor acts on the change alone.
+  bool solves_for_change() const { return !setup_.scheme.is_static && !setup_.is_assembled && massless_.empty(); }
+  double at_row(int i, const Vec& v) const {  // v (free unknowns) along row i
+    double value = 0.0;
+    for (int a = 0; a < traces_[i].n; ++a) value += traces_[i].value[a] * v[traces_[i].at[a]];
+    return value;
+  }
+  // Factor of M V1 in the equation of an increment, 1/s.
+  double mass_share() const {
+    const Scheme& s = setup_.scheme;
+    return s.inverse_dt() + (1 - s.g) * s.alpha(setup_.body->part->material.damping);
+  }
   void make_mass();
   void make_massless();
   Vec mass_times(const Vec& v) const;
@@ -171,7 +184,8 @@ class Piece {
   std::vector<HeldDirection> held_;
   bool has_motions_ = false;
   std::unique_ptr<Factor> factor_, plain_factor_;
-  Mat schur_, h_;
+  Mat schur_;  // until the search directions are set
+  SymmetricOperator h_;
   Vec schur_diagonal_, k_;
   std::vector<Trace> traces_;
   std::vector<Vec> coupling_, mass_coupling_;  // B^T K, B^T M of a unit velocity of each motion; empty where the motion is elsewhere
@@ -191,7 +205,9 @@ class Piece {
   Vec u_, v_, p_, w_, force_;  // state, in factor order
   Vec z_;                      // dt K G V, where there are unknowns without mass
   std::vector<double> held_u_, held_v_;
-  Vec residual_, x_, b_, v_b_, v_old_, w_old_, start_imbalance_, force_old_;
+  Vec held_pull_;              // of A, what the motions' velocities at hand bring to the free unknowns
+  Vec row_start_;              // force of the search directions on the velocities the increment starts from
+  Vec residual_, x_, b_, dv_b_, v_old_, w_old_, start_imbalance_, force_old_;
   std::vector<double> held_v_old_, held_v_new_, held_reaction_;
   Points nodal_force_;
 };

@@ -30,6 +30,12 @@ void Piece::set_state(const Points& displacement, const Points& velocity, const 
     start_massless();
   }
   momentum_ = momentum();
+  held_pull_ = Vec();
+  if (has_motions_) {
+    const Points held = expand(Vec::Zero(v_.size()), held_v_);
+    held_pull_ = c1_ * nodal_stiffness_times(held);
+    if (mass_matrix_.size() > 0) held_pull_ += mass_share() * restrict_nodal(nodal_mass_times(held));
+  }
   nodal_force_ = force;
   held_reaction_ = held_stiffness(displacement);
   for (size_t i = 0; i < held_.size(); ++i)
@@ -43,6 +49,7 @@ void Piece::restore(const Snapshot& s) {
   w_ = s.w;
   z_ = s.z;
   force_ = s.force;
+  held_pull_ = s.held_pull;
   held_u_ = s.held_u;
   held_v_ = s.held_v;
   momentum_ = momentum();
@@ -74,47 +81,57 @@ void Piece::begin(const Points& force, const std::vector<double>& motion_velocit
   force_old_ = massless_.empty() ? Vec() : force_;
   force_ = scheme.is_static ? Vec(0.5 * (force_ + new_force)) : new_force;
   x_ = residual_;
+  if (solves_for_change()) {  // less A V0, known without a product: W0 is c1 K V0
+    x_ -= w_ + mass_share() * momentum_;
+    apply_absorbing(v_, -(1 - scheme.g), x_);
+    if (has_motions_) x_ += held_pull_;
+  }
   held_v_old_ = held_v_;
   held_v_new_.assign(held_.size(), 0.0);
   for (size_t i = 0; i < held_.size(); ++i)
     for (const auto& [motion, factor] : held_[i].motion) held_v_new_[i] += factor * motion_velocity[motion];
-  for (size_t m = 0; m < coupling_.size(); ++m) {
-    if (coupling_[m].size() > 0) x_ -= c1_ * motion_velocity[m] * coupling_[m];
-    if (mass_coupling_[m].size() > 0)
-      x_ -= (scheme.inverse_dt() + (1 - scheme.g) * scheme.alpha(setup_.body->part->material.damping)) * motion_velocity[m] * mass_coupling_[m];
+  if (has_motions_) {
+    held_pull_ = Vec::Zero(v_.size());
+    for (size_t m = 0; m < coupling_.size(); ++m) {
+      if (coupling_[m].size() > 0) held_pull_ += c1_ * motion_velocity[m] * coupling_[m];
+      if (mass_coupling_[m].size() > 0) held_pull_ += mass_share() * motion_velocity[m] * mass_coupling_[m];
+    }
+    x_ -= held_pull_;
   }
-  if (factor_ && !plain_factor_) {
-    factor_->forward(x_);
-    b_ = x_.tail(factor_->n_interface());
-  }
+  row_start_ = Vec::Zero(n_rows());
+  if (!factor_) return;
+  if (solves_for_change())
+    for (int i = 0; i < n_rows(); ++i) row_start_[i] = k_[i] * at_row(i, v_);
+  if (plain_factor_) return;
+  factor_->forward(x_);
+  b_ = x_.tail(factor_->n_interface());
 }
 
 void Piece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) {
   if (!factor_) return;
+  const bool for_change = solves_for_change();
   if (plain_factor_) {
     // x_ keeps the right-hand side; residual order is the condensed factor's, the plain one has its own.
     v_ = x_;
     for (int i = 0; i < n_rows(); ++i)
-      for (int a = 0; a < traces_[i].n; ++a) v_[traces_[i].at[a]] += traces_[i].value[a] * q[i];
+      for (int a = 0; a < traces_[i].n; ++a) v_[traces_[i].at[a]] += traces_[i].value[a] * (q[i] - row_start_[i]);
     Vec ordered(v_.size());
     for (int i = 0; i < v_.size(); ++i) ordered[i] = v_[position_[plain_factor_->order()[i]]];
     plain_factor_->solve(ordered);
     for (int i = 0; i < v_.size(); ++i) v_[position_[plain_factor_->order()[i]]] = ordered[i];
-    for (int i = 0; i < n_rows(); ++i) {
-      velocity[i] = 0.0;
-      for (int a = 0; a < traces_[i].n; ++a) velocity[i] += traces_[i].value[a] * v_[traces_[i].at[a]];
-    }
+    if (for_change) v_ += v_old_;
+    for (int i = 0; i < n_rows(); ++i) velocity[i] = at_row(i, v_);
     return;
   }
   const int n_i = factor_->n_interior();
   thread_local Vec rhs;
   rhs = b_;
   for (int i = 0; i < n_rows(); ++i)
-    for (int a = 0; a < traces_[i].n; ++a) rhs[traces_[i].at[a] - n_i] += traces_[i].value[a] * q[i];
-  multiply_symmetric(h_, rhs, v_b_);
+    for (int a = 0; a < traces_[i].n; ++a) rhs[traces_[i].at[a] - n_i] += traces_[i].value[a] * (q[i] - row_start_[i]);
+  h_.multiply(rhs, dv_b_);
   for (int i = 0; i < n_rows(); ++i) {
-    velocity[i] = 0.0;
-    for (int a = 0; a < traces_[i].n; ++a) velocity[i] += traces_[i].value[a] * v_b_[traces_[i].at[a] - n_i];
+    velocity[i] = for_change ? at_row(i, v_old_) : 0.0;
+    for (int a = 0; a < traces_[i].n; ++a) velocity[i] += traces_[i].value[a] * dv_b_[traces_[i].at[a] - n_i];
   }
 }
 
@@ -123,23 +140,22 @@ IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_f
   const Damping& damping = setup_.body->part->material.damping;
   const double g = scheme.g, dt = scheme.dt;
   if (factor_ && !plain_factor_) {
-    if (n_rows() > 0) x_.tail(v_b_.size()) = v_b_;
+    if (n_rows() > 0) x_.tail(dv_b_.size()) = dv_b_;
     factor_->backward(x_);
     v_ = x_;
+    if (solves_for_change()) v_ += v_old_;
   }
   held_v_ = held_v_new_;
 
   // W1 from the solved equation itself, then P by recurrence: no product by K.
   w_ = residual_;
   for (int i = 0; i < n_rows(); ++i) {
-    double row_velocity = 0.0;
-    for (int a = 0; a < traces_[i].n; ++a) row_velocity += traces_[i].value[a] * v_[traces_[i].at[a]];
-    const double force = q[i] - k_[i] * row_velocity;
+    const double force = q[i] - k_[i] * at_row(i, v_);
     for (int a = 0; a < traces_[i].n; ++a) w_[traces_[i].at[a]] += traces_[i].value[a] * force;
   }
   if (!scheme.is_static) {
     momentum_ = momentum();
-    w_ -= (scheme.inverse_dt() + (1 - g) * scheme.alpha(damping)) * momentum_;
+    w_ -= mass_share() * momentum_;
     apply_absorbing(v_, -(1 - g), w_);
   }
   if (massless_.empty())

@@ -119,6 +119,15 @@ std::vector<Piece::Row> rows_of(const StepModel& model, int part) {
 // What the pieces are for: to be solved one by one, together by someone else, or only to know their size.
 enum class Purpose { alone, assembled, prediction };
 
+// Single precision halves what a solve reads from memory; where all fits into the cache there is nothing to gain. A static step has no
+// mass that would bound what rounding does to soft motions, and nodes without mass have a recurrence of their own.
+Precision precision_of(const StepModel& model, const Body& body) {
+  constexpr int large = 15000;  // unknowns
+  if (model.scheme.is_static || !body.mass->is_massless.empty()) return Precision::double_precision;
+  if (const auto& asked = model.problem->solver.precision) return *asked;
+  return 3 * body.part->mesh->n_nodes() > large ? Precision::single_precision : Precision::double_precision;
+}
+
 void make_pieces(StepModel& model, const std::vector<Body>& bodies, Purpose purpose) {
   const int n = static_cast<int>(bodies.size());
   model.pieces.resize(n);
@@ -134,7 +143,8 @@ void make_pieces(StepModel& model, const std::vector<Body>& bodies, Purpose purp
     try {
       const std::string what = "substructure '" + bodies[i].part->name + "' in step '" + model.step->name + "'";
       model.pieces[i] = std::make_unique<Piece>(Piece::Setup{&bodies[i], model.scheme, &model.conditions.held[i], &absorbing[i],
-                                                             rows_of(model, i), static_cast<int>(model.conditions.motions.size()), what, purpose == Purpose::assembled, purpose == Purpose::prediction});
+                                                             rows_of(model, i), static_cast<int>(model.conditions.motions.size()), what, purpose == Purpose::assembled,
+                                                             precision_of(model, bodies[i]), purpose == Purpose::prediction});
     } catch (...) {
       const std::scoped_lock lock(mutex);
       failure = std::current_exception();

@@ -5,6 +5,7 @@
 #include <omp.h>
 
 #include "base/threads.hpp"
+#include "numerics/factor.hpp"
 #include "decks/engine.hpp"
 
 namespace {
@@ -35,7 +36,7 @@ BENCHMARK(bolted_flanges)
     ->Iterations(1)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 int main(int argc, char** argv) {
-  dygita::wait_passively(argv);
+  dygita::wait_passively(argv, dygita::better_blas_kernels());
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   return 0;

@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "base/threads.hpp"
+#include "numerics/factor.hpp"
 
 namespace {
 
@@ -59,7 +60,7 @@ void study_bar(const char* scene, const char* text) {
 }  // namespace
 
 int main(int, char** argv) {
-  dygita::wait_passively(argv);
+  dygita::wait_passively(argv, dygita::better_blas_kernels());
   std::puts("scene,knob,value,estimated [%],true [%],effectivity");
   study_bar("pulse", pulse);
   study_bar("impact", impact);

@@ -84,6 +84,46 @@ TEST(Factor, forward_interface_and_backward_make_the_whole_solve) {
   EXPECT_LT((x - whole).norm(), 1e-12 * whole.norm());
 }
 
+TEST(Factor, solves_several_right_hand_sides_as_it_solves_one) {
+  const Grid g = grid(7, 3);
+  for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
+    const Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid", precision);
+    Mat together = Mat::Random(g.matrix.rows(), 5), alone = together;
+    factor.solve(together);
+    for (int c = 0; c < alone.cols(); ++c) factor.solve(alone.col(c));
+    EXPECT_LT((together - alone).norm(), 1e-13 * alone.norm());
+  }
+}
+
+TEST(Factor, in_single_precision_stays_linear_and_symmetric) {
+  const Grid g = grid(7, 3);
+  const Factor exact(g.matrix, g.node_of_dof, g.is_interface, "grid");
+  const Factor single(g.matrix, g.node_of_dof, g.is_interface, "grid", Precision::single_precision);
+  EXPECT_LT(single.bytes(), 0.6 * exact.bytes());
+  const Mat inputs = Mat::Random(g.matrix.rows(), 2);
+  Mat a = inputs, b = inputs;
+  exact.solve(a);
+  single.solve(b);
+  EXPECT_LT((a - b).norm(), 1e-6 * a.norm());
+  EXPECT_GT((a - b).norm(), 0.0);
+  EXPECT_NEAR(inputs.col(0).dot(b.col(1)), inputs.col(1).dot(b.col(0)), 1e-13 * inputs.col(0).norm() * b.col(1).norm());
+}
+
+TEST(SymmetricOperator, multiplies_as_the_dense_matrix_does) {
+  for (const int n : {1, 7, 8, 9, 40, 101}) {
+    const Mat random = Mat::Random(n, n);
+    const Mat symmetric = random * random.transpose() + n * Mat::Identity(n, n);
+    Mat lower = symmetric;
+    lower.triangularView<Eigen::StrictlyUpper>().setConstant(1e30);  // must not be read
+    const Vec x = Vec::Random(n);
+    Vec y;
+    SymmetricOperator(lower, Precision::double_precision).multiply(x, y);
+    EXPECT_LT((y - symmetric * x).norm(), 1e-14 * n * (symmetric * x).norm()) << n;
+    SymmetricOperator(lower, Precision::single_precision).multiply(x, y);
+    EXPECT_LT((y - symmetric * x).norm(), 1e-6 * (symmetric * x).norm()) << n;
+  }
+}
+
 TEST(Factor, has_the_schur_complement_of_the_matrix) {
   const Grid g = grid(5, 3);
   const Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid");
@@ -109,9 +149,10 @@ TEST(Factor, works_without_interface_and_with_nothing_else) {
 
 TEST(Factor, predicts_the_entries_it_then_has) {
   const Grid g = grid(7, 3);
-  const Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid");
+  Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid");
+  factor.release_interface();
   const double predicted = Factor::predicted_bytes(g.matrix, g.node_of_dof, g.is_interface);
-  EXPECT_NEAR(predicted, factor.bytes(), 0.01 * factor.bytes());
+  EXPECT_NEAR(predicted, factor.bytes(), 0.05 * factor.bytes());
 }
 
 TEST(Factor, names_what_is_not_positive_definite) {

@@ -1,0 +1,73 @@
+// The interior of a supernodal Cholesky factor, packed for substitution, and a symmetric matrix packed for products.
+#pragma once
+
+#include <vector>
+
+#include "numerics/panels.hpp"
+#include "numerics/types.hpp"
+
+namespace dygita {
+
+// What a supernode is made from: columns [first, first + n_columns) of L, dense, column-major with leading dimension `stride`; the rows
+// are those columns, then `below` (n_below).
+struct SupernodeView {
+  int first, n_columns, n_below;
+  const int* below;
+  const double* values;
+  int stride;
+};
+
+class PackedFactor {
+ public:
+  // row_size: norm of each row of L (the square root of the diagonal of A); an entry stored in single precision is off by
+  // at most 2^-26 of it.
+  explicit PackedFactor(Precision precision = Precision::double_precision, Vec row_size = {});
+  // Adds a supernode; in order of columns.
+  void add(const SupernodeView& supernode);
+  // x: all unknowns in factor order, n_rhs columns `stride` apart. L x' = x over the packed columns; the rows below take their share.
+  void forward(double* x, int n_rhs = 1, Eigen::Index stride = 0) const;
+  // L^T x' = x over the packed columns, with what the rows below hold given.
+  void backward(double* x, int n_rhs = 1, Eigen::Index stride = 0) const;
+
+  double bytes() const { return panels_.bytes() + static_cast<double>(below_.size() * sizeof(int) + blocks_.size() * sizeof(Block)); }
+  // Entries of the lower triangle, without what packing adds or leaves out.
+  double nonzeros() const { return nonzeros_; }
+
+ private:
+  struct Block {
+    int first, n_columns, n_below;
+    size_t below, first_panel;
+  };
+  void forward_one(double* x) const;
+  void backward_one(double* x) const;
+  // A block as a dense column-major matrix of its rows.
+  void unpack(const Block& block, Mat& dense) const;
+
+  std::vector<Block> blocks_;
+  std::vector<int> below_;
+  Panels panels_;
+  Vec tolerance_;
+  double nonzeros_ = 0.0;
+};
+
+// Bytes that a supernode takes in double precision.
+double supernode_bytes(int n_columns, int n_below);
+
+// A symmetric matrix for products with vectors, most of whose entries are small: an interface operator.
+class SymmetricOperator {
+ public:
+  SymmetricOperator() = default;
+  // Positive definite; only the lower triangle is read. In single precision an entry is off by at most 2^-28 sqrt(a_ii a_jj), and the
+  // product is computed in single precision but for its long sums.
+  SymmetricOperator(const Mat& lower, Precision precision);
+  int size() const { return n_; }
+  // y = A x.
+  void multiply(const Vec& x, Vec& y) const;
+  double bytes() const { return panels_.bytes(); }
+
+ private:
+  int n_ = 0;
+  Panels panels_;
+};
+
+}  // namespace dygita

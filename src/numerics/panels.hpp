@@ -1,0 +1,67 @@
+// Dense panels of a triangular or symmetric matrix, cut into tiles that each take as few bytes as their size asks for.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "numerics/types.hpp"
+
+namespace dygita {
+
+// A panel has up to 8 columns and any number of rows; its tiles are 16 rows of it, column-major. The first tile, with the triangle, is
+// stored in full. Of the others, in single precision, each is stored in float, in 16 or 8 bits with a scale, or not at all, whichever
+// is the shortest that keeps the error of every entry below the tolerance of its rows: entries far from the diagonal are small
+// (manual, what is stored). Substitutions compute in double precision: the factor stored is one matrix, so solves stay linear.
+class Panels {
+ public:
+  static constexpr int width = 8;  // most columns of a panel
+  static constexpr int height = 16;  // rows of a tile
+
+  explicit Panels(Precision precision = Precision::double_precision) : precision_(precision) {}
+
+  // values: column-major, n_rows x n_columns, `stride` apart. tolerance: largest error allowed in each row (single precision).
+  void add(const double* values, int stride, int n_rows, int n_columns, const double* tolerance);
+  size_t size() const { return panels_.size(); }
+  Precision precision() const { return precision_; }
+  double bytes() const;
+
+  // All vectors are of the panel's rows and have room for `height` more behind them.
+  // Forward substitution: solves with the triangle for the first n_columns of y (pivots are stored inverted: see invert_pivots), takes
+  // the rows below off.
+  void forward(size_t panel, double* y) const;
+  // Backward substitution: the first n_columns of y from the rows below.
+  void backward(size_t panel, double* y) const;
+  // y += A x and, for what lies below the first tile, the transposed part: y[0..n_columns) += A^T x. The first tile is square in effect:
+  // it must hold both triangles.
+  void multiply_symmetric(size_t panel, const double* x, double* y) const;
+  // The same in single precision, for panels stored so; sums of more than 16 tiles are in double.
+  void multiply_symmetric(size_t panel, const float* x, double* y) const;
+  // The panel as a dense matrix, column-major, `stride` apart, without what lies above the diagonal.
+  void unpack(size_t panel, double* values, int stride) const;
+
+ private:
+  enum Kind { full, float_32, int_16, int_8, n_kinds };
+  struct Tile {
+    int row;      // of the panel, where it starts
+    float scale;  // of the integers
+  };
+  struct Panel {
+    size_t data, tiles;
+    int n_rows, n_columns;
+    int count[n_kinds];  // tiles of each kind, in this order; the first tile of the panel leads
+  };
+  template <class Function>
+  void for_each_tile(const Panel& panel, Function&& f) const;
+  Kind kind_of(double largest, double tolerance) const;
+
+  Precision precision_;
+  std::vector<Panel> panels_;
+  std::vector<Tile> tiles_;
+  std::vector<std::byte> data_;
+};
+
+// Bytes of a panel in double precision.
+double panel_bytes(int n_rows, int n_columns);
+
+}  // namespace dygita
