@@ -326,7 +326,7 @@ words[9] = {
         doc = "of the cells: tuned to dt so that waves keep their speed, or all at the nodes" },
       { "massless_contact", type = "boolean", default = false,
         doc = "nodes in contact give their mass to those behind them: an impact then costs no energy" },
-      { "precision", type = "choice", choices = { "single", "double" }, default_doc = "single in substructures of more than 15,000 unknowns",
+      { "precision", type = "choice", choices = { "single", "double" }, default_doc = "single in pieces of more than 4000 unknowns, unless tolerance is below 1e-7",
         doc = "of the stored factors in dynamic steps; arithmetic is in double precision either way" },
       { "plain", type = "boolean", default = false, doc = "iterates with full solves, to check the condensed ones" },
     },

@@ -10,8 +10,6 @@
 #include "app/srs_command.hpp"
 #include "base/names.hpp"
 #include "base/progress.hpp"
-#include "base/threads.hpp"
-#include "numerics/factor.hpp"
 #include "deck/deck.hpp"
 
 namespace {
@@ -125,7 +123,7 @@ int command_line(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  wait_passively(argv, better_blas_kernels());
+  prepare_process(argv);
   try {
     return command_line(argc, argv);
   } catch (const InputError& error) {

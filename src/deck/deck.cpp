@@ -8,9 +8,11 @@
 #include <sstream>
 
 #include "base/log.hpp"
+#include "base/threads.hpp"
 #include "deck/deck_state.hpp"
 #include "deck/results.hpp"
 #include "deck/series.hpp"
+#include "numerics/factor.hpp"
 
 namespace dygita {
 
@@ -211,5 +213,7 @@ std::string deck_reference() {
 }
 
 std::string version() { return DYGITA_VERSION; }
+
+void prepare_process(char** argv) { wait_passively(argv, better_blas_kernels()); }
 
 }  // namespace dygita

@@ -52,4 +52,8 @@ std::string deck_reference();
 // "0.1.0".
 std::string version();
 
+// Call first in main: threads that wait must not spin, and OpenBLAS must not take the kernels of an old processor (wait_passively,
+// better_blas_kernels).
+void prepare_process(char** argv);
+
 }  // namespace dygita

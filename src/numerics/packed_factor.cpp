@@ -11,7 +11,7 @@ namespace dygita {
 namespace {
 
 // Errors of entries in single precision, of the size of their rows: what rounds to nothing in the tail of an operator adds up.
-constexpr double single_factor = 0x1p-26, single_operator = 0x1p-28;
+constexpr double single_factor = 0x1p-26, single_operator = 0x1p-30;
 
 // Local unknowns, with room for the rows that the last tile lacks; one a thread.
 double* workspace(int n) {

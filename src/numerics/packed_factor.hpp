@@ -57,7 +57,7 @@ double supernode_bytes(int n_columns, int n_below);
 class SymmetricOperator {
  public:
   SymmetricOperator() = default;
-  // Positive definite; only the lower triangle is read. In single precision an entry is off by at most 2^-28 sqrt(a_ii a_jj), and the
+  // Positive definite; only the lower triangle is read. In single precision an entry is off by at most 2^-30 sqrt(a_ii a_jj), and the
   // product is computed in single precision but for its long sums.
   SymmetricOperator(const Mat& lower, Precision precision);
   int size() const { return n_; }

@@ -4,8 +4,6 @@
 #include <benchmark/benchmark.h>
 #include <omp.h>
 
-#include "base/threads.hpp"
-#include "numerics/factor.hpp"
 #include "decks/engine.hpp"
 
 namespace {
@@ -36,7 +34,7 @@ BENCHMARK(bolted_flanges)
     ->Iterations(1)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 int main(int argc, char** argv) {
-  dygita::wait_passively(argv, dygita::better_blas_kernels());
+  dygita::prepare_process(argv);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   return 0;

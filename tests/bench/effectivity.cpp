@@ -8,8 +8,6 @@
 
 #include <cstdio>
 
-#include "base/threads.hpp"
-#include "numerics/factor.hpp"
 
 namespace {
 
@@ -60,7 +58,7 @@ void study_bar(const char* scene, const char* text) {
 }  // namespace
 
 int main(int, char** argv) {
-  dygita::wait_passively(argv, dygita::better_blas_kernels());
+  dygita::prepare_process(argv);
   std::puts("scene,knob,value,estimated [%],true [%],effectivity");
   study_bar("pulse", pulse);
   study_bar("impact", impact);
