@@ -56,6 +56,10 @@ Held build_latin(const Declaration& d) {
   settings->push_out = a.number("push_out");
   settings->search_direction = a.number("search_direction");
   settings->mass = {a.text("mass") == "tuned", a.boolean("massless_contact")};
+  settings->pieces = a.is_number("pieces") ? a.integer("pieces") : 0;  // the only word is "auto"
+  if (settings->pieces > 1 && settings->mass.is_moved_from_contact)
+    throw InputError(fmt::format("'pieces' = {} and 'massless_contact' exclude each other: mass does not move from one piece to another",
+                                 settings->pieces));
   settings->plain = a.boolean("plain");
   return std::shared_ptr<const LatinSettings>(settings);
 }

@@ -129,6 +129,7 @@ struct LatinSettings {
   double push_out = 0.0;          // b of the contact law
   double search_direction = 1.0;  // multiplies every k (studies, hard cases)
   MassSettings mass;
+  int pieces = 0;                 // of each substructure; 0: large ones are cut
   bool plain = false;             // iterate with full solves instead of the condensed interface (the plain path)
 };
 

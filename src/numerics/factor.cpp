@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "numerics/partition.hpp"
 
 extern "C" {
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
@@ -46,9 +47,7 @@ std::vector<int> nested_dissection(const SparseMatrix& matrix, const std::vector
     idx_t options[METIS_NOPTIONS];
     METIS_SetDefaultOptions(options);
     options[METIS_OPTION_SEED] = 1;
-    // METIS draws from the C library's one random sequence, seeded at each call: side by side, two orderings would mix theirs.
-    static std::mutex mutex;
-    const std::scoped_lock lock(mutex);
+    const std::scoped_lock lock(metis_mutex());
     const int status = METIS_NodeND(&n, start.data(), neighbours.data(), nullptr, options, perm.data(), inverse.data());
     CHECK(status == METIS_OK, "METIS could not order the unknowns");
   }
