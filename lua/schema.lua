@@ -308,7 +308,6 @@ words[9] = {
   name = "solver", doc = "How it is computed. Every parameter has a good default, so most decks write none.",
   {
     "latin", makes = "solver", doc = "The LATIN method.",
-    later = { "pieces" },
     arguments = {
       { "tolerance", type = "number", range = { 1e-14, 0.1 }, default = 1e-6, doc = "indicator at which a dynamic step stops" },
       { "static_tolerance", type = "number", range = { 1e-14, 0.1 }, default = 1e-8, doc = "the same in static steps" },
@@ -326,8 +325,10 @@ words[9] = {
         doc = "of the cells: tuned to dt so that waves keep their speed, or all at the nodes" },
       { "massless_contact", type = "boolean", default = false,
         doc = "nodes in contact give their mass to those behind them: an impact then costs no energy" },
-      { "precision", type = "choice", choices = { "single", "double" }, default_doc = "single in pieces of more than 4000 unknowns, unless tolerance is below 1e-7",
+      { "precision", type = "choice", choices = { "single", "double" }, default_doc = "single in substructures of more than 4000 unknowns, unless tolerance is below 1e-7",
         doc = "of the stored factors in dynamic steps; arithmetic is in double precision either way" },
+      { "pieces", type = "integer", range = { 1, 100000 }, default = "auto", or_word = "auto",
+        doc = "into how many bonded pieces each substructure is cut; 1: none is; \"auto\": large ones are" },
       { "plain", type = "boolean", default = false, doc = "iterates with full solves, to check the condensed ones" },
     },
   },

@@ -58,6 +58,10 @@ Held build_latin(const Declaration& d) {
   settings->mass = {a.text("mass") == "tuned", a.boolean("massless_contact")};
   if (a.has("precision"))
     settings->precision = a.text("precision") == "single" ? Precision::single_precision : Precision::double_precision;
+  settings->pieces = a.is_number("pieces") ? a.integer("pieces") : 0;  // the only word is "auto"
+  if (settings->pieces > 1 && settings->mass.is_moved_from_contact)
+    throw InputError(fmt::format("'pieces' = {} and 'massless_contact' exclude each other: mass does not move from one piece to another",
+                                 settings->pieces));
   settings->plain = a.boolean("plain");
   return std::shared_ptr<const LatinSettings>(settings);
 }

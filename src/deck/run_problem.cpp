@@ -18,6 +18,14 @@ namespace dygita {
 
 namespace {
 
+// "'flange' 4, 'plate' 16": the substructures that were cut.
+std::string list_pieces(const Problem& problem, const std::vector<int>& pieces) {
+  std::string list;
+  for (size_t i = 0; i < pieces.size(); ++i)
+    if (pieces[i] > 1) list += fmt::format("{}'{}' {}", list.empty() ? "" : ", ", problem.substructures[i]->name, pieces[i]);
+  return list;
+}
+
 void summarise(const Problem& problem, const SolverFigures& figures, RunResult& result) {
   int increments = 0;
   for (size_t i = 0; i < figures.steps.size(); ++i) {
@@ -33,6 +41,7 @@ void summarise(const Problem& problem, const SolverFigures& figures, RunResult& 
   result.n_dofs = figures.n_dofs;
   result.n_interface_unknowns = figures.n_interface_unknowns;
   result.seconds = figures.seconds;
+  result.pieces = figures.pieces;
   result.figures.insert(figures.of_solver.begin(), figures.of_solver.end());
   result.figures["memory of factors and interface operators [MB]"] = figures.factor_bytes / 1e6;
   result.figures["largest difference between the interface gap and the displacements' [m]"] = figures.gap_difference;
@@ -80,6 +89,7 @@ void warn_of_errors(const Problem& problem, const RunResult& result) {
 }
 
 void say_summary(const Problem& problem, const RunResult& result, const std::filesystem::path& directory, double seconds) {
+  if (const std::string pieces = list_pieces(problem, result.pieces); !pieces.empty()) say("  cut into pieces: " + pieces);
   for (const StepSummary& step : result.steps) {
     std::string line = fmt::format("  {} '{}': {} increments, {:.1f} {} each, {:.2f} s", step.is_static ? "static" : "dynamic",
                                    step.name, step.increments, step.increments ? double(step.iterations) / step.increments : 0.0,
@@ -156,7 +166,10 @@ std::string check_report(const Problem& problem) {
                         surface.facing.areas.sum() * 1e6);
   long increments = 0;
   double bytes = 0.0;
-  const std::vector<Body> bodies = make_bodies(problem, surfaces);
+  const bool is_latin = !problem.monolithic && !problem.explicit_dynamics;
+  const CutPtr cut = is_latin ? make_cut(problem) : no_cut(problem);
+  if (const std::string pieces = list_pieces(problem, cut->counts()); !pieces.empty()) text += "  cut into pieces: " + pieces + "\n";
+  const std::vector<Body> bodies = make_bodies(problem, surfaces, *cut);
   for (const StepPtr& step : problem.steps) {
     if (problem.explicit_dynamics && !step->is_static) {
       const ExplicitSize size = predict_explicit(problem, *step, surfaces, bodies, state);
@@ -166,7 +179,7 @@ std::string check_report(const Problem& problem) {
       bytes = std::max(bytes, size.bytes);
       continue;
     }
-    const StepSize size = predict_step(problem, *step, surfaces, bodies, state);
+    const StepSize size = predict_step(problem, *step, surfaces, bodies, state, cut);
     text += fmt::format("  {} step '{}': {} increments{}, {} interface unknowns, {:.4g} MB\n", step->is_static ? "static" : "dynamic",
                         step->name, step->n_increments(), step->is_static ? "" : fmt::format(" of {:.4g} us", step->dt * 1e6),
                         size.n_unknowns, size.bytes / 1e6);

@@ -38,7 +38,7 @@ void StepRun::begin_increment(int increment, bool starts_window) {
   const Stopwatch watch(seconds_.forward);
   motions_ = model_.motion_velocities(increment);
   model_.loads->evaluate(increment);
-  for_each_piece([&](Piece& piece, int i) { piece.begin(model_.external_force(i, state_), motions_); });
+  for_each_piece([&](Piece& piece, int i) { piece.begin(model_.piece_force(i, state_), motions_); });
   local_.begin(increment, motions_, starts_window);
 }
 
@@ -152,13 +152,15 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
   prepare_thread();
   auto start = clock::now();
   const std::vector<Surface> surfaces = make_surfaces(problem);
-  const std::vector<Body> bodies = make_bodies(problem, surfaces);
+  const CutPtr cut = make_cut(problem);
+  const std::vector<Body> bodies = make_bodies(problem, surfaces, *cut);
+  figures.pieces = cut->counts();
   State state = initial_state(problem, surfaces);
   figures.seconds["assemble"] = seconds_since(start);
   for (const StepPtr& step : problem.steps) {
     if (interrupt_requested()) break;
     start = clock::now();
-    StepModel model = make_step_model(problem, *step, surfaces, bodies, state);
+    StepModel model = make_step_model(problem, *step, surfaces, bodies, state, cut);
     if (interrupt_requested()) break;  // the factorisation may have taken long
     StepRun run(problem, model, state, observer, start_from);
     figures.seconds["factor"] += seconds_since(start);

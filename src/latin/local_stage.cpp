@@ -30,7 +30,7 @@ LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k)
         const int node = is_first   ? surface.facing.nodes_1[member.point]
                          : part < 0 ? -1
                                     : surface.facing.nodes_2[member.point];
-        if (port.part == part && port.node == node) ports_[p].f += is_first ? force : Vec3(-force);
+        if (port.is_owner && port.part == part && port.node == node) ports_[p].f += is_first ? force : Vec3(-force);
       }
     }
   }
@@ -78,7 +78,7 @@ void LocalStage::begin(int increment, const std::vector<double>& motions, bool s
       state.w_old = model_->scheme.is_static ? Vec3(Vec3::Zero()) : state.w;
       state.f_old = state.f;
       for (int d = 0; d < 3; ++d) {
-        if (port.unknown[d] >= 0 && starts_window) state.u[d] = displacement[port.part][port.unknown[d]];
+        if (port.unknown[d] >= 0 && starts_window) state.u[d] = displacement[port.piece][port.unknown[d]];
         if (port.is_held[d]) state.w[d] = model_->held_velocity(port, point.frame.col(d), motions);
       }
     }
@@ -223,7 +223,7 @@ void LocalStage::show_residuals(State& state) const {
 
 bool LocalStage::is_massless(const Point& point) const {
   const Port& port = model_->exchange.ports[point.first_port];
-  return model_->pieces[port.part]->is_massless(port.node);
+  return model_->pieces[port.piece]->is_massless(port.piece_node);
 }
 
 double LocalStage::work_on_pieces(const Point& point) const {
@@ -237,14 +237,14 @@ double LocalStage::work_on_pieces(const Point& point) const {
   return work;
 }
 
-Points LocalStage::held_force(int part) const {
-  Points force = Points::Zero(3, model_->problem->substructures[part]->mesh->n_nodes());
+Points LocalStage::held_force(int piece) const {
+  Points force = Points::Zero(3, model_->cut->piece(piece).body->mesh->n_nodes());
   for (const Point& point : model_->exchange.points)
     for (int p = point.first_port; p < point.end_port; ++p) {
       const Port& port = model_->exchange.ports[p];
-      if (port.part != part) continue;
+      if (port.piece != piece) continue;
       for (int d = 0; d < 3; ++d)
-        if (port.is_held[d]) force.col(port.node) += ports_[p].f[d] * point.frame.col(d);
+        if (port.is_held[d]) force.col(port.piece_node) += ports_[p].f[d] * point.frame.col(d);
     }
   return force;
 }

@@ -36,8 +36,8 @@ class LocalStage {
   void accept(State* state);
   // Largest difference so far between a contact law's gap and that of the displacements, m.
   double gap_difference() const { return gap_difference_; }
-  // Force of the laws on held directions of a substructure's nodes (3 x n_nodes, N).
-  Points held_force(int part) const;
+  // Force of the laws on held directions of a piece's nodes (3 x n_nodes, N).
+  Points held_force(int piece) const;
 
  private:
   struct PortState {

@@ -7,7 +7,7 @@ namespace dygita {
 Vec search_directions(const StepModel& model, double multiplier, int n_window) {
   Vec k = Vec::Zero(model.n_q());
   for (const Port& port : model.exchange.ports) {
-    const Piece& piece = *model.pieces[port.part];
+    const Piece& piece = *model.pieces[port.piece];
     const Elastic& material = model.problem->substructures[port.part]->material;
     for (int d = 0; d < 3; ++d) {
       if (port.unknown[d] < 0) continue;
@@ -19,7 +19,7 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
         direction = std::max(schur, 1e-3 * reference);
         continue;
       }
-      const double dt = model.scheme.dt, mass = piece.node_mass(port.node);
+      const double dt = model.scheme.dt, mass = piece.node_mass(port.piece_node);
       const double speed = d == 0 ? material.p_wave_speed() : material.s_wave_speed();
       if (n_window > 5) {
         direction = material.density * speed * port.area;

@@ -151,9 +151,7 @@ void StepRun::leave_state() { end_step(model_, state_); }
 
 void StepRun::add_to(SolverFigures& figures) const {
   figures.n_dofs = 0;
-  for (const auto& piece : model_.pieces) {
-    figures.n_dofs += 3 * piece->setup().body->part->mesh->n_nodes();
-  }
+  for (const SubstructurePtr& part : problem_.substructures) figures.n_dofs += 3 * part->mesh->n_nodes();
   double bytes = 0.0;
   for (const auto& piece : model_.pieces) bytes += piece->bytes();
   figures.factor_bytes = std::max(figures.factor_bytes, bytes);

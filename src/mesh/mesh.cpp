@@ -71,6 +71,16 @@ int Mesh::n_cells() const {
   return n;
 }
 
+std::vector<Facet> facets_of_cell(const CellBlock& block, int i) {
+  std::vector<Facet> facets;
+  for (const std::array<int, 4>& local : local_facets(block.type)) {
+    Facet& facet = facets.emplace_back();
+    for (const int a : local)
+      if (a >= 0) facet.nodes[facet.n_nodes++] = block.cell(i)[a];
+  }
+  return facets;
+}
+
 std::vector<Facet> boundary_facets(const std::vector<CellBlock>& blocks) {
   struct Seen {
     Facet facet;
@@ -80,10 +90,7 @@ std::vector<Facet> boundary_facets(const std::vector<CellBlock>& blocks) {
   std::vector<FacetKey> order;
   for (const CellBlock& block : blocks)
     for (int i = 0; i < block.n_cells(); ++i)
-      for (const std::array<int, 4>& local : local_facets(block.type)) {
-        Facet facet;
-        for (const int a : local)
-          if (a >= 0) facet.nodes[facet.n_nodes++] = block.cell(i)[a];
+      for (const Facet& facet : facets_of_cell(block, i)) {
         const FacetKey key = facet_key(facet);
         const auto [at, is_new] = seen.try_emplace(key, Seen{facet, 0});
         if (is_new) order.push_back(key);

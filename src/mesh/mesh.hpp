@@ -57,6 +57,9 @@ struct FacetKeyHash {
   }
 };
 
+// All facets of a cell of the block, normals outward.
+std::vector<Facet> facets_of_cell(const CellBlock& block, int i);
+
 // Facets of the cells that belong to one cell only, normals outward.
 std::vector<Facet> boundary_facets(const std::vector<CellBlock>& blocks);
 

@@ -130,6 +130,7 @@ struct LatinSettings {
   double search_direction = 1.0;  // multiplies every k (studies, hard cases)
   MassSettings mass;
   std::optional<Precision> precision;  // of the stored factors in dynamic steps; none: single where a substructure is large
+  int pieces = 0;                 // of each substructure; 0: large ones are cut
   bool plain = false;             // iterate with full solves instead of the condensed interface (the plain path)
 };
 

@@ -13,6 +13,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "numerics/partition.hpp"
 
 extern "C" {
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
@@ -47,9 +48,7 @@ std::vector<int> nested_dissection(const SparseMatrix& matrix, const std::vector
     idx_t options[METIS_NOPTIONS];
     METIS_SetDefaultOptions(options);
     options[METIS_OPTION_SEED] = 1;
-    // METIS draws from the C library's one random sequence, seeded at each call: side by side, two orderings would mix theirs.
-    static std::mutex mutex;
-    const std::scoped_lock lock(mutex);
+    const std::scoped_lock lock(metis_mutex());
     const int status = METIS_NodeND(&n, start.data(), neighbours.data(), nullptr, options, perm.data(), inverse.data());
     CHECK(status == METIS_OK, "METIS could not order the unknowns");
   }
@@ -253,8 +252,8 @@ double Factor::predicted_bytes(const SparseMatrix& matrix, const std::vector<int
 double Factor::bytes() const { return interior_.bytes() + 8.0 * static_cast<double>(interface_.size()); }
 double Factor::nonzeros() const { return interior_.nonzeros(); }
 
-void Factor::forward(Eigen::Ref<Mat> x) const { interior_.forward(x.data(), static_cast<int>(x.cols()), x.outerStride()); }
-void Factor::backward(Eigen::Ref<Mat> x) const { interior_.backward(x.data(), static_cast<int>(x.cols()), x.outerStride()); }
+void Factor::forward(Eigen::Ref<Mat> x) const { interior_.forward(x); }
+void Factor::backward(Eigen::Ref<Mat> x) const { interior_.backward(x); }
 
 void Factor::solve(Eigen::Ref<Mat> x) const {
   CHECK(interface_.rows() == n_interface(), "the factor's interface was released");

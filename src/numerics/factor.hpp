@@ -1,5 +1,5 @@
 // Sparse Cholesky factor with the interface unknowns last, and the solves that stop at the interface.
-// The only place that names CHOLMOD and METIS (factor.cpp).
+// The only place that names CHOLMOD (factor.cpp); METIS is named there and in partition.cpp.
 #pragma once
 
 #include <string>

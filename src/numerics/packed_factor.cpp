@@ -1,7 +1,5 @@
 #include "numerics/packed_factor.hpp"
 
-#include <cblas.h>
-
 #include <algorithm>
 
 #include "base/error.hpp"
@@ -80,53 +78,73 @@ void PackedFactor::backward_one(double* x) const {
   }
 }
 
-void PackedFactor::unpack(const Block& b, Mat& dense) const {
-  const int n_rows = b.n_columns + b.n_below;
-  dense.resize(n_rows, b.n_columns);
-  size_t panel = b.first_panel;
-  for (int j = 0; j < b.n_columns; j += Panels::width) {
-    panels_.unpack(panel++, dense.data() + static_cast<size_t>(j) * n_rows + j, n_rows);
-    for (int c = j; c < std::min(j + Panels::width, b.n_columns); ++c) dense(c, c) = 1.0 / dense(c, c);
-  }
+namespace {
+
+constexpr int lanes = 8;
+
+// Columns of x as rows of 8 or 16 values, in a buffer of the thread; missing columns are zero.
+double* interleave(const Eigen::Ref<Mat>& x, int row) {
+  thread_local std::vector<double> together;
+  together.assign(static_cast<size_t>(x.rows()) * row, 0.0);
+  for (Eigen::Index c = 0; c < x.cols(); ++c)
+    for (Eigen::Index i = 0; i < x.rows(); ++i) together[i * row + c] = x(i, c);
+  return together.data();
 }
 
-// Several right-hand sides: a block is read once for all of them, and its products go to BLAS.
-void PackedFactor::forward(double* x, int n_rhs, Eigen::Index stride) const {
-  if (n_rhs == 1) return forward_one(x);
-  thread_local Mat dense, work;
+void separate(const double* together, int row, Eigen::Ref<Mat> x) {
+  for (Eigen::Index c = 0; c < x.cols(); ++c)
+    for (Eigen::Index i = 0; i < x.rows(); ++i) x(i, c) = together[i * row + c];
+}
+
+}  // namespace
+
+// Right-hand sides side by side: an entry of the factor is read once for all of them.
+void PackedFactor::forward_many(Eigen::Ref<Mat> x) const {
+  const int n_vectors = x.cols() > lanes ? 2 : 1, row = n_vectors * lanes;
+  double* all = interleave(x, row);
   for (const Block& b : blocks_) {
-    unpack(b, dense);
-    const int n_rows = b.n_columns + b.n_below;
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, b.n_columns, n_rhs, 1.0, dense.data(), n_rows,
-                x + b.first, static_cast<int>(stride));
-    if (b.n_below == 0) continue;
-    if (work.rows() < b.n_below || work.cols() != n_rhs) work.resize(b.n_below, n_rhs);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, b.n_below, n_rhs, b.n_columns, 1.0, dense.data() + b.n_columns, n_rows,
-                x + b.first, static_cast<int>(stride), 0.0, work.data(), static_cast<int>(work.rows()));
+    const size_t here = static_cast<size_t>(b.n_columns) * row;
+    double* y = workspace((b.n_columns + b.n_below + Panels::height) * row);
+    std::copy_n(all + static_cast<size_t>(b.first) * row, here, y);
+    std::fill_n(y + here, static_cast<size_t>(b.n_below + Panels::height) * row, 0.0);
+    size_t panel = b.first_panel;
+    for (int j = 0; j < b.n_columns; j += Panels::width) panels_.forward(panel++, y + static_cast<size_t>(j) * row, n_vectors);
+    std::copy_n(y, here, all + static_cast<size_t>(b.first) * row);
     const int* below = below_.data() + b.below;
-    for (int c = 0; c < n_rhs; ++c)
-      for (int i = 0; i < b.n_below; ++i) x[below[i] + c * stride] -= work(i, c);
+    for (int i = 0; i < b.n_below; ++i)
+      for (int c = 0; c < row; ++c) all[static_cast<size_t>(below[i]) * row + c] += y[here + static_cast<size_t>(i) * row + c];
   }
+  separate(all, row, x);
 }
 
-void PackedFactor::backward(double* x, int n_rhs, Eigen::Index stride) const {
-  if (n_rhs == 1) return backward_one(x);
-  thread_local Mat dense, work;
+void PackedFactor::backward_many(Eigen::Ref<Mat> x) const {
+  const int n_vectors = x.cols() > lanes ? 2 : 1, row = n_vectors * lanes;
+  double* all = interleave(x, row);
   for (size_t s = blocks_.size(); s-- > 0;) {
     const Block& b = blocks_[s];
-    unpack(b, dense);
-    const int n_rows = b.n_columns + b.n_below;
-    if (b.n_below > 0) {
-      if (work.rows() < b.n_below || work.cols() != n_rhs) work.resize(b.n_below, n_rhs);
-      const int* below = below_.data() + b.below;
-      for (int c = 0; c < n_rhs; ++c)
-        for (int i = 0; i < b.n_below; ++i) work(i, c) = x[below[i] + c * stride];
-      cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, b.n_columns, n_rhs, b.n_below, -1.0, dense.data() + b.n_columns, n_rows,
-                  work.data(), static_cast<int>(work.rows()), 1.0, x + b.first, static_cast<int>(stride));
-    }
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, b.n_columns, n_rhs, 1.0, dense.data(), n_rows,
-                x + b.first, static_cast<int>(stride));
+    const size_t here = static_cast<size_t>(b.n_columns) * row;
+    double* y = workspace((b.n_columns + b.n_below + Panels::height) * row);
+    std::copy_n(all + static_cast<size_t>(b.first) * row, here, y);
+    const int* below = below_.data() + b.below;
+    for (int i = 0; i < b.n_below; ++i) std::copy_n(all + static_cast<size_t>(below[i]) * row, row, y + here + static_cast<size_t>(i) * row);
+    std::fill_n(y + here + static_cast<size_t>(b.n_below) * row, Panels::height * row, 0.0);
+    for (int p = (b.n_columns - 1) / Panels::width; p >= 0; --p)
+      panels_.backward(b.first_panel + p, y + static_cast<size_t>(p) * Panels::width * row, n_vectors);
+    std::copy_n(y, here, all + static_cast<size_t>(b.first) * row);
   }
+  separate(all, row, x);
+}
+
+void PackedFactor::forward(Eigen::Ref<Mat> x) const {
+  if (x.cols() == 1) return forward_one(x.data());
+  for (Eigen::Index first = 0; first < x.cols(); first += 2 * lanes)
+    forward_many(x.middleCols(first, std::min<Eigen::Index>(2 * lanes, x.cols() - first)));
+}
+
+void PackedFactor::backward(Eigen::Ref<Mat> x) const {
+  if (x.cols() == 1) return backward_one(x.data());
+  for (Eigen::Index first = 0; first < x.cols(); first += 2 * lanes)
+    backward_many(x.middleCols(first, std::min<Eigen::Index>(2 * lanes, x.cols() - first)));
 }
 
 SymmetricOperator::SymmetricOperator(const Mat& lower, Precision precision) : n_(static_cast<int>(lower.rows())), panels_(precision) {

@@ -24,10 +24,10 @@ class PackedFactor {
   explicit PackedFactor(Precision precision = Precision::double_precision, Vec row_size = {});
   // Adds a supernode; in order of columns.
   void add(const SupernodeView& supernode);
-  // x: all unknowns in factor order, n_rhs columns `stride` apart. L x' = x over the packed columns; the rows below take their share.
-  void forward(double* x, int n_rhs = 1, Eigen::Index stride = 0) const;
+  // x: all unknowns in factor order, a column a right-hand side. L x' = x over the packed columns; the rows below take their share.
+  void forward(Eigen::Ref<Mat> x) const;
   // L^T x' = x over the packed columns, with what the rows below hold given.
-  void backward(double* x, int n_rhs = 1, Eigen::Index stride = 0) const;
+  void backward(Eigen::Ref<Mat> x) const;
 
   double bytes() const { return panels_.bytes() + static_cast<double>(below_.size() * sizeof(int) + blocks_.size() * sizeof(Block)); }
   // Entries of the lower triangle, without what packing adds or leaves out.
@@ -40,8 +40,9 @@ class PackedFactor {
   };
   void forward_one(double* x) const;
   void backward_one(double* x) const;
-  // A block as a dense column-major matrix of its rows.
-  void unpack(const Block& block, Mat& dense) const;
+  // Up to 16 columns side by side.
+  void forward_many(Eigen::Ref<Mat> x) const;
+  void backward_many(Eigen::Ref<Mat> x) const;
 
   std::vector<Block> blocks_;
   std::vector<int> below_;

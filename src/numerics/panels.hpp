@@ -27,18 +27,19 @@ class Panels {
   double bytes() const;
 
   // All vectors are of the panel's rows and have room for `height` more behind them.
-  // Forward substitution: solves with the triangle for the first n_columns of y (pivots are stored inverted: see invert_pivots), takes
-  // the rows below off.
+  // Forward substitution: solves with the triangle for the first n_columns of y (pivots are stored inverted), takes the rows
+  // below off.
   void forward(size_t panel, double* y) const;
   // Backward substitution: the first n_columns of y from the rows below.
   void backward(size_t panel, double* y) const;
+  // The same for 8 n right-hand sides at once (n = 1 or 2): y holds 8 n values a row.
+  void forward(size_t panel, double* y, int n) const;
+  void backward(size_t panel, double* y, int n) const;
   // y += A x and, for what lies below the first tile, the transposed part: y[0..n_columns) += A^T x. The first tile is square in effect:
   // it must hold both triangles.
   void multiply_symmetric(size_t panel, const double* x, double* y) const;
   // The same in single precision, for panels stored so; sums of more than 16 tiles are in double.
   void multiply_symmetric(size_t panel, const float* x, double* y) const;
-  // The panel as a dense matrix, column-major, `stride` apart, without what lies above the diagonal.
-  void unpack(size_t panel, double* values, int stride) const;
 
  private:
   enum Kind { full, float_32, int_16, int_8, n_kinds };

@@ -28,9 +28,10 @@ Json libraries(const RunIdentity& identity) {
   return json;
 }
 
-Json substructures(const Problem& problem, const RunIdentity& identity) {
+Json substructures(const Problem& problem, const RunResult& result, const RunIdentity& identity) {
   Json list = Json::array();
-  for (const SubstructurePtr& part : problem.substructures) {
+  for (size_t i = 0; i < problem.substructures.size(); ++i) {
+    const SubstructurePtr& part = problem.substructures[i];
     Json json = {{"name", part->name},
                  {"mesh", part->mesh->source},
                  {"digest", part->mesh->digest},
@@ -40,6 +41,7 @@ Json substructures(const Problem& problem, const RunIdentity& identity) {
     for (const auto& [name, digest] : identity.mesh_digests) {
       if (name == part->name) json["digest"] = digest;
     }
+    if (i < result.pieces.size() && result.pieces[i] > 1) json["pieces"] = result.pieces[i];
     list.push_back(json);
   }
   return list;
@@ -105,7 +107,7 @@ std::string run_record(const Problem& problem, const RunResult& result, const Ru
       {"deck", {{"path", identity.deck_path}, {"digest", identity.deck_digest}}},
       {"parameters", object(identity.parameters)},
       {"solver", solver(problem, identity)},
-      {"substructures", substructures(problem, identity)},
+      {"substructures", substructures(problem, result, identity)},
       {"size", {{"dofs", result.n_dofs}, {"interface_unknowns", result.n_interface_unknowns}}},
       {"iterations", {{"all", result.iterations}, {"mean", result.mean_iterations}}},
       {"steps", steps(problem, result)},

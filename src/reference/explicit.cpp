@@ -66,7 +66,7 @@ class Runner {
 void Runner::run_step(const Step& step) {
   auto start = Clock::now();
   if (!internal_) internal_ = std::make_unique<InternalForce>(bodies_, *problem_.explicit_dynamics);
-  StepModel model = make_step_model(problem_, step, surfaces_, bodies_, state_, true);
+  StepModel model = make_assembled_model(problem_, step, surfaces_, bodies_, state_);
   const Energies before = state_.energies;
   const bool is_first_dynamic = !state_.has_moved;
   start_step(model, state_);
@@ -113,7 +113,7 @@ SolverFigures solve_explicit(const Problem& problem, Observer& observer) {
 ExplicitSize predict_explicit(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                               const std::vector<Body>& bodies, const State& start) {
   InternalForce internal(bodies, *problem.explicit_dynamics);
-  StepModel model = make_step_model(problem, step, surfaces, bodies, start, true);
+  StepModel model = make_assembled_model(problem, step, surfaces, bodies, start);
   State state = start;
   start_step(model, state);
   Blind blind;

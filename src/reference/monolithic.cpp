@@ -205,7 +205,7 @@ void run_monolithic_step(const Problem& problem, const Step& step, const Monolit
                          const std::vector<Surface>& surfaces, const std::vector<Body>& bodies, State& state,
                          Observer& observer, SolverFigures& figures) {
   auto start = Clock::now();
-  StepModel model = make_step_model(problem, step, surfaces, bodies, state, true);
+  StepModel model = make_assembled_model(problem, step, surfaces, bodies, state);
   MonolithicRun run(problem, settings, model, state, observer);
   figures.seconds["factor"] += seconds_since(start);
   start = Clock::now();

@@ -15,13 +15,18 @@ constexpr int n_samples = 5;  // of the stress error, a dynamic step: each costs
 // Energy (J) of the stress error of all substructures, and the strain energy of the same displacements.
 std::pair<double, double> stress_energies(const Instant& instant, const std::vector<Points>* start) {
   double error = 0.0, strain = 0.0;
-  for (size_t i = 0; i < instant.model.pieces.size(); ++i) {
-    const Body& body = *instant.model.pieces[i]->setup().body;
-    Points u = instant.displacement(static_cast<int>(i));
+  const Cut& cut = *instant.model.cut;
+  for (size_t i = 0; i < instant.model.problem->substructures.size(); ++i) {
+    const int part = static_cast<int>(i);
+    const Substructure& body = *instant.model.problem->substructures[i];
+    Points u = instant.displacement(part);
     if (start) u -= (*start)[i];
-    error += stress_error(*body.part->mesh, body.part->material, u).energy;
-    const Eigen::Map<const Vec> flat(u.data(), u.size());
-    strain += 0.5 * flat.dot(body.matrices->stiffness * flat);
+    error += stress_error(*body.mesh, body.material, u).energy;
+    for (int p = cut.first(part); p < cut.first(part) + cut.n_pieces(part); ++p) {
+      const Points own = cut.on_piece(p, u);
+      const Eigen::Map<const Vec> flat(own.data(), own.size());
+      strain += 0.5 * flat.dot(instant.model.pieces[p]->setup().body->matrices->stiffness * flat);
+    }
   }
   return {error, strain};
 }
@@ -109,7 +114,7 @@ void ErrorEstimator::begin_step(const Instant& start) {
   bank_.emplace(mass_, start.model.problem->mass().is_tuned);
   dt_ = start.model.scheme.dt;
   start_.clear();
-  for (size_t i = 0; i < start.model.pieces.size(); ++i) start_.push_back(start.displacement(static_cast<int>(i)));
+  for (size_t i = 0; i < start.model.problem->substructures.size(); ++i) start_.push_back(start.displacement(static_cast<int>(i)));
 }
 
 void ErrorEstimator::accept_static(const Instant& instant) {

@@ -42,6 +42,7 @@ struct RunResult {
   long iterations = 0;                         // all increments of all steps
   double mean_iterations = 0.0;
   long n_dofs = 0, n_interface_unknowns = 0;
+  std::vector<int> pieces;                     // into which each substructure was cut; empty: the solver cuts none
   std::map<std::string, double> seconds;       // "assemble", "factor", "forward", "iterate", "backward", "output", ...
   std::map<std::string, double> figures;       // "largest energy imbalance [%]", "largest penetration [m]", ...
 };

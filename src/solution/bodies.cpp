@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "base/error.hpp"
 #include "fem/mass.hpp"
 
 namespace dygita {
@@ -122,12 +123,18 @@ void move_inside(const Mesh& mesh, const SparseMatrix& stiffness, const std::vec
 }  // namespace
 
 std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>& surfaces) {
+  std::vector<Body> bodies = make_bodies(problem, surfaces, *no_cut(problem));
+  return bodies;
+}
+
+std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>& surfaces, const Cut& cut) {
   double dt = 0.0;
   for (const StepPtr& step : problem.steps)
     if (!step->is_static) dt = dt == 0.0 ? step->dt : std::min(dt, step->dt);
   std::map<std::tuple<std::string, double, double, double>, Body> known;
   std::vector<Body> bodies;
-  for (const SubstructurePtr& part : problem.substructures) {
+  for (const CutPiece& piece : cut.pieces()) {
+    const SubstructurePtr& part = piece.body;
     const Elastic& m = part->material;
     Body& body = known[{part->mesh->digest, m.young, m.poisson, m.density}];
     if (!body.matrices) body.matrices = std::make_shared<const BodyMatrices>(assemble(*part->mesh, m));
@@ -135,14 +142,15 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
   }
   std::vector<std::vector<char>> marked(bodies.size());
   if (problem.mass().is_moved_from_contact && dt > 0.0) {
+    CHECK(bodies.size() == problem.substructures.size(), "mass does not move across a cut");
     for (size_t i = 0; i < bodies.size(); ++i)
       marked[i] = nodes_in_contact_alone(problem, surfaces, static_cast<int>(i));
     agree(surfaces, marked);
     keep_where_there_is_no_inside(problem, bodies, surfaces, marked);
   }
   for (size_t i = 0; i < bodies.size(); ++i) {
-    const Mesh& mesh = *problem.substructures[i]->mesh;
-    const Elastic& m = problem.substructures[i]->material;
+    const Mesh& mesh = *bodies[i].part->mesh;
+    const Elastic& m = bodies[i].part->material;
     const bool has_massless = std::find(marked[i].begin(), marked[i].end(), 1) != marked[i].end();
     Body& equal = known[{mesh.digest, m.young, m.poisson, m.density}];
     if (!has_massless && equal.mass) {

@@ -11,9 +11,9 @@ namespace dygita {
 
 namespace {
 
-using NodeKey = std::pair<int, int>;  // (part, node)
+using NodeKey = std::pair<int, int>;  // (piece, node of the piece)
 
-// Union-find over the substructures' copies of a node.
+// Union-find over the pieces' copies of a node.
 class Groups {
  public:
   int add(const NodeKey& key) {
@@ -48,9 +48,9 @@ struct LawCluster {
 
 class Builder {
  public:
-  Builder(const Problem& problem, const std::vector<Surface>& surfaces, const Conditions& conditions)
-      : problem_(problem), surfaces_(surfaces), conditions_(conditions) {
-    exchange_.n_unknowns.assign(problem.substructures.size(), 0);
+  Builder(const Problem& problem, const Cut& cut, const std::vector<Surface>& surfaces, const Conditions& conditions)
+      : problem_(problem), cut_(cut), surfaces_(surfaces), conditions_(conditions) {
+    exchange_.n_unknowns.assign(cut.n_pieces(), 0);
   }
 
   Exchange build() {
@@ -69,20 +69,41 @@ class Builder {
 
  private:
   NodeKey side(const Surface& s, int i, int which) const {
-    return which == 1 ? NodeKey{s.part_1, s.facing.nodes_1[i]} : NodeKey{s.part_2, s.facing.nodes_2[i]};
+    const Copy copy = which == 1 ? cut_.owner(s.part_1, s.facing.nodes_1[i]) : cut_.owner(s.part_2, s.facing.nodes_2[i]);
+    return {copy.piece, copy.node};
   }
+  int part_of(const NodeKey& key) const { return cut_.piece(key.first).part; }
+  int node_of(const NodeKey& key) const { return cut_.piece(key.first).node(key.second); }
 
   void make_groups() {
     for (const Surface& surface : surfaces_)
       for (int i = 0; i < surface.n_points(); ++i) {
         if (!surface.law && surface.part_2 >= 0) groups_.tie(side(surface, i, 1), side(surface, i, 2));
         for (int which = 1; which <= (surface.part_2 >= 0 ? 2 : 1); ++which) {
-          groups_.add(side(surface, i, which));
-          area_[side(surface, i, which)] += surface.facing.areas[i];
+          const NodeKey owner = side(surface, i, which);
+          groups_.add(owner);
+          for (const Copy& copy : cut_.copies(part_of(owner), node_of(owner)))
+            area_[{copy.piece, copy.node}] += copy.share * surface.facing.areas[i];
         }
       }
+    tie_copies();
     for (const NodeKey& key : groups_.keys()) members_[groups_.of(key)].push_back(key);
     for (auto& [group, keys] : members_) std::sort(keys.begin(), keys.end());
+  }
+
+  // What a cut has made of one node stays together.
+  void tie_copies() {
+    for (int part = 0; part < static_cast<int>(problem_.substructures.size()); ++part) {
+      if (!cut_.is_cut(part)) continue;
+      for (int node = 0; node < problem_.substructures[part]->mesh->n_nodes(); ++node) {
+        const std::vector<Copy> copies = cut_.copies(part, node);
+        if (copies.size() < 2) continue;
+        for (const Copy& copy : copies) {
+          area_[{copy.piece, copy.node}] += cut_.piece(copy.piece).cut_areas[copy.node];
+          groups_.tie({copies[0].piece, copies[0].node}, {copy.piece, copy.node});
+        }
+      }
+    }
   }
 
   // Points between the same two groups that have the same law and nearly the same normal become one law: faces of several
@@ -179,7 +200,7 @@ class Builder {
       if (!point.is_active[d]) continue;
       for (int p = point.first_port; p < point.end_port; ++p) {
         Port& port = exchange_.ports[p];
-        if (!port.is_held[d]) port.unknown[d] = exchange_.n_unknowns[port.part]++;
+        if (!port.is_held[d]) port.unknown[d] = exchange_.n_unknowns[port.piece]++;
       }
     }
     exchange_.points.push_back(std::move(point));
@@ -187,7 +208,10 @@ class Builder {
 
   Port make_port(const NodeKey& key, const Mat3& frame) const {
     Port port;
-    std::tie(port.part, port.node) = key;
+    std::tie(port.piece, port.piece_node) = key;
+    port.part = part_of(key);
+    port.node = node_of(key);
+    port.is_owner = cut_.piece(port.piece).owns(port.piece_node);
     port.area = area_.at(key);
     if (const Held* held = conditions_.at(port.part, port.node))
       for (int d = 0; d < 3; ++d) {
@@ -201,7 +225,7 @@ class Builder {
   Mat3 make_frame(const Vec3& normal, const std::vector<NodeKey>& keys, bool needs_normal, const std::vector<Member>& members) const {
     std::vector<Vec3> axes;  // single held directions, or the single free one
     for (const NodeKey& key : keys) {
-      const Held* held = conditions_.at(key.first, key.second);
+      const Held* held = conditions_.at(part_of(key), node_of(key));
       if (!held || held->n == 0 || held->n == 3) continue;
       axes.push_back(held->n == 1 ? Vec3(held->directions.col(0)) : Vec3(held->free_basis().col(0)));
     }
@@ -235,7 +259,7 @@ class Builder {
     const std::string what = members.empty() ? "bonded interfaces" : "interface '" + surfaces_[members.front().surface].name() + "'";
     throw InputError(fmt::format("{} at node {} of '{}': the normal ({:.4f}, {:.4f}, {:.4f}) is neither along nor across the held direction "
                                  "({:.4f}, {:.4f}, {:.4f}) of a support or prescribed motion",
-                                 what, key.second, problem_.substructures[key.first]->name, n[0], n[1], n[2], axis[0], axis[1], axis[2]));
+                                 what, node_of(key), problem_.substructures[part_of(key)]->name, n[0], n[1], n[2], axis[0], axis[1], axis[2]));
   }
 
   void add_ties() {
@@ -247,7 +271,7 @@ class Builder {
         const Point& point = exchange_.points[index];
         const auto port_of = [&](const NodeKey& key) {
           for (int p = point.first_port; p < point.end_port; ++p)
-            if (NodeKey{exchange_.ports[p].part, exchange_.ports[p].node} == key) return p;
+            if (NodeKey{exchange_.ports[p].piece, exchange_.ports[p].piece_node} == key) return p;
           return -1;
         };
         exchange_.ties.push_back({index, port_of(side(surface, i, 1)), port_of(side(surface, i, 2)), static_cast<int>(s), i});
@@ -256,6 +280,7 @@ class Builder {
   }
 
   const Problem& problem_;
+  const Cut& cut_;
   const std::vector<Surface>& surfaces_;
   const Conditions& conditions_;
   Exchange exchange_;
@@ -269,8 +294,8 @@ class Builder {
 
 }  // namespace
 
-Exchange make_exchange(const Problem& problem, const std::vector<Surface>& surfaces, const Conditions& conditions) {
-  return Builder(problem, surfaces, conditions).build();
+Exchange make_exchange(const Problem& problem, const Cut& cut, const std::vector<Surface>& surfaces, const Conditions& conditions) {
+  return Builder(problem, cut, surfaces, conditions).build();
 }
 
 }  // namespace dygita

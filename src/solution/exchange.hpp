@@ -1,7 +1,7 @@
 // The one object through which substructures and interfaces exchange velocity and traction.
 //
-// A port is one substructure's side of one law at one node; its unknowns q = F_hat + k W_hat live in the law's frame.
-// Plain bonded ties that meet at a node form a group; a point is the law between two groups (or a group and a wall),
+// A port is one piece's side of one law at one node; its unknowns q = F_hat + k W_hat live in the law's frame.
+// Plain bonded ties that meet at a node form a group, and so do the copies of a node that a cut has made; a point is the law between two groups (or a group and a wall),
 // or the tie of one group alone (manual, groups).
 #pragma once
 
@@ -9,14 +9,17 @@
 #include <vector>
 
 #include "solution/conditions.hpp"
+#include "solution/cut.hpp"
 #include "solution/surfaces.hpp"
 
 namespace dygita {
 
 struct Port {
-  int part = -1, node = -1;
+  int part = -1, node = -1;                   // substructure and its node
+  int piece = -1, piece_node = -1;            // the same in the piece; equal where nothing is cut
+  bool is_owner = true;                       // of the node's copies the one that forces of surfaces are booked on
   double area = 0.0;                          // m^2, of the facets that meet there
-  std::array<int, 3> unknown{-1, -1, -1};     // index in the substructure's q of each frame direction; -1: none
+  std::array<int, 3> unknown{-1, -1, -1};     // index in the piece's q of each frame direction; -1: none
   std::array<bool, 3> is_held{};              // the direction belongs to a support or a prescribed motion
 };
 
@@ -47,11 +50,11 @@ struct Exchange {
   std::vector<Port> ports;
   std::vector<Point> points;
   std::vector<Tie> ties;
-  std::vector<int> n_unknowns;                // of each substructure
+  std::vector<int> n_unknowns;                // of each piece
 };
 
 // Builds the points of a step from the surfaces and what the step holds. Throws InputError when both sides of a law belong to
 // one group (a bolt shortened between bodies that are tied), or a held direction lies oblique to a law's normal.
-Exchange make_exchange(const Problem& problem, const std::vector<Surface>& surfaces, const Conditions& conditions);
+Exchange make_exchange(const Problem& problem, const Cut& cut, const std::vector<Surface>& surfaces, const Conditions& conditions);
 
 }  // namespace dygita

@@ -31,24 +31,28 @@ struct Instant {
   bool is_static() const { return model.scheme.is_static; }
   // 3 x n_nodes each: m, m/s, m/s^2 (mean over the increment).
   Points displacement(int part) const {
-    return fields ? fields->displacement(part) : model.pieces[part]->displacement();
+    if (fields) return fields->displacement(part);
+    return model.cut->from_owners(part, [&](int piece) { return model.pieces[piece]->displacement(); });
   }
   Points velocity(int part) const {
     // What a static increment calls V is a displacement; the body rests.
     if (is_static()) return Points::Zero(3, model.problem->substructures[part]->mesh->n_nodes());
-    return fields ? fields->velocity(part) : model.pieces[part]->velocity();
+    if (fields) return fields->velocity(part);
+    return model.cut->from_owners(part, [&](int piece) { return model.pieces[piece]->velocity(); });
   }
   Points acceleration(int part) const {
-    return fields ? fields->acceleration(part) : model.pieces[part]->acceleration();
+    if (fields) return fields->acceleration(part);
+    return model.cut->from_owners(part, [&](int piece) { return model.pieces[piece]->acceleration(); });
   }
   // Force (N) on nodes of a substructure from whatever holds or moves them, mean over the increment.
   Points reactions(int part) const {
     if (fields) return fields->reactions(part);
-    return model.pieces[part]->reactions(interface_force(*model.surfaces, state, part));
+    return model.reactions(part, state);
   }
   // Force (N) of absorbing supports beside what they kept of a static step, mean over the increment.
   Points absorbing_force(int part) const {
-    return fields ? fields->absorbing_force(part) : model.pieces[part]->absorbing_force();
+    if (fields) return fields->absorbing_force(part);
+    return model.cut->summed(part, [&](int piece) { return model.pieces[piece]->absorbing_force(); });
   }
 };
 

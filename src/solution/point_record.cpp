@@ -108,11 +108,23 @@ void show_ties(const StepModel& model, const std::vector<PointRecord>& records, 
     const int n_ports = point.end_port - point.first_port, n_ties = static_cast<int>(ties_of[i].size());
     Eigen::Matrix3Xd net(3, n_ports);
     for (int p = 0; p < n_ports; ++p) net.col(p) = port_force[point.first_port + p];
+    // A tie holds a substructure, wherever that is cut: what its copies take goes to the owner.
+    for (int p = 0; p < n_ports; ++p) {
+      const Port& port = exchange.ports[point.first_port + p];
+      for (int o = 0; o < n_ports && !port.is_owner; ++o) {
+        const Port& owner = exchange.ports[point.first_port + o];
+        if (!owner.is_owner || owner.part != port.part || owner.node != port.node) continue;
+        net.col(o) += net.col(p);
+        net.col(p).setZero();
+        break;
+      }
+    }
     // The law's own share on each port is not the tie's.
     for (const Member& member : point.members) {
       const Surface& surface = (*model.surfaces)[member.surface];
       for (int p = 0; p < n_ports; ++p) {
         const Port& port = exchange.ports[point.first_port + p];
+        if (!port.is_owner) continue;
         if (port.part == surface.part_1 && port.node == surface.facing.nodes_1[member.point])
           net.col(p) -= member.share * records[i].law.force;
         if (port.part == surface.part_2 && port.node == surface.facing.nodes_2[member.point])

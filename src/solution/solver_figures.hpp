@@ -22,6 +22,7 @@ struct SolverFigures {
   std::vector<StepFigures> steps;
   std::shared_ptr<const InterfaceFields> interface_fields;  // null: the solver keeps none
   bool interrupted = false;
+  std::vector<int> pieces;                // into which each substructure was cut; empty: the solver cuts none
   long n_dofs = 0, n_interface_unknowns = 0;
   double factor_bytes = 0.0;              // factors and interface operators of the largest step
   double gap_difference = 0.0;            // m, largest between the laws' gaps and the displacements'

@@ -19,6 +19,30 @@ void place_returning_walls(const StepModel& model, State& state) {
   }
 }
 
+// The pieces of a substructure start from its fields. Forces across a cut are not part of the state: each piece is in balance by
+// itself, and what the substructure as a whole has too much at a node is its owner's.
+void set_pieces(StepModel& model, int part, const State& state) {
+  const Cut& cut = *model.cut;
+  const Points interfaces = interface_force(*model.surfaces, state, part);
+  if (!cut.is_cut(part)) {
+    model.pieces[cut.first(part)]->set_state(state.displacement[part], state.velocity[part], state.force[part], interfaces);
+    return;
+  }
+  const auto elastic_force = [&](int piece) {
+    const Points u = cut.on_piece(piece, state.displacement[part]);
+    Points force(3, u.cols());
+    Eigen::Map<Vec>(force.data(), force.size()) =
+        model.pieces[piece]->setup().body->matrices->stiffness * Eigen::Map<const Vec>(u.data(), u.size());
+    return force;
+  };
+  const Points imbalance = cut.summed(part, elastic_force) - state.force[part] - interfaces;
+  for (int p = cut.first(part); p < cut.first(part) + cut.n_pieces(part); ++p) {
+    const Points force = cut.on_owners(p, state.force[part]);
+    model.pieces[p]->set_state(cut.on_piece(p, state.displacement[part]), cut.on_piece(p, state.velocity[part]), force,
+                               elastic_force(p) - force - cut.on_owners(p, imbalance));
+  }
+}
+
 }  // namespace
 
 void start_step(StepModel& model, State& state) {
@@ -33,13 +57,12 @@ void start_step(StepModel& model, State& state) {
       point.status = PointState::open;
     }
   }
-  for (size_t i = 0; i < model.pieces.size(); ++i) {
+  for (size_t i = 0; i < state.velocity.size(); ++i) {
     Points& velocity = state.velocity[i];
     if (is_static) velocity.setZero();
     if (first_dynamic) velocity.colwise() += model.problem->substructures[i]->velocity;
-    model.pieces[i]->set_state(state.displacement[i], velocity, state.force[i],
-                               interface_force(*model.surfaces, state, static_cast<int>(i)));
-    velocity = model.pieces[i]->velocity();
+    set_pieces(model, static_cast<int>(i), state);
+    velocity = model.cut->from_owners(static_cast<int>(i), [&](int piece) { return model.pieces[piece]->velocity(); });
   }
   place_returning_walls(model, state);
   Energies& energies = state.energies;
@@ -56,16 +79,16 @@ void start_step(StepModel& model, State& state) {
 }
 
 void end_step(const StepModel& model, State& state) {
-  for (size_t i = 0; i < model.pieces.size(); ++i) {
+  for (size_t i = 0; i < state.displacement.size(); ++i) {
     const int part = static_cast<int>(i);
-    state.displacement[i] = model.pieces[i]->displacement();
-    state.velocity[i] = model.pieces[i]->velocity();
+    state.displacement[i] = model.cut->from_owners(part, [&](int piece) { return model.pieces[piece]->displacement(); });
+    state.velocity[i] = model.cut->from_owners(part, [&](int piece) { return model.pieces[piece]->velocity(); });
     if (model.scheme.is_static) state.velocity[i].setZero();
     state.force[i] = model.external_force(part, state);
     if (!model.scheme.is_static) continue;
     // What an absorbing support held in the static step it keeps holding while waves pass through it.
     state.anchor[i].setZero();
-    const Points reactions = model.pieces[i]->reactions(interface_force(*model.surfaces, state, part));
+    const Points reactions = model.reactions(part, state);
     for (const auto& [node, held] : model.conditions.held[i])
       if (held.n > 0 && held.support[0] && held.support[0]->kind == SupportKind::absorbing)
         state.anchor[i].col(node) = reactions.col(node);

@@ -1,9 +1,12 @@
 #include "solution/step_model.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <exception>
 #include <map>
 #include <mutex>
 
+#include "base/error.hpp"
 #include "mesh/facing.hpp"
 #include "solution/rigid_motions.hpp"
 
@@ -50,6 +53,17 @@ Points StepModel::external_force(int part, const State& state) const {
   return force;
 }
 
+Points StepModel::piece_force(int piece, const State& state) const {
+  const int part = cut->piece(piece).part;
+  if (!cut->is_cut(part)) return external_force(part, state);
+  Points force = scheme.is_static ? Points(Points::Zero(3, cut->piece(piece).body->mesh->n_nodes()))
+                                  : cut->on_owners(piece, state.anchor[part]);
+  for (const PieceLoad& load : piece_loads[piece])
+    if (const double value = loads->values()[load.pattern]; value != 0.0)
+      for (const auto& [node, unit] : load.nodes) force.col(node) += value * unit;
+  return force;
+}
+
 Points interface_force(const std::vector<Surface>& surfaces, const State& state, int part) {
   Points force = Points::Zero(3, state.displacement[part].cols());
   for (size_t s = 0; s < surfaces.size(); ++s) {
@@ -61,6 +75,11 @@ Points interface_force(const std::vector<Surface>& surfaces, const State& state,
     }
   }
   return force;
+}
+
+Points StepModel::reactions(int part, const State& state) const {
+  const Points interfaces = interface_force(*surfaces, state, part);
+  return cut->summed(part, [&](int piece) { return pieces[piece]->reactions(cut->on_owners(piece, interfaces)); });
 }
 
 namespace {
@@ -88,22 +107,40 @@ std::unordered_map<int, Mat3> absorbing_impedance(const Problem& problem, const 
   return impedance;
 }
 
-std::vector<Piece::Row> rows_of(const StepModel& model, int part) {
-  std::vector<Piece::Row> rows(model.exchange.n_unknowns[part]);
-  const Substructure& body = *model.problem->substructures[part];
+// Held directions of a piece's nodes: every copy of a node is held as the node is.
+std::unordered_map<int, Held> held_of_piece(const StepModel& model, int piece) {
+  const CutPiece& own = model.cut->piece(piece);
+  const std::unordered_map<int, Held>& of_part = model.conditions.held[own.part];
+  if (own.is_whole()) return of_part;
+  std::unordered_map<int, Held> held;
+  for (size_t i = 0; i < own.nodes.size(); ++i)
+    if (const auto it = of_part.find(own.nodes[i]); it != of_part.end()) held.emplace(static_cast<int>(i), it->second);
+  return held;
+}
+
+std::unordered_map<int, Mat3> absorbing_of_piece(const Cut& cut, int piece, const std::unordered_map<int, Mat3>& of_part) {
+  std::unordered_map<int, Mat3> own;
+  for (const auto& [node, impedance] : of_part)
+    if (const Copy owner = cut.owner(cut.piece(piece).part, node); owner.piece == piece) own.emplace(owner.node, impedance);
+  return own;
+}
+
+std::vector<Piece::Row> rows_of(const StepModel& model, int piece, const std::unordered_map<int, Held>& held) {
+  std::vector<Piece::Row> rows(model.exchange.n_unknowns[piece]);
+  const Substructure& body = *model.cut->piece(piece).body;
   double total_area = 0.0;
   for (const Port& port : model.exchange.ports)
-    if (port.part == part) total_area += port.area;
-  const bool needs_reference = model.scheme.is_static && is_floating(body, model.conditions.held[part]);
+    if (port.piece == piece) total_area += port.area;
+  const bool needs_reference = model.scheme.is_static && is_floating(body, held);
   const double length = total_area > 0.0 ? volume(*body.mesh) / total_area : 1.0;
   for (const Point& point : model.exchange.points)
     for (int p = point.first_port; p < point.end_port; ++p) {
       const Port& port = model.exchange.ports[p];
-      if (port.part != part) continue;
+      if (port.piece != piece) continue;
       for (int d = 0; d < 3; ++d) {
         if (port.unknown[d] < 0) continue;
         const double modulus = d == 0 ? body.material.young : body.material.shear_modulus();
-        rows[port.unknown[d]] = {port.node, point.frame.col(d), needs_reference ? modulus * port.area / length : 0.0, 1.0};
+        rows[port.unknown[d]] = {port.piece_node, point.frame.col(d), needs_reference ? modulus * port.area / length : 0.0, 1.0};
       }
     }
   std::unordered_map<int, std::vector<int>> at_node;
@@ -121,31 +158,37 @@ enum class Purpose { alone, assembled, prediction };
 
 // Single precision takes a third of what a solve reads from memory, and less of what an interface product reads. A static step has no
 // mass that would bound what rounding does to soft motions, and nodes without mass have a recurrence of their own.
-Precision precision_of(const StepModel& model, const Body& body) {
+Precision precision_of(const StepModel& model, int part, const Body& body) {
   constexpr int large = 4000;  // unknowns
   if (model.scheme.is_static || !body.mass->is_massless.empty()) return Precision::double_precision;
   if (const auto& asked = model.problem->solver.precision) return *asked;
   if (model.problem->solver.tolerance < 1e-7) return Precision::double_precision;
-  return 3 * body.part->mesh->n_nodes() > large ? Precision::single_precision : Precision::double_precision;
+  return 3 * model.problem->substructures[part]->mesh->n_nodes() > large ? Precision::single_precision : Precision::double_precision;
 }
 
 void make_pieces(StepModel& model, const std::vector<Body>& bodies, Purpose purpose) {
-  const int n = static_cast<int>(bodies.size());
+  const int n = model.cut->n_pieces();
+  CHECK(static_cast<int>(bodies.size()) == n, "one body a piece");
   model.pieces.resize(n);
   model.offset.assign(1, 0);
   for (int i = 0; i < n; ++i) model.offset.push_back(model.offset.back() + model.exchange.n_unknowns[i]);
   std::vector<std::unordered_map<int, Mat3>> absorbing;
-  for (int i = 0; i < n; ++i) absorbing.push_back(absorbing_impedance(*model.problem, *model.step, i));
+  for (size_t part = 0; part < model.problem->substructures.size(); ++part)
+    absorbing.push_back(absorbing_impedance(*model.problem, *model.step, static_cast<int>(part)));
   std::exception_ptr failure;
   std::mutex mutex;
 #pragma omp parallel for schedule(dynamic)
   for (int i = 0; i < n; ++i) {
     prepare_thread();
     try {
-      const std::string what = "substructure '" + bodies[i].part->name + "' in step '" + model.step->name + "'";
-      model.pieces[i] = std::make_unique<Piece>(Piece::Setup{&bodies[i], model.scheme, &model.conditions.held[i], &absorbing[i],
-                                                             rows_of(model, i), static_cast<int>(model.conditions.motions.size()), what, purpose == Purpose::assembled,
-                                                             precision_of(model, bodies[i]), purpose == Purpose::prediction});
+      const int part = model.cut->piece(i).part, n_cut = model.cut->n_pieces(part);
+      const std::string what = (n_cut > 1 ? fmt::format("piece {} of {} of ", i - model.cut->first(part) + 1, n_cut) : "") + "substructure '" +
+                               bodies[i].part->name + "' in step '" + model.step->name + "'";
+      const std::unordered_map<int, Held> held = held_of_piece(model, i);
+      const std::unordered_map<int, Mat3> own_absorbing = absorbing_of_piece(*model.cut, i, absorbing[part]);
+      model.pieces[i] = std::make_unique<Piece>(Piece::Setup{&bodies[i], model.scheme, &held, &own_absorbing,
+                                                             rows_of(model, i, held), static_cast<int>(model.conditions.motions.size()), what, purpose == Purpose::assembled,
+                                                             precision_of(model, part, bodies[i]), purpose == Purpose::prediction});
     } catch (...) {
       const std::scoped_lock lock(mutex);
       failure = std::current_exception();
@@ -154,9 +197,35 @@ void make_pieces(StepModel& model, const std::vector<Body>& bodies, Purpose purp
   if (failure) std::rethrow_exception(failure);
 }
 
+// Nodal masses (kg) of each substructure.
+std::vector<Vec> masses_of(const Problem& problem, const Cut& cut, const std::vector<Body>& bodies) {
+  std::vector<Vec> masses;
+  for (const SubstructurePtr& part : problem.substructures) masses.push_back(Vec::Zero(part->mesh->n_nodes()));
+  for (int p = 0; p < cut.n_pieces(); ++p) {
+    const Vec& own = bodies[p].mass->lumped;
+    for (int i = 0; i < own.size(); ++i) masses[cut.piece(p).part][cut.piece(p).node(i)] += own[i];
+  }
+  return masses;
+}
+
+void split_loads(StepModel& model) {
+  model.piece_loads.resize(model.cut->n_pieces());
+  for (size_t i = 0; i < model.loads->patterns().size(); ++i) {
+    const LoadPattern& pattern = model.loads->patterns()[i];
+    if (!model.cut->is_cut(pattern.part)) continue;
+    for (const auto& [node, unit] : pattern.nodes) {
+      const Copy owner = model.cut->owner(pattern.part, node);
+      auto& of_piece = model.piece_loads[owner.piece];
+      if (of_piece.empty() || of_piece.back().pattern != i) of_piece.push_back({i, {}});
+      of_piece.back().nodes.emplace_back(owner.node, unit);
+    }
+  }
+}
+
 StepModel make_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
-                     const std::vector<Body>& bodies, const State& start, Purpose purpose) {
+                     const std::vector<Body>& bodies, const State& start, const CutPtr& cut, Purpose purpose) {
   StepModel model;
+  model.cut = cut;
   model.problem = &problem;
   model.step = &step;
   model.surfaces = &surfaces;
@@ -167,17 +236,19 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
   for (Surface& surface : in_force)
     if (surface.wall && index_of(supports, surface.wall) < 0) surface.facing = {};
   model.conditions = make_conditions(problem, step, start);
-  model.exchange = make_exchange(problem, in_force, model.conditions);
+  const std::vector<Vec> mass_values = masses_of(problem, *cut, bodies);
   std::vector<const Vec*> masses;
-  for (const Body& body : bodies) masses.push_back(&body.mass->lumped);
+  for (const Vec& mass : mass_values) masses.push_back(&mass);
   model.loads = std::make_unique<Loads>(problem, step, start, masses);
   if (step.is_static) {
     std::vector<Points> force;
     model.loads->evaluate(step.increments - 1);
-    for (size_t i = 0; i < bodies.size(); ++i) force.push_back(model.external_force(static_cast<int>(i), start));
-    pin_free_motions(problem, step, model.exchange, force, model.conditions);
-    model.exchange = make_exchange(problem, in_force, model.conditions);
+    for (size_t i = 0; i < masses.size(); ++i) force.push_back(model.external_force(static_cast<int>(i), start));
+    // What is free to move, and where it is pinned, is a matter of the substructures.
+    pin_free_motions(problem, step, make_exchange(problem, *no_cut(problem), in_force, model.conditions), force, model.conditions);
   }
+  model.exchange = make_exchange(problem, *cut, in_force, model.conditions);
+  split_loads(model);
   make_pieces(model, bodies, purpose);
   return model;
 }
@@ -185,13 +256,18 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
 }  // namespace
 
 StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
-                          const std::vector<Body>& bodies, const State& start, bool is_assembled) {
-  return make_model(problem, step, surfaces, bodies, start, is_assembled ? Purpose::assembled : Purpose::alone);
+                          const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
+  return make_model(problem, step, surfaces, bodies, start, cut, Purpose::alone);
+}
+
+StepModel make_assembled_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                               const std::vector<Body>& bodies, const State& start) {
+  return make_model(problem, step, surfaces, bodies, start, no_cut(problem), Purpose::assembled);
 }
 
 StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces, const std::vector<Body>& bodies,
-                      const State& start) {
-  const StepModel model = make_model(problem, step, surfaces, bodies, start, Purpose::prediction);
+                      const State& start, const CutPtr& cut) {
+  const StepModel model = make_model(problem, step, surfaces, bodies, start, cut, Purpose::prediction);
   StepSize size;
   for (const auto& piece : model.pieces) size.bytes += piece->predicted_bytes();
   size.n_unknowns = model.n_q();

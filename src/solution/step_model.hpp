@@ -20,6 +20,7 @@ struct StepModel {
   const std::vector<Surface>* surfaces = nullptr;
   Scheme scheme;
   Conditions conditions;
+  CutPtr cut;
   Exchange exchange;
   std::unique_ptr<Loads> loads;
   std::vector<std::unique_ptr<Piece>> pieces;
@@ -27,19 +28,33 @@ struct StepModel {
 
   int n_q() const { return offset.back(); }
   // Index in the assembled q of a port's direction; -1 where it has none.
-  int unknown(const Port& port, int d) const { return port.unknown[d] < 0 ? -1 : offset[port.part] + port.unknown[d]; }
+  int unknown(const Port& port, int d) const { return port.unknown[d] < 0 ? -1 : offset[port.piece] + port.unknown[d]; }
   // Velocities of all motions at the end of an increment.
   std::vector<double> motion_velocities(int increment) const;
   // Velocity of a held direction of a port, from the motions' velocities.
   double held_velocity(const Port& port, const Vec3& direction, const std::vector<double>& motions) const;
   // External forces on a substructure (3 x n_nodes, N) as the loads were last evaluated, absorbing supports' anchors included.
   Points external_force(int part, const State& state) const;
+  // The same on a piece: on the copies that own their node.
+  Points piece_force(int piece, const State& state) const;
+
+  // Force (N, 3 x n_nodes) of supports and prescribed motions on a substructure in the last increment.
+  Points reactions(int part, const State& state) const;
+
+  // Nodes of a load pattern that a piece of a cut substructure owns; the other pieces need none.
+  struct PieceLoad {
+    size_t pattern;
+    std::vector<std::pair<int, Vec3>> nodes;
+  };
+  std::vector<std::vector<PieceLoad>> piece_loads;  // of each piece
 };
 
-// Builds and factorises; substructures side by side on the threads at hand. Throws InputError, NumericalError.
-// is_assembled: builds only, for a solver that factorises the substructures together.
+// Builds and factorises; pieces side by side on the threads at hand. bodies: of the pieces. Throws InputError, NumericalError.
 StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
-                          const std::vector<Body>& bodies, const State& start, bool is_assembled = false);
+                          const std::vector<Body>& bodies, const State& start, const CutPtr& cut);
+// Builds only, for a solver that factorises the substructures together: one piece each.
+StepModel make_assembled_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                               const std::vector<Body>& bodies, const State& start);
 
 // Memory (bytes) that a step's pieces will hold, and its interface unknowns; nothing is factorised.
 struct StepSize {
@@ -47,7 +62,7 @@ struct StepSize {
   long n_unknowns = 0;
 };
 StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces, const std::vector<Body>& bodies,
-                      const State& start);
+                      const State& start, const CutPtr& cut);
 
 // Force of all interfaces on the nodes of a substructure (3 x n_nodes, N), from the surfaces' state.
 Points interface_force(const std::vector<Surface>& surfaces, const State& state, int part);

@@ -29,7 +29,7 @@ class Recorder : public Observer {
     const long n = instant.model.step->n_increments(), i = instant.increment + 1;
     if (i * n_instants % n != 0) return;
     std::vector<Points> u, v;
-    for (size_t p = 0; p < instant.model.pieces.size(); ++p) {
+    for (size_t p = 0; p < instant.model.problem->substructures.size(); ++p) {
       u.push_back(instant.displacement(static_cast<int>(p)));
       v.push_back(instant.velocity(static_cast<int>(p)));
     }

@@ -1,1 +1,1 @@
-local s = solver.latin{ pieces = "auto" }
+local s = solver.latin{ pieces = "many" }

@@ -1,0 +1,114 @@
+#include "solution/cut.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "mesh/cut_mesh.hpp"
+
+namespace dygita {
+
+namespace {
+
+// Unknowns of a piece that the automatic cut aims at, and of a substructure below which there is none (manual, cutting: measured).
+constexpr double unknowns_of_a_piece = 10e3;
+constexpr double smallest_cut = 20e3;
+
+int pieces_of(const Substructure& part, int asked) {
+  const double unknowns = 3.0 * part.mesh->n_nodes();
+  const int most = std::max(1, part.mesh->n_cells() / 8);
+  if (asked > 0) return std::min(asked, most);
+  return unknowns < smallest_cut ? 1 : std::min(most, static_cast<int>(std::round(unknowns / unknowns_of_a_piece)));
+}
+
+}  // namespace
+
+Cut::Cut(const Problem& problem, const std::vector<int>& n_pieces) {
+  const int n = static_cast<int>(problem.substructures.size());
+  owner_.resize(n);
+  others_.resize(n);
+  for (int part = 0; part < n; ++part) {
+    first_.push_back(static_cast<int>(pieces_.size()));
+    const SubstructurePtr& body = problem.substructures[part];
+    std::vector<int> piece_of_cell;
+    if (n_pieces[part] > 1) piece_of_cell = piece_of_cells(*body->mesh, n_pieces[part]);
+    if (n_pieces[part] > 1 && *std::max_element(piece_of_cell.begin(), piece_of_cell.end()) > 0)
+      add_cut(part, body, piece_of_cell);
+    else
+      pieces_.push_back({part, body, {}, {}, {}});
+  }
+  first_.push_back(static_cast<int>(pieces_.size()));
+}
+
+void Cut::add_cut(int part, const SubstructurePtr& body, const std::vector<int>& piece_of_cell) {
+  std::vector<MeshPiece> meshes = cut_mesh(*body->mesh, piece_of_cell);
+  const int n_nodes = body->mesh->n_nodes(), first = first_[part];
+  std::vector<double> n_cells(n_nodes, 0.0);
+  for (const CellBlock& block : body->mesh->blocks)
+    for (const int node : block.nodes) n_cells[node] += 1.0;
+  owner_[part].assign(n_nodes, Copy{-1, -1, 0.0});
+  others_[part].resize(n_nodes);
+  for (size_t m = 0; m < meshes.size(); ++m) {
+    MeshPiece& mesh = meshes[m];
+    auto own = std::make_shared<Substructure>(*body);
+    own->mesh = mesh.mesh;
+    std::vector<double> share(mesh.nodes.size(), 0.0);
+    for (const CellBlock& block : mesh.mesh->blocks)
+      for (const int node : block.nodes) share[node] += 1.0 / n_cells[mesh.nodes[node]];
+    std::vector<char> is_owner(mesh.nodes.size(), 0);
+    for (size_t i = 0; i < mesh.nodes.size(); ++i) {
+      const Copy copy{first + static_cast<int>(m), static_cast<int>(i), share[i]};
+      Copy& owner = owner_[part][mesh.nodes[i]];
+      is_owner[i] = owner.piece < 0;
+      if (is_owner[i])
+        owner = copy;
+      else
+        others_[part][mesh.nodes[i]].push_back(copy);
+    }
+    pieces_.push_back({part, std::move(own), std::move(mesh.nodes), std::move(is_owner), std::move(mesh.cut_areas)});
+  }
+}
+
+std::vector<int> Cut::counts() const {
+  std::vector<int> counts;
+  for (size_t part = 0; part + 1 < first_.size(); ++part) counts.push_back(n_pieces(static_cast<int>(part)));
+  return counts;
+}
+
+std::vector<Copy> Cut::copies(int part, int node) const {
+  std::vector<Copy> copies{owner(part, node)};
+  if (is_cut(part)) copies.insert(copies.end(), others_[part][node].begin(), others_[part][node].end());
+  return copies;
+}
+
+Points Cut::on_piece(int piece, const Points& nodal) const {
+  const CutPiece& p = pieces_[piece];
+  if (p.is_whole()) return nodal;
+  Points own(3, static_cast<Eigen::Index>(p.nodes.size()));
+  for (Eigen::Index i = 0; i < own.cols(); ++i) own.col(i) = nodal.col(p.nodes[i]);
+  return own;
+}
+
+Points Cut::on_owners(int piece, const Points& nodal) const {
+  const CutPiece& p = pieces_[piece];
+  Points own = on_piece(piece, nodal);
+  for (Eigen::Index i = 0; i < own.cols() && !p.is_whole(); ++i)
+    if (!p.is_owner[i]) own.col(i).setZero();
+  return own;
+}
+
+CutPtr no_cut(const Problem& problem) {
+  return std::make_shared<const Cut>(problem, std::vector<int>(problem.substructures.size(), 1));
+}
+
+CutPtr make_cut(const Problem& problem) {
+  // Mass that contact nodes give to those behind them would have to cross the cut.
+  if (problem.mass().is_moved_from_contact) return no_cut(problem);
+  std::vector<int> n_pieces;
+  for (const SubstructurePtr& part : problem.substructures) n_pieces.push_back(pieces_of(*part, problem.solver.pieces));
+  return std::make_shared<const Cut>(problem, n_pieces);
+}
+
+}  // namespace dygita

@@ -1,0 +1,92 @@
+// How substructures are cut into the pieces that are solved (manual, cutting): what a deck names, and every result, is of whole
+// substructures.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace dygita {
+
+// One piece: cells of a substructure, and the nodes they have.
+struct CutPiece {
+  int part = -1;               // index of the substructure
+  SubstructurePtr body;        // the piece as a body of its own; the substructure itself where that is not cut
+  std::vector<int> nodes;      // node of the substructure at each node of the piece; empty: not cut, the same numbers
+  std::vector<char> is_owner;  // of each node of the piece: this copy carries what belongs to the node once; empty: not cut
+  Vec cut_areas;               // m^2, of each node of the piece: its share of the cut; empty: not cut
+
+  bool is_whole() const { return nodes.empty(); }
+  int node(int i) const { return is_whole() ? i : nodes[i]; }
+  bool owns(int i) const { return is_whole() || is_owner[i] != 0; }
+};
+
+// A node of a substructure in a piece.
+struct Copy {
+  int piece, node;
+  double share;  // of the node's cells: how areas are split
+};
+
+class Cut {
+ public:
+  explicit Cut(const Problem& problem, const std::vector<int>& n_pieces);
+
+  int n_pieces() const { return static_cast<int>(pieces_.size()); }
+  const CutPiece& piece(int i) const { return pieces_[i]; }
+  const std::vector<CutPiece>& pieces() const { return pieces_; }
+  // Pieces of a substructure: first, and their number.
+  int first(int part) const { return first_[part]; }
+  int n_pieces(int part) const { return first_[part + 1] - first_[part]; }
+  std::vector<int> counts() const;  // of the pieces of each substructure
+  bool is_cut(int part) const { return n_pieces(part) > 1; }
+  // Copies of a node of a substructure, the owner first.
+  std::vector<Copy> copies(int part, int node) const;
+  Copy owner(int part, int node) const { return is_cut(part) ? owner_[part][node] : Copy{first_[part], node, 1.0}; }
+
+  // Values (3 x n) at the piece's nodes of a field on its substructure: at every copy, or zero at those that are no owners.
+  Points on_piece(int piece, const Points& nodal) const;
+  Points on_owners(int piece, const Points& nodal) const;
+  // Field on a substructure from those on its pieces: of the owners, or summed over the copies. of_piece(i): 3 x n of piece i.
+  template <class OfPiece>
+  Points from_owners(int part, OfPiece&& of_piece) const {
+    if (!is_cut(part)) return of_piece(first_[part]);
+    Points nodal(3, static_cast<Eigen::Index>(owner_[part].size()));
+    for (int p = first_[part]; p < first_[part + 1]; ++p) {
+      const Points own = of_piece(p);
+      for (Eigen::Index i = 0; i < own.cols(); ++i)
+        if (pieces_[p].is_owner[i]) nodal.col(pieces_[p].nodes[i]) = own.col(i);
+    }
+    return nodal;
+  }
+  template <class OfPiece>
+  Points summed(int part, OfPiece&& of_piece) const {
+    if (!is_cut(part)) return of_piece(first_[part]);
+    Points nodal = Points::Zero(3, static_cast<Eigen::Index>(owner_[part].size()));
+    for (int p = first_[part]; p < first_[part + 1]; ++p) {
+      const Points own = of_piece(p);
+      for (Eigen::Index i = 0; i < own.cols(); ++i) nodal.col(pieces_[p].nodes[i]) += own.col(i);
+    }
+    return nodal;
+  }
+
+ private:
+  void add_cut(int part, const SubstructurePtr& body, const std::vector<int>& piece_of_cell);
+
+  std::vector<CutPiece> pieces_;
+  std::vector<int> first_;
+  std::vector<std::vector<Copy>> owner_;               // of each node of the substructures that are cut
+  std::vector<std::vector<std::vector<Copy>>> others_; // the other copies of the nodes on a cut
+};
+
+using CutPtr = std::shared_ptr<const Cut>;
+
+// Every substructure in one piece.
+CutPtr no_cut(const Problem& problem);
+
+// As the problem's solver.latin has it: into a number of pieces, or large substructures only. A substructure gets fewer pieces than
+// asked for where they would have less than 8 cells each.
+CutPtr make_cut(const Problem& problem);
+
+}  // namespace dygita

@@ -1,0 +1,113 @@
+#include "solution/cut.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mesh/box.hpp"
+#include "solution/bodies.hpp"
+#include "solution/step_model.hpp"
+
+namespace dygita {
+namespace {
+
+Problem blocks(int pieces) {
+  auto one = std::make_shared<Substructure>(), other = std::make_shared<Substructure>();
+  for (const auto& part : {one, other}) {
+    part->name = part == one ? "one" : "other";
+    part->material.young = 200e9;
+    part->material.poisson = 0.3;
+    part->material.density = 7800;
+  }
+  one->mesh = box_mesh(Vec3::Zero(), {6, 6, 9}, {6, 6, 9});
+  other->mesh = box_mesh({0, 0, 9}, {6, 6, 1}, {2, 2, 1});
+  Problem problem;
+  problem.substructures = {one, other};
+  problem.solver.pieces = pieces;
+  auto step = std::make_shared<Step>();
+  step->duration = 1e-3;
+  step->dt = 2e-4;
+  problem.steps = {step};
+  return problem;
+}
+
+TEST(Cut, gives_every_node_one_owner_and_all_its_copies) {
+  const Problem problem = blocks(5);
+  const CutPtr cut = make_cut(problem);
+  EXPECT_EQ(cut->n_pieces(0), 5);
+  EXPECT_EQ(cut->n_pieces(1), 1);  // four cells make no two pieces of eight
+  EXPECT_EQ(cut->piece(5).body, problem.substructures[1]);
+  const Mesh& mesh = *problem.substructures[0]->mesh;
+  std::vector<int> n_copies(mesh.n_nodes(), 0), n_owners(mesh.n_nodes(), 0);
+  for (int p = 0; p < 5; ++p)
+    for (int i = 0; i < cut->piece(p).body->mesh->n_nodes(); ++i) {
+      ++n_copies[cut->piece(p).node(i)];
+      n_owners[cut->piece(p).node(i)] += cut->piece(p).owns(i);
+      EXPECT_EQ(Vec3(cut->piece(p).body->mesh->nodes.col(i)), Vec3(mesh.nodes.col(cut->piece(p).node(i))));
+    }
+  int n_cut = 0;
+  for (int node = 0; node < mesh.n_nodes(); ++node) {
+    EXPECT_EQ(n_owners[node], 1);
+    const std::vector<Copy> copies = cut->copies(0, node);
+    EXPECT_EQ(static_cast<int>(copies.size()), n_copies[node]);
+    EXPECT_TRUE(cut->piece(copies[0].piece).owns(copies[0].node));
+    double share = 0.0;
+    for (const Copy& copy : copies) {
+      EXPECT_EQ(cut->piece(copy.piece).node(copy.node), node);
+      share += copy.share;
+    }
+    EXPECT_NEAR(share, 1.0, 1e-14);
+    n_cut += copies.size() > 1;
+  }
+  EXPECT_GT(n_cut, 50);
+}
+
+TEST(Cut, takes_fields_apart_and_puts_them_together) {
+  const Problem problem = blocks(4);
+  const CutPtr cut = make_cut(problem);
+  const Points field = Points::Random(3, problem.substructures[0]->mesh->n_nodes());
+  EXPECT_EQ(cut->from_owners(0, [&](int p) { return cut->on_piece(p, field); }), field);
+  EXPECT_EQ(cut->summed(0, [&](int p) { return cut->on_owners(p, field); }), field);
+}
+
+TEST(Cut, the_pieces_stiffness_and_masses_add_up_to_those_of_the_whole) {
+  for (const bool is_tuned : {false, true}) {
+    Problem problem = blocks(6);
+    problem.solver.mass.is_tuned = is_tuned;
+    const CutPtr cut = make_cut(problem);
+    const std::vector<Body> pieces = make_bodies(problem, {}, *cut), whole = make_bodies(problem, {});
+    const Mesh& mesh = *problem.substructures[0]->mesh;
+    const Points u = Points::Random(3, mesh.n_nodes());
+    const auto times_stiffness = [](const Body& body, const Points& x) {
+      Points f(3, x.cols());
+      Eigen::Map<Vec>(f.data(), f.size()) = body.matrices->stiffness * Eigen::Map<const Vec>(x.data(), x.size());
+      return f;
+    };
+    const auto times_mass = [](const Body& body, const Points& x) {
+      return body.mass->matrix.size() > 0 ? Points((body.mass->matrix * x.transpose()).transpose()) : Points(x * body.mass->lumped.asDiagonal());
+    };
+    EXPECT_EQ(whole[0].mass->matrix.size() > 0, is_tuned);
+    for (const auto& product : {std::function<Points(const Body&, const Points&)>(times_stiffness), {times_mass}}) {
+      const Points expected = product(whole[0], u), sum = cut->summed(0, [&](int p) { return product(pieces[p], cut->on_piece(p, u)); });
+      EXPECT_LT((sum - expected).norm(), 1e-13 * expected.norm());
+    }
+  }
+}
+
+TEST(Cut, small_bodies_and_massless_contact_are_left_whole) {
+  Problem problem = blocks(0);
+  EXPECT_EQ(make_cut(problem)->n_pieces(), 2);
+  problem.solver.pieces = 4;
+  EXPECT_EQ(make_cut(problem)->n_pieces(), 5);
+  problem.solver.mass.is_moved_from_contact = true;
+  EXPECT_EQ(make_cut(problem)->n_pieces(), 2);
+}
+
+TEST(Cut, a_large_body_is_cut_by_itself_whatever_the_number_of_threads) {
+  Problem problem = blocks(0);
+  auto large = std::make_shared<Substructure>(*problem.substructures[0]);
+  large->mesh = box_mesh(Vec3::Zero(), Vec3::Ones(), {24, 24, 24});
+  problem.substructures[0] = large;
+  EXPECT_GT(make_cut(problem)->n_pieces(0), 1);
+}
+
+}  // namespace
+}  // namespace dygita
