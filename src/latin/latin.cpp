@@ -38,16 +38,24 @@ void StepRun::begin_increment(int increment, bool starts_window) {
   const Stopwatch watch(seconds_.forward);
   motions_ = model_.motion_velocities(increment);
   model_.loads->evaluate(increment);
-  for_each_piece([&](Piece& piece, int i) { piece.begin(model_.piece_force(i, state_), motions_); });
+  const double quiet = indicator_.quiet(tolerance_);
+  for_each_group([&](const std::vector<int>& members) {
+    for (const int i : members) model_.pieces[i]->begin(model_.piece_force(i, state_), motions_, quiet);
+    Piece::forward(group(members));
+  });
   local_.begin(increment, motions_, starts_window);
 }
 
 // Interiors of an increment for the q at hand.
 void StepRun::finish_increment() {
   const Stopwatch watch(seconds_.backward);
-  for_each_piece([&](Piece& piece, int i) {
-    const Points held = piece.has_motions() ? local_.held_force(i) : Points();
-    energy_[i] = piece.finish(q_.segment(model_.offset[i], piece.n_rows()), piece.has_motions() ? &held : nullptr);
+  for_each_group([&](const std::vector<int>& members) {
+    Piece::backward(group(members));
+    for (const int i : members) {
+      Piece& piece = *model_.pieces[i];
+      const Points held = piece.has_motions() ? local_.held_force(i) : Points();
+      energy_[i] = piece.finish(q_.segment(model_.offset[i], piece.n_rows()), piece.has_motions() ? &held : nullptr);
+    }
   });
 }
 

@@ -30,18 +30,21 @@ LocalStage make_local_stage(const Problem& problem, StepModel& model, const Stat
   const Vec k = search_directions(model, problem.solver.search_direction, window_length(problem.solver, *model.step));
   const int n = static_cast<int>(model.pieces.size());
   std::exception_ptr failure;
+  for (const bool has_twin : {false, true}) {  // those whose operators others share come first
 #pragma omp parallel for schedule(dynamic)
-  for (int i = 0; i < n; ++i) {
-    prepare_thread();
-    try {
-      model.pieces[i]->set_search_directions(k.segment(model.offset[i], model.pieces[i]->n_rows()),
-                                             problem.solver.plain);
-    } catch (...) {
+    for (int i = 0; i < n; ++i) {
+      Piece& piece = *model.pieces[i];
+      if ((piece.setup().twin != nullptr) != has_twin) continue;
+      prepare_thread();
+      try {
+        piece.set_search_directions(k.segment(model.offset[i], piece.n_rows()), problem.solver.plain);
+      } catch (...) {
 #pragma omp critical
-      failure = std::current_exception();
+        failure = std::current_exception();
+      }
     }
+    if (failure) std::rethrow_exception(failure);
   }
-  if (failure) std::rethrow_exception(failure);
   return LocalStage(model, state, k);
 }
 
@@ -155,6 +158,11 @@ void StepRun::add_to(SolverFigures& figures) const {
   double bytes = 0.0;
   for (const auto& piece : model_.pieces) bytes += piece->bytes();
   figures.factor_bytes = std::max(figures.factor_bytes, bytes);
+  for (const auto& piece : model_.pieces) {
+    figures.n_solved += piece->n_solved();
+    figures.n_spared += piece->n_spared();
+    figures.n_equal += piece->setup().twin != nullptr;
+  }
   figures.n_interface_unknowns = model_.n_q();
   figures.gap_difference = std::max(figures.gap_difference, local_.gap_difference());
   figures.seconds["forward"] += seconds_.forward;

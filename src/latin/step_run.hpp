@@ -56,6 +56,22 @@ class StepRun {
     }
   }
 
+  // f on every group of pieces that share a factor.
+  template <class Function>
+  void for_each_group(Function&& f) {
+    const int n = static_cast<int>(model_.equal.size());
+#pragma omp parallel for schedule(dynamic) if (n > 1)
+    for (int i = 0; i < n; ++i) {
+      prepare_thread();
+      f(model_.equal[i]);
+    }
+  }
+  std::vector<Piece*> group(const std::vector<int>& members) {
+    std::vector<Piece*> pieces;
+    for (const int i : members) pieces.push_back(model_.pieces[i].get());
+    return pieces;
+  }
+
   const Problem& problem_;
   StepModel& model_;
   State& state_;

@@ -129,7 +129,6 @@ void Piece::factorise() {
   for (int i = 0; i < n_rows(); ++i) reference[i] = setup_.rows[i].reference_stiffness;
   const int n = static_cast<int>(node_of_free_.size());
   if (n == 0) {
-    schur_.resize(0, 0);
     mass_.resize(0);
     schur_diagonal_ = Vec::Zero(n_rows());
     return;
@@ -147,22 +146,36 @@ void Piece::factorise() {
     return;
   }
   if (setup_.is_prediction) {
-    predicted_factor_bytes_ = Factor::predicted_bytes(free_matrix(reference), node_of_free_, is_interface, setup_.precision);
+    if (!setup_.twin) predicted_factor_bytes_ = Factor::predicted_bytes(free_matrix(reference), node_of_free_, is_interface, setup_.precision);
     return;
   }
-  factor_ = std::make_unique<Factor>(free_matrix(reference), node_of_free_, is_interface, setup_.what, setup_.precision);
+  std::unique_ptr<Factor> own;
+  if (setup_.twin)
+    factor_ = setup_.twin->factor_;
+  else
+    own = std::make_unique<Factor>(free_matrix(reference), node_of_free_, is_interface, setup_.what, setup_.precision);
+  if (own) {
+    Mat schur = own->interface_schur();
+    own->release_interface();
+    factor_ = std::move(own);
+    schur_ = std::make_shared<const Mat>(std::move(schur));
+  }
   for (int i = 0; i < n; ++i) position_[factor_->order()[i]] = i;
   make_mass();
   for (const Row& row : setup_.rows) traces_.push_back(trace(row.node, row.direction));
-  schur_ = with_search_directions(factor_->interface_schur(), -reference);
-  factor_->release_interface();
+  if (setup_.twin) {
+    schur_ = setup_.twin->schur_;
+    schur_diagonal_ = setup_.twin->schur_diagonal_;
+    return;
+  }
+  schur_ = std::make_shared<const Mat>(with_search_directions(*schur_, -reference));
   schur_diagonal_.resize(n_rows());
   const int n_i = factor_->n_interior();
   for (int i = 0; i < n_rows(); ++i) {
     double diagonal = 0.0;
     for (int a = 0; a < traces_[i].n; ++a)
       for (int b = 0; b < traces_[i].n; ++b)
-        diagonal += traces_[i].value[a] * traces_[i].value[b] * schur_(traces_[i].at[a] - n_i, traces_[i].at[b] - n_i);
+        diagonal += traces_[i].value[a] * traces_[i].value[b] * (*schur_)(traces_[i].at[a] - n_i, traces_[i].at[b] - n_i);
     schur_diagonal_[i] = diagonal / setup_.rows[i].n_sharing;
   }
 }
@@ -184,13 +197,43 @@ void Piece::set_search_directions(const Vec& k, bool plain) {
   if (!factor_) return;
   if (!plain) {
     plain_factor_.reset();
-    h_ = SymmetricOperator(inverse_spd(with_search_directions(schur_, k), setup_.what), setup_.precision);
-    schur_.resize(0, 0);
+    const Piece* twin = setup_.twin;
+    h_ = twin && twin->h_ && (twin->k_.array() == k.array()).all()
+             ? twin->h_
+             : std::make_shared<const SymmetricOperator>(inverse_spd(with_search_directions(*schur_, k), setup_.what), setup_.precision);
+    schur_.reset();
     return;
   }
   // The plain path: another matrix, another ordering, the whole solve at every iteration. It takes vectors in this factor's order.
   const SparseMatrix a = free_matrix(k);
   plain_factor_ = std::make_unique<Factor>(a, node_of_free_, std::vector<char>(node_of_free_.size(), 0), setup_.what);
+}
+
+bool Piece::equals(const Setup& other) const {
+  const Setup& own = setup_;
+  if (own.body->matrices != other.body->matrices || own.body->mass != other.body->mass || own.precision != other.precision ||
+      own.is_assembled || other.is_assembled || own.rows.size() != other.rows.size() || !absorbing_.empty() || !other.absorbing->empty())
+    return false;
+  // Frames of places that differ by a shift agree but for rounding.
+  const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-12 * (std::abs(a) + std::abs(b)); };
+  const auto same_direction = [](const Vec3& a, const Vec3& b) { return (a - b).norm() < 1e-12; };
+  for (size_t i = 0; i < own.rows.size(); ++i) {
+    const Row &a = own.rows[i], &b = other.rows[i];
+    if (a.node != b.node || !same_direction(a.direction, b.direction) || !same(a.reference_stiffness, b.reference_stiffness) ||
+        !same(a.n_sharing, b.n_sharing))
+      return false;
+  }
+  size_t n_held = 0;
+  for (const auto& [node, held] : *other.held) n_held += held.n;
+  if (n_held != held_.size()) return false;
+  for (const HeldDirection& held : held_) {
+    const auto it = other.held->find(held.node);
+    if (it == other.held->end()) return false;
+    bool is_found = false;
+    for (int j = 0; j < it->second.n; ++j) is_found |= same_direction(it->second.directions.col(j), held.direction);
+    if (!is_found) return false;
+  }
+  return true;
 }
 
 // B^T K of a unit velocity of each motion, for what moving supports do to the free unknowns.
@@ -241,12 +284,13 @@ Points Piece::expand(const Vec& free, const std::vector<double>& held) const {
 double Piece::predicted_bytes() const {
   const double n_b = n_interface_, n = static_cast<double>(node_of_free_.size());
   const double entry = setup_.precision == Precision::double_precision ? 8.0 : 1.5;  // as measured (manual, what is stored)
-  return predicted_factor_bytes_ + entry * 0.5 * n_b * n_b + 8.0 * 12.0 * n;
+  return predicted_factor_bytes_ + (setup_.twin ? 0.0 : entry * 0.5 * n_b * n_b) + 8.0 * 12.0 * n;
 }
 
 double Piece::bytes() const {
-  return (factor_ ? factor_->bytes() : 0.0) + (plain_factor_ ? plain_factor_->bytes() : 0.0) + h_.bytes() +
-         8.0 * (static_cast<double>(schur_.size()) + 12.0 * n_free());
+  const bool shares = setup_.twin != nullptr;
+  return (factor_ && !shares ? factor_->bytes() : 0.0) + (plain_factor_ ? plain_factor_->bytes() : 0.0) +
+         (h_ && !(shares && setup_.twin->h_ == h_) ? h_->bytes() : 0.0) + 8.0 * 12.0 * n_free();
 }
 
 }  // namespace dygita

@@ -62,10 +62,13 @@ class Piece {
     std::string what;  // "substructure 'rod' in step 'shock'", for messages
     bool is_assembled = false;   // the system is solved elsewhere, with other substructures' in it: no factor of its own
     Precision precision = Precision::double_precision;  // of what is stored of the factor and of H
+    const class Piece* twin = nullptr;  // an equal piece, built before: its factor and interface operator serve this one too
     bool is_prediction = false;  // lays the factor out and goes no further: only predicted_bytes() then has a meaning
   };
   // Assembles and factorises. Throws NumericalError.
   explicit Piece(Setup setup);
+  // Would a piece with this set-up have the same matrix, rows and order of unknowns?
+  bool equals(const Setup& other) const;
 
   int n_rows() const { return static_cast<int>(setup_.rows.size()); }
   int n_free() const { return static_cast<int>(mass_.size()); }
@@ -88,8 +91,13 @@ class Piece {
 
   // State from nodal fields (3 x n_nodes): displacement, velocity, and the external and interface forces in balance with them.
   void set_state(const Points& displacement, const Points& velocity, const Points& force, const Points& interface_force);
-  // Right-hand side of an increment: external force (3 x n_nodes), velocities of the motions at its end; forward solve.
-  void begin(const Points& force, const std::vector<double>& motion_velocity);
+  // Right-hand side of an increment: external force (3 x n_nodes), velocities of the motions at its end. The increment is solved for
+  // the change of velocity that the change of forces makes; where the forces changed by less than `quiet` (sum of f^2 dt/m, W) nothing
+  // is solved until the interfaces ask for it.
+  void begin(const Points& force, const std::vector<double>& motion_velocity, double quiet = 0.0);
+  // Forward and backward solves of equal pieces together; of those that have something to solve.
+  static void forward(const std::vector<Piece*>& equal);
+  static void backward(const std::vector<Piece*>& equal);
   // Velocities at the rows for interface data q.
   void interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity);
   // For a system solved elsewhere (is_assembled): matrix and right-hand side of this increment on the free unknowns, those of a
@@ -100,7 +108,7 @@ class Piece {
   int n_free(int node) const { return n_free_of_[node]; }
   Mat3 basis(int node) const { return special_of_[node] < 0 ? Mat3(Mat3::Identity()) : bases_[special_of_[node]]; }
   void set_velocity(const Vec& free) { v_ = free; }
-  // Interior for the q last given; advances the state. interface_force: on held directions of moving nodes (3 x n_nodes), or null.
+  // After the backward solve, for the q last given: advances the state. interface_force: on held directions of moving nodes (3 x n_nodes), or null.
   IncrementEnergy finish(Eigen::Ref<const Vec> q, const Points* interface_force);
 
   Points displacement() const { return expand(u_, held_u_); }  // 3 x n_nodes, m
@@ -117,6 +125,9 @@ class Piece {
   const Vec& free_mass() const { return mass_; }
   IncrementEnergy stored_energy() const;  // kinetic and strain now
   bool is_finite() const { return v_.allFinite(); }
+  // Substitutions (forward and backward are one each) done and spared because nothing had changed.
+  long n_solved() const { return n_solved_; }
+  long n_spared() const { return n_spared_; }
 
   // The state an increment starts from: windows of several steps go back to it.
   struct Snapshot {
@@ -144,13 +155,16 @@ class Piece {
   Trace trace(int node, const Vec3& direction) const;
   SparseMatrix free_matrix(const Vec& row_stiffness) const;
   void factorise();
+  Vec stiffness_times(const Points& nodal) const;
+  void resynchronise();
+  bool is_condensed() const { return factor_ && !plain_factor_; }
   void make_couplings();
   Vec restrict_nodal(const Points& nodal) const;
   Points expand(const Vec& free, const std::vector<double>& held) const;
   std::vector<double> held_stiffness(const Points& nodal) const;  // d . K nodal at every held direction
   std::vector<double> held_forces(const Points& interface_force) const;
   void apply_absorbing(const Vec& v, double factor, Vec& out) const;
-  // Increments are solved for the change of velocity, so that what single precision takes from the factor acts on the change alone.
+  // Increments are solved for the change of velocity: nothing changes, nothing to solve.
   bool solves_for_change() const { return !setup_.scheme.is_static && !setup_.is_assembled && massless_.empty(); }
   double at_row(int i, const Vec& v) const {  // v (free unknowns) along row i
     double value = 0.0;
@@ -183,9 +197,10 @@ class Piece {
   std::vector<int> position_;  // free unknown -> position in the factor (identity until ordered)
   std::vector<HeldDirection> held_;
   bool has_motions_ = false;
-  std::unique_ptr<Factor> factor_, plain_factor_;
-  Mat schur_;  // until the search directions are set
-  SymmetricOperator h_;
+  std::shared_ptr<const Factor> factor_;
+  std::unique_ptr<Factor> plain_factor_;
+  std::shared_ptr<const Mat> schur_;  // until the search directions are set
+  std::shared_ptr<const SymmetricOperator> h_;
   Vec schur_diagonal_, k_;
   std::vector<Trace> traces_;
   std::vector<Vec> coupling_, mass_coupling_;  // B^T K, B^T M of a unit velocity of each motion; empty where the motion is elsewhere
@@ -206,7 +221,12 @@ class Piece {
   Vec z_;                      // dt K G V, where there are unknowns without mass
   std::vector<double> held_u_, held_v_;
   Vec held_pull_;              // of A, what the motions' velocities at hand bring to the free unknowns
-  Vec row_start_;              // force of the search directions on the velocities the increment starts from
+  Vec q_before_;               // of the last increment: forces are counted from it
+  Vec start_force_;            // on the rows: q of the last increment less k times the velocity this one starts from
+  double quiet_ = 0.0;
+  bool is_forward_due_ = false, is_moved_ = false;  // forward solve put off; the interfaces have moved in this increment
+  int n_since_product_ = 0;    // increments since P and W were computed from K itself
+  long n_solved_ = 0, n_spared_ = 0;
   Vec residual_, x_, b_, dv_b_, v_old_, w_old_, start_imbalance_, force_old_;
   std::vector<double> held_v_old_, held_v_new_, held_reaction_;
   Points nodal_force_;

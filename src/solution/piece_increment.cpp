@@ -6,13 +6,20 @@
 
 namespace dygita {
 
+// K times a nodal field, on the free unknowns.
+Vec Piece::stiffness_times(const Points& nodal) const {
+  Points result(3, nodal.cols());
+  Eigen::Map<Vec>(result.data(), result.size()) = setup_.body->matrices->stiffness * Eigen::Map<const Vec>(nodal.data(), nodal.size());
+  return restrict_nodal(result);
+}
+
+// P and W by products with K, where the recurrence has followed the stiffness of a factor in single precision.
+void Piece::resynchronise() {
+  w_ = c1_ * stiffness_times(velocity());
+  p_ = stiffness_times(displacement()) + c0_ / c1_ * w_;
+}
+
 void Piece::set_state(const Points& displacement, const Points& velocity, const Points& force, const Points& interface_force) {
-  const SparseMatrix& k = setup_.body->matrices->stiffness;
-  const auto nodal_stiffness_times = [&](const Points& nodal) {
-    Points result(3, nodal.cols());
-    Eigen::Map<Vec>(result.data(), result.size()) = k * Eigen::Map<const Vec>(nodal.data(), nodal.size());
-    return restrict_nodal(result);
-  };
   u_ = restrict_nodal(displacement);
   v_ = restrict_nodal(velocity);
   force_ = restrict_nodal(force);
@@ -21,8 +28,8 @@ void Piece::set_state(const Points& displacement, const Points& velocity, const 
     held_v_[i] = held_[i].motion.empty() ? 0.0 : held_[i].direction.dot(velocity.col(held_[i].node));
   }
   const Points held_velocity = expand(v_, held_v_);
-  w_ = c1_ * nodal_stiffness_times(held_velocity);
-  p_ = nodal_stiffness_times(displacement);
+  w_ = c1_ * stiffness_times(held_velocity);
+  p_ = stiffness_times(displacement);
   start_imbalance_ = p_ - force_ - restrict_nodal(interface_force);
   if (massless_.empty()) {
     p_ += c0_ / c1_ * w_;
@@ -30,10 +37,11 @@ void Piece::set_state(const Points& displacement, const Points& velocity, const 
     start_massless();
   }
   momentum_ = momentum();
+  q_before_ = Vec::Zero(n_rows());
   held_pull_ = Vec();
   if (has_motions_) {
     const Points held = expand(Vec::Zero(v_.size()), held_v_);
-    held_pull_ = c1_ * nodal_stiffness_times(held);
+    held_pull_ = c1_ * stiffness_times(held);
     if (mass_matrix_.size() > 0) held_pull_ += mass_share() * restrict_nodal(nodal_mass_times(held));
   }
   nodal_force_ = force;
@@ -65,7 +73,7 @@ void Piece::apply_absorbing(const Vec& v, double factor, Vec& out) const {
   }
 }
 
-void Piece::begin(const Points& force, const std::vector<double>& motion_velocity) {
+void Piece::begin(const Points& force, const std::vector<double>& motion_velocity, double quiet) {
   const Scheme& scheme = setup_.scheme;
   const double mass_factor = scheme.inverse_dt() - scheme.g * scheme.alpha(setup_.body->part->material.damping);
   nodal_force_ = force;
@@ -98,13 +106,65 @@ void Piece::begin(const Points& force, const std::vector<double>& motion_velocit
     }
     x_ -= held_pull_;
   }
-  row_start_ = Vec::Zero(n_rows());
+  start_force_ = Vec::Zero(n_rows());
+  is_moved_ = is_forward_due_ = false;
   if (!factor_) return;
-  if (solves_for_change())
-    for (int i = 0; i < n_rows(); ++i) row_start_[i] = k_[i] * at_row(i, v_);
+  if (solves_for_change()) {
+    for (int i = 0; i < n_rows(); ++i) start_force_[i] = q_before_[i] - k_[i] * at_row(i, v_);
+    for (int i = 0; i < n_rows(); ++i)
+      for (int a = 0; a < traces_[i].n; ++a) x_[traces_[i].at[a]] += traces_[i].value[a] * start_force_[i];
+  }
   if (plain_factor_) return;
-  factor_->forward(x_);
-  b_ = x_.tail(factor_->n_interface());
+  quiet_ = solves_for_change() ? quiet : 0.0;
+  is_forward_due_ = true;
+  const bool is_quiet = quiet_ > 0.0 && scheme.dt * x_.cwiseAbs2().cwiseQuotient(mass_).sum() <= quiet_;
+  is_moved_ = !is_quiet;
+}
+
+namespace {
+
+// f on one vector where there is one piece, on the columns of a matrix where there are several.
+template <class Function>
+void together(const std::vector<Vec*>& vectors, Function&& f) {
+  if (vectors.size() == 1) return f(*vectors.front());
+  Mat columns(vectors.front()->size(), static_cast<Eigen::Index>(vectors.size()));
+  for (size_t i = 0; i < vectors.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = *vectors[i];
+  f(columns);
+  for (size_t i = 0; i < vectors.size(); ++i) *vectors[i] = columns.col(static_cast<Eigen::Index>(i));
+}
+
+}  // namespace
+
+void Piece::forward(const std::vector<Piece*>& equal) {
+  std::vector<Vec*> vectors;
+  std::vector<Piece*> moved;
+  for (Piece* piece : equal)
+    if (piece->is_condensed() && piece->is_forward_due_ && piece->is_moved_) moved.push_back(piece);
+  if (moved.empty()) return;
+  for (Piece* piece : moved) vectors.push_back(&piece->x_);
+  together(vectors, [&](auto& x) { moved.front()->factor_->forward(x); });
+  for (Piece* piece : moved) {
+    piece->is_forward_due_ = false;
+    piece->b_ = piece->x_.tail(piece->factor_->n_interface());
+    ++piece->n_solved_;
+  }
+}
+
+void Piece::backward(const std::vector<Piece*>& equal) {
+  std::vector<Vec*> vectors;
+  std::vector<Piece*> moved;
+  for (Piece* piece : equal) {
+    if (!piece->is_condensed()) continue;
+    if (!piece->is_moved_) {
+      piece->n_spared_ += 2;
+      continue;
+    }
+    if (piece->n_rows() > 0) piece->x_.tail(piece->dv_b_.size()) = piece->dv_b_;
+    moved.push_back(piece);
+    vectors.push_back(&piece->x_);
+    ++piece->n_solved_;
+  }
+  if (!moved.empty()) together(vectors, [&](auto& x) { moved.front()->factor_->backward(x); });
 }
 
 void Piece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) {
@@ -114,7 +174,7 @@ void Piece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity
     // x_ keeps the right-hand side; residual order is the condensed factor's, the plain one has its own.
     v_ = x_;
     for (int i = 0; i < n_rows(); ++i)
-      for (int a = 0; a < traces_[i].n; ++a) v_[traces_[i].at[a]] += traces_[i].value[a] * (q[i] - row_start_[i]);
+      for (int a = 0; a < traces_[i].n; ++a) v_[traces_[i].at[a]] += traces_[i].value[a] * (for_change ? q[i] - q_before_[i] : q[i]);
     Vec ordered(v_.size());
     for (int i = 0; i < v_.size(); ++i) ordered[i] = v_[position_[plain_factor_->order()[i]]];
     plain_factor_->solve(ordered);
@@ -123,12 +183,22 @@ void Piece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity
     for (int i = 0; i < n_rows(); ++i) velocity[i] = at_row(i, v_);
     return;
   }
+  if (!is_moved_) {
+    const double change = (q - q_before_).cwiseAbs2().cwiseQuotient(k_).sum();
+    if (change <= quiet_) {
+      for (int i = 0; i < n_rows(); ++i) velocity[i] = at_row(i, v_old_);
+      return;
+    }
+    is_moved_ = true;
+    forward({this});
+  }
   const int n_i = factor_->n_interior();
   thread_local Vec rhs;
   rhs = b_;
   for (int i = 0; i < n_rows(); ++i)
-    for (int a = 0; a < traces_[i].n; ++a) rhs[traces_[i].at[a] - n_i] += traces_[i].value[a] * (q[i] - row_start_[i]);
-  h_.multiply(rhs, dv_b_);
+    for (int a = 0; a < traces_[i].n; ++a)
+      rhs[traces_[i].at[a] - n_i] += traces_[i].value[a] * (for_change ? q[i] - q_before_[i] : q[i]);
+  h_->multiply(rhs, dv_b_);
   for (int i = 0; i < n_rows(); ++i) {
     velocity[i] = for_change ? at_row(i, v_old_) : 0.0;
     for (int a = 0; a < traces_[i].n; ++a) velocity[i] += traces_[i].value[a] * dv_b_[traces_[i].at[a] - n_i];
@@ -139,21 +209,21 @@ IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_f
   const Scheme& scheme = setup_.scheme;
   const Damping& damping = setup_.body->part->material.damping;
   const double g = scheme.g, dt = scheme.dt;
-  if (factor_ && !plain_factor_) {
-    if (n_rows() > 0) x_.tail(dv_b_.size()) = dv_b_;
-    factor_->backward(x_);
+  const bool rests = is_condensed() && !is_moved_;  // as it was: neither velocity nor what follows from it has changed
+  if (is_condensed() && is_moved_) {
     v_ = x_;
     if (solves_for_change()) v_ += v_old_;
   }
+  if (solves_for_change()) q_before_ = q;
   held_v_ = held_v_new_;
 
   // W1 from the solved equation itself, then P by recurrence: no product by K.
-  w_ = residual_;
-  for (int i = 0; i < n_rows(); ++i) {
+  w_ = rests ? w_old_ : residual_;
+  for (int i = 0; i < n_rows() && !rests; ++i) {
     const double force = q[i] - k_[i] * at_row(i, v_);
     for (int a = 0; a < traces_[i].n; ++a) w_[traces_[i].at[a]] += traces_[i].value[a] * force;
   }
-  if (!scheme.is_static) {
+  if (!scheme.is_static && !rests) {
     momentum_ = momentum();
     w_ -= mass_share() * momentum_;
     apply_absorbing(v_, -(1 - g), w_);
@@ -165,6 +235,12 @@ IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_f
   const Vec v_mean = mean_velocity();
   u_ += dt * v_mean;
   for (size_t i = 0; i < held_.size(); ++i) held_u_[i] += dt * (g * held_v_old_[i] + (1 - g) * held_v_[i]);
+
+  constexpr int n_between = 8;  // increments: a product is a twentieth of their solves, what drifts in between is below the tolerance
+  if (setup_.precision == Precision::single_precision && ++n_since_product_ >= n_between && !rests) {
+    resynchronise();
+    n_since_product_ = 0;
+  }
 
   IncrementEnergy energy = stored_energy();
   energy.loads = dt * v_mean.dot(force_);

@@ -166,6 +166,21 @@ Precision precision_of(const StepModel& model, int part, const Body& body) {
   return 3 * model.problem->substructures[part]->mesh->n_nodes() > large ? Precision::single_precision : Precision::double_precision;
 }
 
+// Sixteen right-hand sides are as many as one pass over a factor takes.
+void group_equal(StepModel& model) {
+  std::map<const Factor*, size_t> open;
+  for (size_t i = 0; i < model.pieces.size(); ++i) {
+    const Factor* factor = model.pieces[i]->factor();
+    const auto it = factor ? open.find(factor) : open.end();
+    if (it != open.end() && model.equal[it->second].size() < 16) {
+      model.equal[it->second].push_back(static_cast<int>(i));
+      continue;
+    }
+    if (factor) open[factor] = model.equal.size();
+    model.equal.push_back({static_cast<int>(i)});
+  }
+}
+
 void make_pieces(StepModel& model, const std::vector<Body>& bodies, Purpose purpose) {
   const int n = model.cut->n_pieces();
   CHECK(static_cast<int>(bodies.size()) == n, "one body a piece");
@@ -175,26 +190,57 @@ void make_pieces(StepModel& model, const std::vector<Body>& bodies, Purpose purp
   std::vector<std::unordered_map<int, Mat3>> absorbing;
   for (size_t part = 0; part < model.problem->substructures.size(); ++part)
     absorbing.push_back(absorbing_impedance(*model.problem, *model.step, static_cast<int>(part)));
-  std::exception_ptr failure;
-  std::mutex mutex;
-#pragma omp parallel for schedule(dynamic)
+  std::vector<Piece::Setup> setups;
+  std::vector<std::unordered_map<int, Held>> held(n);
+  std::vector<std::unordered_map<int, Mat3>> own_absorbing(n);
   for (int i = 0; i < n; ++i) {
-    prepare_thread();
-    try {
-      const int part = model.cut->piece(i).part, n_cut = model.cut->n_pieces(part);
-      const std::string what = (n_cut > 1 ? fmt::format("piece {} of {} of ", i - model.cut->first(part) + 1, n_cut) : "") + "substructure '" +
-                               bodies[i].part->name + "' in step '" + model.step->name + "'";
-      const std::unordered_map<int, Held> held = held_of_piece(model, i);
-      const std::unordered_map<int, Mat3> own_absorbing = absorbing_of_piece(*model.cut, i, absorbing[part]);
-      model.pieces[i] = std::make_unique<Piece>(Piece::Setup{&bodies[i], model.scheme, &held, &own_absorbing,
-                                                             rows_of(model, i, held), static_cast<int>(model.conditions.motions.size()), what, purpose == Purpose::assembled,
-                                                             precision_of(model, part, bodies[i]), purpose == Purpose::prediction});
-    } catch (...) {
-      const std::scoped_lock lock(mutex);
-      failure = std::current_exception();
+    const int part = model.cut->piece(i).part, n_cut = model.cut->n_pieces(part);
+    const std::string what = (n_cut > 1 ? fmt::format("piece {} of {} of ", i - model.cut->first(part) + 1, n_cut) : "") + "substructure '" +
+                             bodies[i].part->name + "' in step '" + model.step->name + "'";
+    held[i] = held_of_piece(model, i);
+    own_absorbing[i] = absorbing_of_piece(*model.cut, i, absorbing[part]);
+    setups.push_back({&bodies[i], model.scheme, &held[i], &own_absorbing[i], rows_of(model, i, held[i]),
+                      static_cast<int>(model.conditions.motions.size()), what, purpose == Purpose::assembled,
+                      precision_of(model, part, bodies[i]), nullptr, purpose == Purpose::prediction});
+  }
+  // The first of each kind, then those equal to it.
+  std::map<const BodyMatrices*, std::vector<int>> same_body;
+  for (int i = 0; i < n; ++i) same_body[bodies[i].matrices.get()].push_back(i);
+  std::vector<char> waits(n, 0);
+  for (const auto& [matrices, members] : same_body)
+    for (size_t m = 1; m < members.size(); ++m) waits[members[m]] = 1;
+  const auto build = [&](char waiting) {
+    std::exception_ptr failure;
+    std::mutex mutex;
+#pragma omp parallel for schedule(dynamic)
+    for (int i = 0; i < n; ++i) {
+      if (waits[i] != waiting) continue;
+      prepare_thread();
+      try {
+        model.pieces[i] = std::make_unique<Piece>(std::move(setups[i]));
+      } catch (...) {
+        const std::scoped_lock lock(mutex);
+        failure = std::current_exception();
+      }
+    }
+    if (failure) std::rethrow_exception(failure);
+  };
+  build(0);
+  for (const auto& [matrices, members] : same_body) {
+    std::vector<int> known{members.front()};
+    for (size_t m = 1; m < members.size(); ++m) {
+      Piece::Setup& setup = setups[members[m]];
+      const auto twin = std::find_if(known.begin(), known.end(), [&](int i) { return model.pieces[i] && model.pieces[i]->equals(setup); });
+      if (twin != known.end()) setup.twin = model.pieces[*twin].get();
+      if (setup.twin) continue;
+      // Unlike all before: built here, so that what comes after may be equal to it.
+      model.pieces[members[m]] = std::make_unique<Piece>(std::move(setup));
+      waits[members[m]] = 2;
+      known.push_back(members[m]);
     }
   }
-  if (failure) std::rethrow_exception(failure);
+  build(1);
+  group_equal(model);
 }
 
 // Nodal masses (kg) of each substructure.

@@ -24,6 +24,7 @@ struct StepModel {
   Exchange exchange;
   std::unique_ptr<Loads> loads;
   std::vector<std::unique_ptr<Piece>> pieces;
+  std::vector<std::vector<int>> equal;  // pieces that share a factor and are solved together, at most 16 in a group
   std::vector<int> offset;  // of each piece in the assembled q; the last entry is its length
 
   int n_q() const { return offset.back(); }
