@@ -329,6 +329,8 @@ words[9] = {
         doc = "of the stored factors in dynamic steps; arithmetic is in double precision either way" },
       { "pieces", type = "integer", range = { 1, 100000 }, default = "auto", or_word = "auto",
         doc = "into how many bonded pieces each substructure is cut; 1: none is; \"auto\": large ones are" },
+      { "history_memory", type = "number", range = { 0, 1e6 }, default = 512,
+        doc = "MB of interface fields kept in memory for `start_from`; what is more goes to a temporary file" },
       { "plain", type = "boolean", default = false, doc = "iterates with full solves, to check the condensed ones" },
     },
   },

@@ -50,16 +50,19 @@ LocalStage make_local_stage(const Problem& problem, StepModel& model, const Stat
 
 }  // namespace
 
-StepRun::StepRun(const Problem& problem, StepModel& model, State& state, Observer& observer, const InterfaceFields* start_from)
+StepRun::StepRun(const Problem& problem, StepModel& model, State& state, Observer& observer, const InterfaceFields* start_from,
+                 InterfaceFields& kept)
     : problem_(problem),
       model_(model),
       state_(state),
       observer_(observer),
       start_from_(start_from),
+      kept_(kept),
       i_step_(index_of(problem.steps, model.step)),
       local_((start_step(model, state), make_local_stage(problem, model, state))),
       anderson_(0, 1.0, {}),
       indicator_(0.0) {
+  kept_.begin_step();
   const LatinSettings& s = problem.solver;
   const bool is_static = model.scheme.is_static;
   window_ = window_length(s, *model.step);
@@ -104,7 +107,7 @@ void StepRun::accept_increment(int increment, int iterations, double eta) {
   indicator_.raise_floor(energies.kinetic + energies.strain + std::abs(energies.loads), model_.scheme.dt);
   if (!model_.scheme.is_static) state_.time += model_.scheme.dt;
   ++figures_.increments;
-  fields_.push_back(q_);
+  kept_.append(q_);
   figures_.iterations += iterations;
   figures_.worst_indicator = std::max(figures_.worst_indicator, eta);
   if (eta > tolerance_) ++figures_.not_converged;

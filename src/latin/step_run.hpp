@@ -13,15 +13,14 @@ namespace dygita {
 
 class StepRun {
  public:
-  StepRun(const Problem& problem, StepModel& model, State& state, Observer& observer, const InterfaceFields* start_from);
+  StepRun(const Problem& problem, StepModel& model, State& state, Observer& observer, const InterfaceFields* start_from,
+          InterfaceFields& kept);
 
   void run();
   // Writes displacements, velocities and what loads had reached into the state: the next step starts from it.
   void leave_state();
   const StepFigures& figures() const { return figures_; }
   void add_to(SolverFigures& figures) const;
-  // q of every increment: the solution of the step.
-  std::vector<Vec> take_fields() { return std::move(fields_); }
 
  private:
   // The stages (latin.cpp).
@@ -77,6 +76,7 @@ class StepRun {
   State& state_;
   Observer& observer_;
   const InterfaceFields* start_from_;
+  InterfaceFields& kept_;
   int i_step_ = 0, window_ = 1, max_iterations_ = 200, window_depth_ = 0;
   double tolerance_ = 1e-6, window_relaxation_ = 0.8;
   Vec weight_, q_, velocity_, image_;
@@ -86,7 +86,6 @@ class StepRun {
   IndicatorSums sums_;  // of the last local stage
   std::vector<double> motions_;
   std::vector<IncrementEnergy> energy_;
-  std::vector<Vec> fields_;
   StepFigures figures_;
   // Wall time by phase of the step.
   class Stopwatch {

@@ -131,6 +131,7 @@ struct LatinSettings {
   MassSettings mass;
   std::optional<Precision> precision;  // of the stored factors in dynamic steps; none: single where a substructure is large
   int pieces = 0;                 // of each substructure; 0: large ones are cut
+  double history_memory = 512e6;  // bytes of interface fields kept in memory for later cases; more goes to a file
   bool plain = false;             // iterate with full solves instead of the condensed interface (the plain path)
 };
 

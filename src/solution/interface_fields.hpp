@@ -1,22 +1,49 @@
 // The solution of a run is its interface fields: given q = F_hat + k W_hat, every interior is one linear sweep.
 #pragma once
 
+#include <cstdint>
+#include <cstdio>
+#include <memory>
 #include <vector>
 
 #include "numerics/types.hpp"
 
 namespace dygita {
 
-// q of every increment of every step (assembled order of the step's exchange; N).
-struct InterfaceFields {
-  std::vector<std::vector<Vec>> q;  // [step][increment]
+// q of every increment of every step (assembled order of the step's exchange; N), for another case to start from. Up to a budget they
+// stay in memory, what comes after goes to a file that has no name and vanishes with this object.
+class InterfaceFields {
+ public:
+  explicit InterfaceFields(double memory_bytes) : budget_(memory_bytes) {}
+  InterfaceFields(const InterfaceFields&) = delete;
+  InterfaceFields& operator=(const InterfaceFields&) = delete;
 
-  // The kept q of an increment if it has `size` unknowns: another case may have other contacts; null otherwise.
-  const Vec* at(size_t i_step, size_t increment, Eigen::Index size) const {
-    if (i_step >= q.size() || increment >= q[i_step].size()) return nullptr;
-    const Vec& kept = q[i_step][increment];
-    return kept.size() == size ? &kept : nullptr;
-  }
+  void begin_step() { steps_.emplace_back(); }
+  // The next increment of the step begun last. A file that cannot be written ends the keeping, with a warning.
+  void append(const Vec& q);
+
+  // The kept q of an increment if it has `size` unknowns, into q: another case may have other contacts. False: none.
+  bool read(size_t i_step, size_t increment, Eigen::Index size, Vec& q) const;
+
+  double memory_bytes() const { return in_memory_; }
+  double file_bytes() const { return static_cast<double>(file_end_); }
+
+ private:
+  struct Kept {
+    Vec q;                  // empty: in the file
+    std::int64_t at = -1;   // where in the file, bytes; -1: in memory
+    Eigen::Index size = 0;
+  };
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  bool write(const Vec& q);
+
+  double budget_, in_memory_ = 0.0;
+  std::vector<std::vector<Kept>> steps_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::int64_t file_end_ = 0;
+  bool has_failed_ = false;
 };
 
 }  // namespace dygita
