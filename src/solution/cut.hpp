@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "model/model.hpp"
@@ -16,7 +15,7 @@ struct CutPiece {
   SubstructurePtr body;        // the piece as a body of its own; the substructure itself where that is not cut
   std::vector<int> nodes;      // node of the substructure at each node of the piece; empty: not cut, the same numbers
   std::vector<char> is_owner;  // of each node of the piece: this copy carries what belongs to the node once; empty: not cut
-  Vec cut_areas;               // m^2, of each node of the piece: its share of the cut; empty: not cut
+  Vec cut_areas;               // m^2, of each node of the piece: its share of the cut, positive on it; empty: not cut
 
   bool is_whole() const { return nodes.empty(); }
   int node(int i) const { return is_whole() ? i : nodes[i]; }
@@ -85,8 +84,9 @@ using CutPtr = std::shared_ptr<const Cut>;
 // Every substructure in one piece.
 CutPtr no_cut(const Problem& problem);
 
-// As the problem's solver.latin has it: into a number of pieces, or large substructures only. A substructure gets fewer pieces than
-// asked for where they would have less than 8 cells each.
+// As the problem's solver.latin has it: into a number of pieces, or large substructures only (manual, cutting); by sizes alone, so
+// that the answer does not depend on the machine. A substructure gets fewer pieces than asked for where they would have less than
+// 8 cells each; with massless contact none is cut.
 CutPtr make_cut(const Problem& problem);
 
 }  // namespace dygita
