@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
+#include "fem/cell_lanes.hpp"
 #include "fem/cell_loop.hpp"
 #include "fem/frequency.hpp"
 #include "fem/node_pattern.hpp"
@@ -33,68 +33,145 @@ std::vector<int> models(const Points& nodes, const CellBlock& block) {
   return model;
 }
 
+// Computes cells ahead, as many as there are lanes.
 template <class Cell>
 struct AssemblyKernel {
   static constexpr int n = Cell::n_nodes;
+  static constexpr int furthest = 16 * n_lanes;  // cells looked at for the lanes of one batch
+  static constexpr int few = 8;                  // models of a block that are computed one by one
 
   const Mesh& mesh;
   const CellBlock& block;
   const Elastic& material;
   const NodePattern& pattern;
+  const std::uint16_t* slots;  // of the block
   const std::vector<int>& model;
+  const NodeOwners& owners;
   BodyMatrices& body;
-  FrequencyBound& highest;
+  std::vector<char>& is_begun;  // nodes whose rows have been set
+  bool is_plain = false;        // few models: by the kernel of a single cell, whatever the number of owners
 
-  std::array<int, n> order;  // of the cell's nodes, increasing: their neighbours are walked once
-  int computed = -1;
-  Stiffness<n> stiffness;
-  Eigen::Matrix<double, n, 1> mass;
-  FrequencyBound seen;
+  int me = 0;
+  std::array<int, n_lanes> batch{};  // models computed, increasing
+  int n_batch = 0, current = 0;      // how many; the lane of the cell at hand
+  int i_cell = -1;
+  CellLanes<n> matrices{};
 
-  void compute(const int* nodes, int i_cell) {
-    std::sort(order.begin(), order.end(), [nodes](int a, int b) { return nodes[a] < nodes[b]; });
-    if (model[i_cell] == computed) return;
-    computed = model[i_cell];
-    const Nodes<n> x = gather<n>(mesh.nodes, block.cell(computed));
-    stiffness = Cell::stiffness(x, material);
-    mass = material.density * node_volumes<Cell>(x);
-    seen.see(stiffness, mass);
+  void begin(int owner) { me = owner; }
+
+  bool touches(int i) const {
+    const int* nodes = block.cell(i);
+    return std::any_of(nodes, nodes + n, [&](int node) { return owners.owner[node] == me; });
   }
 
-  void add(const int* nodes, int a) {
-    body.mass[nodes[a]] += mass[a];
-    const int first = pattern.starts[nodes[a]], count = pattern.starts[nodes[a] + 1] - first;
-    const int* neighbours = pattern.neighbours.data() + first;
-    double* row = body.stiffness.valuePtr() + 9 * static_cast<std::ptrdiff_t>(first);
-    int slot = 0;
-    for (const int b : order) {
-      while (neighbours[slot] != nodes[b]) ++slot;
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)  // by columns: the cell's matrix is symmetric
-          row[3 * (i * count + slot) + j] += stiffness(3 * b + j, 3 * a + i);
+  void compute(const int*, int i) {
+    i_cell = i;
+    while (current < n_batch && batch[current] != model[i]) ++current;
+    if (current == n_batch) compute_from(i);
+  }
+
+  void compute_from(int i) {
+    n_batch = current = 0;
+    if (is_plain) return compute_one(model[i]);
+    const int end = std::min(block.n_cells(), i + furthest);
+    for (int j = i; j < end && n_batch < n_lanes; ++j)
+      if ((n_batch == 0 || model[j] != batch[n_batch - 1]) && touches(j)) batch[n_batch++] = model[j];
+    Lanes x[n][3];
+    for (int lane = 0; lane < n_lanes; ++lane) {
+      const int* nodes = block.cell(batch[std::min(lane, n_batch - 1)]);
+      for (int a = 0; a < n; ++a)
+        for (int p = 0; p < 3; ++p) x[a][p][lane] = mesh.nodes(p, nodes[a]) - mesh.nodes(p, nodes[0]);
+    }
+    stiffness_in_lanes<Cell>(x, material, matrices);
+  }
+
+  void compute_one(int i) {
+    batch[n_batch++] = i;
+    const Nodes<n> x = gather<n>(mesh.nodes, block.cell(i));
+    const Stiffness<n> stiffness = Cell::stiffness(x, material);
+    const Eigen::Matrix<double, n, 1> volumes = node_volumes<Cell>(x);
+    for (int a = 0; a < n; ++a) {
+      matrices.volume[a][0] = volumes[a];
+      for (int b = 0; b < n; ++b)
+        for (int p = 0; p < 3; ++p)
+          for (int q = p; q < 3; ++q)
+            matrices.plane[CellLanes<n>::plane_of(p, q)][a][b][0] = stiffness(3 * a + p, 3 * b + q);
     }
   }
 
-  void finish() { highest.see(seen); }
+  void add(const int* nodes, int a) {
+    const int node = nodes[a], first = pattern.starts[node], count = pattern.starts[node + 1] - first;
+    double* const row = body.stiffness.valuePtr() + 9 * static_cast<std::ptrdiff_t>(first);
+    if (!is_begun[node]) {
+      std::fill_n(row, 9 * count, 0.0);
+      is_begun[node] = 1;
+    }
+    body.mass[node] += material.density * matrices.volume[a][current];
+    const auto* const values = reinterpret_cast<const double*>(matrices.plane) + current;
+    const std::uint16_t* const slot = slots + (static_cast<size_t>(i_cell) * n + a) * n;
+    constexpr int plane = n * n * n_lanes;
+    for (int b = 0; b < n; ++b) {
+      const double* const ab = values + (a * n + b) * n_lanes;
+      const double* const ba = values + (b * n + a) * n_lanes;
+      double* const x = row + 3 * slot[b];
+      double* const y = x + 3 * count;
+      double* const z = y + 3 * count;
+      x[0] += ab[0];
+      x[1] += ab[plane];
+      x[2] += ab[2 * plane];
+      y[0] += ba[plane];
+      y[1] += ab[3 * plane];
+      y[2] += ab[4 * plane];
+      z[0] += ba[2 * plane];
+      z[1] += ba[4 * plane];
+      z[2] += ab[5 * plane];
+    }
+  }
+
+  void finish() {}
 };
+
+// Hands each element's stiffness and mass to the bound on the frequencies.
+template <class Cell>
+void see_cells(const Mesh& mesh, const CellBlock& block, const Elastic& material, FrequencyBound& highest) {
+  constexpr int n = Cell::n_nodes;
+  const std::vector<int> model = models<n>(mesh.nodes, block);
+  for (int i = 0; i < block.n_cells(); ++i) {
+    if (model[i] != i) continue;
+    const Nodes<n> x = gather<n>(mesh.nodes, block.cell(i));
+    const Eigen::Matrix<double, n, 1> mass = material.density * node_volumes<Cell>(x);
+    highest.see(Cell::stiffness(x, material), mass);
+  }
+}
 
 }  // namespace
 
 BodyMatrices assemble(const Mesh& mesh, const Elastic& material) {
-  const NodePattern pattern = node_pattern(mesh);
+  CellSlots slots;
+  const NodePattern pattern = node_pattern(mesh, &slots);
   const NodeOwners owners = node_owners(mesh);
-  BodyMatrices body{block_matrix(pattern), Vec::Zero(mesh.n_nodes()), 0.0};
-  FrequencyBound highest;
-  for (const CellBlock& block : mesh.blocks)
-    with_cell(block.type, [&](auto cell) {
+  BodyMatrices body{block_matrix(pattern), Vec::Zero(mesh.n_nodes())};
+  std::vector<char> is_begun(mesh.n_nodes(), 0);
+  for (size_t k = 0; k < mesh.blocks.size(); ++k)
+    with_cell(mesh.blocks[k].type, [&](auto cell) {
       using Cell = decltype(cell);
+      const CellBlock& block = mesh.blocks[k];
       const std::vector<int> model = models<Cell::n_nodes>(mesh.nodes, block);
-      AssemblyKernel<Cell> kernel{mesh, block, material, pattern, model, body, highest, {}, -1, {}, {}, {}};
-      std::iota(kernel.order.begin(), kernel.order.end(), 0);
+      AssemblyKernel<Cell> kernel{mesh,  block,  material, pattern, slots.of_block[k].data(),
+                                  model, owners, body,     is_begun};
+      int n_models = 0;
+      for (int i = 0; i < block.n_cells(); ++i) n_models += model[i] == i;
+      kernel.is_plain = n_models <= kernel.few;
       sum_at_nodes(block, owners, kernel);
     });
-  body.max_frequency = highest.frequency();
   return body;
+}
+
+double max_frequency(const Mesh& mesh, const Elastic& material) {
+  FrequencyBound highest;
+  for (const CellBlock& block : mesh.blocks)
+    with_cell(block.type, [&](auto cell) { see_cells<decltype(cell)>(mesh, block, material, highest); });
+  return highest.frequency();
 }
 
 }  // namespace dygita

@@ -8,13 +8,14 @@ namespace dygita {
 struct BodyMatrices {
   SparseMatrix stiffness;  // 3n x 3n, N/m, both triangles, before any support
   Vec mass;                // n, kg, lumped
-  // rad/s: at least the highest element frequency, at most 1.2 times it; 2 / it is a safe step of central differences.
-  double max_frequency;
 };
 
 // Assembles by node pattern and 3x3 blocks, no triplets; columns increasing in each row; the same to the bit for any
 // number of threads. Throws InputError when the matrix would have more than 2^31 entries.
 BodyMatrices assemble(const Mesh& mesh, const Elastic& material);
+
+// rad/s: at least the highest frequency of the elements, at most 1.2 times it; 2 / it is a safe step of central differences.
+double max_frequency(const Mesh& mesh, const Elastic& material);
 
 // Stress (Pa) at nodes, mean of the adjacent cells' corner values. displacement: 3 x n_nodes.
 Tensors nodal_stress(const Mesh& mesh, const Elastic& material, const Points& displacement);

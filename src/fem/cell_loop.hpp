@@ -26,6 +26,7 @@ struct NodeOwners {
 NodeOwners node_owners(const Mesh& mesh);
 
 // Runs `kernel` on all cells of the block, a copy of it for each owner:
+//   kernel.begin(owner)            where it has that: before its first cell;
 //   kernel.compute(nodes, i_cell)  computes a cell; called by every owner that has a node of it;
 //   kernel.add(nodes, a)           adds the share of local node a of the computed cell, writing nothing but that
 //   node's; kernel.finish()                hands over what is not by node; one owner at a time, in no order.
@@ -40,6 +41,7 @@ void sum_at_nodes(const CellBlock& block, const NodeOwners& owners, const Kernel
 #pragma omp parallel for schedule(static, 1) num_threads(owners.n_owners)
   for (int owner = 0; owner < owners.n_owners; ++owner) try {
       Kernel mine = kernel;
+      if constexpr (requires { mine.begin(owner); }) mine.begin(owner);
       for (int i = 0; i < n_cells; ++i) {
         const int* nodes = block.cell(i);
         bool is_computed = false;

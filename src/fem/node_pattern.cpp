@@ -19,12 +19,13 @@ struct CellsOfNodes {
   struct Cell {
     const int* nodes;
     int n_nodes;
+    std::uint16_t* slots;  // of the node in this cell; null where not asked for
   };
   std::vector<int> starts;
   std::vector<Cell> cells;
 };
 
-CellsOfNodes cells_of_nodes(const Mesh& mesh) {
+CellsOfNodes cells_of_nodes(const Mesh& mesh, CellSlots* slots) {
   CellsOfNodes of;
   of.starts.assign(mesh.n_nodes() + 1, 0);
   for (const CellBlock& block : mesh.blocks)
@@ -33,10 +34,15 @@ CellsOfNodes cells_of_nodes(const Mesh& mesh) {
 
   of.cells.resize(of.starts.back());
   std::vector<int> next(of.starts.begin(), of.starts.end() - 1);
-  for (const CellBlock& block : mesh.blocks) {
+  for (size_t k = 0; k < mesh.blocks.size(); ++k) {
+    const CellBlock& block = mesh.blocks[k];
     const int n_local = nodes_per_cell(block.type);
     for (int i = 0; i < block.n_cells(); ++i)
-      for (int a = 0; a < n_local; ++a) of.cells[next[block.cell(i)[a]]++] = {block.cell(i), n_local};
+      for (int a = 0; a < n_local; ++a) {
+        std::uint16_t* const own =
+            slots ? slots->of_block[k].data() + (static_cast<size_t>(i) * n_local + a) * n_local : nullptr;
+        of.cells[next[block.cell(i)[a]]++] = {block.cell(i), n_local, own};
+      }
   }
   return of;
 }
@@ -50,14 +56,19 @@ void prefer_large_pages(void* data, size_t n_bytes) {
 
 }  // namespace
 
-NodePattern node_pattern(const Mesh& mesh) {
-  const CellsOfNodes of = cells_of_nodes(mesh);
+NodePattern node_pattern(const Mesh& mesh, CellSlots* slots) {
+  if (slots) {
+    slots->of_block.clear();
+    for (const CellBlock& block : mesh.blocks)
+      slots->of_block.emplace_back(block.nodes.size() * nodes_per_cell(block.type));
+  }
+  const CellsOfNodes of = cells_of_nodes(mesh, slots);
   NodePattern pattern;
   pattern.starts.reserve(mesh.n_nodes() + 1);
   pattern.starts.push_back(0);
   pattern.neighbours.reserve(static_cast<size_t>(27) * mesh.n_nodes());
 
-  std::vector<int> seen_by(mesh.n_nodes(), -1);
+  std::vector<int> seen_by(mesh.n_nodes(), -1), place(mesh.n_nodes());
   for (int a = 0; a < mesh.n_nodes(); ++a) {
     const size_t first = pattern.neighbours.size();
     for (int i = of.starts[a]; i < of.starts[a + 1]; ++i)
@@ -74,6 +85,15 @@ NodePattern node_pattern(const Mesh& mesh) {
           "    cut it into several substructures (about 8 million nodes each at most)",
           mesh.source, mesh.n_nodes()));
     pattern.starts.push_back(static_cast<int>(pattern.neighbours.size()));
+    if (!slots) continue;
+    if (pattern.neighbours.size() - first > std::numeric_limits<std::uint16_t>::max())
+      throw InputError(
+          fmt::format("mesh {}: node {} has {} neighbours", mesh.source, a, pattern.neighbours.size() - first));
+    for (size_t k = first; k < pattern.neighbours.size(); ++k)
+      place[pattern.neighbours[k]] = static_cast<int>(k - first);
+    for (int i = of.starts[a]; i < of.starts[a + 1]; ++i)
+      for (int b = 0; b < of.cells[i].n_nodes; ++b)
+        of.cells[i].slots[b] = static_cast<std::uint16_t>(place[of.cells[i].nodes[b]]);
   }
   return pattern;
 }
@@ -91,7 +111,6 @@ SparseMatrix block_matrix(const NodePattern& pattern) {
 #pragma omp parallel for schedule(static)
   for (int a = 0; a < n; ++a) {
     const int first = pattern.starts[a], count = pattern.starts[a + 1] - first;
-    std::fill_n(matrix.valuePtr() + 9 * first, 9 * count, 0.0);
     int* column = matrix.innerIndexPtr() + 9 * first;
     for (int i = 0; i < 3; ++i) {
       rows[3 * a + i + 1] = 9 * first + 3 * (i + 1) * count;

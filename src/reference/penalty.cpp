@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/assembly.hpp"
+
 namespace dygita {
 
 namespace {
@@ -47,7 +49,8 @@ PenaltySprings::PenaltySprings(const StepModel& model, const std::vector<PointRe
                                const std::vector<char>& is_tied, const InternalForce& internal) {
   const double penalty = model.problem->explicit_dynamics->penalty;
   double frequency = 0.0;
-  for (const auto& piece : model.pieces) frequency = std::max(frequency, piece->setup().body->matrices->max_frequency);
+  for (const SubstructurePtr& part : model.problem->substructures)
+    frequency = std::max(frequency, max_frequency(*part->mesh, part->material));
   for (size_t i = 0; i < model.exchange.points.size(); ++i) {
     const Point& point = model.exchange.points[i];
     if (!point.law || is_tied[point.members.front().surface] || start[i].is_released) continue;
