@@ -27,6 +27,13 @@ void StepRun::linear_stage() {
   });
 }
 
+// Balance of tied substructures against their rigid motions; velocities stay the answer to q.
+void StepRun::coarse_correction() {
+  if (coarse_.is_empty()) return;
+  const Stopwatch watch(seconds_.interface);
+  coarse_.correct(q_, velocity_);
+}
+
 // Local stage: the law at every interface point; image_ = F_hat + k W_hat.
 IndicatorSums StepRun::local_stage() {
   const Stopwatch watch(seconds_.local);
@@ -55,12 +62,13 @@ void StepRun::finish_increment() {
 void StepRun::solve_increment(int increment) {
   begin_increment(increment, true);
   if (const Vec* kept = start_from_ ? start_from_->at(i_step_, increment, q_.size()) : nullptr) q_ = *kept;
-  anderson_.clear();
+  anderson_.begin();
   Outcome best;
   Vec q_best = q_;
   int n = 0;
   for (;;) {
     linear_stage();
+    if (n > 0) coarse_correction();  // what is in balance to the tolerance is left as it is
     const Outcome outcome = indicator_.measure(local_stage());
     ++n;
     check_finite(outcome, increment);
@@ -72,6 +80,7 @@ void StepRun::solve_increment(int increment) {
     const Stopwatch watch(seconds_.accelerate);
     anderson_.advance(q_, image_);
   }
+  anderson_.end(q_, image_);
   if (best.eta > tolerance_) {  // not converged: the best there was is what is shown
     q_ = q_best;
     linear_stage();
@@ -90,7 +99,7 @@ void StepRun::solve_window(int first, int last) {
   for (int i = 0; i < n_steps && start_from_; ++i)
     if (const Vec* kept = start_from_->at(i_step_, first + i, q_.size())) q[i] = *kept;
   Vec all(n_steps * q_.size()), all_image(all.size());
-  Anderson anderson(window_depth_, window_relaxation_, weight_.replicate(n_steps, 1));
+  Anderson anderson(window_depth_, 0, window_relaxation_, weight_.replicate(n_steps, 1));
   for (int n = 1;; ++n) {
     const Indicator before = indicator_;
     Outcome worst{0.0};
