@@ -1,50 +1,51 @@
 #include "latin/anderson.hpp"
 
-#include <Eigen/QR>
+#include <algorithm>
 
 namespace dygita {
 
-void Anderson::clear() {
-  q_before_.resize(0);
-  dq_.clear();
-  df_.clear();
-  best_ = 0.0;
+Anderson::Anderson(int depth, int n_problems, double relaxation, Vec weight)
+    : depth_(depth),
+      relaxation_(relaxation),
+      weight_(std::move(weight)),
+      recent_(depth, weight_.size()),
+      past_(depth > 0 ? n_problems : 0, weight_.size()) {}
+
+void Anderson::begin() {
+  recent_.clear();
+  has_before_ = false;
 }
 
 void Anderson::advance(Vec& q, const Vec& image) {
-  const Vec residual = (image - q).cwiseProduct(weight_);
-  const Vec step = relaxation_ * (image - q);
+  residual_ = (image - q).cwiseProduct(weight_);
   if (depth_ == 0) {
-    q += step;
+    q += relaxation_ * (image - q);
     return;
   }
-  const double norm = residual.norm();
-  if (q_before_.size() == q.size()) {
-    if (norm > 2.0 * best_) {
-      dq_.clear();
-      df_.clear();
-      best_ = norm;
-    } else {
-      dq_.push_back(q - q_before_);
-      df_.push_back(residual - residual_before_);
-      if (static_cast<int>(dq_.size()) > depth_) {
-        dq_.pop_front();
-        df_.pop_front();
-      }
-    }
+  const double norm = residual_.norm();
+  const bool is_first = !has_before_;
+  if (is_first) {
+    q_first_ = q;
+    residual_first_ = residual_;
+    best_ = norm;
+  } else if (norm > 2.0 * best_) {
+    recent_.clear();
+    best_ = norm;
+  } else {
+    recent_.add(q, q_before_, residual_, residual_before_);
+    best_ = std::min(best_, norm);
   }
-  best_ = q_before_.size() == q.size() ? std::min(best_, norm) : norm;
+  has_before_ = true;
   q_before_ = q;
-  residual_before_ = residual;
-  q += step;
-  if (df_.empty()) return;
+  residual_before_ = residual_;
+  (is_first ? past_ : recent_).take_off(q, residual_);
+  q += relaxation_ * residual_.cwiseQuotient(weight_);
+}
 
-  // The combination of past residuals nearest to this one; what it predicts is taken off.
-  const int m = static_cast<int>(df_.size());
-  Mat differences(residual.size(), m);
-  for (int j = 0; j < m; ++j) differences.col(j) = df_[j];
-  const Vec gamma = differences.colPivHouseholderQr().solve(residual);
-  for (int j = 0; j < m; ++j) q -= gamma[j] * (dq_[j] + relaxation_ * df_[j].cwiseQuotient(weight_));
+void Anderson::end(const Vec& q, const Vec& image) {
+  if (!has_before_) return;
+  residual_ = (image - q).cwiseProduct(weight_);
+  past_.add(q, q_first_, residual_, residual_first_);
 }
 
 }  // namespace dygita

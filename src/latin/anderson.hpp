@@ -1,28 +1,31 @@
 // Anderson acceleration of a fixed-point iteration q <- G(q).
 #pragma once
 
-#include <deque>
-
-#include "numerics/types.hpp"
+#include "latin/differences.hpp"
 
 namespace dygita {
 
 class Anderson {
  public:
-  // depth: differences kept (0: relaxation alone); relaxation: share of the residual taken; weight: scales each component of the
+  // depth: differences of one fixed-point problem kept (0: relaxation alone); n_problems: changes from start to end of past problems
+  // kept, with which the next one is predicted; relaxation: share of the residual taken; weight: scales each component of the
   // residual in the least squares (1/sqrt(k)).
-  Anderson(int depth, double relaxation, Vec weight) : depth_(depth), relaxation_(relaxation), weight_(std::move(weight)) {}
+  Anderson(int depth, int n_problems, double relaxation, Vec weight);
 
-  void clear();
+  // Another fixed-point problem begins: the same derivative or nearly, other data.
+  void begin();
   // Replaces q by the next iterate, from image = G(q). The history is cleared where the residual exceeds twice the best.
   void advance(Vec& q, const Vec& image);
+  // The problem is solved by q: what it changed helps to predict the next.
+  void end(const Vec& q, const Vec& image);
 
  private:
   int depth_;
   double relaxation_;
   Vec weight_;
-  Vec q_before_, residual_before_;
-  std::deque<Vec> dq_, df_;  // differences of iterates and of weighted residuals
+  Differences recent_, past_;
+  Vec q_first_, q_before_, residual_first_, residual_before_, residual_;
+  bool has_before_ = false;
   double best_ = 0.0;
 };
 

@@ -27,6 +27,13 @@ void StepRun::linear_stage() {
   });
 }
 
+// Balance of tied substructures against their rigid motions; velocities stay the answer to q.
+void StepRun::coarse_correction() {
+  if (coarse_.is_empty()) return;
+  const Stopwatch watch(seconds_.interface);
+  coarse_.correct(q_, velocity_);
+}
+
 // Local stage: the law at every interface point; image_ = F_hat + k W_hat.
 IndicatorSums StepRun::local_stage() {
   const Stopwatch watch(seconds_.local);
@@ -63,12 +70,13 @@ void StepRun::finish_increment() {
 void StepRun::solve_increment(int increment) {
   begin_increment(increment, true);
   if (start_from_) start_from_->read(i_step_, increment, q_.size(), q_);
-  anderson_.clear();
+  anderson_.begin();
   Outcome best;
   Vec q_best = q_;
   int n = 0;
   for (;;) {
     linear_stage();
+    if (n > 0) coarse_correction();  // what is in balance to the tolerance is left as it is
     const Outcome outcome = indicator_.measure(local_stage());
     ++n;
     check_finite(outcome, increment);
@@ -80,7 +88,10 @@ void StepRun::solve_increment(int increment) {
     const Stopwatch watch(seconds_.accelerate);
     anderson_.advance(q_, image_);
   }
-  if (best.eta > tolerance_) {  // not converged: the best there was is what is shown
+  anderson_.end(q_, image_);
+  if (best.eta <= tolerance_) {
+    if (n > 1 && !coarse_.is_empty()) linear_stage();  // the pieces have not heard of the last correction
+  } else {  // not converged: the best there was is what is shown
     q_ = q_best;
     linear_stage();
     local_stage();
@@ -98,7 +109,7 @@ void StepRun::solve_window(int first, int last) {
   for (int i = 0; i < n_steps && start_from_; ++i)
     start_from_->read(i_step_, first + i, q_.size(), q[i]);
   Vec all(n_steps * q_.size()), all_image(all.size());
-  Anderson anderson(window_depth_, window_relaxation_, weight_.replicate(n_steps, 1));
+  Anderson anderson(window_depth_, 0, window_relaxation_, weight_.replicate(n_steps, 1));
   for (int n = 1;; ++n) {
     const Indicator before = indicator_;
     Outcome worst{0.0};

@@ -5,9 +5,8 @@
 
 namespace dygita {
 
-// k of every unknown (length n_q). Static: diagonal of the Schur complement S0. Dynamic: the same up to a local CFL of 2, above it
-// the geometric mean with k_step, k_step^2 = ((1-g) rho c A)^2 + (m/dt)^2. Windows of many steps (n_window > 5): the impedance
-// rho c A, since there a wave crosses and returns within the window.
+// k of every unknown (length n_q). Static: diagonal of the Schur complement S0. Dynamic: S0^(3/4) k_step^(1/4), k_step^2 = ((1-g) rho c A)^2 + (m/dt)^2. Windows of many steps (n_window > 5):
+// the impedance rho c A, since there a wave crosses and returns within the window.
 Vec search_directions(const StepModel& model, double multiplier, int n_window);
 
 }  // namespace dygita

@@ -15,7 +15,7 @@ namespace dygita {
 namespace {
 
 // Defaults of the manual's table, where the deck says nothing.
-int anderson_depth(const LatinSettings& s, bool is_static) { return s.anderson >= 0 ? s.anderson : is_static ? 20 : 5; }
+int anderson_depth(const LatinSettings& s, bool is_static) { return s.anderson >= 0 ? s.anderson : is_static ? 40 : 10; }
 double relaxation(const LatinSettings& s, bool is_static) {
   return s.relaxation > 0.0 ? s.relaxation : is_static ? 0.8 : 0.95;
 }
@@ -60,7 +60,7 @@ StepRun::StepRun(const Problem& problem, StepModel& model, State& state, Observe
       kept_(kept),
       i_step_(index_of(problem.steps, model.step)),
       local_((start_step(model, state), make_local_stage(problem, model, state))),
-      anderson_(0, 1.0, {}),
+      anderson_(0, 0, 1.0, {}),
       indicator_(0.0) {
   kept_.begin_step();
   const LatinSettings& s = problem.solver;
@@ -74,8 +74,9 @@ StepRun::StepRun(const Problem& problem, StepModel& model, State& state, Observe
   for (size_t i = 0; i < model.pieces.size(); ++i)
     k.segment(model.offset[i], model.pieces[i]->n_rows()) = model.pieces[i]->k();
   weight_ = k.cwiseSqrt().cwiseInverse();
+  if (window_ == 1 && s.anderson != 0 && needs_coarse_correction(model_)) coarse_ = CoarseCorrection(model_, k);
   if (is_static) indicator_ = Indicator(k.sum() * assembly_size() * assembly_size());
-  anderson_ = Anderson(anderson_depth(s, is_static), relaxation(s, is_static), weight_);
+  anderson_ = Anderson(anderson_depth(s, is_static), is_static ? 0 : 20, relaxation(s, is_static), weight_);
   q_ = local_.initial_q();
   velocity_ = Vec::Zero(q_.size());
   energy_.resize(model.pieces.size());

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "latin/anderson.hpp"
+#include "latin/coarse_correction.hpp"
 #include "latin/indicator.hpp"
 #include "latin/latin.hpp"
 #include "latin/local_stage.hpp"
@@ -25,6 +26,7 @@ class StepRun {
  private:
   // The stages (latin.cpp).
   void linear_stage();
+  void coarse_correction();
   IndicatorSums local_stage();
   void begin_increment(int increment, bool starts_window);
   void finish_increment();
@@ -81,6 +83,7 @@ class StepRun {
   double tolerance_ = 1e-6, window_relaxation_ = 0.8;
   Vec weight_, q_, velocity_, image_;
   LocalStage local_;
+  CoarseCorrection coarse_;
   Anderson anderson_;
   Indicator indicator_;
   IndicatorSums sums_;  // of the last local stage

@@ -161,6 +161,15 @@ SymmetricOperator::SymmetricOperator(const Mat& lower, Precision precision) : n_
   }
 }
 
+Mat SymmetricOperator::lower() const {
+  Mat dense = Mat::Zero(n_, n_);
+  for (size_t p = 0; p < panels_.size(); ++p) {
+    const Eigen::Index j = static_cast<Eigen::Index>(p) * Panels::width;
+    panels_.unpack(p, dense.data() + j * n_ + j, n_);
+  }
+  return dense;
+}
+
 void SymmetricOperator::multiply(const Vec& x, Vec& y) const {
   CHECK(x.size() == n_, "product with a vector of another length");
   const int room = n_ + Panels::height;

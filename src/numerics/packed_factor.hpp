@@ -64,6 +64,8 @@ class SymmetricOperator {
   int size() const { return n_; }
   // y = A x.
   void multiply(const Vec& x, Vec& y) const;
+  // The matrix as it is stored; its lower triangle is valid.
+  Mat lower() const;
   double bytes() const { return panels_.bytes(); }
 
  private:

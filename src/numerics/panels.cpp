@@ -327,6 +327,17 @@ void Panels::multiply_symmetric(size_t i_panel, const float* x, double* y) const
   });
 }
 
+void Panels::unpack(size_t i_panel, double* values, int stride) const {
+  const Panel& panel = panels_[i_panel];
+  for (int c = 0; c < panel.n_columns; ++c) std::fill_n(values + static_cast<size_t>(c) * stride, panel.n_rows, 0.0);
+  for_each_tile(panel, [&](const auto* entries, const Tile& tile) {
+    const int n = std::min(height, panel.n_rows - tile.row);
+    for (int c = 0; c < panel.n_columns; ++c)
+      for (int i = 0; i < n; ++i)
+        values[static_cast<size_t>(c) * stride + tile.row + i] = static_cast<double>(tile.scale) * static_cast<double>(entries[c * height + i]);
+  });
+}
+
 namespace {
 
 // A tile in double precision, scale included.

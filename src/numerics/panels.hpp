@@ -40,6 +40,8 @@ class Panels {
   void multiply_symmetric(size_t panel, const double* x, double* y) const;
   // The same in single precision, for panels stored so; sums of more than 16 tiles are in double.
   void multiply_symmetric(size_t panel, const float* x, double* y) const;
+  // The panel as a dense matrix, column-major, `stride` apart.
+  void unpack(size_t panel, double* values, int stride) const;
 
  private:
   enum Kind { full, float_32, int_16, int_8, n_kinds };

@@ -236,6 +236,20 @@ bool Piece::equals(const Setup& other) const {
   return true;
 }
 
+Mat Piece::row_compliance() const {
+  const Mat h = h_ ? h_->lower() : inverse_spd(with_search_directions(*schur_, k_), setup_.what);  // the plain form keeps no H
+  const int n_i = factor_->n_interior();
+  Mat compliance = Mat::Zero(n_rows(), n_rows());
+  for (int i = 0; i < n_rows(); ++i)
+    for (int j = 0; j < n_rows(); ++j)
+      for (int a = 0; a < traces_[i].n; ++a)
+        for (int b = 0; b < traces_[j].n; ++b) {
+          const int row = traces_[i].at[a] - n_i, column = traces_[j].at[b] - n_i;
+          compliance(i, j) += traces_[i].value[a] * traces_[j].value[b] * h(std::max(row, column), std::min(row, column));
+        }
+  return compliance;
+}
+
 // B^T K of a unit velocity of each motion, for what moving supports do to the free unknowns.
 void Piece::make_couplings() {
   coupling_.resize(setup_.n_motions);

@@ -82,6 +82,8 @@ class Piece {
   // Fixes the search directions k (one a row) and forms H = (S0 + k)^-1; `plain` factorises A + k and solves in full instead.
   void set_search_directions(const Vec& k, bool plain);
   const Vec& k() const { return k_; }
+  // Velocities at the rows for a unit q at each of them, T H T^T (n_rows x n_rows).
+  Mat row_compliance() const;
   // Has the node given its mass away in this step (manual, eq. S7)?
   bool is_massless(int node) const {
     const std::vector<char>& massless = setup_.body->mass->is_massless;

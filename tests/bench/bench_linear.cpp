@@ -103,7 +103,7 @@ void run(const Asked& asked) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  dygita::wait_passively(argv);
+  dygita::prepare_process(argv);
   try {
     run(parse(argc, argv));
   } catch (const std::exception& error) {

@@ -190,7 +190,10 @@ TEST(SlidingAtLargeSteps, creates_no_energy) {
 TEST(StaticYield, creates_no_energy_in_one_increment) {
   for (const char* name : {"hard/early_yield.lua", "hard/plastic_cycle.lua"}) {
     const PrintedRun bolt = run_printing(name);
-    for (const DeckRun& run : bolt.runs) EXPECT_LT(run.figure("energy created by the scheme [%]"), 1e-3) << name;
+    for (const DeckRun& run : bolt.runs) {
+      if (run.figure("largest energy [J]") < 1e-15) continue;  // a gap that stays open: percentages of round-off
+      EXPECT_LT(run.figure("energy created by the scheme [%]"), 1e-3) << name;
+    }
   }
 }
 

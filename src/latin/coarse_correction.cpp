@@ -1,0 +1,173 @@
+#include "latin/coarse_correction.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <map>
+
+#include "numerics/factor.hpp"
+
+namespace dygita {
+
+bool needs_coarse_correction(const StepModel& model) {
+  if (model.scheme.is_static) return true;
+  for (const auto& piece : model.pieces) {
+    const Substructure& part = *piece->setup().body->part;
+    const Vec3 size = part.mesh->nodes.rowwise().maxCoeff() - part.mesh->nodes.rowwise().minCoeff();
+    if (part.material.p_wave_speed() * model.scheme.dt > 0.3 * std::cbrt(size.prod())) return true;
+  }
+  return false;
+}
+
+// Sides of points with several ports; those that a support holds move with it and have no coarse motion.
+std::vector<CoarseCorrection::Side> CoarseCorrection::find_sides(const StepModel& model, const Vec& k) {
+  std::vector<Side> sides;
+  for (size_t i = 0; i < model.exchange.points.size(); ++i) {
+    const Point& point = model.exchange.points[i];
+    for (const auto& [first, end] : {std::pair{point.first_port, point.first_port_2}, std::pair{point.first_port_2, point.end_port}})
+      for (int d = 0; d < 3; ++d) {
+        const bool has_law = point.law && point.is_active[d] && point.law->acts_on(d);
+        Side side;
+        double sum = 0.0;
+        bool is_held = false;
+        for (int p = first; p < end; ++p) {
+          const Port& port = model.exchange.ports[p];
+          is_held = is_held || port.is_held[d];
+          const int unknown = model.unknown(port, d);
+          if (unknown < 0) continue;
+          side.push_back({unknown, p, static_cast<int>(i), d, k[unknown], !has_law});
+          sum += k[unknown];
+        }
+        if (is_held || side.size() < 2) continue;
+        for (Tied& tied : side) tied.share /= sum;
+        sides.push_back(std::move(side));
+      }
+  }
+  return sides;
+}
+
+// A rigid motion of a substructure counts at a tied node with its share of k there, so that all together move the assembly as one.
+void CoarseCorrection::make_shapes(const StepModel& model, const Vec& k, const std::vector<Side>& sides) {
+  const std::vector<Port>& ports = model.exchange.ports;
+  const size_t n = model.pieces.size();
+  const auto place = [&](const Tied& tied) {
+    const Substructure& part = *model.pieces[ports[tied.port].piece]->setup().body->part;
+    return Vec3(part.mesh->nodes.col(ports[tied.port].piece_node) + part.place);
+  };
+  std::vector<Vec3> centre(n, Vec3::Zero());
+  std::vector<double> count(n, 0.0), length(n, 0.0);
+  for (const Side& side : sides)
+    for (const Tied& tied : side) {
+      centre[ports[tied.port].piece] += place(tied);
+      ++count[ports[tied.port].piece];
+    }
+  for (size_t i = 0; i < n; ++i) centre[i] /= std::max(count[i], 1.0);
+  for (const Side& side : sides)
+    for (const Tied& tied : side) {
+      double& reach = length[ports[tied.port].piece];
+      reach = std::max(reach, (place(tied) - centre[ports[tied.port].piece]).norm());
+    }
+
+  struct Entry {
+    int row, motion;
+    double value;
+  };
+  std::vector<std::vector<Entry>> entries(n);
+  for (const Side& side : sides)
+    for (const Tied& tied : side) {
+      const int own = ports[tied.port].piece;
+      Local& local = pieces_[own];
+      const int row = static_cast<int>(local.tied.size());
+      local.tied.push_back(tied.unknown);
+      local.balances.push_back(tied.balances);
+      for (const Tied& other : side) {
+        const int moving = ports[other.port].piece;
+        const Vec3 direction = model.exchange.points[other.point].frame.col(other.direction);
+        const Vec3 turn = ((place(other) - centre[moving]) / (length[moving] > 0.0 ? length[moving] : 1.0)).cross(direction);
+        for (int a = 0; a < 3; ++a) {
+          entries[own].push_back({row, 6 * moving + a, other.share * direction[a]});
+          entries[own].push_back({row, 6 * moving + 3 + a, other.share * turn[a]});
+        }
+      }
+    }
+  for (size_t i = 0; i < n; ++i) {
+    Local& local = pieces_[i];
+    std::map<int, int> columns;
+    for (const Entry& entry : entries[i]) columns[entry.motion] = 0;
+    for (auto& [motion, column] : columns) {
+      column = static_cast<int>(local.motions.size());
+      local.motions.push_back(motion);
+    }
+    local.shape = Mat::Zero(local.tied.size(), local.motions.size());
+    for (const Entry& entry : entries[i]) local.shape(entry.row, columns[entry.motion]) += entry.value;
+    local.k.resize(local.tied.size());
+    for (size_t r = 0; r < local.tied.size(); ++r) local.k[r] = local.balances[r] ? k[local.tied[r]] : 0.0;
+  }
+}
+
+Mat CoarseCorrection::respond(const Piece& piece, int offset, Local& local) {
+  const int n_tied = static_cast<int>(local.tied.size());
+  if (n_tied == 0) return {};
+  std::vector<char> is_tied(piece.n_rows(), 0);
+  for (const int unknown : local.tied) is_tied[unknown - offset] = 1;
+  for (int r = 0; r < piece.n_rows(); ++r)
+    if (!is_tied[r]) local.rest.push_back(offset + r);
+  const Mat compliance = piece.row_compliance();
+  Mat tied(n_tied, n_tied), rest(local.rest.size(), n_tied);
+  for (int c = 0; c < n_tied; ++c) {
+    for (int r = 0; r < n_tied; ++r) tied(r, c) = compliance(local.tied[r] - offset, local.tied[c] - offset);
+    for (size_t r = 0; r < local.rest.size(); ++r) rest(r, c) = compliance(local.rest[r] - offset, local.tied[c] - offset);
+  }
+  local.data = tied.llt().solve(local.shape);
+  local.answer = rest * local.data;
+  const Mat stiffness = local.shape.transpose() * (local.data - local.k.asDiagonal() * local.shape);
+  return 0.5 * (stiffness + stiffness.transpose());
+}
+
+CoarseCorrection::CoarseCorrection(const StepModel& model, const Vec& k) {
+  const std::vector<Side> sides = find_sides(model, k);
+  if (sides.empty()) return;
+  const int n = static_cast<int>(model.pieces.size());
+  pieces_.resize(n);
+  make_shapes(model, k, sides);
+  std::vector<Mat> share(n);
+#pragma omp parallel for schedule(dynamic)
+  for (int i = 0; i < n; ++i) {
+    prepare_thread();
+    share[i] = respond(*model.pieces[i], model.offset[i], pieces_[i]);
+  }
+  Mat stiffness = Mat::Zero(6 * n, 6 * n);
+  for (int i = 0; i < n; ++i)
+    for (int c = 0; c < share[i].cols(); ++c)
+      for (int r = 0; r < share[i].rows(); ++r) stiffness(pieces_[i].motions[r], pieces_[i].motions[c]) += share[i](r, c);
+  // Motions that are the same at all ties (of two bodies tied to nothing else) are told apart by this alone; what is not tied at
+  // all stands still.
+  for (int i = 0; i < 6 * n; ++i) stiffness(i, i) = stiffness(i, i) > 0.0 ? stiffness(i, i) * (1.0 + 1e-9) : 1.0;
+  factor_.compute(stiffness);
+  if (factor_.info() != Eigen::Success) pieces_.clear();  // the iteration goes without
+  amount_.resize(6 * n);
+}
+
+void CoarseCorrection::correct(Vec& q, Vec& velocity) {
+  amount_.setZero();
+  for (Local& local : pieces_) {
+    local.force.resize(local.tied.size());
+    for (size_t r = 0; r < local.tied.size(); ++r)
+      local.force[r] = local.balances[r] ? q[local.tied[r]] - local.k[r] * velocity[local.tied[r]] : 0.0;
+    local.amount.noalias() = local.shape.transpose() * local.force;
+    for (size_t c = 0; c < local.motions.size(); ++c) amount_[local.motions[c]] -= local.amount[c];
+  }
+  factor_.solveInPlace(amount_);
+  const auto add = [](Local& local, const Mat& columns, const std::vector<int>& unknowns, Vec& to) {
+    local.change.noalias() = columns * local.amount;
+    for (size_t r = 0; r < unknowns.size(); ++r) to[unknowns[r]] += local.change[r];
+  };
+  for (Local& local : pieces_) {
+    if (local.tied.empty()) continue;
+    for (size_t c = 0; c < local.motions.size(); ++c) local.amount[c] = amount_[local.motions[c]];
+    add(local, local.data, local.tied, q);
+    add(local, local.shape, local.tied, velocity);
+    add(local, local.answer, local.rest, velocity);
+  }
+}
+
+}  // namespace dygita

@@ -1,0 +1,54 @@
+// Coarse correction: the forces that tied substructures exert on each other are brought into balance against rigid motions of each
+// of them, so that what happens far away is felt within an iteration (manual, coarse correction).
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <vector>
+
+#include "solution/step_model.hpp"
+
+namespace dygita {
+
+class CoarseCorrection {
+ public:
+  CoarseCorrection() = default;  // none
+  // k: search directions of all unknowns (length n_q), as the pieces have them. Costs the inverse of each piece's operator on its
+  // tied unknowns, and a dense matrix of 6 unknowns a substructure.
+  CoarseCorrection(const StepModel& model, const Vec& k);
+  bool is_empty() const { return pieces_.empty(); }
+  // Changes data q and the velocities that the linear stage answered them with, which remain its answer. Changes nothing where the
+  // forces of the ties are in balance.
+  void correct(Vec& q, Vec& velocity);
+
+ private:
+  // The share of a piece; c coarse motions reach its tied unknowns.
+  struct Local {
+    std::vector<int> tied, rest;  // unknowns in the assembled q
+    std::vector<int> motions;     // coarse motions, length c
+    std::vector<char> balances;   // of the tied: no law has a say in their balance
+    Vec k;                        // of the tied that balance, else 0
+    Mat shape, data, answer;      // tied x c: velocities, and the q that brings them; rest x c: velocities that come with it
+    Vec force, amount, change;    // work space
+  };
+  // A tied unknown: its side of its point moves as one.
+  struct Tied {
+    int unknown, port, point, direction;
+    double share;  // of the side's k
+    bool balances;
+  };
+  using Side = std::vector<Tied>;
+  static std::vector<Side> find_sides(const StepModel& model, const Vec& k);
+  void make_shapes(const StepModel& model, const Vec& k, const std::vector<Side>& sides);
+  // Data and answers of a piece; returns its share of the coarse stiffness (c x c).
+  static Mat respond(const Piece& piece, int offset, Local& local);
+
+  std::vector<Local> pieces_;
+  Eigen::LLT<Mat> factor_;
+  Vec amount_;
+};
+
+// Does what happens in a step of time reach across a substructure (or at once, in a static step)? Below, the correction changes
+// nothing that the iteration does not find as fast.
+bool needs_coarse_correction(const StepModel& model);
+
+}  // namespace dygita

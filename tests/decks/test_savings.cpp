@@ -1,0 +1,118 @@
+// What is not computed twice: equal substructures share a factor, what nothing has reached is not solved, factors are stored in
+// single precision, interface fields go to a file. Each beside the run that does without.
+#include <gtest/gtest.h>
+
+#include "decks/engine.hpp"
+
+namespace dygita::test {
+namespace {
+
+// A plate on a clamped side carries n equal posts in frictional contact, each pressed and hit in its own way.
+const std::string posts = R"(
+local p = param{ n = 3, last = 1, plain = 0, single = 0, tolerance = 1e-9, history = 512 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local other = material.elastic{ name = "other", young = 210*GPa * p.last, poisson = 0.3, density = 7800 }
+local plate = substructure{ name = "plate", material = steel, mesh = mesh.box{ size = { p.n * 4*mm, 2*mm, 2*mm }, cells = { 4 * p.n, 2, 2 } } }
+local post_mesh = mesh.box{ size = { 2*mm, 2*mm, 4*mm }, cells = { 2, 2, 4 } }
+local parts, joints, press, outputs = { plate }, {}, {}, { output.energy{} }
+for i = 1, p.n do
+  local post = substructure{ name = "post" .. i, material = i == p.n and other or steel, mesh = post_mesh, place = { (4*i - 3)*mm, 0, 2*mm } }
+  parts[#parts + 1] = post
+  joints[i] = interface.contact{ name = "foot" .. i, between = { plate:face "zmax", post:face "zmin" }, friction = 0.3 }
+  press[i] = load.traction{ on = post:face "zmax", z = -20*MPa * i, x = 1*MPa }
+  outputs[#outputs + 1] = output.history{ name = "top" .. i, on = post:face "zmax", quantity = "velocity" }
+end
+local base = support.fixed{ name = "base", on = plate:face "zmin" }
+local set = step.static{ name = "set", loads = press }
+local hit = step.dynamic{ name = "hit", after = set, duration = 6*us, dt = 0.1*us,
+  loads = { load.traction{ on = parts[2]:face "zmax", z = history.half_sine{ peak = -80*MPa, duration = 2*us }, x = 1*MPa } } }
+problem{ name = "posts", substructures = parts, interfaces = joints, supports = { base }, steps = { set, hit }, outputs = outputs,
+  solver = solver.latin{ tolerance = p.tolerance, static_tolerance = 1e-10, plain = p.plain == 1, precision = p.single == 1 and "single" or "double", history_memory = p.history } }:run{}
+)";
+
+constexpr const char* n_shared = "substructures that share another's factor, over all steps";
+
+TEST(EqualSubstructures, share_a_factor_and_are_solved_as_if_each_had_its_own) {
+  const DeckRun shared = run_text(posts).at(0);
+  EXPECT_TRUE(shared.result->converged);
+  EXPECT_EQ(shared.figure(n_shared), 2 * 2);  // two of three posts, in two steps
+  // A post that is not quite like the others has its own.
+  const DeckRun own = run_text(posts, {{"last", "1 + 1e-13"}}).at(0);
+  EXPECT_EQ(own.figure(n_shared), 2 * 1);
+  const DeckRun plain = run_text(posts, {{"plain", "1"}}).at(0);
+  for (const char* top : {"top1", "top2", "top3"})
+    for (const char* axis : {"x", "z"}) {
+      EXPECT_LT(difference(own.column(top, axis), shared.column(top, axis)), 1e-6) << top << axis;
+      EXPECT_LT(difference(plain.column(top, axis), shared.column(top, axis)), 1e-6) << top << axis;
+    }
+  EXPECT_LT(shared.figure("memory of factors and interface operators [MB]"), 0.85 * own.figure("memory of factors and interface operators [MB]"));
+}
+
+TEST(EqualSubstructures, more_than_sixteen_are_solved_in_groups) {
+  const DeckRun many = run_text(posts, {{"n", "18"}}).at(0), plain = run_text(posts, {{"n", "18"}, {"plain", "1"}}).at(0);
+  EXPECT_EQ(many.figure(n_shared), 2 * 17);
+  for (const char* top : {"top1", "top9", "top18"}) EXPECT_LT(difference(plain.column(top, "z"), many.column(top, "z")), 1e-6) << top;
+}
+
+TEST(SinglePrecision, of_what_is_stored_changes_results_less_than_the_tolerance_allows) {
+  const Settings usual{{"tolerance", "1e-6"}}, single{{"tolerance", "1e-6"}, {"single", "1"}};
+  const DeckRun a = run_text(posts, usual).at(0), b = run_text(posts, single).at(0);
+  EXPECT_LT(b.figure("energy imbalance [%]"), 1e-3);
+  for (const char* top : {"top1", "top2", "top3"}) EXPECT_LT(difference(a.column(top, "z"), b.column(top, "z")), 2e-5) << top;
+}
+
+TEST(SinglePrecision, does_not_drift_in_four_thousand_increments) {
+  const std::string flight = R"(
+local p = param{ single = 0 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local bar = substructure{ name = "bar", material = steel, velocity = { 3, 0, 1 }, mesh = mesh.box{ size = { 2*mm, 2*mm, 10*mm }, cells = { 3, 3, 12 } } }
+local knock = step.dynamic{ name = "knock", duration = 400*us, dt = 0.1*us,
+  loads = { load.traction{ on = bar:face "zmax", z = history.half_sine{ peak = 50*MPa, duration = 3*us } } } }
+local tip = output.history{ name = "tip", on = bar:face "zmin", quantity = "displacement" }
+problem{ name = "flight", substructures = { bar }, steps = { knock }, outputs = { tip, output.energy{} },
+  solver = solver.latin{ precision = p.single == 1 and "single" or "double" } }:run{}
+)";
+  const DeckRun a = run_text(flight).at(0), b = run_text(flight, {{"single", "1"}}).at(0);
+  for (const char* axis : {"x", "z"}) EXPECT_LT(difference(a.column("tip", axis), b.column("tip", axis)), 1e-5) << axis;
+  EXPECT_LT(b.figure("energy imbalance [%]"), 1e-2);  // between two products by K the recurrence follows the stored factor
+}
+
+TEST(QuietSubstructures, are_not_solved_until_something_reaches_them) {
+  const std::string chain = R"(
+local p = param{ n = 12, plain = 0 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local bars, ties = {}, {}
+for i = 1, p.n do
+  bars[i] = substructure{ name = "bar" .. i, material = steel, mesh = mesh.box{ origin = { 0, 0, (i - 1) * 4*mm }, size = { 2*mm, 2*mm, 4*mm }, cells = { 2, 2, 8 } } }
+  if i > 1 then ties[#ties + 1] = interface.bonded{ name = "tie" .. i, between = { bars[i - 1]:face "zmax", bars[i]:face "zmin" } } end
+end
+local knock = step.dynamic{ name = "knock", duration = 6*us, dt = 0.1*us,
+  loads = { load.traction{ on = bars[1]:face "zmin", z = history.half_sine{ peak = 50*MPa, duration = 2*us } } } }
+local tip = output.history{ name = "tip", on = bars[6]:face "zmax", quantity = "velocity", direction = { 0, 0, 1 } }
+problem{ name = "chain", substructures = bars, interfaces = ties, steps = { knock }, outputs = { tip, output.energy{} },
+  solver = solver.latin{ plain = p.plain == 1 } }:run{}
+)";
+  const DeckRun quiet = run_text(chain).at(0), plain = run_text(chain, {{"plain", "1"}}).at(0);
+  EXPECT_LT(difference(plain.column("tip", "velocity"), quiet.column("tip", "velocity")), 1e-5);
+  EXPECT_LT(quiet.figure("energy imbalance [%]"), 1e-3);
+  // The wave travels 36 of 48 mm: on average more than half of the bars rest.
+  const double spared = quiet.figure("substitutions spared where nothing changed"), solved = quiet.figure("substitutions");
+  EXPECT_GT(spared, 0.3 * (spared + solved));
+  EXPECT_LT(spared, 0.7 * (spared + solved));
+}
+
+TEST(InterfaceFields, beyond_the_budget_come_back_from_a_file) {
+  std::string text = posts;
+  text.replace(text.find("problem{"), 8, "local function case(start)\nreturn problem{");
+  text.replace(text.find(":run{}"), 6, ":run{ start_from = start, case = start and 'again' or 'first' }\nend\ncase(case())\n");
+  const auto in_memory = run_text(text), in_file = run_text(text, {{"history", "0.01"}});
+  EXPECT_EQ(in_memory.at(0).figure("interface fields kept in a file [MB]"), 0.0);
+  EXPECT_GT(in_file.at(0).figure("interface fields kept in a file [MB]"), 0.01);
+  EXPECT_LE(in_file.at(0).figure("interface fields kept in memory [MB]"), 0.01);
+  EXPECT_LT(in_memory.at(1).result->iterations, 0.3 * in_memory.at(0).result->iterations);
+  EXPECT_EQ(in_file.at(1).result->iterations, in_memory.at(1).result->iterations);
+  EXPECT_EQ(in_file.at(1).column("top1", "z"), in_memory.at(1).column("top1", "z"));
+}
+
+}  // namespace
+}  // namespace dygita::test
