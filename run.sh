@@ -21,13 +21,14 @@ packages=(
   libgtest-dev            # tests
   libbenchmark-dev        # timings
 )
-report_packages=(python3 python3-numpy python3-matplotlib)  # of ./run.sh report alone
+report_packages=(python3 python3-numpy python3-matplotlib)  # of ./run.sh report and ./run.sh bench
 
 usage() {
   cat <<'END'
 ./run.sh                  install what is missing, build, run decks/bolted_flanges.lua, say which files to open
 ./run.sh test             install what is missing, build, pass the tests
-./run.sh bench            time the main job by phase, at three mesh sizes, on one thread and two
+./run.sh bench [...]      measure speed, rewrite manual/performance.md and its figures: all, or of the parts headline kernels
+                          scenes scaling those that are named; --quick: small sizes. Full: 20 minutes on a machine left alone
 ./run.sh report [...]     run all verification, rewrite manual/verification.md and its figures (--quick, --only CASE)
 ./run.sh build            install what is missing, build
 ./run.sh run DECK [...]   build if needed, then: dygita run DECK [...]    (--set NAME=VALUE, --out DIR, --threads N)
@@ -117,9 +118,11 @@ run_tests() {
 }
 
 run_bench() {
-  say "Timing decks/bolted_flanges.lua: no files are written; compare as ratios within this run"
-  (cd "$root" && cmake --build --preset release --target bench_decks) || fail "the benchmark failed to build"
-  "$build/tests/bench_decks" --benchmark_counters_tabular=true 2> >(grep -v warning >&2) | grep -vE "^(problem|  static|  dynamic|  energy|bolt force)"
+  local python=/usr/bin/python3 # Debian's has the packages; another one in PATH may not
+  [[ -x "$python" ]] || python=python3
+  say "Performance: compare as ratios within one run; leave the machine alone meanwhile"
+  (cd "$root" && cmake --build --preset release --target bench_linear bench_kernels) || fail "the benchmarks failed to build"
+  (cd "$root" && "$python" manual/performance/bench.py "$@")
 }
 
 run_report() {
@@ -153,22 +156,21 @@ main() {
   (($# == 0)) || shift
   case "$command" in
     help | -h | --help) usage ;;
-    example | test | build | bench)
+    example | test | build)
       (($# == 0)) || fail "'$command' takes no argument, got: $*" "./run.sh help"
       install_packages
       build_engine
       case "$command" in
         example) run_example ;;
         test) run_tests ;;
-        bench) run_bench ;;
         build) say "Built: $build/dygita" ;;
       esac
       ;;
-    report)
+    report | bench)
       packages+=("${report_packages[@]}")
       install_packages
       build_engine
-      run_report "$@"
+      "run_$command" "$@"
       ;;
     run)
       (($# > 0)) || fail "'run' needs a deck: ./run.sh run DECK [--set NAME=VALUE ...]"

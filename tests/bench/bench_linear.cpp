@@ -3,7 +3,7 @@
 // Run: ./run.sh bench headline, or build/release/tests/bench_linear DECK [NAME=VALUE ...] [--threads 1,2] [--steps 200]
 //
 // For each number of threads: OpenBLAS with one and, where there are more, with all of them, on a few steps; then the
-// whole step with the faster one, the right-hand side by a product with K and by the recurrence.
+// whole step with the faster one and a product with K a step, and 50 steps by the recurrence.
 #include <cstdio>
 #include <cstring>
 #include <sstream>
@@ -17,7 +17,7 @@ namespace {
 using namespace dygita;
 using namespace dygita::bench;
 
-constexpr int n_trial_steps = 12;
+constexpr int n_trial_steps = 12, n_recurrence_steps = 50;
 
 struct Asked {
   std::string deck;
@@ -93,8 +93,9 @@ void run(const Asked& asked) {
     const double one = body.run(options).median_solve;
     options.blas_threads = threads;
     if (threads == 1 || body.run(options).median_solve > one) options.blas_threads = 1;
-    options.n_steps = asked.n_steps;
+    options.n_steps = asked.n_steps > 0 ? std::min(asked.n_steps, n_recurrence_steps) : n_recurrence_steps;
     line(body, threads, "recurrence", options.blas_threads, body.run(options));
+    options.n_steps = asked.n_steps;
     options.right_hand_side = RightHandSide::stiffness_product;
     line(body, threads, "product", options.blas_threads, body.run(options));
   }

@@ -1,0 +1,92 @@
+#!/usr/bin/python3
+"""The benchmarks: measures, draws the figures, writes performance.md. See ./run.sh help."""
+
+import argparse
+import json
+import os
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "verification")]
+
+import headline  # noqa: E402
+import kernels  # noqa: E402
+import scaling  # noqa: E402
+import scene_runs  # noqa: E402
+from measure import Machine, processor, read_rows  # noqa: E402
+from page import table  # noqa: E402
+
+PARTS = {"headline": headline, "kernels": kernels, "scenes": scene_runs, "scaling": scaling}
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("parts", nargs="*", help=f"what to measure, of {' '.join(PARTS)}; all by default. The rest of the chapter keeps its figures")
+    parser.add_argument("--build", default=str(HERE.parents[1] / "build/release"), help="folder of the programs")
+    parser.add_argument("--quick", action="store_true", help="small sizes, single runs: whether everything works, some minutes")
+    parser.add_argument("--into", metavar="DIR", default=str(HERE.parent), help="where performance.md and performance/ are written")
+    asked = parser.parse_args()
+    for part in asked.parts:
+        if part not in PARTS:
+            parser.error(f"unknown part '{part}'; known: {' '.join(PARTS)}")
+    return asked
+
+
+def rows_of(part, folder):
+    """What measure() of a part wrote, as the arguments of its goals, figure and section; None where it was never measured."""
+    if not (folder / f"{part}.csv").exists():
+        return None
+    return read_rows(folder / f"{part}.csv")
+
+
+def section_of(part, folder, rows):
+    module = PARTS[part]
+    module.figure(rows, folder)
+    return headline.section(rows, read_rows(folder / "tolerance.csv")) if part == "headline" else module.section(rows)
+
+
+def chapter(folder, measured):
+    """The page from the CSVs of the folder; measured: {part: how it was measured}."""
+    found = {part: rows for part in PARTS if (rows := rows_of(part, folder))}
+    goals = [goal for part, rows in found.items() for goal in PARTS[part].goals(rows)]
+    verdicts = {True: "met", False: "**MISSED**", None: "not measured"}
+    counts = {words: sum(goal[2] is met for goal in goals) for met, words in ((True, "met"), (False, "missed"), (None, "not measured"))}
+    lines = [(text, value, verdicts[met], "" if met else why) for text, value, met, why in goals]
+    told = [(part, how["machine"], how["date"], f"{how['minutes']:.1f}", "quick" if how["quick"] else "full") for part, how in measured.items() if part in found]
+    return "\n\n".join([
+        "# Performance", "Written by `./run.sh bench`; every number and figure below is what that command measured. They are of one machine, and a shared one "
+        "does not always give a program all of its processors: what carries over to another machine are the ratios, whose two sides ran one after the other in one run.",
+        table(["part", "machine", "date", "minutes", "version"], told),
+        f"Of {len(goals)} goals {', '.join(f'{n} {words}' for words, n in counts.items() if n)}. Goals are those of the project's design.",
+        table(["goal", "measured", "", "what bounds it"], lines), *(section_of(part, folder, rows) for part, rows in found.items())]) + "\n"
+
+
+def main():
+    asked, began = arguments(), time.monotonic()
+    into = Path(asked.into)
+    folder = into / "performance"
+    folder.mkdir(parents=True, exist_ok=True)
+
+    def say(text):
+        print(f"[{time.monotonic() - began:5.0f} s] {text}", flush=True)
+
+    record = folder / "measured.json"
+    measured = json.loads(record.read_text()) if record.exists() else {}
+    for part in asked.parts or PARTS:
+        with tempfile.TemporaryDirectory() as scratch:
+            start = time.monotonic()
+            PARTS[part].measure(Machine(asked.build, HERE.parents[1], Path(scratch), say), folder, asked.quick)
+            measured[part] = {"machine": processor(), "date": time.strftime("%Y-%m-%d"), "minutes": round((time.monotonic() - start) / 60, 1),
+                              "quick": asked.quick, "threads": os.cpu_count()}
+        record.write_text(json.dumps(measured, indent=1) + "\n")
+    text = chapter(folder, measured)
+    (into / "performance.md").write_text(text)
+    print(text)
+    say(f"Written: {into / 'performance.md'} and {folder}/")
+
+
+if __name__ == "__main__":
+    main()

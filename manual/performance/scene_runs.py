@@ -1,0 +1,112 @@
+"""Scenes at growing sizes: seconds by phase, iterations, memory; one thread and two."""
+
+import figures
+from measure import PHASES, write_rows
+from page import table
+
+FLANGES, BLOCKS = "decks/bolted_flanges.lua", "decks/bench/blocks.lua"
+MOST_BYTES = 20 * 2**30
+COLOURS = ["#cfd8dc", "#90a4ae", "#0b5394", "#c75b12", "#2e7d32", "#8e24aa", "#00a0c6", "#6d4c41", "#ad1457"]
+
+
+def asked(machine, quick):
+    """[(scene, deck, settings, solver, threads, limit)]; a scene of a few steps says so in its settings."""
+    many = {"bx": 4, "by": 4, "bz": 4}
+    few = {"bx": 2, "by": 2, "bz": 2}
+    if quick:
+        return [("bolted flanges", FLANGES, {"size": "4*mm"}, None, t, 60) for t in machine.threads] + [
+            ("blocks, 8", BLOCKS, {"cells": 12, "steps": 20} | few, None, t, 60) for t in machine.threads]
+    cut = "latin{ pieces = 64 }" if machine.cuts else None
+    found = []
+    for size, duration in (("4*mm", "200*us"), ("2.12*mm", "200*us"), ("1.4*mm", "40*us")):
+        found += [("bolted flanges", FLANGES, {"size": size, "duration": duration}, None, t, 300) for t in machine.threads]
+    if machine.cuts:     # whole, the larger ones have interfaces too large for dense operators
+        found += [("bolted flanges, cut into 64", FLANGES, {"size": "1.4*mm", "duration": "40*us"}, cut, t, 300) for t in machine.threads]
+        found += [("bolted flanges, cut into 64", FLANGES, {"size": size, "duration": duration}, cut, machine.threads[-1], 300)
+                  for size, duration in (("0.96*mm", "20*us"), ("0.64*mm", "10*us"))]
+    for cells, bricks, steps in ((12, few, 40), (20, few, 40), (32, few, 40), (32, many, 40), (46, many, 20), (69, many, 10)):
+        threads = machine.threads if cells < 46 else machine.threads[-1:]
+        found += [(f"blocks, {bricks['bx']**3}", BLOCKS, {"cells": cells, "steps": steps} | bricks, None, t, 600) for t in threads]
+    return found
+
+
+def measure(machine, folder, quick):
+    """Writes scenes.csv: one row a run."""
+    rows = []
+    for scene, deck, settings, solver, threads, limit in asked(machine, quick):
+        machine.say(f"Scene: {scene} {settings}, {threads} thread(s)")
+        try:
+            run = machine.deck(deck, settings, solver, threads, limit)
+        except RuntimeError as failure:
+            machine.say(f"  left out: {failure}")
+            continue
+        shock, record = run.shock, run.record
+        every = sum(step["iterations"] for step in record["steps"])
+        local = record["seconds"]["local stage"] / every / record["size"]["interface_unknowns"] * 3e9
+        rows.append({"scene": scene, "settings": " ".join(f"{k}={v}" for k, v in settings.items()), "dofs": run.dofs,
+                     "interface unknowns": record["size"]["interface_unknowns"], "threads": threads, "steps": shock["increments"],
+                     "not converged": sum(step["increments_not_converged"] for step in record["steps"]),
+                     "iterations a step": shock["iterations"] / shock["increments"], "shock [s]": shock["seconds"], "all [s]": record["seconds"]["all"],
+                     "static [s]": sum(step["seconds"] for step in record["steps"][:-1]), "local stage [ns a point]": local,
+                     "factors [MB]": record["figures"]["memory of factors and interface operators [MB]"], "peak [MB]": run.peak_bytes / 1e6,
+                     "share of the processor": run.share} | {phase: record["seconds"].get(phase, 0.0) for phase in PHASES})
+    write_rows(folder / "scenes.csv", rows)
+
+
+def speed_up(rows):
+    """[(scene, settings, time on one thread over that on two, of the whole run)]"""
+    alone = {(r["scene"], r["settings"]): r["all [s]"] for r in rows if r["threads"] == 1}
+    return [(r["scene"], r["dofs"], alone[r["scene"], r["settings"]] / r["all [s]"]) for r in rows
+            if r["threads"] == 2 and (r["scene"], r["settings"]) in alone]
+
+
+def goals(rows):
+    done = []
+    paper = min((r for r in rows if r["scene"] == "bolted flanges"), key=lambda r: r["dofs"])
+    best = min(r["all [s]"] for r in rows if r["scene"] == "bolted flanges" and r["dofs"] == paper["dofs"])
+    done.append((f"the paper's example ({paper['dofs']:.0f} unknowns, {paper['steps']:.0f} steps; 30 minutes there): under 3 s in all", f"{best:.2f} s", best < 3,
+                 "the phases below"))
+    speeds = speed_up(rows)
+    if speeds:
+        scene, dofs, value = max(speeds, key=lambda s: s[1])
+        worst = min(speeds, key=lambda s: s[2])
+        done.append((f"two threads at least 1.7 x one on the whole run ({scene}, {dofs / 1e3:.0f}k)", f"{value:.2f}", value >= 1.7,
+                     f"what one thread does (mesh, collecting results) and the largest piece, which one thread factorises; worst of all scenes {worst[2]:.2f}"))
+    largest = max(rows, key=lambda r: r["dofs"])
+    if largest["dofs"] > 9e5:
+        done.append((f"1M unknowns within 20 GiB ({largest['scene']}, {largest['dofs'] / 1e6:.2f}M; {largest['steps']:.0f} steps run, memory does not grow with them)",
+                     f"{largest['peak [MB]'] * 1e6 / 2**30:.1f} GiB", largest["peak [MB]"] * 1e6 < MOST_BYTES, "factors and interface operators"))
+    else:
+        done.append(("1M unknowns within 20 GiB", "", None, "the quick version stops at smaller sizes"))
+    return done
+
+
+def figure(rows, folder):
+    picture, axes = figures.plt.subplots(figsize=(7.4, 0.25 * len(rows) + 1.3))
+    labels = [f"{r['scene']}, {r['dofs'] / 1e3:.0f}k, {r['threads']:.0f} thr" for r in rows][::-1]
+    left = [0.0] * len(rows)
+    for phase, colour in zip(PHASES, COLOURS):
+        widths = [r[phase] / sum(r[p] for p in PHASES) for r in rows][::-1]
+        axes.barh(range(len(rows)), widths, left=left, color=colour, label=phase, height=0.7)
+        left = [a + b for a, b in zip(left, widths)]
+    axes.set_yticks(range(len(rows)), labels)
+    axes.set_xlim(0, 1)
+    axes.set_title("where the time goes: share of each phase in the whole run")
+    axes.grid(axis="y", visible=False)
+    axes.legend(ncol=5, loc="upper left", bbox_to_anchor=(-0.25, -0.12 - 0.2 / len(rows)))
+    figures.save(picture, folder / "scenes.svg")
+
+
+def section(rows):
+    cells = [(r["scene"], f"{r['dofs']:.0f}", f"{r['threads']:.0f}", f"{r['steps']:.0f}", f"{r['iterations a step']:.1f}", f"{r['static [s]']:.2f}",
+              f"{r['shock [s]']:.2f}", f"{1e3 * r['shock [s]'] / r['steps']:.1f}", f"{r['assemble'] + r['factor']:.2f}", f"{r['all [s]']:.2f}",
+              f"{r['factors [MB]']:.0f}", f"{r['peak [MB]']:.0f}", f"{r['local stage [ns a point]']:.0f}", f"{100 * r['share of the processor']:.0f} %") for r in rows]
+    failed = [f"{r['scene']} at {r['dofs']:.0f}: {r['not converged']:.0f} steps" for r in rows if r["not converged"]]
+    return "\n\n".join(filter(None, [
+        "## Scenes", f"`{FLANGES}` and `{BLOCKS}` (a cube in 8 or 64 bricks, contact across its middle, CFL 1). *Steps*: of the shock as run here; "
+        "the largest take few. *Factors*: of the last step, with interface operators. *Peak*: memory of the whole program. *Local stage*: nanoseconds an iteration "
+        "and three interface unknowns. *Processor had*: processor time over elapsed time and threads.",
+        "![Where the time goes](performance/scenes.svg)",
+        table(["scene", "unknowns", "threads", "steps", "iterations a step", "static s", "shock s", "ms a step", "assembly and factor s", "all s", "factors MB",
+               "peak MB", "local stage", "processor had"], cells),
+        failed and "Not converged: " + "; ".join(failed) + "."]))
