@@ -80,7 +80,7 @@ void StepRun::solve_increment(int increment) {
     const Stopwatch watch(seconds_.accelerate);
     anderson_.advance(q_, image_);
   }
-  anderson_.end(q_, image_);
+  anderson_.end(q_, image_, best.eta <= tolerance_);
   if (best.eta > tolerance_) {  // not converged: the best there was is what is shown
     q_ = q_best;
     linear_stage();
