@@ -315,7 +315,7 @@ words[9] = {
         doc = "steps of time iterated together; \"whole\": the whole step" },
       { "relaxation", type = "number", range = { 0.05, 1 }, default_doc = "0.95; 0.8 in static steps and windows of several steps",
         doc = "of the linear stage" },
-      { "anderson", type = "integer", range = { 0, 100 }, default_doc = "5; 20 in static steps; 0 in windows of more than 20 steps",
+      { "anderson", type = "integer", range = { 0, 100 }, default_doc = "10; 40 in static steps; 5 in windows, 0 beyond 20 steps",
         doc = "depth of Anderson's acceleration; 0: none" },
       { "max_iterations", type = "integer", range = { 1, 1000000 }, default = 200, doc = "of one window" },
       { "numerical_damping", type = "number", range = { 0, 1 }, default = 0, doc = "of the time scheme; 0: none" },

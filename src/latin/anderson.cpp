@@ -42,8 +42,9 @@ void Anderson::advance(Vec& q, const Vec& image) {
   q += relaxation_ * residual_.cwiseQuotient(weight_);
 }
 
-void Anderson::end(const Vec& q, const Vec& image) {
-  if (!has_before_) return;
+void Anderson::end(const Vec& q, const Vec& image, bool is_solved) {
+  if (!is_solved) past_.clear();
+  if (!is_solved || !has_before_) return;
   residual_ = (image - q).cwiseProduct(weight_);
   past_.add(q, q_first_, residual_, residual_first_);
 }

@@ -16,8 +16,8 @@ class Anderson {
   void begin();
   // Replaces q by the next iterate, from image = G(q). The history is cleared where the residual exceeds twice the best.
   void advance(Vec& q, const Vec& image);
-  // The problem is solved by q: what it changed helps to predict the next.
-  void end(const Vec& q, const Vec& image);
+  // The problem ends with q. If it is solved, what it changed helps to predict the next; if not, nothing past does.
+  void end(const Vec& q, const Vec& image, bool is_solved);
 
  private:
   int depth_;

@@ -88,7 +88,7 @@ void StepRun::solve_increment(int increment) {
     const Stopwatch watch(seconds_.accelerate);
     anderson_.advance(q_, image_);
   }
-  anderson_.end(q_, image_);
+  anderson_.end(q_, image_, best.eta <= tolerance_);
   if (best.eta <= tolerance_) {
     if (n > 1 && !coarse_.is_empty()) linear_stage();  // the pieces have not heard of the last correction
   } else {  // not converged: the best there was is what is shown

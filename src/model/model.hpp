@@ -123,7 +123,7 @@ struct LatinSettings {
   double static_tolerance = 1e-8;
   int window = 1;           // steps; 0: the whole interval
   double relaxation = 0.0;  // 0: .95 dynamic, .8 static and windows of many steps
-  int anderson = -1;        // -1: 5 dynamic, 20 static, 0 beyond 20 steps
+  int anderson = -1;        // -1: 10 dynamic, 40 static, windows of several steps 5, 0 beyond 20
   int max_iterations = 200;
   double numerical_damping = 0.0;
   double push_out = 0.0;          // b of the contact law

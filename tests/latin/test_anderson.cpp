@@ -131,7 +131,7 @@ TEST(Anderson, past_problems_predict_the_next) {
       anderson.begin();
       int count = 1;
       for (; (problem.image(at) - at).norm() > 1e-10 * problem.b.norm(); ++count) anderson.advance(at, problem.image(at));
-      anderson.end(at, problem.image(at));
+      anderson.end(at, problem.image(at), true);
       return count;
     };
     n_with = iterate(with, q);
@@ -150,7 +150,7 @@ TEST(Anderson, depth_zero_is_relaxation) {
     expected += 0.7 * (problem.image(expected) - expected);
     anderson.advance(q, problem.image(q));
   }
-  anderson.end(q, problem.image(q));
+  anderson.end(q, problem.image(q), true);
   EXPECT_EQ((q - expected).norm(), 0.0);
 }
 
