@@ -184,13 +184,14 @@ std::vector<int> analyse(Cholmod& cholmod, const SparseMatrix& matrix, const std
   return order;
 }
 
-PackedFactor pack(const Cholmod& cholmod, int n_interior, Precision precision, Vec row_size) {
-  PackedFactor packed(precision, std::move(row_size));
+PackedFactor pack(const Cholmod& cholmod, int n_interior, Precision precision, Vec largest_error) {
+  PackedFactor packed(precision, std::move(largest_error));
   for (size_t s = 0; s < cholmod.n_supernodes(); ++s) {
     const SupernodeView view = cholmod.supernode(s, n_interior);
     if (view.n_columns == 0) break;
     packed.add(view);
   }
+  packed.shrink();
   return packed;
 }
 
@@ -212,7 +213,7 @@ Mat interface_block(const Cholmod& cholmod, int n, int n_interior) {
 }  // namespace
 
 Factor::Factor(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, const std::vector<char>& is_interface,
-               const std::string& what, Precision precision) {
+               const std::string& what, Precision precision, double error) {
   Cholmod cholmod;
   order_ = analyse(cholmod, matrix, node_of_dof, is_interface, what);
   n_interior_ = static_cast<int>(std::count(is_interface.begin(), is_interface.end(), 0));
@@ -229,9 +230,9 @@ Factor::Factor(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, 
   }
   if (common.status != CHOLMOD_OK) throw NumericalError(what + ": factorisation failed: out of memory");
   interface_ = interface_block(cholmod, size(), n_interior_);
-  Vec row_size(size());
-  for (int i = 0; i < size(); ++i) row_size[i] = std::sqrt(matrix.coeff(order_[i], order_[i]));
-  interior_ = pack(cholmod, n_interior_, precision, std::move(row_size));
+  Vec largest_error(size());
+  for (int i = 0; i < size(); ++i) largest_error[i] = error * std::sqrt(matrix.coeff(order_[i], order_[i]));
+  interior_ = pack(cholmod, n_interior_, precision, std::move(largest_error));
 }
 
 double Factor::predicted_bytes(const SparseMatrix& matrix, const std::vector<int>& node_of_dof,

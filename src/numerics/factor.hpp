@@ -16,9 +16,10 @@ class Factor {
  public:
   // matrix: symmetric positive definite, n x n, both triangles stored; node_of_dof: graph vertex of each unknown, unknowns
   // of a node contiguous; is_interface: unknowns to order last. Fill is reduced by METIS nested dissection on nodes.
+  // error: in single precision, largest error of an entry of L, of the norm of its row (the square root of the diagonal of A).
   // Throws NumericalError, naming `what`, when the matrix is not positive definite.
   Factor(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, const std::vector<char>& is_interface,
-         const std::string& what, Precision precision = Precision::double_precision);
+         const std::string& what, Precision precision = Precision::double_precision, double error = 0x1p-26);
 
   int size() const { return static_cast<int>(order_.size()); }
   int n_interior() const { return n_interior_; }

@@ -8,9 +8,6 @@ namespace dygita {
 
 namespace {
 
-// Errors of entries in single precision, of the size of their rows: what rounds to nothing in the tail of an operator adds up.
-constexpr double single_factor = 0x1p-26, single_operator = 0x1p-30;
-
 // Local unknowns, with room for the rows that the last tile lacks; one a thread.
 double* workspace(int n) {
   thread_local std::vector<double> work;
@@ -27,7 +24,7 @@ double supernode_bytes(int n_columns, int n_below) {
   return bytes;
 }
 
-PackedFactor::PackedFactor(Precision precision, Vec row_size) : panels_(precision), tolerance_(single_factor * std::move(row_size)) {}
+PackedFactor::PackedFactor(Precision precision, Vec largest_error) : panels_(precision), tolerance_(std::move(largest_error)) {}
 
 void PackedFactor::add(const SupernodeView& s) {
   const int n_rows = s.n_columns + s.n_below;
@@ -147,7 +144,8 @@ void PackedFactor::backward(Eigen::Ref<Mat> x) const {
     backward_many(x.middleCols(first, std::min<Eigen::Index>(2 * lanes, x.cols() - first)));
 }
 
-SymmetricOperator::SymmetricOperator(const Mat& lower, Precision precision) : n_(static_cast<int>(lower.rows())), panels_(precision) {
+SymmetricOperator::SymmetricOperator(const Mat& lower, Precision precision, double error)
+    : n_(static_cast<int>(lower.rows())), panels_(precision) {
   const Vec size = lower.diagonal().cwiseSqrt();
   Mat panel;
   Vec tolerance;
@@ -156,9 +154,10 @@ SymmetricOperator::SymmetricOperator(const Mat& lower, Precision precision) : n_
     panel = lower.block(j, j, n_ - j, width);
     for (int c = 0; c < width; ++c)
       for (int r = 0; r < c; ++r) panel(r, c) = lower(j + c, j + r);
-    tolerance = single_operator * size.segment(j, width).minCoeff() * size.tail(n_ - j);
+    tolerance = error * size.segment(j, width).minCoeff() * size.tail(n_ - j);
     panels_.add(panel.data(), n_ - j, n_ - j, width, tolerance.data());
   }
+  panels_.shrink();
 }
 
 Mat SymmetricOperator::lower() const {

@@ -19,11 +19,11 @@ struct SupernodeView {
 
 class PackedFactor {
  public:
-  // row_size: norm of each row of L (the square root of the diagonal of A); an entry stored in single precision is off by
-  // at most 2^-26 of it.
-  explicit PackedFactor(Precision precision = Precision::double_precision, Vec row_size = {});
+  // largest_error: of an entry in each row, in single precision.
+  explicit PackedFactor(Precision precision = Precision::double_precision, Vec largest_error = {});
   // Adds a supernode; in order of columns.
   void add(const SupernodeView& supernode);
+  void shrink() { panels_.shrink(); }  // after the last
   // x: all unknowns in factor order, a column a right-hand side. L x' = x over the packed columns; the rows below take their share.
   void forward(Eigen::Ref<Mat> x) const;
   // L^T x' = x over the packed columns, with what the rows below hold given.
@@ -58,9 +58,9 @@ double supernode_bytes(int n_columns, int n_below);
 class SymmetricOperator {
  public:
   SymmetricOperator() = default;
-  // Positive definite; only the lower triangle is read. In single precision an entry is off by at most 2^-30 sqrt(a_ii a_jj), and the
-  // product is computed in single precision but for its long sums.
-  SymmetricOperator(const Mat& lower, Precision precision);
+  // Positive definite; only the lower triangle is read. In single precision an entry is off by at most `error` sqrt(a_ii a_jj), and
+  // the product is computed in single precision but for its long sums.
+  SymmetricOperator(const Mat& lower, Precision precision, double error = 0x1p-30);
   int size() const { return n_; }
   // y = A x.
   void multiply(const Vec& x, Vec& y) const;

@@ -14,6 +14,7 @@ namespace dygita {
 namespace {
 
 constexpr int lanes = 8;
+constexpr int most_summed = 16;  // tiles whose products are summed in single precision
 using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
 using FloatLanes = float __attribute__((vector_size(lanes * sizeof(float))));
 using IntLanes = std::int32_t __attribute__((vector_size(lanes * sizeof(std::int32_t))));
@@ -77,6 +78,38 @@ void subtract_product(const T* tile, double scale, const double* x, double* y) {
   }
   store(load(y) - scale * upper, y);
   store(load(y + lanes) - scale * lower, y + lanes);
+}
+
+// The same with the tile's own sums, of up to 8 products, in single precision.
+template <int n, class T>
+void subtract_product(const T* tile, float scale, const float* x, double* y) {
+  WideLanes even{}, odd{};
+  for (int c = 0; c < n; ++c) (c % 2 == 0 ? even : odd) += load_wide(tile + c * Panels::height) * x[c];
+  const WideLanes product = scale * (even + odd);
+  float values[2 * lanes];
+  std::memcpy(values, &product, sizeof(values));
+  store(load(y) - load(values), y);
+  store(load(y + lanes) - load(values + lanes), y + lanes);
+}
+
+WideLanes narrowed(const double* y) {
+  const FloatLanes upper = __builtin_convertvector(load(y), FloatLanes), lower = __builtin_convertvector(load(y + lanes), FloatLanes);
+  WideLanes both;
+  std::memcpy(&both, &upper, sizeof(upper));
+  std::memcpy(reinterpret_cast<char*>(&both) + sizeof(upper), &lower, sizeof(lower));
+  return both;
+}
+
+template <int n, class T>
+void add_transposed(const T* tile, float scale, const double* y, WideLanes* sums) {
+  const WideLanes here = scale * narrowed(y);
+  for (int c = 0; c < n; ++c) sums[c] += load_wide(tile + c * Panels::height) * here;
+}
+
+double sum(const WideLanes& v) {
+  float values[2 * lanes];
+  std::memcpy(values, &v, sizeof(values));
+  return sum(load(values) + load(values + lanes));
 }
 
 // sums[c] + tile(:, c) . y
@@ -201,6 +234,12 @@ void Panels::add(const double* values, int stride, int n_rows, int n_columns, co
   panels_.push_back(panel);
 }
 
+void Panels::shrink() {
+  data_.shrink_to_fit();
+  tiles_.shrink_to_fit();
+  panels_.shrink_to_fit();
+}
+
 double Panels::bytes() const {
   return static_cast<double>(data_.size() + tiles_.size() * sizeof(Tile) + panels_.size() * sizeof(Panel));
 }
@@ -225,8 +264,14 @@ void Panels::forward(size_t i_panel, double* y) const {
   with_width(panel.n_columns, [&](auto n) {
     constexpr int columns = n;
     double x[columns];
+    float x_single[columns];
     for_each_tile(panel, [&](const auto* entries, const Tile& tile) {
-      if (tile.row > 0) return subtract_product<columns>(entries, tile.scale, x, y + tile.row);
+      if (tile.row > 0) {
+        if constexpr (std::is_same_v<decltype(entries), const double*>)
+          return subtract_product<columns>(entries, 1.0, x, y + tile.row);
+        else
+          return subtract_product<columns>(entries, tile.scale, x_single, y + tile.row);
+      }
       for (int c = 0; c < columns; ++c) x[c] = y[c];
       for (int c = 0; c < columns; ++c) {
         x[c] *= static_cast<double>(entries[c * height + c]);
@@ -234,6 +279,7 @@ void Panels::forward(size_t i_panel, double* y) const {
       }
       subtract_product<columns>(entries, 1.0, x, y);
       for (int c = 0; c < columns; ++c) y[c] = x[c];
+      for (int c = 0; c < columns; ++c) x_single[c] = static_cast<float>(x[c]);
     });
   });
 }
@@ -243,17 +289,36 @@ void Panels::backward(size_t i_panel, double* y) const {
   with_width(panel.n_columns, [&](auto n) {
     constexpr int columns = n;
     Lanes sums[columns] = {};
+    WideLanes sums_single[columns] = {};
+    double total[columns] = {};
+    int n_summed = 0;
+    const auto flush = [&] {
+      for (int c = 0; c < columns; ++c) {
+        total[c] += sum(sums_single[c]);
+        sums_single[c] = WideLanes{};
+      }
+      n_summed = 0;
+    };
     const double* triangle_double = nullptr;
     const float* triangle_float = nullptr;
     for_each_tile(panel, [&](const auto* entries, const Tile& tile) {
-      if (tile.row > 0) return add_transposed<columns>(entries, tile.scale, y + tile.row, sums);
+      if (tile.row > 0) {
+        if constexpr (std::is_same_v<decltype(entries), const double*>) {
+          add_transposed<columns>(entries, 1.0, y + tile.row, sums);
+        } else {
+          add_transposed<columns>(entries, tile.scale, y + tile.row, sums_single);
+          if (++n_summed == most_summed) flush();
+        }
+        return;
+      }
       if constexpr (std::is_same_v<decltype(entries), const double*>) triangle_double = entries;
       if constexpr (std::is_same_v<decltype(entries), const float*>) triangle_float = entries;
     });
+    if (triangle_float) flush();
     const auto solve = [&](const auto* triangle) {
       double x[columns];
       for (int c = 0; c < columns; ++c) {
-        x[c] = y[c] - sum(sums[c]);
+        x[c] = y[c] - (sum(sums[c]) + total[c]);
         for (int r = columns; r < height; ++r) x[c] -= static_cast<double>(triangle[c * height + r]) * y[r];
       }
       for (int c = columns; c-- > 0;) {
@@ -299,9 +364,7 @@ void Panels::multiply_symmetric(size_t i_panel, const float* x, double* y) const
     int n_summed = 0;
     const auto flush = [&] {
       for (int c = 0; c < columns; ++c) {
-        float values[2 * lanes];
-        std::memcpy(values, &sums[c], sizeof(values));
-        total[c] += sum(load(values) + load(values + lanes));
+        total[c] += sum(sums[c]);
         sums[c] = WideLanes{};
       }
       n_summed = 0;
@@ -311,7 +374,7 @@ void Panels::multiply_symmetric(size_t i_panel, const float* x, double* y) const
       if constexpr (!std::is_same_v<T, double>) {
         if (tile.row > 0) {
           add_both<columns>(entries, tile.scale, at, x + tile.row, y + tile.row, sums);
-          if (++n_summed == 16) flush();
+          if (++n_summed == most_summed) flush();
           return;
         }
         for (int c = 0; c < columns; ++c)

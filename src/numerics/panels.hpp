@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "numerics/huge_pages.hpp"
 #include "numerics/types.hpp"
 
 namespace dygita {
@@ -12,7 +13,7 @@ namespace dygita {
 // A panel has up to 8 columns and any number of rows; its tiles are 16 rows of it, column-major. The first tile, with the triangle, is
 // stored in full. Of the others, in single precision, each is stored in float, in 16 or 8 bits with a scale, or not at all, whichever
 // is the shortest that keeps the error of every entry below the tolerance of its rows: entries far from the diagonal are small
-// (manual, what is stored). Substitutions compute in double precision: the factor stored is one matrix, so solves stay linear.
+// (manual, what is stored). There products of 16 tiles at most are summed in single precision, all longer sums in double.
 class Panels {
  public:
   static constexpr int width = 8;  // most columns of a panel
@@ -22,6 +23,8 @@ class Panels {
 
   // values: column-major, n_rows x n_columns, `stride` apart. tolerance: largest error allowed in each row (single precision).
   void add(const double* values, int stride, int n_rows, int n_columns, const double* tolerance);
+  // Frees what was set aside for more panels; after the last.
+  void shrink();
   size_t size() const { return panels_.size(); }
   Precision precision() const { return precision_; }
   double bytes() const;
@@ -61,7 +64,7 @@ class Panels {
   Precision precision_;
   std::vector<Panel> panels_;
   std::vector<Tile> tiles_;
-  std::vector<std::byte> data_;
+  StreamedVector<std::byte> data_;
 };
 
 // Bytes of a panel in double precision.

@@ -153,7 +153,7 @@ void Piece::factorise() {
   if (setup_.twin)
     factor_ = setup_.twin->factor_;
   else
-    own = std::make_unique<Factor>(free_matrix(reference), node_of_free_, is_interface, setup_.what, setup_.precision);
+    own = std::make_unique<Factor>(free_matrix(reference), node_of_free_, is_interface, setup_.what, setup_.precision, setup_.storage_error);
   if (own) {
     Mat schur = own->interface_schur();
     own->release_interface();
@@ -200,7 +200,7 @@ void Piece::set_search_directions(const Vec& k, bool plain) {
     const Piece* twin = setup_.twin;
     h_ = twin && twin->h_ && (twin->k_.array() == k.array()).all()
              ? twin->h_
-             : std::make_shared<const SymmetricOperator>(inverse_spd(with_search_directions(*schur_, k), setup_.what), setup_.precision);
+             : std::make_shared<const SymmetricOperator>(inverse_spd(with_search_directions(*schur_, k), setup_.what), setup_.precision, setup_.storage_error / 16);
     schur_.reset();
     return;
   }

@@ -62,6 +62,7 @@ class Piece {
     std::string what;  // "substructure 'rod' in step 'shock'", for messages
     bool is_assembled = false;   // the system is solved elsewhere, with other substructures' in it: no factor of its own
     Precision precision = Precision::double_precision;  // of what is stored of the factor and of H
+    double storage_error = 0x1p-26;                     // in single precision, of entries of the factor; H: a sixteenth
     const class Piece* twin = nullptr;  // an equal piece, built before: its factor and interface operator serve this one too
     bool is_prediction = false;  // lays the factor out and goes no further: only predicted_bytes() then has a meaning
   };

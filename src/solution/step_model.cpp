@@ -190,6 +190,8 @@ void make_pieces(StepModel& model, const std::vector<Body>& bodies, Purpose purp
   std::vector<std::unordered_map<int, Mat3>> absorbing;
   for (size_t part = 0; part < model.problem->substructures.size(); ++part)
     absorbing.push_back(absorbing_impedance(*model.problem, *model.step, static_cast<int>(part)));
+  // Far below what the tolerance leaves of a step; what is stored of an entry follows.
+  const double storage_error = std::clamp(model.problem->solver.tolerance / 64.0, 0x1p-27, 0x1p-21);
   std::vector<Piece::Setup> setups;
   std::vector<std::unordered_map<int, Held>> held(n);
   std::vector<std::unordered_map<int, Mat3>> own_absorbing(n);
@@ -201,7 +203,7 @@ void make_pieces(StepModel& model, const std::vector<Body>& bodies, Purpose purp
     own_absorbing[i] = absorbing_of_piece(*model.cut, i, absorbing[part]);
     setups.push_back({&bodies[i], model.scheme, &held[i], &own_absorbing[i], rows_of(model, i, held[i]),
                       static_cast<int>(model.conditions.motions.size()), what, purpose == Purpose::assembled,
-                      precision_of(model, part, bodies[i]), nullptr, purpose == Purpose::prediction});
+                      precision_of(model, part, bodies[i]), storage_error, nullptr, purpose == Purpose::prediction});
   }
   // The first of each kind, then those equal to it.
   std::map<const BodyMatrices*, std::vector<int>> same_body;

@@ -299,7 +299,7 @@ BENCHMARK(assembly)
     ->Unit(benchmark::kMillisecond);
 
 int main(int argc, char** argv) {
-  dygita::prepare_process(argv);
+  dygita::wait_passively(argv, dygita::better_blas_kernels());
   dygita::prepare_thread();
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
