@@ -16,7 +16,7 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
       if (model.scheme.is_static) {
         // A body that only this unknown could hold has no stiffness of its own there.
         const double reference = piece.setup().rows[port.unknown[d]].reference_stiffness;
-        direction = std::max(schur, 1e-3 * reference);
+        direction = piece.is_mostly_interface() ? piece.setup().rows[port.unknown[d]].static_stiffness : std::max(schur, 1e-3 * reference);
         continue;
       }
       const double mass = piece.node_mass(port.piece_node);
@@ -27,7 +27,7 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
         continue;
       }
       const double k_step = std::hypot((1.0 - model.scheme.g) * impedance, mass / model.scheme.dt);
-      direction = std::pow(schur, 0.75) * std::pow(k_step, 0.25);
+      direction = piece.is_mostly_interface() ? k_step : std::pow(schur, 0.75) * std::pow(k_step, 0.25);
     }
   }
   return multiplier * k;

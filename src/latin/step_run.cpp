@@ -165,6 +165,7 @@ void StepRun::add_to(SolverFigures& figures) const {
   for (const auto& piece : model_.pieces) {
     figures.n_solved += piece->n_solved();
     figures.n_spared += piece->n_spared();
+    figures.n_in_full += piece->is_mostly_interface();
     figures.n_equal += piece->setup().twin != nullptr;
   }
   figures.n_interface_unknowns = model_.n_q();

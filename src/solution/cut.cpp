@@ -12,16 +12,19 @@ namespace dygita {
 
 namespace {
 
-// Unknowns of a piece that the automatic cut aims at, and of a substructure below which there is none: where the time of a step was
-// least, or nearly (decks/verification/pieces.lua; manual, cutting).
-constexpr double unknowns_of_a_piece = 6e3;
-constexpr double smallest_cut = 20e3;
+// The automatic cut (manual, cutting): a substructure that holds more than half of all unknowns would leave other threads idle, one
+// too large would take long to factorise and much memory. Others are left whole: products with what a cut adds to the interface cost
+// more than the cut spares.
+constexpr double smallest_cut = 20e3, largest_piece = 150e3;  // unknowns
+constexpr int pieces_of_the_dominant = 4;
 
-int pieces_of(const Substructure& part, int asked) {
+int pieces_of(const Substructure& part, double all_unknowns, int asked) {
   const double unknowns = 3.0 * part.mesh->n_nodes();
   const int most = std::max(1, part.mesh->n_cells() / 8);
   if (asked > 0) return std::min(asked, most);
-  return unknowns < smallest_cut ? 1 : std::min(most, static_cast<int>(std::round(unknowns / unknowns_of_a_piece)));
+  if (unknowns < smallest_cut) return 1;
+  const int by_size = static_cast<int>(std::ceil(unknowns / largest_piece));
+  return std::min(most, unknowns > 0.5 * all_unknowns ? std::max(pieces_of_the_dominant, by_size) : by_size);
 }
 
 }  // namespace
@@ -115,7 +118,9 @@ CutPtr make_cut(const Problem& problem) {
   // Mass that contact nodes give to those behind them would have to cross the cut.
   if (problem.mass().is_moved_from_contact) return no_cut(problem);
   std::vector<int> n_pieces;
-  for (const SubstructurePtr& part : problem.substructures) n_pieces.push_back(pieces_of(*part, problem.solver.pieces));
+  double unknowns = 0.0;
+  for (const SubstructurePtr& part : problem.substructures) unknowns += 3.0 * part->mesh->n_nodes();
+  for (const SubstructurePtr& part : problem.substructures) n_pieces.push_back(pieces_of(*part, unknowns, problem.solver.pieces));
   return std::make_shared<const Cut>(problem, n_pieces);
 }
 

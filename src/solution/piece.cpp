@@ -124,6 +124,19 @@ SparseMatrix Piece::free_matrix(const Vec& row_stiffness) const {
   return a;
 }
 
+// Bytes that an iteration reads in each form, the two condensed substitutions of a step spread over the usual number of iterations.
+bool Piece::costs_less_in_full(const SparseMatrix& matrix, const std::vector<char>& is_interface) {
+  constexpr double iterations = 6.0;
+  const double n_b = n_interface_, n = static_cast<double>(node_of_free_.size());
+  if (n_b < 0.3 * n || n_b < 300) return false;  // never seen to pay; saves the second ordering
+  const double entry = setup_.precision == Precision::double_precision ? 8.0 : 1.5;
+  const double full = Factor::predicted_bytes(matrix, node_of_free_, std::vector<char>(node_of_free_.size(), 0), setup_.precision);
+  const double interior = n_b < n ? Factor::predicted_bytes(matrix, node_of_free_, is_interface, setup_.precision) : 0.0;
+  if (iterations * 2.0 * full >= 2.0 * interior + iterations * entry * 0.5 * n_b * n_b) return false;
+  predicted_factor_bytes_ = full;
+  return true;
+}
+
 void Piece::factorise() {
   Vec reference(n_rows());
   for (int i = 0; i < n_rows(); ++i) reference[i] = setup_.rows[i].reference_stiffness;
@@ -145,15 +158,24 @@ void Piece::factorise() {
     schur_diagonal_ = Vec::Zero(n_rows());
     return;
   }
+  const SparseMatrix matrix = free_matrix(reference);
+  if (costs_less_in_full(matrix, is_interface)) {
+    is_mostly_interface_ = true;
+    if (setup_.is_prediction) return;
+    make_mass();
+    for (const Row& row : setup_.rows) traces_.push_back(trace(row.node, row.direction));
+    schur_diagonal_ = Vec::Zero(n_rows());
+    return;
+  }
   if (setup_.is_prediction) {
-    if (!setup_.twin) predicted_factor_bytes_ = Factor::predicted_bytes(free_matrix(reference), node_of_free_, is_interface, setup_.precision);
+    if (!setup_.twin) predicted_factor_bytes_ = Factor::predicted_bytes(matrix, node_of_free_, is_interface, setup_.precision);
     return;
   }
   std::unique_ptr<Factor> own;
   if (setup_.twin)
     factor_ = setup_.twin->factor_;
   else
-    own = std::make_unique<Factor>(free_matrix(reference), node_of_free_, is_interface, setup_.what, setup_.precision, setup_.storage_error);
+    own = std::make_unique<Factor>(matrix, node_of_free_, is_interface, setup_.what, setup_.precision, setup_.storage_error);
   if (own) {
     Mat schur = own->interface_schur();
     own->release_interface();
@@ -194,6 +216,11 @@ Mat Piece::with_search_directions(const Mat& schur, const Vec& k) const {
 void Piece::set_search_directions(const Vec& k, bool plain) {
   CHECK(k.size() == n_rows(), "one search direction a row");
   k_ = k;
+  if (is_mostly_interface_) {
+    plain_factor_ = std::make_unique<Factor>(free_matrix(k), node_of_free_, std::vector<char>(node_of_free_.size(), 0), setup_.what,
+                                             setup_.precision, setup_.storage_error);
+    return;
+  }
   if (!factor_) return;
   if (!plain) {
     plain_factor_.reset();
@@ -236,7 +263,28 @@ bool Piece::equals(const Setup& other) const {
   return true;
 }
 
+Mat Piece::plain_row_compliance() const {
+  Mat compliance(n_rows(), n_rows());
+  constexpr int together = 16;
+  for (int first = 0; first < n_rows(); first += together) {
+    const int n = std::min(together, n_rows() - first);
+    Mat x = Mat::Zero(n_free(), n);
+    std::vector<int> place(n_free());
+    for (int i = 0; i < n_free(); ++i) place[plain_factor_->order()[i]] = i;
+    for (int c = 0; c < n; ++c)
+      for (int a = 0; a < traces_[first + c].n; ++a) x(place[traces_[first + c].at[a]], c) += traces_[first + c].value[a];
+    plain_factor_->solve(x);
+    for (int c = 0; c < n; ++c)
+      for (int r = 0; r < n_rows(); ++r) {
+        compliance(r, first + c) = 0.0;
+        for (int a = 0; a < traces_[r].n; ++a) compliance(r, first + c) += traces_[r].value[a] * x(place[traces_[r].at[a]], c);
+      }
+  }
+  return compliance;
+}
+
 Mat Piece::row_compliance() const {
+  if (is_mostly_interface_) return plain_row_compliance();
   const Mat h = h_ ? h_->lower() : inverse_spd(with_search_directions(*schur_, k_), setup_.what);  // the plain form keeps no H
   const int n_i = factor_->n_interior();
   Mat compliance = Mat::Zero(n_rows(), n_rows());
@@ -298,7 +346,7 @@ Points Piece::expand(const Vec& free, const std::vector<double>& held) const {
 double Piece::predicted_bytes() const {
   const double n_b = n_interface_, n = static_cast<double>(node_of_free_.size());
   const double entry = setup_.precision == Precision::double_precision ? 8.0 : 1.5;  // as measured (manual, what is stored)
-  return predicted_factor_bytes_ + (setup_.twin ? 0.0 : entry * 0.5 * n_b * n_b) + 8.0 * 12.0 * n;
+  return predicted_factor_bytes_ + (setup_.twin || is_mostly_interface_ ? 0.0 : entry * 0.5 * n_b * n_b) + 8.0 * 12.0 * n;
 }
 
 double Piece::bytes() const {

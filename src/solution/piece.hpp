@@ -50,6 +50,7 @@ class Piece {
     int node;
     Vec3 direction;
     double reference_stiffness;  // added before factorising a floating substructure, taken off its Schur complement
+    double static_stiffness;     // of the substructure behind the node, E A / L or G A / L (N/m)
     double n_sharing;            // laws with a q each at this node and direction: sum over its rows of (d . d')^2
   };
   struct Setup {
@@ -77,6 +78,9 @@ class Piece {
   const Factor* factor() const { return factor_.get(); }
   const std::vector<std::pair<int, Mat3>>& absorbing() const { return absorbing_; }  // node, impedance (N s/m), by node
   bool has_motions() const { return has_motions_; }
+  // Is almost all of it interface, so that full solves at each iteration cost less than products with H? (A washer, a thin plate.)
+  // It has then no Schur complement, and the plain form whatever set_search_directions is told.
+  bool is_mostly_interface() const { return is_mostly_interface_; }
 
   // Diagonal of the interface's own Schur complement in the rows' directions, shared between their laws (N s/m; static N/m).
   const Vec& schur_diagonal() const { return schur_diagonal_; }
@@ -160,7 +164,9 @@ class Piece {
   void factorise();
   Vec stiffness_times(const Points& nodal) const;
   void resynchronise();
+  Mat plain_row_compliance() const;
   bool is_condensed() const { return factor_ && !plain_factor_; }
+  bool costs_less_in_full(const SparseMatrix& matrix, const std::vector<char>& is_interface);
   void make_couplings();
   Vec restrict_nodal(const Points& nodal) const;
   Points expand(const Vec& free, const std::vector<double>& held) const;
@@ -199,7 +205,7 @@ class Piece {
   std::vector<Mat3> bases_;
   std::vector<int> position_;  // free unknown -> position in the factor (identity until ordered)
   std::vector<HeldDirection> held_;
-  bool has_motions_ = false;
+  bool has_motions_ = false, is_mostly_interface_ = false;
   std::shared_ptr<const Factor> factor_;
   std::unique_ptr<Factor> plain_factor_;
   std::shared_ptr<const Mat> schur_;  // until the search directions are set

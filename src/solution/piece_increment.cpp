@@ -108,7 +108,7 @@ void Piece::begin(const Points& force, const std::vector<double>& motion_velocit
   }
   start_force_ = Vec::Zero(n_rows());
   is_moved_ = is_forward_due_ = false;
-  if (!factor_) return;
+  if (!factor_ && !plain_factor_) return;
   if (solves_for_change()) {
     for (int i = 0; i < n_rows(); ++i) start_force_[i] = q_before_[i] - k_[i] * at_row(i, v_);
     for (int i = 0; i < n_rows(); ++i)
@@ -168,7 +168,7 @@ void Piece::backward(const std::vector<Piece*>& equal) {
 }
 
 void Piece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) {
-  if (!factor_) return;
+  if (!factor_ && !plain_factor_) return;
   const bool for_change = solves_for_change();
   if (plain_factor_) {
     // x_ keeps the right-hand side; residual order is the condensed factor's, the plain one has its own.

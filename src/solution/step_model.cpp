@@ -140,7 +140,7 @@ std::vector<Piece::Row> rows_of(const StepModel& model, int piece, const std::un
       for (int d = 0; d < 3; ++d) {
         if (port.unknown[d] < 0) continue;
         const double modulus = d == 0 ? body.material.young : body.material.shear_modulus();
-        rows[port.unknown[d]] = {port.piece_node, point.frame.col(d), needs_reference ? modulus * port.area / length : 0.0, 1.0};
+        rows[port.unknown[d]] = {port.piece_node, point.frame.col(d), needs_reference ? modulus * port.area / length : 0.0, modulus * port.area / length, 1.0};
       }
     }
   std::unordered_map<int, std::vector<int>> at_node;
