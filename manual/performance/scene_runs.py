@@ -16,14 +16,14 @@ def asked(machine, quick):
     if quick:
         return [("bolted flanges", FLANGES, {"size": "4*mm"}, None, t, 60) for t in machine.threads] + [
             ("blocks, 8", BLOCKS, {"cells": 12, "steps": 20} | few, None, t, 60) for t in machine.threads]
-    cut = "latin{ pieces = 64 }" if machine.cuts else None
+    cut = "latin{ pieces = 8 }" if machine.cuts else None
     found = []
     for size, duration in (("4*mm", "200*us"), ("2.12*mm", "200*us"), ("1.4*mm", "40*us")):
         found += [("bolted flanges", FLANGES, {"size": size, "duration": duration}, None, t, 300) for t in machine.threads]
-    if machine.cuts:     # whole, the larger ones have interfaces too large for dense operators
-        found += [("bolted flanges, cut into 64", FLANGES, {"size": "1.4*mm", "duration": "40*us"}, cut, t, 300) for t in machine.threads]
-        found += [("bolted flanges, cut into 64", FLANGES, {"size": size, "duration": duration}, cut, machine.threads[-1], 300)
-                  for size, duration in (("0.96*mm", "20*us"), ("0.64*mm", "10*us"))]
+    if machine.cuts:
+        found += [("bolted flanges, 8 pieces a part", FLANGES, {"size": "1.4*mm", "duration": "40*us"}, cut, t, 300) for t in machine.threads]
+    found += [("bolted flanges", FLANGES, {"size": size, "duration": duration}, None, machine.threads[-1], 600)
+              for size, duration in (("0.96*mm", "20*us"), ("0.64*mm", "10*us"))]
     for cells, bricks, steps in ((12, few, 40), (20, few, 40), (32, few, 40), (32, many, 40), (46, many, 20), (69, many, 10)):
         threads = machine.threads if cells < 46 else machine.threads[-1:]
         found += [(f"blocks, {bricks['bx']**3}", BLOCKS, {"cells": cells, "steps": steps} | bricks, None, t, 600) for t in threads]
