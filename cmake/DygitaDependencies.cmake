@@ -19,6 +19,7 @@ function(dygita_find_library name header library package)
 endfunction()
 
 dygita_find_library(cholmod cholmod.h cholmod libsuitesparse-dev SUFFIXES suitesparse)
+dygita_find_library(suitesparseconfig SuiteSparse_config.h suitesparseconfig libsuitesparse-dev SUFFIXES suitesparse)
 dygita_find_library(metis metis.h metis libmetis-dev)
 dygita_find_library(gmsh gmsh.h gmsh libgmsh-dev)
 # Lua's C++ build only: with the C build a Lua error would skip destructors.

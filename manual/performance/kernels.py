@@ -15,7 +15,7 @@ def measure(machine, folder, quick):
     cells = [12, 19] if quick else list(SIZES)
     sizes = "|".join(map(str, cells))
     probes = "16|34|92" if quick else "16|34|92|137|664|3072"
-    pattern = (f"(read_bandwidth/MiB:({probes})/)|dgemm|((factor|solve_one|solve_several|solve_cholmod)/cells:({sizes})(/|$))|"
+    pattern = (f"(read_bandwidth/MiB:({probes})/)|dgemm|((factor|solve_one/double|solve_one/single|solve_several/double|solve_several/single|solve_cholmod)/cells:({sizes})(/|$))|"
                "interface_operator|assembly")
     machine.say("Kernels")
     found = machine.kernels(pattern, 0.1 if quick else 0.5)
@@ -45,12 +45,17 @@ def measure(machine, folder, quick):
         add("ordering", dof, b["ordering_s"], "s")
         mib = b["MiB"]
         add("size of the factor", dof, mib, "MiB")
-        add("forward and backward", dof, found[f"solve_one/cells:{n}"]["bytes/s"] / 1e9, "GB/s", *nearest(mib))
+        add("forward and backward", dof, found[f"solve_one/double/cells:{n}"]["bytes/s"] / 1e9, "GB/s", *nearest(mib))
+        single = found[f"solve_one/single/cells:{n}"]
+        add("the same, stored in single precision", dof, single["bytes/s"] / 1e9, "GB/s", *nearest(mib * single["bytes an entry"] / 8))
+        add("bytes an entry, stored in single precision", dof, single["bytes an entry"], "bytes")
         add("the same by cholmod_solve2", dof, found[f"solve_cholmod/cells:{n}/columns:1"]["bytes/s"] / 1e9, "GB/s", *nearest(mib))
-        several = found[f"solve_several/cells:{n}/columns:16"]
+        several = found[f"solve_several/double/cells:{n}/columns:16"]
         add(f"16 right-hand sides, {several['label']}", dof, several["flop/s"] / 1e9, "GF/s", "dgemm", gemm[1])
+        add("16 together, stored in single precision", dof, found[f"solve_several/single/cells:{n}/columns:16"]["flop/s"] / 1e9, "GF/s", "dgemm", gemm[1])
         add("the same by cholmod_solve2, 16 together", dof, found[f"solve_cholmod/cells:{n}/columns:16"]["flop/s"] / 1e9, "GF/s", "dgemm", gemm[1])
-        add("milliseconds a solve", dof, found[f"solve_one/cells:{n}"]["cpu_time"], "ms")
+        for stored in ("double", "single"):
+            add(f"milliseconds a solve, stored in {stored} precision", dof, found[f"solve_one/{stored}/cells:{n}"]["cpu_time"], "ms")
     for n in (2048, 6000):
         add("interface operator", f"{n} unknowns", found[f"interface_operator/n:{n}"]["bytes/s"] / 1e9, "GB/s", *nearest(4 * n * n / 2**20))
     for name in ASSEMBLY:
@@ -71,12 +76,10 @@ def goals(rows):
     largest = [s for s in SIZES.values() if find(rows, "factor", s)][-1]
     for kernel, limit, words, why in [
             ("forward and backward", 0.9, "one right-hand side, of plain read bandwidth", "short columns and scattered rows of small supernodes"),
-            ("16 right-hand sides", 0.5, "sixteen right-hand sides, of dgemm", None),
-            ("factor", 0.6, "factor, of dgemm", "small supernodes at the bottom of the tree and the assembly of updates")]:
+            ("16 right-hand sides", 0.5, "sixteen right-hand sides, of dgemm", "entries come from memory slower than the products need them"),
+            ("16 together, stored in single precision", 0.5, "the same, stored in single precision", "turning stored bits into numbers"),
+            ("factor", 0.6, "factor, of dgemm", "small supernodes at the bottom of the tree, the assembly of updates, and packing")]:
         r = find(rows, kernel, largest)
-        if why is None:
-            why = ("columns are solved one by one: each reads the factor anew" if "one by one" in r["kernel"]
-                   else "small supernodes, whose products are too narrow")
         done.append((f"{words}, {largest} unknowns: at least {limit}", f"{r['share']:.2f}", r["share"] >= limit, why))
     for shape in ("hex8 boxes", "hex8 distorted"):
         r = find(rows, "assembly", f"{shape}, 1")

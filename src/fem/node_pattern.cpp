@@ -1,14 +1,12 @@
 #include "fem/node_pattern.hpp"
 
 #include <spdlog/fmt/fmt.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 
 #include "base/error.hpp"
+#include "numerics/huge_pages.hpp"
 
 namespace dygita {
 
@@ -45,13 +43,6 @@ CellsOfNodes cells_of_nodes(const Mesh& mesh, CellSlots* slots) {
       }
   }
   return of;
-}
-
-// Asks for large memory pages: a matrix is gigabytes, and taking them 4 KiB at a time costs more than filling them.
-void prefer_large_pages(void* data, size_t n_bytes) {
-  const auto page = static_cast<size_t>(sysconf(_SC_PAGESIZE));
-  // A refusal changes the speed only.
-  if (std::align(page, page, data, n_bytes)) madvise(data, n_bytes / page * page, MADV_HUGEPAGE);
 }
 
 }  // namespace
@@ -103,8 +94,8 @@ SparseMatrix block_matrix(const NodePattern& pattern) {
   const auto n_entries = static_cast<Eigen::Index>(9 * pattern.neighbours.size());
   SparseMatrix matrix(3 * n, 3 * n);
   matrix.resizeNonZeros(n_entries);
-  prefer_large_pages(matrix.valuePtr(), n_entries * sizeof(double));
-  prefer_large_pages(matrix.innerIndexPtr(), n_entries * sizeof(int));
+  prefer_huge_pages(matrix.valuePtr(), n_entries * sizeof(double));
+  prefer_huge_pages(matrix.innerIndexPtr(), n_entries * sizeof(int));
   int* rows = matrix.outerIndexPtr();
   rows[0] = 0;
 

@@ -13,6 +13,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "numerics/huge_pages.hpp"
 #include "numerics/partition.hpp"
 
 extern "C" {
@@ -88,6 +89,10 @@ struct Cholmod {
   cholmod_factor* l = nullptr;
 
   Cholmod() {
+    [[maybe_unused]] static const bool is_set = [] {
+      SuiteSparse_config.malloc_func = allocate_huge_pages;
+      return true;
+    }();
     cholmod_start(&common);
     common.nmethods = 1;
     common.method[0].ordering = CHOLMOD_GIVEN;

@@ -78,19 +78,26 @@ void PackedFactor::backward_one(double* x) const {
 namespace {
 
 constexpr int lanes = 8;
+constexpr Eigen::Index in_cache = 128;  // rows turned at a time
 
 // Columns of x as rows of 8 or 16 values, in a buffer of the thread; missing columns are zero.
 double* interleave(const Eigen::Ref<Mat>& x, int row) {
   thread_local std::vector<double> together;
   together.assign(static_cast<size_t>(x.rows()) * row, 0.0);
-  for (Eigen::Index c = 0; c < x.cols(); ++c)
-    for (Eigen::Index i = 0; i < x.rows(); ++i) together[i * row + c] = x(i, c);
+  for (Eigen::Index first = 0; first < x.rows(); first += in_cache) {
+    const Eigen::Index end = std::min(first + in_cache, x.rows());
+    for (Eigen::Index c = 0; c < x.cols(); ++c)
+      for (Eigen::Index i = first; i < end; ++i) together[i * row + c] = x(i, c);
+  }
   return together.data();
 }
 
 void separate(const double* together, int row, Eigen::Ref<Mat> x) {
-  for (Eigen::Index c = 0; c < x.cols(); ++c)
-    for (Eigen::Index i = 0; i < x.rows(); ++i) x(i, c) = together[i * row + c];
+  for (Eigen::Index first = 0; first < x.rows(); first += in_cache) {
+    const Eigen::Index end = std::min(first + in_cache, x.rows());
+    for (Eigen::Index c = 0; c < x.cols(); ++c)
+      for (Eigen::Index i = first; i < end; ++i) x(i, c) = together[i * row + c];
+  }
 }
 
 }  // namespace

@@ -403,6 +403,13 @@ void Panels::unpack(size_t i_panel, double* values, int stride) const {
 
 namespace {
 
+// With several right-hand sides a tile keeps the processor busy for so long that it does not look ahead by itself.
+template <class T>
+void fetch_ahead(const T* tile, int n) {
+  const auto* next = reinterpret_cast<const char*>(tile + 2 * Panels::height * n);
+  for (size_t i = 0; i < sizeof(T) * Panels::height * n; i += 64) __builtin_prefetch(next + i);
+}
+
 // A tile in double precision, scale included.
 template <class T>
 const double* decoded(const T* tile, double scale, int n, double* buffer) {
@@ -419,6 +426,7 @@ void Panels::forward(size_t i_panel, double* y, int n_vectors) const {
     Lanes x[columns][m];
     alignas(64) double buffer[width * height];
     for_each_tile(panels_[i_panel], [&](const auto* entries, const Tile& tile) {
+      fetch_ahead(entries, columns);
       const double* a = decoded(entries, tile.scale, columns, buffer);
       double* rows = y + static_cast<size_t>(tile.row) * stride;
       if (tile.row == 0) {
@@ -431,13 +439,16 @@ void Panels::forward(size_t i_panel, double* y, int n_vectors) const {
           }
       }
       constexpr int together = 4;
+      Lanes at[columns][m];  // a copy that can stay in registers
+      for (int c = 0; c < columns; ++c)
+        for (int v = 0; v < m; ++v) at[c][v] = x[c][v];
       for (int r = 0; r < height; r += together) {
         Lanes sums[together][m];
         for (int i = 0; i < together; ++i)
           for (int v = 0; v < m; ++v) sums[i][v] = load(rows + (r + i) * stride + v * lanes);
         for (int c = 0; c < columns; ++c)
           for (int i = 0; i < together; ++i)
-            for (int v = 0; v < m; ++v) sums[i][v] -= a[c * height + r + i] * x[c][v];
+            for (int v = 0; v < m; ++v) sums[i][v] -= a[c * height + r + i] * at[c][v];
         for (int i = 0; i < together; ++i)
           for (int v = 0; v < m; ++v) store(sums[i][v], rows + (r + i) * stride + v * lanes);
       }
@@ -459,15 +470,19 @@ void Panels::backward(size_t i_panel, double* y, int n_vectors) const {
     alignas(64) double buffer[width * height], first[width * height];
     const double* triangle = nullptr;
     for_each_tile(panels_[i_panel], [&](const auto* entries, const Tile& tile) {
+      fetch_ahead(entries, columns);
       if (tile.row == 0) triangle = decoded(entries, 1.0, columns, first);
       const double* a = tile.row == 0 ? triangle : decoded(entries, tile.scale, columns, buffer);
       const double* rows = y + static_cast<size_t>(tile.row) * stride;
+      Lanes own[columns][m] = {};  // sums that can stay in registers
       for (int r = tile.row == 0 ? columns : 0; r < height; ++r) {
         Lanes here[m];
         for (int v = 0; v < m; ++v) here[v] = load(rows + r * stride + v * lanes);
         for (int c = 0; c < columns; ++c)
-          for (int v = 0; v < m; ++v) sums[c][v] += a[c * height + r] * here[v];
+          for (int v = 0; v < m; ++v) own[c][v] += a[c * height + r] * here[v];
       }
+      for (int c = 0; c < columns; ++c)
+        for (int v = 0; v < m; ++v) sums[c][v] += own[c][v];
     });
     for (int c = columns; c-- > 0;)
       for (int v = 0; v < m; ++v) {

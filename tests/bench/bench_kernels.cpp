@@ -123,7 +123,7 @@ struct CholmodFactor {
 // The factor of a cube is dear: made once for all benchmarks of a size.
 struct Made {
   Cube matrix;
-  std::unique_ptr<Factor> factor;
+  std::unique_ptr<Factor> factor, single;  // stored in double and in single precision
   double order_seconds = 0.0, all_seconds = 0.0, flops = 0.0;
 };
 
@@ -139,6 +139,8 @@ const Made& made(int n) {
   begin = std::clock();
   m.factor = std::make_unique<Factor>(factor_of(m.matrix));
   m.all_seconds = seconds_since(begin);
+  m.single = std::make_unique<Factor>(m.matrix.matrix, m.matrix.node_of_dof, std::vector<char>(m.matrix.node_of_dof.size(), 0), "cube",
+                                      Precision::single_precision);
   m.flops = CholmodFactor(m.matrix, m.factor->order()).common.fl;
   return m;
 }
@@ -153,9 +155,11 @@ void factor(benchmark::State& state) {
   state.counters["flop/s"] = made(n).flops / (made(n).all_seconds - made(n).order_seconds);
 }
 
-// Forward and backward; bytes: entries of L, read twice. arg: cells a side.
-void solve_one(benchmark::State& state) {
-  const Factor& l = *made(static_cast<int>(state.range(0))).factor;
+const Factor& factor_in(int n, bool is_single) { return is_single ? *made(n).single : *made(n).factor; }
+
+// Forward and backward; bytes: what is stored, read twice. arg: cells a side.
+void solve_one(benchmark::State& state, bool is_single) {
+  const Factor& l = factor_in(static_cast<int>(state.range(0)), is_single);
   Vec x = Vec::Random(l.size());
   for (auto _ : state) {
     x.setLinSpaced(1.0, 2.0);
@@ -163,7 +167,9 @@ void solve_one(benchmark::State& state) {
     benchmark::DoNotOptimize(x.data());
   }
   state.counters["dof"] = l.size();
-  state.counters["bytes/s"] = benchmark::Counter(16.0 * l.nonzeros(), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["bytes/s"] =
+      benchmark::Counter(is_single ? 2.0 * l.bytes() : 16.0 * l.nonzeros(), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["bytes an entry"] = l.bytes() / l.nonzeros();
 }
 
 // The plain substitution that every user has, with its workspace kept. args: cells a side, right-hand sides.
@@ -186,31 +192,16 @@ void solve_cholmod(benchmark::State& state) {
                                                 benchmark::Counter::kIsIterationInvariantRate);
 }
 
-template <class F>
-concept SolvesSeveral = requires {
-  static_cast<void (F::*)(Eigen::Ref<Mat>) const>(&F::solve);
-};
-
-template <SolvesSeveral F>
-void solve_columns(const F& f, Mat& x) {
-  f.solve(x);
-}
-// Where the factor takes one column at a time.
-template <class F>
-requires(!SolvesSeveral<F>) void solve_columns(const F& f, Mat& x) {
-  for (Eigen::Index j = 0; j < x.cols(); ++j) f.solve(x.col(j));
-}
-
 // args: cells a side, right-hand sides.
-void solve_several(benchmark::State& state) {
-  const Factor& l = *made(static_cast<int>(state.range(0))).factor;
+void solve_several(benchmark::State& state, bool is_single) {
+  const Factor& l = factor_in(static_cast<int>(state.range(0)), is_single);
   Mat x(l.size(), state.range(1));
   for (auto _ : state) {
     x.setOnes();
-    solve_columns(l, x);
+    l.solve(x);
     benchmark::DoNotOptimize(x.data());
   }
-  state.SetLabel(SolvesSeveral<Factor> ? "together" : "one by one");
+  state.SetLabel("together");
   state.counters["dof"] = l.size();
   state.counters["flop/s"] = benchmark::Counter(4.0 * l.nonzeros() * static_cast<double>(state.range(1)),
                                                 benchmark::Counter::kIsIterationInvariantRate);
@@ -219,11 +210,13 @@ void solve_several(benchmark::State& state) {
 // The product by the interface operator, of which one triangle is read. arg: unknowns.
 void interface_operator(benchmark::State& state) {
   const auto n = state.range(0);
-  const Mat h = Mat::Random(n, n);
+  const Mat random = Mat::Random(n, n);
+  const Mat positive = random + random.transpose() + 4.0 * static_cast<double>(n) * Mat::Identity(n, n);
+  const SymmetricOperator h(positive, Precision::double_precision);
   const Vec x = Vec::Random(n);
   Vec y(n);
   for (auto _ : state) {
-    multiply_symmetric(h, x, y);
+    h.multiply(x, y);
     benchmark::DoNotOptimize(y.data());
   }
   state.counters["bytes/s"] = benchmark::Counter(4.0 * static_cast<double>(n) * static_cast<double>(n + 1),
@@ -281,8 +274,10 @@ BENCHMARK(read_bandwidth)->ArgNames({"MiB", "threads"})->Apply(probed<2>)->UseRe
 BENCHMARK(dgemm)->ArgNames({"n", "threads"})->Args({1500, 1})->Unit(benchmark::kMillisecond);
 BENCHMARK(dgemm)->ArgNames({"n", "threads"})->Args({1500, 2})->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(factor)->ArgName("cells")->Apply(sized)->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond);
-BENCHMARK(solve_one)->ArgName("cells")->Apply(sized)->Unit(benchmark::kMillisecond);
-BENCHMARK(solve_several)->ArgNames({"cells", "columns"})->Apply(sized_16)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(solve_one, double, false)->ArgName("cells")->Apply(sized)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(solve_one, single, true)->ArgName("cells")->Apply(sized)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(solve_several, double, false)->ArgNames({"cells", "columns"})->Apply(sized_16)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(solve_several, single, true)->ArgNames({"cells", "columns"})->Apply(sized_16)->Unit(benchmark::kMillisecond);
 BENCHMARK(solve_cholmod)->ArgNames({"cells", "columns"})->Apply(sized_1_16)->Unit(benchmark::kMillisecond);
 BENCHMARK(interface_operator)->ArgName("n")->Arg(2048)->Arg(6000)->Unit(benchmark::kMillisecond);
 BENCHMARK(assembly)
