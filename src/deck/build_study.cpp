@@ -58,9 +58,12 @@ Held build_latin(const Declaration& d) {
   settings->mass = {a.text("mass") == "tuned", a.boolean("massless_contact")};
   if (a.has("precision"))
     settings->precision = a.text("precision") == "single" ? Precision::single_precision : Precision::double_precision;
+  if (settings->precision == Precision::single_precision && settings->tolerance < 1e-7)
+    throw InputError(fmt::format("'precision' = \"single\" holds a tolerance of 1e-7 at least, got {:g}: leave 'precision' out or say \"double\"",
+                                 settings->tolerance));
   settings->pieces = a.is_number("pieces") ? a.integer("pieces") : 0;  // the only word is "auto"
   if (settings->pieces > 1 && settings->mass.is_moved_from_contact)
-    throw InputError(fmt::format("'pieces' = {} and 'massless_contact' exclude each other: mass does not move from one piece to another",
+    throw InputError(fmt::format("'pieces' = {} and 'massless_contact' exclude each other: mass does not move from one piece to another; leave 'pieces' out, or 1",
                                  settings->pieces));
   settings->history_memory = 1e6 * a.number("history_memory");
   settings->plain = a.boolean("plain");

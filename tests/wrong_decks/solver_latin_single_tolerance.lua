@@ -1,0 +1,1 @@
+local tight = solver.latin{ precision = "single", tolerance = 1e-9 }
