@@ -43,7 +43,8 @@ class Factor {
   // The same before factorising, from the ordering and the pattern alone, once the interface is released; in single precision an
   // estimate, since entries take the bytes that their size asks for.
   static double predicted_bytes(const SparseMatrix& matrix, const std::vector<int>& node_of_dof,
-                                const std::vector<char>& is_interface, Precision precision = Precision::double_precision);
+                                const std::vector<char>& is_interface, Precision precision = Precision::double_precision,
+                                double error = 0x1p-26);
 
  private:
   std::vector<int> order_;

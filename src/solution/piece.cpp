@@ -2,6 +2,7 @@
 #include "solution/piece.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.hpp"
 
@@ -129,9 +130,9 @@ bool Piece::costs_less_in_full(const SparseMatrix& matrix, const std::vector<cha
   constexpr double iterations = 6.0;
   const double n_b = n_interface_, n = static_cast<double>(node_of_free_.size());
   if (n_b < 0.3 * n || n_b < 300) return false;  // never seen to pay; saves the second ordering
-  const double entry = setup_.precision == Precision::double_precision ? 8.0 : 1.5;
-  const double full = Factor::predicted_bytes(matrix, node_of_free_, std::vector<char>(node_of_free_.size(), 0), setup_.precision);
-  const double interior = n_b < n ? Factor::predicted_bytes(matrix, node_of_free_, is_interface, setup_.precision) : 0.0;
+  const double entry = bytes_of_operator_entry();
+  const double full = Factor::predicted_bytes(matrix, node_of_free_, std::vector<char>(node_of_free_.size(), 0), setup_.precision, setup_.storage_error);
+  const double interior = n_b < n ? Factor::predicted_bytes(matrix, node_of_free_, is_interface, setup_.precision, setup_.storage_error) : 0.0;
   if (iterations * 2.0 * full >= 2.0 * interior + iterations * entry * 0.5 * n_b * n_b) return false;
   predicted_factor_bytes_ = full;
   return true;
@@ -168,7 +169,7 @@ void Piece::factorise() {
     return;
   }
   if (setup_.is_prediction) {
-    if (!setup_.twin) predicted_factor_bytes_ = Factor::predicted_bytes(matrix, node_of_free_, is_interface, setup_.precision);
+    if (!setup_.twin) predicted_factor_bytes_ = Factor::predicted_bytes(matrix, node_of_free_, is_interface, setup_.precision, setup_.storage_error);
     return;
   }
   std::unique_ptr<Factor> own;
@@ -343,9 +344,14 @@ Points Piece::expand(const Vec& free, const std::vector<double>& held) const {
   return nodal;
 }
 
+// As stored; in single precision fitted to the operators of the bolted flanges.
+double Piece::bytes_of_operator_entry() const {
+  return setup_.precision == Precision::double_precision ? 8.0 : 0.1 * std::log2(16.0 / setup_.storage_error) - 1.5;
+}
+
 double Piece::predicted_bytes() const {
   const double n_b = n_interface_, n = static_cast<double>(node_of_free_.size());
-  const double entry = setup_.precision == Precision::double_precision ? 8.0 : 1.5;  // as measured (manual, what is stored)
+  const double entry = bytes_of_operator_entry();
   return predicted_factor_bytes_ + (setup_.twin || is_mostly_interface_ ? 0.0 : entry * 0.5 * n_b * n_b) + 8.0 * 12.0 * n;
 }
 

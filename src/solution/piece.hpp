@@ -165,6 +165,7 @@ class Piece {
   Vec stiffness_times(const Points& nodal) const;
   void resynchronise();
   Mat plain_row_compliance() const;
+  double bytes_of_operator_entry() const;
   bool is_condensed() const { return factor_ && !plain_factor_; }
   bool costs_less_in_full(const SparseMatrix& matrix, const std::vector<char>& is_interface);
   void make_couplings();
