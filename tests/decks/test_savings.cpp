@@ -77,6 +77,31 @@ problem{ name = "flight", substructures = { bar }, steps = { knock }, outputs = 
   EXPECT_LT(b.figure("energy imbalance [%]"), 1e-2);  // between two products by K the recurrence follows the stored factor
 }
 
+// The last line of the report: "... degrees of freedom, ... increments in all, X MB for factors and interface operators, ...".
+double predicted_megabytes(const Problem& problem) {
+  const std::string report = check_report(problem);
+  const size_t end = report.find(" MB for factors");
+  if (end == std::string::npos) throw std::runtime_error("no memory in: " + report);
+  return std::stod(report.substr(report.rfind(' ', end - 1) + 1));
+}
+
+TEST(Check, predicts_the_memory_within_a_fifth) {
+  const std::string block = R"(
+local p = param{ single = 0, tolerance = 1e-6, pieces = 1 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local cube = substructure{ name = "cube", material = steel, mesh = mesh.box{ size = { 14*mm, 14*mm, 14*mm }, cells = { 14, 14, 14 } } }
+local wall = support.wall{ name = "wall", on = cube:face "zmin" }
+local hit = step.dynamic{ name = "hit", duration = 1*us, dt = 0.25*us, loads = { load.traction{ on = cube:face "zmax", z = -50*MPa } } }
+problem{ name = "block", substructures = { cube }, supports = { wall }, steps = { hit }, outputs = { output.energy{} },
+  solver = solver.latin{ precision = p.single == 1 and "single" or "double", tolerance = p.tolerance, pieces = p.pieces } }:run{}
+)";
+  for (const Settings& settings : {Settings{}, Settings{{"pieces", "4"}}, Settings{{"single", "1"}}, Settings{{"single", "1"}, {"tolerance", "1e-4"}}}) {
+    const DeckRun run = run_text(block, settings).at(0);
+    const double held = run.figure("memory of factors and interface operators [MB]");
+    EXPECT_NEAR(predicted_megabytes(run.problem), held, 0.2 * held);
+  }
+}
+
 TEST(QuietSubstructures, are_not_solved_until_something_reaches_them) {
   const std::string chain = R"(
 local p = param{ n = 12, plain = 0 }
