@@ -1,6 +1,8 @@
 // Runs decks through the real engine and keeps what they gave; no files are written.
 #pragma once
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -49,10 +51,10 @@ inline std::vector<DeckRun> run_file(const std::filesystem::path& path, const Se
   return runs;
 }
 
-// A deck given as text; its file lives beside the test's working directory.
+// A deck given as text; its file is this process's own, since tests run side by side.
 inline std::vector<DeckRun> run_text(const std::string& text, const Settings& settings = {}, int threads = 0,
                                      const std::string& solver = "") {
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("dygita_test_" + std::to_string(std::hash<std::string>{}(text)) + ".lua");
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("dygita_test_" + std::to_string(getpid()) + "_" + std::to_string(std::hash<std::string>{}(text)) + ".lua");
   std::ofstream(path) << text;
   std::vector<DeckRun> runs = run_file(path, settings, threads, solver);
   std::filesystem::remove(path);

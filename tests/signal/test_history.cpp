@@ -1,5 +1,6 @@
 // Load histories: their integrals against quadrature, their limits, their files, their wrong arguments.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -32,7 +33,7 @@ std::string message_of(const std::function<void()>& action) {
 
 class HistoryFile : public ::testing::Test {
  protected:
-  HistoryFile() : path_(std::filesystem::temp_directory_path() / "dygita_test_history.csv") {}
+  HistoryFile() : path_(std::filesystem::temp_directory_path() / ("dygita_test_history_" + std::to_string(getpid()) + ".csv")) {}
   ~HistoryFile() override { std::filesystem::remove(path_); }
   History read(const std::string& text) {
     std::ofstream(path_) << text;
