@@ -166,7 +166,7 @@ void StepRun::add_to(SolverFigures& figures) const {
     figures.n_solved += piece->n_solved();
     figures.n_spared += piece->n_spared();
     figures.n_in_full += piece->is_mostly_interface();
-    figures.n_equal += piece->setup().twin != nullptr;
+    figures.n_equal += piece->shares_factor();
   }
   figures.n_interface_unknowns = model_.n_q();
   figures.gap_difference = std::max(figures.gap_difference, local_.gap_difference());

@@ -152,6 +152,21 @@ void Panels::backward(size_t i_panel, double* y) const {
   });
 }
 
+namespace {
+
+// The first tile of a symmetric panel: rows of the square on the diagonal count once, those below it twice.
+template <int columns, class T, class X>
+void add_first(const T* tile, const X* at, const X* x, double* y) {
+  for (int c = 0; c < columns; ++c)
+    for (int r = 0; r < Panels::height; ++r) {
+      const double a = static_cast<double>(tile[c * Panels::height + r]);
+      y[r] += a * at[c];
+      if (r >= columns) y[c] += a * x[r];
+    }
+}
+
+}  // namespace
+
 void Panels::multiply_symmetric(size_t i_panel, const double* x, double* y) const {
   const Panel& panel = panels_[i_panel];
   with_width(panel.n_columns, [&](auto n) {
@@ -161,13 +176,7 @@ void Panels::multiply_symmetric(size_t i_panel, const double* x, double* y) cons
     Lanes sums[columns] = {};
     for_each_tile(panel, [&](const auto* entries, const Tile& tile) {
       if (tile.row > 0) return add_both<columns>(entries, tile.scale, at, x + tile.row, y + tile.row, sums);
-      // Rows of the square on the diagonal count once, those below it twice.
-      for (int c = 0; c < columns; ++c)
-        for (int r = 0; r < height; ++r) {
-          const double a = static_cast<double>(entries[c * height + r]);
-          y[r] += a * at[c];
-          if (r >= columns) y[c] += a * x[r];
-        }
+      add_first<columns>(entries, at, x, y);
     });
     for (int c = 0; c < columns; ++c) y[c] += sum(sums[c]);
   });
@@ -197,12 +206,7 @@ void Panels::multiply_symmetric(size_t i_panel, const float* x, double* y) const
           if (++n_summed == most_summed) flush();
           return;
         }
-        for (int c = 0; c < columns; ++c)
-          for (int r = 0; r < height; ++r) {
-            const double a = static_cast<double>(entries[c * height + r]);
-            y[r] += a * at[c];
-            if (r >= columns) y[c] += a * x[r];
-          }
+        add_first<columns>(entries, at, x, y);
       }
     });
     flush();

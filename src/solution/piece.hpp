@@ -81,6 +81,8 @@ class Piece {
   // Is almost all of it interface, so that full solves at each iteration cost less than products with H? (A washer, a thin plate.)
   // It has then no Schur complement, and the plain form whatever set_search_directions is told.
   bool is_mostly_interface() const { return is_mostly_interface_; }
+  // Does it use the factor of an equal piece?
+  bool shares_factor() const { return setup_.twin && factor_; }
 
   // Diagonal of the interface's own Schur complement in the rows' directions, shared between their laws (N s/m; static N/m).
   const Vec& schur_diagonal() const { return schur_diagonal_; }
@@ -138,10 +140,11 @@ class Piece {
 
   // The state an increment starts from: windows of several steps go back to it.
   struct Snapshot {
-    Vec u, v, p, w, z, force, held_pull;
+    Vec u, v, p, w, z, force, held_pull, q_before;
+    int n_since_product = 0;
     std::vector<double> held_u, held_v;
   };
-  Snapshot snapshot() const { return {u_, v_, p_, w_, z_, force_, held_pull_, held_u_, held_v_}; }
+  Snapshot snapshot() const { return {u_, v_, p_, w_, z_, force_, held_pull_, q_before_, n_since_product_, held_u_, held_v_}; }
   void restore(const Snapshot& s);
   double bytes() const;            // held by factor, interface operators and vectors
   double predicted_bytes() const;  // the same, known before factorising

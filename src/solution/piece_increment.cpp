@@ -58,6 +58,8 @@ void Piece::restore(const Snapshot& s) {
   z_ = s.z;
   force_ = s.force;
   held_pull_ = s.held_pull;
+  q_before_ = s.q_before;
+  n_since_product_ = s.n_since_product;
   held_u_ = s.held_u;
   held_v_ = s.held_v;
   momentum_ = momentum();
@@ -115,7 +117,8 @@ void Piece::begin(const Points& force, const std::vector<double>& motion_velocit
       for (int a = 0; a < traces_[i].n; ++a) x_[traces_[i].at[a]] += traces_[i].value[a] * start_force_[i];
   }
   if (plain_factor_) return;
-  quiet_ = solves_for_change() ? quiet : 0.0;
+  // A support that moves never rests: what its velocity brings would be left out of W.
+  quiet_ = solves_for_change() && !has_motions_ ? quiet : 0.0;
   is_forward_due_ = true;
   const bool is_quiet = quiet_ > 0.0 && scheme.dt * x_.cwiseAbs2().cwiseQuotient(mass_).sum() <= quiet_;
   is_moved_ = !is_quiet;
@@ -236,7 +239,7 @@ IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_f
   u_ += dt * v_mean;
   for (size_t i = 0; i < held_.size(); ++i) held_u_[i] += dt * (g * held_v_old_[i] + (1 - g) * held_v_[i]);
 
-  constexpr int n_between = 8;  // increments: a product is a twentieth of their solves, what drifts in between is below the tolerance
+  constexpr int n_between = 8;  // increments: products cost little beside their solves, and what drifts in between is below the tolerance
   if (setup_.precision == Precision::single_precision && ++n_since_product_ >= n_between && !rests) {
     resynchronise();
     n_since_product_ = 0;
