@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,21 @@ struct StepSummary {
   double seconds = 0.0;
 };
 
+// What became of a bolt: an interface that a step shortens or preloads. Forces through the modelled interface, N, tension positive.
+struct BoltSummary {
+  std::string name;                       // of the interface
+  double area = 0.0;                      // m^2, of the modelled interface
+  std::vector<double> after_static;       // N, at the end of each static step, in the problem's order of static steps
+  std::optional<double> target;           // N, load.preload's last one
+  std::optional<double> hand;             // N, by the hand formula at the shortening found
+  double shortening = 0.0;                // m, at the end
+  double lowest = 0.0, highest = 0.0;     // N, during the dynamic steps; the force before them where there are none
+  double last = 0.0;                      // N, at the end of the run
+  double plastic_opening = 0.0;           // m, largest at the end
+};
+
 struct RunResult {
+  std::vector<BoltSummary> bolts;
   std::map<const Output*, Table> tables;       // history, resultant, srs, joint, energy
   Table convergence;                           // time, step, iterations, indicator, converged (1 or 0)
   std::vector<StepSummary> steps;
