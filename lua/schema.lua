@@ -363,6 +363,22 @@ table.insert(words[9], {
   },
 })
 
+-- The arguments of a spectrum after those of its own.
+local function spectrum(arguments, per_octave)
+  for _, argument in ipairs{
+    { "q_factor", type = "number", range = { 0.5, 1000 }, default_doc = "10", doc = "amplification at resonance" },
+    { "damping", type = "number", range = { 0, 0.99 }, doc = "damping ratio, 1/(2 q_factor), in its place" },
+    { "quantity", type = "choice", default = "absolute_acceleration",
+      choices = { "absolute_acceleration", "relative_displacement", "pseudo_velocity" }, doc = "what of the oscillator" },
+    { "from", type = "number", unit = "Hz", range = { 0.01, 1e8 }, default = 100, doc = "first frequency" },
+    { "to", type = "number", unit = "Hz", range = { 0.01, 1e8 }, default = 10000, doc = "last frequency" },
+    { "per_octave", type = "integer", range = { 1, 1000 }, default = per_octave, doc = "frequencies an octave" },
+  } do
+    table.insert(arguments, argument)
+  end
+  return arguments
+end
+
 local quantities = { "displacement", "velocity", "acceleration", "stress", "von_mises", "pressure" }
 local fields = { "displacement", "velocity", "stress", "von_mises", "stress_error" }
 
@@ -393,14 +409,34 @@ words[10] = {
   {
     "srs", makes = "output",
     doc = "Shock response spectrum of a history. Columns: frequency, maximax, positive, negative, primary, residual.",
-    arguments = {
+    arguments = spectrum({
       name_of "output",
       { "of", type = "object", kinds = { "output.history" }, required = true, doc = "an acceleration with a direction" },
-      { "q_factor", type = "number", range = { 0.5, 1000 }, default = 10, doc = "amplification at resonance" },
-      { "from", type = "number", unit = "Hz", range = { 0.01, 1e8 }, default = 100, doc = "first frequency" },
-      { "to", type = "number", unit = "Hz", range = { 0.01, 1e8 }, default = 10000, doc = "last frequency" },
-      { "per_octave", type = "integer", range = { 1, 1000 }, default = 12, doc = "frequencies an octave" },
-    },
+    }, 12),
+  },
+  {
+    "srs_field", makes = "output",
+    doc = "Shock response spectra at every node of faces, for ParaView: <name>.pvd, whose time is the frequency (Hz). Columns of "
+      .. "<name>.csv: frequency, highest and mean maximax over the nodes.",
+    arguments = spectrum({
+      name_of "output",
+      on({ "face" }, "faces"),
+      { "direction", type = "vector", default_doc = "the axis of largest maximax, node by node",
+        doc = "of the acceleration; its length does not matter" },
+    }, 3),
+  },
+  {
+    "attenuation", makes = "output",
+    doc = "What a joint takes from a shock: maximax spectra of the histories before and after it and their ratio by band. Columns: "
+      .. "frequency, entering, leaving, ratio (dB); with _x, _y, _z for histories without a direction.",
+    arguments = spectrum({
+      name_of "output",
+      { "entering", type = "object", kinds = { "output.history" }, required = true, doc = "acceleration before the joint" },
+      { "leaving", type = "object", kinds = { "output.history" }, required = true, doc = "acceleration behind it" },
+      { "bands", type = "integer", range = { 1, 24 }, default = 1, doc = "bands an octave: 1, or 3 for thirds" },
+      { "joints", type = "integer", range = { 1, 100 }, default = 1,
+        doc = "bolted joints on the way: the rule of thumb it is compared with is -3 dB each" },
+    }, 12),
   },
   {
     "joint", makes = "output",

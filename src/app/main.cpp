@@ -52,7 +52,16 @@ void add_deck_options(CLI::App& command, Command& asked) {
 void add_srs_options(CLI::App& command, SrsCommand& asked) {
   command.add_option("SIGNAL", asked.signal, "a CSV: time (s), then values; a column of step names is passed over")
       ->required();
-  command.add_option("--q", asked.settings.q_factor, "Q, the amplification at resonance")->capture_default_str();
+  CLI::Option* q = command.add_option("--q", asked.settings.q_factor, "Q, the amplification at resonance")->capture_default_str();
+  command.add_option("--damping", asked.damping, "damping ratio, 1/(2 Q), in place of Q")
+      ->check(CLI::Range(0.0, 0.99))
+      ->excludes(q);
+  command.add_option("--quantity", asked.settings.quantity, "what of the oscillator")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, SrsQuantity>{{"absolute_acceleration", SrsQuantity::absolute_acceleration},
+                                             {"relative_displacement", SrsQuantity::relative_displacement},
+                                             {"pseudo_velocity", SrsQuantity::pseudo_velocity}}))
+      ->default_str("absolute_acceleration");
   command.add_option("--from", asked.settings.from, "first frequency, Hz")->capture_default_str();
   command.add_option("--to", asked.settings.to, "last frequency, Hz")->capture_default_str();
   command.add_option("--per-octave", asked.settings.per_octave, "frequencies an octave")->capture_default_str();
@@ -110,6 +119,7 @@ int command_line(int argc, char** argv) {
   }
   if (run->parsed() || check->parsed()) return run_or_check(asked, run->parsed());
   if (srs->parsed()) {
+    if (asked.srs.damping) asked.srs.settings.q_factor = q_factor_of(*asked.srs.damping);
     write_srs(asked.srs);
   } else if (schema->parsed()) {
     std::fputs(deck_reference().c_str(), stdout);

@@ -148,7 +148,7 @@ void write_srs(const SrsCommand& command) {
   Signal signal = read_signal(command);
   const double dt = make_even(signal, command.signal);
   const Srs srs = shock_response_spectrum(signal.values, dt, command.settings);
-  const std::string& unit = signal.unit;
+  const std::string unit = srs_unit(command.settings.quantity, signal.unit);
   const Table table{{"frequency", "maximax", "positive", "negative", "primary", "residual"},
                     {"Hz", unit, unit, unit, unit, unit},
                     {srs.frequency, srs.maximax, srs.positive, srs.negative, srs.primary, srs.residual},

@@ -1,6 +1,7 @@
 // dygita srs: the shock response spectrum of a CSV file.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "signal/srs.hpp"
@@ -10,6 +11,7 @@ namespace dygita {
 struct SrsCommand {
   std::string signal, column, out;  // file; column of values (empty: the first); file to write (empty: standard output)
   SrsSettings settings;
+  std::optional<double> damping;  // takes the place of settings.q_factor
 };
 
 // Reads time (s) in the first column and values in the column asked for, in files like those that dygita writes:

@@ -136,15 +136,50 @@ Held build_joint(const Declaration& d) {
   return OutputPtr(output);
 }
 
+SrsSettings srs_settings(const Arguments& a) {
+  static const std::map<std::string, SrsQuantity> quantities = {
+      {"absolute_acceleration", SrsQuantity::absolute_acceleration},
+      {"relative_displacement", SrsQuantity::relative_displacement},
+      {"pseudo_velocity", SrsQuantity::pseudo_velocity}};
+  SrsSettings srs{a.number_or("q_factor", 10.0), a.number("from"), a.number("to"), a.integer("per_octave"),
+                  quantities.at(a.text("quantity"))};
+  if (a.has("damping")) {
+    if (a.has("q_factor")) throw InputError("'q_factor' and 'damping' say the same twice: leave one out (Q = 1 / (2 damping))");
+    srs.q_factor = q_factor_of(a.number("damping"));
+  }
+  if (srs.from >= srs.to)
+    throw InputError(fmt::format("'from' = {:g} Hz is not below 'to' = {:g} Hz", srs.from, srs.to));
+  return srs;
+}
+
 Held build_srs(const Declaration& d) {
   const Arguments& a = d.arguments;
   auto output = new_named<Output>(d);
   output->kind = OutputKind::srs;
   output->of = a.object("of").as<OutputPtr>();
-  output->srs = {a.number("q_factor"), a.number("from"), a.number("to"), a.integer("per_octave")};
-  if (output->srs.from >= output->srs.to) {
-    throw InputError(fmt::format("'from' = {:g} Hz is not below 'to' = {:g} Hz", output->srs.from, output->srs.to));
-  }
+  output->srs = srs_settings(a);
+  return OutputPtr(output);
+}
+
+Held build_srs_field(const Declaration& d) {
+  auto output = new_named<Output>(d);
+  output->kind = OutputKind::srs_field;
+  output->on = targets_of(d);
+  output->quantity = Quantity::acceleration;
+  if (d.arguments.has("direction")) output->direction = unit_direction(d);
+  output->srs = srs_settings(d.arguments);
+  return OutputPtr(output);
+}
+
+Held build_attenuation(const Declaration& d) {
+  const Arguments& a = d.arguments;
+  auto output = new_named<Output>(d);
+  output->kind = OutputKind::attenuation;
+  output->of = a.object("entering").as<OutputPtr>();
+  output->leaving = a.object("leaving").as<OutputPtr>();
+  output->srs = srs_settings(a);
+  output->bands = a.integer("bands");
+  output->n_joints = a.integer("joints");
   return OutputPtr(output);
 }
 
@@ -177,6 +212,7 @@ const Builders& study_builders() {
       {"solver.monolithic", build_monolithic}, {"solver.explicit", build_explicit},
       {"output.vtk", build_vtk},     {"output.history", build_history}, {"output.resultant", build_resultant},
       {"output.joint", build_joint}, {"output.srs", build_srs},         {"output.energy", build_energy},
+      {"output.srs_field", build_srs_field}, {"output.attenuation", build_attenuation},
       {"problem", build_problem},
   };
   return builders;

@@ -12,6 +12,7 @@
 #include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
 #include "result/collector.hpp"
+#include "result/spectra.hpp"
 #include "solution/step_model.hpp"
 
 namespace dygita {
@@ -112,6 +113,9 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
   if (result.figures.contains("error estimate, static, mesh [%]"))
     say(fmt::format("  estimated errors of static steps: iteration {:.2g} %, mesh {:.2g} %", figure("error estimate, static, iteration [%]"),
                     figure("error estimate, static, mesh [%]")));
+  for (const OutputPtr& output : problem.outputs)
+    if (output->kind == OutputKind::attenuation && result.tables.at(output.get()).n_rows() > 0)
+      say("  " + attenuation_summary(*output, result.tables.at(output.get())));
   if (!directory.empty()) say(fmt::format("  {:.2f} s in all; results in {}", seconds, directory.string()));
 }
 

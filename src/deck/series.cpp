@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "result/spectra.hpp"
+
 namespace dygita {
 
 namespace {
@@ -32,6 +34,10 @@ std::vector<std::string> columns_of(const Output& output) {
       }
       if (output.quantity == Quantity::stress) return {"time", "xx", "yy", "zz", "xy", "yz", "zx"};
       return {"time", "x", "y", "z"};
+    case OutputKind::srs_field:
+      return {"frequency", "highest", "mean"};
+    case OutputKind::attenuation:
+      return attenuation_columns(output);
     case OutputKind::vtk:
       break;
   }
@@ -92,7 +98,7 @@ std::shared_ptr<const RunResult> hollow_result(const Problem& problem) {
     const size_t n_rows = problem.steps.size();
     table.units.resize(table.names.size());
     table.columns.assign(table.names.size(), std::vector<double>(n_rows, not_known));
-    if (output->kind != OutputKind::srs) {
+    if (table.names.front() == "time") {
       for (size_t i = 0; i < n_rows; ++i) table.step.push_back(static_cast<int>(i));
     }
     result->tables[output.get()] = std::move(table);

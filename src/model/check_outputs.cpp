@@ -36,6 +36,7 @@ std::string refused(const Output& output, const Target& target) {
   if (output.quantity == Quantity::pressure) {
     return is_interface || is_wall(target) ? "" : "quantity 'pressure' takes an interface or a support.wall";
   }
+  if (output.kind == OutputKind::srs_field) return std::holds_alternative<Face>(target) ? "" : "output.srs_field takes faces";
   const std::string quantity = quantity_name(output.quantity);
   return is_interface || is_support ? "quantity '" + quantity + "' takes a face or a region" : "";
 }
@@ -60,6 +61,18 @@ void direction_has_a_meaning(const Problem& problem, const Output& output) {
   }
 }
 
+void frequencies_rise(const Problem& problem, const Output& output) {
+  const std::string who = known_as(output);
+  if (!has_dynamic_step(problem)) {
+    fail(problem, output.origin, who + ": the problem has no dynamic step", "a spectrum is of dynamic steps only");
+  }
+  const SrsSettings& srs = output.srs;
+  if (!(srs.from > 0.0) || !(srs.to > srs.from)) {
+    fail(problem, output.origin,
+         fmt::format("{}: 'from' = {:g} Hz and 'to' = {:g} Hz must be 0 < from < to", who, srs.from, srs.to));
+  }
+}
+
 // A spectrum is of one absolute acceleration over dynamic steps.
 void spectrum_has_a_signal(const Problem& problem, const Output& output) {
   const std::string who = known_as(output);
@@ -72,14 +85,23 @@ void spectrum_has_a_signal(const Problem& problem, const Output& output) {
     fail(problem, output.origin, who + " is of " + known_as(of) + ", a " + quantity_name(of.quantity), hint);
   }
   if (!of.direction) fail(problem, output.origin, who + " is of " + known_as(of) + ", which has no direction", hint);
-  if (!has_dynamic_step(problem)) {
-    fail(problem, output.origin, who + ": the problem has no dynamic step", "a spectrum is of dynamic steps only");
+  frequencies_rise(problem, output);
+}
+
+// What enters and what leaves are compared axis by axis.
+void attenuation_has_two_signals(const Problem& problem, const Output& output) {
+  const std::string who = known_as(output);
+  const std::string hint = "'entering' and 'leaving' take output.history of quantity 'acceleration'";
+  for (const auto& [name, signal] : {std::pair{"entering", output.of}, {"leaving", output.leaving}}) {
+    if (!signal) fail(problem, output.origin, fmt::format("{} has no '{}'", who, name), hint);
+    listed(problem, fmt::format("{} has '{}' of output", who, name), *signal, problem.outputs, "outputs");
+    if (signal->quantity != Quantity::acceleration)
+      fail(problem, output.origin, fmt::format("{}: '{}' is {}, a {}", who, name, known_as(*signal), quantity_name(signal->quantity)), hint);
   }
-  const SrsSettings& srs = output.srs;
-  if (!(srs.from > 0.0) || !(srs.to > srs.from)) {
-    fail(problem, output.origin,
-         fmt::format("{}: 'from' = {:g} Hz and 'to' = {:g} Hz must be 0 < from < to", who, srs.from, srs.to));
-  }
+  if (output.of->direction.has_value() != output.leaving->direction.has_value())
+    fail(problem, output.origin, who + ": one of 'entering' and 'leaving' has a direction, the other has none",
+         "both with a direction, or both without for x, y and z");
+  frequencies_rise(problem, output);
 }
 
 }  // namespace
@@ -97,6 +119,13 @@ void outputs(const Problem& problem) {
         break;
       case OutputKind::srs:
         spectrum_has_a_signal(problem, *output);
+        break;
+      case OutputKind::srs_field:
+        is_on_what_it_can_be(problem, *output);
+        frequencies_rise(problem, *output);
+        break;
+      case OutputKind::attenuation:
+        attenuation_has_two_signals(problem, *output);
         break;
       case OutputKind::vtk:
         if (output->frames < 1) {

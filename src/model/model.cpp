@@ -67,6 +67,10 @@ const char* output_kind_name(OutputKind kind) {
       return "resultant";
     case OutputKind::srs:
       return "srs";
+    case OutputKind::srs_field:
+      return "srs_field";
+    case OutputKind::attenuation:
+      return "attenuation";
     case OutputKind::joint:
       return "joint";
     case OutputKind::energy:

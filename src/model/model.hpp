@@ -152,20 +152,23 @@ struct ExplicitSettings {
   bool bulk_viscosity = true;
 };
 
-enum class OutputKind { vtk, history, resultant, srs, joint, energy };
+enum class OutputKind { vtk, history, resultant, srs, srs_field, attenuation, joint, energy };
 const char* output_kind_name(OutputKind kind);
 enum class Quantity { displacement, velocity, acceleration, stress, von_mises, pressure };
 const char* quantity_name(Quantity quantity);
 
 struct Output : Named {
   OutputKind kind = OutputKind::energy;
-  std::vector<Target> on;  // history, resultant, joint
+  std::vector<Target> on;  // history, resultant, joint, srs_field
   Quantity quantity = Quantity::displacement;
-  std::optional<Vec3> direction;     // history: unit vector; none: x y z
+  std::optional<Vec3> direction;     // history, srs_field: unit vector; none: x y z
   int frames = 50;                   // vtk: a step
   std::vector<std::string> fields;   // vtk
-  std::shared_ptr<const Output> of;  // srs
-  SrsSettings srs;
+  std::shared_ptr<const Output> of;  // srs; attenuation: the history that enters
+  std::shared_ptr<const Output> leaving;  // attenuation
+  SrsSettings srs;                   // srs, srs_field, attenuation
+  int bands = 1;                     // attenuation: an octave
+  int n_joints = 1;                  // attenuation: bolted joints on the way, for the rule of thumb
 };
 using OutputPtr = std::shared_ptr<const Output>;
 

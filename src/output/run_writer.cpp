@@ -86,6 +86,7 @@ void RunWriter::write_result(const Problem& problem, const RunResult& result, co
     CHECK(written.insert(name).second && name != "convergence", "two tables are called '" + name + "'");
     write(name + ".csv", csv_text(found->second, steps));
   }
+  for (const auto& [output, frames] : result.fields) write_field(file_name_of(output->name), frames);
   if (!result.convergence.columns.empty()) write("convergence.csv", csv_text(result.convergence, steps));
 
   // Name the files but for the frames, which the .pvd list.
@@ -95,6 +96,20 @@ void RunWriter::write_result(const Problem& problem, const RunResult& result, co
     if (*file.begin() != frames_folder) files.push_back(file.generic_string());
   }
   write_text(record, run_record(problem, result, identity, warnings, files));
+}
+
+// A .pvd of its own, whose time is what the frames are labelled with.
+void RunWriter::write_field(const std::string& name, const std::vector<Frame>& frames) {
+  const fs::path folder = fs::path(frames_folder) / name;
+  make_directory(directory_ / folder);
+  Collection collection;
+  for (size_t i = 0; i < frames.size(); ++i) {
+    const fs::path file = folder / fmt::format("{}_{:05}.vtu", name, i);
+    index_->manifest.add(file);
+    write_interfaces(frames[i], directory_ / file);
+    collection.add(frames[i].label_time, 0, name, file);
+  }
+  if (!collection.is_empty()) write(name + ".pvd", collection.text());
 }
 
 fs::path RunWriter::path_of(const std::string& file_name) {

@@ -54,6 +54,7 @@ class RunWriter {
  private:
   struct Index;  // the frames written so far
   void write(const std::string& file_name, const std::string& text);
+  void write_field(const std::string& name, const std::vector<Frame>& frames);
 
   std::filesystem::path directory_;
   std::string problem_name_;

@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "base/log.hpp"
-#include "signal/srs.hpp"
+#include "result/spectra.hpp"
+#include "result/spectrum_field.hpp"
 
 namespace dygita {
+
+Collector::~Collector() = default;
 
 Collector::Collector(const Problem& problem, FrameSink sink) : problem_(problem), sink_(std::move(sink)) {
   for (const OutputPtr& output : problem.outputs) {
@@ -16,7 +19,9 @@ Collector::Collector(const Problem& problem, FrameSink sink) : problem_(problem)
       case OutputKind::joint: samplers_[output.get()] = make_joint_sampler(problem, *output); break;
       case OutputKind::energy: samplers_[output.get()] = make_energy_sampler(); break;
       case OutputKind::vtk: slip_ = std::make_shared<FrictionlessSlip>(); break;
-      case OutputKind::srs: break;
+      case OutputKind::srs_field: fields_[output.get()] = std::make_unique<SpectrumField>(problem, *output); break;
+      case OutputKind::srs:
+      case OutputKind::attenuation: break;
     }
   }
   convergence_.names = {"time", "iterations", "indicator", "converged"};
@@ -36,6 +41,7 @@ void Collector::accept(const Instant& instant) {
   if (slip_) slip_->accept(instant);
   errors_.accept(instant);
   for (auto& [output, sampler] : samplers_) sampler->accept(instant);
+  for (auto& [output, field] : fields_) field->accept(instant);
   const double row[] = {instant.time(), static_cast<double>(instant.iterations), instant.indicator, instant.converged ? 1.0 : 0.0};
   for (int i = 0; i < 4; ++i) convergence_.columns[i].push_back(row[i]);
   convergence_.step.push_back(instant.i_step);
@@ -91,33 +97,6 @@ void Collector::watch(const Instant& instant) {
 
 namespace {
 
-// A spectrum takes the dynamic rows of a history; steps of different dt are brought to the smallest.
-Table spectrum_table(const Problem& problem, const Output& output, const Table& history) {
-  std::vector<double> time, value;
-  double dt = 0.0;
-  for (int i = 0; i < history.n_rows(); ++i) {
-    const Step& step = *problem.steps[history.step[i]];
-    if (step.is_static) continue;
-    time.push_back(history.columns[0][i]);
-    value.push_back(history.columns[1][i]);
-    dt = dt == 0.0 ? step.dt : std::min(dt, step.dt);
-  }
-  if (time.empty()) return {};
-  std::vector<double> signal;
-  size_t i = 0;
-  for (long s = 0; time.front() + s * dt <= time.back() + 1e-6 * dt; ++s) {
-    const double t = time.front() + s * dt;
-    while (i + 2 < time.size() && time[i + 1] <= t) ++i;
-    const double x = i + 1 < time.size() ? std::clamp((t - time[i]) / (time[i + 1] - time[i]), 0.0, 1.0) : 0.0;
-    signal.push_back(value[i] + x * ((i + 1 < value.size() ? value[i + 1] : value[i]) - value[i]));
-  }
-  const Srs srs = shock_response_spectrum(signal, dt, output.srs);
-  const std::string unit = history.units[1];
-  return {{"frequency", "maximax", "positive", "negative", "primary", "residual"},
-          {"Hz", unit, unit, unit, unit, unit},
-          {srs.frequency, srs.maximax, srs.positive, srs.negative, srs.primary, srs.residual}, {}};
-}
-
 void add_error_figures(const ErrorEstimator& errors, const Problem& problem, RunResult& result) {
   const auto has = [&](bool is_static) {
     return std::any_of(problem.steps.begin(), problem.steps.end(), [&](const StepPtr& s) { return s->is_static == is_static; });
@@ -142,8 +121,16 @@ void add_error_figures(const ErrorEstimator& errors, const Problem& problem, Run
 
 void Collector::finish(RunResult& result) {
   for (auto& [output, sampler] : samplers_) result.tables[output] = sampler->take();
-  for (const OutputPtr& output : problem_.outputs)
-    if (output->kind == OutputKind::srs) result.tables[output.get()] = spectrum_table(problem_, *output, result.tables.at(output->of.get()));
+  for (const OutputPtr& output : problem_.outputs) {
+    const auto of = [&](const OutputPtr& history) -> const Table& { return result.tables.at(history.get()); };
+    if (output->kind == OutputKind::srs) result.tables[output.get()] = spectrum_table(problem_, *output, of(output->of));
+    if (output->kind == OutputKind::attenuation)
+      result.tables[output.get()] = attenuation_table(problem_, *output, of(output->of), of(output->leaving));
+  }
+  for (auto& [output, field] : fields_) {
+    result.fields[output] = field->frames();
+    result.tables[output] = field->table(result.fields[output]);
+  }
   result.convergence = std::move(convergence_);
   const double percent = extremes_.energy > 0.0 ? 100.0 / extremes_.energy : 0.0;
   result.figures["largest energy [J]"] = extremes_.energy;

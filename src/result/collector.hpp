@@ -54,10 +54,13 @@ struct Extremes {
   double springs = 0.0, before_springs = 0.0;  // J, penalty: largest held by its springs, the scheme's energy at the step's start
 };
 
+class SpectrumField;
+
 class Collector : public Observer {
  public:
   using FrameSink = std::function<void(const Frame&)>;
   Collector(const Problem& problem, FrameSink sink);
+  ~Collector() override;
 
   void begin_step(const Instant& start) override;
   void accept(const Instant& instant) override;
@@ -72,6 +75,7 @@ class Collector : public Observer {
   const Problem& problem_;
   FrameSink sink_;
   std::map<const Output*, std::unique_ptr<Sampler>> samplers_;
+  std::map<const Output*, std::unique_ptr<SpectrumField>> fields_;
   std::shared_ptr<FrictionlessSlip> slip_;
   Table convergence_;
   Extremes extremes_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/model.hpp"
+#include "result/frame.hpp"
 #include "solution/interface_fields.hpp"
 
 namespace dygita {
@@ -48,7 +49,8 @@ struct BoltSummary {
 
 struct RunResult {
   std::vector<BoltSummary> bolts;
-  std::map<const Output*, Table> tables;       // history, resultant, srs, joint, energy
+  std::map<const Output*, Table> tables;       // of all outputs but vtk
+  std::map<const Output*, std::vector<Frame>> fields;  // srs_field: a frame a frequency
   Table convergence;                           // time, step, iterations, indicator, converged (1 or 0)
   std::vector<StepSummary> steps;
   std::shared_ptr<const InterfaceFields> interface_fields;  // what start_from takes; null: the solver keeps none

@@ -38,14 +38,17 @@ void Extremes::meet(double value) {
 
 double Extremes::maximax() const { return std::max(highest, -lowest); }
 
-Oscillator::Oscillator(double frequency, double q_factor, double dt, double first) : x_(first) {
+Oscillator::Oscillator(double frequency, double q_factor, double dt, double first, SrsQuantity quantity) : x_(first) {
   const double wn = 2.0 * pi * frequency, damping = 0.5 / q_factor;
   wd_ = wn * std::sqrt((1.0 - damping) * (1.0 + damping));
   pole_ = Complex(-damping * wn, wd_);
   decay_ = std::exp(pole_ * dt);
-  // Partial fractions of (2 z wn s + wn^2) / (s^2 + 2 z wn s + wn^2); twice the real part stands for the conjugate
-  // pole.
-  const Complex residue = (2.0 * damping * wn * pole_ + wn * wn) / Complex(0.0, wd_);
+  // Partial fractions of (2 z wn s + wn^2), -1 or -wn over (s^2 + 2 z wn s + wn^2); twice the real part stands for the
+  // conjugate pole.
+  const Complex numerator = quantity == SrsQuantity::absolute_acceleration   ? 2.0 * damping * wn * pole_ + wn * wn
+                            : quantity == SrsQuantity::relative_displacement ? Complex(-1.0)
+                                                                             : Complex(-wn);
+  const Complex residue = numerator / Complex(0.0, wd_);
   // Integrals of e^(p (T - s)) times the base, linear from its old to its new value.
   const Complex h = pole_ * dt, phi = phi_2(h);
   from_new_ = residue * dt * phi;

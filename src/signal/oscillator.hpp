@@ -4,6 +4,8 @@
 #include <complex>
 #include <vector>
 
+#include "signal/srs.hpp"
+
 namespace dygita {
 
 // Largest and smallest response met, zero at rest included.
@@ -18,11 +20,13 @@ struct Extremes {
 // between samples (ramp-invariant): the filter of Smallwood (Shock and Vibration Bulletin 51, 1981; ISO 18431-4).
 // It is run as its one complex pole, u_1 = e^(pT) u_0 + a x_0 + b x_1 and y = Re u, with p = -z wn + i wd; that is the
 // same filter as his y_n = b0 x_n + b1 x_(n-1) + b2 x_(n-2) - a1 y_(n-1) - a2 y_(n-2), without the loss of digits that
-// the latter has where wn T is small.
+// the latter has where wn T is small. The relative displacement (z'' + 2 zeta wn z' + wn^2 z = -x) and the
+// pseudo-velocity wn z have the same pole and another residue.
 class Oscillator {
  public:
   // natural frequency (Hz), q_factor > 0.5 (may be infinite), seconds between samples, first sample of the base.
-  Oscillator(double frequency, double q_factor, double dt, double first);
+  Oscillator(double frequency, double q_factor, double dt, double first,
+             SrsQuantity quantity = SrsQuantity::absolute_acceleration);
 
   void advance(const std::vector<double>& base);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/log.hpp"
@@ -91,6 +92,17 @@ void append(Srs& srs, double frequency, const Oscillator& oscillator) {
 
 }  // namespace
 
+std::string srs_unit(SrsQuantity quantity, const std::string& unit) {
+  if (quantity == SrsQuantity::absolute_acceleration || unit.empty()) return unit;
+  const bool is_velocity = quantity == SrsQuantity::pseudo_velocity;
+  if (unit == "m/s^2") return is_velocity ? "m/s" : "m";
+  return unit + (is_velocity ? " s" : " s^2");
+}
+
+double q_factor_of(double damping) {
+  return damping > 0.0 ? 0.5 / damping : std::numeric_limits<double>::infinity();
+}
+
 Srs shock_response_spectrum(const std::vector<double>& signal, double dt, const SrsSettings& settings) {
   check(signal, dt, settings);
   warn_of_limits(signal.size(), dt, settings);
@@ -102,7 +114,7 @@ Srs shock_response_spectrum(const std::vector<double>& signal, double dt, const 
     size_t end = first;
     std::vector<Oscillator> oscillators;
     for (; end < frequencies.size() && upsampling_factor(frequencies[end], dt) == factor; ++end) {
-      oscillators.emplace_back(frequencies[end], settings.q_factor, dt / factor, signal.front());
+      oscillators.emplace_back(frequencies[end], settings.q_factor, dt / factor, signal.front(), settings.quantity);
     }
     run(Upsampler(signal, factor), signal.back(), oscillators);
     for (size_t i = first; i < end; ++i) append(srs, frequencies[i], oscillators[i - first]);

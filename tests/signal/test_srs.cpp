@@ -82,6 +82,41 @@ TEST(Srs, of_an_undamped_half_sine_has_the_residual_of_its_fourier_transform) {
   }
 }
 
+// Of a constant base acceleration A, undamped: z = -A/wn^2 (1 - cos wn t), a step's textbook answer.
+TEST(Srs, of_a_constant_has_the_textbooks_relative_displacement) {
+  for (const double damping : {0.0, 0.05}) {
+    SrsSettings settings{q_factor_of(damping), 5.0, 400.0, 3, SrsQuantity::relative_displacement};
+    const std::vector<double> constant(4000, 3.0);
+    const Srs z = shock_response_spectrum(constant, 1e-3, settings);
+    settings.quantity = SrsQuantity::pseudo_velocity;
+    const Srs pseudo = shock_response_spectrum(constant, 1e-3, settings);
+    const double overshoot = 1.0 + std::exp(-pi * damping / std::sqrt(1.0 - damping * damping));
+    for (size_t i = 0; i < z.frequency.size(); ++i) {
+      const double wn = 2.0 * pi * z.frequency[i];
+      EXPECT_NEAR(z.negative[i] * wn * wn / (3.0 * overshoot), 1.0, 2e-5) << z.frequency[i];
+      EXPECT_NEAR(pseudo.maximax[i] / (wn * z.maximax[i]), 1.0, 1e-10);
+    }
+  }
+}
+
+// A short pulse leaves the base with a change of velocity, which a soft oscillator shows undamped as its pseudo-velocity; a stiff one's
+// relative displacement is that of the peak acceleration, at rest.
+TEST(Srs, of_a_half_sine_tends_to_its_change_of_velocity_and_to_its_peak) {
+  const std::vector<double> signal = half_sine(1100);  // 11 ms
+  const SrsSettings soft{infinite, 0.5, 0.6, 3, SrsQuantity::pseudo_velocity};
+  EXPECT_NEAR(shock_response_spectrum(signal, 1e-5, soft).maximax[0], 2.0 / pi * 11e-3, 1e-3 * 7e-3);
+  const SrsSettings stiff{10.0, 3000.0, 3001.0, 3, SrsQuantity::relative_displacement};
+  const double wn = 2.0 * pi * 3000.0;
+  EXPECT_NEAR(shock_response_spectrum(signal, 1e-5, stiff).maximax[0] * wn * wn, 1.0, 0.01);
+}
+
+TEST(Srs, has_the_unit_of_its_quantity) {
+  EXPECT_EQ(srs_unit(SrsQuantity::absolute_acceleration, "g"), "g");
+  EXPECT_EQ(srs_unit(SrsQuantity::relative_displacement, "m/s^2"), "m");
+  EXPECT_EQ(srs_unit(SrsQuantity::pseudo_velocity, "m/s^2"), "m/s");
+  EXPECT_EQ(srs_unit(SrsQuantity::pseudo_velocity, "g"), "g s");
+}
+
 TEST(Srs, residual_is_what_a_long_silence_after_the_record_shows) {
   std::vector<double> signal = half_sine(1100), followed = signal;
   followed.resize(60000, 0.0);
