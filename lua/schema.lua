@@ -491,6 +491,10 @@ local methods = {
       { "case", type = "name", default = "base", doc = "name of this case, for its folder" },
       { "start_from", type = "object", kinds = { "result" }, doc = "result of an earlier case: the iteration of each "
         .. "increment starts from its interface fields; the answer stays the same to the tolerance" },
+      { "at", type = "settings", doc = "parameters of this case by name, SI, as { mu = 0.3 }: with several cases of a problem "
+        .. "out/<problem>/study.csv and study.svg show what they come to" },
+      { "check_cold", type = "boolean", default = false, doc = "runs the case once more without `start_from`, and says how many "
+        .. "iterations that took and how far the answers are apart" },
     },
   },
 }

@@ -91,7 +91,13 @@ DeckOutcome execute(const DeckOptions& options, const Engine& engine, bool solve
   DeckState state(options, engine, solves);
   state.deck_digest = digest_of(text);
   try {
-    run_text(state, text);
+    try {
+      run_text(state, text);
+    } catch (...) {
+      state.study.finish(options.out, options.write_files);  // of the cases that are complete
+      throw;
+    }
+    state.study.finish(options.out, options.write_files);
     warn_of_unused(state);
   } catch (const DeckStopped&) {
     state.outcome.interrupted = true;
@@ -129,12 +135,46 @@ DeckResultPtr compute(DeckState& state, std::shared_ptr<const Problem> problem, 
     std::string report = state.engine.check(*problem);
     while (!report.empty() && report.back() == '\n') report.pop_back();
     say(report);
-    return std::make_shared<const DeckResult>(DeckResult{problem, hollow_result(*problem), true});
+    return std::make_shared<const DeckResult>(DeckResult{problem, hollow_result(*problem), true, case_name});
   }
   RunRequest request = request_of(state, *problem, case_name);
   if (start_from) request.start_from = start_from->run;
   auto run = state.engine.run(*problem, request);
-  return std::make_shared<const DeckResult>(DeckResult{problem, std::move(run), false});
+  return std::make_shared<const DeckResult>(DeckResult{problem, std::move(run), false, case_name});
+}
+
+// The same case from scratch, not written, to tell what starting from another saved and whether the answers agree.
+void check_cold(DeckState& state, const DeckResult& warm, StudyCase& one) {
+  const LuaState::Pause pause(state);
+  RunRequest request = request_of(state, *warm.problem, one.name);
+  request.write_files = request.write_frames = false;
+  say(fmt::format("problem '{}', case '{}' once more, without 'start_from':", warm.problem->name, one.name));
+  const auto cold = state.engine.run(*warm.problem, request);
+  if (cold->interrupted) return;
+  const Difference difference = largest_difference(*warm.problem, *cold, *warm.run);
+  one.cold_iterations = cold->iterations;
+  one.cold_difference = difference.value;
+  say(fmt::format("  {} iterations from scratch, {} from case '{}': {:.0f} % saved; answers differ by {:.1e} at most{}", cold->iterations,
+                  warm.run->iterations, one.started_from, 100.0 * (1.0 - static_cast<double>(warm.run->iterations) / static_cast<double>(cold->iterations)),
+                  difference.value, difference.where.empty() ? "" : " (" + difference.where + ")"));
+}
+
+// Notes what the case came to, for the study's table.
+void note_case(DeckState& state, const DeckResult& result, const std::string& case_name, const Arguments& arguments,
+               const DeckResultPtr& start_from) {
+  if (!state.is_solving || result.run->interrupted) return;
+  StudyCase one;
+  one.name = case_name;
+  for (const auto& [name, value] : arguments.settings("at")) one.at.emplace_back(name, value);
+  one.figures = case_summary(*result.problem, *result.run);
+  one.iterations = result.run->iterations;
+  one.mean_iterations = result.run->mean_iterations;
+  one.converged = result.run->converged;
+  const auto seconds = result.run->seconds.find("all");
+  one.seconds = seconds == result.run->seconds.end() ? 0.0 : seconds->second;
+  if (start_from) one.started_from = start_from->case_name;
+  if (arguments.boolean("check_cold") && start_from) check_cold(state, result, one);
+  state.study.add(result.problem->name, std::move(one));
 }
 
 // What the engine finds wrong and has no line for is told at the line that runs it.
@@ -178,6 +218,7 @@ int run_from_deck(DeckState& state, lua_State* L) {
   const Arguments arguments(L, 3);
   const DeckResultPtr start_from = arguments.has("start_from") ? arguments.object("start_from").as<DeckResultPtr>() : nullptr;
   DeckResultPtr result = compute_at(origin, state, problem, case_name, start_from);
+  note_case(state, *result, case_name, arguments, start_from);
   if (!result->run->converged) state.outcome.not_converged.push_back(label);
   if (result->run->interrupted) throw DeckStopped();
   push_object(L, {"result", "result", problem->name, -1, result});

@@ -7,6 +7,7 @@
 #include "deck/deck.hpp"
 #include "deck/lua_state.hpp"
 #include "deck/register.hpp"
+#include "deck/study.hpp"
 
 namespace dygita {
 
@@ -24,6 +25,7 @@ struct DeckState : LuaState {
   std::vector<std::pair<std::string, double>> parameters;
   std::set<std::pair<std::string, std::string>> cases;  // problem and case names that ran
   DeckOutcome outcome;
+  Study study;
   std::set<std::string> parameters_read;
   Origin parameters_origin;
   bool has_parameters = false;   // param{} was called

@@ -18,6 +18,7 @@ struct DeckResult {
   std::shared_ptr<const Problem> problem;
   std::shared_ptr<const RunResult> run;
   bool is_hollow = false;
+  std::string case_name = {};
 };
 using DeckResultPtr = std::shared_ptr<const DeckResult>;
 

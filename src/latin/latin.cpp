@@ -69,7 +69,7 @@ void StepRun::finish_increment() {
 // One step of time: forward once, iterate on the interfaces alone, backward once.
 void StepRun::solve_increment(int increment) {
   begin_increment(increment, true);
-  if (start_from_ && !start_from_->read(i_step_, increment, q_.size(), q_) && increment == 0)
+  if (!warm_start_.predict(increment, q_) && increment == 0)
     warn(fmt::format("step '{}': nothing of the case to start from fits (other interfaces, another number of pieces or of increments): the "
                      "iteration starts afresh", model_.step->name));
   anderson_.begin();

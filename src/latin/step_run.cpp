@@ -60,6 +60,7 @@ StepRun::StepRun(const Problem& problem, StepModel& model, State& state, Observe
       kept_(kept),
       i_step_(index_of(problem.steps, model.step)),
       local_((start_step(model, state), make_local_stage(problem, model, state))),
+      warm_start_(nullptr, 0, {}),
       anderson_(0, 0, 1.0, {}),
       indicator_(0.0) {
   kept_.begin_step();
@@ -76,6 +77,7 @@ StepRun::StepRun(const Problem& problem, StepModel& model, State& state, Observe
   weight_ = k.cwiseSqrt().cwiseInverse();
   if (window_ == 1 && s.anderson != 0 && needs_coarse_correction(model_)) coarse_ = CoarseCorrection(model_, k);
   if (is_static) indicator_ = Indicator(k.sum() * assembly_size() * assembly_size());
+  warm_start_ = WarmStart(start_from, i_step_, weight_);
   anderson_ = Anderson(anderson_depth(s, is_static), is_static ? 0 : 20, relaxation(s, is_static), weight_);
   q_ = local_.initial_q();
   velocity_ = Vec::Zero(q_.size());

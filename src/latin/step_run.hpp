@@ -9,6 +9,7 @@
 #include "latin/indicator.hpp"
 #include "latin/latin.hpp"
 #include "latin/local_stage.hpp"
+#include "latin/warm_start.hpp"
 
 namespace dygita {
 
@@ -83,6 +84,7 @@ class StepRun {
   Vec weight_, q_, velocity_, image_;
   LocalStage local_;
   CoarseCorrection coarse_;
+  WarmStart warm_start_;
   Anderson anderson_;
   Indicator indicator_;
   IndicatorSums sums_;  // of the last local stage

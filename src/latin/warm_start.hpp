@@ -1,0 +1,39 @@
+// Where the iteration of an increment starts, given another case's interface fields.
+#pragma once
+
+#include <array>
+
+#include "solution/interface_fields.hpp"
+
+namespace dygita {
+
+// Three guesses of an increment's q from the kept fields c and the q of the increment before:
+//
+//   q(n-1)                     this case goes on as it does without another
+//   c(n)                       the other case's answer
+//   q(n-1) + c(n) - c(n-1)     what the other case did in this increment
+//
+// Which one is taken is decided by hindsight: the least error (weighted, of the increments so far, each counting half of the one
+// after it). Close cases move alike, far ones have only some increments in common (all sticks), and where neither helps nothing is
+// lost but the arithmetic.
+class WarmStart {
+ public:
+  // fields: of the other case, null for none; weight: of each component of q in the errors.
+  WarmStart(const InterfaceFields* fields, size_t i_step, Vec weight);
+
+  // Replaces q, that of the increment before, by a guess for this one. False: the fields have nothing that fits (q is left).
+  bool predict(int increment, Vec& q);
+
+ private:
+  static constexpr int n_guesses = 3;
+
+  const InterfaceFields* fields_;
+  size_t i_step_;
+  Vec weight_;
+  std::array<Vec, n_guesses> guess_;
+  std::array<double, n_guesses> error_{};
+  Vec kept_, kept_before_;
+  bool has_guessed_ = false;
+};
+
+}  // namespace dygita

@@ -1,0 +1,29 @@
+// What a case comes to: one figure or two of each output, for tables of parametric studies.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "result/result.hpp"
+
+namespace dygita {
+
+struct CaseFigure {
+  std::string name, unit;  // "bolt.normal largest", "N"
+  double value = 0.0;      // SI; NaN where the run gave nothing
+};
+
+// Largest modulus of histories, resultants (normal, shear) and spectra; of joints the force at the end and the largest opening,
+// slip and plastic opening, and the works at the end; mean ratio of attenuations. In the problem's order of outputs.
+std::vector<CaseFigure> case_summary(const Problem& problem, const RunResult& result);
+
+// Largest difference of two runs of the same problem over all columns of their tables, each relative to the largest value of its
+// unit in its table. Areas by state are left out: a point on the verge of sliding counts here or there. Tables of different lengths
+// differ by infinity.
+struct Difference {
+  double value = 0.0;
+  std::string where;  // "bolt.normal"; empty where nothing differs
+};
+Difference largest_difference(const Problem& problem, const RunResult& a, const RunResult& b);
+
+}  // namespace dygita
