@@ -4,6 +4,7 @@
 
 #include "base/log.hpp"
 #include "deck/build_model.hpp"
+#include "deck/build_specification.hpp"
 
 namespace dygita {
 
@@ -145,6 +146,7 @@ Held build_srs(const Declaration& d) {
   if (output->srs.from >= output->srs.to) {
     throw InputError(fmt::format("'from' = {:g} Hz is not below 'to' = {:g} Hz", output->srs.from, output->srs.to));
   }
+  output->specification = specification_of(d);
   return OutputPtr(output);
 }
 

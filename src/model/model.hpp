@@ -11,6 +11,7 @@
 #include "material/elastic.hpp"
 #include "mesh/mesh.hpp"
 #include "signal/history.hpp"
+#include "signal/specification.hpp"
 #include "signal/srs.hpp"
 
 namespace dygita {
@@ -166,6 +167,7 @@ struct Output : Named {
   std::vector<std::string> fields;   // vtk
   std::shared_ptr<const Output> of;  // srs
   SrsSettings srs;
+  std::shared_ptr<const Specification> specification;  // srs; null: none
 };
 using OutputPtr = std::shared_ptr<const Output>;
 
