@@ -179,6 +179,21 @@ function types.numbers(call, argument, value, label)
   return numbers
 end
 
+-- A file, or pairs of frequency and level: left as one flat list.
+function types.specification(call, _, value, label)
+  if type(value) == "string" then return types.text(call, nil, value, label) end
+  local pair_of = "{ frequency (Hz), level (m/s^2) }"
+  local flat, n = {}, check_list(call, value, label, "a file or a list of " .. pair_of)
+  if n < 2 then fail(call, ("'%s' must have at least two points %s, got %d"):format(label, pair_of, n)) end
+  for i = 1, n do
+    local point = ("%s[%d]"):format(label, i)
+    if type(value[i]) ~= "table" then wrong_type(call, point, pair_of, value[i], "as in { {100, 20*g0}, {1000, 500*g0} }") end
+    if check_list(call, value[i], point, pair_of) ~= 2 then fail(call, ("'%s' must be %s, got %d of them"):format(point, pair_of, #value[i])) end
+    for j = 1, 2 do flat[#flat + 1] = types.number(call, {}, value[i][j], ("%s[%d]"):format(point, j)) end
+  end
+  return flat
+end
+
 function types.settings(call, argument, value, label)
   if type(value) ~= "table" then wrong_type(call, label, "a table of numbers by name, as { size = 2*mm }", value) end
   local settings = {}

@@ -10,7 +10,7 @@ local function number(x) return ("%g"):format(x) end
 
 local function type_of(argument)
   local names = { vector = "{ x, y, z }", counts = "{ nx, ny, nz }", numbers = "list of numbers", name = "text",
-                  settings = "table of numbers", value = "number, history or function(t)", integer = "whole number",
+                  settings = "table of numbers", specification = "file or list of { frequency, level }", value = "number, history or function(t)", integer = "whole number",
                   choice = "text", choices = "list of texts" }
   local text = names[argument.type] or argument.type
   if argument.kinds then text = table.concat(argument.kinds, " or ") end

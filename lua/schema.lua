@@ -13,6 +13,7 @@
 --   vector, counts        three numbers, three whole numbers
 --   numbers               a list of numbers, at least `at_least`
 --   settings              a table of numbers by name
+--   specification         a file, or a list of { frequency, level }
 --   value                 a number, a history or a function of time
 --   object, objects       one of, or a list of, the `kinds`: a kind ("face") or a constructor ("interface.plastic");
 --                         of objects `at_least`, `exactly`; `or_single`: one alone needs no list
@@ -412,6 +413,8 @@ words[10] = {
     arguments = spectrum({
       name_of "output",
       { "of", type = "object", kinds = { "output.history" }, required = true, doc = "an acceleration with a direction" },
+      { "specification", type = "specification", unit = "m/s^2", doc = "what the maximax is held against in report.html: a CSV of frequency "
+        .. "(Hz) and level (m/s^2; g where its header says [g]), or { {100, 20*g0}, {1000, 500*g0} }; log-log in between" },
     }, 12),
   },
   {

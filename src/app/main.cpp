@@ -7,6 +7,7 @@
 #include <exception>
 #include <new>
 
+#include "app/report_command.hpp"
 #include "app/srs_command.hpp"
 #include "base/names.hpp"
 #include "base/progress.hpp"
@@ -22,6 +23,7 @@ struct Command {
   DeckOptions deck;
   std::vector<std::string> settings;
   SrsCommand srs;
+  ReportCommand report;
   bool is_quiet = false, has_no_frames = false;
 };
 
@@ -69,6 +71,13 @@ void add_srs_options(CLI::App& command, SrsCommand& asked) {
   command.add_option("--out", asked.out, "file to write (default: standard output)");
 }
 
+void add_report_options(CLI::App& command, ReportCommand& asked) {
+  command.add_option("RUN", asked.run, "folder of a run, out/<problem>/<case>")->required();
+  command.add_option("--specification", asked.specification,
+                     "CSV of frequency (Hz) and level (m/s^2, or g where its header says [g]): of all spectra, in place of the deck's");
+  command.add_option("--out", asked.out, "file to write (default: report.html in the folder)");
+}
+
 int run_or_check(Command& asked, bool solves) {
   for (const std::string& text : asked.settings) asked.deck.settings.push_back(parse_setting(text));
   asked.deck.write_frames = !asked.has_no_frames;
@@ -107,7 +116,9 @@ int command_line(int argc, char** argv) {
   CLI::App* srs = app.add_subcommand("srs", "shock response spectrum of a CSV file");
   add_srs_options(*srs, asked.srs);
   CLI::App* schema = app.add_subcommand("schema", "the reference of the deck language, as Markdown");
-  for (const char* later : {"continue", "report"}) {
+  CLI::App* report = app.add_subcommand("report", "write report.html of a run once more");
+  add_report_options(*report, asked.report);
+  for (const char* later : {"continue"}) {
     app.add_subcommand(later, std::string("not built yet in ") + version())->allow_extras();
   }
 
@@ -121,6 +132,8 @@ int command_line(int argc, char** argv) {
   if (srs->parsed()) {
     if (asked.srs.damping) asked.srs.settings.q_factor = q_factor_of(*asked.srs.damping);
     write_srs(asked.srs);
+  } else if (report->parsed()) {
+    write_report(asked.report);
   } else if (schema->parsed()) {
     std::fputs(deck_reference().c_str(), stdout);
   } else {

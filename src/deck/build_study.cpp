@@ -4,6 +4,7 @@
 
 #include "base/log.hpp"
 #include "deck/build_model.hpp"
+#include "deck/build_specification.hpp"
 
 namespace dygita {
 
@@ -158,6 +159,9 @@ Held build_srs(const Declaration& d) {
   output->kind = OutputKind::srs;
   output->of = a.object("of").as<OutputPtr>();
   output->srs = srs_settings(a);
+  output->specification = specification_of(d);
+  if (output->specification && output->srs.quantity != SrsQuantity::absolute_acceleration)
+    throw InputError("a 'specification' is of absolute acceleration: leave 'quantity' out");
   return OutputPtr(output);
 }
 

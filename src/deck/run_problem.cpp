@@ -12,6 +12,7 @@
 #include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
 #include "result/collector.hpp"
+#include "result/scene_recorder.hpp"
 #include "result/spectra.hpp"
 #include "solution/step_model.hpp"
 
@@ -113,9 +114,15 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
   if (result.figures.contains("error estimate, static, mesh [%]"))
     say(fmt::format("  estimated errors of static steps: iteration {:.2g} %, mesh {:.2g} %", figure("error estimate, static, iteration [%]"),
                     figure("error estimate, static, mesh [%]")));
-  for (const OutputPtr& output : problem.outputs)
+  for (const OutputPtr& output : problem.outputs) {
     if (output->kind == OutputKind::attenuation && result.tables.at(output.get()).n_rows() > 0)
       say("  " + attenuation_summary(*output, result.tables.at(output.get())));
+    if (const std::string name = "largest exceedance of the specification of '" + output->name + "' [dB]"; output->specification && result.figures.contains(name)) {
+      const double frequency = figure(("frequency of the largest exceedance of '" + output->name + "' [Hz]").c_str());
+      say(fmt::format("  spectrum '{}': {:.1f} dB {} its specification at {:.4g} Hz", output->name, std::abs(figure(name.c_str())),
+                      figure(name.c_str()) > 0.0 ? "above" : "below", frequency));
+    }
+  }
   if (!directory.empty()) say(fmt::format("  {:.2f} s in all; results in {}", seconds, directory.string()));
 }
 
@@ -134,14 +141,18 @@ std::shared_ptr<const RunResult> run_problem(const Problem& problem, const RunRe
     if (request.write_frames) sink = [&](const Frame& frame) { writer->write_frame(frame); };
   }
   Collector collector(problem, sink);
+  SceneRecorder scenes(problem);
+  Observers observers({&collector});
+  if (writer) observers.add(scenes);
   auto result = std::make_shared<RunResult>();
-  const SolverFigures figures = problem.explicit_dynamics ? solve_explicit(problem, collector)
+  const SolverFigures figures = problem.explicit_dynamics ? solve_explicit(problem, observers)
                                 : problem.monolithic
-                                    ? solve_monolithic(problem, collector)
-                                    : solve(problem, collector, request.start_from ? request.start_from->interface_fields.get() : nullptr);
+                                    ? solve_monolithic(problem, observers)
+                                    : solve(problem, observers, request.start_from ? request.start_from->interface_fields.get() : nullptr);
   result->interface_fields = figures.interface_fields;
   summarise(problem, figures, *result);
   collector.finish(*result);
+  if (writer) scenes.finish(*result);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result->seconds["all"] = seconds;
   warn_of_losses(problem, *result);
@@ -149,6 +160,7 @@ std::shared_ptr<const RunResult> run_problem(const Problem& problem, const RunRe
   const std::vector<std::string> warnings = take_warnings();
   RunIdentity identity = request.identity;
   identity.threads = omp_get_max_threads();
+  identity.case_name = request.case_name;
   if (writer) writer->write_result(problem, *result, identity, warnings);
   say_summary(problem, *result, writer ? writer->directory() : std::filesystem::path(), seconds);
   return result;

@@ -11,6 +11,7 @@
 #include "material/elastic.hpp"
 #include "mesh/mesh.hpp"
 #include "signal/history.hpp"
+#include "signal/specification.hpp"
 #include "signal/srs.hpp"
 
 namespace dygita {
@@ -167,6 +168,7 @@ struct Output : Named {
   std::shared_ptr<const Output> of;  // srs; attenuation: the history that enters
   std::shared_ptr<const Output> leaving;  // attenuation
   SrsSettings srs;                   // srs, srs_field, attenuation
+  std::shared_ptr<const Specification> specification;  // srs; null: none
   int bands = 1;                     // attenuation: an octave
   int n_joints = 1;                  // attenuation: bolted joints on the way, for the rule of thumb
 };

@@ -4,6 +4,7 @@
 
 #include "base/log.hpp"
 #include "numerics/factor.hpp"
+#include "output/record_parts.hpp"
 #include "output/vtk_writer.hpp"
 
 namespace dygita {
@@ -48,16 +49,9 @@ Json substructures(const Problem& problem, const RunResult& result, const RunIde
 }
 
 Json solver(const Problem& problem, const RunIdentity& identity) {
-  Json json = {{"name", problem.solver_name()}};
+  Json json = solver_record(problem);
   if (!identity.solver.empty()) json["command_line"] = identity.solver;
   return json;
-}
-
-std::string label(const Target& target) {
-  if (const auto* face = std::get_if<Face>(&target)) return face->label();
-  if (const auto* region = std::get_if<Region>(&target)) return region->label();
-  if (const auto* interface = std::get_if<InterfacePtr>(&target)) return (*interface)->name;
-  return std::get<SupportPtr>(target)->name;
 }
 
 Json loads(const Step& step) {
@@ -83,7 +77,11 @@ Json steps(const Problem& problem, const RunResult& result) {
                  {"iterations", step.iterations},
                  {"worst_indicator", step.worst_indicator},
                  {"seconds", step.seconds}};
-    if (i < problem.steps.size()) json["loads"] = loads(*problem.steps[i]);
+    if (i < problem.steps.size()) {
+      json["asked_increments"] = problem.steps[i]->n_increments();
+      if (!problem.steps[i]->is_static) json.update({{"dt", problem.steps[i]->dt}, {"duration", problem.steps[i]->duration}});
+      json["loads"] = loads(*problem.steps[i]);
+    }
     list.push_back(json);
   }
   return list;
@@ -102,12 +100,17 @@ std::string run_record(const Problem& problem, const RunResult& result, const Ru
   const Json json = {
       {"program", {{"name", "dygita"}, {"version", program_version()}}},
       {"problem", problem.name},
+      {"case", identity.case_name},
       {"verdict", verdict(result)},
       {"warnings", warnings},
       {"deck", {{"path", identity.deck_path}, {"digest", identity.deck_digest}}},
       {"parameters", object(identity.parameters)},
       {"solver", solver(problem, identity)},
       {"substructures", substructures(problem, result, identity)},
+      {"interfaces", interfaces_record(problem)},
+      {"supports", supports_record(problem)},
+      {"outputs", outputs_record(problem, result)},
+      {"bolts", bolts_record(result)},
       {"size", {{"dofs", result.n_dofs}, {"interface_unknowns", result.n_interface_unknowns}}},
       {"iterations", {{"all", result.iterations}, {"mean", result.mean_iterations}}},
       {"steps", steps(problem, result)},

@@ -7,7 +7,9 @@
 #include "output/collection.hpp"
 #include "output/csv.hpp"
 #include "output/manifest.hpp"
+#include "output/report.hpp"
 #include "output/run_record.hpp"
+#include "output/scene_file.hpp"
 #include "output/vtk_writer.hpp"
 
 namespace dygita {
@@ -88,6 +90,9 @@ void RunWriter::write_result(const Problem& problem, const RunResult& result, co
   }
   for (const auto& [output, frames] : result.fields) write_field(file_name_of(output->name), frames);
   if (!result.convergence.columns.empty()) write("convergence.csv", csv_text(result.convergence, steps));
+
+  if (result.scenes) write(scene_file, scene_text(problem, *result.scenes));
+  write("report.html", report_html(directory_, {.record = run_record(problem, result, identity, warnings, {})}));
 
   // Name the files but for the frames, which the .pvd list.
   const fs::path record = path_of("run.json");

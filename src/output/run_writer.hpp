@@ -15,6 +15,7 @@ namespace dygita {
 
 // What the run record tells beside the result.
 struct RunIdentity {
+  std::string case_name = "base";
   std::string deck_path, deck_digest;                             // digest of the deck's text
   std::vector<std::pair<std::string, double>> parameters;         // param{} after --set
   std::string solver;                                             // --solver; empty: the deck's own
@@ -41,8 +42,8 @@ class RunWriter {
   // cannot write.
   void write_frame(const Frame& frame);
 
-  // <output name>.csv for each table, energy.csv, convergence.csv, and last run.json (versions, digests, parameters,
-  // figures, warnings): where it stands the run came to its end. Throws InputError when it cannot write.
+  // <output name>.csv for each table, energy.csv, convergence.csv, scenes.json, report.html, and last run.json (versions,
+  // digests, parameters, figures, warnings): where it stands the run came to its end. Throws InputError when it cannot write.
   void write_result(const Problem& problem, const RunResult& result, const RunIdentity& identity,
                     const std::vector<std::string>& warnings);
 

@@ -97,6 +97,17 @@ void Collector::watch(const Instant& instant) {
 
 namespace {
 
+void add_exceedances(const Problem& problem, RunResult& result) {
+  for (const OutputPtr& output : problem.outputs) {
+    if (output->kind != OutputKind::srs || !output->specification || result.tables[output.get()].n_rows() == 0) continue;
+    const Table& spectrum = result.tables[output.get()];
+    const Exceedance worst = largest_exceedance(*output->specification, spectrum.columns.front(), spectrum.column("maximax"));
+    if (!worst.is_known) continue;
+    result.figures["largest exceedance of the specification of '" + output->name + "' [dB]"] = worst.decibels;
+    result.figures["frequency of the largest exceedance of '" + output->name + "' [Hz]"] = worst.frequency;
+  }
+}
+
 void add_error_figures(const ErrorEstimator& errors, const Problem& problem, RunResult& result) {
   const auto has = [&](bool is_static) {
     return std::any_of(problem.steps.begin(), problem.steps.end(), [&](const StepPtr& s) { return s->is_static == is_static; });
@@ -139,6 +150,7 @@ void Collector::finish(RunResult& result) {
   result.figures["energy created by the scheme [%]"] = percent * extremes_.scheme_gain;
   result.figures["largest penetration [m]"] = extremes_.penetration;
   add_error_figures(errors_, problem_, result);
+  add_exceedances(problem_, result);
   // What the springs of a penalty hold is what the sides overlap: its interfaces' constitutive-relation error.
   if (problem_.explicit_dynamics) result.figures["error estimate, penalty [%]"] = 10 * std::sqrt(percent * extremes_.springs);
 }

@@ -47,6 +47,8 @@ struct BoltSummary {
   double plastic_opening = 0.0;           // m, largest at the end
 };
 
+struct Scenes;
+
 struct RunResult {
   std::vector<BoltSummary> bolts;
   std::map<const Output*, Table> tables;       // of all outputs but vtk
@@ -62,6 +64,7 @@ struct RunResult {
   std::vector<int> pieces;                     // into which each substructure was cut; empty: the solver cuts none
   std::map<std::string, double> seconds;       // "assemble", "factor", "forward", "iterate", "backward", "output", ...
   std::map<std::string, double> figures;       // "largest energy imbalance [%]", "largest penetration [m]", ...
+  std::shared_ptr<const Scenes> scenes;        // what the report draws; null: nobody recorded it
 };
 
 }  // namespace dygita

@@ -1,0 +1,106 @@
+#include "output/record_parts.hpp"
+
+#include "output/files.hpp"
+
+namespace dygita {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json labels(const std::vector<Target>& targets) {
+  Json list = Json::array();
+  for (const Target& target : targets) list.push_back(label(target));
+  return list;
+}
+
+Json specification(const Specification& specification, const Table& spectrum) {
+  Json json = {{"source", specification.source}, {"frequency", specification.frequency}, {"level", specification.level}};
+  if (spectrum.n_rows() == 0) return json;
+  const Exceedance worst = largest_exceedance(specification, spectrum.columns.front(), spectrum.column("maximax"));
+  if (worst.is_known) json["exceedance"] = {{"decibels", worst.decibels}, {"frequency", worst.frequency}};
+  return json;
+}
+
+}  // namespace
+
+std::string label(const Target& target) {
+  if (const auto* face = std::get_if<Face>(&target)) return face->label();
+  if (const auto* region = std::get_if<Region>(&target)) return region->label();
+  if (const auto* interface = std::get_if<InterfacePtr>(&target)) return (*interface)->name;
+  return std::get<SupportPtr>(target)->name;
+}
+
+Json interfaces_record(const Problem& problem) {
+  Json list = Json::array();
+  for (const InterfacePtr& interface : problem.interfaces) {
+    Json json = {{"name", interface->name},
+                 {"kind", interface_kind_name(interface->kind)},
+                 {"between", {interface->side_1.label(), interface->side_2.label()}}};
+    if (interface->kind == InterfaceKind::contact) json.update({{"friction", interface->friction}, {"gap", interface->gap}});
+    if (interface->kind == InterfaceKind::plastic)
+      json.update({{"yield", interface->yield}, {"hardening", interface->hardening}, {"compression", interface->compression}});
+    list.push_back(json);
+  }
+  return list;
+}
+
+Json supports_record(const Problem& problem) {
+  Json list = Json::array();
+  for (const SupportPtr& support : problem.supports) {
+    Json on = Json::array();
+    for (const FaceOrRegion& place : support->on) on.push_back(std::visit([](const auto& p) { return p.label(); }, place));
+    Json json = {{"name", support->name}, {"kind", support_kind_name(support->kind)}, {"on", on}};
+    if (support->kind == SupportKind::wall) json.update({{"friction", support->friction}, {"gap", support->gap}});
+    list.push_back(json);
+  }
+  return list;
+}
+
+Json outputs_record(const Problem& problem, const RunResult& result) {
+  Json list = Json::array();
+  for (const OutputPtr& output : problem.outputs) {
+    const auto found = result.tables.find(output.get());
+    if (found == result.tables.end()) continue;
+    const bool is_energy = output->kind == OutputKind::energy;
+    Json json = {{"name", output->name},
+                 {"kind", output_kind_name(output->kind)},
+                 {"file", (is_energy ? "energy" : file_name_of(output->name)) + ".csv"}};
+    if (!output->on.empty()) json["on"] = labels(output->on);
+    if (output->kind == OutputKind::history) json["quantity"] = quantity_name(output->quantity);
+    if (output->direction) json["direction"] = {(*output->direction)[0], (*output->direction)[1], (*output->direction)[2]};
+    if (output->kind == OutputKind::srs) {
+      json.update({{"of", output->of->name}, {"quantity", quantity_name(output->of->quantity)}, {"q_factor", output->srs.q_factor}});
+      if (output->specification) json["specification"] = specification(*output->specification, found->second);
+    }
+    list.push_back(json);
+  }
+  return list;
+}
+
+Json bolts_record(const RunResult& result) {
+  Json list = Json::array();
+  for (const BoltSummary& bolt : result.bolts) {
+    Json json = {{"name", bolt.name}, {"area", bolt.area}, {"after_static", bolt.after_static}};
+    if (bolt.target) json["target"] = *bolt.target;
+    if (bolt.hand) json["hand"] = *bolt.hand;
+    json.update({{"shortening", bolt.shortening},
+                 {"lowest", bolt.lowest},
+                 {"highest", bolt.highest},
+                 {"last", bolt.last},
+                 {"plastic_opening", bolt.plastic_opening}});
+    list.push_back(json);
+  }
+  return list;
+}
+
+Json solver_record(const Problem& problem) {
+  Json json = {{"name", problem.solver_name()}};
+  if (problem.explicit_dynamics) return json;
+  json["tolerance"] = problem.monolithic ? problem.monolithic->tolerance : problem.solver.tolerance;
+  if (!problem.monolithic) json["static_tolerance"] = problem.solver.static_tolerance;
+  json["max_iterations"] = problem.monolithic ? problem.monolithic->max_iterations : problem.solver.max_iterations;
+  return json;
+}
+
+}  // namespace dygita

@@ -1,0 +1,164 @@
+// Bolts, and each joint: areas by state, forces, loops, works, maps.
+#include <algorithm>
+#include <cmath>
+
+#include "base/log.hpp"
+#include "output/html.hpp"
+#include "output/report_parts.hpp"
+#include "output/units.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr const char* stick_color = "#0072b2";
+constexpr const char* slip_color = "#e69f00";
+constexpr const char* open_color = "#c8c8c8";
+
+Plot small_plot(const std::string& title, const PlotAxis& x, const PlotAxis& y) {
+  Plot plot{.title = title, .x = x, .y = y};
+  plot.width = 530;
+  plot.height = 270;
+  return plot;
+}
+
+double largest(const std::vector<double>& values) {
+  double max = 0.0;
+  for (const double v : values)
+    if (std::isfinite(v)) max = std::max(max, std::abs(v));
+  return max;
+}
+
+std::pair<double, double> range(const std::vector<double>& values) {
+  double low = 0.0, high = 0.0;
+  bool is_first = true;
+  for (const double v : values) {
+    if (!std::isfinite(v)) continue;
+    low = is_first ? v : std::min(low, v);
+    high = is_first ? v : std::max(high, v);
+    is_first = false;
+  }
+  return {low, high};
+}
+
+bool is_plastic(const RunFolder& run, const Json& output) {
+  for (const Json& interface : run.record().value("interfaces", Json::array()))
+    for (const Json& on : output.value("on", Json::array()))
+      if (text(interface, "kind") == "plastic" && on.is_string() && on.get<std::string>() == text(interface, "name")) return true;
+  return false;
+}
+
+// What a joint did, in a sentence or two.
+std::string summary(const Table& t, bool yields) {
+  const auto [low, high] = range(t.column("normal"));
+  std::string line = fmt::format("Normal force from {} to {} (pressed is negative)", with_unit(low, "N"), with_unit(high, "N"));
+  if (const double shear = largest(t.column("shear")); shear > 1e-9 * std::max(std::abs(low), std::abs(high))) line += ", shear up to " + with_unit(shear, "N");
+  const std::vector<double>&open = t.column("open_area"), &stick = t.column("stick_area"), &slip = t.column("slip_area");
+  double most_open = 0.0, most_slip = 0.0;
+  for (size_t i = 0; i < open.size(); ++i) {
+    const double all = open[i] + stick[i] + slip[i];
+    if (!(all > 0.0)) continue;
+    most_open = std::max(most_open, open[i] / all);
+    most_slip = std::max(most_slip, slip[i] / all);
+  }
+  if (yields) {
+    line += most_slip > 0.0 ? fmt::format(". It yields on up to {:.0f} % of its area", 100.0 * most_slip) : ". It never yields";
+    if (largest(t.column("plastic_opening")) > 0.0) line += ", by up to " + with_unit(largest(t.column("plastic_opening")), "m");
+  } else {
+    line += most_open > 0.0 ? fmt::format(". It opens on up to {:.0f} % of its area, by up to {}", 100.0 * most_open, with_unit(largest(t.column("opening")), "m")) : ". It stays closed";
+    if (most_slip > 0.0) line += fmt::format("; up to {:.0f} % slides, by up to {}", 100.0 * most_slip, with_unit(largest(t.column("slip")), "m"));
+  }
+  if (const double work = t.column("friction_work").back(); work > 0.0) line += ". Friction dissipates " + with_unit(work, "J");
+  if (const double work = t.column("plastic_work").back(); work > 0.0) line += ". Yielding dissipates " + with_unit(work, "J");
+  return line + ".";
+}
+
+std::string loop(const Table& t, const std::string& title, const char* x, const char* y) {
+  const std::vector<double>&across = t.column(x), &up = t.column(y);
+  const auto [low, high] = range(across);
+  if (!(high - low > 0.0) || across.size() < 3) return "";
+  std::string quantity = x;
+  std::replace(quantity.begin(), quantity.end(), '_', ' ');
+  Plot plot = small_plot(title, {quantity, "m"}, {std::string(y) + " force", "N"});
+  plot.lines.push_back({"", across, up, {}, false, false, 1.2});
+  plot.marks = {{across.front(), up.front(), "start"}, {across.back(), up.back(), "end"}};
+  return html::figure(svg(plot), title + ".");
+}
+
+std::string works(const Table& t, const TimeAxis& time) {
+  Plot plot = small_plot("Work of the joint", time.axis(), {"energy dissipated", "J"});
+  plot.spans = time.spans();
+  const std::vector<double> places = time.places(t);
+  for (const char* work : {"friction_work", "plastic_work"})
+    if (largest(t.column(work)) > 0.0) plot.lines.push_back({work == std::string("friction_work") ? "friction" : "yielding", places, t.column(work)});
+  return plot.lines.empty() ? "" : html::figure(svg(plot), "What friction and yielding have dissipated.");
+}
+
+std::string joint_part(const RunFolder& run, const Json& output, const TimeAxis& time) {
+  const Table t = run.table(text(output, "file"));
+  if (t.n_rows() == 0) return "";
+  const bool yields = is_plastic(run, output);
+  const std::vector<double> places = time.places(t);
+  Plot area = small_plot("Area by state", time.axis(), {"area", "m^2"});
+  area.spans = time.spans();
+  area.stacked = {{yields ? "elastic" : "sticking", places, t.column("stick_area"), stick_color},
+                  {yields ? "yielding" : "sliding", places, t.column("slip_area"), slip_color},
+                  {"open", places, t.column("open_area"), open_color}};
+  if (yields && largest(t.column("open_area")) == 0.0) area.stacked.pop_back();
+  Plot force = small_plot("Force through the joint", time.axis(), {"force", "N"});
+  force.spans = time.spans();
+  for (const char* name : {"normal", "shear"}) force.lines.push_back({name, places, t.column(name), {}, false, t.n_rows() < 30});
+
+  std::string on;
+  for (const Json& place : output.value("on", Json::array()))
+    if (place.is_string()) on += (on.empty() ? "" : ", ") + place.get<std::string>();
+  std::string body = html::heading(text(output, "name") + " on " + on) + html::paragraph(summary(t, yields));
+  body += html::row({html::figure(svg(force), "Normal and shear force on side 1 against time."), html::figure(svg(area), "How much of the joint is in which state."),
+                     loop(t, "Normal force against opening", yields ? "plastic_opening" : "opening", "normal"), loop(t, "Shear force against slip", "slip", "shear"), works(t, time)});
+  if (!run.scenes().is_object() || !run.scenes().contains("joints")) return body;
+  for (const Json& joint : run.scenes()["joints"])
+    for (const Json& place : output.value("on", Json::array()))
+      if (place.is_string() && place.get<std::string>() == text(joint, "name")) body += maps_of_joint(joint);
+  return body;
+}
+
+}  // namespace
+
+std::string joints_section(const RunFolder& run, const TimeAxis& time) {
+  std::string body;
+  for (const Json& output : run.outputs("joint")) body += joint_part(run, output, time);
+  return html::section("Joints", body);
+}
+
+std::string bolts_section(const RunFolder& run) {
+  const Json bolts = run.record().value("bolts", Json::array());
+  std::vector<std::string> header = {"bolt"};
+  std::vector<std::string> static_steps;
+  for (const Json& step : run.record().at("steps"))
+    if (text(step, "kind") == "static") header.push_back("after " + text(step, "name"));
+  const size_t n_static = header.size() - 1;
+  const auto any = [&](const char* key) { return std::any_of(bolts.begin(), bolts.end(), [&](const Json& b) { return std::isfinite(number(b, key)); }); };
+  const bool has_target = any("target"), has_hand = any("hand");
+  if (has_target) header.push_back("asked for");
+  if (has_hand) header.push_back("hand formula");
+  for (const char* name : {"shortened by", "lowest in motion", "highest in motion", "at the end", "mean stress", "opened for good"}) header.push_back(name);
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& bolt : bolts) {
+    std::vector<std::string> row = {text(bolt, "name")};
+    const Json after = bolt.value("after_static", Json::array());
+    for (size_t i = 0; i < n_static; ++i) row.push_back(i < after.size() && after[i].is_number() ? with_unit(after[i].get<double>(), "N") : "");
+    const auto force = [&](const char* key) { return std::isfinite(number(bolt, key)) ? with_unit(number(bolt, key), "N") : std::string(); };
+    if (has_target) row.push_back(force("target"));
+    if (has_hand) row.push_back(force("hand"));
+    row.push_back(with_unit(number(bolt, "shortening"), "m"));
+    for (const char* key : {"lowest", "highest", "last"}) row.push_back(force(key));
+    row.push_back(number(bolt, "area") > 0.0 ? with_unit(number(bolt, "last") / number(bolt, "area"), "Pa") : "");
+    row.push_back(with_unit(number(bolt, "plastic_opening"), "m"));
+    rows.push_back(std::move(row));
+  }
+  if (rows.empty()) return "";
+  return html::section("Bolts", html::table(header, rows, true) +
+                                    html::paragraph("Forces are those through the modelled part of each bolt, tension positive; the mean stress is that at the end, over the modelled area."));
+}
+
+}  // namespace dygita

@@ -1,0 +1,44 @@
+// A run's output directory read back: its record, its tables, what was drawn of it.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "result/result.hpp"
+
+namespace dygita {
+
+using Json = nlohmann::ordered_json;
+
+class RunFolder {
+ public:
+  // Reads the record (or takes its text) and scenes.json. Throws InputError where there is no record or it is damaged.
+  RunFolder(std::filesystem::path folder, const std::string& record_text);
+
+  const Json& record() const { return record_; }
+  const Json& scenes() const { return scenes_; }  // null where there are none
+
+  // The table of a file in the folder, rows with the index of their step in the record's; empty where it is missing or damaged,
+  // which `faults` then tells.
+  Table table(const std::string& file) const;
+  const std::vector<std::string>& faults() const { return faults_; }
+
+  // Outputs of the record of one kind.
+  std::vector<Json> outputs(const std::string& kind) const;
+  double figure(const std::string& name) const;  // nan where the run has none
+
+ private:
+  std::filesystem::path folder_;
+  Json record_, scenes_;
+  mutable std::vector<std::string> faults_;
+};
+
+// Of an object's member: nan where it is missing or null; "" likewise.
+double number(const Json& object, const char* key);
+std::string text(const Json& object, const char* key);
+
+}  // namespace dygita

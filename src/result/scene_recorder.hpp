@@ -1,0 +1,51 @@
+// Watches a run for what the report draws (scenes.hpp). Cheap: it copies displacements a few tens of times a run at most, and the
+// state of the points of interfaces with an output.joint.
+#pragma once
+
+#include <vector>
+
+#include "result/result.hpp"
+#include "result/scenes.hpp"
+#include "solution/observer.hpp"
+
+namespace dygita {
+
+class SceneRecorder : public Observer {
+ public:
+  explicit SceneRecorder(const Problem& problem) : problem_(problem) {}
+
+  void begin_step(const Instant&) override {}
+  void accept(const Instant& instant) override;
+  // Puts the scenes into the result; stresses are computed here.
+  void finish(RunResult& result);
+
+ private:
+  void find_joints(const Instant& instant);
+  void keep_assembly(const Instant& instant, AssemblyScene& scene) const;
+  void keep_joints(const Instant& instant);
+
+  const Problem& problem_;
+  AssemblyScene tightened_, shocked_;  // without displacements: not met yet
+  double strain_energy_ = -1.0;        // J, of shocked_
+  bool has_joints_ = false;
+  std::vector<int> surfaces_;          // of joints_
+  std::vector<JointScenes> joints_;    // with all instants sampled
+};
+
+// Tells several observers, in order.
+class Observers : public Observer {
+ public:
+  explicit Observers(std::vector<Observer*> observers) : observers_(std::move(observers)) {}
+  void add(Observer& observer) { observers_.push_back(&observer); }
+  void begin_step(const Instant& start) override {
+    for (Observer* observer : observers_) observer->begin_step(start);
+  }
+  void accept(const Instant& instant) override {
+    for (Observer* observer : observers_) observer->accept(instant);
+  }
+
+ private:
+  std::vector<Observer*> observers_;
+};
+
+}  // namespace dygita

@@ -1,0 +1,45 @@
+// What a report draws beside tables: the deformed assembly at a few instants, and the state of joints at a few more.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "model/model.hpp"
+
+namespace dygita {
+
+struct AssemblyScene {
+  std::string step;
+  bool is_static = false;
+  double time = 0.0;                 // s, of the run
+  std::vector<Points> displacement;  // m, 3 x n_nodes, one a substructure
+  std::vector<Vec> von_mises;        // Pa, one a substructure
+};
+
+struct JointScene {
+  std::string step;
+  bool is_static = false;
+  double time = 0.0;                   // s, of the run
+  std::vector<unsigned char> status;   // PointState of each point
+  std::vector<float> pressure;         // Pa, compression positive
+  std::vector<float> slip;             // m, modulus
+  std::vector<float> plastic_opening;  // m
+};
+
+// An interface or wall with an output.joint: contact (with a law that rubs) or plastic.
+struct JointScenes {
+  std::string name;
+  bool is_contact = true;
+  bool has_slip = false;       // contact with friction
+  Points points;               // 3 x n, m, undeformed
+  std::vector<Facet> facets;   // node numbers into `points`
+  std::vector<JointScene> instants;  // in the order of time, six at most
+};
+
+struct Scenes {
+  std::vector<AssemblyScene> assembly;  // the end of tightening, the instant of the largest strain energy in the dynamic steps
+  std::vector<JointScenes> joints;
+};
+
+}  // namespace dygita

@@ -1,0 +1,113 @@
+#include "signal/specification.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "base/error.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr double standard_gravity = 9.80665;
+
+std::string trimmed(const std::string& text) {
+  const size_t first = text.find_first_not_of(" \t\r\""), last = text.find_last_not_of(" \t\r\"");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  const char separator = line.find(',') != std::string::npos ? ',' : line.find(';') != std::string::npos ? ';' : '\t';
+  std::string plain = line;
+  if (separator == '\t') std::replace(plain.begin(), plain.end(), ' ', '\t');
+  std::vector<std::string> cells;
+  for (size_t start = 0; start <= plain.size();) {
+    const size_t end = std::min(plain.find(separator, start), plain.size());
+    const std::string cell = trimmed(plain.substr(start, end - start));
+    if (separator != '\t' || !cell.empty()) cells.push_back(cell);
+    start = end + 1;
+  }
+  return cells;
+}
+
+bool read_number(const std::string& text, double& value) {
+  char* end = nullptr;
+  value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' && std::isfinite(value);
+}
+
+}  // namespace
+
+double Specification::level_at(double f) const {
+  if (frequency.empty() || !(f >= frequency.front() * (1 - 1e-9)) || f > frequency.back() * (1 + 1e-9))
+    return std::numeric_limits<double>::quiet_NaN();
+  size_t i = 1;
+  while (i + 1 < frequency.size() && frequency[i] < f) ++i;
+  const double share = std::log(f / frequency[i - 1]) / std::log(frequency[i] / frequency[i - 1]);
+  return level[i - 1] * std::pow(level[i] / level[i - 1], share);
+}
+
+void check_specification(const Specification& s, const std::vector<std::string>& where) {
+  CHECK(s.frequency.size() == s.level.size() && where.size() == s.level.size(), "a level and a place for each frequency");
+  for (size_t i = 0; i < s.frequency.size(); ++i) {
+    if (!(s.frequency[i] > 0.0))
+      throw InputError(fmt::format("{}: the frequency {:g} Hz is not above zero", where[i], s.frequency[i]));
+    if (!(s.level[i] > 0.0)) throw InputError(fmt::format("{}: the level {:g} is not above zero", where[i], s.level[i]));
+    if (i > 0 && !(s.frequency[i] > s.frequency[i - 1]))
+      throw InputError(fmt::format("{}: the frequency {:g} Hz comes after {:g} Hz: frequencies must increase", where[i],
+                                   s.frequency[i], s.frequency[i - 1]));
+  }
+  if (s.frequency.size() < 2)
+    throw InputError(fmt::format("a specification has at least two points (frequency, level), got {}", s.frequency.size()));
+}
+
+Specification read_specification(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw InputError(fmt::format("no file '{}'", path));
+  Specification s;
+  s.source = path;
+  std::vector<std::string> where;
+  double unit = 1.0;
+  bool has_header = false;
+  std::string line;
+  for (int n = 1; std::getline(file, line); ++n) {
+    if (trimmed(line).empty() || trimmed(line).front() == '#') continue;
+    const std::vector<std::string> cells = cells_of(line);
+    double frequency = 0.0, level = 0.0;
+    const bool are_numbers = cells.size() == 2 && read_number(cells[0], frequency) && read_number(cells[1], level);
+    if (!are_numbers && !has_header && where.empty()) {
+      has_header = true;
+      if (cells.size() == 2 && cells[1].ends_with("[g]")) unit = standard_gravity;
+      continue;
+    }
+    if (!are_numbers)
+      throw InputError(fmt::format("{}:{}: '{}' is not a frequency (Hz) and a level", path, n, trimmed(line)));
+    s.frequency.push_back(frequency);
+    s.level.push_back(unit * level);
+    where.push_back(fmt::format("{}:{}", path, n));
+  }
+  try {
+    check_specification(s, where);
+  } catch (const InputError& error) {
+    if (s.frequency.size() >= 2) throw;
+    throw InputError(path + ": " + error.what());
+  }
+  return s;
+}
+
+Exceedance largest_exceedance(const Specification& specification, const std::vector<double>& frequency, const std::vector<double>& value) {
+  CHECK(frequency.size() == value.size(), "a value for each frequency");
+  Exceedance worst;
+  for (size_t i = 0; i < frequency.size(); ++i) {
+    const double decibels = 20.0 * std::log10(value[i] / specification.level_at(frequency[i]));
+    if (!std::isfinite(decibels) || (worst.is_known && decibels <= worst.decibels)) continue;
+    worst = {decibels, frequency[i], true};
+  }
+  return worst;
+}
+
+}  // namespace dygita
