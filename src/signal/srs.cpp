@@ -14,6 +14,7 @@ namespace dygita {
 namespace {
 
 constexpr double samples_per_period = 40.0;
+constexpr int least_factor = 8;     // content above the natural frequency needs its samples too: 16 a period at the Nyquist frequency
 constexpr int largest_factor = 64;  // far above the Nyquist frequency the response is the signal itself
 
 void check(const std::vector<double>& signal, double dt, const SrsSettings& settings) {
@@ -61,7 +62,7 @@ std::vector<double> natural_frequencies(const SrsSettings& settings) {
 
 // A power of two, so that frequencies share few upsampled signals.
 int upsampling_factor(double frequency, double dt) {
-  int factor = 1;
+  int factor = least_factor;
   while (factor < largest_factor && factor < samples_per_period * frequency * dt) factor *= 2;
   return factor;
 }

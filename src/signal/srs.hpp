@@ -33,7 +33,8 @@ struct Srs {
 };
 
 // Response to a base acceleration sampled every `dt` seconds (first sample at t = 0, at rest
-// before). The signal is upsampled (band-limited) to 40 times the natural frequency where it is coarser, peaks are read
+// before). The signal is upsampled (band-limited) to 40 times the natural frequency, eight times at least (what it
+// holds above that frequency answers too), peaks are read
 // off the parabola through three samples. Warns below 1/T of the record and above its Nyquist frequency. Throws
 // InputError on an empty signal or a value that is not finite, dt <= 0, from <= 0, from >= to, per_octave < 1, q_factor
 // <= 0.5.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -56,6 +57,35 @@ TEST(Srs, of_a_coarsely_sampled_half_sine_is_the_same_below_a_tenth_of_the_sampl
     if (frequency > 200.0) continue;
     const double decibel = 20.0 * std::log10(at(signal, 0.5e-3, frequency, 10.0).maximax[0] / expected);
     EXPECT_NEAR(decibel, 0.0, 0.05) << frequency << " Hz";
+  }
+}
+
+// Gaussian packets of a tone each, nothing above 0.45 of the sampling rate; exact is the same function sampled 64 times as often,
+// where the filter's bias is 4e-6 dB.
+TEST(Srs, of_a_band_limited_signal_is_exact_up_to_a_tenth_of_the_sampling_rate) {
+  const auto packets = [](double t) {
+    double sum = 0.0;
+    for (const auto& [frequency, centre, size] :
+         {std::array{0.01, 300.0, 1.0}, {0.06, 150.0, 2.0}, {0.09, 420.0, -1.5}, {0.17, 220.0, 3.0}, {0.3, 380.0, 5.0}}) {
+      const double x = (t - centre) / 12.0;
+      sum += size * std::exp(-x * x) * std::cos(2.0 * pi * frequency * t);
+    }
+    return sum;
+  };
+  constexpr int finer = 64;
+  const std::vector<double> coarse = sampled(600, packets);
+  const std::vector<double> fine = sampled(599 * finer + 1, [&](double i) { return packets(i / finer); });
+  for (const SrsQuantity quantity :
+       {SrsQuantity::absolute_acceleration, SrsQuantity::relative_displacement, SrsQuantity::pseudo_velocity}) {
+    const SrsSettings settings{10.0, 0.002, 0.1, 24, quantity};
+    const Srs found = shock_response_spectrum(coarse, 1.0, settings), exact = shock_response_spectrum(fine, 1.0 / finer, settings);
+    double worst = 0.0;
+    for (size_t i = 0; i < exact.frequency.size(); ++i)
+      for (const auto series : {&Srs::maximax, &Srs::positive, &Srs::negative, &Srs::primary, &Srs::residual})
+        worst = std::max(worst, std::abs(20.0 * std::log10((found.*series)[i] / (exact.*series)[i])));
+    EXPECT_LT(worst, 0.05);
+    RecordProperty("largest error in dB", std::to_string(worst));
+    std::printf("largest error: %.2g dB\n", worst);
   }
 }
 
@@ -117,8 +147,11 @@ TEST(Srs, has_the_unit_of_its_quantity) {
   EXPECT_EQ(srs_unit(SrsQuantity::pseudo_velocity, "g"), "g s");
 }
 
+// A haversine: at a kink, as a half-sine ends, the record that stops and the one that goes on are interpolated differently (7e-6).
 TEST(Srs, residual_is_what_a_long_silence_after_the_record_shows) {
-  std::vector<double> signal = half_sine(1100), followed = signal;
+  std::vector<double> signal = half_sine(1100);
+  for (double& value : signal) value *= value;
+  std::vector<double> followed = signal;
   followed.resize(60000, 0.0);
   for (const double frequency : {30.0, 75.0, 150.0}) {
     const Srs brief = at(signal, 1e-5, frequency, 5.0), full = at(followed, 1e-5, frequency, 5.0);
