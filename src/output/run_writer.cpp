@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "output/bolt_table.hpp"
 #include "output/collection.hpp"
 #include "output/csv.hpp"
 #include "output/manifest.hpp"
@@ -87,6 +88,10 @@ void RunWriter::write_result(const Problem& problem, const RunResult& result, co
     write(name + ".csv", csv_text(found->second, steps));
   }
   if (!result.convergence.columns.empty()) write("convergence.csv", csv_text(result.convergence, steps));
+  if (!result.bolts.empty()) {
+    CHECK(!written.contains("bolts"), "an output is called 'bolts'");
+    write("bolts.csv", bolts_csv(problem, result));
+  }
 
   // Name the files but for the frames, which the .pvd list.
   const fs::path record = path_of("run.json");
