@@ -223,6 +223,17 @@ function types.value(call, argument, value, label)
   return value
 end
 
+function types.table(call, argument, value, label)
+  if type(value) ~= "table" or native.kind(value) then
+    local names = {}
+    for _, field in ipairs(argument.fields) do
+      if field.required then names[#names + 1] = field[1] end
+    end
+    wrong_type(call, label, ("a table { %s = ... }"):format(table.concat(names, " = ..., ")), value)
+  end
+  return check.arguments(call, argument.fields, value, label .. ".")
+end
+
 function types.objects(call, argument, value, label)
   local what = one_of(argument.kinds)
   if native.kind(value) and argument.or_single then return { check_object(call, argument, value, label) } end

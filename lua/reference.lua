@@ -44,6 +44,9 @@ local function table_of(arguments)
   put "| --- | --- | --- | --- | --- | --- |"
   for _, a in ipairs(arguments) do
     put("| `%s` | %s | %s | %s | %s | %s |", a[1], type_of(a), a.unit or "", default_of(a), allowed(a), a.doc)
+    for _, f in ipairs(a.fields or {}) do
+      put("| `%s.%s` | %s | %s | %s | %s | %s |", a[1], f[1], type_of(f), f.unit or "", default_of(f), allowed(f), f.doc)
+    end
   end
   put ""
 end

@@ -14,6 +14,7 @@
 --   numbers               a list of numbers, at least `at_least`
 --   settings              a table of numbers by name
 --   specification         a file, or a list of { frequency, level }
+--   table                 a table of the named `fields`
 --   value                 a number, a history or a function of time
 --   object, objects       one of, or a list of, the `kinds`: a kind ("face") or a constructor ("interface.plastic");
 --                         of objects `at_least`, `exactly`; `or_single`: one alone needs no list
@@ -37,6 +38,27 @@ end
 
 local function components(what, unit, range)
   return component("x", what, unit, range), component("y", what, unit, range), component("z", what, unit, range)
+end
+
+-- A bolted joint for the hand formula of VDI 2230.
+local bolt_length = { 1e-4, 10 }
+local by_hand = {
+  "hand", type = "table", doc = "the whole bolt and what it clamps, for a comparison with VDI 2230's hand formula",
+  fields = {
+    { "diameter", type = "number", unit = "m", range = { 1e-4, 0.5 }, required = true, doc = "nominal, and of the shank" },
+    { "grip", type = "number", unit = "m", range = bolt_length, required = true, doc = "length clamped, from head to nut" },
+    { "head", type = "number", unit = "m", range = bolt_length, required = true, doc = "outer diameter of the bearing under the head" },
+    { "hole", type = "number", unit = "m", range = bolt_length, required = true, doc = "diameter of the hole" },
+    { "outer", type = "number", unit = "m", range = bolt_length, required = true, doc = "diameter of the clamped parts" },
+    { "young", type = "number", unit = "Pa", range = { 1e6, 2e12 }, required = true, doc = "of the bolt" },
+    { "plate_young", type = "number", unit = "Pa", range = { 1e6, 2e12 }, required = true, doc = "of the clamped parts" },
+    { "core", type = "number", unit = "m", range = { 1e-4, 0.5 }, default_doc = "diameter", doc = "diameter of the thread's core" },
+    { "thread", type = "number", unit = "m", range = { 0, 10 }, default = 0, doc = "length of the grip that is thread" },
+    { "tapped", type = "boolean", default = false, doc = "screwed into the last part, without a nut" },
+  },
+}
+local function share_of_bolt(of)
+  return { "share", type = "number", range = { 1e-6, 1 }, default_doc = "1", doc = "part of it that the model has: 0.25 of " .. of .. " in a quarter model" }
 end
 
 local friction = { "friction", type = "number", range = { 0, 1000 }, default = 0, doc = "Coulomb's coefficient" }
@@ -160,7 +182,6 @@ words[6] = {
   name = "load", 
   doc = "What acts during the steps that list it. Every value is a number, a history or a function of time; in a static step a "
     .. "number is ramped over the increments.",
-  later = { "preload" },
   {
     "pressure", makes = "load", doc = "Normal pressure; a positive one pushes.",
     arguments = {
@@ -207,6 +228,21 @@ words[6] = {
     arguments = {
       on({ "interface.bonded", "interface.plastic" }, "shortened interfaces"),
       { "by", type = "value", unit = "m", range = { -0.01, 0.01 }, required = true, doc = "a positive one tightens" },
+      share_of_bolt "the whole bolt of `hand`", by_hand,
+    },
+  },
+  {
+    "preload", makes = "load",
+    doc = "Tightens until a force goes through the interface, by a shortening that is found and frozen when the step ends; static "
+      .. "steps only. `force`, or `torque` with `friction_factor` and `diameter`: torque / (friction_factor diameter).",
+    arguments = {
+      on({ "interface.bonded", "interface.plastic" }, "tightened interfaces: each gets the force"),
+      { "force", type = "value", unit = "N", range = { 0, 1e8 },
+        doc = "through the modelled interface (a quarter model takes a quarter), reached in a ramp from what it carries" },
+      { "torque", type = "number", unit = "N m", range = { 0, 1e6 }, doc = "on the nut or head of the whole bolt" },
+      { "friction_factor", type = "number", range = { 0.01, 1 }, doc = "nut factor K; about 0.2 for dry steel" },
+      { "diameter", type = "number", unit = "m", range = { 1e-4, 0.5 }, doc = "nominal, of the thread" },
+      share_of_bolt "the whole bolt of `torque` and `hand`", by_hand,
     },
   },
   {

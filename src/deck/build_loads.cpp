@@ -1,6 +1,6 @@
 #include <spdlog/fmt/fmt.h>
 
-#include "deck/build_model.hpp"
+#include "deck/build_bolts.hpp"
 
 namespace dygita {
 
@@ -71,16 +71,18 @@ Held build_load(const Declaration& d) {
                                                         {"load.base_acceleration", LoadKind::base_acceleration},
                                                         {"load.gravity", LoadKind::gravity},
                                                         {"load.shortening", LoadKind::shortening},
-                                                        {"load.release", LoadKind::release}};
+                                                        {"load.release", LoadKind::release},
+                                                        {"load.preload", LoadKind::preload}};
   auto load = std::make_shared<Load>();
   load->kind = kinds.at(d.path);
   load->origin = d.origin;
   load->on = targets_of(d);
-  for (const char* scalar : {"history", "by", "at"}) set_value(d, scalar, 0, *load);
+  for (const char* scalar : {"history", "by", "at", "force"}) set_value(d, scalar, 0, *load);
   set_value(d, "x", 0, *load);
   set_value(d, "y", 1, *load);
   set_value(d, "z", 2, *load);
   if (d.arguments.has("direction")) load->direction = unit_direction(d);
+  if (load->kind == LoadKind::shortening || load->kind == LoadKind::preload) read_bolt(d, *load);
   return LoadPtr(load);
 }
 
@@ -146,6 +148,7 @@ const Builders& load_builders() {
       {"load.gravity", build_load},
       {"load.shortening", build_load},
       {"load.release", build_load},
+      {"load.preload", build_load},
       {"history.constant", build_constant},
       {"history.step", build_step},
       {"history.ramp", build_ramp},

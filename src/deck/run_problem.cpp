@@ -9,6 +9,7 @@
 
 #include "base/log.hpp"
 #include "latin/latin.hpp"
+#include "output/bolt_table.hpp"
 #include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
 #include "result/collector.hpp"
@@ -100,6 +101,7 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
       line += fmt::format("; {} NOT CONVERGED (worst indicator {:.1e})", step.increments_not_converged, step.worst_indicator);
     say(line);
   }
+  for (const std::string& line : bolt_lines(problem, result)) say(line);
   const double lost = result.figures.at("energy dissipated by the scheme [%]"), gained = result.figures.at("energy created by the scheme [%]");
   say(fmt::format("  energy balance closes within {:.3g} %, ", result.figures.at("energy imbalance [%]")) +
       (problem.explicit_dynamics ? fmt::format("the springs of contact hold up to {:.3g} %", lost)

@@ -66,19 +66,13 @@ void StepRun::finish_increment() {
   });
 }
 
-// One step of time: forward once, iterate on the interfaces alone, backward once.
-void StepRun::solve_increment(int increment) {
-  begin_increment(increment, true);
-  if (!warm_start_.predict(increment, q_) && increment == 0)
-    warn(fmt::format("step '{}': nothing of the case to start from fits (other interfaces, another number of pieces or of increments): the "
-                     "iteration starts afresh", model_.step->name));
+// Both stages in turn, until they agree to `tolerance`; q_best: the data that came closest. Adds the iterations to n.
+Outcome StepRun::iterate(int increment, double tolerance, Vec& q_best, int& n) {
   anderson_.begin();
   Outcome best;
-  Vec q_best = q_;
-  int n = 0;
-  for (;;) {
+  for (int i = 0;; ++i) {
     linear_stage();
-    if (n > 0) coarse_correction();  // what is in balance to the tolerance is left as it is
+    if (i > 0) coarse_correction();  // what is in balance to the tolerance is left as it is
     const Outcome outcome = indicator_.measure(local_stage());
     ++n;
     check_finite(outcome, increment);
@@ -86,10 +80,23 @@ void StepRun::solve_increment(int increment) {
       best = outcome;
       q_best = q_;
     }
-    if (outcome.eta <= tolerance_ || n >= max_iterations_) break;
+    if (outcome.eta <= tolerance || i + 1 >= max_iterations_ || is_lost()) return best;
     const Stopwatch watch(seconds_.accelerate);
     anderson_.advance(q_, image_);
   }
+}
+
+// One step of time: forward once, iterate on the interfaces alone, backward once.
+void StepRun::solve_increment(int increment) {
+  begin_increment(increment, true);
+  if (!warm_start_.predict(increment, q_) && increment == 0)
+    warn(fmt::format("step '{}': nothing of the case to start from fits (other interfaces, another number of pieces or of increments): the "
+                     "iteration starts afresh", model_.step->name));
+  if (local_.has_preloads()) keep_start();
+  Vec q_best = q_;
+  int n = 0;
+  Outcome best = iterate(increment, tolerance_, q_best, n);
+  if (best.eta > tolerance_ && local_.has_preloads()) best = seat_bolts(increment, q_best, n);
   anderson_.end(q_, image_, best.eta <= tolerance_);
   if (best.eta <= tolerance_) {
     if (n > 1 && !coarse_.is_empty()) linear_stage();  // the pieces have not heard of the last correction

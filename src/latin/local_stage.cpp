@@ -34,6 +34,7 @@ LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k)
       }
     }
   }
+  preloads_ = make_preloads(model, points_);
   for (const Tie& tie : exchange.ties) {
     const Vec3 force =
         exchange.points[tie.point].frame.transpose() * start.surfaces[tie.surface].points[tie.surface_point].force;
@@ -68,6 +69,7 @@ Vec3 LocalStage::mean_displacement(int first, int end) const {
 
 void LocalStage::begin(int increment, const std::vector<double>& motions, bool starts_window) {
   const Exchange& exchange = model_->exchange;
+  i_increment_ = increment;
   std::vector<Vec> displacement(model_->pieces.size());
   for (size_t i = 0; i < displacement.size() && starts_window; ++i) displacement[i] = model_->pieces[i]->row_displacements();
   for (size_t i = 0; i < exchange.points.size(); ++i) {
@@ -149,6 +151,16 @@ void LocalStage::scatter(int first, int end, const Side& side, const Vec3& force
   }
 }
 
+void LocalStage::set_trial(const Point& point, const Side& side_1, const Side& side_2, PointRecord& record) const {
+  record.trial.s.setZero();
+  record.trial.y.setZero();
+  for (int d = 0; d < 3; ++d) {
+    if (!point.is_active[d] || !point.law->acts_on(d)) continue;
+    record.trial.s[d] = side_2.r[d] - side_1.r[d];
+    record.trial.y[d] = side_1.inverse_k[d] + side_2.inverse_k[d];
+  }
+}
+
 IndicatorSums LocalStage::run_point(size_t i_point, const Vec& velocity, const Vec& q, Vec& image) {
   const Point& point = model_->exchange.points[i_point];
   PointRecord& state = points_[i_point];
@@ -156,13 +168,7 @@ IndicatorSums LocalStage::run_point(size_t i_point, const Vec& velocity, const V
   const Side side_2 = gather(point.first_port_2, point.end_port, velocity, q);
   state.force.setZero();
   if (point.law) {
-    state.trial.s.setZero();
-    state.trial.y.setZero();
-    for (int d = 0; d < 3; ++d) {
-      if (!point.is_active[d] || !point.law->acts_on(d)) continue;
-      state.trial.s[d] = side_2.r[d] - side_1.r[d];
-      state.trial.y[d] = side_1.inverse_k[d] + side_2.inverse_k[d];
-    }
+    set_trial(point, side_1, side_2, state);
     if (!state.is_released) state.force = point.law->force(state.trial, increment_at(point), state.law);
   }
   IndicatorSums sums;
@@ -173,6 +179,7 @@ IndicatorSums LocalStage::run_point(size_t i_point, const Vec& velocity, const V
 
 IndicatorSums LocalStage::run(const Vec& velocity, const Vec& q, Vec& image) {
   image.resize(q.size());
+  for (size_t i = 0; i < preloads_.size(); ++i) shorten(static_cast<int>(i), velocity, q);
   // Sums by fixed chunks, added in order: the same bits for any number of threads.
   constexpr int chunk = 128;
   const int n = static_cast<int>(points_.size()), n_chunks = (n + chunk - 1) / chunk;

@@ -1,7 +1,7 @@
 // The local stage: at each interface point, the law; nothing global.
 #pragma once
 
-#include "solution/point_record.hpp"
+#include "solution/preload.hpp"
 
 namespace dygita {
 
@@ -16,6 +16,11 @@ struct IndicatorSums {
     force_size += other.force_size;
     velocity_size += other.velocity_size;
   }
+};
+
+// Of each preload in an increment: shortening (m), force through it and force asked for (N), stiffness of its search directions (N/m).
+struct PreloadFigures {
+  Vec shortening, force, target, stiffest;
 };
 
 // Copyable: a window of several steps keeps the copy it starts from.
@@ -36,6 +41,10 @@ class LocalStage {
   void accept(State* state);
   // Largest difference so far between a contact law's gap and that of the displacements, m.
   double gap_difference() const { return gap_difference_; }
+  bool has_preloads() const { return !preloads_.empty(); }
+  // Prescribes the shortenings of all preloads (m) from now on; empty: they are found again.
+  void prescribe_shortenings(Vec d) { prescribed_ = std::move(d); }
+  PreloadFigures preload_figures() const;  // of the last `run`
   // Force of the laws on held directions of a piece's nodes (3 x n_nodes, N).
   Points held_force(int piece) const;
 
@@ -53,6 +62,10 @@ class LocalStage {
   Side gather(int first, int end, const Vec& velocity, const Vec& q) const;
   void scatter(int first, int end, const Side& side, const Vec3& force, const Vec& velocity, const Vec& q, Vec& image,
                IndicatorSums& sums);
+  // The trial of a point with a law, from both its sides.
+  void set_trial(const Point& point, const Side& side_1, const Side& side_2, PointRecord& record) const;
+  // Finds the shortening of a preloaded interface for the fields at hand, or takes the one prescribed.
+  void shorten(int i_preload, const Vec& velocity, const Vec& q);
   IndicatorSums run_point(size_t i_point, const Vec& velocity, const Vec& q, Vec& image);
   Vec3 mean_displacement(int first, int end) const;
   double work_on_pieces(const Point& point) const;
@@ -69,7 +82,10 @@ class LocalStage {
   Vec k_;
   std::vector<PortState> ports_;
   std::vector<PointRecord> points_;
+  std::vector<Preload> preloads_;
+  Vec prescribed_;  // shortenings of the preloads; empty: found
   Increment increment_;
+  int i_increment_ = 0;
   double gap_difference_ = 0.0;
 };
 

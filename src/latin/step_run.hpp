@@ -31,9 +31,15 @@ class StepRun {
   IndicatorSums local_stage();
   void begin_increment(int increment, bool starts_window);
   void finish_increment();
+  Outcome iterate(int increment, double tolerance, Vec& q_best, int& n);
   void solve_increment(int increment);
   void solve_window(int first, int last);
   void replay(int increment, const Vec& q, bool starts_window, int iterations, double eta);
+
+  // Preloads whose joint stands open (seat_bolts.cpp).
+  Outcome seat_bolts(int increment, Vec& q_best, int& n);
+  void keep_start();
+  bool is_lost() const;
 
   // Bookkeeping (step_run.cpp).
   struct Start {
@@ -87,6 +93,8 @@ class StepRun {
   WarmStart warm_start_;
   Anderson anderson_;
   Indicator indicator_;
+  Vec q_start_, shortenings_start_;  // of the increment, where there are preloads
+  double extent_ = 0.0;  // m, of the assembly, where there are preloads
   IndicatorSums sums_;  // of the last local stage
   std::vector<double> motions_;
   std::vector<IncrementEnergy> energy_;

@@ -28,6 +28,7 @@ const char* acts_on(LoadKind kind) {
     case LoadKind::base_acceleration:
       return "a support.fixed or a support.symmetry";
     case LoadKind::shortening:
+    case LoadKind::preload:
       return "an interface.bonded or an interface.plastic";
     case LoadKind::release:
       return "an interface";
@@ -52,6 +53,7 @@ bool can_act_on(LoadKind kind, const Target& target) {
     case LoadKind::base_acceleration:
       return support && ((*support)->kind == SupportKind::fixed || (*support)->kind == SupportKind::symmetry);
     case LoadKind::shortening:
+    case LoadKind::preload:
       return interface && (*interface)->kind != InterfaceKind::contact;
     case LoadKind::release:
       return interface != nullptr;
@@ -104,7 +106,7 @@ void values_are_given(const Problem& problem, const Step& step, const Load& load
 
 void step_is_of_the_right_kind(const Problem& problem, const Step& step, const Load& load) {
   const std::string who = "step '" + step.name + "': " + known_as(load);
-  if (load.kind == LoadKind::shortening && !step.is_static) {
+  if ((load.kind == LoadKind::shortening || load.kind == LoadKind::preload) && !step.is_static) {
     fail(problem, load.origin, who + " acts in static steps only, and this one is dynamic",
          "tighten in a step.static before it; the bolt keeps its length afterwards");
   }
@@ -142,10 +144,18 @@ void loads_do_not_compete(const Problem& problem, const Step& step, const Load& 
   const std::string who = "step '" + step.name + "': ";
   const std::string in_one = "give their sum in one load; a history may be a function(t)";
   if (are_one_load(a, b) && a.kind == LoadKind::gravity) fail(problem, b.origin, who + "two load.gravity", in_one);
+  const auto is_of_bolt = [](const Load& load) {
+    return load.kind == LoadKind::shortening || load.kind == LoadKind::preload || load.kind == LoadKind::release;
+  };
   for (const Target& target_a : a.on) {
     for (const Target& target_b : b.on) {
+      if (a.kind != b.kind && is_of_bolt(a) && is_of_bolt(b) && (a.kind == LoadKind::preload || b.kind == LoadKind::preload) &&
+          same_target(target_a, target_b))
+        fail(problem, b.origin, who + known_as(a) + " and " + known_as(b) + " are both on " + describe(target_b),
+             "a preload finds the shortening that brings its force: one of the two, or one after the other in steps of their own");
       if (are_one_load(a, b) && same_target(target_a, target_b)) {
-        fail(problem, b.origin, who + "two " + known_as(b) + " on " + describe(target_b), in_one);
+        fail(problem, b.origin, who + "two " + known_as(b) + " on " + describe(target_b),
+             b.kind == LoadKind::preload ? "one force a step: give the other one in a step of its own" : in_one);
       }
       if (!is_prescribed_motion(a) || !is_prescribed_motion(b)) continue;
       const int d = common_direction(a, b);
@@ -188,9 +198,31 @@ void support_leaves_motion_free(const Problem& problem, const Step& step, const 
   }
 }
 
+// What has let go carries no force.
+void preloads_hold(const Problem& problem) {
+  std::vector<std::pair<const Interface*, const Step*>> released;
+  for (const StepPtr& step : problem.steps) {
+    for (const LoadPtr& load : step->loads)
+      for (const Target& target : load->on) {
+        const auto* interface = std::get_if<InterfacePtr>(&target);
+        if (!interface || load->kind != LoadKind::preload) continue;
+        for (const auto& [gone, in] : released)
+          if (gone == interface->get())
+            fail(problem, load->origin, "step '" + step->name + "': load.preload is on " + describe(target) + ", which step '" + in->name +
+                                            "' has released",
+                 "what has let go carries no force any more");
+      }
+    for (const LoadPtr& load : step->loads)
+      for (const Target& target : load->on)
+        if (const auto* interface = std::get_if<InterfacePtr>(&target); interface && load->kind == LoadKind::release)
+          released.emplace_back(interface->get(), step.get());
+  }
+}
+
 }  // namespace
 
 void loads(const Problem& problem) {
+  preloads_hold(problem);
   for (const StepPtr& step : problem.steps) {
     for (size_t i = 0; i < step->loads.size(); ++i) {
       const Load& load = *step->loads[i];

@@ -39,6 +39,13 @@ void has_unique_names(const Problem& problem, const std::vector<std::shared_ptr<
 
 bool has_table(const Output& output) { return output.kind != OutputKind::vtk && output.kind != OutputKind::energy; }
 
+bool tightens_bolts(const Problem& problem) {
+  for (const StepPtr& step : problem.steps)
+    for (const LoadPtr& load : step->loads)
+      if (load->kind == LoadKind::shortening || load->kind == LoadKind::preload) return true;
+  return false;
+}
+
 // Tables are <name>.csv beside energy.csv and convergence.csv; ParaView's files and the energies come once a problem.
 void outputs_keep_apart(const Problem& problem) {
   std::vector<OutputPtr> tables;
@@ -49,6 +56,8 @@ void outputs_keep_apart(const Problem& problem) {
         fail(problem, output->origin, "output '" + output->name + "' would overwrite " + output->name + ".csv",
              "'energy' and 'convergence' are the names of tables of the run itself");
       }
+      if (output->name == "bolts" && tightens_bolts(problem))
+        fail(problem, output->origin, "output 'bolts' would overwrite bolts.csv", "'bolts' is the name of the table of all tightened interfaces");
       tables.push_back(output);
     } else if (!seen.insert(output->kind).second) {
       fail(problem, output->origin,

@@ -52,6 +52,8 @@ const char* load_kind_name(LoadKind kind) {
       return "shortening";
     case LoadKind::release:
       return "release";
+    case LoadKind::preload:
+      return "preload";
   }
   CHECK(false, "unknown kind of load");
   return "";

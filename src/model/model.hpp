@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "material/elastic.hpp"
 #include "mesh/mesh.hpp"
+#include "model/bolt_formula.hpp"
 #include "signal/history.hpp"
 #include "signal/specification.hpp"
 #include "signal/srs.hpp"
@@ -84,7 +85,8 @@ enum class LoadKind {
   base_acceleration,
   gravity,
   shortening,
-  release
+  release,
+  preload
 };
 const char* load_kind_name(LoadKind kind);
 
@@ -92,11 +94,13 @@ struct Load {
   LoadKind kind = LoadKind::pressure;
   Origin origin;
   std::vector<Target> on;  // empty for gravity (all substructures)
-  // pressure, shortening, release: [0]; traction, force, velocity, displacement, gravity: x y z;
+  // pressure, shortening, release, preload: [0]; traction, force, velocity, displacement, gravity: x y z;
   // base_acceleration: [0] along `direction`. A direction left out is free (velocity, displacement) or zero.
   std::array<std::optional<History>, 3> value;
   std::array<bool, 3> is_number{};  // given as a plain number: ramped in a static step
   Vec3 direction = Vec3::UnitZ();   // base_acceleration, unit
+  std::optional<BoltDimensions> hand;  // shortening, preload: what a hand formula is printed for
+  double share = 1.0;               // shortening, preload: of the bolt that the model has
 };
 using LoadPtr = std::shared_ptr<const Load>;
 

@@ -7,14 +7,14 @@
 
 namespace dygita {
 
-namespace {
-
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string result = "\"";
   for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
   return result + '"';
 }
+
+namespace {
 
 void check(const Table& table, size_t n_steps) {
   const size_t n_columns = table.columns.size(), n_rows = static_cast<size_t>(table.n_rows());

@@ -87,6 +87,25 @@ Json steps(const Problem& problem, const RunResult& result) {
   return list;
 }
 
+Json bolts(const RunResult& result) {
+  Json list = Json::array();
+  for (const BoltSummary& bolt : result.bolts) {
+    Json json = {{"name", bolt.name}, {"area", bolt.area}, {"after_static", bolt.after_static}, {"tightened", bolt.tightened},
+                 {"lowest", bolt.lowest}, {"highest", bolt.highest}, {"last", bolt.last}, {"loss", bolt.loss()},
+                 {"shortening", bolt.shortening}, {"plastic_opening", bolt.plastic_opening}};
+    if (bolt.target) json["target"] = *bolt.target;
+    if (bolt.formula)
+      json["hand"] = {{"force", bolt.hand.value_or(0.0)},
+                      {"shortening", bolt.formula->shortening},
+                      {"bolt_resilience", bolt.formula->resilience.bolt},
+                      {"plate_resilience", bolt.formula->resilience.plates},
+                      {"load_factor", bolt.formula->resilience.load_factor()},
+                      {"share", bolt.formula->share}};
+    list.push_back(json);
+  }
+  return list;
+}
+
 }  // namespace
 
 const char* program_version() { return DYGITA_VERSION; }
@@ -114,6 +133,7 @@ std::string run_record(const Problem& problem, const RunResult& result, const Ru
       {"size", {{"dofs", result.n_dofs}, {"interface_unknowns", result.n_interface_unknowns}}},
       {"iterations", {{"all", result.iterations}, {"mean", result.mean_iterations}}},
       {"steps", steps(problem, result)},
+      {"bolts", bolts(result)},
       {"figures", object(result.figures)},
       {"seconds", object(result.seconds)},
       {"threads", identity.threads},

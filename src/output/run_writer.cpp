@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "output/bolt_table.hpp"
 #include "output/collection.hpp"
 #include "output/csv.hpp"
 #include "output/manifest.hpp"
@@ -90,6 +91,10 @@ void RunWriter::write_result(const Problem& problem, const RunResult& result, co
   }
   for (const auto& [output, frames] : result.fields) write_field(file_name_of(output->name), frames);
   if (!result.convergence.columns.empty()) write("convergence.csv", csv_text(result.convergence, steps));
+  if (!result.bolts.empty()) {
+    CHECK(!written.contains("bolts"), "an output is called 'bolts'");
+    write("bolts.csv", bolts_csv(problem, result));
+  }
 
   if (result.scenes) write(scene_file, scene_text(problem, *result.scenes));
   write("report.html", report_html(directory_, {.record = run_record(problem, result, identity, warnings, {})}));

@@ -9,6 +9,7 @@
 #include "base/progress.hpp"
 #include "reference/interface_newton.hpp"
 #include "reference/merged_assembly.hpp"
+#include "reference/preload_newton.hpp"
 #include "solution/step_ends.hpp"
 
 namespace dygita {
@@ -31,6 +32,7 @@ class MonolithicRun {
         newton_(model, assembly_, settings) {
     start_step(model, state);
     for (const Point& point : model.exchange.points) records_.push_back(start_point(model, point, state));
+    preload_ = std::make_unique<PreloadNewton>(model, assembly_, records_, std::max(10 * settings.tolerance, 1e-12));
     energy_.resize(model.pieces.size());
     observer_.begin_step(instant(-1, {}));
   }
@@ -57,6 +59,7 @@ class MonolithicRun {
   Increment increment_;
   MergedAssembly assembly_;
   InterfaceNewton newton_;
+  std::unique_ptr<PreloadNewton> preload_;
   std::vector<PointRecord> records_;
   std::vector<IncrementEnergy> energy_;
   std::vector<Vec3> port_force_;
@@ -162,7 +165,7 @@ void MonolithicRun::solve_increment(int increment) {
   };
   begin_increment(increment);
   lap(seconds_.forward);
-  const InterfaceNewton::Outcome outcome = newton_.solve(records_, increment_);
+  const InterfaceNewton::Outcome outcome = preload_->solve(newton_, records_, increment_, increment);
   lap(seconds_.newton);
   finish_increment();
   lap(seconds_.backward);

@@ -11,7 +11,7 @@ namespace dygita {
 
 Collector::~Collector() = default;
 
-Collector::Collector(const Problem& problem, FrameSink sink) : problem_(problem), sink_(std::move(sink)) {
+Collector::Collector(const Problem& problem, FrameSink sink) : problem_(problem), sink_(std::move(sink)), bolts_(problem) {
   for (const OutputPtr& output : problem.outputs) {
     switch (output->kind) {
       case OutputKind::history: samplers_[output.get()] = make_history_sampler(problem, *output); break;
@@ -33,6 +33,7 @@ void Collector::begin_step(const Instant& start) {
   for (auto& [output, sampler] : samplers_) sampler->begin_step(start);
   if (slip_) slip_->begin_step(start);
   errors_.begin_step(start);
+  bolts_.begin_step(start);
   extremes_.before_springs = start.state.energies.scheme;
   if (start.i_step == 0) maybe_frame(start);
 }
@@ -40,6 +41,7 @@ void Collector::begin_step(const Instant& start) {
 void Collector::accept(const Instant& instant) {
   if (slip_) slip_->accept(instant);
   errors_.accept(instant);
+  bolts_.accept(instant);
   for (auto& [output, sampler] : samplers_) sampler->accept(instant);
   for (auto& [output, field] : fields_) field->accept(instant);
   const double row[] = {instant.time(), static_cast<double>(instant.iterations), instant.indicator, instant.converged ? 1.0 : 0.0};
@@ -143,6 +145,7 @@ void Collector::finish(RunResult& result) {
     result.tables[output] = field->table(result.fields[output]);
   }
   result.convergence = std::move(convergence_);
+  result.bolts = bolts_.take();
   const double percent = extremes_.energy > 0.0 ? 100.0 / extremes_.energy : 0.0;
   result.figures["largest energy [J]"] = extremes_.energy;
   result.figures["energy imbalance [%]"] = percent * extremes_.imbalance;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "result/bolt_recorder.hpp"
 #include "result/error_estimator.hpp"
 #include "result/frame.hpp"
 #include "result/result.hpp"
@@ -80,6 +81,7 @@ class Collector : public Observer {
   Table convergence_;
   Extremes extremes_;
   ErrorEstimator errors_;
+  BoltRecorder bolts_;
 };
 
 // The frame of an instant with the fields of one vtk output.

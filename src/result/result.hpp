@@ -34,17 +34,29 @@ struct StepSummary {
   double seconds = 0.0;
 };
 
+// What VDI 2230's hand formula says of a bolt (manual, eq. B2-B7).
+struct BoltByHand {
+  BoltResilience resilience;  // of the whole bolt
+  double share = 1.0;         // of it that the model has
+  double shortening = 0.0;    // m, for the force asked for, or that its tightening gave
+};
+
 // What became of a bolt: an interface that a step shortens or preloads. Forces through the modelled interface, N, tension positive.
 struct BoltSummary {
   std::string name;                       // of the interface
   double area = 0.0;                      // m^2, of the modelled interface
   std::vector<double> after_static;       // N, at the end of each static step, in the problem's order of static steps
   std::optional<double> target;           // N, load.preload's last one
-  std::optional<double> hand;             // N, by the hand formula at the shortening found
+  std::optional<double> hand;             // N, by the hand formula at the shortening that its last tightening made
   double shortening = 0.0;                // m, at the end
   double lowest = 0.0, highest = 0.0;     // N, during the dynamic steps; the force before them where there are none
   double last = 0.0;                      // N, at the end of the run
   double plastic_opening = 0.0;           // m, largest at the end
+  double tightened = 0.0;                 // N, at the end of the last step that shortened or preloaded it
+  std::optional<BoltByHand> formula;      // where the deck gives the bolt's dimensions
+
+  // Of what the bolt's own tightening gave, what is gone at the end; zero where that is nothing.
+  double loss() const { return tightened != 0.0 ? 1.0 - last / tightened : 0.0; }
 };
 
 struct Scenes;

@@ -85,6 +85,8 @@ void Loads::add_component(const Load& load, const Target& target, int component,
     LoadValue from_there = value;
     from_there.from = start.shortening.at(index_of(problem_.interfaces, interface));
     shortenings_.emplace_back(interface, from_there);
+  } else if (load.kind == LoadKind::preload) {
+    preloads_.emplace_back(std::get<InterfacePtr>(target).get(), value);
   } else if (load.kind == LoadKind::release) {
     releases_.emplace_back(std::get<InterfacePtr>(target).get(), load.value[component]->value(0.0));
   } else if (load.kind == LoadKind::displacement) {
@@ -138,6 +140,12 @@ double Loads::shortening(const Interface* interface, double had, int increment) 
     d = value.at_static(increment, step_.increments);
   }
   return d;
+}
+
+const LoadValue* Loads::preload(const Interface* interface) const {
+  for (const auto& [on, value] : preloads_)
+    if (on == interface) return &value;
+  return nullptr;
 }
 
 bool Loads::is_released(const Interface* interface, int increment) const {

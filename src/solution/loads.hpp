@@ -30,6 +30,8 @@ class Loads {
 
   // Shortening (m) reached at the end of an increment by a surface whose interface is loaded, else what it had.
   double shortening(const Interface* interface, double had, int increment) const;
+  // The preload of an interface, as its load says it; null: none in this step. `from` is for the solver to set.
+  const LoadValue* preload(const Interface* interface) const;
   // Has the interface let go by the middle of this increment?
   bool is_released(const Interface* interface, int increment) const;
 
@@ -44,7 +46,7 @@ class Loads {
   const Step& step_;
   std::vector<LoadPattern> patterns_;
   std::vector<double> values_;  // of each pattern
-  std::vector<std::pair<const Interface*, LoadValue>> shortenings_;
+  std::vector<std::pair<const Interface*, LoadValue>> shortenings_, preloads_;
   std::vector<std::pair<const Interface*, double>> releases_;
   std::map<std::string, double> motions_reached_;
 };

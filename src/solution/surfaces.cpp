@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "solution/preload.hpp"
+
 namespace dygita {
 
 PlacedFace placed(const Face& face) {
@@ -111,6 +113,7 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
       surfaces.push_back(std::move(surface));
     }
   check_overlaps(problem, surfaces);
+  check_preloads(problem, surfaces);
   return surfaces;
 }
 

@@ -4,4 +4,6 @@ local low = substructure{ name = "low", mesh = cube, material = steel }
 local high = substructure{ name = "high", mesh = cube, material = steel, place = { 0, 0, 10*mm } }
 local glue = interface.bonded{ name = "glue", between = { low:face "zmax", high:face "zmin" } }
 local base = support.fixed{ name = "base", on = low:face "zmin" }
-local tighten = load.preload{ on = glue, force = 10*kN }
+local part = step.static{ name = "part", loads = { load.release{ on = glue, at = 0.5 } } }
+local tighten = step.static{ name = "tighten", after = part, loads = { load.preload{ on = glue, force = 10*kN } } }
+problem{ name = "gone", substructures = { low, high }, interfaces = { glue }, supports = { base }, steps = { part, tighten } }:run{}

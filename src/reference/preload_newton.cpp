@@ -1,0 +1,90 @@
+#include "reference/preload_newton.hpp"
+
+#include <cmath>
+
+namespace dygita {
+
+PreloadNewton::PreloadNewton(const StepModel& model, const MergedAssembly& assembly, const std::vector<PointRecord>& records,
+                             double tolerance)
+    : model_(&model), preloads_(make_preloads(model, records)), stiffest_(Vec::Zero(preloads_.size())), tolerance_(tolerance) {
+  for (size_t i = 0; i < preloads_.size(); ++i)
+    for (const int p : preloads_[i].points)
+      if (const int row = assembly.row(p, 0); row >= 0) stiffest_[i] += 1.0 / assembly.compliance()(row, row);
+}
+
+// Forces through the preloaded interfaces for shortenings d: the whole increment solved.
+Vec PreloadNewton::forces(const Vec& d) {
+  Vec force = Vec::Zero(d.size());
+  for (int i = 0; i < d.size(); ++i)
+    for (const int p : preloads_[i].points) (*records_)[p].trial.shortening = d[i];
+  outcome_ = solve_();
+  n_iterations_ += outcome_.iterations;
+  for (int i = 0; i < d.size(); ++i)
+    for (const int p : preloads_[i].points) force[i] += (*records_)[p].force[0];
+  return force;
+}
+
+// Each alone, the others' shortenings held: slow, but it closes gaps and comes back from yield.
+void PreloadNewton::one_by_one(Vec& d) {
+  for (int i = 0; i < d.size(); ++i) {
+    const auto force = [&](double own) {
+      Vec all = d;
+      all[i] = own;
+      return forces(all)[i];
+    };
+    d[i] = find_shortening(force, target_[i], d[i], stiffest_[i], scale_, tolerance_);
+  }
+}
+
+Mat PreloadNewton::slopes(const Vec& d, const Vec& force) {
+  Mat slope(d.size(), d.size());
+  for (int i = 0; i < d.size(); ++i) {
+    Vec moved = d;
+    moved[i] += 1e-3 * scale_ / stiffest_[i];
+    slope.col(i) = (forces(moved) - force) / (moved[i] - d[i]);
+  }
+  return slope;
+}
+
+InterfaceNewton::Outcome PreloadNewton::solve(InterfaceNewton& newton, std::vector<PointRecord>& records, const Increment& increment,
+                                              int i_increment) {
+  if (preloads_.empty()) return newton.solve(records, increment);
+  records_ = &records;
+  solve_ = [&] { return newton.solve(records, increment); };
+  n_iterations_ = 0;
+  const int n = static_cast<int>(preloads_.size());
+  Vec d(n);
+  target_.resize(n);
+  for (int i = 0; i < n; ++i) {
+    target_[i] = preloads_[i].target(i_increment, model_->step->increments);
+    d[i] = preloads_[i].points.empty() ? 0.0 : records[preloads_[i].points.front()].trial.shortening;
+  }
+  Vec force = forces(d);
+  scale_ = std::max(target_.cwiseAbs().maxCoeff(), force.cwiseAbs().maxCoeff());
+  const auto error = [&] { return scale_ > 0.0 ? (target_ - force).cwiseAbs().maxCoeff() / scale_ : 0.0; };
+  Mat slope;
+  for (int k = 0; k < 30 && error() > tolerance_; ++k) {
+    const double before = error();
+    if (n == 1 || k == 0) {
+      one_by_one(d);
+      force = forces(d);
+      slope.resize(0, 0);
+      continue;
+    }
+    if (slope.size() == 0) slope = slopes(d, force);
+    const Vec old = d;
+    d += slope.fullPivLu().solve(target_ - force);
+    force = forces(d);
+    if (error() > 0.1 * before) slope.resize(0, 0);
+    if (error() < before) continue;
+    d = old;
+    one_by_one(d);
+    force = forces(d);
+  }
+  outcome_.iterations = n_iterations_;
+  outcome_.residual = std::max(outcome_.residual, error());
+  outcome_.converged = outcome_.converged && error() <= tolerance_;
+  return outcome_;
+}
+
+}  // namespace dygita

@@ -1,0 +1,92 @@
+#include "result/bolt_recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dygita {
+
+namespace {
+
+bool tightens(const Load& load) { return load.kind == LoadKind::shortening || load.kind == LoadKind::preload; }
+
+bool is_on(const Load& load, const Interface* interface) {
+  return std::any_of(load.on.begin(), load.on.end(), [&](const Target& target) {
+    const auto* on = std::get_if<InterfacePtr>(&target);
+    return on && on->get() == interface;
+  });
+}
+
+// The load that tightens an interface in a step, or null.
+const Load* tightening(const Step& step, const Interface* interface) {
+  for (const LoadPtr& load : step.loads)
+    if (tightens(*load) && is_on(*load, interface)) return load.get();
+  return nullptr;
+}
+
+}  // namespace
+
+BoltRecorder::BoltRecorder(const Problem& problem) {
+  for (size_t i = 0; i < problem.interfaces.size(); ++i) {
+    const Interface* interface = problem.interfaces[i].get();
+    if (std::none_of(problem.steps.begin(), problem.steps.end(), [&](const StepPtr& step) { return tightening(*step, interface); }))
+      continue;
+    surfaces_.push_back(static_cast<int>(i));
+    interfaces_.push_back(interface);
+    bolts_.emplace_back();
+    bolts_.back().name = interface->name;
+  }
+}
+
+double BoltRecorder::force(const Instant& instant, int surface) {
+  const Surface& on = (*instant.model.surfaces)[surface];
+  double sum = 0.0;
+  for (int i = 0; i < on.n_points(); ++i) sum += instant.state.surfaces[surface].points[i].force.dot(on.facing.normals.col(i));
+  return sum;
+}
+
+void BoltRecorder::begin_step(const Instant& start) {
+  for (size_t b = 0; b < bolts_.size(); ++b) {
+    if (start.i_step == 0) bolts_[b].area = (*start.model.surfaces)[surfaces_[b]].facing.areas.sum();
+    if (start.is_static() || is_dynamic_) continue;
+    // Shocks count from the force before them.
+    bolts_[b].lowest = bolts_[b].highest = force(start, surfaces_[b]);
+  }
+  is_dynamic_ = is_dynamic_ || !start.is_static();
+}
+
+// What a step that tightens was asked for, and what it made.
+void BoltRecorder::note_tightening(size_t b, const Load& load, int increments) {
+  BoltSummary& bolt = bolts_[b];
+  bolt.tightened = bolt.last;
+  bolt.target.reset();
+  if (load.kind == LoadKind::preload)
+    bolt.target = LoadValue{*load.value[0], load.is_number[0]}.at_static(increments - 1, increments);
+  if (!load.hand && !bolt.formula) return;
+  if (load.hand) bolt.formula = {bolt_resilience(*load.hand), load.share};
+  // Of the whole bolt, which the model has a share of.
+  const double compliance = bolt.formula->resilience.sum() / bolt.formula->share;
+  bolt.formula->shortening = bolt.target.value_or(bolt.tightened) * compliance;
+  bolt.hand = bolt.shortening / compliance;
+}
+
+void BoltRecorder::accept(const Instant& instant) {
+  const Step& step = *instant.model.step;
+  for (size_t b = 0; b < bolts_.size(); ++b) {
+    BoltSummary& bolt = bolts_[b];
+    bolt.last = force(instant, surfaces_[b]);
+    bolt.shortening = instant.state.shortening[surfaces_[b]];
+    bolt.plastic_opening = 0.0;
+    for (const LawState& point : instant.state.surfaces[surfaces_[b]].points)
+      bolt.plastic_opening = std::max(bolt.plastic_opening, std::abs(point.plastic_opening));
+    if (is_dynamic_ && !instant.is_static()) {
+      bolt.lowest = std::min(bolt.lowest, bolt.last);
+      bolt.highest = std::max(bolt.highest, bolt.last);
+    }
+    if (!is_dynamic_) bolt.lowest = bolt.highest = bolt.last;
+    if (!instant.is_static() || instant.increment + 1 < step.increments) continue;
+    bolt.after_static.push_back(bolt.last);
+    if (const Load* load = tightening(step, interfaces_[b])) note_tightening(b, *load, step.increments);
+  }
+}
+
+}  // namespace dygita

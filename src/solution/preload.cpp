@@ -1,0 +1,84 @@
+#include "solution/preload.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+
+namespace dygita {
+
+std::vector<Preload> make_preloads(const StepModel& model, const std::vector<PointRecord>& records) {
+  std::vector<Preload> preloads;
+  if (!model.scheme.is_static) return preloads;
+  for (size_t s = 0; s < model.surfaces->size(); ++s) {
+    const Interface* interface = (*model.surfaces)[s].interface;
+    const LoadValue* value = interface ? model.loads->preload(interface) : nullptr;
+    if (!value) continue;
+    Preload preload{interface, {}, *value};
+    preload.force.from = 0.0;
+    for (size_t i = 0; i < records.size(); ++i) {
+      const Point& point = model.exchange.points[i];
+      if (!point.law || point.members.front().surface != static_cast<int>(s)) continue;
+      preload.points.push_back(static_cast<int>(i));
+      preload.force.from += records[i].law.force[0];
+    }
+    preloads.push_back(std::move(preload));
+  }
+  return preloads;
+}
+
+double find_shortening(const std::function<double(double)>& force, double target, double start, double slope, double scale,
+                       double precision) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  double low = -infinity, high = infinity;  // too little and too much
+  double d = start, best = start, smallest = infinity, last_d = start, last_force = 0.0;
+  if (!(slope > 0.0) || !(scale > 0.0)) return start;
+  double reach = 100.0 * scale / slope;  // the furthest step, longer each time that nothing is felt: a gap closes first
+  for (int i = 0; i < 200; ++i) {
+    const double now = force(d), missing = target - now;
+    if (std::abs(missing) < smallest) {
+      smallest = std::abs(missing);
+      best = d;
+    }
+    if (std::abs(missing) <= precision * scale) break;
+    (missing > 0.0 ? low : high) = d;
+    const double secant = i == 0 ? slope : (now - last_force) / (d - last_d);
+    double step = missing > 0.0 ? reach : -reach;
+    if (secant > 0.0 && std::abs(missing) < secant * reach)
+      step = missing / secant;
+    else
+      reach *= 2.0;
+    double next = d + step;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (next == d) break;
+    last_d = d;
+    last_force = now;
+    d = next;
+  }
+  return best;
+}
+
+void check_preloads(const Problem& problem, const std::vector<Surface>& surfaces) {
+  for (const StepPtr& step : problem.steps)
+    for (const LoadPtr& load : step->loads) {
+      if (load->kind != LoadKind::preload) continue;
+      for (const Target& target : load->on) {
+        const Interface& interface = *std::get<InterfacePtr>(target);
+        if (interface.kind != InterfaceKind::plastic || interface.hardening > 0.0) continue;
+        const double area = surfaces.at(index_of(problem.interfaces, &interface)).facing.areas.sum(), limit = interface.yield * area;
+        double most = 0.0;
+        for (int i = 0; i < step->increments; ++i)
+          most = std::max(most, LoadValue{*load->value[0], load->is_number[0]}.at_static(i, step->increments));
+        if (most < limit) continue;
+        throw InputError(load->origin,
+                         fmt::format("problem '{}': step '{}': load.preload asks for {:.6g} N through interface.plastic '{}', which cannot be "
+                                     "reached: it yields at {:.6g} N ({:.4g} MPa on {:.4g} mm^2) and has no hardening\n    the largest force is "
+                                     "below {:.6g} N; or give it 'hardening'",
+                                     problem.name, step->name, most, interface.name, limit, interface.yield / 1e6, area * 1e6, limit));
+      }
+    }
+}
+
+}  // namespace dygita
