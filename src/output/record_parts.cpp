@@ -78,22 +78,6 @@ Json outputs_record(const Problem& problem, const RunResult& result) {
   return list;
 }
 
-Json bolts_record(const RunResult& result) {
-  Json list = Json::array();
-  for (const BoltSummary& bolt : result.bolts) {
-    Json json = {{"name", bolt.name}, {"area", bolt.area}, {"after_static", bolt.after_static}};
-    if (bolt.target) json["target"] = *bolt.target;
-    if (bolt.hand) json["hand"] = *bolt.hand;
-    json.update({{"shortening", bolt.shortening},
-                 {"lowest", bolt.lowest},
-                 {"highest", bolt.highest},
-                 {"last", bolt.last},
-                 {"plastic_opening", bolt.plastic_opening}});
-    list.push_back(json);
-  }
-  return list;
-}
-
 Json solver_record(const Problem& problem) {
   Json json = {{"name", problem.solver_name()}};
   if (problem.explicit_dynamics) return json;

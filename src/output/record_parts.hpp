@@ -14,7 +14,6 @@ nlohmann::ordered_json interfaces_record(const Problem& problem);
 nlohmann::ordered_json supports_record(const Problem& problem);
 // Outputs with a table, in the deck's order, with the file of each; a spectrum with its specification.
 nlohmann::ordered_json outputs_record(const Problem& problem, const RunResult& result);
-nlohmann::ordered_json bolts_record(const RunResult& result);
 // Tolerances and what else tells how it was solved.
 nlohmann::ordered_json solver_record(const Problem& problem);
 

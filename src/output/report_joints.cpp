@@ -130,35 +130,49 @@ std::string joints_section(const RunFolder& run, const TimeAxis& time) {
   return html::section("Joints", body);
 }
 
+// What became of each bolt, and below it all forces after each static step where there are several.
 std::string bolts_section(const RunFolder& run) {
   const Json bolts = run.record().value("bolts", Json::array());
+  if (bolts.empty()) return "";
+  const auto by_hand = [](const Json& bolt, const char* key) { return number(bolt.value("hand", Json::object()), key); };
+  const auto force = [](double value) { return std::isfinite(value) ? with_unit(value, "N", 4) : std::string(); };
+  const auto any = [&](auto&& value) { return std::any_of(bolts.begin(), bolts.end(), [&](const Json& b) { return std::isfinite(value(b)); }); };
+  const bool has_target = any([](const Json& b) { return number(b, "target"); }), has_hand = any([&](const Json& b) { return by_hand(b, "force"); });
   std::vector<std::string> header = {"bolt"};
-  std::vector<std::string> static_steps;
-  for (const Json& step : run.record().at("steps"))
-    if (text(step, "kind") == "static") header.push_back("after " + text(step, "name"));
-  const size_t n_static = header.size() - 1;
-  const auto any = [&](const char* key) { return std::any_of(bolts.begin(), bolts.end(), [&](const Json& b) { return std::isfinite(number(b, key)); }); };
-  const bool has_target = any("target"), has_hand = any("hand");
   if (has_target) header.push_back("asked for");
-  if (has_hand) header.push_back("hand formula");
-  for (const char* name : {"shortened by", "lowest in motion", "highest in motion", "at the end", "mean stress", "opened for good"}) header.push_back(name);
+  header.push_back("tightened to");
+  if (has_hand) header.push_back("VDI 2230, same shortening");
+  for (const char* name : {"shortened by", "lowest in motion", "highest in motion", "at the end", "lost", "mean stress", "opened for good"}) header.push_back(name);
   std::vector<std::vector<std::string>> rows;
   for (const Json& bolt : bolts) {
     std::vector<std::string> row = {text(bolt, "name")};
-    const Json after = bolt.value("after_static", Json::array());
-    for (size_t i = 0; i < n_static; ++i) row.push_back(i < after.size() && after[i].is_number() ? with_unit(after[i].get<double>(), "N") : "");
-    const auto force = [&](const char* key) { return std::isfinite(number(bolt, key)) ? with_unit(number(bolt, key), "N") : std::string(); };
-    if (has_target) row.push_back(force("target"));
-    if (has_hand) row.push_back(force("hand"));
+    if (has_target) row.push_back(force(number(bolt, "target")));
+    row.push_back(force(number(bolt, "tightened")));
+    if (has_hand) row.push_back(force(by_hand(bolt, "force")));
     row.push_back(with_unit(number(bolt, "shortening"), "m"));
-    for (const char* key : {"lowest", "highest", "last"}) row.push_back(force(key));
+    for (const char* key : {"lowest", "highest", "last"}) row.push_back(force(number(bolt, key)));
+    row.push_back(plain_number(100.0 * number(bolt, "loss")) + " %");
     row.push_back(number(bolt, "area") > 0.0 ? with_unit(number(bolt, "last") / number(bolt, "area"), "Pa") : "");
     row.push_back(with_unit(number(bolt, "plastic_opening"), "m"));
     rows.push_back(std::move(row));
   }
-  if (rows.empty()) return "";
-  return html::section("Bolts", html::table(header, rows, true) +
-                                    html::paragraph("Forces are those through the modelled part of each bolt, tension positive; the mean stress is that at the end, over the modelled area."));
+  std::string body = html::table(header, rows, true) +
+                     html::paragraph("Forces are those through the modelled part of each bolt, tension positive; lost: of what its own tightening gave, "
+                                     "at the end; the mean stress is that at the end, over the modelled area.");
+  std::vector<std::string> steps = {"after step"};
+  for (const Json& bolt : bolts) steps.push_back(text(bolt, "name"));
+  std::vector<std::vector<std::string>> history;
+  for (const Json& step : run.record().at("steps")) {
+    if (text(step, "kind") != "static") continue;
+    std::vector<std::string> row = {text(step, "name")};
+    for (const Json& bolt : bolts) {
+      const Json after = bolt.value("after_static", Json::array());
+      row.push_back(history.size() < after.size() && after[history.size()].is_number() ? force(after[history.size()].get<double>()) : "");
+    }
+    history.push_back(std::move(row));
+  }
+  if (history.size() > 1) body += html::table(steps, history, true);
+  return html::section("Bolts", body);
 }
 
 }  // namespace dygita

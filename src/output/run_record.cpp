@@ -129,7 +129,6 @@ std::string run_record(const Problem& problem, const RunResult& result, const Ru
       {"interfaces", interfaces_record(problem)},
       {"supports", supports_record(problem)},
       {"outputs", outputs_record(problem, result)},
-      {"bolts", bolts_record(result)},
       {"size", {{"dofs", result.n_dofs}, {"interface_unknowns", result.n_interface_unknowns}}},
       {"iterations", {{"all", result.iterations}, {"mean", result.mean_iterations}}},
       {"steps", steps(problem, result)},
