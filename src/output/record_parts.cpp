@@ -57,6 +57,22 @@ Json supports_record(const Problem& problem) {
   return list;
 }
 
+namespace {
+
+const char* spectrum_quantity(SrsQuantity quantity) {
+  switch (quantity) {
+    case SrsQuantity::relative_displacement:
+      return "relative displacement";
+    case SrsQuantity::pseudo_velocity:
+      return "pseudo-velocity";
+    case SrsQuantity::absolute_acceleration:
+      break;
+  }
+  return "acceleration";
+}
+
+}  // namespace
+
 Json outputs_record(const Problem& problem, const RunResult& result) {
   Json list = Json::array();
   for (const OutputPtr& output : problem.outputs) {
@@ -70,9 +86,11 @@ Json outputs_record(const Problem& problem, const RunResult& result) {
     if (output->kind == OutputKind::history) json["quantity"] = quantity_name(output->quantity);
     if (output->direction) json["direction"] = {(*output->direction)[0], (*output->direction)[1], (*output->direction)[2]};
     if (output->kind == OutputKind::srs) {
-      json.update({{"of", output->of->name}, {"quantity", quantity_name(output->of->quantity)}, {"q_factor", output->srs.q_factor}});
+      json.update({{"of", output->of->name}, {"quantity", spectrum_quantity(output->srs.quantity)}, {"q_factor", output->srs.q_factor}});
       if (output->specification) json["specification"] = specification(*output->specification, found->second);
     }
+    if (output->kind == OutputKind::attenuation)
+      json.update({{"entering", output->of->name}, {"leaving", output->leaving->name}, {"joints", output->n_joints}});
     list.push_back(json);
   }
   return list;
