@@ -42,8 +42,9 @@ void LocalStage::shorten(int i_preload, const Vec& velocity, const Vec& q) {
 
 PreloadFigures LocalStage::preload_figures() const {
   const int n = static_cast<int>(preloads_.size());
-  PreloadFigures figures{Vec::Zero(n), Vec::Zero(n), Vec::Zero(n), Vec::Zero(n)};
+  PreloadFigures figures{Vec::Zero(n), Vec::Zero(n), Vec::Zero(n), Vec::Zero(n), {}};
   for (int k = 0; k < n; ++k) {
+    figures.interfaces.push_back(preloads_[k].interface);
     figures.target[k] = preloads_[k].target(i_increment_, model_->step->increments);
     for (const int i : preloads_[k].points) {
       const PointRecord& record = points_[i];

@@ -21,6 +21,7 @@ struct IndicatorSums {
 // Of each preload in an increment: shortening (m), force through it and force asked for (N), stiffness of its search directions (N/m).
 struct PreloadFigures {
   Vec shortening, force, target, stiffest;
+  std::vector<const Interface*> interfaces;
 };
 
 // Copyable: a window of several steps keeps the copy it starts from.

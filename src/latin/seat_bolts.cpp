@@ -1,5 +1,6 @@
 // Where the joint under a preloaded bolt stands open, no force is in balance until it has closed, and the iteration cannot find the
 // shortening by the way: it is searched from outside, roughly, and the iteration goes on from there (manual, preload).
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -36,7 +37,7 @@ Outcome StepRun::seat_bolts(int increment, Vec& q_best, int& n) {
     iterate(increment, std::max(rough, tolerance_), unused, n);
     return local_.preload_figures().force;
   };
-  const double scale = target.cwiseAbs().maxCoeff();
+  const double scale = std::max(target.cwiseAbs().maxCoeff(), forces(d).cwiseAbs().maxCoeff());
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     if (sweep > 0 && (forces(d) - target).cwiseAbs().maxCoeff() <= 5 * close * scale) break;
     for (int i = 0; i < d.size(); ++i) {
@@ -45,10 +46,10 @@ Outcome StepRun::seat_bolts(int increment, Vec& q_best, int& n) {
         all[i] = own;
         return forces(all)[i];
       };
-      d[i] = find_shortening(force, target[i], d[i], stiffest[i], scale, close);
+      d[i] = find_shortening(force, target[i], d[i], stiffest[i], scale, close, extent);
     }
   }
-  forces(d);
+  check_reached(*model_.step, increment, figures.interfaces, forces(d), target);
   local_.prescribe_shortenings({});
   extent_ = extent;
   return iterate(increment, tolerance_, q_best, n);

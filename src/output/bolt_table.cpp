@@ -23,9 +23,12 @@ std::vector<std::string> static_steps(const Problem& problem) {
 
 std::string number(const std::optional<double>& value) { return value ? fmt::format("{:.9g}", *value + 0.0) : ""; }
 
-std::string shown(const std::optional<double>& force) { return force ? fmt::format("{:.3f}", *force / 1e3 + 0.0) : ""; }
+// "-0.000" is zero.
+std::string shown(const std::optional<double>& force) {
+  if (!force) return "";
+  return fmt::format("{:.3f}", std::abs(*force) < 0.5 ? 0.0 : *force / 1e3);
+}
 
-// "-0.00" is zero.
 std::string percent(double value) { return fmt::format("{:.2f} %", std::abs(value) < 5e-5 ? 0.0 : 100.0 * value); }
 
 bool is_same(const BoltByHand& a, const BoltByHand& b) {

@@ -10,6 +10,8 @@ PreloadNewton::PreloadNewton(const StepModel& model, const MergedAssembly& assem
   for (size_t i = 0; i < preloads_.size(); ++i)
     for (const int p : preloads_[i].points)
       if (const int row = assembly.row(p, 0); row >= 0) stiffest_[i] += 1.0 / assembly.compliance()(row, row);
+  for (const SubstructurePtr& part : model.problem->substructures)
+    extent_ += (part->mesh->nodes.rowwise().maxCoeff() - part->mesh->nodes.rowwise().minCoeff()).norm();
 }
 
 // Forces through the preloaded interfaces for shortenings d: the whole increment solved.
@@ -32,7 +34,7 @@ void PreloadNewton::one_by_one(Vec& d) {
       all[i] = own;
       return forces(all)[i];
     };
-    d[i] = find_shortening(force, target_[i], d[i], stiffest_[i], scale_, tolerance_);
+    d[i] = find_shortening(force, target_[i], d[i], stiffest_[i], scale_, tolerance_, 0.1 * extent_);
   }
 }
 
@@ -81,6 +83,9 @@ InterfaceNewton::Outcome PreloadNewton::solve(InterfaceNewton& newton, std::vect
     one_by_one(d);
     force = forces(d);
   }
+  std::vector<const Interface*> interfaces;
+  for (const Preload& preload : preloads_) interfaces.push_back(preload.interface);
+  check_reached(*model_->step, i_increment, interfaces, force, target_);
   outcome_.iterations = n_iterations_;
   outcome_.residual = std::max(outcome_.residual, error());
   outcome_.converged = outcome_.converged && error() <= tolerance_;

@@ -22,6 +22,7 @@ class PreloadNewton {
   const StepModel* model_;
   std::vector<Preload> preloads_;
   Vec stiffest_;  // N/m, of each preload
+  double extent_ = 0.0;  // m, of all substructures
   double tolerance_;
   // Of the increment at hand.
   Vec target_;

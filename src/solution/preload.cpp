@@ -30,7 +30,7 @@ std::vector<Preload> make_preloads(const StepModel& model, const std::vector<Poi
 }
 
 double find_shortening(const std::function<double(double)>& force, double target, double start, double slope, double scale,
-                       double precision) {
+                       double precision, double furthest) {
   const double infinity = std::numeric_limits<double>::infinity();
   double low = -infinity, high = infinity;  // too little and too much
   double d = start, best = start, smallest = infinity, last_d = start, last_force = 0.0;
@@ -52,12 +52,22 @@ double find_shortening(const std::function<double(double)>& force, double target
       reach *= 2.0;
     double next = d + step;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (next == d) break;
+    if (next == d || std::abs(next - start) > furthest) break;
     last_d = d;
     last_force = now;
     d = next;
   }
   return best;
+}
+
+void check_reached(const Step& step, int increment, const std::vector<const Interface*>& interfaces, const Vec& force, const Vec& target) {
+  for (size_t i = 0; i < interfaces.size(); ++i) {
+    if (force[i] >= 0.5 * target[i]) continue;
+    throw NumericalError(fmt::format(
+        "step '{}', increment {}: load.preload asks for {:.6g} N through interface.{} '{}', and no shortening brings more than {:.3g} N; likely "
+        "cause: nothing takes the force on one of its sides (a part that is held by this interface alone, a joint that cannot close)",
+        step.name, increment + 1, target[i], interface_kind_name(interfaces[i]->kind), interfaces[i]->name, force[i] > 1e-6 * target[i] ? force[i] : 0.0));
+  }
 }
 
 void check_preloads(const Problem& problem, const std::vector<Surface>& surfaces) {

@@ -164,6 +164,49 @@ TEST(Preload, beyond_a_yield_without_hardening_is_refused_with_the_largest_force
   }
 }
 
+// Two cubes one upon the other: nothing holds the upper one against a force between them.
+TEST(Preload, that_nothing_takes_is_told_with_the_largest_force) {
+  for (const char* solver : {"latin", "monolithic"}) {
+    try {
+      run_text(R"(
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local cube = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 2, 2, 2 } }
+local low = substructure{ name = "low", mesh = cube, material = steel }
+local high = substructure{ name = "high", mesh = cube, material = steel, place = { 0, 0, 10*mm } }
+local glue = interface.bonded{ name = "glue", between = { low:face "zmax", high:face "zmin" } }
+local base = support.fixed{ name = "base", on = low:face "zmin" }
+local tighten = step.static{ name = "tighten", loads = { load.preload{ on = glue, force = 10*kN } } }
+problem{ name = "nothing", substructures = { low, high }, interfaces = { glue }, supports = { base }, steps = { tighten } }:run{}
+)",
+               {}, 1, solver);
+      FAIL() << "nothing was told";
+    } catch (const NumericalError& error) {
+      EXPECT_STREQ(error.what(), "step 'tighten', increment 1: load.preload asks for 10000 N through interface.bonded 'glue', and no shortening "
+                                 "brings more than 0 N; likely cause: nothing takes the force on one of its sides (a part that is held by this "
+                                 "interface alone, a joint that cannot close)");
+    }
+  }
+}
+
+TEST(Preload, takes_a_history_and_other_loads_beside_it) {
+  const DeckRun run = run_text(R"(
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0, density = 7800 }
+local function bar(name, z) return substructure{ name = name, material = steel, mesh = mesh.box{ origin = { 0, 0, z }, size = { 10*mm, 10*mm, 20*mm }, cells = { 1, 1, 4 } } } end
+local low, high = bar("low", 0), bar("high", 20*mm)
+local joint = interface.bonded{ name = "joint", between = { low:face "zmax", high:face "zmin" } }
+local ends = support.fixed{ name = "ends", on = { low:face "zmin", high:face "zmax" } }
+local first = step.static{ name = "first", increments = 4, loads = { load.preload{ on = joint, force = function(t) return 8*kN*t*t end } } }
+local second = step.static{ name = "second", after = first, increments = 2,
+  loads = { load.preload{ on = joint, force = 3*kN }, load.pressure{ on = low:face "xmin", history = 0 } } }
+problem{ name = "bar", substructures = { low, high }, interfaces = { joint }, supports = { ends }, steps = { first, second },
+  solver = solver.latin{ static_tolerance = 1e-10 }, outputs = { output.joint{ name = "force", on = joint } } }:run{}
+)").at(0);
+  const std::vector<double> expected{500, 2000, 4500, 8000, 5500, 3000};
+  ASSERT_EQ(run.column("force", "normal").size(), expected.size());
+  for (size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(run.column("force", "normal")[i], expected[i], 1e-5) << i;
+  EXPECT_NEAR(bolt_of(run).shortening, 3000.0 * 40e-3 / (210e9 * 100e-6), 1e-12);
+}
+
 TEST(Preload, of_zero_loosens_the_bolt) {
   const DeckRun bolt = run_bolt({{"second", "0"}, {"shock", "0"}});
   EXPECT_TRUE(bolt.result->converged);
