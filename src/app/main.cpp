@@ -58,12 +58,8 @@ void add_srs_options(CLI::App& command, SrsCommand& asked) {
   command.add_option("--damping", asked.damping, "damping ratio, 1/(2 Q), in place of Q")
       ->check(CLI::Range(0.0, 0.99))
       ->excludes(q);
-  command.add_option("--quantity", asked.settings.quantity, "what of the oscillator")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, SrsQuantity>{{"absolute_acceleration", SrsQuantity::absolute_acceleration},
-                                             {"relative_displacement", SrsQuantity::relative_displacement},
-                                             {"pseudo_velocity", SrsQuantity::pseudo_velocity}}))
-      ->default_str("absolute_acceleration");
+  command.add_option("--quantity", asked.quantity, "absolute_acceleration, relative_displacement or pseudo_velocity of the oscillator")
+      ->capture_default_str();
   command.add_option("--from", asked.settings.from, "first frequency, Hz")->capture_default_str();
   command.add_option("--to", asked.settings.to, "last frequency, Hz")->capture_default_str();
   command.add_option("--per-octave", asked.settings.per_octave, "frequencies an octave")->capture_default_str();
@@ -130,7 +126,6 @@ int command_line(int argc, char** argv) {
   }
   if (run->parsed() || check->parsed()) return run_or_check(asked, run->parsed());
   if (srs->parsed()) {
-    if (asked.srs.damping) asked.srs.settings.q_factor = q_factor_of(*asked.srs.damping);
     write_srs(asked.srs);
   } else if (report->parsed()) {
     write_report(asked.report);

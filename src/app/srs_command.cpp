@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -23,7 +24,7 @@ constexpr double uneven_sampling = 0.01;  // of the mean step
 struct Signal {
   std::vector<double> time, values;
   std::string unit;
-  bool starts_in_static_step = false;  // time stood still at its first instant
+  bool starts_in_static_step = false;  // time stood still at its first instant, or another step follows it
 };
 
 std::string trimmed(const std::string& text) {
@@ -82,7 +83,7 @@ Signal read_signal(const SrsCommand& command) {
   Signal signal;
   std::vector<std::string> header;
   size_t column = 0;
-  std::string line;
+  std::string line, first_step;
   for (int n = 1; std::getline(file, line); ++n) {
     const auto cells = cells_of(line);
     if (cells.empty() || trimmed(line).empty() || line[0] == '#') continue;
@@ -105,6 +106,12 @@ Signal read_signal(const SrsCommand& command) {
       signal.values.back() = *value;  // time stands still in static steps
       signal.starts_in_static_step |= signal.time.size() == 1;
       continue;
+    }
+    const auto names_step = std::find(header.begin(), header.end(), "step");
+    if (const auto i = static_cast<size_t>(names_step - header.begin()); i < cells.size() && names_step != header.end()) {
+      const std::string& step = cells[i];
+      if (signal.time.empty()) first_step = step;
+      signal.starts_in_static_step |= signal.time.size() == 1 && step != first_step;
     }
     signal.time.push_back(*time);
     signal.values.push_back(*value);
@@ -142,13 +149,26 @@ double make_even(Signal& signal, const std::string& file) {
   return dt;
 }
 
+SrsQuantity quantity_named(const std::string& name) {
+  static const std::map<std::string, SrsQuantity> quantities = {{"absolute_acceleration", SrsQuantity::absolute_acceleration},
+                                                                {"relative_displacement", SrsQuantity::relative_displacement},
+                                                                {"pseudo_velocity", SrsQuantity::pseudo_velocity}};
+  if (const auto found = quantities.find(name); found != quantities.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [word, quantity] : quantities) known.push_back(word);
+  throw InputError(fmt::format("--quantity {}: no such quantity\n    {}", name, did_you_mean(name, known)));
+}
+
 }  // namespace
 
 void write_srs(const SrsCommand& command) {
+  SrsSettings settings = command.settings;
+  settings.quantity = quantity_named(command.quantity);
+  if (command.damping) settings.q_factor = q_factor_of(*command.damping);
   Signal signal = read_signal(command);
   const double dt = make_even(signal, command.signal);
-  const Srs srs = shock_response_spectrum(signal.values, dt, command.settings);
-  const std::string unit = srs_unit(command.settings.quantity, signal.unit);
+  const Srs srs = shock_response_spectrum(signal.values, dt, settings);
+  const std::string unit = srs_unit(settings.quantity, signal.unit);
   const Table table{{"frequency", "maximax", "positive", "negative", "primary", "residual"},
                     {"Hz", unit, unit, unit, unit, unit},
                     {srs.frequency, srs.maximax, srs.positive, srs.negative, srs.primary, srs.residual},

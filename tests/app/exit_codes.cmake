@@ -6,6 +6,7 @@ function(expect code)
     string(JOIN " " command ${ARGN})
     message(SEND_ERROR "dygita ${command}: exit code ${found}, expected ${code}\n${output}${error}")
   endif()
+  set(err "${error}" PARENT_SCOPE)
 endfunction()
 
 set(wrong ${SOURCE_DIR}/tests/wrong_decks)
@@ -24,6 +25,16 @@ expect(0 check ${SOURCE_DIR}/decks/crush.lua --set n=1 --solver "monolithic{ tol
 expect(2 check ${SOURCE_DIR}/decks/crush.lua --set n=1 --solver monolitic)
 expect(2 srs ${wrong}/no_such_signal.csv)
 expect(2 srs ${wrong}/broken.csv)
+set(signal ${CMAKE_CURRENT_BINARY_DIR}/signal.csv)
+file(WRITE ${signal} "time [s],step,acceleration [m/s^2]\n0,tighten,0\n0.5e-6,shock,1\n1.5e-6,shock,2\n2.5e-6,shock,1\n")
+expect(0 srs ${signal} --from 500000 --to 600000)
+if(err MATCHES "differ")  # the row of the static step is no sample of the shock
+  message(SEND_ERROR "srs takes the static row for a sample: ${err}")
+endif()
+expect(0 srs ${signal} --from 500000 --to 600000 --damping 0.05 --quantity pseudo_velocity)
+expect(2 srs ${signal} --damping 0.05 --q 10)
+expect(2 srs ${signal} --quantity speed)
+file(REMOVE ${signal})
 
 # Without frames there are the tables and the record, and --solver is in the record.
 set(out ${CMAKE_CURRENT_BINARY_DIR}/exit_codes_out)
