@@ -91,7 +91,7 @@ void RunWriter::write_result(const Problem& problem, const RunResult& result, co
   if (!result.convergence.columns.empty()) write("convergence.csv", csv_text(result.convergence, steps));
 
   if (result.scenes) write(scene_file, scene_text(problem, *result.scenes));
-  write("report.html", report_html(directory_, {.record = run_record(problem, result, identity, warnings, {})}));
+  write_report(run_record(problem, result, identity, warnings, {}));
 
   // Name the files but for the frames, which the .pvd list.
   const fs::path record = path_of("run.json");
@@ -100,6 +100,15 @@ void RunWriter::write_result(const Problem& problem, const RunResult& result, co
     if (*file.begin() != frames_folder) files.push_back(file.generic_string());
   }
   write_text(record, run_record(problem, result, identity, warnings, files));
+}
+
+// A page that fails costs no result.
+void RunWriter::write_report(const std::string& record) {
+  try {
+    write("report.html", report_html(directory_, {.record = record}));
+  } catch (const std::exception& error) {
+    warn(std::string("no report.html: ") + error.what());
+  }
 }
 
 fs::path RunWriter::path_of(const std::string& file_name) {
