@@ -21,6 +21,7 @@ packages=(
   libgtest-dev            # tests
   libbenchmark-dev        # timings
 )
+test_packages=(chromium)                                    # ./run.sh test opens a report in it; 350 MB, left out where apt has none
 report_packages=(python3 python3-numpy python3-matplotlib)  # of ./run.sh report and ./run.sh bench
 
 usage() {
@@ -89,6 +90,17 @@ install_packages() {
       "needed: ${missing[*]}" "is there a network, and does the system (Debian 12, Ubuntu 24.04 or later) have them?"
 }
 
+# What only some tests need: they are skipped where it is not to be had.
+install_test_packages() {
+  [[ "${DYGITA_NO_INSTALL:-0}" != 1 ]] || return 0
+  local package
+  for package in "${test_packages[@]}"; do
+    [[ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed* ]] || continue
+    if apt-cache show "$package" >/dev/null 2>&1 && as_root apt-get install -y --no-install-recommends "$package"; then continue; fi
+    say "There is no package '$package' here: the tests that need it are skipped"
+  done
+}
+
 # One compiler takes up to about 1.5 GB with these headers.
 n_jobs() {
   local cores memory
@@ -143,7 +155,7 @@ run_example() {
   if [[ -f "$root/$results/bolted_flanges.pvd" ]]; then
     echo "    paraview $root/$results/bolted_flanges.pvd      the flanges through time; Warp By Vector, displacement, x20"
   fi
-  for file in "$root/$results"/{interfaces.pvd,report.html,run.json,*.csv}; do
+  for file in "$root/$results"/{report.html,interfaces.pvd,run.json,*.csv}; do
     [[ ! -f "$file" ]] || echo "    $file"
   done
   echo
@@ -159,6 +171,7 @@ main() {
     example | test | build)
       (($# == 0)) || fail "'$command' takes no argument, got: $*" "./run.sh help"
       install_packages
+      [[ "$command" != test ]] || install_test_packages
       build_engine
       case "$command" in
         example) run_example ;;

@@ -31,6 +31,7 @@ table.numbers td + td, table.numbers th + th { text-align: right; }
 figure { margin: 8px 0; break-inside: avoid; }
 figcaption { color: #555; font-size: 13px; max-width: 900px; }
 svg { max-width: 100%; height: auto; }
+.blocks { display: flex; flex-wrap: wrap; gap: 0 48px; align-items: flex-start; }
 .row { display: flex; flex-wrap: wrap; gap: 4px 20px; align-items: flex-start; }
 .row figure { flex: 1 1 480px; min-width: 0; max-width: 540px; }
 @media print { body { margin: 0; max-width: none; font-size: 12px; } h2 { break-after: avoid; } h3 { break-after: avoid; }
@@ -75,6 +76,12 @@ std::string table(const std::vector<std::string>& header, const std::vector<std:
     result += "</tr>\n";
   }
   return result + "</table>\n";
+}
+
+std::string block(const std::string& body_html) { return "<div>\n" + body_html + "</div>\n"; }
+
+std::string blocks(const std::string& blocks_html) {
+  return blocks_html.empty() ? "" : "<div class=\"blocks\">\n" + blocks_html + "</div>\n";
 }
 
 std::string list(const std::vector<std::string>& items, const char* name) {

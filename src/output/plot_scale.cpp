@@ -64,7 +64,7 @@ std::string PlotScale::title() const {
 void PlotScale::add_linear_ticks(int n_ticks) {
   const double low = low_ / unit_.size, high = high_ / unit_.size, step = nice_step((high - low) / n_ticks);
   const double largest = std::max(std::abs(low), std::abs(high));
-  const bool has_exponent = largest >= 1e5 || largest < 1e-2;
+  const bool has_exponent = largest >= 1e6 || largest < 1e-2;
   const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
   for (double i = std::ceil(low / step - 1e-6); i * step <= high + 1e-6 * step; ++i) {
     const double value = i * step;
@@ -85,7 +85,6 @@ void PlotScale::add_log_ticks(int n_ticks) {
       const bool is_plain = power >= -2 && power < 6;
       std::string label;
       if (has_label) label = is_plain ? fmt::format("{:g}", value) : plain_number(value, 1);
-      if (label.starts_with("1·")) label = label.substr(std::string("1·").size());
       if (m == 1 || decades < 6) ticks_.push_back({value * unit_.size, label, m != 1});
     }
   }

@@ -12,10 +12,10 @@ namespace dygita {
 
 namespace {
 
-std::string joined(const Json& list) {
+std::string joined(const Json& list, const char* separator = ", ") {
   std::string result;
   for (const Json& item : list)
-    if (item.is_string()) result += (result.empty() ? "" : ", ") + item.get<std::string>();
+    if (item.is_string()) result += (result.empty() ? "" : separator) + item.get<std::string>();
   return result;
 }
 
@@ -72,6 +72,15 @@ std::string length_of(const Json& step) {
   return result;
 }
 
+// The header; the last column is taken off where it holds nothing.
+std::vector<std::string> without_last(std::vector<std::vector<std::string>>& rows, std::vector<std::string> header) {
+  for (const std::vector<std::string>& row : rows)
+    if (!row.back().empty()) return header;
+  for (std::vector<std::string>& row : rows) row.pop_back();
+  header.pop_back();
+  return header;
+}
+
 }  // namespace
 
 std::string history_text(const std::string& description, const std::string& load_kind) {
@@ -103,8 +112,8 @@ std::string computed_section(const RunFolder& run) {
   const Json& record = run.record();
   std::string body;
   std::vector<std::vector<std::string>> rows;
-  const auto flush = [&](const std::string& title, const std::vector<std::string>& header) {
-    if (!rows.empty()) body += html::heading(title) + html::table(header, rows);
+  const auto flush = [&](const std::string& title, std::vector<std::string> header) {
+    if (!rows.empty()) body += html::block(html::heading(title) + html::table(without_last(rows, header), rows));
     rows.clear();
   };
   for (const Json& part : record.value("substructures", Json::array())) {
@@ -114,7 +123,7 @@ std::string computed_section(const RunFolder& run) {
   }
   flush("Parts", {"part", "material", "nodes", "cells", ""});
   for (const Json& interface : record.value("interfaces", Json::array()))
-    rows.push_back({text(interface, "name"), text(interface, "kind"), joined(interface.value("between", Json::array())), law_of(interface)});
+    rows.push_back({text(interface, "name"), text(interface, "kind"), joined(interface.value("between", Json::array()), " — "), law_of(interface)});
   flush("Interfaces", {"interface", "kind", "between", "law"});
   for (const Json& support : record.value("supports", Json::array()))
     rows.push_back({text(support, "name"), text(support, "kind"), joined(support.value("on", Json::array())),
@@ -125,7 +134,7 @@ std::string computed_section(const RunFolder& run) {
   const Json parameters = record.value("parameters", Json::object());
   for (const auto& [name, value] : parameters.items()) rows.push_back({name, value.is_number() ? plain_number(value.get<double>(), 6) : "not a number"});
   flush("Parameters of the deck (SI)", {"parameter", "value"});
-  return html::section("What was computed", body);
+  return html::section("What was computed", html::blocks(body));
 }
 
 }  // namespace dygita

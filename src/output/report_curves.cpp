@@ -40,7 +40,7 @@ SpecificationPtr specification_of(const Json& output, const ReportRequest& reque
 std::vector<Spectrum> spectra_of(const RunFolder& run, const ReportRequest& request) {
   std::vector<Spectrum> spectra;
   for (const Json& output : run.outputs("srs")) {
-    Spectrum spectrum{text(output, "name"), text(output, "of"), text(output, "quantity"), number(output, "q_factor"), run.table(text(output, "file")),
+    Spectrum spectrum{text(output, "name"), text(output, "of"), text(output, "quantity"), number(output, "q_factor"), run.table(text(output, "file"), {"maximax", "positive", "negative"}),
                       specification_of(output, request)};
     if (spectrum.table.n_rows() > 0) spectra.push_back(std::move(spectrum));
   }

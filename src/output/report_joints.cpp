@@ -48,11 +48,17 @@ bool is_plastic(const RunFolder& run, const Json& output) {
   return false;
 }
 
+constexpr double noise = 1e-6;             // of the largest force: not worth a curve
+constexpr double smallest_opening = 1e-12; // m: what closed points are apart is rounding
+
 // What a joint did, in a sentence or two.
 std::string summary(const Table& t, bool yields) {
-  const auto [low, high] = range(t.column("normal"));
+  auto [low, high] = range(t.column("normal"));
+  const double most = std::max(std::abs(low), std::abs(high));
+  for (double* force : {&low, &high})
+    if (std::abs(*force) < noise * most) *force = 0.0;
   std::string line = fmt::format("Normal force from {} to {} (pressed is negative)", with_unit(low, "N"), with_unit(high, "N"));
-  if (const double shear = largest(t.column("shear")); shear > 1e-9 * std::max(std::abs(low), std::abs(high))) line += ", shear up to " + with_unit(shear, "N");
+  if (const double shear = largest(t.column("shear")); shear > noise * most) line += ", shear up to " + with_unit(shear, "N");
   const std::vector<double>&open = t.column("open_area"), &stick = t.column("stick_area"), &slip = t.column("slip_area");
   double most_open = 0.0, most_slip = 0.0;
   for (size_t i = 0; i < open.size(); ++i) {
@@ -76,7 +82,7 @@ std::string summary(const Table& t, bool yields) {
 std::string loop(const Table& t, const std::string& title, const char* x, const char* y) {
   const std::vector<double>&across = t.column(x), &up = t.column(y);
   const auto [low, high] = range(across);
-  if (!(high - low > 0.0) || across.size() < 3) return "";
+  if (!(high - low > smallest_opening) || across.size() < 3 || largest(up) <= noise * largest(t.column("normal"))) return "";
   std::string quantity = x;
   std::replace(quantity.begin(), quantity.end(), '_', ' ');
   Plot plot = small_plot(title, {quantity, "m"}, {std::string(y) + " force", "N"});
@@ -95,7 +101,7 @@ std::string works(const Table& t, const TimeAxis& time) {
 }
 
 std::string joint_part(const RunFolder& run, const Json& output, const TimeAxis& time) {
-  const Table t = run.table(text(output, "file"));
+  const Table t = run.table(text(output, "file"), {"normal", "shear", "opening", "slip", "plastic_opening", "open_area", "stick_area", "slip_area", "friction_work", "plastic_work"});
   if (t.n_rows() == 0) return "";
   const bool yields = is_plastic(run, output);
   const std::vector<double> places = time.places(t);
@@ -107,19 +113,27 @@ std::string joint_part(const RunFolder& run, const Json& output, const TimeAxis&
   if (yields && largest(t.column("open_area")) == 0.0) area.stacked.pop_back();
   Plot force = small_plot("Force through the joint", time.axis(), {"force", "N"});
   force.spans = time.spans();
-  for (const char* name : {"normal", "shear"}) force.lines.push_back({name, places, t.column(name), {}, false, t.n_rows() < 30});
+  for (const char* name : {"normal", "shear"})
+    if (force.lines.empty() || largest(t.column(name)) > noise * largest(t.column("normal")))
+      force.lines.push_back({name, places, t.column(name), {}, false, t.n_rows() < 30});
 
   std::string on;
   for (const Json& place : output.value("on", Json::array()))
     if (place.is_string()) on += (on.empty() ? "" : ", ") + place.get<std::string>();
   std::string body = html::heading(text(output, "name") + " on " + on) + html::paragraph(summary(t, yields));
-  body += html::row({html::figure(svg(force), "Normal and shear force on side 1 against time."), html::figure(svg(area), "How much of the joint is in which state."),
+  body += html::row({html::figure(svg(force), force.lines.size() > 1 ? "Normal and shear force on side 1 against time." : "Normal force on side 1 against time; hardly any shear."), html::figure(svg(area), "How much of the joint is in which state."),
                      loop(t, "Normal force against opening", yields ? "plastic_opening" : "opening", "normal"), loop(t, "Shear force against slip", "slip", "shear"), works(t, time)});
   if (!run.scenes().is_object() || !run.scenes().contains("joints")) return body;
   for (const Json& joint : run.scenes()["joints"])
     for (const Json& place : output.value("on", Json::array()))
       if (place.is_string() && place.get<std::string>() == text(joint, "name")) body += maps_of_joint(joint);
   return body;
+}
+
+// By the hand formula: a number, or an object that says more.
+double hand_force(const Json& bolt) {
+  const auto hand = bolt.find("hand");
+  return hand != bolt.end() && hand->is_object() ? number(*hand, "force") : number(bolt, "hand");
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ std::string by_part(const Json& picture, const Json& parts) {
   for (const DrawnFacet& facet : facets) colors.push_back(shaded(pale(series_color(facet.part)), 10 * (facet.light / 10)));
   const double width = number(picture, "width"), height = number(picture, "height"), row = 20.0;
   std::string result = open_svg(width, height + row * (static_cast<double>(parts.size() + 2) / 3), "The assembly, a colour for each part");
-  result += "<g transform=\"scale(0.1)\" stroke-width=\"5\" stroke-linejoin=\"round\">\n" + drawn(facets, colors) +
+  result += "<g transform=\"scale(0.1)\" stroke-width=\"8\" stroke-linejoin=\"round\">\n" + drawn(facets, colors) +
             lines(picture.at("edges"), "stroke=\"#333333\" stroke-width=\"9\"") + "</g>\n" + axes_of(picture, height);
   for (size_t i = 0; i < parts.size(); ++i) {
     const double x = 20.0 + (width - 20.0) / 3 * static_cast<double>(i % 3), y = height + row * static_cast<double>(i / 3);
@@ -126,7 +126,7 @@ std::string by_stress(const Json& picture, const std::string& title) {
   for (const DrawnFacet& facet : facets) colors.push_back(color_of_level(std::clamp(n_levels * facet.value / top, 0, n_levels - 1)));
   const double width = number(picture, "width"), height = number(picture, "height"), largest = number(picture, "largest");
   std::string result = open_svg(width, height + 40.0, title);
-  result += "<g transform=\"scale(0.1)\" stroke-width=\"5\" stroke-linejoin=\"round\">\n" + drawn(facets, colors) +
+  result += "<g transform=\"scale(0.1)\" stroke-width=\"8\" stroke-linejoin=\"round\">\n" + drawn(facets, colors) +
             lines(picture.at("edges"), "stroke=\"#222222\" stroke-width=\"6\" stroke-opacity=\"0.7\"") +
             lines(picture.at("outline"), "stroke=\"#777777\" stroke-width=\"8\" stroke-dasharray=\"40 30\"") + "</g>\n" + axes_of(picture, height);
   const double bar = 22.0 * n_levels, left = 0.5 * (width - bar);
@@ -159,7 +159,7 @@ std::string picture_section(const RunFolder& run) {
   std::vector<std::string> figures;
   for (const Json& picture : run.scenes()["assembly"]) {
     if (text(picture, "colour") == "part")
-      figures.push_back(html::figure(by_part(picture, run.record().value("substructures", Json::array())), "The assembly, undeformed."));
+      figures.push_back(html::figure(by_part(picture, run.record().value("substructures", Json::array())), picture.value("cut", false) ? "The same, cut through the middle to show the inside." : "The assembly, undeformed."));
     else
       figures.push_back(html::figure(by_stress(picture, caption_of(picture)), caption_of(picture)));
   }

@@ -93,20 +93,23 @@ std::string bar_of_seconds(const std::vector<std::pair<std::string, double>>& ph
 std::string energy_section(const RunFolder& run, const TimeAxis& time) {
   std::string body;
   for (const Json& output : run.outputs("energy")) {
-    const Table t = run.table(text(output, "file"));
+    const Table t = run.table(text(output, "file"), {"kinetic", "strain", "loads", "friction", "plastic", "damping", "scheme", "balance"});
     if (t.n_rows() == 0) continue;
     body += energy_figure(t, time);
     const double most = run.figure("largest energy [J]");
+    const auto percent = [&](const char* name) {
+      const double value = run.figure(name);
+      return value < 0.01 ? "less than 0.01 %" : with_unit(value, "%", 2);
+    };
     body += html::paragraph(fmt::format("Largest energy {}. The balance closes within {} of it; the time scheme dissipates {} and creates {}.", with_unit(most, "J"),
-                                        with_unit(run.figure("energy imbalance [%]"), "%", 2), with_unit(run.figure("energy dissipated by the scheme [%]"), "%", 2),
-                                        with_unit(run.figure("energy created by the scheme [%]"), "%", 2)));
+                                        percent("energy imbalance [%]"), percent("energy dissipated by the scheme [%]"), percent("energy created by the scheme [%]")));
   }
   return html::section("Energy", body);
 }
 
 std::string convergence_section(const RunFolder& run) {
   const Json& record = run.record();
-  const Table t = run.table("convergence.csv");
+  const Table t = run.table("convergence.csv", {"iterations", "indicator", "converged"});
   if (t.n_rows() == 0) return "";
   const bool is_explicit = text(record.value("solver", Json::object()), "name") == "explicit";
   std::vector<double> place(static_cast<size_t>(t.n_rows()));

@@ -16,7 +16,7 @@ struct Card {
   bool is_fine = true;
 };
 
-std::string percent(double value) { return with_unit(value, "%", 2); }
+std::string percent(double value) { return value >= 0.0 && value < 0.01 ? "< 0.01\u00a0%" : with_unit(value, "%", 2); }
 
 std::string card_html(const Card& card) {
   return fmt::format("<div class=\"card {}\"><small>{}</small><b>{}</b><small>{}</small></div>\n", card.is_fine ? "fine" : "poor",
@@ -91,18 +91,18 @@ std::string verdict_section(const RunFolder& run, const std::vector<std::string>
   };
   add("energy imbalance [%]", "energy balance closes within", "of the largest energy", most_imbalance);
   add("energy dissipated by the scheme [%]", "dissipated by the scheme", "impacts; lower with dt and mesh", most_scheme_loss);
-  add("error estimate, iteration [%]", "error left by the iteration", "estimated, energy norm of the shock", most_iteration);
-  add("error estimate, penalty [%]", "error of the penalty", "estimated, energy norm of the shock", 10.0 * std::sqrt(5.0));
-  add("error estimate, time step [%]", "error of the time step", "estimated, energy norm of the shock", most_discretisation);
-  add("error estimate, mesh [%]", "error of the mesh", "estimated, energy norm of the shock", most_discretisation);
-  add("error estimate, static, iteration [%]", "static: error of the iteration", "estimated, energy norm", most_iteration);
-  add("error estimate, static, mesh [%]", "static: error of the mesh", "estimated, energy norm", most_discretisation);
+  add("error estimate, iteration [%]", "error left by the iteration", "estimate, of the shock", most_iteration);
+  add("error estimate, penalty [%]", "error of the penalty", "estimate, of the shock", 10.0 * std::sqrt(5.0));
+  add("error estimate, time step [%]", "error of the time step", "estimate, of the shock", most_discretisation);
+  add("error estimate, mesh [%]", "error of the mesh", "estimate, of the shock", most_discretisation);
+  add("error estimate, static, iteration [%]", "error left by the iteration", "estimate, of static steps", most_iteration);
+  add("error estimate, static, mesh [%]", "error of the mesh", "estimate, of static steps", most_discretisation);
   if (!cards.empty()) {
     body += "<div class=\"cards\">\n";
     for (const Card& card : cards) body += card_html(card);
     body += "</div>\n";
-    body += html::paragraph("Green: below the limit at which a run warns. A force or a displacement is usually better than the energy norm says, "
-                            "an acceleration worse.");
+    body += html::paragraph("Green: below the limit at which a run warns. Errors are in the energy norm: a force or a displacement is usually better, an "
+                            "acceleration worse.");
   }
   body += html::list(findings);
   std::vector<std::string> warnings;

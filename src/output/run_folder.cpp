@@ -1,5 +1,6 @@
 #include "output/run_folder.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -116,11 +117,14 @@ RunFolder::RunFolder(fs::path folder, const std::string& record_text) : folder_(
   }
 }
 
-Table RunFolder::table(const std::string& file) const {
+Table RunFolder::table(const std::string& file, const std::vector<std::string>& columns) const {
   std::ifstream stream(folder_ / file);
   try {
     if (!stream) throw InputError("is missing");
-    return read_table(stream, record_);
+    Table table = read_table(stream, record_);
+    for (const std::string& name : columns)
+      if (std::find(table.names.begin(), table.names.end(), name) == table.names.end()) throw InputError("has no column '" + name + "'");
+    return table;
   } catch (const InputError& error) {
     faults_.push_back(file + " " + error.what() + ": it is left out");
     return {};

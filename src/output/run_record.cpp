@@ -78,7 +78,8 @@ Json steps(const Problem& problem, const RunResult& result) {
                  {"worst_indicator", step.worst_indicator},
                  {"seconds", step.seconds}};
     if (i < problem.steps.size()) {
-      json["asked_increments"] = problem.steps[i]->n_increments();
+      const bool has_length = problem.steps[i]->is_static || problem.steps[i]->dt > 0.0;
+      if (has_length) json["asked_increments"] = problem.steps[i]->n_increments();
       if (!problem.steps[i]->is_static) json.update({{"dt", problem.steps[i]->dt}, {"duration", problem.steps[i]->duration}});
       json["loads"] = loads(*problem.steps[i]);
     }

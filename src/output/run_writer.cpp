@@ -97,7 +97,7 @@ void RunWriter::write_result(const Problem& problem, const RunResult& result, co
   }
 
   if (result.scenes) write(scene_file, scene_text(problem, *result.scenes));
-  write("report.html", report_html(directory_, {.record = run_record(problem, result, identity, warnings, {})}));
+  write_report(run_record(problem, result, identity, warnings, {}));
 
   // Name the files but for the frames, which the .pvd list.
   const fs::path record = path_of("run.json");
@@ -120,6 +120,15 @@ void RunWriter::write_field(const std::string& name, const std::vector<Frame>& f
     collection.add(frames[i].label_time, 0, name, file);
   }
   if (!collection.is_empty()) write(name + ".pvd", collection.text());
+}
+
+// A page that fails costs no result.
+void RunWriter::write_report(const std::string& record) {
+  try {
+    write("report.html", report_html(directory_, {.record = record}));
+  } catch (const std::exception& error) {
+    warn(std::string("no report.html: ") + error.what());
+  }
 }
 
 fs::path RunWriter::path_of(const std::string& file_name) {

@@ -15,7 +15,6 @@ namespace dygita {
 
 // What the run record tells beside the result.
 struct RunIdentity {
-  std::string case_name = "base";
   std::string deck_path, deck_digest;                             // digest of the deck's text
   std::vector<std::pair<std::string, double>> parameters;         // param{} after --set
   std::string solver;                                             // --solver; empty: the deck's own
@@ -23,6 +22,7 @@ struct RunIdentity {
   int threads = 1;
   std::vector<std::pair<std::string, std::string>>
       libraries;  // name, version, beside those that output itself can name
+  std::string case_name = "base";
 };
 
 // "0.1.0"
@@ -56,6 +56,7 @@ class RunWriter {
   struct Index;  // the frames written so far
   void write(const std::string& file_name, const std::string& text);
   void write_field(const std::string& name, const std::vector<Frame>& frames);
+  void write_report(const std::string& record);
 
   std::filesystem::path directory_;
   std::string problem_name_;

@@ -50,10 +50,14 @@ Json assembly(const Problem& problem, const Scenes& scenes) {
   const bool is_cut = view.is_cut;
   view.is_cut = false;
   Json list = Json::array();
-  Json shape = json_of(make_picture(problem.substructures, view, {}, {}, 0.0));
-  shape["colour"] = "part";
-  list.push_back(std::move(shape));
+  const auto add_shape = [&] {
+    Json shape = json_of(make_picture(problem.substructures, view, {}, {}, 0.0));
+    shape["colour"] = "part";
+    list.push_back(std::move(shape));
+  };
+  add_shape();
   view.is_cut = is_cut;
+  if (is_cut) add_shape();
   for (const AssemblyScene& scene : scenes.assembly) {
     const double scale = picture_scale(view, scene.displacement);
     Json json = json_of(make_picture(problem.substructures, view, scene.displacement, scene.von_mises, scale));

@@ -76,6 +76,10 @@ class Chart {
     for (const PlotLine& line : plot_.stacked) extent.add(positive(line.x, plot_.x));
     for (const PlotBand& band : plot_.bands) extent.add(positive(band.x, plot_.x));
     for (const PlotSpan& span : plot_.spans) extent.add({span.from, span.to});
+    if (extent.low && !plot_.marks.empty() && !plot_.x.is_log) {  // room for rings
+      const double margin = 0.02 * (*extent.high - *extent.low);
+      extent = {*extent.low - margin, *extent.high + margin};
+    }
     return extent;
   }
 
@@ -240,7 +244,7 @@ class Chart {
     }
     for (const PlotLevel& level : plot_.levels)
       if (y_.shows(level.y) && !level.label.empty())
-        text_ += text_at(frame_.right - 4.0, y_.pixel(level.y) - 4.0, level.label, "end", ink, " stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\"");
+        text_ += text_at(frame_.right - 4.0, y_.pixel(level.y) + (y_.pixel(level.y) < frame_.top + 1.5 * text_height ? text_height + 2.0 : -4.0), level.label, "end", ink, " stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\"");
     if (!has_values()) text_ += text_at(0.5 * (frame_.left + frame_.right), 0.5 * (frame_.top + frame_.bottom), "no values to draw", "middle", grey);
   }
 

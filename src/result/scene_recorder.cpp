@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "fem/assembly.hpp"
 #include "result/surface_sums.hpp"
@@ -12,7 +11,8 @@ namespace dygita {
 
 namespace {
 
-constexpr int samples_of_assembly = 40, samples_of_joints = 24, kept_of_joints = 6;  // a step, a step, of all
+constexpr int samples_of_assembly = 40, most_samples_of_joints = 80, kept_of_joints = 6;  // a step, a step, of all
+constexpr double points_kept = 2e6;  // of all joints and samples of a step: some 30 MB
 
 // Evenly over the step, its last increment always.
 bool is_sampled(const Instant& instant, int n_samples) {
@@ -21,33 +21,49 @@ bool is_sampled(const Instant& instant, int n_samples) {
   return (i * samples) / n != ((i - 1) * samples) / n;
 }
 
-// How much of a joint is not as it was assembled: points that are open, slip or yield, and how far.
-double event(const JointScene& scene) {
-  double sum = 0.0;
-  for (size_t i = 0; i < scene.status.size(); ++i)
-    sum += scene.status[i] == 0 ? 2.0 : scene.status[i] == 2 ? 1.0 : 0.0;
-  return sum;
+// How much changes from one instant to the next: the share of points whose state does, and of the largest pressure.
+double change(const JointScene& a, const JointScene& b, double largest_pressure) {
+  double n_changed = 0.0, pressure = 0.0;
+  for (size_t i = 0; i < a.status.size(); ++i) {
+    n_changed += a.status[i] != b.status[i];
+    pressure += std::abs(static_cast<double>(a.pressure[i]) - b.pressure[i]);
+  }
+  const double n = std::max<double>(1.0, static_cast<double>(a.status.size()));
+  return n_changed / n + (largest_pressure > 0.0 ? pressure / (n * largest_pressure) : 0.0);
 }
 
-// The last static instant before the motion, the last instant of all, the most eventful one, and others evenly between.
+// The last static instant before the motion, the last of all, and between them instants at even steps of time and change together:
+// where much changes there are more.
 std::vector<JointScene> choose(std::vector<JointScene> sampled) {
   const int n = static_cast<int>(sampled.size());
-  if (n <= kept_of_joints) return sampled;
-  int first_dynamic = 0, worst = 0;
+  int first_dynamic = 0;
   while (first_dynamic < n && sampled[first_dynamic].is_static) ++first_dynamic;
-  const bool is_all_static = first_dynamic == n;
-  const int start = is_all_static ? 0 : std::max(first_dynamic - 1, 0);
-  for (int i = start; i < n; ++i)
-    if (event(sampled[i]) > event(sampled[worst])) worst = i;
-  std::set<int> kept = {start, n - 1, std::max(worst, start)};
-  for (int m = kept_of_joints; static_cast<int>(kept.size()) < kept_of_joints && m < 4 * kept_of_joints; ++m)
-    for (int k = 1; k < m && static_cast<int>(kept.size()) < kept_of_joints; ++k) {
-      const int i = start + static_cast<int>(std::lround(static_cast<double>(k) * (n - 1 - start) / m));
-      const bool is_close = std::any_of(kept.begin(), kept.end(), [&](int other) { return 2 * std::abs(other - i) * m < n - 1 - start; });
-      if (!is_close) kept.insert(i);
-    }
+  const int start = first_dynamic == n ? 0 : std::max(first_dynamic - 1, 0);
+  if (n - start <= kept_of_joints) {
+    sampled.erase(sampled.begin(), sampled.begin() + start);
+    return sampled;
+  }
+  double largest_pressure = 0.0;
+  for (const JointScene& scene : sampled)
+    for (const float p : scene.pressure)
+      if (std::isfinite(p)) largest_pressure = std::max(largest_pressure, std::abs(static_cast<double>(p)));
+  std::vector<double> way(n, 0.0);
+  for (int i = start + 1; i < n; ++i) {
+    const double changed = change(sampled[i - 1], sampled[i], largest_pressure);
+    way[i] = way[i - 1] + (std::isfinite(changed) ? changed : 0.0);
+  }
+  // Half of the places follow the change, half the time.
+  const double unit = way[n - 1] > 0.0 ? 1.0 / way[n - 1] : 0.0;
+  for (int i = start; i < n; ++i) way[i] = unit * way[i] + static_cast<double>(i - start) / (n - 1 - start);
   std::vector<JointScene> chosen;
-  for (const int i : kept) chosen.push_back(std::move(sampled[i]));
+  int last = start - 1;
+  for (int k = 0; k < kept_of_joints; ++k) {
+    int i = last + 1;
+    while (i < n - (kept_of_joints - k) && way[i] < way[n - 1] * k / (kept_of_joints - 1)) ++i;
+    if (k == kept_of_joints - 1) i = n - 1;
+    chosen.push_back(std::move(sampled[i]));
+    last = i;
+  }
   return chosen;
 }
 
@@ -62,7 +78,7 @@ void SceneRecorder::accept(const Instant& instant) {
     strain_energy_ = instant.state.energies.strain;
     keep_assembly(instant, shocked_);
   }
-  if (!joints_.empty() && is_sampled(instant, samples_of_joints)) keep_joints(instant);
+  if (!joints_.empty() && is_sampled(instant, samples_of_joints_)) keep_joints(instant);
 }
 
 void SceneRecorder::keep_assembly(const Instant& instant, AssemblyScene& scene) const {
@@ -100,6 +116,9 @@ void SceneRecorder::find_joints(const Instant& instant) {
       }
     }
   }
+  double n_points = 1.0;
+  for (const JointScenes& joint : joints_) n_points += static_cast<double>(joint.points.cols());
+  samples_of_joints_ = static_cast<int>(std::clamp(points_kept / n_points, 12.0, static_cast<double>(most_samples_of_joints)));
 }
 
 void SceneRecorder::keep_joints(const Instant& instant) {

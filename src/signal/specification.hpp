@@ -11,7 +11,7 @@ struct Specification {
   std::vector<double> level;      // m/s^2, above zero
   std::string source;             // "deck", or the file's path
 
-  // m/s^2, linear in log-log between points; nan outside.
+  // m/s^2, linear in log-log between points (manual, eq. R1); nan outside.
   double level_at(double frequency) const;
 };
 
@@ -23,7 +23,7 @@ void check_specification(const Specification& specification, const std::vector<s
 // over. Levels are m/s^2, or g (9.80665 m/s^2) where the header's second column says [g]. Throws InputError with file:line.
 Specification read_specification(const std::string& path);
 
-// Where a spectrum is highest above its specification, or nearest below it.
+// Where a spectrum is highest above its specification, or nearest below it (manual, eq. R2).
 struct Exceedance {
   double decibels = 0.0;   // 20 log10(spectrum / specification); negative: a margin
   double frequency = 0.0;  // Hz

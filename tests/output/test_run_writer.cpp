@@ -272,7 +272,7 @@ TEST(RunWriter, writes_a_record_that_tells_what_was_run_and_how_it_went) {
   EXPECT_EQ(json["libraries"]["gmsh"], "4.8.4");
   EXPECT_TRUE(json["libraries"]["VTK"].get<std::string>().starts_with("9."));
   EXPECT_EQ(json["files"], nlohmann::json({"state.h5", "crush.pvd", "interfaces.pvd", "spread.csv", "energy.csv",
-                                           "convergence.csv", "run.json"}));
+                                           "convergence.csv", "report.html", "run.json"}));
 }
 
 TEST(RunWriter, says_when_a_run_did_not_converge_or_was_interrupted) {

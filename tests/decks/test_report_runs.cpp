@@ -1,0 +1,152 @@
+// Reports of real runs of every kind: each gives a sensible page, and watching for it changes no number.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "decks/engine.hpp"
+#include "output/svg_checks.hpp"
+
+namespace dygita::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Two blocks pressed together; `steps`, `solver` and more outputs from the test.
+std::string blocks(const std::string& steps, const std::string& more = "") {
+  return R"(
+local p = param{ n = 2 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local function block(name, z) return substructure{ name = name, material = steel,
+  mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, origin = { 0, 0, z }, cells = { p.n, p.n, p.n } } } end
+local low, high = block("low", 0), block("high", 10*mm)
+local touch = interface.contact{ name = "touch", between = { low:face "zmax", high:face "zmin" }, friction = 0.2 }
+local base = support.fixed{ name = "base", on = low:face "zmin" }
+local guide = support.symmetry{ name = "guide", on = { high:face "xmin", high:face "ymin" } }
+local a = output.history{ name = "top", on = high:face "zmax", quantity = "acceleration", direction = { 0, 0, 1 } }
+local outputs = { a, output.joint{ name = "grip", on = touch }, output.energy{} }
+local press = step.static{ name = "press", increments = 2, loads = { load.pressure{ on = high:face "zmax", history = 20*MPa } } }
+local function hit(name, after, duration) return step.dynamic{ name = name, after = after, duration = duration, dt = 0.5*us, loads = {
+  load.pressure{ on = high:face "zmax", history = 20*MPa },
+  load.traction{ on = high:face "zmax", z = history.half_sine{ peak = 60*MPa, duration = 10*us } } } } end
+)" + steps + more +
+         R"(
+problem{ name = "blocks", substructures = { low, high }, interfaces = { touch }, supports = { base, guide }, steps = steps, solver = how, outputs = outputs }:run{}
+)";
+}
+
+struct Written {
+  std::shared_ptr<const RunResult> result, unwatched;  // with files and without
+  std::string page, record;
+};
+
+Written run_and_read(const std::string& text, const std::string& solver = "") {
+  set_progress_enabled(false);
+  const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+  const fs::path folder = fs::temp_directory_path() / ("dygita_report_" + test + "_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "deck.lua") << text;
+  Written written;
+  DeckOptions options;
+  options.path = folder / "deck.lua";
+  options.out = folder / "out";
+  options.solver = solver;
+  const Engine engine{[&](const Problem& problem, const RunRequest& request) {
+                        RunRequest quiet = request;
+                        quiet.write_files = false;
+                        written.unwatched = run_problem(problem, quiet);
+                        return written.result = run_problem(problem, request);
+                      },
+                      check_report};
+  run_deck(options, engine);
+  for (const auto& entry : fs::recursive_directory_iterator(options.out)) {
+    std::ifstream file(entry.path(), std::ios::binary);
+    if (entry.path().filename() == "report.html") written.page = {std::istreambuf_iterator<char>(file), {}};
+    if (entry.path().filename() == "run.json") written.record = {std::istreambuf_iterator<char>(file), {}};
+  }
+  fs::remove_all(folder);
+  return written;
+}
+
+void expect_sound(const Written& written) {
+  ASSERT_FALSE(written.page.empty());
+  EXPECT_EQ(xml_fault(written.page, {"meta"}), "");
+  EXPECT_LT(written.page.size(), 1000000u);
+  EXPECT_EQ(written.page.find("is left out"), std::string::npos);
+  for (const char* section : {"<h2>Verdict", "<h2>What was computed", "<h2>The assembly", "<h2>Joints", "<h2>Energy", "<h2>Convergence", "<h2>Cost"})
+    EXPECT_NE(written.page.find(section), std::string::npos) << section;
+  // To the last bit: the recorder only looks.
+  EXPECT_EQ(written.result->iterations, written.unwatched->iterations);
+  for (auto a = written.result->tables.begin(), b = written.unwatched->tables.begin(); a != written.result->tables.end(); ++a, ++b)
+    EXPECT_EQ(a->second.columns, b->second.columns) << a->first->name;
+}
+
+const std::string latin = "local how = solver.latin{}\n";
+
+TEST(ReportRuns, tightened_and_shocked_with_a_specification) {
+  const Written run = run_and_read(blocks(latin + "local shock = hit('shock', press, 30*us) local steps = { press, shock }\n",
+                                          "outputs[#outputs + 1] = output.srs{ name = 's', of = a, from = 1*kHz, to = 100*kHz, specification = { {1*kHz, 10*g0}, {100*kHz, 10*g0} } }\n"));
+  expect_sound(run);
+  const double exceedance = run.result->figures.at("largest exceedance of the specification of 's' [dB]");
+  const Table* spectrum = nullptr;
+  for (const auto& [output, table] : run.result->tables)
+    if (output->name == "s") spectrum = &table;
+  ASSERT_NE(spectrum, nullptr);
+  EXPECT_NEAR(exceedance, 20.0 * std::log10(largest(spectrum->column("maximax")) / 98.0665), 1e-9);
+  EXPECT_NE(run.record.find("largest exceedance of the specification of 's' [dB]"), std::string::npos);
+  EXPECT_NE(run.page.find("exceeds its specification by up to +"), std::string::npos);
+  EXPECT_NE(run.page.find("End of step &#39;press&#39;"), std::string::npos);
+  EXPECT_NE(run.page.find("The largest strain energy in the motion, step &#39;shock&#39;"), std::string::npos);
+}
+
+TEST(ReportRuns, only_static) {
+  const Written run = run_and_read(blocks(latin + "local steps = { press }\n"));
+  expect_sound(run);
+  EXPECT_NE(run.page.find("error left by the iteration"), std::string::npos);
+  EXPECT_EQ(run.page.find("largest strain energy in the motion"), std::string::npos);
+}
+
+TEST(ReportRuns, one_dynamic_increment) {
+  const Written run = run_and_read(blocks(latin + "local steps = { hit('once', nil, 0.5*us) }\n"));
+  expect_sound(run);
+  EXPECT_NE(run.page.find("Converged: the one increment reached"), std::string::npos);
+}
+
+TEST(ReportRuns, static_between_dynamic_steps) {
+  const Written run = run_and_read(blocks(latin + R"(
+local first = hit("first", press, 10*us)
+local again = step.static{ name = "again", after = first, increments = 2, loads = { load.pressure{ on = high:face "zmax", history = 20*MPa } } }
+local steps = { press, first, again, hit("second", again, 10*us) }
+)"));
+  expect_sound(run);
+  EXPECT_NE(run.page.find("again (static)"), std::string::npos);
+}
+
+TEST(ReportRuns, not_converged) {
+  const Written run = run_and_read(blocks("local how = solver.latin{ max_iterations = 2 } local steps = { press, hit('shock', press, 20*us) }\n"));
+  EXPECT_FALSE(run.result->converged);
+  expect_sound(run);
+  EXPECT_NE(run.page.find("NOT converged: "), std::string::npos);
+  EXPECT_NE(run.page.find("increments missed"), std::string::npos);
+}
+
+TEST(ReportRuns, explicit_and_monolithic) {
+  for (const char* solver : {"explicit", "monolithic"}) {
+    const Written run = run_and_read(blocks(latin + "local steps = { press, hit('shock', press, 10*us) }\n"), solver);
+    expect_sound(run);
+    EXPECT_NE(run.page.find(std::string("solver ") + solver), std::string::npos);
+  }
+}
+
+// A large mesh gives a page of bounded size: pictures and maps merge what is too fine to be seen.
+TEST(ReportRuns, stays_small_on_a_large_mesh) {
+  const Written small = run_and_read(blocks(latin + "local steps = { hit('shock', nil, 1*us) }\n"));
+  std::string text = blocks(latin + "local steps = { hit('shock', nil, 1*us) }\n");
+  text.replace(text.find("n = 2 }"), 7, "n = 22 }");
+  const Written large = run_and_read(text);
+  expect_sound(large);
+  EXPECT_LT(large.page.size(), 600000u);
+  EXPECT_GT(large.page.size(), small.page.size());
+}
+
+}  // namespace
+}  // namespace dygita::test

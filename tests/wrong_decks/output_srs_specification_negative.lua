@@ -1,0 +1,5 @@
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local cube = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 1, 1, 1 } }
+local low = substructure{ name = "low", mesh = cube, material = steel }
+local a = output.history{ name = "a", on = low:face "zmax", quantity = "acceleration", direction = { 0, 0, 1 } }
+local s = output.srs{ name = "s", of = a, specification = { {100, -20*g0}, {1*kHz, 20*g0} } }
