@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/log.hpp"
+#include "deck/condensed_lines.hpp"
 #include "latin/latin.hpp"
 #include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
@@ -112,6 +113,7 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
   if (result.figures.contains("error estimate, static, mesh [%]"))
     say(fmt::format("  estimated errors of static steps: iteration {:.2g} %, mesh {:.2g} %", figure("error estimate, static, iteration [%]"),
                     figure("error estimate, static, mesh [%]")));
+  for (const std::string& line : condensed_lines(problem, result)) say("  " + line);
   if (!directory.empty()) say(fmt::format("  {:.2f} s in all; results in {}", seconds, directory.string()));
 }
 

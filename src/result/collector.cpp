@@ -15,6 +15,8 @@ Collector::Collector(const Problem& problem, FrameSink sink) : problem_(problem)
       case OutputKind::resultant: samplers_[output.get()] = make_resultant_sampler(problem, *output); break;
       case OutputKind::joint: samplers_[output.get()] = make_joint_sampler(problem, *output); break;
       case OutputKind::energy: samplers_[output.get()] = make_energy_sampler(); break;
+      case OutputKind::loop: samplers_[output.get()] = make_loop_sampler(problem, *output); break;
+      case OutputKind::superelement: samplers_[output.get()] = make_superelement_sampler(problem, *output); break;
       case OutputKind::vtk: slip_ = std::make_shared<FrictionlessSlip>(); break;
       case OutputKind::srs: break;
     }
@@ -141,7 +143,10 @@ void add_error_figures(const ErrorEstimator& errors, const Problem& problem, Run
 }  // namespace
 
 void Collector::finish(RunResult& result) {
-  for (auto& [output, sampler] : samplers_) result.tables[output] = sampler->take();
+  for (auto& [output, sampler] : samplers_) {
+    sampler->summarise(result);
+    result.tables[output] = sampler->take();
+  }
   for (const OutputPtr& output : problem_.outputs)
     if (output->kind == OutputKind::srs) result.tables[output.get()] = spectrum_table(problem_, *output, result.tables.at(output->of.get()));
   result.convergence = std::move(convergence_);
