@@ -484,6 +484,38 @@ words[10] = {
     arguments = { name_of "output", on({ "interface", "support.wall" }, "which") },
   },
   {
+    "loop", makes = "output",
+    doc = "A joint condensed: force against displacement along a direction, and what a system model takes of it: cycles with their loss "
+      .. "and stiffness, the exponent of the loss, and the curve of first loading with the sliders that have it. Columns: displacement (m), "
+      .. "force (N).",
+    arguments = {
+      name_of "output",
+      on({ "interface", "support" }, "what transmits the force: interfaces, or supports"),
+      { "direction", type = "vector", required = true, doc = "along which; its length does not matter" },
+      { "between", type = "objects", kinds = { "face", "region" }, at_least = 1, or_single = true,
+        doc = "two places, on side 1 and on side 2: the displacement is the second's against the first's, flexibility of the parts included; one: "
+          .. "against the ground; left out: of the joint's sides themselves" },
+      { "after", type = "object", kinds = { "step" }, doc = "the loading begins at the end of this step (the tightened joint); left out: at the start" },
+    },
+  },
+  {
+    "superelement", makes = "output",
+    doc = "The assembly condensed about its tightened state: mass and stiffness on the motions of some faces and on modes (Craig and Bampton), "
+      .. "as Matrix Market files, with a page that says what each row is. Columns: frequency (Hz), damping (ratio) of its own modes.",
+    arguments = {
+      name_of "output",
+      on({ "face", "region" }, "where something is to be attached, pushed or measured"),
+      { "up_to", type = "number", unit = "Hz", range = { 0.01, 1e8 }, doc = "frequency up to which it is to be used: modes with the faces held are kept up to twice that" },
+      { "modes", type = "integer", range = { 1, 2000 }, doc = "or how many modes are kept" },
+      { "motion", type = "choice", choices = { "mean", "rigid", "nodes" }, default = "mean",
+        doc = "rows of a face: its six mean motions, the face free to deform; its six motions as a rigid body; or three a node" },
+      { "sliding", type = "choice", choices = { "tied", "free" }, default = "tied",
+        doc = "contact points at the limit of their friction: tied, as the first reversal makes them, or free along their tangents" },
+      { "after", type = "object", kinds = { "step" }, default_doc = "the last static step", doc = "about the state at the end of this step, with its supports" },
+    },
+    one_of = { "up_to", "modes" },
+  },
+  {
     "energy", makes = "output",
     doc = "Balance of the whole. Columns: kinetic, strain, loads, friction, plastic, damping, scheme, balance (J).",
     arguments = {},
@@ -546,6 +578,8 @@ local reading = {
   { "series:at(t)", "the value at a time (s), linear between rows" },
   { "series:at(step)", "the value in the last row of a step" },
   { "series.time", "its times, a series (.frequency for a spectrum)" },
+  { "result[loop].cycles, .backbone", "its tables: their columns by their names, as `result[loop].cycles.loss`" },
+  { "result[loop].exponent", "exponent of the loss against the force amplitude; also .displacement_exponent, .stiffness, .secant" },
   { "result[history].max", "a history with one column answers as that series; of x, y, z `.max` is the largest modulus" },
   { "result.iterations", "iterations of all steps, a whole number" },
   { "result.mean_iterations", "iterations an increment" },

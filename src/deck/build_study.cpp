@@ -44,6 +44,19 @@ Held build_dynamic(const Declaration& d) {
   return StepPtr(step);
 }
 
+// The faces and regions of an argument, none where it is left out.
+std::vector<FaceOrRegion> places_of(const Declaration& d, const char* key) {
+  std::vector<FaceOrRegion> places;
+  if (!d.arguments.has(key)) return places;
+  for (const Object* object : d.arguments.objects(key)) {
+    if (object->kind == "face")
+      places.emplace_back(object->as<Face>());
+    else
+      places.emplace_back(object->as<Region>());
+  }
+  return places;
+}
+
 Held build_latin(const Declaration& d) {
   const Arguments& a = d.arguments;
   auto settings = std::make_shared<LatinSettings>();
@@ -153,6 +166,31 @@ SrsSettings srs_settings(const Arguments& a) {
   return srs;
 }
 
+Held build_loop(const Declaration& d) {
+  auto output = new_named<Output>(d);
+  output->kind = OutputKind::loop;
+  output->on = targets_of(d);
+  output->direction = unit_direction(d);
+  output->between = places_of(d, "between");
+  if (d.arguments.has("after")) output->after = d.arguments.object("after").as<StepPtr>();
+  return OutputPtr(output);
+}
+
+Held build_superelement(const Declaration& d) {
+  static const std::map<std::string, FaceMotion> motions = {{"mean", FaceMotion::mean}, {"rigid", FaceMotion::rigid}, {"nodes", FaceMotion::nodes}};
+  const Arguments& a = d.arguments;
+  auto output = new_named<Output>(d);
+  output->kind = OutputKind::superelement;
+  output->on = targets_of(d);
+  if (a.has("after")) output->after = a.object("after").as<StepPtr>();
+  if (a.has("up_to") && a.has("modes")) throw InputError("'up_to' and 'modes' exclude each other: modes are kept up to twice 'up_to'");
+  output->superelement.motion = motions.at(a.text("motion"));
+  output->superelement.up_to = a.number_or("up_to", 0.0);
+  output->superelement.modes = a.has("modes") ? a.integer("modes") : 0;
+  output->superelement.ties_sliding = a.text("sliding") == "tied";
+  return OutputPtr(output);
+}
+
 Held build_srs(const Declaration& d) {
   const Arguments& a = d.arguments;
   auto output = new_named<Output>(d);
@@ -217,6 +255,7 @@ const Builders& study_builders() {
       {"output.vtk", build_vtk},     {"output.history", build_history}, {"output.resultant", build_resultant},
       {"output.joint", build_joint}, {"output.srs", build_srs},         {"output.energy", build_energy},
       {"output.srs_field", build_srs_field}, {"output.attenuation", build_attenuation},
+      {"output.loop", build_loop},   {"output.superelement", build_superelement},
       {"problem", build_problem},
   };
   return builders;

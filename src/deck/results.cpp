@@ -119,12 +119,34 @@ int read_series(lua_State* L, const Series& series, const Origin& origin) {
   unknown(origin, fmt::format("series '{}'", series.name), key, {"at", "first", "last", "max", "min", series.abscissa});
 }
 
+// The tables and figures of a condensed joint; false where `key` is none of them, or the table at hand is one of them.
+bool push_of_loop(lua_State* L, const OutputData& data, const std::string& key) {
+  const auto found = data.result->run->loops.find(data.output.get());
+  if (found == data.result->run->loops.end()) return false;
+  const LoopSummary& loop = found->second;
+  if (data.table == &loop.cycles || data.table == &loop.backbone) return false;
+  const std::map<std::string, const Table*> tables = {{"cycles", &loop.cycles}, {"backbone", &loop.backbone}};
+  if (const auto table = tables.find(key); table != tables.end()) {
+    push_object(L, {"data", "output.loop", data.output->name, -1, OutputData{data.result, data.output, table->second}});
+    return true;
+  }
+  const std::map<std::string, double> figures = {{"exponent", loop.exponent},
+                                                 {"displacement_exponent", loop.displacement_exponent},
+                                                 {"stiffness", loop.stiffness},
+                                                 {"secant", loop.secant}};
+  const auto figure = figures.find(key);
+  if (figure == figures.end()) return false;
+  lua_pushnumber(L, figure->second);
+  return true;
+}
+
 int read_output(lua_State* L, const OutputData& data, const Origin& origin) {
   const std::vector<std::string> columns = value_columns(data);
   if (columns.size() == 1 && (row_asked(L) || key_text(L) != columns[0])) {
     return read_series(L, series_of(data, columns[0]), origin);
   }
   const std::string key = key_text(L);
+  if (data.output->kind == OutputKind::loop && push_of_loop(L, data, key)) return 1;
   if (std::find(columns.begin(), columns.end(), key) != columns.end()) {
     push_series(L, series_of(data, key));
     return 1;
@@ -137,6 +159,8 @@ int read_output(lua_State* L, const OutputData& data, const Origin& origin) {
   if (is_vector(data) && key == "max") return push_value(L, *summary_of(modulus_of(data), key, origin));
   std::vector<std::string> known = data.table->names;
   if (is_vector(data)) known.push_back("max");
+  if (data.output->kind == OutputKind::loop)
+    known.insert(known.end(), {"backbone", "cycles", "displacement_exponent", "exponent", "secant", "stiffness"});
   unknown(origin, label_of(data), key, std::move(known));
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/log.hpp"
+#include "deck/condensed_lines.hpp"
 #include "latin/latin.hpp"
 #include "output/bolt_table.hpp"
 #include "reference/explicit.hpp"
@@ -125,6 +126,7 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
                       figure(name.c_str()) > 0.0 ? "above" : "below", frequency));
     }
   }
+  for (const std::string& line : condensed_lines(problem, result)) say("  " + line);
   if (!directory.empty()) say(fmt::format("  {:.2f} s in all; results in {}", seconds, directory.string()));
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "result/loop_cycles.hpp"
 #include "result/spectra.hpp"
 
 namespace dygita {
@@ -15,6 +16,16 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 void check_not_empty(const Series& series, const Origin& origin) {
   if (series.values.empty()) throw InputError(origin, fmt::format("series '{}' has no row", series.name));
+}
+
+// What a check knows of a condensed joint: its columns, nan in them.
+LoopSummary hollow_loop(const Table& loop) {
+  LoopSummary summary = summarise_loop(loop, 0);
+  for (Table* table : {&summary.cycles, &summary.backbone})
+    for (std::vector<double>& column : table->columns) column.assign(1, not_known);
+  summary.cycles.step.assign(1, 0);
+  summary.exponent = summary.displacement_exponent = summary.stiffness = summary.secant = not_known;
+  return summary;
 }
 
 std::vector<std::string> columns_of(const Output& output) {
@@ -38,6 +49,10 @@ std::vector<std::string> columns_of(const Output& output) {
       return {"frequency", "highest", "mean"};
     case OutputKind::attenuation:
       return attenuation_columns(output);
+    case OutputKind::loop:
+      return {"time", "displacement", "force"};
+    case OutputKind::superelement:
+      return {"frequency", "damping"};
     case OutputKind::vtk:
       break;
   }
@@ -101,6 +116,7 @@ std::shared_ptr<const RunResult> hollow_result(const Problem& problem) {
     if (table.names.front() == "time") {
       for (size_t i = 0; i < n_rows; ++i) table.step.push_back(static_cast<int>(i));
     }
+    if (output->kind == OutputKind::loop) result->loops[output.get()] = hollow_loop(table);
     result->tables[output.get()] = std::move(table);
   }
   return result;

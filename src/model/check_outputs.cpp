@@ -27,8 +27,14 @@ bool is_wall(const Target& target) {
 std::string refused(const Output& output, const Target& target) {
   const bool is_interface = std::holds_alternative<InterfacePtr>(target);
   const bool is_support = std::holds_alternative<SupportPtr>(target);
+  if (output.kind == OutputKind::superelement) {
+    return is_interface || is_support ? "output.superelement takes faces or regions: where something is to be attached" : "";
+  }
   if (output.kind == OutputKind::resultant) {
     return is_interface || is_support ? "" : "output.resultant takes an interface or a support";
+  }
+  if (output.kind == OutputKind::loop) {
+    return is_interface || is_support ? "" : "output.loop takes interfaces or supports; faces go to 'between'";
   }
   if (output.kind == OutputKind::joint) {
     return is_interface || is_wall(target) ? "" : "output.joint takes an interface or a support.wall";
@@ -104,6 +110,58 @@ void attenuation_has_two_signals(const Problem& problem, const Output& output) {
   frequencies_rise(problem, output);
 }
 
+// The force of a loop is that on side 1, or on the ground, and its displacement must be of the same two.
+void loop_has_two_sides(const Problem& problem, const Output& output) {
+  const std::string who = known_as(output);
+  size_t n_supports = 0;
+  bool needs_between = false;
+  for (const Target& target : output.on) {
+    n_supports += std::holds_alternative<SupportPtr>(target);
+    needs_between = needs_between || (std::holds_alternative<SupportPtr>(target) && !is_wall(target));
+  }
+  if (n_supports > 0 && n_supports < output.on.size())
+    fail(problem, output.origin, who + " is on interfaces and supports", "the force is that of interfaces or that on supports: take two loops");
+  if (needs_between && output.between.empty())
+    fail(problem, output.origin, who + " is on a support that does not slide, and has no 'between'", "as in between = block:face \"xmax\"");
+  if (output.between.size() > 2)
+    fail(problem, output.origin, fmt::format("{}: 'between' takes one or two places, got {}", who, output.between.size()));
+  for (const FaceOrRegion& place : output.between) place_exists(problem, output.origin, who + " is between", place);
+  if (output.after) listed(problem, who + " begins after step", *output.after, problem.steps, "steps");
+  if (output.between.size() < 2) return;
+  for (const Target& target : output.on) {
+    const auto* interface = std::get_if<InterfacePtr>(&target);
+    if (!interface || (*interface)->side_1.part == (*interface)->side_2.part) continue;
+    if (&part_of(output.between[0]) == (*interface)->side_2.part.get() && &part_of(output.between[1]) == (*interface)->side_1.part.get())
+      fail(problem, output.origin,
+           fmt::format("{}: 'between' is the other way round than that of {}: write {} first", who, describe(**interface), label_of(output.between[1])),
+           "the displacement is of the second place against the first, the force acts on side 1");
+  }
+}
+
+// The assembly is taken about the end of a step, with that step's supports.
+void superelement_has_a_state(const Problem& problem, const Output& output) {
+  const std::string who = known_as(output);
+  const Step* step = output.after.get();
+  if (step) listed(problem, who + " is made after step", *step, problem.steps, "steps");
+  for (const StepPtr& other : problem.steps)
+    if (!output.after && other->is_static) step = other.get();
+  if (!step)
+    fail(problem, output.origin, who + ": the problem has no static step",
+         "it is made about the state after one; or name another step with 'after'");
+  for (const SupportPtr& support : supports_of(problem, *step))
+    if (support->kind == SupportKind::absorbing)
+      fail(problem, output.origin, who + ": " + describe(*support) + " lets waves out of step '" + step->name + "', a superelement has no place for that",
+           "give the step its own 'supports', without it");
+}
+
+// Further files of an output are named after it.
+void derived_names_are_free(const Problem& problem, const Output& output, const std::vector<std::string>& suffixes) {
+  for (const std::string& suffix : suffixes)
+    for (const OutputPtr& other : problem.outputs)
+      if (other->name == output.name + suffix)
+        fail(problem, other->origin, fmt::format("output '{}' would overwrite {}.csv of {}", other->name, other->name, known_as(output)));
+}
+
 }  // namespace
 
 void outputs(const Problem& problem) {
@@ -126,6 +184,15 @@ void outputs(const Problem& problem) {
         break;
       case OutputKind::attenuation:
         attenuation_has_two_signals(problem, *output);
+        break;
+      case OutputKind::loop:
+        is_on_what_it_can_be(problem, *output);
+        loop_has_two_sides(problem, *output);
+        derived_names_are_free(problem, *output, {"_cycles", "_backbone"});
+        break;
+      case OutputKind::superelement:
+        is_on_what_it_can_be(problem, *output);
+        superelement_has_a_state(problem, *output);
         break;
       case OutputKind::vtk:
         if (output->frames < 1) {

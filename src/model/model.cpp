@@ -77,6 +77,10 @@ const char* output_kind_name(OutputKind kind) {
       return "joint";
     case OutputKind::energy:
       return "energy";
+    case OutputKind::loop:
+      return "loop";
+    case OutputKind::superelement:
+      return "superelement";
   }
   CHECK(false, "unknown kind of output");
   return "";

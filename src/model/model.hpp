@@ -157,10 +157,20 @@ struct ExplicitSettings {
   bool bulk_viscosity = true;
 };
 
-enum class OutputKind { vtk, history, resultant, srs, srs_field, attenuation, joint, energy };
+enum class OutputKind { vtk, history, resultant, srs, srs_field, attenuation, joint, energy, loop, superelement };
 const char* output_kind_name(OutputKind kind);
 enum class Quantity { displacement, velocity, acceleration, stress, von_mises, pressure };
 const char* quantity_name(Quantity quantity);
+
+// What of a face moves with the interface of a superelement (manual, eq. B2).
+enum class FaceMotion { mean, rigid, nodes };
+
+struct SuperelementSettings {
+  FaceMotion motion = FaceMotion::mean;
+  int modes = 0;              // fixed-interface modes kept; 0: all up to twice `up_to`
+  double up_to = 0.0;         // Hz, frequency up to which it is to be used
+  bool ties_sliding = false;  // contact points at the limit of friction are tied along their tangents too
+};
 
 struct Output : Named {
   OutputKind kind = OutputKind::energy;
@@ -175,6 +185,9 @@ struct Output : Named {
   std::shared_ptr<const Specification> specification;  // srs; null: none
   int bands = 1;                     // attenuation: an octave
   int n_joints = 1;                  // attenuation: bolted joints on the way, for the rule of thumb
+  std::vector<FaceOrRegion> between;  // loop: one (against the ground) or two; empty: both sides of what it is on
+  StepPtr after;                      // loop, superelement: none is the start, or the last static step
+  SuperelementSettings superelement;
 };
 using OutputPtr = std::shared_ptr<const Output>;
 

@@ -130,12 +130,6 @@ std::string joint_part(const RunFolder& run, const Json& output, const TimeAxis&
   return body;
 }
 
-// By the hand formula: a number, or an object that says more.
-double hand_force(const Json& bolt) {
-  const auto hand = bolt.find("hand");
-  return hand != bolt.end() && hand->is_object() ? number(*hand, "force") : number(bolt, "hand");
-}
-
 }  // namespace
 
 std::string joints_section(const RunFolder& run, const TimeAxis& time) {

@@ -11,6 +11,7 @@
 #include "output/report.hpp"
 #include "output/run_record.hpp"
 #include "output/scene_file.hpp"
+#include "output/superelement_files.hpp"
 #include "output/vtk_writer.hpp"
 
 namespace dygita {
@@ -88,6 +89,12 @@ void RunWriter::write_result(const Problem& problem, const RunResult& result, co
     const std::string name = output->kind == OutputKind::energy ? "energy" : file_name_of(output->name);
     CHECK(written.insert(name).second && name != "convergence", "two tables are called '" + name + "'");
     write(name + ".csv", csv_text(found->second, steps));
+    if (const auto element = result.superelements.find(output.get()); element != result.superelements.end())
+      for (const auto& [suffix, text] : superelement_files(problem, *output, element->second)) write(name + suffix, text);
+    if (const auto loop = result.loops.find(output.get()); loop != result.loops.end()) {
+      write(name + "_cycles.csv", csv_text(loop->second.cycles, steps));
+      write(name + "_backbone.csv", csv_text(loop->second.backbone, steps));
+    }
   }
   for (const auto& [output, frames] : result.fields) write_field(file_name_of(output->name), frames);
   if (!result.convergence.columns.empty()) write("convergence.csv", csv_text(result.convergence, steps));

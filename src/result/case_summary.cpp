@@ -78,6 +78,12 @@ std::vector<CaseFigure> case_summary(const Problem& problem, const RunResult& re
       case OutputKind::history:
         for (size_t i = 1; i < table.names.size(); ++i) summary.add(table.names[i], "largest", largest);
         break;
+      case OutputKind::loop:
+        for (const char* column : {"displacement", "force"}) summary.add(column, "largest", largest);
+        break;
+      case OutputKind::superelement:
+        summary.add("frequency", "lowest", [](const std::vector<double>& values) { return values.empty() ? 0.0 : values.front(); });
+        break;
       case OutputKind::energy:
       case OutputKind::vtk:
         break;

@@ -18,6 +18,8 @@ Collector::Collector(const Problem& problem, FrameSink sink) : problem_(problem)
       case OutputKind::resultant: samplers_[output.get()] = make_resultant_sampler(problem, *output); break;
       case OutputKind::joint: samplers_[output.get()] = make_joint_sampler(problem, *output); break;
       case OutputKind::energy: samplers_[output.get()] = make_energy_sampler(); break;
+      case OutputKind::loop: samplers_[output.get()] = make_loop_sampler(problem, *output); break;
+      case OutputKind::superelement: samplers_[output.get()] = make_superelement_sampler(problem, *output); break;
       case OutputKind::vtk: slip_ = std::make_shared<FrictionlessSlip>(); break;
       case OutputKind::srs_field: fields_[output.get()] = std::make_unique<SpectrumField>(problem, *output); break;
       case OutputKind::srs:
@@ -133,7 +135,10 @@ void add_error_figures(const ErrorEstimator& errors, const Problem& problem, Run
 }  // namespace
 
 void Collector::finish(RunResult& result) {
-  for (auto& [output, sampler] : samplers_) result.tables[output] = sampler->take();
+  for (auto& [output, sampler] : samplers_) {
+    sampler->summarise(result);
+    result.tables[output] = sampler->take();
+  }
   for (const OutputPtr& output : problem_.outputs) {
     const auto of = [&](const OutputPtr& history) -> const Table& { return result.tables.at(history.get()); };
     if (output->kind == OutputKind::srs) result.tables[output.get()] = spectrum_table(problem_, *output, of(output->of));

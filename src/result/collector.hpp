@@ -19,9 +19,13 @@ class Sampler {
   virtual void begin_step(const Instant&) {}
   virtual void accept(const Instant& instant) = 0;
   Table take() { return std::move(table_); }
+  // What it makes of its rows once the run is over, beside the table.
+  virtual void summarise(RunResult&) {}
 
  protected:
+  const Table& table() const { return table_; }
   explicit Sampler(Table table) : table_(std::move(table)) { table_.columns.resize(table_.names.size()); }
+  void add_values(const std::vector<double>& values);  // a row without a step
   void add_row(const Instant& instant, double time, const std::vector<double>& values);
   // Time of quantities that are means over an increment: its middle; the end in a static step.
   static double mean_time(const Instant& instant);
@@ -34,6 +38,8 @@ std::unique_ptr<Sampler> make_history_sampler(const Problem& problem, const Outp
 std::unique_ptr<Sampler> make_resultant_sampler(const Problem& problem, const Output& output);
 std::unique_ptr<Sampler> make_joint_sampler(const Problem& problem, const Output& output);
 std::unique_ptr<Sampler> make_energy_sampler();
+std::unique_ptr<Sampler> make_loop_sampler(const Problem& problem, const Output& output);
+std::unique_ptr<Sampler> make_superelement_sampler(const Problem& problem, const Output& output);
 
 // Relative tangential displacement (m) accumulated while closed, of contact without friction: its law has no tangential unknown.
 class FrictionlessSlip {

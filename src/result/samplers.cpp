@@ -1,8 +1,8 @@
 // Histories, resultants and energies (manual, instants and means).
 #include "fem/assembly.hpp"
-#include "mesh/facing.hpp"
 #include "result/collector.hpp"
 #include "result/surface_sums.hpp"
+#include "result/weighted_nodes.hpp"
 
 namespace dygita {
 
@@ -11,6 +11,11 @@ void Sampler::add_row(const Instant& instant, double time, const std::vector<dou
   table_.columns[0].push_back(time);
   for (size_t i = 0; i < values.size(); ++i) table_.columns[i + 1].push_back(values[i]);
   table_.step.push_back(instant.i_step);
+}
+
+void Sampler::add_values(const std::vector<double>& values) {
+  CHECK(values.size() == table_.names.size(), "a row has one value a column");
+  for (size_t i = 0; i < values.size(); ++i) table_.columns[i].push_back(values[i]);
 }
 
 double Sampler::mean_time(const Instant& instant) {
@@ -28,33 +33,18 @@ const char* unit_of(Quantity quantity) {
   }
 }
 
-// Weighted nodes of one substructure; weights of all groups sum to one.
-struct WeightedNodes {
-  int part;
-  std::vector<int> nodes;
-  std::vector<double> weights;
-};
-
+// Nodes of the faces and regions an output is on; weights of all groups sum to one.
 std::vector<WeightedNodes> weigh(const Problem& problem, const Output& output) {
   std::vector<WeightedNodes> groups;
   double total = 0.0;
   for (const Target& target : output.on) {
-    WeightedNodes group;
-    if (const auto* face = std::get_if<Face>(&target)) {
-      group.part = index_of(problem.substructures, face->part.get());
-      const FaceNodes on = face_nodes(*face->part->mesh, face->facets());
-      group.nodes = on.nodes;
-      group.weights.assign(on.areas.data(), on.areas.data() + on.areas.size());
-    } else if (const auto* region = std::get_if<Region>(&target)) {
-      group.part = index_of(problem.substructures, region->part.get());
-      group.nodes = region->nodes;
-      const Vec volumes = nodal_volumes(*region->part->mesh);
-      for (const int node : region->nodes) group.weights.push_back(volumes[node]);
-    } else {
+    if (const auto* face = std::get_if<Face>(&target))
+      groups.push_back(weighted_nodes(problem, *face));
+    else if (const auto* region = std::get_if<Region>(&target))
+      groups.push_back(weighted_nodes(problem, *region));
+    else
       continue;
-    }
-    for (const double w : group.weights) total += w;
-    groups.push_back(std::move(group));
+    for (const double w : groups.back().weights) total += w;
   }
   for (WeightedNodes& group : groups)
     for (double& w : group.weights) w /= total;

@@ -1,0 +1,19 @@
+// A condensed assembly as files: matrices in Matrix Market format and a page that says what their rows are.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "result/result.hpp"
+
+namespace dygita {
+
+// A symmetric matrix, dense: "matrix array real symmetric", its lower triangle by columns, 17 significant digits.
+// Source: Boisvert, Pozo, Remington, The Matrix Market exchange formats, NISTIR 5935 (1996).
+std::string matrix_market_text(const Mat& symmetric, const std::string& comment);
+
+// Names (after the output's) and contents: _mass.mtx, _stiffness.mtx, _damping.mtx where there is any, and .md.
+std::vector<std::pair<std::string, std::string>> superelement_files(const Problem& problem, const Output& output, const Superelement& element);
+
+}  // namespace dygita

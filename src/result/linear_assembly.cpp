@@ -1,0 +1,207 @@
+#include "result/linear_assembly.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+#include "fem/assembly.hpp"
+
+namespace dygita {
+
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+// Disjoint sets of nodes.
+struct Places {
+  std::vector<int> parent;
+  explicit Places(int n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }
+  int of(int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  }
+  void join(int a, int b) { parent[of(a)] = of(b); }
+};
+
+void add_condition(LinearAssembly& assembly, int a, int b, const Vec3& direction) {
+  assembly.conditions.push_back({{a, b}, {direction, Vec3(-direction)}});
+}
+
+void tie(LinearAssembly& assembly, int a, int b) {
+  for (int d = 0; d < 3; ++d) add_condition(assembly, a, b, Vec3::Unit(d));
+}
+
+// Interfaces and walls: what each point does at this instant.
+void add_surfaces(const Instant& instant, bool ties_sliding, LinearAssembly& assembly) {
+  const auto& supports = supports_of(*instant.model.problem, *instant.model.step);
+  for (size_t s = 0; s < instant.model.surfaces->size(); ++s) {
+    const Surface& surface = (*instant.model.surfaces)[s];
+    if (instant.state.released[s] || (surface.wall && index_of(supports, surface.wall) < 0)) continue;
+    const bool rubs = surface.law && surface.law->rubs(), has_friction = rubs && surface.law->acts_on(1);
+    for (int i = 0; i < surface.n_points(); ++i) {
+      const int a = assembly.first_node[surface.part_1] + surface.facing.nodes_1[i];
+      const int b = surface.part_2 >= 0 ? assembly.first_node[surface.part_2] + surface.facing.nodes_2[i] : -1;
+      const PointState status = instant.state.surfaces[s].points[i].status;
+      if (!rubs) {
+        tie(assembly, a, b);
+      } else if (status == PointState::open) {
+        ++assembly.n_open;
+      } else if (has_friction && (status == PointState::stick || ties_sliding)) {
+        tie(assembly, a, b);
+        ++assembly.n_tied;
+      } else {
+        add_condition(assembly, a, b, surface.facing.normals.col(i));
+        ++assembly.n_normal;
+      }
+    }
+  }
+}
+
+void add_supports(const Instant& instant, LinearAssembly& assembly) {
+  Step bare = *instant.model.step;
+  bare.loads.clear();
+  const Conditions conditions = make_conditions(*instant.model.problem, bare, instant.state);
+  for (size_t part = 0; part < conditions.held.size(); ++part) {
+    const std::map<int, Held> by_node(conditions.held[part].begin(), conditions.held[part].end());
+    for (const auto& [node, held] : by_node)
+      for (int j = 0; j < held.n; ++j) add_condition(assembly, assembly.first_node[part] + node, -1, held.directions.col(j));
+  }
+}
+
+// Basis of the displacements (3 a node) that the conditions of a place leave: an orthonormal one of their null space.
+Mat free_basis(const std::vector<int>& nodes, const std::vector<const NodeCondition*>& conditions) {
+  const int m = static_cast<int>(nodes.size());
+  if (conditions.empty()) return Mat::Identity(3, 3);
+  Mat transposed = Mat::Zero(3 * m, static_cast<int>(conditions.size()));
+  for (size_t c = 0; c < conditions.size(); ++c)
+    for (int side = 0; side < 2; ++side)
+      for (int i = 0; i < m; ++i)
+        if (conditions[c]->node[side] == nodes[i]) transposed.block(3 * i, c, 3, 1) += conditions[c]->coefficient[side];
+  Eigen::ColPivHouseholderQR<Mat> qr(transposed);
+  qr.setThreshold(1e-8);
+  const Mat q = qr.householderQ();
+  Mat basis = q.rightCols(3 * m - qr.rank());
+  // All copies tied and nothing else: their common motion, along the axes.
+  if (basis.cols() == 3 && qr.rank() == 3 * (m - 1)) {
+    Mat common(3 * m, 3);
+    for (int i = 0; i < m; ++i) common.middleRows(3 * i, 3) = Mat3::Identity();
+    if ((transposed.transpose() * common).norm() < 1e-12) basis = common;
+  }
+  return basis;
+}
+
+void make_map(LinearAssembly& assembly) {
+  const int n_nodes = assembly.first_node.back();
+  Places places(n_nodes);
+  for (const NodeCondition& condition : assembly.conditions)
+    if (condition.node[1] >= 0) places.join(condition.node[0], condition.node[1]);
+  std::vector<std::vector<int>> nodes(n_nodes);
+  std::vector<std::vector<const NodeCondition*>> conditions(n_nodes);
+  for (int i = 0; i < n_nodes; ++i) nodes[places.of(i)].push_back(i);
+  for (const NodeCondition& condition : assembly.conditions) conditions[places.of(condition.node[0])].push_back(&condition);
+  Triplets entries;
+  int n = 0;
+  for (int place = 0; place < n_nodes; ++place) {
+    if (nodes[place].empty()) continue;
+    const Mat basis = free_basis(nodes[place], conditions[place]);
+    for (int column = 0; column < basis.cols(); ++column) {
+      for (int row = 0; row < basis.rows(); ++row)
+        if (std::abs(basis(row, column)) > 1e-14) entries.emplace_back(3 * nodes[place][row / 3] + row % 3, n, basis(row, column));
+      assembly.place_of_unknown.push_back(place);
+      ++n;
+    }
+  }
+  assembly.map.resize(3 * n_nodes, n);
+  assembly.map.setFromTriplets(entries.begin(), entries.end());
+}
+
+void add_matrices(const Problem& problem, LinearAssembly& assembly) {
+  const int n = static_cast<int>(assembly.map.cols());
+  assembly.stiffness.resize(n, n);
+  assembly.mass.resize(n, n);
+  std::map<std::tuple<std::string, double, double, double>, BodyMatrices> known;
+  for (size_t part = 0; part < problem.substructures.size(); ++part) {
+    const Substructure& body = *problem.substructures[part];
+    const Elastic& material = body.material;
+    const auto [it, is_new] = known.try_emplace({body.mesh->digest, material.young, material.poisson, material.density});
+    if (is_new) it->second = assemble(*body.mesh, material);
+    const BodyMatrices& own = it->second;
+    const SparseMatrix map = assembly.map.middleRows(3 * assembly.first_node[part], 3 * body.mesh->n_nodes());
+    const SparseMatrix transposed = map.transpose();
+    SparseMatrix lumped(map.rows(), map.rows());
+    lumped.reserve(Eigen::VectorXi::Constant(map.rows(), 1));
+    for (int i = 0; i < map.rows(); ++i) lumped.insert(i, i) = own.mass[i / 3];
+    const SparseMatrix k_map = own.stiffness * map, m_map = lumped * map;
+    const SparseMatrix k = transposed * k_map, m = transposed * m_map;
+    assembly.stiffness += k;
+    assembly.mass += m;
+    assembly.mass_of_parts += own.mass.sum();
+    const Damping& damping = material.damping;
+    if (damping.mass == 0.0 && damping.stiffness == 0.0) continue;
+    if (assembly.damping.rows() == 0) assembly.damping.resize(n, n);
+    assembly.damping += damping.mass * m + damping.stiffness * k;
+  }
+  assembly.stiffness.makeCompressed();
+  assembly.mass.makeCompressed();
+  assembly.damping.makeCompressed();
+}
+
+}  // namespace
+
+LinearAssembly linearise(const Instant& instant, bool ties_sliding) {
+  const Problem& problem = *instant.model.problem;
+  LinearAssembly assembly;
+  assembly.first_node.push_back(0);
+  for (const SubstructurePtr& part : problem.substructures)
+    assembly.first_node.push_back(assembly.first_node.back() + part->mesh->n_nodes());
+  add_surfaces(instant, ties_sliding, assembly);
+  add_supports(instant, assembly);
+  make_map(assembly);
+  add_matrices(problem, assembly);
+  return assembly;
+}
+
+std::string free_motion(const LinearAssembly& assembly, const Problem& problem, const std::vector<int>& held_nodes) {
+  const int n = static_cast<int>(problem.substructures.size());
+  std::vector<Vec3> centre;
+  std::vector<double> size;
+  for (const SubstructurePtr& part : problem.substructures) {
+    const Vec3 low = part->mesh->nodes.rowwise().minCoeff(), high = part->mesh->nodes.rowwise().maxCoeff();
+    centre.push_back(0.5 * (low + high));
+    size.push_back((high - low).norm());
+  }
+  // Sum of squares of all conditions on the rigid motions, rotations times the size of their body.
+  Mat gram = Mat::Zero(6 * n, 6 * n);
+  const auto add = [&](const NodeCondition& condition) {
+    std::vector<std::pair<int, Eigen::Matrix<double, 6, 1>>> rows;
+    for (int side = 0; side < 2; ++side) {
+      const int node = condition.node[side];
+      if (node < 0) continue;
+      const int part = static_cast<int>(std::upper_bound(assembly.first_node.begin(), assembly.first_node.end(), node) - assembly.first_node.begin()) - 1;
+      const Vec3 x = problem.substructures[part]->mesh->nodes.col(node - assembly.first_node[part]);
+      Eigen::Matrix<double, 6, 1> row;
+      row << condition.coefficient[side], (x - centre[part]).cross(condition.coefficient[side]) / size[part];
+      rows.emplace_back(6 * part, row);
+    }
+    for (const auto& [i, a] : rows)
+      for (const auto& [j, b] : rows) gram.block<6, 6>(i, j) += a * b.transpose();
+  };
+  for (const NodeCondition& condition : assembly.conditions) add(condition);
+  for (const int node : held_nodes)
+    for (int d = 0; d < 3; ++d) add({{node, -1}, {Vec3::Unit(d), Vec3::Zero()}});
+  Vec weight(6 * n);
+  for (int i = 0; i < n; ++i) weight.segment<6>(6 * i).setConstant(1.0 / std::sqrt(std::max(1.0, gram.block<6, 6>(6 * i, 6 * i).trace())));
+  const Eigen::SelfAdjointEigenSolver<Mat> eigen(weight.asDiagonal() * gram * weight.asDiagonal());
+  if (eigen.eigenvalues()[0] >= 1e-9) return "";
+  const Vec motion = weight.cwiseProduct(eigen.eigenvectors().col(0));
+  int at = 0;
+  motion.cwiseAbs().maxCoeff(&at);
+  const char* names[] = {"translation along x", "translation along y", "translation along z", "rotation about x", "rotation about y", "rotation about z"};
+  return std::string(names[at % 6]) + " of substructure '" + problem.substructures[at / 6]->name + "'";
+}
+
+}  // namespace dygita

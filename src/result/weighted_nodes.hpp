@@ -1,0 +1,19 @@
+// Nodes of a face or a region with the weights of a mean over it.
+#pragma once
+
+#include "model/model.hpp"
+
+namespace dygita {
+
+struct WeightedNodes {
+  int part = -1;  // index in problem.substructures
+  std::vector<int> nodes;
+  std::vector<double> weights;  // of a face m^2, of a region m^3: not normalised
+};
+
+WeightedNodes weighted_nodes(const Problem& problem, const FaceOrRegion& place);
+
+// Mean of a nodal field (3 x n_nodes of the part) over them.
+Vec3 mean_over(const WeightedNodes& on, const Points& field);
+
+}  // namespace dygita
