@@ -39,6 +39,13 @@ class StepRun {
     std::vector<Piece::Snapshot> pieces;
     LocalStage local;
   };
+  // What the iteration of an increment is to reach, and with how many iterations at most.
+  struct Goal {
+    double tolerance;
+    int most;
+  };
+  Goal goal_of(bool has_start) const;
+  double round_off() const;
   Start remember() const;
   void go_back(const Start& start);
   void accept_increment(int increment, int iterations, double eta);
@@ -79,6 +86,7 @@ class StepRun {
   const InterfaceFields* start_from_;
   InterfaceFields& kept_;
   int i_step_ = 0, window_ = 1, max_iterations_ = 200, window_depth_ = 0;
+  bool is_going_on_ = false;  // more iterations from kept fields, whatever the tolerance
   double tolerance_ = 1e-6, window_relaxation_ = 0.8;
   Vec weight_, q_, velocity_, image_;
   LocalStage local_;

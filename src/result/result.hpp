@@ -49,6 +49,7 @@ struct BoltSummary {
 struct RunResult {
   std::vector<BoltSummary> bolts;
   std::map<const Output*, Table> tables;       // history, resultant, srs, joint, energy
+  std::map<const Output*, Table> bands;        // of each srs, dB: frequency, iteration, time_step, mesh, all
   Table convergence;                           // time, step, iterations, indicator, converged (1 or 0)
   std::vector<StepSummary> steps;
   std::shared_ptr<const InterfaceFields> interface_fields;  // what start_from takes; null: the solver keeps none

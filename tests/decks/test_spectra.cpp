@@ -1,0 +1,85 @@
+// What a run says of its own spectra, and runs that stop when the spectra stand still.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "decks/spectra.hpp"
+#include "result/spectrum_band.hpp"
+
+namespace dygita::test {
+namespace {
+
+// The crush with spectra above and below the contact.
+const std::vector<Place> above_and_below = {{"punch", "zmax"}, {"specimen", "zmax"}};
+
+SpectraRun crush(const Settings& settings, double tolerance = 0.0) {
+  return run_spectra(deck("crush.lua"), settings, above_and_below, 20e3, 300e3, tolerance);
+}
+
+// Most of the true difference lies within the band, and the band is no wild guess.
+void expect_band(const BandWorth& worth, double least_covered, double largest_ratio) {
+  EXPECT_GE(worth.covered, least_covered) << worth.band << " dB of band, " << worth.truth << " dB in truth";
+  EXPECT_LT(worth.band, largest_ratio * worth.truth);
+}
+
+TEST(SpectrumBand, holds_what_the_tolerance_leaves) {
+  const SpectraRun loose = crush({}, 1e-3), tight = crush({}, 1e-9);
+  for (size_t i = 0; i < 2; ++i) expect_band(band_worth(loose.spectra[i], tight.spectra[i], "iteration"), 0.9, 50.0);
+}
+
+TEST(SpectrumBand, holds_what_the_time_step_leaves) {
+  const SpectraRun coarse = crush({{"dt", "0.6*us"}}), fine = crush({{"dt", "0.075*us"}});
+  for (size_t i = 0; i < 2; ++i) expect_band(band_worth(coarse.spectra[i], fine.spectra[i], "time_step"), 0.8, 50.0);
+}
+
+TEST(SpectrumBand, is_the_wider_the_less_there_is) {
+  const Table spectrum{{"frequency", "maximax"}, {"Hz", "m/s^2"}, {{100.0, 100.0}, {2.0, 0.5}}, {}};
+  ErrorEstimator::Estimate errors;
+  errors.iteration = 0.01, errors.time_step = 0.02, errors.mesh = 0.1, errors.velocity = 1e-2;
+  const Table band = spectrum_band(spectrum, Quantity::acceleration, errors);
+  // 20 log10(1 + 0.3 * 2 pi 100 Hz * 0.01 m/s * 0.1 / 2 m/s^2)
+  EXPECT_NEAR(band.column("mesh")[0], 20.0 * std::log10(1.0 + 0.3 * 2.0 * std::numbers::pi * 100.0 * 0.01 * 0.1 / 2.0), 1e-9);
+  EXPECT_GT(band.column("mesh")[1], 3.0 * band.column("mesh")[0]);
+  EXPECT_NEAR(band.column("all")[0], std::hypot(band.column("iteration")[0], band.column("time_step")[0], band.column("mesh")[0]), 1e-12);
+  EXPECT_TRUE(spectrum_band(spectrum, Quantity::stress, errors).columns.empty());
+}
+
+const char* const crush_with_spectra = R"(
+local p = param{ spectra = 0.1, tolerance = 1e-6 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local function block(name, z)
+  return substructure{ name = name, material = steel, mesh = mesh.box{ origin = { 0, 0, z }, size = { 10*mm, 10*mm, 20*mm }, cells = { 2, 2, 4 } } }
+end
+local low, up = block("low", 0), block("up", 20*mm)
+local touch = interface.contact{ name = "touch", between = { low:face "zmax", up:face "zmin" }, friction = 0.3 }
+local shot = step.dynamic{ name = "shot", duration = 40*us, dt = 0.5*us, loads = {
+  load.pressure{ on = up:face "zmax", history = history.half_sine{ peak = 80*MPa, duration = 15*us } } } }
+local a = output.history{ name = "a", on = low:face "zmin", quantity = "acceleration", direction = { 0, 0, 1 } }
+local srs = output.srs{ name = "srs", of = a, from = 25*kHz, to = 200*kHz }
+local solver = p.spectra > 0 and solver.latin{ tolerance = p.tolerance, spectra = p.spectra } or solver.latin{ tolerance = p.tolerance }
+problem{ name = "hit", substructures = { low, up }, interfaces = { touch }, steps = { shot }, outputs = { a, srs }, solver = solver }:run{}
+)";
+
+TEST(Passes, stop_where_the_spectra_stand_still) {
+  const DeckRun tight = run_text(crush_with_spectra, {{"spectra", "0"}, {"tolerance", "1e-10"}}, 1).at(0);
+  const DeckRun passes = run_text(crush_with_spectra, {{"spectra", "0.1"}, {"tolerance", "1e-8"}}, 1).at(0);
+  EXPECT_TRUE(passes.result->converged);
+  EXPECT_GE(passes.figure("passes over the run"), 2.0);
+  EXPECT_LT(passes.figure("passes over the run"), 6.0);  // 1e-3 to 1e-8 would be six
+  EXPECT_LT(passes.figure("spectra moved in the last pass [dB]"), 0.1);
+  EXPECT_LT(largest_move(passes.table("srs"), tight.table("srs")), 0.1);
+  // As the last tolerance gives in one run.
+  const DeckRun strict = run_text(crush_with_spectra, {{"spectra", "1e-4"}, {"tolerance", "1e-6"}}, 1).at(0);
+  const DeckRun at_once = run_text(crush_with_spectra, {{"spectra", "0"}, {"tolerance", "1e-6"}}, 1).at(0);
+  EXPECT_LT(difference(at_once.column("a", "acceleration"), strict.column("a", "acceleration")), 1e-5);
+  EXPECT_GT(strict.figure("iterations of all passes"), static_cast<double>(strict.result->iterations));
+}
+
+TEST(Passes, are_none_where_no_spectrum_is_asked_for) {
+  std::string text = crush_with_spectra;
+  text.replace(text.find("{ a, srs }"), 10, "{ a, output.energy{} }");
+  const DeckRun run = run_text(text, {}, 1).at(0);
+  EXPECT_FALSE(run.result->figures.contains("passes over the run"));
+}
+}  // namespace
+}  // namespace dygita::test
