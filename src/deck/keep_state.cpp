@@ -13,6 +13,15 @@ namespace {
 
 constexpr int n_load_samples = 256;  // of a step
 
+// A deck's function may have no value where the solver never asked for one.
+double sample(const History& history, double t) {
+  try {
+    return history.value(t);
+  } catch (const InputError&) {
+    return 0.0;
+  }
+}
+
 std::string list_efforts(const std::vector<Effort>& efforts) {
   std::string list;
   for (const Effort& effort : efforts) list += fmt::format("{}{} (tolerance {:g})", list.empty() ? "" : ", ", effort.iterations, effort.tolerance);
@@ -33,7 +42,7 @@ std::vector<double> load_samples(const Problem& problem, const std::vector<State
     for (const LoadPtr& load : problem.steps[i_step]->loads) {
       for (const auto& value : load->value) {
         if (!value) continue;
-        for (int i = 0; i <= n_load_samples; ++i) samples.push_back(value->value(end * i / n_load_samples));
+        for (int i = 0; i <= n_load_samples; ++i) samples.push_back(sample(*value, end * i / n_load_samples));
       }
     }
   }
