@@ -22,16 +22,23 @@ local function compile(text, place, option)
   return native.compile("return " .. text, known, option)
 end
 
--- A parameter's value, a number in units.
-local function parameter(name, text)
-  local place = ("--set %s=%s"):format(name, text)
-  local expression = text:find "^[%w%s%.%+%-%*/%^%(%)_]+$" and compile(text, place, "--set")
+-- The number that an expression in units stands for.
+local function evaluate(text, place, option, example)
+  local expression = text:find "^[%w%s%.%+%-%*/%^%(%)_]+$" and compile(text, place, option)
   local value = expression and expression()
   if type(value) ~= "number" or value ~= value or value == math.huge or value == -math.huge then
-    native.refuse(place .. " is neither a number nor an expression in units, as in --set tighten=0.04*mm")
+    native.refuse(("%s is neither a number nor an expression in units, as in %s"):format(place, example))
   end
   return value
 end
+
+-- A parameter's value, a number in units.
+local function parameter(name, text)
+  return evaluate(text, ("--set %s=%s"):format(name, text), "--set", "--set tighten=0.04*mm")
+end
+
+-- The value of another option, a time.
+local function quantity(option, text) return evaluate(text, option .. " " .. text, option, option .. " 0.4*ms") end
 
 local solvers = {}
 for _, word in ipairs(schema.words) do
@@ -62,4 +69,4 @@ local function solver(line)
   return native.make("solver." .. name, entry.makes, check.call(named, line, table_of()), line)
 end
 
-return { parameter = parameter, solver = solver }
+return { parameter = parameter, quantity = quantity, solver = solver }

@@ -368,6 +368,9 @@ words[9] = {
         doc = "into how many bonded pieces each substructure is cut; 1: none is; \"auto\": large ones are" },
       { "history_memory", type = "number", range = { 0, 1e6 }, default = 512,
         doc = "MB of interface fields kept in memory for `start_from`; what is more goes to a temporary file" },
+      { "spectra", type = "number", range = { 1e-4, 20 }, default_doc = "one run at `tolerance`",
+        doc = "dB: the run is computed in passes, from a tolerance of 1e-3 on ten times tighter each, until no output.srs moves by as much or "
+          .. "`tolerance` is reached" },
       { "plain", type = "boolean", default = false, doc = "iterates with full solves, to check the condensed ones" },
     },
   },

@@ -11,6 +11,7 @@
 #include "app/srs_command.hpp"
 #include "base/names.hpp"
 #include "base/progress.hpp"
+#include "deck/continue_run.hpp"
 #include "deck/deck.hpp"
 
 namespace {
@@ -24,7 +25,9 @@ struct Command {
   std::vector<std::string> settings;
   SrsCommand srs;
   ReportCommand report;
-  bool is_quiet = false, has_no_frames = false;
+  ContinueOptions going_on;
+  std::string until;
+  bool is_quiet = false, has_no_frames = false, has_no_state = false;
 };
 
 int say_error(const char* message, int code) {
@@ -74,16 +77,50 @@ void add_report_options(CLI::App& command, ReportCommand& asked) {
   command.add_option("--out", asked.out, "file to write (default: report.html in the folder)");
 }
 
+void add_continue_options(CLI::App& command, Command& asked) {
+  ContinueOptions& options = asked.going_on;
+  command.add_option("RUN", options.run, "folder of a run, out/<problem>/<case>")->required();
+  command.add_option("--tolerance", options.tolerance, "iterate to this tolerance (static steps: a hundredth of it)")
+      ->check(CLI::Range(1e-14, 0.1));
+  command.add_option("--iterations", options.more_iterations, "at most so many iterations more at each increment")
+      ->check(CLI::Range(1, 1000000));
+  command.add_option("--until", asked.until, "carry the last dynamic step on to this time, as 0.0004 or 0.4*ms");
+  command.add_option("--threads", options.threads, "threads (default: all)")->check(CLI::Range(1, 1024));
+  command.add_option("--time-limit", options.time_limit, "s of processor time of the deck's own code")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--memory-limit", options.memory_limit, "MB of the deck's own data")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_flag("--no-frames", asked.has_no_frames, "no frames for ParaView");
+  command.add_flag("--no-state", asked.has_no_state, "keep nothing to continue from once more");
+  command.add_flag("--quiet", asked.is_quiet, "no progress");
+}
+
+int exit_code(const DeckOutcome& outcome, const char* when_stopped) {
+  if (outcome.interrupted) return say_error(when_stopped, stopped);
+  for (const std::string& name : outcome.not_converged) say_error(("not converged: " + name).c_str(), not_converged);
+  return outcome.not_converged.empty() ? done : not_converged;
+}
+
+int go_on(Command& asked) {
+  if (!asked.until.empty()) asked.going_on.until = parse_quantity("--until", asked.until);
+  asked.going_on.write_frames = !asked.has_no_frames;
+  asked.going_on.write_state = !asked.has_no_state;
+  set_progress_enabled(!asked.is_quiet);
+  catch_interrupts();
+  return exit_code(continue_run(asked.going_on), "stopped");
+}
+
 int run_or_check(Command& asked, bool solves) {
   for (const std::string& text : asked.settings) asked.deck.settings.push_back(parse_setting(text));
   asked.deck.write_frames = !asked.has_no_frames;
+  asked.deck.write_state = !asked.has_no_state;
   set_progress_enabled(!asked.is_quiet);
   catch_interrupts();
   const Engine engine{run_problem, check_report};
-  const DeckOutcome outcome = solves ? run_deck(asked.deck, engine) : check_deck(asked.deck, engine);
-  if (outcome.interrupted) return say_error("stopped; what was computed so far is written", stopped);
-  for (const std::string& name : outcome.not_converged) say_error(("not converged: " + name).c_str(), not_converged);
-  return outcome.not_converged.empty() ? done : not_converged;
+  return exit_code(solves ? run_deck(asked.deck, engine) : check_deck(asked.deck, engine),
+                   "stopped; what was computed so far is written");
 }
 
 // The name of an unknown command, which CLI11 would only call missing.
@@ -107,6 +144,9 @@ int command_line(int argc, char** argv) {
   run->add_option("--out", asked.deck.out, "folder of the results, out/<problem>/<case>")->capture_default_str();
   run->add_option("--threads", asked.deck.threads, "threads (default: all)")->check(CLI::Range(1, 1024));
   run->add_flag("--no-frames", asked.has_no_frames, "no frames for ParaView; tables and run.json are written");
+  run->add_flag("--no-state", asked.has_no_state, "no state file: the run cannot be continued later");
+  CLI::App* going_on = app.add_subcommand("continue", "go on with a run: to a tighter tolerance, or further in time");
+  add_continue_options(*going_on, asked);
   CLI::App* check = app.add_subcommand("check", "declare and check a deck, say what it would compute, solve nothing");
   add_deck_options(*check, asked);
   CLI::App* srs = app.add_subcommand("srs", "shock response spectrum of a CSV file");
@@ -114,9 +154,6 @@ int command_line(int argc, char** argv) {
   CLI::App* schema = app.add_subcommand("schema", "the reference of the deck language, as Markdown");
   CLI::App* report = app.add_subcommand("report", "write report.html of a run once more");
   add_report_options(*report, asked.report);
-  for (const char* later : {"continue"}) {
-    app.add_subcommand(later, std::string("not built yet in ") + version())->allow_extras();
-  }
 
   check_command(app, argc, argv);
   try {
@@ -125,15 +162,13 @@ int command_line(int argc, char** argv) {
     return app.exit(error) == 0 ? done : wrong_input;
   }
   if (run->parsed() || check->parsed()) return run_or_check(asked, run->parsed());
+  if (going_on->parsed()) return go_on(asked);
   if (srs->parsed()) {
     write_srs(asked.srs);
   } else if (report->parsed()) {
     write_report(asked.report);
   } else if (schema->parsed()) {
     std::fputs(deck_reference().c_str(), stdout);
-  } else {
-    throw InputError("dygita " + app.get_subcommands().front()->get_name() + " is not built yet in dygita " +
-                     version());
   }
   return done;
 }

@@ -79,6 +79,7 @@ Held build_latin(const Declaration& d) {
   if (settings->pieces > 1 && settings->mass.is_moved_from_contact)
     throw InputError(fmt::format("'pieces' = {} and 'massless_contact' exclude each other: mass does not move from one piece to another; leave 'pieces' out, or 1",
                                  settings->pieces));
+  settings->spectra = a.number_or("spectra", settings->spectra);
   settings->history_memory = 1e6 * a.number("history_memory");
   settings->plain = a.boolean("plain");
   return std::shared_ptr<const LatinSettings>(settings);

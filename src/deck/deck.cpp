@@ -87,9 +87,10 @@ void warn_of_unused(const DeckState& state) {
 }
 
 DeckOutcome execute(const DeckOptions& options, const Engine& engine, bool solves) {
-  const std::string text = text_of(options.path);
+  const std::string text = options.text ? *options.text : text_of(options.path);
   DeckState state(options, engine, solves);
   state.deck_digest = digest_of(text);
+  state.deck_text = text;
   try {
     try {
       run_text(state, text);
@@ -116,8 +117,11 @@ RunRequest request_of(const DeckState& state, const Problem& problem, const std:
   request.threads = state.options.threads;
   request.write_files = state.options.write_files;
   request.write_frames = state.options.write_frames;
+  request.write_state = state.options.write_state;
   request.identity.deck_path = state.options.path.string();
   request.identity.deck_digest = state.deck_digest;
+  request.deck_text = state.deck_text;
+  request.settings = state.options.settings;
   request.identity.parameters = state.parameters;
   request.identity.solver = state.options.solver;
   request.identity.threads = state.options.threads;
@@ -235,6 +239,28 @@ std::pair<std::string, std::string> parse_setting(const std::string& text) {
     throw InputError(fmt::format("--set {}: write NAME=VALUE, as in --set mu=0.3 or --set tighten=0.04*mm", text));
   }
   return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+double parse_quantity(const std::string& what, const std::string& text) {
+  const DeckOptions options;
+  const Engine engine;
+  DeckState state(options, engine, false);
+  lua_State* L = state.raw();
+  lua_pushcfunction(L, [](lua_State* l) {
+    push_native(DeckState::of(LuaState::of(l)));
+    lua_getfield(l, -1, "module");
+    lua_pushliteral(l, "command_line");
+    lua_call(l, 1, 1);
+    lua_getfield(l, -1, "quantity");
+    lua_pushvalue(l, 1);
+    lua_pushvalue(l, 2);
+    lua_call(l, 2, 1);
+    return 1;
+  });
+  lua_pushlstring(L, what.data(), what.size());
+  lua_pushlstring(L, text.data(), text.size());
+  state.call(2, 1);
+  return lua_tonumber(L, -1);
 }
 
 std::string deck_reference() {

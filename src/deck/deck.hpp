@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,7 @@ struct Engine {
 
 struct DeckOptions {
   std::filesystem::path path;
+  std::optional<std::string> text;  // in place of the file's
   std::vector<std::pair<std::string, std::string>> settings;  // --set: name, number or expression in units
   std::filesystem::path out = "out";
   int threads = 0;
@@ -27,6 +29,7 @@ struct DeckOptions {
   double memory_limit = 1024.0;  // MB of the deck's own data
   bool write_files = true;
   bool write_frames = true;  // those of output.vtk
+  bool write_state = true;   // what continue_run needs
   std::string solver;        // --solver: an expression that takes the place of every problem's solver; empty: the deck's
 };
 
@@ -45,6 +48,9 @@ DeckOutcome check_deck(const DeckOptions& options, const Engine& engine);
 
 // "tighten=0.04*mm" as name and expression. Throws InputError.
 std::pair<std::string, std::string> parse_setting(const std::string& text);
+
+// A number or an expression in units, as --set takes it; `what` names it in messages ("--until"). Throws InputError.
+double parse_quantity(const std::string& what, const std::string& text);
 
 // The reference of the deck language, Markdown.
 std::string deck_reference();

@@ -20,7 +20,7 @@ struct DeckState : LuaState {
   const Engine& engine;
   const bool is_solving;         // false: dygita check
   std::filesystem::path folder;  // the deck's
-  std::string deck_digest;
+  std::string deck_digest, deck_text;
   Register declared;
   std::vector<std::pair<std::string, double>> parameters;
   std::set<std::pair<std::string, std::string>> cases;  // problem and case names that ran

@@ -6,11 +6,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "base/log.hpp"
 #include "deck/condensed_lines.hpp"
+#include "deck/keep_state.hpp"
+#include "deck/spectra.hpp"
 #include "latin/latin.hpp"
 #include "output/bolt_table.hpp"
+#include "output/replacement.hpp"
 #include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
 #include "result/collector.hpp"
@@ -117,6 +121,7 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
   if (result.figures.contains("error estimate, static, mesh [%]"))
     say(fmt::format("  estimated errors of static steps: iteration {:.2g} %, mesh {:.2g} %", figure("error estimate, static, iteration [%]"),
                     figure("error estimate, static, mesh [%]")));
+  say_bands(problem, result);
   for (const OutputPtr& output : problem.outputs) {
     if (output->kind == OutputKind::attenuation && result.tables.at(output.get()).n_rows() > 0)
       say("  " + attenuation_summary(*output, result.tables.at(output.get())));
@@ -130,35 +135,56 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
   if (!directory.empty()) say(fmt::format("  {:.2f} s in all; results in {}", seconds, directory.string()));
 }
 
-}  // namespace
-
-std::shared_ptr<const RunResult> run_problem(const Problem& problem, const RunRequest& request) {
-  const auto start = std::chrono::steady_clock::now();
-  if (request.threads > 0) omp_set_num_threads(request.threads);
-  check_problem(problem);
-  say(fmt::format("problem '{}', case '{}': {} substructures, {} interfaces, {} steps", problem.name, request.case_name,
-                  problem.substructures.size(), problem.interfaces.size(), problem.steps.size()));
-  std::unique_ptr<RunWriter> writer;
-  Collector::FrameSink sink;
-  if (request.write_files) {
-    writer = std::make_unique<RunWriter>(request.out / problem.name / request.case_name, problem.name);
-    if (request.write_frames) sink = [&](const Frame& frame) { writer->write_frame(frame); };
-  }
+// Solves all steps once; tables and figures; scenes for the report where `keeps_scenes`.
+std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* start_from, const Collector::FrameSink& sink, bool keeps_scenes) {
   Collector collector(problem, sink);
   SceneRecorder scenes(problem);
   Observers observers({&collector});
-  if (writer) observers.add(scenes);
+  if (keeps_scenes) observers.add(scenes);
   auto result = std::make_shared<RunResult>();
   const SolverFigures figures = problem.explicit_dynamics ? solve_explicit(problem, observers)
-                                : problem.monolithic
-                                    ? solve_monolithic(problem, observers)
-                                    : solve(problem, observers, request.start_from ? request.start_from->interface_fields.get() : nullptr);
+                                : problem.monolithic      ? solve_monolithic(problem, observers)
+                                                          : solve(problem, observers, start_from);
   result->interface_fields = figures.interface_fields;
   summarise(problem, figures, *result);
   collector.finish(*result);
-  if (writer) scenes.finish(*result);
+  if (keeps_scenes) scenes.finish(*result);
+  return result;
+}
+
+}  // namespace
+
+std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunRequest& request) {
+  const auto start = std::chrono::steady_clock::now();
+  if (request.threads > 0) omp_set_num_threads(request.threads);
+  check_problem(declared);
+  say(fmt::format("problem '{}', case '{}': {} substructures, {} interfaces, {} steps", declared.name, request.case_name,
+                  declared.substructures.size(), declared.interfaces.size(), declared.steps.size()));
+  std::optional<Replacement> replacement;
+  if (!request.replaces.empty()) replacement.emplace(request.replaces);
+  const std::filesystem::path directory = replacement ? request.replaces : request.out / declared.name / request.case_name;
+  std::unique_ptr<RunWriter> writer;
+  Collector::FrameSink sink;
+  if (request.write_files && request.write_frames) sink = [&](const Frame& frame) { writer->write_frame(frame); };
+  const std::vector<double> tolerances = pass_tolerances(declared);
+  Problem problem = declared;  // with the tolerance of the pass
+  std::shared_ptr<RunResult> result, before;
+  for (size_t pass = 0; pass < tolerances.size(); ++pass) {
+    problem.solver.tolerance = tolerances[pass];
+    // A new writer takes away the frames of the pass before; the first of several is never the last.
+    writer.reset();
+    if (request.write_files) writer = std::make_unique<RunWriter>(replacement ? replacement->work() : directory, problem.name);
+    result = sweep(problem, before ? before->interface_fields.get() : start_of(request), pass > 0 || tolerances.size() == 1 ? sink : nullptr,
+                   writer != nullptr);
+    if (before) add_pass(*before, *result);
+    if (result->interrupted || (before && have_settled(problem, *before, *result))) break;
+    before = result;
+  }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result->seconds["all"] = seconds;
+  const RunState state = (writer && request.write_state) || request.continues ? state_of(problem, request, *result) : RunState{};
+  const bool is_kept = !request.continues || reaches_as_far(state, *request.continues);
+  if (writer && request.write_state && is_kept) keep_state(state, *writer, *result);
   warn_of_losses(problem, *result);
   warn_of_errors(problem, *result);
   const std::vector<std::string> warnings = take_warnings();
@@ -166,7 +192,10 @@ std::shared_ptr<const RunResult> run_problem(const Problem& problem, const RunRe
   identity.threads = omp_get_max_threads();
   identity.case_name = request.case_name;
   if (writer) writer->write_result(problem, *result, identity, warnings);
-  say_summary(problem, *result, writer ? writer->directory() : std::filesystem::path(), seconds);
+  if (replacement && is_kept) replacement->commit();
+  if (request.continues) say(continuation_line(*request.continues, *result));
+  say_summary(problem, *result, writer && is_kept ? directory : std::filesystem::path(), seconds);
+  if (!is_kept) say(fmt::format("  stopped before it reached what '{}' holds already: that is as it was", directory.string()));
   return result;
 }
 

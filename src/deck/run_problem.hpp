@@ -8,6 +8,7 @@
 #include "model/model.hpp"
 #include "output/run_writer.hpp"
 #include "result/result.hpp"
+#include "result/state_file.hpp"
 
 namespace dygita {
 
@@ -17,6 +18,13 @@ struct RunRequest {
   int threads = 0;                    // 0: as many as the machine has
   bool write_files = true;
   bool write_frames = true;  // those of output.vtk
+  bool write_state = true;   // what a later continuation needs, where the solver keeps it: beside the fields
+  std::string deck_text;                                      // the deck's,
+  std::vector<std::pair<std::string, std::string>> settings;  // and --set, as written
+  // The run continued: each increment starts from its fields, and its folder `replaces` is replaced once the new results
+  // are complete, or at least reach as far as the old ones did.
+  std::shared_ptr<const RunState> continues;
+  std::filesystem::path replaces;
   RunIdentity identity;
   std::shared_ptr<const RunResult> start_from;  // an earlier case: the iteration starts from its interface fields
 };

@@ -45,7 +45,7 @@ void StepRun::begin_increment(int increment, bool starts_window) {
   const Stopwatch watch(seconds_.forward);
   motions_ = model_.motion_velocities(increment);
   model_.loads->evaluate(increment);
-  const double quiet = indicator_.quiet(tolerance_);
+  const double quiet = indicator_.quiet(is_going_on_ ? round_off() : tolerance_);
   for_each_group([&](const std::vector<int>& members) {
     for (const int i : members) model_.pieces[i]->begin(model_.piece_force(i, state_), motions_, quiet);
     Piece::forward(group(members));
@@ -66,8 +66,8 @@ void StepRun::finish_increment() {
   });
 }
 
-// Both stages in turn, until they agree to `tolerance`; q_best: the data that came closest. Adds the iterations to n.
-Outcome StepRun::iterate(int increment, double tolerance, Vec& q_best, int& n) {
+// Both stages in turn, until the goal is reached; q_best: the data that came closest. Adds the iterations to n.
+Outcome StepRun::iterate(int increment, const Goal& goal, Vec& q_best, int& n) {
   anderson_.begin();
   Outcome best;
   for (int i = 0;; ++i) {
@@ -80,7 +80,7 @@ Outcome StepRun::iterate(int increment, double tolerance, Vec& q_best, int& n) {
       best = outcome;
       q_best = q_;
     }
-    if (outcome.eta <= tolerance || i + 1 >= max_iterations_ || is_lost()) return best;
+    if (outcome.eta <= goal.tolerance || i + 1 >= goal.most || is_lost()) return best;
     const Stopwatch watch(seconds_.accelerate);
     anderson_.advance(q_, image_);
   }
@@ -89,18 +89,20 @@ Outcome StepRun::iterate(int increment, double tolerance, Vec& q_best, int& n) {
 // One step of time: forward once, iterate on the interfaces alone, backward once.
 void StepRun::solve_increment(int increment) {
   begin_increment(increment, true);
-  if (!warm_start_.predict(increment, q_) && increment == 0)
+  const bool has_start = warm_start_.predict(increment, q_) && start_from_;
+  if (start_from_ && !has_start && increment == 0 && start_from_->n_increments(i_step_) > 0)
     warn(fmt::format("step '{}': nothing of the case to start from fits (other interfaces, another number of pieces or of increments): the "
                      "iteration starts afresh", model_.step->name));
   if (local_.has_preloads()) keep_start();
+  const Goal goal = goal_of(has_start);
   Vec q_best = q_;
   int n = 0;
-  Outcome best = iterate(increment, tolerance_, q_best, n);
+  Outcome best = iterate(increment, goal, q_best, n);
   if (best.eta > tolerance_ && local_.has_preloads()) best = seat_bolts(increment, q_best, n);
-  anderson_.end(q_, image_, best.eta <= tolerance_);
-  if (best.eta <= tolerance_) {
+  anderson_.end(q_, image_, best.eta <= goal.tolerance);
+  if (best.eta <= goal.tolerance) {
     if (n > 1 && !coarse_.is_empty()) linear_stage();  // the pieces have not heard of the last correction
-  } else {  // not converged: the best there was is what is shown
+  } else {  // not there: the best there was is what is shown
     q_ = q_best;
     linear_stage();
     local_stage();
@@ -115,8 +117,9 @@ void StepRun::solve_window(int first, int last) {
   const int n_steps = last - first;
   const Start start = remember();
   std::vector<Vec> q(n_steps, q_), image(n_steps);
-  for (int i = 0; i < n_steps && start_from_; ++i)
-    start_from_->read(i_step_, first + i, q_.size(), q[i]);
+  bool has_start = start_from_ != nullptr;
+  for (int i = 0; i < n_steps && start_from_; ++i) has_start &= start_from_->read(i_step_, first + i, q_.size(), q[i]);
+  const Goal goal = goal_of(has_start);
   Vec all(n_steps * q_.size()), all_image(all.size());
   Anderson anderson(window_depth_, 0, window_relaxation_, weight_.replicate(n_steps, 1));
   for (int n = 1;; ++n) {
@@ -136,7 +139,7 @@ void StepRun::solve_window(int first, int last) {
     }
     indicator_ = before;
     go_back(start);
-    if (worst.eta <= tolerance_ || n >= max_iterations_) {
+    if (worst.eta <= goal.tolerance || n >= goal.most) {
       for (int i = 0; i < n_steps; ++i) replay(first + i, q[i], i == 0, n, worst.eta);
       return;
     }

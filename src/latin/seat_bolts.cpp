@@ -34,7 +34,7 @@ Outcome StepRun::seat_bolts(int increment, Vec& q_best, int& n) {
   const auto forces = [&](const Vec& prescribed) {
     local_.prescribe_shortenings(prescribed);
     Vec unused;
-    iterate(increment, std::max(rough, tolerance_), unused, n);
+    iterate(increment, {std::max(rough, tolerance_), max_iterations_}, unused, n);
     return local_.preload_figures().force;
   };
   const double scale = std::max(target.cwiseAbs().maxCoeff(), forces(d).cwiseAbs().maxCoeff());
@@ -52,7 +52,7 @@ Outcome StepRun::seat_bolts(int increment, Vec& q_best, int& n) {
   check_reached(*model_.step, increment, figures.interfaces, forces(d), target);
   local_.prescribe_shortenings({});
   extent_ = extent;
-  return iterate(increment, tolerance_, q_best, n);
+  return iterate(increment, {tolerance_, max_iterations_}, q_best, n);
 }
 
 }  // namespace dygita

@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -68,6 +69,7 @@ StepRun::StepRun(const Problem& problem, StepModel& model, State& state, Observe
   const bool is_static = model.scheme.is_static;
   window_ = window_length(s, *model.step);
   max_iterations_ = s.max_iterations;
+  is_going_on_ = start_from && s.more_iterations > 0;
   tolerance_ = is_static ? s.static_tolerance : s.tolerance;
   window_relaxation_ = s.relaxation > 0.0 ? s.relaxation : 0.8;
   window_depth_ = s.anderson >= 0 ? s.anderson : window_ > 20 ? 0 : 5;
@@ -83,6 +85,19 @@ StepRun::StepRun(const Problem& problem, StepModel& model, State& state, Observe
   velocity_ = Vec::Zero(q_.size());
   energy_.resize(model.pieces.size());
   observer_.begin_step(instant(-1, 0, 0.0));
+}
+
+// The first iteration only hears what the kept fields are worth.
+StepRun::Goal StepRun::goal_of(bool has_start) const {
+  if (!is_going_on_ || !has_start) return {tolerance_, max_iterations_};
+  return {round_off(), 1 + problem_.solver.more_iterations};
+}
+
+// Indicator below which iterations change rounding errors only.
+double StepRun::round_off() const {
+  const bool is_single = std::any_of(model_.pieces.begin(), model_.pieces.end(),
+                                     [](const auto& piece) { return piece->setup().precision == Precision::single_precision; });
+  return is_single ? 1e-8 : 1e-13;
 }
 
 StepRun::Start StepRun::remember() const {

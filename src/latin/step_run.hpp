@@ -25,13 +25,19 @@ class StepRun {
   void add_to(SolverFigures& figures) const;
 
  private:
+  // What the iteration of an increment is to reach, and with how many iterations at most.
+  struct Goal {
+    double tolerance;
+    int most;
+  };
+
   // The stages (latin.cpp).
   void linear_stage();
   void coarse_correction();
   IndicatorSums local_stage();
   void begin_increment(int increment, bool starts_window);
   void finish_increment();
-  Outcome iterate(int increment, double tolerance, Vec& q_best, int& n);
+  Outcome iterate(int increment, const Goal& goal, Vec& q_best, int& n);
   void solve_increment(int increment);
   void solve_window(int first, int last);
   void replay(int increment, const Vec& q, bool starts_window, int iterations, double eta);
@@ -46,6 +52,8 @@ class StepRun {
     std::vector<Piece::Snapshot> pieces;
     LocalStage local;
   };
+  Goal goal_of(bool has_start) const;
+  double round_off() const;
   Start remember() const;
   void go_back(const Start& start);
   void accept_increment(int increment, int iterations, double eta);
@@ -86,6 +94,7 @@ class StepRun {
   const InterfaceFields* start_from_;
   InterfaceFields& kept_;
   int i_step_ = 0, window_ = 1, max_iterations_ = 200, window_depth_ = 0;
+  bool is_going_on_ = false;  // more iterations from kept fields, whatever the tolerance
   double tolerance_ = 1e-6, window_relaxation_ = 0.8;
   Vec weight_, q_, velocity_, image_;
   LocalStage local_;

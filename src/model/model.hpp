@@ -137,6 +137,8 @@ struct LatinSettings {
   std::optional<Precision> precision;  // of the stored factors in dynamic steps; none: single where a substructure is large
   int pieces = 0;                 // of each substructure; 0: large ones are cut
   double history_memory = 512e6;  // bytes of interface fields kept in memory for later cases; more goes to a file
+  double spectra = 0.0;           // dB: passes at tighter tolerances until spectra move by less; 0: one run at `tolerance`
+  int more_iterations = 0;        // dygita continue: of an increment that has a start, at most, down to round-off; 0: as tolerance asks
   bool plain = false;             // iterate with full solves instead of the condensed interface (the plain path)
 };
 

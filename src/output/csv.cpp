@@ -1,5 +1,8 @@
 #include "output/csv.hpp"
 
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
 #include <iterator>
 
 #include "base/error.hpp"
@@ -24,7 +27,61 @@ void check(const Table& table, size_t n_steps) {
   for (const int step : table.step) CHECK(step >= 0 && static_cast<size_t>(step) < n_steps, "a step of the problem");
 }
 
+// The cells of a line; quotation marks taken off.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool is_quoted = false;
+  for (size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && is_quoted && i + 1 < line.size() && line[i + 1] == '"') {
+      cells.back() += line[++i];
+    } else if (line[i] == '"') {
+      is_quoted = !is_quoted;
+    } else if (line[i] == ',' && !is_quoted) {
+      cells.emplace_back();
+    } else {
+      cells.back() += line[i];
+    }
+  }
+  return cells;
+}
+
 }  // namespace
+
+Table read_csv(const std::filesystem::path& path, const std::vector<std::string>& step_names) {
+  std::ifstream file(path);
+  std::string line;
+  int n = 1;
+  const auto fail = [&](const std::string& what) { throw InputError(fmt::format("{}:{}: {}", path.string(), n, what)); };
+  if (!file || !std::getline(file, line)) fail("no table");
+  Table table;
+  const std::vector<std::string> header = cells_of(line);
+  const bool has_steps = header.size() > 1 && header[1] == "step";
+  for (size_t i = 0; i < header.size(); ++i) {
+    if (has_steps && i == 1) continue;
+    const size_t open = header[i].rfind(" [");
+    const bool has_unit = open != std::string::npos && header[i].back() == ']';
+    table.names.push_back(has_unit ? header[i].substr(0, open) : header[i]);
+    table.units.push_back(has_unit ? header[i].substr(open + 2, header[i].size() - open - 3) : "");
+  }
+  table.columns.resize(table.names.size());
+  while (std::getline(file, line)) {
+    ++n;
+    std::vector<std::string> cells = cells_of(line);
+    if (cells.size() != header.size()) fail(fmt::format("{} cells where the header has {}", cells.size(), header.size()));
+    if (has_steps) {
+      const auto step = std::find(step_names.begin(), step_names.end(), cells[1]);
+      if (step == step_names.end()) fail("no step '" + cells[1] + "' in the problem");
+      table.step.push_back(static_cast<int>(step - step_names.begin()));
+      cells.erase(cells.begin() + 1);
+    }
+    for (size_t i = 0; i < cells.size(); ++i) {
+      char* end = nullptr;
+      table.columns[i].push_back(std::strtod(cells[i].c_str(), &end));
+      if (cells[i].empty() || *end != '\0') fail("'" + cells[i] + "' is no number");
+    }
+  }
+  return table;
+}
 
 std::string csv_text(const Table& table, const std::vector<std::string>& step_names) {
   check(table, step_names.size());

@@ -1,6 +1,7 @@
 // Tables as comma-separated values.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,5 +15,8 @@ std::string quoted(const std::string& text);
 // One line of `name [unit]` (or `name`), then one a row, nine significant digits, SI. Where rows belong to steps, the
 // second column is `step`, the step's name. Texts with a comma, a quotation mark or a line break are quoted (RFC 4180).
 std::string csv_text(const Table& table, const std::vector<std::string>& step_names);
+
+// The table of such a file, of a problem with these steps. Throws InputError with file:line for what is no such table.
+Table read_csv(const std::filesystem::path& path, const std::vector<std::string>& step_names);
 
 }  // namespace dygita

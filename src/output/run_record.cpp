@@ -1,5 +1,6 @@
 #include "output/run_record.hpp"
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/log.hpp"
@@ -113,6 +114,18 @@ const char* program_version() { return DYGITA_VERSION; }
 
 const char* verdict(const RunResult& result) {
   return result.interrupted ? "interrupted" : result.converged ? "converged" : "not converged";
+}
+
+std::optional<RecordedRun> read_run_record(const std::filesystem::path& directory) {
+  std::ifstream file(directory / "run.json");
+  const Json json = Json::parse(file, nullptr, false);
+  if (!file || json.is_discarded()) return std::nullopt;
+  try {
+    return RecordedRun{json.at("program").at("version"), json.at("solver").at("name"), json.at("verdict") == "converged",
+                       json.at("iterations").at("all"), json.at("iterations").at("mean")};
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
 }
 
 std::string run_record(const Problem& problem, const RunResult& result, const RunIdentity& identity,

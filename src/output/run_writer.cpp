@@ -97,6 +97,12 @@ void RunWriter::write_result(const Problem& problem, const RunResult& result, co
     }
   }
   for (const auto& [output, frames] : result.fields) write_field(file_name_of(output->name), frames);
+  for (const OutputPtr& output : problem.outputs) {
+    const auto found = result.bands.find(output.get());
+    if (found == result.bands.end()) continue;
+    const std::string name = file_name_of(output->name) + "_band";
+    if (written.insert(name).second) write(name + ".csv", csv_text(found->second, steps));  // else an output of the deck has the name
+  }
   if (!result.convergence.columns.empty()) write("convergence.csv", csv_text(result.convergence, steps));
   if (!result.bolts.empty()) {
     CHECK(!written.contains("bolts"), "an output is called 'bolts'");
@@ -110,7 +116,7 @@ void RunWriter::write_result(const Problem& problem, const RunResult& result, co
   const fs::path record = path_of("run.json");
   std::vector<std::string> files;
   for (const fs::path& file : index_->manifest.files()) {
-    if (*file.begin() != frames_folder) files.push_back(file.generic_string());
+    if (*file.begin() != frames_folder && (directory_ / file == record || fs::exists(directory_ / file))) files.push_back(file.generic_string());
   }
   write_text(record, run_record(problem, result, identity, warnings, files));
 }

@@ -5,6 +5,7 @@
 
 #include "base/log.hpp"
 #include "result/spectra.hpp"
+#include "result/spectrum_band.hpp"
 #include "result/spectrum_field.hpp"
 
 namespace dygita {
@@ -132,6 +133,17 @@ void add_error_figures(const ErrorEstimator& errors, const Problem& problem, Run
   }
 }
 
+// Of each spectrum: its table, and as figures the mean over its frequencies.
+void add_bands(const ErrorEstimator& errors, const Problem& problem, RunResult& result) {
+  for (const OutputPtr& output : problem.outputs) {
+    if (output->kind != OutputKind::srs || problem.explicit_dynamics) continue;
+    Table band = spectrum_band(result.tables.at(output.get()), output->of->quantity, errors.dynamic_steps());
+    if (band.n_rows() == 0) continue;
+    note_band(output->name, band, result.figures);
+    result.bands[output.get()] = std::move(band);
+  }
+}
+
 }  // namespace
 
 void Collector::finish(RunResult& result) {
@@ -151,6 +163,7 @@ void Collector::finish(RunResult& result) {
   }
   result.convergence = std::move(convergence_);
   result.bolts = bolts_.take();
+  add_bands(errors_, problem_, result);
   const double percent = extremes_.energy > 0.0 ? 100.0 / extremes_.energy : 0.0;
   result.figures["largest energy [J]"] = extremes_.energy;
   result.figures["energy imbalance [%]"] = percent * extremes_.imbalance;

@@ -113,6 +113,8 @@ void ErrorEstimator::begin_step(const Instant& start) {
   velocity_old_.resize(0);
   bank_.emplace(mass_, start.model.problem->mass().is_tuned);
   dt_ = start.model.scheme.dt;
+  total_mass_ = 0.0;
+  for (const auto& piece : start.model.pieces) total_mass_ += piece->setup().body->mass->lumped.sum();
   start_.clear();
   for (size_t i = 0; i < start.model.problem->substructures.size(); ++i) start_.push_back(start.displacement(static_cast<int>(i)));
 }
@@ -159,6 +161,7 @@ ErrorEstimator::Estimate ErrorEstimator::dynamic_steps() const {
   const double energy = std::max(2.0 * kinetic_, 1e-8 * stored_);
   if (energy <= 0.0) return estimate;
   const double root = std::sqrt(energy);
+  estimate.velocity = total_mass_ > 0.0 ? root / std::sqrt(total_mass_) : 0.0;
   estimate.iteration = std::sqrt(dynamic_.interface_energy) / root;
   estimate.time_step = (before_ + (bank_ ? bank_->phase_error(phase_factor_) : 0.0)) / root;
   if (n_stress_ == 0 || n_rates_ == 0 || strain_sum_ <= 0.0) return estimate;

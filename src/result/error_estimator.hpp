@@ -46,6 +46,7 @@ class ErrorEstimator {
     double iteration = 0.0, time_step = 0.0, mesh = 0.0;  // relative, energy norm
     double interface_energy = 0.0;  // J, constitutive-relation error of the interfaces, summed over the increments
     double mean_frequency = 0.0;    // Hz, of the energy of the velocities
+    double velocity = 0.0;          // m/s, at which all mass would have the energy that the errors are relative to
   };
   Estimate static_steps() const { return static_; }
   Estimate dynamic_steps() const;
@@ -64,6 +65,7 @@ class ErrorEstimator {
   double stress_energy_ = 0.0;           // J, largest of the samples
   double stress_sum_ = 0.0, strain_sum_ = 0.0;  // of the samples: stress error and strain energy of the shock
   int n_stress_ = 0;
+  double total_mass_ = 0.0;  // kg
   double rate_ = 0.0;  // sum of |dV / dt|^2, in the norm of the mass
   long n_rates_ = 0;
 };

@@ -100,6 +100,7 @@ struct RunResult {
   std::map<const Output*, Superelement> superelements;
   std::map<const Output*, Table> tables;       // of all outputs but vtk
   std::map<const Output*, std::vector<Frame>> fields;  // srs_field: a frame a frequency
+  std::map<const Output*, Table> bands;        // of each srs, dB: frequency, iteration, time_step, mesh, all
   Table convergence;                           // time, step, iterations, indicator, converged (1 or 0)
   std::vector<StepSummary> steps;
   std::shared_ptr<const InterfaceFields> interface_fields;  // what start_from takes; null: the solver keeps none

@@ -2,12 +2,26 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
 #include "base/log.hpp"
 
 namespace dygita {
+
+InterfaceFields::InterfaceFields(std::FILE* file, const std::vector<std::vector<Place>>& steps) : budget_(0.0), file_(file) {
+  for (const std::vector<Place>& places : steps) {
+    begin_step();
+    for (const Place& place : places) {
+      Kept kept;
+      kept.at = place.at;
+      kept.size = place.size;
+      steps_.back().push_back(std::move(kept));
+      file_end_ = std::max(file_end_, place.at + 8 * static_cast<std::int64_t>(place.size));
+    }
+  }
+}
 
 void InterfaceFields::append(const Vec& q) {
   if (has_failed_) return;

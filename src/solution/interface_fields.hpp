@@ -14,7 +14,15 @@ namespace dygita {
 // stay in memory, what comes after goes to a file that has no name and vanishes with this object.
 class InterfaceFields {
  public:
+  // Where the q of an increment lies in a file, bytes, and its unknowns.
+  struct Place {
+    std::int64_t at = 0;
+    Eigen::Index size = 0;
+  };
+
   explicit InterfaceFields(double memory_bytes) : budget_(memory_bytes) {}
+  // Fields that an earlier run left in a file: they stay there. `file` is open for reading; one list of places a step.
+  InterfaceFields(std::FILE* file, const std::vector<std::vector<Place>>& steps);
   InterfaceFields(const InterfaceFields&) = delete;
   InterfaceFields& operator=(const InterfaceFields&) = delete;
 
@@ -24,6 +32,11 @@ class InterfaceFields {
 
   // The kept q of an increment if it has `size` unknowns, into q: another case may have other contacts. False: none.
   bool read(size_t i_step, size_t increment, Eigen::Index size, Vec& q) const;
+
+  size_t n_steps() const { return steps_.size(); }
+  size_t n_increments(size_t i_step) const { return i_step < steps_.size() ? steps_[i_step].size() : 0; }
+  // Unknowns of a kept increment.
+  Eigen::Index size(size_t i_step, size_t increment) const { return steps_.at(i_step).at(increment).size; }
 
   double memory_bytes() const { return in_memory_; }
   double file_bytes() const { return static_cast<double>(file_end_); }

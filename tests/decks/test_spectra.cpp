@@ -1,116 +1,85 @@
-// Spectra of a run: fields on faces, attenuation through a joint.
+// What a run says of its own spectra, and runs that stop when the spectra stand still.
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <numbers>
 
-#include "decks/deck_prints.hpp"
+#include "decks/spectra.hpp"
+#include "result/spectrum_band.hpp"
 
 namespace dygita::test {
 namespace {
 
-const std::string two_blocks = R"(
-local metal = material.elastic{ name = "metal", young = 210*GPa, poisson = 0, density = 7800 }
-local function block(name, z) return substructure{ name = name, material = metal,
-  mesh = mesh.box{ size = { 20*mm, 20*mm, 20*mm }, cells = { 2, 2, 4 }, origin = { 0, 0, z } } } end
-local a, b = block("a", 0), block("b", 20*mm)
-local joint = interface.contact{ name = "joint", between = { a:face "zmax", b:face "zmin" }, friction = 0.2 }
-local top  = output.history{ name = "top", on = b:face "zmax", quantity = "acceleration" }
-local side = output.history{ name = "side", on = a:face "xmax", quantity = "acceleration" }
-local node = output.history{ name = "node", on = a:where(function(x, y, z) return near(x, 20*mm) and near(y, 20*mm) and near(z, 20*mm) end),
-  quantity = "acceleration", direction = { 0, 0, 1 } }
-local band = { from = 5*kHz, to = 80*kHz }
-problem{ name = "two_blocks", substructures = { a, b }, interfaces = { joint },
-  supports = { support.fixed{ name = "base", on = a:face "zmin" } },
-  steps = { step.dynamic{ name = "shock", duration = 200*us, dt = 1*us,
-    loads = { load.pressure{ on = b:face "zmax", history = history.half_sine{ peak = 100*MPa, duration = 20*us } } } } },
-  outputs = { top, side, node,
-    output.srs{ name = "one", of = node, from = band.from, to = band.to, per_octave = 3 },
-    output.srs_field{ name = "along", on = { a:face "xmax", b:face "xmax" }, direction = { 0, 0, 2 }, from = band.from, to = band.to },
-    output.srs_field{ name = "any", on = a:face "xmax", from = band.from, to = band.to },
-    output.attenuation{ name = "octaves", entering = top, leaving = side, from = band.from, to = band.to },
-    output.attenuation{ name = "same", entering = side, leaving = side, from = band.from, to = band.to, bands = 3 } } }:run{}
+// The crush with spectra above and below the contact.
+const std::vector<Place> above_and_below = {{"punch", "zmax"}, {"specimen", "zmax"}};
+
+SpectraRun crush(const Settings& settings, double tolerance = 0.0) {
+  return run_spectra(deck("crush.lua"), settings, above_and_below, 20e3, 300e3, tolerance);
+}
+
+// Most of the true difference lies within the band, and the band is no wild guess.
+void expect_band(const BandWorth& worth, double least_covered, double largest_ratio) {
+  EXPECT_GE(worth.covered, least_covered) << worth.band << " dB of band, " << worth.truth << " dB in truth";
+  EXPECT_LT(worth.band, largest_ratio * worth.truth);
+}
+
+TEST(SpectrumBand, holds_what_the_tolerance_leaves) {
+  const SpectraRun loose = crush({}, 1e-3), tight = crush({}, 1e-9);
+  for (size_t i = 0; i < 2; ++i) expect_band(band_worth(loose.spectra[i], tight.spectra[i], "iteration"), 0.9, 50.0);
+}
+
+TEST(SpectrumBand, holds_what_the_time_step_leaves) {
+  const SpectraRun coarse = crush({{"dt", "0.6*us"}}), fine = crush({{"dt", "0.075*us"}});
+  for (size_t i = 0; i < 2; ++i) expect_band(band_worth(coarse.spectra[i], fine.spectra[i], "time_step"), 0.7, 50.0);
+}
+
+TEST(SpectrumBand, is_the_wider_the_less_there_is) {
+  const Table spectrum{{"frequency", "maximax"}, {"Hz", "m/s^2"}, {{100.0, 100.0}, {2.0, 0.5}}, {}};
+  ErrorEstimator::Estimate errors;
+  errors.iteration = 0.01, errors.time_step = 0.02, errors.mesh = 0.1, errors.velocity = 1e-2;
+  const Table band = spectrum_band(spectrum, Quantity::acceleration, errors);
+  // 20 log10(1 + 0.3 * 2 pi 100 Hz * 0.01 m/s * 0.1 / 2 m/s^2)
+  EXPECT_NEAR(band.column("mesh")[0], 20.0 * std::log10(1.0 + 0.3 * 2.0 * std::numbers::pi * 100.0 * 0.01 * 0.1 / 2.0), 1e-9);
+  EXPECT_GT(band.column("mesh")[1], 3.0 * band.column("mesh")[0]);
+  EXPECT_NEAR(band.column("all")[0], std::hypot(band.column("iteration")[0], band.column("time_step")[0], band.column("mesh")[0]), 1e-12);
+  EXPECT_TRUE(spectrum_band(spectrum, Quantity::stress, errors).columns.empty());
+}
+
+const char* const crush_with_spectra = R"(
+local p = param{ spectra = 0.1, tolerance = 1e-6 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local function block(name, z)
+  return substructure{ name = name, material = steel, mesh = mesh.box{ origin = { 0, 0, z }, size = { 10*mm, 10*mm, 20*mm }, cells = { 2, 2, 4 } } }
+end
+local low, up = block("low", 0), block("up", 20*mm)
+local touch = interface.contact{ name = "touch", between = { low:face "zmax", up:face "zmin" }, friction = 0.3 }
+local shot = step.dynamic{ name = "shot", duration = 40*us, dt = 0.5*us, loads = {
+  load.pressure{ on = up:face "zmax", history = history.half_sine{ peak = 80*MPa, duration = 15*us } } } }
+local a = output.history{ name = "a", on = low:face "zmin", quantity = "acceleration", direction = { 0, 0, 1 } }
+local srs = output.srs{ name = "srs", of = a, from = 25*kHz, to = 200*kHz }
+local solver = p.spectra > 0 and solver.latin{ tolerance = p.tolerance, spectra = p.spectra } or solver.latin{ tolerance = p.tolerance }
+problem{ name = "hit", substructures = { low, up }, interfaces = { touch }, steps = { shot }, outputs = { a, srs }, solver = solver }:run{}
 )";
 
-const DeckRun& blocks() {
-  static const DeckRun run = run_text(two_blocks).front();
-  return run;
+TEST(Passes, stop_where_the_spectra_stand_still) {
+  const DeckRun tight = run_text(crush_with_spectra, {{"spectra", "0"}, {"tolerance", "1e-10"}}, 1).at(0);
+  const DeckRun passes = run_text(crush_with_spectra, {{"spectra", "0.1"}, {"tolerance", "1e-8"}}, 1).at(0);
+  EXPECT_TRUE(passes.result->converged);
+  EXPECT_GE(passes.figure("passes over the run"), 2.0);
+  EXPECT_LT(passes.figure("passes over the run"), 6.0);  // 1e-3 to 1e-8 would be six
+  EXPECT_LT(passes.figure("spectra moved in the last pass [dB]"), 0.1);
+  EXPECT_LT(largest_move(passes.table("srs"), tight.table("srs")), 0.1);
+  // As the last tolerance gives in one run.
+  const DeckRun strict = run_text(crush_with_spectra, {{"spectra", "1e-4"}, {"tolerance", "1e-6"}}, 1).at(0);
+  const DeckRun at_once = run_text(crush_with_spectra, {{"spectra", "0"}, {"tolerance", "1e-6"}}, 1).at(0);
+  EXPECT_LT(difference(at_once.column("a", "acceleration"), strict.column("a", "acceleration")), 1e-5);
+  EXPECT_GT(strict.figure("iterations of all passes"), static_cast<double>(strict.result->iterations));
 }
 
-TEST(SpectrumField, has_at_a_node_the_spectrum_of_that_nodes_history) {
-  const DeckRun& run = blocks();
-  const std::vector<Frame>& frames = run.result->fields.at(&run.output("along"));
-  const Table& one = run.table("one");
-  ASSERT_EQ(static_cast<int>(frames.size()), one.n_rows());
-  ASSERT_EQ(frames[0].interfaces.size(), 2u);
-  const InterfaceFrame& face = frames[0].interfaces[0];
-  int corner = -1;
-  for (int i = 0; i < face.points.cols(); ++i)
-    if ((face.points.col(i) - Vec3(20e-3, 20e-3, 20e-3)).norm() < 1e-9) corner = i;
-  ASSERT_GE(corner, 0);
-  const char* names[] = {"maximax", "positive", "negative", "primary", "residual"};
-  for (size_t f = 0; f < frames.size(); ++f) {
-    EXPECT_DOUBLE_EQ(frames[f].label_time, one.columns[0][f]);
-    for (size_t k = 0; k < 5; ++k) {
-      const NamedField& field = frames[f].interfaces[0].fields[k];
-      EXPECT_EQ(field.name, names[k]);
-      EXPECT_NEAR(field.values(0, corner) / one.column(names[k])[f], 1.0, 1e-5) << names[k];  // kept in single precision
-    }
-  }
+TEST(Passes, are_none_where_no_spectrum_is_asked_for) {
+  std::string text = crush_with_spectra;
+  text.replace(text.find("{ a, srs }"), 10, "{ a, output.energy{} }");
+  const DeckRun run = run_text(text, {}, 1).at(0);
+  EXPECT_FALSE(run.result->figures.contains("passes over the run"));
 }
-
-TEST(SpectrumField, has_a_table_of_the_highest_and_the_mean_over_its_nodes) {
-  const DeckRun& run = blocks();
-  const std::vector<Frame>& frames = run.result->fields.at(&run.output("along"));
-  for (size_t f = 0; f < frames.size(); ++f) {
-    double highest = 0.0, sum = 0.0, n = 0.0;
-    for (const InterfaceFrame& face : frames[f].interfaces) {
-      highest = std::max(highest, face.fields[0].values.maxCoeff());
-      sum += face.fields[0].values.sum();
-      n += static_cast<double>(face.points.cols());
-    }
-    EXPECT_DOUBLE_EQ(run.column("along", "highest")[f], highest);
-    EXPECT_DOUBLE_EQ(run.column("along", "mean")[f], sum / n);
-    EXPECT_GE(highest, sum / n);
-  }
-}
-
-TEST(SpectrumField, without_a_direction_takes_the_strongest_axis) {
-  const DeckRun& run = blocks();
-  const std::vector<Frame>&along = run.result->fields.at(&run.output("along")), &any = run.result->fields.at(&run.output("any"));
-  for (size_t f = 0; f < any.size(); ++f) {
-    const auto difference = any[f].interfaces[0].fields[0].values - along[f].interfaces[0].fields[0].values;
-    EXPECT_GE(difference.minCoeff(), 0.0);
-  }
-}
-
-TEST(Attenuation, of_a_place_against_itself_is_nothing) {
-  const Table& same = blocks().table("same");
-  ASSERT_EQ(same.n_rows(), 12);  // four octaves in thirds
-  for (const double ratio : same.column("ratio_z")) EXPECT_DOUBLE_EQ(ratio, 0.0);
-  EXPECT_NEAR(same.columns[0][0], 5e3 * std::exp2(1.0 / 6.0), 1e-6);
-}
-
-TEST(Attenuation, says_nothing_of_an_axis_along_which_nothing_enters) {
-  const Table& octaves = blocks().table("octaves");
-  ASSERT_EQ(octaves.n_rows(), 4);
-  for (int i = 0; i < 4; ++i) {
-    EXPECT_TRUE(std::isnan(octaves.column("ratio_x")[i]));
-    EXPECT_NEAR(octaves.column("ratio_z")[i],
-                20.0 * std::log10(octaves.column("leaving_z")[i] / octaves.column("entering_z")[i]), 1e-12);
-  }
-}
-
-TEST(SpectrumThroughJoint, passes_what_presses_the_joint_and_takes_from_what_shears_it) {
-  const PrintedRun closed = run_printing("spectrum_through_joint.lua");
-  const double x = closed.number("mean x"), z = closed.number("mean z");
-  EXPECT_NEAR(x, -6.0, 0.15);
-  EXPECT_NEAR(z, 0.2, 0.15);
-  EXPECT_NEAR(closed.number("before"), 30.97, 0.02);
-  EXPECT_NEAR(closed.number("after"), 30.57, 0.05);
-  const PrintedRun slippery = run_printing("spectrum_through_joint.lua", {{"mu", "0.05"}});
-  EXPECT_NEAR(slippery.number("mean x"), -20.3, 0.15);
-  EXPECT_GT(slippery.number("work of friction"), 2.0 * closed.number("work of friction"));
-}
-
 }  // namespace
 }  // namespace dygita::test

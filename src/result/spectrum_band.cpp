@@ -1,0 +1,72 @@
+#include "result/spectrum_band.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace dygita {
+
+namespace {
+
+double decibels(double ratio) { return 20.0 * std::log10(ratio); }
+
+// Errors of different origin have no common sign.
+void add_up(Table& band) {
+  band.columns[4].clear();
+  for (size_t i = 0; i < band.columns[0].size(); ++i)
+    band.columns[4].push_back(std::hypot(band.columns[1][i], band.columns[2][i], band.columns[3][i]));
+}
+
+}  // namespace
+
+Table spectrum_band(const Table& spectrum, Quantity quantity, const ErrorEstimator::Estimate& errors) {
+  const int power = quantity == Quantity::acceleration ? 1 : quantity == Quantity::velocity ? 0 : -1;
+  if (quantity != Quantity::acceleration && quantity != Quantity::velocity && quantity != Quantity::displacement) return {};
+  Table band{{"frequency", "iteration", "time_step", "mesh", "all"}, {"Hz", "dB", "dB", "dB", "dB"}, {}, {}};
+  band.columns.resize(band.names.size());
+  if (spectrum.columns.empty()) return band;
+  const std::vector<double>&frequency = spectrum.columns[0], &maximax = spectrum.column("maximax");
+  for (size_t i = 0; i < frequency.size(); ++i) {
+    const double w = 2.0 * std::numbers::pi * frequency[i];
+    const double level = band_share * errors.velocity * std::pow(w, power);
+    band.columns[0].push_back(frequency[i]);
+    const double parts[] = {errors.iteration, errors.time_step, errors.mesh};
+    for (int k = 0; k < 3; ++k) {
+      // A spectrum of nothing has no level to be relative to.
+      band.columns[k + 1].push_back(maximax[i] > 0.0 ? decibels(1.0 + level * parts[k] / maximax[i]) : 0.0);
+    }
+  }
+  add_up(band);
+  return band;
+}
+
+void take_iteration_from(const Table& spectrum, const Table& before, Table& band) {
+  const std::vector<double>&now = spectrum.column("maximax"), &then = before.column("maximax");
+  for (size_t i = 0; i < now.size(); ++i)
+    band.columns[1][i] = now[i] > 0.0 && then[i] > 0.0 ? std::abs(decibels(now[i] / then[i])) : 0.0;
+  add_up(band);
+}
+
+std::string band_figure(const std::string& spectrum, const std::string& column) {
+  return "spectrum '" + spectrum + "', mean band, " + column + " [dB]";
+}
+
+void note_band(const std::string& spectrum, const Table& band, std::map<std::string, double>& figures) {
+  for (size_t i = 1; i < band.names.size(); ++i) {
+    const std::vector<double>& values = band.columns[i];
+    figures[band_figure(spectrum, band.names[i])] = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  }
+}
+
+double largest_move(const Table& spectrum, const Table& other) {
+  if (spectrum.columns.empty() || other.columns.empty()) return 0.0;
+  const std::vector<double>&a = spectrum.column("maximax"), &b = other.column("maximax");
+  const double floor = 1e-12 * std::max(*std::max_element(a.begin(), a.end()), *std::max_element(b.begin(), b.end()));
+  double worst = 0.0;
+  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    if (floor > 0.0) worst = std::max(worst, std::abs(decibels(std::max(a[i], floor) / std::max(b[i], floor))));
+  return worst;
+}
+
+}  // namespace dygita

@@ -1,0 +1,28 @@
+// What iteration, time step and mesh leave on a shock response spectrum, in dB (manual, eq. Q7-Q8).
+#pragma once
+
+#include "result/error_estimator.hpp"
+#include "result/result.hpp"
+
+namespace dygita {
+
+// Share of the mean error velocity that a spectrum shows, fitted so that the true differences lie below (manual, Q7).
+inline constexpr double band_share = 0.3;
+
+// frequency [Hz], iteration, time_step, mesh, all [dB] for the maximax of `spectrum`, a spectrum of `quantity`. No columns for
+// a quantity that is no motion: the estimates, energies of motion, say nothing of it.
+Table spectrum_band(const Table& spectrum, Quantity quantity, const ErrorEstimator::Estimate& errors);
+
+// Puts what a spectrum has moved since the pass before in the place of the estimate of what iterating leaves.
+void take_iteration_from(const Table& spectrum, const Table& before, Table& band);
+
+// Writes the mean of each column over the frequencies into the figures.
+void note_band(const std::string& spectrum, const Table& band, std::map<std::string, double>& figures);
+
+// "spectrum 'srs_above', mean band, time_step [dB]": how the run record calls a column's mean over the frequencies.
+std::string band_figure(const std::string& spectrum, const std::string& column);
+
+// Largest difference of the maximax of two spectra over the same frequencies, dB.
+double largest_move(const Table& spectrum, const Table& other);
+
+}  // namespace dygita

@@ -1,0 +1,260 @@
+#include "result/state_file.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <bit>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "base/error.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr char magic[] = "DYGITAST";  // 8 bytes
+constexpr std::uint32_t format_version = 1, byte_order = 0x01020304;
+constexpr std::int64_t start_of_header = 24;  // magic, version, byte order, length of the header
+
+// FNV-1a on words of 64 bits, rotated so that the highest bits count as much as the lowest.
+class Checksum {
+ public:
+  void add(const void* data, size_t bytes) {
+    const char* at = static_cast<const char*>(data);
+    for (; bytes >= 8; bytes -= 8, at += 8) {
+      std::uint64_t word;
+      std::memcpy(&word, at, 8);
+      mix(word);
+    }
+    if (bytes == 0) return;
+    std::uint64_t word = bytes;
+    std::memcpy(&word, at, bytes);
+    mix(word);
+  }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  void mix(std::uint64_t word) { hash_ = std::rotl((hash_ ^ word) * 0x100000001b3u, 29); }
+  std::uint64_t hash_ = 0xcbf29ce484222325u;
+};
+
+// The header's items, in the order of `visit` below: one description for both directions.
+class Encoder {
+ public:
+  void operator()(const std::string& text) {
+    (*this)(static_cast<std::uint64_t>(text.size()));
+    bytes += text;
+  }
+  void operator()(std::uint64_t number) { bytes.append(reinterpret_cast<const char*>(&number), 8); }
+  void operator()(double number) { (*this)(std::bit_cast<std::uint64_t>(number)); }
+  std::string bytes;
+};
+
+class Decoder {
+ public:
+  explicit Decoder(std::string bytes) : bytes_(std::move(bytes)) {}
+  void operator()(std::string& text) {
+    std::uint64_t size = 0;
+    (*this)(size);
+    const char* at = take(size);
+    text.assign(at, size);
+  }
+  void operator()(std::uint64_t& number) { std::memcpy(&number, take(8), 8); }
+  void operator()(double& number) { std::memcpy(&number, take(8), 8); }
+
+ private:
+  const char* take(std::uint64_t size) {
+    if (size > bytes_.size() - at_) throw InputError("its header ends too soon");
+    at_ += size;
+    return bytes_.data() + (at_ - size);
+  }
+  std::string bytes_;
+  size_t at_ = 0;
+};
+
+template <class Coder, class Number>
+void number(Coder& code, Number& value) {
+  if constexpr (std::is_const_v<Number>) {
+    code(static_cast<std::uint64_t>(value));
+  } else {
+    std::uint64_t wide = 0;
+    code(wide);
+    value = static_cast<Number>(wide);
+  }
+}
+
+template <class Coder, class List, class Item>
+void list(Coder& code, List& items, Item&& item) {
+  std::uint64_t n = items.size();
+  code(n);
+  if constexpr (!std::is_const_v<List>) {
+    items.clear();
+    for (std::uint64_t i = 0; i < n; ++i) item(items.emplace_back());
+  } else {
+    for (const auto& value : items) item(value);
+  }
+}
+
+using Sizes = std::vector<std::vector<Eigen::Index>>;
+
+template <class Coder, class State, class SizesOf>
+void visit(Coder& code, State& state, SizesOf& sizes) {
+  const auto pair = [&](auto& p) { code(p.first), code(p.second); };
+  code(state.program), code(state.problem), code(state.case_name);
+  code(state.deck_path), code(state.deck_text), code(state.solver);
+  list(code, state.settings, pair);
+  list(code, state.mesh_digests, pair);
+  list(code, state.loads, [&](auto& value) { code(value); });
+  list(code, state.steps, [&](auto& step) {
+    code(step.name), number(code, step.is_static), number(code, step.increments);
+    code(step.duration), code(step.worst_indicator);
+  });
+  list(code, state.efforts, [&](auto& effort) {
+    code(effort.tolerance), code(effort.static_tolerance), number(code, effort.more_iterations);
+    number(code, effort.iterations), code(effort.seconds);
+  });
+  number(code, state.converged), number(code, state.interrupted);
+  list(code, sizes, [&](auto& step) { list(code, step, [&](auto& size) { number(code, size); }); });
+}
+
+struct Close {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, Close>;
+
+Sizes sizes_of(const InterfaceFields& fields) {
+  Sizes sizes(fields.n_steps());
+  for (size_t s = 0; s < sizes.size(); ++s)
+    for (size_t i = 0; i < fields.n_increments(s); ++i) sizes[s].push_back(fields.size(s, i));
+  return sizes;
+}
+
+bool write_all(std::FILE* file, const RunState& state) {
+  const auto put = [&](const void* data, size_t bytes) { return std::fwrite(data, 1, bytes, file) == bytes; };
+  const auto put_sum = [&](const Checksum& sum) {
+    const std::uint64_t value = sum.value();
+    return put(&value, 8);
+  };
+  const Sizes sizes = sizes_of(*state.fields);
+  Encoder header;
+  visit(header, state, sizes);
+  const std::uint64_t length = header.bytes.size();
+  Checksum of_header, of_fields;
+  of_header.add(header.bytes.data(), header.bytes.size());
+  bool is_good = put(magic, 8) && put(&format_version, 4) && put(&byte_order, 4) && put(&length, 8) &&
+                 put(header.bytes.data(), header.bytes.size()) && put_sum(of_header);
+  Vec q;
+  for (size_t s = 0; s < sizes.size() && is_good; ++s) {
+    for (size_t i = 0; i < sizes[s].size() && is_good; ++i) {
+      if (!state.fields->read(s, i, sizes[s][i], q)) throw InputError("the interface fields kept in a file cannot be read back");
+      const size_t bytes = 8 * static_cast<size_t>(q.size());
+      of_fields.add(q.data(), bytes);
+      is_good = put(q.data(), bytes);
+    }
+  }
+  return is_good && put_sum(of_fields) && std::fflush(file) == 0;
+}
+
+// What is read must be what was written; the fields are read once through, to know before anything is computed.
+void check_fields(std::FILE* file, std::int64_t begin, std::int64_t bytes) {
+  Checksum sum;
+  std::vector<char> block(1 << 20);
+  bool is_good = fseeko(file, begin, SEEK_SET) == 0;
+  for (std::int64_t left = bytes; left > 0 && is_good;) {
+    const size_t n = static_cast<size_t>(std::min<std::int64_t>(left, static_cast<std::int64_t>(block.size())));
+    is_good = std::fread(block.data(), 1, n, file) == n;
+    sum.add(block.data(), n);
+    left -= static_cast<std::int64_t>(n);
+  }
+  std::uint64_t expected = 0;
+  is_good = is_good && std::fread(&expected, 8, 1, file) == 1 && std::fgetc(file) == EOF;
+  if (!is_good) throw InputError("it is not as long as it should be");
+  if (expected != sum.value()) throw InputError("its checksum does not match");
+}
+
+RunState read_all(File file) {
+  char found[8];
+  std::uint32_t version = 0, order = 0;
+  std::uint64_t length = 0, expected = 0;
+  const auto get = [&](void* data, size_t bytes) {
+    if (std::fread(data, 1, bytes, file.get()) != bytes) throw InputError("it ends too soon");
+  };
+  get(found, 8);
+  if (std::memcmp(found, magic, 8) != 0) throw InputError("it is no state file of dygita");
+  get(&version, 4), get(&order, 4), get(&length, 8);
+  if (order != byte_order) throw InputError("it comes from a machine with another order of bytes");
+  if (version != format_version)
+    throw InputError(fmt::format("it has version {} of the format, this program reads version {}", version, format_version));
+  fseeko(file.get(), 0, SEEK_END);
+  if (static_cast<std::uint64_t>(ftello(file.get())) < start_of_header + length || length > (std::uint64_t{1} << 40))
+    throw InputError("it ends too soon");
+  fseeko(file.get(), start_of_header, SEEK_SET);
+  std::string header(length, '\0');
+  get(header.data(), length), get(&expected, 8);
+  Checksum sum;
+  sum.add(header.data(), header.size());
+  if (sum.value() != expected) throw InputError("its checksum does not match");
+
+  RunState state;
+  Sizes sizes;
+  Decoder decoder(std::move(header));
+  visit(decoder, state, sizes);
+  const std::int64_t begin = start_of_header + static_cast<std::int64_t>(length) + 8;
+  std::vector<std::vector<InterfaceFields::Place>> places(sizes.size());
+  std::int64_t at = begin;
+  for (size_t s = 0; s < sizes.size(); ++s) {
+    for (const Eigen::Index size : sizes[s]) {
+      places[s].push_back({at, size});
+      at += 8 * static_cast<std::int64_t>(size);
+    }
+  }
+  check_fields(file.get(), begin, at - begin);
+  state.fields = std::make_shared<InterfaceFields>(file.release(), places);
+  return state;
+}
+
+}  // namespace
+
+long RunState::n_increments() const {
+  long n = 0;
+  for (size_t s = 0; s < fields->n_steps(); ++s) n += static_cast<long>(fields->n_increments(s));
+  return n;
+}
+
+void write_state(const std::filesystem::path& path, const RunState& state) {
+  const std::string temporary = path.string() + ".tmp";
+  std::error_code ignored;
+  errno = 0;
+  const auto fail = [&](const std::string& reason) {
+    std::filesystem::remove(temporary, ignored);
+    throw InputError(fmt::format("cannot write '{}': {}", path.string(), reason));
+  };
+  std::FILE* file = std::fopen(temporary.c_str(), "wb");
+  if (!file) fail(std::strerror(errno));
+  bool is_good = false;
+  try {
+    is_good = write_all(file, state);
+  } catch (const InputError& error) {
+    std::fclose(file);
+    fail(error.what());
+  }
+  const int reason = errno;
+  is_good = std::fclose(file) == 0 && is_good;
+  if (!is_good) fail(std::strerror(reason ? reason : errno));
+  std::error_code error;
+  std::filesystem::rename(temporary, path, error);
+  if (error) fail(error.message());
+}
+
+RunState read_state(const std::filesystem::path& path) {
+  File file(std::fopen(path.c_str(), "rb"));
+  if (!file) throw InputError(fmt::format("cannot read '{}': {}", path.string(), std::strerror(errno)));
+  try {
+    return read_all(std::move(file));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("'{}' cannot be used: {}\n    run the deck again", path.string(), error.what()));
+  }
+}
+
+}  // namespace dygita

@@ -1,0 +1,131 @@
+// The state file: what is written comes back, and what is damaged is refused.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.hpp"
+#include "result/state_file.hpp"
+
+namespace dygita {
+namespace {
+
+namespace fs = std::filesystem;
+
+class StateFile : public testing::Test {
+ protected:
+  StateFile() {
+    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+    path_ = fs::temp_directory_path() / ("dygita_state_" + test + "_" + std::to_string(getpid()));
+  }
+  ~StateFile() override { fs::remove(path_); }
+
+  // memory: bytes of fields kept in memory; the rest of them lies in a file.
+  static RunState some_state(double memory) {
+    RunState state;
+    state.program = "0.1.0", state.problem = "p", state.case_name = "mu 0.3";
+    state.deck_path = "/decks/p.lua", state.deck_text = "-- a\nline \"two\"\n", state.solver = "latin{}";
+    state.settings = {{"mu", "0.3"}, {"tighten", "0.04*mm"}};
+    state.mesh_digests = {{"low", "abc"}};
+    state.loads = {0.0, -1.5, 1e300};
+    state.steps = {{"press", true, 2, 0.0, 1e-9}, {"shot", false, 30, 3e-5, 2e-7}};
+    state.efforts = {{1e-3, 1e-8, 0, 812, 1.5}, {1e-6, 1e-8, 5, 99, 0.5}};
+    state.converged = false, state.interrupted = true;
+    auto fields = std::make_shared<InterfaceFields>(memory);
+    fields->begin_step();
+    fields->append(Vec::LinSpaced(7, 0.0, 1.0));
+    fields->begin_step();
+    for (int i = 0; i < 5; ++i) fields->append(Vec::Constant(11, 1.0 / (i + 3)));
+    state.fields = fields;
+    return state;
+  }
+  std::string bytes() const {
+    std::ifstream file(path_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void put(const std::string& bytes) const { std::ofstream(path_, std::ios::binary) << bytes; }
+  std::string refusal() const {
+    try {
+      read_state(path_);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  fs::path path_;
+};
+
+TEST_F(StateFile, gives_back_what_was_written_to_the_last_bit) {
+  for (const double memory : {1e9, 100.0, 0.0}) {
+    const RunState written = some_state(memory);
+    write_state(path_, written);
+    const RunState read = read_state(path_);
+    EXPECT_EQ(read.problem, written.problem);
+    EXPECT_EQ(read.case_name, written.case_name);
+    EXPECT_EQ(read.deck_text, written.deck_text);
+    EXPECT_EQ(read.solver, written.solver);
+    EXPECT_EQ(read.settings, written.settings);
+    EXPECT_EQ(read.mesh_digests, written.mesh_digests);
+    EXPECT_EQ(read.loads, written.loads);
+    ASSERT_EQ(read.steps.size(), 2u);
+    EXPECT_EQ(read.steps[1].name, "shot");
+    EXPECT_EQ(read.steps[1].duration, 3e-5);
+    EXPECT_TRUE(read.steps[0].is_static);
+    ASSERT_EQ(read.efforts.size(), 2u);
+    EXPECT_EQ(read.efforts[0].iterations, 812);
+    EXPECT_EQ(read.efforts[1].more_iterations, 5);
+    EXPECT_FALSE(read.converged);
+    EXPECT_TRUE(read.interrupted);
+    EXPECT_EQ(read.n_increments(), 6);
+    Vec a, b;
+    for (const auto& [step, n] : {std::pair{0, 1}, {1, 5}}) {
+      for (int i = 0; i < n; ++i) {
+        const Eigen::Index size = written.fields->size(step, i);
+        ASSERT_TRUE(written.fields->read(step, i, size, a));
+        ASSERT_TRUE(read.fields->read(step, i, size, b));
+        EXPECT_EQ(a, b);
+      }
+    }
+    EXPECT_FALSE(read.fields->read(1, 5, 11, b));
+    EXPECT_FALSE(read.fields->read(0, 0, 8, b));
+  }
+}
+
+TEST_F(StateFile, that_has_lost_or_changed_a_byte_is_refused) {
+  write_state(path_, some_state(1e9));
+  const std::string good = bytes();
+  ASSERT_EQ(refusal(), "");
+  for (size_t i = 0; i < good.size(); ++i) {
+    std::string bad = good;
+    bad[i] = static_cast<char>(bad[i] ^ 0x40);
+    put(bad);
+    EXPECT_NE(refusal(), "") << "byte " << i;
+  }
+  for (const size_t n : {size_t{0}, size_t{5}, size_t{40}, good.size() / 2, good.size() - 1}) {
+    put(good.substr(0, n));
+    EXPECT_NE(refusal(), "") << n << " bytes";
+  }
+  put(good + "x");
+  EXPECT_NE(refusal(), "");
+}
+
+TEST_F(StateFile, of_another_version_or_program_says_so) {
+  write_state(path_, some_state(1e9));
+  std::string other = bytes();
+  other[8] = 7;
+  put(other);
+  EXPECT_EQ(refusal(), "'" + path_.string() + "' cannot be used: it has version 7 of the format, this program reads version 1\n    run the deck again");
+  put("something else altogether, and long enough to be read");
+  EXPECT_EQ(refusal(), "'" + path_.string() + "' cannot be used: it is no state file of dygita\n    run the deck again");
+}
+
+TEST_F(StateFile, that_cannot_be_written_leaves_nothing) {
+  const fs::path nowhere = path_.string() + "_folder/state.dygita";
+  EXPECT_THROW(write_state(nowhere, some_state(1e9)), InputError);
+  EXPECT_FALSE(fs::exists(nowhere.string() + ".tmp"));
+}
+
+}  // namespace
+}  // namespace dygita

@@ -1,0 +1,1 @@
+local s = solver.latin{ spectra = "0.1 dB" }
