@@ -57,7 +57,8 @@ std::string summary(const Table& t, bool yields) {
   const double most = std::max(std::abs(low), std::abs(high));
   for (double* force : {&low, &high})
     if (std::abs(*force) < noise * most) *force = 0.0;
-  std::string line = fmt::format("Normal force from {} to {} (pressed is negative)", with_unit(low, "N"), with_unit(high, "N"));
+  const std::string from = with_unit(low, "N"), to = with_unit(high, "N");
+  std::string line = (from == to ? "Normal force " + from : "Normal force from " + from + " to " + to) + " (pressed is negative)";
   if (const double shear = largest(t.column("shear")); shear > noise * most) line += ", shear up to " + with_unit(shear, "N");
   const std::vector<double>&open = t.column("open_area"), &stick = t.column("stick_area"), &slip = t.column("slip_area");
   double most_open = 0.0, most_slip = 0.0;
@@ -130,12 +131,6 @@ std::string joint_part(const RunFolder& run, const Json& output, const TimeAxis&
   return body;
 }
 
-// By the hand formula: a number, or an object that says more.
-double hand_force(const Json& bolt) {
-  const auto hand = bolt.find("hand");
-  return hand != bolt.end() && hand->is_object() ? number(*hand, "force") : number(bolt, "hand");
-}
-
 }  // namespace
 
 std::string joints_section(const RunFolder& run, const TimeAxis& time) {
@@ -152,7 +147,7 @@ std::string bolts_section(const RunFolder& run) {
     if (text(step, "kind") == "static") header.push_back("after " + text(step, "name"));
   const size_t n_static = header.size() - 1;
   const auto any = [&](const char* key) { return std::any_of(bolts.begin(), bolts.end(), [&](const Json& b) { return std::isfinite(number(b, key)); }); };
-  const bool has_target = any("target"), has_hand = std::any_of(bolts.begin(), bolts.end(), [](const Json& b) { return std::isfinite(hand_force(b)); });
+  const bool has_target = any("target"), has_hand = any("hand");
   if (has_target) header.push_back("asked for");
   if (has_hand) header.push_back("hand formula");
   for (const char* name : {"shortened by", "lowest in motion", "highest in motion", "at the end", "mean stress", "opened for good"}) header.push_back(name);
@@ -163,7 +158,7 @@ std::string bolts_section(const RunFolder& run) {
     for (size_t i = 0; i < n_static; ++i) row.push_back(i < after.size() && after[i].is_number() ? with_unit(after[i].get<double>(), "N") : "");
     const auto force = [&](const char* key) { return std::isfinite(number(bolt, key)) ? with_unit(number(bolt, key), "N") : std::string(); };
     if (has_target) row.push_back(force("target"));
-    if (has_hand) row.push_back(std::isfinite(hand_force(bolt)) ? with_unit(hand_force(bolt), "N") : "");
+    if (has_hand) row.push_back(force("hand"));
     row.push_back(with_unit(number(bolt, "shortening"), "m"));
     for (const char* key : {"lowest", "highest", "last"}) row.push_back(force(key));
     row.push_back(number(bolt, "area") > 0.0 ? with_unit(number(bolt, "last") / number(bolt, "area"), "Pa") : "");
