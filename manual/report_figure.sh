@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
-# manual/report.png: parts of the report of decks/bolted_flanges.lua, drawn by headless Chromium. Usage: manual/report_figure.sh [program]
+# manual/pictures/report.png: parts of the report of decks/bolted_flanges.lua, drawn by headless Chromium. Usage: manual/report_figure.sh [program]
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 program="${1:-$root/build/release/dygita}"
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
-"$program" run "$root/decks/bolted_flanges.lua" --out "$work" --quiet --no-frames
+program="$(realpath "$program")"
+(cd "$root" && "$program" run decks/bolted_flanges.lua --out "$work" --quiet --no-frames)
 # What stays on the picture: title, verdict, assembly.
 sed 's#</style>#section { display: none } section:nth-of-type(1), section:nth-of-type(3) { display: block } body { margin: 12px auto }</style>#' \
   "$work/bolted_flanges/base/report.html" > "$work/part.html"
-chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --window-size=1140,1480 --user-data-dir="$work/profile" \
+chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --window-size=1140,1740 --user-data-dir="$work/profile" \
   --screenshot="$work/report.png" "file://$work/part.html" 2>/dev/null
-mv "$work/report.png" "$root/manual/report.png"
+mv "$work/report.png" "$root/manual/pictures/report.png"

@@ -20,7 +20,8 @@ std::shared_ptr<const Specification> specification_of(const Declaration& declara
   auto specification = std::make_shared<Specification>();
   specification->source = "deck";
   std::vector<std::string> where;
-  const std::vector<double> flat = a.numbers("specification");  // as lua/check.lua leaves the pairs: one after the other
+  const std::vector<double> flat =
+      a.numbers("specification");  // as lua/check.lua leaves the pairs: one after the other
   for (size_t i = 0; i + 1 < flat.size(); i += 2) {
     specification->frequency.push_back(flat[i]);
     specification->level.push_back(flat[i + 1]);

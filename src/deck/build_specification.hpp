@@ -7,8 +7,8 @@
 
 namespace dygita {
 
-// `specification` of output.srs: a CSV file beside the deck, or a list of { frequency, level }; null where it is left out. Throws
-// InputError.
+// `specification` of output.srs: a CSV file beside the deck, or a list of { frequency, level }; null where it is left
+// out. Throws InputError.
 std::shared_ptr<const Specification> specification_of(const Declaration& declaration);
 
 }  // namespace dygita

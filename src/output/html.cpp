@@ -42,8 +42,8 @@ svg { max-width: 100%; height: auto; }
 
 std::string page(const std::string& title, const std::string& body_html) {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + escaped(title) +
-         "</title>\n<meta name=\"viewport\" content=\"width=device-width\">\n<style>" + style + "</style>\n</head>\n<body>\n" + body_html +
-         "</body>\n</html>\n";
+         "</title>\n<meta name=\"viewport\" content=\"width=device-width\">\n<style>" + style +
+         "</style>\n</head>\n<body>\n" + body_html + "</body>\n</html>\n";
 }
 
 std::string section(const std::string& title, const std::string& body_html) {
@@ -56,7 +56,8 @@ std::string paragraph(const std::string& text) { return "<p>" + escaped(text) + 
 
 std::string figure(const std::string& drawing, const std::string& caption) {
   if (drawing.empty()) return "";
-  return "<figure>\n" + drawing + (caption.empty() ? "" : "<figcaption>" + escaped(caption) + "</figcaption>\n") + "</figure>\n";
+  return "<figure>\n" + drawing + (caption.empty() ? "" : "<figcaption>" + escaped(caption) + "</figcaption>\n") +
+         "</figure>\n";
 }
 
 std::string row(const std::vector<std::string>& figures) {
@@ -65,7 +66,8 @@ std::string row(const std::vector<std::string>& figures) {
   return inside.empty() ? "" : "<div class=\"row\">\n" + inside + "</div>\n";
 }
 
-std::string table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows, bool numbers) {
+std::string table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows,
+                  bool numbers) {
   if (rows.empty()) return "";
   std::string result = numbers ? "<table class=\"numbers\">\n<tr>" : "<table>\n<tr>";
   for (const std::string& cell : header) result += "<th>" + escaped(cell) + "</th>";

@@ -16,7 +16,8 @@ std::string figure(const std::string& drawing, const std::string& caption = {});
 // Figures side by side where the page is wide enough.
 std::string row(const std::vector<std::string>& figures);
 // The first column is a name, the others are numbers where `numbers` is set.
-std::string table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows, bool numbers = false);
+std::string table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows,
+                  bool numbers = false);
 // Blocks stand side by side where they have room.
 std::string block(const std::string& body_html);
 std::string blocks(const std::string& blocks_html);

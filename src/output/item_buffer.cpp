@@ -7,14 +7,20 @@
 namespace dygita {
 
 ItemBuffer::ItemBuffer(int width, int height)
-    : width_(width), height_(height), depth_(static_cast<size_t>(width) * height, -std::numeric_limits<double>::infinity()),
+    : width_(width),
+      height_(height),
+      depth_(static_cast<size_t>(width) * height, -std::numeric_limits<double>::infinity()),
       item_(depth_.size(), -1) {}
 
 void ItemBuffer::draw(int item, const double (&x)[3], const double (&y)[3], const double (&depth)[3]) {
   const double area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
   if (!(std::abs(area) > 1e-12)) return;
-  const auto first = [](const double (&v)[3]) { return static_cast<int>(std::max(0.0, std::floor(std::min({v[0], v[1], v[2]})))); };
-  const auto last = [](const double (&v)[3], int n) { return static_cast<int>(std::min(n - 1.0, std::ceil(std::max({v[0], v[1], v[2]})))); };
+  const auto first = [](const double(&v)[3]) {
+    return static_cast<int>(std::max(0.0, std::floor(std::min({v[0], v[1], v[2]}))));
+  };
+  const auto last = [](const double(&v)[3], int n) {
+    return static_cast<int>(std::min(n - 1.0, std::ceil(std::max({v[0], v[1], v[2]}))));
+  };
   for (int j = first(y); j <= last(y, height_); ++j)
     for (int i = first(x); i <= last(x, width_); ++i) {
       const double px = i + 0.5, py = j + 0.5;

@@ -30,7 +30,8 @@ void divide(const JointScenes& joint, const std::vector<Corner>& flat, JointMap&
     for (int k = 0; k < f.n_nodes; ++k)
       for (int d = 0; d < 2; ++d) centre[d] += flat[f.nodes[k]][d] / f.n_nodes;
     for (int k = 0; k < f.n_nodes; ++k) {
-      const Corner &here = flat[f.nodes[k]], &next = flat[f.nodes[(k + 1) % f.n_nodes]], &before = flat[f.nodes[(k + f.n_nodes - 1) % f.n_nodes]];
+      const Corner &here = flat[f.nodes[k]], &next = flat[f.nodes[(k + 1) % f.n_nodes]],
+                   &before = flat[f.nodes[(k + f.n_nodes - 1) % f.n_nodes]];
       map.cells.push_back({here, middle(here, next), centre, middle(before, here)});
       map.points.push_back({f.nodes[k]});
     }
@@ -45,7 +46,8 @@ void merge(const JointScenes& joint, const std::vector<Corner>& flat, double siz
   std::vector<int> to(flat.size());
   std::vector<std::vector<int>> members;
   for (size_t i = 0; i < flat.size(); ++i) {
-    const auto key = size > 0.0 ? std::pair(std::lround(flat[i][0] / size), std::lround(flat[i][1] / size)) : std::pair(static_cast<long>(i), 0L);
+    const auto key = size > 0.0 ? std::pair(std::lround(flat[i][0] / size), std::lround(flat[i][1] / size))
+                                : std::pair(static_cast<long>(i), 0L);
     const auto [at, is_new] = square.try_emplace(key, static_cast<int>(members.size()));
     if (is_new) members.emplace_back();
     members[at->second].push_back(static_cast<int>(i));
@@ -109,7 +111,9 @@ JointMap make_joint_map(const JointScenes& joint, int most_cells) {
     return map;
   }
   merge(joint, flat, 0.0, map);
-  for (double size = std::sqrt(0.5 * area / most_cells); map.cells.size() > static_cast<size_t>(most_cells); size *= 1.2) merge(joint, flat, size, map);
+  for (double size = std::sqrt(0.5 * area / most_cells); map.cells.size() > static_cast<size_t>(most_cells);
+       size *= 1.2)
+    merge(joint, flat, size, map);
   return map;
 }
 

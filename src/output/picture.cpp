@@ -52,11 +52,14 @@ void draw(ItemBuffer& buffer, const Skin& skin, const Points& p, int i_facet) {
   const Facet& f = skin.facets[i_facet];
   for (int k = 2; k < f.n_nodes; ++k) {
     const int n[3] = {f.nodes[0], f.nodes[k - 1], f.nodes[k]};
-    buffer.draw(i_facet, {p(0, n[0]), p(0, n[1]), p(0, n[2])}, {p(1, n[0]), p(1, n[1]), p(1, n[2])}, {p(2, n[0]), p(2, n[1]), p(2, n[2])});
+    buffer.draw(i_facet, {p(0, n[0]), p(0, n[1]), p(0, n[2])}, {p(1, n[0]), p(1, n[1]), p(1, n[2])},
+                {p(2, n[0]), p(2, n[1]), p(2, n[2])});
   }
 }
 
-bool faces_reader(const Skin& skin, const View& view, int i_facet) { return view.axes.row(2).dot(skin.normal(i_facet)) > 0.0; }
+bool faces_reader(const Skin& skin, const View& view, int i_facet) {
+  return view.axes.row(2).dot(skin.normal(i_facet)) > 0.0;
+}
 
 ItemBuffer buffer_of(const Skin& skin, const View& view, const Points& p) {
   ItemBuffer buffer(view.width, view.height);
@@ -66,11 +69,13 @@ ItemBuffer buffer_of(const Skin& skin, const View& view, const Points& p) {
 }
 
 std::array<int, 2> tenths(const Points& p, int node) {
-  return {static_cast<int>(std::lround(10.0 * std::clamp(p(0, node), -1e4, 1e4))), static_cast<int>(std::lround(10.0 * std::clamp(p(1, node), -1e4, 1e4)))};
+  return {static_cast<int>(std::lround(10.0 * std::clamp(p(0, node), -1e4, 1e4))),
+          static_cast<int>(std::lround(10.0 * std::clamp(p(1, node), -1e4, 1e4)))};
 }
 
 // Edges beside a facet that is seen, not hidden themselves where it matters: at their middle.
-std::vector<std::array<int, 4>> seen_edges(const Skin& skin, const View& view, const Points& p, const ItemBuffer& buffer) {
+std::vector<std::array<int, 4>> seen_edges(const Skin& skin, const View& view, const Points& p,
+                                           const ItemBuffer& buffer) {
   std::vector<std::array<int, 4>> lines;
   for (const SharpEdge& edge : sharp_edges(skin)) {
     const Vec3 middle = 0.5 * (p.col(edge.a) + p.col(edge.b));
@@ -83,7 +88,8 @@ std::vector<std::array<int, 4>> seen_edges(const Skin& skin, const View& view, c
 
 // Share of the parts that are seen at all.
 bool all_parts_are_seen(const Skin& skin, const View& view, size_t n_parts) {
-  const std::vector<char> seen = buffer_of(skin, view, projected(skin.position, view)).seen(static_cast<int>(skin.facets.size()));
+  const std::vector<char> seen =
+      buffer_of(skin, view, projected(skin.position, view)).seen(static_cast<int>(skin.facets.size()));
   std::vector<int> n_seen(n_parts, 0), n_all(n_parts, 0);
   for (size_t f = 0; f < seen.size(); ++f) {
     n_seen[skin.part[f]] += seen[f];
@@ -113,7 +119,8 @@ View view_of(const std::vector<SubstructurePtr>& parts) {
   // The eight corners of the box fit in.
   Vec3 low = Vec3::Constant(1e300), high = -low;
   for (int i = 0; i < 8; ++i) {
-    const Vec3 corner(i & 1 ? box.high[0] : box.low[0], i & 2 ? box.high[1] : box.low[1], i & 4 ? box.high[2] : box.low[2]);
+    const Vec3 corner(i & 1 ? box.high[0] : box.low[0], i & 2 ? box.high[1] : box.low[1],
+                      i & 4 ? box.high[2] : box.low[2]);
     const Vec3 p = view.axes * (corner - view.centre);
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
@@ -156,8 +163,9 @@ double picture_scale(const View& view, const std::vector<Points>& displacement) 
   return power;
 }
 
-Picture make_picture(const std::vector<SubstructurePtr>& parts, const View& view, const std::vector<Points>& displacement,
-                     const std::vector<Vec>& values, double scale, int most_facets) {
+Picture make_picture(const std::vector<SubstructurePtr>& parts, const View& view,
+                     const std::vector<Points>& displacement, const std::vector<Vec>& values, double scale,
+                     int most_facets) {
   Picture picture;
   picture.width = view.width;
   picture.height = view.height;
@@ -209,7 +217,8 @@ Picture make_picture(const std::vector<SubstructurePtr>& parts, const View& view
     picture.outline = seen_edges(still, view, at_rest, buffer_of(still, view, at_rest));
   }
   for (int axis = 0; axis < 3; ++axis)
-    picture.axes.push_back({static_cast<int>(std::lround(1000 * view.axes(0, axis))), static_cast<int>(std::lround(-1000 * view.axes(1, axis)))});
+    picture.axes.push_back({static_cast<int>(std::lround(1000 * view.axes(0, axis))),
+                            static_cast<int>(std::lround(-1000 * view.axes(1, axis)))});
   return picture;
 }
 

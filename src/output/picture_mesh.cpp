@@ -131,7 +131,8 @@ std::vector<SharpEdge> sharp_edges(const Skin& skin) {
   std::vector<SharpEdge> edges;
   for (const auto& [nodes, facets] : facets_of_edge) {
     bool is_sharp = facets.size() != 2;
-    if (!is_sharp) is_sharp = skin.normal(facets[0]).normalized().dot(skin.normal(facets[1]).normalized()) < sharp_cosine;
+    if (!is_sharp)
+      is_sharp = skin.normal(facets[0]).normalized().dot(skin.normal(facets[1]).normalized()) < sharp_cosine;
     if (is_sharp) edges.push_back({nodes.first, nodes.second, facets.front()});
   }
   return edges;

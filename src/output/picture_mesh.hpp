@@ -22,11 +22,12 @@ struct Skin {
 Skin make_skin(const std::vector<SubstructurePtr>& parts, const View& view, const std::vector<Points>& displacement,
                const std::vector<Vec>& values, double scale);
 
-// Nodes of a part that lie in one cube of edge `size` (m, undeformed) become one, with the largest of their values; facets that
-// lose their area are left out.
+// Nodes of a part that lie in one cube of edge `size` (m, undeformed) become one, with the largest of their values;
+// facets that lose their area are left out.
 Skin merged(const Skin& skin, double size);
 
-// Pairs of nodes: edges of one facet only, or between facets whose normals are more than 35 degrees apart; with a facet beside it.
+// Pairs of nodes: edges of one facet only, or between facets whose normals are more than 35 degrees apart; with a facet
+// beside it.
 struct SharpEdge {
   int a, b, facet;
 };

@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "output/svg_plot.hpp"
+
 namespace dygita {
 
 // Smallest and largest finite value so far.
@@ -12,5 +14,9 @@ struct Extent {
   void add(double value);
   void add(const std::vector<double>& values);
 };
+
+// What the axes of a chart must show, with some room; `edges` are the upper edges of its stacked areas.
+Extent extent_x(const Plot& plot);
+Extent extent_y(const Plot& plot, const std::vector<PlotLine>& edges);
 
 }  // namespace dygita

@@ -35,7 +35,8 @@ PlotScale::PlotScale(const PlotAxis& axis, Extent data, int n_ticks) : axis_(axi
     if (!axis.from) low_ -= low_ == 0.0 ? 0.0 : margin;
     high_ = std::max(high_, low_) + margin;
   }
-  unit_ = engineering_unit(axis.unit, axis.is_log && high_ < 2e5 * low_ ? low_ : std::max(std::abs(low_), std::abs(high_)));
+  unit_ =
+      engineering_unit(axis.unit, axis.is_log && high_ < 2e5 * low_ ? low_ : std::max(std::abs(low_), std::abs(high_)));
   if (!axis.ticks.empty()) {
     for (const auto& [value, label] : axis.ticks) ticks_.push_back({value, label, false});
   } else if (axis.is_log) {

@@ -14,9 +14,9 @@ struct ReportRequest {
   std::shared_ptr<const Specification> specification = {};  // of all spectra, in place of the deck's
 };
 
-// The page of the run in this folder, out/<problem>/<case>, from run.json, its tables and scenes.json; depends on nothing else.
-// Throws InputError where the folder holds no run, or one that cannot be read. A table or scenes.json that is missing leaves its
-// section out and is told on the page.
+// The page of the run in this folder, out/<problem>/<case>, from run.json, its tables and scenes.json; depends on
+// nothing else. Throws InputError where the folder holds no run, or one that cannot be read. A table or scenes.json
+// that is missing leaves its section out and is told on the page.
 std::string report_html(const std::filesystem::path& folder, const ReportRequest& request = {});
 
 }  // namespace dygita

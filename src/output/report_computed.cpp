@@ -22,10 +22,11 @@ std::string joined(const Json& list, const char* separator = ", ") {
 std::string count(double n) { return std::isfinite(n) ? fmt::format("{:.0f}", n) : ""; }
 
 const char* unit_of_load(const std::string& kind) {
-  static const std::map<std::string, const char*> units = {{"pressure", "Pa"},     {"traction", "Pa"},     {"force", "N"},
-                                                           {"velocity", "m/s"},    {"displacement", "m"},  {"base_acceleration", "m/s^2"},
-                                                           {"gravity", "m/s^2"},   {"shortening", "m"},    {"release", "s"},
-                                                           {"preload", "N"}};
+  static const std::map<std::string, const char*> units = {{"pressure", "Pa"},    {"traction", "Pa"},
+                                                           {"force", "N"},        {"velocity", "m/s"},
+                                                           {"displacement", "m"}, {"base_acceleration", "m/s^2"},
+                                                           {"gravity", "m/s^2"},  {"shortening", "m"},
+                                                           {"release", "s"},      {"preload", "N"}};
   const auto found = units.find(kind);
   return found == units.end() ? "" : found->second;
 }
@@ -40,12 +41,15 @@ std::string law_of(const Json& interface) {
   const std::string kind = text(interface, "kind");
   if (kind == "contact") {
     std::string law = "friction " + plain_number(number(interface, "friction"));
-    if (number(interface, "gap") != 0.0) law += (number(interface, "gap") > 0.0 ? ", gap " : ", interference ") + with_unit(std::abs(number(interface, "gap")), "m");
+    if (number(interface, "gap") != 0.0)
+      law += (number(interface, "gap") > 0.0 ? ", gap " : ", interference ") +
+             with_unit(std::abs(number(interface, "gap")), "m");
     return law;
   }
   if (kind != "plastic") return "";
   std::string law = "yields at " + with_unit(number(interface, "yield"), "Pa");
-  if (number(interface, "hardening") > 0.0) law += ", hardens by " + with_unit(1e-3 * number(interface, "hardening"), "Pa") + " per mm";
+  if (number(interface, "hardening") > 0.0)
+    law += ", hardens by " + with_unit(1e-3 * number(interface, "hardening"), "Pa") + " per mm";
   if (interface.value("compression", false)) law += ", in compression too";
   return law;
 }
@@ -57,10 +61,12 @@ std::string loads_of(const Json& step) {
     const std::string kind = text(load, "kind"), on = joined(load.value("on", Json::array()));
     result += (result.empty() ? "" : "; ") + kind + (on.empty() ? "" : " on " + on);
     const Json values = load.value("value", Json::array());
-    const bool has_axes = kind == "traction" || kind == "force" || kind == "velocity" || kind == "displacement" || kind == "gravity";
+    const bool has_axes =
+        kind == "traction" || kind == "force" || kind == "velocity" || kind == "displacement" || kind == "gravity";
     for (size_t axis = 0; axis < values.size(); ++axis)
       if (values[axis].is_string())
-        result += (has_axes ? std::string(", ") + "xyz"[axis] + ": " : ", ") + history_text(values[axis].get<std::string>(), kind);
+        result += (has_axes ? std::string(", ") + "xyz"[axis] + ": " : ", ") +
+                  history_text(values[axis].get<std::string>(), kind);
   }
   return result.empty() ? "none" : result;
 }
@@ -86,7 +92,8 @@ std::vector<std::string> without_last(std::vector<std::vector<std::string>>& row
 std::string history_text(const std::string& description, const std::string& load_kind) {
   const size_t open = description.find('(');
   if (open == std::string::npos || description.back() != ')') return description;
-  const std::string name = description.substr(0, open), inside = description.substr(open + 1, description.size() - open - 2);
+  const std::string name = description.substr(0, open),
+                    inside = description.substr(open + 1, description.size() - open - 2);
   const std::string unit = unit_of_load(load_kind);
   if (name == "constant") return in_unit(inside, unit);
   if (name == "file" || name == "piecewise") return name + ", " + inside;
@@ -118,21 +125,27 @@ std::string computed_section(const RunFolder& run) {
   };
   for (const Json& part : record.value("substructures", Json::array())) {
     const double pieces = number(part, "pieces");
-    rows.push_back({text(part, "name"), text(part, "material"), count(number(part, "nodes")), count(number(part, "cells")),
-                    pieces > 1.0 ? "cut into " + count(pieces) + " pieces" : ""});
+    rows.push_back({text(part, "name"), text(part, "material"), count(number(part, "nodes")),
+                    count(number(part, "cells")), pieces > 1.0 ? "cut into " + count(pieces) + " pieces" : ""});
   }
   flush("Parts", {"part", "material", "nodes", "cells", ""});
   for (const Json& interface : record.value("interfaces", Json::array()))
-    rows.push_back({text(interface, "name"), text(interface, "kind"), joined(interface.value("between", Json::array()), " — "), law_of(interface)});
+    rows.push_back({text(interface, "name"), text(interface, "kind"),
+                    joined(interface.value("between", Json::array()), " — "), law_of(interface)});
   flush("Interfaces", {"interface", "kind", "between", "law"});
   for (const Json& support : record.value("supports", Json::array()))
-    rows.push_back({text(support, "name"), text(support, "kind"), joined(support.value("on", Json::array())),
-                    text(support, "kind") == "wall" ? law_of({{"kind", "contact"}, {"friction", number(support, "friction")}, {"gap", number(support, "gap")}}) : ""});
+    rows.push_back(
+        {text(support, "name"), text(support, "kind"), joined(support.value("on", Json::array())),
+         text(support, "kind") == "wall"
+             ? law_of({{"kind", "contact"}, {"friction", number(support, "friction")}, {"gap", number(support, "gap")}})
+             : ""});
   flush("Supports", {"support", "kind", "on", "law"});
-  for (const Json& step : record.at("steps")) rows.push_back({text(step, "name"), text(step, "kind"), length_of(step), loads_of(step)});
+  for (const Json& step : record.at("steps"))
+    rows.push_back({text(step, "name"), text(step, "kind"), length_of(step), loads_of(step)});
   flush("Steps", {"step", "kind", "length", "loads"});
   const Json parameters = record.value("parameters", Json::object());
-  for (const auto& [name, value] : parameters.items()) rows.push_back({name, value.is_number() ? plain_number(value.get<double>(), 6) : "not a number"});
+  for (const auto& [name, value] : parameters.items())
+    rows.push_back({name, value.is_number() ? plain_number(value.get<double>(), 6) : "not a number"});
   flush("Parameters of the deck (SI)", {"parameter", "value"});
   return html::section("What was computed", html::blocks(body));
 }

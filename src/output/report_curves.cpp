@@ -40,7 +40,11 @@ SpecificationPtr specification_of(const Json& output, const ReportRequest& reque
 std::vector<Spectrum> spectra_of(const RunFolder& run, const ReportRequest& request) {
   std::vector<Spectrum> spectra;
   for (const Json& output : run.outputs("srs")) {
-    Spectrum spectrum{text(output, "name"), text(output, "of"), text(output, "quantity"), number(output, "q_factor"), run.table(text(output, "file"), {"maximax", "positive", "negative"}),
+    Spectrum spectrum{text(output, "name"),
+                      text(output, "of"),
+                      text(output, "quantity"),
+                      number(output, "q_factor"),
+                      run.table(text(output, "file"), {"maximax", "positive", "negative"}),
                       specification_of(output, request)};
     if (spectrum.table.n_rows() > 0) spectra.push_back(std::move(spectrum));
   }
@@ -49,7 +53,8 @@ std::vector<Spectrum> spectra_of(const RunFolder& run, const ReportRequest& requ
 
 std::string decibels(double value) { return fmt::format("{}{:.1f}\u00a0dB", value < 0.0 ? "−" : "+", std::abs(value)); }
 
-// "1.2 to 1.6 kHz, above 4 kHz": where a spectrum is more than `limit` dB above (sign 1) or below (sign -1) its specification.
+// "1.2 to 1.6 kHz, above 4 kHz": where a spectrum is more than `limit` dB above (sign 1) or below (sign -1) its
+// specification.
 std::string ranges_outside(const Spectrum& spectrum, double limit, int sign) {
   std::string result;
   const std::vector<double>& f = spectrum.frequency();
@@ -63,7 +68,8 @@ std::string ranges_outside(const Spectrum& spectrum, double limit, int sign) {
     const size_t first = i;
     while (i + 1 < f.size() && is_outside(i + 1)) ++i;
     if (++n > 4) return result + " and further ranges";
-    result += (result.empty() ? "" : ", ") + with_unit(f[first], "Hz") + (i > first ? " to " + with_unit(f[i], "Hz") : "");
+    result +=
+        (result.empty() ? "" : ", ") + with_unit(f[first], "Hz") + (i > first ? " to " + with_unit(f[i], "Hz") : "");
   }
   return result;
 }
@@ -73,9 +79,12 @@ std::string finding(const Spectrum& s) {
   if (!worst.is_known) return fmt::format("Spectrum '{}' and its specification share no frequency.", s.name);
   const std::string where = with_unit(worst.frequency, "Hz");
   std::string line = worst.decibels > 0.0
-                         ? fmt::format("Spectrum '{}' exceeds its specification by up to {} at {}", s.name, decibels(worst.decibels), where)
-                         : fmt::format("Spectrum '{}' stays below its specification everywhere, nearest at {} with {}", s.name, where, decibels(worst.decibels));
-  const std::string above_6 = ranges_outside(s, 6.0, 1), above_3 = ranges_outside(s, 3.0, 1), below_6 = ranges_outside(s, 6.0, -1);
+                         ? fmt::format("Spectrum '{}' exceeds its specification by up to {} at {}", s.name,
+                                       decibels(worst.decibels), where)
+                         : fmt::format("Spectrum '{}' stays below its specification everywhere, nearest at {} with {}",
+                                       s.name, where, decibels(worst.decibels));
+  const std::string above_6 = ranges_outside(s, 6.0, 1), above_3 = ranges_outside(s, 3.0, 1),
+                    below_6 = ranges_outside(s, 6.0, -1);
   if (!above_6.empty())
     line += "; above the +6 dB band at " + above_6;
   else if (!above_3.empty())
@@ -95,19 +104,24 @@ std::vector<double> scaled(const std::vector<double>& values, double factor) {
 void add_specification(const Specification& s, Plot& plot) {
   for (const double band : {6.0, 3.0}) {
     const double factor = std::pow(10.0, band / 20.0);
-    plot.bands.push_back({fmt::format("±{:.0f} dB", band), s.frequency, scaled(s.level, 1.0 / factor), scaled(s.level, factor), "#555555", 0.16});
+    plot.bands.push_back({fmt::format("±{:.0f} dB", band), s.frequency, scaled(s.level, 1.0 / factor),
+                          scaled(s.level, factor), "#555555", 0.16});
   }
   plot.lines.push_back({"specification", s.frequency, s.level, "#000000", true, false, 1.8});
 }
 
 std::string spectra_figure(const std::vector<Spectrum>& group, const TimeAxis& time) {
-  Plot plot{.title = "Shock response spectra of " + group.front().quantity, .x = {"frequency", "Hz", true}, .y = {"maximax " + group.front().quantity, group.front().table.units.at(1), true}};
+  Plot plot{.title = "Shock response spectra of " + group.front().quantity,
+            .x = {"frequency", "Hz", true},
+            .y = {"maximax " + group.front().quantity, group.front().table.units.at(1), true}};
   plot.height = 400;
   plot.width = 820;
   std::vector<SpecificationPtr> drawn;
-  for (const Spectrum& s : group) plot.lines.push_back({fmt::format("{} (Q {:g})", s.name, s.q_factor), s.frequency(), s.level()});
+  for (const Spectrum& s : group)
+    plot.lines.push_back({fmt::format("{} (Q {:g})", s.name, s.q_factor), s.frequency(), s.level()});
   if (group.size() == 1)
-    for (const char* side : {"positive", "negative"}) plot.lines.push_back({side, group[0].frequency(), group[0].table.column(side), {}, true, false, 1.0});
+    for (const char* side : {"positive", "negative"})
+      plot.lines.push_back({side, group[0].frequency(), group[0].table.column(side), {}, true, false, 1.0});
   plot.x.from = group.front().frequency().front();
   plot.x.to = group.front().frequency().back();
   for (const Spectrum& s : group) {
@@ -121,13 +135,17 @@ std::string spectra_figure(const std::vector<Spectrum>& group, const TimeAxis& t
     if (is_new) drawn.push_back(s.specification);
     const Exceedance worst = largest_exceedance(*s.specification, s.frequency(), s.level());
     if (worst.is_known)
-      plot.marks.push_back({worst.frequency, s.level()[static_cast<size_t>(std::find(s.frequency().begin(), s.frequency().end(), worst.frequency) - s.frequency().begin())],
-                            decibels(worst.decibels)});
+      plot.marks.push_back(
+          {worst.frequency,
+           s.level()[static_cast<size_t>(std::find(s.frequency().begin(), s.frequency().end(), worst.frequency) -
+                                         s.frequency().begin())],
+           decibels(worst.decibels)});
   }
   std::string caption = "Maximax response of oscillators to the acceleration of the dynamic steps";
   if (const double low = time.record() > 0.0 ? 1.0 / time.record() : 0.0; low > *plot.x.from && low < *plot.x.to) {
     plot.spans.push_back({*plot.x.from, low, "the record is too short"});
-    caption += "; below " + with_unit(low, "Hz") + ", one over the length of the record, it depends on what comes after";
+    caption +=
+        "; below " + with_unit(low, "Hz") + ", one over the length of the record, it depends on what comes after";
   }
   return html::figure(svg(plot), caption + ".");
 }
@@ -139,9 +157,11 @@ std::string title_of(const Json& output) {
     if (place.is_string()) places += (places.empty() ? "" : ", ") + place.get<std::string>();
   std::string direction;
   if (output.contains("direction") && output["direction"].size() == 3) {
-    const double d[3] = {output["direction"][0].get<double>(), output["direction"][1].get<double>(), output["direction"][2].get<double>()};
+    const double d[3] = {output["direction"][0].get<double>(), output["direction"][1].get<double>(),
+                         output["direction"][2].get<double>()};
     for (int axis = 0; axis < 3; ++axis)
-      if (std::abs(std::abs(d[axis]) - 1.0) < 1e-9) direction = std::string(" along ") + (d[axis] < 0.0 ? "−" : "") + "xyz"[axis];
+      if (std::abs(std::abs(d[axis]) - 1.0) < 1e-9)
+        direction = std::string(" along ") + (d[axis] < 0.0 ? "−" : "") + "xyz"[axis];
     if (direction.empty()) direction = fmt::format(" along ({:.3g}, {:.3g}, {:.3g})", d[0], d[1], d[2]);
   }
   const std::string quantity = text(output, "kind") == "resultant" ? "force" : text(output, "quantity");
@@ -179,7 +199,10 @@ std::string spectra_section(const RunFolder& run, const TimeAxis& time, const Re
   for (const auto& [quantity, group] : groups) {
     body += spectra_figure(group, time);
     for (const Spectrum& spectrum : group)
-      if (spectrum.specification) body += html::paragraph(finding(spectrum) + (spectrum.specification->source.empty() ? "" : " Specification: " + spectrum.specification->source + "."));
+      if (spectrum.specification)
+        body += html::paragraph(finding(spectrum) + (spectrum.specification->source.empty()
+                                                         ? ""
+                                                         : " Specification: " + spectrum.specification->source + "."));
   }
   return html::section("Shock response spectra", body);
 }

@@ -57,7 +57,8 @@ std::string summary(const Table& t, bool yields) {
   const double most = std::max(std::abs(low), std::abs(high));
   for (double* force : {&low, &high})
     if (std::abs(*force) < noise * most) *force = 0.0;
-  std::string line = fmt::format("Normal force from {} to {} (pressed is negative)", with_unit(low, "N"), with_unit(high, "N"));
+  const std::string from = with_unit(low, "N"), to = with_unit(high, "N");
+  std::string line = (from == to ? "Normal force " + from : "Normal force from " + from + " to " + to) + " (pressed is negative)";
   if (const double shear = largest(t.column("shear")); shear > noise * most) line += ", shear up to " + with_unit(shear, "N");
   const std::vector<double>&open = t.column("open_area"), &stick = t.column("stick_area"), &slip = t.column("slip_area");
   double most_open = 0.0, most_slip = 0.0;

@@ -96,17 +96,20 @@ std::string text(const Json& object, const char* key) {
 
 RunFolder::RunFolder(fs::path folder, const std::string& record_text) : folder_(std::move(folder)) {
   std::error_code error;
-  if (!fs::is_directory(folder_, error)) throw InputError("no folder '" + folder_.string() + "'; a run's is out/<problem>/<case>");
+  if (!fs::is_directory(folder_, error))
+    throw InputError("no folder '" + folder_.string() + "'; a run's is out/<problem>/<case>");
   const std::optional<std::string> record = record_text.empty() ? text_of(folder_ / "run.json") : record_text;
   if (!record) {
     std::string hint;
     for (const auto& entry : fs::directory_iterator(folder_, error))
-      if (hint.empty() && fs::exists(entry.path() / "run.json", error)) hint = "\n    there is one in '" + entry.path().string() + "'";
+      if (hint.empty() && fs::exists(entry.path() / "run.json", error))
+        hint = "\n    there is one in '" + entry.path().string() + "'";
     throw InputError("'" + folder_.string() + "' holds no run.json: no run came to its end there" + hint);
   }
   record_ = Json::parse(*record, nullptr, false);
   const char* damaged = "' is not the record of a run of dygita, or it is damaged";
-  if (!record_.is_object() || !record_.contains("problem") || !record_.contains("verdict") || !record_.contains("steps") || !record_["steps"].is_array())
+  if (!record_.is_object() || !record_.contains("problem") || !record_.contains("verdict") ||
+      !record_.contains("steps") || !record_["steps"].is_array())
     throw InputError("'" + (folder_ / "run.json").string() + damaged);
   if (const auto scenes = text_of(folder_ / scene_file)) {
     scenes_ = Json::parse(*scenes, nullptr, false);
@@ -123,7 +126,8 @@ Table RunFolder::table(const std::string& file, const std::vector<std::string>& 
     if (!stream) throw InputError("is missing");
     Table table = read_table(stream, record_);
     for (const std::string& name : columns)
-      if (std::find(table.names.begin(), table.names.end(), name) == table.names.end()) throw InputError("has no column '" + name + "'");
+      if (std::find(table.names.begin(), table.names.end(), name) == table.names.end())
+        throw InputError("has no column '" + name + "'");
     return table;
   } catch (const InputError& error) {
     faults_.push_back(file + " " + error.what() + ": it is left out");

@@ -22,8 +22,8 @@ class RunFolder {
   const Json& record() const { return record_; }
   const Json& scenes() const { return scenes_; }  // null where there are none
 
-  // The table of a file in the folder, rows with the index of their step in the record's; empty where it is missing, damaged or
-  // without one of the columns, which `faults` then tells.
+  // The table of a file in the folder, rows with the index of their step in the record's; empty where it is missing,
+  // damaged or without one of the columns, which `faults` then tells.
   Table table(const std::string& file, const std::vector<std::string>& columns = {}) const;
   const std::vector<std::string>& faults() const { return faults_; }
 

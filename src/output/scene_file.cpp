@@ -32,8 +32,10 @@ Json json_of(const Picture& picture) {
     facets.push_back(facet.corners.size());
     for (const std::array<int, 2>& corner : facet.corners) facets.insert(facets.end(), {corner[0], corner[1]});
   }
-  return {{"width", picture.width}, {"height", picture.height},     {"cut", picture.is_cut},        {"boundary_facets", picture.n_facets},
-          {"axes", picture.axes},   {"largest", picture.value_high}, {"facets", std::move(facets)}, {"edges", picture.edges},
+  return {{"width", picture.width},      {"height", picture.height},
+          {"cut", picture.is_cut},       {"boundary_facets", picture.n_facets},
+          {"axes", picture.axes},        {"largest", picture.value_high},
+          {"facets", std::move(facets)}, {"edges", picture.edges},
           {"outline", picture.outline}};
 }
 
@@ -90,7 +92,8 @@ Json joint(const JointScenes& joint) {
   Json cells = Json::array(), instants = Json::array();
   for (const auto& cell : map.cells) {
     Json corners = Json::array();
-    for (const std::array<double, 2>& corner : cell) corners.insert(corners.end(), {std::lround(corner[0] / unit), std::lround(corner[1] / unit)});
+    for (const std::array<double, 2>& corner : cell)
+      corners.insert(corners.end(), {std::lround(corner[0] / unit), std::lround(corner[1] / unit)});
     cells.push_back(std::move(corners));
   }
   json["cells"] = std::move(cells);

@@ -10,7 +10,8 @@ namespace dygita {
 
 inline constexpr const char* scene_file = "scenes.json";
 
-// Pictures of the assembly and maps of the joints (picture.hpp, joint_map.hpp) as JSON. Lengths of pictures are tenths of a pixel.
+// Pictures of the assembly and maps of the joints (picture.hpp, joint_map.hpp) as JSON. Lengths of pictures are tenths
+// of a pixel.
 std::string scene_text(const Problem& problem, const Scenes& scenes);
 
 }  // namespace dygita

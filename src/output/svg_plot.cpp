@@ -20,8 +20,8 @@ constexpr const char* grey = "#666666";
 
 std::string text_at(double x, double y, const std::string& text, const char* anchor, const char* color = ink,
                     const std::string& more = "") {
-  return fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\" fill=\"{}\"{}>{}</text>\n", coordinate(x), coordinate(y), anchor,
-                     color, more, escaped(text));
+  return fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\" fill=\"{}\"{}>{}</text>\n", coordinate(x),
+                     coordinate(y), anchor, color, more, escaped(text));
 }
 
 struct Sides {
@@ -40,11 +40,16 @@ std::vector<PlotLine> cumulated(const std::vector<PlotLine>& stacked) {
 
 class Chart {
  public:
-  explicit Chart(const Plot& plot) : plot_(plot), edges_(cumulated(plot.stacked)), x_(plot.x, extent_x(), 8), y_(plot.y, extent_y(), 5), legend_(plot) {
+  explicit Chart(const Plot& plot)
+      : plot_(plot),
+        edges_(cumulated(plot.stacked)),
+        x_(plot.x, extent_x(plot), 8),
+        y_(plot.y, extent_y(plot, edges_), 5),
+        legend_(plot) {
     double label_width = 0.0;
     for (const PlotScale::Tick& tick : y_.ticks()) label_width = std::max(label_width, text_width(tick.label));
-    frame_ = {label_width + 34.0, plot.width - 14.0, 10.0 + legend_row * legend_.n_rows() + (plot.spans.empty() ? 0.0 : legend_row),
-              plot.height - 42.0};
+    frame_ = {label_width + 34.0, plot.width - 14.0,
+              10.0 + legend_row * legend_.n_rows() + (plot.spans.empty() ? 0.0 : legend_row), plot.height - 42.0};
     x_.set_pixels(frame_.left, frame_.right);
     y_.set_pixels(frame_.bottom, frame_.top);
   }
@@ -70,75 +75,42 @@ class Chart {
     fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
   }
 
-  Extent extent_x() const {
-    Extent extent;
-    for (const PlotLine& line : plot_.lines) extent.add(positive(line.x, plot_.x));
-    for (const PlotLine& line : plot_.stacked) extent.add(positive(line.x, plot_.x));
-    for (const PlotBand& band : plot_.bands) extent.add(positive(band.x, plot_.x));
-    for (const PlotSpan& span : plot_.spans) extent.add({span.from, span.to});
-    if (extent.low && !plot_.marks.empty() && !plot_.x.is_log) {  // room for rings
-      const double margin = 0.02 * (*extent.high - *extent.low);
-      extent = {*extent.low - margin, *extent.high + margin};
-    }
-    return extent;
-  }
-
-  Extent extent_y() const {
-    Extent extent;
-    for (const PlotLine& line : plot_.lines) extent.add(positive(line.y, plot_.y));
-    for (const PlotLine& line : edges_) extent.add(line.y);
-    if (!edges_.empty()) extent.add(0.0);
-    for (const PlotBand& band : plot_.bands) {
-      extent.add(positive(band.low, plot_.y));
-      extent.add(positive(band.high, plot_.y));
-    }
-    for (const PlotLevel& level : plot_.levels) extent.add(level.y);
-    // Room above and below, unless the caller says where the axis ends.
-    if (!extent.low) return extent;
-    if (plot_.y.is_log) {
-      const double factor = std::pow(*extent.high / *extent.low, 0.05);
-      return {*extent.low / factor, *extent.high * factor};
-    }
-    const double margin = 0.05 * (*extent.high - *extent.low);
-    if (*extent.high != 0.0) extent.high = *extent.high + margin;
-    if (*extent.low != 0.0) extent.low = *extent.low - margin;
-    if (*extent.low > 0.0 && *extent.low < 0.5 * *extent.high) extent.low = 0.0;
-    return extent;
-  }
-
-  static std::vector<double> positive(std::vector<double> values, const PlotAxis& axis) {
-    if (axis.is_log) std::erase_if(values, [](double v) { return !(v > 0.0); });
-    return values;
-  }
-
   void open() {
     put("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
         "aria-label=\"{2}\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{3}\">\n<title>{2}</title>\n",
         plot_.width, plot_.height, escaped(plot_.title), text_height);
     if (!plot_.description.empty()) put("<desc>{}</desc>\n", escaped(plot_.description));
     put("<rect width=\"{}\" height=\"{}\" fill=\"#ffffff\"/>\n", plot_.width, plot_.height);
-    put("<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\">\n", coordinate(frame_.left), coordinate(frame_.top),
-        coordinate(frame_.right - frame_.left), coordinate(frame_.bottom - frame_.top));
+    put("<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\">\n", coordinate(frame_.left),
+        coordinate(frame_.top), coordinate(frame_.right - frame_.left), coordinate(frame_.bottom - frame_.top));
   }
 
   // The inner svg clips what it holds to the frame, without an id that would have to be unique in a page.
   void draw_spans() {
     for (const PlotSpan& span : plot_.spans)
-      put("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#f0ede4\"/>\n", coordinate(x_.pixel(span.from)), coordinate(frame_.top),
-          coordinate(std::max(1.0, x_.pixel(span.to) - x_.pixel(span.from))), coordinate(frame_.bottom - frame_.top));
+      put("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#f0ede4\"/>\n", coordinate(x_.pixel(span.from)),
+          coordinate(frame_.top), coordinate(std::max(1.0, x_.pixel(span.to) - x_.pixel(span.from))),
+          coordinate(frame_.bottom - frame_.top));
   }
 
   void draw_grid() {
     for (const bool is_minor : {true, false}) {
       std::string path;
       for (const PlotScale::Tick& tick : x_.ticks())
-        if (tick.is_minor == is_minor) path += fmt::format("M{} {}V{}", coordinate(x_.pixel(tick.value)), coordinate(frame_.top), coordinate(frame_.bottom));
+        if (tick.is_minor == is_minor)
+          path += fmt::format("M{} {}V{}", coordinate(x_.pixel(tick.value)), coordinate(frame_.top),
+                              coordinate(frame_.bottom));
       for (const PlotScale::Tick& tick : y_.ticks())
-        if (tick.is_minor == is_minor) path += fmt::format("M{} {}H{}", coordinate(frame_.left), coordinate(y_.pixel(tick.value)), coordinate(frame_.right));
-      if (!path.empty()) put("<path d=\"{}\" stroke=\"{}\" fill=\"none\" stroke-width=\"0.7\"/>\n", path, is_minor ? "#efefef" : "#dcdcdc");
+        if (tick.is_minor == is_minor)
+          path += fmt::format("M{} {}H{}", coordinate(frame_.left), coordinate(y_.pixel(tick.value)),
+                              coordinate(frame_.right));
+      if (!path.empty())
+        put("<path d=\"{}\" stroke=\"{}\" fill=\"none\" stroke-width=\"0.7\"/>\n", path,
+            is_minor ? "#efefef" : "#dcdcdc");
     }
     if (y_.low() < 0.0 && y_.high() > 0.0 && !plot_.y.is_log)
-      put("<path d=\"M{} {}H{}\" stroke=\"#999999\" stroke-width=\"0.8\"/>\n", coordinate(frame_.left), coordinate(y_.pixel(0.0)), coordinate(frame_.right));
+      put("<path d=\"M{} {}H{}\" stroke=\"#999999\" stroke-width=\"0.8\"/>\n", coordinate(frame_.left),
+          coordinate(y_.pixel(0.0)), coordinate(frame_.right));
   }
 
   // "M1 2L3 4...": a gap where a value cannot be drawn. Answers single points as well, which a line would not show.
@@ -162,14 +134,16 @@ class Chart {
   }
 
   std::string dot(double x, double y) const {
-    return fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"2.5\"/>", coordinate(x_.pixel(x)), coordinate(clamped(y_.pixel(y))));
+    return fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"2.5\"/>", coordinate(x_.pixel(x)),
+                       coordinate(clamped(y_.pixel(y))));
   }
 
   // Far outside the frame nothing is seen, and renderers lose precision.
   double clamped(double pixel) const { return std::clamp(pixel, -10.0 * plot_.height, 10.0 * plot_.height); }
 
   // The area between two curves, where both can be drawn. On a logarithmic axis zero is the bottom.
-  std::string area_path(const std::vector<double>& x, const std::vector<double>& low, const std::vector<double>& high) const {
+  std::string area_path(const std::vector<double>& x, const std::vector<double>& low,
+                        const std::vector<double>& high) const {
     CHECK(x.size() == low.size() && x.size() == high.size(), "an area has as many x as y");
     std::string path;
     size_t i = 0;
@@ -181,7 +155,9 @@ class Chart {
       }
       const size_t first = i;
       while (i < x.size() && is_drawn(i)) ++i;
-      const auto range = [&](const std::vector<double>& v) { return std::vector<double>(v.begin() + static_cast<long>(first), v.begin() + static_cast<long>(i)); };
+      const auto range = [&](const std::vector<double>& v) {
+        return std::vector<double>(v.begin() + static_cast<long>(first), v.begin() + static_cast<long>(i));
+      };
       const auto [xs, highs] = thinned(range(x), range(high), plot_.width);
       auto [xs_low, lows] = thinned(range(x), range(low), plot_.width);
       path += "M";
@@ -192,25 +168,29 @@ class Chart {
     return path;
   }
 
-  std::string point(double x, double y) const { return coordinate(x_.pixel(x)) + " " + coordinate(clamped(y_.pixel(y))); }
+  std::string point(double x, double y) const {
+    return coordinate(x_.pixel(x)) + " " + coordinate(clamped(y_.pixel(y)));
+  }
 
   void draw_bands() {
     for (const PlotBand& band : plot_.bands)
-      put("<path d=\"{}\" fill=\"{}\" fill-opacity=\"{}\"/>\n", area_path(band.x, band.low, band.high), band.color, band.opacity);
+      put("<path d=\"{}\" fill=\"{}\" fill-opacity=\"{}\"/>\n", area_path(band.x, band.low, band.high), band.color,
+          band.opacity);
   }
 
   void draw_stacked() {
     for (size_t k = edges_.size(); k-- > 0;) {
       const std::vector<double> floor = k == 0 ? filled(edges_[k].x.size(), 0.0) : edges_[k - 1].y;
-      put("<path d=\"{}\" fill=\"{}\" fill-opacity=\"0.75\"/>\n", area_path(edges_[k].x, floor, edges_[k].y), color_of(edges_[k], k));
+      put("<path d=\"{}\" fill=\"{}\" fill-opacity=\"0.75\"/>\n", area_path(edges_[k].x, floor, edges_[k].y),
+          color_of(edges_[k], k));
     }
   }
 
   void draw_levels() {
     for (const PlotLevel& level : plot_.levels) {
       if (!y_.shows(level.y)) continue;
-      put("<path d=\"M{} {}H{}\" stroke=\"{}\" stroke-width=\"1.2\" stroke-dasharray=\"6 3\"/>\n", coordinate(frame_.left),
-          coordinate(y_.pixel(level.y)), coordinate(frame_.right), ink);
+      put("<path d=\"M{} {}H{}\" stroke=\"{}\" stroke-width=\"1.2\" stroke-dasharray=\"6 3\"/>\n",
+          coordinate(frame_.left), coordinate(y_.pixel(level.y)), coordinate(frame_.right), ink);
     }
   }
 
@@ -226,8 +206,8 @@ class Chart {
           if (x_.shows(line.x[k]) && y_.shows(line.y[k])) dots += dot(line.x[k], line.y[k]);
       }
       if (!path.empty())
-        put("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{}/>\n", path, color, line.width,
-            line.is_dashed ? " stroke-dasharray=\"6 4\"" : "");
+        put("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{}/>\n", path,
+            color, line.width, line.is_dashed ? " stroke-dasharray=\"6 4\"" : "");
       if (!dots.empty()) put("<g fill=\"{}\">{}</g>\n", color, dots);
     }
   }
@@ -238,14 +218,20 @@ class Chart {
       const double x = x_.pixel(mark.x), y = y_.pixel(mark.y), width = text_width(mark.text);
       const bool is_left = x + width + 10.0 > frame_.right && x - width - 10.0 > frame_.left;
       const double base = std::clamp(y - 6.0, frame_.top + text_height, frame_.bottom - 4.0);
-      put("<circle cx=\"{}\" cy=\"{}\" r=\"4.5\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>\n", coordinate(x), coordinate(y), ink);
+      put("<circle cx=\"{}\" cy=\"{}\" r=\"4.5\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>\n", coordinate(x),
+          coordinate(y), ink);
       text_ += text_at(is_left ? x - 8.0 : x + 8.0, base, mark.text, is_left ? "end" : "start", ink,
                        " stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\"");
     }
     for (const PlotLevel& level : plot_.levels)
       if (y_.shows(level.y) && !level.label.empty())
-        text_ += text_at(frame_.right - 4.0, y_.pixel(level.y) + (y_.pixel(level.y) < frame_.top + 1.5 * text_height ? text_height + 2.0 : -4.0), level.label, "end", ink, " stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\"");
-    if (!has_values()) text_ += text_at(0.5 * (frame_.left + frame_.right), 0.5 * (frame_.top + frame_.bottom), "no values to draw", "middle", grey);
+        text_ +=
+            text_at(frame_.right - 4.0,
+                    y_.pixel(level.y) + (y_.pixel(level.y) < frame_.top + 1.5 * text_height ? text_height + 2.0 : -4.0),
+                    level.label, "end", ink, " stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\"");
+    if (!has_values())
+      text_ += text_at(0.5 * (frame_.left + frame_.right), 0.5 * (frame_.top + frame_.bottom), "no values to draw",
+                       "middle", grey);
   }
 
   bool has_values() const {
@@ -265,8 +251,8 @@ class Chart {
 
   void draw_axes() {
     text_ += "</svg>\n";  // ends the clipped part
-    put("<path d=\"M{0} {1}V{2}H{3}\" fill=\"none\" stroke=\"{4}\"/>\n", coordinate(frame_.left), coordinate(frame_.top), coordinate(frame_.bottom),
-        coordinate(frame_.right), grey);
+    put("<path d=\"M{0} {1}V{2}H{3}\" fill=\"none\" stroke=\"{4}\"/>\n", coordinate(frame_.left),
+        coordinate(frame_.top), coordinate(frame_.bottom), coordinate(frame_.right), grey);
     double free_from = -1e9;
     for (const PlotScale::Tick& tick : x_.ticks()) {
       const double x = x_.pixel(tick.value), half = 0.5 * text_width(tick.label);
@@ -282,11 +268,13 @@ class Chart {
       free_below = y - text_height;
     }
     text_ += text_at(0.5 * (frame_.left + frame_.right), plot_.height - 8.0, x_.title(), "middle");
-    const std::string turned = fmt::format(" transform=\"rotate(-90 14 {0})\"", coordinate(0.5 * (frame_.top + frame_.bottom)));
+    const std::string turned =
+        fmt::format(" transform=\"rotate(-90 14 {0})\"", coordinate(0.5 * (frame_.top + frame_.bottom)));
     text_ += text_at(14.0, 0.5 * (frame_.top + frame_.bottom), y_.title(), "middle", ink, turned);
     for (const PlotSpan& span : plot_.spans)
-      text_ += text_at(std::max(0.5 * (x_.pixel(span.from) + x_.pixel(span.to)), frame_.left + 0.5 * text_width(span.label) - 20.0), frame_.top - 5.0, span.label,
-                       "middle", grey);
+      text_ += text_at(
+          std::max(0.5 * (x_.pixel(span.from) + x_.pixel(span.to)), frame_.left + 0.5 * text_width(span.label) - 20.0),
+          frame_.top - 5.0, span.label, "middle", grey);
   }
 
   const Plot& plot_;

@@ -13,12 +13,23 @@ std::string escaped(const std::string& text) {
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      case '\'': result += "&#39;"; break;
-      default: result += byte < 0x20 || byte == 0x7f ? ' ' : c;
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      case '\'':
+        result += "&#39;";
+        break;
+      default:
+        result += byte < 0x20 || byte == 0x7f ? ' ' : c;
     }
   }
   return result;
@@ -37,7 +48,7 @@ const char* series_color(int i) {
 }
 
 std::string scale_color(double x) {
-  static constexpr double stops[][3] = {{68, 1, 84},   {71, 44, 122},  {59, 81, 139},   {44, 113, 142}, {33, 144, 141},
+  static constexpr double stops[][3] = {{68, 1, 84},    {71, 44, 122}, {59, 81, 139},  {44, 113, 142}, {33, 144, 141},
                                         {39, 173, 129}, {92, 200, 99}, {170, 220, 50}, {253, 231, 37}};
   constexpr int n = 8;
   const double place = n * std::clamp(std::isfinite(x) ? x : 0.0, 0.0, 1.0);

@@ -14,7 +14,8 @@ std::string coordinate(double value);
 // Colours of Okabe and Ito (2008), the first seven of a cycle; black is left for limits and specifications.
 const char* series_color(int i);
 
-// Colours of a scale from low (0) to high (1), after Matplotlib's viridis: even in lightness, so that it prints in grey.
+// Colours of a scale from low (0) to high (1), after Matplotlib's viridis: even in lightness, so that it prints in
+// grey.
 std::string scale_color(double x);
 
 }  // namespace dygita

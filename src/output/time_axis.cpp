@@ -33,7 +33,8 @@ TimeAxis::TimeAxis(const Json& steps) {
   for (const Json& step : steps) {
     const bool is_static = is_static_step(step);
     const int n = increments_of(step);
-    const double wide = is_static ? width(step) : n * std::max(0.0, std::isfinite(number(step, "dt")) ? number(step, "dt") : 0.0);
+    const double wide =
+        is_static ? width(step) : n * std::max(0.0, std::isfinite(number(step, "dt")) ? number(step, "dt") : 0.0);
     ranges_.push_back({is_static, n, place, wide, time});
     if (is_static && n > 0) spans_.push_back({place, place + wide, text(step, "name") + " (static)"});
     place += wide;
@@ -69,7 +70,9 @@ PlotAxis TimeAxis::axis() const {
   for (const PlotScale::Tick& tick : times.ticks())
     for (size_t i = 0; i < ranges_.size(); ++i) {
       const Range& range = ranges_[i];
-      if (range.is_static || tick.value < range.time - 1e-9 * dynamic_ || tick.value > range.time + (1 + 1e-9) * range.width) continue;
+      if (range.is_static || tick.value < range.time - 1e-9 * dynamic_ ||
+          tick.value > range.time + (1 + 1e-9) * range.width)
+        continue;
       axis.ticks.push_back({range.start + tick.value - range.time, tick.label});
       break;
     }
@@ -82,7 +85,8 @@ std::vector<PlotSpan> static_increments(const Json& steps) {
   std::vector<PlotSpan> spans;
   int n = 0;
   for (const Json& step : steps) {
-    if (is_static_step(step) && increments_of(step) > 0) spans.push_back({n + 0.5, n + increments_of(step) + 0.5, text(step, "name") + " (static)"});
+    if (is_static_step(step) && increments_of(step) > 0)
+      spans.push_back({n + 0.5, n + increments_of(step) + 0.5, text(step, "name") + " (static)"});
     n += increments_of(step);
   }
   return spans;

@@ -74,7 +74,8 @@ std::string plain_number(double value, int digits) {
       if (text.back() == '.') text.pop_back();
     }
     text += "·10" + superscript(exponent);
-    if (const size_t one = text.find("1·10"); one == 0 || (one == 1 && text[0] == '-')) text.erase(one, std::string("1·").size());
+    if (const size_t one = text.find("1·10"); one == 0 || (one == 1 && text[0] == '-'))
+      text.erase(one, std::string("1·").size());
   }
   return text.front() == '-' ? "−" + text.substr(1) : text;
 }

@@ -10,8 +10,8 @@ struct EngineeringUnit {
   std::string name;   // "kN", "µm"; empty for a number without unit
 };
 
-// The unit in which `largest` (SI, its sign does not matter) is between 1 and 1000 where there is one. Known SI units: s Hz m
-// m/s m/s^2 (drawn in g = 9.80665 m/s^2) m^2 N Pa J; any other stays as it is.
+// The unit in which `largest` (SI, its sign does not matter) is between 1 and 1000 where there is one. Known SI units:
+// s Hz m m/s m/s^2 (drawn in g = 9.80665 m/s^2) m^2 N Pa J; any other stays as it is.
 EngineeringUnit engineering_unit(const std::string& si_unit, double largest);
 
 // "30.6 kN", "120 µs", "0.5 %" ("%" is a unit like another): `digits` significant ones; "not a number", "infinite".

@@ -32,8 +32,8 @@ double change(const JointScene& a, const JointScene& b, double largest_pressure)
   return n_changed / n + (largest_pressure > 0.0 ? pressure / (n * largest_pressure) : 0.0);
 }
 
-// The last static instant before the motion, the last of all, and between them instants at even steps of time and change together:
-// where much changes there are more.
+// The last static instant before the motion, the last of all, and between them instants at even steps of time and
+// change together: where much changes there are more.
 std::vector<JointScene> choose(std::vector<JointScene> sampled) {
   const int n = static_cast<int>(sampled.size());
   int first_dynamic = 0;
@@ -86,7 +86,8 @@ void SceneRecorder::keep_assembly(const Instant& instant, AssemblyScene& scene) 
   scene.is_static = instant.is_static();
   scene.time = instant.time();
   scene.displacement.resize(problem_.substructures.size());
-  for (size_t i = 0; i < scene.displacement.size(); ++i) scene.displacement[i] = instant.displacement(static_cast<int>(i));
+  for (size_t i = 0; i < scene.displacement.size(); ++i)
+    scene.displacement[i] = instant.displacement(static_cast<int>(i));
 }
 
 void SceneRecorder::find_joints(const Instant& instant) {
@@ -118,7 +119,8 @@ void SceneRecorder::find_joints(const Instant& instant) {
   }
   double n_points = 1.0;
   for (const JointScenes& joint : joints_) n_points += static_cast<double>(joint.points.cols());
-  samples_of_joints_ = static_cast<int>(std::clamp(points_kept / n_points, 12.0, static_cast<double>(most_samples_of_joints)));
+  samples_of_joints_ =
+      static_cast<int>(std::clamp(points_kept / n_points, 12.0, static_cast<double>(most_samples_of_joints)));
 }
 
 void SceneRecorder::keep_joints(const Instant& instant) {
@@ -132,7 +134,8 @@ void SceneRecorder::keep_joints(const Instant& instant) {
     for (int i = 0; i < surface.n_points(); ++i) {
       const LawState& p = points[i];
       scene.status.push_back(static_cast<unsigned char>(p.status));
-      scene.pressure.push_back(static_cast<float>(-p.force.dot(surface.facing.normals.col(i)) / surface.facing.areas[i]));
+      scene.pressure.push_back(
+          static_cast<float>(-p.force.dot(surface.facing.normals.col(i)) / surface.facing.areas[i]));
       if (joints_[j].has_slip) scene.slip.push_back(static_cast<float>(p.slip.norm()));
       if (!joints_[j].is_contact) scene.plastic_opening.push_back(static_cast<float>(p.plastic_opening));
     }

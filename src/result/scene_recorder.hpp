@@ -1,5 +1,5 @@
-// Watches a run for what the report draws (scenes.hpp). Cheap: it copies displacements a few tens of times a run at most, and the
-// state of the points of interfaces with an output.joint.
+// Watches a run for what the report draws (scenes.hpp). Cheap: it copies displacements a few tens of times a run at
+// most, and the state of the points of interfaces with an output.joint.
 #pragma once
 
 #include <vector>
@@ -28,9 +28,9 @@ class SceneRecorder : public Observer {
   AssemblyScene tightened_, shocked_;  // without displacements: not met yet
   double strain_energy_ = -1.0;        // J, of shocked_
   bool has_joints_ = false;
-  int samples_of_joints_ = 0;          // a step
-  std::vector<int> surfaces_;          // of joints_
-  std::vector<JointScenes> joints_;    // with all instants sampled
+  int samples_of_joints_ = 0;        // a step
+  std::vector<int> surfaces_;        // of joints_
+  std::vector<JointScenes> joints_;  // with all instants sampled
 };
 
 // Tells several observers, in order.

@@ -31,14 +31,15 @@ struct JointScene {
 struct JointScenes {
   std::string name;
   bool is_contact = true;
-  bool has_slip = false;       // contact with friction
-  Points points;               // 3 x n, m, undeformed
-  std::vector<Facet> facets;   // node numbers into `points`
+  bool has_slip = false;             // contact with friction
+  Points points;                     // 3 x n, m, undeformed
+  std::vector<Facet> facets;         // node numbers into `points`
   std::vector<JointScene> instants;  // in the order of time, six at most
 };
 
 struct Scenes {
-  std::vector<AssemblyScene> assembly;  // the end of tightening, the instant of the largest strain energy in the dynamic steps
+  std::vector<AssemblyScene>
+      assembly;  // the end of tightening, the instant of the largest strain energy in the dynamic steps
   std::vector<JointScenes> joints;
 };
 

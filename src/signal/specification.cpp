@@ -52,17 +52,20 @@ double Specification::level_at(double f) const {
 }
 
 void check_specification(const Specification& s, const std::vector<std::string>& where) {
-  CHECK(s.frequency.size() == s.level.size() && where.size() == s.level.size(), "a level and a place for each frequency");
+  CHECK(s.frequency.size() == s.level.size() && where.size() == s.level.size(),
+        "a level and a place for each frequency");
   for (size_t i = 0; i < s.frequency.size(); ++i) {
     if (!(s.frequency[i] > 0.0))
       throw InputError(fmt::format("{}: the frequency {:g} Hz is not above zero", where[i], s.frequency[i]));
-    if (!(s.level[i] > 0.0)) throw InputError(fmt::format("{}: the level {:g} is not above zero", where[i], s.level[i]));
+    if (!(s.level[i] > 0.0))
+      throw InputError(fmt::format("{}: the level {:g} is not above zero", where[i], s.level[i]));
     if (i > 0 && !(s.frequency[i] > s.frequency[i - 1]))
       throw InputError(fmt::format("{}: the frequency {:g} Hz comes after {:g} Hz: frequencies must increase", where[i],
                                    s.frequency[i], s.frequency[i - 1]));
   }
   if (s.frequency.size() < 2)
-    throw InputError(fmt::format("a specification has at least two points (frequency, level), got {}", s.frequency.size()));
+    throw InputError(
+        fmt::format("a specification has at least two points (frequency, level), got {}", s.frequency.size()));
 }
 
 Specification read_specification(const std::string& path) {
@@ -99,7 +102,8 @@ Specification read_specification(const std::string& path) {
   return s;
 }
 
-Exceedance largest_exceedance(const Specification& specification, const std::vector<double>& frequency, const std::vector<double>& value) {
+Exceedance largest_exceedance(const Specification& specification, const std::vector<double>& frequency,
+                              const std::vector<double>& value) {
   CHECK(frequency.size() == value.size(), "a value for each frequency");
   Exceedance worst;
   for (size_t i = 0; i < frequency.size(); ++i) {

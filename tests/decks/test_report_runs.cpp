@@ -28,7 +28,8 @@ local press = step.static{ name = "press", increments = 2, loads = { load.pressu
 local function hit(name, after, duration) return step.dynamic{ name = name, after = after, duration = duration, dt = 0.5*us, loads = {
   load.pressure{ on = high:face "zmax", history = 20*MPa },
   load.traction{ on = high:face "zmax", z = history.half_sine{ peak = 60*MPa, duration = 10*us } } } } end
-)" + steps + more +
+)" + steps +
+         more +
          R"(
 problem{ name = "blocks", substructures = { low, high }, interfaces = { touch }, supports = { base, guide }, steps = steps, solver = how, outputs = outputs }:run{}
 )";
@@ -72,19 +73,23 @@ void expect_sound(const Written& written) {
   EXPECT_EQ(xml_fault(written.page, {"meta"}), "");
   EXPECT_LT(written.page.size(), 1000000u);
   EXPECT_EQ(written.page.find("is left out"), std::string::npos);
-  for (const char* section : {"<h2>Verdict", "<h2>What was computed", "<h2>The assembly", "<h2>Joints", "<h2>Energy", "<h2>Convergence", "<h2>Cost"})
+  for (const char* section : {"<h2>Verdict", "<h2>What was computed", "<h2>The assembly", "<h2>Joints", "<h2>Energy",
+                              "<h2>Convergence", "<h2>Cost"})
     EXPECT_NE(written.page.find(section), std::string::npos) << section;
   // To the last bit: the recorder only looks.
   EXPECT_EQ(written.result->iterations, written.unwatched->iterations);
-  for (auto a = written.result->tables.begin(), b = written.unwatched->tables.begin(); a != written.result->tables.end(); ++a, ++b)
+  for (auto a = written.result->tables.begin(), b = written.unwatched->tables.begin();
+       a != written.result->tables.end(); ++a, ++b)
     EXPECT_EQ(a->second.columns, b->second.columns) << a->first->name;
 }
 
 const std::string latin = "local how = solver.latin{}\n";
 
 TEST(ReportRuns, tightened_and_shocked_with_a_specification) {
-  const Written run = run_and_read(blocks(latin + "local shock = hit('shock', press, 30*us) local steps = { press, shock }\n",
-                                          "outputs[#outputs + 1] = output.srs{ name = 's', of = a, from = 1*kHz, to = 100*kHz, specification = { {1*kHz, 10*g0}, {100*kHz, 10*g0} } }\n"));
+  const Written run =
+      run_and_read(blocks(latin + "local shock = hit('shock', press, 30*us) local steps = { press, shock }\n",
+                          "outputs[#outputs + 1] = output.srs{ name = 's', of = a, from = 1*kHz, to = 100*kHz, "
+                          "specification = { {1*kHz, 10*g0}, {100*kHz, 10*g0} } }\n"));
   expect_sound(run);
   const double exceedance = run.result->figures.at("largest exceedance of the specification of 's' [dB]");
   const Table* spectrum = nullptr;
@@ -122,7 +127,8 @@ local steps = { press, first, again, hit("second", again, 10*us) }
 }
 
 TEST(ReportRuns, not_converged) {
-  const Written run = run_and_read(blocks("local how = solver.latin{ max_iterations = 2 } local steps = { press, hit('shock', press, 20*us) }\n"));
+  const Written run = run_and_read(
+      blocks("local how = solver.latin{ max_iterations = 2 } local steps = { press, hit('shock', press, 20*us) }\n"));
   EXPECT_FALSE(run.result->converged);
   expect_sound(run);
   EXPECT_NE(run.page.find("NOT converged: "), std::string::npos);

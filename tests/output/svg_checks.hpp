@@ -42,11 +42,13 @@ inline std::string xml_fault(const std::string& text, const std::vector<std::str
     const bool is_end = text[i + 1] == '/', is_empty = text[end - 1] == '/';
     size_t name_end = i + 1 + (is_end ? 1 : 0);
     const size_t name_start = name_end;
-    while (name_end < end && (std::isalnum(static_cast<unsigned char>(text[name_end])) || text[name_end] == '-')) ++name_end;
+    while (name_end < end && (std::isalnum(static_cast<unsigned char>(text[name_end])) || text[name_end] == '-'))
+      ++name_end;
     const std::string name = text.substr(name_start, name_end - name_start);
     if (name.empty()) return "an element without name at " + text.substr(i, 30);
     if (is_end) {
-      if (open.empty() || open.back() != name) return "</" + name + "> ends " + (open.empty() ? "nothing" : "<" + open.back() + ">");
+      if (open.empty() || open.back() != name)
+        return "</" + name + "> ends " + (open.empty() ? "nothing" : "<" + open.back() + ">");
       open.pop_back();
     } else if (!is_empty && !is_void(name)) {
       open.push_back(name);

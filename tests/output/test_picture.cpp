@@ -25,8 +25,9 @@ SubstructurePtr box(int n, double size, const Vec3& place = Vec3::Zero(), double
   for (int k = 0; k < n; ++k)
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i)
-        for (const int node : {number(i, j, k), number(i + 1, j, k), number(i + 1, j + 1, k), number(i, j + 1, k), number(i, j, k + 1), number(i + 1, j, k + 1),
-                               number(i + 1, j + 1, k + 1), number(i, j + 1, k + 1)})
+        for (const int node :
+             {number(i, j, k), number(i + 1, j, k), number(i + 1, j + 1, k), number(i, j + 1, k), number(i, j, k + 1),
+              number(i + 1, j, k + 1), number(i + 1, j + 1, k + 1), number(i, j + 1, k + 1)})
           block.nodes.push_back(node);
   mesh->blocks = {block};
   auto part = std::make_shared<Substructure>();
@@ -36,10 +37,13 @@ SubstructurePtr box(int n, double size, const Vec3& place = Vec3::Zero(), double
   return part;
 }
 
-Picture picture_of(const std::vector<SubstructurePtr>& parts, int most = 2500) { return make_picture(parts, view_of(parts), {}, {}, 0.0, most); }
+Picture picture_of(const std::vector<SubstructurePtr>& parts, int most = 2500) {
+  return make_picture(parts, view_of(parts), {}, {}, 0.0, most);
+}
 
 int of_part(const Picture& picture, int part) {
-  return static_cast<int>(std::count_if(picture.facets.begin(), picture.facets.end(), [part](const PictureFacet& f) { return f.part == part; }));
+  return static_cast<int>(std::count_if(picture.facets.begin(), picture.facets.end(),
+                                        [part](const PictureFacet& f) { return f.part == part; }));
 }
 
 TEST(ItemBuffer, keeps_the_nearest) {
@@ -170,7 +174,8 @@ TEST(JointMap, does_not_lay_a_tube_flat) {
   const int n = 12;
   tube.points.resize(3, 2 * n);
   for (int i = 0; i < n; ++i)
-    for (int k = 0; k < 2; ++k) tube.points.col(2 * i + k) = Vec3(std::cos(2 * M_PI * i / n), std::sin(2 * M_PI * i / n), k);
+    for (int k = 0; k < 2; ++k)
+      tube.points.col(2 * i + k) = Vec3(std::cos(2 * M_PI * i / n), std::sin(2 * M_PI * i / n), k);
   for (int i = 0; i < n; ++i) {
     const int a = 2 * i, b = 2 * ((i + 1) % n);
     tube.facets.push_back({{a, b, b + 1, a + 1}, 4});

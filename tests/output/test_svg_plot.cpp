@@ -60,9 +60,11 @@ TEST(PlotScale, has_round_ticks_in_the_unit_of_its_title) {
 }
 
 TEST(PlotScale, names_decades_and_where_they_are_few_twos_and_fives) {
-  EXPECT_EQ(labels(scale({"frequency", "Hz", true}, 1e3, 1e5)), (std::vector<std::string>{"1", "2", "5", "10", "20", "50", "100"}));
+  EXPECT_EQ(labels(scale({"frequency", "Hz", true}, 1e3, 1e5)),
+            (std::vector<std::string>{"1", "2", "5", "10", "20", "50", "100"}));
   EXPECT_EQ(scale({"frequency", "Hz", true}, 1e3, 1e5).title(), "frequency (kHz)");
-  EXPECT_EQ(labels(scale({"indicator", "", true}, 1e-9, 1e-5, 5)), (std::vector<std::string>{"10⁻⁹", "10⁻⁸", "10⁻⁷", "10⁻⁶", "10⁻⁵"}));
+  EXPECT_EQ(labels(scale({"indicator", "", true}, 1e-9, 1e-5, 5)),
+            (std::vector<std::string>{"10⁻⁹", "10⁻⁸", "10⁻⁷", "10⁻⁶", "10⁻⁵"}));
   EXPECT_LE(labels(scale({"indicator", "", true}, 1e-300, 1.0, 5)).size(), 6u);
 }
 
@@ -127,7 +129,8 @@ TEST(Plot, refuses_unequal_columns) {
 
 TEST(Plot, stacks_areas_up_to_their_sum) {
   Plot plot{.title = "Areas", .x = {"time", "s"}, .y = {"area", "m^2"}};
-  plot.stacked = {{"stick", {0.0, 1.0}, {3e-6, 1e-6}}, {"slip", {0.0, 1.0}, {1e-6, 2e-6}}, {"open", {0.0, 1.0}, {0.0, 1e-6}}};
+  plot.stacked = {
+      {"stick", {0.0, 1.0}, {3e-6, 1e-6}}, {"slip", {0.0, 1.0}, {1e-6, 2e-6}}, {"open", {0.0, 1.0}, {0.0, 1e-6}}};
   const std::string text = svg(plot);
   EXPECT_EQ(test::xml_fault(text), "");
   EXPECT_EQ(test::count(text, "fill-opacity=\"0.75\""), 6);  // three areas, three names

@@ -1,6 +1,4 @@
 // Specifications of spectra: interpolation, files and their faults, how far a spectrum is above.
-#include "signal/specification.hpp"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -10,6 +8,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "signal/specification.hpp"
 
 namespace dygita {
 namespace {
@@ -18,7 +17,8 @@ const Specification plateau{{100.0, 1000.0, 10000.0}, {200.0, 2000.0, 2000.0}, "
 
 class SpecificationFile : public ::testing::Test {
  protected:
-  SpecificationFile() : path_(std::filesystem::temp_directory_path() / ("dygita_specification_" + std::to_string(getpid()) + ".csv")) {}
+  SpecificationFile()
+      : path_(std::filesystem::temp_directory_path() / ("dygita_specification_" + std::to_string(getpid()) + ".csv")) {}
   ~SpecificationFile() override { std::filesystem::remove(path_); }
 
   Specification read(const std::string& text) const {
@@ -30,7 +30,8 @@ class SpecificationFile : public ::testing::Test {
       read(text);
     } catch (const InputError& error) {
       const std::string message = error.what();
-      return message.substr(0, path_.string().size()) == path_.string() ? message.substr(path_.string().size()) : message;
+      return message.substr(0, path_.string().size()) == path_.string() ? message.substr(path_.string().size())
+                                                                        : message;
     }
     return "none";
   }
@@ -61,7 +62,8 @@ TEST(Specification, tells_the_largest_exceedance_and_where) {
 }
 
 TEST_F(SpecificationFile, takes_commas_semicolons_blanks_and_a_header_with_a_unit) {
-  for (const char* text : {"100,200\n1000,2000\n", "frequency [Hz],level [m/s^2]\n100,200\n1000,2000\n", "# a test\n\n100;200\n1000;2000\n", "100 200\n1000\t2000\n"}) {
+  for (const char* text : {"100,200\n1000,2000\n", "frequency [Hz],level [m/s^2]\n100,200\n1000,2000\n",
+                           "# a test\n\n100;200\n1000;2000\n", "100 200\n1000\t2000\n"}) {
     const Specification s = read(text);
     EXPECT_EQ(s.frequency, (std::vector<double>{100.0, 1000.0})) << text;
     EXPECT_EQ(s.level, (std::vector<double>{200.0, 2000.0})) << text;
