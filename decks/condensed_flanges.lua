@@ -43,6 +43,6 @@ local result = problem{
 }:run{}
 
 local frequency = result[element].frequency
-for i = 1, 10 do print(("mode %2d: %8.0f Hz"):format(i, frequency[i])) end
+for i = 1, math.min(10, #frequency) do print(("mode %2d: %8.0f Hz"):format(i, frequency[i])) end
 print(("of the joint sticks: %.0f mm2, slides: %.0f mm2, open: %.0f mm2"):format(
   result[joint].stick_area.last * 1e6, result[joint].slip_area.last * 1e6, result[joint].open_area.last * 1e6))

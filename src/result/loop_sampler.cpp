@@ -34,7 +34,12 @@ class LoopSampler : public Sampler {
     const int i_after = output_.after ? index_of(problem_.steps, output_.after.get()) : -1;
     for (int i = 0; i < table().n_rows(); ++i)
       if (table().step[i] <= i_after) first = i;
-    if (table().n_rows() > 0) result.loops[&output_] = summarise_loop(table(), first);
+    if (table().n_rows() == 0) return;
+    const LoopSummary& loop = result.loops[&output_] = summarise_loop(table(), first);
+    const std::string who = "loop '" + output_.name + "', ";
+    if (std::isfinite(loop.exponent)) result.figures[who + "exponent of the loss over the force"] = loop.exponent;
+    if (std::isfinite(loop.displacement_exponent)) result.figures[who + "exponent of the loss over the displacement"] = loop.displacement_exponent;
+    if (std::isfinite(loop.stiffness)) result.figures[who + "first stiffness [N/m]"] = loop.stiffness;
   }
 
  private:
