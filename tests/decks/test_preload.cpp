@@ -191,7 +191,9 @@ problem{ name = "nothing", substructures = { low, high }, interfaces = { glue },
 TEST(Preload, takes_a_history_and_other_loads_beside_it) {
   const DeckRun run = run_text(R"(
 local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0, density = 7800 }
-local function bar(name, z) return substructure{ name = name, material = steel, mesh = mesh.box{ origin = { 0, 0, z }, size = { 10*mm, 10*mm, 20*mm }, cells = { 1, 1, 4 } } } end
+local function bar(name, z)
+  return substructure{ name = name, material = steel, mesh = mesh.box{ origin = { 0, 0, z }, size = { 10*mm, 10*mm, 20*mm }, cells = { 1, 1, 4 } } }
+end
 local low, high = bar("low", 0), bar("high", 20*mm)
 local joint = interface.bonded{ name = "joint", between = { low:face "zmax", high:face "zmin" } }
 local ends = support.fixed{ name = "ends", on = { low:face "zmin", high:face "zmax" } }
