@@ -39,11 +39,15 @@ Json json_of(const Picture& picture) {
           {"outline", picture.outline}};
 }
 
+// m; what is not finite is told as it is.
 double largest(const std::vector<Points>& displacement) {
   double largest = 0.0;
   for (const Points& u : displacement)
-    for (Eigen::Index i = 0; i < u.cols(); ++i)
-      if (const double length = u.col(i).norm(); !(length <= largest)) largest = length;  // nan stays
+    for (Eigen::Index i = 0; i < u.cols(); ++i) {
+      const double length = u.col(i).norm();
+      if (!std::isfinite(length)) return length;
+      largest = std::max(largest, length);
+    }
   return largest;
 }
 
