@@ -38,6 +38,7 @@ problem{ name = "blocks", substructures = { low, high }, interfaces = { touch },
 struct Written {
   std::shared_ptr<const RunResult> result, unwatched;  // with files and without
   std::string page, record;
+  std::vector<OutputPtr> outputs;  // the results' keys, which go with the deck
 };
 
 Written run_and_read(const std::string& text, const std::string& solver = "") {
@@ -54,6 +55,7 @@ Written run_and_read(const std::string& text, const std::string& solver = "") {
   const Engine engine{[&](const Problem& problem, const RunRequest& request) {
                         RunRequest quiet = request;
                         quiet.write_files = false;
+                        written.outputs = problem.outputs;
                         written.unwatched = run_problem(problem, quiet);
                         return written.result = run_problem(problem, request);
                       },
