@@ -87,6 +87,7 @@ Json outputs_record(const Problem& problem, const RunResult& result) {
     if (output->direction) json["direction"] = {(*output->direction)[0], (*output->direction)[1], (*output->direction)[2]};
     if (output->kind == OutputKind::srs) {
       json.update({{"of", output->of->name}, {"quantity", spectrum_quantity(output->srs.quantity)}, {"q_factor", output->srs.q_factor}});
+      if (result.bands.contains(output.get())) json["band"] = file_name_of(output->name) + "_band.csv";
       if (output->specification) json["specification"] = specification(*output->specification, found->second);
     }
     if (output->kind == OutputKind::attenuation)

@@ -7,6 +7,7 @@
 #include "base/log.hpp"
 #include "output/html.hpp"
 #include "output/report_parts.hpp"
+#include "output/svg_text.hpp"
 #include "output/units.hpp"
 
 namespace dygita {
@@ -21,6 +22,7 @@ struct Spectrum {
   double q_factor;
   Table table;
   SpecificationPtr specification;
+  Table band;  // dB, what iteration, time step and mesh leave; empty: not known
 
   const std::vector<double>& frequency() const { return table.columns.front(); }
   const std::vector<double>& level() const { return table.column("maximax"); }
@@ -45,7 +47,9 @@ std::vector<Spectrum> spectra_of(const RunFolder& run, const ReportRequest& requ
                       text(output, "quantity"),
                       number(output, "q_factor"),
                       run.table(text(output, "file"), {"maximax", "positive", "negative"}),
-                      specification_of(output, request)};
+                      specification_of(output, request),
+                      {}};
+    if (output.contains("band")) spectrum.band = run.table(text(output, "band"), {"all"});
     if (spectrum.table.n_rows() > 0) spectra.push_back(std::move(spectrum));
   }
   return spectra;
@@ -110,6 +114,20 @@ void add_specification(const Specification& s, Plot& plot) {
   plot.lines.push_back({"specification", s.frequency, s.level, "#000000", true, false, 1.8});
 }
 
+constexpr size_t most_shaded = 3;  // spectra in one figure
+
+bool add_uncertainty(const Spectrum& s, int i_line, Plot& plot) {
+  if (s.band.n_rows() != s.table.n_rows()) return false;
+  PlotBand band{"", s.frequency(), s.level(), s.level(), series_color(i_line), 0.18};
+  for (size_t i = 0; i < band.low.size(); ++i) {
+    const double factor = std::pow(10.0, s.band.column("all")[i] / 20.0);
+    band.low[i] /= factor;
+    band.high[i] *= factor;
+  }
+  plot.bands.push_back(std::move(band));
+  return true;
+}
+
 std::string spectra_figure(const std::vector<Spectrum>& group, const TimeAxis& time) {
   Plot plot{.title = "Shock response spectra of " + group.front().quantity,
             .x = {"frequency", "Hz", true},
@@ -118,7 +136,10 @@ std::string spectra_figure(const std::vector<Spectrum>& group, const TimeAxis& t
   plot.width = 820;
   std::vector<SpecificationPtr> drawn;
   for (const Spectrum& s : group)
-    plot.lines.push_back({fmt::format("{} (Q {:g})", s.name, s.q_factor), s.frequency(), s.level()});
+    plot.lines.push_back({s.name + (std::isfinite(s.q_factor) ? fmt::format(" (Q {:g})", s.q_factor) : " (undamped)"), s.frequency(), s.level()});
+  bool has_uncertainty = false;
+  if (group.size() <= most_shaded)
+    for (size_t i = 0; i < group.size(); ++i) has_uncertainty |= add_uncertainty(group[i], static_cast<int>(i), plot);
   if (group.size() == 1)
     for (const char* side : {"positive", "negative"})
       plot.lines.push_back({side, group[0].frequency(), group[0].table.column(side), {}, true, false, 1.0});
@@ -147,6 +168,7 @@ std::string spectra_figure(const std::vector<Spectrum>& group, const TimeAxis& t
     caption +=
         "; below " + with_unit(low, "Hz") + ", one over the length of the record, it depends on what comes after";
   }
+  if (has_uncertainty) caption += "; shaded: what iteration, time step and mesh leave by the run's own estimate";
   return html::figure(svg(plot), caption + ".");
 }
 

@@ -151,7 +151,11 @@ std::string bolts_section(const RunFolder& run) {
   if (has_target) header.push_back("asked for");
   header.push_back("tightened to");
   if (has_hand) header.push_back("VDI 2230, same shortening");
-  for (const char* name : {"shortened by", "lowest in motion", "highest in motion", "at the end", "lost", "mean stress", "opened for good"}) header.push_back(name);
+  const Json& steps_of_run = run.record().at("steps");
+  const bool has_motion = std::any_of(steps_of_run.begin(), steps_of_run.end(), [](const Json& step) { return text(step, "kind") == "dynamic"; });
+  header.push_back("shortened by");
+  if (has_motion) header.insert(header.end(), {"lowest in motion", "highest in motion"});
+  for (const char* name : {"at the end", "lost", "mean stress", "opened for good"}) header.push_back(name);
   std::vector<std::vector<std::string>> rows;
   for (const Json& bolt : bolts) {
     std::vector<std::string> row = {text(bolt, "name")};
@@ -159,7 +163,9 @@ std::string bolts_section(const RunFolder& run) {
     row.push_back(force(number(bolt, "tightened")));
     if (has_hand) row.push_back(force(by_hand(bolt, "force")));
     row.push_back(with_unit(number(bolt, "shortening"), "m"));
-    for (const char* key : {"lowest", "highest", "last"}) row.push_back(force(number(bolt, key)));
+    if (has_motion)
+      for (const char* key : {"lowest", "highest"}) row.push_back(force(number(bolt, key)));
+    row.push_back(force(number(bolt, "last")));
     row.push_back(plain_number(100.0 * number(bolt, "loss")) + " %");
     row.push_back(number(bolt, "area") > 0.0 ? with_unit(number(bolt, "last") / number(bolt, "area"), "Pa") : "");
     row.push_back(with_unit(number(bolt, "plastic_opening"), "m"));

@@ -17,6 +17,7 @@ std::string picture_section(const RunFolder& run);
 std::string spectra_section(const RunFolder& run, const TimeAxis& time, const ReportRequest& request);
 // A line for each spectrum with a specification: how far it is above or below.
 std::vector<std::string> spectra_findings(const RunFolder& run, const ReportRequest& request);
+std::string condensed_section(const RunFolder& run);
 std::string attenuation_section(const RunFolder& run);
 std::string histories_section(const RunFolder& run, const TimeAxis& time);
 std::string bolts_section(const RunFolder& run);

@@ -271,10 +271,14 @@ class Chart {
     const std::string turned =
         fmt::format(" transform=\"rotate(-90 14 {0})\"", coordinate(0.5 * (frame_.top + frame_.bottom)));
     text_ += text_at(14.0, 0.5 * (frame_.top + frame_.bottom), y_.title(), "middle", ink, turned);
-    for (const PlotSpan& span : plot_.spans)
-      text_ += text_at(
-          std::max(0.5 * (x_.pixel(span.from) + x_.pixel(span.to)), frame_.left + 0.5 * text_width(span.label) - 20.0),
-          frame_.top - 5.0, span.label, "middle", grey);
+    double taken_to = 0.0;  // of two labels that would meet the second is left out
+    for (const PlotSpan& span : plot_.spans) {
+      const double half = 0.5 * text_width(span.label);
+      const double x = std::max(0.5 * (x_.pixel(span.from) + x_.pixel(span.to)), frame_.left + half - 20.0);
+      if (x - half < taken_to) continue;
+      text_ += text_at(x, frame_.top - 5.0, span.label, "middle", grey);
+      taken_to = x + half + 6.0;
+    }
   }
 
   const Plot& plot_;

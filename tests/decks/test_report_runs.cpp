@@ -105,6 +105,19 @@ TEST(ReportRuns, tightened_and_shocked_with_a_specification) {
   EXPECT_NE(run.page.find("The largest strain energy in the motion, step &#39;shock&#39;"), std::string::npos);
 }
 
+TEST(ReportRuns, shows_what_the_joint_takes_and_its_loop) {
+  const Written run = run_and_read(blocks(latin + "local shock = hit('shock', press, 30*us) local steps = { press, shock }\n", R"(
+local b = output.history{ name = "behind", on = low:face "xmax", quantity = "acceleration", direction = { 0, 0, 1 } }
+for _, one in ipairs{ b, output.attenuation{ name = "taken", entering = a, leaving = b, from = 50*kHz, to = 400*kHz },
+  output.srs{ name = "pseudo", of = a, quantity = "pseudo_velocity", damping = 0, from = 50*kHz, to = 400*kHz },
+  output.loop{ name = "loop", on = touch, direction = { 0, 0, 1 } } } do outputs[#outputs + 1] = one end
+)"));
+  expect_sound(run);
+  for (const char* part : {"<h2>Through the joint", "taken: from top to behind", "<h2>Condensed models", "pseudo (undamped)",
+                           "maximax pseudo-velocity (m/s)", "shaded: what iteration, time step and mesh leave"})
+    EXPECT_NE(run.page.find(part), std::string::npos) << part;
+}
+
 TEST(ReportRuns, only_static) {
   const Written run = run_and_read(blocks(latin + "local steps = { press }\n"));
   expect_sound(run);
