@@ -241,22 +241,31 @@ std::pair<std::string, std::string> parse_setting(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-double parse_quantity(const std::string& what, const std::string& text) {
-  const DeckOptions options;
-  const Engine engine;
-  DeckState state(options, engine, false);
+namespace {
+
+// Leaves what an embedded Lua file answers on the stack of a state that declares nothing.
+void load_module(DeckState& state, const char* name) {
   lua_State* L = state.raw();
   lua_pushcfunction(L, [](lua_State* l) {
     push_native(DeckState::of(LuaState::of(l)));
     lua_getfield(l, -1, "module");
-    lua_pushliteral(l, "command_line");
-    lua_call(l, 1, 1);
-    lua_getfield(l, -1, "quantity");
     lua_pushvalue(l, 1);
-    lua_pushvalue(l, 2);
-    lua_call(l, 2, 1);
+    lua_call(l, 1, 1);
     return 1;
   });
+  lua_pushstring(L, name);
+  state.call(1, 1);
+}
+
+}  // namespace
+
+double parse_quantity(const std::string& what, const std::string& text) {
+  const DeckOptions options;
+  const Engine engine;
+  DeckState state(options, engine, false);
+  load_module(state, "command_line");
+  lua_State* L = state.raw();
+  lua_getfield(L, -1, "quantity");
   lua_pushlstring(L, what.data(), what.size());
   lua_pushlstring(L, text.data(), text.size());
   state.call(2, 1);
@@ -267,16 +276,8 @@ std::string deck_reference() {
   const DeckOptions options;
   const Engine engine;
   DeckState state(options, engine, false);
-  lua_State* L = state.raw();
-  lua_pushcfunction(L, [](lua_State* l) {
-    push_native(DeckState::of(LuaState::of(l)));
-    lua_getfield(l, -1, "module");
-    lua_pushliteral(l, "reference");
-    lua_call(l, 1, 1);
-    return 1;
-  });
-  state.call(0, 1);
-  return lua_tostring(L, -1);
+  load_module(state, "reference");
+  return lua_tostring(state.raw(), -1);
 }
 
 std::string version() { return DYGITA_VERSION; }

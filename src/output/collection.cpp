@@ -1,35 +1,9 @@
 #include "output/collection.hpp"
 
 #include "base/log.hpp"
+#include "output/svg_text.hpp"
 
 namespace dygita {
-
-namespace {
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
-}  // namespace
 
 void Collection::add(double time, int part, const std::string& name, const std::filesystem::path& file) {
   // The shortest text that reads back as the same number: no two frames fall together.

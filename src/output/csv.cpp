@@ -38,7 +38,7 @@ std::vector<std::string> cells_of(const std::string& line) {
       is_quoted = !is_quoted;
     } else if (line[i] == ',' && !is_quoted) {
       cells.emplace_back();
-    } else {
+    } else if (line[i] != '\r') {
       cells.back() += line[i];
     }
   }
@@ -47,12 +47,9 @@ std::vector<std::string> cells_of(const std::string& line) {
 
 }  // namespace
 
-Table read_csv(const std::filesystem::path& path, const std::vector<std::string>& step_names) {
-  std::ifstream file(path);
+Table parse_csv(std::istream& stream, const std::vector<std::string>& step_names) {
   std::string line;
-  int n = 1;
-  const auto fail = [&](const std::string& what) { throw InputError(fmt::format("{}:{}: {}", path.string(), n, what)); };
-  if (!file || !std::getline(file, line)) fail("no table");
+  if (!std::getline(stream, line)) throw InputError("is empty");
   Table table;
   const std::vector<std::string> header = cells_of(line);
   const bool has_steps = header.size() > 1 && header[1] == "step";
@@ -64,23 +61,33 @@ Table read_csv(const std::filesystem::path& path, const std::vector<std::string>
     table.units.push_back(has_unit ? header[i].substr(open + 2, header[i].size() - open - 3) : "");
   }
   table.columns.resize(table.names.size());
-  while (std::getline(file, line)) {
-    ++n;
+  for (int n = 2; std::getline(stream, line); ++n) {
     std::vector<std::string> cells = cells_of(line);
-    if (cells.size() != header.size()) fail(fmt::format("{} cells where the header has {}", cells.size(), header.size()));
+    if (cells.size() != header.size())
+      throw InputError(fmt::format("line {} has {} cells where the header has {}", n, cells.size(), header.size()));
     if (has_steps) {
       const auto step = std::find(step_names.begin(), step_names.end(), cells[1]);
-      if (step == step_names.end()) fail("no step '" + cells[1] + "' in the problem");
+      if (step == step_names.end()) throw InputError(fmt::format("line {}: no step '{}' in the problem", n, cells[1]));
       table.step.push_back(static_cast<int>(step - step_names.begin()));
       cells.erase(cells.begin() + 1);
     }
     for (size_t i = 0; i < cells.size(); ++i) {
       char* end = nullptr;
       table.columns[i].push_back(std::strtod(cells[i].c_str(), &end));
-      if (cells[i].empty() || *end != '\0') fail("'" + cells[i] + "' is no number");
+      if (cells[i].empty() || *end != '\0') throw InputError(fmt::format("line {}: '{}' is no number", n, cells[i]));
     }
   }
   return table;
+}
+
+Table read_csv(const std::filesystem::path& path, const std::vector<std::string>& step_names) {
+  std::ifstream file(path);
+  try {
+    if (!file) throw InputError("is missing");
+    return parse_csv(file, step_names);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{} {}", path.string(), error.what()));
+  }
 }
 
 std::string csv_text(const Table& table, const std::vector<std::string>& step_names) {

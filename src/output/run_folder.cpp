@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "output/csv.hpp"
 #include "output/scene_file.hpp"
 
 namespace dygita {
@@ -20,66 +21,6 @@ std::optional<std::string> text_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return std::nullopt;
   return std::string{std::istreambuf_iterator<char>(file), {}};
-}
-
-// The cells of a line of RFC 4180 without line breaks in them.
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool is_quoted = false;
-  for (size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"' && is_quoted && i + 1 < line.size() && line[i + 1] == '"') {
-      cells.back() += line[++i];
-    } else if (line[i] == '"') {
-      is_quoted = !is_quoted;
-    } else if (line[i] == ',' && !is_quoted) {
-      cells.emplace_back();
-    } else if (line[i] != '\r') {
-      cells.back() += line[i];
-    }
-  }
-  return cells;
-}
-
-int index_of_step(const Json& record, const std::string& name) {
-  const Json& steps = record.at("steps");
-  for (size_t i = 0; i < steps.size(); ++i)
-    if (text(steps[i], "name") == name) return static_cast<int>(i);
-  throw InputError("no step '" + name + "' in run.json");
-}
-
-Table read_table(std::istream& file, const Json& record) {
-  std::string line;
-  if (!std::getline(file, line)) throw InputError("is empty");
-  Table table;
-  const std::vector<std::string> header = cells_of(line);
-  const bool has_steps = header.size() > 1 && header[1] == "step";
-  for (size_t i = 0; i < header.size(); ++i) {
-    if (has_steps && i == 1) continue;
-    const size_t open = header[i].rfind(" [");
-    const bool has_unit = open != std::string::npos && header[i].back() == ']';
-    table.names.push_back(has_unit ? header[i].substr(0, open) : header[i]);
-    table.units.push_back(has_unit ? header[i].substr(open + 2, header[i].size() - open - 3) : "");
-  }
-  table.columns.resize(table.names.size());
-  std::string last_step;
-  int step = -1;
-  for (int n = 2; std::getline(file, line); ++n) {
-    const std::vector<std::string> cells = cells_of(line);
-    if (cells.size() != header.size())
-      throw InputError(fmt::format("line {} has {} cells where the header has {}", n, cells.size(), header.size()));
-    if (has_steps) {
-      if (step < 0 || cells[1] != last_step) step = index_of_step(record, cells[1]);
-      last_step = cells[1];
-      table.step.push_back(step);
-    }
-    for (size_t i = 0, column = 0; i < cells.size(); ++i) {
-      if (has_steps && i == 1) continue;
-      char* end = nullptr;
-      table.columns[column++].push_back(std::strtod(cells[i].c_str(), &end));
-      if (cells[i].empty() || *end != '\0') throw InputError(fmt::format("line {}: '{}' is no number", n, cells[i]));
-    }
-  }
-  return table;
 }
 
 }  // namespace
@@ -124,7 +65,9 @@ Table RunFolder::table(const std::string& file, const std::vector<std::string>& 
   std::ifstream stream(folder_ / file);
   try {
     if (!stream) throw InputError("is missing");
-    Table table = read_table(stream, record_);
+    std::vector<std::string> steps;
+    for (const Json& step : record_.at("steps")) steps.push_back(text(step, "name"));
+    Table table = parse_csv(stream, steps);
     for (const std::string& name : columns)
       if (std::find(table.names.begin(), table.names.end(), name) == table.names.end())
         throw InputError("has no column '" + name + "'");

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/log.hpp"
+#include "output/csv.hpp"
 #include "output/files.hpp"
 #include "output/svg_plot.hpp"
 #include "output/svg_text.hpp"
@@ -57,13 +58,6 @@ std::string unit_of(const std::vector<StudyCase>& cases, const std::string& name
   for (const StudyCase& c : cases)
     if (const CaseFigure* known = figure(c, name)) return known->unit;
   return "";
-}
-
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
 }
 
 std::string number(double value) { return fmt::format("{:.9g}", value); }
@@ -122,14 +116,14 @@ bool is_worth_a_chart(const std::vector<StudyCase>& cases, const std::string& na
 std::string study_csv(const std::vector<StudyCase>& cases) {
   const std::vector<std::string> parameters = parameters_of(cases), figures = figures_of(cases);
   std::string text = "case,started_from";
-  for (const std::string& name : parameters) text += "," + cell(name);
+  for (const std::string& name : parameters) text += "," + quoted(name);
   for (const std::string& name : figures) {
     const std::string unit = unit_of(cases, name);
-    text += "," + cell(unit.empty() ? name : name + " [" + unit + "]");
+    text += "," + quoted(unit.empty() ? name : name + " [" + unit + "]");
   }
   text += ",iterations,mean_iterations,cold_iterations,cold_difference,converged,seconds [s]\n";
   for (const StudyCase& c : cases) {
-    text += cell(c.name) + "," + cell(c.started_from);
+    text += quoted(c.name) + "," + quoted(c.started_from);
     for (const std::string& name : parameters) text += "," + number(parameter(c, name));
     for (const std::string& name : figures) {
       const CaseFigure* known = figure(c, name);
