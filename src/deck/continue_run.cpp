@@ -190,6 +190,7 @@ DeckOutcome continue_run(const ContinueOptions& options) {
   deck.memory_limit = options.memory_limit;
   deck.write_frames = options.write_frames;
   deck.write_state = options.write_state;
+  deck.is_study = false;
   Continuation continuation(options, state);
   DeckOutcome outcome = run_deck(deck, {[&](const Problem& problem, const RunRequest& request) { return continuation.run(problem, request); }, check_report});
   if (!continuation.is_done() && !outcome.interrupted)

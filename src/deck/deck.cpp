@@ -166,7 +166,7 @@ void check_cold(DeckState& state, const DeckResult& warm, StudyCase& one) {
 // Notes what the case came to, for the study's table.
 void note_case(DeckState& state, const DeckResult& result, const std::string& case_name, const Arguments& arguments,
                const DeckResultPtr& start_from) {
-  if (!state.is_solving || result.run->interrupted) return;
+  if (!state.is_solving || !state.options.is_study || result.run->interrupted) return;
   StudyCase one;
   one.name = case_name;
   for (const auto& [name, value] : arguments.settings("at")) one.at.emplace_back(name, value);

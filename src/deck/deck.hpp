@@ -30,6 +30,7 @@ struct DeckOptions {
   bool write_files = true;
   bool write_frames = true;  // those of output.vtk
   bool write_state = true;   // what continue_run needs
+  bool is_study = true;      // the table of several cases, and cases checked cold; not while one of them is continued
   std::string solver;        // --solver: an expression that takes the place of every problem's solver; empty: the deck's
 };
 

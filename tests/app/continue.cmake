@@ -31,4 +31,13 @@ file(GLOB left ${out}/crush/* ${out}/crush/.*)
 if(NOT left STREQUAL ${run})
   message(SEND_ERROR "beside the run lie '${left}'")
 endif()
+
+# One case of a study: the others are read, nothing is checked cold once more, the study's table stays.
+expect(0 "study of 'lap'" run ${SOURCE_DIR}/decks/study_friction.lua --set cases=3 --set n=2 --set increments=4 --quiet --out ${out})
+file(READ ${out}/lap/study.csv before)
+expect(0 "case 'mu_0.210': read from" continue ${out}/lap/mu_0.180 --tolerance 1e-9 --quiet)
+file(READ ${out}/lap/study.csv after)
+if(NOT before STREQUAL after)
+  message(SEND_ERROR "a continued case has rewritten the study's table")
+endif()
 file(REMOVE_RECURSE ${out})
