@@ -14,9 +14,6 @@ function(dygita_target_options target)
     -Woverloaded-virtual "$<$<CXX_COMPILER_ID:GNU>:${dygita_gnu_false_alarms}>"
     $<$<BOOL:${DYGITA_WARNINGS_AS_ERRORS}>:-Werror>)
   target_link_libraries(${target} PRIVATE OpenMP::OpenMP_CXX)
-  # Or what an executable has of Eigen's templates takes the place of the same ones inside libgmsh, which was compiled for another
-  # processor with other alignments: it crashes there.
-  target_link_options(${target} PRIVATE LINKER:--exclude-libs,ALL)
   if(DYGITA_NATIVE)
     target_compile_options(${target} PRIVATE -march=native)
   endif()

@@ -164,7 +164,7 @@ const char* output_kind_name(OutputKind kind);
 enum class Quantity { displacement, velocity, acceleration, stress, von_mises, pressure };
 const char* quantity_name(Quantity quantity);
 
-// What of a face moves with the interface of a superelement (manual, eq. B2).
+// What of a face moves with the interface of a superelement (manual, eq. D2).
 enum class FaceMotion { mean, rigid, nodes };
 
 struct SuperelementSettings {

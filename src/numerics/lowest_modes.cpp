@@ -14,6 +14,7 @@ namespace {
 
 constexpr int block = 8;
 constexpr double dependent = 1e-10;  // of a column's norm: what is left of it is round-off
+constexpr double round_off = 1e-12;  // of the largest eigenvalue of B M: what an exhausted space has beside the true ones
 
 // The Krylov space so far: V, M-orthonormal, and H = V^T M B M V.
 class Space {
@@ -100,13 +101,15 @@ Modes lowest_modes(int size, const std::function<void(Eigen::Ref<Mat>)>& solve, 
     }
     checked = end;
     const Eigen::SelfAdjointEigenSolver<Mat> eigen(0.5 * (h + h.transpose()));
+    const double smallest = round_off * eigen.eigenvalues().tail(1)[0];
+    const auto n_true = (eigen.eigenvalues().array() > smallest).count();
     int n = 0;
     double last = 0.0;
     bool is_enough = false;
     for (; n < end && !is_enough; ++n) {
       const int at = end - 1 - n;
       const double theta = eigen.eigenvalues()[at];
-      if (theta <= 0.0) break;  // round-off of an exhausted space
+      if (theta <= smallest) break;
       if (residual.rows() > 0 && (residual * eigen.eigenvectors().col(at).tail(width)).norm() > request.tolerance * theta) break;
       last = 1.0 / theta - shift;
       if (request.n == 0 && last > request.up_to) break;
@@ -114,7 +117,7 @@ Modes lowest_modes(int size, const std::function<void(Eigen::Ref<Mat>)>& solve, 
     }
     const bool is_beyond = request.n == 0 && last > request.up_to;
     if (is_enough || is_beyond || modes.is_all) {
-      modes.is_all = modes.is_all && !is_beyond && n == end;
+      modes.is_all = modes.is_all && n == n_true;
       modes.values.resize(n);
       Mat chosen(end, n);
       for (int i = 0; i < n; ++i) {

@@ -137,7 +137,7 @@ void add_error_figures(const ErrorEstimator& errors, const Problem& problem, Run
 void add_bands(const ErrorEstimator& errors, const Problem& problem, RunResult& result) {
   for (const OutputPtr& output : problem.outputs) {
     if (output->kind != OutputKind::srs || problem.explicit_dynamics) continue;
-    Table band = spectrum_band(result.tables.at(output.get()), output->of->quantity, errors.dynamic_steps());
+    Table band = spectrum_band(result.tables.at(output.get()), output->srs.quantity, errors.dynamic_steps());
     if (band.n_rows() == 0) continue;
     note_band(output->name, band, result.figures);
     result.bands[output.get()] = std::move(band);

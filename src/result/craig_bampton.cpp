@@ -22,7 +22,7 @@ constexpr int most_unknowns = 6000;
 // Added to the diagonal of the faces while the assembly is factorised, and taken off its Schur complement: nothing else may hold it.
 constexpr double reference_share = 0.1;
 
-// The assembly with W u = q: interior by the factor, the faces' unknowns by dense matrices (eq. B3).
+// The assembly with W u = q: interior by the factor, the faces' unknowns by dense matrices (eq. D3).
 class HeldInterface {
  public:
   HeldInterface(const LinearAssembly& assembly, const InterfaceCoordinates& coordinates, const Problem& problem, const Output& output)
@@ -128,7 +128,7 @@ Modes fixed_modes(const HeldInterface& held, const LinearAssembly& assembly, con
 
 Mat symmetric(const Mat& m) { return 0.5 * (m + m.transpose()); }
 
-// What the modes left out would follow the faces with at first order, as modes of their own (eq. B7): orthogonal to those kept, in M and K.
+// What the modes left out would follow the faces with at first order, as modes of their own (eq. D7): orthogonal to those kept, in M and K.
 // motions: of the assembly, static, that they are driven by.
 Modes residual_modes(const HeldInterface& held, const LinearAssembly& assembly, const Mat& motions, const Modes& kept) {
   Mat r = assembly.mass * motions;

@@ -1,4 +1,4 @@
-// Mass and stiffness of a linear assembly on interface coordinates and fixed-interface modes (manual, eq. B2-B7).
+// Mass and stiffness of a linear assembly on interface coordinates and fixed-interface modes (manual, eq. D2-D7).
 #pragma once
 
 #include "result/linear_assembly.hpp"

@@ -43,7 +43,7 @@ Mat3 cross_matrix(const Vec3& r) {
   return m;
 }
 
-// Six mean motions (eq. B2): translations, and rotations where the nodes do not lie on a line.
+// Six mean motions (eq. D2): translations, and rotations where the nodes do not lie on a line.
 std::vector<Row> mean_rows(const PlacedNodes& on) {
   Mat3 inertia = Mat3::Zero();
   for (size_t i = 0; i < on.nodes.size(); ++i) {

@@ -1,4 +1,4 @@
-// An assembly about a state of its interfaces, as one linear system: what sticks is tied, what is open is free (manual, eq. B1).
+// An assembly about a state of its interfaces, as one linear system: what sticks is tied, what is open is free (manual, eq. D1).
 #pragma once
 
 #include <array>

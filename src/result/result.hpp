@@ -71,7 +71,7 @@ struct LoopSummary {
   double secant = 0.0, largest_force = 0.0;  // N/m and N, at its end
 };
 
-// Mass and stiffness of an assembly on its interface coordinates and modes (manual, eq. B1-B6). Rows: those of the faces in the
+// Mass and stiffness of an assembly on its interface coordinates and modes (manual, eq. D1-D6). Rows: those of the faces in the
 // order of the output's `on`, then the modes.
 struct Superelement {
   struct Row {

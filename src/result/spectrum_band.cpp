@@ -20,9 +20,8 @@ void add_up(Table& band) {
 
 }  // namespace
 
-Table spectrum_band(const Table& spectrum, Quantity quantity, const ErrorEstimator::Estimate& errors) {
-  const int power = quantity == Quantity::acceleration ? 1 : quantity == Quantity::velocity ? 0 : -1;
-  if (quantity != Quantity::acceleration && quantity != Quantity::velocity && quantity != Quantity::displacement) return {};
+Table spectrum_band(const Table& spectrum, SrsQuantity quantity, const ErrorEstimator::Estimate& errors) {
+  const int power = quantity == SrsQuantity::absolute_acceleration ? 1 : quantity == SrsQuantity::pseudo_velocity ? 0 : -1;
   Table band{{"frequency", "iteration", "time_step", "mesh", "all"}, {"Hz", "dB", "dB", "dB", "dB"}, {}, {}};
   band.columns.resize(band.names.size());
   if (spectrum.columns.empty()) return band;

@@ -9,9 +9,8 @@ namespace dygita {
 // Share of the mean error velocity that a spectrum shows, fitted so that the true differences lie below (manual, Q7).
 inline constexpr double band_share = 0.3;
 
-// frequency [Hz], iteration, time_step, mesh, all [dB] for the maximax of `spectrum`, a spectrum of `quantity`. No columns for
-// a quantity that is no motion: the estimates, energies of motion, say nothing of it.
-Table spectrum_band(const Table& spectrum, Quantity quantity, const ErrorEstimator::Estimate& errors);
+// frequency [Hz], iteration, time_step, mesh, all [dB] for the maximax of `spectrum`, a spectrum of `quantity`.
+Table spectrum_band(const Table& spectrum, SrsQuantity quantity, const ErrorEstimator::Estimate& errors);
 
 // Puts what a spectrum has moved since the pass before in the place of the estimate of what iterating leaves.
 void take_iteration_from(const Table& spectrum, const Table& before, Table& band);
