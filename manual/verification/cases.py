@@ -174,7 +174,29 @@ SPECTRUM = Case(
                 goal_text="0.05 % (four digits of the table)"),
     ], 3, x=[0.4, 0.2, 0.1, 0.05], history="spectrum")
 
-CASES = [BOUNCING_BAR, TWO_BARS, UNEQUAL_BARS, YIELDING, ROD, SLIDING, PATCH, BONDED, SPECTRUM]
+PRELOAD = Case(
+    "5b", "preload", "Preload by force", "decks/verification/preload.lua",
+    "A rod is tightened in a sleeve to a force: half, all, nothing and all again; by torque; through a rod that yields; through a gap.",
+    "springs: the force asked for, and the shortening d = F (1/k_r + 1/k_s), plus the plastic opening, plus the gap.",
+    "head stiffness (GPa)", [(f"{head}", {"head": f"{head}*GPa"}) for head in (2, 20, 200, 2000)], [
+        Quantity("force asked for in step 4, error of F", "force, of that asked for", "", 1e-3, goal_text="0.001", plotted=False, fitted=False),
+        Quantity("force through a rod that yields, error", "force through a rod that yields", "", 1e-3, goal_text="0.001", plotted=False, fitted=False),
+        Quantity("force through a gap that closes, error", "force through a gap that closes", "", 1e-3, goal_text="0.001", plotted=False, fitted=False),
+        Quantity("shortening found in step 4, error", "shortening found", "", 1e-6),
+    ], 3, x=[20e6 / (head * 1e9) for head in (2, 20, 200, 2000)],
+    note="The exact solution has rigid heads: what is left of the shortening is the heads'. The force is found to the static tolerance, 1e-12.")
+
+GOODMAN = Case(
+    "12", "goodman", "Goodman's joint", "decks/verification/goodman.lua",
+    "A bar pressed evenly on a rough rigid ground, pulled to and fro at five growing amplitudes: it slides gradually from its end.",
+    "Goodman and Klumpp: a cycle between -F and F loses 2/3 F^3 / (E A q), q the friction a metre; the exponent of the loss is 3.",
+    "n", of_n(50, 100, 200, 400), [
+        percent("loss, largest error", "loss of a cycle, largest error of five", 1),
+        percent("displacement, largest error", "displacement amplitude, largest error", 1, fitted=False),
+        Quantity("exponent over the force (3)", "exponent of the loss over the force", "", 0.05, 3.0, "3 to 0.05", plotted=False, fitted=False),
+    ], 2, note="m = 20 increments between two turning points: the trapezoid around the loop keeps part of the error however fine the bar is.")
+
+CASES = [BOUNCING_BAR, TWO_BARS, UNEQUAL_BARS, YIELDING, ROD, PRELOAD, SLIDING, PATCH, BONDED, SPECTRUM, GOODMAN]
 
 SERIES = {  # of decks/verification/orders.lua: name in its lines -> (name in tables, theory, sizes, what x is)
     "h_hex8": ("h, hexahedra", 2, [40, 80, 160, 320], "n"),
