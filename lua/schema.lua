@@ -406,7 +406,7 @@ table.insert(words[9], {
 -- The arguments of a spectrum after those of its own.
 local function spectrum(arguments, per_octave)
   for _, argument in ipairs{
-    { "q_factor", type = "number", range = { 0.5, 1000 }, default_doc = "10", doc = "amplification at resonance" },
+    { "q_factor", type = "number", range = { 0.5, 1000 }, default_doc = "10", doc = "amplification at resonance, above 0.5" },
     { "damping", type = "number", range = { 0, 0.99 }, doc = "damping ratio, 1/(2 q_factor), in its place" },
     { "quantity", type = "choice", default = "absolute_acceleration",
       choices = { "absolute_acceleration", "relative_displacement", "pseudo_velocity" }, doc = "what of the oscillator" },

@@ -82,7 +82,7 @@ void add_continue_options(CLI::App& command, Command& asked) {
   command.add_option("RUN", options.run, "folder of a run, out/<problem>/<case>")->required();
   command.add_option("--tolerance", options.tolerance, "iterate to this tolerance (static steps: a hundredth of it)")
       ->check(CLI::Range(1e-14, 0.1));
-  command.add_option("--iterations", options.more_iterations, "at most so many iterations more at each increment")
+  command.add_option("--iterations", options.more_iterations, "at most so many iterations more at each increment, after one that meets what is known")
       ->check(CLI::Range(1, 1000000));
   command.add_option("--until", asked.until, "carry the last dynamic step on to this time, as 0.0004 or 0.4*ms");
   command.add_option("--threads", options.threads, "threads (default: all)")->check(CLI::Range(1, 1024));

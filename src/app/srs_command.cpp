@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <optional>
@@ -77,6 +78,12 @@ size_t column_of(const SrsCommand& command, const std::vector<std::string>& head
       fmt::format("{}: no column '{}'\n    {}", command.signal, command.column, did_you_mean(command.column, known)));
 }
 
+double seconds_of(const std::string& unit, const std::string& where) {
+  static const std::map<std::string, double> units = {{"", 1.0}, {"s", 1.0}, {"sec", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"µs", 1e-6}, {"ns", 1e-9}};
+  if (const auto found = units.find(unit); found != units.end()) return found->second;
+  throw InputError(fmt::format("{}: the first column is time, and '{}' is no unit of it\n    known: s, ms, us, ns", where, unit));
+}
+
 Signal read_signal(const SrsCommand& command) {
   std::ifstream file(command.signal);
   if (!file) throw InputError(fmt::format("no file '{}'", command.signal));
@@ -84,12 +91,15 @@ Signal read_signal(const SrsCommand& command) {
   std::vector<std::string> header;
   size_t column = 0;
   std::string line, first_step;
+  double seconds = 1.0;  // of the unit of time
   for (int n = 1; std::getline(file, line); ++n) {
     const auto cells = cells_of(line);
     if (cells.empty() || trimmed(line).empty() || line[0] == '#') continue;
-    const auto time = number_in(cells[0]);
+    auto time = number_in(cells[0]);
+    if (time) *time *= seconds;
     if (!time && signal.time.empty() && header.empty()) {
       header = cells;
+      seconds = seconds_of(unit_in(cells[0]), fmt::format("{}:{}", command.signal, n));
       continue;
     }
     if (signal.time.empty()) {
@@ -162,6 +172,9 @@ SrsQuantity quantity_named(const std::string& name) {
 }  // namespace
 
 void write_srs(const SrsCommand& command) {
+  std::error_code ignored;
+  if (!command.out.empty() && std::filesystem::equivalent(command.out, command.signal, ignored))
+    throw InputError(fmt::format("--out {}: that is the signal itself, which would be lost", command.out));
   SrsSettings settings = command.settings;
   settings.quantity = quantity_named(command.quantity);
   if (command.damping) settings.q_factor = q_factor_of(*command.damping);

@@ -31,16 +31,19 @@ std::string line_of(const Output& output, const Superelement& element) {
   const size_t n_modes = static_cast<size_t>(element.fixed_frequencies.size());
   std::string line = fmt::format("superelement '{}': {} interface rows and {} modes after step '{}', to be used up to {:.4g} Hz; natural frequencies",
                                  output.name, element.rows.size() - n_modes, n_modes, element.step, element.valid_to);
-  for (int i = 0; i < std::min<int>(8, static_cast<int>(element.frequencies.size())); ++i) line += fmt::format(" {:.5g}", element.frequencies[i]);
-  return line + " ... Hz";
+  int n = 0;
+  for (; n < std::min<int>(8, static_cast<int>(element.frequencies.size())) && element.frequencies[n] <= element.valid_to; ++n)
+    line += fmt::format(" {:.5g}", element.frequencies[n]);
+  return line + (n == 0 ? " above that" : n < 8 ? " Hz, the others above that" : " ... Hz");
 }
 
 }  // namespace
 
 std::vector<std::string> condensed_lines(const Problem& problem, const RunResult& result) {
   std::vector<std::string> lines;
+  const char* doubt = result.converged ? "" : "; NOT TO BE USED: increments have not converged";
   for (const OutputPtr& output : problem.outputs) {
-    if (const auto loop = result.loops.find(output.get()); loop != result.loops.end()) lines.push_back(line_of(*output, loop->second));
+    if (const auto loop = result.loops.find(output.get()); loop != result.loops.end()) lines.push_back(line_of(*output, loop->second) + doubt);
     const auto element = result.superelements.find(output.get());
     if (element != result.superelements.end()) lines.push_back(line_of(*output, element->second));
     if (output->kind == OutputKind::superelement && element == result.superelements.end())

@@ -126,10 +126,16 @@ class Continuation {
       throw InputError(fmt::format("--tolerance {:g}: 'precision' = \"single\" of the deck holds 1e-7 at least", problem.solver.tolerance));
     const double duration = state_->steps.back().duration + (options_.until ? *options_.until - end_of(*state_) : 0.0);
     if (!problem.steps.back()->is_static && duration != problem.steps.back()->duration) {
+      constexpr double implausible = 1000.0;
+      if (duration > implausible * problem.steps.back()->duration)
+        throw InputError(fmt::format("--until {:g} (s) is {:.3g} times as long as step '{}' of the deck: was a unit forgotten, as in --until 0.4*ms?", *options_.until,
+                                     duration / problem.steps.back()->duration, problem.steps.back()->name));
       auto longer = std::make_shared<Step>(*problem.steps.back());
       longer->duration = std::round(duration / longer->dt) * longer->dt;
       if (std::abs(longer->duration - duration) > 1e-6 * longer->dt)
         say(fmt::format("  step '{}' goes on to {:g} s, a whole number of dt", longer->name, end_of(*state_) + longer->duration - state_->steps.back().duration));
+      if (const int more = longer->n_increments() - problem.steps.back()->n_increments(); more > 0)
+        say(fmt::format("  {} increments more than the deck's {}", more, problem.steps.back()->n_increments()));
       problem.steps.back() = longer;
     }
     check_problem_is_same(problem, *state_);

@@ -178,6 +178,8 @@ void note_case(DeckState& state, const DeckResult& result, const std::string& ca
   one.seconds = seconds == result.run->seconds.end() ? 0.0 : seconds->second;
   if (start_from) one.started_from = start_from->case_name;
   if (arguments.boolean("check_cold") && start_from) check_cold(state, result, one);
+  if (arguments.boolean("check_cold") && !start_from)
+    warn(fmt::format("case '{}': 'check_cold' compares with 'start_from', and there is none: the case has run from scratch", case_name));
   state.study.add(result.problem->name, std::move(one));
 }
 

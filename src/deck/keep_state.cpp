@@ -32,7 +32,10 @@ std::string list_efforts(const std::vector<Effort>& efforts) {
 
 const InterfaceFields* start_of(const RunRequest& request) {
   if (request.continues) return request.continues->fields.get();
-  return request.start_from ? request.start_from->interface_fields.get() : nullptr;
+  if (!request.start_from) return nullptr;
+  if (request.start_from->converged) return request.start_from->interface_fields.get();
+  warn(fmt::format("case '{}': the case to start from has not converged, and its fields may lead astray: the iteration starts afresh", request.case_name));
+  return nullptr;
 }
 
 std::vector<double> load_samples(const Problem& problem, const std::vector<StateStep>& steps) {

@@ -96,6 +96,14 @@ void warn_of_errors(const Problem& problem, const RunResult& result) {
       warn(fmt::format("the mesh leaves about {:.2g} % of error (energy norm) {}: smaller cells leave less, 'stress_error' shows where", e, text));
 }
 
+// A shortening that a preload has found has no range of its own.
+void warn_of_bolts(const RunResult& result) {
+  constexpr double longest = 0.01;  // m, the largest load.shortening
+  for (const BoltSummary& bolt : result.bolts)
+    if (std::abs(bolt.shortening) > longest)
+      warn(fmt::format("bolt '{}' is shortened by {:.3g} mm for its preload: is the force, or a gap, a thousand times too large?", bolt.name, bolt.shortening * 1e3));
+}
+
 void say_summary(const Problem& problem, const RunResult& result, const std::filesystem::path& directory, double seconds) {
   if (const std::string pieces = list_pieces(problem, result.pieces); !pieces.empty()) say("  cut into pieces: " + pieces);
   for (const StepSummary& step : result.steps) {
@@ -183,10 +191,17 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result->seconds["all"] = seconds;
   const RunState state = (writer && request.write_state) || request.continues ? state_of(problem, request, *result) : RunState{};
+  if (request.continues) {
+    long earlier = 0;
+    for (const Effort& effort : request.continues->efforts) earlier += effort.iterations;
+    result->figures["iterations before the run was continued"] = static_cast<double>(earlier);
+  }
   const bool is_kept = !request.continues || reaches_as_far(state, *request.continues);
   if (writer && request.write_state && is_kept) keep_state(state, *writer, *result);
   warn_of_losses(problem, *result);
   warn_of_errors(problem, *result);
+  warn_of_bands(problem, *result);
+  warn_of_bolts(*result);
   const std::vector<std::string> warnings = take_warnings();
   RunIdentity identity = request.identity;
   identity.threads = omp_get_max_threads();

@@ -62,4 +62,14 @@ void say_bands(const Problem& problem, const RunResult& result) {
   }
 }
 
+void warn_of_bands(const Problem& problem, const RunResult& result) {
+  constexpr double limit = 6.0;  // dB: a factor of two
+  for (const OutputPtr& output : problem.outputs) {
+    if (!result.bands.contains(output.get())) continue;
+    if (const double all = result.figures.at(band_figure(output->name, "all")); all > limit)
+      warn(fmt::format("spectrum '{}' is known to about {:.2g} dB only (mean over its frequencies, by the run's own estimate): little arrives there beside "
+                       "what dt and the mesh leave", output->name, all));
+  }
+}
+
 }  // namespace dygita

@@ -19,4 +19,7 @@ void add_pass(const RunResult& before, RunResult& result);
 // A line for each spectrum: its mean band.
 void say_bands(const Problem& problem, const RunResult& result);
 
+// Warns of spectra whose band is wider than a factor of two.
+void warn_of_bands(const Problem& problem, const RunResult& result);
+
 }  // namespace dygita

@@ -95,6 +95,36 @@ PlotLine line_of(const Abscissa& abscissa, const std::string& name, const std::v
   return line;
 }
 
+bool is_varied(const std::vector<StudyCase>& cases, const std::string& name) {
+  return std::any_of(cases.begin(), cases.end(), [&](const StudyCase& c) { return parameter(c, name) != parameter(cases.front(), name); });
+}
+
+// What else varies beside the abscissa, of one case: "young = 5e+10".
+std::string others_of(const std::vector<StudyCase>& cases, const StudyCase& c, const Abscissa& abscissa) {
+  std::string text;
+  for (const std::string& name : parameters_of(cases))
+    if (name != abscissa.name && is_varied(cases, name)) text += (text.empty() ? "" : ", ") + fmt::format("{} = {:g}", name, parameter(c, name));
+  return text;
+}
+
+// One line for each combination of the other parameters; cases that have not converged are left out.
+std::vector<PlotLine> lines_of(const std::vector<StudyCase>& cases, const Abscissa& abscissa, const std::vector<double>& y) {
+  std::vector<std::string> groups;
+  std::vector<std::string> of_case;
+  for (const StudyCase& c : cases) {
+    of_case.push_back(others_of(cases, c, abscissa));
+    if (std::find(groups.begin(), groups.end(), of_case.back()) == groups.end()) groups.push_back(of_case.back());
+  }
+  std::vector<PlotLine> lines;
+  for (const std::string& group : groups) {
+    std::vector<double> own(y.size(), not_a_number);
+    for (size_t i = 0; i < y.size(); ++i)
+      if (of_case[i] == group && cases[i].converged) own[i] = y[i];
+    lines.push_back(line_of(abscissa, group, own));
+  }
+  return lines;
+}
+
 // A chart is worth its place where the figure moves by more than rounding.
 bool is_worth_a_chart(const std::vector<StudyCase>& cases, const std::string& name) {
   constexpr double rounding = 1e-6;
@@ -102,13 +132,13 @@ bool is_worth_a_chart(const std::vector<StudyCase>& cases, const std::string& na
   double low = std::numeric_limits<double>::infinity(), high = -low, scale = 0.0;
   for (const StudyCase& c : cases)
     for (const CaseFigure& known : c.figures) {
-      if (!std::isfinite(known.value) || known.unit != unit) continue;
+      if (!c.converged || !std::isfinite(known.value) || known.unit != unit) continue;
       scale = std::max(scale, std::abs(known.value));
       if (known.name != name) continue;
       low = std::min(low, known.value);
       high = std::max(high, known.value);
     }
-  return high - low > rounding * scale;
+  return high - low > rounding * scale && high - low > noise_of(unit);
 }
 
 }  // namespace
@@ -151,7 +181,7 @@ std::string study_svg(const std::string& title, const std::vector<StudyCase>& ca
   for (const std::string& name : figures_of(cases)) {
     std::vector<double> y;
     for (const StudyCase& c : cases) y.push_back(figure(c, name) ? figure(c, name)->value : not_a_number);
-    if (is_worth_a_chart(cases, name)) add(name, unit_of(cases, name), {line_of(abscissa, "", y)});
+    if (is_worth_a_chart(cases, name)) add(name, unit_of(cases, name), lines_of(cases, abscissa, y));
   }
   std::vector<double> warm, cold;
   for (const StudyCase& c : cases) {

@@ -26,7 +26,8 @@ struct StudyCase {
 // One row a case: name, started_from, the parameters, the figures, iterations, seconds; numbers in SI.
 std::string study_csv(const std::vector<StudyCase>& cases);
 
-// One chart a figure against the first parameter that varies (the case's number where none does), and one of the iterations.
+// One chart a figure against the first parameter that varies (the case's number where none does), a line for each combination of the
+// others, and one of the iterations; figures of cases that have not converged are left out.
 std::string study_svg(const std::string& title, const std::vector<StudyCase>& cases);
 
 // Two lines for the screen: how many cases, their iterations, what starting from others saved, what checks said.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace dygita {
 
@@ -49,6 +50,13 @@ class Summary {
 std::string name_of(const Output& output) { return output.kind == OutputKind::energy ? "energy" : output.name; }
 
 }  // namespace
+
+double noise_of(const std::string& unit) {
+  static const std::map<std::string, double> noise = {{"m", 1e-15},   {"m/s", 1e-12}, {"m/s^2", 1e-6}, {"m^2", 1e-15},
+                                                      {"N", 1e-9},    {"J", 1e-15},   {"Pa", 1e-3},    {"dB", 1e-9}};
+  const auto found = noise.find(unit);
+  return found == noise.end() ? 0.0 : found->second;
+}
 
 std::vector<CaseFigure> case_summary(const Problem& problem, const RunResult& result) {
   std::vector<CaseFigure> figures;
@@ -115,7 +123,7 @@ Difference largest_difference(const Problem& problem, const RunResult& a, const 
         const double d = std::abs(x.columns[i][static_cast<size_t>(row)] - y.columns[i][static_cast<size_t>(row)]);
         if (d > difference) difference = d;
       }
-      if (size > 0.0) meet(difference / size, name_of(*output) + "." + x.names[i]);
+      if (size > noise_of(x.units[i])) meet(difference / size, name_of(*output) + "." + x.names[i]);
     }
   }
   return worst;

@@ -17,8 +17,11 @@ struct CaseFigure {
 // slip and plastic opening, and the works at the end; mean ratio of attenuations. In the problem's order of outputs.
 std::vector<CaseFigure> case_summary(const Problem& problem, const RunResult& result);
 
+// What rounding leaves of a quantity that is zero, by its SI unit: far below what anyone measures.
+double noise_of(const std::string& unit);
+
 // Largest difference of two runs of the same problem over all columns of their tables, each relative to the largest value of its
-// unit in its table. Areas by state are left out: a point on the verge of sliding counts here or there. Tables of different lengths
+// unit in its table. Columns of noise and areas by state are left out: a point on the verge of sliding counts here or there. Tables of different lengths
 // differ by infinity.
 struct Difference {
   double value = 0.0;

@@ -125,6 +125,7 @@ void add_error_figures(const ErrorEstimator& errors, const Problem& problem, Run
   }
   if (has(false)) {
     const ErrorEstimator::Estimate e = errors.dynamic_steps();
+    if (result.interrupted && e.mesh == 0.0) return;  // stopped before anything was sampled
     if (!problem.explicit_dynamics) result.figures["error estimate, iteration [%]"] = 100 * e.iteration;
     result.figures["error estimate, time step [%]"] = 100 * e.time_step;
     result.figures["error estimate, mesh [%]"] = 100 * e.mesh;

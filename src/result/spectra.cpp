@@ -34,7 +34,8 @@ std::vector<std::string> axes(const Output& history) {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-// Rows of the spectrum in each band: centre (Hz), first and last row + 1. A band is kept if it is filled.
+// Rows of the spectrum in each band: centre (Hz), first and last row + 1. A band is kept if the spectrum goes through all of it; a
+// spectrum of less than one band is one.
 struct Band {
   double centre;
   size_t first, end;
@@ -54,6 +55,7 @@ std::vector<Band> bands_of(const std::vector<double>& frequency, const SrsSettin
     }
     if (band.end > band.first) bands.push_back(band);
   }
+  if (bands.empty() && !frequency.empty()) bands.push_back({std::sqrt(settings.from * settings.to), 0, frequency.size()});
   return bands;
 }
 

@@ -74,7 +74,7 @@ Specification read_specification(const std::string& path) {
   Specification s;
   s.source = path;
   std::vector<std::string> where;
-  double unit = 1.0;
+  double unit = 1.0, hertz = 1.0;
   bool has_header = false;
   std::string line;
   for (int n = 1; std::getline(file, line); ++n) {
@@ -85,11 +85,12 @@ Specification read_specification(const std::string& path) {
     if (!are_numbers && !has_header && where.empty()) {
       has_header = true;
       if (cells.size() == 2 && cells[1].ends_with("[g]")) unit = standard_gravity;
+      if (!cells.empty() && cells[0].ends_with("[kHz]")) hertz = 1e3;
       continue;
     }
     if (!are_numbers)
       throw InputError(fmt::format("{}:{}: '{}' is not a frequency (Hz) and a level", path, n, trimmed(line)));
-    s.frequency.push_back(frequency);
+    s.frequency.push_back(hertz * frequency);
     s.level.push_back(unit * level);
     where.push_back(fmt::format("{}:{}", path, n));
   }
