@@ -34,6 +34,14 @@ endif()
 expect(0 srs ${signal} --from 500000 --to 600000 --damping 0.05 --quantity pseudo_velocity)
 expect(2 srs ${signal} --damping 0.05 --q 10)
 expect(2 srs ${signal} --quantity speed)
+expect(2 srs ${signal} --from 500000 --to 600000 --out ${signal})  # the signal would be lost
+file(WRITE ${signal} "time [ms],acceleration [g]\n0,0\n0.5e-3,1\n1e-3,2\n1.5e-3,1\n")
+expect(0 srs ${signal} --from 500000 --to 600000)
+if(err MATCHES "sampling rate")
+  message(SEND_ERROR "srs takes milliseconds for seconds: ${err}")
+endif()
+file(WRITE ${signal} "time [weeks],acceleration [g]\n0,0\n1,1\n")
+expect(2 srs ${signal})
 file(REMOVE ${signal})
 
 # Without frames there are the tables and the record, and --solver is in the record.

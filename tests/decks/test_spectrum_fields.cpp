@@ -28,7 +28,8 @@ problem{ name = "two_blocks", substructures = { a, b }, interfaces = { joint },
     output.srs_field{ name = "along", on = { a:face "xmax", b:face "xmax" }, direction = { 0, 0, 2 }, from = band.from, to = band.to },
     output.srs_field{ name = "any", on = a:face "xmax", from = band.from, to = band.to },
     output.attenuation{ name = "octaves", entering = top, leaving = side, from = band.from, to = band.to },
-    output.attenuation{ name = "same", entering = side, leaving = side, from = band.from, to = band.to, bands = 3 } } }:run{}
+    output.attenuation{ name = "same", entering = side, leaving = side, from = band.from, to = band.to, bands = 3 },
+    output.attenuation{ name = "narrow", entering = side, leaving = side, from = 10*kHz, to = 14*kHz } } }:run{}
 )";
 
 const DeckRun& blocks() {
@@ -88,6 +89,12 @@ TEST(Attenuation, of_a_place_against_itself_is_nothing) {
   ASSERT_EQ(same.n_rows(), 12);  // four octaves in thirds
   for (const double ratio : same.column("ratio_z")) EXPECT_DOUBLE_EQ(ratio, 0.0);
   EXPECT_NEAR(same.columns[0][0], 5e3 * std::exp2(1.0 / 6.0), 1e-6);
+}
+
+TEST(Attenuation, over_less_than_a_band_has_one) {
+  const Table& narrow = blocks().table("narrow");
+  ASSERT_EQ(narrow.n_rows(), 1);
+  EXPECT_NEAR(narrow.columns[0][0], std::sqrt(10e3 * 14e3), 1e-6);
 }
 
 TEST(Attenuation, says_nothing_of_an_axis_along_which_nothing_enters) {

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/log.hpp"
 #include "decks/deck_prints.hpp"
 #include "output/study.hpp"
 #include "result/case_summary.hpp"
@@ -89,6 +90,55 @@ TEST(Study, writes_a_table_and_a_figure_beside_its_cases) {
   EXPECT_EQ(figure.str().rfind("<svg", 0), 0u);
   EXPECT_NE(figure.str().find("moved, here.displacement largest"), std::string::npos);
   std::filesystem::remove_all(folder);
+}
+
+// Sheared beyond what friction holds, a case flies off; the ones after it are not dragged along.
+TEST(StartFrom, a_case_that_has_not_converged_is_no_start) {
+  const std::string deck = R"(
+local metal = material.elastic{ name = "metal", young = 200*GPa, poisson = 0.3, density = 7800 }
+local function block(name, z) return substructure{ name = name, material = metal,
+  mesh = mesh.box{ size = { 20*mm, 20*mm, 10*mm }, cells = { 3, 3, 2 }, origin = { 0, 0, z } } } end
+local low, up = block("low", 0), block("up", 10*mm)
+local c = interface.contact{ name = "c", between = { low:face "zmax", up:face "zmin" }, friction = 0.2 }
+local clamp = load.pressure{ on = up:face "zmax", history = 40*MPa }
+local last
+for i, shear in ipairs{ 1*kN, 4*kN, 1.5*kN } do
+  local press = step.static{ name = "press", loads = { clamp } }
+  local pull = step.static{ name = "pull", after = press, increments = 4, loads = { clamp, load.force{ on = up:face "zmax", x = shear } } }
+  last = problem{ name = "p", substructures = { low, up }, interfaces = { c }, steps = { press, pull },
+    supports = { support.fixed{ name = "base", on = low:face "zmin" } }, outputs = { output.joint{ name = "j", on = c } } }:run{ case = "c" .. i, start_from = last }
+end
+)";
+  take_warnings();
+  testing::internal::CaptureStderr();
+  const std::vector<DeckRun> runs = run_text(deck);
+  const std::string said = testing::internal::GetCapturedStderr();
+  ASSERT_EQ(runs.size(), 3u);
+  EXPECT_TRUE(runs[0].result->converged);
+  EXPECT_FALSE(runs[1].result->converged);
+  EXPECT_TRUE(runs[2].result->converged);
+  EXPECT_LT(runs[2].column("j", "slip").back(), 1e-5);
+  EXPECT_NE(said.find("the case to start from has not converged"), std::string::npos) << said;
+}
+
+TEST(StudyFigure, has_a_line_for_each_value_of_a_second_parameter_and_leaves_out_what_has_not_converged) {
+  std::vector<StudyCase> cases;
+  for (const double young : {1e9, 2e9})
+    for (const double mu : {0.1, 0.2}) {
+      StudyCase one;
+      one.name = "c" + std::to_string(cases.size());
+      one.at = {{"mu", mu}, {"young", young}};
+      one.figures = {{"a.b largest", "N", young * mu}, {"noise largest", "m", 1e-18 * young * mu / 1e9}};
+      cases.push_back(one);
+    }
+  std::string figure = study_svg("s", cases);
+  EXPECT_NE(figure.find("young = 1e+09"), std::string::npos);
+  EXPECT_NE(figure.find("young = 2e+09"), std::string::npos);
+  EXPECT_EQ(figure.find("noise"), std::string::npos);
+  cases[3].converged = false;
+  cases[3].figures[0].value = 1e30;
+  figure = study_svg("s", cases);
+  EXPECT_EQ(figure.find("10³⁰"), std::string::npos);
 }
 
 TEST(CaseSummary, finds_what_differs_most) {
