@@ -82,6 +82,8 @@ std::string title_section(const RunFolder& run) {
   if (!text(deck, "path").empty()) under += " · deck " + text(deck, "path");
   under += " · solver " + text(solver, "name");
   if (!text(solver, "command_line").empty()) under += " (" + text(solver, "command_line") + ")";
+  if (const double earlier = run.figure("iterations before the run was continued"); std::isfinite(earlier))
+    under += fmt::format(" · continued from {:.0f} iterations", earlier);
   under += " · dygita " + text(program, "version");
   return "<h1>" + escaped(text(record, "problem")) + "</h1>\n<p class=\"under\">" + escaped(under) + "</p>\n";
 }

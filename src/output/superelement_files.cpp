@@ -43,7 +43,8 @@ std::string introduction(const Problem& problem, const Output& output, const Sup
   text += fmt::format("**To be used up to {:.4g} Hz**, half of the frequency up to which modes with the interface held are kept.\n\n", element.valid_to);
   text += fmt::format(
       "Small motions about that state: of the contact points {} are tied, {} are tied along their normal only, {} are open and free. Bonded and "
-      "plastic interfaces are tied, the step's supports hold, prescribed motions of that step do not. Mass of the parts: {:.9g} kg.\n\n",
+      "plastic interfaces are tied, the step's supports hold, prescribed motions of that step do not. Mass of the parts: {:.9g} kg, lumped at the nodes: the rotary inertia of a slender part about "
+      "its own axis is too large, by a half with two cells across it.\n\n",
       element.n_tied, element.n_normal, element.n_open, element.mass_of_parts);
   return text;
 }
