@@ -106,6 +106,11 @@ void values_are_given(const Problem& problem, const Step& step, const Load& load
 
 void step_is_of_the_right_kind(const Problem& problem, const Step& step, const Load& load) {
   const std::string who = "step '" + step.name + "': " + known_as(load);
+  if (load.kind == LoadKind::preload && step.is_static)
+    for (int i = 1; i <= step.increments; ++i)
+      if (const double force = load.value[0]->value(static_cast<double>(i) / step.increments); force < 0.0)
+        fail(problem, load.origin,
+             fmt::format("step '{}': load.preload asks for {:.6g} N in increment {}: a bolt pulls, its force is not negative", step.name, force, i));
   if ((load.kind == LoadKind::shortening || load.kind == LoadKind::preload) && !step.is_static) {
     fail(problem, load.origin, who + " acts in static steps only, and this one is dynamic",
          "tighten in a step.static before it; the bolt keeps its length afterwards");

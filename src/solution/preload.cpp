@@ -76,10 +76,6 @@ void check_preloads(const Problem& problem, const std::vector<Surface>& surfaces
       if (load->kind != LoadKind::preload) continue;
       for (const Target& target : load->on) {
         const Interface& interface = *std::get<InterfacePtr>(target);
-        for (int i = 0; i < step->increments; ++i)
-          if (const double force = LoadValue{*load->value[0], load->is_number[0]}.at_static(i, step->increments); force < 0.0)
-            throw InputError(load->origin, fmt::format("problem '{}': step '{}': load.preload asks for {:.6g} N in increment {}: a bolt pulls, its force is not "
-                                                       "negative", problem.name, step->name, force, i + 1));
         if (interface.kind != InterfaceKind::plastic || interface.hardening > 0.0) continue;
         const double area = surfaces.at(index_of(problem.interfaces, &interface)).facing.areas.sum(), limit = interface.yield * area;
         double most = 0.0;
