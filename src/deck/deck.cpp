@@ -176,10 +176,11 @@ void note_case(DeckState& state, const DeckResult& result, const std::string& ca
   one.converged = result.run->converged;
   const auto seconds = result.run->seconds.find("all");
   one.seconds = seconds == result.run->seconds.end() ? 0.0 : seconds->second;
-  if (start_from) one.started_from = start_from->case_name;
-  if (arguments.boolean("check_cold") && start_from) check_cold(state, result, one);
-  if (arguments.boolean("check_cold") && !start_from)
-    warn(fmt::format("case '{}': 'check_cold' compares with 'start_from', and there is none: the case has run from scratch", case_name));
+  const bool is_warm = start_from && start_from->run->converged && start_from->run->interface_fields;
+  if (is_warm) one.started_from = start_from->case_name;
+  if (arguments.boolean("check_cold") && is_warm) check_cold(state, result, one);
+  if (arguments.boolean("check_cold") && !is_warm)
+    warn(fmt::format("case '{}': 'check_cold' compares with what 'start_from' gives, and the case has run from scratch", case_name));
   state.study.add(result.problem->name, std::move(one));
 }
 

@@ -32,6 +32,14 @@ TEST(SpectrumBand, holds_what_the_time_step_leaves) {
   for (size_t i = 0; i < 2; ++i) expect_band(band_worth(coarse.spectra[i], fine.spectra[i], "time_step"), 0.7, 50.0);
 }
 
+TEST(SpectrumBand, warns_where_little_is_known_and_only_there) {
+  testing::internal::CaptureStderr();
+  run_file(deck("bolted_flanges.lua"), {{"duration", "50*us"}});
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("spectrum 'srs_below' is known to about"), std::string::npos) << said;
+  EXPECT_EQ(said.find("spectrum 'srs_above' is known to about"), std::string::npos) << said;
+}
+
 TEST(SpectrumBand, is_the_wider_the_less_there_is) {
   const Table spectrum{{"frequency", "maximax"}, {"Hz", "m/s^2"}, {{100.0, 100.0}, {2.0, 0.5}}, {}};
   ErrorEstimator::Estimate errors;
