@@ -57,11 +57,14 @@ void add_deck_options(CLI::App& command, Command& asked) {
 void add_srs_options(CLI::App& command, SrsCommand& asked) {
   command.add_option("SIGNAL", asked.signal, "a CSV: time (s), then values; a column of step names is passed over")
       ->required();
-  CLI::Option* q = command.add_option("--q", asked.settings.q_factor, "Q, the amplification at resonance")->capture_default_str();
+  CLI::Option* q =
+      command.add_option("--q", asked.settings.q_factor, "Q, the amplification at resonance")->capture_default_str();
   command.add_option("--damping", asked.damping, "damping ratio, 1/(2 Q), in place of Q")
       ->check(CLI::Range(0.0, 0.99))
       ->excludes(q);
-  command.add_option("--quantity", asked.quantity, "absolute_acceleration, relative_displacement or pseudo_velocity of the oscillator")
+  command
+      .add_option("--quantity", asked.quantity,
+                  "absolute_acceleration, relative_displacement or pseudo_velocity of the oscillator")
       ->capture_default_str();
   command.add_option("--from", asked.settings.from, "first frequency, Hz")->capture_default_str();
   command.add_option("--to", asked.settings.to, "last frequency, Hz")->capture_default_str();
@@ -73,7 +76,8 @@ void add_srs_options(CLI::App& command, SrsCommand& asked) {
 void add_report_options(CLI::App& command, ReportCommand& asked) {
   command.add_option("RUN", asked.run, "folder of a run, out/<problem>/<case>")->required();
   command.add_option("--specification", asked.specification,
-                     "CSV of frequency (Hz) and level (m/s^2, or g where its header says [g]): of all spectra, in place of the deck's");
+                     "CSV of frequency (Hz) and level (m/s^2, or g where its header says [g]): of all spectra, in "
+                     "place of the deck's");
   command.add_option("--out", asked.out, "file to write (default: report.html in the folder)");
 }
 
@@ -82,7 +86,9 @@ void add_continue_options(CLI::App& command, Command& asked) {
   command.add_option("RUN", options.run, "folder of a run, out/<problem>/<case>")->required();
   command.add_option("--tolerance", options.tolerance, "iterate to this tolerance (static steps: a hundredth of it)")
       ->check(CLI::Range(1e-14, 0.1));
-  command.add_option("--iterations", options.more_iterations, "at most so many iterations more at each increment, after one that meets what is known")
+  command
+      .add_option("--iterations", options.more_iterations,
+                  "at most so many iterations more at each increment, after one that meets what is known")
       ->check(CLI::Range(1, 1000000));
   command.add_option("--until", asked.until, "carry the last dynamic step on to this time, as 0.0004 or 0.4*ms");
   command.add_option("--threads", options.threads, "threads (default: all)")->check(CLI::Range(1, 1024));

@@ -79,9 +79,11 @@ size_t column_of(const SrsCommand& command, const std::vector<std::string>& head
 }
 
 double seconds_of(const std::string& unit, const std::string& where) {
-  static const std::map<std::string, double> units = {{"", 1.0}, {"s", 1.0}, {"sec", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"µs", 1e-6}, {"ns", 1e-9}};
+  static const std::map<std::string, double> units = {{"", 1.0},    {"s", 1.0},   {"sec", 1.0}, {"ms", 1e-3},
+                                                      {"us", 1e-6}, {"µs", 1e-6}, {"ns", 1e-9}};
   if (const auto found = units.find(unit); found != units.end()) return found->second;
-  throw InputError(fmt::format("{}: the first column is time, and '{}' is no unit of it\n    known: s, ms, us, ns", where, unit));
+  throw InputError(
+      fmt::format("{}: the first column is time, and '{}' is no unit of it\n    known: s, ms, us, ns", where, unit));
 }
 
 Signal read_signal(const SrsCommand& command) {
@@ -118,7 +120,8 @@ Signal read_signal(const SrsCommand& command) {
       continue;
     }
     const auto names_step = std::find(header.begin(), header.end(), "step");
-    if (const auto i = static_cast<size_t>(names_step - header.begin()); i < cells.size() && names_step != header.end()) {
+    if (const auto i = static_cast<size_t>(names_step - header.begin());
+        i < cells.size() && names_step != header.end()) {
       const std::string& step = cells[i];
       if (signal.time.empty()) first_step = step;
       signal.starts_in_static_step |= signal.time.size() == 1 && step != first_step;
@@ -160,9 +163,10 @@ double make_even(Signal& signal, const std::string& file) {
 }
 
 SrsQuantity quantity_named(const std::string& name) {
-  static const std::map<std::string, SrsQuantity> quantities = {{"absolute_acceleration", SrsQuantity::absolute_acceleration},
-                                                                {"relative_displacement", SrsQuantity::relative_displacement},
-                                                                {"pseudo_velocity", SrsQuantity::pseudo_velocity}};
+  static const std::map<std::string, SrsQuantity> quantities = {
+      {"absolute_acceleration", SrsQuantity::absolute_acceleration},
+      {"relative_displacement", SrsQuantity::relative_displacement},
+      {"pseudo_velocity", SrsQuantity::pseudo_velocity}};
   if (const auto found = quantities.find(name); found != quantities.end()) return found->second;
   std::vector<std::string> known;
   for (const auto& [word, quantity] : quantities) known.push_back(word);

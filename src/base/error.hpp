@@ -38,7 +38,7 @@ class ContractError : public std::logic_error {
 
 }  // namespace dygita
 
-#define CHECK(condition, detail) \
-  do { \
+#define CHECK(condition, detail)                                                         \
+  do {                                                                                   \
     if (!(condition)) ::dygita::contract_broken(#condition, __FILE__, __LINE__, detail); \
   } while (false)

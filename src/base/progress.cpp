@@ -32,7 +32,9 @@ void catch_interrupts() {
 bool interrupt_requested() { return interrupt_flag != 0; }
 
 Progress::Progress(std::string label, int total)
-    : label_(std::move(label)), total_(total), is_terminal_(isatty(STDERR_FILENO) != 0),
+    : label_(std::move(label)),
+      total_(total),
+      is_terminal_(isatty(STDERR_FILENO) != 0),
       start_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {

@@ -139,24 +139,12 @@ std::vector<Target> targets_of(const Declaration& declaration) {
 
 const Builders& load_builders() {
   static const Builders builders = {
-      {"load.pressure", build_load},
-      {"load.traction", build_load},
-      {"load.force", build_load},
-      {"load.velocity", build_load},
-      {"load.displacement", build_load},
-      {"load.base_acceleration", build_load},
-      {"load.gravity", build_load},
-      {"load.shortening", build_load},
-      {"load.release", build_load},
-      {"load.preload", build_load},
-      {"history.constant", build_constant},
-      {"history.step", build_step},
-      {"history.ramp", build_ramp},
-      {"history.half_sine", build_half_sine},
-      {"history.haversine", build_haversine},
-      {"history.pulse", build_pulse},
-      {"history.piecewise", build_piecewise},
-      {"history.file", build_file},
+      {"load.pressure", build_load},  {"load.traction", build_load},          {"load.force", build_load},
+      {"load.velocity", build_load},  {"load.displacement", build_load},      {"load.base_acceleration", build_load},
+      {"load.gravity", build_load},   {"load.shortening", build_load},        {"load.release", build_load},
+      {"load.preload", build_load},   {"history.constant", build_constant},   {"history.step", build_step},
+      {"history.ramp", build_ramp},   {"history.half_sine", build_half_sine}, {"history.haversine", build_haversine},
+      {"history.pulse", build_pulse}, {"history.piecewise", build_piecewise}, {"history.file", build_file},
   };
   return builders;
 }

@@ -73,12 +73,16 @@ Held build_latin(const Declaration& d) {
   if (a.has("precision"))
     settings->precision = a.text("precision") == "single" ? Precision::single_precision : Precision::double_precision;
   if (settings->precision == Precision::single_precision && settings->tolerance < 1e-7)
-    throw InputError(fmt::format("'precision' = \"single\" holds a tolerance of 1e-7 at least, got {:g}: leave 'precision' out or say \"double\"",
-                                 settings->tolerance));
+    throw InputError(
+        fmt::format("'precision' = \"single\" holds a tolerance of 1e-7 at least, got {:g}: leave 'precision' out or "
+                    "say \"double\"",
+                    settings->tolerance));
   settings->pieces = a.is_number("pieces") ? a.integer("pieces") : 0;  // the only word is "auto"
   if (settings->pieces > 1 && settings->mass.is_moved_from_contact)
-    throw InputError(fmt::format("'pieces' = {} and 'massless_contact' exclude each other: mass does not move from one piece to another; leave 'pieces' out, or 1",
-                                 settings->pieces));
+    throw InputError(
+        fmt::format("'pieces' = {} and 'massless_contact' exclude each other: mass does not move from one piece to "
+                    "another; leave 'pieces' out, or 1",
+                    settings->pieces));
   settings->spectra = a.number_or("spectra", settings->spectra);
   settings->history_memory = 1e6 * a.number("history_memory");
   settings->plain = a.boolean("plain");
@@ -159,7 +163,8 @@ SrsSettings srs_settings(const Arguments& a) {
   SrsSettings srs{a.number_or("q_factor", 10.0), a.number("from"), a.number("to"), a.integer("per_octave"),
                   quantities.at(a.text("quantity"))};
   if (a.has("damping")) {
-    if (a.has("q_factor")) throw InputError("'q_factor' and 'damping' say the same twice: leave one out (Q = 1 / (2 damping))");
+    if (a.has("q_factor"))
+      throw InputError("'q_factor' and 'damping' say the same twice: leave one out (Q = 1 / (2 damping))");
     srs.q_factor = q_factor_of(a.number("damping"));
   }
   if (srs.from >= srs.to)
@@ -178,13 +183,15 @@ Held build_loop(const Declaration& d) {
 }
 
 Held build_superelement(const Declaration& d) {
-  static const std::map<std::string, FaceMotion> motions = {{"mean", FaceMotion::mean}, {"rigid", FaceMotion::rigid}, {"nodes", FaceMotion::nodes}};
+  static const std::map<std::string, FaceMotion> motions = {
+      {"mean", FaceMotion::mean}, {"rigid", FaceMotion::rigid}, {"nodes", FaceMotion::nodes}};
   const Arguments& a = d.arguments;
   auto output = new_named<Output>(d);
   output->kind = OutputKind::superelement;
   output->on = targets_of(d);
   if (a.has("after")) output->after = a.object("after").as<StepPtr>();
-  if (a.has("up_to") && a.has("modes")) throw InputError("'up_to' and 'modes' exclude each other: modes are kept up to twice 'up_to'");
+  if (a.has("up_to") && a.has("modes"))
+    throw InputError("'up_to' and 'modes' exclude each other: modes are kept up to twice 'up_to'");
   output->superelement.motion = motions.at(a.text("motion"));
   output->superelement.up_to = a.number_or("up_to", 0.0);
   output->superelement.modes = a.has("modes") ? a.integer("modes") : 0;
@@ -251,12 +258,21 @@ Held build_problem(const Declaration& d) {
 
 const Builders& study_builders() {
   static const Builders builders = {
-      {"step.static", build_static}, {"step.dynamic", build_dynamic},   {"solver.latin", build_latin},
-      {"solver.monolithic", build_monolithic}, {"solver.explicit", build_explicit},
-      {"output.vtk", build_vtk},     {"output.history", build_history}, {"output.resultant", build_resultant},
-      {"output.joint", build_joint}, {"output.srs", build_srs},         {"output.energy", build_energy},
-      {"output.srs_field", build_srs_field}, {"output.attenuation", build_attenuation},
-      {"output.loop", build_loop},   {"output.superelement", build_superelement},
+      {"step.static", build_static},
+      {"step.dynamic", build_dynamic},
+      {"solver.latin", build_latin},
+      {"solver.monolithic", build_monolithic},
+      {"solver.explicit", build_explicit},
+      {"output.vtk", build_vtk},
+      {"output.history", build_history},
+      {"output.resultant", build_resultant},
+      {"output.joint", build_joint},
+      {"output.srs", build_srs},
+      {"output.energy", build_energy},
+      {"output.srs_field", build_srs_field},
+      {"output.attenuation", build_attenuation},
+      {"output.loop", build_loop},
+      {"output.superelement", build_superelement},
       {"problem", build_problem},
   };
   return builders;

@@ -1,7 +1,5 @@
 #include "deck/deck.hpp"
 
-#include "deck/arguments.hpp"
-
 #include <spdlog/fmt/fmt.h>
 
 #include <fstream>
@@ -9,6 +7,7 @@
 
 #include "base/log.hpp"
 #include "base/threads.hpp"
+#include "deck/arguments.hpp"
 #include "deck/deck_state.hpp"
 #include "deck/results.hpp"
 #include "deck/series.hpp"
@@ -158,8 +157,9 @@ void check_cold(DeckState& state, const DeckResult& warm, StudyCase& one) {
   const Difference difference = largest_difference(*warm.problem, *cold, *warm.run);
   one.cold_iterations = cold->iterations;
   one.cold_difference = difference.value;
-  say(fmt::format("  {} iterations from scratch, {} from case '{}': {:.0f} % saved; answers differ by {:.1e} at most{}", cold->iterations,
-                  warm.run->iterations, one.started_from, 100.0 * (1.0 - static_cast<double>(warm.run->iterations) / static_cast<double>(cold->iterations)),
+  say(fmt::format("  {} iterations from scratch, {} from case '{}': {:.0f} % saved; answers differ by {:.1e} at most{}",
+                  cold->iterations, warm.run->iterations, one.started_from,
+                  100.0 * (1.0 - static_cast<double>(warm.run->iterations) / static_cast<double>(cold->iterations)),
                   difference.value, difference.where.empty() ? "" : " (" + difference.where + ")"));
 }
 
@@ -180,7 +180,8 @@ void note_case(DeckState& state, const DeckResult& result, const std::string& ca
   if (is_warm) one.started_from = start_from->case_name;
   if (arguments.boolean("check_cold") && is_warm) check_cold(state, result, one);
   if (arguments.boolean("check_cold") && !is_warm)
-    warn(fmt::format("case '{}': 'check_cold' compares with what 'start_from' gives, and the case has run from scratch", case_name));
+    warn(fmt::format("case '{}': 'check_cold' compares with what 'start_from' gives, and the case has run from scratch",
+                     case_name));
   state.study.add(result.problem->name, std::move(one));
 }
 
@@ -223,7 +224,8 @@ int run_from_deck(DeckState& state, lua_State* L) {
   state.declared.mark_used(self.id);
   ++state.outcome.n_runs;
   const Arguments arguments(L, 3);
-  const DeckResultPtr start_from = arguments.has("start_from") ? arguments.object("start_from").as<DeckResultPtr>() : nullptr;
+  const DeckResultPtr start_from =
+      arguments.has("start_from") ? arguments.object("start_from").as<DeckResultPtr>() : nullptr;
   DeckResultPtr result = compute_at(origin, state, problem, case_name, start_from);
   note_case(state, *result, case_name, arguments, start_from);
   if (!result->run->converged) state.outcome.not_converged.push_back(label);

@@ -21,7 +21,7 @@ struct Engine {
 
 struct DeckOptions {
   std::filesystem::path path;
-  std::optional<std::string> text;  // in place of the file's
+  std::optional<std::string> text;                            // in place of the file's
   std::vector<std::pair<std::string, std::string>> settings;  // --set: name, number or expression in units
   std::filesystem::path out = "out";
   int threads = 0;
@@ -31,7 +31,7 @@ struct DeckOptions {
   bool write_frames = true;  // those of output.vtk
   bool write_state = true;   // what continue_run needs
   bool is_study = true;      // the table of several cases, and cases checked cold; not while one of them is continued
-  std::string solver;        // --solver: an expression that takes the place of every problem's solver; empty: the deck's
+  std::string solver;  // --solver: an expression that takes the place of every problem's solver; empty: the deck's
 };
 
 struct DeckOutcome {
@@ -59,8 +59,8 @@ std::string deck_reference();
 // "0.1.0".
 std::string version();
 
-// Call first in main: threads that wait must not spin, and OpenBLAS must not take the kernels of an old processor (wait_passively,
-// better_blas_kernels).
+// Call first in main: threads that wait must not spin, and OpenBLAS must not take the kernels of an old processor
+// (wait_passively, better_blas_kernels).
 void prepare_process(char** argv);
 
 }  // namespace dygita

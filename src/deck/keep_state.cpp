@@ -24,7 +24,8 @@ double sample(const History& history, double t) {
 
 std::string list_efforts(const std::vector<Effort>& efforts) {
   std::string list;
-  for (const Effort& effort : efforts) list += fmt::format("{}{} (tolerance {:g})", list.empty() ? "" : ", ", effort.iterations, effort.tolerance);
+  for (const Effort& effort : efforts)
+    list += fmt::format("{}{} (tolerance {:g})", list.empty() ? "" : ", ", effort.iterations, effort.tolerance);
   return list;
 }
 
@@ -34,7 +35,10 @@ const InterfaceFields* start_of(const RunRequest& request) {
   if (request.continues) return request.continues->fields.get();
   if (!request.start_from) return nullptr;
   if (request.start_from->converged) return request.start_from->interface_fields.get();
-  warn(fmt::format("case '{}': the case to start from has not converged, and its fields may lead astray: the iteration starts afresh", request.case_name));
+  warn(
+      fmt::format("case '{}': the case to start from has not converged, and its fields may lead astray: the iteration "
+                  "starts afresh",
+                  request.case_name));
   return nullptr;
 }
 
@@ -68,12 +72,13 @@ RunState state_of(const Problem& problem, const RunRequest& request, const RunRe
   for (size_t i = 0; i < problem.steps.size(); ++i) {
     const Step& step = *problem.steps[i];
     const double worst = i < result.steps.size() ? result.steps[i].worst_indicator : 0.0;
-    state.steps.push_back({step.name, step.is_static, step.n_increments(), step.is_static ? 0.0 : step.duration, worst});
+    state.steps.push_back(
+        {step.name, step.is_static, step.n_increments(), step.is_static ? 0.0 : step.duration, worst});
   }
   state.loads = load_samples(problem, state.steps);
   if (request.continues) state.efforts = request.continues->efforts;
-  state.efforts.push_back({problem.solver.tolerance, problem.solver.static_tolerance, problem.solver.more_iterations, result.iterations,
-                           result.seconds.at("all")});
+  state.efforts.push_back({problem.solver.tolerance, problem.solver.static_tolerance, problem.solver.more_iterations,
+                           result.iterations, result.seconds.at("all")});
   state.converged = result.converged;
   state.interrupted = result.interrupted;
   state.fields = result.interface_fields;

@@ -8,8 +8,8 @@ namespace dygita {
 // Interface fields that the iteration starts from: of the run continued, or of the case to start from; null: none.
 const InterfaceFields* start_of(const RunRequest& request);
 
-// Values of every load at even instants of its step, one after the other, `steps` having the durations: where they differ, so do
-// files that the deck reads.
+// Values of every load at even instants of its step, one after the other, `steps` having the durations: where they
+// differ, so do files that the deck reads.
 std::vector<double> load_samples(const Problem& problem, const std::vector<StateStep>& steps);
 
 // The state that a run ends with; no fields where the solver keeps none.

@@ -15,14 +15,14 @@ namespace dygita {
 struct RunRequest {
   std::filesystem::path out = "out";  // files go to out/<problem>/<case_name>/
   std::string case_name = "base";
-  int threads = 0;                    // 0: as many as the machine has
+  int threads = 0;  // 0: as many as the machine has
   bool write_files = true;
   bool write_frames = true;  // those of output.vtk
   bool write_state = true;   // what a later continuation needs, where the solver keeps it: beside the fields
-  std::string deck_text;                                      // the deck's,
+  std::string deck_text;     // the deck's,
   std::vector<std::pair<std::string, std::string>> settings;  // and --set, as written
-  // The run continued: each increment starts from its fields, and its folder `replaces` is replaced once the new results
-  // are complete, or at least reach as far as the old ones did.
+  // The run continued: each increment starts from its fields, and its folder `replaces` is replaced once the new
+  // results are complete, or at least reach as far as the old ones did.
   std::shared_ptr<const RunState> continues;
   std::filesystem::path replaces;
   RunIdentity identity;
@@ -32,8 +32,8 @@ struct RunRequest {
 // Computes and writes; says what it does in a few lines. Throws InputError, NumericalError.
 std::shared_ptr<const RunResult> run_problem(const Problem& problem, const RunRequest& request);
 
-// What would be computed (sizes, unknowns, interface points, steps, predicted memory), as text; checks everything that can be
-// checked without a factorisation (facing nodes, meshes, supports); solves nothing.
+// What would be computed (sizes, unknowns, interface points, steps, predicted memory), as text; checks everything that
+// can be checked without a factorisation (facing nodes, meshes, supports); solves nothing.
 std::string check_report(const Problem& problem);
 
 }  // namespace dygita

@@ -21,7 +21,8 @@ double figure_or(const RunResult& result, const std::string& name, double otherw
 }  // namespace
 
 std::vector<double> pass_tolerances(const Problem& problem) {
-  const bool has_spectra = std::any_of(problem.outputs.begin(), problem.outputs.end(), [](const OutputPtr& o) { return o->kind == OutputKind::srs; });
+  const bool has_spectra = std::any_of(problem.outputs.begin(), problem.outputs.end(),
+                                       [](const OutputPtr& o) { return o->kind == OutputKind::srs; });
   const double last = problem.solver.tolerance;
   std::vector<double> tolerances;
   if (problem.solver.spectra > 0.0 && has_spectra && !problem.monolithic && !problem.explicit_dynamics)
@@ -49,7 +50,8 @@ bool have_settled(const Problem& problem, const RunResult& before, RunResult& re
 void add_pass(const RunResult& before, RunResult& result) {
   result.figures[passes] = 1.0 + figure_or(before, passes, 1.0);
   result.figures[iterations_of_passes] =
-      static_cast<double>(result.iterations) + figure_or(before, iterations_of_passes, static_cast<double>(before.iterations));
+      static_cast<double>(result.iterations) +
+      figure_or(before, iterations_of_passes, static_cast<double>(before.iterations));
 }
 
 void say_bands(const Problem& problem, const RunResult& result) {
@@ -57,8 +59,10 @@ void say_bands(const Problem& problem, const RunResult& result) {
     const auto band = result.bands.find(output.get());
     if (band == result.bands.end()) continue;
     const auto mean = [&](const char* column) { return result.figures.at(band_figure(output->name, column)); };
-    say(fmt::format("  spectrum '{}': iteration leaves about {:.2g} dB, time step {:.2g} dB, mesh {:.2g} dB (mean over its frequencies)", output->name,
-                    mean("iteration"), mean("time_step"), mean("mesh")));
+    say(
+        fmt::format("  spectrum '{}': iteration leaves about {:.2g} dB, time step {:.2g} dB, mesh {:.2g} dB (mean over "
+                    "its frequencies)",
+                    output->name, mean("iteration"), mean("time_step"), mean("mesh")));
   }
 }
 
@@ -67,8 +71,11 @@ void warn_of_bands(const Problem& problem, const RunResult& result) {
   for (const OutputPtr& output : problem.outputs) {
     if (!result.bands.contains(output.get())) continue;
     if (const double all = result.figures.at(band_figure(output->name, "all")); all > limit)
-      warn(fmt::format("spectrum '{}' is known to about {:.2g} dB only (mean over its frequencies, by the run's own estimate): little arrives there beside "
-                       "what dt and the mesh leave", output->name, all));
+      warn(
+          fmt::format("spectrum '{}' is known to about {:.2g} dB only (mean over its frequencies, by the run's own "
+                      "estimate): little arrives there beside "
+                      "what dt and the mesh leave",
+                      output->name, all));
   }
 }
 

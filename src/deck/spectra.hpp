@@ -6,11 +6,12 @@
 
 namespace dygita {
 
-// Tolerances of the passes over a run, the problem's own last: one pass unless spectra are to decide (solver.latin{ spectra }).
+// Tolerances of the passes over a run, the problem's own last: one pass unless spectra are to decide (solver.latin{
+// spectra }).
 std::vector<double> pass_tolerances(const Problem& problem);
 
-// Compares the spectra of a pass with those of the one before: what they have moved becomes their iteration band. True where none has moved by
-// as much as the problem allows.
+// Compares the spectra of a pass with those of the one before: what they have moved becomes their iteration band. True
+// where none has moved by as much as the problem allows.
 bool have_settled(const Problem& problem, const RunResult& before, RunResult& result);
 
 // Adds what the pass before took to the figures of this one.

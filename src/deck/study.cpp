@@ -10,7 +10,8 @@ namespace dygita {
 void Study::finish(const std::filesystem::path& out, bool writes_files) const {
   for (const auto& [problem, cases] : cases_) {
     const bool is_told = std::any_of(cases.begin(), cases.end(), [](const StudyCase& c) { return !c.at.empty(); });
-    const bool is_checked = std::any_of(cases.begin(), cases.end(), [](const StudyCase& c) { return c.cold_iterations.has_value(); });
+    const bool is_checked =
+        std::any_of(cases.begin(), cases.end(), [](const StudyCase& c) { return c.cold_iterations.has_value(); });
     if (!(is_told && cases.size() > 1) && !is_checked) continue;
     say(study_summary(problem, cases));
     if (!writes_files) continue;

@@ -14,7 +14,8 @@ struct BodyMatrices {
 // number of threads. Throws InputError when the matrix would have more than 2^31 entries.
 BodyMatrices assemble(const Mesh& mesh, const Elastic& material);
 
-// rad/s: at least the highest frequency of the elements, at most 1.2 times it; 2 / it is a safe step of central differences.
+// rad/s: at least the highest frequency of the elements, at most 1.2 times it; 2 / it is a safe step of central
+// differences.
 double max_frequency(const Mesh& mesh, const Elastic& material);
 
 // Stress (Pa) at nodes, mean of the adjacent cells' corner values. displacement: 3 x n_nodes.

@@ -1,12 +1,14 @@
-// The mass matrix whose waves keep their speed: between lumped and consistent, chosen so that mesh and time step undo each other's error.
+// The mass matrix whose waves keep their speed: between lumped and consistent, chosen so that mesh and time step undo
+// each other's error.
 #pragma once
 
 #include "fem/assembly.hpp"
 
 namespace dygita {
 
-// n x n, kg, symmetric, the same for the three directions; row sums are the lumped masses. `keeps_lumped` (one entry a node, or empty): cells with
-// such a node stay lumped. dt: s, of the trapezoidal steps. Manual, eq. S6; the rule is that of B. Yue, M. N. Guddati (J. Acoust. Soc. Am. 118, 2005).
+// n x n, kg, symmetric, the same for the three directions; row sums are the lumped masses. `keeps_lumped` (one entry a
+// node, or empty): cells with such a node stay lumped. dt: s, of the trapezoidal steps. Manual, eq. S6; the rule is
+// that of B. Yue, M. N. Guddati (J. Acoust. Soc. Am. 118, 2005).
 SparseMatrix tuned_mass(const Mesh& mesh, const Elastic& material, double dt, const std::vector<char>& keeps_lumped);
 
 }  // namespace dygita

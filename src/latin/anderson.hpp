@@ -7,14 +7,15 @@ namespace dygita {
 
 class Anderson {
  public:
-  // depth: differences of one fixed-point problem kept (0: relaxation alone); n_problems: changes from start to end of past problems
-  // kept, with which the next one is predicted; relaxation: share of the residual taken; weight: scales each component of the
-  // residual in the least squares (1/sqrt(k)).
+  // depth: differences of one fixed-point problem kept (0: relaxation alone); n_problems: changes from start to end of
+  // past problems kept, with which the next one is predicted; relaxation: share of the residual taken; weight: scales
+  // each component of the residual in the least squares (1/sqrt(k)).
   Anderson(int depth, int n_problems, double relaxation, Vec weight);
 
   // Another fixed-point problem begins: the same derivative or nearly, other data.
   void begin();
-  // Replaces q by the next iterate, from image = G(q). The history is cleared where the residual exceeds twice the best.
+  // Replaces q by the next iterate, from image = G(q). The history is cleared where the residual exceeds twice the
+  // best.
   void advance(Vec& q, const Vec& image);
   // The problem ends with q. If it is solved, what it changed helps to predict the next; if not, nothing past does.
   void end(const Vec& q, const Vec& image, bool is_solved);

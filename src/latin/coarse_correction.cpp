@@ -23,7 +23,8 @@ std::vector<CoarseCorrection::Side> CoarseCorrection::find_sides(const StepModel
   std::vector<Side> sides;
   for (size_t i = 0; i < model.exchange.points.size(); ++i) {
     const Point& point = model.exchange.points[i];
-    for (const auto& [first, end] : {std::pair{point.first_port, point.first_port_2}, std::pair{point.first_port_2, point.end_port}})
+    for (const auto& [first, end] :
+         {std::pair{point.first_port, point.first_port_2}, std::pair{point.first_port_2, point.end_port}})
       for (int d = 0; d < 3; ++d) {
         const bool has_law = point.law && point.is_active[d] && point.law->acts_on(d);
         Side side;
@@ -45,7 +46,8 @@ std::vector<CoarseCorrection::Side> CoarseCorrection::find_sides(const StepModel
   return sides;
 }
 
-// A rigid motion of a substructure counts at a tied node with its share of k there, so that all together move the assembly as one.
+// A rigid motion of a substructure counts at a tied node with its share of k there, so that all together move the
+// assembly as one.
 void CoarseCorrection::make_shapes(const StepModel& model, const Vec& k, const std::vector<Side>& sides) {
   const std::vector<Port>& ports = model.exchange.ports;
   const size_t n = model.pieces.size();
@@ -82,7 +84,8 @@ void CoarseCorrection::make_shapes(const StepModel& model, const Vec& k, const s
       for (const Tied& other : side) {
         const int moving = ports[other.port].piece;
         const Vec3 direction = model.exchange.points[other.point].frame.col(other.direction);
-        const Vec3 turn = ((place(other) - centre[moving]) / (length[moving] > 0.0 ? length[moving] : 1.0)).cross(direction);
+        const Vec3 turn =
+            ((place(other) - centre[moving]) / (length[moving] > 0.0 ? length[moving] : 1.0)).cross(direction);
         for (int a = 0; a < 3; ++a) {
           entries[own].push_back({row, 6 * moving + a, other.share * direction[a]});
           entries[own].push_back({row, 6 * moving + 3 + a, other.share * turn[a]});
@@ -115,7 +118,8 @@ Mat CoarseCorrection::respond(const Piece& piece, int offset, Local& local) {
   Mat tied(n_tied, n_tied), rest(local.rest.size(), n_tied);
   for (int c = 0; c < n_tied; ++c) {
     for (int r = 0; r < n_tied; ++r) tied(r, c) = compliance(local.tied[r] - offset, local.tied[c] - offset);
-    for (size_t r = 0; r < local.rest.size(); ++r) rest(r, c) = compliance(local.rest[r] - offset, local.tied[c] - offset);
+    for (size_t r = 0; r < local.rest.size(); ++r)
+      rest(r, c) = compliance(local.rest[r] - offset, local.tied[c] - offset);
   }
   local.data = tied.llt().solve(local.shape);
   local.answer = rest * local.data;
@@ -138,9 +142,10 @@ CoarseCorrection::CoarseCorrection(const StepModel& model, const Vec& k) {
   Mat stiffness = Mat::Zero(6 * n, 6 * n);
   for (int i = 0; i < n; ++i)
     for (int c = 0; c < share[i].cols(); ++c)
-      for (int r = 0; r < share[i].rows(); ++r) stiffness(pieces_[i].motions[r], pieces_[i].motions[c]) += share[i](r, c);
-  // Motions that are the same at all ties (of two bodies tied to nothing else) are told apart by this alone; what is not tied at
-  // all stands still.
+      for (int r = 0; r < share[i].rows(); ++r)
+        stiffness(pieces_[i].motions[r], pieces_[i].motions[c]) += share[i](r, c);
+  // Motions that are the same at all ties (of two bodies tied to nothing else) are told apart by this alone; what is
+  // not tied at all stands still.
   for (int i = 0; i < 6 * n; ++i) stiffness(i, i) = stiffness(i, i) > 0.0 ? stiffness(i, i) * (1.0 + 1e-9) : 1.0;
   factor_.compute(stiffness);
   if (factor_.info() != Eigen::Success) pieces_.clear();  // the iteration goes without

@@ -1,5 +1,5 @@
-// Coarse correction: the forces that tied substructures exert on each other are brought into balance against rigid motions of each
-// of them, so that what happens far away is felt within an iteration (manual, coarse correction).
+// Coarse correction: the forces that tied substructures exert on each other are brought into balance against rigid
+// motions of each of them, so that what happens far away is felt within an iteration (manual, coarse correction).
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -12,12 +12,12 @@ namespace dygita {
 class CoarseCorrection {
  public:
   CoarseCorrection() = default;  // none
-  // k: search directions of all unknowns (length n_q), as the pieces have them. Costs the inverse of each piece's operator on its
-  // tied unknowns, and a dense matrix of 6 unknowns a substructure.
+  // k: search directions of all unknowns (length n_q), as the pieces have them. Costs the inverse of each piece's
+  // operator on its tied unknowns, and a dense matrix of 6 unknowns a substructure.
   CoarseCorrection(const StepModel& model, const Vec& k);
   bool is_empty() const { return pieces_.empty(); }
-  // Changes data q and the velocities that the linear stage answered them with, which remain its answer. Changes nothing where the
-  // forces of the ties are in balance.
+  // Changes data q and the velocities that the linear stage answered them with, which remain its answer. Changes
+  // nothing where the forces of the ties are in balance.
   void correct(Vec& q, Vec& velocity);
 
  private:
@@ -27,8 +27,9 @@ class CoarseCorrection {
     std::vector<int> motions;     // coarse motions, length c
     std::vector<char> balances;   // of the tied: no law has a say in their balance
     Vec k;                        // of the tied that balance, else 0
-    Mat shape, data, answer;      // tied x c: velocities, and the q that brings them; rest x c: velocities that come with it
-    Vec force, amount, change;    // work space
+    Mat shape, data,
+        answer;  // tied x c: velocities, and the q that brings them; rest x c: velocities that come with it
+    Vec force, amount, change;  // work space
   };
   // A tied unknown: its side of its point moves as one.
   struct Tied {
@@ -47,8 +48,8 @@ class CoarseCorrection {
   Vec amount_;
 };
 
-// Does what happens in a step of time reach across a substructure (or at once, in a static step)? Below, the correction changes
-// nothing that the iteration does not find as fast.
+// Does what happens in a step of time reach across a substructure (or at once, in a static step)? Below, the correction
+// changes nothing that the iteration does not find as fast.
 bool needs_coarse_correction(const StepModel& model);
 
 }  // namespace dygita

@@ -6,8 +6,8 @@ namespace dygita {
 
 namespace {
 
-// A column of which the newer ones leave less than this (squared, of its length) is not used: below it the Gram matrix knows
-// rounding errors only.
+// A column of which the newer ones leave less than this (squared, of its length) is not used: below it the Gram matrix
+// knows rounding errors only.
 constexpr double independent = 1e-12;
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Pairs (difference of iterates, difference of their residuals) and the combination of them that explains a residual best.
+// Pairs (difference of iterates, difference of their residuals) and the combination of them that explains a residual
+// best.
 #pragma once
 
 #include <vector>
@@ -7,8 +8,9 @@
 
 namespace dygita {
 
-// The last `depth` pairs stand in fixed columns beside the Gram matrix of the residuals' differences: a pair costs one product with
-// each of the others, a solve two passes over them, and nothing is allocated. Runs on one thread: the same bits for any number.
+// The last `depth` pairs stand in fixed columns beside the Gram matrix of the residuals' differences: a pair costs one
+// product with each of the others, a solve two passes over them, and nothing is allocated. Runs on one thread: the same
+// bits for any number.
 class Differences {
  public:
   Differences(int depth, Eigen::Index length);
@@ -23,8 +25,8 @@ class Differences {
   void solve(const Vec& residual);
 
   int last_ = -1;
-  Mat dq_, df_;       // length x depth, divided by the length of df
-  Mat gram_, factor_; // df^T df, and Cholesky's factor of the pairs that are used
+  Mat dq_, df_;        // length x depth, divided by the length of df
+  Mat gram_, factor_;  // df^T df, and Cholesky's factor of the pairs that are used
   Vec gamma_;
   std::vector<int> newest_first_, used_;
 };

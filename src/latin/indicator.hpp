@@ -14,12 +14,13 @@ struct Outcome {
   double size = 0.0, force_size = 0.0;  // W, of the increment's fields
 };
 
-// eta^2 = distance / max(largest size so far, floor); the floor keeps quiet increments from iterating on rounding errors.
-// A static step asks more: a body that has flown off has velocities beside which no force would count, so the forces must also agree
-// among themselves, to a hundred times the tolerance.
+// eta^2 = distance / max(largest size so far, floor); the floor keeps quiet increments from iterating on rounding
+// errors. A static step asks more: a body that has flown off has velocities beside which no force would count, so the
+// forces must also agree among themselves, to a hundred times the tolerance.
 class Indicator {
  public:
-  // largest_motion: sum k L^2 of a static step over the size L of the assembly, what a velocity size can be in earnest; 0: dynamic.
+  // largest_motion: sum k L^2 of a static step over the size L of the assembly, what a velocity size can be in earnest;
+  // 0: dynamic.
   explicit Indicator(double largest_motion) : largest_motion_(largest_motion) {}
   // energy: kinetic + strain + |work of loads| seen so far, J.
   void raise_floor(double energy, double dt) { floor_ = std::max(floor_, 1e-12 * energy / dt); }
@@ -28,7 +29,8 @@ class Indicator {
     const double size = sums.force_size + sums.velocity_size;
     double eta = std::sqrt((sums.force_distance + sums.velocity_distance) / std::max({largest_, size, floor_, tiny}));
     if (largest_motion_ > 0.0) {
-      const double forces = std::max({largest_force_, sums.force_size, 1e-16 * std::min(sums.velocity_size, largest_motion_), floor_, tiny});
+      const double forces = std::max(
+          {largest_force_, sums.force_size, 1e-16 * std::min(sums.velocity_size, largest_motion_), floor_, tiny});
       eta = std::max(eta, 1e-2 * std::sqrt(sums.force_distance / forces));
     }
     return {eta, size, sums.force_size};

@@ -1,7 +1,8 @@
 // The dynamic LATIN method, readable top to bottom (manual, chapter "Method").
 //
-// The only unknown that is iterated is q = F_hat + k W_hat on the interfaces. The linear stage answers with V, F = q - k V of each
-// substructure; the local stage answers with F_hat, W_hat of each interface point; they agree when the step is solved.
+// The only unknown that is iterated is q = F_hat + k W_hat on the interfaces. The linear stage answers with V, F = q -
+// k V of each substructure; the local stage answers with F_hat, W_hat of each interface point; they agree when the step
+// is solved.
 #include "latin/latin.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -23,7 +24,8 @@ namespace dygita {
 void StepRun::linear_stage() {
   const Stopwatch watch(seconds_.interface);
   for_each_piece([&](Piece& piece, int i) {
-    piece.interface_velocity(q_.segment(model_.offset[i], piece.n_rows()), velocity_.segment(model_.offset[i], piece.n_rows()));
+    piece.interface_velocity(q_.segment(model_.offset[i], piece.n_rows()),
+                             velocity_.segment(model_.offset[i], piece.n_rows()));
   });
 }
 
@@ -91,8 +93,11 @@ void StepRun::solve_increment(int increment) {
   begin_increment(increment, true);
   const bool has_start = warm_start_.predict(increment, q_) && start_from_;
   if (start_from_ && !has_start && increment == 0 && start_from_->n_increments(i_step_) > 0)
-    warn(fmt::format("step '{}': nothing of the case to start from fits (other interfaces, another number of pieces or of increments): the "
-                     "iteration starts afresh", model_.step->name));
+    warn(
+        fmt::format("step '{}': nothing of the case to start from fits (other interfaces, another number of pieces or "
+                    "of increments): the "
+                    "iteration starts afresh",
+                    model_.step->name));
   if (local_.has_preloads()) keep_start();
   const Goal goal = goal_of(has_start);
   Vec q_best = q_;
@@ -102,7 +107,7 @@ void StepRun::solve_increment(int increment) {
   anderson_.end(q_, image_, best.eta <= goal.tolerance);
   if (best.eta <= goal.tolerance) {
     if (n > 1 && !coarse_.is_empty()) linear_stage();  // the pieces have not heard of the last correction
-  } else {  // not there: the best there was is what is shown
+  } else {                                             // not there: the best there was is what is shown
     q_ = q_best;
     linear_stage();
     local_stage();
@@ -177,7 +182,9 @@ void StepRun::run() {
 
 SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceFields* start_from) {
   using clock = std::chrono::steady_clock;
-  const auto seconds_since = [](clock::time_point t) { return std::chrono::duration<double>(clock::now() - t).count(); };
+  const auto seconds_since = [](clock::time_point t) {
+    return std::chrono::duration<double>(clock::now() - t).count();
+  };
   SolverFigures figures;
   auto kept = std::make_shared<InterfaceFields>(problem.solver.history_memory);
   prepare_thread();

@@ -6,8 +6,9 @@
 
 namespace dygita {
 
-// Runs every step, each from the state the last one left. `start_from`: interface fields of an earlier case, where the iteration of
-// each increment starts (null: from the increment before). Throws InputError and NumericalError; not converging is a result.
+// Runs every step, each from the state the last one left. `start_from`: interface fields of an earlier case, where the
+// iteration of each increment starts (null: from the increment before). Throws InputError and NumericalError; not
+// converging is a result.
 SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceFields* start_from = nullptr);
 
 }  // namespace dygita

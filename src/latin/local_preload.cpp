@@ -12,8 +12,8 @@ void LocalStage::shorten(int i_preload, const Vec& velocity, const Vec& q) {
   double slope = 0.0;
   for (const int i : preload.points) {
     const Point& point = model_->exchange.points[i];
-    set_trial(point, gather(point.first_port, point.first_port_2, velocity, q), gather(point.first_port_2, point.end_port, velocity, q),
-              points_[i]);
+    set_trial(point, gather(point.first_port, point.first_port_2, velocity, q),
+              gather(point.first_port_2, point.end_port, velocity, q), points_[i]);
     if (const double y = points_[i].trial.y[0]; y > 0.0) slope += 1.0 / (increment_.dt * y);
   }
   double size = 0.0;

@@ -71,7 +71,8 @@ void LocalStage::begin(int increment, const std::vector<double>& motions, bool s
   const Exchange& exchange = model_->exchange;
   i_increment_ = increment;
   std::vector<Vec> displacement(model_->pieces.size());
-  for (size_t i = 0; i < displacement.size() && starts_window; ++i) displacement[i] = model_->pieces[i]->row_displacements();
+  for (size_t i = 0; i < displacement.size() && starts_window; ++i)
+    displacement[i] = model_->pieces[i]->row_displacements();
   for (size_t i = 0; i < exchange.points.size(); ++i) {
     const Point& point = exchange.points[i];
     for (int p = point.first_port; p < point.end_port; ++p) {
@@ -221,7 +222,8 @@ void LocalStage::show_residuals(State& state) const {
   for (const Point& point : exchange.points) {
     double worst = 0.0;
     for (int p = point.first_port; p < point.end_port; ++p) worst = std::max(worst, ports_[p].residual.norm());
-    for (const Member& member : point.members) state.surfaces[member.surface].residual[member.point] = member.share * worst;
+    for (const Member& member : point.members)
+      state.surfaces[member.surface].residual[member.point] = member.share * worst;
   }
   for (const Tie& tie : exchange.ties)
     state.surfaces[tie.surface].residual[tie.surface_point] =

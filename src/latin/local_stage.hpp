@@ -18,7 +18,8 @@ struct IndicatorSums {
   }
 };
 
-// Of each preload in an increment: shortening (m), force through it and force asked for (N), stiffness of its search directions (N/m).
+// Of each preload in an increment: shortening (m), force through it and force asked for (N), stiffness of its search
+// directions (N/m).
 struct PreloadFigures {
   Vec shortening, force, target, stiffest;
   std::vector<const Interface*> interfaces;
@@ -32,9 +33,9 @@ class LocalStage {
 
   // Interface data that continues the state: q = F_hat + k W_hat with the forces and velocities at hand.
   Vec initial_q() const;
-  // What an increment changes before any iteration: jumps, shortenings, velocities of held sides (motions: at its end). Jumps
-  // come from the substructures' displacements at the start of a window; inside a window of several steps from W_hat, since the
-  // displacements of an unfinished iteration would be answered with a velocity of jump / dt.
+  // What an increment changes before any iteration: jumps, shortenings, velocities of held sides (motions: at its end).
+  // Jumps come from the substructures' displacements at the start of a window; inside a window of several steps from
+  // W_hat, since the displacements of an unfinished iteration would be answered with a velocity of jump / dt.
   void begin(int increment, const std::vector<double>& motions, bool starts_window);
   // From velocities V and data q of the linear stage: F_hat, W_hat and their q (the fixed-point image).
   IndicatorSums run(const Vec& velocity, const Vec& q, Vec& image);

@@ -16,7 +16,8 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
       if (model.scheme.is_static) {
         // A body that only this unknown could hold has no stiffness of its own there.
         const double reference = piece.setup().rows[port.unknown[d]].reference_stiffness;
-        direction = piece.is_mostly_interface() ? piece.setup().rows[port.unknown[d]].static_stiffness : std::max(schur, 1e-3 * reference);
+        direction = piece.is_mostly_interface() ? piece.setup().rows[port.unknown[d]].static_stiffness
+                                                : std::max(schur, 1e-3 * reference);
         continue;
       }
       const double mass = piece.node_mass(port.piece_node);

@@ -1,12 +1,14 @@
-// Search directions k, chosen from the interface's own operators: no constant asked of the user (manual, search directions).
+// Search directions k, chosen from the interface's own operators: no constant asked of the user (manual, search
+// directions).
 #pragma once
 
 #include "solution/step_model.hpp"
 
 namespace dygita {
 
-// k of every unknown (length n_q). Static: diagonal of the Schur complement S0. Dynamic: S0^(3/4) k_step^(1/4), k_step^2 = ((1-g) rho c A)^2 + (m/dt)^2. Windows of many steps (n_window > 5):
-// the impedance rho c A, since there a wave crosses and returns within the window.
+// k of every unknown (length n_q). Static: diagonal of the Schur complement S0. Dynamic: S0^(3/4) k_step^(1/4),
+// k_step^2 = ((1-g) rho c A)^2 + (m/dt)^2. Windows of many steps (n_window > 5): the impedance rho c A, since there a
+// wave crosses and returns within the window.
 Vec search_directions(const StepModel& model, double multiplier, int n_window);
 
 }  // namespace dygita

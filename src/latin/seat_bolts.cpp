@@ -1,5 +1,6 @@
-// Where the joint under a preloaded bolt stands open, no force is in balance until it has closed, and the iteration cannot find the
-// shortening by the way: it is searched from outside, roughly, and the iteration goes on from there (manual, preload).
+// Where the joint under a preloaded bolt stands open, no force is in balance until it has closed, and the iteration
+// cannot find the shortening by the way: it is searched from outside, roughly, and the iteration goes on from there
+// (manual, preload).
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,14 +11,16 @@ namespace dygita {
 
 namespace {
 
-constexpr double rough = 1e-4;    // tolerance of the iterations for a given shortening
-constexpr double close = 2e-2;    // to the force asked for
-constexpr int most_sweeps = 5;    // over bolts that loosen each other
+constexpr double rough = 1e-4;  // tolerance of the iterations for a given shortening
+constexpr double close = 2e-2;  // to the force asked for
+constexpr int most_sweeps = 5;  // over bolts that loosen each other
 
 }  // namespace
 
 // A preload may send a part away that nothing holds yet.
-bool StepRun::is_lost() const { return extent_ > 0.0 && velocity_.size() > 0 && !(velocity_.cwiseAbs().maxCoeff() <= extent_); }
+bool StepRun::is_lost() const {
+  return extent_ > 0.0 && velocity_.size() > 0 && !(velocity_.cwiseAbs().maxCoeff() <= extent_);
+}
 
 void StepRun::keep_start() {
   q_start_ = q_;

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "base/log.hpp"
-
 #include "latin/search_direction.hpp"
 #include "solution/step_ends.hpp"
 
@@ -16,7 +15,9 @@ namespace dygita {
 namespace {
 
 // Defaults of the manual's table, where the deck says nothing.
-int anderson_depth(const LatinSettings& s, bool is_static) { return s.anderson >= 0 ? s.anderson : is_static ? 40 : 10; }
+int anderson_depth(const LatinSettings& s, bool is_static) {
+  return s.anderson >= 0 ? s.anderson : is_static ? 40 : 10;
+}
 double relaxation(const LatinSettings& s, bool is_static) {
   return s.relaxation > 0.0 ? s.relaxation : is_static ? 0.8 : 0.95;
 }
@@ -51,8 +52,8 @@ LocalStage make_local_stage(const Problem& problem, StepModel& model, const Stat
 
 }  // namespace
 
-StepRun::StepRun(const Problem& problem, StepModel& model, State& state, Observer& observer, const InterfaceFields* start_from,
-                 InterfaceFields& kept)
+StepRun::StepRun(const Problem& problem, StepModel& model, State& state, Observer& observer,
+                 const InterfaceFields* start_from, InterfaceFields& kept)
     : problem_(problem),
       model_(model),
       state_(state),
@@ -95,8 +96,9 @@ StepRun::Goal StepRun::goal_of(bool has_start) const {
 
 // Indicator below which iterations change rounding errors only.
 double StepRun::round_off() const {
-  const bool is_single = std::any_of(model_.pieces.begin(), model_.pieces.end(),
-                                     [](const auto& piece) { return piece->setup().precision == Precision::single_precision; });
+  const bool is_single = std::any_of(model_.pieces.begin(), model_.pieces.end(), [](const auto& piece) {
+    return piece->setup().precision == Precision::single_precision;
+  });
   return is_single ? 1e-8 : 1e-13;
 }
 
@@ -119,8 +121,9 @@ void StepRun::accept_increment(int increment, int iterations, double eta) {
   Energies& energies = state_.energies;
   book_increment(energy_, energies);
   if (!std::isfinite(energies.kinetic + energies.strain + energies.loads))
-    throw NumericalError(fmt::format("step '{}', increment {} (t = {:.6g} s): the energies are not finite; likely cause: a load out of proportion",
-                                     model_.step->name, increment + 1, state_.time));
+    throw NumericalError(fmt::format(
+        "step '{}', increment {} (t = {:.6g} s): the energies are not finite; likely cause: a load out of proportion",
+        model_.step->name, increment + 1, state_.time));
   if (has_flown_off()) eta = std::numeric_limits<double>::infinity();
   indicator_.raise_floor(energies.kinetic + energies.strain + std::abs(energies.loads), model_.scheme.dt);
   if (!model_.scheme.is_static) state_.time += model_.scheme.dt;
@@ -133,13 +136,16 @@ void StepRun::accept_increment(int increment, int iterations, double eta) {
   observer_.accept(instant(increment, iterations, eta));
 }
 
-// A static increment that moves bodies by many times the assembly's size has found no equilibrium, whatever the indicator says.
+// A static increment that moves bodies by many times the assembly's size has found no equilibrium, whatever the
+// indicator says.
 bool StepRun::has_flown_off() const {
   if (!model_.scheme.is_static || velocity_.size() == 0) return false;
   const double moved = velocity_.cwiseAbs().maxCoeff(), size = assembly_size();
   if (moved <= 10.0 * size) return false;
-  warn(fmt::format("static step '{}': an increment moves a substructure by {:.3g} m, {:.0f} times the size of the assembly: nothing "
-                   "holds it, a limit load is exceeded, or the iteration has lost its way", model_.step->name, moved, moved / size));
+  warn(fmt::format(
+      "static step '{}': an increment moves a substructure by {:.3g} m, {:.0f} times the size of the assembly: nothing "
+      "holds it, a limit load is exceeded, or the iteration has lost its way",
+      model_.step->name, moved, moved / size));
   return true;
 }
 
@@ -168,7 +174,8 @@ std::string StepRun::describe_progress() const {
 }
 
 Instant StepRun::instant(int increment, int iterations, double eta) const {
-  return {model_, state_, i_step_, increment, iterations, eta, eta <= tolerance_, model_.scheme.dt * sums_.force_distance};
+  return {model_,     state_, i_step_,           increment,
+          iterations, eta,    eta <= tolerance_, model_.scheme.dt * sums_.force_distance};
 }
 
 void StepRun::leave_state() { end_step(model_, state_); }

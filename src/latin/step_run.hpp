@@ -103,8 +103,8 @@ class StepRun {
   Anderson anderson_;
   Indicator indicator_;
   Vec q_start_, shortenings_start_;  // of the increment, where there are preloads
-  double extent_ = 0.0;  // m, of the assembly, where there are preloads
-  IndicatorSums sums_;  // of the last local stage
+  double extent_ = 0.0;              // m, of the assembly, where there are preloads
+  IndicatorSums sums_;               // of the last local stage
   std::vector<double> motions_;
   std::vector<IncrementEnergy> energy_;
   StepFigures figures_;

@@ -13,15 +13,16 @@ namespace dygita {
 //   c(n)                       the other case's answer
 //   q(n-1) + c(n) - c(n-1)     what the other case did in this increment
 //
-// Which one is taken is decided by hindsight: the least error (weighted, of the increments so far, each counting half of the one
-// after it). Close cases move alike, far ones have only some increments in common (all sticks), and where neither helps nothing is
-// lost but the arithmetic.
+// Which one is taken is decided by hindsight: the least error (weighted, of the increments so far, each counting half
+// of the one after it). Close cases move alike, far ones have only some increments in common (all sticks), and where
+// neither helps nothing is lost but the arithmetic.
 class WarmStart {
  public:
   // fields: of the other case, null for none; weight: of each component of q in the errors.
   WarmStart(const InterfaceFields* fields, size_t i_step, Vec weight);
 
-  // Replaces q, that of the increment before, by a guess for this one. False: the fields have nothing that fits (q is left).
+  // Replaces q, that of the increment before, by a guess for this one. False: the fields have nothing that fits (q is
+  // left).
   bool predict(int increment, Vec& q);
 
  private:

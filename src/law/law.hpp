@@ -12,13 +12,13 @@ enum class PointState { open = 0, stick = 1, slip = 2 };  // a closed frictionle
 
 // What a point remembers from increment to increment.
 struct LawState {
-  double gap = 0.0;               // m, contact: from the hat fields, so that closed is exactly closed
-  double plastic_opening = 0.0;   // m, signed
-  double hardening_opening = 0.0; // m, accumulated: what hardens
-  double opening_rate = 0.0;      // m/s, plastic, of the last dynamic increment; zero after a static one
-  Vec3 slip = Vec3::Zero();       // m, relative tangential displacement while closed
-  Vec3 rate = Vec3::Zero();       // m/s, V' - V at the end of the last increment
-  Vec3 force = Vec3::Zero();      // N, of the last increment
+  double gap = 0.0;                // m, contact: from the hat fields, so that closed is exactly closed
+  double plastic_opening = 0.0;    // m, signed
+  double hardening_opening = 0.0;  // m, accumulated: what hardens
+  double opening_rate = 0.0;       // m/s, plastic, of the last dynamic increment; zero after a static one
+  Vec3 slip = Vec3::Zero();        // m, relative tangential displacement while closed
+  Vec3 rate = Vec3::Zero();        // m/s, V' - V at the end of the last increment
+  Vec3 force = Vec3::Zero();       // N, of the last increment
   PointState status = PointState::stick;
 };
 
@@ -46,7 +46,8 @@ class Law {
   // Force of the increment (N), a pure function of the trial and the state at its start.
   virtual Vec3 force(const Trial& trial, const Increment& increment, const LawState& start) const = 0;
   // State at the end of the increment, once `force` is accepted.
-  virtual LawState advance(const Trial& trial, const Increment& increment, const LawState& start, const Vec3& force) const = 0;
+  virtual LawState advance(const Trial& trial, const Increment& increment, const LawState& start,
+                           const Vec3& force) const = 0;
   // Energy (J) that plasticity has dissipated since the beginning.
   virtual double plastic_work(const LawState&, double /*area*/) const { return 0.0; }
   // Is the tangential work of this law friction?
@@ -58,18 +59,21 @@ class BondedLaw : public Law {
  public:
   bool acts_on(int) const override { return true; }
   Vec3 force(const Trial& trial, const Increment& increment, const LawState& start) const override;
-  LawState advance(const Trial& trial, const Increment& increment, const LawState& start, const Vec3& force) const override;
+  LawState advance(const Trial& trial, const Increment& increment, const LawState& start,
+                   const Vec3& force) const override;
 };
 
-// Rigid-plastic in the normal direction, bonded in the tangents (eq. L2-L3). The plastic opening follows the same two-point sum as
-// the jump does: with p + dt l the sides would be pushed apart at each yielding step, without bound at large steps.
+// Rigid-plastic in the normal direction, bonded in the tangents (eq. L2-L3). The plastic opening follows the same
+// two-point sum as the jump does: with p + dt l the sides would be pushed apart at each yielding step, without bound at
+// large steps.
 class PlasticLaw : public BondedLaw {
  public:
   // yield (Pa), hardening (Pa per metre of plastic opening), compression: yields in compression too.
   PlasticLaw(double yield, double hardening, bool compression)
       : yield_(yield), hardening_(hardening), compression_(compression) {}
   Vec3 force(const Trial& trial, const Increment& increment, const LawState& start) const override;
-  LawState advance(const Trial& trial, const Increment& increment, const LawState& start, const Vec3& force) const override;
+  LawState advance(const Trial& trial, const Increment& increment, const LawState& start,
+                   const Vec3& force) const override;
   double plastic_work(const LawState& state, double area) const override;
 
  private:
@@ -84,14 +88,16 @@ class ContactLaw : public Law {
   explicit ContactLaw(double friction) : friction_(friction) {}
   bool acts_on(int direction) const override { return direction == 0 || friction_ > 0.0; }
   Vec3 force(const Trial& trial, const Increment& increment, const LawState& start) const override;
-  LawState advance(const Trial& trial, const Increment& increment, const LawState& start, const Vec3& force) const override;
+  LawState advance(const Trial& trial, const Increment& increment, const LawState& start,
+                   const Vec3& force) const override;
   bool rubs() const override { return true; }
 
  private:
   double friction_;
 };
 
-// Force on the friction disc: F_d = s_d / (Y_d + lambda), lambda >= 0 so that |F| <= limit (eq. L6). Returns F and lambda.
+// Force on the friction disc: F_d = s_d / (Y_d + lambda), lambda >= 0 so that |F| <= limit (eq. L6). Returns F and
+// lambda.
 struct DiscForce {
   Eigen::Vector2d force;
   double lambda;

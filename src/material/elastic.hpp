@@ -15,7 +15,7 @@ struct Damping {
 
 struct Elastic {
   std::string name;
-  double young = 0.0;    // Pa
+  double young = 0.0;  // Pa
   double poisson = 0.0;
   double density = 0.0;  // kg/m^3
   Damping damping;

@@ -80,8 +80,9 @@ void join_fragments(const Graph& graph, std::vector<int>& piece, int n_pieces) {
     const size_t before = n_left;
     for (size_t l = 0; l < sizes.size(); ++l) {
       if (piece_of_lump[l] >= 0 || n_shared[l].empty()) continue;
-      piece_of_lump[l] = std::max_element(n_shared[l].begin(), n_shared[l].end(),
-                                          [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+      piece_of_lump[l] = std::max_element(n_shared[l].begin(), n_shared[l].end(), [](const auto& a, const auto& b) {
+                           return a.second < b.second;
+                         })->first;
       --n_left;
     }
     if (n_left < before) continue;
@@ -143,7 +144,8 @@ std::vector<MeshPiece> cut_mesh(const Mesh& mesh, const std::vector<int>& piece_
   std::vector<int> local(mesh.n_nodes());
   for (int p = 0; p < n; ++p) {
     MeshPiece piece;
-    for (const CellBlock& block : blocks[p]) piece.nodes.insert(piece.nodes.end(), block.nodes.begin(), block.nodes.end());
+    for (const CellBlock& block : blocks[p])
+      piece.nodes.insert(piece.nodes.end(), block.nodes.begin(), block.nodes.end());
     std::sort(piece.nodes.begin(), piece.nodes.end());
     piece.nodes.erase(std::unique(piece.nodes.begin(), piece.nodes.end()), piece.nodes.end());
     const int n_nodes = static_cast<int>(piece.nodes.size());
@@ -153,7 +155,8 @@ std::vector<MeshPiece> cut_mesh(const Mesh& mesh, const std::vector<int>& piece_
       if (!outside.contains(facet_key(facet))) cut.push_back(facet);
     const FaceNodes on_cut = face_nodes(mesh, cut);
     piece.cut_areas = Vec::Zero(n_nodes);
-    for (size_t i = 0; i < on_cut.nodes.size(); ++i) piece.cut_areas[local[on_cut.nodes[i]]] = on_cut.areas[static_cast<Eigen::Index>(i)];
+    for (size_t i = 0; i < on_cut.nodes.size(); ++i)
+      piece.cut_areas[local[on_cut.nodes[i]]] = on_cut.areas[static_cast<Eigen::Index>(i)];
 
     auto own = std::make_shared<Mesh>();
     own->source = mesh.source;

@@ -9,12 +9,12 @@ namespace dygita {
 struct MeshPiece {
   MeshPtr mesh;
   std::vector<int> nodes;  // node of the whole mesh at each node of the piece, increasing
-  Vec cut_areas;           // m^2, of each node of the piece: its share of the facets that the piece has in common with others
+  Vec cut_areas;  // m^2, of each node of the piece: its share of the facets that the piece has in common with others
 };
 
-// Piece of each cell (block after block), 0 .. n - 1, none empty: about n_pieces of about the same number of nodes, with few
-// facets between them. Cells of a piece hang together by facets where those of the mesh do; a part of the mesh that does not is a
-// piece of its own. The same at each call.
+// Piece of each cell (block after block), 0 .. n - 1, none empty: about n_pieces of about the same number of nodes,
+// with few facets between them. Cells of a piece hang together by facets where those of the mesh do; a part of the mesh
+// that does not is a piece of its own. The same at each call.
 std::vector<int> piece_of_cells(const Mesh& mesh, int n_pieces);
 
 // Number of the lump each cell belongs to: cells that hang together by facets, numbered from 0.

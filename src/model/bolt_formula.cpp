@@ -14,8 +14,8 @@ constexpr double pi = std::numbers::pi;
 
 double disc(double diameter) { return 0.25 * pi * diameter * diameter; }
 
-// Shank and free thread, and what head, engaged thread and nut give: as lengths of 0.5 d, 0.5 d and 0.4 d (0.33 d in a tapped hole, of
-// the plates' modulus).
+// Shank and free thread, and what head, engaged thread and nut give: as lengths of 0.5 d, 0.5 d and 0.4 d (0.33 d in a
+// tapped hole, of the plates' modulus).
 double resilience_of_bolt(const BoltDimensions& b) {
   const double shank = disc(b.diameter), core = disc(b.core);
   const double in_grip = (b.grip - b.thread) / shank + b.thread / core;
@@ -24,7 +24,8 @@ double resilience_of_bolt(const BoltDimensions& b) {
   return (in_grip + head + engaged) / b.young + nut / (b.is_tapped ? b.plate_young : b.young);
 }
 
-// Cones from the bearing surfaces, and a sleeve where they reach the outer diameter. w: 1 with a nut (two cones), 2 without (one).
+// Cones from the bearing surfaces, and a sleeve where they reach the outer diameter. w: 1 with a nut (two cones), 2
+// without (one).
 double resilience_of_plates(const BoltDimensions& b) {
   if (b.outer <= b.head) return b.grip / (b.plate_young * (disc(b.outer) - disc(b.hole)));
   const double w = b.is_tapped ? 2.0 : 1.0, beta = b.grip / b.head, y = b.outer / b.head;
@@ -41,8 +42,8 @@ double resilience_of_plates(const BoltDimensions& b) {
 }  // namespace
 
 BoltResilience bolt_resilience(const BoltDimensions& b) {
-  CHECK(b.diameter > 0.0 && b.hole >= b.diameter && b.head > b.hole && b.outer > b.hole && b.core > 0.0 && b.core <= b.diameter &&
-            b.thread >= 0.0 && b.thread <= b.grip && b.young > 0.0 && b.plate_young > 0.0,
+  CHECK(b.diameter > 0.0 && b.hole >= b.diameter && b.head > b.hole && b.outer > b.hole && b.core > 0.0 &&
+            b.core <= b.diameter && b.thread >= 0.0 && b.thread <= b.grip && b.young > 0.0 && b.plate_young > 0.0,
         "dimensions of a bolt");
   return {resilience_of_bolt(b), resilience_of_plates(b)};
 }

@@ -27,7 +27,8 @@ void outputs(const Problem& problem);
 // What is allowed but hardly meant: said with warn().
 void doubts(const Problem& problem);
 
-// A step of time or a mesh too coarse for what the loads bring and the spectra ask for: said with warn(), with the figures.
+// A step of time or a mesh too coarse for what the loads bring and the spectra ask for: said with warn(), with the
+// figures.
 void resolution(const Problem& problem);
 
 // Throws InputError "<origin>: problem '<name>': <text>"; `hint`, where given, follows on its own line.

@@ -52,10 +52,12 @@ void doubt_supports(const Problem& problem, bool has_dynamic_step) {
 void doubts(const Problem& problem) {
   const bool has_dynamic_step =
       std::any_of(problem.steps.begin(), problem.steps.end(), [](const StepPtr& step) { return !step->is_static; });
-  const bool has_spectrum =
-      std::any_of(problem.outputs.begin(), problem.outputs.end(), [](const OutputPtr& output) { return output->kind == OutputKind::srs; });
+  const bool has_spectrum = std::any_of(problem.outputs.begin(), problem.outputs.end(),
+                                        [](const OutputPtr& output) { return output->kind == OutputKind::srs; });
   if (problem.solver.spectra > 0.0 && !has_spectrum)
-    doubt(problem, problem.origin, "'spectra' of solver.latin waits for spectra to stand still, and no output.srs is asked for: one pass is run");
+    doubt(
+        problem, problem.origin,
+        "'spectra' of solver.latin waits for spectra to stand still, and no output.srs is asked for: one pass is run");
   for (const SubstructurePtr& part : problem.substructures) {
     const std::string who = "substructure '" + part->name + "'";
     if (!is_touched(problem, part)) doubt(problem, part->origin, "no interface, support or load touches " + who);

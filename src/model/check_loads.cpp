@@ -110,7 +110,9 @@ void step_is_of_the_right_kind(const Problem& problem, const Step& step, const L
     for (int i = 1; i <= step.increments; ++i)
       if (const double force = load.value[0]->value(static_cast<double>(i) / step.increments); force < 0.0)
         fail(problem, load.origin,
-             fmt::format("step '{}': load.preload asks for {:.6g} N in increment {}: a bolt pulls, its force is not negative", step.name, force, i));
+             fmt::format(
+                 "step '{}': load.preload asks for {:.6g} N in increment {}: a bolt pulls, its force is not negative",
+                 step.name, force, i));
   if ((load.kind == LoadKind::shortening || load.kind == LoadKind::preload) && !step.is_static) {
     fail(problem, load.origin, who + " acts in static steps only, and this one is dynamic",
          "tighten in a step.static before it; the bolt keeps its length afterwards");
@@ -154,10 +156,11 @@ void loads_do_not_compete(const Problem& problem, const Step& step, const Load& 
   };
   for (const Target& target_a : a.on) {
     for (const Target& target_b : b.on) {
-      if (a.kind != b.kind && is_of_bolt(a) && is_of_bolt(b) && (a.kind == LoadKind::preload || b.kind == LoadKind::preload) &&
-          same_target(target_a, target_b))
+      if (a.kind != b.kind && is_of_bolt(a) && is_of_bolt(b) &&
+          (a.kind == LoadKind::preload || b.kind == LoadKind::preload) && same_target(target_a, target_b))
         fail(problem, b.origin, who + known_as(a) + " and " + known_as(b) + " are both on " + describe(target_b),
-             "a preload finds the shortening that brings its force: one of the two, or one after the other in steps of their own");
+             "a preload finds the shortening that brings its force: one of the two, or one after the other in steps of "
+             "their own");
       if (are_one_load(a, b) && same_target(target_a, target_b)) {
         fail(problem, b.origin, who + "two " + known_as(b) + " on " + describe(target_b),
              b.kind == LoadKind::preload ? "one force a step: give the other one in a step of its own" : in_one);
@@ -213,8 +216,9 @@ void preloads_hold(const Problem& problem) {
         if (!interface || load->kind != LoadKind::preload) continue;
         for (const auto& [gone, in] : released)
           if (gone == interface->get())
-            fail(problem, load->origin, "step '" + step->name + "': load.preload is on " + describe(target) + ", which step '" + in->name +
-                                            "' has released",
+            fail(problem, load->origin,
+                 "step '" + step->name + "': load.preload is on " + describe(target) + ", which step '" + in->name +
+                     "' has released",
                  "what has let go carries no force any more");
       }
     for (const LoadPtr& load : step->loads)

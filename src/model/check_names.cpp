@@ -57,9 +57,11 @@ void outputs_keep_apart(const Problem& problem) {
              "'energy' and 'convergence' are the names of tables of the run itself");
       }
       if (output->name == "bolts" && tightens_bolts(problem))
-        fail(problem, output->origin, "output 'bolts' would overwrite bolts.csv", "'bolts' is the name of the table of all tightened interfaces");
+        fail(problem, output->origin, "output 'bolts' would overwrite bolts.csv",
+             "'bolts' is the name of the table of all tightened interfaces");
       if (output->kind == OutputKind::srs_field && (output->name == problem.name || output->name == "interfaces")) {
-        fail(problem, output->origin, "output.srs_field '" + output->name + "' would overwrite " + output->name + ".pvd",
+        fail(problem, output->origin,
+             "output.srs_field '" + output->name + "' would overwrite " + output->name + ".pvd",
              "the problem's own name and 'interfaces' are those of the run's frames");
       }
       tables.push_back(output);

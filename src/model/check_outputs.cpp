@@ -28,7 +28,8 @@ std::string refused(const Output& output, const Target& target) {
   const bool is_interface = std::holds_alternative<InterfacePtr>(target);
   const bool is_support = std::holds_alternative<SupportPtr>(target);
   if (output.kind == OutputKind::superelement) {
-    return is_interface || is_support ? "output.superelement takes faces or regions: where something is to be attached" : "";
+    return is_interface || is_support ? "output.superelement takes faces or regions: where something is to be attached"
+                                      : "";
   }
   if (output.kind == OutputKind::resultant) {
     return is_interface || is_support ? "" : "output.resultant takes an interface or a support";
@@ -42,7 +43,8 @@ std::string refused(const Output& output, const Target& target) {
   if (output.quantity == Quantity::pressure) {
     return is_interface || is_wall(target) ? "" : "quantity 'pressure' takes an interface or a support.wall";
   }
-  if (output.kind == OutputKind::srs_field) return std::holds_alternative<Face>(target) ? "" : "output.srs_field takes faces";
+  if (output.kind == OutputKind::srs_field)
+    return std::holds_alternative<Face>(target) ? "" : "output.srs_field takes faces";
   const std::string quantity = quantity_name(output.quantity);
   return is_interface || is_support ? "quantity '" + quantity + "' takes a face or a region" : "";
 }
@@ -102,7 +104,8 @@ void attenuation_has_two_signals(const Problem& problem, const Output& output) {
     if (!signal) fail(problem, output.origin, fmt::format("{} has no '{}'", who, name), hint);
     listed(problem, fmt::format("{} has '{}' of output", who, name), *signal, problem.outputs, "outputs");
     if (signal->quantity != Quantity::acceleration)
-      fail(problem, output.origin, fmt::format("{}: '{}' is {}, a {}", who, name, known_as(*signal), quantity_name(signal->quantity)), hint);
+      fail(problem, output.origin,
+           fmt::format("{}: '{}' is {}, a {}", who, name, known_as(*signal), quantity_name(signal->quantity)), hint);
   }
   if (output.of->direction.has_value() != output.leaving->direction.has_value())
     fail(problem, output.origin, who + ": one of 'entering' and 'leaving' has a direction, the other has none",
@@ -120,20 +123,25 @@ void loop_has_two_sides(const Problem& problem, const Output& output) {
     needs_between = needs_between || (std::holds_alternative<SupportPtr>(target) && !is_wall(target));
   }
   if (n_supports > 0 && n_supports < output.on.size())
-    fail(problem, output.origin, who + " is on interfaces and supports", "the force is that of interfaces or that on supports: take two loops");
+    fail(problem, output.origin, who + " is on interfaces and supports",
+         "the force is that of interfaces or that on supports: take two loops");
   if (needs_between && output.between.empty())
-    fail(problem, output.origin, who + " is on a support that does not slide, and has no 'between'", "as in between = block:face \"xmax\"");
+    fail(problem, output.origin, who + " is on a support that does not slide, and has no 'between'",
+         "as in between = block:face \"xmax\"");
   if (output.between.size() > 2)
-    fail(problem, output.origin, fmt::format("{}: 'between' takes one or two places, got {}", who, output.between.size()));
+    fail(problem, output.origin,
+         fmt::format("{}: 'between' takes one or two places, got {}", who, output.between.size()));
   for (const FaceOrRegion& place : output.between) place_exists(problem, output.origin, who + " is between", place);
   if (output.after) listed(problem, who + " begins after step", *output.after, problem.steps, "steps");
   if (output.between.size() < 2) return;
   for (const Target& target : output.on) {
     const auto* interface = std::get_if<InterfacePtr>(&target);
     if (!interface || (*interface)->side_1.part == (*interface)->side_2.part) continue;
-    if (&part_of(output.between[0]) == (*interface)->side_2.part.get() && &part_of(output.between[1]) == (*interface)->side_1.part.get())
+    if (&part_of(output.between[0]) == (*interface)->side_2.part.get() &&
+        &part_of(output.between[1]) == (*interface)->side_1.part.get())
       fail(problem, output.origin,
-           fmt::format("{}: 'between' is the other way round than that of {}: write {} first", who, describe(**interface), label_of(output.between[1])),
+           fmt::format("{}: 'between' is the other way round than that of {}: write {} first", who,
+                       describe(**interface), label_of(output.between[1])),
            "the displacement is of the second place against the first, the force acts on side 1");
   }
 }
@@ -150,7 +158,9 @@ void superelement_has_a_state(const Problem& problem, const Output& output) {
          "it is made about the state after one; or name another step with 'after'");
   for (const SupportPtr& support : supports_of(problem, *step))
     if (support->kind == SupportKind::absorbing)
-      fail(problem, output.origin, who + ": " + describe(*support) + " lets waves out of step '" + step->name + "', a superelement has no place for that",
+      fail(problem, output.origin,
+           who + ": " + describe(*support) + " lets waves out of step '" + step->name +
+               "', a superelement has no place for that",
            "give the step its own 'supports', without it");
 }
 
@@ -159,7 +169,8 @@ void derived_names_are_free(const Problem& problem, const Output& output, const 
   for (const std::string& suffix : suffixes)
     for (const OutputPtr& other : problem.outputs)
       if (other->name == output.name + suffix)
-        fail(problem, other->origin, fmt::format("output '{}' would overwrite {}.csv of {}", other->name, other->name, known_as(output)));
+        fail(problem, other->origin,
+             fmt::format("output '{}' would overwrite {}.csv of {}", other->name, other->name, known_as(output)));
 }
 
 }  // namespace

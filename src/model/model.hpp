@@ -97,10 +97,10 @@ struct Load {
   // pressure, shortening, release, preload: [0]; traction, force, velocity, displacement, gravity: x y z;
   // base_acceleration: [0] along `direction`. A direction left out is free (velocity, displacement) or zero.
   std::array<std::optional<History>, 3> value;
-  std::array<bool, 3> is_number{};  // given as a plain number: ramped in a static step
-  Vec3 direction = Vec3::UnitZ();   // base_acceleration, unit
+  std::array<bool, 3> is_number{};     // given as a plain number: ramped in a static step
+  Vec3 direction = Vec3::UnitZ();      // base_acceleration, unit
   std::optional<BoltDimensions> hand;  // shortening, preload: what a hand formula is printed for
-  double share = 1.0;               // shortening, preload: of the bolt that the model has
+  double share = 1.0;                  // shortening, preload: of the bolt that the model has
 };
 using LoadPtr = std::shared_ptr<const Load>;
 
@@ -118,7 +118,7 @@ using StepPtr = std::shared_ptr<const Step>;
 
 // What stands for the mass of the cells in dynamic steps.
 struct MassSettings {
-  bool is_tuned = false;              // between lumped and consistent, so that mesh and time step undo each other's error
+  bool is_tuned = false;  // between lumped and consistent, so that mesh and time step undo each other's error
   bool is_moved_from_contact = false;  // nodes in contact have none
 };
 
@@ -134,12 +134,14 @@ struct LatinSettings {
   double push_out = 0.0;          // b of the contact law
   double search_direction = 1.0;  // multiplies every k (studies, hard cases)
   MassSettings mass;
-  std::optional<Precision> precision;  // of the stored factors in dynamic steps; none: single where a substructure is large
+  std::optional<Precision>
+      precision;                  // of the stored factors in dynamic steps; none: single where a substructure is large
   int pieces = 0;                 // of each substructure; 0: large ones are cut
   double history_memory = 512e6;  // bytes of interface fields kept in memory for later cases; more goes to a file
-  double spectra = 0.0;           // dB: passes at tighter tolerances until spectra move by less; 0: one run at `tolerance`
-  int more_iterations = 0;        // dygita continue: of an increment that has a start, at most, down to round-off; 0: as tolerance asks
-  bool plain = false;             // iterate with full solves instead of the condensed interface (the plain path)
+  double spectra = 0.0;  // dB: passes at tighter tolerances until spectra move by less; 0: one run at `tolerance`
+  int more_iterations =
+      0;  // dygita continue: of an increment that has a start, at most, down to round-off; 0: as tolerance asks
+  bool plain = false;  // iterate with full solves instead of the condensed interface (the plain path)
 };
 
 // solver.monolithic: the whole assembly in one implicit system.
@@ -178,15 +180,15 @@ struct Output : Named {
   OutputKind kind = OutputKind::energy;
   std::vector<Target> on;  // history, resultant, joint, srs_field
   Quantity quantity = Quantity::displacement;
-  std::optional<Vec3> direction;     // history, srs_field: unit vector; none: x y z
-  int frames = 50;                   // vtk: a step
-  std::vector<std::string> fields;   // vtk
-  std::shared_ptr<const Output> of;  // srs; attenuation: the history that enters
-  std::shared_ptr<const Output> leaving;  // attenuation
-  SrsSettings srs;                   // srs, srs_field, attenuation
+  std::optional<Vec3> direction;                       // history, srs_field: unit vector; none: x y z
+  int frames = 50;                                     // vtk: a step
+  std::vector<std::string> fields;                     // vtk
+  std::shared_ptr<const Output> of;                    // srs; attenuation: the history that enters
+  std::shared_ptr<const Output> leaving;               // attenuation
+  SrsSettings srs;                                     // srs, srs_field, attenuation
   std::shared_ptr<const Specification> specification;  // srs; null: none
-  int bands = 1;                     // attenuation: an octave
-  int n_joints = 1;                  // attenuation: bolted joints on the way, for the rule of thumb
+  int bands = 1;                                       // attenuation: an octave
+  int n_joints = 1;                                    // attenuation: bolted joints on the way, for the rule of thumb
   std::vector<FaceOrRegion> between;  // loop: one (against the ground) or two; empty: both sides of what it is on
   StepPtr after;                      // loop, superelement: none is the start, or the last static step
   SuperelementSettings superelement;

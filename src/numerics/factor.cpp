@@ -143,8 +143,8 @@ cholmod_sparse view_of(const SparseMatrix& matrix) {
 
 namespace {
 
-// CHOLMOD opens a team of threads at every supernode, which costs more than it gains and far more on a busy machine. Inside our own
-// team that is off already; outside it is switched off here.
+// CHOLMOD opens a team of threads at every supernode, which costs more than it gains and far more on a busy machine.
+// Inside our own team that is off already; outside it is switched off here.
 class SerialRegion {
  public:
   SerialRegion() : levels_(omp_get_max_active_levels()) {
@@ -169,7 +169,8 @@ std::vector<int> analyse(Cholmod& cholmod, const SparseMatrix& matrix, const std
                          const std::vector<char>& is_interface, const std::string& what) {
   const int n = static_cast<int>(matrix.rows());
   CHECK(n > 0 && matrix.cols() == n && static_cast<int>(node_of_dof.size()) == n &&
-            static_cast<int>(is_interface.size()) == n, "factor of an ill-shaped matrix");
+            static_cast<int>(is_interface.size()) == n,
+        "factor of an ill-shaped matrix");
   std::vector<int> given = interface_last_order(matrix, node_of_dof, is_interface), order;
   const auto n_interior = std::count(is_interface.begin(), is_interface.end(), 0);
   cholmod_sparse a = view_of(matrix);
@@ -230,8 +231,10 @@ Factor::Factor(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, 
   }
   if (common.status == CHOLMOD_NOT_POSDEF) {
     const int dof = order_[cholmod.l->minor];
-    throw NumericalError(fmt::format("{}: the matrix is not positive definite (node {}): a rigid motion that nothing holds, "
-                                     "or a cell of almost no volume", what, node_of_dof[dof]));
+    throw NumericalError(
+        fmt::format("{}: the matrix is not positive definite (node {}): a rigid motion that nothing holds, "
+                    "or a cell of almost no volume",
+                    what, node_of_dof[dof]));
   }
   if (common.status != CHOLMOD_OK) throw NumericalError(what + ": factorisation failed: out of memory");
   interface_ = interface_block(cholmod, size(), n_interior_);
@@ -242,7 +245,8 @@ Factor::Factor(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, 
 
 double Factor::predicted_bytes(const SparseMatrix& matrix, const std::vector<int>& node_of_dof,
                                const std::vector<char>& is_interface, Precision precision, double error) {
-  // Of the bytes in double precision, fitted to factors of cubes at CFL 2: every bit of accuracy moves some tiles to longer entries.
+  // Of the bytes in double precision, fitted to factors of cubes at CFL 2: every bit of accuracy moves some tiles to
+  // longer entries.
   const double single_share = (0.15 * std::log2(1.0 / error) - 0.85) / 8.0;
   Cholmod cholmod;
   analyse(cholmod, matrix, node_of_dof, is_interface, "prediction");
@@ -251,7 +255,9 @@ double Factor::predicted_bytes(const SparseMatrix& matrix, const std::vector<int
   for (size_t s = 0; s < cholmod.n_supernodes(); ++s) {
     const SupernodeView view = cholmod.supernode(s, n_interior);
     if (view.n_columns == 0) break;
-    bytes += (precision == Precision::double_precision ? 1.0 : single_share) * supernode_bytes(view.n_columns, view.n_below) + 4.0 * view.n_below;
+    bytes += (precision == Precision::double_precision ? 1.0 : single_share) *
+                 supernode_bytes(view.n_columns, view.n_below) +
+             4.0 * view.n_below;
   }
   return bytes;
 }
@@ -282,8 +288,8 @@ Mat Factor::interface_schur() const {
   constexpr int block = 256;
   for (int j = 0; j < n_b; j += block) {
     const int width = std::min(block, n_b - j), end = j + width;
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n_b - j, width, end, 1.0, interface_.data() + j, n_b, interface_.data() + j, n_b,
-                0.0, schur.data() + static_cast<size_t>(j) * n_b + j, n_b);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n_b - j, width, end, 1.0, interface_.data() + j, n_b,
+                interface_.data() + j, n_b, 0.0, schur.data() + static_cast<size_t>(j) * n_b + j, n_b);
   }
   schur.triangularView<Eigen::StrictlyUpper>() = schur.transpose();
   return schur;
@@ -296,7 +302,8 @@ Mat inverse_spd(Mat matrix, const std::string& what) {
   dpotrf_("L", &n, matrix.data(), &n, &info);
   if (info == 0) dpotri_("L", &n, matrix.data(), &n, &info);
   if (info != 0)
-    throw NumericalError(fmt::format("{}: the interface operator is not positive definite (unknown {} of {})", what, info, n));
+    throw NumericalError(
+        fmt::format("{}: the interface operator is not positive definite (unknown {} of {})", what, info, n));
   return matrix;
 }
 

@@ -14,10 +14,10 @@ namespace dygita {
 // kept in it is never gathered (manual, one solve per step). n_rhs right-hand sides: columns of a matrix.
 class Factor {
  public:
-  // matrix: symmetric positive definite, n x n, both triangles stored; node_of_dof: graph vertex of each unknown, unknowns
-  // of a node contiguous; is_interface: unknowns to order last. Fill is reduced by METIS nested dissection on nodes.
-  // error: in single precision, largest error of an entry of L, of the norm of its row (the square root of the diagonal of A).
-  // Throws NumericalError, naming `what`, when the matrix is not positive definite.
+  // matrix: symmetric positive definite, n x n, both triangles stored; node_of_dof: graph vertex of each unknown,
+  // unknowns of a node contiguous; is_interface: unknowns to order last. Fill is reduced by METIS nested dissection on
+  // nodes. error: in single precision, largest error of an entry of L, of the norm of its row (the square root of the
+  // diagonal of A). Throws NumericalError, naming `what`, when the matrix is not positive definite.
   Factor(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, const std::vector<char>& is_interface,
          const std::string& what, Precision precision = Precision::double_precision, double error = 0x1p-26);
 
@@ -33,18 +33,19 @@ class Factor {
   void backward(Eigen::Ref<Mat> x) const;
   // x <- A^-1 x. Not after release_interface.
   void solve(Eigen::Ref<Mat> x) const;
-  // Schur complement of A on the interface, L_bb L_bb^T (n_interface x n_interface, in factor order). Not after release_interface.
+  // Schur complement of A on the interface, L_bb L_bb^T (n_interface x n_interface, in factor order). Not after
+  // release_interface.
   Mat interface_schur() const;
   // Frees L_bb: what is left of the factor is its interior.
   void release_interface() { interface_.resize(0, 0); }
 
   double nonzeros() const;  // entries of L that a forward or backward solve reads
   double bytes() const;     // held by the factor
-  // The same before factorising, from the ordering and the pattern alone, once the interface is released; in single precision an
-  // estimate, since entries take the bytes that their size asks for.
+  // The same before factorising, from the ordering and the pattern alone, once the interface is released; in single
+  // precision an estimate, since entries take the bytes that their size asks for.
   static double predicted_bytes(const SparseMatrix& matrix, const std::vector<int>& node_of_dof,
-                                const std::vector<char>& is_interface, Precision precision = Precision::double_precision,
-                                double error = 0x1p-26);
+                                const std::vector<char>& is_interface,
+                                Precision precision = Precision::double_precision, double error = 0x1p-26);
 
  private:
   std::vector<int> order_;
@@ -62,8 +63,8 @@ void multiply_symmetric(const Mat& lower, const Vec& x, Vec& y);
 // Flushes denormals in this thread; one thread inside BLAS. Call in every thread before solving.
 void prepare_thread();
 
-// Kernels to ask OpenBLAS for (its OPENBLAS_CORETYPE): a release older than the processor does not know it and takes those of 2004,
-// five times slower. Null where its own choice is good.
+// Kernels to ask OpenBLAS for (its OPENBLAS_CORETYPE): a release older than the processor does not know it and takes
+// those of 2004, five times slower. Null where its own choice is good.
 const char* better_blas_kernels();
 
 // The BLAS in use ("OpenBLAS 0.3.21 ..."); warns when it is not OpenBLAS (5-10 times slower).

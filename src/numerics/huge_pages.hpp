@@ -1,4 +1,5 @@
-// Memory for what is streamed from end to end at every solve: in large pages, where the system gives them for the asking.
+// Memory for what is streamed from end to end at every solve: in large pages, where the system gives them for the
+// asking.
 #pragma once
 
 #include <sys/mman.h>
@@ -12,12 +13,15 @@ namespace dygita {
 
 constexpr size_t huge_page = size_t{1} << 21;
 
-// Asks the system for large pages under memory that nobody has written to yet: a hundred times fewer to clear and to look up.
+// Asks the system for large pages under memory that nobody has written to yet: a hundred times fewer to clear and to
+// look up.
 inline void prefer_huge_pages(void* data, size_t n_bytes) {
 #ifdef MADV_HUGEPAGE
   const auto begin = (reinterpret_cast<std::uintptr_t>(data) + huge_page - 1) / huge_page * huge_page;
   const auto end = (reinterpret_cast<std::uintptr_t>(data) + n_bytes) / huge_page * huge_page;
-  if (end > begin) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);  // advice: nothing is lost where it is not taken
+  if (end > begin)
+    madvise(reinterpret_cast<void*>(begin), end - begin,
+            MADV_HUGEPAGE);  // advice: nothing is lost where it is not taken
 #else
   (void)data, (void)n_bytes;
 #endif
@@ -45,7 +49,9 @@ struct HugePages {
   }
   void deallocate(T* memory, size_t) { std::free(memory); }
   template <class Other>
-  bool operator==(const HugePages<Other>&) const { return true; }
+  bool operator==(const HugePages<Other>&) const {
+    return true;
+  }
 };
 
 template <class T>

@@ -14,7 +14,8 @@ namespace {
 
 constexpr int block = 8;
 constexpr double dependent = 1e-10;  // of a column's norm: what is left of it is round-off
-constexpr double round_off = 1e-12;  // of the largest eigenvalue of B M: what an exhausted space has beside the true ones
+constexpr double round_off =
+    1e-12;  // of the largest eigenvalue of B M: what an exhausted space has beside the true ones
 
 // The Krylov space so far: V, M-orthonormal, and H = V^T M B M V.
 class Space {
@@ -110,7 +111,9 @@ Modes lowest_modes(int size, const std::function<void(Eigen::Ref<Mat>)>& solve, 
       const int at = end - 1 - n;
       const double theta = eigen.eigenvalues()[at];
       if (theta <= smallest) break;
-      if (residual.rows() > 0 && (residual * eigen.eigenvectors().col(at).tail(width)).norm() > request.tolerance * theta) break;
+      if (residual.rows() > 0 &&
+          (residual * eigen.eigenvectors().col(at).tail(width)).norm() > request.tolerance * theta)
+        break;
       last = 1.0 / theta - shift;
       if (request.n == 0 && last > request.up_to) break;
       is_enough = n + 1 == request.n;

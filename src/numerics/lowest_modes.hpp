@@ -9,9 +9,9 @@
 namespace dygita {
 
 struct ModeRequest {
-  int n = 0;               // how many; 0: all with lambda <= up_to
+  int n = 0;  // how many; 0: all with lambda <= up_to
   double up_to = 0.0;
-  int most = 2000;         // more than this many is an error
+  int most = 2000;          // more than this many is an error
   double tolerance = 1e-9;  // residual of a pair of B M, of its eigenvalue
 };
 
@@ -21,11 +21,11 @@ struct Modes {
   bool is_all = false;  // there are no more
 };
 
-// solve: x <- B x for the columns of x, B = (A + shift M)^-1 symmetric, or that inverse within linear constraints (then on their null
-// space). mass: M, positive definite. A block finds eigenvalues of any multiplicity up to its width, 8. Source: Grimes, Lewis, Simon,
-// SIAM J. Matrix Anal. Appl. 15 (1994), with full reorthogonalisation in place of their selective one.
-// Throws NumericalError, naming `what`, beyond `most` vectors.
-Modes lowest_modes(int size, const std::function<void(Eigen::Ref<Mat>)>& solve, const SparseMatrix& mass, double shift, const ModeRequest& request,
-                   const std::string& what);
+// solve: x <- B x for the columns of x, B = (A + shift M)^-1 symmetric, or that inverse within linear constraints (then
+// on their null space). mass: M, positive definite. A block finds eigenvalues of any multiplicity up to its width, 8.
+// Source: Grimes, Lewis, Simon, SIAM J. Matrix Anal. Appl. 15 (1994), with full reorthogonalisation in place of their
+// selective one. Throws NumericalError, naming `what`, beyond `most` vectors.
+Modes lowest_modes(int size, const std::function<void(Eigen::Ref<Mat>)>& solve, const SparseMatrix& mass, double shift,
+                   const ModeRequest& request, const std::string& what);
 
 }  // namespace dygita

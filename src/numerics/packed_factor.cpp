@@ -24,7 +24,8 @@ double supernode_bytes(int n_columns, int n_below) {
   return bytes;
 }
 
-PackedFactor::PackedFactor(Precision precision, Vec largest_error) : panels_(precision), tolerance_(std::move(largest_error)) {}
+PackedFactor::PackedFactor(Precision precision, Vec largest_error)
+    : panels_(precision), tolerance_(std::move(largest_error)) {}
 
 void PackedFactor::add(const SupernodeView& s) {
   const int n_rows = s.n_columns + s.n_below;
@@ -112,11 +113,13 @@ void PackedFactor::forward_many(Eigen::Ref<Mat> x) const {
     std::copy_n(all + static_cast<size_t>(b.first) * row, here, y);
     std::fill_n(y + here, static_cast<size_t>(b.n_below + Panels::height) * row, 0.0);
     size_t panel = b.first_panel;
-    for (int j = 0; j < b.n_columns; j += Panels::width) panels_.forward(panel++, y + static_cast<size_t>(j) * row, n_vectors);
+    for (int j = 0; j < b.n_columns; j += Panels::width)
+      panels_.forward(panel++, y + static_cast<size_t>(j) * row, n_vectors);
     std::copy_n(y, here, all + static_cast<size_t>(b.first) * row);
     const int* below = below_.data() + b.below;
     for (int i = 0; i < b.n_below; ++i)
-      for (int c = 0; c < row; ++c) all[static_cast<size_t>(below[i]) * row + c] += y[here + static_cast<size_t>(i) * row + c];
+      for (int c = 0; c < row; ++c)
+        all[static_cast<size_t>(below[i]) * row + c] += y[here + static_cast<size_t>(i) * row + c];
   }
   separate(all, row, x);
 }
@@ -130,7 +133,8 @@ void PackedFactor::backward_many(Eigen::Ref<Mat> x) const {
     double* y = workspace((b.n_columns + b.n_below + Panels::height) * row);
     std::copy_n(all + static_cast<size_t>(b.first) * row, here, y);
     const int* below = below_.data() + b.below;
-    for (int i = 0; i < b.n_below; ++i) std::copy_n(all + static_cast<size_t>(below[i]) * row, row, y + here + static_cast<size_t>(i) * row);
+    for (int i = 0; i < b.n_below; ++i)
+      std::copy_n(all + static_cast<size_t>(below[i]) * row, row, y + here + static_cast<size_t>(i) * row);
     std::fill_n(y + here + static_cast<size_t>(b.n_below) * row, Panels::height * row, 0.0);
     for (int p = (b.n_columns - 1) / Panels::width; p >= 0; --p)
       panels_.backward(b.first_panel + p, y + static_cast<size_t>(p) * Panels::width * row, n_vectors);
@@ -185,12 +189,14 @@ void SymmetricOperator::multiply(const Vec& x, Vec& y) const {
     double* in = out + room;
     std::copy_n(x.data(), n_, in);
     std::fill_n(in + n_, Panels::height, 0.0);
-    for (size_t p = 0; p < panels_.size(); ++p) panels_.multiply_symmetric(p, in + p * Panels::width, out + p * Panels::width);
+    for (size_t p = 0; p < panels_.size(); ++p)
+      panels_.multiply_symmetric(p, in + p * Panels::width, out + p * Panels::width);
   } else {
     thread_local std::vector<float> in;
     in.assign(room, 0.0f);
     for (int i = 0; i < n_; ++i) in[i] = static_cast<float>(x[i]);
-    for (size_t p = 0; p < panels_.size(); ++p) panels_.multiply_symmetric(p, in.data() + p * Panels::width, out + p * Panels::width);
+    for (size_t p = 0; p < panels_.size(); ++p)
+      panels_.multiply_symmetric(p, in.data() + p * Panels::width, out + p * Panels::width);
   }
   y = Eigen::Map<const Vec>(out, n_);
 }

@@ -8,8 +8,8 @@
 
 namespace dygita {
 
-// What a supernode is made from: columns [first, first + n_columns) of L, dense, column-major with leading dimension `stride`; the rows
-// are those columns, then `below` (n_below).
+// What a supernode is made from: columns [first, first + n_columns) of L, dense, column-major with leading dimension
+// `stride`; the rows are those columns, then `below` (n_below).
 struct SupernodeView {
   int first, n_columns, n_below;
   const int* below;
@@ -24,12 +24,15 @@ class PackedFactor {
   // Adds a supernode; in order of columns.
   void add(const SupernodeView& supernode);
   void shrink() { panels_.shrink(); }  // after the last
-  // x: all unknowns in factor order, a column a right-hand side. L x' = x over the packed columns; the rows below take their share.
+  // x: all unknowns in factor order, a column a right-hand side. L x' = x over the packed columns; the rows below take
+  // their share.
   void forward(Eigen::Ref<Mat> x) const;
   // L^T x' = x over the packed columns, with what the rows below hold given.
   void backward(Eigen::Ref<Mat> x) const;
 
-  double bytes() const { return panels_.bytes() + static_cast<double>(below_.size() * sizeof(int) + blocks_.size() * sizeof(Block)); }
+  double bytes() const {
+    return panels_.bytes() + static_cast<double>(below_.size() * sizeof(int) + blocks_.size() * sizeof(Block));
+  }
   // Entries of the lower triangle, without what packing adds or leaves out.
   double nonzeros() const { return nonzeros_; }
 
@@ -58,8 +61,8 @@ double supernode_bytes(int n_columns, int n_below);
 class SymmetricOperator {
  public:
   SymmetricOperator() = default;
-  // Positive definite; only the lower triangle is read. In single precision an entry is off by at most `error` sqrt(a_ii a_jj), and
-  // the product is computed in single precision but for its long sums.
+  // Positive definite; only the lower triangle is read. In single precision an entry is off by at most `error`
+  // sqrt(a_ii a_jj), and the product is computed in single precision but for its long sums.
   SymmetricOperator(const Mat& lower, Precision precision, double error = 0x1p-30);
   int size() const { return n_; }
   // y = A x.

@@ -49,7 +49,8 @@ using WideLanes = float __attribute__((vector_size(2 * lanes * sizeof(float))));
 inline WideLanes load_wide(const float* from) { return read<WideLanes>(from); }
 #if defined(__AVX512F__) && defined(__AVX512VL__)
 inline WideLanes load_wide(const std::int16_t* from) {
-  return (WideLanes)_mm512_cvtepi32_ps(_mm512_cvtepi16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from))));
+  return (WideLanes)_mm512_cvtepi32_ps(
+      _mm512_cvtepi16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from))));
 }
 inline WideLanes load_wide(const std::int8_t* from) {
   return (WideLanes)_mm512_cvtepi32_ps(_mm512_cvtepi8_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))));
@@ -92,7 +93,8 @@ void subtract_product(const T* tile, float scale, const float* x, double* y) {
 }
 
 inline WideLanes narrowed(const double* y) {
-  const FloatLanes upper = __builtin_convertvector(load(y), FloatLanes), lower = __builtin_convertvector(load(y + lanes), FloatLanes);
+  const FloatLanes upper = __builtin_convertvector(load(y), FloatLanes),
+                   lower = __builtin_convertvector(load(y + lanes), FloatLanes);
   WideLanes both;
   std::memcpy(&both, &upper, sizeof(upper));
   std::memcpy(reinterpret_cast<char*>(&both) + sizeof(upper), &lower, sizeof(lower));
@@ -156,19 +158,29 @@ void add_both(const T* tile, float scale, const float* at, const float* x, doubl
 template <class Function>
 void with_width(int n, Function&& f) {
   switch (n) {
-    case 1: return f(std::integral_constant<int, 1>{});
-    case 2: return f(std::integral_constant<int, 2>{});
-    case 3: return f(std::integral_constant<int, 3>{});
-    case 4: return f(std::integral_constant<int, 4>{});
-    case 5: return f(std::integral_constant<int, 5>{});
-    case 6: return f(std::integral_constant<int, 6>{});
-    case 7: return f(std::integral_constant<int, 7>{});
-    default: return f(std::integral_constant<int, 8>{});
+    case 1:
+      return f(std::integral_constant<int, 1>{});
+    case 2:
+      return f(std::integral_constant<int, 2>{});
+    case 3:
+      return f(std::integral_constant<int, 3>{});
+    case 4:
+      return f(std::integral_constant<int, 4>{});
+    case 5:
+      return f(std::integral_constant<int, 5>{});
+    case 6:
+      return f(std::integral_constant<int, 6>{});
+    case 7:
+      return f(std::integral_constant<int, 7>{});
+    default:
+      return f(std::integral_constant<int, 8>{});
   }
 }
 
 template <class T>
-size_t tile_bytes(int n_columns) { return sizeof(T) * Panels::height * n_columns; }
+size_t tile_bytes(int n_columns) {
+  return sizeof(T) * Panels::height * n_columns;
+}
 
 // f(entries, tile) for every tile, the first of the panel first.
 template <class Function>

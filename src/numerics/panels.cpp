@@ -30,14 +30,16 @@ void Panels::add(const double* values, int stride, int n_rows, int n_columns, co
     const int end = std::min(row + height, n_rows);
     double largest = 0.0, allowed = std::numeric_limits<double>::infinity();
     for (int c = 0; c < n_columns; ++c)
-      for (int i = row; i < end; ++i) largest = std::max(largest, std::abs(values[static_cast<size_t>(c) * stride + i]));
+      for (int i = row; i < end; ++i)
+        largest = std::max(largest, std::abs(values[static_cast<size_t>(c) * stride + i]));
     for (int i = row; i < end && tolerance; ++i) allowed = std::min(allowed, tolerance[i]);
     if (row > 0 && largest <= (is_double ? 0.0 : allowed)) continue;
     const Kind kind = row == 0 ? (is_double ? full : float_32) : kind_of(largest, allowed);
     const double most = kind == int_8 ? 127.0 : 32767.0;
     planned.push_back({{row, kind == int_8 || kind == int_16 ? static_cast<float>(largest / most) : 1.0f}, kind});
   }
-  std::stable_sort(planned.begin() + 1, planned.end(), [](const Planned& a, const Planned& b) { return a.kind < b.kind; });
+  std::stable_sort(planned.begin() + 1, planned.end(),
+                   [](const Planned& a, const Planned& b) { return a.kind < b.kind; });
 
   Panel panel{data_.size(), tiles_.size(), n_rows, n_columns, {}};
   const auto write = [&](const Tile& tile, auto zero) {
@@ -50,8 +52,9 @@ void Panels::add(const double* values, int stride, int n_rows, int n_columns, co
       for (int i = tile.row; i < std::min(tile.row + height, n_rows); ++i) {
         const double value = values[static_cast<size_t>(c) * stride + i];
         entries[static_cast<size_t>(c) * height + i - tile.row] =
-            std::is_integral_v<T> ? static_cast<T>(std::lround(std::clamp(value * inverse, -static_cast<double>(std::numeric_limits<T>::max()),
-                                                                          static_cast<double>(std::numeric_limits<T>::max()))))
+            std::is_integral_v<T> ? static_cast<T>(std::lround(
+                                        std::clamp(value * inverse, -static_cast<double>(std::numeric_limits<T>::max()),
+                                                   static_cast<double>(std::numeric_limits<T>::max()))))
                                   : static_cast<T>(value);
       }
     std::memcpy(data_.data() + start, entries.data(), entries.size() * sizeof(T));
@@ -60,10 +63,18 @@ void Panels::add(const double* values, int stride, int n_rows, int n_columns, co
     ++panel.count[p.kind];
     tiles_.push_back(p.tile);
     switch (p.kind) {
-      case full: write(p.tile, 0.0); break;
-      case float_32: write(p.tile, 0.0f); break;
-      case int_16: write(p.tile, std::int16_t{0}); break;
-      default: write(p.tile, std::int8_t{0}); break;
+      case full:
+        write(p.tile, 0.0);
+        break;
+      case float_32:
+        write(p.tile, 0.0f);
+        break;
+      case int_16:
+        write(p.tile, std::int16_t{0});
+        break;
+      default:
+        write(p.tile, std::int8_t{0});
+        break;
     }
   }
   panels_.push_back(panel);
@@ -147,8 +158,10 @@ void Panels::backward(size_t i_panel, double* y) const {
       }
       for (int c = 0; c < columns; ++c) y[c] = x[c];
     };
-    if (triangle_double) solve(triangle_double);
-    else solve(triangle_float);
+    if (triangle_double)
+      solve(triangle_double);
+    else
+      solve(triangle_float);
   });
 }
 
@@ -221,7 +234,8 @@ void Panels::unpack(size_t i_panel, double* values, int stride) const {
     const int n = std::min(height, panel.n_rows - tile.row);
     for (int c = 0; c < panel.n_columns; ++c)
       for (int i = 0; i < n; ++i)
-        values[static_cast<size_t>(c) * stride + tile.row + i] = static_cast<double>(tile.scale) * static_cast<double>(entries[c * height + i]);
+        values[static_cast<size_t>(c) * stride + tile.row + i] =
+            static_cast<double>(tile.scale) * static_cast<double>(entries[c * height + i]);
   });
 }
 }  // namespace dygita

@@ -10,18 +10,20 @@
 
 namespace dygita {
 
-// A panel has up to 8 columns and any number of rows; its tiles are 16 rows of it, column-major. The first tile, with the triangle, is
-// stored in full. Of the others, in single precision, each is stored in float, in 16 or 8 bits with a scale, or not at all, whichever
-// is the shortest that keeps the error of every entry below the tolerance of its rows: entries far from the diagonal are small
-// (manual, what is stored). There products of 16 tiles at most are summed in single precision, all longer sums in double.
+// A panel has up to 8 columns and any number of rows; its tiles are 16 rows of it, column-major. The first tile, with
+// the triangle, is stored in full. Of the others, in single precision, each is stored in float, in 16 or 8 bits with a
+// scale, or not at all, whichever is the shortest that keeps the error of every entry below the tolerance of its rows:
+// entries far from the diagonal are small (manual, what is stored). There products of 16 tiles at most are summed in
+// single precision, all longer sums in double.
 class Panels {
  public:
-  static constexpr int width = 8;  // most columns of a panel
+  static constexpr int width = 8;    // most columns of a panel
   static constexpr int height = 16;  // rows of a tile
 
   explicit Panels(Precision precision = Precision::double_precision) : precision_(precision) {}
 
-  // values: column-major, n_rows x n_columns, `stride` apart. tolerance: largest error allowed in each row (single precision).
+  // values: column-major, n_rows x n_columns, `stride` apart. tolerance: largest error allowed in each row (single
+  // precision).
   void add(const double* values, int stride, int n_rows, int n_columns, const double* tolerance);
   // Frees what was set aside for more panels; after the last.
   void shrink();
@@ -30,16 +32,16 @@ class Panels {
   double bytes() const;
 
   // All vectors are of the panel's rows and have room for `height` more behind them.
-  // Forward substitution: solves with the triangle for the first n_columns of y (pivots are stored inverted), takes the rows
-  // below off.
+  // Forward substitution: solves with the triangle for the first n_columns of y (pivots are stored inverted), takes the
+  // rows below off.
   void forward(size_t panel, double* y) const;
   // Backward substitution: the first n_columns of y from the rows below.
   void backward(size_t panel, double* y) const;
   // The same for 8 n right-hand sides at once (n = 1 or 2): y holds 8 n values a row.
   void forward(size_t panel, double* y, int n) const;
   void backward(size_t panel, double* y, int n) const;
-  // y += A x and, for what lies below the first tile, the transposed part: y[0..n_columns) += A^T x. The first tile is square in effect:
-  // it must hold both triangles.
+  // y += A x and, for what lies below the first tile, the transposed part: y[0..n_columns) += A^T x. The first tile is
+  // square in effect: it must hold both triangles.
   void multiply_symmetric(size_t panel, const double* x, double* y) const;
   // The same in single precision, for panels stored so; sums of more than 16 tiles are in double.
   void multiply_symmetric(size_t panel, const float* x, double* y) const;

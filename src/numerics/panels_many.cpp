@@ -61,8 +61,10 @@ void Panels::forward(size_t i_panel, double* y, int n_vectors) const {
     });
   };
   with_width(panels_[i_panel].n_columns, [&](auto n) {
-    if (n_vectors == 1) solve(n, std::integral_constant<int, 1>{});
-    else solve(n, std::integral_constant<int, 2>{});
+    if (n_vectors == 1)
+      solve(n, std::integral_constant<int, 1>{});
+    else
+      solve(n, std::integral_constant<int, 2>{});
   });
 }
 
@@ -95,8 +97,10 @@ void Panels::backward(size_t i_panel, double* y, int n_vectors) const {
       }
   };
   with_width(panels_[i_panel].n_columns, [&](auto n) {
-    if (n_vectors == 1) solve(n, std::integral_constant<int, 1>{});
-    else solve(n, std::integral_constant<int, 2>{});
+    if (n_vectors == 1)
+      solve(n, std::integral_constant<int, 1>{});
+    else
+      solve(n, std::integral_constant<int, 2>{});
   });
 }
 

@@ -25,8 +25,8 @@ std::vector<int> partition(const Graph& graph, const std::vector<int>& weights, 
   options[METIS_OPTION_CONTIG] = is_connected ? 1 : 0;
   options[METIS_OPTION_NCUTS] = 4;  // the best of several: a shorter cut is paid back at every step
   const std::scoped_lock lock(metis_mutex());
-  const int status = METIS_PartGraphKway(&n, &n_constraints, starts.data(), neighbours.data(), vertex_weights.data(), nullptr, nullptr,
-                                         &parts, nullptr, nullptr, options, &n_cut, found.data());
+  const int status = METIS_PartGraphKway(&n, &n_constraints, starts.data(), neighbours.data(), vertex_weights.data(),
+                                         nullptr, nullptr, &parts, nullptr, nullptr, options, &n_cut, found.data());
   CHECK(status == METIS_OK, "METIS could not cut the graph");
   part.assign(found.begin(), found.end());
   return part;

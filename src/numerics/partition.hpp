@@ -13,8 +13,8 @@ struct Graph {
   int n_vertices() const { return static_cast<int>(starts.size()) - 1; }
 };
 
-// Part (0 .. n_parts - 1) of each vertex, the same at each call; some part may be empty. is_connected: the graph is, and then
-// so are the parts.
+// Part (0 .. n_parts - 1) of each vertex, the same at each call; some part may be empty. is_connected: the graph is,
+// and then so are the parts.
 std::vector<int> partition(const Graph& graph, const std::vector<int>& weights, int n_parts, bool is_connected);
 
 // METIS draws from the C library's one random sequence, seeded at each call: side by side, two calls would mix theirs.

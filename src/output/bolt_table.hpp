@@ -8,8 +8,8 @@
 
 namespace dygita {
 
-// One line of `name [unit]`, then one a bolt, SI, nine significant digits; empty where there is nothing. The force after each static
-// step has a column of the step's name.
+// One line of `name [unit]`, then one a bolt, SI, nine significant digits; empty where there is nothing. The force
+// after each static step has a column of the step's name.
 std::string bolts_csv(const Problem& problem, const RunResult& result);
 
 // Lines for people: forces in kN, steps by their names. Empty without bolts.

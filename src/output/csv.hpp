@@ -17,8 +17,8 @@ std::string quoted(const std::string& text);
 // second column is `step`, the step's name. Texts with a comma, a quotation mark or a line break are quoted (RFC 4180).
 std::string csv_text(const Table& table, const std::vector<std::string>& step_names);
 
-// The table of such a text, of a problem with these steps. Throws InputError that tells the line ("line 3: 'x' is no number"), and
-// the file.
+// The table of such a text, of a problem with these steps. Throws InputError that tells the line ("line 3: 'x' is no
+// number"), and the file.
 Table parse_csv(std::istream& stream, const std::vector<std::string>& step_names);
 Table read_csv(const std::filesystem::path& path, const std::vector<std::string>& step_names);
 

@@ -15,7 +15,8 @@ Json labels(const std::vector<Target>& targets) {
 }
 
 Json specification(const Specification& specification, const Table& spectrum) {
-  Json json = {{"source", specification.source}, {"frequency", specification.frequency}, {"level", specification.level}};
+  Json json = {
+      {"source", specification.source}, {"frequency", specification.frequency}, {"level", specification.level}};
   if (spectrum.n_rows() == 0) return json;
   const Exceedance worst = largest_exceedance(specification, spectrum.columns.front(), spectrum.column("maximax"));
   if (worst.is_known) json["exceedance"] = {{"decibels", worst.decibels}, {"frequency", worst.frequency}};
@@ -37,9 +38,11 @@ Json interfaces_record(const Problem& problem) {
     Json json = {{"name", interface->name},
                  {"kind", interface_kind_name(interface->kind)},
                  {"between", {interface->side_1.label(), interface->side_2.label()}}};
-    if (interface->kind == InterfaceKind::contact) json.update({{"friction", interface->friction}, {"gap", interface->gap}});
+    if (interface->kind == InterfaceKind::contact)
+      json.update({{"friction", interface->friction}, {"gap", interface->gap}});
     if (interface->kind == InterfaceKind::plastic)
-      json.update({{"yield", interface->yield}, {"hardening", interface->hardening}, {"compression", interface->compression}});
+      json.update(
+          {{"yield", interface->yield}, {"hardening", interface->hardening}, {"compression", interface->compression}});
     list.push_back(json);
   }
   return list;
@@ -49,7 +52,8 @@ Json supports_record(const Problem& problem) {
   Json list = Json::array();
   for (const SupportPtr& support : problem.supports) {
     Json on = Json::array();
-    for (const FaceOrRegion& place : support->on) on.push_back(std::visit([](const auto& p) { return p.label(); }, place));
+    for (const FaceOrRegion& place : support->on)
+      on.push_back(std::visit([](const auto& p) { return p.label(); }, place));
     Json json = {{"name", support->name}, {"kind", support_kind_name(support->kind)}, {"on", on}};
     if (support->kind == SupportKind::wall) json.update({{"friction", support->friction}, {"gap", support->gap}});
     list.push_back(json);
@@ -84,9 +88,12 @@ Json outputs_record(const Problem& problem, const RunResult& result) {
                  {"file", (is_energy ? "energy" : file_name_of(output->name)) + ".csv"}};
     if (!output->on.empty()) json["on"] = labels(output->on);
     if (output->kind == OutputKind::history) json["quantity"] = quantity_name(output->quantity);
-    if (output->direction) json["direction"] = {(*output->direction)[0], (*output->direction)[1], (*output->direction)[2]};
+    if (output->direction)
+      json["direction"] = {(*output->direction)[0], (*output->direction)[1], (*output->direction)[2]};
     if (output->kind == OutputKind::srs) {
-      json.update({{"of", output->of->name}, {"quantity", spectrum_quantity(output->srs.quantity)}, {"q_factor", output->srs.q_factor}});
+      json.update({{"of", output->of->name},
+                   {"quantity", spectrum_quantity(output->srs.quantity)},
+                   {"q_factor", output->srs.q_factor}});
       if (result.bands.contains(output.get())) json["band"] = file_name_of(output->name) + "_band.csv";
       if (output->specification) json["specification"] = specification(*output->specification, found->second);
     }

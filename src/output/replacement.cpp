@@ -58,7 +58,8 @@ Replacement::~Replacement() {
 
 void Replacement::commit() {
   if (!exchange(directory_, work_))
-    throw InputError("cannot put the new results in the place of '" + directory_.string() + "': " + std::strerror(errno));
+    throw InputError("cannot put the new results in the place of '" + directory_.string() +
+                     "': " + std::strerror(errno));
   is_committed_ = true;
   { const Manifest removes_what_it_lists(work_); }
   std::error_code error;

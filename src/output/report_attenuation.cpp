@@ -37,14 +37,16 @@ std::string attenuation_part(const RunFolder& run, const Json& output) {
     plot.lines.push_back(std::move(line));
     header.insert(header.end(), {"before " + axis, "behind " + axis, "ratio " + axis});
     for (size_t row = 0; row < frequency.size(); ++row)
-      rows[row].insert(rows[row].end(), {with_unit(table.columns[i][row], table.units[i]), with_unit(table.columns[i + 1][row], table.units[i]),
-                                         decibels(ratio[row])});
+      rows[row].insert(rows[row].end(), {with_unit(table.columns[i][row], table.units[i]),
+                                         with_unit(table.columns[i + 1][row], table.units[i]), decibels(ratio[row])});
   }
   if (plot.lines.empty()) return "";
   const double rule = -3.0 * number(output, "joints");
   plot.levels = {{rule, "rule of thumb"}, {0.0, ""}};
   return html::heading(text(output, "name") + ": from " + text(output, "entering") + " to " + text(output, "leaving")) +
-         html::figure(svg(plot), "Ratio of the maximax spectra; the handbooks' rule of thumb, -3 dB a bolted joint, gives " + decibels(rule) + " here." + silent) +
+         html::figure(svg(plot),
+                      "Ratio of the maximax spectra; the handbooks' rule of thumb, -3 dB a bolted joint, gives " +
+                          decibels(rule) + " here." + silent) +
          html::table(header, rows, true);
 }
 

@@ -136,7 +136,8 @@ std::string spectra_figure(const std::vector<Spectrum>& group, const TimeAxis& t
   plot.width = 820;
   std::vector<SpecificationPtr> drawn;
   for (const Spectrum& s : group)
-    plot.lines.push_back({s.name + (std::isfinite(s.q_factor) ? fmt::format(" (Q {:g})", s.q_factor) : " (undamped)"), s.frequency(), s.level()});
+    plot.lines.push_back({s.name + (std::isfinite(s.q_factor) ? fmt::format(" (Q {:g})", s.q_factor) : " (undamped)"),
+                          s.frequency(), s.level()});
   bool has_uncertainty = false;
   if (group.size() <= most_shaded)
     for (size_t i = 0; i < group.size(); ++i) has_uncertainty |= add_uncertainty(group[i], static_cast<int>(i), plot);

@@ -95,7 +95,8 @@ std::string verdict_section(const RunFolder& run, const std::vector<std::string>
       fmt::format("<p class=\"verdict {}\">{}</p>\n", is_good ? "good" : "bad", escaped(verdict_text(record)));
 
   const Json& steps = record.at("steps");
-  const bool has_motion = std::any_of(steps.begin(), steps.end(), [](const Json& step) { return text(step, "kind") == "dynamic"; });
+  const bool has_motion =
+      std::any_of(steps.begin(), steps.end(), [](const Json& step) { return text(step, "kind") == "dynamic"; });
   std::vector<Card> cards;
   const auto add = [&](const char* figure, const char* name, const char* note, double limit) {
     const double value = run.figure(figure);
@@ -105,7 +106,8 @@ std::string verdict_section(const RunFolder& run, const std::vector<std::string>
       cards.push_back({name, "not a number", note, false});
   };
   add("energy imbalance [%]", "energy balance closes within", "of the largest energy", most_imbalance);
-  add("energy dissipated by the scheme [%]", "dissipated by the scheme", has_motion ? "impacts; lower with dt and mesh" : "gaps that close, yielding; lower with more increments",
+  add("energy dissipated by the scheme [%]", "dissipated by the scheme",
+      has_motion ? "impacts; lower with dt and mesh" : "gaps that close, yielding; lower with more increments",
       most_scheme_loss);
   add("error estimate, iteration [%]", "error left by the iteration", "estimate, of the shock", most_iteration);
   add("error estimate, penalty [%]", "error of the penalty", "estimate, of the shock", 10.0 * std::sqrt(5.0));

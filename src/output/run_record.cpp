@@ -81,7 +81,8 @@ Json steps(const Problem& problem, const RunResult& result) {
     if (i < problem.steps.size()) {
       const bool has_length = problem.steps[i]->is_static || problem.steps[i]->dt > 0.0;
       if (has_length) json["asked_increments"] = problem.steps[i]->n_increments();
-      if (!problem.steps[i]->is_static) json.update({{"dt", problem.steps[i]->dt}, {"duration", problem.steps[i]->duration}});
+      if (!problem.steps[i]->is_static)
+        json.update({{"dt", problem.steps[i]->dt}, {"duration", problem.steps[i]->duration}});
       json["loads"] = loads(*problem.steps[i]);
     }
     list.push_back(json);
@@ -92,9 +93,16 @@ Json steps(const Problem& problem, const RunResult& result) {
 Json bolts(const RunResult& result) {
   Json list = Json::array();
   for (const BoltSummary& bolt : result.bolts) {
-    Json json = {{"name", bolt.name}, {"area", bolt.area}, {"after_static", bolt.after_static}, {"tightened", bolt.tightened},
-                 {"lowest", bolt.lowest}, {"highest", bolt.highest}, {"last", bolt.last}, {"loss", bolt.loss()},
-                 {"shortening", bolt.shortening}, {"plastic_opening", bolt.plastic_opening}};
+    Json json = {{"name", bolt.name},
+                 {"area", bolt.area},
+                 {"after_static", bolt.after_static},
+                 {"tightened", bolt.tightened},
+                 {"lowest", bolt.lowest},
+                 {"highest", bolt.highest},
+                 {"last", bolt.last},
+                 {"loss", bolt.loss()},
+                 {"shortening", bolt.shortening},
+                 {"plastic_opening", bolt.plastic_opening}};
     if (bolt.target) json["target"] = *bolt.target;
     if (bolt.formula)
       json["hand"] = {{"force", bolt.hand.value_or(0.0)},
@@ -121,8 +129,9 @@ std::optional<RecordedRun> read_run_record(const std::filesystem::path& director
   const Json json = Json::parse(file, nullptr, false);
   if (!file || json.is_discarded()) return std::nullopt;
   try {
-    return RecordedRun{json.at("program").at("version"), json.at("solver").at("name"), json.at("verdict") == "converged",
-                       json.at("iterations").at("all"), json.at("iterations").at("mean")};
+    return RecordedRun{json.at("program").at("version"), json.at("solver").at("name"),
+                       json.at("verdict") == "converged", json.at("iterations").at("all"),
+                       json.at("iterations").at("mean")};
   } catch (const Json::exception&) {
     return std::nullopt;
   }

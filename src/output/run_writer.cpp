@@ -90,7 +90,8 @@ void RunWriter::write_result(const Problem& problem, const RunResult& result, co
     CHECK(written.insert(name).second && name != "convergence", "two tables are called '" + name + "'");
     write(name + ".csv", csv_text(found->second, steps));
     if (const auto element = result.superelements.find(output.get()); element != result.superelements.end())
-      for (const auto& [suffix, text] : superelement_files(problem, *output, element->second)) write(name + suffix, text);
+      for (const auto& [suffix, text] : superelement_files(problem, *output, element->second))
+        write(name + suffix, text);
     if (const auto loop = result.loops.find(output.get()); loop != result.loops.end()) {
       write(name + "_cycles.csv", csv_text(loop->second.cycles, steps));
       write(name + "_backbone.csv", csv_text(loop->second.backbone, steps));
@@ -101,7 +102,8 @@ void RunWriter::write_result(const Problem& problem, const RunResult& result, co
     const auto found = result.bands.find(output.get());
     if (found == result.bands.end()) continue;
     const std::string name = file_name_of(output->name) + "_band";
-    if (written.insert(name).second) write(name + ".csv", csv_text(found->second, steps));  // else an output of the deck has the name
+    if (written.insert(name).second)
+      write(name + ".csv", csv_text(found->second, steps));  // else an output of the deck has the name
   }
   if (!result.convergence.columns.empty()) write("convergence.csv", csv_text(result.convergence, steps));
   if (!result.bolts.empty()) {
@@ -116,7 +118,8 @@ void RunWriter::write_result(const Problem& problem, const RunResult& result, co
   const fs::path record = path_of("run.json");
   std::vector<std::string> files;
   for (const fs::path& file : index_->manifest.files()) {
-    if (*file.begin() != frames_folder && (directory_ / file == record || fs::exists(directory_ / file))) files.push_back(file.generic_string());
+    if (*file.begin() != frames_folder && (directory_ / file == record || fs::exists(directory_ / file)))
+      files.push_back(file.generic_string());
   }
   write_text(record, run_record(problem, result, identity, warnings, files));
 }

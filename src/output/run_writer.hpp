@@ -42,8 +42,9 @@ class RunWriter {
   // cannot write.
   void write_frame(const Frame& frame);
 
-  // <output name>.csv for each table, energy.csv, convergence.csv, scenes.json, report.html, and last run.json (versions,
-  // digests, parameters, figures, warnings): where it stands the run came to its end. Throws InputError when it cannot write.
+  // <output name>.csv for each table, energy.csv, convergence.csv, scenes.json, report.html, and last run.json
+  // (versions, digests, parameters, figures, warnings): where it stands the run came to its end. Throws InputError when
+  // it cannot write.
   void write_result(const Problem& problem, const RunResult& result, const RunIdentity& identity,
                     const std::vector<std::string>& warnings);
 

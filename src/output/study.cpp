@@ -96,19 +96,22 @@ PlotLine line_of(const Abscissa& abscissa, const std::string& name, const std::v
 }
 
 bool is_varied(const std::vector<StudyCase>& cases, const std::string& name) {
-  return std::any_of(cases.begin(), cases.end(), [&](const StudyCase& c) { return parameter(c, name) != parameter(cases.front(), name); });
+  return std::any_of(cases.begin(), cases.end(),
+                     [&](const StudyCase& c) { return parameter(c, name) != parameter(cases.front(), name); });
 }
 
 // What else varies beside the abscissa, of one case: "young = 5e+10".
 std::string others_of(const std::vector<StudyCase>& cases, const StudyCase& c, const Abscissa& abscissa) {
   std::string text;
   for (const std::string& name : parameters_of(cases))
-    if (name != abscissa.name && is_varied(cases, name)) text += (text.empty() ? "" : ", ") + fmt::format("{} = {:g}", name, parameter(c, name));
+    if (name != abscissa.name && is_varied(cases, name))
+      text += (text.empty() ? "" : ", ") + fmt::format("{} = {:g}", name, parameter(c, name));
   return text;
 }
 
 // One line for each combination of the other parameters; cases that have not converged are left out.
-std::vector<PlotLine> lines_of(const std::vector<StudyCase>& cases, const Abscissa& abscissa, const std::vector<double>& y) {
+std::vector<PlotLine> lines_of(const std::vector<StudyCase>& cases, const Abscissa& abscissa,
+                               const std::vector<double>& y) {
   std::vector<std::string> groups;
   std::vector<std::string> of_case;
   for (const StudyCase& c : cases) {
@@ -160,8 +163,8 @@ std::string study_csv(const std::vector<StudyCase>& cases) {
       text += "," + number(known ? known->value : not_a_number);
     }
     text += fmt::format(",{},{},{},{},{},{:.3f}\n", c.iterations, number(c.mean_iterations),
-                        c.cold_iterations ? std::to_string(*c.cold_iterations) : "", c.cold_difference ? number(*c.cold_difference) : "",
-                        c.converged ? 1 : 0, c.seconds);
+                        c.cold_iterations ? std::to_string(*c.cold_iterations) : "",
+                        c.cold_difference ? number(*c.cold_difference) : "", c.converged ? 1 : 0, c.seconds);
   }
   return text;
 }
@@ -172,7 +175,8 @@ std::string study_svg(const std::string& title, const std::vector<StudyCase>& ca
   std::vector<std::pair<std::string, std::string>> charts;
   const auto add = [&](const std::string& name, const std::string& unit, std::vector<PlotLine> lines) {
     const size_t space = name.rfind(' ');
-    Plot plot{.title = name, .x = {abscissa.name}, .y = {space == std::string::npos ? name : name.substr(space + 1), unit}};
+    Plot plot{
+        .title = name, .x = {abscissa.name}, .y = {space == std::string::npos ? name : name.substr(space + 1), unit}};
     plot.lines = std::move(lines);
     plot.width = width;
     plot.height = height;
@@ -186,7 +190,9 @@ std::string study_svg(const std::string& title, const std::vector<StudyCase>& ca
   std::vector<double> warm, cold;
   for (const StudyCase& c : cases) {
     warm.push_back(static_cast<double>(c.iterations));
-    cold.push_back(c.cold_iterations ? static_cast<double>(*c.cold_iterations) : c.started_from.empty() ? warm.back() : not_a_number);
+    cold.push_back(c.cold_iterations        ? static_cast<double>(*c.cold_iterations)
+                   : c.started_from.empty() ? warm.back()
+                                            : not_a_number);
   }
   std::vector<PlotLine> iterations = {line_of(abscissa, "as run", warm), line_of(abscissa, "cold", cold)};
   iterations[1].is_dashed = true;
@@ -195,13 +201,18 @@ std::string study_svg(const std::string& title, const std::vector<StudyCase>& ca
   const int rows = (static_cast<int>(charts.size()) + columns - 1) / columns;
   const int all_width = columns * (width + margin) + margin, all_height = 40 + rows * (heading + height + margin);
   std::string text = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\">\n"
-      "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n<text x=\"{2}\" y=\"26\" font-size=\"17\" font-weight=\"bold\">{3}</text>\n",
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
+      "font-family=\"sans-serif\">\n"
+      "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n<text x=\"{2}\" y=\"26\" font-size=\"17\" "
+      "font-weight=\"bold\">{3}</text>\n",
       all_width, all_height, margin, escaped(title));
   for (size_t i = 0; i < charts.size(); ++i) {
-    const int x = margin + static_cast<int>(i % columns) * (width + margin), y = 40 + static_cast<int>(i / columns) * (heading + height + margin);
-    text += fmt::format("<g transform=\"translate({} {})\"><text x=\"4\" y=\"15\" font-size=\"13\" font-weight=\"bold\">{}</text>"
-                        "<g transform=\"translate(0 {})\">\n{}</g></g>\n", x, y, escaped(charts[i].first), heading, charts[i].second);
+    const int x = margin + static_cast<int>(i % columns) * (width + margin),
+              y = 40 + static_cast<int>(i / columns) * (heading + height + margin);
+    text += fmt::format(
+        "<g transform=\"translate({} {})\"><text x=\"4\" y=\"15\" font-size=\"13\" font-weight=\"bold\">{}</text>"
+        "<g transform=\"translate(0 {})\">\n{}</g></g>\n",
+        x, y, escaped(charts[i].first), heading, charts[i].second);
   }
   return text + "</svg>\n";
 }
@@ -217,14 +228,17 @@ std::string study_summary(const std::string& name, const std::vector<StudyCase>&
       ++n_warm;
     }
     if (c.cold_iterations)
-      checks += fmt::format("\n  case '{}' checked cold: {} iterations instead of {} ({:.0f} % saved); answers differ by {:.1e} at most", c.name,
-                            *c.cold_iterations, c.iterations, 100.0 * (1.0 - static_cast<double>(c.iterations) / static_cast<double>(*c.cold_iterations)),
-                            *c.cold_difference);
+      checks += fmt::format(
+          "\n  case '{}' checked cold: {} iterations instead of {} ({:.0f} % saved); answers differ by {:.1e} at most",
+          c.name, *c.cold_iterations, c.iterations,
+          100.0 * (1.0 - static_cast<double>(c.iterations) / static_cast<double>(*c.cold_iterations)),
+          *c.cold_difference);
   }
   std::string text = fmt::format("study of '{}': {} cases, {} iterations", name, cases.size(), all);
   if (n_warm > 0 && n_warm < static_cast<int>(cases.size()))
     text += fmt::format("; {:.0f} a case from scratch, {:.0f} from another's interface fields",
-                        static_cast<double>(all - warm) / (static_cast<double>(cases.size()) - n_warm), static_cast<double>(warm) / n_warm);
+                        static_cast<double>(all - warm) / (static_cast<double>(cases.size()) - n_warm),
+                        static_cast<double>(warm) / n_warm);
   return text + checks;
 }
 

@@ -19,15 +19,15 @@ struct StudyCase {
   long iterations = 0;
   double mean_iterations = 0.0, seconds = 0.0;
   bool converged = true;
-  std::optional<long> cold_iterations;   // where the case was checked cold
-  std::optional<double> cold_difference; // largest relative difference of the answers, then
+  std::optional<long> cold_iterations;    // where the case was checked cold
+  std::optional<double> cold_difference;  // largest relative difference of the answers, then
 };
 
 // One row a case: name, started_from, the parameters, the figures, iterations, seconds; numbers in SI.
 std::string study_csv(const std::vector<StudyCase>& cases);
 
-// One chart a figure against the first parameter that varies (the case's number where none does), a line for each combination of the
-// others, and one of the iterations; figures of cases that have not converged are left out.
+// One chart a figure against the first parameter that varies (the case's number where none does), a line for each
+// combination of the others, and one of the iterations; figures of cases that have not converged are left out.
 std::string study_svg(const std::string& title, const std::vector<StudyCase>& cases);
 
 // Two lines for the screen: how many cases, their iterations, what starting from others saved, what checks said.

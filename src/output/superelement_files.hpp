@@ -14,6 +14,7 @@ namespace dygita {
 std::string matrix_market_text(const Mat& symmetric, const std::string& comment);
 
 // Names (after the output's) and contents: _mass.mtx, _stiffness.mtx, _damping.mtx where there is any, and .md.
-std::vector<std::pair<std::string, std::string>> superelement_files(const Problem& problem, const Output& output, const Superelement& element);
+std::vector<std::pair<std::string, std::string>> superelement_files(const Problem& problem, const Output& output,
+                                                                    const Superelement& element);
 
 }  // namespace dygita

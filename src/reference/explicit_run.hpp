@@ -67,7 +67,8 @@ class ExplicitRun : public NodalFields {
 
   // By dof. moved_ is the displacement since the step's start; the forces of that instant are in prestress_.
   Vec moved_, velocity_, velocity_old_, force_, external_, prestress_, mass_, inverse_mass_;
-  Vec load_, anchor_, base_external_;  // of loaded dofs, what absorbing supports hold included; these alone; what balances the start
+  Vec load_, anchor_,
+      base_external_;  // of loaded dofs, what absorbing supports hold included; these alone; what balances the start
   std::vector<int> loaded_;
   std::vector<double> load_values_;
   std::vector<double> motions_old_, motions_new_;

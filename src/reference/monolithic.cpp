@@ -48,7 +48,13 @@ class MonolithicRun {
   void accept_increment(const InterfaceNewton::Outcome& outcome);
   Vec3 side_displacement(const Point& point, int first, int end, const std::vector<Points>& displacement) const;
   Instant instant(int increment, const InterfaceNewton::Outcome& outcome) const {
-    return {model_, state_, i_step_, increment, outcome.iterations, outcome.residual, outcome.converged,
+    return {model_,
+            state_,
+            i_step_,
+            increment,
+            outcome.iterations,
+            outcome.residual,
+            outcome.converged,
             model_.scheme.dt * outcome.distance};
   }
 

@@ -4,9 +4,12 @@
 
 namespace dygita {
 
-PreloadNewton::PreloadNewton(const StepModel& model, const MergedAssembly& assembly, const std::vector<PointRecord>& records,
-                             double tolerance)
-    : model_(&model), preloads_(make_preloads(model, records)), stiffest_(Vec::Zero(preloads_.size())), tolerance_(tolerance) {
+PreloadNewton::PreloadNewton(const StepModel& model, const MergedAssembly& assembly,
+                             const std::vector<PointRecord>& records, double tolerance)
+    : model_(&model),
+      preloads_(make_preloads(model, records)),
+      stiffest_(Vec::Zero(preloads_.size())),
+      tolerance_(tolerance) {
   for (size_t i = 0; i < preloads_.size(); ++i)
     for (const int p : preloads_[i].points)
       if (const int row = assembly.row(p, 0); row >= 0) stiffest_[i] += 1.0 / assembly.compliance()(row, row);
@@ -48,8 +51,8 @@ Mat PreloadNewton::slopes(const Vec& d, const Vec& force) {
   return slope;
 }
 
-InterfaceNewton::Outcome PreloadNewton::solve(InterfaceNewton& newton, std::vector<PointRecord>& records, const Increment& increment,
-                                              int i_increment) {
+InterfaceNewton::Outcome PreloadNewton::solve(InterfaceNewton& newton, std::vector<PointRecord>& records,
+                                              const Increment& increment, int i_increment) {
   if (preloads_.empty()) return newton.solve(records, increment);
   records_ = &records;
   solve_ = [&] { return newton.solve(records, increment); };

@@ -1,4 +1,5 @@
-// Shortenings that bring the forces asked for, around the reference's own solution for given ones (manual, the monolithic reference).
+// Shortenings that bring the forces asked for, around the reference's own solution for given ones (manual, the
+// monolithic reference).
 #pragma once
 
 #include "reference/interface_newton.hpp"
@@ -9,10 +10,12 @@ namespace dygita {
 class PreloadNewton {
  public:
   // records: of all points, as the step starts; tolerance: of the forces, relative.
-  PreloadNewton(const StepModel& model, const MergedAssembly& assembly, const std::vector<PointRecord>& records, double tolerance);
+  PreloadNewton(const StepModel& model, const MergedAssembly& assembly, const std::vector<PointRecord>& records,
+                double tolerance);
 
   // Solves the increment; without preloads, just the interfaces. The records' shortenings are those found.
-  InterfaceNewton::Outcome solve(InterfaceNewton& newton, std::vector<PointRecord>& records, const Increment& increment, int i_increment);
+  InterfaceNewton::Outcome solve(InterfaceNewton& newton, std::vector<PointRecord>& records, const Increment& increment,
+                                 int i_increment);
 
  private:
   Vec forces(const Vec& d);
@@ -21,7 +24,7 @@ class PreloadNewton {
 
   const StepModel* model_;
   std::vector<Preload> preloads_;
-  Vec stiffest_;  // N/m, of each preload
+  Vec stiffest_;         // N/m, of each preload
   double extent_ = 0.0;  // m, of all substructures
   double tolerance_;
   // Of the increment at hand.

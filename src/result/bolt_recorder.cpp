@@ -28,7 +28,8 @@ const Load* tightening(const Step& step, const Interface* interface) {
 BoltRecorder::BoltRecorder(const Problem& problem) {
   for (size_t i = 0; i < problem.interfaces.size(); ++i) {
     const Interface* interface = problem.interfaces[i].get();
-    if (std::none_of(problem.steps.begin(), problem.steps.end(), [&](const StepPtr& step) { return tightening(*step, interface); }))
+    if (std::none_of(problem.steps.begin(), problem.steps.end(),
+                     [&](const StepPtr& step) { return tightening(*step, interface); }))
       continue;
     surfaces_.push_back(static_cast<int>(i));
     interfaces_.push_back(interface);
@@ -40,7 +41,8 @@ BoltRecorder::BoltRecorder(const Problem& problem) {
 double BoltRecorder::force(const Instant& instant, int surface) {
   const Surface& on = (*instant.model.surfaces)[surface];
   double sum = 0.0;
-  for (int i = 0; i < on.n_points(); ++i) sum += instant.state.surfaces[surface].points[i].force.dot(on.facing.normals.col(i));
+  for (int i = 0; i < on.n_points(); ++i)
+    sum += instant.state.surfaces[surface].points[i].force.dot(on.facing.normals.col(i));
   return sum;
 }
 

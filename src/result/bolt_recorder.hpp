@@ -22,7 +22,7 @@ class BoltRecorder {
   std::vector<int> surfaces_;  // of each bolt; interfaces are the first surfaces
   std::vector<const Interface*> interfaces_;
   std::vector<BoltSummary> bolts_;
-  bool is_dynamic_ = false;    // some dynamic step has begun
+  bool is_dynamic_ = false;  // some dynamic step has begun
 };
 
 }  // namespace dygita

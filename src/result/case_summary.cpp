@@ -52,8 +52,8 @@ std::string name_of(const Output& output) { return output.kind == OutputKind::en
 }  // namespace
 
 double noise_of(const std::string& unit) {
-  static const std::map<std::string, double> noise = {{"m", 1e-15},   {"m/s", 1e-12}, {"m/s^2", 1e-6}, {"m^2", 1e-15},
-                                                      {"N", 1e-9},    {"J", 1e-15},   {"Pa", 1e-3},    {"dB", 1e-9}};
+  static const std::map<std::string, double> noise = {{"m", 1e-15}, {"m/s", 1e-12}, {"m/s^2", 1e-6}, {"m^2", 1e-15},
+                                                      {"N", 1e-9},  {"J", 1e-15},   {"Pa", 1e-3},    {"dB", 1e-9}};
   const auto found = noise.find(unit);
   return found == noise.end() ? 0.0 : found->second;
 }
@@ -90,7 +90,8 @@ std::vector<CaseFigure> case_summary(const Problem& problem, const RunResult& re
         for (const char* column : {"displacement", "force"}) summary.add(column, "largest", largest);
         break;
       case OutputKind::superelement:
-        summary.add("frequency", "lowest", [](const std::vector<double>& values) { return values.empty() ? 0.0 : values.front(); });
+        summary.add("frequency", "lowest",
+                    [](const std::vector<double>& values) { return values.empty() ? 0.0 : values.front(); });
         break;
       case OutputKind::energy:
       case OutputKind::vtk:

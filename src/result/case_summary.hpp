@@ -13,16 +13,17 @@ struct CaseFigure {
   double value = 0.0;      // SI; NaN where the run gave nothing
 };
 
-// Largest modulus of histories, resultants (normal, shear) and spectra; of joints the force at the end and the largest opening,
-// slip and plastic opening, and the works at the end; mean ratio of attenuations. In the problem's order of outputs.
+// Largest modulus of histories, resultants (normal, shear) and spectra; of joints the force at the end and the largest
+// opening, slip and plastic opening, and the works at the end; mean ratio of attenuations. In the problem's order of
+// outputs.
 std::vector<CaseFigure> case_summary(const Problem& problem, const RunResult& result);
 
 // What rounding leaves of a quantity that is zero, by its SI unit: far below what anyone measures.
 double noise_of(const std::string& unit);
 
-// Largest difference of two runs of the same problem over all columns of their tables, each relative to the largest value of its
-// unit in its table. Columns of noise and areas by state are left out: a point on the verge of sliding counts here or there. Tables of different lengths
-// differ by infinity.
+// Largest difference of two runs of the same problem over all columns of their tables, each relative to the largest
+// value of its unit in its table. Columns of noise and areas by state are left out: a point on the verge of sliding
+// counts here or there. Tables of different lengths differ by infinity.
 struct Difference {
   double value = 0.0;
   std::string where;  // "bolt.normal"; empty where nothing differs

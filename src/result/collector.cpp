@@ -12,19 +12,37 @@ namespace dygita {
 
 Collector::~Collector() = default;
 
-Collector::Collector(const Problem& problem, FrameSink sink) : problem_(problem), sink_(std::move(sink)), bolts_(problem) {
+Collector::Collector(const Problem& problem, FrameSink sink)
+    : problem_(problem), sink_(std::move(sink)), bolts_(problem) {
   for (const OutputPtr& output : problem.outputs) {
     switch (output->kind) {
-      case OutputKind::history: samplers_[output.get()] = make_history_sampler(problem, *output); break;
-      case OutputKind::resultant: samplers_[output.get()] = make_resultant_sampler(problem, *output); break;
-      case OutputKind::joint: samplers_[output.get()] = make_joint_sampler(problem, *output); break;
-      case OutputKind::energy: samplers_[output.get()] = make_energy_sampler(); break;
-      case OutputKind::loop: samplers_[output.get()] = make_loop_sampler(problem, *output); break;
-      case OutputKind::superelement: samplers_[output.get()] = make_superelement_sampler(problem, *output); break;
-      case OutputKind::vtk: slip_ = std::make_shared<FrictionlessSlip>(); break;
-      case OutputKind::srs_field: fields_[output.get()] = std::make_unique<SpectrumField>(problem, *output); break;
+      case OutputKind::history:
+        samplers_[output.get()] = make_history_sampler(problem, *output);
+        break;
+      case OutputKind::resultant:
+        samplers_[output.get()] = make_resultant_sampler(problem, *output);
+        break;
+      case OutputKind::joint:
+        samplers_[output.get()] = make_joint_sampler(problem, *output);
+        break;
+      case OutputKind::energy:
+        samplers_[output.get()] = make_energy_sampler();
+        break;
+      case OutputKind::loop:
+        samplers_[output.get()] = make_loop_sampler(problem, *output);
+        break;
+      case OutputKind::superelement:
+        samplers_[output.get()] = make_superelement_sampler(problem, *output);
+        break;
+      case OutputKind::vtk:
+        slip_ = std::make_shared<FrictionlessSlip>();
+        break;
+      case OutputKind::srs_field:
+        fields_[output.get()] = std::make_unique<SpectrumField>(problem, *output);
+        break;
       case OutputKind::srs:
-      case OutputKind::attenuation: break;
+      case OutputKind::attenuation:
+        break;
     }
   }
   convergence_.names = {"time", "iterations", "indicator", "converged"};
@@ -47,7 +65,8 @@ void Collector::accept(const Instant& instant) {
   bolts_.accept(instant);
   for (auto& [output, sampler] : samplers_) sampler->accept(instant);
   for (auto& [output, field] : fields_) field->accept(instant);
-  const double row[] = {instant.time(), static_cast<double>(instant.iterations), instant.indicator, instant.converged ? 1.0 : 0.0};
+  const double row[] = {instant.time(), static_cast<double>(instant.iterations), instant.indicator,
+                        instant.converged ? 1.0 : 0.0};
   for (int i = 0; i < 4; ++i) convergence_.columns[i].push_back(row[i]);
   convergence_.step.push_back(instant.i_step);
   watch(instant);
@@ -66,8 +85,8 @@ void Collector::maybe_frame(const Instant& instant) {
   }
 }
 
-// Static increments take a hundredth of the dynamic time each, so that frames follow one another; the first dynamic step
-// starts at zero.
+// Static increments take a hundredth of the dynamic time each, so that frames follow one another; the first dynamic
+// step starts at zero.
 double Collector::label_time(const Instant& instant) const {
   double dynamic = 0.0;
   for (const StepPtr& step : problem_.steps)
@@ -96,7 +115,8 @@ void Collector::watch(const Instant& instant) {
   for (size_t s = 0; s < instant.model.surfaces->size(); ++s) {
     const Surface& surface = (*instant.model.surfaces)[s];
     if (!surface.law || !surface.law->rubs()) continue;
-    for (const LawState& p : instant.state.surfaces[s].points) extremes_.penetration = std::max(extremes_.penetration, -p.gap);
+    for (const LawState& p : instant.state.surfaces[s].points)
+      extremes_.penetration = std::max(extremes_.penetration, -p.gap);
   }
 }
 
@@ -104,9 +124,11 @@ namespace {
 
 void add_exceedances(const Problem& problem, RunResult& result) {
   for (const OutputPtr& output : problem.outputs) {
-    if (output->kind != OutputKind::srs || !output->specification || result.tables[output.get()].n_rows() == 0) continue;
+    if (output->kind != OutputKind::srs || !output->specification || result.tables[output.get()].n_rows() == 0)
+      continue;
     const Table& spectrum = result.tables[output.get()];
-    const Exceedance worst = largest_exceedance(*output->specification, spectrum.columns.front(), spectrum.column("maximax"));
+    const Exceedance worst =
+        largest_exceedance(*output->specification, spectrum.columns.front(), spectrum.column("maximax"));
     if (!worst.is_known) continue;
     result.figures["largest exceedance of the specification of '" + output->name + "' [dB]"] = worst.decibels;
     result.figures["frequency of the largest exceedance of '" + output->name + "' [Hz]"] = worst.frequency;
@@ -115,7 +137,8 @@ void add_exceedances(const Problem& problem, RunResult& result) {
 
 void add_error_figures(const ErrorEstimator& errors, const Problem& problem, RunResult& result) {
   const auto has = [&](bool is_static) {
-    return std::any_of(problem.steps.begin(), problem.steps.end(), [&](const StepPtr& s) { return s->is_static == is_static; });
+    return std::any_of(problem.steps.begin(), problem.steps.end(),
+                       [&](const StepPtr& s) { return s->is_static == is_static; });
   };
   if (has(true)) {
     const ErrorEstimator::Estimate e = errors.static_steps();
@@ -154,7 +177,8 @@ void Collector::finish(RunResult& result) {
   }
   for (const OutputPtr& output : problem_.outputs) {
     const auto of = [&](const OutputPtr& history) -> const Table& { return result.tables.at(history.get()); };
-    if (output->kind == OutputKind::srs) result.tables[output.get()] = spectrum_table(problem_, *output, of(output->of));
+    if (output->kind == OutputKind::srs)
+      result.tables[output.get()] = spectrum_table(problem_, *output, of(output->of));
     if (output->kind == OutputKind::attenuation)
       result.tables[output.get()] = attenuation_table(problem_, *output, of(output->of), of(output->leaving));
   }
@@ -174,7 +198,8 @@ void Collector::finish(RunResult& result) {
   add_error_figures(errors_, problem_, result);
   add_exceedances(problem_, result);
   // What the springs of a penalty hold is what the sides overlap: its interfaces' constitutive-relation error.
-  if (problem_.explicit_dynamics) result.figures["error estimate, penalty [%]"] = 10 * std::sqrt(percent * extremes_.springs);
+  if (problem_.explicit_dynamics)
+    result.figures["error estimate, penalty [%]"] = 10 * std::sqrt(percent * extremes_.springs);
 }
 
 }  // namespace dygita

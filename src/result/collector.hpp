@@ -41,7 +41,8 @@ std::unique_ptr<Sampler> make_energy_sampler();
 std::unique_ptr<Sampler> make_loop_sampler(const Problem& problem, const Output& output);
 std::unique_ptr<Sampler> make_superelement_sampler(const Problem& problem, const Output& output);
 
-// Relative tangential displacement (m) accumulated while closed, of contact without friction: its law has no tangential unknown.
+// Relative tangential displacement (m) accumulated while closed, of contact without friction: its law has no tangential
+// unknown.
 class FrictionlessSlip {
  public:
   void begin_step(const Instant& instant);
@@ -58,7 +59,8 @@ class FrictionlessSlip {
 // Largest imbalances and penetrations of the run, in percent of the largest energy and in metres.
 struct Extremes {
   double energy = 0.0, imbalance = 0.0, scheme_loss = 0.0, scheme_gain = 0.0, penetration = 0.0;
-  double springs = 0.0, before_springs = 0.0;  // J, penalty: largest held by its springs, the scheme's energy at the step's start
+  double springs = 0.0,
+         before_springs = 0.0;  // J, penalty: largest held by its springs, the scheme's energy at the step's start
 };
 
 class SpectrumField;

@@ -19,13 +19,15 @@ namespace {
 
 // Dense matrices of this many unknowns of the faces take about 1 GB in all.
 constexpr int most_unknowns = 6000;
-// Added to the diagonal of the faces while the assembly is factorised, and taken off its Schur complement: nothing else may hold it.
+// Added to the diagonal of the faces while the assembly is factorised, and taken off its Schur complement: nothing else
+// may hold it.
 constexpr double reference_share = 0.1;
 
 // The assembly with W u = q: interior by the factor, the faces' unknowns by dense matrices (eq. D3).
 class HeldInterface {
  public:
-  HeldInterface(const LinearAssembly& assembly, const InterfaceCoordinates& coordinates, const Problem& problem, const Output& output)
+  HeldInterface(const LinearAssembly& assembly, const InterfaceCoordinates& coordinates, const Problem& problem,
+                const Output& output)
       : assembly_(assembly) {
     const int n = assembly.n();
     std::vector<char> is_interface(n, 0);
@@ -35,11 +37,17 @@ class HeldInterface {
     // All unknowns of a place, tied copies that are not on the face included.
     const int n_b = static_cast<int>(std::count(is_interface.begin(), is_interface.end(), 1));
     if (n_b > most_unknowns)
-      throw InputError(output.origin, fmt::format("output.superelement '{}': the faces of 'on' have {} unknowns, at most {} are allowed: take smaller faces or "
-                                                  "larger cells there", output.name, n_b, most_unknowns));
+      throw InputError(output.origin, fmt::format("output.superelement '{}': the faces of 'on' have {} unknowns, at "
+                                                  "most {} are allowed: take smaller faces or "
+                                                  "larger cells there",
+                                                  output.name, n_b, most_unknowns));
     if (const std::string motion = free_motion(assembly, problem, coordinates.nodes); !motion.empty())
-      throw InputError(output.origin, fmt::format("output.superelement '{}': {} is held by nothing (open joints, or contact that slides)\n    hold it by a "
-                                                  "support, put a face of it into 'on', or give its contact friction", output.name, motion));
+      throw InputError(
+          output.origin,
+          fmt::format(
+              "output.superelement '{}': {} is held by nothing (open joints, or contact that slides)\n    hold it by a "
+              "support, put a face of it into 'on', or give its contact friction",
+              output.name, motion));
     SparseMatrix a = assembly.stiffness;
     Vec reference = Vec::Zero(n);
     for (int i = 0; i < n; ++i)
@@ -81,10 +89,12 @@ class HeldInterface {
  private:
   // Z spans what W leaves free: compliance Z (Z^T S Z)^-1 Z^T, and the equilibrium for W x = 1.
   void hold(const InterfaceCoordinates& coordinates, const Mat& schur, const std::string& what) {
-    const int n_b = static_cast<int>(schur.rows()), n_i = factor_->n_interior(), n_w = static_cast<int>(coordinates.w.rows());
+    const int n_b = static_cast<int>(schur.rows()), n_i = factor_->n_interior(),
+              n_w = static_cast<int>(coordinates.w.rows());
     Mat transposed = Mat::Zero(n_b, n_w);
     for (int row = 0; row < n_w; ++row) {
-      for (SparseMatrix::InnerIterator e(coordinates.w, row); e; ++e) transposed(position_[e.col()] - n_i, row) = e.value();
+      for (SparseMatrix::InnerIterator e(coordinates.w, row); e; ++e)
+        transposed(position_[e.col()] - n_i, row) = e.value();
     }
     const Vec scale = transposed.colwise().norm();
     const Mat scaled = transposed * scale.cwiseInverse().asDiagonal();
@@ -98,7 +108,8 @@ class HeldInterface {
     const Mat z = q.rightCols(n_b - n_w);
     const Mat s_z = schur * z;
     const Eigen::LLT<Mat> llt(z.transpose() * s_z);
-    if (llt.info() != Eigen::Success) throw NumericalError(what + ": the faces' own stiffness is not positive definite");
+    if (llt.info() != Eigen::Success)
+      throw NumericalError(what + ": the faces' own stiffness is not positive definite");
     compliance_ = z * llt.solve(z.transpose());
     of_held_ -= z * llt.solve(s_z.transpose() * of_held_);
   }
@@ -122,14 +133,15 @@ Modes fixed_modes(const HeldInterface& held, const LinearAssembly& assembly, con
   ModeRequest request;
   request.n = settings.modes;
   request.up_to = std::pow(2 * 2 * std::numbers::pi * settings.up_to, 2);
-  return lowest_modes(assembly.n(), [&](Eigen::Ref<Mat> x) { held.solve(x); }, assembly.mass, 0.0, request,
-                      "output.superelement '" + output.name + "'");
+  return lowest_modes(
+      assembly.n(), [&](Eigen::Ref<Mat> x) { held.solve(x); }, assembly.mass, 0.0, request,
+      "output.superelement '" + output.name + "'");
 }
 
 Mat symmetric(const Mat& m) { return 0.5 * (m + m.transpose()); }
 
-// What the modes left out would follow the faces with at first order, as modes of their own (eq. D7): orthogonal to those kept, in M and K.
-// motions: of the assembly, static, that they are driven by.
+// What the modes left out would follow the faces with at first order, as modes of their own (eq. D7): orthogonal to
+// those kept, in M and K. motions: of the assembly, static, that they are driven by.
 Modes residual_modes(const HeldInterface& held, const LinearAssembly& assembly, const Mat& motions, const Modes& kept) {
   Mat r = assembly.mass * motions;
   held.solve(r);
@@ -139,7 +151,8 @@ Modes residual_modes(const HeldInterface& held, const LinearAssembly& assembly, 
   const Eigen::SelfAdjointEigenSolver<Mat> gram(symmetric(r.transpose() * (assembly.mass * r)));
   const double largest = gram.eigenvalues().size() > 0 ? gram.eigenvalues().tail(1)[0] : 0.0;
   const int rank = static_cast<int>((gram.eigenvalues().array() > 1e-8 * largest).count());
-  const Mat basis = r * (gram.eigenvectors().rightCols(rank) * gram.eigenvalues().tail(rank).cwiseSqrt().cwiseInverse().asDiagonal());
+  const Mat basis =
+      r * (gram.eigenvectors().rightCols(rank) * gram.eigenvalues().tail(rank).cwiseSqrt().cwiseInverse().asDiagonal());
   const Eigen::SelfAdjointEigenSolver<Mat> eigen(symmetric(basis.transpose() * (assembly.stiffness * basis)));
   return {eigen.eigenvalues(), basis * eigen.eigenvectors(), false};
 }
@@ -150,7 +163,8 @@ double cut_off(const Output& output, const Modes& kept) {
   return kept.values.size() > 0 ? std::sqrt(std::max(0.0, kept.values.tail(1)[0])) : 0.0;
 }
 
-// Interface rows (columns) of the eigenmodes that static and kept modes alone have up to an angular frequency, the lowest hundred at most.
+// Interface rows (columns) of the eigenmodes that static and kept modes alone have up to an angular frequency, the
+// lowest hundred at most.
 Mat slow_motions(const LinearAssembly& assembly, const Mat& psi, const Modes& kept, double omega) {
   const int n_q = static_cast<int>(psi.cols()), n_m = static_cast<int>(kept.values.size());
   Mat k = Mat::Zero(n_q + n_m, n_q + n_m), m = Mat::Identity(n_q + n_m, n_q + n_m);
@@ -175,7 +189,9 @@ Superelement condense(const LinearAssembly& assembly, const Problem& problem, co
   const Mat psi = held.static_modes() * coordinates.of_rows;
   if (!modes.is_all) {
     // Of the many rows of nodes those combinations that move up to twice the frequency of the modes kept.
-    const Mat motions = output.superelement.motion == FaceMotion::nodes ? Mat(psi * slow_motions(assembly, psi, modes, 2 * cut_off(output, modes))) : psi;
+    const Mat motions = output.superelement.motion == FaceMotion::nodes
+                            ? Mat(psi * slow_motions(assembly, psi, modes, 2 * cut_off(output, modes)))
+                            : psi;
     const Modes rest = residual_modes(held, assembly, motions, modes);
     const int n = static_cast<int>(rest.values.size());
     Vec values(n_kept + n);
@@ -208,7 +224,9 @@ Superelement condense(const LinearAssembly& assembly, const Problem& problem, co
   element.frequencies = eigen.eigenvalues().unaryExpr([](double lambda) { return hertz(lambda); });
   element.fixed_frequencies = modes.values.unaryExpr([](double lambda) { return hertz(lambda); });
   element.n_residual = n_m - n_kept;
-  element.valid_to = output.superelement.up_to > 0.0 ? output.superelement.up_to : n_kept > 0 ? 0.5 * element.fixed_frequencies[n_kept - 1] : 0.0;
+  element.valid_to = output.superelement.up_to > 0.0 ? output.superelement.up_to
+                     : n_kept > 0                    ? 0.5 * element.fixed_frequencies[n_kept - 1]
+                                                     : 0.0;
   element.damping_ratios = Vec::Zero(element.frequencies.size());
   for (int i = 0; i < element.frequencies.size() && element.damping.rows() > 0; ++i) {
     const Vec phi = eigen.eigenvectors().col(i);

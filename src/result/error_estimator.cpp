@@ -35,7 +35,8 @@ std::pair<double, double> stress_energies(const Instant& instant, const std::vec
 Vec all_masses(const Instant& instant) {
   std::vector<Vec> parts;
   for (const auto& piece : instant.model.pieces)
-    parts.push_back(instant.fields ? Vec(piece->setup().body->mass->lumped.replicate(1, 3).transpose().reshaped()) : piece->free_mass());
+    parts.push_back(instant.fields ? Vec(piece->setup().body->mass->lumped.replicate(1, 3).transpose().reshaped())
+                                   : piece->free_mass());
   Vec all(0);
   for (const Vec& part : parts) {
     all.conservativeResize(all.size() + part.size());
@@ -116,7 +117,8 @@ void ErrorEstimator::begin_step(const Instant& start) {
   total_mass_ = 0.0;
   for (const auto& piece : start.model.pieces) total_mass_ += piece->setup().body->mass->lumped.sum();
   start_.clear();
-  for (size_t i = 0; i < start.model.problem->substructures.size(); ++i) start_.push_back(start.displacement(static_cast<int>(i)));
+  for (size_t i = 0; i < start.model.problem->substructures.size(); ++i)
+    start_.push_back(start.displacement(static_cast<int>(i)));
 }
 
 void ErrorEstimator::accept_static(const Instant& instant) {
@@ -146,7 +148,8 @@ void ErrorEstimator::accept(const Instant& instant) {
   stored_ = std::max(stored_, energies.kinetic + energies.strain);
   take_velocities(instant, velocity_);
   if (velocity_old_.size() > 0) {
-    for (Eigen::Index i = 0; i < velocity_.size(); ++i) rate_ += mass_[i] * std::pow((velocity_[i] - velocity_old_[i]) / dt_, 2);
+    for (Eigen::Index i = 0; i < velocity_.size(); ++i)
+      rate_ += mass_[i] * std::pow((velocity_[i] - velocity_old_[i]) / dt_, 2);
     ++n_rates_;
   }
   bank_->add(velocity_);

@@ -15,7 +15,8 @@ namespace dygita {
 // with the exact one.
 class OctaveBank {
  public:
-  // mass: kg, weight of each unknown. is_tuned: the cells' mass undoes the phase error to the next order, (w dt)^5 / 80.
+  // mass: kg, weight of each unknown. is_tuned: the cells' mass undoes the phase error to the next order, (w dt)^5
+  // / 80.
   OctaveBank(Vec mass, bool is_tuned) : mass_(std::move(mass)), is_tuned_(is_tuned) {}
 
   void add(const Vec& velocity) { add(0, velocity); }
@@ -66,7 +67,7 @@ class ErrorEstimator {
   double stress_sum_ = 0.0, strain_sum_ = 0.0;  // of the samples: stress error and strain energy of the shock
   int n_stress_ = 0;
   double total_mass_ = 0.0;  // kg
-  double rate_ = 0.0;  // sum of |dV / dt|^2, in the norm of the mass
+  double rate_ = 0.0;        // sum of |dV / dt|^2, in the norm of the mass
   long n_rates_ = 0;
 };
 

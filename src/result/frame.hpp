@@ -9,27 +9,28 @@
 namespace dygita {
 
 struct NamedField {
-  std::string name;                 // "displacement", "pressure", ...
-  Mat values;                       // n_components x n_nodes, SI; 6 components: xx yy zz xy yz zx
+  std::string name;  // "displacement", "pressure", ...
+  Mat values;        // n_components x n_nodes, SI; 6 components: xx yy zz xy yz zx
 };
 
 struct PartFrame {
   const Substructure* part = nullptr;
-  Points displacement;              // 3 x n_nodes, always there
-  std::vector<NamedField> fields;   // as asked for, displacement among them if asked
+  Points displacement;             // 3 x n_nodes, always there
+  std::vector<NamedField> fields;  // as asked for, displacement among them if asked
 };
 
 // Interface (or wall) surface: points are the interface's own.
 struct InterfaceFrame {
   std::string name;
-  Points points;                    // 3 x n, undeformed
-  std::vector<Facet> facets;        // node numbers into `points`
-  std::vector<NamedField> fields;   // pressure gap slip friction_traction plastic_opening state displacement constitutive_error
+  Points points;              // 3 x n, undeformed
+  std::vector<Facet> facets;  // node numbers into `points`
+  std::vector<NamedField>
+      fields;  // pressure gap slip friction_traction plastic_opening state displacement constitutive_error
 };
 
 struct Frame {
-  double time = 0.0;                // s, of the whole run; static increments stand still, see `label_time`
-  double label_time = 0.0;          // strictly increasing over the frames of a run: what the .pvd carries
+  double time = 0.0;        // s, of the whole run; static increments stand still, see `label_time`
+  double label_time = 0.0;  // strictly increasing over the frames of a run: what the .pvd carries
   std::string step;
   std::vector<PartFrame> parts;
   std::vector<InterfaceFrame> interfaces;

@@ -21,7 +21,8 @@ PartFrame part_frame(const Instant& instant, int part, const std::vector<std::st
     if (name == "velocity") frame.fields.push_back({name, instant.velocity(part)});
     if (name == "acceleration") frame.fields.push_back({name, instant.acceleration(part)});
     if (name == "stress") frame.fields.push_back({name, stress});
-    if (name == "stress_error") frame.fields.push_back({name, stress_error(*body.mesh, body.material, frame.displacement).at_nodes.transpose()});
+    if (name == "stress_error")
+      frame.fields.push_back({name, stress_error(*body.mesh, body.material, frame.displacement).at_nodes.transpose()});
     if (name == "von_mises") frame.fields.push_back({name, von_mises(stress).transpose()});
   }
   return frame;
@@ -36,7 +37,8 @@ InterfaceFrame interface_frame(const Instant& instant, int s, const Frictionless
   frame.name = surface.name();
   frame.points.resize(3, n);
   std::map<int, int> point_of;
-  Mat pressure(1, n), gap(1, n), plastic(1, n), status(1, n), residual(1, n), slips(3, n), traction(3, n), displacement(3, n);
+  Mat pressure(1, n), gap(1, n), plastic(1, n), status(1, n), residual(1, n), slips(3, n), traction(3, n),
+      displacement(3, n);
   const Points u = instant.displacement(surface.part_1);
   for (int i = 0; i < n; ++i) {
     const int node = surface.facing.nodes_1[i];
@@ -58,8 +60,14 @@ InterfaceFrame interface_frame(const Instant& instant, int s, const Frictionless
     for (int i = 0; i < facet.n_nodes; ++i) local.nodes[i] = point_of.at(facet.nodes[i]);
     frame.facets.push_back(local);
   }
-  frame.fields = {{"displacement", displacement}, {"pressure", pressure}, {"gap", gap},       {"slip", slips},
-                  {"friction_traction", traction}, {"plastic_opening", plastic}, {"state", status}, {"constitutive_error", residual}};
+  frame.fields = {{"displacement", displacement},
+                  {"pressure", pressure},
+                  {"gap", gap},
+                  {"slip", slips},
+                  {"friction_traction", traction},
+                  {"plastic_opening", plastic},
+                  {"state", status},
+                  {"constitutive_error", residual}};
   return frame;
 }
 

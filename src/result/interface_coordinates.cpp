@@ -16,7 +16,7 @@ namespace {
 using Row = std::vector<std::pair<int, Vec3>>;  // node, coefficient of its displacement
 
 struct PlacedNodes {
-  std::vector<int> nodes;  // counted through all substructures
+  std::vector<int> nodes;       // counted through all substructures
   std::vector<double> weights;  // sum to one
   std::vector<Vec3> places;     // m
   Vec3 centre = Vec3::Zero();   // weighted mean
@@ -73,14 +73,16 @@ class IndependentRows {
       for (int d = 0; d < 3; ++d) {
         if (coefficient[d] == 0.0) continue;
         scale += coefficient[d] * coefficient[d];
-        for (SparseMatrix::InnerIterator e(map_, 3 * node + d); e; ++e) entries[static_cast<int>(e.col())] += coefficient[d] * e.value();
+        for (SparseMatrix::InnerIterator e(map_, 3 * node + d); e; ++e)
+          entries[static_cast<int>(e.col())] += coefficient[d] * e.value();
       }
     std::map<int, double> rest = entries;
     // Twice, for round-off; rows that share no unknown are orthogonal.
     for (int pass = 0; pass < 2; ++pass) {
       std::set<int> near;
       for (const auto& [unknown, value] : rest)
-        if (const auto it = rows_at_.find(unknown); it != rows_at_.end()) near.insert(it->second.begin(), it->second.end());
+        if (const auto it = rows_at_.find(unknown); it != rows_at_.end())
+          near.insert(it->second.begin(), it->second.end());
       for (const int other : near) {
         double along = 0.0;
         for (const auto& [unknown, value] : orthonormal_[other])
@@ -121,15 +123,17 @@ std::string label_of(const FaceOrRegion& place) {
 
 }  // namespace
 
-InterfaceCoordinates interface_coordinates(const LinearAssembly& assembly, const Problem& problem, const Output& output) {
+InterfaceCoordinates interface_coordinates(const LinearAssembly& assembly, const Problem& problem,
+                                           const Output& output) {
   const FaceMotion motion = output.superelement.motion;
   InterfaceCoordinates coordinates;
   IndependentRows independent(assembly.map);
   std::vector<Eigen::Triplet<double>> of_rows;
   int n_held = 0;
   for (size_t f = 0; f < output.on.size(); ++f) {
-    const FaceOrRegion place = std::holds_alternative<Face>(output.on[f]) ? FaceOrRegion(std::get<Face>(output.on[f]))
-                                                                          : FaceOrRegion(std::get<Region>(output.on[f]));
+    const FaceOrRegion place = std::holds_alternative<Face>(output.on[f])
+                                   ? FaceOrRegion(std::get<Face>(output.on[f]))
+                                   : FaceOrRegion(std::get<Region>(output.on[f]));
     const PlacedNodes on = placed_nodes(assembly, problem, place);
     coordinates.nodes.insert(coordinates.nodes.end(), on.nodes.begin(), on.nodes.end());
     const int before = n_held, on_index = static_cast<int>(f);
@@ -152,19 +156,23 @@ InterfaceCoordinates interface_coordinates(const LinearAssembly& assembly, const
             coordinates.rows.push_back({on_index, on.nodes[i] - assembly.first_node[part], d, on.places[i]});
             of_rows.emplace_back(n_held, static_cast<int>(coordinates.rows.size()) - 1, 1.0);
           } else if (is_rigid && !is_free) {
-            throw InputError(output.origin, fmt::format("output.superelement '{}': a node of {} is held by a support, or tied to another of the faces, so that "
-                                                        "it cannot move as a rigid body\n    take motion = \"mean\"", output.name, label_of(place)));
+            throw InputError(output.origin, fmt::format("output.superelement '{}': a node of {} is held by a support, "
+                                                        "or tied to another of the faces, so that "
+                                                        "it cannot move as a rigid body\n    take motion = \"mean\"",
+                                                        output.name, label_of(place)));
           } else if (is_rigid) {
             const Vec3 arm = on.places[i] - on.centre;
             of_rows.emplace_back(n_held, first_row + d, 1.0);
             for (int turn = 0; turn < 3; ++turn)
-              if (const double way = Vec3::Unit(turn).cross(arm)[d]; way != 0.0) of_rows.emplace_back(n_held, first_row + 3 + turn, way);
+              if (const double way = Vec3::Unit(turn).cross(arm)[d]; way != 0.0)
+                of_rows.emplace_back(n_held, first_row + 3 + turn, way);
           }
           if (is_free) ++n_held;
         }
     }
     if (n_held == before)
-      throw InputError(output.origin, fmt::format("output.superelement '{}': nothing of {} can move: a support holds it, or other faces of 'on' have all of it",
+      throw InputError(output.origin, fmt::format("output.superelement '{}': nothing of {} can move: a support holds "
+                                                  "it, or other faces of 'on' have all of it",
                                                   output.name, label_of(place)));
   }
   coordinates.w = independent.matrix();

@@ -16,10 +16,13 @@ struct JointState {
 class JointSampler : public Sampler {
  public:
   JointSampler(const Problem& problem, const Output& output)
-      : Sampler({{"time", "normal", "shear", "opening", "slip", "plastic_opening", "open_area", "stick_area", "slip_area",
-                  "friction_work", "plastic_work"},
-                 {"s", "N", "N", "m", "m", "m", "m^2", "m^2", "m^2", "J", "J"}, {}, {}}),
-        problem_(problem), output_(output) {}
+      : Sampler({{"time", "normal", "shear", "opening", "slip", "plastic_opening", "open_area", "stick_area",
+                  "slip_area", "friction_work", "plastic_work"},
+                 {"s", "N", "N", "m", "m", "m", "m^2", "m^2", "m^2", "J", "J"},
+                 {},
+                 {}}),
+        problem_(problem),
+        output_(output) {}
 
   void begin_step(const Instant& instant) override {
     slip_.begin_step(instant);
@@ -39,8 +42,9 @@ class JointSampler : public Sampler {
         area[static_cast<int>(instant.state.surfaces[s].points[i].status)] += surface.facing.areas[i];
     }
     add_row(instant, mean_time(instant),
-            {r.normal, r.shear, mean(a.opening, now.opening), mean(a.slip, now.slip), mean(a.plastic_opening, now.plastic_opening),
-             area[0], area[1], area[2], mean(a.friction_work, now.friction_work), mean(a.plastic_work, now.plastic_work)});
+            {r.normal, r.shear, mean(a.opening, now.opening), mean(a.slip, now.slip),
+             mean(a.plastic_opening, now.plastic_opening), area[0], area[1], area[2],
+             mean(a.friction_work, now.friction_work), mean(a.plastic_work, now.plastic_work)});
     before_ = now;
   }
 

@@ -68,7 +68,8 @@ void add_supports(const Instant& instant, LinearAssembly& assembly) {
   for (size_t part = 0; part < conditions.held.size(); ++part) {
     const std::map<int, Held> by_node(conditions.held[part].begin(), conditions.held[part].end());
     for (const auto& [node, held] : by_node)
-      for (int j = 0; j < held.n; ++j) add_condition(assembly, assembly.first_node[part] + node, -1, held.directions.col(j));
+      for (int j = 0; j < held.n; ++j)
+        add_condition(assembly, assembly.first_node[part] + node, -1, held.directions.col(j));
   }
 }
 
@@ -102,7 +103,8 @@ void make_map(LinearAssembly& assembly) {
   std::vector<std::vector<int>> nodes(n_nodes);
   std::vector<std::vector<const NodeCondition*>> conditions(n_nodes);
   for (int i = 0; i < n_nodes; ++i) nodes[places.of(i)].push_back(i);
-  for (const NodeCondition& condition : assembly.conditions) conditions[places.of(condition.node[0])].push_back(&condition);
+  for (const NodeCondition& condition : assembly.conditions)
+    conditions[places.of(condition.node[0])].push_back(&condition);
   Triplets entries;
   int n = 0;
   for (int place = 0; place < n_nodes; ++place) {
@@ -110,7 +112,8 @@ void make_map(LinearAssembly& assembly) {
     const Mat basis = free_basis(nodes[place], conditions[place]);
     for (int column = 0; column < basis.cols(); ++column) {
       for (int row = 0; row < basis.rows(); ++row)
-        if (std::abs(basis(row, column)) > 1e-14) entries.emplace_back(3 * nodes[place][row / 3] + row % 3, n, basis(row, column));
+        if (std::abs(basis(row, column)) > 1e-14)
+          entries.emplace_back(3 * nodes[place][row / 3] + row % 3, n, basis(row, column));
       assembly.place_of_unknown.push_back(place);
       ++n;
     }
@@ -127,7 +130,8 @@ void add_matrices(const Problem& problem, LinearAssembly& assembly) {
   for (size_t part = 0; part < problem.substructures.size(); ++part) {
     const Substructure& body = *problem.substructures[part];
     const Elastic& material = body.material;
-    const auto [it, is_new] = known.try_emplace({body.mesh->digest, material.young, material.poisson, material.density});
+    const auto [it, is_new] =
+        known.try_emplace({body.mesh->digest, material.young, material.poisson, material.density});
     if (is_new) it->second = assemble(*body.mesh, material);
     const BodyMatrices& own = it->second;
     const SparseMatrix map = assembly.map.middleRows(3 * assembly.first_node[part], 3 * body.mesh->n_nodes());
@@ -181,7 +185,9 @@ std::string free_motion(const LinearAssembly& assembly, const Problem& problem, 
     for (int side = 0; side < 2; ++side) {
       const int node = condition.node[side];
       if (node < 0) continue;
-      const int part = static_cast<int>(std::upper_bound(assembly.first_node.begin(), assembly.first_node.end(), node) - assembly.first_node.begin()) - 1;
+      const int part = static_cast<int>(std::upper_bound(assembly.first_node.begin(), assembly.first_node.end(), node) -
+                                        assembly.first_node.begin()) -
+                       1;
       const Vec3 x = problem.substructures[part]->mesh->nodes.col(node - assembly.first_node[part]);
       Eigen::Matrix<double, 6, 1> row;
       row << condition.coefficient[side], (x - centre[part]).cross(condition.coefficient[side]) / size[part];
@@ -194,13 +200,15 @@ std::string free_motion(const LinearAssembly& assembly, const Problem& problem, 
   for (const int node : held_nodes)
     for (int d = 0; d < 3; ++d) add({{node, -1}, {Vec3::Unit(d), Vec3::Zero()}});
   Vec weight(6 * n);
-  for (int i = 0; i < n; ++i) weight.segment<6>(6 * i).setConstant(1.0 / std::sqrt(std::max(1.0, gram.block<6, 6>(6 * i, 6 * i).trace())));
+  for (int i = 0; i < n; ++i)
+    weight.segment<6>(6 * i).setConstant(1.0 / std::sqrt(std::max(1.0, gram.block<6, 6>(6 * i, 6 * i).trace())));
   const Eigen::SelfAdjointEigenSolver<Mat> eigen(weight.asDiagonal() * gram * weight.asDiagonal());
   if (eigen.eigenvalues()[0] >= 1e-9) return "";
   const Vec motion = weight.cwiseProduct(eigen.eigenvectors().col(0));
   int at = 0;
   motion.cwiseAbs().maxCoeff(&at);
-  const char* names[] = {"translation along x", "translation along y", "translation along z", "rotation about x", "rotation about y", "rotation about z"};
+  const char* names[] = {"translation along x", "translation along y", "translation along z",
+                         "rotation about x",    "rotation about y",    "rotation about z"};
   return std::string(names[at % 6]) + " of substructure '" + problem.substructures[at / 6]->name + "'";
 }
 

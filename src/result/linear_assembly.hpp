@@ -1,4 +1,5 @@
-// An assembly about a state of its interfaces, as one linear system: what sticks is tied, what is open is free (manual, eq. D1).
+// An assembly about a state of its interfaces, as one linear system: what sticks is tied, what is open is free (manual,
+// eq. D1).
 #pragma once
 
 #include <array>
@@ -15,10 +16,10 @@ struct NodeCondition {
 };
 
 struct LinearAssembly {
-  SparseMatrix stiffness, mass;      // n x n; N/m, kg
-  SparseMatrix damping;              // n x n, N s/m; empty where no material has any
-  SparseMatrix map;                  // 3 x (all nodes) rows: displacements of the nodes from the unknowns
-  std::vector<int> first_node;       // of each substructure, and the number of all nodes
+  SparseMatrix stiffness, mass;       // n x n; N/m, kg
+  SparseMatrix damping;               // n x n, N s/m; empty where no material has any
+  SparseMatrix map;                   // 3 x (all nodes) rows: displacements of the nodes from the unknowns
+  std::vector<int> first_node;        // of each substructure, and the number of all nodes
   std::vector<int> place_of_unknown;  // unknowns of one place are contiguous
   std::vector<NodeCondition> conditions;
   int n_tied = 0, n_normal = 0, n_open = 0;  // contact points
@@ -27,12 +28,14 @@ struct LinearAssembly {
   int n() const { return static_cast<int>(stiffness.rows()); }
 };
 
-// The assembly at an instant: bonded and plastic interfaces are tied, unless released; contact points that stick are tied, those at
-// the limit of friction too (ties_sliding) or along their normal, as those without friction, open ones are free; supports of the step hold, prescribed motions do not. Lumped mass, small displacements: no stiffness of the prestress.
+// The assembly at an instant: bonded and plastic interfaces are tied, unless released; contact points that stick are
+// tied, those at the limit of friction too (ties_sliding) or along their normal, as those without friction, open ones
+// are free; supports of the step hold, prescribed motions do not. Lumped mass, small displacements: no stiffness of the
+// prestress.
 LinearAssembly linearise(const Instant& instant, bool ties_sliding);
 
-// A rigid motion of a substructure ("rotation about z of substructure 'nut'") that neither the assembly's conditions nor the given
-// nodes, thought to be held, resist; empty where there is none.
+// A rigid motion of a substructure ("rotation about z of substructure 'nut'") that neither the assembly's conditions
+// nor the given nodes, thought to be held, resist; empty where there is none.
 std::string free_motion(const LinearAssembly& assembly, const Problem& problem, const std::vector<int>& held_nodes);
 
 }  // namespace dygita

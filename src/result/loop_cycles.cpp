@@ -10,10 +10,10 @@ namespace dygita {
 namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-constexpr double smallest_turn = 1e-3;     // of the range of the displacement
-constexpr double standstill = 1e-6;        // of that range: where a joint sticks, the force turns first
-constexpr double widest_opening = 0.2;     // of a cycle, of its range: what a straight line closes
-constexpr double smallest_loss = 1e-5;     // of force x displacement amplitude: below is what a tolerance leaves
+constexpr double smallest_turn = 1e-3;  // of the range of the displacement
+constexpr double standstill = 1e-6;     // of that range: where a joint sticks, the force turns first
+constexpr double widest_opening = 0.2;  // of a cycle, of its range: what a straight line closes
+constexpr double smallest_loss = 1e-5;  // of force x displacement amplitude: below is what a tolerance leaves
 
 struct Path {
   std::vector<double> x, f;
@@ -45,7 +45,9 @@ bool close_cycle(const Path& path, int start, int turn, int end, Cycle& cycle) {
   };
   for (int i = start + 1; i <= turn; ++i) go_to(path.x[i], path.f[i]);
   int i = turn + 1;
-  const auto is_past = [&](int row) { return range > 0.0 ? path.x[row] <= path.x[start] : path.x[row] >= path.x[start]; };
+  const auto is_past = [&](int row) {
+    return range > 0.0 ? path.x[row] <= path.x[start] : path.x[row] >= path.x[start];
+  };
   for (; i <= end && !is_past(i); ++i) go_to(path.x[i], path.f[i]);
   if (i <= end) {  // where it crosses
     const double share = path.x[i] == x_last ? 0.0 : (path.x[start] - x_last) / (path.x[i] - x_last);
@@ -88,7 +90,8 @@ struct Side {
   std::pair<double, double> up_to(double a) const {
     double work = 0.0;
     for (size_t i = 1; i < x.size(); ++i) {
-      const double share = std::min(1.0, (a - x[i - 1]) / (x[i] - x[i - 1])), force = f[i - 1] + share * (f[i] - f[i - 1]);
+      const double share = std::min(1.0, (a - x[i - 1]) / (x[i] - x[i - 1])),
+                   force = f[i - 1] + share * (f[i] - f[i - 1]);
       work += 0.5 * (f[i - 1] + force) * share * (x[i] - x[i - 1]);
       if (share < 1.0 || i + 1 == x.size()) return {work, force};
     }
@@ -133,7 +136,10 @@ void add_side(const Side& side, double sign, Table& table) {
 }
 
 Table backbone_table(const std::array<Side, 2>& sides) {
-  Table table{{"displacement", "force", "stiffness", "slider_stiffness", "slider_force"}, {"m", "N", "N/m", "N/m", "N"}, {}, {}};
+  Table table{{"displacement", "force", "stiffness", "slider_stiffness", "slider_force"},
+              {"m", "N", "N/m", "N/m", "N"},
+              {},
+              {}};
   table.columns.resize(table.names.size());
   add_side(sides[1], -1.0, table);
   const double origin[] = {0.0, 0.0, not_known, 0.0, 0.0};
@@ -143,20 +149,33 @@ Table backbone_table(const std::array<Side, 2>& sides) {
 }
 
 Table cycle_table(const Table& loop, const std::vector<Cycle>& cycles, const Side& side) {
-  Table table{{"time", "amplitude", "force_amplitude", "mean", "mean_force", "secant", "reversal", "end", "loss", "loss_factor", "exponent",
-               "masing_loss"},
-              {"s", "m", "N", "m", "N", "N/m", "N/m", "N/m", "J", "", "", "J"}, {}, {}};
+  Table table{{"time", "amplitude", "force_amplitude", "mean", "mean_force", "secant", "reversal", "end", "loss",
+               "loss_factor", "exponent", "masing_loss"},
+              {"s", "m", "N", "m", "N", "N/m", "N/m", "N/m", "J", "", "", "J"},
+              {},
+              {}};
   table.columns.resize(table.names.size());
   const Cycle* before = nullptr;  // the last of another amplitude
   for (const Cycle& c : cycles) {
     const double secant = c.force_amplitude / c.amplitude;
     double local = not_known;
-    if (before && before->has_loss() && c.has_loss()) local = exponent_of({before->force_amplitude, c.force_amplitude}, {before->loss, c.loss});
+    if (before && before->has_loss() && c.has_loss())
+      local = exponent_of({before->force_amplitude, c.force_amplitude}, {before->loss, c.loss});
     // Masing's rule: branches are the backbone doubled (eq. C7).
     const auto [work, force] = side.up_to(c.amplitude);
     const double masing = side.x.back() >= 0.999 * c.amplitude ? 8 * work - 4 * c.amplitude * force : not_known;
-    const double row[] = {loop.columns[0][c.start], c.amplitude, c.force_amplitude, c.mean, c.mean_force, secant, c.on_reversal, c.at_end,
-                          c.loss, c.loss / (std::numbers::pi * secant * c.amplitude * c.amplitude), local, masing};
+    const double row[] = {loop.columns[0][c.start],
+                          c.amplitude,
+                          c.force_amplitude,
+                          c.mean,
+                          c.mean_force,
+                          secant,
+                          c.on_reversal,
+                          c.at_end,
+                          c.loss,
+                          c.loss / (std::numbers::pi * secant * c.amplitude * c.amplitude),
+                          local,
+                          masing};
     for (size_t i = 0; i < table.columns.size(); ++i) table.columns[i].push_back(row[i]);
     table.step.push_back(loop.step[c.start]);
     before = &c;
@@ -181,7 +200,8 @@ std::vector<int> turning_points(const std::vector<double>& x, const std::vector<
       if (std::abs(away) <= turn) continue;
       sense = away > 0.0 ? 1.0 : -1.0;
       extreme = i;
-    } else if (sense * away > standstill * range || (sense * away > -standstill * range && sense * (f[i] - f[extreme]) >= 0.0)) {
+    } else if (sense * away > standstill * range ||
+               (sense * away > -standstill * range && sense * (f[i] - f[extreme]) >= 0.0)) {
       extreme = i;
     } else if (-sense * away > turn) {
       turns.push_back(extreme);

@@ -24,8 +24,10 @@ class LoopSampler : public Sampler {
 
   // The force is a mean over a step of time; so is the displacement then.
   void accept(const Instant& instant) override {
-    const double now = displacement(instant), force = resultant(instant, problem_, output_.on).force.dot(*output_.direction);
-    add_row(instant, mean_time(instant), {instant.is_static() ? now : 0.5 * (before_ + now), is_support_ ? -force : force});
+    const double now = displacement(instant),
+                 force = resultant(instant, problem_, output_.on).force.dot(*output_.direction);
+    add_row(instant, mean_time(instant),
+            {instant.is_static() ? now : 0.5 * (before_ + now), is_support_ ? -force : force});
     before_ = now;
   }
 
@@ -38,7 +40,8 @@ class LoopSampler : public Sampler {
     const LoopSummary& loop = result.loops[&output_] = summarise_loop(table(), first);
     const std::string who = "loop '" + output_.name + "', ";
     if (std::isfinite(loop.exponent)) result.figures[who + "exponent of the loss over the force"] = loop.exponent;
-    if (std::isfinite(loop.displacement_exponent)) result.figures[who + "exponent of the loss over the displacement"] = loop.displacement_exponent;
+    if (std::isfinite(loop.displacement_exponent))
+      result.figures[who + "exponent of the loss over the displacement"] = loop.displacement_exponent;
     if (std::isfinite(loop.stiffness)) result.figures[who + "first stiffness [N/m]"] = loop.stiffness;
   }
 

@@ -26,10 +26,14 @@ namespace {
 
 const char* unit_of(Quantity quantity) {
   switch (quantity) {
-    case Quantity::displacement: return "m";
-    case Quantity::velocity: return "m/s";
-    case Quantity::acceleration: return "m/s^2";
-    default: return "Pa";
+    case Quantity::displacement:
+      return "m";
+    case Quantity::velocity:
+      return "m/s";
+    case Quantity::acceleration:
+      return "m/s^2";
+    default:
+      return "Pa";
   }
 }
 
@@ -67,7 +71,8 @@ class HistorySampler : public Sampler {
   static Table make_table(const Output& output) {
     Table table{{"time"}, {"s"}, {}, {}};
     const bool is_tensor = output.quantity == Quantity::stress;
-    const bool is_scalar = output.direction || output.quantity == Quantity::von_mises || output.quantity == Quantity::pressure;
+    const bool is_scalar =
+        output.direction || output.quantity == Quantity::von_mises || output.quantity == Quantity::pressure;
     if (is_scalar)
       table.names.push_back(quantity_name(output.quantity));
     else if (is_tensor)
@@ -121,7 +126,9 @@ class HistorySampler : public Sampler {
 class ResultantSampler : public Sampler {
  public:
   ResultantSampler(const Problem& problem, const Output& output)
-      : Sampler({{"time", "normal", "shear", "x", "y", "z"}, {"s", "N", "N", "N", "N", "N"}, {}, {}}), problem_(problem), output_(output) {}
+      : Sampler({{"time", "normal", "shear", "x", "y", "z"}, {"s", "N", "N", "N", "N", "N"}, {}, {}}),
+        problem_(problem),
+        output_(output) {}
 
   void accept(const Instant& instant) override {
     const Resultant r = resultant(instant, problem_, output_.on);
@@ -137,13 +144,16 @@ class EnergySampler : public Sampler {
  public:
   EnergySampler()
       : Sampler({{"time", "kinetic", "strain", "loads", "friction", "plastic", "damping", "scheme", "balance"},
-                 {"s", "J", "J", "J", "J", "J", "J", "J", "J"}, {}, {}}) {}
+                 {"s", "J", "J", "J", "J", "J", "J", "J", "J"},
+                 {},
+                 {}}) {}
   void begin_step(const Instant& instant) override {
     if (!instant.is_static() || instant.i_step == 0) accept(instant);
   }
   void accept(const Instant& instant) override {
     const Energies& e = instant.state.energies;
-    add_row(instant, instant.time(), {e.kinetic, e.strain, e.loads, e.friction, e.plastic, e.damping, e.scheme, e.balance()});
+    add_row(instant, instant.time(),
+            {e.kinetic, e.strain, e.loads, e.friction, e.plastic, e.damping, e.scheme, e.balance()});
   }
 };
 

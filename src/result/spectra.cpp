@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "base/log.hpp"
-
 #include "signal/srs.hpp"
 
 namespace dygita {
@@ -34,8 +33,8 @@ std::vector<std::string> axes(const Output& history) {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-// Rows of the spectrum in each band: centre (Hz), first and last row + 1. A band is kept if the spectrum goes through all of it; a
-// spectrum of less than one band is one.
+// Rows of the spectrum in each band: centre (Hz), first and last row + 1. A band is kept if the spectrum goes through
+// all of it; a spectrum of less than one band is one.
 struct Band {
   double centre;
   size_t first, end;
@@ -55,7 +54,8 @@ std::vector<Band> bands_of(const std::vector<double>& frequency, const SrsSettin
     }
     if (band.end > band.first) bands.push_back(band);
   }
-  if (bands.empty() && !frequency.empty()) bands.push_back({std::sqrt(settings.from * settings.to), 0, frequency.size()});
+  if (bands.empty() && !frequency.empty())
+    bands.push_back({std::sqrt(settings.from * settings.to), 0, frequency.size()});
   return bands;
 }
 
@@ -141,10 +141,12 @@ std::string attenuation_summary(const Output& output, const Table& table) {
     text += text.empty() ? "" : "; ";
     if (!axis.empty()) text += axis.substr(1) + " ";
     text += n == 0.0 ? std::string("nothing enters")
-                     : fmt::format("{:+.1f} dB ({:+.1f} at {:.3g} kHz, {:+.1f} at {:.3g} kHz)", sum / n, lowest, lowest_at, highest, highest_at);
+                     : fmt::format("{:+.1f} dB ({:+.1f} at {:.3g} kHz, {:+.1f} at {:.3g} kHz)", sum / n, lowest,
+                                   lowest_at, highest, highest_at);
   }
-  return fmt::format("attenuation '{}', mean of {} bands (lowest, highest): {}; rule of thumb for {} bolted joint{}: {:+.0f} dB", output.name,
-                     table.n_rows(), text, output.n_joints, output.n_joints == 1 ? "" : "s", -3.0 * output.n_joints);
+  return fmt::format(
+      "attenuation '{}', mean of {} bands (lowest, highest): {}; rule of thumb for {} bolted joint{}: {:+.0f} dB",
+      output.name, table.n_rows(), text, output.n_joints, output.n_joints == 1 ? "" : "s", -3.0 * output.n_joints);
 }
 
 }  // namespace dygita

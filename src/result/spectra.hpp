@@ -13,12 +13,12 @@ Table spectrum_table(const Problem& problem, const Output& output, const Table& 
 std::vector<std::string> attenuation_columns(const Output& output);
 
 // Band by band the level of both spectra (mean in dB over the band's frequencies) and their ratio in dB, leaving over
-// entering, NaN along an axis into which a millionth of the strongest axis' level enters at most; the band's frequency is its centre (Hz). Bands that the spectra do not fill are left out; less than one is
-// a band of its own.
+// entering, NaN along an axis into which a millionth of the strongest axis' level enters at most; the band's frequency
+// is its centre (Hz). Bands that the spectra do not fill are left out; less than one is a band of its own.
 Table attenuation_table(const Problem& problem, const Output& output, const Table& entering, const Table& leaving);
 
-// One line: mean ratio of each axis over the bands, the lowest and the highest, beside the rule of thumb (-3 dB a bolted
-// joint).
+// One line: mean ratio of each axis over the bands, the lowest and the highest, beside the rule of thumb (-3 dB a
+// bolted joint).
 std::string attenuation_summary(const Output& output, const Table& attenuation);
 
 // Linear between instants (s, increasing), every dt from the first to the last: what a spectrum takes.

@@ -21,7 +21,9 @@ void add_up(Table& band) {
 }  // namespace
 
 Table spectrum_band(const Table& spectrum, SrsQuantity quantity, const ErrorEstimator::Estimate& errors) {
-  const int power = quantity == SrsQuantity::absolute_acceleration ? 1 : quantity == SrsQuantity::pseudo_velocity ? 0 : -1;
+  const int power = quantity == SrsQuantity::absolute_acceleration ? 1
+                    : quantity == SrsQuantity::pseudo_velocity     ? 0
+                                                                   : -1;
   Table band{{"frequency", "iteration", "time_step", "mesh", "all"}, {"Hz", "dB", "dB", "dB", "dB"}, {}, {}};
   band.columns.resize(band.names.size());
   if (spectrum.columns.empty()) return band;
@@ -54,7 +56,8 @@ std::string band_figure(const std::string& spectrum, const std::string& column) 
 void note_band(const std::string& spectrum, const Table& band, std::map<std::string, double>& figures) {
   for (size_t i = 1; i < band.names.size(); ++i) {
     const std::vector<double>& values = band.columns[i];
-    figures[band_figure(spectrum, band.names[i])] = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    figures[band_figure(spectrum, band.names[i])] =
+        std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   }
 }
 

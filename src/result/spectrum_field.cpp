@@ -25,7 +25,9 @@ SpectrumField::SpectrumField(const Problem& problem, const Output& output) : pro
     const Face& face = std::get<Face>(target);
     const Mesh& mesh = *face.part->mesh;
     const FaceNodes on = face_nodes(mesh, face.facets());
-    Area area{index_of(problem.substructures, face.part.get()), {face.label(), Points(3, on.nodes.size()), face.facets(), {}}, on.nodes};
+    Area area{index_of(problem.substructures, face.part.get()),
+              {face.label(), Points(3, on.nodes.size()), face.facets(), {}},
+              on.nodes};
     std::map<int, int> point_of;
     for (size_t i = 0; i < on.nodes.size(); ++i) {
       point_of[on.nodes[i]] = static_cast<int>(i);
@@ -57,14 +59,16 @@ void SpectrumField::accept(const Instant& instant) {
   signals_.push_back(std::move(row));
 }
 
-// One matrix a spectrum (maximax, positive, ...), frequencies x nodes; without a direction of the axis of largest maximax.
+// One matrix a spectrum (maximax, positive, ...), frequencies x nodes; without a direction of the axis of largest
+// maximax.
 std::vector<Mat> SpectrumField::spectra(const Area& area, size_t first, std::vector<double>& frequency) const {
   const size_t n_directions = output_.direction ? 1 : 3;
   std::vector<Mat> all(spectrum_names.size());
   std::vector<double> value(time_.size());
   for (size_t i = 0; i < area.nodes.size(); ++i) {
     for (size_t d = 0; d < n_directions; ++d) {
-      for (size_t t = 0; t < time_.size(); ++t) value[t] = static_cast<double>(signals_[t][first + n_directions * i + d]);
+      for (size_t t = 0; t < time_.size(); ++t)
+        value[t] = static_cast<double>(signals_[t][first + n_directions * i + d]);
       const Srs srs = shock_response_spectrum(evenly(time_, value, dt_), dt_, output_.srs);
       frequency = srs.frequency;
       const auto n = static_cast<Eigen::Index>(frequency.size()), node = static_cast<Eigen::Index>(i);
@@ -96,7 +100,8 @@ std::vector<Frame> SpectrumField::frames() const {
     }
     for (size_t f = 0; f < frames.size(); ++f) {
       InterfaceFrame faces = area.faces;
-      for (size_t k = 0; k < all.size(); ++k) faces.fields.push_back({spectrum_names[k], all[k].row(static_cast<Eigen::Index>(f))});
+      for (size_t k = 0; k < all.size(); ++k)
+        faces.fields.push_back({spectrum_names[k], all[k].row(static_cast<Eigen::Index>(f))});
       frames[f].interfaces.push_back(std::move(faces));
     }
   }

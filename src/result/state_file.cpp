@@ -147,7 +147,8 @@ bool write_all(std::FILE* file, const RunState& state) {
   Vec q;
   for (size_t s = 0; s < sizes.size() && is_good; ++s) {
     for (size_t i = 0; i < sizes[s].size() && is_good; ++i) {
-      if (!state.fields->read(s, i, sizes[s][i], q)) throw InputError("the interface fields kept in a file cannot be read back");
+      if (!state.fields->read(s, i, sizes[s][i], q))
+        throw InputError("the interface fields kept in a file cannot be read back");
       const size_t bytes = 8 * static_cast<size_t>(q.size());
       of_fields.add(q.data(), bytes);
       is_good = put(q.data(), bytes);
@@ -185,7 +186,8 @@ RunState read_all(File file) {
   get(&version, 4), get(&order, 4), get(&length, 8);
   if (order != byte_order) throw InputError("it comes from a machine with another order of bytes");
   if (version != format_version)
-    throw InputError(fmt::format("it has version {} of the format, this program reads version {}", version, format_version));
+    throw InputError(
+        fmt::format("it has version {} of the format, this program reads version {}", version, format_version));
   fseeko(file.get(), 0, SEEK_END);
   if (static_cast<std::uint64_t>(ftello(file.get())) < start_of_header + length || length > (std::uint64_t{1} << 40))
     throw InputError("it ends too soon");

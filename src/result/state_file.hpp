@@ -31,21 +31,21 @@ struct StateStep {
 };
 
 struct RunState {
-  std::string program, problem, case_name;  // program: version that wrote it
-  std::string deck_path, deck_text, solver;  // absolute path; solver: --solver, empty: the deck's
-  std::vector<std::pair<std::string, std::string>> settings;  // --set, as written
+  std::string program, problem, case_name;                        // program: version that wrote it
+  std::string deck_path, deck_text, solver;                       // absolute path; solver: --solver, empty: the deck's
+  std::vector<std::pair<std::string, std::string>> settings;      // --set, as written
   std::vector<std::pair<std::string, std::string>> mesh_digests;  // substructure, digest
-  std::vector<double> loads;       // samples of every load, see load_samples
+  std::vector<double> loads;                                      // samples of every load, see load_samples
   std::vector<StateStep> steps;
-  std::vector<Effort> efforts;     // oldest first; the last is that of the fields kept
+  std::vector<Effort> efforts;  // oldest first; the last is that of the fields kept
   bool converged = true, interrupted = false;
   std::shared_ptr<const InterfaceFields> fields;
 
-  long n_increments() const;       // kept
+  long n_increments() const;  // kept
 };
 
-// Writes a state whole or not at all (to <path>.tmp, then renamed), one increment after the other. Throws InputError with
-// the system's reason, and where the fields cannot be read back.
+// Writes a state whole or not at all (to <path>.tmp, then renamed), one increment after the other. Throws InputError
+// with the system's reason, and where the fields cannot be read back.
 void write_state(const std::filesystem::path& path, const RunState& state);
 
 // Reads a state; its fields stay in the file, which is left open. Throws InputError: no state file, another version or

@@ -31,7 +31,8 @@ class SuperelementSampler : public Sampler {
 
   void summarise(RunResult& result) override {
     if (!element_) return;
-    for (int i = 0; i < element_->frequencies.size(); ++i) add_values({element_->frequencies[i], element_->damping_ratios[i]});
+    for (int i = 0; i < element_->frequencies.size(); ++i)
+      add_values({element_->frequencies[i], element_->damping_ratios[i]});
     result.superelements[&output_] = std::move(*element_);
   }
 

@@ -36,7 +36,8 @@ Vec3 part_of_reaction(const Held& held, const Support* support, const Vec3& reac
   return force;
 }
 
-void add_support(Resultant& r, Vec3& tangential, const Instant& instant, const Problem& problem, const Support& support) {
+void add_support(Resultant& r, Vec3& tangential, const Instant& instant, const Problem& problem,
+                 const Support& support) {
   std::set<std::pair<int, int>> counted;  // nodes that faces of the support share
   for (const FaceOrRegion& on : support.on) {
     const SubstructurePtr& body = std::visit([](const auto& o) -> const SubstructurePtr& { return o.part; }, on);
@@ -52,8 +53,8 @@ void add_support(Resultant& r, Vec3& tangential, const Instant& instant, const P
       normals = Points::Zero(3, nodes.size());
     }
     const bool is_absorbing = support.kind == SupportKind::absorbing && !instant.is_static();
-    const Points force = is_absorbing ? Points(instant.absorbing_force(part) + instant.state.anchor[part])
-                                      : instant.reactions(part);
+    const Points force =
+        is_absorbing ? Points(instant.absorbing_force(part) + instant.state.anchor[part]) : instant.reactions(part);
     for (size_t i = 0; i < nodes.size(); ++i) {
       if (!counted.emplace(part, nodes[i]).second) continue;
       const Held* held = instant.model.conditions.at(part, nodes[i]);

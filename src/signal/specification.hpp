@@ -15,12 +15,13 @@ struct Specification {
   double level_at(double frequency) const;
 };
 
-// Throws InputError unless there are two points at least, frequencies above zero that increase, levels above zero. `where` starts
-// the message, point by point ("spec.csv:3", "'specification[2]'").
+// Throws InputError unless there are two points at least, frequencies above zero that increase, levels above zero.
+// `where` starts the message, point by point ("spec.csv:3", "'specification[2]'").
 void check_specification(const Specification& specification, const std::vector<std::string>& where);
 
-// Two columns, frequency (Hz) and level, separated by a comma, a semicolon or blanks; lines of # and one header line are passed
-// over. Levels are m/s^2, or g (9.80665 m/s^2) where the header's second column says [g]. Throws InputError with file:line.
+// Two columns, frequency (Hz) and level, separated by a comma, a semicolon or blanks; lines of # and one header line
+// are passed over. Levels are m/s^2, or g (9.80665 m/s^2) where the header's second column says [g]. Throws InputError
+// with file:line.
 Specification read_specification(const std::string& path);
 
 // Where a spectrum is highest above its specification, or nearest below it (manual, eq. R2).
@@ -30,8 +31,9 @@ struct Exceedance {
   bool is_known = false;   // false: the spectrum and the specification share no frequency
 };
 
-// Frequencies (Hz) and values (m/s^2) of the spectrum; those outside the specification, and values that are not above zero, are
-// passed over.
-Exceedance largest_exceedance(const Specification& specification, const std::vector<double>& frequency, const std::vector<double>& value);
+// Frequencies (Hz) and values (m/s^2) of the spectrum; those outside the specification, and values that are not above
+// zero, are passed over.
+Exceedance largest_exceedance(const Specification& specification, const std::vector<double>& frequency,
+                              const std::vector<double>& value);
 
 }  // namespace dygita

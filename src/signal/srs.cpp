@@ -14,7 +14,8 @@ namespace dygita {
 namespace {
 
 constexpr double samples_per_period = 40.0;
-constexpr int least_factor = 8;     // content above the natural frequency needs its samples too: 16 a period at the Nyquist frequency
+constexpr int least_factor =
+    8;  // content above the natural frequency needs its samples too: 16 a period at the Nyquist frequency
 constexpr int largest_factor = 64;  // far above the Nyquist frequency the response is the signal itself
 
 void check(const std::vector<double>& signal, double dt, const SrsSettings& settings) {
@@ -100,9 +101,7 @@ std::string srs_unit(SrsQuantity quantity, const std::string& unit) {
   return unit + (is_velocity ? " s" : " s^2");
 }
 
-double q_factor_of(double damping) {
-  return damping > 0.0 ? 0.5 / damping : std::numeric_limits<double>::infinity();
-}
+double q_factor_of(double damping) { return damping > 0.0 ? 0.5 / damping : std::numeric_limits<double>::infinity(); }
 
 Srs shock_response_spectrum(const std::vector<double>& signal, double dt, const SrsSettings& settings) {
   check(signal, dt, settings);

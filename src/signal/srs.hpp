@@ -25,8 +25,8 @@ struct SrsSettings {
 };
 
 // One entry a natural frequency (Hz), from, from 2^(1/per_octave), ... up to `to`. The others in
-// srs_unit, none negative: `positive` and `negative` are the largest response of each sign, during the record and after it,
-// `maximax` the larger of the two; `primary` is the maximax during the record, `residual` after it, where the base
+// srs_unit, none negative: `positive` and `negative` are the largest response of each sign, during the record and after
+// it, `maximax` the larger of the two; `primary` is the maximax during the record, `residual` after it, where the base
 // stands still.
 struct Srs {
   std::vector<double> frequency, maximax, positive, negative, primary, residual;

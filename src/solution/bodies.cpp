@@ -32,7 +32,8 @@ std::vector<char> nodes_in_contact_alone(const Problem& problem, const std::vect
   if (part->material.damping.stiffness > 0.0) return marked;  // the force at the end of a step would not be symmetric
   std::vector<int> n_surfaces(marked.size(), 0);
   const auto mark = [&](const Surface& surface, char value) {
-    for (const auto& [part_here, nodes] : {std::pair{surface.part_1, &surface.facing.nodes_1}, {surface.part_2, &surface.facing.nodes_2}})
+    for (const auto& [part_here, nodes] :
+         {std::pair{surface.part_1, &surface.facing.nodes_1}, {surface.part_2, &surface.facing.nodes_2}})
       if (part_here == i_part)
         for (const int node : *nodes) {
           marked[node] = value;

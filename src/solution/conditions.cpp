@@ -52,7 +52,8 @@ namespace {
 
 class Builder {
  public:
-  Builder(const Problem& problem, const Step& step, const State& start) : problem_(problem), step_(step), start_(start) {
+  Builder(const Problem& problem, const Step& step, const State& start)
+      : problem_(problem), step_(step), start_(start) {
     result_.held.resize(problem.substructures.size());
   }
 
@@ -65,7 +66,8 @@ class Builder {
 
  private:
   void add_support(const Support& support) {
-    const bool holds_all = support.kind == SupportKind::fixed || (support.kind == SupportKind::absorbing && step_.is_static);
+    const bool holds_all =
+        support.kind == SupportKind::fixed || (support.kind == SupportKind::absorbing && step_.is_static);
     if (!holds_all && support.kind != SupportKind::symmetry) return;
     const std::vector<std::pair<Vec3, int>> moves = base_motions(support);
     for (const FaceOrRegion& on : support.on) {
@@ -98,7 +100,8 @@ class Builder {
         const auto* on = std::get_if<SupportPtr>(&target);
         if (!on || on->get() != &support) continue;
         const History history = *load->value[0];
-        moves.emplace_back(load->direction, add({[history, dt](int i) { return history.integral(0.0, dt * (i + 1)); }}));
+        moves.emplace_back(load->direction,
+                           add({[history, dt](int i) { return history.integral(0.0, dt * (i + 1)); }}));
       }
     }
     return moves;
@@ -120,7 +123,8 @@ class Builder {
 
   Motion motion_of(const Load& load, const Target& target, int axis) const {
     const auto reached = start_.reached.find(load_key(load.kind, target, axis));
-    const LoadValue value{*load.value[axis], load.is_number[axis], reached == start_.reached.end() ? 0.0 : reached->second};
+    const LoadValue value{*load.value[axis], load.is_number[axis],
+                          reached == start_.reached.end() ? 0.0 : reached->second};
     const double dt = step_.dt;
     const int n = step_.n_increments();
     if (step_.is_static) {
@@ -129,14 +133,17 @@ class Builder {
                                           "': a static step has no time; use load.displacement");
       return {[value, n](int i) { return value.at_static(i, n) - value.at_static(i - 1, n); }};
     }
-    if (load.kind == LoadKind::velocity) 
+    if (load.kind == LoadKind::velocity)
       return {[value, dt](int i) { return value.history.value(dt * (i + 1)); }, value.history.value(0.0)};
     const double start = value.history.value(0.0);
     if (std::abs(start - value.from) > 1e-9 + 1e-6 * std::abs(start))
-      warn(fmt::format("{}load.displacement in dynamic step '{}' starts at {:.6g} m where {:.6g} m has been reached: only its changes in the "
-                       "step move the nodes; start the history from there, or bring it there in a static step",
-                       load.origin.prefix(), step_.name, start, value.from));
-    // U is then the two-point mean of the prescribed displacement and nothing alternates (manual, prescribed displacement).
+      warn(
+          fmt::format("{}load.displacement in dynamic step '{}' starts at {:.6g} m where {:.6g} m has been reached: "
+                      "only its changes in the "
+                      "step move the nodes; start the history from there, or bring it there in a static step",
+                      load.origin.prefix(), step_.name, start, value.from));
+    // U is then the two-point mean of the prescribed displacement and nothing alternates (manual, prescribed
+    // displacement).
     const auto mean = [value, dt](double i) {
       return (value.history.value(dt * (i + 0.5)) - value.history.value(dt * (i - 0.5))) / dt;
     };
@@ -149,8 +156,8 @@ class Builder {
   }
 
   // Adds direction . u = sum of motions to a node, orthogonalised against what it has.
-  void hold(int part, int node, const Vec3& direction, const std::vector<std::pair<Vec3, int>>& moves, const Support* support,
-            const std::string& name, const Origin& origin) {
+  void hold(int part, int node, const Vec3& direction, const std::vector<std::pair<Vec3, int>>& moves,
+            const Support* support, const std::string& name, const Origin& origin) {
     Held& held = result_.held[part][node];
     Vec3 rest = direction;
     std::vector<std::pair<int, double>> motion;
@@ -163,8 +170,9 @@ class Builder {
     }
     if (held.n == 3 || rest.norm() < 1e-6) {
       if (!moves.empty() && !support)
-        throw InputError(origin, fmt::format("{} moves node {} of substructure '{}', which is already held in that direction",
-                                             name, node, problem_.substructures[part]->name));
+        throw InputError(
+            origin, fmt::format("{} moves node {} of substructure '{}', which is already held in that direction", name,
+                                node, problem_.substructures[part]->name));
       return;
     }
     for (auto& [index, factor] : motion) factor /= rest.norm();

@@ -20,9 +20,9 @@ struct Motion {
 // Held directions of one node: orthonormal; each moves as a combination of motions (none: it rests).
 struct Held {
   int n = 0;
-  Mat3 directions = Mat3::Zero();                                   // first n columns
-  std::array<std::vector<std::pair<int, double>>, 3> motion;        // (index in Conditions::motions, factor)
-  std::array<const Support*, 3> support{};                          // who holds it, null for a load
+  Mat3 directions = Mat3::Zero();                             // first n columns
+  std::array<std::vector<std::pair<int, double>>, 3> motion;  // (index in Conditions::motions, factor)
+  std::array<const Support*, 3> support{};                    // who holds it, null for a load
 
   // An orthonormal basis of what is left free: 3 x (3 - n).
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> free_basis() const;
@@ -35,8 +35,8 @@ struct Conditions {
   const Held* at(int part, int node) const;
 };
 
-// Supports in force and prescribed motions of a step. Throws InputError when a motion is prescribed where something else
-// already holds the node.
+// Supports in force and prescribed motions of a step. Throws InputError when a motion is prescribed where something
+// else already holds the node.
 Conditions make_conditions(const Problem& problem, const Step& step, const State& start);
 
 // Value of one load component over a step: what the number or history means in a static and in a dynamic step.

@@ -12,9 +12,9 @@ namespace dygita {
 
 namespace {
 
-// The automatic cut (manual, cutting): a substructure that holds more than half of all unknowns would leave other threads idle, one
-// too large would take long to factorise and much memory. Others are left whole: products with what a cut adds to the interface cost
-// more than the cut spares.
+// The automatic cut (manual, cutting): a substructure that holds more than half of all unknowns would leave other
+// threads idle, one too large would take long to factorise and much memory. Others are left whole: products with what a
+// cut adds to the interface cost more than the cut spares.
 constexpr double smallest_cut = 20e3, largest_piece = 150e3;  // unknowns
 constexpr int pieces_of_the_dominant = 4;
 
@@ -78,7 +78,9 @@ void Cut::add_cut(int part, const SubstructurePtr& body, const std::vector<int>&
     CutPiece& piece = pieces_[p];
     const double side = std::pow(volume(*piece.body->mesh) / piece.body->mesh->n_nodes(), 2.0 / 3.0);
     for (size_t i = 0; i < piece.nodes.size(); ++i)
-      if (double& area = piece.cut_areas[static_cast<Eigen::Index>(i)]; area == 0.0 && !others_[part][piece.nodes[i]].empty()) area = side;
+      if (double& area = piece.cut_areas[static_cast<Eigen::Index>(i)];
+          area == 0.0 && !others_[part][piece.nodes[i]].empty())
+        area = side;
   }
 }
 
@@ -120,7 +122,8 @@ CutPtr make_cut(const Problem& problem) {
   std::vector<int> n_pieces;
   double unknowns = 0.0;
   for (const SubstructurePtr& part : problem.substructures) unknowns += 3.0 * part->mesh->n_nodes();
-  for (const SubstructurePtr& part : problem.substructures) n_pieces.push_back(pieces_of(*part, unknowns, problem.solver.pieces));
+  for (const SubstructurePtr& part : problem.substructures)
+    n_pieces.push_back(pieces_of(*part, unknowns, problem.solver.pieces));
   return std::make_shared<const Cut>(problem, n_pieces);
 }
 

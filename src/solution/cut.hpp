@@ -1,5 +1,5 @@
-// How substructures are cut into the pieces that are solved (manual, cutting): what a deck names, and every result, is of whole
-// substructures.
+// How substructures are cut into the pieces that are solved (manual, cutting): what a deck names, and every result, is
+// of whole substructures.
 #pragma once
 
 #include <memory>
@@ -11,11 +11,12 @@ namespace dygita {
 
 // One piece: cells of a substructure, and the nodes they have.
 struct CutPiece {
-  int part = -1;               // index of the substructure
-  SubstructurePtr body;        // the piece as a body of its own; the substructure itself where that is not cut
-  std::vector<int> nodes;      // node of the substructure at each node of the piece; empty: not cut, the same numbers
-  std::vector<char> is_owner;  // of each node of the piece: this copy carries what belongs to the node once; empty: not cut
-  Vec cut_areas;               // m^2, of each node of the piece: its share of the cut, positive on it; empty: not cut
+  int part = -1;           // index of the substructure
+  SubstructurePtr body;    // the piece as a body of its own; the substructure itself where that is not cut
+  std::vector<int> nodes;  // node of the substructure at each node of the piece; empty: not cut, the same numbers
+  std::vector<char>
+      is_owner;   // of each node of the piece: this copy carries what belongs to the node once; empty: not cut
+  Vec cut_areas;  // m^2, of each node of the piece: its share of the cut, positive on it; empty: not cut
 
   bool is_whole() const { return nodes.empty(); }
   int node(int i) const { return is_whole() ? i : nodes[i]; }
@@ -44,10 +45,12 @@ class Cut {
   std::vector<Copy> copies(int part, int node) const;
   Copy owner(int part, int node) const { return is_cut(part) ? owner_[part][node] : Copy{first_[part], node, 1.0}; }
 
-  // Values (3 x n) at the piece's nodes of a field on its substructure: at every copy, or zero at those that are no owners.
+  // Values (3 x n) at the piece's nodes of a field on its substructure: at every copy, or zero at those that are no
+  // owners.
   Points on_piece(int piece, const Points& nodal) const;
   Points on_owners(int piece, const Points& nodal) const;
-  // Field on a substructure from those on its pieces: of the owners, or summed over the copies. of_piece(i): 3 x n of piece i.
+  // Field on a substructure from those on its pieces: of the owners, or summed over the copies. of_piece(i): 3 x n of
+  // piece i.
   template <class OfPiece>
   Points from_owners(int part, OfPiece&& of_piece) const {
     if (!is_cut(part)) return of_piece(first_[part]);
@@ -75,8 +78,8 @@ class Cut {
 
   std::vector<CutPiece> pieces_;
   std::vector<int> first_;
-  std::vector<std::vector<Copy>> owner_;               // of each node of the substructures that are cut
-  std::vector<std::vector<std::vector<Copy>>> others_; // the other copies of the nodes on a cut
+  std::vector<std::vector<Copy>> owner_;                // of each node of the substructures that are cut
+  std::vector<std::vector<std::vector<Copy>>> others_;  // the other copies of the nodes on a cut
 };
 
 using CutPtr = std::shared_ptr<const Cut>;
@@ -84,9 +87,9 @@ using CutPtr = std::shared_ptr<const Cut>;
 // Every substructure in one piece.
 CutPtr no_cut(const Problem& problem);
 
-// As the problem's solver.latin has it: into a number of pieces, or large substructures only (manual, cutting); by sizes alone, so
-// that the answer does not depend on the machine. A substructure gets fewer pieces than asked for where they would have less than
-// 8 cells each; with massless contact none is cut.
+// As the problem's solver.latin has it: into a number of pieces, or large substructures only (manual, cutting); by
+// sizes alone, so that the answer does not depend on the machine. A substructure gets fewer pieces than asked for where
+// they would have less than 8 cells each; with massless contact none is cut.
 CutPtr make_cut(const Problem& problem);
 
 }  // namespace dygita

@@ -42,7 +42,7 @@ struct LawCluster {
   int group_1 = -1, group_2 = -1;  // -1: wall
   const Law* law = nullptr;
   std::vector<Member> members;
-  Vec3 normal = Vec3::Zero();      // area-weighted sum
+  Vec3 normal = Vec3::Zero();  // area-weighted sum
   double area = 0.0;
 };
 
@@ -69,7 +69,8 @@ class Builder {
 
  private:
   NodeKey side(const Surface& s, int i, int which) const {
-    const Copy copy = which == 1 ? cut_.owner(s.part_1, s.facing.nodes_1[i]) : cut_.owner(s.part_2, s.facing.nodes_2[i]);
+    const Copy copy =
+        which == 1 ? cut_.owner(s.part_1, s.facing.nodes_1[i]) : cut_.owner(s.part_2, s.facing.nodes_2[i]);
     return {copy.piece, copy.node};
   }
   int part_of(const NodeKey& key) const { return cut_.piece(key.first).part; }
@@ -106,8 +107,8 @@ class Builder {
     }
   }
 
-  // Points between the same two groups that have the same law and nearly the same normal become one law: faces of several
-  // substructures that lie side by side are one contact.
+  // Points between the same two groups that have the same law and nearly the same normal become one law: faces of
+  // several substructures that lie side by side are one contact.
   void make_clusters() {
     std::map<std::tuple<const Law*, int, int>, std::vector<int>> known;
     for (size_t s = 0; s < surfaces_.size(); ++s) {
@@ -149,14 +150,16 @@ class Builder {
     std::string path;
     for (const Surface& other : surfaces_)
       if (!other.law && other.part_2 >= 0) path += (path.empty() ? "'" : ", '") + other.name() + "'";
-    throw InputError(surface.interface->origin,
-                     fmt::format("interface '{}': its two sides are tied to each other at node {} of '{}' ({:.6g}, {:.6g}, {:.6g}) "
-                                 "through bonded interfaces ({}): what is tied cannot move apart there",
-                                 surface.name(), surface.facing.nodes_1[i], problem_.substructures[surface.part_1]->name, x[0],
-                                 x[1], x[2], path));
+    throw InputError(
+        surface.interface->origin,
+        fmt::format("interface '{}': its two sides are tied to each other at node {} of '{}' ({:.6g}, {:.6g}, {:.6g}) "
+                    "through bonded interfaces ({}): what is tied cannot move apart there",
+                    surface.name(), surface.facing.nodes_1[i], problem_.substructures[surface.part_1]->name, x[0], x[1],
+                    x[2], path));
   }
 
-  // Sides of a law at a group: all of it where this is the group's only law, else the substructures that face each other.
+  // Sides of a law at a group: all of it where this is the group's only law, else the substructures that face each
+  // other.
   std::vector<NodeKey> ports_of(const LawCluster& cluster, int group, int which) {
     if (n_laws_[group] == 1) return members_[group];
     std::vector<NodeKey> keys;
@@ -222,7 +225,8 @@ class Builder {
   }
 
   // A frame whose axes contain the held directions of every side: conditions are then per direction.
-  Mat3 make_frame(const Vec3& normal, const std::vector<NodeKey>& keys, bool needs_normal, const std::vector<Member>& members) const {
+  Mat3 make_frame(const Vec3& normal, const std::vector<NodeKey>& keys, bool needs_normal,
+                  const std::vector<Member>& members) const {
     std::vector<Vec3> axes;  // single held directions, or the single free one
     for (const NodeKey& key : keys) {
       const Held* held = conditions_.at(part_of(key), node_of(key));
@@ -255,11 +259,14 @@ class Builder {
     return frame;
   }
 
-  [[noreturn]] void fail_oblique(const std::vector<Member>& members, const NodeKey& key, const Vec3& n, const Vec3& axis) const {
-    const std::string what = members.empty() ? "bonded interfaces" : "interface '" + surfaces_[members.front().surface].name() + "'";
-    throw InputError(fmt::format("{} at node {} of '{}': the normal ({:.4f}, {:.4f}, {:.4f}) is neither along nor across the held direction "
-                                 "({:.4f}, {:.4f}, {:.4f}) of a support or prescribed motion",
-                                 what, node_of(key), problem_.substructures[part_of(key)]->name, n[0], n[1], n[2], axis[0], axis[1], axis[2]));
+  [[noreturn]] void fail_oblique(const std::vector<Member>& members, const NodeKey& key, const Vec3& n,
+                                 const Vec3& axis) const {
+    const std::string what =
+        members.empty() ? "bonded interfaces" : "interface '" + surfaces_[members.front().surface].name() + "'";
+    throw InputError(fmt::format(
+        "{} at node {} of '{}': the normal ({:.4f}, {:.4f}, {:.4f}) is neither along nor across the held direction "
+        "({:.4f}, {:.4f}, {:.4f}) of a support or prescribed motion",
+        what, node_of(key), problem_.substructures[part_of(key)]->name, n[0], n[1], n[2], axis[0], axis[1], axis[2]));
   }
 
   void add_ties() {
@@ -274,7 +281,8 @@ class Builder {
             if (NodeKey{exchange_.ports[p].piece, exchange_.ports[p].piece_node} == key) return p;
           return -1;
         };
-        exchange_.ties.push_back({index, port_of(side(surface, i, 1)), port_of(side(surface, i, 2)), static_cast<int>(s), i});
+        exchange_.ties.push_back(
+            {index, port_of(side(surface, i, 1)), port_of(side(surface, i, 2)), static_cast<int>(s), i});
       }
     }
   }
@@ -294,7 +302,8 @@ class Builder {
 
 }  // namespace
 
-Exchange make_exchange(const Problem& problem, const Cut& cut, const std::vector<Surface>& surfaces, const Conditions& conditions) {
+Exchange make_exchange(const Problem& problem, const Cut& cut, const std::vector<Surface>& surfaces,
+                       const Conditions& conditions) {
   return Builder(problem, cut, surfaces, conditions).build();
 }
 

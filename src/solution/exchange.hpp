@@ -1,8 +1,8 @@
 // The one object through which substructures and interfaces exchange velocity and traction.
 //
 // A port is one piece's side of one law at one node; its unknowns q = F_hat + k W_hat live in the law's frame.
-// Plain bonded ties that meet at a node form a group, and so do the copies of a node that a cut has made; a point is the law between two groups (or a group and a wall),
-// or the tie of one group alone (manual, groups).
+// Plain bonded ties that meet at a node form a group, and so do the copies of a node that a cut has made; a point is
+// the law between two groups (or a group and a wall), or the tie of one group alone (manual, groups).
 #pragma once
 
 #include <array>
@@ -15,12 +15,12 @@
 namespace dygita {
 
 struct Port {
-  int part = -1, node = -1;                   // substructure and its node
-  int piece = -1, piece_node = -1;            // the same in the piece; equal where nothing is cut
-  bool is_owner = true;                       // of the node's copies the one that forces of surfaces are booked on
-  double area = 0.0;                          // m^2, of the facets that meet there
-  std::array<int, 3> unknown{-1, -1, -1};     // index in the piece's q of each frame direction; -1: none
-  std::array<bool, 3> is_held{};              // the direction belongs to a support or a prescribed motion
+  int part = -1, node = -1;                // substructure and its node
+  int piece = -1, piece_node = -1;         // the same in the piece; equal where nothing is cut
+  bool is_owner = true;                    // of the node's copies the one that forces of surfaces are booked on
+  double area = 0.0;                       // m^2, of the facets that meet there
+  std::array<int, 3> unknown{-1, -1, -1};  // index in the piece's q of each frame direction; -1: none
+  std::array<bool, 3> is_held{};           // the direction belongs to a support or a prescribed motion
 };
 
 // One point of a surface that a law point stands for, and its share of the force.
@@ -30,18 +30,18 @@ struct Member {
 };
 
 struct Point {
-  Mat3 frame = Mat3::Identity();              // columns N, T1, T2; N from side 1 to side 2
-  double area = 0.0;                          // m^2
-  const Law* law = nullptr;                   // null: the tie of a group alone
+  Mat3 frame = Mat3::Identity();                       // columns N, T1, T2; N from side 1 to side 2
+  double area = 0.0;                                   // m^2
+  const Law* law = nullptr;                            // null: the tie of a group alone
   int first_port = 0, first_port_2 = 0, end_port = 0;  // ports of side 1, then of side 2
-  bool is_wall = false;                       // side 2 is rigid and at rest
-  std::array<bool, 3> is_active{};            // directions that carry an unknown
+  bool is_wall = false;                                // side 2 is rigid and at rest
+  std::array<bool, 3> is_active{};                     // directions that carry an unknown
   std::vector<Member> members;
 };
 
 // A plain bonded pair inside a group: how outputs split a substructure's force over its interfaces.
 struct Tie {
-  int point;                                  // index of the group's point
+  int point;  // index of the group's point
   int port_1, port_2;
   int surface, surface_point;
 };
@@ -50,11 +50,13 @@ struct Exchange {
   std::vector<Port> ports;
   std::vector<Point> points;
   std::vector<Tie> ties;
-  std::vector<int> n_unknowns;                // of each piece
+  std::vector<int> n_unknowns;  // of each piece
 };
 
-// Builds the points of a step from the surfaces and what the step holds. Throws InputError when both sides of a law belong to
-// one group (a bolt shortened between bodies that are tied), or a held direction lies oblique to a law's normal.
-Exchange make_exchange(const Problem& problem, const Cut& cut, const std::vector<Surface>& surfaces, const Conditions& conditions);
+// Builds the points of a step from the surfaces and what the step holds. Throws InputError when both sides of a law
+// belong to one group (a bolt shortened between bodies that are tied), or a held direction lies oblique to a law's
+// normal.
+Exchange make_exchange(const Problem& problem, const Cut& cut, const std::vector<Surface>& surfaces,
+                       const Conditions& conditions);
 
 }  // namespace dygita

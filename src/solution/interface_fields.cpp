@@ -10,7 +10,8 @@
 
 namespace dygita {
 
-InterfaceFields::InterfaceFields(std::FILE* file, const std::vector<std::vector<Place>>& steps) : budget_(0.0), file_(file) {
+InterfaceFields::InterfaceFields(std::FILE* file, const std::vector<std::vector<Place>>& steps)
+    : budget_(0.0), file_(file) {
   for (const std::vector<Place>& places : steps) {
     begin_step();
     for (const Place& place : places) {
@@ -73,7 +74,8 @@ bool InterfaceFields::read(size_t i_step, size_t increment, Eigen::Index size, V
   }
   Vec from_file(size);
   const auto n = static_cast<size_t>(size);
-  if (fseeko(file_.get(), kept.at, SEEK_SET) != 0 || std::fread(from_file.data(), sizeof(double), n, file_.get()) != n) return false;
+  if (fseeko(file_.get(), kept.at, SEEK_SET) != 0 || std::fread(from_file.data(), sizeof(double), n, file_.get()) != n)
+    return false;
   q = std::move(from_file);
   return true;
 }

@@ -10,8 +10,8 @@
 
 namespace dygita {
 
-// q of every increment of every step (assembled order of the step's exchange; N), for another case to start from. Up to a budget they
-// stay in memory, what comes after goes to a file that has no name and vanishes with this object.
+// q of every increment of every step (assembled order of the step's exchange; N), for another case to start from. Up to
+// a budget they stay in memory, what comes after goes to a file that has no name and vanishes with this object.
 class InterfaceFields {
  public:
   // Where the q of an increment lies in a file, bytes, and its unknowns.
@@ -43,8 +43,8 @@ class InterfaceFields {
 
  private:
   struct Kept {
-    Vec q;                  // empty: in the file
-    std::int64_t at = -1;   // where in the file, bytes; -1: in memory
+    Vec q;                 // empty: in the file
+    std::int64_t at = -1;  // where in the file, bytes; -1: in memory
     Eigen::Index size = 0;
   };
   struct Close {

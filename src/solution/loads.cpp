@@ -34,7 +34,8 @@ int part_of(const Problem& problem, const Target& target) {
 }
 
 bool is_force(LoadKind kind) {
-  return kind == LoadKind::pressure || kind == LoadKind::traction || kind == LoadKind::force || kind == LoadKind::gravity;
+  return kind == LoadKind::pressure || kind == LoadKind::traction || kind == LoadKind::force ||
+         kind == LoadKind::gravity;
 }
 
 // Gravity acts on every part: its pattern is the mass.
@@ -76,12 +77,14 @@ Loads::Loads(const Problem& problem, const Step& step, const State& start, const
 void Loads::add_component(const Load& load, const Target& target, int component, const State& start) {
   const std::string key = load_key(load.kind, target, component);
   const auto it = start.reached.find(key);
-  const LoadValue value{*load.value[component], load.is_number[component], it == start.reached.end() ? 0.0 : it->second};
+  const LoadValue value{*load.value[component], load.is_number[component],
+                        it == start.reached.end() ? 0.0 : it->second};
   if (is_force(load.kind)) {
     patterns_.push_back({part_of(problem_, target), unit_pattern(load.kind, target, component), value, key});
   } else if (load.kind == LoadKind::shortening) {
     const Interface* interface = std::get<InterfacePtr>(target).get();
-    // The bolt keeps the length its last step gave it: a later shortening starts from there. Interfaces are the first surfaces.
+    // The bolt keeps the length its last step gave it: a later shortening starts from there. Interfaces are the first
+    // surfaces.
     LoadValue from_there = value;
     from_there.from = start.shortening.at(index_of(problem_.interfaces, interface));
     shortenings_.emplace_back(interface, from_there);
@@ -90,7 +93,8 @@ void Loads::add_component(const Load& load, const Target& target, int component,
   } else if (load.kind == LoadKind::release) {
     releases_.emplace_back(std::get<InterfacePtr>(target).get(), load.value[component]->value(0.0));
   } else if (load.kind == LoadKind::displacement) {
-    motions_reached_[key] = step_.is_static ? value.at_static(step_.increments - 1, step_.increments) : value.history.value(step_.duration);
+    motions_reached_[key] =
+        step_.is_static ? value.at_static(step_.increments - 1, step_.increments) : value.history.value(step_.duration);
   }
 }
 
@@ -106,10 +110,13 @@ void Loads::add_vanished(const State& start) {
       for (const Target& target : load->on) {
         const std::string key = load_key(load->kind, target, c);
         const auto it = start.reached.find(key);
-        const bool listed = std::any_of(patterns_.begin(), patterns_.end(), [&](const auto& p) { return p.key == key; });
+        const bool listed =
+            std::any_of(patterns_.begin(), patterns_.end(), [&](const auto& p) { return p.key == key; });
         if (listed || it == start.reached.end() || it->second == 0.0) continue;
-        patterns_.push_back({part_of(problem_, target), unit_pattern(load->kind, target, c),
-                             {History::constant(0.0), true, it->second}, key});
+        patterns_.push_back({part_of(problem_, target),
+                             unit_pattern(load->kind, target, c),
+                             {History::constant(0.0), true, it->second},
+                             key});
       }
     }
 }
@@ -150,7 +157,9 @@ const LoadValue* Loads::preload(const Interface* interface) const {
 
 bool Loads::is_released(const Interface* interface, int increment) const {
   for (const auto& [on, at] : releases_)
-    if (on == interface && (step_.is_static ? (increment + 1.0) / step_.increments : step_.dt * (increment + 0.5)) >= at) return true;
+    if (on == interface &&
+        (step_.is_static ? (increment + 1.0) / step_.increments : step_.dt * (increment + 0.5)) >= at)
+      return true;
   return false;
 }
 

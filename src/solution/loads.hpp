@@ -18,8 +18,8 @@ class Loads {
   // masses: nodal masses (kg) of each substructure, for gravity.
   Loads(const Problem& problem, const Step& step, const State& start, const std::vector<const Vec*>& masses);
 
-  // Evaluates all loads for an increment: at its end in a static step, mean over it in a dynamic one. One thread only: a history
-  // may be a function of the deck.
+  // Evaluates all loads for an increment: at its end in a static step, mean over it in a dynamic one. One thread only:
+  // a history may be a function of the deck.
   void evaluate(int increment);
   // The same in a dynamic step for the mean over [t0, t1], s from the start of the step.
   void evaluate_mean(double t0, double t1);

@@ -18,9 +18,9 @@ class NodalFields {
 
 struct Instant {
   const StepModel& model;
-  const State& state;       // surfaces, energies and time are those of this instant; nodal fields come from the pieces
-  int i_step = 0;           // index in the problem's steps
-  int increment = -1;       // -1: the step's start
+  const State& state;  // surfaces, energies and time are those of this instant; nodal fields come from the pieces
+  int i_step = 0;      // index in the problem's steps
+  int increment = -1;  // -1: the step's start
   int iterations = 0;
   double indicator = 0.0;
   bool converged = true;

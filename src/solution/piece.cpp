@@ -33,12 +33,14 @@ void Piece::make_bases() {
     const int n_held = basis.n;
     for (int j = 0; j < n_held; ++j) held_.push_back({node, basis.directions.col(j), basis.motion[j]});
     for (const Vec3& d : directions)
-      if (basis.n < 3 && (basis.directions.leftCols(basis.n).transpose() * d).norm() < 1e-9) basis.directions.col(basis.n++) = d;
+      if (basis.n < 3 && (basis.directions.leftCols(basis.n).transpose() * d).norm() < 1e-9)
+        basis.directions.col(basis.n++) = d;
     const auto rest = basis.free_basis();
     Mat3 free;
     const int n_free = 3 - n_held;
     for (int j = 0; j < n_free; ++j)
-      free.col(j) = n_held + j < basis.n ? Vec3(basis.directions.col(n_held + j)) : Vec3(rest.col(n_held + j - basis.n));
+      free.col(j) =
+          n_held + j < basis.n ? Vec3(basis.directions.col(n_held + j)) : Vec3(rest.col(n_held + j - basis.n));
     special_of_[node] = static_cast<int>(bases_.size());
     n_free_of_[node] = n_free;
     bases_.push_back(free);
@@ -107,7 +109,8 @@ SparseMatrix Piece::free_matrix(const Vec& row_stiffness) const {
       if (special_of_[node] >= 0) block = (bases_[special_of_[node]].transpose() * block).eval();
       if (special_of_[other] >= 0) block = (block * bases_[special_of_[other]]).eval();
       for (int r = 0; r < rows; ++r)
-        for (int c = 0; c < n_free_of_[other]; ++c) a.insertBackUncompressed(first_free_[node] + r, first_free_[other] + c) = block(r, c);
+        for (int c = 0; c < n_free_of_[other]; ++c)
+          a.insertBackUncompressed(first_free_[node] + r, first_free_[other] + c) = block(r, c);
     }
   }
   a.makeCompressed();
@@ -121,18 +124,23 @@ SparseMatrix Piece::free_matrix(const Vec& row_stiffness) const {
   for (const auto& [node, impedance] : absorbing_) add_block(node, (1 - scheme.g) * impedance);
   for (int i = 0; i < row_stiffness.size(); ++i)
     if (row_stiffness[i] != 0.0)
-      add_block(setup_.rows[i].node, row_stiffness[i] * setup_.rows[i].direction * setup_.rows[i].direction.transpose());
+      add_block(setup_.rows[i].node,
+                row_stiffness[i] * setup_.rows[i].direction * setup_.rows[i].direction.transpose());
   return a;
 }
 
-// Bytes that an iteration reads in each form, the two condensed substitutions of a step spread over the usual number of iterations.
+// Bytes that an iteration reads in each form, the two condensed substitutions of a step spread over the usual number of
+// iterations.
 bool Piece::costs_less_in_full(const SparseMatrix& matrix, const std::vector<char>& is_interface) {
   constexpr double iterations = 6.0;
   const double n_b = n_interface_, n = static_cast<double>(node_of_free_.size());
   if (n_b < 0.3 * n || n_b < 300) return false;  // never seen to pay; saves the second ordering
   const double entry = bytes_of_operator_entry();
-  const double full = Factor::predicted_bytes(matrix, node_of_free_, std::vector<char>(node_of_free_.size(), 0), setup_.precision, setup_.storage_error);
-  const double interior = n_b < n ? Factor::predicted_bytes(matrix, node_of_free_, is_interface, setup_.precision, setup_.storage_error) : 0.0;
+  const double full = Factor::predicted_bytes(matrix, node_of_free_, std::vector<char>(node_of_free_.size(), 0),
+                                              setup_.precision, setup_.storage_error);
+  const double interior =
+      n_b < n ? Factor::predicted_bytes(matrix, node_of_free_, is_interface, setup_.precision, setup_.storage_error)
+              : 0.0;
   if (iterations * 2.0 * full >= 2.0 * interior + iterations * entry * 0.5 * n_b * n_b) return false;
   predicted_factor_bytes_ = full;
   return true;
@@ -169,14 +177,17 @@ void Piece::factorise() {
     return;
   }
   if (setup_.is_prediction) {
-    if (!setup_.twin) predicted_factor_bytes_ = Factor::predicted_bytes(matrix, node_of_free_, is_interface, setup_.precision, setup_.storage_error);
+    if (!setup_.twin)
+      predicted_factor_bytes_ =
+          Factor::predicted_bytes(matrix, node_of_free_, is_interface, setup_.precision, setup_.storage_error);
     return;
   }
   std::unique_ptr<Factor> own;
   if (setup_.twin)
     factor_ = setup_.twin->factor_;
   else
-    own = std::make_unique<Factor>(matrix, node_of_free_, is_interface, setup_.what, setup_.precision, setup_.storage_error);
+    own = std::make_unique<Factor>(matrix, node_of_free_, is_interface, setup_.what, setup_.precision,
+                                   setup_.storage_error);
   if (own) {
     Mat schur = own->interface_schur();
     own->release_interface();
@@ -198,7 +209,8 @@ void Piece::factorise() {
     double diagonal = 0.0;
     for (int a = 0; a < traces_[i].n; ++a)
       for (int b = 0; b < traces_[i].n; ++b)
-        diagonal += traces_[i].value[a] * traces_[i].value[b] * (*schur_)(traces_[i].at[a] - n_i, traces_[i].at[b] - n_i);
+        diagonal +=
+            traces_[i].value[a] * traces_[i].value[b] * (*schur_)(traces_[i].at[a] - n_i, traces_[i].at[b] - n_i);
     schur_diagonal_[i] = diagonal / setup_.rows[i].n_sharing;
   }
 }
@@ -218,8 +230,8 @@ void Piece::set_search_directions(const Vec& k, bool plain) {
   CHECK(k.size() == n_rows(), "one search direction a row");
   k_ = k;
   if (is_mostly_interface_) {
-    plain_factor_ = std::make_unique<Factor>(free_matrix(k), node_of_free_, std::vector<char>(node_of_free_.size(), 0), setup_.what,
-                                             setup_.precision, setup_.storage_error);
+    plain_factor_ = std::make_unique<Factor>(free_matrix(k), node_of_free_, std::vector<char>(node_of_free_.size(), 0),
+                                             setup_.what, setup_.precision, setup_.storage_error);
     return;
   }
   if (!factor_) return;
@@ -228,27 +240,30 @@ void Piece::set_search_directions(const Vec& k, bool plain) {
     const Piece* twin = setup_.twin;
     h_ = twin && twin->h_ && (twin->k_.array() == k.array()).all()
              ? twin->h_
-             : std::make_shared<const SymmetricOperator>(inverse_spd(with_search_directions(*schur_, k), setup_.what), setup_.precision, setup_.storage_error / 16);
+             : std::make_shared<const SymmetricOperator>(inverse_spd(with_search_directions(*schur_, k), setup_.what),
+                                                         setup_.precision, setup_.storage_error / 16);
     schur_.reset();
     return;
   }
-  // The plain path: another matrix, another ordering, the whole solve at every iteration. It takes vectors in this factor's order.
+  // The plain path: another matrix, another ordering, the whole solve at every iteration. It takes vectors in this
+  // factor's order.
   const SparseMatrix a = free_matrix(k);
   plain_factor_ = std::make_unique<Factor>(a, node_of_free_, std::vector<char>(node_of_free_.size(), 0), setup_.what);
 }
 
 bool Piece::equals(const Setup& other) const {
   const Setup& own = setup_;
-  if (own.body->matrices != other.body->matrices || own.body->mass != other.body->mass || own.precision != other.precision ||
-      own.is_assembled || other.is_assembled || own.rows.size() != other.rows.size() || !absorbing_.empty() || !other.absorbing->empty())
+  if (own.body->matrices != other.body->matrices || own.body->mass != other.body->mass ||
+      own.precision != other.precision || own.is_assembled || other.is_assembled ||
+      own.rows.size() != other.rows.size() || !absorbing_.empty() || !other.absorbing->empty())
     return false;
   // Frames of places that differ by a shift agree but for rounding.
   const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-12 * (std::abs(a) + std::abs(b)); };
   const auto same_direction = [](const Vec3& a, const Vec3& b) { return (a - b).norm() < 1e-12; };
   for (size_t i = 0; i < own.rows.size(); ++i) {
     const Row &a = own.rows[i], &b = other.rows[i];
-    if (a.node != b.node || !same_direction(a.direction, b.direction) || !same(a.reference_stiffness, b.reference_stiffness) ||
-        !same(a.n_sharing, b.n_sharing))
+    if (a.node != b.node || !same_direction(a.direction, b.direction) ||
+        !same(a.reference_stiffness, b.reference_stiffness) || !same(a.n_sharing, b.n_sharing))
       return false;
   }
   size_t n_held = 0;
@@ -273,12 +288,14 @@ Mat Piece::plain_row_compliance() const {
     std::vector<int> place(n_free());
     for (int i = 0; i < n_free(); ++i) place[plain_factor_->order()[i]] = i;
     for (int c = 0; c < n; ++c)
-      for (int a = 0; a < traces_[first + c].n; ++a) x(place[traces_[first + c].at[a]], c) += traces_[first + c].value[a];
+      for (int a = 0; a < traces_[first + c].n; ++a)
+        x(place[traces_[first + c].at[a]], c) += traces_[first + c].value[a];
     plain_factor_->solve(x);
     for (int c = 0; c < n; ++c)
       for (int r = 0; r < n_rows(); ++r) {
         compliance(r, first + c) = 0.0;
-        for (int a = 0; a < traces_[r].n; ++a) compliance(r, first + c) += traces_[r].value[a] * x(place[traces_[r].at[a]], c);
+        for (int a = 0; a < traces_[r].n; ++a)
+          compliance(r, first + c) += traces_[r].value[a] * x(place[traces_[r].at[a]], c);
       }
   }
   return compliance;
@@ -286,7 +303,8 @@ Mat Piece::plain_row_compliance() const {
 
 Mat Piece::row_compliance() const {
   if (is_mostly_interface_) return plain_row_compliance();
-  const Mat h = h_ ? h_->lower() : inverse_spd(with_search_directions(*schur_, k_), setup_.what);  // the plain form keeps no H
+  const Mat h =
+      h_ ? h_->lower() : inverse_spd(with_search_directions(*schur_, k_), setup_.what);  // the plain form keeps no H
   const int n_i = factor_->n_interior();
   Mat compliance = Mat::Zero(n_rows(), n_rows());
   for (int i = 0; i < n_rows(); ++i)
@@ -294,7 +312,8 @@ Mat Piece::row_compliance() const {
       for (int a = 0; a < traces_[i].n; ++a)
         for (int b = 0; b < traces_[j].n; ++b) {
           const int row = traces_[i].at[a] - n_i, column = traces_[j].at[b] - n_i;
-          compliance(i, j) += traces_[i].value[a] * traces_[j].value[b] * h(std::max(row, column), std::min(row, column));
+          compliance(i, j) +=
+              traces_[i].value[a] * traces_[j].value[b] * h(std::max(row, column), std::min(row, column));
         }
   return compliance;
 }
@@ -313,7 +332,8 @@ void Piece::make_couplings() {
   for (int m = 0; m < setup_.n_motions; ++m) {
     if (unit[m].size() == 0) continue;
     Points force(3, unit[m].cols());
-    Eigen::Map<Vec>(force.data(), force.size()) = setup_.body->matrices->stiffness * Eigen::Map<const Vec>(unit[m].data(), unit[m].size());
+    Eigen::Map<Vec>(force.data(), force.size()) =
+        setup_.body->matrices->stiffness * Eigen::Map<const Vec>(unit[m].data(), unit[m].size());
     coupling_[m] = restrict_nodal(force);
     for (const int i : massless_) coupling_[m][i] /= 1.0 - setup_.scheme.g;  // their force is that of the step's end
     if (mass_matrix_.size() > 0) mass_coupling_[m] = restrict_nodal(nodal_mass_times(unit[m]));
@@ -337,7 +357,8 @@ Points Piece::expand(const Vec& free, const std::vector<double>& held) const {
       continue;
     }
     Vec3 value = Vec3::Zero();
-    for (int j = 0; j < n_free_of_[node]; ++j) value += free[position_[first_free_[node] + j]] * bases_[special_of_[node]].col(j);
+    for (int j = 0; j < n_free_of_[node]; ++j)
+      value += free[position_[first_free_[node] + j]] * bases_[special_of_[node]].col(j);
     nodal.col(node) = value;
   }
   for (size_t i = 0; i < held_.size(); ++i) nodal.col(held_[i].node) += held[i] * held_[i].direction;
@@ -352,7 +373,8 @@ double Piece::bytes_of_operator_entry() const {
 double Piece::predicted_bytes() const {
   const double n_b = n_interface_, n = static_cast<double>(node_of_free_.size());
   const double entry = bytes_of_operator_entry();
-  return predicted_factor_bytes_ + (setup_.twin || is_mostly_interface_ ? 0.0 : entry * 0.5 * n_b * n_b) + 8.0 * 12.0 * n;
+  return predicted_factor_bytes_ + (setup_.twin || is_mostly_interface_ ? 0.0 : entry * 0.5 * n_b * n_b) +
+         8.0 * 12.0 * n;
 }
 
 double Piece::bytes() const {

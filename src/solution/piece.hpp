@@ -60,11 +60,12 @@ class Piece {
     const std::unordered_map<int, Mat3>* absorbing;  // impedance of nodes (N s/m), dynamic steps
     std::vector<Row> rows;
     int n_motions = 0;
-    std::string what;  // "substructure 'rod' in step 'shock'", for messages
-    bool is_assembled = false;   // the system is solved elsewhere, with other substructures' in it: no factor of its own
+    std::string what;           // "substructure 'rod' in step 'shock'", for messages
+    bool is_assembled = false;  // the system is solved elsewhere, with other substructures' in it: no factor of its own
     Precision precision = Precision::double_precision;  // of what is stored of the factor and of H
     double storage_error = 0x1p-26;                     // in single precision, of entries of the factor; H: a sixteenth
-    const class Piece* twin = nullptr;  // an equal piece, built before: its factor and interface operator serve this one too
+    const class Piece* twin =
+        nullptr;                 // an equal piece, built before: its factor and interface operator serve this one too
     bool is_prediction = false;  // lays the factor out and goes no further: only predicted_bytes() then has a meaning
   };
   // Assembles and factorises. Throws NumericalError.
@@ -78,15 +79,17 @@ class Piece {
   const Factor* factor() const { return factor_.get(); }
   const std::vector<std::pair<int, Mat3>>& absorbing() const { return absorbing_; }  // node, impedance (N s/m), by node
   bool has_motions() const { return has_motions_; }
-  // Is almost all of it interface, so that full solves at each iteration cost less than products with H? (A washer, a thin plate.)
-  // It has then no Schur complement, and the plain form whatever set_search_directions is told.
+  // Is almost all of it interface, so that full solves at each iteration cost less than products with H? (A washer, a
+  // thin plate.) It has then no Schur complement, and the plain form whatever set_search_directions is told.
   bool is_mostly_interface() const { return is_mostly_interface_; }
   // Does it use the factor of an equal piece?
   bool shares_factor() const { return setup_.twin && factor_; }
 
-  // Diagonal of the interface's own Schur complement in the rows' directions, shared between their laws (N s/m; static N/m).
+  // Diagonal of the interface's own Schur complement in the rows' directions, shared between their laws (N s/m; static
+  // N/m).
   const Vec& schur_diagonal() const { return schur_diagonal_; }
-  // Fixes the search directions k (one a row) and forms H = (S0 + k)^-1; `plain` factorises A + k and solves in full instead.
+  // Fixes the search directions k (one a row) and forms H = (S0 + k)^-1; `plain` factorises A + k and solves in full
+  // instead.
   void set_search_directions(const Vec& k, bool plain);
   const Vec& k() const { return k_; }
   // Velocities at the rows for a unit q at each of them, T H T^T (n_rows x n_rows).
@@ -98,26 +101,29 @@ class Piece {
   }
   double node_mass(int node) const { return setup_.body->mass->lumped[node]; }
 
-  // State from nodal fields (3 x n_nodes): displacement, velocity, and the external and interface forces in balance with them.
-  void set_state(const Points& displacement, const Points& velocity, const Points& force, const Points& interface_force);
-  // Right-hand side of an increment: external force (3 x n_nodes), velocities of the motions at its end. The increment is solved for
-  // the change of velocity that the change of forces makes; where the forces changed by less than `quiet` (sum of f^2 dt/m, W) nothing
-  // is solved until the interfaces ask for it.
+  // State from nodal fields (3 x n_nodes): displacement, velocity, and the external and interface forces in balance
+  // with them.
+  void set_state(const Points& displacement, const Points& velocity, const Points& force,
+                 const Points& interface_force);
+  // Right-hand side of an increment: external force (3 x n_nodes), velocities of the motions at its end. The increment
+  // is solved for the change of velocity that the change of forces makes; where the forces changed by less than `quiet`
+  // (sum of f^2 dt/m, W) nothing is solved until the interfaces ask for it.
   void begin(const Points& force, const std::vector<double>& motion_velocity, double quiet = 0.0);
   // Forward and backward solves of equal pieces together; of those that have something to solve.
   static void forward(const std::vector<Piece*>& equal);
   static void backward(const std::vector<Piece*>& equal);
   // Velocities at the rows for interface data q.
   void interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity);
-  // For a system solved elsewhere (is_assembled): matrix and right-hand side of this increment on the free unknowns, those of a
-  // node (n_free of them from first_free, along the columns of its basis), and the velocities found.
+  // For a system solved elsewhere (is_assembled): matrix and right-hand side of this increment on the free unknowns,
+  // those of a node (n_free of them from first_free, along the columns of its basis), and the velocities found.
   SparseMatrix matrix() const { return free_matrix(Vec::Zero(n_rows())); }
   const Vec& right_hand_side() const { return x_; }
   int first_free(int node) const { return first_free_[node]; }
   int n_free(int node) const { return n_free_of_[node]; }
   Mat3 basis(int node) const { return special_of_[node] < 0 ? Mat3(Mat3::Identity()) : bases_[special_of_[node]]; }
   void set_velocity(const Vec& free) { v_ = free; }
-  // After the backward solve, for the q last given: advances the state. interface_force: on held directions of moving nodes (3 x n_nodes), or null.
+  // After the backward solve, for the q last given: advances the state. interface_force: on held directions of moving
+  // nodes (3 x n_nodes), or null.
   IncrementEnergy finish(Eigen::Ref<const Vec> q, const Points* interface_force);
 
   Points displacement() const { return expand(u_, held_u_); }  // 3 x n_nodes, m
@@ -144,7 +150,9 @@ class Piece {
     int n_since_product = 0;
     std::vector<double> held_u, held_v;
   };
-  Snapshot snapshot() const { return {u_, v_, p_, w_, z_, force_, held_pull_, q_before_, n_since_product_, held_u_, held_v_}; }
+  Snapshot snapshot() const {
+    return {u_, v_, p_, w_, z_, force_, held_pull_, q_before_, n_since_product_, held_u_, held_v_};
+  }
   void restore(const Snapshot& s);
   double bytes() const;            // held by factor, interface operators and vectors
   double predicted_bytes() const;  // the same, known before factorising
@@ -216,10 +224,11 @@ class Piece {
   std::shared_ptr<const SymmetricOperator> h_;
   Vec schur_diagonal_, k_;
   std::vector<Trace> traces_;
-  std::vector<Vec> coupling_, mass_coupling_;  // B^T K, B^T M of a unit velocity of each motion; empty where the motion is elsewhere
-  Vec mass_;                   // lumped
-  SparseMatrix mass_matrix_;   // of the free unknowns in factor order; empty: lumped
-  Vec momentum_;               // M v, kept from one increment to the next
+  std::vector<Vec> coupling_,
+      mass_coupling_;         // B^T K, B^T M of a unit velocity of each motion; empty where the motion is elsewhere
+  Vec mass_;                  // lumped
+  SparseMatrix mass_matrix_;  // of the free unknowns in factor order; empty: lumped
+  Vec momentum_;              // M v, kept from one increment to the next
   // Unknowns without mass in a dynamic step: their force is that of the step's end (manual, eq. S7).
   std::vector<int> massless_;
   SparseMatrix massless_columns_;  // of K, one a massless unknown
@@ -233,12 +242,13 @@ class Piece {
   Vec u_, v_, p_, w_, force_;  // state, in factor order
   Vec z_;                      // dt K G V, where there are unknowns without mass
   std::vector<double> held_u_, held_v_;
-  Vec held_pull_;              // of A, what the motions' velocities at hand bring to the free unknowns
-  Vec q_before_;               // of the last increment: forces are counted from it
-  Vec start_force_;            // on the rows: q of the last increment less k times the velocity this one starts from
+  Vec held_pull_;    // of A, what the motions' velocities at hand bring to the free unknowns
+  Vec q_before_;     // of the last increment: forces are counted from it
+  Vec start_force_;  // on the rows: q of the last increment less k times the velocity this one starts from
   double quiet_ = 0.0;
-  bool is_forward_due_ = false, is_moved_ = false;  // forward solve put off; the interfaces have moved in this increment
-  int n_since_product_ = 0;    // increments since P and W were computed from K itself
+  bool is_forward_due_ = false,
+       is_moved_ = false;    // forward solve put off; the interfaces have moved in this increment
+  int n_since_product_ = 0;  // increments since P and W were computed from K itself
   long n_solved_ = 0, n_spared_ = 0;
   Vec residual_, x_, b_, dv_b_, v_old_, w_old_, start_imbalance_, force_old_;
   std::vector<double> held_v_old_, held_v_new_, held_reaction_;

@@ -1,4 +1,5 @@
-// One increment of a piece: right-hand side without a product by K, forward, interface, backward, update (manual, eq. S1-S5).
+// One increment of a piece: right-hand side without a product by K, forward, interface, backward, update (manual, eq.
+// S1-S5).
 #include <algorithm>
 
 #include "base/error.hpp"
@@ -9,7 +10,8 @@ namespace dygita {
 // K times a nodal field, on the free unknowns.
 Vec Piece::stiffness_times(const Points& nodal) const {
   Points result(3, nodal.cols());
-  Eigen::Map<Vec>(result.data(), result.size()) = setup_.body->matrices->stiffness * Eigen::Map<const Vec>(nodal.data(), nodal.size());
+  Eigen::Map<Vec>(result.data(), result.size()) =
+      setup_.body->matrices->stiffness * Eigen::Map<const Vec>(nodal.data(), nodal.size());
   return restrict_nodal(result);
 }
 
@@ -19,7 +21,8 @@ void Piece::resynchronise() {
   p_ = stiffness_times(displacement()) + c0_ / c1_ * w_;
 }
 
-void Piece::set_state(const Points& displacement, const Points& velocity, const Points& force, const Points& interface_force) {
+void Piece::set_state(const Points& displacement, const Points& velocity, const Points& force,
+                      const Points& interface_force) {
   u_ = restrict_nodal(displacement);
   v_ = restrict_nodal(velocity);
   force_ = restrict_nodal(force);
@@ -177,7 +180,8 @@ void Piece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity
     // x_ keeps the right-hand side; residual order is the condensed factor's, the plain one has its own.
     v_ = x_;
     for (int i = 0; i < n_rows(); ++i)
-      for (int a = 0; a < traces_[i].n; ++a) v_[traces_[i].at[a]] += traces_[i].value[a] * (for_change ? q[i] - q_before_[i] : q[i]);
+      for (int a = 0; a < traces_[i].n; ++a)
+        v_[traces_[i].at[a]] += traces_[i].value[a] * (for_change ? q[i] - q_before_[i] : q[i]);
     Vec ordered(v_.size());
     for (int i = 0; i < v_.size(); ++i) ordered[i] = v_[position_[plain_factor_->order()[i]]];
     plain_factor_->solve(ordered);
@@ -239,7 +243,8 @@ IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_f
   u_ += dt * v_mean;
   for (size_t i = 0; i < held_.size(); ++i) held_u_[i] += dt * (g * held_v_old_[i] + (1 - g) * held_v_[i]);
 
-  constexpr int n_between = 8;  // increments: products cost little beside their solves, and what drifts in between is below the tolerance
+  constexpr int n_between =
+      8;  // increments: products cost little beside their solves, and what drifts in between is below the tolerance
   if (setup_.precision == Precision::single_precision && ++n_since_product_ >= n_between && !rests) {
     resynchronise();
     n_since_product_ = 0;
@@ -282,7 +287,8 @@ IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_f
     for (size_t i = 0; i < held_.size(); ++i) {
       const double mean = scheme.is_static ? 0.5 * (held_reaction_[i] + reaction[i]) : reaction[i];
       energy.loads += dt * (g * held_v_old_[i] + (1 - g) * held_v_[i]) * mean;
-      energy.loads += dt * (g * held_v_old_[i] + (1 - g) * held_v_[i]) * held_[i].direction.dot(nodal_force_.col(held_[i].node));
+      energy.loads +=
+          dt * (g * held_v_old_[i] + (1 - g) * held_v_[i]) * held_[i].direction.dot(nodal_force_.col(held_[i].node));
     }
     held_reaction_ = reaction;
   }
@@ -291,7 +297,8 @@ IncrementEnergy Piece::finish(Eigen::Ref<const Vec> q, const Points* interface_f
 
 IncrementEnergy Piece::stored_energy() const {
   IncrementEnergy energy;
-  energy.strain = 0.5 * (u_.dot(p_) - (massless_.empty() ? c0_ / c1_ * u_.dot(w_) : u_.dot(end_factor_.cwiseProduct(z_))));
+  energy.strain =
+      0.5 * (u_.dot(p_) - (massless_.empty() ? c0_ / c1_ * u_.dot(w_) : u_.dot(end_factor_.cwiseProduct(z_))));
   if (std::any_of(held_u_.begin(), held_u_.end(), [](double u) { return u != 0.0; })) {
     const std::vector<double> held = held_stiffness(displacement());
     for (size_t i = 0; i < held_.size(); ++i) energy.strain += 0.5 * held_u_[i] * held[i];
@@ -303,7 +310,8 @@ IncrementEnergy Piece::stored_energy() const {
 }
 
 Points Piece::acceleration() const {
-  if (setup_.scheme.is_static || v_old_.size() != v_.size() || held_v_old_.size() != held_v_.size()) return Points::Zero(3, n_free_of_.size());
+  if (setup_.scheme.is_static || v_old_.size() != v_.size() || held_v_old_.size() != held_v_.size())
+    return Points::Zero(3, n_free_of_.size());
   std::vector<double> held(held_.size());
   for (size_t i = 0; i < held_.size(); ++i) held[i] = (held_v_[i] - held_v_old_[i]) / setup_.scheme.dt;
   return expand((v_ - v_old_) / setup_.scheme.dt, held);
@@ -328,7 +336,8 @@ std::vector<double> Piece::held_stiffness(const Points& nodal) const {
   std::vector<double> values(held_.size(), 0.0);
   for (size_t i = 0; i < held_.size(); ++i)
     for (int axis = 0; axis < 3; ++axis)
-      if (held_[i].direction[axis] != 0.0) values[i] += held_[i].direction[axis] * k.row(3 * held_[i].node + axis).dot(flat);
+      if (held_[i].direction[axis] != 0.0)
+        values[i] += held_[i].direction[axis] * k.row(3 * held_[i].node + axis).dot(flat);
   return values;
 }
 
@@ -347,7 +356,8 @@ std::vector<double> Piece::held_forces(const Points& interface_force) const {
   if (!scheme.is_static) {
     std::vector<double> held_mean(held_.size());
     for (size_t i = 0; i < held_.size(); ++i) held_mean[i] = scheme.g * held_v_old_[i] + (1 - scheme.g) * held_v_[i];
-    const std::vector<double> inertia = held_mass(acceleration() + scheme.alpha(damping) * expand(mean_velocity(), held_mean));
+    const std::vector<double> inertia =
+        held_mass(acceleration() + scheme.alpha(damping) * expand(mean_velocity(), held_mean));
     for (size_t i = 0; i < held_.size(); ++i) values[i] += inertia[i];
   }
   for (size_t i = 0; i < held_.size(); ++i)

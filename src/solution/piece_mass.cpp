@@ -19,7 +19,8 @@ void Piece::make_mass() {
   std::vector<int> count(n, 0);
   for (int a = 0; a < mass.matrix.rows(); ++a)
     for (int e = starts[a]; e < starts[a + 1]; ++e)
-      for (int j = 0; j < n_free_of_[a]; ++j) count[position_[first_free_[a] + j]] += entries_with(a, mass.matrix.innerIndexPtr()[e]);
+      for (int j = 0; j < n_free_of_[a]; ++j)
+        count[position_[first_free_[a] + j]] += entries_with(a, mass.matrix.innerIndexPtr()[e]);
   mass_matrix_.resize(n, n);
   mass_matrix_.outerIndexPtr()[0] = 0;
   for (int i = 0; i < n; ++i) mass_matrix_.outerIndexPtr()[i + 1] = mass_matrix_.outerIndexPtr()[i] + count[i];
@@ -32,7 +33,8 @@ void Piece::make_mass() {
         const bool is_plain = entries_with(a, b) == 1 && special_of_[a] < 0 && special_of_[b] < 0;
         for (int c = is_plain ? j : 0; c < (is_plain ? j + 1 : n_free_of_[b]); ++c) {
           mass_matrix_.innerIndexPtr()[at] = position_[first_free_[b] + c];
-          mass_matrix_.valuePtr()[at++] = mass.matrix.valuePtr()[e] * (is_plain ? 1.0 : basis(a).col(j).dot(basis(b).col(c)));
+          mass_matrix_.valuePtr()[at++] =
+              mass.matrix.valuePtr()[e] * (is_plain ? 1.0 : basis(a).col(j).dot(basis(b).col(c)));
         }
       }
     }
@@ -53,14 +55,16 @@ void Piece::make_massless() {
         Vec3 force;  // K is symmetric: the column of a node is its rows
         for (int c = 0; c < 3; ++c) {
           force[c] = 0.0;
-          for (int r = 0; r < 3; ++r) force[c] += k.valuePtr()[k.outerIndexPtr()[3 * node + r] + shift + c] * basis(node)(r, j);
+          for (int r = 0; r < 3; ++r)
+            force[c] += k.valuePtr()[k.outerIndexPtr()[3 * node + r] + shift + c] * basis(node)(r, j);
         }
         for (int c = 0; c < n_free_of_[other]; ++c)
           entries.emplace_back(position_[first_free_[other] + c], column, basis(other).col(c).dot(force));
       }
     }
   }
-  massless_columns_.resize(static_cast<Eigen::Index>(node_of_free_.size()), static_cast<Eigen::Index>(massless_.size()));
+  massless_columns_.resize(static_cast<Eigen::Index>(node_of_free_.size()),
+                           static_cast<Eigen::Index>(massless_.size()));
   massless_columns_.setFromTriplets(entries.begin(), entries.end());
   end_factor_ = Vec::Constant(massless_columns_.rows(), 1.0 - setup_.scheme.g);
   for (const int i : massless_) end_factor_[i] = 1.0;
@@ -119,7 +123,8 @@ void Piece::start_massless() {
   p_ += end_factor_.cwiseProduct(z_);
 }
 
-// P of the next increment from W = dt D K D V1: K U1 + D Z1 with Z = dt K G V, G being g, and 0 for massless unknowns (manual, eq. S7).
+// P of the next increment from W = dt D K D V1: K U1 + D Z1 with Z = dt K G V, G being g, and 0 for massless unknowns
+// (manual, eq. S7).
 void Piece::advance_massless() {
   const double g = setup_.scheme.g;
   Vec own(static_cast<Eigen::Index>(massless_.size()));
@@ -131,7 +136,8 @@ void Piece::advance_massless() {
   p_ += end_factor_.cwiseProduct(z_);
 }
 
-// Energy (J) that the material's damping takes in an increment, of mean velocity v of the free unknowns; moving supports count.
+// Energy (J) that the material's damping takes in an increment, of mean velocity v of the free unknowns; moving
+// supports count.
 double Piece::damped_energy(const Vec& v) const {
   const Scheme& scheme = setup_.scheme;
   const Damping& damping = setup_.body->part->material.damping;

@@ -69,7 +69,8 @@ void book_work(const Point& point, const PointRecord& record, const LawState& en
     if (point.law->rubs()) friction = force.tail<2>().dot(motion.tail<2>());
     plastic = point.law->plastic_work(end, point.area) - point.law->plastic_work(start, point.area);
     given = force[0] * (record.trial.shortening - record.shortening_old);
-    // A static increment that crosses yield bends the path: what the mean of both ends leaves out is work of whatever drives it.
+    // A static increment that crosses yield bends the path: what the mean of both ends leaves out is work of whatever
+    // drives it.
     if (increment.is_static) given += plastic - force[0] * (end.plastic_opening - start.plastic_opening);
     // An interference pressed out in a static step is work done from outside.
     if (increment.is_static && point.law->rubs() && start.gap < 0.0) given -= force[0] * motion[0];

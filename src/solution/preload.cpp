@@ -29,8 +29,8 @@ std::vector<Preload> make_preloads(const StepModel& model, const std::vector<Poi
   return preloads;
 }
 
-double find_shortening(const std::function<double(double)>& force, double target, double start, double slope, double scale,
-                       double precision, double furthest) {
+double find_shortening(const std::function<double(double)>& force, double target, double start, double slope,
+                       double scale, double precision, double furthest) {
   const double infinity = std::numeric_limits<double>::infinity();
   double low = -infinity, high = infinity;  // too little and too much
   double d = start, best = start, smallest = infinity, last_d = start, last_force = 0.0;
@@ -60,13 +60,17 @@ double find_shortening(const std::function<double(double)>& force, double target
   return best;
 }
 
-void check_reached(const Step& step, int increment, const std::vector<const Interface*>& interfaces, const Vec& force, const Vec& target) {
+void check_reached(const Step& step, int increment, const std::vector<const Interface*>& interfaces, const Vec& force,
+                   const Vec& target) {
   for (size_t i = 0; i < interfaces.size(); ++i) {
     if (force[i] >= 0.5 * target[i]) continue;
-    throw NumericalError(fmt::format(
-        "step '{}', increment {}: load.preload asks for {:.6g} N through interface.{} '{}', and no shortening brings more than {:.3g} N; likely "
-        "cause: nothing takes the force on one of its sides (a part that is held by this interface alone, a joint that cannot close)",
-        step.name, increment + 1, target[i], interface_kind_name(interfaces[i]->kind), interfaces[i]->name, force[i] > 1e-6 * target[i] ? force[i] : 0.0));
+    throw NumericalError(
+        fmt::format("step '{}', increment {}: load.preload asks for {:.6g} N through interface.{} '{}', and no "
+                    "shortening brings more than {:.3g} N; likely "
+                    "cause: nothing takes the force on one of its sides (a part that is held by this interface alone, "
+                    "a joint that cannot close)",
+                    step.name, increment + 1, target[i], interface_kind_name(interfaces[i]->kind), interfaces[i]->name,
+                    force[i] > 1e-6 * target[i] ? force[i] : 0.0));
   }
 }
 
@@ -77,16 +81,19 @@ void check_preloads(const Problem& problem, const std::vector<Surface>& surfaces
       for (const Target& target : load->on) {
         const Interface& interface = *std::get<InterfacePtr>(target);
         if (interface.kind != InterfaceKind::plastic || interface.hardening > 0.0) continue;
-        const double area = surfaces.at(index_of(problem.interfaces, &interface)).facing.areas.sum(), limit = interface.yield * area;
+        const double area = surfaces.at(index_of(problem.interfaces, &interface)).facing.areas.sum(),
+                     limit = interface.yield * area;
         double most = 0.0;
         for (int i = 0; i < step->increments; ++i)
           most = std::max(most, LoadValue{*load->value[0], load->is_number[0]}.at_static(i, step->increments));
         if (most < limit) continue;
-        throw InputError(load->origin,
-                         fmt::format("problem '{}': step '{}': load.preload asks for {:.6g} N through interface.plastic '{}', which cannot be "
-                                     "reached: it yields at {:.6g} N ({:.4g} MPa on {:.4g} mm^2) and has no hardening\n    the largest force is "
-                                     "below {:.6g} N; or give it 'hardening'",
-                                     problem.name, step->name, most, interface.name, limit, interface.yield / 1e6, area * 1e6, limit));
+        throw InputError(load->origin, fmt::format("problem '{}': step '{}': load.preload asks for {:.6g} N through "
+                                                   "interface.plastic '{}', which cannot be "
+                                                   "reached: it yields at {:.6g} N ({:.4g} MPa on {:.4g} mm^2) and has "
+                                                   "no hardening\n    the largest force is "
+                                                   "below {:.6g} N; or give it 'hardening'",
+                                                   problem.name, step->name, most, interface.name, limit,
+                                                   interface.yield / 1e6, area * 1e6, limit));
       }
     }
 }

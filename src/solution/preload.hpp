@@ -1,4 +1,5 @@
-// Preloads of a static step: interfaces whose shortening d is found so that the force through them is the one asked for (manual, eq. B1).
+// Preloads of a static step: interfaces whose shortening d is found so that the force through them is the one asked for
+// (manual, eq. B1).
 #pragma once
 
 #include <functional>
@@ -19,15 +20,17 @@ struct Preload {
 // Those of a step; records: of all its points, as the step starts.
 std::vector<Preload> make_preloads(const StepModel& model, const std::vector<PointRecord>& records);
 
-// The d at which `force`, which does not decrease with d, is `target` to `precision` times scale: by secants, kept between what is known to
-// be too little and too much. Exact in one step where the law is linear, in a few where it is piecewise linear. start, m; slope: a guess of
-// d force / d d (N/m), the stiffest there can be; scale: of forces, N. Where no d within `furthest` (m) of the start brings the force, the one
-// that came closest.
-double find_shortening(const std::function<double(double)>& force, double target, double start, double slope, double scale,
-                       double precision = 1e-14, double furthest = 1e3);
+// The d at which `force`, which does not decrease with d, is `target` to `precision` times scale: by secants, kept
+// between what is known to be too little and too much. Exact in one step where the law is linear, in a few where it is
+// piecewise linear. start, m; slope: a guess of d force / d d (N/m), the stiffest there can be; scale: of forces, N.
+// Where no d within `furthest` (m) of the start brings the force, the one that came closest.
+double find_shortening(const std::function<double(double)>& force, double target, double start, double slope,
+                       double scale, double precision = 1e-14, double furthest = 1e3);
 
-// Throws NumericalError where forces (N) found for shortenings within the assembly's size are not even half of those asked for.
-void check_reached(const Step& step, int increment, const std::vector<const Interface*>& interfaces, const Vec& force, const Vec& target);
+// Throws NumericalError where forces (N) found for shortenings within the assembly's size are not even half of those
+// asked for.
+void check_reached(const Step& step, int increment, const std::vector<const Interface*>& interfaces, const Vec& force,
+                   const Vec& target);
 
 // Throws InputError where a step asks for more than an interface without hardening can carry.
 void check_preloads(const Problem& problem, const std::vector<Surface>& surfaces);

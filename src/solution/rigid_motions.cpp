@@ -39,7 +39,7 @@ Vec3 position(const Substructure& part, int node) { return part.mesh->nodes.col(
 
 std::string describe(const RigidMotion& motion) {
   const char* names[] = {"translation along x", "translation along y", "translation along z",
-                         "rotation about x", "rotation about y", "rotation about z"};
+                         "rotation about x",    "rotation about y",    "rotation about z"};
   int largest = 0;
   motion.cwiseAbs().maxCoeff(&largest);
   return names[largest];
@@ -98,8 +98,8 @@ bool is_floating(const Substructure& part, const std::unordered_map<int, Held>& 
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(gram).eigenvalues()[0] < 1e-8 * scale;
 }
 
-void pin_free_motions(const Problem& problem, const Step& step, const Exchange& exchange, const std::vector<Points>& force,
-                      Conditions& conditions) {
+void pin_free_motions(const Problem& problem, const Step& step, const Exchange& exchange,
+                      const std::vector<Points>& force, Conditions& conditions) {
   const int n = static_cast<int>(problem.substructures.size());
   std::vector<Frame6> frames;
   for (const SubstructurePtr& part : problem.substructures) frames.push_back(frame_of(*part));
@@ -107,14 +107,16 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
   // Each body's scale: how often it is constrained; a motion nothing resists has a vanishing eigenvalue.
   Mat scaled = gram;
   Vec weight(6 * n);
-  for (int i = 0; i < n; ++i) weight.segment<6>(6 * i).setConstant(1.0 / std::sqrt(std::max(1.0, gram.block<6, 6>(6 * i, 6 * i).trace())));
+  for (int i = 0; i < n; ++i)
+    weight.segment<6>(6 * i).setConstant(1.0 / std::sqrt(std::max(1.0, gram.block<6, 6>(6 * i, 6 * i).trace())));
   scaled = weight.asDiagonal() * gram * weight.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Mat> eigen(scaled);
   std::set<std::pair<int, int>> on_interface;
   for (const Port& port : exchange.ports) on_interface.emplace(port.part, port.node);
 
   std::vector<Vec> free_motions;
-  for (int m = 0; m < 6 * n && eigen.eigenvalues()[m] < 1e-9; ++m) free_motions.push_back(weight.cwiseProduct(eigen.eigenvectors().col(m)));
+  for (int m = 0; m < 6 * n && eigen.eigenvalues()[m] < 1e-9; ++m)
+    free_motions.push_back(weight.cwiseProduct(eigen.eigenvectors().col(m)));
   while (!free_motions.empty()) {
     // The part that moves most, and where it moves most away from interfaces and supports.
     Vec& motion = free_motions.back();

@@ -22,15 +22,15 @@ struct SolverFigures {
   std::vector<StepFigures> steps;
   std::shared_ptr<const InterfaceFields> interface_fields;  // null: the solver keeps none
   bool interrupted = false;
-  std::vector<int> pieces;                // into which each substructure was cut; empty: the solver cuts none
+  std::vector<int> pieces;  // into which each substructure was cut; empty: the solver cuts none
   long n_dofs = 0, n_interface_unknowns = 0;
-  long n_solved = 0, n_spared = 0;        // substitutions, and those spared because nothing had changed
-  int n_in_full = 0;                      // pieces solved in full at each iteration, summed over the steps
-  int n_equal = 0;                        // pieces that use another one's factor, summed over the steps
-  double factor_bytes = 0.0;              // factors and interface operators of the largest step
-  double gap_difference = 0.0;            // m, largest between the laws' gaps and the displacements'
+  long n_solved = 0, n_spared = 0;          // substitutions, and those spared because nothing had changed
+  int n_in_full = 0;                        // pieces solved in full at each iteration, summed over the steps
+  int n_equal = 0;                          // pieces that use another one's factor, summed over the steps
+  double factor_bytes = 0.0;                // factors and interface operators of the largest step
+  double gap_difference = 0.0;              // m, largest between the laws' gaps and the displacements'
   std::map<std::string, double> of_solver;  // the solver's own, with unit in the name: for the run record
-  std::map<std::string, double> seconds;  // by phase: set up, linear, iterate, output
+  std::map<std::string, double> seconds;    // by phase: set up, linear, iterate, output
 };
 
 }  // namespace dygita

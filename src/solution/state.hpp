@@ -22,23 +22,24 @@ struct Energies {
 // Fields of a surface's points now; vectors in global axes, forces on side 1.
 struct SurfaceState {
   std::vector<LawState> points;
-  std::vector<double> residual;  // N, of each point: what is left between the force of the substructure and that of the law
+  std::vector<double>
+      residual;  // N, of each point: what is left between the force of the substructure and that of the law
   double friction_work = 0.0, plastic_work = 0.0;  // J, so far
 };
 
 struct State {
-  double time = 0.0;                       // s, dynamic time elapsed
-  std::vector<Points> displacement;        // one 3 x n_nodes a substructure, m
-  std::vector<Points> velocity;            // m/s
-  std::vector<Points> force;               // N, external forces of the last increment
-  std::vector<Points> anchor;              // N, static reactions kept by absorbing supports
+  double time = 0.0;                 // s, dynamic time elapsed
+  std::vector<Points> displacement;  // one 3 x n_nodes a substructure, m
+  std::vector<Points> velocity;      // m/s
+  std::vector<Points> force;         // N, external forces of the last increment
+  std::vector<Points> anchor;        // N, static reactions kept by absorbing supports
   std::vector<SurfaceState> surfaces;
-  std::vector<double> shortening;          // m, of each surface, as its last step left it
-  std::vector<char> released;              // surfaces that have let go for good
-  std::map<std::string, double> reached;   // value of each load at the end of the last step, by kind and target
+  std::vector<double> shortening;             // m, of each surface, as its last step left it
+  std::vector<char> released;                 // surfaces that have let go for good
+  std::map<std::string, double> reached;      // value of each load at the end of the last step, by kind and target
   std::map<const void*, Vec3> base_velocity;  // m/s, of supports that were accelerated
   Energies energies;
-  bool has_moved = false;                  // initial velocities have been applied
+  bool has_moved = false;  // initial velocities have been applied
 };
 
 }  // namespace dygita

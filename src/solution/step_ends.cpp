@@ -4,7 +4,8 @@ namespace dygita {
 
 namespace {
 
-// A wall that is a support now and was none in the step before stands where it was declared: its gap is that of the displacements.
+// A wall that is a support now and was none in the step before stands where it was declared: its gap is that of the
+// displacements.
 void place_returning_walls(const StepModel& model, State& state) {
   const int i_step = index_of(model.problem->steps, model.step);
   if (i_step <= 0) return;
@@ -14,18 +15,20 @@ void place_returning_walls(const StepModel& model, State& state) {
     const Surface& surface = (*model.surfaces)[s];
     if (!surface.wall || index_of(now, surface.wall) < 0 || index_of(before, surface.wall) >= 0) continue;
     for (int i = 0; i < surface.n_points(); ++i)
-      state.surfaces[s].points[i].gap = surface.initial_gap - surface.facing.normals.col(i).dot(
-                                                                  state.displacement[surface.part_1].col(surface.facing.nodes_1[i]));
+      state.surfaces[s].points[i].gap =
+          surface.initial_gap -
+          surface.facing.normals.col(i).dot(state.displacement[surface.part_1].col(surface.facing.nodes_1[i]));
   }
 }
 
-// The pieces of a substructure start from its fields. Forces across a cut are not part of the state: each piece is in balance by
-// itself, and what the substructure as a whole has too much at a node is its owner's.
+// The pieces of a substructure start from its fields. Forces across a cut are not part of the state: each piece is in
+// balance by itself, and what the substructure as a whole has too much at a node is its owner's.
 void set_pieces(StepModel& model, int part, const State& state) {
   const Cut& cut = *model.cut;
   const Points interfaces = interface_force(*model.surfaces, state, part);
   if (!cut.is_cut(part)) {
-    model.pieces[cut.first(part)]->set_state(state.displacement[part], state.velocity[part], state.force[part], interfaces);
+    model.pieces[cut.first(part)]->set_state(state.displacement[part], state.velocity[part], state.force[part],
+                                             interfaces);
     return;
   }
   const auto elastic_force = [&](int piece) {
@@ -81,7 +84,8 @@ void start_step(StepModel& model, State& state) {
 void end_step(const StepModel& model, State& state) {
   for (size_t i = 0; i < state.displacement.size(); ++i) {
     const int part = static_cast<int>(i);
-    state.displacement[i] = model.cut->from_owners(part, [&](int piece) { return model.pieces[piece]->displacement(); });
+    state.displacement[i] =
+        model.cut->from_owners(part, [&](int piece) { return model.pieces[piece]->displacement(); });
     state.velocity[i] = model.cut->from_owners(part, [&](int piece) { return model.pieces[piece]->velocity(); });
     if (model.scheme.is_static) state.velocity[i].setZero();
     state.force[i] = model.external_force(part, state);

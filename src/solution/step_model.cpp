@@ -25,7 +25,8 @@ State initial_state(const Problem& problem, const std::vector<Surface>& surfaces
     LawState start;
     start.gap = surface.initial_gap;
     if (surface.law && surface.law->rubs()) start.status = PointState::open;
-    state.surfaces.push_back({std::vector<LawState>(surface.n_points(), start), std::vector<double>(surface.n_points(), 0.0)});
+    state.surfaces.push_back(
+        {std::vector<LawState>(surface.n_points(), start), std::vector<double>(surface.n_points(), 0.0)});
     state.shortening.push_back(0.0);
     state.released.push_back(0);
   }
@@ -118,10 +119,12 @@ std::unordered_map<int, Held> held_of_piece(const StepModel& model, int piece) {
   return held;
 }
 
-std::unordered_map<int, Mat3> absorbing_of_piece(const Cut& cut, int piece, const std::unordered_map<int, Mat3>& of_part) {
+std::unordered_map<int, Mat3> absorbing_of_piece(const Cut& cut, int piece,
+                                                 const std::unordered_map<int, Mat3>& of_part) {
   std::unordered_map<int, Mat3> own;
   for (const auto& [node, impedance] : of_part)
-    if (const Copy owner = cut.owner(cut.piece(piece).part, node); owner.piece == piece) own.emplace(owner.node, impedance);
+    if (const Copy owner = cut.owner(cut.piece(piece).part, node); owner.piece == piece)
+      own.emplace(owner.node, impedance);
   return own;
 }
 
@@ -140,7 +143,9 @@ std::vector<Piece::Row> rows_of(const StepModel& model, int piece, const std::un
       for (int d = 0; d < 3; ++d) {
         if (port.unknown[d] < 0) continue;
         const double modulus = d == 0 ? body.material.young : body.material.shear_modulus();
-        rows[port.unknown[d]] = {port.piece_node, point.frame.col(d), needs_reference ? modulus * port.area / length : 0.0, modulus * port.area / length, 1.0};
+        rows[port.unknown[d]] = {port.piece_node, point.frame.col(d),
+                                 needs_reference ? modulus * port.area / length : 0.0, modulus * port.area / length,
+                                 1.0};
       }
     }
   std::unordered_map<int, std::vector<int>> at_node;
@@ -156,14 +161,16 @@ std::vector<Piece::Row> rows_of(const StepModel& model, int piece, const std::un
 // What the pieces are for: to be solved one by one, together by someone else, or only to know their size.
 enum class Purpose { alone, assembled, prediction };
 
-// Single precision takes a third of what a solve reads from memory, and less of what an interface product reads. A static step has no
-// mass that would bound what rounding does to soft motions, and nodes without mass have a recurrence of their own.
+// Single precision takes a third of what a solve reads from memory, and less of what an interface product reads. A
+// static step has no mass that would bound what rounding does to soft motions, and nodes without mass have a recurrence
+// of their own.
 Precision precision_of(const StepModel& model, int part, const Body& body) {
   constexpr int large = 4000;  // unknowns
   if (model.scheme.is_static || !body.mass->is_massless.empty()) return Precision::double_precision;
   if (const auto& asked = model.problem->solver.precision) return *asked;
   if (model.problem->solver.tolerance < 1e-7) return Precision::double_precision;
-  return 3 * model.problem->substructures[part]->mesh->n_nodes() > large ? Precision::single_precision : Precision::double_precision;
+  return 3 * model.problem->substructures[part]->mesh->n_nodes() > large ? Precision::single_precision
+                                                                         : Precision::double_precision;
 }
 
 // Sixteen right-hand sides are as many as one pass over a factor takes.
@@ -197,8 +204,9 @@ void make_pieces(StepModel& model, const std::vector<Body>& bodies, Purpose purp
   std::vector<std::unordered_map<int, Mat3>> own_absorbing(n);
   for (int i = 0; i < n; ++i) {
     const int part = model.cut->piece(i).part, n_cut = model.cut->n_pieces(part);
-    const std::string what = (n_cut > 1 ? fmt::format("piece {} of {} of ", i - model.cut->first(part) + 1, n_cut) : "") + "substructure '" +
-                             bodies[i].part->name + "' in step '" + model.step->name + "'";
+    const std::string what =
+        (n_cut > 1 ? fmt::format("piece {} of {} of ", i - model.cut->first(part) + 1, n_cut) : "") + "substructure '" +
+        bodies[i].part->name + "' in step '" + model.step->name + "'";
     held[i] = held_of_piece(model, i);
     own_absorbing[i] = absorbing_of_piece(*model.cut, i, absorbing[part]);
     setups.push_back({&bodies[i], model.scheme, &held[i], &own_absorbing[i], rows_of(model, i, held[i]),
@@ -232,7 +240,8 @@ void make_pieces(StepModel& model, const std::vector<Body>& bodies, Purpose purp
     std::vector<int> known{members.front()};
     for (size_t m = 1; m < members.size(); ++m) {
       Piece::Setup& setup = setups[members[m]];
-      const auto twin = std::find_if(known.begin(), known.end(), [&](int i) { return model.pieces[i] && model.pieces[i]->equals(setup); });
+      const auto twin = std::find_if(known.begin(), known.end(),
+                                     [&](int i) { return model.pieces[i] && model.pieces[i]->equals(setup); });
       if (twin != known.end()) setup.twin = model.pieces[*twin].get();
       if (setup.twin) continue;
       // Unlike all before: built here, so that what comes after may be equal to it.
@@ -293,7 +302,8 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
     model.loads->evaluate(step.increments - 1);
     for (size_t i = 0; i < masses.size(); ++i) force.push_back(model.external_force(static_cast<int>(i), start));
     // What is free to move, and where it is pinned, is a matter of the substructures.
-    pin_free_motions(problem, step, make_exchange(problem, *no_cut(problem), in_force, model.conditions), force, model.conditions);
+    pin_free_motions(problem, step, make_exchange(problem, *no_cut(problem), in_force, model.conditions), force,
+                     model.conditions);
   }
   model.exchange = make_exchange(problem, *cut, in_force, model.conditions);
   split_loads(model);
@@ -313,8 +323,8 @@ StepModel make_assembled_model(const Problem& problem, const Step& step, const s
   return make_model(problem, step, surfaces, bodies, start, no_cut(problem), Purpose::assembled);
 }
 
-StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces, const std::vector<Body>& bodies,
-                      const State& start, const CutPtr& cut) {
+StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                      const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
   const StepModel model = make_model(problem, step, surfaces, bodies, start, cut, Purpose::prediction);
   StepSize size;
   for (const auto& piece : model.pieces) size.bytes += piece->predicted_bytes();

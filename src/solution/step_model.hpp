@@ -25,7 +25,7 @@ struct StepModel {
   std::unique_ptr<Loads> loads;
   std::vector<std::unique_ptr<Piece>> pieces;
   std::vector<std::vector<int>> equal;  // pieces that share a factor and are solved together, at most 16 in a group
-  std::vector<int> offset;  // of each piece in the assembled q; the last entry is its length
+  std::vector<int> offset;              // of each piece in the assembled q; the last entry is its length
 
   int n_q() const { return offset.back(); }
   // Index in the assembled q of a port's direction; -1 where it has none.
@@ -34,7 +34,8 @@ struct StepModel {
   std::vector<double> motion_velocities(int increment) const;
   // Velocity of a held direction of a port, from the motions' velocities.
   double held_velocity(const Port& port, const Vec3& direction, const std::vector<double>& motions) const;
-  // External forces on a substructure (3 x n_nodes, N) as the loads were last evaluated, absorbing supports' anchors included.
+  // External forces on a substructure (3 x n_nodes, N) as the loads were last evaluated, absorbing supports' anchors
+  // included.
   Points external_force(int part, const State& state) const;
   // The same on a piece: on the copies that own their node.
   Points piece_force(int piece, const State& state) const;
@@ -50,7 +51,8 @@ struct StepModel {
   std::vector<std::vector<PieceLoad>> piece_loads;  // of each piece
 };
 
-// Builds and factorises; pieces side by side on the threads at hand. bodies: of the pieces. Throws InputError, NumericalError.
+// Builds and factorises; pieces side by side on the threads at hand. bodies: of the pieces. Throws InputError,
+// NumericalError.
 StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                           const std::vector<Body>& bodies, const State& start, const CutPtr& cut);
 // Builds only, for a solver that factorises the substructures together: one piece each.
@@ -62,8 +64,8 @@ struct StepSize {
   double bytes = 0.0;
   long n_unknowns = 0;
 };
-StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces, const std::vector<Body>& bodies,
-                      const State& start, const CutPtr& cut);
+StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                      const std::vector<Body>& bodies, const State& start, const CutPtr& cut);
 
 // Force of all interfaces on the nodes of a substructure (3 x n_nodes, N), from the surfaces' state.
 Points interface_force(const std::vector<Surface>& surfaces, const State& state, int part);

@@ -7,9 +7,7 @@
 
 namespace dygita {
 
-PlacedFace placed(const Face& face) {
-  return {face.part->mesh.get(), face.facets(), face.part->place, face.label()};
-}
+PlacedFace placed(const Face& face) { return {face.part->mesh.get(), face.facets(), face.part->place, face.label()}; }
 
 namespace {
 
@@ -42,7 +40,8 @@ std::shared_ptr<const Law> make_law(const Problem& problem, const Interface& int
       return contacts.of(interface.friction, interface.gap);
     case InterfaceKind::plastic:
       return std::make_shared<PlasticLaw>(interface.yield, interface.hardening, interface.compression);
-    case InterfaceKind::bonded: break;
+    case InterfaceKind::bonded:
+      break;
   }
   return acts_on_interface(problem, &interface) ? std::make_shared<BondedLaw>() : nullptr;
 }
@@ -60,8 +59,9 @@ void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces
     const auto [it, is_new] = owner.emplace(std::pair{part, nodes}, &surface);
     if (is_new || it->second == &surface) return;
     const Origin& origin = surface.interface ? surface.interface->origin : surface.wall->origin;
-    throw InputError(origin, "'" + surface.name() + "' and '" + it->second->name() + "' share facets of substructure '" +
-                                 problem.substructures[part]->name + "': a facet can be in one interface or wall only");
+    throw InputError(origin, "'" + surface.name() + "' and '" + it->second->name() +
+                                 "' share facets of substructure '" + problem.substructures[part]->name +
+                                 "': a facet can be in one interface or wall only");
   };
   for (const Surface& surface : surfaces) {
     std::map<int, int> partner;

@@ -14,10 +14,10 @@ namespace dygita {
 struct Surface {
   const Interface* interface = nullptr;
   const Support* wall = nullptr;
-  int part_1 = -1, part_2 = -1;       // index in problem.substructures; -1: rigid
-  Facing facing;                      // one point a matched node; nodes_2 empty for a wall
-  std::shared_ptr<const Law> law;     // null: plain bonded in all steps, the sides become a group
-  double initial_gap = 0.0;           // m
+  int part_1 = -1, part_2 = -1;    // index in problem.substructures; -1: rigid
+  Facing facing;                   // one point a matched node; nodes_2 empty for a wall
+  std::shared_ptr<const Law> law;  // null: plain bonded in all steps, the sides become a group
+  double initial_gap = 0.0;        // m
 
   const std::string& name() const { return interface ? interface->name : wall->name; }
   int n_points() const { return static_cast<int>(facing.nodes_1.size()); }

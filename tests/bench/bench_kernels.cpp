@@ -139,8 +139,9 @@ const Made& made(int n) {
   begin = std::clock();
   m.factor = std::make_unique<Factor>(factor_of(m.matrix));
   m.all_seconds = seconds_since(begin);
-  m.single = std::make_unique<Factor>(m.matrix.matrix, m.matrix.node_of_dof, std::vector<char>(m.matrix.node_of_dof.size(), 0), "cube",
-                                      Precision::single_precision);
+  m.single =
+      std::make_unique<Factor>(m.matrix.matrix, m.matrix.node_of_dof, std::vector<char>(m.matrix.node_of_dof.size(), 0),
+                               "cube", Precision::single_precision);
   m.flops = CholmodFactor(m.matrix, m.factor->order()).common.fl;
   return m;
 }
@@ -167,8 +168,8 @@ void solve_one(benchmark::State& state, bool is_single) {
     benchmark::DoNotOptimize(x.data());
   }
   state.counters["dof"] = l.size();
-  state.counters["bytes/s"] =
-      benchmark::Counter(is_single ? 2.0 * l.bytes() : 16.0 * l.nonzeros(), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["bytes/s"] = benchmark::Counter(is_single ? 2.0 * l.bytes() : 16.0 * l.nonzeros(),
+                                                 benchmark::Counter::kIsIterationInvariantRate);
   state.counters["bytes an entry"] = l.bytes() / l.nonzeros();
 }
 
@@ -276,8 +277,14 @@ BENCHMARK(dgemm)->ArgNames({"n", "threads"})->Args({1500, 2})->UseRealTime()->Un
 BENCHMARK(factor)->ArgName("cells")->Apply(sized)->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(solve_one, double, false)->ArgName("cells")->Apply(sized)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(solve_one, single, true)->ArgName("cells")->Apply(sized)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(solve_several, double, false)->ArgNames({"cells", "columns"})->Apply(sized_16)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(solve_several, single, true)->ArgNames({"cells", "columns"})->Apply(sized_16)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(solve_several, double, false)
+    ->ArgNames({"cells", "columns"})
+    ->Apply(sized_16)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(solve_several, single, true)
+    ->ArgNames({"cells", "columns"})
+    ->Apply(sized_16)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(solve_cholmod)->ArgNames({"cells", "columns"})->Apply(sized_1_16)->Unit(benchmark::kMillisecond);
 BENCHMARK(interface_operator)->ArgName("n")->Arg(2048)->Arg(6000)->Unit(benchmark::kMillisecond);
 BENCHMARK(assembly)

@@ -8,7 +8,6 @@
 
 #include <cstdio>
 
-
 namespace {
 
 using namespace dygita::test;
@@ -44,12 +43,16 @@ void study_bar(const char* scene, const char* text) {
   }
   // Mesh and step of time together, as one refines them; the same fine run for both masses.
   for (const int n : {20, 40, 80, 160}) {
-    const auto settings = [](int cells) { return Settings{{"n", std::to_string(cells)}, {"steps", std::to_string(24 * cells / 5)}}; };
+    const auto settings = [](int cells) {
+      return Settings{{"n", std::to_string(cells)}, {"steps", std::to_string(24 * cells / 5)}};
+    };
     const EstimatedRun fine = run_estimated(path, settings(8 * n), 0.0, true);
     for (const bool is_tuned : {false, true}) {
       const EstimatedRun r = run_estimated(path, settings(n), 0.0, is_tuned);
-      const double estimate = std::hypot(r.figures.at("error estimate, time step [%]"), r.figures.at("error estimate, mesh [%]"));
-      line(scene, is_tuned ? "cells and steps (tuned mass)" : "cells and steps", std::to_string(n), estimate, true_error(r, fine, n / 2, 4 * n));
+      const double estimate =
+          std::hypot(r.figures.at("error estimate, time step [%]"), r.figures.at("error estimate, mesh [%]"));
+      line(scene, is_tuned ? "cells and steps (tuned mass)" : "cells and steps", std::to_string(n), estimate,
+           true_error(r, fine, n / 2, 4 * n));
     }
   }
   std::filesystem::remove(path);

@@ -1,12 +1,15 @@
-// What the bands of uncertainty of shock response spectra are worth: band against true difference. CSV on standard output.
+// What the bands of uncertainty of shock response spectra are worth: band against true difference. CSV on standard
+// output.
 //
 // Run: build/release/tests/spectrum_bands (some minutes)
 //
-// True differences: of the iteration against a tolerance of 1e-9; of the time step against dt / 8; of the mesh against finer cells and the
-// same dt; and what passes that stop when spectra stand still cost beside one run. Of each spectrum: means over its frequencies (dB), share of them where the difference lies within the band, median of band over difference.
-#include "decks/spectra.hpp"
-
+// True differences: of the iteration against a tolerance of 1e-9; of the time step against dt / 8; of the mesh against
+// finer cells and the same dt; and what passes that stop when spectra stand still cost beside one run. Of each
+// spectrum: means over its frequencies (dB), share of them where the difference lies within the band, median of band
+// over difference.
 #include <cstdio>
+
+#include "decks/spectra.hpp"
 
 namespace {
 
@@ -19,11 +22,12 @@ struct Scene {
   double from, to;
 };
 
-void lines(const Scene& scene, const char* knob, const std::string& value, const char* column, const SpectraRun& run, const SpectraRun& better) {
+void lines(const Scene& scene, const char* knob, const std::string& value, const char* column, const SpectraRun& run,
+           const SpectraRun& better) {
   for (size_t i = 0; i < run.spectra.size(); ++i) {
     const BandWorth worth = band_worth(run.spectra[i], better.spectra.at(i), column);
-    std::printf("%s,%s,%s,%s,%.3g,%.3g,%.0f,%.3g\n", scene.name.c_str(), run.spectra[i].name.c_str(), knob, value.c_str(), worth.band, worth.truth,
-                100.0 * worth.covered, worth.ratio);
+    std::printf("%s,%s,%s,%s,%.3g,%.3g,%.0f,%.3g\n", scene.name.c_str(), run.spectra[i].name.c_str(), knob,
+                value.c_str(), worth.band, worth.truth, 100.0 * worth.covered, worth.ratio);
   }
   std::fflush(stdout);
 }
@@ -34,11 +38,13 @@ SpectraRun run(const Scene& scene, const Settings& settings, double tolerance = 
 
 void study_tolerance(const Scene& scene) {
   const SpectraRun converged = run(scene, {}, 1e-9);
-  for (const char* tolerance : {"1e-2", "1e-3", "1e-4"}) lines(scene, "tolerance", tolerance, "iteration", run(scene, {}, std::stod(tolerance)), converged);
+  for (const char* tolerance : {"1e-2", "1e-3", "1e-4"})
+    lines(scene, "tolerance", tolerance, "iteration", run(scene, {}, std::stod(tolerance)), converged);
 }
 
 // knob: parameter of the deck; for each value the better one that it is held against.
-void study(const Scene& scene, const char* knob, const char* column, const std::vector<std::pair<std::string, std::string>>& values, const Settings& more = {}) {
+void study(const Scene& scene, const char* knob, const char* column,
+           const std::vector<std::pair<std::string, std::string>>& values, const Settings& more = {}) {
   for (const auto& [value, better] : values) {
     Settings coarse = more, fine = more;
     coarse.emplace_back(knob, value);
@@ -49,16 +55,19 @@ void study(const Scene& scene, const char* knob, const char* column, const std::
 
 double largest_of_moves(const SpectraRun& a, const SpectraRun& b) {
   double worst = 0.0;
-  for (size_t i = 0; i < a.spectra.size(); ++i) worst = std::max(worst, dygita::largest_move(a.spectra[i].srs, b.spectra.at(i).srs));
+  for (size_t i = 0; i < a.spectra.size(); ++i)
+    worst = std::max(worst, dygita::largest_move(a.spectra[i].srs, b.spectra.at(i).srs));
   return worst;
 }
 
-// One run at each tolerance against passes that stop when the spectra move by less than 0.1 dB; output.column: what else is watched, at its largest.
+// One run at each tolerance against passes that stop when the spectra move by less than 0.1 dB; output.column: what
+// else is watched, at its largest.
 void study_passes(const Scene& scene, const std::string& output, const std::string& column) {
   const SpectraRun converged = run(scene, {}, 1e-9);
   const auto print = [&](const std::string& what, const SpectraRun& r, long iterations, double seconds) {
     const double off = 100.0 * std::abs(r.largest(output, column) / converged.largest(output, column) - 1.0);
-    std::printf("%s,%s,%ld,%.2f,%.2g,%.2g\n", scene.name.c_str(), what.c_str(), iterations, seconds, largest_of_moves(r, converged), off);
+    std::printf("%s,%s,%ld,%.2f,%.2g,%.2g\n", scene.name.c_str(), what.c_str(), iterations, seconds,
+                largest_of_moves(r, converged), off);
     std::fflush(stdout);
   };
   for (const char* tolerance : {"1e-3", "1e-4", "1e-5", "1e-6"}) {
@@ -69,7 +78,8 @@ void study_passes(const Scene& scene, const std::string& output, const std::stri
   long iterations = 0;
   double seconds = 0.0;
   for (int n = 1; n <= 4; ++n) {
-    SpectraRun r = run_spectra(scene.path, {}, scene.places, scene.from, scene.to, std::pow(10.0, -2 - n), before.result ? before.result->interface_fields.get() : nullptr);
+    SpectraRun r = run_spectra(scene.path, {}, scene.places, scene.from, scene.to, std::pow(10.0, -2 - n),
+                               before.result ? before.result->interface_fields.get() : nullptr);
     iterations += r.result->iterations;
     seconds += r.result->seconds.at("all");
     const bool is_last = n > 1 && largest_of_moves(r, before) < 0.1;
@@ -78,9 +88,11 @@ void study_passes(const Scene& scene, const std::string& output, const std::stri
   }
 }
 
-// The bar's text with another duration, in times a wave takes along it: records end while the places at hand are at rest.
+// The bar's text with another duration, in times a wave takes along it: records end while the places at hand are at
+// rest.
 std::string lasting(std::string text, const std::string& before, const std::string& after) {
-  for (size_t at = 0; (at = text.find(before, at)) != std::string::npos; at += after.size()) text.replace(at, before.size(), after);
+  for (size_t at = 0; (at = text.find(before, at)) != std::string::npos; at += after.size())
+    text.replace(at, before.size(), after);
   return text;
 }
 
@@ -102,7 +114,8 @@ int main(int, char** argv) {
   study_bar("pulse", lasting(pulse, "2.4 * T", "1.9 * T"), 55e3, 400e3, {{"upper", "zmax"}, {"lower", "zmin"}});
   study_bar("impact", impact, 450e3, 4e6, {{"left", "zmin"}, {"right", "zmin"}});
   study_bar("yielding", lasting(yielding, "1.2 * T", "1.9 * T"), 55e3, 400e3, {{"upper", "zmax"}, {"lower", "zmin"}});
-  const Scene crush{"crush", deck("crush.lua"), {{"punch", "zmax"}, {"specimen", "zmax"}, {"specimen", "xmax"}}, 20e3, 300e3};
+  const Scene crush{
+      "crush", deck("crush.lua"), {{"punch", "zmax"}, {"specimen", "zmax"}, {"specimen", "xmax"}}, 20e3, 300e3};
   study_tolerance(crush);
   study(crush, "dt", "time_step", {{"0.6*us", "0.075*us"}, {"0.3*us", "0.0375*us"}});
   study(crush, "n", "mesh", {{"2", "8"}, {"4", "8"}});
@@ -113,7 +126,11 @@ int main(int, char** argv) {
   std::puts("\nscene,how,iterations,seconds,spectra off by at most [dB],other off [%]");
   study_passes(flanges, "bolt", "normal");
   study_passes(crush, "spread", "displacement");
-  Scene blocks{"pulse", std::filesystem::temp_directory_path() / "dygita_spectrum_bands.lua", {{"upper", "zmax"}, {"lower", "zmin"}}, 55e3, 400e3};
+  Scene blocks{"pulse",
+               std::filesystem::temp_directory_path() / "dygita_spectrum_bands.lua",
+               {{"upper", "zmax"}, {"lower", "zmin"}},
+               55e3,
+               400e3};
   std::ofstream(blocks.path) << lasting(pulse, "2.4 * T", "1.9 * T");
   study_passes(blocks, "a_lower_zmin", "acceleration");
   std::filesystem::remove(blocks.path);

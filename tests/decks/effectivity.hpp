@@ -46,7 +46,8 @@ struct EstimatedRun {
   Fields fields;
 };
 
-inline EstimatedRun run_estimated(const std::filesystem::path& path, const Settings& settings, double tolerance = 0.0, bool is_tuned = false) {
+inline EstimatedRun run_estimated(const std::filesystem::path& path, const Settings& settings, double tolerance = 0.0,
+                                  bool is_tuned = false) {
   set_progress_enabled(false);
   EstimatedRun done;
   const Engine engine{[&](Problem problem, const RunRequest&) {

@@ -24,7 +24,9 @@ struct DeckRun {
     throw std::runtime_error("no output named " + name);
   }
   const Table& table(const std::string& name) const { return result->tables.at(&output(name)); }
-  const std::vector<double>& column(const std::string& name, const std::string& of) const { return table(name).column(of); }
+  const std::vector<double>& column(const std::string& name, const std::string& of) const {
+    return table(name).column(of);
+  }
   double figure(const std::string& name) const { return result->figures.at(name); }
 };
 
@@ -54,14 +56,18 @@ inline std::vector<DeckRun> run_file(const std::filesystem::path& path, const Se
 // A deck given as text; its file is this process's own, since tests run side by side.
 inline std::vector<DeckRun> run_text(const std::string& text, const Settings& settings = {}, int threads = 0,
                                      const std::string& solver = "") {
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("dygita_test_" + std::to_string(getpid()) + "_" + std::to_string(std::hash<std::string>{}(text)) + ".lua");
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() /
+      ("dygita_test_" + std::to_string(getpid()) + "_" + std::to_string(std::hash<std::string>{}(text)) + ".lua");
   std::ofstream(path) << text;
   std::vector<DeckRun> runs = run_file(path, settings, threads, solver);
   std::filesystem::remove(path);
   return runs;
 }
 
-inline std::filesystem::path deck(const std::string& name) { return std::filesystem::path(DYGITA_SOURCE_DIR) / "decks" / name; }
+inline std::filesystem::path deck(const std::string& name) {
+  return std::filesystem::path(DYGITA_SOURCE_DIR) / "decks" / name;
+}
 
 inline double largest(const std::vector<double>& values) {
   double max = 0.0;

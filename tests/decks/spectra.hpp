@@ -28,45 +28,47 @@ struct SpectraRun {
   }
 };
 
-// Accelerations along z of the places (none: the deck's own spectra), from..to in Hz; tolerance 0: the deck's. start_from: fields of a run at
-// another tolerance.
-inline SpectraRun run_spectra(const std::filesystem::path& path, const Settings& settings, const std::vector<Place>& places, double from, double to,
-                              double tolerance = 0.0, const InterfaceFields* start_from = nullptr) {
+// Accelerations along z of the places (none: the deck's own spectra), from..to in Hz; tolerance 0: the deck's.
+// start_from: fields of a run at another tolerance.
+inline SpectraRun run_spectra(const std::filesystem::path& path, const Settings& settings,
+                              const std::vector<Place>& places, double from, double to, double tolerance = 0.0,
+                              const InterfaceFields* start_from = nullptr) {
   set_progress_enabled(false);
   SpectraRun done;
-  const Engine engine{[&](Problem problem, const RunRequest&) {
-                        if (tolerance > 0.0) problem.solver.tolerance = tolerance;
-                        for (const Place& place : places) {
-                          auto history = std::make_shared<Output>();
-                          for (const SubstructurePtr& part : problem.substructures)
-                            if (part->name == place.part) history->on = {Face{part, place.face}};
-                          history->name = "a_" + place.part + "_" + place.face;
-                          history->kind = OutputKind::history;
-                          history->quantity = Quantity::acceleration;
-                          history->direction = Vec3::UnitZ();
-                          auto srs = std::make_shared<Output>();
-                          srs->name = place.part + "." + place.face;
-                          srs->kind = OutputKind::srs;
-                          srs->of = history;
-                          srs->srs = {10.0, from, to, 12};
-                          problem.outputs.insert(problem.outputs.end(), {history, srs});
-                        }
-                        Collector collector(problem, nullptr);
-                        const auto start = std::chrono::steady_clock::now();
-                        const SolverFigures figures = solve(problem, collector, start_from);
-                        auto result = std::make_shared<RunResult>();
-                        collector.finish(*result);
-                        result->seconds["all"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-                        result->interface_fields = figures.interface_fields;
-                        for (const OutputPtr& output : problem.outputs)
-                          if (output->kind == OutputKind::srs)
-                            done.spectra.push_back({output->name, result->tables.at(output.get()), result->bands.at(output.get())});
-                        for (const StepFigures& step : figures.steps) result->iterations += step.iterations;
-                        done.problem = problem;
-                        done.result = result;
-                        return std::shared_ptr<const RunResult>(result);
-                      },
-                      check_report};
+  const Engine engine{
+      [&](Problem problem, const RunRequest&) {
+        if (tolerance > 0.0) problem.solver.tolerance = tolerance;
+        for (const Place& place : places) {
+          auto history = std::make_shared<Output>();
+          for (const SubstructurePtr& part : problem.substructures)
+            if (part->name == place.part) history->on = {Face{part, place.face}};
+          history->name = "a_" + place.part + "_" + place.face;
+          history->kind = OutputKind::history;
+          history->quantity = Quantity::acceleration;
+          history->direction = Vec3::UnitZ();
+          auto srs = std::make_shared<Output>();
+          srs->name = place.part + "." + place.face;
+          srs->kind = OutputKind::srs;
+          srs->of = history;
+          srs->srs = {10.0, from, to, 12};
+          problem.outputs.insert(problem.outputs.end(), {history, srs});
+        }
+        Collector collector(problem, nullptr);
+        const auto start = std::chrono::steady_clock::now();
+        const SolverFigures figures = solve(problem, collector, start_from);
+        auto result = std::make_shared<RunResult>();
+        collector.finish(*result);
+        result->seconds["all"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        result->interface_fields = figures.interface_fields;
+        for (const OutputPtr& output : problem.outputs)
+          if (output->kind == OutputKind::srs)
+            done.spectra.push_back({output->name, result->tables.at(output.get()), result->bands.at(output.get())});
+        for (const StepFigures& step : figures.steps) result->iterations += step.iterations;
+        done.problem = problem;
+        done.result = result;
+        return std::shared_ptr<const RunResult>(result);
+      },
+      check_report};
   DeckOptions options;
   options.path = path;
   options.settings = settings;
@@ -76,14 +78,16 @@ inline SpectraRun run_spectra(const std::filesystem::path& path, const Settings&
   return done;
 }
 
-// A column of the band against the true difference from a better run: means over the frequencies, share of frequencies where the difference lies
-// within the band, median of band over difference.
+// A column of the band against the true difference from a better run: means over the frequencies, share of frequencies
+// where the difference lies within the band, median of band over difference.
 struct BandWorth {
   double band = 0.0, truth = 0.0, covered = 0.0, ratio = 0.0;
 };
 
-inline BandWorth band_worth(const SpectraRun::Spectrum& run, const SpectraRun::Spectrum& better, const std::string& column) {
-  const std::vector<double>&a = run.srs.column("maximax"), &b = better.srs.column("maximax"), &band = run.band.column(column);
+inline BandWorth band_worth(const SpectraRun::Spectrum& run, const SpectraRun::Spectrum& better,
+                            const std::string& column) {
+  const std::vector<double>&a = run.srs.column("maximax"), &b = better.srs.column("maximax"),
+        &band = run.band.column(column);
   BandWorth worth;
   std::vector<double> ratios;
   for (size_t i = 0; i < a.size(); ++i) {

@@ -21,12 +21,14 @@ local b = bar("b", 0, 2)
 local held = support.fixed{ name = "held", on = { b:face "zmin", b:face "xmin" } }
 local pull = step.static{ name = "pull", loads = { load.traction{ on = b:face "zmax", z = 10*MPa } } }
 problem{ name = "p", substructures = { b }, supports = { held }, steps = { pull }, outputs = { output.resultant{ name = "r", on = held } } }:run{}
-)").at(0);
+)")
+                          .at(0);
   EXPECT_NEAR(run.column("r", "z").back(), -1000.0, 1e-6);
   EXPECT_NEAR(run.column("r", "x").back(), 0.0, 1e-6);
 }
 
-// Anderson may throw a body that has not touched yet far away: the step then says so. Called converged, it must carry the load.
+// Anderson may throw a body that has not touched yet far away: the step then says so. Called converged, it must carry
+// the load.
 TEST(StaticStep, never_calls_a_body_that_has_flown_off_converged) {
   const DeckRun run = run_text(bars + R"(
 local a, b = bar("a", 0, 1), bar("b", 10*mm, 1)
@@ -36,7 +38,8 @@ local guide = support.symmetry{ name = "guide", on = { b:face "xmin", b:face "ym
 local press = step.static{ name = "press", loads = { load.pressure{ on = b:face "zmax", history = 10*MPa } } }
 problem{ name = "p", substructures = { a, b }, interfaces = { touch }, supports = { base, guide }, steps = { press },
   outputs = { output.resultant{ name = "r", on = touch } } }:run{}
-)").at(0);
+)")
+                          .at(0);
   EXPECT_TRUE(!run.result->converged || std::abs(run.column("r", "normal").back() + 1000.0) < 1e-3);
 }
 
@@ -49,7 +52,8 @@ local one = step.static{ name = "one", increments = 4, loads = { load.shortening
 local two = step.static{ name = "two", after = one, increments = 2, loads = { load.shortening{ on = cut, by = 20*um } } }
 problem{ name = "p", substructures = { a, b }, interfaces = { cut }, supports = { ends }, steps = { one, two },
   outputs = { output.resultant{ name = "r", on = cut } } }:run{}
-)").at(0);
+)")
+                          .at(0);
   const double whole = 200e9 * 1e-4 * 10e-6 / 20e-3;
   const double expected[] = {0.25, 0.5, 0.75, 1.0, 1.5, 2.0};
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(run.column("r", "normal").at(i), expected[i] * whole, 1e-5 * whole) << i;
@@ -65,7 +69,8 @@ local hold = step.dynamic{ name = "hold", after = one, duration = 5*us, dt = 0.5
 local two = step.static{ name = "two", after = hold, loads = to(20*um) }
 problem{ name = "p", substructures = { b }, supports = { base }, steps = { one, hold, two },
   outputs = { output.resultant{ name = "r", on = base }, output.energy{} } }:run{}
-)").at(0);
+)")
+                          .at(0);
   EXPECT_NEAR(run.column("r", "z").front(), -20000.0, 1e-3);
   EXPECT_NEAR(run.column("r", "z").back(), -40000.0, 1e-3);
   EXPECT_NEAR(run.column("energy", "strain").back(), 0.5 * 40000.0 * 20e-6, 1e-9);
@@ -81,7 +86,8 @@ local function to(z) return { load.displacement{ on = b:face "zmax", z = z } } e
 local near_it = step.static{ name = "near_it", loads = to(-8*um), supports = { hand } }
 local on_it = step.static{ name = "on_it", after = near_it, loads = to(-14*um) }
 problem{ name = "p", substructures = { b }, supports = { wall, hand }, steps = { near_it, on_it }, outputs = { output.resultant{ name = "r", on = wall } } }:run{}
-)").at(0);
+)")
+                          .at(0);
   EXPECT_NEAR(run.column("r", "normal").back(), -200e9 * 1e-4 * 4e-6 / 10e-3, 1e-2);
 }
 

@@ -53,7 +53,8 @@ TEST(CondensedJoint, slides_gradually_with_an_exponent_between_two_and_three) {
   }
   // Goodman's loss for two parts that both stretch, from below: parts of a finite thickness hold on at the ends.
   for (int i = 0; i < 6; ++i) {
-    const double force = ends.cycles.column("force_amplitude")[i], thin = std::pow(force, 3) / (3 * 70e9 * 10e-6 * 0.3 * 10e6 * 10e-3);
+    const double force = ends.cycles.column("force_amplitude")[i],
+                 thin = std::pow(force, 3) / (3 * 70e9 * 10e-6 * 0.3 * 10e6 * 10e-3);
     const double ratio = ends.cycles.column("loss")[i] / thin;
     EXPECT_GT(ratio, 0.84) << force;
     EXPECT_LT(ratio, 1.0) << force;
@@ -64,7 +65,9 @@ TEST(CondensedJoint, slides_gradually_with_an_exponent_between_two_and_three) {
   EXPECT_NEAR(ends.cycles.column("loss").back(), spent, 0.01 * spent);
   // Masing's rule from the first loading is what a system model will lose.
   for (int i = 2; i < 6; ++i)
-    EXPECT_NEAR(ends.cycles.column("masing_loss")[i], ends.cycles.column("loss")[i], 0.06 * ends.cycles.column("loss")[i]) << i;
+    EXPECT_NEAR(ends.cycles.column("masing_loss")[i], ends.cycles.column("loss")[i],
+                0.06 * ends.cycles.column("loss")[i])
+        << i;
 }
 
 // The whole linear model that a superelement stands for, caught at the end of its step.
@@ -73,7 +76,8 @@ class Capture : public Observer {
   explicit Capture(const Problem& problem) : problem_(problem) {}
   void begin_step(const Instant&) override {}
   void accept(const Instant& instant) override {
-    if (instant.is_static() && instant.increment + 1 == instant.model.step->n_increments()) full = linearise(instant, true);
+    if (instant.is_static() && instant.increment + 1 == instant.model.step->n_increments())
+      full = linearise(instant, true);
   }
   LinearAssembly full;
 
@@ -91,7 +95,9 @@ struct Condensed {
       if (o->name == name) return *o;
     throw std::runtime_error("no output " + name);
   }
-  const Superelement& element(const std::string& name = "element") const { return result->superelements.at(&output(name)); }
+  const Superelement& element(const std::string& name = "element") const {
+    return result->superelements.at(&output(name));
+  }
 };
 
 Condensed condensed_file(const std::filesystem::path& path, const Settings& settings = {}) {
@@ -115,7 +121,9 @@ Condensed condensed_file(const std::filesystem::path& path, const Settings& sett
 }
 
 Condensed condensed_text(const std::string& text, const Settings& settings = {}) {
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("dygita_condensed_" + std::to_string(getpid()) + "_" + std::to_string(std::hash<std::string>{}(text)) + ".lua");
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() /
+      ("dygita_condensed_" + std::to_string(getpid()) + "_" + std::to_string(std::hash<std::string>{}(text)) + ".lua");
   std::ofstream(path) << text;
   const Condensed condensed = condensed_file(path, settings);
   std::filesystem::remove(path);
@@ -142,14 +150,16 @@ using Complex = std::complex<double>;
 Complex full_response(const Condensed& c, int to, int from, double frequency) {
   const SparseMatrix w = interface_coordinates(c.full, c.problem, c.output()).w;
   const double omega = 2 * std::numbers::pi * frequency;
-  const Eigen::SparseMatrix<Complex> k = (c.full.stiffness - omega * omega * c.full.mass).cast<Complex>() + Complex(0, omega) * c.full.damping.cast<Complex>();
+  const Eigen::SparseMatrix<Complex> k = (c.full.stiffness - omega * omega * c.full.mass).cast<Complex>() +
+                                         Complex(0, omega) * c.full.damping.cast<Complex>();
   const Eigen::SparseLU<Eigen::SparseMatrix<Complex>> lu(k);
   const Eigen::VectorXcd force = Vec(w.row(from).transpose()).cast<Complex>();
   return -omega * omega * Vec(w.row(to).transpose()).cast<Complex>().dot(lu.solve(force));
 }
 Complex condensed_response(const Superelement& e, int to, int from, double frequency) {
   const double omega = 2 * std::numbers::pi * frequency;
-  const Eigen::MatrixXcd k = (e.stiffness - omega * omega * e.mass).cast<Complex>() + Complex(0, omega) * e.damping.cast<Complex>();
+  const Eigen::MatrixXcd k =
+      (e.stiffness - omega * omega * e.mass).cast<Complex>() + Complex(0, omega) * e.damping.cast<Complex>();
   Eigen::VectorXcd force = Eigen::VectorXcd::Zero(e.mass.rows());
   force[from] = 1.0;
   return -omega * omega * k.partialPivLu().solve(force)[to];
@@ -162,13 +172,15 @@ void expect_like_the_whole(const Condensed& c, double largest_error_of_response)
   double worst = 0.0;
   const double floor = 1e-3 * full[9];  // rigid motions
   for (int i = 0; i < 10; ++i) worst = std::max(worst, std::abs(e.frequencies[i] - full[i]) / std::max(full[i], floor));
-  std::cout << "first ten frequencies from " << full[0] << " to " << full[9] << " Hz: largest error " << 100 * worst << " %\n";
+  std::cout << "first ten frequencies from " << full[0] << " to " << full[9] << " Hz: largest error " << 100 * worst
+            << " %\n";
   EXPECT_LT(worst, 0.01);
   ASSERT_GT(e.damping.size(), 0);
   const int from = 2, to = 8;  // z of the first face, z of the second
   double difference = 0.0;
   for (const double share : {0.05, 0.2, 0.37, 0.5, 0.62, 0.78, 0.9, 1.0}) {
-    const Complex a = full_response(c, to, from, share * e.valid_to), b = condensed_response(e, to, from, share * e.valid_to);
+    const Complex a = full_response(c, to, from, share * e.valid_to),
+                  b = condensed_response(e, to, from, share * e.valid_to);
     difference = std::max(difference, std::abs(a - b) / std::abs(a));
   }
   std::cout << "response from face to face up to " << e.valid_to << " Hz: largest error " << 100 * difference << " %\n";
@@ -184,8 +196,10 @@ TEST(Superelement, of_the_tightened_flanges_is_the_whole_linear_model_up_to_its_
   expect_like_the_whole(c, 0.02);
 }
 
-// Two blocks pulled together by two bolts onto a seat between them, free in space; `joint` is how seat and upper block meet.
-std::string blocks(const std::string& joint, const std::string& on = "{ a:face 'zmin', b:face 'zmax' }, up_to = 40*kHz") {
+// Two blocks pulled together by two bolts onto a seat between them, free in space; `joint` is how seat and upper block
+// meet.
+std::string blocks(const std::string& joint,
+                   const std::string& on = "{ a:face 'zmin', b:face 'zmax' }, up_to = 40*kHz") {
   return R"(
 local m = material.elastic{ name = "m", young = 70*GPa, poisson = 0.3, density = 2700, damping = 2e-8 }
 local function box(name, x, z, size, cells)
@@ -202,16 +216,18 @@ for _, part in ipairs{ left, right } do
   shanks[#shanks + 1] = interface.bonded{ name = "shank" .. #shanks, between = { part:face "zmax", b:face "zmin" } }
 end
 local foot = interface.bonded{ name = "foot", between = { a:face "zmax", seat:face "zmin" } }
-local head = interface.)" + joint + R"(
+local head = interface.)" +
+         joint + R"(
 local tighten = step.static{ name = "tighten", loads = { load.shortening{ on = shanks, by = 10*um } } }
-local element = output.superelement{ name = "element", on = )" + on + R"( }
+local element = output.superelement{ name = "element", on = )" +
+         on + R"( }
 problem{ name = "blocks", substructures = { a, b, seat, left, right }, interfaces = { foot, head, ties[1], ties[2], shanks[1], shanks[2] },
   steps = { tighten }, outputs = { element } }:run{}
 )";
 }
 const std::string sides = "name = 'head', between = { seat:face 'zmax', b:face 'zmin' }";
-const std::string bonded = "bonded{ " + sides + " }", sticking = "contact{ " + sides + ", friction = 1000 }", smooth = "contact{ " + sides + " }",
-                  open = "contact{ " + sides + ", gap = 50*um }";
+const std::string bonded = "bonded{ " + sides + " }", sticking = "contact{ " + sides + ", friction = 1000 }",
+                  smooth = "contact{ " + sides + " }", open = "contact{ " + sides + ", gap = 50*um }";
 
 TEST(Superelement, free_in_space_is_the_whole_with_six_rigid_motions_and_the_mass_of_the_parts) {
   const Condensed c = condensed_text(blocks(sticking));
@@ -238,7 +254,8 @@ TEST(Superelement, free_in_space_is_the_whole_with_six_rigid_motions_and_the_mas
 }
 
 TEST(Superelement, has_the_same_matrices_whether_a_joint_sticks_or_is_bonded) {
-  const Superelement closed = condensed_text(blocks(sticking)).element(), tied = condensed_text(blocks(bonded)).element();
+  const Superelement closed = condensed_text(blocks(sticking)).element(),
+                     tied = condensed_text(blocks(bonded)).element();
   ASSERT_EQ(closed.mass.rows(), tied.mass.rows());
   const int n = 12;
   EXPECT_LT((closed.stiffness - tied.stiffness).norm(), 1e-9 * tied.stiffness.norm());
@@ -253,8 +270,8 @@ TEST(Superelement, softens_where_a_joint_slides_and_more_where_it_is_open) {
   const Superelement parted = condensed_text(blocks(open)).element();
   EXPECT_EQ(slides.n_normal, 25);
   EXPECT_EQ(parted.n_open, 25);
-  std::cout << "first elastic frequency, Hz: bonded " << tied.frequencies[6] << ", frictionless " << slides.frequencies[6] << ", open "
-            << parted.frequencies[6] << "\n";
+  std::cout << "first elastic frequency, Hz: bonded " << tied.frequencies[6] << ", frictionless "
+            << slides.frequencies[6] << ", open " << parted.frequencies[6] << "\n";
   EXPECT_LT(slides.frequencies[6], 0.99 * tied.frequencies[6]);
   EXPECT_LT(parted.frequencies[6], 0.995 * slides.frequencies[6]);
   EXPECT_LT(parted.frequencies[5], 1e-4 * parted.frequencies[6]);  // and no more rigid motions: the bolts hold
@@ -279,10 +296,13 @@ TEST(Superelement, is_not_made_and_says_why_where_a_part_is_held_by_nothing) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   std::string text = blocks(open);
-  const std::string tied = "local foot = interface.bonded{ name = \"foot\", between = { a:face \"zmax\", seat:face \"zmin\" } }";
+  const std::string tied =
+      "local foot = interface.bonded{ name = \"foot\", between = { a:face \"zmax\", seat:face \"zmin\" } }";
   const size_t at = text.find(tied);
   ASSERT_NE(at, std::string::npos);
-  text.replace(at, tied.size(), "local foot = interface.contact{ name = \"foot\", gap = 1*um, between = { a:face \"zmax\", seat:face \"zmin\" } }");
+  text.replace(at, tied.size(),
+               "local foot = interface.contact{ name = \"foot\", gap = 1*um, between = { a:face \"zmax\", seat:face "
+               "\"zmin\" } }");
   const Condensed c = condensed_text(text);
   const std::string said = testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr();
   EXPECT_TRUE(c.result->superelements.empty());

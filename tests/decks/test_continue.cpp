@@ -4,8 +4,8 @@
 
 #include <iterator>
 
-#include "decks/engine.hpp"
 #include "deck/continue_run.hpp"
+#include "decks/engine.hpp"
 #include "output/csv.hpp"
 #include "output/run_record.hpp"
 
@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The bolted flanges on coarse cells: prestress, friction, a bolt that yields; with cases = 1 another case is computed first.
+// The bolted flanges on coarse cells: prestress, friction, a bolt that yields; with cases = 1 another case is computed
+// first.
 std::string bolted_flanges() {
   std::ifstream file(deck("bolted_flanges.lua"));
   std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -25,9 +26,10 @@ std::string bolted_flanges() {
   };
   replace("param{ mu", "param{ cases = 0, mu");
   replace("../meshes/", std::string(DYGITA_SOURCE_DIR) + "/meshes/");
-  replace("local result = bolted(p.mu):run{}", "local first = p.cases == 1 and bolted(0.1):run{ case = 'first' } or nil\n"
-                                               "if first then print(first[bolt].normal.last) end\n"
-                                               "local result = bolted(p.mu):run{ start_from = first }");
+  replace("local result = bolted(p.mu):run{}",
+          "local first = p.cases == 1 and bolted(0.1):run{ case = 'first' } or nil\n"
+          "if first then print(first[bolt].normal.last) end\n"
+          "local result = bolted(p.mu):run{ start_from = first }");
   return text;
 }
 
@@ -53,7 +55,8 @@ class Continue : public testing::Test {
   }
 
   // Runs the deck into folder_/<out>; answers the run's folder.
-  fs::path run(const std::string& out, const std::string& solver, const Settings& settings = {}, bool write_state = true) const {
+  fs::path run(const std::string& out, const std::string& solver, const Settings& settings = {},
+               bool write_state = true) const {
     DeckOptions options;
     options.path = folder_ / "flanges.lua";
     options.settings = {{"size", "6*mm"}};
@@ -84,7 +87,8 @@ class Continue : public testing::Test {
     Columns columns;
     for (const char* file : {"above", "below", "bolt", "joint", "energy"}) {
       const Table table = read_csv(run / (std::string(file) + ".csv"), {"tighten", "shock"});
-      for (size_t i = 0; i < table.names.size(); ++i) columns[std::string(file) + "." + table.names[i]] = table.columns[i];
+      for (size_t i = 0; i < table.names.size(); ++i)
+        columns[std::string(file) + "." + table.names[i]] = table.columns[i];
     }
     return columns;
   }
@@ -92,7 +96,8 @@ class Continue : public testing::Test {
   static double largest_difference(const fs::path& a, const fs::path& b) {
     const Columns of_a = columns(a), of_b = columns(b);
     double worst = 0.0;
-    for (const char* name : {"above.acceleration", "below.acceleration", "bolt.normal", "bolt.plastic_opening", "joint.normal", "joint.slip", "energy.kinetic", "energy.friction"})
+    for (const char* name : {"above.acceleration", "below.acceleration", "bolt.normal", "bolt.plastic_opening",
+                             "joint.normal", "joint.slip", "energy.kinetic", "energy.friction"})
       worst = std::max(worst, difference(of_b.at(name), of_a.at(name)));
     return worst;
   }
@@ -103,7 +108,8 @@ class Continue : public testing::Test {
 
 TEST_F(Continue, to_a_tighter_tolerance_gives_what_that_tolerance_gives_and_takes_fewer_iterations) {
   for (const char* more : {"", ", pieces = 2", ", precision = \"single\"", ", window = 5", ", mass = \"tuned\""}) {
-    const std::string loose = std::string("latin{ tolerance = 1e-3") + more + " }", tight = std::string("latin{ tolerance = 1e-7, static_tolerance = 1e-9") + more + " }";
+    const std::string loose = std::string("latin{ tolerance = 1e-3") + more + " }",
+                      tight = std::string("latin{ tolerance = 1e-7, static_tolerance = 1e-9") + more + " }";
     const fs::path run_at_once = run("at_once", tight), going_on = run("going_on", loose);
     const long before = iterations(going_on), fresh = iterations(run_at_once);
     const double difference_before = largest_difference(run_at_once, going_on);
@@ -111,12 +117,15 @@ TEST_F(Continue, to_a_tighter_tolerance_gives_what_that_tolerance_gives_and_take
     options.tolerance = 1e-7;
     EXPECT_TRUE(continue_run(options).not_converged.empty());
     const double after = largest_difference(run_at_once, going_on);
-    std::cout << "latin{" << more << " }: first run " << before << " iterations, continued with " << iterations(going_on) << ", a fresh run at 1e-7 takes "
-              << fresh << "; difference from it " << difference_before << " before, " << after << " after\n";
+    std::cout << "latin{" << more << " }: first run " << before << " iterations, continued with "
+              << iterations(going_on) << ", a fresh run at 1e-7 takes " << fresh << "; difference from it "
+              << difference_before << " before, " << after << " after\n";
     EXPECT_LT(after, 1e-5) << more;
     EXPECT_LT(after, 0.02 * difference_before) << more;
     // A window of several steps begins anew what its steps tell each other.
-    EXPECT_LT(static_cast<double>(iterations(going_on)), (std::string(more).find("window") == std::string::npos ? 0.9 : 1.1) * static_cast<double>(fresh)) << more;
+    EXPECT_LT(static_cast<double>(iterations(going_on)),
+              (std::string(more).find("window") == std::string::npos ? 0.9 : 1.1) * static_cast<double>(fresh))
+        << more;
   }
 }
 
@@ -132,7 +141,8 @@ TEST_F(Continue, with_more_iterations_comes_as_near_as_they_lead_and_ends_at_rou
   EXPECT_LE(iterations(few), 4 * 62);  // 2 + 60 increments
   options.more_iterations = 300;
   continue_run(options);
-  std::cout << "difference " << before << ", " << after_three << " after 3 iterations more, " << largest_difference(exact, few) << " at round-off\n";
+  std::cout << "difference " << before << ", " << after_three << " after 3 iterations more, "
+            << largest_difference(exact, few) << " at round-off\n";
   EXPECT_LT(largest_difference(exact, few), 1e-7);
   EXPECT_LT(iterations(few), 100 * 62);
 }
@@ -144,7 +154,8 @@ TEST_F(Continue, until_later_gives_what_the_longer_run_gives_and_repeats_with_on
     ContinueOptions options = options_for(going_on);
     options.until = 100e-6;
     EXPECT_TRUE(continue_run(options).not_converged.empty());
-    std::cout << solver << ": " << before << " iterations to 60 us, " << iterations(going_on) << " to go on to 100 us, " << fresh << " of a run to 100 us\n";
+    std::cout << solver << ": " << before << " iterations to 60 us, " << iterations(going_on) << " to go on to 100 us, "
+              << fresh << " of a run to 100 us\n";
     EXPECT_LT(largest_difference(longer, going_on), 1e-4);
     EXPECT_LT(iterations(going_on), fresh - before + 2 * 62);
     // And on once more, now tighter: the state knows of the time that was added.
@@ -152,7 +163,11 @@ TEST_F(Continue, until_later_gives_what_the_longer_run_gives_and_repeats_with_on
     options.tolerance = 1e-9;
     continue_run(options);
     EXPECT_EQ(columns(going_on).at("above.time").size(), columns(longer).at("above.time").size());
-    EXPECT_LT(largest_difference(run("tight", "latin{ tolerance = 1e-9, static_tolerance = 1e-11, max_iterations = 1000 }", {{"duration", "100*us"}}), going_on), 2e-4);
+    EXPECT_LT(
+        largest_difference(run("tight", "latin{ tolerance = 1e-9, static_tolerance = 1e-11, max_iterations = 1000 }",
+                               {{"duration", "100*us"}}),
+                           going_on),
+        2e-4);
   }
 }
 
@@ -180,7 +195,8 @@ TEST_F(Continue, finishes_what_was_interrupted) {
 
 TEST_F(Continue, streams_fields_beyond_the_memory_for_them) {
   const fs::path in_memory = run("in_memory", "latin{}"), in_file = run("in_file", "latin{ history_memory = 0 }");
-  EXPECT_EQ(fs::file_size(in_memory / state_file_name), fs::file_size(in_file / state_file_name) - std::string(" history_memory = 0 ").size());
+  EXPECT_EQ(fs::file_size(in_memory / state_file_name),
+            fs::file_size(in_file / state_file_name) - std::string(" history_memory = 0 ").size());
   ContinueOptions options = options_for(in_file);
   options.tolerance = 1e-8;
   continue_run(options);
@@ -195,7 +211,9 @@ TEST_F(Continue, goes_on_with_the_text_that_the_run_kept) {
   options.tolerance = 1e-6;
   testing::internal::CaptureStderr();
   continue_run(options);
-  EXPECT_NE(testing::internal::GetCapturedStderr().find("has changed since the run or is gone: the run goes on with the text that it kept"), std::string::npos);
+  EXPECT_NE(testing::internal::GetCapturedStderr().find(
+                "has changed since the run or is gone: the run goes on with the text that it kept"),
+            std::string::npos);
   put("flanges.lua", bolted_flanges());
   EXPECT_LT(largest_difference(run("again", "latin{ tolerance = 1e-6 }"), kept), 1e-4);
 }
@@ -227,16 +245,20 @@ TEST_F(Continue, says_what_is_wrong_and_leaves_the_old_results) {
   EXPECT_FALSE(fs::exists(options.run / state_file_name));
   EXPECT_NE(refusal(options).find("the run was told --no-state"), std::string::npos) << refusal(options);
   options.run = run("other", "monolithic{}");
-  EXPECT_NE(refusal(options).find("was computed by solver.monolithic, which keeps nothing to go on from"), std::string::npos) << refusal(options);
+  EXPECT_NE(refusal(options).find("was computed by solver.monolithic, which keeps nothing to go on from"),
+            std::string::npos)
+      << refusal(options);
 
   options.run = run("good", "latin{ precision = \"single\" }", {});
   const std::string tip = text_of(options.run / "above.csv"), record = text_of(options.run / "run.json");
   EXPECT_NE(record.find(state_file_name), std::string::npos);
   options.tolerance = 1e-8;
-  EXPECT_NE(refusal(options).find("'precision' = \"single\" of the deck holds 1e-7 at least"), std::string::npos) << refusal(options);
+  EXPECT_NE(refusal(options).find("'precision' = \"single\" of the deck holds 1e-7 at least"), std::string::npos)
+      << refusal(options);
   options.tolerance.reset();
   options.until = 5e-6;
-  EXPECT_NE(refusal(options).find("--until 5e-06: the run reaches 6e-05 s already"), std::string::npos) << refusal(options);
+  EXPECT_NE(refusal(options).find("--until 5e-06: the run reaches 6e-05 s already"), std::string::npos)
+      << refusal(options);
   options.until.reset();
   options.tolerance = 1e-2;  // looser than reached
   testing::internal::CaptureStdout();

@@ -26,7 +26,8 @@ TEST(PlasticBeam, transmits_its_yield_stress) {
 TEST(PlasticBeam, is_a_bonded_beam_below_its_yield_stress) {
   const DeckRun run = run_file(deck("plastic_beam.lua"), {{"yield", "500*MPa"}}).at(0);
   EXPECT_EQ(largest(run.column("yielding", "plastic_opening")), 0.0);
-  // The step of 200 MPa passes at 10 us; its reflection from the fixed end comes back at 30 us. The mean takes the mesh's ringing out.
+  // The step of 200 MPa passes at 10 us; its reflection from the fixed end comes back at 30 us. The mean takes the
+  // mesh's ringing out.
   const Table& through = run.table("through");
   double sum = 0.0;
   int n = 0;
@@ -43,14 +44,17 @@ TEST(Crush, converges_with_the_same_ease_for_any_friction) {
   for (const char* mu : {"0", "0.3", "1", "5"}) {
     const DeckRun run = run_file(deck("crush.lua"), {{"mu", mu}}).at(0);
     expect_sound(run);
-    spread.push_back(*std::max_element(run.column("spread", "displacement").begin(), run.column("spread", "displacement").end()));
+    spread.push_back(
+        *std::max_element(run.column("spread", "displacement").begin(), run.column("spread", "displacement").end()));
     iterations.push_back(run.result->mean_iterations);
-    std::cout << "mu " << mu << ": spread " << spread.back() * 1e6 << " um, " << iterations.back() << " iterations a step\n";
+    std::cout << "mu " << mu << ": spread " << spread.back() * 1e6 << " um, " << iterations.back()
+              << " iterations a step\n";
   }
   for (size_t i = 1; i < spread.size(); ++i) EXPECT_LE(spread[i], spread[i - 1] * 1.0001);
   // Without friction the start is predicted almost to the end (2.4): the ease compared is that of the rough ones.
   for (const double n : iterations) EXPECT_LT(n, 4.5);
-  for (size_t i = 1; i < iterations.size(); ++i) EXPECT_LT(iterations[i], 1.6 * *std::min_element(iterations.begin() + 1, iterations.end()));
+  for (size_t i = 1; i < iterations.size(); ++i)
+    EXPECT_LT(iterations[i], 1.6 * *std::min_element(iterations.begin() + 1, iterations.end()));
 }
 
 TEST(Crush, gives_the_same_spread_on_a_finer_mesh_within_a_tenth) {
@@ -70,8 +74,9 @@ TEST(BoltedFlanges, tightens_and_shocks_at_two_mesh_sizes) {
     const DeckRun run = run_file(deck("bolted_flanges.lua"), {{"size", size}}).at(0);
     expect_sound(run);
     tightened.push_back(run.column("bolt", "normal").at(1));
-    std::cout << "size " << size << ": " << run.result->n_dofs << " dof, bolt force " << tightened.back() / 1e3 << " kN, "
-              << run.result->mean_iterations << " iterations an increment, imbalance " << run.figure("energy imbalance [%]") << " %\n";
+    std::cout << "size " << size << ": " << run.result->n_dofs << " dof, bolt force " << tightened.back() / 1e3
+              << " kN, " << run.result->mean_iterations << " iterations an increment, imbalance "
+              << run.figure("energy imbalance [%]") << " %\n";
     // What pulls in the bolt pushes in the mating plane.
     EXPECT_NEAR(run.column("joint", "normal").at(1), -tightened.back(), 1e-6 * tightened.back());
   }

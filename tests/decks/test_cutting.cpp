@@ -52,14 +52,16 @@ DeckRun block(const Settings& settings, int threads = 0) { return run_text(cut_b
 TEST(Cutting, a_cut_and_bonded_body_is_the_uncut_one) {
   const DeckRun whole = block({});
   EXPECT_TRUE(whole.result->converged);
-  for (const Settings& cut : {Settings{{"nz", "2"}}, Settings{{"nx", "2"}, {"ny", "2"}, {"nz", "2"}}, Settings{{"nx", "3"}, {"ny", "2"}, {"nz", "4"}}}) {
+  for (const Settings& cut : {Settings{{"nz", "2"}}, Settings{{"nx", "2"}, {"ny", "2"}, {"nz", "2"}},
+                              Settings{{"nx", "3"}, {"ny", "2"}, {"nz", "4"}}}) {
     const DeckRun pieces = block(cut);
     EXPECT_TRUE(pieces.result->converged);
     for (const char* axis : {"x", "y", "z"})
       EXPECT_LT(difference(whole.column("corner", axis), pieces.column("corner", axis)), 1e-6) << axis;
     EXPECT_LT(difference(whole.column("foot", "normal"), pieces.column("foot", "normal")), 1e-6);
     EXPECT_LT(difference(whole.column("foot", "shear"), pieces.column("foot", "shear")), 1e-6);
-    std::cout << pieces.problem.substructures.size() << " pieces: " << pieces.result->mean_iterations << " iterations a step, corner x differs by "
+    std::cout << pieces.problem.substructures.size() << " pieces: " << pieces.result->mean_iterations
+              << " iterations a step, corner x differs by "
               << difference(whole.column("corner", "x"), pieces.column("corner", "x")) << "\n";
   }
 }
@@ -86,29 +88,36 @@ TEST(Window, any_window_gives_the_answer_of_any_other) {
 TEST(Window, the_whole_interval_gives_the_yielding_beam_too) {
   std::ifstream file(deck("plastic_beam.lua"));
   std::string text((std::istreambuf_iterator<char>(file)), {});
-  text.replace(text.find("steps = { pull },"), 17, "steps = { pull }, solver = solver.latin{ window = 'whole', tolerance = 1e-5 },");
+  text.replace(text.find("steps = { pull },"), 17,
+               "steps = { pull }, solver = solver.latin{ window = 'whole', tolerance = 1e-5 },");
   const DeckRun whole = run_text(text).at(0), steps = run_file(deck("plastic_beam.lua")).at(0);
   EXPECT_TRUE(whole.result->converged);
   EXPECT_LT(difference(steps.column("through", "normal"), whole.column("through", "normal")), 1e-4);
   EXPECT_LT(difference(steps.column("yielding", "plastic_opening"), whole.column("yielding", "plastic_opening")), 1e-4);
-  std::cout << whole.result->mean_iterations << " sweeps of 240 steps, step by step " << steps.result->mean_iterations << " iterations\n";
+  std::cout << whole.result->mean_iterations << " sweeps of 240 steps, step by step " << steps.result->mean_iterations
+            << " iterations\n";
 }
 
 // The interface fields are the solution: a case that starts from them is solved before it begins.
 TEST(StartFrom, an_equal_case_needs_one_iteration_a_step_and_another_case_gives_its_own_answer) {
   std::string text = cut_block;
-  text.replace(text.find("problem{ name"), 7, "local function block(friction) wall = support.wall{ name = 'wall', on = bottom, friction = friction }\n  foot = output.joint{ name = 'foot', on = wall }\n  return problem");
+  text.replace(text.find("problem{ name"), 7,
+               "local function block(friction) wall = support.wall{ name = 'wall', on = bottom, friction = friction "
+               "}\n  foot = output.joint{ name = 'foot', on = wall }\n  return problem");
   text.replace(text.find("local wall = "), 6, "local wall; ");
   text.replace(text.find("local foot = "), 6, "local foot; ");
-  text.replace(text.find(":run{}"), 6, " end\nlocal first = block(0.3):run{ case = 'first' }\nblock(0.3):run{ case = 'again', start_from = first }\n"
-                                       "block(0.6):run{ case = 'rougher', start_from = first }\nblock(0.6):run{ case = 'cold' }");
+  text.replace(
+      text.find(":run{}"), 6,
+      " end\nlocal first = block(0.3):run{ case = 'first' }\nblock(0.3):run{ case = 'again', start_from = first }\n"
+      "block(0.6):run{ case = 'rougher', start_from = first }\nblock(0.6):run{ case = 'cold' }");
   const std::vector<DeckRun> runs = run_text(text, {{"nx", "2"}, {"nz", "2"}});
   const DeckRun &first = runs.at(0), &again = runs.at(1), &rougher = runs.at(2), &cold = runs.at(3);
   EXPECT_EQ(again.result->mean_iterations, 1.0);
   EXPECT_LT(difference(first.column("corner", "x"), again.column("corner", "x")), 1e-7);
   EXPECT_LT(difference(cold.column("corner", "x"), rougher.column("corner", "x")), 1e-6);
   EXPECT_GT(difference(cold.column("corner", "x"), first.column("corner", "x")), 1e-3);
-  std::cout << "cold " << cold.result->mean_iterations << ", started from another friction " << rougher.result->mean_iterations << " iterations a step\n";
+  std::cout << "cold " << cold.result->mean_iterations << ", started from another friction "
+            << rougher.result->mean_iterations << " iterations a step\n";
 }
 
 TEST(Forms, the_condensed_form_equals_full_solves) {

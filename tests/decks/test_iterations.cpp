@@ -1,5 +1,5 @@
-// How many iterations the search takes (bounds: what was measured, rounded up by half an iteration or 5 %), and that it finds what the
-// plain iteration finds: relaxation alone, no acceleration, no prediction, no coarse correction.
+// How many iterations the search takes (bounds: what was measured, rounded up by half an iteration or 5 %), and that it
+// finds what the plain iteration finds: relaxation alone, no acceleration, no prediction, no coarse correction.
 #include <gtest/gtest.h>
 
 #include "decks/engine.hpp"
@@ -17,7 +17,8 @@ Settings bricks(const char* nx, const char* ny, const char* nz, const Settings& 
   return settings;
 }
 
-const Settings four = bricks("1", "2", "2", {}), eight = bricks("2", "2", "2", {}), sixty_four = bricks("4", "4", "4", {});
+const Settings four = bricks("1", "2", "2", {}), eight = bricks("2", "2", "2", {}),
+               sixty_four = bricks("4", "4", "4", {});
 
 Settings with(Settings settings, const Settings& more) {
   settings.insert(settings.end(), more.begin(), more.end());
@@ -30,8 +31,9 @@ TEST(Iterations, stay_few_at_large_steps_and_many_pieces) {
     const char* cfl;
     double most;
   };
-  for (const Row& row : {Row{four, "1", 5.9}, Row{eight, "1", 6.1}, Row{sixty_four, "1", 6.2}, Row{four, "2", 7.5}, Row{eight, "2", 7.9},
-                         Row{sixty_four, "2", 8.1}, Row{four, "10", 14.0}, Row{eight, "10", 14.9}, Row{sixty_four, "10", 16.4}}) {
+  for (const Row& row :
+       {Row{four, "1", 5.9}, Row{eight, "1", 6.1}, Row{sixty_four, "1", 6.2}, Row{four, "2", 7.5}, Row{eight, "2", 7.9},
+        Row{sixty_four, "2", 8.1}, Row{four, "10", 14.0}, Row{eight, "10", 14.9}, Row{sixty_four, "10", 16.4}}) {
     const DeckRun run = brick_block(with(row.settings, {{"cfl", row.cfl}}));
     EXPECT_TRUE(run.result->converged);
     EXPECT_LE(run.result->mean_iterations, row.most) << run.problem.substructures.size() << " pieces, CFL " << row.cfl;
@@ -46,7 +48,8 @@ TEST(Iterations, unlike_halves_cost_no_more_than_like_ones) {
 }
 
 TEST(Iterations, of_static_steps_do_not_grow_with_the_pieces) {
-  const DeckRun two = brick_block({{"nx", "1"}, {"ny", "1"}, {"static", "1"}}), many = brick_block(with(sixty_four, {{"static", "1"}}));
+  const DeckRun two = brick_block({{"nx", "1"}, {"ny", "1"}, {"static", "1"}}),
+                many = brick_block(with(sixty_four, {{"static", "1"}}));
   EXPECT_TRUE(many.result->converged);
   EXPECT_LE(many.result->mean_iterations, 24.5);
   EXPECT_LE(many.result->mean_iterations, 1.3 * two.result->mean_iterations);
@@ -62,21 +65,25 @@ TEST(Iterations, a_stiff_floating_body_on_a_soft_one_converges) {
 }
 
 TEST(Iterations, find_what_the_plain_iteration_finds) {
-  for (const Settings& settings : {Settings{{"cells", "8"}, {"cfl", "5"}, {"steps", "20"}}, Settings{{"cells", "8"}, {"static", "1"}},
-                                   Settings{{"cells", "8"}, {"static", "1"}, {"ratio", "0.02"}}}) {
+  for (const Settings& settings :
+       {Settings{{"cells", "8"}, {"cfl", "5"}, {"steps", "20"}}, Settings{{"cells", "8"}, {"static", "1"}},
+        Settings{{"cells", "8"}, {"static", "1"}, {"ratio", "0.02"}}}) {
     const std::string tight = "latin{ tolerance = 1e-9, static_tolerance = 1e-11, max_iterations = 5000 }";
-    const std::string plain = "latin{ tolerance = 1e-9, static_tolerance = 1e-11, max_iterations = 5000, anderson = 0, relaxation = 0.8 }";
+    const std::string plain =
+        "latin{ tolerance = 1e-9, static_tolerance = 1e-11, max_iterations = 5000, anderson = 0, relaxation = 0.8 }";
     const DeckRun fast = brick_block(settings, tight), slow = brick_block(settings, plain);
     EXPECT_TRUE(fast.result->converged);
     EXPECT_TRUE(slow.result->converged);
     for (const char* axis : {"x", "y", "z"})
       EXPECT_LT(difference(slow.column("corner", axis), fast.column("corner", axis)), 1e-6) << axis;
-    std::cout << "plain " << slow.result->mean_iterations << ", searched " << fast.result->mean_iterations << " iterations\n";
+    std::cout << "plain " << slow.result->mean_iterations << ", searched " << fast.result->mean_iterations
+              << " iterations\n";
   }
 }
 
 TEST(Iterations, any_number_of_threads_gives_the_same_bits) {
-  for (const Settings& settings : {Settings{{"cells", "8"}, {"cfl", "5"}, {"steps", "20"}}, Settings{{"cells", "8"}, {"static", "1"}}}) {
+  for (const Settings& settings :
+       {Settings{{"cells", "8"}, {"cfl", "5"}, {"steps", "20"}}, Settings{{"cells", "8"}, {"static", "1"}}}) {
     const DeckRun one = brick_block(settings, "", 1), three = brick_block(settings, "", 3);
     EXPECT_EQ(one.column("corner", "x"), three.column("corner", "x"));
     EXPECT_EQ(one.result->iterations, three.result->iterations);

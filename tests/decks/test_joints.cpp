@@ -72,9 +72,11 @@ TEST(RodInSleeve, shares_a_pull_by_stiffness_opens_beyond_the_separation_load_an
   const double force = run_text(rod_in_sleeve).at(0).column("bolt", "normal").back();
   const double separation = force * (1 + k_rod / k_sleeve);
   const DeckRun below = run_text(rod_in_sleeve, {{"pull", std::to_string(0.8 * separation)}}).at(0);
-  EXPECT_NEAR(below.column("bolt", "normal").back(), force + 0.8 * separation * k_rod / (k_rod + k_sleeve), 0.005 * force);
+  EXPECT_NEAR(below.column("bolt", "normal").back(), force + 0.8 * separation * k_rod / (k_rod + k_sleeve),
+              0.005 * force);
   EXPECT_EQ(below.column("seat", "open_area").back(), 0.0);
-  const DeckRun beyond = run_text(rod_in_sleeve, {{"pull", std::to_string(1.5 * separation)}, {"back", "1"}, {"rest", "1"}}).at(0);
+  const DeckRun beyond =
+      run_text(rod_in_sleeve, {{"pull", std::to_string(1.5 * separation)}, {"back", "1"}, {"rest", "1"}}).at(0);
   const std::vector<double>& bolt = beyond.column("bolt", "normal");
   EXPECT_TRUE(beyond.result->converged);
   EXPECT_NEAR(bolt.at(5), 1.5 * separation, 1e-6 * separation);
@@ -97,10 +99,15 @@ TEST(BoltedFlanges, stays_at_rest_when_nothing_loads_it) {
     text.replace(at, from.size(), to);
   };
   replace("peak = 100*MPa", "peak = 0");
-  replace("\"../meshes/bolted_flanges.geo\"", "\"" + (std::filesystem::path(DYGITA_SOURCE_DIR) / "meshes/bolted_flanges.geo").string() + "\"");
-  replace("a_in, a_out, srs_in, srs_out,", "a_in, a_out, output.history{ name = 'motion', on = upper:face 'top', quantity = 'velocity' }, output.history{ name = 'rod', on = rod:face 'head_end', quantity = 'velocity' },");
-  replace("local srs_in  = output.srs{ name = \"srs_above\", of = a_in,  q_factor = 10, from = 1*kHz, to = 100*kHz }", "");
-  replace("local srs_out = output.srs{ name = \"srs_below\", of = a_out, q_factor = 10, from = 1*kHz, to = 100*kHz }", "");
+  replace("\"../meshes/bolted_flanges.geo\"",
+          "\"" + (std::filesystem::path(DYGITA_SOURCE_DIR) / "meshes/bolted_flanges.geo").string() + "\"");
+  replace("a_in, a_out, srs_in, srs_out,",
+          "a_in, a_out, output.history{ name = 'motion', on = upper:face 'top', quantity = 'velocity' }, "
+          "output.history{ name = 'rod', on = rod:face 'head_end', quantity = 'velocity' },");
+  replace("local srs_in  = output.srs{ name = \"srs_above\", of = a_in,  q_factor = 10, from = 1*kHz, to = 100*kHz }",
+          "");
+  replace("local srs_out = output.srs{ name = \"srs_below\", of = a_out, q_factor = 10, from = 1*kHz, to = 100*kHz }",
+          "");
   const DeckRun run = run_text(text).at(0);
   EXPECT_EQ(run.result->steps.at(1).increments, 200);
   // Strain of the rod: force / (E A).
@@ -109,7 +116,8 @@ TEST(BoltedFlanges, stays_at_rest_when_nothing_loads_it) {
   double motion = 0.0;
   for (const char* where : {"motion", "rod"})
     for (const char* axis : {"x", "y", "z"}) motion = std::max(motion, largest(run.column(where, axis)));
-  std::cout << "largest velocity " << motion << " m/s, " << motion / (wave_speed * strain) << " of wave speed times strain\n";
+  std::cout << "largest velocity " << motion << " m/s, " << motion / (wave_speed * strain)
+            << " of wave speed times strain\n";
   EXPECT_LT(motion, 1e-6 * wave_speed * strain);
 }
 
@@ -124,7 +132,8 @@ local ends = support.fixed{ name = "ends", on = { a:face "zmin", b:face "zmax" }
 problem{ name = "press", substructures = { a, b }, interfaces = { fit }, supports = { ends },
   steps = { step.static{ name = "fit", increments = 1 } },
   outputs = { output.resultant{ name = "force", on = fit }, output.energy{} } }:run{}
-)").at(0);
+)")
+                          .at(0);
   const double force = 100e9 * 4e-6 * 10e-6 / 20e-3;
   EXPECT_NEAR(run.column("force", "normal").back(), -force, 1e-6 * force);
   EXPECT_LT(run.figure("energy imbalance [%]"), 0.5);
@@ -145,7 +154,8 @@ problem{ name = "slide", substructures = { block }, supports = { floor, guide },
   outputs = { output.history{ name = "way", on = block:face "zmin", quantity = "displacement", direction = { 1, 0, 0 } },
               output.history{ name = "speed", on = block:face "zmin", quantity = "velocity", direction = { 1, 0, 0 } },
               output.joint{ name = "sole", on = floor }, output.energy{} } }:run{}
-)").at(0);
+)")
+                          .at(0);
   const double distance = 0.5 * 0.5 / (2 * 0.5 * 1000);
   EXPECT_TRUE(run.result->converged);
   EXPECT_NEAR(run.column("way", "displacement").back(), distance, 0.03 * distance);
@@ -170,9 +180,11 @@ local hit = step.dynamic{ name = "hit", duration = 40*us, dt = 0.2*us, loads = {
 problem{ name = "out", substructures = { a, b }, interfaces = { weld }, supports = { out }, steps = { hit },
   outputs = { output.history{ name = "v", on = b:face "zmin", quantity = "velocity", direction = { 0, 0, 1 } }, output.energy{},
               output.resultant{ name = "passed", on = out } } }:run{}
-)").at(0);
+)")
+                          .at(0);
   EXPECT_NEAR(largest(run.column("v", "velocity")), 1.0, 0.03);
-  EXPECT_LT(run.column("energy", "kinetic").back() + run.column("energy", "strain").back(), 1e-3 * run.column("energy", "loads").back());
+  EXPECT_LT(run.column("energy", "kinetic").back() + run.column("energy", "strain").back(),
+            1e-3 * run.column("energy", "loads").back());
   EXPECT_NEAR(largest(run.column("passed", "normal")), 40.0, 1.5);
   EXPECT_LT(run.figure("energy imbalance [%]"), 0.5);
 }
@@ -188,7 +200,8 @@ problem{ name = "shake", substructures = { a, b }, interfaces = { weld }, suppor
   outputs = { output.history{ name = "foot", on = a:face "zmin", quantity = "velocity", direction = { 0, 0, 1 } },
               output.history{ name = "way", on = a:face "zmin", quantity = "displacement", direction = { 0, 0, 1 } },
               output.resultant{ name = "force", on = base }, output.energy{} } }:run{}
-)").at(0);
+)")
+                          .at(0);
   const double v = 1e5 * 50e-6 * 2 / M_PI;
   EXPECT_NEAR(run.column("foot", "velocity").back(), v, 1e-9 * v);
   EXPECT_NEAR(run.column("way", "displacement").back(), v * (150e-6 - 25e-6), 1e-3 * v * 150e-6);
@@ -207,7 +220,8 @@ local pull = step.dynamic{ name = "pull", duration = 30*us, dt = 0.2*us, loads =
 local v = output.history{ name = "v", on = b:face "zmax", quantity = "velocity", direction = { 0, 0, 1 } }
 problem{ name = "pull", substructures = { a, b }, interfaces = { weld }, supports = { out }, steps = { pull },
   outputs = { v, output.history{ name = "s", on = b:where(function(x, y, z) return near(z, 75*mm) end), quantity = "stress", direction = { 0, 0, 1 } }, output.energy{} } }:run{}
-)").at(0);
+)")
+                          .at(0);
   EXPECT_NEAR(run.column("v", "velocity").back(), 1.0, 1e-12);
   EXPECT_NEAR(run.column("s", "stress").back(), 4e7, 0.01 * 4e7);
   EXPECT_LT(run.figure("energy imbalance [%]"), 0.5);
@@ -227,7 +241,8 @@ local free    = step.dynamic{ name = "free", after = snap, duration = 10*us, dt 
 problem{ name = "chain", substructures = { a, b }, interfaces = { weld }, supports = { foot, guide }, steps = { stretch, half, snap, free },
   outputs = { output.resultant{ name = "weld", on = weld }, output.history{ name = "end", on = b:face "zmax", quantity = "displacement", direction = { 0, 0, 1 } },
               output.resultant{ name = "foot", on = foot }, output.energy{} } }:run{}
-)").at(0);
+)")
+                          .at(0);
   EXPECT_TRUE(run.result->converged);
   const std::vector<double>& weld = run.column("weld", "normal");
   EXPECT_NEAR(weld.at(1), 100.0, 1e-5);
@@ -254,7 +269,8 @@ local base = support.fixed{ name = "base", on = a:face "zmin" }
 local hit = step.dynamic{ name = "hit", duration = 100*us, dt = 0.4*us, loads = { load.pressure{ on = b:face "zmax", history = history.haversine{ peak = 40*MPa, duration = 10*us } } } }
 problem{ name = "damp", substructures = { a, b }, interfaces = { weld }, supports = { base }, steps = { hit },
   solver = solver.latin{ numerical_damping = 0.05 }, outputs = { output.energy{} } }:run{}
-)").at(0);
+)")
+                          .at(0);
   EXPECT_GT(run.column("energy", "damping").back(), 0.1 * run.column("energy", "loads").back());
   EXPECT_GT(run.column("energy", "scheme").back(), 0.0);
   EXPECT_LT(run.figure("energy imbalance [%]"), 0.01);
@@ -271,7 +287,8 @@ local guide = support.symmetry{ name = "guide", on = block:face "ymin" }
 local push = step.static{ name = "push", loads = { load.pressure{ on = block:face "zmax", history = 10*MPa }, load.pressure{ on = block:face "xmax", history = 5*MPa } } }
 problem{ name = "corner", substructures = { block }, supports = { floor, side, guide }, steps = { push },
   outputs = { output.resultant{ name = "floor", on = floor }, output.resultant{ name = "side", on = side }, output.history{ name = "u", on = block:face "zmax", quantity = "displacement", direction = { 0, 0, 1 } } } }:run{}
-)").at(0);
+)")
+                          .at(0);
   EXPECT_TRUE(run.result->converged);
   EXPECT_NEAR(run.column("floor", "normal").back(), -1000.0, 1e-3);
   EXPECT_NEAR(run.column("side", "normal").back(), -500.0, 1e-3);
@@ -296,7 +313,9 @@ problem{ name = "floating", substructures = { block }, supports = { floor }, ste
     run_text(floating, {{"push", "1"}});
     FAIL() << "a loaded rigid motion went unnoticed";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("substructure 'block' is loaded, but no support and no interface holds it"), std::string::npos)
+    EXPECT_NE(
+        std::string(error.what()).find("substructure 'block' is loaded, but no support and no interface holds it"),
+        std::string::npos)
         << error.what();
   }
 }

@@ -8,8 +8,8 @@
 namespace dygita::test {
 namespace {
 
-// Largest difference of any column of any output, relative to the largest value of its table's columns of the same unit;
-// indicators of the iteration's own (energy balance, scheme) are left out.
+// Largest difference of any column of any output, relative to the largest value of its table's columns of the same
+// unit; indicators of the iteration's own (energy balance, scheme) are left out.
 double largest_difference(const DeckRun& a, const DeckRun& b) {
   double worst = 0.0;
   std::string where;
@@ -30,12 +30,13 @@ double largest_difference(const DeckRun& a, const DeckRun& b) {
       }
     }
   }
-  std::cout << "largest difference " << worst << " in " << where << ", " << b.result->mean_iterations << " iterations an increment\n";
+  std::cout << "largest difference " << worst << " in " << where << ", " << b.result->mean_iterations
+            << " iterations an increment\n";
   return worst;
 }
 
-// A plate slides with friction on a fixed and shaken base; a bolt beside them is tied to both and shortened. Gravity, pressure,
-// traction, material damping: everything that acts on a node which a cut may have doubled.
+// A plate slides with friction on a fixed and shaken base; a bolt beside them is tied to both and shortened. Gravity,
+// pressure, traction, material damping: everything that acts on a node which a cut may have doubled.
 const std::string clamped = R"(
 local p = param{ pieces = 1, tuned = 0 }
 local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7800 }
@@ -81,20 +82,22 @@ TEST(Pieces, a_bolted_joint_that_is_tightened_and_shaken_is_the_same_in_any_numb
     EXPECT_EQ(whole.result->n_dofs, cut.result->n_dofs);
     EXPECT_LT(largest_difference(whole, cut), 1e-6) << pieces;
     EXPECT_LT(cut.figure("energy imbalance [%]"), 1e-3) << pieces;
-    for (const char* name : {"error estimate, time step [%]", "error estimate, mesh [%]", "error estimate, static, mesh [%]"})
+    for (const char* name :
+         {"error estimate, time step [%]", "error estimate, mesh [%]", "error estimate, static, mesh [%]"})
       EXPECT_NEAR(cut.figure(name), whole.figure(name), 1e-4 * whole.figure(name)) << name;
   }
 }
 
-
 TEST(Pieces, with_tuned_mass_too) {
-  const DeckRun whole = run_text(clamped, {{"tuned", "1"}}).at(0), cut = run_text(clamped, {{"tuned", "1"}, {"pieces", "4"}}).at(0);
+  const DeckRun whole = run_text(clamped, {{"tuned", "1"}}).at(0),
+                cut = run_text(clamped, {{"tuned", "1"}, {"pieces", "4"}}).at(0);
   EXPECT_LT(largest_difference(whole, cut), 1e-6);
   EXPECT_GT(largest_difference(run_text(clamped).at(0), whole), 1e-3);  // it is another mass
 }
 
 TEST(Pieces, agree_with_the_monolithic_solver_that_cuts_nothing) {
-  const DeckRun whole = run_text(clamped, {{"pieces", "5"}}, 0, "monolithic").at(0), cut = run_text(clamped, {{"pieces", "5"}}).at(0);
+  const DeckRun whole = run_text(clamped, {{"pieces", "5"}}, 0, "monolithic").at(0),
+                cut = run_text(clamped, {{"pieces", "5"}}).at(0);
   EXPECT_TRUE(whole.result->pieces.empty());
   EXPECT_LT(largest_difference(whole, cut), 1e-6);
 }
@@ -105,12 +108,13 @@ TEST(Pieces, give_the_same_bits_for_any_number_of_threads) {
   for (const int threads : {2, 3}) {
     const DeckRun other = run_text(clamped, settings, threads).at(0);
     for (const auto& [output, table] : one.result->tables)
-      EXPECT_EQ(table.columns, other.table(output->kind == OutputKind::energy ? "energy" : output->name).columns) << output->name << " " << threads;
+      EXPECT_EQ(table.columns, other.table(output->kind == OutputKind::energy ? "energy" : output->name).columns)
+          << output->name << " " << threads;
   }
 }
 
-// A block between a wall with friction and an absorbing support that holds it in the static step; one end of it is led, by a
-// displacement and then by a velocity; a second block is thrown at it.
+// A block between a wall with friction and an absorbing support that holds it in the static step; one end of it is led,
+// by a displacement and then by a velocity; a second block is thrown at it.
 const std::string led = R"(
 local p = param{ pieces = 1, window = 1, plain = 0 }
 local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7800 }
@@ -157,7 +161,8 @@ TEST(Pieces, any_kind_of_cell_can_be_cut) {
 local p = param{ pieces = 1 }
 local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7800 }
 local bar = substructure{ name = "bar", material = steel, mesh = mesh.gmsh{ file = ")" +
-                             std::string(DYGITA_SOURCE_DIR) + R"(/meshes/bar.geo", set = { n = 60, cells = )" + cells + R"( } }:volume "bar" }
+                             std::string(DYGITA_SOURCE_DIR) + R"(/meshes/bar.geo", set = { n = 60, cells = )" + cells +
+                             R"( } }:volume "bar" }
 local base = support.fixed{ name = "base", on = bar:face "zmin" }
 local lean = step.static{ name = "lean", loads = { load.traction{ on = bar:face "zmax", x = 1*MPa } } }
 local strike = step.dynamic{ name = "strike", after = lean, duration = 20*us, dt = 0.4*us, loads = {
@@ -177,8 +182,8 @@ problem{ name = "bar", substructures = { bar }, supports = { base }, steps = { l
   }
 }
 
-
-// What a step leaves to the next: static after dynamic (velocities are dropped), a support that comes and one that goes.
+// What a step leaves to the next: static after dynamic (velocities are dropped), a support that comes and one that
+// goes.
 TEST(Pieces, steps_follow_one_another_with_the_energies_of_the_whole) {
   const std::string chain = R"(
 local p = param{ pieces = 1 }
@@ -208,7 +213,8 @@ problem{ name = "chain", substructures = { block }, supports = { base, clamp }, 
 TEST(Pieces, a_case_starts_from_the_interface_fields_of_one_cut_alike) {
   std::string text = clamped;
   text.replace(text.find("problem{"), 8, "local clamp = problem{");
-  text.replace(text.find("}:run{}"), 7, "}\nlocal first = clamp:run{ case = 'first' }\nclamp:run{ case = 'again', start_from = first }");
+  text.replace(text.find("}:run{}"), 7,
+               "}\nlocal first = clamp:run{ case = 'first' }\nclamp:run{ case = 'again', start_from = first }");
   const std::vector<DeckRun> runs = run_text(text, {{"pieces", "3"}});
   EXPECT_EQ(runs.at(1).result->mean_iterations, 1.0);
   EXPECT_LT(largest_difference(runs.at(0), runs.at(1)), 1e-6);
@@ -240,7 +246,9 @@ TEST(Pieces, cost_few_iterations_however_many_they_are) {
   for (const char* pieces : {"2 pieces", "4 pieces", "8 pieces", "16 pieces", "32 pieces"}) {
     EXPECT_LT(cube.number(pieces), 8.0) << pieces;
     const size_t at = cube.text.find(std::string("\n") + pieces);
-    const auto after = [&](const char* label) { return std::strtod(cube.text.c_str() + cube.text.find(label, at) + std::strlen(label), nullptr); };
+    const auto after = [&](const char* label) {
+      return std::strtod(cube.text.c_str() + cube.text.find(label, at) + std::strlen(label), nullptr);
+    };
     EXPECT_LT(after("top's velocity: "), 1e-5) << pieces;
     EXPECT_LT(after("force on the wall: "), 1e-5) << pieces;
   }

@@ -1,4 +1,5 @@
-// Preload by force: against exact solutions, the same shortening prescribed, the monolithic reference, and itself by other paths.
+// Preload by force: against exact solutions, the same shortening prescribed, the monolithic reference, and itself by
+// other paths.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +11,8 @@ namespace {
 
 constexpr double tolerance = 1e-9;  // static, of LATIN
 
-// A rod beside two sleeves between plates, tightened in two steps (by forces, or by lengths where p.by is given), then shocked.
+// A rod beside two sleeves between plates, tightened in two steps (by forces, or by lengths where p.by is given), then
+// shocked.
 const std::string bolt_deck = R"(
 local p = param{ force = 400, second = -1, by = 0, by_second = 0, yield = 1e9, hardening = 5e13, gap = 0, monolithic = 0, explicit = 0, pieces = 1,
   plain = 0, increments = 2, shock = 1, twice = 0 }
@@ -50,9 +52,7 @@ local first = one:run{}
 if p.twice == 1 then one:run{ case = "again", start_from = first } end
 )";
 
-DeckRun run_bolt(const Settings& settings, int threads = 0) {
-  return run_text(bolt_deck, settings, threads).back();
-}
+DeckRun run_bolt(const Settings& settings, int threads = 0) { return run_text(bolt_deck, settings, threads).back(); }
 
 const BoltSummary& bolt_of(const DeckRun& run) { return run.result->bolts.at(0); }
 
@@ -87,8 +87,10 @@ void expect_equal(const DeckRun& a, const DeckRun& b, double within) {
 TEST(PreloadDeck, reaches_every_force_with_the_exact_shortening) {
   const PrintedRun deck = run_printing("verification/preload.lua");
   for (const DeckRun& run : deck.runs) EXPECT_TRUE(run.result->converged);
-  for (const char* step : {"1", "2", "3", "4"}) EXPECT_LT(deck.number(std::string("force asked for in step ") + step), 1e-7);
-  for (const char* step : {"1", "2", "4"}) EXPECT_LT(deck.number(std::string("shortening found in step ") + step), 2e-6);
+  for (const char* step : {"1", "2", "3", "4"})
+    EXPECT_LT(deck.number(std::string("force asked for in step ") + step), 1e-7);
+  for (const char* step : {"1", "2", "4"})
+    EXPECT_LT(deck.number(std::string("shortening found in step ") + step), 2e-6);
   EXPECT_LT(deck.number("force after 100 steps"), 2e-6);
   EXPECT_LT(deck.number("force by torque"), 1e-7);
   EXPECT_LT(deck.number("force through a rod that yields"), 1e-7);
@@ -109,7 +111,8 @@ void expect_same_by_length(Settings settings) {
   settings.emplace_back("by_second", text_of(bolt_of(by_force).shortening));
   const DeckRun by_length = run_bolt(settings);
   expect_equal(by_force, by_length, 1e-6);
-  const long iterations = by_force.result->steps.at(0).iterations, prescribed = by_length.result->steps.at(0).iterations;
+  const long iterations = by_force.result->steps.at(0).iterations,
+             prescribed = by_length.result->steps.at(0).iterations;
   std::cout << "  iterations by force " << iterations << ", by length " << prescribed << "\n";
   EXPECT_LE(iterations, 2 * prescribed);
 }
@@ -125,7 +128,9 @@ TEST(Preload, is_the_shortening_that_it_finds) {
   expect_same_by_length({{"second", "150"}});
 }
 
-TEST(Preload, of_a_bonded_bolt_is_the_shortening_that_it_finds) { expect_same_by_length({{"yield", "0"}, {"second", "900"}}); }
+TEST(Preload, of_a_bonded_bolt_is_the_shortening_that_it_finds) {
+  expect_same_by_length({{"yield", "0"}, {"second", "900"}});
+}
 
 TEST(Preload, closes_a_gap_first) {
   const DeckRun bolt = run_bolt({{"gap", "2e-6"}, {"shock", "0"}}), closed = run_bolt({{"shock", "0"}});
@@ -156,8 +161,10 @@ TEST(Preload, beyond_a_yield_without_hardening_is_refused_with_the_largest_force
     FAIL() << "nothing was refused";
   } catch (const InputError& error) {
     const std::string message = error.what();
-    EXPECT_NE(message.find("problem 'bolt': step 'tighten': load.preload asks for 401 N through interface.plastic 'shank', which cannot be "
-                           "reached: it yields at 400 N (100 MPa on 4 mm^2) and has no hardening\n    the largest force is below 400 N; or "
+    EXPECT_NE(message.find("problem 'bolt': step 'tighten': load.preload asks for 401 N through interface.plastic "
+                           "'shank', which cannot be "
+                           "reached: it yields at 400 N (100 MPa on 4 mm^2) and has no hardening\n    the largest "
+                           "force is below 400 N; or "
                            "give it 'hardening'"),
               std::string::npos)
         << message;
@@ -181,9 +188,12 @@ problem{ name = "nothing", substructures = { low, high }, interfaces = { glue },
                {}, 1, solver);
       FAIL() << "nothing was told";
     } catch (const NumericalError& error) {
-      EXPECT_STREQ(error.what(), "step 'tighten', increment 1: load.preload asks for 10000 N through interface.bonded 'glue', and no shortening "
-                                 "brings more than 0 N; likely cause: nothing takes the force on one of its sides (a part that is held by this "
-                                 "interface alone, a joint that cannot close)");
+      EXPECT_STREQ(error.what(),
+                   "step 'tighten', increment 1: load.preload asks for 10000 N through interface.bonded 'glue', and no "
+                   "shortening "
+                   "brings more than 0 N; likely cause: nothing takes the force on one of its sides (a part that is "
+                   "held by this "
+                   "interface alone, a joint that cannot close)");
     }
   }
 }
@@ -202,7 +212,8 @@ local second = step.static{ name = "second", after = first, increments = 2,
   loads = { load.preload{ on = joint, force = 3*kN }, load.pressure{ on = low:face "xmin", history = 0 } } }
 problem{ name = "bar", substructures = { low, high }, interfaces = { joint }, supports = { ends }, steps = { first, second },
   solver = solver.latin{ static_tolerance = 1e-10 }, outputs = { output.joint{ name = "force", on = joint } } }:run{}
-)").at(0);
+)")
+                          .at(0);
   const std::vector<double> expected{500, 2000, 4500, 8000, 5500, 3000};
   ASSERT_EQ(run.column("force", "normal").size(), expected.size());
   for (size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(run.column("force", "normal")[i], expected[i], 1e-5) << i;
@@ -243,7 +254,8 @@ TEST(Preload, is_the_same_by_every_path) {
 }
 
 TEST(Preload, is_that_of_the_monolithic_reference) {
-  for (const Settings& settings : {Settings{{"second", "700"}, {"yield", "120e6"}}, Settings{{"gap", "2e-6"}, {"second", "150"}}, Settings{{"yield", "0"}}}) {
+  for (const Settings& settings : {Settings{{"second", "700"}, {"yield", "120e6"}},
+                                   Settings{{"gap", "2e-6"}, {"second", "150"}}, Settings{{"yield", "0"}}}) {
     Settings other = settings;
     other.emplace_back("monolithic", "1");
     const DeckRun latin = run_bolt(settings), monolithic = run_bolt(other);
@@ -304,7 +316,8 @@ TEST(BoltPattern, loses_force_bolt_by_bolt_and_gets_it_back_in_a_second_pass) {
 }
 
 TEST(Preload, keeps_its_energy_balance) {
-  for (const Settings& settings : {Settings{{"shock", "0"}}, Settings{{"shock", "0"}, {"yield", "80e6"}}, Settings{{"second", "150"}}})
+  for (const Settings& settings :
+       {Settings{{"shock", "0"}}, Settings{{"shock", "0"}, {"yield", "80e6"}}, Settings{{"second", "150"}}})
     EXPECT_LT(run_bolt(settings).figure("energy imbalance [%]"), 1e-4);
 }
 

@@ -106,15 +106,17 @@ TEST(ReportRuns, tightened_and_shocked_with_a_specification) {
 }
 
 TEST(ReportRuns, shows_what_the_joint_takes_and_its_loop) {
-  const Written run = run_and_read(blocks(latin + "local shock = hit('shock', press, 30*us) local steps = { press, shock }\n", R"(
+  const Written run =
+      run_and_read(blocks(latin + "local shock = hit('shock', press, 30*us) local steps = { press, shock }\n", R"(
 local b = output.history{ name = "behind", on = low:face "xmax", quantity = "acceleration", direction = { 0, 0, 1 } }
 for _, one in ipairs{ b, output.attenuation{ name = "taken", entering = a, leaving = b, from = 50*kHz, to = 400*kHz },
   output.srs{ name = "pseudo", of = a, quantity = "pseudo_velocity", damping = 0, from = 50*kHz, to = 400*kHz },
   output.loop{ name = "loop", on = touch, direction = { 0, 0, 1 } } } do outputs[#outputs + 1] = one end
 )"));
   expect_sound(run);
-  for (const char* part : {"<h2>Through the joint", "taken: from top to behind", "<h2>Condensed models", "pseudo (undamped)",
-                           "maximax pseudo-velocity (", "shaded: what iteration, time step and mesh leave"})
+  for (const char* part :
+       {"<h2>Through the joint", "taken: from top to behind", "<h2>Condensed models", "pseudo (undamped)",
+        "maximax pseudo-velocity (", "shaded: what iteration, time step and mesh leave"})
     EXPECT_NE(run.page.find(part), std::string::npos) << part;
 }
 

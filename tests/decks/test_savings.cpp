@@ -1,5 +1,5 @@
-// What is not computed twice: equal substructures share a factor, what nothing has reached is not solved, factors are stored in
-// single precision, interface fields go to a file. Each beside the run that does without.
+// What is not computed twice: equal substructures share a factor, what nothing has reached is not solved, factors are
+// stored in single precision, interface fields go to a file. Each beside the run that does without.
 #include <gtest/gtest.h>
 
 #include "decks/engine.hpp"
@@ -45,20 +45,24 @@ TEST(EqualSubstructures, share_a_factor_and_are_solved_as_if_each_had_its_own) {
       EXPECT_LT(difference(own.column(top, axis), shared.column(top, axis)), 1e-6) << top << axis;
       EXPECT_LT(difference(plain.column(top, axis), shared.column(top, axis)), 1e-6) << top << axis;
     }
-  EXPECT_LT(shared.figure("memory of factors and interface operators [MB]"), 0.85 * own.figure("memory of factors and interface operators [MB]"));
+  EXPECT_LT(shared.figure("memory of factors and interface operators [MB]"),
+            0.85 * own.figure("memory of factors and interface operators [MB]"));
 }
 
 TEST(EqualSubstructures, more_than_sixteen_are_solved_in_groups) {
-  const DeckRun many = run_text(posts, {{"n", "18"}}).at(0), plain = run_text(posts, {{"n", "18"}, {"plain", "1"}}).at(0);
+  const DeckRun many = run_text(posts, {{"n", "18"}}).at(0),
+                plain = run_text(posts, {{"n", "18"}, {"plain", "1"}}).at(0);
   EXPECT_EQ(many.figure(n_shared), 2 * 17);
-  for (const char* top : {"top1", "top9", "top18"}) EXPECT_LT(difference(plain.column(top, "z"), many.column(top, "z")), 1e-6) << top;
+  for (const char* top : {"top1", "top9", "top18"})
+    EXPECT_LT(difference(plain.column(top, "z"), many.column(top, "z")), 1e-6) << top;
 }
 
 TEST(SinglePrecision, of_what_is_stored_changes_results_less_than_the_tolerance_allows) {
   const Settings usual{{"tolerance", "1e-6"}}, single{{"tolerance", "1e-6"}, {"single", "1"}};
   const DeckRun a = run_text(posts, usual).at(0), b = run_text(posts, single).at(0);
   EXPECT_LT(b.figure("energy imbalance [%]"), 1e-3);
-  for (const char* top : {"top1", "top2", "top3"}) EXPECT_LT(difference(a.column(top, "z"), b.column(top, "z")), 2e-5) << top;
+  for (const char* top : {"top1", "top2", "top3"})
+    EXPECT_LT(difference(a.column(top, "z"), b.column(top, "z")), 2e-5) << top;
 }
 
 TEST(SinglePrecision, does_not_drift_in_four_thousand_increments) {
@@ -74,10 +78,12 @@ problem{ name = "flight", substructures = { bar }, steps = { knock }, outputs = 
 )";
   const DeckRun a = run_text(flight).at(0), b = run_text(flight, {{"single", "1"}}).at(0);
   for (const char* axis : {"x", "z"}) EXPECT_LT(difference(a.column("tip", axis), b.column("tip", axis)), 1e-5) << axis;
-  EXPECT_LT(b.figure("energy imbalance [%]"), 1e-2);  // between two products by K the recurrence follows the stored factor
+  EXPECT_LT(b.figure("energy imbalance [%]"),
+            1e-2);  // between two products by K the recurrence follows the stored factor
 }
 
-// The last line of the report: "... degrees of freedom, ... increments in all, X MB for factors and interface operators, ...".
+// The last line of the report: "... degrees of freedom, ... increments in all, X MB for factors and interface
+// operators, ...".
 double predicted_megabytes(const Problem& problem) {
   const std::string report = check_report(problem);
   const size_t end = report.find(" MB for factors");
@@ -95,7 +101,8 @@ local hit = step.dynamic{ name = "hit", duration = 1*us, dt = 0.25*us, loads = {
 problem{ name = "block", substructures = { cube }, supports = { wall }, steps = { hit }, outputs = { output.energy{} },
   solver = solver.latin{ precision = p.single == 1 and "single" or "double", tolerance = p.tolerance, pieces = p.pieces } }:run{}
 )";
-  for (const Settings& settings : {Settings{}, Settings{{"pieces", "4"}}, Settings{{"single", "1"}}, Settings{{"single", "1"}, {"tolerance", "1e-4"}}}) {
+  for (const Settings& settings : {Settings{}, Settings{{"pieces", "4"}}, Settings{{"single", "1"}},
+                                   Settings{{"single", "1"}, {"tolerance", "1e-4"}}}) {
     const DeckRun run = run_text(block, settings).at(0);
     const double held = run.figure("memory of factors and interface operators [MB]");
     EXPECT_NEAR(predicted_megabytes(run.problem), held, 0.2 * held);
@@ -121,7 +128,8 @@ problem{ name = "chain", substructures = bars, interfaces = ties, steps = { knoc
   EXPECT_LT(difference(plain.column("tip", "velocity"), quiet.column("tip", "velocity")), 1e-5);
   EXPECT_LT(quiet.figure("energy imbalance [%]"), 1e-3);
   // The wave travels 36 of 48 mm: on average more than half of the bars rest.
-  const double spared = quiet.figure("substitutions spared where nothing changed"), solved = quiet.figure("substitutions");
+  const double spared = quiet.figure("substitutions spared where nothing changed"),
+               solved = quiet.figure("substitutions");
   EXPECT_GT(spared, 0.3 * (spared + solved));
   EXPECT_LT(spared, 0.7 * (spared + solved));
 }
@@ -146,17 +154,20 @@ problem{ name = "washer", substructures = { low, washer, up }, interfaces = { a,
   solver = solver.latin{ plain = p.plain == 1, tolerance = 1e-8, static_tolerance = 1e-10 } }:run{}
 )";
   for (const char* tie : {"0", "1"}) {
-    const DeckRun run = run_text(washer, {{"tie", tie}}).at(0), plain = run_text(washer, {{"tie", tie}, {"plain", "1"}}).at(0);
+    const DeckRun run = run_text(washer, {{"tie", tie}}).at(0),
+                  plain = run_text(washer, {{"tie", tie}, {"plain", "1"}}).at(0);
     EXPECT_TRUE(run.result->converged);
     EXPECT_EQ(run.figure("pieces solved in full at each iteration, over all steps"), 2);
-    for (const char* axis : {"x", "z"}) EXPECT_LT(difference(plain.column("top", axis), run.column("top", axis)), 1e-6) << axis;
+    for (const char* axis : {"x", "z"})
+      EXPECT_LT(difference(plain.column("top", axis), run.column("top", axis)), 1e-6) << axis;
   }
 }
 
 TEST(InterfaceFields, beyond_the_budget_come_back_from_a_file) {
   std::string text = posts;
   text.replace(text.find("problem{"), 8, "local function case(start)\nreturn problem{");
-  text.replace(text.find(":run{}"), 6, ":run{ start_from = start, case = start and 'again' or 'first' }\nend\ncase(case())\n");
+  text.replace(text.find(":run{}"), 6,
+               ":run{ start_from = start, case = start and 'again' or 'first' }\nend\ncase(case())\n");
   const auto in_memory = run_text(text), in_file = run_text(text, {{"history", "0.01"}});
   EXPECT_EQ(in_memory.at(0).figure("interface fields kept in a file [MB]"), 0.0);
   EXPECT_GT(in_file.at(0).figure("interface fields kept in a file [MB]"), 0.01);

@@ -46,12 +46,15 @@ TEST(SpectrumBand, is_the_wider_the_less_there_is) {
   errors.iteration = 0.01, errors.time_step = 0.02, errors.mesh = 0.1, errors.velocity = 1e-2;
   const Table band = spectrum_band(spectrum, SrsQuantity::absolute_acceleration, errors);
   // 20 log10(1 + 0.3 * 2 pi 100 Hz * 0.01 m/s * 0.1 / 2 m/s^2)
-  EXPECT_NEAR(band.column("mesh")[0], 20.0 * std::log10(1.0 + 0.3 * 2.0 * std::numbers::pi * 100.0 * 0.01 * 0.1 / 2.0), 1e-9);
+  EXPECT_NEAR(band.column("mesh")[0], 20.0 * std::log10(1.0 + 0.3 * 2.0 * std::numbers::pi * 100.0 * 0.01 * 0.1 / 2.0),
+              1e-9);
   EXPECT_GT(band.column("mesh")[1], 3.0 * band.column("mesh")[0]);
-  EXPECT_NEAR(band.column("all")[0], std::hypot(band.column("iteration")[0], band.column("time_step")[0], band.column("mesh")[0]), 1e-12);
+  EXPECT_NEAR(band.column("all")[0],
+              std::hypot(band.column("iteration")[0], band.column("time_step")[0], band.column("mesh")[0]), 1e-12);
   // The same motion as pseudo-velocity has the same band where its level is that over the angular frequency.
   const Table slower{{"frequency", "maximax"}, {"Hz", "m/s"}, {{100.0}, {2.0 / (2.0 * std::numbers::pi * 100.0)}}, {}};
-  EXPECT_NEAR(spectrum_band(slower, SrsQuantity::pseudo_velocity, errors).column("mesh")[0], band.column("mesh")[0], 1e-12);
+  EXPECT_NEAR(spectrum_band(slower, SrsQuantity::pseudo_velocity, errors).column("mesh")[0], band.column("mesh")[0],
+              1e-12);
 }
 
 const char* const crush_with_spectra = R"(

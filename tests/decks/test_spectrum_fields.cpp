@@ -54,7 +54,8 @@ TEST(SpectrumField, has_at_a_node_the_spectrum_of_that_nodes_history) {
     for (size_t k = 0; k < 5; ++k) {
       const NamedField& field = frames[f].interfaces[0].fields[k];
       EXPECT_EQ(field.name, names[k]);
-      EXPECT_NEAR(field.values(0, corner) / one.column(names[k])[f], 1.0, 1e-5) << names[k];  // kept in single precision
+      EXPECT_NEAR(field.values(0, corner) / one.column(names[k])[f], 1.0, 1e-5)
+          << names[k];  // kept in single precision
     }
   }
 }
@@ -77,7 +78,8 @@ TEST(SpectrumField, has_a_table_of_the_highest_and_the_mean_over_its_nodes) {
 
 TEST(SpectrumField, without_a_direction_takes_the_strongest_axis) {
   const DeckRun& run = blocks();
-  const std::vector<Frame>&along = run.result->fields.at(&run.output("along")), &any = run.result->fields.at(&run.output("any"));
+  const std::vector<Frame>&along = run.result->fields.at(&run.output("along")),
+        &any = run.result->fields.at(&run.output("any"));
   for (size_t f = 0; f < any.size(); ++f) {
     const auto difference = any[f].interfaces[0].fields[0].values - along[f].interfaces[0].fields[0].values;
     EXPECT_GE(difference.minCoeff(), 0.0);

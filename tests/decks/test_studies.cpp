@@ -21,8 +21,10 @@ std::map<double, DeckRun> by_friction(const std::vector<DeckRun>& runs) {
 }
 
 TEST(StudyFriction, saves_half_of_the_iterations_and_gives_the_same_answers) {
-  const PrintedRun warm = run_printing("study_friction.lua"), cold = run_printing("study_friction.lua", {{"cold", "1"}});
-  const double warm_iterations = warm.number("iterations of all cases"), cold_iterations = cold.number("iterations of all cases");
+  const PrintedRun warm = run_printing("study_friction.lua"),
+                   cold = run_printing("study_friction.lua", {{"cold", "1"}});
+  const double warm_iterations = warm.number("iterations of all cases"),
+               cold_iterations = cold.number("iterations of all cases");
   EXPECT_LT(warm_iterations, 0.5 * cold_iterations);
   const auto warm_cases = by_friction(warm.runs), cold_cases = by_friction(cold.runs);
   ASSERT_EQ(warm_cases.size(), 10u);
@@ -39,7 +41,8 @@ TEST(StudyFriction, saves_half_of_the_iterations_and_gives_the_same_answers) {
 }
 
 TEST(StudyCrush, saves_some_iterations_in_a_dynamic_step) {
-  const PrintedRun warm = run_printing("bench/study_crush.lua"), cold = run_printing("bench/study_crush.lua", {{"cold", "1"}});
+  const PrintedRun warm = run_printing("bench/study_crush.lua"),
+                   cold = run_printing("bench/study_crush.lua", {{"cold", "1"}});
   EXPECT_LT(warm.number("iterations of all cases"), 0.9 * cold.number("iterations of all cases"));
 }
 
@@ -57,7 +60,8 @@ end
 )";
 
 TEST(Study, writes_a_table_and_a_figure_beside_its_cases) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("dygita_study_" + std::to_string(getpid()));
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("dygita_study_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "cases.lua") << three_cases;
   set_progress_enabled(false);
@@ -68,8 +72,10 @@ TEST(Study, writes_a_table_and_a_figure_beside_its_cases) {
   std::ifstream csv(folder / "out" / "cube" / "study.csv");
   std::string header, row;
   std::getline(csv, header);
-  EXPECT_EQ(header, "case,started_from,pressure,\"moved, here.displacement largest [m]\",iterations,mean_iterations,cold_iterations,"
-                    "cold_difference,converged,seconds [s]");
+  EXPECT_EQ(
+      header,
+      "case,started_from,pressure,\"moved, here.displacement largest [m]\",iterations,mean_iterations,cold_iterations,"
+      "cold_difference,converged,seconds [s]");
   std::vector<std::vector<std::string>> rows;
   while (std::getline(csv, row)) {
     rows.emplace_back();

@@ -15,12 +15,17 @@ local m = material.elastic{ name = "m", young = 70*GPa, poisson = 0.3, density =
 local a = substructure{ name = "a", material = m, mesh = mesh.box{ size = { 20*mm, 20*mm, 40*mm }, cells = { 3, 3, 6 } } }
 local planes = support.symmetry{ name = "planes", on = { a:face "xmin", a:face "zmin" } }
 local corner = a:where(function(x, y, z) return near(x, 20*mm) and near(y, 20*mm) and near(z, 40*mm) end)
-local element = output.superelement{ name = "element", )" + element + R"( }
-local result = problem{ name = "block", substructures = { a }, supports = )" + supports + R"(, steps = { step.static{ name = "rest" } }, outputs = { element } }:run{}
-)").at(0);
+local element = output.superelement{ name = "element", )" +
+                  element + R"( }
+local result = problem{ name = "block", substructures = { a }, supports = )" +
+                  supports + R"(, steps = { step.static{ name = "rest" } }, outputs = { element } }:run{}
+)")
+      .at(0);
 }
 const Superelement& element_of(const DeckRun& run) { return run.result->superelements.at(&run.output("element")); }
-int n_interface(const Superelement& e) { return static_cast<int>(e.rows.size() - static_cast<size_t>(e.fixed_frequencies.size())); }
+int n_interface(const Superelement& e) {
+  return static_cast<int>(e.rows.size() - static_cast<size_t>(e.fixed_frequencies.size()));
+}
 
 TEST(SuperelementFaces, have_no_row_for_a_motion_that_a_support_holds) {
   const DeckRun run = block("on = { a:face 'xmin', a:face 'zmax' }, modes = 10");
@@ -63,7 +68,9 @@ TEST(SuperelementFaces, keep_as_many_modes_as_asked_for_and_say_how_far_they_rea
   const DeckRun all = block("on = a:face 'zmax', modes = 2000");
   EXPECT_EQ(element_of(all).n_residual, 0);
   EXPECT_EQ(static_cast<int>(element_of(all).rows.size()), element_of(all).n_unknowns);
-  for (int i = 0; i < 4; ++i) EXPECT_NEAR(e.frequencies[i], element_of(all).frequencies[i], 1e-3 * e.frequencies[i] + 0.1) << i;  // rigid: zero but for rounding
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(e.frequencies[i], element_of(all).frequencies[i], 1e-3 * e.frequencies[i] + 0.1)
+        << i;  // rigid: zero but for rounding
 }
 
 // A bar that only stretches: the static stiffness E A / L and the mass of a rod are known.
@@ -73,12 +80,14 @@ local m = material.elastic{ name = "m", young = 200*GPa, poisson = 0, density = 
 local rod = substructure{ name = "rod", material = m, mesh = mesh.box{ size = { 5*mm, 5*mm, 100*mm }, cells = { 1, 1, 40 } } }
 local element = output.superelement{ name = "element", on = { rod:face "zmin", rod:face "zmax" }, up_to = 30*kHz }
 problem{ name = "rod", substructures = { rod }, supports = {}, steps = { step.static{ name = "rest" } }, outputs = { element } }:run{}
-)").at(0);
+)")
+                          .at(0);
   const Superelement& e = element_of(run);
   const double k = 200e9 * 25e-6 / 0.1;
   EXPECT_NEAR(e.stiffness(2, 2), k, 1e-9 * k);
   EXPECT_NEAR(e.stiffness(2, 8), -k, 1e-9 * k);
-  EXPECT_NEAR(e.mass(2, 2), 8000 * 25e-6 * 0.1 / 3, 1e-3 * 8000 * 25e-6 * 0.1);  // of a linear motion, but for the lumped cells
+  EXPECT_NEAR(e.mass(2, 2), 8000 * 25e-6 * 0.1 / 3,
+              1e-3 * 8000 * 25e-6 * 0.1);  // of a linear motion, but for the lumped cells
   EXPECT_NEAR(e.mass_of_parts, 8000 * 25e-6 * 0.1, 1e-12);
   // Stretching, free at both ends: c / (2 L).
   const double f = std::sqrt(200e9 / 8000) / 0.2;

@@ -1,8 +1,7 @@
-#include "fem/stress_error.hpp"
-
 #include <gtest/gtest.h>
 
 #include "fem/meshes.hpp"
+#include "fem/stress_error.hpp"
 
 namespace dygita::test {
 namespace {
@@ -16,8 +15,8 @@ TEST(StressError, is_none_where_the_stress_is_constant) {
   EXPECT_LT(error.at_nodes.maxCoeff(), 1e-12);
 }
 
-// u_z = z^2 / 2 in slices of height h, nu = 0: the cells have the strain of their middle, the smooth strain is exact but in
-// the two outer slices, so an inner slice of volume V has E V h^2 / 24.
+// u_z = z^2 / 2 in slices of height h, nu = 0: the cells have the strain of their middle, the smooth strain is exact
+// but in the two outer slices, so an inner slice of volume V has E V h^2 / 24.
 TEST(StressError, of_a_growing_strain_is_that_of_its_steps) {
   const int n = 20;
   const double young = 3.0, h = 1.0 / n;

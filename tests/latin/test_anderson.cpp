@@ -31,7 +31,8 @@ struct Problem {
 };
 
 // The same with a QR, as in Walker and Ni.
-void textbook_step(std::vector<Vec>& dq, std::vector<Vec>& df, Vec& q, const Vec& residual, const Vec& weight, double relaxation) {
+void textbook_step(std::vector<Vec>& dq, std::vector<Vec>& df, Vec& q, const Vec& residual, const Vec& weight,
+                   double relaxation) {
   Mat f(q.size(), df.size());
   for (size_t j = 0; j < df.size(); ++j) f.col(j) = df[j];
   const Vec weighted = residual.cwiseProduct(weight);
@@ -70,9 +71,9 @@ TEST(Differences, dependent_ones_are_left_out) {
   const Vec zero = Vec::Zero(n), f = random_vector(n, 1), g = random_vector(n, 2);
   differences.add(f, zero, f, zero);
   differences.add(g, zero, g, zero);
-  differences.add(f + g, zero, f + g, zero);                 // depends on the others
+  differences.add(f + g, zero, f + g, zero);                       // depends on the others
   differences.add(f, zero, f + 1e-9 * random_vector(n, 3), zero);  // almost the first
-  differences.add(f, zero, zero, zero);                      // no difference at all
+  differences.add(f, zero, zero, zero);                            // no difference at all
   Vec q = zero, residual = 3.0 * f - 2.0 * g;
   differences.take_off(q, residual);
   EXPECT_TRUE(q.allFinite());
@@ -130,7 +131,8 @@ TEST(Anderson, past_problems_predict_the_next) {
     const auto iterate = [&](Anderson& anderson, Vec& at) {
       anderson.begin();
       int count = 1;
-      for (; (problem.image(at) - at).norm() > 1e-10 * problem.b.norm(); ++count) anderson.advance(at, problem.image(at));
+      for (; (problem.image(at) - at).norm() > 1e-10 * problem.b.norm(); ++count)
+        anderson.advance(at, problem.image(at));
       anderson.end(at, problem.image(at), true);
       return count;
     };

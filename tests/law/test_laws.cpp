@@ -57,7 +57,8 @@ TEST(Contact, satisfies_signorini_and_coulomb_for_random_trials) {
   for (int i = 0; i < 2000; ++i) {
     const double mu = positive(random) / 5.0;
     const ContactLaw law(mu);
-    const Trial t = trial(Vec3(in(random), in(random), in(random)), 1e-3 * Vec3(positive(random), positive(random), positive(random)));
+    const Trial t = trial(Vec3(in(random), in(random), in(random)),
+                          1e-3 * Vec3(positive(random), positive(random), positive(random)));
     const Vec3 f = law.force(t, dynamic_step, {});
     const LawState end = law.advance(t, dynamic_step, {}, f);
     ASSERT_LE(f[0], 0.0);

@@ -1,11 +1,10 @@
-#include "mesh/cut_mesh.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
 #include "mesh/box.hpp"
+#include "mesh/cut_mesh.hpp"
 #include "mesh/gmsh_reader.hpp"
 
 namespace dygita {
@@ -33,7 +32,8 @@ bool hangs_together(const Mesh& mesh) {
 
 std::vector<MeshPtr> meshes() {
   const std::string file = std::string(DYGITA_SOURCE_DIR) + "/meshes/bar.geo";
-  return {box_mesh(Vec3::Zero(), {3, 2, 1}, {12, 8, 5}), GmshMeshes({file, {{"n", 40.0}, {"cells", 1.0}}, {}, 1.0}).volume("bar"),
+  return {box_mesh(Vec3::Zero(), {3, 2, 1}, {12, 8, 5}),
+          GmshMeshes({file, {{"n", 40.0}, {"cells", 1.0}}, {}, 1.0}).volume("bar"),
           GmshMeshes({file, {{"n", 40.0}, {"cells", 0.0}}, {}, 1.0}).volume("bar")};
 }
 
@@ -49,7 +49,8 @@ TEST(CutMesh, every_cell_is_in_one_piece_and_each_piece_hangs_together) {
         EXPECT_NO_THROW(check_mesh(*piece.mesh, "piece"));
         EXPECT_TRUE(hangs_together(*piece.mesh));
         EXPECT_TRUE(std::is_sorted(piece.nodes.begin(), piece.nodes.end()));
-        for (int i = 0; i < piece.mesh->n_nodes(); ++i) EXPECT_EQ(Vec3(piece.mesh->nodes.col(i)), Vec3(mesh->nodes.col(piece.nodes[i])));
+        for (int i = 0; i < piece.mesh->n_nodes(); ++i)
+          EXPECT_EQ(Vec3(piece.mesh->nodes.col(i)), Vec3(mesh->nodes.col(piece.nodes[i])));
         cells.merge(cells_of(*piece.mesh, &piece.nodes));
         sum += volume(*piece.mesh);
         area += piece.cut_areas.sum();

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/bolt_formula.hpp"
 #include "base/error.hpp"
+#include "model/bolt_formula.hpp"
 
 namespace dygita {
 namespace {
@@ -31,7 +31,8 @@ TEST(BoltFormula, of_the_bolt_is_the_sum_of_its_lengths) {
   threaded.core = 10e-3;
   threaded.thread = 8e-3;
   const double core = pi * 25e-6;
-  EXPECT_NEAR(bolt_resilience(threaded).bolt, (20e-3 / area + 8e-3 / core + 6e-3 / area + 6e-3 / core + 4.8e-3 / area) / 210e9, 1e-21);
+  EXPECT_NEAR(bolt_resilience(threaded).bolt,
+              (20e-3 / area + 8e-3 / core + 6e-3 / area + 6e-3 / core + 4.8e-3 / area) / 210e9, 1e-21);
   threaded.is_tapped = true;
   threaded.plate_young = 70e9;
   EXPECT_NEAR(bolt_resilience(threaded).bolt,

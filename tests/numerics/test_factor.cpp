@@ -16,7 +16,8 @@ struct Grid {
   std::vector<char> is_interface;
 };
 
-// A random positive definite matrix on an n x n x n grid with `per_node` unknowns a node; the plane i = 0 is the interface.
+// A random positive definite matrix on an n x n x n grid with `per_node` unknowns a node; the plane i = 0 is the
+// interface.
 Grid grid(int n, int per_node) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> in(-1.0, 1.0);
@@ -32,7 +33,8 @@ Grid grid(int n, int per_node) {
           g.node_of_dof.push_back(a);
           g.is_interface.push_back(i == 0 && d < 2);
         }
-        for (const int b : {i + 1 < n ? index(i + 1, j, k) : -1, j + 1 < n ? index(i, j + 1, k) : -1, k + 1 < n ? index(i, j, k + 1) : -1}) {
+        for (const int b : {i + 1 < n ? index(i + 1, j, k) : -1, j + 1 < n ? index(i, j + 1, k) : -1,
+                            k + 1 < n ? index(i, j, k + 1) : -1}) {
           if (b < 0) continue;
           for (int r = 0; r < per_node; ++r)
             for (int c = 0; c < per_node; ++c)
@@ -132,7 +134,8 @@ TEST(Factor, has_the_schur_complement_of_the_matrix) {
   Mat a(dense.rows(), dense.cols());
   for (int i = 0; i < a.rows(); ++i)
     for (int j = 0; j < a.cols(); ++j) a(i, j) = dense(factor.order()[i], factor.order()[j]);
-  const Mat schur = a.bottomRightCorner(n_b, n_b) - a.bottomLeftCorner(n_b, n_i) * a.topLeftCorner(n_i, n_i).ldlt().solve(a.topRightCorner(n_i, n_b));
+  const Mat schur = a.bottomRightCorner(n_b, n_b) -
+                    a.bottomLeftCorner(n_b, n_i) * a.topLeftCorner(n_i, n_i).ldlt().solve(a.topRightCorner(n_i, n_b));
   EXPECT_LT((factor.interface_schur() - schur).norm(), 1e-11 * schur.norm());
 }
 
@@ -162,7 +165,8 @@ TEST(Factor, names_what_is_not_positive_definite) {
     const Factor factor(g.matrix, g.node_of_dof, g.is_interface, "substructure 'rod' in step 'shock'");
     FAIL();
   } catch (const NumericalError& error) {
-    EXPECT_NE(std::string(error.what()).find("substructure 'rod' in step 'shock': the matrix is not positive definite"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("substructure 'rod' in step 'shock': the matrix is not positive definite"),
+              std::string::npos);
   }
 }
 

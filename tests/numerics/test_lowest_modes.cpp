@@ -31,9 +31,14 @@ struct Grid {
   }
   Modes lowest(const ModeRequest& request, double shift = 0.0) const {
     const Eigen::LLT<Mat> factor(Mat(stiffness) + shift * Mat(mass));
-    return lowest_modes(static_cast<int>(mass.rows()), [&](Eigen::Ref<Mat> x) { x = factor.solve(Mat(x)); }, mass, shift, request, "grid");
+    return lowest_modes(
+        static_cast<int>(mass.rows()), [&](Eigen::Ref<Mat> x) { x = factor.solve(Mat(x)); }, mass, shift, request,
+        "grid");
   }
-  Vec exact() const { return Eigen::GeneralizedSelfAdjointEigenSolver<Mat>(Mat(stiffness), Mat(mass), Eigen::EigenvaluesOnly).eigenvalues(); }
+  Vec exact() const {
+    return Eigen::GeneralizedSelfAdjointEigenSolver<Mat>(Mat(stiffness), Mat(mass), Eigen::EigenvaluesOnly)
+        .eigenvalues();
+  }
 };
 
 TEST(LowestModes, are_those_of_the_dense_solver_double_ones_included) {

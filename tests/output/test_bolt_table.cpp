@@ -46,23 +46,28 @@ RunResult two_bolts() {
 }
 
 TEST(BoltTable, is_a_csv_with_a_row_a_bolt_and_a_column_a_static_step) {
-  EXPECT_EQ(bolts_csv(two_steps(), two_bolts()),
-            "bolt,area [m^2],target [N],\"after tighten, first [N]\",lowest [N],highest [N],last [N],loss [1],shortening [m],"
-            "plastic_opening [m],hand [N],hand_shortening [m],load_factor [1]\n"
-            "one,8.1e-05,25000,25000,20000,30000,22000,0.12,5e-05,0,12500,0.0001,0.75\n"
-            "the other,8.1e-05,,25000,20000,30000,25000,0,5e-05,0,,,\n");
+  EXPECT_EQ(
+      bolts_csv(two_steps(), two_bolts()),
+      "bolt,area [m^2],target [N],\"after tighten, first [N]\",lowest [N],highest [N],last [N],loss [1],shortening [m],"
+      "plastic_opening [m],hand [N],hand_shortening [m],load_factor [1]\n"
+      "one,8.1e-05,25000,25000,20000,30000,22000,0.12,5e-05,0,12500,0.0001,0.75\n"
+      "the other,8.1e-05,,25000,20000,30000,25000,0,5e-05,0,,,\n");
 }
 
 TEST(BoltTable, is_read_by_people) {
   const std::vector<std::string> lines = bolt_lines(two_steps(), two_bolts());
   ASSERT_EQ(lines.size(), 5u);
-  EXPECT_EQ(lines[0], "  bolts: forces (kN) at the end of each static step, lowest and highest in the dynamic ones; loss since a bolt's own "
-                      "tightening");
+  EXPECT_EQ(lines[0],
+            "  bolts: forces (kN) at the end of each static step, lowest and highest in the dynamic ones; loss since a "
+            "bolt's own "
+            "tightening");
   EXPECT_EQ(lines[1], "                target  tighten, first   lowest  highest  at the end     loss  by hand");
   EXPECT_EQ(lines[2], "    one         25.000          25.000   20.000   30.000      22.000  12.00 %   12.500");
   EXPECT_EQ(lines[3], "    the other                   25.000   20.000   30.000      25.000   0.00 %         ");
-  EXPECT_EQ(lines[4], "    by hand (VDI 2230, 0.5 of a bolt), 'one': 100.00 um for 25.000 kN, found 50.00 um; bolt 1 kN/um, plates 0.3333 kN/um, "
-                      "load factor 0.750");
+  EXPECT_EQ(lines[4],
+            "    by hand (VDI 2230, 0.5 of a bolt), 'one': 100.00 um for 25.000 kN, found 50.00 um; bolt 1 kN/um, "
+            "plates 0.3333 kN/um, "
+            "load factor 0.750");
 }
 
 TEST(BoltTable, of_no_bolts_says_nothing) { EXPECT_TRUE(bolt_lines(two_steps(), RunResult()).empty()); }

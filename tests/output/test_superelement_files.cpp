@@ -9,7 +9,8 @@ namespace {
 TEST(MatrixMarket, has_the_lower_triangle_by_columns) {
   Mat m(2, 2);
   m << 1, 0.1, 0.1, -0.0;
-  EXPECT_EQ(matrix_market_text(m, "of a test"), "%%MatrixMarket matrix array real symmetric\n% of a test\n2 2\n1\n0.10000000000000001\n0\n");
+  EXPECT_EQ(matrix_market_text(m, "of a test"),
+            "%%MatrixMarket matrix array real symmetric\n% of a test\n2 2\n1\n0.10000000000000001\n0\n");
 }
 
 TEST(SuperelementFiles, are_matrices_and_a_page_that_names_their_rows) {

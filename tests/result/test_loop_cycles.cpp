@@ -10,7 +10,10 @@ namespace dygita {
 namespace {
 
 Table loop_of(const std::vector<double>& x, const std::vector<double>& f) {
-  Table table{{"time", "displacement", "force"}, {"s", "m", "N"}, {std::vector<double>(x.size()), x, f}, std::vector<int>(x.size(), 0)};
+  Table table{{"time", "displacement", "force"},
+              {"s", "m", "N"},
+              {std::vector<double>(x.size()), x, f},
+              std::vector<int>(x.size(), 0)};
   for (size_t i = 0; i < x.size(); ++i) table.columns[0][i] = static_cast<double>(i);
   return table;
 }
@@ -95,7 +98,8 @@ TEST(LoopCycles, of_a_dashpot_lose_with_the_square_and_count_each_cycle_once) {
   }
 }
 
-// Free vibration: x decays, cycles do not close. The loss is c times the square of the velocity, and a straight line closes.
+// Free vibration: x decays, cycles do not close. The loss is c times the square of the velocity, and a straight line
+// closes.
 TEST(LoopCycles, close_a_spiral_by_a_straight_line) {
   std::vector<double> x, f;
   const double decay = 0.01, k = 1.0;
@@ -139,7 +143,8 @@ TEST(TurningPoints, leave_small_travels_out) {
 
 // Gross sliding, stop, back: the joint sticks after the force has turned.
 TEST(TurningPoints, are_where_the_force_turns_while_the_joint_sticks) {
-  EXPECT_EQ(turning_points({0, 0, 1, 2, 2, 2, 2, 1, 0}, {0, 5, 5, 5, 2, 0, -5, -5, -5}, 0), (std::vector<int>{0, 3, 8}));
+  EXPECT_EQ(turning_points({0, 0, 1, 2, 2, 2, 2, 1, 0}, {0, 5, 5, 5, 2, 0, -5, -5, -5}, 0),
+            (std::vector<int>{0, 3, 8}));
 }
 
 TEST(Decreasing, pools_what_rises) {

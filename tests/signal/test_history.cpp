@@ -33,7 +33,8 @@ std::string message_of(const std::function<void()>& action) {
 
 class HistoryFile : public ::testing::Test {
  protected:
-  HistoryFile() : path_(std::filesystem::temp_directory_path() / ("dygita_test_history_" + std::to_string(getpid()) + ".csv")) {}
+  HistoryFile()
+      : path_(std::filesystem::temp_directory_path() / ("dygita_test_history_" + std::to_string(getpid()) + ".csv")) {}
   ~HistoryFile() override { std::filesystem::remove(path_); }
   History read(const std::string& text) {
     std::ofstream(path_) << text;

@@ -60,13 +60,16 @@ TEST(Srs, of_a_coarsely_sampled_half_sine_is_the_same_below_a_tenth_of_the_sampl
   }
 }
 
-// Gaussian packets of a tone each, nothing above 0.45 of the sampling rate; exact is the same function sampled 64 times as often,
-// where the filter's bias is 4e-6 dB.
+// Gaussian packets of a tone each, nothing above 0.45 of the sampling rate; exact is the same function sampled 64 times
+// as often, where the filter's bias is 4e-6 dB.
 TEST(Srs, of_a_band_limited_signal_is_exact_up_to_a_tenth_of_the_sampling_rate) {
   const auto packets = [](double t) {
     double sum = 0.0;
-    for (const auto& [frequency, centre, size] :
-         {std::array{0.01, 300.0, 1.0}, {0.06, 150.0, 2.0}, {0.09, 420.0, -1.5}, {0.17, 220.0, 3.0}, {0.3, 380.0, 5.0}}) {
+    for (const auto& [frequency, centre, size] : {std::array{0.01, 300.0, 1.0},
+                                                  {0.06, 150.0, 2.0},
+                                                  {0.09, 420.0, -1.5},
+                                                  {0.17, 220.0, 3.0},
+                                                  {0.3, 380.0, 5.0}}) {
       const double x = (t - centre) / 12.0;
       sum += size * std::exp(-x * x) * std::cos(2.0 * pi * frequency * t);
     }
@@ -78,7 +81,8 @@ TEST(Srs, of_a_band_limited_signal_is_exact_up_to_a_tenth_of_the_sampling_rate) 
   for (const SrsQuantity quantity :
        {SrsQuantity::absolute_acceleration, SrsQuantity::relative_displacement, SrsQuantity::pseudo_velocity}) {
     const SrsSettings settings{10.0, 0.002, 0.1, 24, quantity};
-    const Srs found = shock_response_spectrum(coarse, 1.0, settings), exact = shock_response_spectrum(fine, 1.0 / finer, settings);
+    const Srs found = shock_response_spectrum(coarse, 1.0, settings),
+              exact = shock_response_spectrum(fine, 1.0 / finer, settings);
     double worst = 0.0;
     for (size_t i = 0; i < exact.frequency.size(); ++i)
       for (const auto series : {&Srs::maximax, &Srs::positive, &Srs::negative, &Srs::primary, &Srs::residual})
@@ -129,8 +133,8 @@ TEST(Srs, of_a_constant_has_the_textbooks_relative_displacement) {
   }
 }
 
-// A short pulse leaves the base with a change of velocity, which a soft oscillator shows undamped as its pseudo-velocity; a stiff one's
-// relative displacement is that of the peak acceleration, at rest.
+// A short pulse leaves the base with a change of velocity, which a soft oscillator shows undamped as its
+// pseudo-velocity; a stiff one's relative displacement is that of the peak acceleration, at rest.
 TEST(Srs, of_a_half_sine_tends_to_its_change_of_velocity_and_to_its_peak) {
   const std::vector<double> signal = half_sine(1100);  // 11 ms
   const SrsSettings soft{infinite, 0.5, 0.6, 3, SrsQuantity::pseudo_velocity};
@@ -147,7 +151,8 @@ TEST(Srs, has_the_unit_of_its_quantity) {
   EXPECT_EQ(srs_unit(SrsQuantity::pseudo_velocity, "g"), "g s");
 }
 
-// A haversine: at a kink, as a half-sine ends, the record that stops and the one that goes on are interpolated differently (7e-6).
+// A haversine: at a kink, as a half-sine ends, the record that stops and the one that goes on are interpolated
+// differently (7e-6).
 TEST(Srs, residual_is_what_a_long_silence_after_the_record_shows) {
   std::vector<double> signal = half_sine(1100);
   for (double& value : signal) value *= value;

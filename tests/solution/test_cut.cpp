@@ -1,9 +1,8 @@
-#include "solution/cut.hpp"
-
 #include <gtest/gtest.h>
 
 #include "mesh/box.hpp"
 #include "solution/bodies.hpp"
+#include "solution/cut.hpp"
 #include "solution/step_model.hpp"
 
 namespace dygita {
@@ -82,11 +81,13 @@ TEST(Cut, the_pieces_stiffness_and_masses_add_up_to_those_of_the_whole) {
       return f;
     };
     const auto times_mass = [](const Body& body, const Points& x) {
-      return body.mass->matrix.size() > 0 ? Points((body.mass->matrix * x.transpose()).transpose()) : Points(x * body.mass->lumped.asDiagonal());
+      return body.mass->matrix.size() > 0 ? Points((body.mass->matrix * x.transpose()).transpose())
+                                          : Points(x * body.mass->lumped.asDiagonal());
     };
     EXPECT_EQ(whole[0].mass->matrix.size() > 0, is_tuned);
     for (const auto& product : {std::function<Points(const Body&, const Points&)>(times_stiffness), {times_mass}}) {
-      const Points expected = product(whole[0], u), sum = cut->summed(0, [&](int p) { return product(pieces[p], cut->on_piece(p, u)); });
+      const Points expected = product(whole[0], u),
+                   sum = cut->summed(0, [&](int p) { return product(pieces[p], cut->on_piece(p, u)); });
       EXPECT_LT((sum - expected).norm(), 1e-13 * expected.norm());
     }
   }
