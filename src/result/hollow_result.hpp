@@ -7,7 +7,7 @@
 
 namespace dygita {
 
-// A result with one row of nan a step, for decks that are checked and not run.
+// A result with one row of nan per step, for decks that are checked and not run.
 std::shared_ptr<const RunResult> hollow_result(const Problem& problem);
 
 }  // namespace dygita

@@ -22,7 +22,7 @@ struct Series {
 std::optional<double> summary_of(const Series& series, const std::string& key, const Origin& origin);
 
 // Linear between rows; where time stands still the last row of that time. Half a row's spacing beyond either end
-// answers the end's value, since means over a step of time carry its middle. Throws InputError farther out.
+// answers the end's value, since means over a time step carry its middle. Throws InputError farther out.
 double value_at_abscissa(const Series& series, double x, const Origin& origin);
 
 // The last row of a step of the series' problem. Throws InputError if the step is not in it or gave no row.

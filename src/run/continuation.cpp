@@ -154,7 +154,7 @@ StepPtr Continuation::extended(const Step& step, double duration) const {
   auto longer = std::make_shared<Step>(step);
   longer->duration = std::round(duration / longer->dt) * longer->dt;
   if (std::abs(longer->duration - duration) > 1e-6 * longer->dt)
-    say(fmt::format("  step '{}' goes on to {:g} s, a whole number of dt", longer->name,
+    say(fmt::format("  step '{}' is extended to {:g} s, a whole number of dt", longer->name,
                     end_of(*state_) + longer->duration - state_->steps.back().duration));
   if (const int more = longer->n_increments() - step.n_increments(); more > 0)
     say(fmt::format("  {} increments more than the deck's {}", more, step.n_increments()));
