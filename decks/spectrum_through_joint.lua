@@ -1,4 +1,4 @@
--- spectrum_through_joint.lua -- what a bolted joint takes from a shock: spectra before and behind it, per axis.
+-- spectrum_through_joint.lua -- shock attenuation across a bolted joint: spectra before and behind it, per axis.
 --
 --       pressure and traction, 40 us
 --        | | |  ->  ->
@@ -8,7 +8,7 @@
 --      +-----+    +-----+  <--- contact with friction, clamped by one bolt
 --      |     lower      |   leaving: the accelerations of its side
 --      +----------------+
---       absorbing: as if the structure went on
+--       non-reflecting: as if the structure extended to infinity
 --
 -- Run        dygita run decks/spectrum_through_joint.lua          --set mu=0.05   --set tighten=0.005*mm
 -- See        out/spectrum_through_joint/base/report.html            spectra, attenuation, areas, loops

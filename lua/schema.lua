@@ -173,7 +173,7 @@ words[5] = {
     },
   },
   {
-    "absorbing", makes = "support", doc = "Lets waves out, as if the part went on for ever.",
+    "absorbing", makes = "support", doc = "Non-reflecting boundary: waves leave as if the part extended to infinity.",
     arguments = { name_of "support", on({ "face" }, "where waves leave") },
   },
 }
@@ -331,11 +331,11 @@ words[8] = {
     },
   },
   {
-    "dynamic", makes = "step", doc = "Motion, in equal steps of time.",
+    "dynamic", makes = "step", doc = "Motion, in equal time steps.",
     arguments = {
       name_of "step", after,
       { "duration", type = "number", unit = "s", range = duration, required = true, doc = "how long" },
-      { "dt", type = "number", unit = "s", range = { 1e-12, 0.1 }, required = true, doc = "step of time" },
+      { "dt", type = "number", unit = "s", range = { 1e-12, 0.1 }, required = true, doc = "time step" },
       loads, step_supports,
     },
   },
@@ -349,14 +349,14 @@ words[9] = {
       { "tolerance", type = "number", range = { 1e-14, 0.1 }, default = 1e-6, doc = "indicator at which a dynamic step stops" },
       { "static_tolerance", type = "number", range = { 1e-14, 0.1 }, default = 1e-8, doc = "the same in static steps" },
       { "window", type = "integer", range = { 1, 1e9 }, default = 1, or_word = "whole",
-        doc = "steps of time iterated together; \"whole\": the whole step" },
+        doc = "time steps iterated together; \"whole\": the whole step" },
       { "relaxation", type = "number", range = { 0.05, 1 }, default_doc = "0.95; 0.8 in static steps and windows of several steps",
         doc = "of the linear stage" },
       { "anderson", type = "integer", range = { 0, 100 }, default_doc = "10; 40 in static steps; 5 in windows, 0 beyond 20 steps",
         doc = "depth of Anderson's acceleration; 0: none" },
       { "max_iterations", type = "integer", range = { 1, 1000000 }, default = 200, doc = "of one window" },
       { "numerical_damping", type = "number", range = { 0, 1 }, default = 0, doc = "of the time scheme; 0: none" },
-      { "push_out", type = "number", range = { 0, 1 }, default = 0, doc = "part of a penetration undone in a step of time" },
+      { "push_out", type = "number", range = { 0, 1 }, default = 0, doc = "part of a penetration undone in a time step" },
       { "search_direction", type = "number", range = { 1e-6, 1e6 }, default = 1, doc = "multiplies every search direction" },
       { "mass", type = "choice", choices = { "tuned", "lumped" }, default = "lumped",
         doc = "of the cells: tuned to dt so that waves keep their speed, or all at the nodes" },
@@ -412,7 +412,7 @@ local function spectrum(arguments, per_octave)
       choices = { "absolute_acceleration", "relative_displacement", "pseudo_velocity" }, doc = "what of the oscillator" },
     { "from", type = "number", unit = "Hz", range = { 0.01, 1e8 }, default = 100, doc = "first frequency" },
     { "to", type = "number", unit = "Hz", range = { 0.01, 1e8 }, default = 10000, doc = "last frequency" },
-    { "per_octave", type = "integer", range = { 1, 1000 }, default = per_octave, doc = "frequencies an octave" },
+    { "per_octave", type = "integer", range = { 1, 1000 }, default = per_octave, doc = "frequencies per octave" },
   } do
     table.insert(arguments, argument)
   end
@@ -427,7 +427,7 @@ words[10] = {
   {
     "vtk", makes = "output", doc = "Frames for ParaView.",
     arguments = {
-      { "frames", type = "integer", range = { 1, 100000 }, default = 50, doc = "frames a step" },
+      { "frames", type = "integer", range = { 1, 100000 }, default = 50, doc = "frames per step" },
       { "fields", type = "choices", choices = fields, default = fields, doc = "fields of the parts" },
     },
   },
@@ -469,13 +469,13 @@ words[10] = {
   },
   {
     "attenuation", makes = "output",
-    doc = "What a joint takes from a shock: maximax spectra of the histories before and after it and their ratio by band. Columns: "
+    doc = "Shock attenuation across a joint: maximax spectra of the histories before and after it and their ratio by band. Columns: "
       .. "frequency, entering, leaving, ratio (dB); with _x, _y, _z for histories without a direction.",
     arguments = spectrum({
       name_of "output",
       { "entering", type = "object", kinds = { "output.history" }, required = true, doc = "acceleration before the joint" },
       { "leaving", type = "object", kinds = { "output.history" }, required = true, doc = "acceleration behind it" },
-      { "bands", type = "integer", range = { 1, 24 }, default = 1, doc = "bands an octave: 1, or 3 for thirds" },
+      { "bands", type = "integer", range = { 1, 24 }, default = 1, doc = "bands per octave: 1, or 3 for thirds" },
       { "joints", type = "integer", range = { 1, 100 }, default = 1,
         doc = "bolted joints on the way: the rule of thumb it is compared with is -3 dB each" },
     }, 12),
@@ -511,7 +511,7 @@ words[10] = {
       { "up_to", type = "number", unit = "Hz", range = { 0.01, 1e8 }, doc = "frequency up to which it is to be used: modes with the faces held are kept up to twice that" },
       { "modes", type = "integer", range = { 1, 2000 }, doc = "or how many modes are kept" },
       { "motion", type = "choice", choices = { "mean", "rigid", "nodes" }, default = "mean",
-        doc = "rows of a face: its six mean motions, the face free to deform; its six motions as a rigid body; or three a node" },
+        doc = "rows of a face: its six mean motions, the face free to deform; its six motions as a rigid body; or three per node" },
       { "sliding", type = "choice", choices = { "tied", "free" }, default = "tied",
         doc = "contact points at the limit of their friction: tied, as the first reversal makes them, or free along their tangents" },
       { "after", type = "object", kinds = { "step" }, default_doc = "the last static step", doc = "about the state at the end of this step, with its supports" },
@@ -585,7 +585,7 @@ local reading = {
   { "result[loop].exponent", "exponent of the loss against the force amplitude; also .displacement_exponent, .stiffness, .secant" },
   { "result[history].max", "a history with one column answers as that series; of x, y, z `.max` is the largest modulus" },
   { "result.iterations", "iterations of all steps, a whole number" },
-  { "result.mean_iterations", "iterations an increment" },
+  { "result.mean_iterations", "iterations per increment" },
   { "result.converged", "whether every increment converged" },
 }
 

@@ -7,7 +7,7 @@ local bar = substructure{
 }
 local wall = support.wall{ name = "wall", on = bar:face "zmin" }
 local guide = support.symmetry{ name = "guide", on = { bar:face "xmin", bar:face "ymin" } }
-local hit = step.dynamic{ name = "hit", duration = 60*us, dt = 20*us / p.n }  -- a wave crosses a cell a step
+local hit = step.dynamic{ name = "hit", duration = 60*us, dt = 20*us / p.n }  -- a wave crosses one cell per step
 local force = output.resultant{ name = "force", on = wall }
 local result = problem{
   name = "bar", substructures = { bar }, supports = { wall, guide }, steps = { hit },

@@ -9,7 +9,7 @@
 --
 -- Run        dygita run decks/bench/blocks.lua          --set cells=32 --set bx=4 --set by=4 --set bz=4     --set cfl=10
 -- See        ./run.sh bench scenes, the chapter manual/performance.md
--- Expect     every step converged. Cells along each side, bricks along x, y and z (bz even), c_P dt / h of the steps of time;
+-- Expect     every step converged. Cells along each side, bricks along x, y and z (bz even), c_P dt / h of the time steps;
 --            press = 1: a static step before. Two times as many cells are eight times as many unknowns
 -- Read next  ../bolted_flanges.lua
 
@@ -66,4 +66,4 @@ local result = problem{
   name = "blocks", substructures = parts, interfaces = joints, supports = { base }, steps = press and { press, hit } or { hit },
   solver = solver.latin{ tolerance = p.tolerance }, outputs = { output.energy{} },
 }:run{}
-print(("%d bricks, %.1f iterations a step: %s"):format(#parts, result.mean_iterations, result.converged and "converged" or "NOT converged"))
+print(("%d bricks, %.1f iterations per step: %s"):format(#parts, result.mean_iterations, result.converged and "converged" or "NOT converged"))

@@ -2,7 +2,7 @@
 --
 --        \ 4 m/s aslant
 --      +-----+
---      |punch|        stiffness, density, Poisson's ratio, aspect of the cells, friction, step of time, search direction
+--      |punch|        stiffness, density, Poisson's ratio, aspect of the cells, friction, time step, search direction
 --      +-----+  <---- contact, friction; touching, or one step away
 --      |anvil|
 --      +-----+
@@ -11,7 +11,7 @@
 -- Run        dygita run decks/hard/impact.lua                 --set only=7 (one case of the list)      --set steps=1000
 -- See        out/impact/<case>/run.json                       penetration, energies, iterations of a case
 -- Expect     every case converges or says that it does not; no energy from nowhere (0.1 % at most), no penetration beyond
---            v dt / 2. 25 of the 28 converge in 3.4 to 65 iterations a step, none creates
+--            v dt / 2. 25 of the 28 converge in 3.4 to 65 iterations per step, none creates
 --            energy, penetration is v dt / 2 of the first impact. NOT converged, and said: friction 1000 (2 steps of 120),
 --            search directions 1e-3 and 1e3 (22 and 15 steps, indicator 1e-4 at worst). Three cells a body: an impact
 --            costs 9 % of the energy, at CFL 100 75 %

@@ -11,7 +11,7 @@
 -- Run        dygita run decks/verification/iterations.lua --set cfl=10 --set nx=4 --set ny=4 --set nz=4
 --            python3 manual/verification/iterations.py build/dygita        prints the table of the manual
 -- See        paraview out/iterations/base/iterations.pvd
--- Expect     iterations a step that depend little on the number of bricks
+-- Expect     iterations per step that depend little on the number of bricks
 -- Read next  bonded_is_monolithic.lua
 
 local p = param{ nx = 2, ny = 2, nz = 2, cells = 12, cfl = 1, ratio = 1, friction = 0.3, static = 0, steps = 40, tie = 0 }
@@ -78,4 +78,4 @@ local result = problem{
   name = "iterations", substructures = bricks, interfaces = interfaces, supports = { base }, steps = steps,
   outputs = { corner, output.energy{} },
 }:run{}
-print(("%.2f iterations a step"):format(result.iterations / (p.static == 1 and 4 or p.steps)))
+print(("%.2f iterations per step"):format(result.iterations / (p.static == 1 and 4 or p.steps)))

@@ -1,4 +1,4 @@
--- orders.lua -- a smooth pulse runs along a bar; errors fall with the square of the cell and of the step of time.
+-- orders.lua -- a smooth pulse runs along a bar; errors fall with the square of the cell and of the time step.
 --
 --         free |=====================|--> traction sin^4, for 0.6 T
 --                      bar                                        T = L / c

@@ -11,7 +11,7 @@
 --
 -- Run        dygita run decks/verification/pieces.lua --set n=16 --set cfl=1
 -- Expect     the velocity of the top and the force on the wall differ from those of the uncut cube by less than ten times the
---            tolerance (1e-6) of their largest; the mean number of iterations a step is printed for each number of pieces
+--            tolerance (1e-6) of their largest; the mean number of iterations per step is printed for each number of pieces
 -- Read next  bonded_is_monolithic.lua
 
 local p = param{ n = 16, cfl = 1, tolerance = 1e-6, friction = 0.3, transits = 2.5, most = 64, least = 1, only = 0 }
@@ -42,15 +42,15 @@ end
 
 if p.only > 0 then
   local one = run(p.only)
-  print(("%d pieces: %.1f iterations a step"):format(p.only, one.iterations / steps))
+  print(("%d pieces: %.1f iterations per step"):format(p.only, one.iterations / steps))
   return
 end
 local whole = run(1)
-print(("1 piece: %.1f iterations a step"):format(whole.iterations / steps))
+print(("1 piece: %.1f iterations per step"):format(whole.iterations / steps))
 for _, n in ipairs{ 2, 4, 8, 16, 32, 64 } do
   if n <= p.most and n >= p.least then
     local cut = run(n)
-    print(("%d pieces: %.1f iterations a step; difference of the top's velocity: %.1e, of the force on the wall: %.1e"):format(
+    print(("%d pieces: %.1f iterations per step; difference of the top's velocity: %.1e, of the force on the wall: %.1e"):format(
       n, cut.iterations / steps, difference(whole[top].z, cut[top].z), difference(whole[foot].normal, cut[foot].normal)))
   end
 end

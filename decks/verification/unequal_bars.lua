@@ -50,7 +50,7 @@ local result = impact:run{}
 
 -- The exact solution: invariants a = v - s/Z run right, b = v + s/Z run left, one cell an instant of T / n ----------
 
-local a1, b1, a2, b2 = {}, {}, {}, {}            -- one value a cell, of the left and of the right bar
+local a1, b1, a2, b2 = {}, {}, {}, {}            -- one value per cell, of the left and of the right bar
 for i = 1, n1 do a1[i], b1[i] = p.velocity, p.velocity end
 for i = 1, n2 do a2[i], b2[i] = 0, 0 end
 local exact, impulse = {}, 0                     -- stress in each interval of T / n

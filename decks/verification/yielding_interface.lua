@@ -1,6 +1,6 @@
 -- yielding_interface.lua -- a tension wave meets an interface that yields: what gets through is exact, and so is the opening.
 --
---    lets waves out |==========P==========|--> traction, a step
+--    non-reflecting |==========P==========|--> traction, a step
 --                     left   plastic  right
 --
 -- Run        dygita run decks/verification/yielding_interface.lua    --set n=240     --set cfl=1

@@ -42,7 +42,7 @@ def tolerances(machine, folder, settings, threads):
         machine.say(f"  tolerance {tolerance}")
         run = machine.deck(DECK, settings, f"latin{{ tolerance = {tolerance} }}", threads)
         off = differences(run, reference)
-        rows.append({"tolerance": tolerance, "dofs": run.dofs, **off, "iterations a step": run.shock["iterations"] / run.shock["increments"],
+        rows.append({"tolerance": tolerance, "dofs": run.dofs, **off, "iterations per step": run.shock["iterations"] / run.shock["increments"],
                      "shock [s]": run.shock["seconds"], "estimate, iteration [%]": run.record["figures"].get("error estimate, iteration [%]", math.nan)})
     for row in reversed(rows):
         if max(row[name] for _, _, name in HISTORIES) > ALLOWED:
@@ -69,7 +69,7 @@ def measure(machine, folder, quick):
             best = product, recurrence
             steps = run.shock["increments"]
             row = {"pair": pair + 1, "threads": threads, "tolerance": picked, "dofs": run.dofs, "linear dofs": product["dofs"], "steps": steps,
-                   "latin [s]": run.shock["seconds"], "iterations a step": run.shock["iterations"] / steps, "latin factor [s]": run.record["seconds"]["factor"],
+                   "latin [s]": run.shock["seconds"], "iterations per step": run.shock["iterations"] / steps, "latin factor [s]": run.record["seconds"]["factor"],
                    "linear [s]": product["all [s]"], "linear, recurrence [s]": recurrence["all [s]"] * steps / recurrence["steps"], "linear, solves alone [s]": product["solve [s]"],
                    "linear factor [s]": product["factor [s]"],
                    "linear, all over quiet": product["all [s]"] / (product["all [s]"] - product["solve [s]"] + 1e-3 * steps * product["median solve [ms]"]), "BLAS threads": product["blas_threads"], "share of the processor": run.share,
@@ -99,7 +99,7 @@ def goals(rows):
         sums = {phase: median([r[phase] for r in mine]) for phase in iteration}
         largest = sorted(sums, key=sums.get, reverse=True)[:2]
         why = (f"{largest[0]} {100 * sums[largest[0]] / sum(sums.values()):.0f} % and {largest[1]} {100 * sums[largest[1]] / sum(sums.values()):.0f} % of the "
-               f"iteration's time, at {mine[0]['iterations a step']:.1f} iterations a step")
+               f"iteration's time, at {mine[0]['iterations per step']:.1f} iterations per step")
         done.append((f"bolted flanges, {mine[0]['dofs'] / 1e3:.0f}k unknowns, {threads} thread{'s' * (threads > 1)}: whole shock at most "
                      f"{limit} x the linear run", f"{value:.2f}", value <= limit, why))
     return done
@@ -126,7 +126,7 @@ def tolerance_words(study):
     if not within:
         return "None of these tolerances keeps all of them within 0.1 %."
     loosest = within[0]
-    return f"Tolerance {loosest['tolerance']:g} keeps all of them within 0.1 %, at {loosest['iterations a step']:.1f} iterations a step."
+    return f"Tolerance {loosest['tolerance']:g} keeps all of them within 0.1 %, at {loosest['iterations per step']:.1f} iterations per step."
 
 
 def section(rows, study):
@@ -134,7 +134,7 @@ def section(rows, study):
     for threads in sorted({int(r["threads"]) for r in rows}):
         mine = [r for r in rows if r["threads"] == threads]
         middle = {k: median([r[k] for r in mine]) for k, v in mine[0].items() if isinstance(v, float)}
-        cells.append((threads, f"{middle['latin [s]']:.2f}", f"{middle['iterations a step']:.1f}", f"{middle['linear [s]']:.2f}",
+        cells.append((threads, f"{middle['latin [s]']:.2f}", f"{middle['iterations per step']:.1f}", f"{middle['linear [s]']:.2f}",
                       f"{ratio(rows, threads):.2f}", f"{ratio(rows, threads, 'linear, recurrence [s]'):.2f}",
                       f"{ratio(rows, threads, 'linear, solves alone [s]'):.2f}", f"{middle['latin factor [s]']:.1f}", f"{middle['linear factor [s]']:.1f}",
                       f"{middle['latin factor [MB]']:.0f}", f"{middle['linear factor [MB]']:.0f}", f"{100 * middle['share of the processor']:.0f} %"))
@@ -142,12 +142,12 @@ def section(rows, study):
     parts = [
         "## The shock against a linear run",
         f"`{DECK}` at {first['dofs']:.0f} unknowns, {first['steps']:.0f} steps: contact, friction, yielding and prestress. The linear run is what a user of the best linear "
-        f"code pays for the same mesh, material, support, load and steps of time: one uncut body of {first['linear dofs']:.0f} unknowns, every joint bonded, factorised by "
+        f"code pays for the same mesh, material, support, load and time steps: one uncut body of {first['linear dofs']:.0f} unknowns, every joint bonded, factorised by "
         "CHOLMOD in its own analysis with METIS, one `cholmod_solve2` a step with kept workspace, OpenBLAS on one thread or on all, whichever is faster; "
         "its loads are evaluated outside the clock. Runs alternate; ratios are of medians over pairs. Factors are beside the clock of both; a factor of LATIN "
         "is that of the static and of the dynamic step. Denormals are flushed in both.",
         "![The shock and the linear run](performance/headline.svg)",
-        table(["threads", "LATIN s", "iterations a step", "linear s", "ratio", "to linear without product by K", "to its solves alone", "LATIN factor s",
+        table(["threads", "LATIN s", "iterations per step", "linear s", "ratio", "to linear without product by K", "to its solves alone", "LATIN factor s",
                "linear factor s", "LATIN MB", "linear MB", "processor had"], cells)]
     if was_busy(rows):
         parts.append("**The machine was not left alone during this run: these ratios are not to be trusted.**")
@@ -155,7 +155,7 @@ def section(rows, study):
     parts += [f"How far a tolerance of the dynamic step leaves the results from the converged ones (1e-9; largest difference over largest value), at {study[0]['dofs']:.0f} "
               "unknowns. "
               + tolerance_words(study),
-              table(["tolerance", *names, "iterations a step", "shock s"],
-                    [(f"{r['tolerance']:g}", *(f"{100 * r[name]:.2g} %" for name in names), f"{r['iterations a step']:.1f}", f"{r['shock [s]']:.2f}")
+              table(["tolerance", *names, "iterations per step", "shock s"],
+                    [(f"{r['tolerance']:g}", *(f"{100 * r[name]:.2g} %" for name in names), f"{r['iterations per step']:.1f}", f"{r['shock [s]']:.2f}")
                      for r in study])]
     return "\n\n".join(parts)

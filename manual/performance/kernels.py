@@ -47,15 +47,15 @@ def measure(machine, folder, quick):
         add("size of the factor", dof, mib, "MiB")
         add("forward and backward", dof, found[f"solve_one/double/cells:{n}"]["bytes/s"] / 1e9, "GB/s", *nearest(mib))
         single = found[f"solve_one/single/cells:{n}"]
-        add("the same, stored in single precision", dof, single["bytes/s"] / 1e9, "GB/s", *nearest(mib * single["bytes an entry"] / 8))
-        add("bytes an entry, stored in single precision", dof, single["bytes an entry"], "bytes")
+        add("the same, stored in single precision", dof, single["bytes/s"] / 1e9, "GB/s", *nearest(mib * single["bytes per entry"] / 8))
+        add("bytes per entry, stored in single precision", dof, single["bytes per entry"], "bytes")
         add("the same by cholmod_solve2", dof, found[f"solve_cholmod/cells:{n}/columns:1"]["bytes/s"] / 1e9, "GB/s", *nearest(mib))
         several = found[f"solve_several/double/cells:{n}/columns:16"]
         add(f"16 right-hand sides, {several['label']}", dof, several["flop/s"] / 1e9, "GF/s", "dgemm", gemm[1])
         add("16 together, stored in single precision", dof, found[f"solve_several/single/cells:{n}/columns:16"]["flop/s"] / 1e9, "GF/s", "dgemm", gemm[1])
         add("the same by cholmod_solve2, 16 together", dof, found[f"solve_cholmod/cells:{n}/columns:16"]["flop/s"] / 1e9, "GF/s", "dgemm", gemm[1])
         for stored in ("double", "single"):
-            add(f"milliseconds a solve, stored in {stored} precision", dof, found[f"solve_one/{stored}/cells:{n}"]["cpu_time"], "ms")
+            add(f"milliseconds per solve, stored in {stored} precision", dof, found[f"solve_one/{stored}/cells:{n}"]["cpu_time"], "ms")
     for n in (2048, 6000):
         add("interface operator", f"{n} unknowns", found[f"interface_operator/n:{n}"]["bytes/s"] / 1e9, "GB/s", *nearest(4 * n * n / 2**20))
     for name in ASSEMBLY:
@@ -105,5 +105,5 @@ def section(rows):
     return "\n\n".join([
         "## Kernels", "Probes and kernels in one process; processor time where they run on one thread, elapsed time on two. *Read bandwidth* sums an array of that size: where the "
         "caches hold it, it is the caches'. A solve reads the factor twice (once down, once up); bytes and operations count the entries of L. "
-        "Sizes are cubes of hexahedra in a step of time at CFL 1; factors are in METIS's order by nodes.",
+        "Sizes are cubes of hexahedra in a time step at CFL 1; factors are in METIS's order by nodes.",
         "![Kernels against the machine](performance/kernels.svg)", table(["kernel", "size", "measured", "allowed", "share"], cells)])

@@ -1,4 +1,4 @@
-"""Iterations and time against step of time, number of pieces and size."""
+"""Iterations and time against time step, number of pieces and size."""
 
 import figures
 from measure import write_rows
@@ -28,7 +28,7 @@ def asked(machine, quick):
 
 
 def measure(machine, folder, quick):
-    """Writes scaling.csv: one row a run, on all threads."""
+    """Writes scaling.csv: one row per run, on all threads."""
     rows = []
     for study, pieces, cfl, deck, settings, solver in asked(machine, quick):
         machine.say(f"Scaling: {study}, {pieces} pieces, CFL {cfl}")
@@ -36,7 +36,7 @@ def measure(machine, folder, quick):
         static = [step for step in run.record["steps"] if step["kind"] == "static"]
         shock = run.shock
         rows.append({"study": study, "pieces": pieces, "cfl": cfl, "dofs": run.dofs, "steps": shock["increments"],
-                     "iterations a step": shock["iterations"] / shock["increments"], "ms a step": 1e3 * shock["seconds"] / shock["increments"],
+                     "iterations per step": shock["iterations"] / shock["increments"], "ms per step": 1e3 * shock["seconds"] / shock["increments"],
                      "static iterations": sum(s["iterations"] for s in static) / max(1, sum(s["increments"] for s in static)),
                      "not converged": sum(s["increments_not_converged"] for s in run.record["steps"]),
                      "factors [MB]": run.record["figures"]["memory of factors and interface operators [MB]"], "share of the processor": run.share})
@@ -51,10 +51,10 @@ def goals(rows):
     done = []
     for limit, cfls in ((7, (1, 2)), (16, (10,))):
         mine = [r for r in of(rows, "CFL") if r["cfl"] in cfls]
-        worst = max(r["iterations a step"] for r in mine)
-        done.append((f"iterations a step at CFL {' and '.join(str(c) for c in cfls if any(r['cfl'] == c for r in mine))}, tolerance 1e-6, 8 pieces: at most {limit}",
+        worst = max(r["iterations per step"] for r in mine)
+        done.append((f"iterations per step at CFL {' and '.join(str(c) for c in cfls if any(r['cfl'] == c for r in mine))}, tolerance 1e-6, 8 pieces: at most {limit}",
                      f"{worst:.1f}", worst <= limit, "search directions that are diagonal, a number for each unknown"))
-    counts = [r["iterations a step"] for r in of(rows, "pieces")]
+    counts = [r["iterations per step"] for r in of(rows, "pieces")]
     growth = max(counts) / min(counts)
     done.append(("iterations from 4 to 64 pieces, CFL 1: within 20 %", f"{100 * (growth - 1):.0f} %", growth <= 1.2, "pieces that touch more others"))
     static = max(r["static iterations"] for r in of(rows, "static") if r["pieces"] == 64)
@@ -67,16 +67,16 @@ def figure(rows, folder):
     picture, axes = figures.plt.subplots(1, 2, figsize=(7.4, 2.8))
     picture.subplots_adjust(wspace=0.3)
     mine = of(rows, "CFL")
-    axes[0].semilogx([r["cfl"] for r in mine], [r["iterations a step"] for r in mine], marker="o", color=figures.COMPUTED)
-    axes[0].set_title("iterations a step, 8 pieces")
+    axes[0].semilogx([r["cfl"] for r in mine], [r["iterations per step"] for r in mine], marker="o", color=figures.COMPUTED)
+    axes[0].set_title("iterations per step, 8 pieces")
     axes[0].set_xlabel("CFL")
     figures.sized_ticks(axes[0], [r["cfl"] for r in mine], [f"{r['cfl']:g}" for r in mine], "CFL")
     for i, study in enumerate(("pieces", "pieces, CFL 10")):
         mine = of(rows, study)
-        axes[1].semilogx([r["pieces"] for r in mine], [r["iterations a step"] for r in mine], marker=figures.MARKERS[i], color=figures.COLOURS[i],
+        axes[1].semilogx([r["pieces"] for r in mine], [r["iterations per step"] for r in mine], marker=figures.MARKERS[i], color=figures.COLOURS[i],
                          label="CFL 10" if i else "CFL 1")
     figures.sized_ticks(axes[1], [r["pieces"] for r in of(rows, "pieces")], [f"{r['pieces']:g}" for r in of(rows, "pieces")], "pieces")
-    axes[1].set_title("iterations a step")
+    axes[1].set_title("iterations per step")
     axes[1].legend()
     for a in axes:
         a.set_ylim(0)
@@ -86,11 +86,11 @@ def figure(rows, folder):
 def section(rows):
     def shown(value):
         return f"{value:g}" if isinstance(value, float) else value
-    cells = [(r["study"], shown(r["pieces"]), shown(r["cfl"]), f"{r['dofs']:.0f}", f"{r['iterations a step']:.1f}", f"{r['ms a step']:.1f}",
+    cells = [(r["study"], shown(r["pieces"]), shown(r["cfl"]), f"{r['dofs']:.0f}", f"{r['iterations per step']:.1f}", f"{r['ms per step']:.1f}",
               f"{r['static iterations']:.0f}" if r["static iterations"] else "", f"{r['factors [MB]']:.0f}") for r in rows]
     failed = [f"{r['study']}, {shown(r['pieces'])} pieces, CFL {shown(r['cfl'])}: {r['not converged']:.0f} steps" for r in rows if r["not converged"]]
     return "\n\n".join(filter(None, [
         "## Scaling", f"`{BLOCKS}`, tolerance 1e-6, all threads." + (f" *Flanges, cut*: `{FLANGES}` with solver.latin{{ pieces = n }}." if of(rows, "flanges, cut") else ""),
         "![Iterations against CFL and pieces](performance/scaling.svg)",
-        table(["study", "pieces", "CFL", "unknowns", "iterations a step", "ms a step", "iterations of a static step", "factors MB"], cells),
+        table(["study", "pieces", "CFL", "unknowns", "iterations per step", "ms per step", "iterations of a static step", "factors MB"], cells),
         failed and "Not converged: " + "; ".join(failed) + "."]))

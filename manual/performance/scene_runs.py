@@ -21,7 +21,7 @@ def asked(machine, quick):
     for size, duration in (("4*mm", "200*us"), ("2.12*mm", "200*us"), ("1.4*mm", "40*us")):
         found += [("bolted flanges", FLANGES, {"size": size, "duration": duration}, None, t, 300) for t in machine.threads]
     if machine.cuts:
-        found += [("bolted flanges, 8 pieces a part", FLANGES, {"size": "1.4*mm", "duration": "40*us"}, cut, t, 300) for t in machine.threads]
+        found += [("bolted flanges, 8 pieces per part", FLANGES, {"size": "1.4*mm", "duration": "40*us"}, cut, t, 300) for t in machine.threads]
     found += [("bolted flanges", FLANGES, {"size": size, "duration": duration}, None, machine.threads[-1], 600)
               for size, duration in (("0.96*mm", "20*us"), ("0.64*mm", "10*us"))]
     for cells, bricks, steps in ((12, few, 40), (20, few, 40), (32, few, 40), (32, many, 40), (46, many, 20), (69, many, 10)):
@@ -31,7 +31,7 @@ def asked(machine, quick):
 
 
 def measure(machine, folder, quick):
-    """Writes scenes.csv: one row a run."""
+    """Writes scenes.csv: one row per run."""
     rows = []
     for scene, deck, settings, solver, threads, limit in asked(machine, quick):
         machine.say(f"Scene: {scene} {settings}, {threads} thread(s)")
@@ -46,8 +46,8 @@ def measure(machine, folder, quick):
         rows.append({"scene": scene, "settings": " ".join(f"{k}={v}" for k, v in settings.items()), "dofs": run.dofs,
                      "interface unknowns": record["size"]["interface_unknowns"], "threads": threads, "steps": shock["increments"],
                      "not converged": sum(step["increments_not_converged"] for step in record["steps"]),
-                     "iterations a step": shock["iterations"] / shock["increments"], "shock [s]": shock["seconds"], "all [s]": record["seconds"]["all"],
-                     "static [s]": sum(step["seconds"] for step in record["steps"][:-1]), "local stage [ns a point]": local,
+                     "iterations per step": shock["iterations"] / shock["increments"], "shock [s]": shock["seconds"], "all [s]": record["seconds"]["all"],
+                     "static [s]": sum(step["seconds"] for step in record["steps"][:-1]), "local stage [ns per point]": local,
                      "factors [MB]": record["figures"]["memory of factors and interface operators [MB]"], "peak [MB]": run.peak_bytes / 1e6,
                      "share of the processor": run.share} | {phase: record["seconds"].get(phase, 0.0) for phase in PHASES})
     write_rows(folder / "scenes.csv", rows)
@@ -98,15 +98,15 @@ def figure(rows, folder):
 
 
 def section(rows):
-    cells = [(r["scene"], f"{r['dofs']:.0f}", f"{r['threads']:.0f}", f"{r['steps']:.0f}", f"{r['iterations a step']:.1f}", f"{r['static [s]']:.2f}",
+    cells = [(r["scene"], f"{r['dofs']:.0f}", f"{r['threads']:.0f}", f"{r['steps']:.0f}", f"{r['iterations per step']:.1f}", f"{r['static [s]']:.2f}",
               f"{r['shock [s]']:.2f}", f"{1e3 * r['shock [s]'] / r['steps']:.1f}", f"{r['assemble'] + r['factor']:.2f}", f"{r['all [s]']:.2f}",
-              f"{r['factors [MB]']:.0f}", f"{r['peak [MB]']:.0f}", f"{r['local stage [ns a point]']:.0f}", f"{100 * r['share of the processor']:.0f} %") for r in rows]
+              f"{r['factors [MB]']:.0f}", f"{r['peak [MB]']:.0f}", f"{r['local stage [ns per point]']:.0f}", f"{100 * r['share of the processor']:.0f} %") for r in rows]
     failed = [f"{r['scene']} at {r['dofs']:.0f}: {r['not converged']:.0f} steps" for r in rows if r["not converged"]]
     return "\n\n".join(filter(None, [
         "## Scenes", f"`{FLANGES}` and `{BLOCKS}` (a cube in 8 or 64 bricks, contact across its middle, CFL 1). *Steps*: of the shock as run here; "
         "the largest take few. *Factors*: of the last step, with interface operators. *Peak*: memory of the whole program. *Local stage*: nanoseconds an iteration "
         "and three interface unknowns. *Processor had*: processor time over elapsed time and threads.",
         "![Where the time goes](performance/scenes.svg)",
-        table(["scene", "unknowns", "threads", "steps", "iterations a step", "static s", "shock s", "ms a step", "assembly and factor s", "all s", "factors MB",
+        table(["scene", "unknowns", "threads", "steps", "iterations per step", "static s", "shock s", "ms per step", "assembly and factor s", "all s", "factors MB",
                "peak MB", "local stage", "processor had"], cells),
         failed and "Not converged: " + "; ".join(failed) + "."]))

@@ -10,7 +10,7 @@ import figures
 from exact_pages import number
 
 HEADS = ["scene", "knob", "value", "estimated (%)", "true (%)", "estimated / true"]
-KNOBS = {"tolerance": "iteration", "steps": "step of time", "cells": "mesh", "cells and steps": "mesh and step of time"}
+KNOBS = {"tolerance": "iteration", "steps": "time step", "cells": "mesh", "cells and steps": "mesh and time step"}
 
 
 def run(program, folder, say):

@@ -103,8 +103,8 @@ def orders(program, folder, say):
             summary.append(["11 [Order of convergence](#11-order-of-convergence)", name, f"{theory} within 0.1", f"{order:.2f}", f"{order:.2f}",
                             verdict(theory, missed)])
     axes[1].set_xlim(right=0.05)
-    for a, title, sizes, label, panel_ends in zip(axes, ("relative L2 error against the mesh", "against the step of time"),
-                                                  ([40, 80, 160, 320], [30, 60, 120, 240, 480, 960]), ("cells n", "steps of time"), ends):
+    for a, title, sizes, label, panel_ends in zip(axes, ("relative L2 error against the mesh", "against the time step"),
+                                                  ([40, 80, 160, 320], [30, 60, 120, 240, 480, 960]), ("cells n", "time steps"), ends):
         a.set_title(title)
         figures.sized_ticks(a, [1 / n for n in sizes], [str(n) for n in sizes], label)
         a.figure.canvas.draw()

@@ -90,7 +90,7 @@ class Outcome:
         return "**MISSED**: " + ", ".join(self.complaints) if self.complaints else "met"
 
 
-def step_of_time(run, case):
+def time_step(run, case):
     """dt (s) of the last dynamic step, from its table of convergence; None if all are static."""
     times = np.diff(run.table("convergence", case)["time"])
     times = times[times > 0]
@@ -123,7 +123,7 @@ def judge(case, run):
     allowed = case.allowed
     if case.closing is not None:
         speed = case.closing if isinstance(case.closing, float) else run.number(case.closing)
-        allowed = speed * step_of_time(run, case.case) / 2
+        allowed = speed * time_step(run, case.case) / 2
     complaints = []
     if not all_finite(run.cases[case.case] if case.case else next(iter(run.cases.values()))):
         complaints.append("not a number")
@@ -155,14 +155,14 @@ def hard_cases(program, say, quick=False):
 def write_csv(path, outcomes):
     with open(path, "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["variant", "deck and case", "exit code", "verdict of the run", "iterations a step", "energy created [%]",
+        writer.writerow(["variant", "deck and case", "exit code", "verdict of the run", "iterations per step", "energy created [%]",
                          "largest penetration [m]", "allowed [m]", "verdict"])
         for o in outcomes:
             writer.writerow([o.case.what, o.case.name(), o.exit_code, o.said, *("" if v is None else f"{v:.4g}" for v in (
                 o.iterations, o.created, o.penetration, o.allowed)), o.verdict().replace("*", "")])
 
 
-HEADS = ["variant", "deck/case", "the run says", "iterations a step", "energy created (%)", "penetration (m)", "allowed (m)", "verdict"]
+HEADS = ["variant", "deck/case", "the run says", "iterations per step", "energy created (%)", "penetration (m)", "allowed (m)", "verdict"]
 
 
 def rows(outcomes):
@@ -180,7 +180,7 @@ def figure(outcomes):
     created = [max(o.created, 1e-6) if o.created is not None else math.nan for o in shown]
     ratio = [o.penetration / o.allowed if o.allowed and o.penetration is not None else math.nan for o in shown]
     for a, values, title, limit in zip(axes, ([o.iterations for o in shown], created, ratio),
-                                       ("iterations a step", "energy created (%)", "penetration / (v dt/2)"), (None, CREATED_GOAL, 1.0)):
+                                       ("iterations per step", "energy created (%)", "penetration / (v dt/2)"), (None, CREATED_GOAL, 1.0)):
         a.scatter(values, y, c=colours, s=18, zorder=3)
         a.set_title(title)
         if limit:

@@ -1,4 +1,4 @@
-"""Iterations a step of decks/verification/iterations.lua and of bolted_flanges.lua, as the tables of the manual.
+"""Iterations per step of decks/verification/iterations.lua and of bolted_flanges.lua, as the tables of the manual.
 
 python3 manual/verification/iterations.py build/dygita [--flanges]        about ten seconds; the flanges at 2 and 1.5 mm take a minute
 """

@@ -93,7 +93,7 @@ def speed_section(done, kept):
 
 def estimates_section(rows):
     parts = ["## Error estimates", "Every run estimates its own errors (`figures` in run.json, the lines *estimated errors*). Here they are held "
-             "against true ones in the same norm (energy, worst instant): of the iteration against a tolerance of 1e-11, of the step of time against dt/16, "
+             "against true ones in the same norm (energy, worst instant): of the iteration against a tolerance of 1e-11, of the time step against dt/16, "
              "of the mesh against cells 8 times shorter."]
     if rows is None:
         return "\n\n".join(parts + ["This program has none, or its study was not built."])

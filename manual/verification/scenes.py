@@ -92,14 +92,14 @@ SCENES = [
           [(f"{n}", {"n": n}) for n in (25, 50, 100, 200, 400)], of_cfl((4, 2, 1, 0.5, 0.25)), {"n": 100},
           bouncing_bar, ("contact pressure", "place of the lower end"), True,
           "The contact has four nodes: an iteration costs nothing beside the two triangular solves of a step, which both implicit solvers make. "
-          "An explicit step needs no solve: at the steps of time that waves ask for it is the cheapest until its springs of contact are what "
+          "An explicit step needs no solve: at the time steps that waves ask for it is the cheapest until its springs of contact are what "
           "is off. "
           "In L2 a jump of the pressure that comes late or blunt costs the square root of its width, so only the mesh brings this error down."),
     Scene("two_bars", "Two bars", "decks/verification/two_bars.lua",
           [(f"{n}", {"n": n}) for n in (25, 50, 100, 200, 400)], of_cfl((4, 2, 1, 0.5, 0.25)), {"n": 100},
           two_bars, ("contact stress, but 5 % at each end", "contact stress with impact and release"), True,
           "The contact has four nodes: an iteration costs nothing beside the two triangular solves of a step, which both implicit solvers make. "
-          "An explicit step needs no solve: at the steps of time that waves ask for it is the cheapest until its springs of contact are what "
+          "An explicit step needs no solve: at the time steps that waves ask for it is the cheapest until its springs of contact are what "
           "is off. "
           "With impact and release in the norm, the square root of their widths dominates."),
     Scene("yielding_beam", "Yielding beam", "decks/plastic_beam.lua",

@@ -68,7 +68,7 @@ void add_srs_options(CLI::App& command, SrsCommand& asked) {
       ->capture_default_str();
   command.add_option("--from", asked.settings.from, "first frequency, Hz")->capture_default_str();
   command.add_option("--to", asked.settings.to, "last frequency, Hz")->capture_default_str();
-  command.add_option("--per-octave", asked.settings.per_octave, "frequencies an octave")->capture_default_str();
+  command.add_option("--per-octave", asked.settings.per_octave, "frequencies per octave")->capture_default_str();
   command.add_option("--column", asked.column, "name of the column of values (default: the first)");
   command.add_option("--out", asked.out, "file to write (default: standard output)");
 }
@@ -90,7 +90,7 @@ void add_continue_options(CLI::App& command, Command& asked) {
       .add_option("--iterations", options.more_iterations,
                   "at most so many iterations more at each increment, after one that meets what is known")
       ->check(CLI::Range(1, 1000000));
-  command.add_option("--until", asked.until, "carry the last dynamic step on to this time, as 0.0004 or 0.4*ms");
+  command.add_option("--until", asked.until, "extend the last dynamic step to this time, as 0.0004 or 0.4*ms");
   command.add_option("--threads", options.threads, "threads (default: all)")->check(CLI::Range(1, 1024));
   command.add_option("--time-limit", options.time_limit, "s of processor time of the deck's own code")
       ->check(CLI::PositiveNumber)
@@ -151,7 +151,7 @@ int command_line(int argc, char** argv) {
   run->add_option("--threads", asked.deck.threads, "threads (default: all)")->check(CLI::Range(1, 1024));
   run->add_flag("--no-frames", asked.has_no_frames, "no frames for ParaView; tables and run.json are written");
   run->add_flag("--no-state", asked.has_no_state, "no state file: the run cannot be continued later");
-  CLI::App* going_on = app.add_subcommand("continue", "go on with a run: to a tighter tolerance, or further in time");
+  CLI::App* going_on = app.add_subcommand("continue", "continue a run: to a tighter tolerance, or further in time");
   add_continue_options(*going_on, asked);
   CLI::App* check = app.add_subcommand("check", "declare and check a deck, say what it would compute, solve nothing");
   add_deck_options(*check, asked);

@@ -141,14 +141,14 @@ Signal read_signal(const SrsCommand& command) {
   return signal;
 }
 
-// Even samples by linear interpolation; answers the step of time.
+// Even samples by linear interpolation; answers the time step.
 double make_even(Signal& signal, const std::string& file) {
   const size_t n = signal.time.size();
   const double start = signal.time.front(), dt = (signal.time.back() - start) / static_cast<double>(n - 1);
   double worst = 0.0;
   for (size_t i = 1; i < n; ++i) worst = std::max(worst, std::abs(signal.time[i] - signal.time[i - 1] - dt) / dt);
   if (worst < uneven_sampling) return dt;
-  warn(fmt::format("{}: the steps of time differ by up to {:.0f} %; values are interpolated every {:g} s", file,
+  warn(fmt::format("{}: the time steps differ by up to {:.0f} %; values are interpolated every {:g} s", file,
                    100.0 * worst, dt));
   std::vector<double> even(n);
   size_t j = 0;

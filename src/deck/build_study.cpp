@@ -9,7 +9,7 @@ namespace dygita {
 
 namespace {
 
-constexpr double most_steps_of_time = 1e7;
+constexpr double most_time_steps = 1e7;
 
 std::shared_ptr<Step> new_step(const Declaration& d) {
   auto step = new_named<Step>(d);
@@ -34,10 +34,9 @@ Held build_dynamic(const Declaration& d) {
   if (n < 1.0 - 1e-6) {
     throw InputError(fmt::format("'dt' = {:g} s is longer than 'duration' = {:g} s", step->dt, step->duration));
   }
-  if (n > most_steps_of_time)
-    throw InputError(fmt::format("{:.3g} steps of time are more than {:g}", n, most_steps_of_time));
+  if (n > most_time_steps) throw InputError(fmt::format("{:.3g} time steps are more than {:g}", n, most_time_steps));
   if (std::abs(n - std::round(n)) > 1e-6 * n) {
-    warn(fmt::format("{}step '{}': 'duration' is {:g} times 'dt'; {:.0f} steps of time are computed", d.origin.prefix(),
+    warn(fmt::format("{}step '{}': 'duration' is {:g} times 'dt'; {:.0f} time steps are computed", d.origin.prefix(),
                      step->name, n, std::round(n)));
   }
   return StepPtr(step);

@@ -155,7 +155,7 @@ class Continuation {
       auto longer = std::make_shared<Step>(*problem.steps.back());
       longer->duration = std::round(duration / longer->dt) * longer->dt;
       if (std::abs(longer->duration - duration) > 1e-6 * longer->dt)
-        say(fmt::format("  step '{}' goes on to {:g} s, a whole number of dt", longer->name,
+        say(fmt::format("  step '{}' is extended to {:g} s, a whole number of dt", longer->name,
                         end_of(*state_) + longer->duration - state_->steps.back().duration));
       if (const int more = longer->n_increments() - problem.steps.back()->n_increments(); more > 0)
         say(fmt::format("  {} increments more than the deck's {}", more, problem.steps.back()->n_increments()));

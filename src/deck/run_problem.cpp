@@ -57,8 +57,8 @@ void summarise(const Problem& problem, const SolverFigures& figures, RunResult& 
   result.figures["largest difference between the interface gap and the displacements' [m]"] = figures.gap_difference;
 }
 
-// What the scheme takes or gives is the price of dt and mesh at impacts: above a few percent the answer is not to be
-// trusted.
+// Numerical dissipation and energy gain are the price of dt and mesh at impacts: above a few percent the answer is not
+// to be trusted.
 void warn_of_losses(const Problem& problem, const RunResult& result) {
   const double lost = result.figures.at("energy dissipated by the scheme [%]"),
                gained = result.figures.at("energy created by the scheme [%]");
@@ -67,8 +67,8 @@ void warn_of_losses(const Problem& problem, const RunResult& result) {
     const double held = std::pow(result.figures.at("error estimate, penalty [%]"), 2) / 100.0;
     if (held > 5.0)
       warn(
-          fmt::format("the springs of contact hold up to {:.1f} % of the energy: a larger 'penalty' of solver.explicit "
-                      "lets the sides overlap less",
+          fmt::format("the penalty springs hold up to {:.1f} % of the energy: a larger 'penalty' of solver.explicit "
+                      "reduces the overlap of the sides",
                       held));
     if (const double hourglass = result.figures.contains("largest hourglass energy [%]")
                                      ? result.figures.at("largest hourglass energy [%]")
@@ -83,14 +83,14 @@ void warn_of_losses(const Problem& problem, const RunResult& result) {
   }
   if (lost > 5.0)
     warn(
-        fmt::format("the scheme dissipates {:.1f} % of the energy (impacts; static increments that close a gap): a "
-                    "smaller dt, smaller "
-                    "elements or more static increments lose less",
+        fmt::format("numerical dissipation takes {:.1f} % of the energy (impacts; static increments that close a gap): "
+                    "a smaller dt, smaller elements or more static increments reduce it",
                     lost));
   if (gained > 0.5)
-    warn(fmt::format(
-        "the scheme creates {:.2f} % of the energy: take a smaller dt or tolerance, or more static increments",
-        gained));
+    warn(
+        fmt::format("the numerical energy gain is {:.2f} % of the energy: take a smaller dt or tolerance, or more "
+                    "static increments",
+                    gained));
   if (open > 0.5)
     warn(fmt::format(
         "the energy balance is open by {:.2f} %: {}", open,
@@ -115,7 +115,7 @@ void warn_of_errors(const Problem& problem, const RunResult& result) {
                     problem.solver.static_tolerance, still, 0.1 * problem.solver.static_tolerance / still));
   if (const double e = figure("error estimate, time step [%]"); e > 30.0)
     warn(
-        fmt::format("the step of time leaves about {:.2g} % of error (energy norm) on the shock, which moves at {:.3g} "
+        fmt::format("the time step leaves about {:.2g} % of error (energy norm) on the shock, which moves at {:.3g} "
                     "kHz on average: a "
                     "smaller dt leaves less",
                     e, figure("mean frequency of the motion [Hz]") / 1e3));
@@ -156,8 +156,8 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
   const double lost = result.figures.at("energy dissipated by the scheme [%]"),
                gained = result.figures.at("energy created by the scheme [%]");
   say(fmt::format("  energy balance closes within {:.3g} %, ", result.figures.at("energy imbalance [%]")) +
-      (problem.explicit_dynamics ? fmt::format("the springs of contact hold up to {:.3g} %", lost)
-                                 : fmt::format("the scheme dissipates {:.3g} % and creates {:.3g} %", lost, gained)));
+      (problem.explicit_dynamics ? fmt::format("penalty springs hold up to {:.3g} %", lost)
+                                 : fmt::format("numerical dissipation {:.3g} %, energy gain {:.3g} %", lost, gained)));
   const auto figure = [&](const char* name) { return result.figures.at(name); };
   const bool is_explicit = result.figures.contains("error estimate, penalty [%]");
   if (result.figures.contains("error estimate, mesh [%]"))

@@ -72,9 +72,8 @@ void warn_of_bands(const Problem& problem, const RunResult& result) {
     if (!result.bands.contains(output.get())) continue;
     if (const double all = result.figures.at(band_figure(output->name, "all")); all > limit)
       warn(
-          fmt::format("spectrum '{}' is known to about {:.2g} dB only (mean over its frequencies, by the run's own "
-                      "estimate): little arrives there beside "
-                      "what dt and the mesh leave",
+          fmt::format("spectrum '{}' is uncertain by about {:.2g} dB (mean over its frequencies, by the run's own "
+                      "estimate): little arrives there beside the errors of dt and the mesh",
                       output->name, all));
   }
 }

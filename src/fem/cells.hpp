@@ -8,7 +8,7 @@
 namespace dygita {
 
 template <int n>
-using CornerStress = Eigen::Matrix<double, 6, n>;  // Pa, one column a node: xx yy zz xy yz zx
+using CornerStress = Eigen::Matrix<double, 6, n>;  // Pa, one column per node: xx yy zz xy yz zx
 
 // Trilinear hexahedron with 12 enhanced strain modes condensed in the cell: the 9 of Taylor, Beresford and Wilson
 // (Int. J. Numer. Methods Eng. 10, 1976), which cure bending and pass the patch test on distorted cells, and the 3

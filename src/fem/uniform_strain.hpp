@@ -1,4 +1,4 @@
-// Cells of uniform strain, as explicit codes integrate them: one stress a cell, from the mean gradient, with the
+// Cells of uniform strain, as explicit codes integrate them: one stress per cell, from the mean gradient, with the
 // stiffness hourglass control of a hexahedron and a bulk viscosity (manual, eq. X4-X7).
 #pragma once
 

@@ -13,7 +13,7 @@ class CoarseCorrection {
  public:
   CoarseCorrection() = default;  // none
   // k: search directions of all unknowns (length n_q), as the pieces have them. Costs the inverse of each piece's
-  // operator on its tied unknowns, and a dense matrix of 6 unknowns a substructure.
+  // operator on its tied unknowns, and a dense matrix of 6 unknowns per substructure.
   CoarseCorrection(const StepModel& model, const Vec& k);
   bool is_empty() const { return pieces_.empty(); }
   // Changes data q and the velocities that the linear stage answered them with, which remain its answer. Changes
@@ -48,7 +48,7 @@ class CoarseCorrection {
   Vec amount_;
 };
 
-// Does what happens in a step of time reach across a substructure (or at once, in a static step)? Below, the correction
+// Does what happens in a time step reach across a substructure (or at once, in a static step)? Below, the correction
 // changes nothing that the iteration does not find as fast.
 bool needs_coarse_correction(const StepModel& model);
 

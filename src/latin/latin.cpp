@@ -88,7 +88,7 @@ Outcome StepRun::iterate(int increment, const Goal& goal, Vec& q_best, int& n) {
   }
 }
 
-// One step of time: forward once, iterate on the interfaces alone, backward once.
+// One time step: forward once, iterate on the interfaces alone, backward once.
 void StepRun::solve_increment(int increment) {
   begin_increment(increment, true);
   const bool has_start = warm_start_.predict(increment, q_) && start_from_;
@@ -96,7 +96,7 @@ void StepRun::solve_increment(int increment) {
     warn(
         fmt::format("step '{}': nothing of the case to start from fits (other interfaces, another number of pieces or "
                     "of increments): the "
-                    "iteration starts afresh",
+                    "iteration starts from scratch",
                     model_.step->name));
   if (local_.has_preloads()) keep_start();
   const Goal goal = goal_of(has_start);

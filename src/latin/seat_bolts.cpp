@@ -17,7 +17,7 @@ constexpr int most_sweeps = 5;  // over bolts that loosen each other
 
 }  // namespace
 
-// A preload may send a part away that nothing holds yet.
+// A preload may send a part away that is still unconstrained.
 bool StepRun::is_lost() const {
   return extent_ > 0.0 && velocity_.size() > 0 && !(velocity_.cwiseAbs().maxCoeff() <= extent_);
 }

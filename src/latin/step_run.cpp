@@ -143,8 +143,8 @@ bool StepRun::has_flown_off() const {
   const double moved = velocity_.cwiseAbs().maxCoeff(), size = assembly_size();
   if (moved <= 10.0 * size) return false;
   warn(fmt::format(
-      "static step '{}': an increment moves a substructure by {:.3g} m, {:.0f} times the size of the assembly: nothing "
-      "holds it, a limit load is exceeded, or the iteration has lost its way",
+      "static step '{}': an increment moves a substructure by {:.3g} m, {:.0f} times the size of the assembly: it is "
+      "unconstrained, a limit load is exceeded, or the iteration failed to converge",
       model_.step->name, moved, moved / size));
   return true;
 }
@@ -162,7 +162,7 @@ double StepRun::assembly_size() const {
 void StepRun::check_finite(const Outcome& outcome, int increment) const {
   if (std::isfinite(outcome.eta)) return;
   throw NumericalError(
-      fmt::format("step '{}', increment {} (t = {:.6g} s): the iteration has left all bounds; likely cause: a "
+      fmt::format("step '{}', increment {} (t = {:.6g} s): the iteration has diverged; likely cause: a "
                   "search direction, stiffness or density out of proportion, or a time step far too large",
                   model_.step->name, increment + 1, state_.time));
 }
@@ -170,7 +170,7 @@ void StepRun::check_finite(const Outcome& outcome, int increment) const {
 std::string StepRun::describe_progress() const {
   const double mean = figures_.increments ? static_cast<double>(figures_.iterations) / figures_.increments : 0.0;
   return model_.scheme.is_static ? fmt::format("{} iterations", figures_.iterations)
-                                 : fmt::format("t = {:.4g} us, {:.1f} iterations a step", state_.time * 1e6, mean);
+                                 : fmt::format("t = {:.4g} us, {:.1f} iterations per step", state_.time * 1e6, mean);
 }
 
 Instant StepRun::instant(int increment, int iterations, double eta) const {

@@ -26,7 +26,7 @@ struct LawState {
 struct Increment {
   double dt = 1.0, g = 0.0;
   bool is_static = true;
-  double push_out = 0.0;  // b: share of a penetration thrown back a step
+  double push_out = 0.0;  // b: share of a penetration thrown back per step
 };
 
 // The search problem of a point. y is zero in directions that both sides have held: they carry no law.

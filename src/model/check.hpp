@@ -27,7 +27,7 @@ void outputs(const Problem& problem);
 // What is allowed but hardly meant: said with warn().
 void doubts(const Problem& problem);
 
-// A step of time or a mesh too coarse for what the loads bring and the spectra ask for: said with warn(), with the
+// A time step or a mesh too coarse for what the loads bring and the spectra ask for: said with warn(), with the
 // figures.
 void resolution(const Problem& problem);
 

@@ -163,7 +163,7 @@ void loads_do_not_compete(const Problem& problem, const Step& step, const Load& 
              "their own");
       if (are_one_load(a, b) && same_target(target_a, target_b)) {
         fail(problem, b.origin, who + "two " + known_as(b) + " on " + describe(target_b),
-             b.kind == LoadKind::preload ? "one force a step: give the other one in a step of its own" : in_one);
+             b.kind == LoadKind::preload ? "one force per step: give the other one in a step of its own" : in_one);
       }
       if (!is_prescribed_motion(a) || !is_prescribed_motion(b)) continue;
       const int d = common_direction(a, b);

@@ -159,8 +159,8 @@ void superelement_has_a_state(const Problem& problem, const Output& output) {
   for (const SupportPtr& support : supports_of(problem, *step))
     if (support->kind == SupportKind::absorbing)
       fail(problem, output.origin,
-           who + ": " + describe(*support) + " lets waves out of step '" + step->name +
-               "', a superelement has no place for that",
+           who + ": " + describe(*support) + " is a non-reflecting boundary in step '" + step->name +
+               "', which a superelement cannot represent",
            "give the step its own 'supports', without it");
 }
 
@@ -208,7 +208,7 @@ void outputs(const Problem& problem) {
       case OutputKind::vtk:
         if (output->frames < 1) {
           fail(problem, output->origin,
-               fmt::format("output.vtk: 'frames' = {}, at least 1 a step is needed", output->frames));
+               fmt::format("output.vtk: 'frames' = {}, at least 1 per step is needed", output->frames));
         }
         break;
       case OutputKind::energy:

@@ -27,7 +27,7 @@ void supports_do_not_coincide(const Problem& problem, const Step& step, const Su
       if (!coincide(place_a, place_b)) continue;
       fail(problem, b.origin,
            "step '" + step.name + "': " + label_of(place_b) + " is under both " + describe(a) + " and " + describe(b),
-           "one support a face: 'supports' of a step replaces the problem's for that step");
+           "one support per face: 'supports' of a step replaces the problem's for that step");
     }
   }
 }

@@ -1,4 +1,4 @@
-// Can the step of time and the mesh carry what the loads bring and the spectra ask for? Said with warn().
+// Can the time step and the mesh carry what the loads bring and the spectra ask for? Said with warn().
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>

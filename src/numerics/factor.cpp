@@ -232,7 +232,7 @@ Factor::Factor(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, 
   if (common.status == CHOLMOD_NOT_POSDEF) {
     const int dof = order_[cholmod.l->minor];
     throw NumericalError(
-        fmt::format("{}: the matrix is not positive definite (node {}): a rigid motion that nothing holds, "
+        fmt::format("{}: the matrix is not positive definite (node {}): an unconstrained rigid motion, "
                     "or a cell of almost no volume",
                     what, node_of_dof[dof]));
   }

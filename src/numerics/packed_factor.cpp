@@ -8,7 +8,7 @@ namespace dygita {
 
 namespace {
 
-// Local unknowns, with room for the rows that the last tile lacks; one a thread.
+// Local unknowns, with room for the rows that the last tile lacks; one per thread.
 double* workspace(int n) {
   thread_local std::vector<double> work;
   if (static_cast<int>(work.size()) < n + 2 * Panels::height) work.resize(n + 2 * Panels::height);

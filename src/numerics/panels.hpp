@@ -37,7 +37,7 @@ class Panels {
   void forward(size_t panel, double* y) const;
   // Backward substitution: the first n_columns of y from the rows below.
   void backward(size_t panel, double* y) const;
-  // The same for 8 n right-hand sides at once (n = 1 or 2): y holds 8 n values a row.
+  // The same for 8 n right-hand sides at once (n = 1 or 2): y holds 8 n values per row.
   void forward(size_t panel, double* y, int n) const;
   void backward(size_t panel, double* y, int n) const;
   // y += A x and, for what lies below the first tile, the transposed part: y[0..n_columns) += A^T x. The first tile is

@@ -10,8 +10,8 @@ using Vec = Eigen::VectorXd;
 using Mat = Eigen::MatrixXd;
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
-using Points = Eigen::Matrix3Xd;                           // one column a node
-using Tensors = Eigen::Matrix<double, 6, Eigen::Dynamic>;  // one column a node: xx yy zz xy yz zx
+using Points = Eigen::Matrix3Xd;                           // one column per node
+using Tensors = Eigen::Matrix<double, 6, Eigen::Dynamic>;  // one column per node: xx yy zz xy yz zx
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
 // How the entries of a factor or an interface operator are kept; arithmetic is in double precision either way.

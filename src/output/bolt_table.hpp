@@ -8,7 +8,7 @@
 
 namespace dygita {
 
-// One line of `name [unit]`, then one a bolt, SI, nine significant digits; empty where there is nothing. The force
+// One line of `name [unit]`, then one per bolt, SI, nine significant digits; empty where there is nothing. The force
 // after each static step has a column of the step's name.
 std::string bolts_csv(const Problem& problem, const RunResult& result);
 

@@ -13,7 +13,7 @@ namespace dygita {
 // A text as a cell.
 std::string quoted(const std::string& text);
 
-// One line of `name [unit]` (or `name`), then one a row, nine significant digits, SI. Where rows belong to steps, the
+// One line of `name [unit]` (or `name`), then one per row, nine significant digits, SI. Where rows belong to steps, the
 // second column is `step`, the step's name. Texts with a comma, a quotation mark or a line break are quoted (RFC 4180).
 std::string csv_text(const Table& table, const std::vector<std::string>& step_names);
 

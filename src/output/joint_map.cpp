@@ -22,7 +22,8 @@ std::string nearest_axis(const Vec3& direction) {
   return std::string(direction[axis] < 0.0 ? "-" : "") + "xyz"[axis];
 }
 
-// Each facet divided into quadrangles, one a node: corner, middle of the next edge, centre, middle of the edge before.
+// Each facet divided into quadrangles, one per node: corner, middle of the next edge, centre, middle of the edge
+// before.
 void divide(const JointScenes& joint, const std::vector<Corner>& flat, JointMap& map) {
   const auto middle = [](const Corner& a, const Corner& b) { return Corner{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])}; };
   for (const Facet& f : joint.facets) {

@@ -1,4 +1,4 @@
-// What joints take from a shock, band by band.
+// Shock attenuation across joints, band by band.
 #include <algorithm>
 #include <cmath>
 
@@ -45,7 +45,7 @@ std::string attenuation_part(const RunFolder& run, const Json& output) {
   plot.levels = {{rule, "rule of thumb"}, {0.0, ""}};
   return html::heading(text(output, "name") + ": from " + text(output, "entering") + " to " + text(output, "leaving")) +
          html::figure(svg(plot),
-                      "Ratio of the maximax spectra; the handbooks' rule of thumb, -3 dB a bolted joint, gives " +
+                      "Ratio of the maximax spectra; the handbooks' rule of thumb, -3 dB per bolted joint, gives " +
                           decibels(rule) + " here." + silent) +
          html::table(header, rows, true);
 }

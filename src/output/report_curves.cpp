@@ -166,8 +166,7 @@ std::string spectra_figure(const std::vector<Spectrum>& group, const TimeAxis& t
   std::string caption = "Maximax response of oscillators to the acceleration of the dynamic steps";
   if (const double low = time.record() > 0.0 ? 1.0 / time.record() : 0.0; low > *plot.x.from && low < *plot.x.to) {
     plot.spans.push_back({*plot.x.from, low, "the record is too short"});
-    caption +=
-        "; below " + with_unit(low, "Hz") + ", one over the length of the record, it depends on what comes after";
+    caption += "; unreliable below " + with_unit(low, "Hz") + ", 1/record length";
   }
   if (has_uncertainty) caption += "; shaded: what iteration, time step and mesh leave by the run's own estimate";
   return html::figure(svg(plot), caption + ".");

@@ -180,7 +180,7 @@ std::string bolts_section(const RunFolder& run) {
                                       [](const Json& step) { return text(step, "kind") == "dynamic"; });
   header.push_back("shortened by");
   if (has_motion) header.insert(header.end(), {"lowest in motion", "highest in motion"});
-  for (const char* name : {"at the end", "lost", "mean stress", "opened for good"}) header.push_back(name);
+  for (const char* name : {"at the end", "lost", "mean stress", "residual opening"}) header.push_back(name);
   std::vector<std::vector<std::string>> rows;
   for (const Json& bolt : bolts) {
     std::vector<std::string> row = {text(bolt, "name")};

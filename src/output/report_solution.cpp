@@ -113,10 +113,10 @@ std::string energy_section(const RunFolder& run, const TimeAxis& time) {
       const double value = run.figure(name);
       return value < 0.01 ? "less than 0.01 %" : with_unit(value, "%", 2);
     };
-    body += html::paragraph(fmt::format(
-        "Largest energy {}. The balance closes within {} of it; the time scheme dissipates {} and creates {}.",
-        with_unit(most, "J"), percent("energy imbalance [%]"), percent("energy dissipated by the scheme [%]"),
-        percent("energy created by the scheme [%]")));
+    body += html::paragraph(
+        fmt::format("Largest energy {}. The balance closes within {} of it; numerical dissipation {}, energy gain {}.",
+                    with_unit(most, "J"), percent("energy imbalance [%]"),
+                    percent("energy dissipated by the scheme [%]"), percent("energy created by the scheme [%]")));
   }
   return html::section("Energy", body);
 }
@@ -209,8 +209,8 @@ std::string cost_section(const RunFolder& run) {
   const bool is_explicit = text(record.value("solver", Json::object()), "name") == "explicit";
   row(is_explicit ? "substeps" : "iterations", number(iterations, "all"), "");
   if (std::isfinite(number(iterations, "mean")))
-    rows.push_back(
-        {is_explicit ? "substeps an increment" : "iterations an increment", plain_number(number(iterations, "mean"))});
+    rows.push_back({is_explicit ? "substeps per increment" : "iterations per increment",
+                    plain_number(number(iterations, "mean"))});
   if (const double memory = run.figure("memory of factors and interface operators [MB]"); memory > 0.0)
     rows.push_back({"memory of factors and interface operators", plain_number(memory) + "\u00a0MB"});
   return html::section("Cost", body + html::table({"", ""}, rows, true));

@@ -106,7 +106,7 @@ std::string verdict_section(const RunFolder& run, const std::vector<std::string>
       cards.push_back({name, "not a number", note, false});
   };
   add("energy imbalance [%]", "energy balance closes within", "of the largest energy", most_imbalance);
-  add("energy dissipated by the scheme [%]", "dissipated by the scheme",
+  add("energy dissipated by the scheme [%]", "numerical dissipation",
       has_motion ? "impacts; lower with dt and mesh" : "gaps that close, yielding; lower with more increments",
       most_scheme_loss);
   add("error estimate, iteration [%]", "error left by the iteration", "estimate, of the shock", most_iteration);

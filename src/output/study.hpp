@@ -23,7 +23,7 @@ struct StudyCase {
   std::optional<double> cold_difference;  // largest relative difference of the answers, then
 };
 
-// One row a case: name, started_from, the parameters, the figures, iterations, seconds; numbers in SI.
+// One row per case: name, started_from, the parameters, the figures, iterations, seconds; numbers in SI.
 std::string study_csv(const std::vector<StudyCase>& cases);
 
 // One chart a figure against the first parameter that varies (the case's number where none does), a line for each

@@ -52,7 +52,7 @@ std::vector<double> TimeAxis::places(const Table& table) const {
       places.push_back(range.start + table.columns[0][i] - range.time);
       continue;
     }
-    // One row an increment, at its end; one more where the start has a row.
+    // One row per increment, at its end; one more where the start has a row.
     const int row = ++seen[table.step[i]] + range.increments - rows[table.step[i]];
     places.push_back(range.start + range.width * row / std::max(1, range.increments));
   }

@@ -15,7 +15,7 @@ class TimeAxis {
 
   // Place of each row of a table that has time and step.
   std::vector<double> places(const Table& table) const;
-  // The same axis for charts of one value an increment: increments of all steps one after the other.
+  // The same axis for charts of one value per increment: increments of all steps one after the other.
   PlotAxis axis() const;
   const std::vector<PlotSpan>& spans() const { return spans_; }
   double record() const { return dynamic_; }  // s, of the dynamic steps

@@ -71,8 +71,8 @@ InterfaceNewton::Residual InterfaceNewton::evaluate(const Vec& f, const std::vec
   r.size = 0.5 * (force.array().square() * y_.array() + rate.array().square() / y_.array()).sum();
   if (!std::isfinite(r.distance))
     throw NumericalError(fmt::format(
-        "step '{}': the forces at the interfaces have left all bounds; likely cause: bodies that nothing holds once "
-        "contacts open, or a time step far too large",
+        "step '{}': the interface forces have diverged; likely cause: bodies left unconstrained once contacts "
+        "open, or a time step far too large",
         model_->step->name));
   return r;
 }

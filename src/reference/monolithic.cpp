@@ -187,7 +187,7 @@ void MonolithicRun::run() {
   for (int i = 0; i < n && !interrupt_requested(); ++i) {
     solve_increment(i);
     progress.update(i + 1,
-                    fmt::format("{:.1f} iterations an increment", static_cast<double>(figures_.iterations) / (i + 1)));
+                    fmt::format("{:.1f} iterations per increment", static_cast<double>(figures_.iterations) / (i + 1)));
   }
 }
 

@@ -15,7 +15,7 @@ class BoltRecorder {
   std::vector<BoltSummary> take() { return std::move(bolts_); }
 
  private:
-  // Force through the interface, N, tension positive; a mean over the step of time in a dynamic step.
+  // Force through the interface, N, tension positive; a mean over the time step in a dynamic step.
   static double force(const Instant& instant, int surface);
   void note_tightening(size_t bolt, const Load& load, int increments);
 

@@ -45,7 +45,7 @@ class HeldInterface {
       throw InputError(
           output.origin,
           fmt::format(
-              "output.superelement '{}': {} is held by nothing (open joints, or contact that slides)\n    hold it by a "
+              "output.superelement '{}': {} is unconstrained (open joints, or contact that slides)\n    hold it by a "
               "support, put a face of it into 'on', or give its contact friction",
               output.name, motion));
     SparseMatrix a = assembly.stiffness;

@@ -10,7 +10,7 @@ namespace dygita {
 
 namespace {
 
-constexpr int n_samples = 5;  // of the stress error, a dynamic step: each costs about a step of time
+constexpr int n_samples = 5;  // of the stress error, a dynamic step: each costs about a time step
 
 // Energy (J) of the stress error of all substructures, and the strain energy of the same displacements.
 std::pair<double, double> stress_energies(const Instant& instant, const std::vector<Points>* start) {

@@ -73,7 +73,7 @@ void add_supports(const Instant& instant, LinearAssembly& assembly) {
   }
 }
 
-// Basis of the displacements (3 a node) that the conditions of a place leave: an orthonormal one of their null space.
+// Basis of the displacements (3 per node) that the conditions of a place leave: an orthonormal one of their null space.
 Mat free_basis(const std::vector<int>& nodes, const std::vector<const NodeCondition*>& conditions) {
   const int m = static_cast<int>(nodes.size());
   if (conditions.empty()) return Mat::Identity(3, 3);

@@ -22,7 +22,7 @@ class LoopSampler : public Sampler {
     if (instant.i_step == 0) add_row(instant, instant.time(), {before_, 0.0});
   }
 
-  // The force is a mean over a step of time; so is the displacement then.
+  // The force is a mean over a time step; so is the displacement then.
   void accept(const Instant& instant) override {
     const double now = displacement(instant),
                  force = resultant(instant, problem_, output_.on).force.dot(*output_.direction);

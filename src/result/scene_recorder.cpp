@@ -32,7 +32,7 @@ double change(const JointScene& a, const JointScene& b, double largest_pressure)
   return n_changed / n + (largest_pressure > 0.0 ? pressure / (n * largest_pressure) : 0.0);
 }
 
-// The last static instant before the motion, the last of all, and between them instants at even steps of time and
+// The last static instant before the motion, the last of all, and between them instants at even time steps and
 // change together: where much changes there are more.
 std::vector<JointScene> choose(std::vector<JointScene> sampled) {
   const int n = static_cast<int>(sampled.size());

@@ -1,4 +1,4 @@
-// Watches a run for what the report draws (scenes.hpp). Cheap: it copies displacements a few tens of times a run at
+// Watches a run for what the report draws (scenes.hpp). Cheap: it copies displacements a few tens of times per run at
 // most, and the state of the points of interfaces with an output.joint.
 #pragma once
 

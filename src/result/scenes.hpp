@@ -13,8 +13,8 @@ struct AssemblyScene {
   std::string step;
   bool is_static = false;
   double time = 0.0;                 // s, of the run
-  std::vector<Points> displacement;  // m, 3 x n_nodes, one a substructure
-  std::vector<Vec> von_mises;        // Pa, one a substructure
+  std::vector<Points> displacement;  // m, 3 x n_nodes, one per substructure
+  std::vector<Vec> von_mises;        // Pa, one per substructure
 };
 
 struct JointScene {

@@ -42,9 +42,8 @@ void check(const std::vector<double>& signal, double dt, const SrsSettings& sett
 void warn_of_limits(size_t n_samples, double dt, const SrsSettings& settings) {
   const double duration = static_cast<double>(n_samples) * dt;
   if (settings.from < 1.0 / duration) {
-    warn(fmt::format(
-        "srs: below {:.4g} Hz, one over the record's {:.4g} s, the spectrum depends on what the record leaves out",
-        1.0 / duration, duration));
+    warn(fmt::format("srs: the spectrum is unreliable below {:.4g} Hz, 1/record length ({:.4g} s)", 1.0 / duration,
+                     duration));
   }
   if (settings.to > 0.5 / dt) {
     warn(fmt::format(

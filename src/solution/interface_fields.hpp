@@ -21,7 +21,8 @@ class InterfaceFields {
   };
 
   explicit InterfaceFields(double memory_bytes) : budget_(memory_bytes) {}
-  // Fields that an earlier run left in a file: they stay there. `file` is open for reading; one list of places a step.
+  // Fields that an earlier run left in a file: they stay there. `file` is open for reading; one list of places per
+  // step.
   InterfaceFields(std::FILE* file, const std::vector<std::vector<Place>>& steps);
   InterfaceFields(const InterfaceFields&) = delete;
   InterfaceFields& operator=(const InterfaceFields&) = delete;

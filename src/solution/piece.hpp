@@ -88,7 +88,7 @@ class Piece {
   // Diagonal of the interface's own Schur complement in the rows' directions, shared between their laws (N s/m; static
   // N/m).
   const Vec& schur_diagonal() const { return schur_diagonal_; }
-  // Fixes the search directions k (one a row) and forms H = (S0 + k)^-1; `plain` factorises A + k and solves in full
+  // Fixes the search directions k (one per row) and forms H = (S0 + k)^-1; `plain` factorises A + k and solves in full
   // instead.
   void set_search_directions(const Vec& k, bool plain);
   const Vec& k() const { return k_; }
@@ -131,9 +131,9 @@ class Piece {
   Points acceleration() const;  // mean over the last increment
   Vec row_values(const Points& nodal) const;
   Vec row_displacements() const;  // u at the rows
-  // Force (N) of supports and prescribed motions on the piece in the last increment, one column a node.
+  // Force (N) of supports and prescribed motions on the piece in the last increment, one column per node.
   Points reactions(const Points& interface_force) const;
-  // Force (N) of absorbing supports on the piece in the last increment, one column a node.
+  // Force (N) of absorbing supports on the piece in the last increment, one column per node.
   Points absorbing_force() const;
   // Velocities (m/s) of the free unknowns and their masses (kg), both in this piece's own order: for norms.
   const Vec& free_velocity() const { return v_; }

@@ -138,7 +138,7 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
                                          describe(motion.segment<6>(6 * part)), problem.substructures[part]->name);
     if (std::abs(work) > 1e-7 * scale && scale > 0.0)
       throw InputError(step.origin, what + " is loaded, but no support and no interface holds it");
-    warn(what + " is held by nothing; nothing loads it, it is left at zero");
+    warn(what + " is unconstrained; nothing loads it, it is left at zero");
     const Substructure& body = *problem.substructures[part];
     int best_node = -1, best_axis = 0;
     double best = 0.0;

@@ -1,4 +1,4 @@
-// Rigid motions of the substructures that nothing holds in a static step.
+// Unconstrained rigid motions of the substructures in a static step.
 #pragma once
 
 #include <string>

@@ -13,7 +13,7 @@ void start_step(StepModel& model, State& state);
 // step starts from it.
 void end_step(const StepModel& model, State& state);
 
-// Energies of an increment, one a substructure: what is stored now, what was exchanged.
+// Energies of an increment, one per substructure: what is stored now, what was exchanged.
 void book_increment(const std::vector<IncrementEnergy>& increment, Energies& energies);
 
 }  // namespace dygita

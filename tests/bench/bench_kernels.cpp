@@ -2,7 +2,7 @@
 //
 // Run: ./run.sh bench kernels, or build/release/tests/bench_kernels [--benchmark_filter=assembly]
 //
-// Matrices are those of a step of time at CFL 1 of a cube of hexahedra, n cells a side, interface: none.
+// Matrices are those of a time step at CFL 1 of a cube of hexahedra, n cells per side, interface: none.
 #include <benchmark/benchmark.h>
 #include <cblas.h>
 #include <cholmod.h>
@@ -146,7 +146,7 @@ const Made& made(int n) {
   return m;
 }
 
-// arg: cells a side. Time of one factorisation less that of ordering and analysis alone.
+// arg: cells per side. Time of one factorisation less that of ordering and analysis alone.
 void factor(benchmark::State& state) {
   const int n = static_cast<int>(state.range(0));
   for (auto _ : state) state.SetIterationTime(std::max(1e-9, made(n).all_seconds - made(n).order_seconds));
@@ -158,7 +158,7 @@ void factor(benchmark::State& state) {
 
 const Factor& factor_in(int n, bool is_single) { return is_single ? *made(n).single : *made(n).factor; }
 
-// Forward and backward; bytes: what is stored, read twice. arg: cells a side.
+// Forward and backward; bytes: what is stored, read twice. arg: cells per side.
 void solve_one(benchmark::State& state, bool is_single) {
   const Factor& l = factor_in(static_cast<int>(state.range(0)), is_single);
   Vec x = Vec::Random(l.size());
@@ -170,10 +170,10 @@ void solve_one(benchmark::State& state, bool is_single) {
   state.counters["dof"] = l.size();
   state.counters["bytes/s"] = benchmark::Counter(is_single ? 2.0 * l.bytes() : 16.0 * l.nonzeros(),
                                                  benchmark::Counter::kIsIterationInvariantRate);
-  state.counters["bytes an entry"] = l.bytes() / l.nonzeros();
+  state.counters["bytes per entry"] = l.bytes() / l.nonzeros();
 }
 
-// The plain substitution that every user has, with its workspace kept. args: cells a side, right-hand sides.
+// The plain substitution that every user has, with its workspace kept. args: cells per side, right-hand sides.
 void solve_cholmod(benchmark::State& state) {
   const Made& m = made(static_cast<int>(state.range(0)));
   const auto n_columns = static_cast<size_t>(state.range(1));
@@ -193,7 +193,7 @@ void solve_cholmod(benchmark::State& state) {
                                                 benchmark::Counter::kIsIterationInvariantRate);
 }
 
-// args: cells a side, right-hand sides.
+// args: cells per side, right-hand sides.
 void solve_several(benchmark::State& state, bool is_single) {
   const Factor& l = factor_in(static_cast<int>(state.range(0)), is_single);
   Mat x(l.size(), state.range(1));
@@ -248,7 +248,7 @@ void assembly(benchmark::State& state) {
       mesh.n_cells() / 1e6, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-constexpr int sizes[] = {12, 19, 31};  // cells a side: 6.6k, 24k, 98k unknowns
+constexpr int sizes[] = {12, 19, 31};  // cells per side: 6.6k, 24k, 98k unknowns
 
 void sized(benchmark::internal::Benchmark* b) {
   for (const int n : sizes) b->Arg(n);

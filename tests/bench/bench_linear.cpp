@@ -3,7 +3,7 @@
 // Run: ./run.sh bench headline, or build/release/tests/bench_linear DECK [NAME=VALUE ...] [--threads 1,2] [--steps 200]
 //
 // For each number of threads: OpenBLAS with one and, where there are more, with all of them, on a few steps; then the
-// whole step with the faster one and a product with K a step, and 50 steps by the recurrence.
+// whole step with the faster one and a product with K per step, and 50 steps by the recurrence.
 #include <cstdio>
 #include <cstring>
 #include <sstream>

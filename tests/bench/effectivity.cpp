@@ -41,7 +41,7 @@ void study_bar(const char* scene, const char* text) {
     line(scene, "cells", std::to_string(n), r.figures.at("error estimate, mesh [%]"),
          true_error(r, fine, n / 2, 4 * n));
   }
-  // Mesh and step of time together, as one refines them; the same fine run for both masses.
+  // Mesh and time step together, as one refines them; the same fine run for both masses.
   for (const int n : {20, 40, 80, 160}) {
     const auto settings = [](int cells) {
       return Settings{{"n", std::to_string(cells)}, {"steps", std::to_string(24 * cells / 5)}};

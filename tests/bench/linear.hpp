@@ -1,5 +1,5 @@
 // What a user of the best linear code pays for the same shock: the deck's assembly as one uncut body, every interface
-// bonded, CHOLMOD on METIS's ordering, one cholmod_solve2 a step. The other side of the headline, and a check.
+// bonded, CHOLMOD on METIS's ordering, one cholmod_solve2 per step. The other side of the headline, and a check.
 #pragma once
 
 #include <memory>

@@ -15,7 +15,7 @@ namespace dygita::test {
 
 inline constexpr int n_instants = 48;
 
-// Nodal fields of all substructures at instants that runs with other steps of time share.
+// Nodal fields of all substructures at instants that runs with other time steps share.
 struct Fields {
   std::vector<std::vector<Points>> displacement, velocity;
 };

@@ -307,7 +307,7 @@ TEST(Superelement, is_not_made_and_says_why_where_a_part_is_held_by_nothing) {
   const std::string said = testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr();
   EXPECT_TRUE(c.result->superelements.empty());
   EXPECT_NE(said.find("superelement 'element': NOT MADE"), std::string::npos) << said;
-  EXPECT_NE(said.find("is held by nothing (open joints, or contact that slides)"), std::string::npos) << said;
+  EXPECT_NE(said.find("is unconstrained (open joints, or contact that slides)"), std::string::npos) << said;
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace dygita::test {
 namespace {
 
-// In every deck the balance closes, and the scheme creates next to nothing.
+// In every deck the balance closes, and the numerical energy gain is next to nothing.
 void expect_sound(const DeckRun& run) {
   EXPECT_TRUE(run.result->converged);
   EXPECT_LT(run.figure("energy imbalance [%]"), 0.5);
@@ -48,7 +48,7 @@ TEST(Crush, converges_with_the_same_ease_for_any_friction) {
         *std::max_element(run.column("spread", "displacement").begin(), run.column("spread", "displacement").end()));
     iterations.push_back(run.result->mean_iterations);
     std::cout << "mu " << mu << ": spread " << spread.back() * 1e6 << " um, " << iterations.back()
-              << " iterations a step\n";
+              << " iterations per step\n";
   }
   for (size_t i = 1; i < spread.size(); ++i) EXPECT_LE(spread[i], spread[i - 1] * 1.0001);
   // Without friction the start is predicted almost to the end (2.4): the ease compared is that of the rough ones.
@@ -75,7 +75,7 @@ TEST(BoltedFlanges, tightens_and_shocks_at_two_mesh_sizes) {
     expect_sound(run);
     tightened.push_back(run.column("bolt", "normal").at(1));
     std::cout << "size " << size << ": " << run.result->n_dofs << " dof, bolt force " << tightened.back() / 1e3
-              << " kN, " << run.result->mean_iterations << " iterations an increment, imbalance "
+              << " kN, " << run.result->mean_iterations << " iterations per increment, imbalance "
               << run.figure("energy imbalance [%]") << " %\n";
     // What pulls in the bolt pushes in the mating plane.
     EXPECT_NEAR(run.column("joint", "normal").at(1), -tightened.back(), 1e-6 * tightened.back());

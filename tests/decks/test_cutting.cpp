@@ -61,7 +61,7 @@ TEST(Cutting, a_cut_and_bonded_body_is_the_uncut_one) {
     EXPECT_LT(difference(whole.column("foot", "normal"), pieces.column("foot", "normal")), 1e-6);
     EXPECT_LT(difference(whole.column("foot", "shear"), pieces.column("foot", "shear")), 1e-6);
     std::cout << pieces.problem.substructures.size() << " pieces: " << pieces.result->mean_iterations
-              << " iterations a step, corner x differs by "
+              << " iterations per step, corner x differs by "
               << difference(whole.column("corner", "x"), pieces.column("corner", "x")) << "\n";
   }
 }
@@ -117,7 +117,7 @@ TEST(StartFrom, an_equal_case_needs_one_iteration_a_step_and_another_case_gives_
   EXPECT_LT(difference(cold.column("corner", "x"), rougher.column("corner", "x")), 1e-6);
   EXPECT_GT(difference(cold.column("corner", "x"), first.column("corner", "x")), 1e-3);
   std::cout << "cold " << cold.result->mean_iterations << ", started from another friction "
-            << rougher.result->mean_iterations << " iterations a step\n";
+            << rougher.result->mean_iterations << " iterations per step\n";
 }
 
 TEST(Forms, the_condensed_form_equals_full_solves) {

@@ -1,4 +1,4 @@
-// The masses an implicit solver can be asked for: tuned to the step of time, and none at nodes in contact.
+// The masses an implicit solver can be asked for: tuned to the time step, and none at nodes in contact.
 #include <gtest/gtest.h>
 
 #include "decks/deck_prints.hpp"

@@ -31,7 +31,7 @@ double largest_difference(const DeckRun& a, const DeckRun& b) {
     }
   }
   std::cout << "largest difference " << worst << " in " << where << ", " << b.result->mean_iterations
-            << " iterations an increment\n";
+            << " iterations per increment\n";
   return worst;
 }
 

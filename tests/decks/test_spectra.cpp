@@ -36,8 +36,8 @@ TEST(SpectrumBand, warns_where_little_is_known_and_only_there) {
   testing::internal::CaptureStderr();
   run_file(deck("bolted_flanges.lua"), {{"duration", "50*us"}});
   const std::string said = testing::internal::GetCapturedStderr();
-  EXPECT_NE(said.find("spectrum 'srs_below' is known to about"), std::string::npos) << said;
-  EXPECT_EQ(said.find("spectrum 'srs_above' is known to about"), std::string::npos) << said;
+  EXPECT_NE(said.find("spectrum 'srs_below' is uncertain by about"), std::string::npos) << said;
+  EXPECT_EQ(said.find("spectrum 'srs_above' is uncertain by about"), std::string::npos) << said;
 }
 
 TEST(SpectrumBand, is_the_wider_the_less_there_is) {

@@ -119,7 +119,7 @@ TEST_F(Outputs, for_paraview_have_a_frame) {
   vtk->kind = OutputKind::vtk;
   vtk->frames = 0;
   problem.outputs.push_back(vtk);
-  EXPECT_EQ(complaint(), "deck.lua:52: problem 'bolted': output.vtk: 'frames' = 0, at least 1 a step is needed");
+  EXPECT_EQ(complaint(), "deck.lua:52: problem 'bolted': output.vtk: 'frames' = 0, at least 1 per step is needed");
 }
 
 using Doubts = Assembly;

@@ -87,7 +87,7 @@ TEST_F(Places, are_under_one_support_in_a_step) {
       complaint(),
       "deck.lua:21: problem 'bolted': step 'tighten': lower.zmin is under both support.fixed 'base' and support.wall "
       "'floor'\n"
-      "    one support a face: 'supports' of a step replaces the problem's for that step");
+      "    one support per face: 'supports' of a step replaces the problem's for that step");
 }
 
 TEST_F(Places, may_change_support_from_step_to_step) {

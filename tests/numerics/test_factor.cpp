@@ -16,7 +16,7 @@ struct Grid {
   std::vector<char> is_interface;
 };
 
-// A random positive definite matrix on an n x n x n grid with `per_node` unknowns a node; the plane i = 0 is the
+// A random positive definite matrix on an n x n x n grid with `per_node` unknowns per node; the plane i = 0 is the
 // interface.
 Grid grid(int n, int per_node) {
   std::mt19937 random(3);

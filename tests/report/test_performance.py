@@ -14,7 +14,7 @@ import scene_runs  # noqa: E402
 
 
 def pair(threads, latin, linear, **more):
-    row = {"threads": threads, "dofs": 1e5, "latin [s]": latin, "linear [s]": linear, "iterations a step": 7.0, "share of the processor": 1.0,
+    row = {"threads": threads, "dofs": 1e5, "latin [s]": latin, "linear [s]": linear, "iterations per step": 7.0, "share of the processor": 1.0,
            "linear, all over quiet": 1.0}
     return row | {phase: 1.0 for phase in measure.PHASES} | more
 
@@ -35,7 +35,7 @@ class Headline(unittest.TestCase):
 
     def test_the_loosest_tolerance_within_the_limit_is_named(self):
         def row(tolerance, off):
-            return {"tolerance": tolerance, "iterations a step": 5.0} | {name: off for _, _, name in headline.HISTORIES}
+            return {"tolerance": tolerance, "iterations per step": 5.0} | {name: off for _, _, name in headline.HISTORIES}
         self.assertIn("Tolerance 0.0001 ", headline.tolerance_words([row(1e-3, 0.02), row(1e-4, 0.0005), row(1e-5, 0.0001)]))
         self.assertIn("None", headline.tolerance_words([row(1e-3, 0.02)]))
 
