@@ -23,40 +23,6 @@ function(dygita_target_options target)
   endif()
 endfunction()
 
-# dygita_table(MODULE FOLDER TYPE HEADER TABLE): one file a word. Adds src/MODULE/FOLDER/*.cpp to the module and writes the
-# table that finds them, declared in HEADER as
-#   const std::map<std::string, TYPE*>& TABLE();
-# Each file defines what it is named for, in the namespace of its folder: pressure.cpp a TYPE `FOLDER::pressure`. TYPE may
-# be a type of functions or of constant objects.
-function(dygita_table module folder type header table)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${module}/${folder}/*.cpp)
-  set(declarations "")
-  set(entries "")
-  foreach(source ${sources})
-    get_filename_component(word ${source} NAME_WE)
-    string(APPEND declarations "extern ${type} ${word};\n")
-    string(APPEND entries "      {\"${word}\", &${folder}::${word}},\n")
-  endforeach()
-  set(written ${CMAKE_BINARY_DIR}/tables/${table}.cpp)
-  file(CONFIGURE OUTPUT ${written} @ONLY CONTENT "// Written from the names of src/${module}/${folder}/*.cpp.
-#include \"${header}\"
-
-namespace dygita {
-
-namespace ${folder} {
-${declarations}}
-
-const std::map<std::string, ${type}*>& ${table}() {
-  static const std::map<std::string, ${type}*> entries = {
-${entries}  };
-  return entries;
-}
-
-}
-")
-  target_sources(dygita_${module} PRIVATE ${sources} ${written})
-endfunction()
-
 # dygita_module(NAME DEPENDS lower modules... PRIVATE_LIBRARIES third-party libraries nobody above may name)
 function(dygita_module name)
   cmake_parse_arguments(arg "" "" "DEPENDS;PRIVATE_LIBRARIES" ${ARGN})

@@ -19,14 +19,14 @@ std::shared_ptr<Step> new_step(const Declaration& d) {
   return step;
 }
 
-Held build_static(const Declaration& d) {
+Content build_static(const Declaration& d) {
   auto step = new_step(d);
   step->is_static = true;
   step->increments = d.arguments.integer("increments");
   return StepPtr(step);
 }
 
-Held build_dynamic(const Declaration& d) {
+Content build_dynamic(const Declaration& d) {
   auto step = new_step(d);
   step->duration = d.arguments.number("duration");
   step->dt = d.arguments.number("dt");
@@ -42,7 +42,7 @@ Held build_dynamic(const Declaration& d) {
   return StepPtr(step);
 }
 
-Held build_latin(const Declaration& d) {
+Content build_latin(const Declaration& d) {
   const LuaArguments& a = d.arguments;
   auto settings = std::make_shared<LatinSettings>();
   settings->tolerance = a.number("tolerance");
@@ -74,7 +74,7 @@ Held build_latin(const Declaration& d) {
   return std::shared_ptr<const LatinSettings>(settings);
 }
 
-Held build_monolithic(const Declaration& d) {
+Content build_monolithic(const Declaration& d) {
   const LuaArguments& a = d.arguments;
   auto settings = std::make_shared<MonolithicSettings>();
   settings->tolerance = a.number("tolerance");
@@ -84,7 +84,7 @@ Held build_monolithic(const Declaration& d) {
   return std::shared_ptr<const MonolithicSettings>(settings);
 }
 
-Held build_explicit(const Declaration& d) {
+Content build_explicit(const Declaration& d) {
   const LuaArguments& a = d.arguments;
   auto settings = std::make_shared<ExplicitSettings>();
   settings->safety = a.number("safety");
@@ -95,7 +95,7 @@ Held build_explicit(const Declaration& d) {
   return std::shared_ptr<const ExplicitSettings>(settings);
 }
 
-Held build_vtk(const Declaration& d) {
+Content build_vtk(const Declaration& d) {
   auto output = std::make_shared<Output>();
   output->name = "vtk";
   output->origin = d.origin;
@@ -105,7 +105,7 @@ Held build_vtk(const Declaration& d) {
   return OutputPtr(output);
 }
 
-Held build_energy(const Declaration& d) {
+Content build_energy(const Declaration& d) {
   auto output = std::make_shared<Output>();
   output->name = "energy";
   output->origin = d.origin;
@@ -113,7 +113,7 @@ Held build_energy(const Declaration& d) {
   return OutputPtr(output);
 }
 
-Held build_history(const Declaration& d) {
+Content build_history(const Declaration& d) {
   static const std::map<std::string, Quantity> quantities = {
       {"displacement", Quantity::displacement}, {"velocity", Quantity::velocity},
       {"acceleration", Quantity::acceleration}, {"stress", Quantity::stress},
@@ -126,14 +126,14 @@ Held build_history(const Declaration& d) {
   return OutputPtr(output);
 }
 
-Held build_resultant(const Declaration& d) {
+Content build_resultant(const Declaration& d) {
   auto output = new_named<Output>(d);
   output->kind = OutputKind::resultant;
   output->on = d.arguments.targets("on");
   return OutputPtr(output);
 }
 
-Held build_joint(const Declaration& d) {
+Content build_joint(const Declaration& d) {
   auto output = new_named<Output>(d);
   output->kind = OutputKind::joint;
   output->on = d.arguments.targets("on");
@@ -157,7 +157,7 @@ SrsSettings srs_settings(const Arguments& a) {
   return srs;
 }
 
-Held build_loop(const Declaration& d) {
+Content build_loop(const Declaration& d) {
   auto output = new_named<Output>(d);
   output->kind = OutputKind::loop;
   output->on = d.arguments.targets("on");
@@ -167,7 +167,7 @@ Held build_loop(const Declaration& d) {
   return OutputPtr(output);
 }
 
-Held build_superelement(const Declaration& d) {
+Content build_superelement(const Declaration& d) {
   static const std::map<std::string, FaceMotion> motions = {
       {"mean", FaceMotion::mean}, {"rigid", FaceMotion::rigid}, {"nodes", FaceMotion::nodes}};
   const LuaArguments& a = d.arguments;
@@ -184,7 +184,7 @@ Held build_superelement(const Declaration& d) {
   return OutputPtr(output);
 }
 
-Held build_srs(const Declaration& d) {
+Content build_srs(const Declaration& d) {
   const LuaArguments& a = d.arguments;
   auto output = new_named<Output>(d);
   output->kind = OutputKind::srs;
@@ -196,7 +196,7 @@ Held build_srs(const Declaration& d) {
   return OutputPtr(output);
 }
 
-Held build_srs_field(const Declaration& d) {
+Content build_srs_field(const Declaration& d) {
   auto output = new_named<Output>(d);
   output->kind = OutputKind::srs_field;
   output->on = d.arguments.targets("on");
@@ -206,7 +206,7 @@ Held build_srs_field(const Declaration& d) {
   return OutputPtr(output);
 }
 
-Held build_attenuation(const Declaration& d) {
+Content build_attenuation(const Declaration& d) {
   const LuaArguments& a = d.arguments;
   auto output = new_named<Output>(d);
   output->kind = OutputKind::attenuation;
@@ -218,7 +218,7 @@ Held build_attenuation(const Declaration& d) {
   return OutputPtr(output);
 }
 
-Held build_problem(const Declaration& d) {
+Content build_problem(const Declaration& d) {
   const LuaArguments& a = d.arguments;
   auto problem = new_named<Problem>(d);
   problem->substructures = a.list<SubstructurePtr>("substructures");
@@ -228,9 +228,9 @@ Held build_problem(const Declaration& d) {
   problem->outputs = a.list<OutputPtr>("outputs");
   if (a.has("solver")) {
     const Object& solver = a.object("solver");
-    if (std::holds_alternative<std::shared_ptr<const MonolithicSettings>>(solver.held))
+    if (std::holds_alternative<std::shared_ptr<const MonolithicSettings>>(solver.content))
       problem->monolithic = *solver.as<std::shared_ptr<const MonolithicSettings>>();
-    else if (std::holds_alternative<std::shared_ptr<const ExplicitSettings>>(solver.held))
+    else if (std::holds_alternative<std::shared_ptr<const ExplicitSettings>>(solver.content))
       problem->explicit_dynamics = *solver.as<std::shared_ptr<const ExplicitSettings>>();
     else
       problem->solver = *solver.as<std::shared_ptr<const LatinSettings>>();

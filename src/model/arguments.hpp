@@ -6,12 +6,6 @@
 
 namespace dygita {
 
-// A value as the deck gives it: a number (ramped in a static step), a history or a function of time.
-struct TimeValue {
-  History history;
-  bool is_number = false;
-};
-
 class ModelArguments : public Arguments {
  public:
   virtual TimeValue value(const char* key) const = 0;
