@@ -54,6 +54,15 @@ std::vector<double> Arguments::numbers(const char* key) const {
   return values;
 }
 
+std::map<std::string, double> Arguments::numbers() const {
+  std::map<std::string, double> values;
+  for (lua_pushnil(L_); lua_next(L_, index_); lua_pop(L_, 1)) {
+    if (lua_type(L_, -1) == LUA_TNUMBER) values[lua_tostring(L_, -2)] = lua_tonumber(L_, -1);
+    if (lua_isboolean(L_, -1)) values[lua_tostring(L_, -2)] = lua_toboolean(L_, -1) != 0 ? 1.0 : 0.0;
+  }
+  return values;
+}
+
 Vec3 Arguments::vector(const char* key) const {
   const std::vector<double> values = numbers(key);
   CHECK(values.size() == 3, std::string("argument '") + key + "' is not a vector");

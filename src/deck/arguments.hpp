@@ -28,6 +28,7 @@ class Arguments {
   Vec3 vector(const char* key) const;
   std::array<int, 3> counts(const char* key) const;
   std::vector<double> numbers(const char* key) const;
+  std::map<std::string, double> numbers() const;  // every argument that is a number, or true (1) or false (0)
   std::vector<std::string> texts(const char* key) const;
   std::map<std::string, double> settings(const char* key) const;  // empty when absent
   const Object& object(const char* key) const;

@@ -156,7 +156,7 @@ void LocalStage::set_trial(const Point& point, const Side& side_1, const Side& s
   record.trial.s.setZero();
   record.trial.y.setZero();
   for (int d = 0; d < 3; ++d) {
-    if (!point.is_active[d] || !point.law->acts_on(d)) continue;
+    if (!point.is_active[d] || !point.has_law[d]) continue;
     record.trial.s[d] = side_2.r[d] - side_1.r[d];
     record.trial.y[d] = side_1.inverse_k[d] + side_2.inverse_k[d];
   }
