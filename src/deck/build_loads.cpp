@@ -62,7 +62,7 @@ Target target_of(const Object& object) {
   return object.as<SupportPtr>();
 }
 
-Held build_load(const Declaration& d) {
+Content build_load(const Declaration& d) {
   static const std::map<std::string, LoadKind> kinds = {{"load.pressure", LoadKind::pressure},
                                                         {"load.traction", LoadKind::traction},
                                                         {"load.force", LoadKind::force},
@@ -86,35 +86,35 @@ Held build_load(const Declaration& d) {
   return LoadPtr(load);
 }
 
-Held held(History history) { return std::make_shared<const History>(std::move(history)); }
+Content content(History history) { return std::make_shared<const History>(std::move(history)); }
 
-Held build_constant(const Declaration& d) { return held(History::constant(d.arguments.number("value"))); }
+Content build_constant(const Declaration& d) { return content(History::constant(d.arguments.number("value"))); }
 
-Held build_step(const Declaration& d) {
-  return held(History::step(d.arguments.number("value"), d.arguments.number("at")));
+Content build_step(const Declaration& d) {
+  return content(History::step(d.arguments.number("value"), d.arguments.number("at")));
 }
 
-Held build_ramp(const Declaration& d) {
+Content build_ramp(const Declaration& d) {
   const Arguments& a = d.arguments;
-  return held(History::ramp(a.number("from"), a.number("to"), a.number("duration")));
+  return content(History::ramp(a.number("from"), a.number("to"), a.number("duration")));
 }
 
-Held build_half_sine(const Declaration& d) {
-  return held(History::half_sine(d.arguments.number("peak"), d.arguments.number("duration")));
+Content build_half_sine(const Declaration& d) {
+  return content(History::half_sine(d.arguments.number("peak"), d.arguments.number("duration")));
 }
 
-Held build_haversine(const Declaration& d) {
-  return held(History::haversine(d.arguments.number("peak"), d.arguments.number("duration")));
+Content build_haversine(const Declaration& d) {
+  return content(History::haversine(d.arguments.number("peak"), d.arguments.number("duration")));
 }
 
-Held build_pulse(const Declaration& d) {
+Content build_pulse(const Declaration& d) {
   const Arguments& a = d.arguments;
   const double rise = a.number("rise"), hold = a.number("hold"), fall = a.number("fall");
   if (rise + hold + fall <= 0.0) throw InputError("'rise', 'hold' and 'fall' are all zero: the pulse has no length");
-  return held(History::pulse(a.number("peak"), rise, hold, fall));
+  return content(History::pulse(a.number("peak"), rise, hold, fall));
 }
 
-Held build_piecewise(const Declaration& d) {
+Content build_piecewise(const Declaration& d) {
   auto times = d.arguments.numbers("times"), values = d.arguments.numbers("values");
   if (times.size() != values.size()) {
     throw InputError(fmt::format("{} times and {} values: as many are needed", times.size(), values.size()));
@@ -124,10 +124,10 @@ Held build_piecewise(const Declaration& d) {
     throw InputError(
         fmt::format("'times' must increase: times[{}] = {:g} s comes after {:g} s", i + 1, times[i], times[i - 1]));
   }
-  return held(History::piecewise(std::move(times), std::move(values)));
+  return content(History::piecewise(std::move(times), std::move(values)));
 }
 
-Held build_file(const Declaration& d) { return held(History::from_file(file_of(d))); }
+Content build_file(const Declaration& d) { return content(History::from_file(file_of(d))); }
 
 }  // namespace
 

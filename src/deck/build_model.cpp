@@ -21,7 +21,7 @@ bool begins_with(const std::string& text, const std::string& start) { return tex
 
 }  // namespace
 
-Held build(const Declaration& declaration) {
+Content build(const Declaration& declaration) {
   const Builder builder = builder_of(declaration.path);
   try {
     return builder(declaration);

@@ -19,7 +19,7 @@ struct Declaration {
   Arguments arguments;
 };
 
-using Builder = Held (*)(const Declaration&);
+using Builder = Content (*)(const Declaration&);
 using Builders = std::map<std::string, Builder>;
 
 const Builders& part_builders();   // mesh, material, substructure, interface, support
@@ -28,7 +28,7 @@ const Builders& study_builders();  // step, solver, output, problem
 
 // Builds the object of `declaration.path`. InputErrors of the modules below come out with the deck's line and the
 // constructor's name.
-Held build(const Declaration& declaration);
+Content build(const Declaration& declaration);
 
 // The volume `name` of a mesh file and the face `group` of a part (InputError at `origin` for an unknown one).
 MeshPtr volume_of(const GmshMeshes& file, const std::string& name, const Origin& origin);

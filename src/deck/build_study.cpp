@@ -20,14 +20,14 @@ std::shared_ptr<Step> new_step(const Declaration& d) {
   return step;
 }
 
-Held build_static(const Declaration& d) {
+Content build_static(const Declaration& d) {
   auto step = new_step(d);
   step->is_static = true;
   step->increments = d.arguments.integer("increments");
   return StepPtr(step);
 }
 
-Held build_dynamic(const Declaration& d) {
+Content build_dynamic(const Declaration& d) {
   auto step = new_step(d);
   step->duration = d.arguments.number("duration");
   step->dt = d.arguments.number("dt");
@@ -56,7 +56,7 @@ std::vector<FaceOrRegion> places_of(const Declaration& d, const char* key) {
   return places;
 }
 
-Held build_latin(const Declaration& d) {
+Content build_latin(const Declaration& d) {
   const Arguments& a = d.arguments;
   auto settings = std::make_shared<LatinSettings>();
   settings->tolerance = a.number("tolerance");
@@ -88,7 +88,7 @@ Held build_latin(const Declaration& d) {
   return std::shared_ptr<const LatinSettings>(settings);
 }
 
-Held build_monolithic(const Declaration& d) {
+Content build_monolithic(const Declaration& d) {
   const Arguments& a = d.arguments;
   auto settings = std::make_shared<MonolithicSettings>();
   settings->tolerance = a.number("tolerance");
@@ -98,7 +98,7 @@ Held build_monolithic(const Declaration& d) {
   return std::shared_ptr<const MonolithicSettings>(settings);
 }
 
-Held build_explicit(const Declaration& d) {
+Content build_explicit(const Declaration& d) {
   const Arguments& a = d.arguments;
   auto settings = std::make_shared<ExplicitSettings>();
   settings->safety = a.number("safety");
@@ -109,7 +109,7 @@ Held build_explicit(const Declaration& d) {
   return std::shared_ptr<const ExplicitSettings>(settings);
 }
 
-Held build_vtk(const Declaration& d) {
+Content build_vtk(const Declaration& d) {
   auto output = std::make_shared<Output>();
   output->name = "vtk";
   output->origin = d.origin;
@@ -119,7 +119,7 @@ Held build_vtk(const Declaration& d) {
   return OutputPtr(output);
 }
 
-Held build_energy(const Declaration& d) {
+Content build_energy(const Declaration& d) {
   auto output = std::make_shared<Output>();
   output->name = "energy";
   output->origin = d.origin;
@@ -127,7 +127,7 @@ Held build_energy(const Declaration& d) {
   return OutputPtr(output);
 }
 
-Held build_history(const Declaration& d) {
+Content build_history(const Declaration& d) {
   static const std::map<std::string, Quantity> quantities = {
       {"displacement", Quantity::displacement}, {"velocity", Quantity::velocity},
       {"acceleration", Quantity::acceleration}, {"stress", Quantity::stress},
@@ -140,14 +140,14 @@ Held build_history(const Declaration& d) {
   return OutputPtr(output);
 }
 
-Held build_resultant(const Declaration& d) {
+Content build_resultant(const Declaration& d) {
   auto output = new_named<Output>(d);
   output->kind = OutputKind::resultant;
   output->on = targets_of(d);
   return OutputPtr(output);
 }
 
-Held build_joint(const Declaration& d) {
+Content build_joint(const Declaration& d) {
   auto output = new_named<Output>(d);
   output->kind = OutputKind::joint;
   output->on = targets_of(d);
@@ -171,7 +171,7 @@ SrsSettings srs_settings(const Arguments& a) {
   return srs;
 }
 
-Held build_loop(const Declaration& d) {
+Content build_loop(const Declaration& d) {
   auto output = new_named<Output>(d);
   output->kind = OutputKind::loop;
   output->on = targets_of(d);
@@ -181,7 +181,7 @@ Held build_loop(const Declaration& d) {
   return OutputPtr(output);
 }
 
-Held build_superelement(const Declaration& d) {
+Content build_superelement(const Declaration& d) {
   static const std::map<std::string, FaceMotion> motions = {
       {"mean", FaceMotion::mean}, {"rigid", FaceMotion::rigid}, {"nodes", FaceMotion::nodes}};
   const Arguments& a = d.arguments;
@@ -198,7 +198,7 @@ Held build_superelement(const Declaration& d) {
   return OutputPtr(output);
 }
 
-Held build_srs(const Declaration& d) {
+Content build_srs(const Declaration& d) {
   const Arguments& a = d.arguments;
   auto output = new_named<Output>(d);
   output->kind = OutputKind::srs;
@@ -210,7 +210,7 @@ Held build_srs(const Declaration& d) {
   return OutputPtr(output);
 }
 
-Held build_srs_field(const Declaration& d) {
+Content build_srs_field(const Declaration& d) {
   auto output = new_named<Output>(d);
   output->kind = OutputKind::srs_field;
   output->on = targets_of(d);
@@ -220,7 +220,7 @@ Held build_srs_field(const Declaration& d) {
   return OutputPtr(output);
 }
 
-Held build_attenuation(const Declaration& d) {
+Content build_attenuation(const Declaration& d) {
   const Arguments& a = d.arguments;
   auto output = new_named<Output>(d);
   output->kind = OutputKind::attenuation;
@@ -232,7 +232,7 @@ Held build_attenuation(const Declaration& d) {
   return OutputPtr(output);
 }
 
-Held build_problem(const Declaration& d) {
+Content build_problem(const Declaration& d) {
   const Arguments& a = d.arguments;
   auto problem = new_named<Problem>(d);
   problem->substructures = a.list<SubstructurePtr>("substructures");
@@ -242,9 +242,9 @@ Held build_problem(const Declaration& d) {
   problem->outputs = a.list<OutputPtr>("outputs");
   if (a.has("solver")) {
     const Object& solver = a.object("solver");
-    if (std::holds_alternative<std::shared_ptr<const MonolithicSettings>>(solver.held))
+    if (std::holds_alternative<std::shared_ptr<const MonolithicSettings>>(solver.content))
       problem->monolithic = *solver.as<std::shared_ptr<const MonolithicSettings>>();
-    else if (std::holds_alternative<std::shared_ptr<const ExplicitSettings>>(solver.held))
+    else if (std::holds_alternative<std::shared_ptr<const ExplicitSettings>>(solver.content))
       problem->explicit_dynamics = *solver.as<std::shared_ptr<const ExplicitSettings>>();
     else
       problem->solver = *solver.as<std::shared_ptr<const LatinSettings>>();

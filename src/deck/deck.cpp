@@ -10,8 +10,8 @@
 #include "deck/arguments.hpp"
 #include "deck/deck_state.hpp"
 #include "deck/results.hpp"
-#include "deck/series.hpp"
 #include "numerics/factor.hpp"
+#include "result/hollow_result.hpp"
 
 namespace dygita {
 
@@ -285,7 +285,7 @@ std::string deck_reference() {
   return lua_tostring(state.raw(), -1);
 }
 
-std::string version() { return DYGITA_VERSION; }
+std::string version() { return program_version(); }
 
 void prepare_process(char** argv) { wait_passively(argv, better_blas_kernels()); }
 
