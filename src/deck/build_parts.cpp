@@ -26,7 +26,7 @@ Content build_box(const Declaration& d) {
 
 Content build_gmsh(const Declaration& d) {
   GmshOptions options;
-  options.file = file_of(d);
+  options.file = d.arguments.file("file");
   check_script(options.file);
   options.set = d.arguments.settings("set");
   if (d.arguments.has("size")) options.size = d.arguments.number("size");
@@ -90,7 +90,7 @@ Content build_interface(const Declaration& d) {
     throw InputError(d.origin,
                      fmt::format("{} '{}': 'between' has face '{}' twice", d.path, interface->name, faces[0].label()));
   }
-  interface->law = make_law(d.path.substr(d.path.find('.') + 1), d.arguments.numbers());
+  interface->law = make_law(d.path.substr(d.path.find('.') + 1), d.arguments.plain_numbers());
   return InterfacePtr(interface);
 }
 
@@ -108,7 +108,7 @@ Content build_support(const Declaration& d) {
       support->on.emplace_back(object->as<Region>());
     }
   }
-  if (support->kind == SupportKind::wall) support->law = make_law("contact", d.arguments.numbers());
+  if (support->kind == SupportKind::wall) support->law = make_law("contact", d.arguments.plain_numbers());
   return SupportPtr(support);
 }
 

@@ -48,7 +48,7 @@ LawState end_of_point(const Point& point, const PointRecord& record, const Incre
   return end;
 }
 
-double gap_difference(const StepModel& model, const Point& point, const PointRecord& record) {
+double gap_difference(const Point& point, const PointRecord& record) {
   if (!point.law || !point.law->shown().gap) return 0.0;
   return std::abs(point.law->initial().gap + record.trial.jump[0] - record.law.gap);
 }

@@ -24,7 +24,7 @@ void begin_point(const StepModel& model, const Point& point, const Vec3& jump, i
 // The law's state at the end of the increment, with the force found.
 LawState end_of_point(const Point& point, const PointRecord& record, const Increment& increment);
 // Largest difference between a contact law's gap and that of the displacements, m; zero for other laws.
-double gap_difference(const StepModel& model, const Point& point, const PointRecord& record);
+double gap_difference(const Point& point, const PointRecord& record);
 
 // Where the work of a point goes: what its law dissipates, the tool that shortens the bolt, and the scheme (impacts,
 // residuals). on_pieces: work of the interface on the substructures during the increment, J.
