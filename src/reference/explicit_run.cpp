@@ -15,6 +15,12 @@ namespace {
 // Energy from nowhere, of all that was ever put in: beyond it the step is unstable, not merely coarse.
 constexpr double unstable = 1.0;
 
+std::vector<PointRecord> start_records(const StepModel& model, const State& state) {
+  std::vector<PointRecord> records;
+  for (const Point& point : model.exchange.points) records.push_back(start_point(model, point, state));
+  return records;
+}
+
 }  // namespace
 
 std::vector<char> tied_surfaces(const StepModel& model, const State& start) {
@@ -26,16 +32,6 @@ std::vector<char> tied_surfaces(const StepModel& model, const State& start) {
   }
   return is_tied;
 }
-
-namespace {
-
-std::vector<PointRecord> start_records(const StepModel& model, const State& state) {
-  std::vector<PointRecord> records;
-  for (const Point& point : model.exchange.points) records.push_back(start_point(model, point, state));
-  return records;
-}
-
-}  // namespace
 
 ExplicitRun::ExplicitRun(StepModel& model, const std::vector<Body>& bodies, InternalForce& internal,
                          const ExplicitMemory& memory, State& state, Observer& observer)

@@ -138,7 +138,7 @@ void add_dampers(LinearAssembly& assembly) {
   nodal.setFromTriplets(entries.begin(), entries.end());
   const SparseMatrix transposed = assembly.map.transpose(), c_map = nodal * assembly.map;
   if (assembly.damping.rows() == 0) assembly.damping.resize(assembly.map.cols(), assembly.map.cols());
-  assembly.damping += transposed * c_map;
+  assembly.damping += SparseMatrix(transposed * c_map);
 }
 
 void add_matrices(const Problem& problem, LinearAssembly& assembly) {
