@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "model/bolt_formula.hpp"
 #include "model/model.hpp"
 #include "result/frame.hpp"
 #include "solution/interface_fields.hpp"

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "base/log.hpp"
+#include "model/load.hpp"
 
 namespace dygita {
 
@@ -46,9 +47,9 @@ std::vector<double> load_samples(const Problem& problem, const std::vector<State
   for (size_t i_step = 0; i_step < problem.steps.size() && i_step < steps.size(); ++i_step) {
     const double end = steps[i_step].is_static ? 1.0 : steps[i_step].duration;  // a static step's loads run from 0 to 1
     for (const LoadPtr& load : problem.steps[i_step]->loads) {
-      for (const auto& value : load->value) {
+      for (const auto& value : load->values) {
         if (!value) continue;
-        for (int i = 0; i <= n_load_samples; ++i) samples.push_back(sample(*value, end * i / n_load_samples));
+        for (int i = 0; i <= n_load_samples; ++i) samples.push_back(sample(value->history, end * i / n_load_samples));
       }
     }
   }

@@ -14,6 +14,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "model/given_arguments.hpp"
+#include "model/load.hpp"
 #include "output/run_writer.hpp"
 #include "scratch.hpp"
 
@@ -210,13 +212,12 @@ struct Done {
   Done() {
     problem.name = "crush";
     problem.substructures = {part("punch", {0, 0, 0})};
-    auto load = std::make_shared<Load>();
-    load->kind = LoadKind::pressure;
-    load->on = {Face{problem.substructures[0], "zmax"}};
-    load->value[0] = History::half_sine(2.5, 1e-3);
+    GivenArguments pressure("load.pressure", {});
+    pressure.on = {Face{problem.substructures[0], "zmax"}};
+    pressure.values_of_time["history"] = {History::half_sine(2.5, 1e-3), false};
     auto step = std::make_shared<Step>();
     step->name = "shock";
-    step->loads = {load};
+    step->loads = {make_load(pressure)};
     problem.steps = {step};
     add_output("spread", OutputKind::history, "displacement", "m");
     add_output("", OutputKind::energy, "kinetic", "J");
@@ -272,6 +273,7 @@ TEST(RunWriter, writes_a_record_that_tells_what_was_run_and_how_it_went) {
   EXPECT_EQ(json["steps"][0]["increments_not_converged"], 1);
   EXPECT_EQ(json["steps"][0]["loads"][0]["on"][0], "punch.zmax");
   EXPECT_EQ(json["steps"][0]["loads"][0]["value"], nlohmann::json({"half_sine(peak 2.5, duration 0.001)"}));
+  EXPECT_EQ(json["steps"][0]["loads"][0]["unit"], "Pa");
   EXPECT_EQ(json["figures"]["largest penetration [m]"], 1e-9);
   EXPECT_TRUE(json["figures"]["undefined"].is_null());
   EXPECT_EQ(json["libraries"]["gmsh"], "4.8.4");
