@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fem/cells.hpp"
+#include "mesh/mesh.hpp"
 
 namespace dygita {
 

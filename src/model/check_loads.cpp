@@ -1,8 +1,8 @@
 #include <spdlog/fmt/fmt.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 
+#include "mesh/face_nodes.hpp"
 #include "model/check.hpp"
 
 namespace dygita::check {
@@ -179,12 +179,7 @@ void loads_do_not_compete(const Problem& problem, const Step& step, const Load& 
 Vec3 normal_of(const Face& face) {
   const Points& x = face.part->mesh->nodes;
   Vec3 area = Vec3::Zero();
-  for (const Facet& facet : face.facets()) {
-    for (int i = 2; i < facet.n_nodes; ++i) {
-      const Vec3 a = x.col(facet.nodes[0]);
-      area += (x.col(facet.nodes[i - 1]) - a).cross(x.col(facet.nodes[i]) - a) / 2.0;
-    }
-  }
+  for (const Facet& facet : face.facets()) area += facet_area_vector(x, facet);
   return area.normalized();
 }
 
