@@ -21,13 +21,16 @@ packages=(
   libgtest-dev            # tests
   libbenchmark-dev        # timings
 )
-test_packages=(chromium)                                    # ./run.sh test opens a report in it; 350 MB, left out where apt has none
+test_packages=(
+  clang-format-14         # are the sources formatted as agreed
+  chromium                # a report is opened in it; 350 MB
+)
 report_packages=(python3 python3-numpy python3-matplotlib)  # of ./run.sh report and ./run.sh bench
 
 usage() {
   cat <<'END'
 ./run.sh                  install what is missing, build, run decks/bolted_flanges.lua, say which files to open
-./run.sh test             install what is missing, build, pass the tests
+./run.sh test [NAME]      install what is missing, build, pass the tests; with NAME those whose name matches it (ctest -R)
 ./run.sh bench [...]      measure speed, rewrite manual/performance.md and its figures: all, or of the parts headline kernels
                           scenes scaling those that are named; --quick: small sizes. Full: 20 minutes on a machine left alone
 ./run.sh report [...]     run all verification, rewrite manual/verification.md and its figures (--quick, --only CASE)
@@ -123,10 +126,11 @@ build_engine() {
     fail "the build failed; the first error is above"
 }
 
+# The tests whose name matches $1, or all.
 run_tests() {
   say "Testing"
-  (cd "$root" && ctest --preset release --parallel "$(nproc)") ||
-    fail "tests failed; the last lines above name them" "one of them again: ctest --preset release -R NAME"
+  (cd "$root" && ctest --preset release --parallel "$(nproc)" ${1:+-R "$1"}) ||
+    fail "tests failed; the last lines above name them" "one of them again: ./run.sh test NAME"
 }
 
 run_bench() {
@@ -169,13 +173,15 @@ main() {
   case "$command" in
     help | -h | --help) usage ;;
     example | test | build)
-      (($# == 0)) || fail "'$command' takes no argument, got: $*" "./run.sh help"
+      local taken=0
+      [[ "$command" != test ]] || taken=1 # NAME
+      (($# <= taken)) || fail "'$command' takes ${taken/#0/no} argument, got: $*" "./run.sh help"
       install_packages
       [[ "$command" != test ]] || install_test_packages
       build_engine
       case "$command" in
         example) run_example ;;
-        test) run_tests ;;
+        test) run_tests "$@" ;;
         build) say "Built: $build/dygita" ;;
       esac
       ;;

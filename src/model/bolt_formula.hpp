@@ -1,4 +1,4 @@
-// A bolted joint by hand: resiliences of bolt and clamped parts after VDI 2230 Part 1 (manual, eq. B2-B7).
+// A bolted joint by hand: resiliences of bolt and clamped parts after VDI 2230 Part 1 (manual, eq. B3-B6).
 #pragma once
 
 namespace dygita {

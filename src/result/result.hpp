@@ -34,7 +34,7 @@ struct StepSummary {
   double seconds = 0.0;
 };
 
-// What VDI 2230's hand formula says of a bolt (manual, eq. B2-B7).
+// What VDI 2230's hand formula says of a bolt (manual, eq. B3-B6).
 struct BoltByHand {
   BoltResilience resilience;  // of the whole bolt
   double share = 1.0;         // of it that the model has

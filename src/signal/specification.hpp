@@ -11,7 +11,7 @@ struct Specification {
   std::vector<double> level;      // m/s^2, above zero
   std::string source;             // "deck", or the file's path
 
-  // m/s^2, linear in log-log between points (manual, eq. R1); nan outside.
+  // m/s^2, linear in log-log between points (manual, eq. N1); nan outside.
   double level_at(double frequency) const;
 };
 
@@ -24,7 +24,7 @@ void check_specification(const Specification& specification, const std::vector<s
 // with file:line.
 Specification read_specification(const std::string& path);
 
-// Where a spectrum is highest above its specification, or nearest below it (manual, eq. R2).
+// Where a spectrum is highest above its specification, or nearest below it (manual, eq. N2).
 struct Exceedance {
   double decibels = 0.0;   // 20 log10(spectrum / specification); negative: a margin
   double frequency = 0.0;  // Hz
