@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/fnv1a.hpp"
 #include "base/log.hpp"
 #include "base/threads.hpp"
 #include "deck/arguments.hpp"
@@ -31,11 +32,10 @@ std::string text_of(const std::filesystem::path& path) {
   return text;
 }
 
-// FNV-1a, 64 bits.
 std::string digest_of(const std::string& text) {
-  uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return fmt::format("{:016x}", hash);
+  Fnv1a digest;
+  digest.add(text.data(), text.size());
+  return digest.hexadecimal();
 }
 
 LuaLimits limits_of(const DeckOptions& options) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/overloaded.hpp"
+#include "mesh/face_nodes.hpp"
 #include "model/check.hpp"
 #include "model/load.hpp"
 
@@ -133,12 +134,7 @@ class Competition {
 Vec3 normal_of(const Face& face) {
   const Points& x = face.part->mesh->nodes;
   Vec3 area = Vec3::Zero();
-  for (const Facet& facet : face.facets()) {
-    for (int i = 2; i < facet.n_nodes; ++i) {
-      const Vec3 a = x.col(facet.nodes[0]);
-      area += (x.col(facet.nodes[i - 1]) - a).cross(x.col(facet.nodes[i]) - a) / 2.0;
-    }
-  }
+  for (const Facet& facet : face.facets()) area += facet_area_vector(x, facet);
   return area.normalized();
 }
 

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
+#include "base/fnv1a.hpp"
 
 namespace dygita {
 
@@ -16,28 +17,6 @@ namespace {
 constexpr char magic[] = "DYGITAST";  // 8 bytes
 constexpr std::uint32_t format_version = 1, byte_order = 0x01020304;
 constexpr std::int64_t start_of_header = 24;  // magic, version, byte order, length of the header
-
-// FNV-1a on words of 64 bits, rotated so that the highest bits count as much as the lowest.
-class Checksum {
- public:
-  void add(const void* data, size_t bytes) {
-    const char* at = static_cast<const char*>(data);
-    for (; bytes >= 8; bytes -= 8, at += 8) {
-      std::uint64_t word;
-      std::memcpy(&word, at, 8);
-      mix(word);
-    }
-    if (bytes == 0) return;
-    std::uint64_t word = bytes;
-    std::memcpy(&word, at, bytes);
-    mix(word);
-  }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  void mix(std::uint64_t word) { hash_ = std::rotl((hash_ ^ word) * 0x100000001b3u, 29); }
-  std::uint64_t hash_ = 0xcbf29ce484222325u;
-};
 
 // The header's items, in the order of `visit` below: one description for both directions.
 class Encoder {

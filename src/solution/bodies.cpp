@@ -15,7 +15,7 @@ namespace {
 void take_off(const FaceOrRegion& place, const SubstructurePtr& part, std::vector<char>& marked) {
   if (const Face* face = std::get_if<Face>(&place); face && face->part == part)
     for (const Facet& facet : face->facets())
-      for (int i = 0; i < facet.n_nodes; ++i) marked[facet.nodes[i]] = 0;
+      for (const int node : facet.nodes()) marked[node] = 0;
   if (const Region* region = std::get_if<Region>(&place); region && region->part == part)
     for (const int node : region->nodes) marked[node] = 0;
 }

@@ -57,7 +57,8 @@ struct Scene {
     frame.label_time = time + 1.0;
     frame.step = "shock";
     for (const SubstructurePtr& p : parts) frame.parts.push_back(part_frame(*p, scale));
-    frame.interfaces = {interface("quads", 4, 0.5 * scale), interface("triangle", 3, 2.0 * scale)};
+    frame.interfaces = {interface("quads", {FacetType::quad4, {0, 1, 2, 3}}, 0.5 * scale),
+                        interface("triangle", {FacetType::tri3, {0, 1, 2}}, 2.0 * scale)};
     frame.interfaces[1].fields.push_back({"plastic_opening", Mat::Constant(1, 3, 7.0)});
     return frame;
   }
@@ -72,11 +73,12 @@ struct Scene {
     return frame;
   }
 
-  static InterfaceFrame interface(const std::string& name, int n, double value) {
+  static InterfaceFrame interface(const std::string& name, const Facet& facet, double value) {
+    const auto n = static_cast<Eigen::Index>(facet.nodes().size());
     InterfaceFrame frame;
     frame.name = name;
     frame.points = mixed_mesh()->nodes.leftCols(n);
-    frame.facets = {Facet{{0, 1, 2, n == 4 ? 3 : -1}, n}};
+    frame.facets = {facet};
     frame.fields = {{"pressure", Mat::Constant(1, n, value)}, {"displacement", Mat::Constant(3, n, value)}};
     return frame;
   }

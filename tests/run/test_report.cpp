@@ -148,7 +148,7 @@ struct Example {
     joint.has_slip = true;
     joint.points.resize(3, 3);
     joint.points << 0, 1, 0, 0, 0, 1, 0, 0, 0;
-    joint.facets = {{{0, 1, 2, -1}, 3}};
+    joint.facets = {Facet{FacetType::tri3, {0, 1, 2}}};
     for (const double time : {0.0, 1e-6})
       joint.instants.push_back({"shock", false, time, {0, 1, 2}, {1e6f, 2e6f, 0.0f}, {0.0f, 1e-6f, 2e-6f}, {}});
     scenes->joints = {joint};
