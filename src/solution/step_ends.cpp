@@ -34,11 +34,7 @@ void set_pieces(StepModel& model, int part, const State& state) {
     return;
   }
   const auto elastic_force = [&](int piece) {
-    const Points u = cut.on_piece(piece, state.displacement[part]);
-    Points force(3, u.cols());
-    Eigen::Map<Vec>(force.data(), force.size()) =
-        model.pieces[piece]->setup().body->matrices->stiffness * Eigen::Map<const Vec>(u.data(), u.size());
-    return force;
+    return model.pieces[piece]->elastic_force(cut.on_piece(piece, state.displacement[part]));
   };
   const Points imbalance = cut.summed(part, elastic_force) - state.force[part] - interfaces;
   for (int p = cut.first(part); p < cut.first(part) + cut.n_pieces(part); ++p) {
