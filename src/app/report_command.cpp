@@ -4,7 +4,7 @@
 
 #include "base/log.hpp"
 #include "output/files.hpp"
-#include "output/report.hpp"
+#include "report/report.hpp"
 #include "signal/specification.hpp"
 
 namespace dygita {

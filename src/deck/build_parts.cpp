@@ -4,8 +4,8 @@
 
 #include "base/log.hpp"
 #include "deck/build_model.hpp"
-#include "deck/geo_script.hpp"
 #include "mesh/box.hpp"
+#include "mesh/geo_script.hpp"
 
 namespace dygita {
 
@@ -15,7 +15,7 @@ constexpr double bytes_per_cell = 100.0;                   // of a box: coordina
 constexpr double smallest_part = 1e-6, largest_part = 50;  // m, beyond them a unit is probably wrong
 constexpr double locking_poisson = 0.45;
 
-Held build_box(const Declaration& d) {
+Content build_box(const Declaration& d) {
   const auto cells = d.arguments.counts("cells");
   const auto bytes = static_cast<size_t>(bytes_per_cell * cells[0] * cells[1] * cells[2]);
   d.lua.reserve(fmt::format("mesh.box: {} x {} x {} cells", cells[0], cells[1], cells[2]), bytes);
@@ -24,9 +24,9 @@ Held build_box(const Declaration& d) {
   return mesh;
 }
 
-Held build_gmsh(const Declaration& d) {
+Content build_gmsh(const Declaration& d) {
   GmshOptions options;
-  options.file = file_of(d);
+  options.file = d.arguments.file("file");
   check_script(options.file);
   options.set = d.arguments.settings("set");
   if (d.arguments.has("size")) options.size = d.arguments.number("size");
@@ -35,7 +35,7 @@ Held build_gmsh(const Declaration& d) {
   return std::make_shared<const GmshMeshes>(options);
 }
 
-Held build_elastic(const Declaration& d) {
+Content build_elastic(const Declaration& d) {
   auto material = std::make_shared<Elastic>();
   material->name = d.arguments.text("name");
   material->young = d.arguments.number("young");
@@ -69,7 +69,7 @@ void doubt_locking(const Substructure& part) {
       part.origin.prefix(), part.name, part.material.poisson));
 }
 
-Held build_substructure(const Declaration& d) {
+Content build_substructure(const Declaration& d) {
   auto part = new_named<Substructure>(d);
   part->mesh = d.arguments.object("mesh").as<MeshPtr>();
   part->material = *d.arguments.object("material").as<std::shared_ptr<const Elastic>>();
@@ -93,16 +93,16 @@ std::shared_ptr<Interface> new_interface(const Declaration& d, InterfaceKind kin
   return interface;
 }
 
-Held build_bonded(const Declaration& d) { return InterfacePtr(new_interface(d, InterfaceKind::bonded)); }
+Content build_bonded(const Declaration& d) { return InterfacePtr(new_interface(d, InterfaceKind::bonded)); }
 
-Held build_contact(const Declaration& d) {
+Content build_contact(const Declaration& d) {
   auto interface = new_interface(d, InterfaceKind::contact);
   interface->friction = d.arguments.number("friction");
   interface->gap = d.arguments.number("gap");
   return InterfacePtr(interface);
 }
 
-Held build_plastic(const Declaration& d) {
+Content build_plastic(const Declaration& d) {
   auto interface = new_interface(d, InterfaceKind::plastic);
   interface->yield = d.arguments.number("yield");
   interface->hardening = d.arguments.number("hardening");
@@ -110,7 +110,7 @@ Held build_plastic(const Declaration& d) {
   return InterfacePtr(interface);
 }
 
-Held build_support(const Declaration& d) {
+Content build_support(const Declaration& d) {
   static const std::map<std::string, SupportKind> kinds = {{"support.fixed", SupportKind::fixed},
                                                            {"support.symmetry", SupportKind::symmetry},
                                                            {"support.wall", SupportKind::wall},
@@ -131,7 +131,7 @@ Held build_support(const Declaration& d) {
   return SupportPtr(support);
 }
 
-Held build_parameters(const Declaration&) { return std::monostate(); }
+Content build_parameters(const Declaration&) { return std::monostate(); }
 
 }  // namespace
 

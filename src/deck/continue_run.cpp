@@ -2,87 +2,14 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <iterator>
 
 #include "base/log.hpp"
-#include "deck/keep_state.hpp"
-#include "deck/series.hpp"
-#include "output/csv.hpp"
-#include "output/run_record.hpp"
 
 namespace dygita {
 
-namespace fs = std::filesystem;
-
 namespace {
-
-RunState state_in(const fs::path& run) {
-  std::error_code ignored;
-  if (!fs::is_directory(run, ignored))
-    throw InputError(fmt::format("no folder '{}'\n    a run's folder is out/<problem>/<case>", run.string()));
-  if (fs::exists(run / state_file_name, ignored)) return read_state(run / state_file_name);
-  const auto recorded = read_run_record(run);
-  if (!recorded)
-    throw InputError(
-        fmt::format("'{}' is no folder of a run: there is no {} in it\n    a run's folder is out/<problem>/<case>",
-                    run.string(), state_file_name));
-  throw InputError(
-      recorded->solver == "latin"
-          ? fmt::format(
-                "'{}' keeps no {}: the run was told --no-state, or an earlier version made it\n    run the deck again",
-                run.string(), state_file_name)
-          : fmt::format("'{}' was computed by solver.{}, which keeps nothing to go on from\n    run the deck again",
-                        run.string(), recorded->solver));
-}
-
-// The end of the run as it was asked for, s.
-double end_of(const RunState& state) {
-  double end = 0.0;
-  for (const StateStep& step : state.steps) end += step.duration;
-  return end;
-}
-
-double worst_of(const RunState& state, bool is_static) {
-  double worst = 0.0;
-  for (const StateStep& step : state.steps)
-    if (step.is_static == is_static) worst = std::max(worst, step.worst_indicator);
-  return worst;
-}
-
-// Static steps are asked a hundredth of the tolerance, as by default, or what they were asked.
-double static_tolerance(const ContinueOptions& options, const Effort& last) {
-  return options.tolerance ? std::min(last.static_tolerance, std::max(1e-14, 1e-2 * *options.tolerance))
-                           : last.static_tolerance;
-}
-
-// What there is not to do, or nothing where there is something.
-std::string idle(const ContinueOptions& options, const RunState& state) {
-  const bool is_whole = !state.interrupted;
-  if (options.until || options.more_iterations > 0 || !is_whole) return "";
-  if (!options.tolerance) {
-    if (!state.converged) return "";
-    return "the run is complete and has converged: say --tolerance, --iterations or --until";
-  }
-  const double reached = std::max(worst_of(state, false), 0.0), reached_static = worst_of(state, true);
-  if (reached > *options.tolerance || reached_static > static_tolerance(options, state.efforts.back())) return "";
-  return fmt::format("nothing to do: the run has reached {:.2g}, the tolerance {:g} asks no more",
-                     std::max(reached, reached_static), *options.tolerance);
-}
-
-void check_until(const ContinueOptions& options, const RunState& state) {
-  if (!options.until) return;
-  const StateStep& last = state.steps.back();
-  if (last.is_static)
-    throw InputError(fmt::format("--until: the last step, '{}', is static and has no time to go on", last.name));
-  const double dt = last.duration / last.increments, end = end_of(state);
-  if (*options.until < end + 0.5 * dt)
-    throw InputError(
-        fmt::format("--until {:g}: the run reaches {:g} s already\n    give a later time, in s or as in --until 0.4*ms",
-                    *options.until, end));
-}
 
 bool is_same_text(const RunState& state) {
   std::ifstream file(state.deck_path, std::ios::binary);
@@ -92,150 +19,42 @@ bool is_same_text(const RunState& state) {
   return file.good() || file.eof() ? text == state.deck_text : false;
 }
 
-// The problem is the one that the fields belong to.
-void check_problem_is_same(const Problem& problem, const RunState& state) {
-  for (const SubstructurePtr& part : problem.substructures) {
-    const auto kept = std::find_if(state.mesh_digests.begin(), state.mesh_digests.end(),
-                                   [&](const auto& d) { return d.first == part->name; });
-    if (kept == state.mesh_digests.end() || kept->second != part->mesh->digest)
-      throw InputError(fmt::format("the mesh of substructure '{}' ({}) has changed since the run: run the deck again",
-                                   part->name, part->mesh->source));
-  }
-  const std::vector<double> loads = load_samples(problem, state.steps);
-  double size = 0.0, difference = 0.0;
-  for (size_t i = 0; i < std::min(loads.size(), state.loads.size()); ++i) {
-    size = std::max(size, std::abs(state.loads[i]));
-    difference = std::max(difference, std::abs(loads[i] - state.loads[i]));
-  }
-  if (loads.size() != state.loads.size() || difference > 1e-6 * size)
-    throw InputError(
-        "the loads have changed since the run (a file that the deck reads, or results of another case): run the deck "
-        "again");
-}
-
-class Continuation {
- public:
-  Continuation(const ContinueOptions& options, std::shared_ptr<const RunState> state)
-      : options_(options), state_(std::move(state)) {}
-
-  std::shared_ptr<const RunResult> run(const Problem& problem, const RunRequest& request) {
-    if (problem.name != state_->problem || request.case_name != state_->case_name)
-      return result_of_other(problem, request);
-    RunRequest going_on = request;
-    going_on.continues = state_;
-    going_on.replaces = options_.run;
-    going_on.start_from = nullptr;
-    auto result = run_problem(changed(problem), going_on);
-    is_done_ = true;
-    return result;
-  }
-  bool is_done() const { return is_done_; }
-  bool ends_early() const { return ends_early_; }
-
- private:
-  Problem changed(Problem problem) const {
-    if (problem.monolithic || problem.explicit_dynamics || problem.steps.size() != state_->steps.size())
-      throw InputError("the deck declares another problem than that of the run");
-    const Effort& last = state_->efforts.back();
-    problem.solver.tolerance = options_.tolerance.value_or(last.tolerance);
-    problem.solver.static_tolerance = static_tolerance(options_, last);
-    problem.solver.spectra = 0.0;  // what is asked for now decides
-    problem.solver.more_iterations = options_.more_iterations;
-    if (problem.solver.precision == Precision::single_precision && problem.solver.tolerance < 1e-7)
-      throw InputError(fmt::format("--tolerance {:g}: 'precision' = \"single\" of the deck holds 1e-7 at least",
-                                   problem.solver.tolerance));
-    const double duration = state_->steps.back().duration + (options_.until ? *options_.until - end_of(*state_) : 0.0);
-    if (!problem.steps.back()->is_static && duration != problem.steps.back()->duration) {
-      constexpr double implausible = 1000.0;
-      if (duration > implausible * problem.steps.back()->duration)
-        throw InputError(
-            fmt::format("--until {:g} (s) is {:.3g} times as long as step '{}' of the deck: was a unit forgotten, as "
-                        "in --until 0.4*ms?",
-                        *options_.until, duration / problem.steps.back()->duration, problem.steps.back()->name));
-      auto longer = std::make_shared<Step>(*problem.steps.back());
-      longer->duration = std::round(duration / longer->dt) * longer->dt;
-      if (std::abs(longer->duration - duration) > 1e-6 * longer->dt)
-        say(fmt::format("  step '{}' is extended to {:g} s, a whole number of dt", longer->name,
-                        end_of(*state_) + longer->duration - state_->steps.back().duration));
-      if (const int more = longer->n_increments() - problem.steps.back()->n_increments(); more > 0)
-        say(fmt::format("  {} increments more than the deck's {}", more, problem.steps.back()->n_increments()));
-      problem.steps.back() = longer;
-    }
-    check_problem_is_same(problem, *state_);
-    return problem;
-  }
-
-  // Tables of a case that is not the one continued, as its folder has them.
-  std::shared_ptr<const RunResult> result_of_other(const Problem& problem, const RunRequest& request) {
-    const fs::path folder = fs::canonical(options_.run).parent_path().parent_path() / problem.name / request.case_name;
-    const auto recorded = read_run_record(folder);
-    if (!recorded) {
-      if (!is_done_)
-        throw InputError(fmt::format(
-            "the deck runs problem '{}', case '{}' first, and its results are not in '{}': run the deck again",
-            problem.name, request.case_name, folder.string()));
-      ends_early_ = true;
-      auto none = std::make_shared<RunResult>(*hollow_result(problem));
-      none->interrupted = true;  // the deck stops here
-      return none;
-    }
-    auto result = std::make_shared<RunResult>();
-    result->converged = recorded->converged;
-    result->iterations = recorded->iterations;
-    result->mean_iterations = recorded->mean_iterations;
-    std::vector<std::string> steps;
-    for (const StepPtr& step : problem.steps) steps.push_back(step->name);
-    for (const OutputPtr& output : problem.outputs) {
-      const fs::path file =
-          folder / ((output->kind == OutputKind::energy ? "energy" : file_name_of(output->name)) + ".csv");
-      if (output->kind != OutputKind::vtk && fs::exists(file)) result->tables[output.get()] = read_csv(file, steps);
-    }
-    say(fmt::format("problem '{}', case '{}': read from {}", problem.name, request.case_name, folder.string()));
-    return result;
-  }
-
-  const ContinueOptions& options_;
-  std::shared_ptr<const RunState> state_;
-  bool is_done_ = false, ends_early_ = false;
-};
-
 }  // namespace
 
 DeckOutcome continue_run(const ContinueOptions& options) {
-  auto state = std::make_shared<RunState>(state_in(options.run));
-  if (const std::string text = idle(options, *state); !text.empty()) {
-    if (!options.tolerance) throw InputError(fmt::format("'{}': {}", options.run.string(), text));
+  Continuation continuation(options);
+  const RunState& state = continuation.state();
+  if (const std::string text = continuation.idle(); !text.empty()) {
     say(text);
     return {};
   }
-  check_until(options, *state);
-  if (!is_same_text(*state))
+  continuation.check_until();
+  if (!is_same_text(state))
     warn(fmt::format("deck '{}' has changed since the run or is gone: the run goes on with the text that it kept",
-                     state->deck_path));
+                     state.deck_path));
   DeckOptions deck;
-  deck.path = state->deck_path;
-  deck.text = state->deck_text;
-  deck.settings = state->settings;
-  deck.solver = state->solver;
+  deck.path = state.deck_path;
+  deck.text = state.deck_text;
+  deck.settings = state.settings;
+  deck.solver = state.solver;
   deck.threads = options.threads;
   deck.time_limit = options.time_limit;
   deck.memory_limit = options.memory_limit;
   deck.write_frames = options.write_frames;
   deck.write_state = options.write_state;
   deck.is_study = false;
-  Continuation continuation(options, state);
   DeckOutcome outcome = run_deck(
       deck, {[&](const Problem& problem, const RunRequest& request) { return continuation.run(problem, request); },
              check_report});
   if (!continuation.is_done() && !outcome.interrupted)
     throw InputError(
-        fmt::format("the deck does not run problem '{}', case '{}' any more", state->problem, state->case_name));
+        fmt::format("the deck does not run problem '{}', case '{}' any more", state.problem, state.case_name));
   if (continuation.ends_early()) {
     say("the deck goes on with cases that have not been computed: it ends here");
     outcome.interrupted = false;
   }
   std::erase_if(outcome.not_converged, [&](const std::string& label) {
-    return label != fmt::format("problem '{}', case '{}'", state->problem, state->case_name);
+    return label != fmt::format("problem '{}', case '{}'", state.problem, state.case_name);
   });
   return outcome;
 }

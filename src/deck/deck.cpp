@@ -10,8 +10,8 @@
 #include "deck/arguments.hpp"
 #include "deck/deck_state.hpp"
 #include "deck/results.hpp"
-#include "deck/series.hpp"
 #include "numerics/factor.hpp"
+#include "result/hollow_result.hpp"
 
 namespace dygita {
 
@@ -223,7 +223,7 @@ int run_from_deck(DeckState& state, lua_State* L) {
   }
   state.declared.mark_used(self.id);
   ++state.outcome.n_runs;
-  const Arguments arguments(L, 3);
+  const LuaArguments arguments(L, 3, "run", origin, state.folder);
   const DeckResultPtr start_from =
       arguments.has("start_from") ? arguments.object("start_from").as<DeckResultPtr>() : nullptr;
   DeckResultPtr result = compute_at(origin, state, problem, case_name, start_from);
@@ -285,7 +285,7 @@ std::string deck_reference() {
   return lua_tostring(state.raw(), -1);
 }
 
-std::string version() { return DYGITA_VERSION; }
+std::string version() { return program_version(); }
 
 void prepare_process(char** argv) { wait_passively(argv, better_blas_kernels()); }
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "deck/run_problem.hpp"
+#include "run/run_problem.hpp"
 
 namespace dygita {
 

@@ -7,7 +7,7 @@
 #include "deck/deck.hpp"
 #include "deck/lua_state.hpp"
 #include "deck/register.hpp"
-#include "deck/study.hpp"
+#include "run/study.hpp"
 
 namespace dygita {
 

@@ -10,6 +10,7 @@
 #include "mesh/gmsh_reader.hpp"
 #include "model/model.hpp"
 #include "result/result.hpp"
+#include "result/series.hpp"
 
 namespace dygita {
 
@@ -29,32 +30,24 @@ struct OutputData {
   const Table* table = nullptr;  // in *result->run
 };
 
-// One column of an output against its first column.
-struct Series {
-  DeckResultPtr result;
-  std::string name;      // "bolt.normal", for messages
-  std::string abscissa;  // "time" or "frequency"
-  std::vector<double> values, at;
-  std::vector<int> step;  // problem's step of each row; empty for spectra
-};
-
-using Held = std::variant<std::monostate, MeshPtr, std::shared_ptr<const GmshMeshes>, std::shared_ptr<const Elastic>,
-                          SubstructurePtr, Face, Region, InterfacePtr, SupportPtr, LoadPtr,
-                          std::shared_ptr<const History>, StepPtr, std::shared_ptr<const LatinSettings>,
-                          std::shared_ptr<const MonolithicSettings>, std::shared_ptr<const ExplicitSettings>, OutputPtr,
-                          std::shared_ptr<const Problem>, DeckResultPtr, OutputData, std::shared_ptr<const Series>>;
+using Content =
+    std::variant<std::monostate, MeshPtr, std::shared_ptr<const GmshMeshes>, std::shared_ptr<const Elastic>,
+                 SubstructurePtr, Face, Region, InterfacePtr, SupportPtr, LoadPtr, std::shared_ptr<const History>,
+                 StepPtr, std::shared_ptr<const LatinSettings>, std::shared_ptr<const MonolithicSettings>,
+                 std::shared_ptr<const ExplicitSettings>, OutputPtr, std::shared_ptr<const Problem>, DeckResultPtr,
+                 OutputData, std::shared_ptr<const Series>>;
 
 struct Object {
   std::string kind;  // "substructure", "face", "series"; the schema's `makes`
   std::string path;  // the constructor: "interface.contact"
   std::string name;  // may be empty
   int id = -1;       // in the declaration register; -1: not declared by itself
-  Held held;
+  Content content;
 
   template <class T>
   const T& as() const {
-    CHECK(std::holds_alternative<T>(held), "the deck object '" + path + "' holds something else");
-    return std::get<T>(held);
+    CHECK(std::holds_alternative<T>(content), "the deck object '" + path + "' holds something else");
+    return std::get<T>(content);
   }
   // "interface 'shank'", "history.half_sine".
   std::string label() const { return name.empty() ? path : kind + " '" + name + "'"; }

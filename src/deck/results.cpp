@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "base/names.hpp"
-#include "deck/series.hpp"
 
 namespace dygita {
 
@@ -46,7 +45,7 @@ std::string label_of(const OutputData& data) {
 
 Series series_of(const OutputData& data, const std::string& column) {
   const Table& table = *data.table;
-  return {data.result,           data.output->name + "." + column,
+  return {data.result->problem,  data.output->name + "." + column,
           table.names.front(),   table.column(column),
           table.columns.front(), table.step};
 }
@@ -112,7 +111,7 @@ int read_series(lua_State* L, const Series& series, const Origin& origin) {
   }
   const std::string key = key_text(L);
   if (key == series.abscissa) {
-    push_series(L, {series.result, series.name + "." + key, key, series.at, series.at, series.step});
+    push_series(L, {series.problem, series.name + "." + key, key, series.at, series.at, series.step});
     return 1;
   }
   if (const auto value = summary_of(series, key, origin)) return push_value(L, *value);
@@ -153,7 +152,7 @@ int read_output(lua_State* L, const OutputData& data, const Origin& origin) {
   }
   if (key == data.table->names.front()) {
     const auto& at = data.table->columns.front();
-    push_series(L, {data.result, data.output->name + "." + key, key, at, at, data.table->step});
+    push_series(L, {data.result->problem, data.output->name + "." + key, key, at, at, data.table->step});
     return 1;
   }
   if (is_vector(data) && key == "max") return push_value(L, *summary_of(modulus_of(data), key, origin));

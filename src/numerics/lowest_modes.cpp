@@ -2,11 +2,11 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <random>
 
 #include "base/error.hpp"
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -101,18 +101,17 @@ Modes lowest_modes(int size, const std::function<void(Eigen::Ref<Mat>)>& solve, 
       continue;
     }
     checked = end;
-    const Eigen::SelfAdjointEigenSolver<Mat> eigen(0.5 * (h + h.transpose()));
-    const double smallest = round_off * eigen.eigenvalues().tail(1)[0];
-    const auto n_true = (eigen.eigenvalues().array() > smallest).count();
+    const EigenPairs eigen = symmetric_eigen(0.5 * (h + h.transpose()));
+    const double smallest = round_off * eigen.values.tail(1)[0];
+    const auto n_true = (eigen.values.array() > smallest).count();
     int n = 0;
     double last = 0.0;
     bool is_enough = false;
     for (; n < end && !is_enough; ++n) {
       const int at = end - 1 - n;
-      const double theta = eigen.eigenvalues()[at];
+      const double theta = eigen.values[at];
       if (theta <= smallest) break;
-      if (residual.rows() > 0 &&
-          (residual * eigen.eigenvectors().col(at).tail(width)).norm() > request.tolerance * theta)
+      if (residual.rows() > 0 && (residual * eigen.vectors.col(at).tail(width)).norm() > request.tolerance * theta)
         break;
       last = 1.0 / theta - shift;
       if (request.n == 0 && last > request.up_to) break;
@@ -124,8 +123,8 @@ Modes lowest_modes(int size, const std::function<void(Eigen::Ref<Mat>)>& solve, 
       modes.values.resize(n);
       Mat chosen(end, n);
       for (int i = 0; i < n; ++i) {
-        modes.values[i] = 1.0 / eigen.eigenvalues()[end - 1 - i] - shift;
-        chosen.col(i) = eigen.eigenvectors().col(end - 1 - i);
+        modes.values[i] = 1.0 / eigen.values[end - 1 - i] - shift;
+        chosen.col(i) = eigen.vectors.col(end - 1 - i);
       }
       modes.vectors = space.vectors().leftCols(end) * chosen;
       return modes;

@@ -1,7 +1,7 @@
 #include "output/collection.hpp"
 
 #include "base/log.hpp"
-#include "output/svg_text.hpp"
+#include "base/markup.hpp"
 
 namespace dygita {
 

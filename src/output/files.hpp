@@ -6,6 +6,9 @@
 
 namespace dygita {
 
+// What a report draws of a run, already projected, in the run's folder.
+inline constexpr const char* scene_file = "scenes.json";
+
 // The name as a file's or directory's: '/', '\' and control characters become '_', a '.' in front too, an empty name
 // "unnamed". A name that check_problem lets through is unchanged.
 std::string file_name_of(const std::string& name);

@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "output/csv.hpp"
-#include "output/scene_file.hpp"
+#include "output/files.hpp"
 
 namespace dygita {
 

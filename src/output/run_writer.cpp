@@ -8,9 +8,7 @@
 #include "output/collection.hpp"
 #include "output/csv.hpp"
 #include "output/manifest.hpp"
-#include "output/report.hpp"
 #include "output/run_record.hpp"
-#include "output/scene_file.hpp"
 #include "output/superelement_files.hpp"
 #include "output/vtk_writer.hpp"
 
@@ -79,8 +77,7 @@ void RunWriter::write_frame(const Frame& frame) {
   ++index_->n_frames;
 }
 
-void RunWriter::write_result(const Problem& problem, const RunResult& result, const RunIdentity& identity,
-                             const std::vector<std::string>& warnings) {
+void RunWriter::write_tables(const Problem& problem, const RunResult& result) {
   const std::vector<std::string> steps = step_names(problem);
   std::set<std::string> written;
   for (const OutputPtr& output : problem.outputs) {  // in the deck's order
@@ -110,10 +107,10 @@ void RunWriter::write_result(const Problem& problem, const RunResult& result, co
     CHECK(!written.contains("bolts"), "an output is called 'bolts'");
     write("bolts.csv", bolts_csv(problem, result));
   }
+}
 
-  if (result.scenes) write(scene_file, scene_text(problem, *result.scenes));
-  write_report(run_record(problem, result, identity, warnings, {}));
-
+void RunWriter::write_record(const Problem& problem, const RunResult& result, const RunIdentity& identity,
+                             const std::vector<std::string>& warnings) {
   // Name the files but for the frames, which the .pvd list.
   const fs::path record = path_of("run.json");
   std::vector<std::string> files;
@@ -136,15 +133,6 @@ void RunWriter::write_field(const std::string& name, const std::vector<Frame>& f
     collection.add(frames[i].label_time, 0, name, file);
   }
   if (!collection.is_empty()) write(name + ".pvd", collection.text());
-}
-
-// A page that fails costs no result.
-void RunWriter::write_report(const std::string& record) {
-  try {
-    write("report.html", report_html(directory_, {.record = record}));
-  } catch (const std::exception& error) {
-    warn(std::string("no report.html: ") + error.what());
-  }
 }
 
 fs::path RunWriter::path_of(const std::string& file_name) {

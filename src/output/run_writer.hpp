@@ -42,22 +42,23 @@ class RunWriter {
   // cannot write.
   void write_frame(const Frame& frame);
 
-  // <output name>.csv for each table, energy.csv, convergence.csv, scenes.json, report.html, and last run.json
-  // (versions, digests, parameters, figures, warnings): where it stands the run came to its end. Throws InputError when
-  // it cannot write.
-  void write_result(const Problem& problem, const RunResult& result, const RunIdentity& identity,
+  // <output name>.csv for each table, energy.csv, convergence.csv, bolts.csv. Throws InputError when it cannot write.
+  void write_tables(const Problem& problem, const RunResult& result);
+  // A file that another module makes of the run (scenes, the report). Throws InputError when it cannot write.
+  void write(const std::string& file_name, const std::string& text);
+  // Last, run.json (versions, digests, parameters, figures, warnings, files): where it stands the run came to its end.
+  // Throws InputError when it cannot write.
+  void write_record(const Problem& problem, const RunResult& result, const RunIdentity& identity,
                     const std::vector<std::string>& warnings);
 
-  // The path for a file that somebody else writes here (state, report): run.json names it, the next run removes it.
+  // The path for a file that somebody else writes here (state): run.json names it, the next run removes it.
   std::filesystem::path path_of(const std::string& file_name);
 
   const std::filesystem::path& directory() const { return directory_; }
 
  private:
   struct Index;  // the frames written so far
-  void write(const std::string& file_name, const std::string& text);
   void write_field(const std::string& name, const std::vector<Frame>& frames);
-  void write_report(const std::string& record);
 
   std::filesystem::path directory_;
   std::string problem_name_;

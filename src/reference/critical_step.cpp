@@ -1,9 +1,10 @@
 #include "reference/critical_step.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -41,11 +42,9 @@ double highest_frequency(InternalForce& internal, const PenaltySprings& springs,
     alpha.push_back(inner(next, q));
     next -= alpha.back() * q;
     beta.push_back(std::sqrt(inner(next, next)));
-    Eigen::SelfAdjointEigenSolver<Mat> tridiagonal;
-    tridiagonal.computeFromTridiagonal(Eigen::Map<const Vec>(alpha.data(), k + 1),
-                                       Eigen::Map<const Vec>(beta.data(), k));
-    const double eigenvalue = tridiagonal.eigenvalues()[k];
-    const double residual = beta.back() * std::abs(tridiagonal.eigenvectors()(k, k));
+    const EigenPairs tridiagonal = tridiagonal_eigen(alpha, beta);
+    const double eigenvalue = tridiagonal.values[k];
+    const double residual = beta.back() * std::abs(tridiagonal.vectors(k, k));
     if (residual <= close_enough * eigenvalue || k + 1 == most_iterations)
       return std::sqrt(std::max(0.0, eigenvalue + residual));
     before.swap(q);

@@ -3,13 +3,12 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "base/log.hpp"
+#include "numerics/dense.hpp"
 #include "numerics/factor.hpp"
 #include "numerics/lowest_modes.hpp"
 
@@ -98,9 +97,7 @@ class HeldInterface {
     }
     const Vec scale = transposed.colwise().norm();
     const Mat scaled = transposed * scale.cwiseInverse().asDiagonal();
-    const Eigen::HouseholderQR<Mat> qr(scaled);
-    const Mat q = qr.householderQ();
-    const Mat r = qr.matrixQR().topRows(n_w).triangularView<Eigen::Upper>();
+    const auto [q, r] = full_qr(scaled);
     // W+ = Q1 R^-T, of the scaled rows.
     Mat right = r.transpose().triangularView<Eigen::Lower>().solve(Mat(scale.cwiseInverse().asDiagonal()));
     of_held_ = q.leftCols(n_w) * right;
@@ -148,13 +145,12 @@ Modes residual_modes(const HeldInterface& held, const LinearAssembly& assembly, 
   for (int pass = 0; pass < 2; ++pass) r -= kept.vectors * (kept.vectors.transpose() * (assembly.mass * r));
   const Vec scale = r.colwise().norm().cwiseMax(1e-300).cwiseInverse();
   r = r * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Mat> gram(symmetric(r.transpose() * (assembly.mass * r)));
-  const double largest = gram.eigenvalues().size() > 0 ? gram.eigenvalues().tail(1)[0] : 0.0;
-  const int rank = static_cast<int>((gram.eigenvalues().array() > 1e-8 * largest).count());
-  const Mat basis =
-      r * (gram.eigenvectors().rightCols(rank) * gram.eigenvalues().tail(rank).cwiseSqrt().cwiseInverse().asDiagonal());
-  const Eigen::SelfAdjointEigenSolver<Mat> eigen(symmetric(basis.transpose() * (assembly.stiffness * basis)));
-  return {eigen.eigenvalues(), basis * eigen.eigenvectors(), false};
+  const EigenPairs gram = symmetric_eigen(symmetric(r.transpose() * (assembly.mass * r)));
+  const double largest = gram.values.size() > 0 ? gram.values.tail(1)[0] : 0.0;
+  const int rank = static_cast<int>((gram.values.array() > 1e-8 * largest).count());
+  const Mat basis = r * (gram.vectors.rightCols(rank) * gram.values.tail(rank).cwiseSqrt().cwiseInverse().asDiagonal());
+  const EigenPairs eigen = symmetric_eigen(symmetric(basis.transpose() * (assembly.stiffness * basis)));
+  return {eigen.values, basis * eigen.vectors, false};
 }
 
 // rad/s, up to which modes are kept.
@@ -174,9 +170,9 @@ Mat slow_motions(const LinearAssembly& assembly, const Mat& psi, const Modes& ke
   m.topLeftCorner(n_q, n_q) = symmetric(psi.transpose() * m_psi);
   m.bottomLeftCorner(n_m, n_q) = kept.vectors.transpose() * m_psi;
   m.topRightCorner(n_q, n_m) = m.bottomLeftCorner(n_m, n_q).transpose();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Mat> eigen(k, m);
-  const int n = std::min<int>(100, static_cast<int>((eigen.eigenvalues().array() <= omega * omega).count()));
-  return eigen.eigenvectors().topLeftCorner(n_q, n);
+  const EigenPairs eigen = generalized_symmetric_eigen(k, m);
+  const int n = std::min<int>(100, static_cast<int>((eigen.values.array() <= omega * omega).count()));
+  return eigen.vectors.topLeftCorner(n_q, n);
 }
 
 }  // namespace
@@ -220,8 +216,8 @@ Superelement condense(const LinearAssembly& assembly, const Problem& problem, co
     element.damping = symmetric(basis.transpose() * (assembly.damping * basis));
   }
 
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Mat> eigen(element.stiffness, element.mass);
-  element.frequencies = eigen.eigenvalues().unaryExpr([](double lambda) { return hertz(lambda); });
+  const EigenPairs eigen = generalized_symmetric_eigen(element.stiffness, element.mass);
+  element.frequencies = eigen.values.unaryExpr([](double lambda) { return hertz(lambda); });
   element.fixed_frequencies = modes.values.unaryExpr([](double lambda) { return hertz(lambda); });
   element.n_residual = n_m - n_kept;
   element.valid_to = output.superelement.up_to > 0.0 ? output.superelement.up_to
@@ -229,7 +225,7 @@ Superelement condense(const LinearAssembly& assembly, const Problem& problem, co
                                                      : 0.0;
   element.damping_ratios = Vec::Zero(element.frequencies.size());
   for (int i = 0; i < element.frequencies.size() && element.damping.rows() > 0; ++i) {
-    const Vec phi = eigen.eigenvectors().col(i);
+    const Vec phi = eigen.vectors.col(i);
     const double omega = 2 * std::numbers::pi * element.frequencies[i];
     if (omega > 0.0) element.damping_ratios[i] = phi.dot(element.damping * phi) / (2 * omega);
   }

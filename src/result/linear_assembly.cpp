@@ -1,14 +1,13 @@
 #include "result/linear_assembly.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <map>
 #include <numeric>
 #include <tuple>
 
 #include "fem/assembly.hpp"
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -82,12 +81,10 @@ Mat free_basis(const std::vector<int>& nodes, const std::vector<const NodeCondit
     for (int side = 0; side < 2; ++side)
       for (int i = 0; i < m; ++i)
         if (conditions[c]->node[side] == nodes[i]) transposed.block(3 * i, c, 3, 1) += conditions[c]->coefficient[side];
-  Eigen::ColPivHouseholderQR<Mat> qr(transposed);
-  qr.setThreshold(1e-8);
-  const Mat q = qr.householderQ();
-  Mat basis = q.rightCols(3 * m - qr.rank());
+  const auto [q, rank] = ranked_basis(transposed, 1e-8);
+  Mat basis = q.rightCols(3 * m - rank);
   // All copies tied and nothing else: their common motion, along the axes.
-  if (basis.cols() == 3 && qr.rank() == 3 * (m - 1)) {
+  if (basis.cols() == 3 && rank == 3 * (m - 1)) {
     Mat common(3 * m, 3);
     for (int i = 0; i < m; ++i) common.middleRows(3 * i, 3) = Mat3::Identity();
     if ((transposed.transpose() * common).norm() < 1e-12) basis = common;
@@ -202,9 +199,9 @@ std::string free_motion(const LinearAssembly& assembly, const Problem& problem, 
   Vec weight(6 * n);
   for (int i = 0; i < n; ++i)
     weight.segment<6>(6 * i).setConstant(1.0 / std::sqrt(std::max(1.0, gram.block<6, 6>(6 * i, 6 * i).trace())));
-  const Eigen::SelfAdjointEigenSolver<Mat> eigen(weight.asDiagonal() * gram * weight.asDiagonal());
-  if (eigen.eigenvalues()[0] >= 1e-9) return "";
-  const Vec motion = weight.cwiseProduct(eigen.eigenvectors().col(0));
+  const EigenPairs eigen = symmetric_eigen(weight.asDiagonal() * gram * weight.asDiagonal());
+  if (eigen.values[0] >= 1e-9) return "";
+  const Vec motion = weight.cwiseProduct(eigen.vectors.col(0));
   int at = 0;
   motion.cwiseAbs().maxCoeff(&at);
   const char* names[] = {"translation along x", "translation along y", "translation along z",

@@ -2,11 +2,11 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <set>
 
 #include "base/log.hpp"
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -95,7 +95,7 @@ bool is_floating(const Substructure& part, const std::unordered_map<int, Held>& 
       scale += 1.0;
     }
   if (scale == 0.0) return true;
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(gram).eigenvalues()[0] < 1e-8 * scale;
+  return symmetric_eigen(gram).values[0] < 1e-8 * scale;
 }
 
 void pin_free_motions(const Problem& problem, const Step& step, const Exchange& exchange,
@@ -110,13 +110,13 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
   for (int i = 0; i < n; ++i)
     weight.segment<6>(6 * i).setConstant(1.0 / std::sqrt(std::max(1.0, gram.block<6, 6>(6 * i, 6 * i).trace())));
   scaled = weight.asDiagonal() * gram * weight.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Mat> eigen(scaled);
+  const EigenPairs eigen = symmetric_eigen(scaled);
   std::set<std::pair<int, int>> on_interface;
   for (const Port& port : exchange.ports) on_interface.emplace(port.part, port.node);
 
   std::vector<Vec> free_motions;
-  for (int m = 0; m < 6 * n && eigen.eigenvalues()[m] < 1e-9; ++m)
-    free_motions.push_back(weight.cwiseProduct(eigen.eigenvectors().col(m)));
+  for (int m = 0; m < 6 * n && eigen.values[m] < 1e-9; ++m)
+    free_motions.push_back(weight.cwiseProduct(eigen.vectors.col(m)));
   while (!free_motions.empty()) {
     // The part that moves most, and where it moves most away from interfaces and supports.
     Vec& motion = free_motions.back();

@@ -25,10 +25,11 @@ const std::map<std::string, std::set<std::string>> may_use = {
     {"reference", {"base", "numerics", "mesh", "signal", "material", "fem", "law", "model", "solution"}},
     {"result", {"base", "numerics", "mesh", "signal", "material", "fem", "law", "model", "solution"}},
     {"output", {"base", "numerics", "mesh", "model", "result"}},
-    {"deck",
-     {"base", "numerics", "mesh", "signal", "material", "fem", "law", "model", "solution", "latin", "reference",
-      "result", "output"}},
-    {"app", {"base", "signal", "result", "output", "deck"}},
+    {"report", {"base", "signal", "mesh", "model", "result", "output"}},
+    {"run",
+     {"base", "numerics", "mesh", "signal", "model", "solution", "latin", "reference", "result", "output", "report"}},
+    {"deck", {"base", "numerics", "mesh", "signal", "material", "law", "model", "result", "output", "run"}},
+    {"app", {"base", "signal", "output", "report", "deck"}},
 };
 
 // Third-party headers that everybody may include; the others belong to one module.
@@ -37,6 +38,7 @@ const std::vector<std::pair<std::string, std::regex>> owners = {
     {"numerics", std::regex("^(cholmod|SuiteSparse|metis|cblas|lapack|openblas)[A-Za-z_]*\\.h$")},
     {"mesh", std::regex("^gmsh")},
     {"output", std::regex("^(vtk|nlohmann/)")},
+    {"report", std::regex("^nlohmann/")},
     {"deck", std::regex("^(lua|lualib|lauxlib)\\.(h|hpp)$")},
     {"app", std::regex("^CLI/")},
 };

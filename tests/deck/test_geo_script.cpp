@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "deck/fake_engine.hpp"
-#include "deck/geo_script.hpp"
+#include "mesh/geo_script.hpp"
 
 namespace dygita::test {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "decks/engine.hpp"
-#include "output/svg_checks.hpp"
+#include "report/svg_checks.hpp"
 
 namespace dygita::test {
 namespace {

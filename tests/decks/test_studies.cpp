@@ -7,7 +7,7 @@
 
 #include "base/log.hpp"
 #include "decks/deck_prints.hpp"
-#include "output/study.hpp"
+#include "report/study_files.hpp"
 #include "result/case_summary.hpp"
 
 namespace dygita::test {

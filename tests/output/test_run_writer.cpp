@@ -237,11 +237,16 @@ struct Done {
   }
 };
 
+void write_result(RunWriter& writer, const Done& run, const std::vector<std::string>& warnings = {}) {
+  writer.write_tables(run.problem, run.result);
+  writer.write_record(run.problem, run.result, run.identity, warnings);
+}
+
 TEST(RunWriter, writes_a_table_an_output_and_the_convergence) {
   const Scratch scratch;
   const Done run;
   RunWriter writer(scratch.path(), "crush");
-  writer.write_result(run.problem, run.result, run.identity, {});
+  write_result(writer, run);
   EXPECT_EQ(text_of(scratch.path() / "spread.csv"), "time [s],step,displacement [m]\n0,shock,1.5\n");
   EXPECT_EQ(text_of(scratch.path() / "energy.csv"), "time [s],step,kinetic [J]\n0,shock,1.5\n");
   EXPECT_EQ(text_of(scratch.path() / "convergence.csv"), "time [s],step,iterations\n1e-06,shock,5\n");
@@ -253,7 +258,7 @@ TEST(RunWriter, writes_a_record_that_tells_what_was_run_and_how_it_went) {
   RunWriter writer(scratch.path(), "crush");
   put(writer.path_of("state.h5"), "x");
   writer.write_frame(Scene().frame(0.0, 1.0));
-  writer.write_result(run.problem, run.result, run.identity, {"a \"quoted\" warning\n\xff"});
+  write_result(writer, run, {"a \"quoted\" warning\n\xff"});
   const auto json = nlohmann::json::parse(text_of(scratch.path() / "run.json"));
   EXPECT_EQ(json["program"]["version"], program_version());
   EXPECT_EQ(json["problem"], "crush");
@@ -272,14 +277,15 @@ TEST(RunWriter, writes_a_record_that_tells_what_was_run_and_how_it_went) {
   EXPECT_EQ(json["libraries"]["gmsh"], "4.8.4");
   EXPECT_TRUE(json["libraries"]["VTK"].get<std::string>().starts_with("9."));
   EXPECT_EQ(json["files"], nlohmann::json({"state.h5", "crush.pvd", "interfaces.pvd", "spread.csv", "energy.csv",
-                                           "convergence.csv", "report.html", "run.json"}));
+                                           "convergence.csv", "run.json"}));
 }
 
 TEST(RunWriter, says_when_a_run_did_not_converge_or_was_interrupted) {
   const Scratch scratch;
   Done run;
   const auto verdict = [&] {
-    RunWriter(scratch.path(), "crush").write_result(run.problem, run.result, run.identity, {});
+    RunWriter writer(scratch.path(), "crush");
+    write_result(writer, run);
     return nlohmann::json::parse(text_of(scratch.path() / "run.json"))["verdict"];
   };
   run.result.converged = false;
@@ -294,7 +300,7 @@ TEST(RunWriter, removes_a_former_run_and_leaves_what_is_not_its_own) {
   {
     RunWriter writer(scratch.path(), "crush");
     writer.write_frame(Scene().frame(0.0, 1.0));
-    writer.write_result(run.problem, run.result, run.identity, {});
+    write_result(writer, run);
   }
   put(scratch.path() / "my notes.txt", "keep");
   put(scratch.path() / "frames" / "my view.pvsm", "keep");

@@ -1,0 +1,38 @@
+// Decompositions of dense matrices, compiled once: Eigen's templates take seconds in every file that names them.
+#pragma once
+
+#include <vector>
+
+#include "numerics/types.hpp"
+
+namespace dygita {
+
+struct EigenPairs {
+  Vec values;   // increasing
+  Mat vectors;  // one column a value
+};
+
+// Of a symmetric matrix; the lower triangle is read.
+EigenPairs symmetric_eigen(const Mat& a);
+
+// K x = lambda M x with M positive definite; vectors are orthonormal in M.
+EigenPairs generalized_symmetric_eigen(const Mat& k, const Mat& m);
+
+// Of the symmetric tridiagonal matrix with this diagonal (n) and subdiagonal (n - 1 at least).
+EigenPairs tridiagonal_eigen(const std::vector<double>& diagonal, const std::vector<double>& subdiagonal);
+
+// A = Q R, A of m rows and n <= m columns: Q m x m, R n x n.
+struct QrFactors {
+  Mat q, r;
+};
+QrFactors full_qr(const Mat& a);
+
+// The same with columns pivoted: orthonormal basis of all rows' space and the number of columns that count, diagonal
+// entries of R below `threshold` of the largest being zero.
+struct RankedBasis {
+  Mat q;
+  int rank = 0;
+};
+RankedBasis ranked_basis(const Mat& a, double threshold);
+
+}  // namespace dygita

@@ -1,0 +1,96 @@
+#include "report/html.hpp"
+
+#include "report/svg_text.hpp"
+
+namespace dygita::html {
+
+namespace {
+
+constexpr const char* style = R"(
+body { font: 15px/1.45 Helvetica, Arial, sans-serif; color: #222; background: #fff; max-width: 1100px; margin: 24px auto; padding: 0 20px; }
+h1 { font-size: 24px; margin: 0 0 2px; }
+h2 { font-size: 19px; margin: 34px 0 8px; border-bottom: 2px solid #ddd; padding-bottom: 3px; }
+h3 { font-size: 16px; margin: 22px 0 4px; }
+p { margin: 6px 0; max-width: 900px; }
+.under { color: #555; margin: 0 0 16px; }
+.verdict { border-left: 8px solid; padding: 8px 14px; margin: 10px 0; font-size: 16px; }
+.good { border-color: #009e73; background: #eef8f4; }
+.bad { border-color: #d55e00; background: #fdf1ea; }
+.cards { display: flex; flex-wrap: wrap; gap: 10px; margin: 12px 0; }
+.card { border: 1px solid #ccc; border-top: 4px solid #888; padding: 6px 12px 8px; min-width: 150px; flex: 1; max-width: 240px; }
+.card.fine { border-top-color: #009e73; }
+.card.poor { border-top-color: #d55e00; }
+.card b { display: block; font-size: 20px; }
+.card small { color: #555; display: block; }
+ul.warnings { list-style: none; padding: 0; }
+ul.warnings li { border-left: 8px solid #e69f00; background: #fdf7ea; padding: 6px 12px; margin: 6px 0; }
+table { border-collapse: collapse; margin: 8px 0 16px; font-size: 14px; }
+th { text-align: left; border-bottom: 2px solid #bbb; padding: 3px 14px 3px 0; vertical-align: bottom; }
+td { border-bottom: 1px solid #e4e4e4; padding: 3px 14px 3px 0; vertical-align: top; }
+table.numbers td + td, table.numbers th + th { text-align: right; }
+figure { margin: 8px 0; break-inside: avoid; }
+figcaption { color: #555; font-size: 13px; max-width: 900px; }
+svg { max-width: 100%; height: auto; }
+.blocks { display: flex; flex-wrap: wrap; gap: 0 48px; align-items: flex-start; }
+.row { display: flex; flex-wrap: wrap; gap: 4px 20px; align-items: flex-start; }
+.row figure { flex: 1 1 480px; min-width: 0; max-width: 540px; }
+@media print { body { margin: 0; max-width: none; font-size: 12px; } h2 { break-after: avoid; } h3 { break-after: avoid; }
+  .row figure { flex-basis: 300px; } .card, .verdict, ul.warnings li { -webkit-print-color-adjust: exact; print-color-adjust: exact; } }
+)";
+
+}  // namespace
+
+std::string page(const std::string& title, const std::string& body_html) {
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + escaped(title) +
+         "</title>\n<meta name=\"viewport\" content=\"width=device-width\">\n<style>" + style +
+         "</style>\n</head>\n<body>\n" + body_html + "</body>\n</html>\n";
+}
+
+std::string section(const std::string& title, const std::string& body_html) {
+  return body_html.empty() ? "" : "<section>\n<h2>" + escaped(title) + "</h2>\n" + body_html + "</section>\n";
+}
+
+std::string heading(const std::string& title) { return "<h3>" + escaped(title) + "</h3>\n"; }
+
+std::string paragraph(const std::string& text) { return "<p>" + escaped(text) + "</p>\n"; }
+
+std::string figure(const std::string& drawing, const std::string& caption) {
+  if (drawing.empty()) return "";
+  return "<figure>\n" + drawing + (caption.empty() ? "" : "<figcaption>" + escaped(caption) + "</figcaption>\n") +
+         "</figure>\n";
+}
+
+std::string row(const std::vector<std::string>& figures) {
+  std::string inside;
+  for (const std::string& drawing : figures) inside += drawing;
+  return inside.empty() ? "" : "<div class=\"row\">\n" + inside + "</div>\n";
+}
+
+std::string table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows,
+                  bool numbers) {
+  if (rows.empty()) return "";
+  std::string result = numbers ? "<table class=\"numbers\">\n<tr>" : "<table>\n<tr>";
+  for (const std::string& cell : header) result += "<th>" + escaped(cell) + "</th>";
+  result += "</tr>\n";
+  for (const std::vector<std::string>& cells : rows) {
+    result += "<tr>";
+    for (const std::string& cell : cells) result += "<td>" + escaped(cell) + "</td>";
+    result += "</tr>\n";
+  }
+  return result + "</table>\n";
+}
+
+std::string block(const std::string& body_html) { return "<div>\n" + body_html + "</div>\n"; }
+
+std::string blocks(const std::string& blocks_html) {
+  return blocks_html.empty() ? "" : "<div class=\"blocks\">\n" + blocks_html + "</div>\n";
+}
+
+std::string list(const std::vector<std::string>& items, const char* name) {
+  if (items.empty()) return "";
+  std::string result = std::string("<ul class=\"") + name + "\">\n";
+  for (const std::string& item : items) result += "<li>" + escaped(item) + "</li>\n";
+  return result + "</ul>\n";
+}
+
+}  // namespace dygita::html

@@ -1,0 +1,36 @@
+// The boundary of an assembly as a picture needs it: kept cells, merged nodes, sharp edges.
+#pragma once
+
+#include <vector>
+
+#include "report/picture.hpp"
+
+namespace dygita {
+
+// Boundary facets of all parts, with one numbering of their nodes.
+struct Skin {
+  Points position;   // m, deformed
+  Points reference;  // m, undeformed
+  Vec value;
+  std::vector<Facet> facets;
+  std::vector<int> part;  // of each facet
+
+  Vec3 normal(int i_facet) const;  // of the deformed facet, its length is twice the area
+};
+
+// Empty `displacement`, `values`: zero. Cells in front of the view's cut are left out.
+Skin make_skin(const std::vector<SubstructurePtr>& parts, const View& view, const std::vector<Points>& displacement,
+               const std::vector<Vec>& values, double scale);
+
+// Nodes of a part that lie in one cube of edge `size` (m, undeformed) become one, with the largest of their values;
+// facets that lose their area are left out.
+Skin merged(const Skin& skin, double size);
+
+// Pairs of nodes: edges of one facet only, or between facets whose normals are more than 35 degrees apart; with a facet
+// beside it.
+struct SharpEdge {
+  int a, b, facet;
+};
+std::vector<SharpEdge> sharp_edges(const Skin& skin);
+
+}  // namespace dygita

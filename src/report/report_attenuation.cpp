@@ -1,0 +1,61 @@
+// Shock attenuation across joints, band by band.
+#include <algorithm>
+#include <cmath>
+
+#include "base/log.hpp"
+#include "report/html.hpp"
+#include "report/report_parts.hpp"
+#include "report/svg_plot.hpp"
+#include "report/units.hpp"
+
+namespace dygita {
+
+namespace {
+
+std::string decibels(double value) {
+  return std::isfinite(value) ? fmt::format("{}{:.1f} dB", value < 0.0 ? "−" : "+", std::abs(value)) : "nothing enters";
+}
+
+std::string attenuation_part(const RunFolder& run, const Json& output) {
+  const Table table = run.table(text(output, "file"));
+  if (table.n_rows() == 0 || table.columns.size() < 4) return "";
+  const std::vector<double>& frequency = table.columns.front();
+  Plot plot{.title = text(output, "name"), .x = {"centre of the band", "Hz", true}, .y = {"behind over before", "dB"}};
+  std::vector<std::string> header = {"band"};
+  std::vector<std::vector<std::string>> rows;
+  for (const double f : frequency) rows.push_back({with_unit(f, "Hz")});
+  std::string silent;
+  for (size_t i = 1; i + 2 < table.columns.size(); i += 3) {
+    const std::vector<double>& ratio = table.columns[i + 2];
+    const std::string axis = table.names[i + 2].size() > 6 ? "along " + table.names[i + 2].substr(6) : "";
+    if (std::none_of(ratio.begin(), ratio.end(), [](double value) { return std::isfinite(value); })) {
+      silent += " Nothing enters " + axis + ".";
+      continue;
+    }
+    PlotLine line{.name = axis, .x = frequency, .y = ratio};
+    line.has_markers = true;
+    plot.lines.push_back(std::move(line));
+    header.insert(header.end(), {"before " + axis, "behind " + axis, "ratio " + axis});
+    for (size_t row = 0; row < frequency.size(); ++row)
+      rows[row].insert(rows[row].end(), {with_unit(table.columns[i][row], table.units[i]),
+                                         with_unit(table.columns[i + 1][row], table.units[i]), decibels(ratio[row])});
+  }
+  if (plot.lines.empty()) return "";
+  const double rule = -3.0 * number(output, "joints");
+  plot.levels = {{rule, "rule of thumb"}, {0.0, ""}};
+  return html::heading(text(output, "name") + ": from " + text(output, "entering") + " to " + text(output, "leaving")) +
+         html::figure(svg(plot),
+                      "Ratio of the maximax spectra; the handbooks' rule of thumb, -3 dB per bolted joint, gives " +
+                          decibels(rule) + " here." + silent) +
+         html::table(header, rows, true);
+}
+
+}  // namespace
+
+std::string attenuation_section(const RunFolder& run) {
+  std::string body;
+  for (const Json& output : run.outputs("attenuation")) body += attenuation_part(run, output);
+  return html::section("Through the joint", body);
+}
+
+}  // namespace dygita

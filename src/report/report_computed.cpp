@@ -1,0 +1,153 @@
+// What was computed: parts, interfaces, supports, steps with their loads, parameters of the deck.
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "base/log.hpp"
+#include "report/html.hpp"
+#include "report/report_parts.hpp"
+#include "report/units.hpp"
+
+namespace dygita {
+
+namespace {
+
+std::string joined(const Json& list, const char* separator = ", ") {
+  std::string result;
+  for (const Json& item : list)
+    if (item.is_string()) result += (result.empty() ? "" : separator) + item.get<std::string>();
+  return result;
+}
+
+std::string count(double n) { return std::isfinite(n) ? fmt::format("{:.0f}", n) : ""; }
+
+const char* unit_of_load(const std::string& kind) {
+  static const std::map<std::string, const char*> units = {{"pressure", "Pa"},    {"traction", "Pa"},
+                                                           {"force", "N"},        {"velocity", "m/s"},
+                                                           {"displacement", "m"}, {"base_acceleration", "m/s^2"},
+                                                           {"gravity", "m/s^2"},  {"shortening", "m"},
+                                                           {"release", "s"},      {"preload", "N"}};
+  const auto found = units.find(kind);
+  return found == units.end() ? "" : found->second;
+}
+
+std::string in_unit(const std::string& text, const std::string& unit) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return text.empty() || *end != '\0' ? text : with_unit(value, unit);
+}
+
+std::string law_of(const Json& interface) {
+  const std::string kind = text(interface, "kind");
+  if (kind == "contact") {
+    std::string law = "friction " + plain_number(number(interface, "friction"));
+    if (number(interface, "gap") != 0.0)
+      law += (number(interface, "gap") > 0.0 ? ", gap " : ", interference ") +
+             with_unit(std::abs(number(interface, "gap")), "m");
+    return law;
+  }
+  if (kind != "plastic") return "";
+  std::string law = "yields at " + with_unit(number(interface, "yield"), "Pa");
+  if (number(interface, "hardening") > 0.0)
+    law += ", hardens by " + with_unit(1e-3 * number(interface, "hardening"), "Pa") + " per mm";
+  if (interface.value("compression", false)) law += ", in compression too";
+  return law;
+}
+
+std::string loads_of(const Json& step) {
+  std::string result;
+  if (!step.contains("loads")) return "none";
+  for (const Json& load : step["loads"]) {
+    const std::string kind = text(load, "kind"), on = joined(load.value("on", Json::array()));
+    result += (result.empty() ? "" : "; ") + kind + (on.empty() ? "" : " on " + on);
+    const Json values = load.value("value", Json::array());
+    const bool has_axes =
+        kind == "traction" || kind == "force" || kind == "velocity" || kind == "displacement" || kind == "gravity";
+    for (size_t axis = 0; axis < values.size(); ++axis)
+      if (values[axis].is_string())
+        result += (has_axes ? std::string(", ") + "xyz"[axis] + ": " : ", ") +
+                  history_text(values[axis].get<std::string>(), kind);
+  }
+  return result.empty() ? "none" : result;
+}
+
+std::string length_of(const Json& step) {
+  const double n = number(step, "increments"), asked = number(step, "asked_increments"), dt = number(step, "dt");
+  std::string result = count(n) + (asked > n ? " of " + count(asked) : "") + (n == 1.0 ? " increment" : " increments");
+  if (std::isfinite(dt)) result += " of " + with_unit(dt, "s") + ": " + with_unit(n * dt, "s");
+  return result;
+}
+
+// The header; the last column is taken off where it holds nothing.
+std::vector<std::string> without_last(std::vector<std::vector<std::string>>& rows, std::vector<std::string> header) {
+  for (const std::vector<std::string>& row : rows)
+    if (!row.back().empty()) return header;
+  for (std::vector<std::string>& row : rows) row.pop_back();
+  header.pop_back();
+  return header;
+}
+
+}  // namespace
+
+std::string history_text(const std::string& description, const std::string& load_kind) {
+  const size_t open = description.find('(');
+  if (open == std::string::npos || description.back() != ')') return description;
+  const std::string name = description.substr(0, open),
+                    inside = description.substr(open + 1, description.size() - open - 2);
+  const std::string unit = unit_of_load(load_kind);
+  if (name == "constant") return in_unit(inside, unit);
+  if (name == "file" || name == "piecewise") return name + ", " + inside;
+  if (name == "step") {
+    const size_t at = inside.find(" at ");
+    if (at == std::string::npos) return description;
+    return "step to " + in_unit(inside.substr(0, at), unit) + " at " + in_unit(inside.substr(at + 4), "s");
+  }
+  std::string result = name == "half_sine" ? "half-sine" : name;
+  std::istringstream words(inside);
+  for (std::string part; std::getline(words, part, ',');) {
+    if (!part.empty() && part.front() == ' ') part.erase(0, 1);
+    const size_t space = part.find(' ');
+    if (space == std::string::npos) return description;
+    const std::string key = part.substr(0, space);
+    const bool is_value = key == "peak" || key == "from" || key == "to";
+    result += ", " + key + " " + in_unit(part.substr(space + 1), is_value ? unit : "s");
+  }
+  return result;
+}
+
+std::string computed_section(const RunFolder& run) {
+  const Json& record = run.record();
+  std::string body;
+  std::vector<std::vector<std::string>> rows;
+  const auto flush = [&](const std::string& title, std::vector<std::string> header) {
+    if (!rows.empty()) body += html::block(html::heading(title) + html::table(without_last(rows, header), rows));
+    rows.clear();
+  };
+  for (const Json& part : record.value("substructures", Json::array())) {
+    const double pieces = number(part, "pieces");
+    rows.push_back({text(part, "name"), text(part, "material"), count(number(part, "nodes")),
+                    count(number(part, "cells")), pieces > 1.0 ? "cut into " + count(pieces) + " pieces" : ""});
+  }
+  flush("Parts", {"part", "material", "nodes", "cells", ""});
+  for (const Json& interface : record.value("interfaces", Json::array()))
+    rows.push_back({text(interface, "name"), text(interface, "kind"),
+                    joined(interface.value("between", Json::array()), " — "), law_of(interface)});
+  flush("Interfaces", {"interface", "kind", "between", "law"});
+  for (const Json& support : record.value("supports", Json::array()))
+    rows.push_back(
+        {text(support, "name"), text(support, "kind"), joined(support.value("on", Json::array())),
+         text(support, "kind") == "wall"
+             ? law_of({{"kind", "contact"}, {"friction", number(support, "friction")}, {"gap", number(support, "gap")}})
+             : ""});
+  flush("Supports", {"support", "kind", "on", "law"});
+  for (const Json& step : record.at("steps"))
+    rows.push_back({text(step, "name"), text(step, "kind"), length_of(step), loads_of(step)});
+  flush("Steps", {"step", "kind", "length", "loads"});
+  const Json parameters = record.value("parameters", Json::object());
+  for (const auto& [name, value] : parameters.items())
+    rows.push_back({name, value.is_number() ? plain_number(value.get<double>(), 6) : "not a number"});
+  flush("Parameters of the deck (SI)", {"parameter", "value"});
+  return html::section("What was computed", html::blocks(body));
+}
+
+}  // namespace dygita

@@ -1,0 +1,222 @@
+// Bolts, and each joint: areas by state, forces, loops, works, maps.
+#include <algorithm>
+#include <cmath>
+
+#include "base/log.hpp"
+#include "report/html.hpp"
+#include "report/report_parts.hpp"
+#include "report/units.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr const char* stick_color = "#0072b2";
+constexpr const char* slip_color = "#e69f00";
+constexpr const char* open_color = "#c8c8c8";
+
+Plot small_plot(const std::string& title, const PlotAxis& x, const PlotAxis& y) {
+  Plot plot{.title = title, .x = x, .y = y};
+  plot.width = 530;
+  plot.height = 270;
+  return plot;
+}
+
+double largest(const std::vector<double>& values) {
+  double max = 0.0;
+  for (const double v : values)
+    if (std::isfinite(v)) max = std::max(max, std::abs(v));
+  return max;
+}
+
+std::pair<double, double> range(const std::vector<double>& values) {
+  double low = 0.0, high = 0.0;
+  bool is_first = true;
+  for (const double v : values) {
+    if (!std::isfinite(v)) continue;
+    low = is_first ? v : std::min(low, v);
+    high = is_first ? v : std::max(high, v);
+    is_first = false;
+  }
+  return {low, high};
+}
+
+bool is_plastic(const RunFolder& run, const Json& output) {
+  for (const Json& interface : run.record().value("interfaces", Json::array()))
+    for (const Json& on : output.value("on", Json::array()))
+      if (text(interface, "kind") == "plastic" && on.is_string() && on.get<std::string>() == text(interface, "name"))
+        return true;
+  return false;
+}
+
+constexpr double noise = 1e-6;              // of the largest force: not worth a curve
+constexpr double smallest_opening = 1e-12;  // m: what closed points are apart is rounding
+
+// What a joint did, in a sentence or two.
+std::string summary(const Table& t, bool yields) {
+  auto [low, high] = range(t.column("normal"));
+  const double most = std::max(std::abs(low), std::abs(high));
+  for (double* force : {&low, &high})
+    if (std::abs(*force) < noise * most) *force = 0.0;
+  const std::string from = with_unit(low, "N"), to = with_unit(high, "N");
+  std::string line =
+      (from == to ? "Normal force " + from : "Normal force from " + from + " to " + to) + " (pressed is negative)";
+  if (const double shear = largest(t.column("shear")); shear > noise * most)
+    line += ", shear up to " + with_unit(shear, "N");
+  const std::vector<double>&open = t.column("open_area"), &stick = t.column("stick_area"),
+        &slip = t.column("slip_area");
+  double most_open = 0.0, most_slip = 0.0;
+  for (size_t i = 0; i < open.size(); ++i) {
+    const double all = open[i] + stick[i] + slip[i];
+    if (!(all > 0.0)) continue;
+    most_open = std::max(most_open, open[i] / all);
+    most_slip = std::max(most_slip, slip[i] / all);
+  }
+  if (yields) {
+    line += most_slip > 0.0 ? fmt::format(". It yields on up to {:.0f} % of its area", 100.0 * most_slip)
+                            : ". It never yields";
+    if (largest(t.column("plastic_opening")) > 0.0)
+      line += ", by up to " + with_unit(largest(t.column("plastic_opening")), "m");
+  } else {
+    line += most_open > 0.0 ? fmt::format(". It opens on up to {:.0f} % of its area, by up to {}", 100.0 * most_open,
+                                          with_unit(largest(t.column("opening")), "m"))
+                            : ". It stays closed";
+    if (most_slip > 0.0)
+      line += fmt::format("; up to {:.0f} % slides, by up to {}", 100.0 * most_slip,
+                          with_unit(largest(t.column("slip")), "m"));
+  }
+  if (const double work = t.column("friction_work").back(); work > 0.0)
+    line += ". Friction dissipates " + with_unit(work, "J");
+  if (const double work = t.column("plastic_work").back(); work > 0.0)
+    line += ". Yielding dissipates " + with_unit(work, "J");
+  return line + ".";
+}
+
+std::string loop(const Table& t, const std::string& title, const char* x, const char* y) {
+  const std::vector<double>&across = t.column(x), &up = t.column(y);
+  const auto [low, high] = range(across);
+  if (!(high - low > smallest_opening) || across.size() < 3 || largest(up) <= noise * largest(t.column("normal")))
+    return "";
+  std::string quantity = x;
+  std::replace(quantity.begin(), quantity.end(), '_', ' ');
+  Plot plot = small_plot(title, {quantity, "m"}, {std::string(y) + " force", "N"});
+  plot.lines.push_back({"", across, up, {}, false, false, 1.2});
+  plot.marks = {{across.front(), up.front(), "start"}, {across.back(), up.back(), "end"}};
+  return html::figure(svg(plot), title + ".");
+}
+
+std::string works(const Table& t, const TimeAxis& time) {
+  Plot plot = small_plot("Work of the joint", time.axis(), {"energy dissipated", "J"});
+  plot.spans = time.spans();
+  const std::vector<double> places = time.places(t);
+  for (const char* work : {"friction_work", "plastic_work"})
+    if (largest(t.column(work)) > 0.0)
+      plot.lines.push_back({work == std::string("friction_work") ? "friction" : "yielding", places, t.column(work)});
+  return plot.lines.empty() ? "" : html::figure(svg(plot), "What friction and yielding have dissipated.");
+}
+
+std::string joint_part(const RunFolder& run, const Json& output, const TimeAxis& time) {
+  const Table t = run.table(text(output, "file"), {"normal", "shear", "opening", "slip", "plastic_opening", "open_area",
+                                                   "stick_area", "slip_area", "friction_work", "plastic_work"});
+  if (t.n_rows() == 0) return "";
+  const bool yields = is_plastic(run, output);
+  const std::vector<double> places = time.places(t);
+  Plot area = small_plot("Area by state", time.axis(), {"area", "m^2"});
+  area.spans = time.spans();
+  area.stacked = {{yields ? "elastic" : "sticking", places, t.column("stick_area"), stick_color},
+                  {yields ? "yielding" : "sliding", places, t.column("slip_area"), slip_color},
+                  {"open", places, t.column("open_area"), open_color}};
+  if (yields && largest(t.column("open_area")) == 0.0) area.stacked.pop_back();
+  Plot force = small_plot("Force through the joint", time.axis(), {"force", "N"});
+  force.spans = time.spans();
+  for (const char* name : {"normal", "shear"})
+    if (force.lines.empty() || largest(t.column(name)) > noise * largest(t.column("normal")))
+      force.lines.push_back({name, places, t.column(name), {}, false, t.n_rows() < 30});
+
+  std::string on;
+  for (const Json& place : output.value("on", Json::array()))
+    if (place.is_string()) on += (on.empty() ? "" : ", ") + place.get<std::string>();
+  std::string body = html::heading(text(output, "name") + " on " + on) + html::paragraph(summary(t, yields));
+  body += html::row(
+      {html::figure(svg(force), force.lines.size() > 1 ? "Normal and shear force on side 1 against time."
+                                                       : "Normal force on side 1 against time; hardly any shear."),
+       html::figure(svg(area), "How much of the joint is in which state."),
+       loop(t, "Normal force against opening", yields ? "plastic_opening" : "opening", "normal"),
+       loop(t, "Shear force against slip", "slip", "shear"), works(t, time)});
+  if (!run.scenes().is_object() || !run.scenes().contains("joints")) return body;
+  for (const Json& joint : run.scenes()["joints"])
+    for (const Json& place : output.value("on", Json::array()))
+      if (place.is_string() && place.get<std::string>() == text(joint, "name")) body += maps_of_joint(joint);
+  return body;
+}
+
+}  // namespace
+
+std::string joints_section(const RunFolder& run, const TimeAxis& time) {
+  std::string body;
+  for (const Json& output : run.outputs("joint")) body += joint_part(run, output, time);
+  return html::section("Joints", body);
+}
+
+// What became of each bolt, and below it all forces after each static step where there are several.
+std::string bolts_section(const RunFolder& run) {
+  const Json bolts = run.record().value("bolts", Json::array());
+  if (bolts.empty()) return "";
+  const auto by_hand = [](const Json& bolt, const char* key) {
+    return number(bolt.value("hand", Json::object()), key);
+  };
+  const auto force = [](double value) { return std::isfinite(value) ? with_unit(value, "N", 4) : std::string(); };
+  const auto any = [&](auto&& value) {
+    return std::any_of(bolts.begin(), bolts.end(), [&](const Json& b) { return std::isfinite(value(b)); });
+  };
+  const bool has_target = any([](const Json&b) { return number(b, "target"); }),
+             has_hand = any([&](const Json&b) { return by_hand(b, "force"); });
+  std::vector<std::string> header = {"bolt"};
+  if (has_target) header.push_back("asked for");
+  header.push_back("tightened to");
+  if (has_hand) header.push_back("VDI 2230, same shortening");
+  const Json& steps_of_run = run.record().at("steps");
+  const bool has_motion = std::any_of(steps_of_run.begin(), steps_of_run.end(),
+                                      [](const Json& step) { return text(step, "kind") == "dynamic"; });
+  header.push_back("shortened by");
+  if (has_motion) header.insert(header.end(), {"lowest in motion", "highest in motion"});
+  for (const char* name : {"at the end", "lost", "mean stress", "residual opening"}) header.push_back(name);
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& bolt : bolts) {
+    std::vector<std::string> row = {text(bolt, "name")};
+    if (has_target) row.push_back(force(number(bolt, "target")));
+    row.push_back(force(number(bolt, "tightened")));
+    if (has_hand) row.push_back(force(by_hand(bolt, "force")));
+    row.push_back(with_unit(number(bolt, "shortening"), "m"));
+    if (has_motion)
+      for (const char* key : {"lowest", "highest"}) row.push_back(force(number(bolt, key)));
+    row.push_back(force(number(bolt, "last")));
+    row.push_back(plain_number(100.0 * number(bolt, "loss")) + " %");
+    row.push_back(number(bolt, "area") > 0.0 ? with_unit(number(bolt, "last") / number(bolt, "area"), "Pa") : "");
+    row.push_back(with_unit(number(bolt, "plastic_opening"), "m"));
+    rows.push_back(std::move(row));
+  }
+  std::string body =
+      html::table(header, rows, true) + html::paragraph(
+                                            "Forces are those through the modelled part of each bolt, tension "
+                                            "positive; lost: of what its own tightening gave, "
+                                            "at the end; the mean stress is that at the end, over the modelled area.");
+  std::vector<std::string> steps = {"after step"};
+  for (const Json& bolt : bolts) steps.push_back(text(bolt, "name"));
+  std::vector<std::vector<std::string>> history;
+  for (const Json& step : run.record().at("steps")) {
+    if (text(step, "kind") != "static") continue;
+    std::vector<std::string> row = {text(step, "name")};
+    for (const Json& bolt : bolts) {
+      const Json after = bolt.value("after_static", Json::array());
+      row.push_back(history.size() < after.size() && after[history.size()].is_number()
+                        ? force(after[history.size()].get<double>())
+                        : "");
+    }
+    history.push_back(std::move(row));
+  }
+  if (history.size() > 1) body += html::table(steps, history, true);
+  return html::section("Bolts", body);
+}
+
+}  // namespace dygita

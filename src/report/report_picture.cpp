@@ -1,0 +1,201 @@
+// The assembly as SVG: facets back to front, by part or by von Mises stress, the undeformed outline over it.
+#include <algorithm>
+#include <cmath>
+
+#include "base/log.hpp"
+#include "report/html.hpp"
+#include "report/report_parts.hpp"
+#include "report/svg_text.hpp"
+#include "report/units.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr int n_levels = 16;
+
+// Facets as the file has them: part, light, value, number of corners, corners.
+struct DrawnFacet {
+  int part, light, value;
+  const Json* list;
+  size_t first, n;
+};
+
+std::vector<DrawnFacet> facets_of(const Json& picture) {
+  std::vector<DrawnFacet> facets;
+  const Json& list = picture.at("facets");
+  for (size_t i = 0; i + 4 <= list.size();) {
+    const size_t n = list[i + 3].get<size_t>();
+    if (n < 3 || n > 4 || i + 4 + 2 * n > list.size()) break;
+    facets.push_back({list[i].get<int>(), list[i + 1].get<int>(), list[i + 2].get<int>(), &list, i + 4, n});
+    i += 4 + 2 * n;
+  }
+  return facets;
+}
+
+std::string path_of(const DrawnFacet& facet) {
+  const auto at = [&](size_t k) { return (*facet.list)[facet.first + k].get<int>(); };
+  std::string path = fmt::format("M{} {}l", at(0), at(1));
+  for (size_t k = 1; k < facet.n; ++k)
+    path += fmt::format("{}{} {}", k > 1 ? " " : "", at(2 * k) - at(2 * k - 2), at(2 * k + 1) - at(2 * k - 1));
+  return path + "z";
+}
+
+std::string shaded(const std::string& color, int light) {
+  const double factor = 0.62 + 0.0038 * light;
+  std::string result = "#";
+  for (int c = 0; c < 3; ++c)
+    result += fmt::format(
+        "{:02x}", std::clamp(static_cast<int>(std::lround(
+                                 std::stoi(color.substr(1 + 2 * static_cast<size_t>(c), 2), nullptr, 16) * factor)),
+                             0, 255));
+  return result;
+}
+
+std::string pale(const std::string& color) {
+  std::string result = "#";
+  for (int c = 0; c < 3; ++c)
+    result +=
+        fmt::format("{:02x}", (std::stoi(color.substr(1 + 2 * static_cast<size_t>(c), 2), nullptr, 16) + 160) / 2 + 32);
+  return result;
+}
+
+std::string lines(const Json& edges, const char* style) {
+  std::string path;
+  for (const Json& e : edges)
+    path += fmt::format("M{} {}L{} {}", e.at(0).get<int>(), e.at(1).get<int>(), e.at(2).get<int>(), e.at(3).get<int>());
+  return path.empty() ? "" : fmt::format("<path d=\"{}\" fill=\"none\" {}/>\n", path, style);
+}
+
+// Top of the colour scale: what one facet in two hundred exceeds, so that a notch does not hide the rest.
+int top_of_scale(const std::vector<DrawnFacet>& facets) {
+  std::vector<int> values;
+  for (const DrawnFacet& facet : facets) values.push_back(facet.value);
+  if (values.empty()) return 1;
+  std::sort(values.begin(), values.end());
+  return std::max(1, values[std::min(values.size() - 1, values.size() * 199 / 200)]);
+}
+
+std::string axes_of(const Json& picture, double height) {
+  std::string result;
+  const char* names = "xyz";
+  for (size_t axis = 0; axis < 3 && axis < picture.at("axes").size(); ++axis) {
+    const double x = 0.03 * picture["axes"][axis].at(0).get<double>(),
+                 y = 0.03 * picture["axes"][axis].at(1).get<double>();
+    const double x_0 = 40.0, y_0 = height - 40.0;
+    result += fmt::format(
+        "<path d=\"M{} {}l{} {}\" stroke=\"#222222\" stroke-width=\"1.5\"/><text x=\"{}\" y=\"{}\" "
+        "text-anchor=\"middle\">{}</text>\n",
+        x_0, coordinate(y_0), coordinate(x), coordinate(y), coordinate(x_0 + 1.3 * x), coordinate(y_0 + 1.3 * y + 4.0),
+        names[axis]);
+  }
+  return result;
+}
+
+std::string open_svg(double width, double height, const std::string& title) {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
+      "aria-label=\"{2}\" "
+      "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\">\n<title>{2}</title>\n",
+      coordinate(width), coordinate(height), escaped(title));
+}
+
+// Facets of one colour that follow each other share a path.
+std::string drawn(const std::vector<DrawnFacet>& facets, const std::vector<std::string>& colors) {
+  std::string result, color, path;
+  const auto flush = [&] {
+    if (!path.empty()) result += fmt::format("<path fill=\"{0}\" stroke=\"{0}\" d=\"{1}\"/>\n", color, path);
+    path.clear();
+  };
+  for (size_t i = 0; i < facets.size(); ++i) {
+    if (colors[i] != color) flush();
+    color = colors[i];
+    path += path_of(facets[i]);
+  }
+  flush();
+  return result;
+}
+
+std::string by_part(const Json& picture, const Json& parts) {
+  const std::vector<DrawnFacet> facets = facets_of(picture);
+  std::vector<std::string> colors;
+  for (const DrawnFacet& facet : facets)
+    colors.push_back(shaded(pale(series_color(facet.part)), 10 * (facet.light / 10)));
+  const double width = number(picture, "width"), height = number(picture, "height"), row = 20.0;
+  std::string result = open_svg(width, height + row * (static_cast<double>(parts.size() + 2) / 3),
+                                "The assembly, a colour for each part");
+  result += "<g transform=\"scale(0.1)\" stroke-width=\"8\" stroke-linejoin=\"round\">\n" + drawn(facets, colors) +
+            lines(picture.at("edges"), "stroke=\"#333333\" stroke-width=\"9\"") + "</g>\n" + axes_of(picture, height);
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const double x = 20.0 + (width - 20.0) / 3 * static_cast<double>(i % 3),
+                 y = height + row * static_cast<double>(i / 3);
+    result += fmt::format(
+        "<rect x=\"{}\" y=\"{}\" width=\"14\" height=\"14\" fill=\"{}\"/><text x=\"{}\" y=\"{}\">{}</text>\n",
+        coordinate(x), coordinate(y), pale(series_color(static_cast<int>(i))), coordinate(x + 20.0),
+        coordinate(y + 12.0), escaped(text(parts[i], "name")));
+  }
+  return result + "</svg>\n";
+}
+
+std::string by_stress(const Json& picture, const std::string& title) {
+  const std::vector<DrawnFacet> facets = facets_of(picture);
+  const int top = top_of_scale(facets);
+  const auto color_of_level = [](int level) { return scale_color((level + 0.5) / n_levels); };
+  std::vector<std::string> colors;
+  for (const DrawnFacet& facet : facets)
+    colors.push_back(color_of_level(std::clamp(n_levels * facet.value / top, 0, n_levels - 1)));
+  const double width = number(picture, "width"), height = number(picture, "height"),
+               largest = number(picture, "largest");
+  std::string result = open_svg(width, height + 40.0, title);
+  result += "<g transform=\"scale(0.1)\" stroke-width=\"8\" stroke-linejoin=\"round\">\n" + drawn(facets, colors) +
+            lines(picture.at("edges"), "stroke=\"#222222\" stroke-width=\"6\" stroke-opacity=\"0.7\"") +
+            lines(picture.at("outline"), "stroke=\"#777777\" stroke-width=\"8\" stroke-dasharray=\"40 30\"") +
+            "</g>\n" + axes_of(picture, height);
+  const double bar = 22.0 * n_levels, left = 0.5 * (width - bar);
+  for (int level = 0; level < n_levels; ++level)
+    result += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"22.5\" height=\"12\" fill=\"{}\"/>\n",
+                          coordinate(left + 22.0 * level), coordinate(height), color_of_level(level));
+  const double high = largest * top / 1000.0;
+  result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">0</text>\n", coordinate(left),
+                        coordinate(height + 28.0));
+  result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">von Mises stress</text>\n",
+                        coordinate(0.5 * width), coordinate(height + 28.0));
+  result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}{}</text>\n", coordinate(left + bar),
+                        coordinate(height + 28.0), top < 990 ? "above " : "", escaped(with_unit(high, "Pa")));
+  return result + "</svg>\n";
+}
+
+std::string caption_of(const Json& picture) {
+  const double moved = number(picture, "largest_displacement"), scale = number(picture, "scale");
+  std::string caption = picture.value("static", false)
+                            ? "End of step '" + text(picture, "step") + "'"
+                            : "The largest strain energy in the motion, step '" + text(picture, "step") + "', " +
+                                  with_unit(number(picture, "time"), "s");
+  if (!std::isfinite(moved)) return caption + ": displacements are not finite; drawn undeformed.";
+  caption += fmt::format(": displacements up to {}, ", with_unit(moved, "m"));
+  caption += scale == 0.0   ? (moved > 0.0 ? "beyond the picture; drawn undeformed" : "nothing moves")
+             : scale == 1.0 ? "drawn as they are"
+                            : "drawn " + plain_number(scale, 6) + " times as large";
+  caption += "; von Mises stress up to " + with_unit(number(picture, "largest"), "Pa") + ".";
+  if (picture.value("cut", false)) caption += " Cut through the middle to show the inside.";
+  return caption + (scale > 0.0 ? " Dashed: undeformed." : "");
+}
+
+}  // namespace
+
+std::string picture_section(const RunFolder& run) {
+  if (!run.scenes().is_object() || !run.scenes().contains("assembly")) return "";
+  std::vector<std::string> figures;
+  for (const Json& picture : run.scenes()["assembly"]) {
+    if (text(picture, "colour") == "part")
+      figures.push_back(html::figure(by_part(picture, run.record().value("substructures", Json::array())),
+                                     picture.value("cut", false)
+                                         ? "The same, cut through the middle to show the inside."
+                                         : "The assembly, undeformed."));
+    else
+      figures.push_back(html::figure(by_stress(picture, caption_of(picture)), caption_of(picture)));
+  }
+  return html::section("The assembly", html::row(figures));
+}
+
+}  // namespace dygita

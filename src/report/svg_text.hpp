@@ -1,0 +1,20 @@
+// Pieces of SVG text: coordinates, colours that colour-blind readers tell apart.
+#pragma once
+
+#include <string>
+
+#include "base/markup.hpp"
+
+namespace dygita {
+
+// "12.3", "12", "-0.5": one decimal, no trailing zero; "0" for what is not finite.
+std::string coordinate(double value);
+
+// Colours of Okabe and Ito (2008), the first seven of a cycle; black is left for limits and specifications.
+const char* series_color(int i);
+
+// Colours of a scale from low (0) to high (1), after Matplotlib's viridis: even in lightness, so that it prints in
+// grey.
+std::string scale_color(double x);
+
+}  // namespace dygita

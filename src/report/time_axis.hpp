@@ -1,0 +1,40 @@
+// The axis of histories: time, with the static steps, in which time stands still, set apart as shaded ranges.
+#pragma once
+
+#include <vector>
+
+#include "output/run_folder.hpp"
+#include "report/svg_plot.hpp"
+
+namespace dygita {
+
+class TimeAxis {
+ public:
+  // The steps of a record that were begun.
+  explicit TimeAxis(const Json& steps);
+
+  // Place of each row of a table that has time and step.
+  std::vector<double> places(const Table& table) const;
+  // The same axis for charts of one value per increment: increments of all steps one after the other.
+  PlotAxis axis() const;
+  const std::vector<PlotSpan>& spans() const { return spans_; }
+  double record() const { return dynamic_; }  // s, of the dynamic steps
+
+  static PlotAxis increments();
+
+ private:
+  struct Range {
+    bool is_static;
+    int increments;
+    double start, width;  // place
+    double time;          // s, at the start, of the run
+  };
+  std::vector<Range> ranges_;
+  std::vector<PlotSpan> spans_;
+  double dynamic_ = 0.0;
+};
+
+// Shaded ranges of the static steps among increments 1, 2, ... of all steps; none if all steps are dynamic.
+std::vector<PlotSpan> static_increments(const Json& steps);
+
+}  // namespace dygita

@@ -1,0 +1,193 @@
+#include "run/continuation.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "base/log.hpp"
+#include "output/csv.hpp"
+#include "output/run_record.hpp"
+#include "result/hollow_result.hpp"
+#include "run/keep_state.hpp"
+
+namespace dygita {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+RunState state_in(const fs::path& run) {
+  std::error_code ignored;
+  if (!fs::is_directory(run, ignored))
+    throw InputError(fmt::format("no folder '{}'\n    a run's folder is out/<problem>/<case>", run.string()));
+  if (fs::exists(run / state_file_name, ignored)) return read_state(run / state_file_name);
+  const auto recorded = read_run_record(run);
+  if (!recorded)
+    throw InputError(
+        fmt::format("'{}' is no folder of a run: there is no {} in it\n    a run's folder is out/<problem>/<case>",
+                    run.string(), state_file_name));
+  throw InputError(
+      recorded->solver == "latin"
+          ? fmt::format(
+                "'{}' keeps no {}: the run was told --no-state, or an earlier version made it\n    run the deck again",
+                run.string(), state_file_name)
+          : fmt::format("'{}' was computed by solver.{}, which keeps nothing to go on from\n    run the deck again",
+                        run.string(), recorded->solver));
+}
+
+// The end of the run as it was asked for, s.
+double end_of(const RunState& state) {
+  double end = 0.0;
+  for (const StateStep& step : state.steps) end += step.duration;
+  return end;
+}
+
+double worst_of(const RunState& state, bool is_static) {
+  double worst = 0.0;
+  for (const StateStep& step : state.steps)
+    if (step.is_static == is_static) worst = std::max(worst, step.worst_indicator);
+  return worst;
+}
+
+// Static steps are asked a hundredth of the tolerance, as by default, or what they were asked.
+double static_tolerance(const ContinueOptions& options, const Effort& last) {
+  return options.tolerance ? std::min(last.static_tolerance, std::max(1e-14, 1e-2 * *options.tolerance))
+                           : last.static_tolerance;
+}
+
+// The problem is the one that the fields belong to.
+void check_problem_is_same(const Problem& problem, const RunState& state) {
+  for (const SubstructurePtr& part : problem.substructures) {
+    const auto kept = std::find_if(state.mesh_digests.begin(), state.mesh_digests.end(),
+                                   [&](const auto& d) { return d.first == part->name; });
+    if (kept == state.mesh_digests.end() || kept->second != part->mesh->digest)
+      throw InputError(fmt::format("the mesh of substructure '{}' ({}) has changed since the run: run the deck again",
+                                   part->name, part->mesh->source));
+  }
+  const std::vector<double> loads = load_samples(problem, state.steps);
+  double size = 0.0, difference = 0.0;
+  for (size_t i = 0; i < std::min(loads.size(), state.loads.size()); ++i) {
+    size = std::max(size, std::abs(state.loads[i]));
+    difference = std::max(difference, std::abs(loads[i] - state.loads[i]));
+  }
+  if (loads.size() != state.loads.size() || difference > 1e-6 * size)
+    throw InputError(
+        "the loads have changed since the run (a file that the deck reads, or results of another case): run the deck "
+        "again");
+}
+
+}  // namespace
+
+Continuation::Continuation(const ContinueOptions& options)
+    : options_(options), state_(std::make_shared<const RunState>(state_in(options.run))) {}
+
+std::string Continuation::idle() const {
+  const RunState& state = *state_;
+  const bool is_whole = !state.interrupted;
+  if (options_.until || options_.more_iterations > 0 || !is_whole) return "";
+  if (!options_.tolerance) {
+    if (!state.converged) return "";
+    throw InputError(
+        fmt::format("'{}': the run is complete and has converged: say --tolerance, --iterations or --until",
+                    options_.run.string()));
+  }
+  const double reached = std::max(worst_of(state, false), 0.0), reached_static = worst_of(state, true);
+  if (reached > *options_.tolerance || reached_static > static_tolerance(options_, state.efforts.back())) return "";
+  return fmt::format("nothing to do: the run has reached {:.2g}, the tolerance {:g} asks no more",
+                     std::max(reached, reached_static), *options_.tolerance);
+}
+
+void Continuation::check_until() const {
+  const RunState& state = *state_;
+  if (!options_.until) return;
+  const StateStep& last = state.steps.back();
+  if (last.is_static)
+    throw InputError(fmt::format("--until: the last step, '{}', is static and has no time to go on", last.name));
+  const double dt = last.duration / last.increments, end = end_of(state);
+  if (*options_.until < end + 0.5 * dt)
+    throw InputError(
+        fmt::format("--until {:g}: the run reaches {:g} s already\n    give a later time, in s or as in --until 0.4*ms",
+                    *options_.until, end));
+}
+
+std::shared_ptr<const RunResult> Continuation::run(const Problem& problem, const RunRequest& request) {
+  if (problem.name != state_->problem || request.case_name != state_->case_name)
+    return result_of_other(problem, request);
+  RunRequest going_on = request;
+  going_on.continues = state_;
+  going_on.replaces = options_.run;
+  going_on.start_from = nullptr;
+  auto result = run_problem(changed(problem), going_on);
+  is_done_ = true;
+  return result;
+}
+
+Problem Continuation::changed(Problem problem) const {
+  if (problem.monolithic || problem.explicit_dynamics || problem.steps.size() != state_->steps.size())
+    throw InputError("the deck declares another problem than that of the run");
+  const Effort& last = state_->efforts.back();
+  problem.solver.tolerance = options_.tolerance.value_or(last.tolerance);
+  problem.solver.static_tolerance = static_tolerance(options_, last);
+  problem.solver.spectra = 0.0;  // what is asked for now decides
+  problem.solver.more_iterations = options_.more_iterations;
+  if (problem.solver.precision == Precision::single_precision && problem.solver.tolerance < 1e-7)
+    throw InputError(fmt::format("--tolerance {:g}: 'precision' = \"single\" of the deck holds 1e-7 at least",
+                                 problem.solver.tolerance));
+  const double duration = state_->steps.back().duration + (options_.until ? *options_.until - end_of(*state_) : 0.0);
+  if (!problem.steps.back()->is_static && duration != problem.steps.back()->duration)
+    problem.steps.back() = extended(*problem.steps.back(), duration);
+  check_problem_is_same(problem, *state_);
+  return problem;
+}
+
+// The last step until --until, a whole number of dt.
+StepPtr Continuation::extended(const Step& step, double duration) const {
+  constexpr double implausible = 1000.0;
+  if (duration > implausible * step.duration)
+    throw InputError(
+        fmt::format("--until {:g} (s) is {:.3g} times as long as step '{}' of the deck: was a unit forgotten, as "
+                    "in --until 0.4*ms?",
+                    *options_.until, duration / step.duration, step.name));
+  auto longer = std::make_shared<Step>(step);
+  longer->duration = std::round(duration / longer->dt) * longer->dt;
+  if (std::abs(longer->duration - duration) > 1e-6 * longer->dt)
+    say(fmt::format("  step '{}' is extended to {:g} s, a whole number of dt", longer->name,
+                    end_of(*state_) + longer->duration - state_->steps.back().duration));
+  if (const int more = longer->n_increments() - step.n_increments(); more > 0)
+    say(fmt::format("  {} increments more than the deck's {}", more, step.n_increments()));
+  return longer;
+}
+
+// Tables of a case that is not the one continued, as its folder has them.
+std::shared_ptr<const RunResult> Continuation::result_of_other(const Problem& problem, const RunRequest& request) {
+  const fs::path folder = fs::canonical(options_.run).parent_path().parent_path() / problem.name / request.case_name;
+  const auto recorded = read_run_record(folder);
+  if (!recorded) {
+    if (!is_done_)
+      throw InputError(fmt::format(
+          "the deck runs problem '{}', case '{}' first, and its results are not in '{}': run the deck again",
+          problem.name, request.case_name, folder.string()));
+    ends_early_ = true;
+    auto none = std::make_shared<RunResult>(*hollow_result(problem));
+    none->interrupted = true;  // the deck stops here
+    return none;
+  }
+  auto result = std::make_shared<RunResult>();
+  result->converged = recorded->converged;
+  result->iterations = recorded->iterations;
+  result->mean_iterations = recorded->mean_iterations;
+  std::vector<std::string> steps;
+  for (const StepPtr& step : problem.steps) steps.push_back(step->name);
+  for (const OutputPtr& output : problem.outputs) {
+    const fs::path file =
+        folder / ((output->kind == OutputKind::energy ? "energy" : file_name_of(output->name)) + ".csv");
+    if (output->kind != OutputKind::vtk && fs::exists(file)) result->tables[output.get()] = read_csv(file, steps);
+  }
+  say(fmt::format("problem '{}', case '{}': read from {}", problem.name, request.case_name, folder.string()));
+  return result;
+}
+
+}  // namespace dygita

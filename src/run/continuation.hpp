@@ -1,0 +1,51 @@
+// Going on with a run from what it left: to a better answer, or further in time (manual, "Going on").
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "run/run_problem.hpp"
+
+namespace dygita {
+
+struct ContinueOptions {
+  std::filesystem::path run;  // out/<problem>/<case>
+  std::optional<double> tolerance;
+  int more_iterations = 0;      // at each increment; 0: as the tolerance asks
+  std::optional<double> until;  // s, of the run's time
+  int threads = 0;
+  double time_limit = 60.0, memory_limit = 1024.0;  // of the deck, as in DeckOptions
+  bool write_frames = true, write_state = true;
+};
+
+// Takes the place of run_problem while the deck of the run runs once more: the case continued goes on from its state,
+// other cases are read from their folders.
+class Continuation {
+ public:
+  // Reads the state of the run. Throws InputError (no run, no state, damaged).
+  explicit Continuation(const ContinueOptions& options);
+
+  const RunState& state() const { return *state_; }
+  // What there is not to do, or nothing where there is something. Throws InputError where nothing was asked for.
+  std::string idle() const;
+  // Throws InputError where --until is no later time.
+  void check_until() const;
+
+  // Throws InputError (another problem, mesh or loads changed, results of another case missing) and NumericalError.
+  std::shared_ptr<const RunResult> run(const Problem& problem, const RunRequest& request);
+  bool is_done() const { return is_done_; }
+  bool ends_early() const { return ends_early_; }
+
+ private:
+  Problem changed(Problem problem) const;
+  StepPtr extended(const Step& step, double duration) const;
+  std::shared_ptr<const RunResult> result_of_other(const Problem& problem, const RunRequest& request);
+
+  ContinueOptions options_;
+  std::shared_ptr<const RunState> state_;
+  bool is_done_ = false, ends_early_ = false;
+};
+
+}  // namespace dygita

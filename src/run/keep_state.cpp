@@ -1,0 +1,110 @@
+#include "run/keep_state.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <chrono>
+
+#include "base/log.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr int n_load_samples = 256;  // of a step
+
+// A deck's function may have no value where the solver never asked for one.
+double sample(const History& history, double t) {
+  try {
+    return history.value(t);
+  } catch (const InputError&) {
+    return 0.0;
+  }
+}
+
+std::string list_efforts(const std::vector<Effort>& efforts) {
+  std::string list;
+  for (const Effort& effort : efforts)
+    list += fmt::format("{}{} (tolerance {:g})", list.empty() ? "" : ", ", effort.iterations, effort.tolerance);
+  return list;
+}
+
+}  // namespace
+
+const InterfaceFields* start_of(const RunRequest& request) {
+  if (request.continues) return request.continues->fields.get();
+  if (!request.start_from) return nullptr;
+  if (request.start_from->converged) return request.start_from->interface_fields.get();
+  warn(fmt::format(
+      "case '{}': the case to start from has not converged, so its fields are not used as initial guess: the "
+      "iteration starts from scratch",
+      request.case_name));
+  return nullptr;
+}
+
+std::vector<double> load_samples(const Problem& problem, const std::vector<StateStep>& steps) {
+  std::vector<double> samples;
+  for (size_t i_step = 0; i_step < problem.steps.size() && i_step < steps.size(); ++i_step) {
+    const double end = steps[i_step].is_static ? 1.0 : steps[i_step].duration;  // a static step's loads run from 0 to 1
+    for (const LoadPtr& load : problem.steps[i_step]->loads) {
+      for (const auto& value : load->value) {
+        if (!value) continue;
+        for (int i = 0; i <= n_load_samples; ++i) samples.push_back(sample(*value, end * i / n_load_samples));
+      }
+    }
+  }
+  return samples;
+}
+
+RunState state_of(const Problem& problem, const RunRequest& request, const RunResult& result) {
+  RunState state;
+  if (!result.interface_fields) return state;
+  const RunIdentity& identity = request.identity;
+  std::error_code ignored;
+  state.program = program_version();
+  state.problem = problem.name;
+  state.case_name = request.case_name;
+  state.deck_path = std::filesystem::absolute(identity.deck_path, ignored).string();
+  state.deck_text = request.deck_text;
+  state.solver = identity.solver;
+  state.settings = request.settings;
+  state.mesh_digests = identity.mesh_digests;
+  for (size_t i = 0; i < problem.steps.size(); ++i) {
+    const Step& step = *problem.steps[i];
+    const double worst = i < result.steps.size() ? result.steps[i].worst_indicator : 0.0;
+    state.steps.push_back(
+        {step.name, step.is_static, step.n_increments(), step.is_static ? 0.0 : step.duration, worst});
+  }
+  state.loads = load_samples(problem, state.steps);
+  if (request.continues) state.efforts = request.continues->efforts;
+  state.efforts.push_back({problem.solver.tolerance, problem.solver.static_tolerance, problem.solver.more_iterations,
+                           result.iterations, result.seconds.at("all")});
+  state.converged = result.converged;
+  state.interrupted = result.interrupted;
+  state.fields = result.interface_fields;
+  return state;
+}
+
+bool reaches_as_far(const RunState& state, const RunState& before) {
+  for (size_t i = 0; i < before.fields->n_steps(); ++i)
+    if (state.fields->n_increments(i) < before.fields->n_increments(i)) return false;
+  return true;
+}
+
+void keep_state(const RunState& state, RunWriter& writer, RunResult& result) {
+  if (!state.fields) return;
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    const std::filesystem::path path = writer.path_of(state_file_name);
+    write_state(path, state);
+    result.figures["state file [MB]"] = static_cast<double>(std::filesystem::file_size(path)) / 1e6;
+  } catch (const InputError& error) {
+    warn(fmt::format("{}\n    this run cannot be continued later; its results are not touched", error.what()));
+  }
+  result.seconds["state file"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::string continuation_line(const RunState& before, const RunResult& result) {
+  return fmt::format("  continued with {} iterations; before: {}", result.iterations, list_efforts(before.efforts));
+}
+
+}  // namespace dygita

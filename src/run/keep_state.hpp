@@ -1,0 +1,27 @@
+// What a run leaves for `dygita continue`, and how it starts from what another left.
+#pragma once
+
+#include "run/run_problem.hpp"
+
+namespace dygita {
+
+// Interface fields that the iteration starts from: of the run continued, or of the case to start from; null: none.
+const InterfaceFields* start_of(const RunRequest& request);
+
+// Values of every load at even instants of its step, one after the other, `steps` having the durations: where they
+// differ, so do files that the deck reads.
+std::vector<double> load_samples(const Problem& problem, const std::vector<StateStep>& steps);
+
+// The state that a run ends with; no fields where the solver keeps none.
+RunState state_of(const Problem& problem, const RunRequest& request, const RunResult& result);
+
+// Are as many increments of every step known as before?
+bool reaches_as_far(const RunState& state, const RunState& before);
+
+// Writes the state file; where that fails the run goes on, with a warning.
+void keep_state(const RunState& state, RunWriter& writer, RunResult& result);
+
+// "  continued: 812 iterations more; ..."
+std::string continuation_line(const RunState& before, const RunResult& result);
+
+}  // namespace dygita

@@ -1,0 +1,314 @@
+#include "run/run_problem.hpp"
+
+#include <omp.h>
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "base/log.hpp"
+#include "latin/latin.hpp"
+#include "output/bolt_table.hpp"
+#include "output/replacement.hpp"
+#include "reference/explicit.hpp"
+#include "reference/monolithic.hpp"
+#include "result/collector.hpp"
+#include "result/scene_recorder.hpp"
+#include "result/spectra.hpp"
+#include "run/condensed_lines.hpp"
+#include "run/keep_state.hpp"
+#include "run/passes.hpp"
+#include "run/run_files.hpp"
+#include "solution/step_model.hpp"
+
+namespace dygita {
+
+namespace {
+
+// "'flange' 4, 'plate' 16": the substructures that were cut.
+std::string list_pieces(const Problem& problem, const std::vector<int>& pieces) {
+  std::string list;
+  for (size_t i = 0; i < pieces.size(); ++i)
+    if (pieces[i] > 1)
+      list += fmt::format("{}'{}' {}", list.empty() ? "" : ", ", problem.substructures[i]->name, pieces[i]);
+  return list;
+}
+
+void summarise(const Problem& problem, const SolverFigures& figures, RunResult& result) {
+  int increments = 0;
+  for (size_t i = 0; i < figures.steps.size(); ++i) {
+    const StepFigures& f = figures.steps[i];
+    const Step& step = *problem.steps[i];
+    result.steps.push_back(
+        {step.name, step.is_static, f.increments, f.not_converged, f.iterations, f.worst_indicator, f.seconds});
+    result.iterations += f.iterations;
+    increments += f.increments;
+    if (f.not_converged > 0) result.converged = false;
+  }
+  result.mean_iterations = increments ? static_cast<double>(result.iterations) / increments : 0.0;
+  result.interrupted = figures.interrupted;
+  result.n_dofs = figures.n_dofs;
+  result.n_interface_unknowns = figures.n_interface_unknowns;
+  result.seconds = figures.seconds;
+  result.pieces = figures.pieces;
+  result.figures.insert(figures.of_solver.begin(), figures.of_solver.end());
+  result.figures["memory of factors and interface operators [MB]"] = figures.factor_bytes / 1e6;
+  result.figures["largest difference between the interface gap and the displacements' [m]"] = figures.gap_difference;
+}
+
+// Numerical dissipation and energy gain are the price of dt and mesh at impacts: above a few percent the answer is not
+// to be trusted.
+void warn_of_losses(const Problem& problem, const RunResult& result) {
+  const double lost = result.figures.at("energy dissipated by the scheme [%]"),
+               gained = result.figures.at("energy created by the scheme [%]");
+  const double open = result.figures.at("energy imbalance [%]");
+  if (problem.explicit_dynamics) {
+    const double held = std::pow(result.figures.at("error estimate, penalty [%]"), 2) / 100.0;
+    if (held > 5.0)
+      warn(
+          fmt::format("the penalty springs hold up to {:.1f} % of the energy: a larger 'penalty' of solver.explicit "
+                      "reduces the overlap of the sides",
+                      held));
+    if (const double hourglass = result.figures.contains("largest hourglass energy [%]")
+                                     ? result.figures.at("largest hourglass energy [%]")
+                                     : 0.0;
+        hourglass > 10.0)
+      warn(fmt::format(
+          "hourglass modes hold up to {:.1f} % of the energy: take smaller elements or integration = \"full\"",
+          hourglass));
+    if (open > 0.5)
+      warn(fmt::format("the energy balance is open by {:.2f} %: take a smaller 'safety' of solver.explicit", open));
+    return;
+  }
+  if (lost > 5.0)
+    warn(
+        fmt::format("numerical dissipation takes {:.1f} % of the energy (impacts; static increments that close a gap): "
+                    "a smaller dt, smaller elements or more static increments reduce it",
+                    lost));
+  if (gained > 0.5)
+    warn(
+        fmt::format("the numerical energy gain is {:.2f} % of the energy: take a smaller dt or tolerance, or more "
+                    "static increments",
+                    gained));
+  if (open > 0.5)
+    warn(fmt::format(
+        "the energy balance is open by {:.2f} %: {}", open,
+        result.converged
+            ? "every increment has converged, so this is an error of the program: please report it with the deck"
+            : "some increments have not converged"));
+}
+
+// The run's own estimates, where they are too large to build on.
+void warn_of_errors(const Problem& problem, const RunResult& result) {
+  const auto figure = [&](const char* name) { return result.figures.contains(name) ? result.figures.at(name) : 0.0; };
+  const double iteration = figure("error estimate, iteration [%]"),
+               still = figure("error estimate, static, iteration [%]");
+  if (!problem.monolithic && !problem.explicit_dynamics && iteration > 1.0 && result.converged)
+    warn(fmt::format(
+        "the tolerance {:g} leaves about {:.2g} % of error (energy norm) on the shock: {:.1g} would leave 0.1 %",
+        problem.solver.tolerance, iteration, 0.1 * problem.solver.tolerance / iteration));
+  if (!problem.monolithic && !problem.explicit_dynamics && still > 1.0 && result.converged)
+    warn(
+        fmt::format("the static tolerance {:g} leaves about {:.2g} % of error (energy norm) in the static steps: "
+                    "{:.1g} would leave 0.1 %",
+                    problem.solver.static_tolerance, still, 0.1 * problem.solver.static_tolerance / still));
+  if (const double e = figure("error estimate, time step [%]"); e > 30.0)
+    warn(
+        fmt::format("the time step leaves about {:.2g} % of error (energy norm) on the shock, which moves at {:.3g} "
+                    "kHz on average: a "
+                    "smaller dt leaves less",
+                    e, figure("mean frequency of the motion [Hz]") / 1e3));
+  for (const auto& [name, text] : {std::pair{"error estimate, mesh [%]", "on the shock"},
+                                   {"error estimate, static, mesh [%]", "in the static steps"}})
+    if (const double e = figure(name); e > 30.0)
+      warn(
+          fmt::format("the mesh leaves about {:.2g} % of error (energy norm) {}: smaller cells leave less, "
+                      "'stress_error' shows where",
+                      e, text));
+}
+
+// A shortening that a preload has found has no range of its own.
+void warn_of_bolts(const RunResult& result) {
+  constexpr double longest = 0.01;  // m, the largest load.shortening
+  for (const BoltSummary& bolt : result.bolts)
+    if (std::abs(bolt.shortening) > longest)
+      warn(fmt::format(
+          "bolt '{}' is shortened by {:.3g} mm for its preload: is the force, or a gap, a thousand times too large?",
+          bolt.name, bolt.shortening * 1e3));
+}
+
+void say_summary(const Problem& problem, const RunResult& result, const std::filesystem::path& directory,
+                 double seconds) {
+  if (const std::string pieces = list_pieces(problem, result.pieces); !pieces.empty())
+    say("  cut into pieces: " + pieces);
+  for (const StepSummary& step : result.steps) {
+    std::string line =
+        fmt::format("  {} '{}': {} increments, {:.1f} {} each, {:.2f} s", step.is_static ? "static" : "dynamic",
+                    step.name, step.increments, step.increments ? double(step.iterations) / step.increments : 0.0,
+                    problem.explicit_dynamics && !step.is_static ? "substeps" : "iterations", step.seconds);
+    if (step.increments_not_converged > 0)
+      line += fmt::format("; {} NOT CONVERGED (worst indicator {:.1e})", step.increments_not_converged,
+                          step.worst_indicator);
+    say(line);
+  }
+  for (const std::string& line : bolt_lines(problem, result)) say(line);
+  const double lost = result.figures.at("energy dissipated by the scheme [%]"),
+               gained = result.figures.at("energy created by the scheme [%]");
+  say(fmt::format("  energy balance closes within {:.3g} %, ", result.figures.at("energy imbalance [%]")) +
+      (problem.explicit_dynamics ? fmt::format("penalty springs hold up to {:.3g} %", lost)
+                                 : fmt::format("numerical dissipation {:.3g} %, energy gain {:.3g} %", lost, gained)));
+  const auto figure = [&](const char* name) { return result.figures.at(name); };
+  const bool is_explicit = result.figures.contains("error estimate, penalty [%]");
+  if (result.figures.contains("error estimate, mesh [%]"))
+    say(fmt::format(
+        "  estimated errors (energy norm, {:.3g} kHz on average): {} {:.2g} %, time step {:.2g} %, mesh {:.2g} %",
+        figure("mean frequency of the motion [Hz]") / 1e3, is_explicit ? "penalty" : "iteration",
+        figure(is_explicit ? "error estimate, penalty [%]" : "error estimate, iteration [%]"),
+        figure("error estimate, time step [%]"), figure("error estimate, mesh [%]")));
+  if (result.figures.contains("error estimate, static, mesh [%]"))
+    say(fmt::format("  estimated errors of static steps: iteration {:.2g} %, mesh {:.2g} %",
+                    figure("error estimate, static, iteration [%]"), figure("error estimate, static, mesh [%]")));
+  say_bands(problem, result);
+  for (const OutputPtr& output : problem.outputs) {
+    if (output->kind == OutputKind::attenuation && result.tables.at(output.get()).n_rows() > 0)
+      say("  " + attenuation_summary(*output, result.tables.at(output.get())));
+    if (const std::string name = "largest exceedance of the specification of '" + output->name + "' [dB]";
+        output->specification && result.figures.contains(name)) {
+      const double frequency = figure(("frequency of the largest exceedance of '" + output->name + "' [Hz]").c_str());
+      say(fmt::format("  spectrum '{}': {:.1f} dB {} its specification at {:.4g} Hz", output->name,
+                      std::abs(figure(name.c_str())), figure(name.c_str()) > 0.0 ? "above" : "below", frequency));
+    }
+  }
+  for (const std::string& line : condensed_lines(problem, result)) say("  " + line);
+  if (!directory.empty()) say(fmt::format("  {:.2f} s in all; results in {}", seconds, directory.string()));
+}
+
+// Solves all steps once; tables and figures; scenes for the report where `keeps_scenes`.
+std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* start_from,
+                                 const Collector::FrameSink& sink, bool keeps_scenes) {
+  Collector collector(problem, sink);
+  SceneRecorder scenes(problem);
+  Observers observers({&collector});
+  if (keeps_scenes) observers.add(scenes);
+  auto result = std::make_shared<RunResult>();
+  const SolverFigures figures = problem.explicit_dynamics ? solve_explicit(problem, observers)
+                                : problem.monolithic      ? solve_monolithic(problem, observers)
+                                                          : solve(problem, observers, start_from);
+  result->interface_fields = figures.interface_fields;
+  summarise(problem, figures, *result);
+  collector.finish(*result);
+  if (keeps_scenes) scenes.finish(*result);
+  return result;
+}
+
+}  // namespace
+
+std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunRequest& request) {
+  const auto start = std::chrono::steady_clock::now();
+  if (request.threads > 0) omp_set_num_threads(request.threads);
+  check_problem(declared);
+  say(fmt::format("problem '{}', case '{}': {} substructures, {} interfaces, {} steps", declared.name,
+                  request.case_name, declared.substructures.size(), declared.interfaces.size(), declared.steps.size()));
+  std::optional<Replacement> replacement;
+  if (!request.replaces.empty()) replacement.emplace(request.replaces);
+  const std::filesystem::path directory =
+      replacement ? request.replaces : request.out / declared.name / request.case_name;
+  std::unique_ptr<RunWriter> writer;
+  Collector::FrameSink sink;
+  if (request.write_files && request.write_frames) sink = [&](const Frame& frame) { writer->write_frame(frame); };
+  const std::vector<double> tolerances = pass_tolerances(declared);
+  Problem problem = declared;  // with the tolerance of the pass
+  std::shared_ptr<RunResult> result, before;
+  for (size_t pass = 0; pass < tolerances.size(); ++pass) {
+    problem.solver.tolerance = tolerances[pass];
+    // A new writer takes away the frames of the pass before; the first of several is never the last.
+    writer.reset();
+    if (request.write_files)
+      writer = std::make_unique<RunWriter>(replacement ? replacement->work() : directory, problem.name);
+    result = sweep(problem, before ? before->interface_fields.get() : start_of(request),
+                   pass > 0 || tolerances.size() == 1 ? sink : nullptr, writer != nullptr);
+    if (before) add_pass(*before, *result);
+    if (result->interrupted || (before && have_settled(problem, *before, *result))) break;
+    before = result;
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result->seconds["all"] = seconds;
+  const RunState state =
+      (writer && request.write_state) || request.continues ? state_of(problem, request, *result) : RunState{};
+  if (request.continues) {
+    long earlier = 0;
+    for (const Effort& effort : request.continues->efforts) earlier += effort.iterations;
+    result->figures["iterations before the run was continued"] = static_cast<double>(earlier);
+  }
+  const bool is_kept = !request.continues || reaches_as_far(state, *request.continues);
+  if (writer && request.write_state && is_kept) keep_state(state, *writer, *result);
+  warn_of_losses(problem, *result);
+  warn_of_errors(problem, *result);
+  warn_of_bands(problem, *result);
+  warn_of_bolts(*result);
+  const std::vector<std::string> warnings = take_warnings();
+  RunIdentity identity = request.identity;
+  identity.threads = omp_get_max_threads();
+  identity.case_name = request.case_name;
+  if (writer) write_run_files(*writer, problem, *result, identity, warnings);
+  if (replacement && is_kept) replacement->commit();
+  if (request.continues) say(continuation_line(*request.continues, *result));
+  say_summary(problem, *result, writer && is_kept ? directory : std::filesystem::path(), seconds);
+  if (!is_kept)
+    say(fmt::format("  stopped before it reached what '{}' holds already: that is as it was", directory.string()));
+  return result;
+}
+
+std::string check_report(const Problem& problem) {
+  check_problem(problem);
+  const std::vector<Surface> surfaces = make_surfaces(problem);
+  State state = initial_state(problem, surfaces);
+  long n_dofs = 0;
+  std::string text = fmt::format("problem '{}'\n", problem.name);
+  for (const SubstructurePtr& part : problem.substructures) {
+    check_mesh(*part->mesh, part->name);
+    n_dofs += 3L * part->mesh->n_nodes();
+    text += fmt::format("  substructure '{}': {} nodes, {} cells, {}\n", part->name, part->mesh->n_nodes(),
+                        part->mesh->n_cells(), part->material.name);
+  }
+  for (const Surface& surface : surfaces)
+    text += fmt::format("  {} '{}': {} points, {:.4g} mm^2\n", surface.interface ? "interface" : "wall", surface.name(),
+                        surface.n_points(), surface.facing.areas.sum() * 1e6);
+  long increments = 0;
+  double bytes = 0.0;
+  const bool is_latin = !problem.monolithic && !problem.explicit_dynamics;
+  const CutPtr cut = is_latin ? make_cut(problem) : no_cut(problem);
+  if (const std::string pieces = list_pieces(problem, cut->counts()); !pieces.empty())
+    text += "  cut into pieces: " + pieces + "\n";
+  const std::vector<Body> bodies = make_bodies(problem, surfaces, *cut);
+  for (const StepPtr& step : problem.steps) {
+    if (problem.explicit_dynamics && !step->is_static) {
+      const ExplicitSize size = predict_explicit(problem, *step, surfaces, bodies, state);
+      text += fmt::format(
+          "  dynamic step '{}': {} increments of {:.4g} us in {} substeps each (critical time step {:.4g} us), {:.4g} "
+          "MB\n",
+          step->name, step->n_increments(), step->dt * 1e6, size.n_substeps, size.critical * 1e6, size.bytes / 1e6);
+      increments += step->n_increments();
+      bytes = std::max(bytes, size.bytes);
+      continue;
+    }
+    const StepSize size = predict_step(problem, *step, surfaces, bodies, state, cut);
+    text += fmt::format("  {} step '{}': {} increments{}, {} interface unknowns, {:.4g} MB\n",
+                        step->is_static ? "static" : "dynamic", step->name, step->n_increments(),
+                        step->is_static ? "" : fmt::format(" of {:.4g} us", step->dt * 1e6), size.n_unknowns,
+                        size.bytes / 1e6);
+    increments += step->n_increments();
+    bytes = std::max(bytes, size.bytes);
+  }
+  double matrices = 0.0;
+  for (const Body& body : bodies) matrices += 12.0 * static_cast<double>(body.matrices->stiffness.nonZeros());
+  return text + fmt::format(
+                    "  {} degrees of freedom, {} increments in all, {:.4g} MB for factors and interface operators, "
+                    "{:.4g} MB for "
+                    "matrices; nothing was solved\n",
+                    n_dofs, increments, bytes / 1e6, matrices / 1e6);
+}
+
+}  // namespace dygita

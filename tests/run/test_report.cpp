@@ -1,0 +1,325 @@
+// report.html from a run's folder: what it says, what it leaves out, what it does with damage.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "output/scratch.hpp"
+#include "report/report.hpp"
+#include "report/svg_checks.hpp"
+#include "result/scenes.hpp"
+#include "run/run_files.hpp"
+
+namespace dygita {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+SubstructurePtr tetrahedron(const std::string& name, double z) {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->nodes.resize(3, 4);
+  mesh->nodes << 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1;
+  mesh->blocks = {{CellType::tet4, {0, 1, 2, 3}}};
+  auto part = std::make_shared<Substructure>();
+  part->name = name;
+  part->mesh = mesh;
+  part->material.name = "steel";
+  part->place = {0, 0, z};
+  return part;
+}
+
+// A bolted pair, tightened and shocked, with every kind of output.
+struct Example {
+  Problem problem;
+  RunResult result;
+  RunIdentity identity;
+  std::vector<std::string> warnings;
+
+  Example() {
+    problem.name = "pair";
+    problem.substructures = {tetrahedron("lower", 0.0), tetrahedron("upper", 2.0)};
+    auto touch = std::make_shared<Interface>();
+    touch->name = "touch";
+    touch->kind = InterfaceKind::contact;
+    touch->friction = 0.25;
+    touch->side_1 = {problem.substructures[0], "top"};
+    touch->side_2 = {problem.substructures[1], "bottom"};
+    problem.interfaces = {touch};
+    problem.steps = {step("tighten", true), step("shock", false)};
+    result.steps = {{"tighten", true, 2, 0, 30, 5e-9, 0.1}, {"shock", false, 3, 0, 12, 8e-7, 0.2}};
+    const std::vector<int> rows = {0, 0, 1, 1, 1};
+    const std::vector<double> time = {0, 0, 1e-6, 2e-6, 3e-6};
+    const OutputPtr history = add(OutputKind::history, "above",
+                                  {{"time", "acceleration"}, {"s", "m/s^2"}, {time, {0, 0, 10, 20, -5}}, rows}, {});
+    auto spectrum = std::make_shared<Output>();
+    spectrum->of = history;
+    spectrum->specification = std::make_shared<Specification>(Specification{{100.0, 1000.0}, {10.0, 10.0}, "deck"});
+    add(OutputKind::srs, "srs",
+        {{"frequency", "maximax", "positive", "negative"},
+         {"Hz", "m/s^2", "m/s^2", "m/s^2"},
+         {{100, 500, 1000}, {5, 25, 8}, {4, 25, 8}, {5, 20, 7}},
+         {}},
+        {}, spectrum);
+    add(OutputKind::joint, "grip",
+        {{"time", "normal", "shear", "opening", "slip", "plastic_opening", "open_area", "stick_area", "slip_area",
+          "friction_work", "plastic_work"},
+         {"s", "N", "N", "m", "m", "m", "m^2", "m^2", "m^2", "J", "J"},
+         {time,
+          {-1e3, -2e3, -1e3, 0, -500},
+          {0, 0, 100, 0, 50},
+          {0, 0, 0, 1e-6, 0},
+          {0, 0, 1e-7, 2e-7, 2e-7},
+          {0, 0, 0, 0, 0},
+          {0, 0, 0, 1e-4, 0},
+          {1e-4, 1e-4, 0, 0, 1e-4},
+          {0, 0, 1e-4, 0, 0},
+          {0, 0, 1e-4, 1e-4, 1e-4},
+          {0, 0, 0, 0, 0}},
+         rows},
+        {touch});
+    add(OutputKind::energy, "energy",
+        {{"time", "kinetic", "strain", "loads", "friction", "plastic", "damping", "scheme", "balance"},
+         {"s", "J", "J", "J", "J", "J", "J", "J", "J"},
+         {time,
+          {0, 0, 1, 2, 1},
+          {0, 1, 1, 1, 1},
+          {0, 1, 2, 3, 2},
+          {0, 0, 0, 0, 0},
+          {0, 0, 0, 0, 0},
+          {0, 0, 0, 0, 0},
+          {0, 0, 0, 0, 0},
+          {0, 0, 0, 0, 0}},
+         rows},
+        {});
+    result.convergence = {{"time", "iterations", "indicator", "converged"},
+                          {"s", "", "", ""},
+                          {time, {20, 10, 4, 4, 4}, {5e-9, 4e-9, 8e-7, 7e-7, 6e-7}, {1, 1, 1, 1, 1}},
+                          rows};
+    result.figures = {{"energy imbalance [%]", 0.02},
+                      {"energy dissipated by the scheme [%]", 0.1},
+                      {"energy created by the scheme [%]", 0.0},
+                      {"largest energy [J]", 3.0},
+                      {"error estimate, mesh [%]", 12.0}};
+    result.seconds = {{"factor", 0.1}, {"all", 0.4}};
+    result.n_dofs = 24;
+    result.iterations = 42;
+    result.mean_iterations = 8.4;
+    identity.deck_path = "pair.lua";
+    identity.parameters = {{"mu", 0.25}};
+    identity.case_name = "stiff";
+  }
+
+  static StepPtr step(const std::string& name, bool is_static) {
+    auto step = std::make_shared<Step>();
+    step->name = name;
+    step->is_static = is_static;
+    step->increments = 2;
+    step->duration = 3e-6;
+    step->dt = 1e-6;
+    return step;
+  }
+
+  OutputPtr add(OutputKind kind, const std::string& name, Table table, const std::vector<Target>& on,
+                std::shared_ptr<Output> output = nullptr) {
+    if (!output) output = std::make_shared<Output>();
+    output->kind = kind;
+    output->name = name;
+    output->quantity = Quantity::acceleration;
+    output->on = on;
+    problem.outputs.push_back(output);
+    result.tables[output.get()] = std::move(table);
+    return output;
+  }
+
+  void draw() {
+    auto scenes = std::make_shared<Scenes>();
+    for (const bool is_static : {true, false})
+      scenes->assembly.push_back({is_static ? "tighten" : "shock",
+                                  is_static,
+                                  2e-6,
+                                  {Points::Constant(3, 4, 1e-3), Points::Zero(3, 4)},
+                                  {Vec::Constant(4, 3e6), Vec::Zero(4)}});
+    JointScenes joint;
+    joint.name = "touch";
+    joint.has_slip = true;
+    joint.points.resize(3, 3);
+    joint.points << 0, 1, 0, 0, 0, 1, 0, 0, 0;
+    joint.facets = {{{0, 1, 2, -1}, 3}};
+    for (const double time : {0.0, 1e-6})
+      joint.instants.push_back({"shock", false, time, {0, 1, 2}, {1e6f, 2e6f, 0.0f}, {0.0f, 1e-6f, 2e-6f}, {}});
+    scenes->joints = {joint};
+    result.scenes = scenes;
+  }
+
+  std::string write(const fs::path& folder) const {
+    RunWriter writer(folder, problem.name);
+    write_run_files(writer, problem, result, identity, warnings);
+    return text_of(folder / "report.html");
+  }
+};
+
+const std::vector<std::string> void_elements = {"meta"};
+
+void expect_all(const std::string& page, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) EXPECT_NE(page.find(part), std::string::npos) << part;
+}
+
+std::string fault(const fs::path& folder) {
+  try {
+    report_html(folder);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Report, tells_verdict_what_was_computed_and_every_output) {
+  const Scratch scratch;
+  Example run;
+  run.draw();
+  run.warnings = {"the mesh is <coarse> & \"old\""};
+  const std::string page = run.write(scratch.path());
+  EXPECT_EQ(test::xml_fault(page, void_elements), "");
+  expect_all(page,
+             {"<h1>pair</h1>", "case stiff", "deck pair.lua", "Converged: all 5 increments",
+              "the mesh is &lt;coarse&gt; &amp; &quot;old&quot;", "1 warning", "friction 0.25", "<h2>The assembly</h2>",
+              "<h2>Shock response spectra</h2>", "<h2>Histories</h2>", "<h2>Joints</h2>", "<h2>Energy</h2>",
+              "<h2>Convergence</h2>", "<h2>Cost</h2>", "It opens on up to 100 % of its area, by up to 1\u00a0µm",
+              "tighten (static)", "laid flat", "von Mises stress up to 3\u00a0MPa"});
+  EXPECT_EQ(page.find("<h2>Bolts"), std::string::npos);
+  for (const char* from_elsewhere : {"<script", "href", "src=", "@import", "url("})
+    EXPECT_EQ(page.find(from_elsewhere), std::string::npos) << from_elsewhere;
+}
+
+TEST(Report, is_a_function_of_the_folder) {
+  const Scratch scratch;
+  Example run;
+  run.draw();
+  const std::string page = run.write(scratch.path());
+  EXPECT_EQ(report_html(scratch.path()), page);
+  const auto files = nlohmann::json::parse(text_of(scratch.path() / "run.json"))["files"];
+  for (const char* file : {"scenes.json", "report.html", "run.json"})
+    EXPECT_EQ(std::count(files.begin(), files.end(), file), 1) << file;
+}
+
+TEST(Report, says_by_how_much_a_spectrum_leaves_its_specification) {
+  const Scratch scratch;
+  const std::string page = Example().write(scratch.path());
+  expect_all(page, {"Spectrum &#39;srs&#39; exceeds its specification by up to +8.0\u00a0dB at 500\u00a0Hz",
+                    "above the +6 dB band at 500\u00a0Hz", "±3 dB", "±6 dB", "specification"});
+  const auto record = nlohmann::json::parse(text_of(scratch.path() / "run.json"));
+  EXPECT_NEAR(record["outputs"][1]["specification"]["exceedance"]["decibels"].get<double>(), 20 * std::log10(2.5),
+              1e-9);
+  ReportRequest other;
+  other.specification = std::make_shared<Specification>(Specification{{100.0, 1000.0}, {100.0, 100.0}, "other.csv"});
+  expect_all(report_html(scratch.path(), other),
+             {"stays below its specification everywhere, nearest at 500\u00a0Hz with −12.0\u00a0dB",
+              "Specification: other.csv"});
+}
+
+TEST(Report, names_what_did_not_converge_first) {
+  const Scratch scratch;
+  Example run;
+  run.result.converged = false;
+  run.result.steps[1].increments_not_converged = 1;
+  run.result.steps[1].worst_indicator = 3e-4;
+  run.result.convergence.columns[3][3] = 0.0;
+  const std::string page = run.write(scratch.path());
+  expect_all(page, {"NOT converged: 1 of the 3 increments of step &#39;shock&#39; (worst indicator 3·10⁻⁴)",
+                    "The increment that missed", "missed the tolerance"});
+  EXPECT_LT(page.find("NOT converged"), page.find("<h2>What was computed"));
+}
+
+TEST(Report, says_how_far_an_interrupted_run_came) {
+  const Scratch scratch;
+  Example run;
+  run.result.interrupted = true;
+  run.result.steps[1].increments = 1;
+  expect_all(run.write(scratch.path()), {"Interrupted by the user: 3 of 5 increments were computed"});
+}
+
+TEST(Report, has_a_table_of_bolts_where_there_are_bolts) {
+  const Scratch scratch;
+  Example run;
+  BoltSummary bolt;
+  bolt.name = "M8 <a>";
+  bolt.area = 5e-5;
+  bolt.after_static = {30.6e3};
+  bolt.target = 31e3;
+  bolt.shortening = 6e-5;
+  bolt.lowest = 12e3;
+  bolt.highest = 40e3;
+  bolt.last = 25e3;
+  run.result.bolts = {bolt};
+  expect_all(run.write(scratch.path()), {"<h2>Bolts</h2>", "M8 &lt;a&gt;", "asked for", "31\u00a0kN", "40\u00a0kN",
+                                         "25\u00a0kN", "500\u00a0MPa", "60\u00a0µm"});
+}
+
+TEST(Report, of_a_run_without_outputs_is_short_and_sound) {
+  const Scratch scratch;
+  Example run;
+  run.problem.outputs.clear();
+  run.result.tables.clear();
+  run.result.convergence = {};
+  const std::string page = run.write(scratch.path());
+  EXPECT_EQ(test::xml_fault(page, void_elements), "");
+  expect_all(page, {"Converged", "<h2>What was computed</h2>", "<h2>Cost</h2>"});
+  for (const char* section : {"spectra", "Histories", "Joints", "Energy</h2>", "The assembly"})
+    EXPECT_EQ(page.find(section), std::string::npos) << section;
+}
+
+TEST(Report, draws_around_what_is_not_a_number) {
+  const Scratch scratch;
+  Example run;
+  run.draw();
+  for (auto& [output, table] : run.result.tables)
+    for (size_t c = 1; c < table.columns.size(); ++c) table.columns[c].back() = nan;
+  run.result.figures["energy imbalance [%]"] = nan;
+  run.result.convergence.columns[2].back() = std::numeric_limits<double>::infinity();
+  auto scenes = std::make_shared<Scenes>(*run.result.scenes);
+  scenes->assembly[1].displacement[0](0, 0) = nan;
+  scenes->joints[0].instants[0].pressure[0] = std::nanf("");
+  run.result.scenes = scenes;
+  const std::string page = run.write(scratch.path());
+  EXPECT_EQ(test::xml_fault(page, void_elements), "");
+  expect_all(page, {"not a number", "displacements are not finite; drawn undeformed"});
+  for (const char* leak : {"\"nan", " nan", "Mnan", "\"inf", "NaN"})
+    EXPECT_EQ(page.find(leak), std::string::npos) << leak;
+}
+
+TEST(Report, tells_what_the_folder_lacks) {
+  const Scratch scratch;
+  Example run;
+  run.draw();
+  run.write(scratch.path());
+  fs::remove(scratch.path() / "grip.csv");
+  put(scratch.path() / "above.csv", "time [s],step,acceleration [m/s^2]\n0,shock\n");
+  put(scratch.path() / "scenes.json", "{");
+  const std::string page = report_html(scratch.path());
+  expect_all(page, {"grip.csv is missing: it is left out",
+                    "above.csv line 2 has 2 cells where the header has 3: it is left out", "scenes.json is damaged"});
+  EXPECT_EQ(page.find("<h2>Joints"), std::string::npos);
+}
+
+TEST(Report, of_a_folder_without_a_run_is_an_input_error) {
+  const Scratch scratch;
+  EXPECT_NE(fault(scratch.path() / "nowhere").find("no folder '"), std::string::npos);
+  EXPECT_NE(fault(scratch.path()).find("holds no run.json"), std::string::npos);
+  Example().write(scratch.path() / "base");
+  EXPECT_NE(fault(scratch.path()).find("there is one in '" + (scratch.path() / "base").string()), std::string::npos);
+  put(scratch.path() / "run.json", "{\"problem\": 3}");
+  EXPECT_NE(fault(scratch.path()).find("not the record of a run"), std::string::npos);
+  put(scratch.path() / "run.json",
+      "{\"problem\": \"a\", \"verdict\": \"converged\", \"steps\": [], \"substructures\": 7}");
+  EXPECT_NE(fault(scratch.path()), "none");
+  put(scratch.path() / "run.json", "not json");
+  EXPECT_NE(fault(scratch.path()).find("damaged"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace dygita
