@@ -162,18 +162,26 @@ double make_even(Signal& signal, const std::string& file) {
   return dt;
 }
 
-SrsQuantity quantity_named(const std::string& name) {
-  static const std::map<std::string, SrsQuantity> quantities = {
+const std::map<std::string, SrsQuantity>& quantities() {
+  static const std::map<std::string, SrsQuantity> by_name = {
       {"absolute_acceleration", SrsQuantity::absolute_acceleration},
       {"relative_displacement", SrsQuantity::relative_displacement},
       {"pseudo_velocity", SrsQuantity::pseudo_velocity}};
-  if (const auto found = quantities.find(name); found != quantities.end()) return found->second;
-  std::vector<std::string> known;
-  for (const auto& [word, quantity] : quantities) known.push_back(word);
-  throw InputError(fmt::format("--quantity {}: no such quantity\n    {}", name, did_you_mean(name, known)));
+  return by_name;
+}
+
+SrsQuantity quantity_named(const std::string& name) {
+  if (const auto found = quantities().find(name); found != quantities().end()) return found->second;
+  throw InputError(fmt::format("--quantity {}: no such quantity\n    {}", name, did_you_mean(name, srs_quantities())));
 }
 
 }  // namespace
+
+std::vector<std::string> srs_quantities() {
+  std::vector<std::string> names;
+  for (const auto& [name, quantity] : quantities()) names.push_back(name);
+  return names;
+}
 
 void write_srs(const SrsCommand& command) {
   std::error_code ignored;
