@@ -176,7 +176,7 @@ void declare_commands(CLI::App& app, Command& asked) {
                    asked);
   add_srs_options(*app.add_subcommand("srs", "shock response spectrum of a CSV file"), asked.srs);
   app.add_subcommand("schema", "the reference of the deck language, as Markdown");
-  add_report_options(*app.add_subcommand("report", "write report.html of a run once more"), asked.report);
+  add_report_options(*app.add_subcommand("report", "write report.html of a run again"), asked.report);
   add_hidden_pages(app);
 }
 

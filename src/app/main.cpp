@@ -41,7 +41,7 @@ int run_or_check(Command& asked, bool solves) {
   catch_interrupts();
   const Engine engine{run_problem, check_report};
   return exit_code(solves ? run_deck(asked.deck, engine) : check_deck(asked.deck, engine),
-                   "stopped; what was computed so far is written");
+                   "stopped; the results so far are written");
 }
 
 // The name of an unknown command, which CLI11 would only call missing.

@@ -82,8 +82,8 @@ double seconds_of(const std::string& unit, const std::string& where) {
   static const std::map<std::string, double> units = {{"", 1.0},    {"s", 1.0},   {"sec", 1.0}, {"ms", 1e-3},
                                                       {"us", 1e-6}, {"µs", 1e-6}, {"ns", 1e-9}};
   if (const auto found = units.find(unit); found != units.end()) return found->second;
-  throw InputError(
-      fmt::format("{}: the first column is time, and '{}' is no unit of it\n    known: s, ms, us, ns", where, unit));
+  throw InputError(fmt::format("{}: the first column is time, and '{}' is not a unit of time\n    known: s, ms, us, ns",
+                               where, unit));
 }
 
 Signal read_signal(const SrsCommand& command) {
@@ -186,7 +186,7 @@ std::vector<std::string> srs_quantities() {
 void write_srs(const SrsCommand& command) {
   std::error_code ignored;
   if (!command.out.empty() && std::filesystem::equivalent(command.out, command.signal, ignored))
-    throw InputError(fmt::format("--out {}: that is the signal itself, which would be lost", command.out));
+    throw InputError(fmt::format("--out {}: that is the signal itself, which would be overwritten", command.out));
   SrsSettings settings = command.settings;
   settings.quantity = quantity_named(command.quantity);
   if (command.damping) settings.q_factor = q_factor_of(*command.damping);

@@ -42,7 +42,7 @@ void read_bolt(const Declaration& d, Load& load) {
   load.share = a.number_or("share", 1.0);
   if (load.kind == LoadKind::shortening) {
     if (a.has("share") && !a.has("hand"))
-      throw InputError("'share' is of the bolt that 'hand' describes, and there is no 'hand'");
+      throw InputError("'share' refers to the bolt described by 'hand', which is missing");
     return;
   }
   const bool has_force = a.has("force"), has_torque = a.has("torque");

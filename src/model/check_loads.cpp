@@ -219,7 +219,7 @@ void preloads_hold(const Problem& problem) {
             fail(problem, load->origin,
                  "step '" + step->name + "': load.preload is on " + describe(target) + ", which step '" + in->name +
                      "' has released",
-                 "what has let go carries no force any more");
+                 "a released interface carries no force");
       }
     for (const LoadPtr& load : step->loads)
       for (const Target& target : load->on)
