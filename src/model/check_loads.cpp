@@ -177,7 +177,7 @@ void preload_holds(const Problem& problem, const Step& step, const Load& load, c
         fail(problem, load.origin,
              "step '" + step.name + "': " + load.path + " is on " + describe(*bolt) + ", which step '" + in->name +
                  "' has released",
-             "what has let go carries no force any more");
+             "a released interface carries no force");
   }
 }
 

@@ -67,7 +67,7 @@ std::string verdict_text(const Json& record) {
                        increments == 1.0 ? "the one increment" : fmt::format("all {} increments", increments),
                        tolerance.empty() ? "what the solver asks for" : "the tolerance of " + tolerance);
   return fmt::format(
-      "NOT converged: {} stopped short of the tolerance{}. Do not build on what follows these increments before they "
+      "NOT converged: {} stopped short of the tolerance{}. Do not rely on what follows these increments before they "
       "converge: more iterations, a smaller dt or more static increments.",
       steps_that_missed(record), tolerance.empty() ? "" : " of " + tolerance);
 }
@@ -109,13 +109,12 @@ std::string verdict_section(const RunFolder& run, const std::vector<std::string>
   add("energy dissipated by the scheme [%]", "numerical dissipation",
       has_motion ? "impacts; lower with dt and mesh" : "gaps that close, yielding; lower with more increments",
       most_scheme_loss);
-  add("error estimate, iteration [%]", "error left by the iteration", "estimate, of the shock", most_iteration);
-  add("error estimate, penalty [%]", "error of the penalty", "estimate, of the shock", 10.0 * std::sqrt(5.0));
-  add("error estimate, time step [%]", "error of the time step", "estimate, of the shock", most_discretisation);
-  add("error estimate, mesh [%]", "error of the mesh", "estimate, of the shock", most_discretisation);
-  add("error estimate, static, iteration [%]", "error left by the iteration", "estimate, of static steps",
-      most_iteration);
-  add("error estimate, static, mesh [%]", "error of the mesh", "estimate, of static steps", most_discretisation);
+  add("error estimate, iteration [%]", "iteration error", "estimate, of the shock", most_iteration);
+  add("error estimate, penalty [%]", "penalty error", "estimate, of the shock", 10.0 * std::sqrt(5.0));
+  add("error estimate, time step [%]", "time step error", "estimate, of the shock", most_discretisation);
+  add("error estimate, mesh [%]", "mesh error", "estimate, of the shock", most_discretisation);
+  add("error estimate, static, iteration [%]", "iteration error", "estimate, of static steps", most_iteration);
+  add("error estimate, static, mesh [%]", "mesh error", "estimate, of static steps", most_discretisation);
   if (!cards.empty()) {
     body += "<div class=\"cards\">\n";
     for (const Card& card : cards) body += card_html(card);

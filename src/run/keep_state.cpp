@@ -36,7 +36,7 @@ const InterfaceFields* start_of(const RunRequest& request) {
   if (!request.start_from) return nullptr;
   if (request.start_from->converged) return request.start_from->interface_fields.get();
   warn(fmt::format(
-      "case '{}': the case to start from has not converged, so its fields are not used as initial guess: the "
+      "case '{}': the case to start from has not converged, so its fields are not used as an initial guess: the "
       "iteration starts from scratch",
       request.case_name));
   return nullptr;

@@ -107,24 +107,23 @@ void warn_of_errors(const Problem& problem, const RunResult& result) {
                still = figure("error estimate, static, iteration [%]");
   if (!problem.monolithic && !problem.explicit_dynamics && iteration > 1.0 && result.converged)
     warn(fmt::format(
-        "the tolerance {:g} leaves about {:.2g} % of error (energy norm) on the shock: {:.1g} would leave 0.1 %",
+        "the tolerance {:g} leaves an error of about {:.2g} % (energy norm) in the shock: {:.1g} would leave 0.1 %",
         problem.solver.tolerance, iteration, 0.1 * problem.solver.tolerance / iteration));
   if (!problem.monolithic && !problem.explicit_dynamics && still > 1.0 && result.converged)
     warn(
-        fmt::format("the static tolerance {:g} leaves about {:.2g} % of error (energy norm) in the static steps: "
+        fmt::format("the static tolerance {:g} leaves an error of about {:.2g} % (energy norm) in the static steps: "
                     "{:.1g} would leave 0.1 %",
                     problem.solver.static_tolerance, still, 0.1 * problem.solver.static_tolerance / still));
   if (const double e = figure("error estimate, time step [%]"); e > 30.0)
     warn(
-        fmt::format("the time step leaves about {:.2g} % of error (energy norm) on the shock, which moves at {:.3g} "
-                    "kHz on average: a "
-                    "smaller dt leaves less",
+        fmt::format("the time step leaves an error of about {:.2g} % (energy norm) in the shock, which moves at {:.3g} "
+                    "kHz on average: use a smaller dt",
                     e, figure("mean frequency of the motion [Hz]") / 1e3));
-  for (const auto& [name, text] : {std::pair{"error estimate, mesh [%]", "on the shock"},
+  for (const auto& [name, text] : {std::pair{"error estimate, mesh [%]", "in the shock"},
                                    {"error estimate, static, mesh [%]", "in the static steps"}})
     if (const double e = figure(name); e > 30.0)
       warn(
-          fmt::format("the mesh leaves about {:.2g} % of error (energy norm) {}: smaller cells leave less, "
+          fmt::format("the mesh leaves an error of about {:.2g} % (energy norm) {}: use smaller cells; "
                       "'stress_error' shows where",
                       e, text));
 }

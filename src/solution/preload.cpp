@@ -68,7 +68,7 @@ void check_reached(const Step& step, int increment, const std::vector<const Inte
     if (force[i] >= 0.5 * target[i]) continue;
     throw NumericalError(
         fmt::format("step '{}', increment {}: load.preload asks for {:.6g} N through interface.{} '{}', and no "
-                    "shortening brings more than {:.3g} N; likely "
+                    "shortening gives more than {:.3g} N; likely "
                     "cause: nothing takes the force on one of its sides (a part that is held by this interface alone, "
                     "a joint that cannot close)",
                     step.name, increment + 1, target[i], interfaces[i]->law->word(), interfaces[i]->name,

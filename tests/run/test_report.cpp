@@ -230,7 +230,7 @@ TEST(Report, names_what_did_not_converge_first) {
   run.result.convergence.columns[3][3] = 0.0;
   const std::string page = run.write(scratch.path());
   expect_all(page, {"NOT converged: 1 of the 3 increments of step &#39;shock&#39; (worst indicator 3·10⁻⁴)",
-                    "The increment that missed", "missed the tolerance"});
+                    "The increment above the tolerance", "missed the tolerance"});
   EXPECT_LT(page.find("NOT converged"), page.find("<h2>What was computed"));
 }
 
