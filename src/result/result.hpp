@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "model/model.hpp"
+#include "result/figures.hpp"
 #include "result/frame.hpp"
-#include "solution/interface_fields.hpp"
 
 namespace dygita {
 
@@ -113,8 +113,8 @@ struct RunResult {
   long n_dofs = 0, n_interface_unknowns = 0;
   std::vector<int> pieces;                // into which each substructure was cut; empty: the solver cuts none
   std::map<std::string, double> seconds;  // "assemble", "factor", "forward", "iterate", "backward", "output", ...
-  std::map<std::string, double> figures;  // "largest energy imbalance [%]", "largest penetration [m]", ...
-  std::shared_ptr<const Scenes> scenes;   // what the report draws; null: nobody recorded it
+  Figures figures;
+  std::shared_ptr<const Scenes> scenes;  // what the report draws; null: nobody recorded it
 };
 
 }  // namespace dygita
