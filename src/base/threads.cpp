@@ -1,5 +1,6 @@
 #include "base/threads.hpp"
 
+#include <pmmintrin.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -14,6 +15,11 @@ void wait_passively(char** argv, const char* blas_kernels) {
   setenv("OPENBLAS_NUM_THREADS", "1", 0);
   // Where /proc is missing the program goes on as it is, only slower on a busy machine.
   execv("/proc/self/exe", argv);
+}
+
+void flush_denormals() {
+  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+  _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
 }
 
 }  // namespace dygita

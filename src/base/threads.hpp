@@ -1,4 +1,4 @@
-// How threads wait: a program on a shared machine must not spin.
+// How threads wait (a program on a shared machine must not spin) and count.
 #pragma once
 
 namespace dygita {
@@ -8,5 +8,9 @@ namespace dygita {
 // OMP_WAIT_POLICY=passive and OPENBLAS_NUM_THREADS=1 where the user has set neither. Call first in main. blas_kernels:
 // the kernels that OpenBLAS is to use, where its own choice is poor (better_blas_kernels); null: its own choice.
 void wait_passively(char** argv, const char* blas_kernels = nullptr);
+
+// Numbers too small to be normal are zero from now on in this thread: a wave's tail would cost a hundred times its
+// front.
+void flush_denormals();
 
 }  // namespace dygita

@@ -1,20 +1,24 @@
 #include "deck/arguments.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
+#include <string_view>
+
 namespace dygita {
 
-int Arguments::type(const char* key) const {
+int LuaArguments::type(const char* key) const {
   push(key);
   const int found = lua_type(L_, -1);
   lua_pop(L_, 1);
   return found;
 }
 
-bool Arguments::has(const char* key) const { return type(key) != LUA_TNIL; }
-bool Arguments::is_number(const char* key) const { return type(key) == LUA_TNUMBER; }
-bool Arguments::is_table(const char* key) const { return type(key) == LUA_TTABLE; }
-bool Arguments::is_function(const char* key) const { return type(key) == LUA_TFUNCTION; }
+bool LuaArguments::has(const char* key) const { return type(key) != LUA_TNIL; }
+bool LuaArguments::is_number(const char* key) const { return type(key) == LUA_TNUMBER; }
+bool LuaArguments::is_table(const char* key) const { return type(key) == LUA_TTABLE; }
+bool LuaArguments::is_function(const char* key) const { return type(key) == LUA_TFUNCTION; }
 
-double Arguments::number(const char* key) const {
+double LuaArguments::number(const char* key) const {
   CHECK(is_number(key), std::string("argument '") + key + "' is not a number");
   push(key);
   const double value = lua_tonumber(L_, -1);
@@ -22,16 +26,14 @@ double Arguments::number(const char* key) const {
   return value;
 }
 
-int Arguments::integer(const char* key) const { return static_cast<int>(number(key)); }
-
-bool Arguments::boolean(const char* key) const {
+bool LuaArguments::boolean(const char* key) const {
   push(key);
   const bool value = lua_toboolean(L_, -1) != 0;
   lua_pop(L_, 1);
   return value;
 }
 
-std::string Arguments::text(const char* key) const {
+std::string LuaArguments::text(const char* key) const {
   CHECK(type(key) == LUA_TSTRING, std::string("argument '") + key + "' is not text");
   push(key);
   size_t length = 0;
@@ -41,7 +43,7 @@ std::string Arguments::text(const char* key) const {
   return value;
 }
 
-std::vector<double> Arguments::numbers(const char* key) const {
+std::vector<double> LuaArguments::numbers(const char* key) const {
   std::vector<double> values;
   push(key);
   const auto n = static_cast<lua_Integer>(lua_rawlen(L_, -1));
@@ -54,18 +56,12 @@ std::vector<double> Arguments::numbers(const char* key) const {
   return values;
 }
 
-Vec3 Arguments::vector(const char* key) const {
-  const std::vector<double> values = numbers(key);
-  CHECK(values.size() == 3, std::string("argument '") + key + "' is not a vector");
-  return {values[0], values[1], values[2]};
-}
-
-std::array<int, 3> Arguments::counts(const char* key) const {
+std::array<int, 3> LuaArguments::counts(const char* key) const {
   const Vec3 values = vector(key);
   return {static_cast<int>(values[0]), static_cast<int>(values[1]), static_cast<int>(values[2])};
 }
 
-std::vector<std::string> Arguments::texts(const char* key) const {
+std::vector<std::string> LuaArguments::texts(const char* key) const {
   std::vector<std::string> values;
   push(key);
   const auto n = static_cast<lua_Integer>(lua_rawlen(L_, -1));
@@ -78,24 +74,25 @@ std::vector<std::string> Arguments::texts(const char* key) const {
   return values;
 }
 
-std::map<std::string, double> Arguments::settings(const char* key) const {
+std::map<std::string, double> LuaArguments::settings(const char* key) const {
   std::map<std::string, double> values;
   push(key);
   if (lua_istable(L_, -1)) {
-    for (lua_pushnil(L_); lua_next(L_, -2); lua_pop(L_, 1)) values[lua_tostring(L_, -2)] = lua_tonumber(L_, -1);
+    for (lua_pushnil(L_); lua_next(L_, -2); lua_pop(L_, 1))
+      values[lua_tostring(L_, -2)] = lua_isboolean(L_, -1) ? lua_toboolean(L_, -1) : lua_tonumber(L_, -1);
   }
   lua_pop(L_, 1);
   return values;
 }
 
-const Object& Arguments::object(const char* key) const {
+const Object& LuaArguments::object(const char* key) const {
   push(key);
   const Object& object = the_object_at(L_, -1);
   lua_pop(L_, 1);  // the table of arguments keeps it alive
   return object;
 }
 
-std::vector<const Object*> Arguments::objects(const char* key) const {
+std::vector<const Object*> LuaArguments::objects(const char* key) const {
   std::vector<const Object*> items;
   push(key);
   if (const Object* single = object_at(L_, -1)) {
@@ -112,7 +109,16 @@ std::vector<const Object*> Arguments::objects(const char* key) const {
   return items;
 }
 
-std::vector<int> Arguments::ids() const {
+std::string LuaArguments::file(const char* key) const {
+  const std::string written = text(key);
+  const std::filesystem::path path = folder_ / written;  // an absolute one stands for itself
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) return path.string();
+  const std::string who = std::string_view(key) == "file" ? path_ : fmt::format("{}: '{}'", path_, key);
+  throw InputError(origin_, fmt::format("{}: no file '{}'\n    looked for {}", who, written, path.string()));
+}
+
+std::vector<int> LuaArguments::ids() const {
   std::vector<int> found;
   const auto note = [&] {
     if (const Object* object = object_at(L_, -1); object && object->id >= 0) found.push_back(object->id);

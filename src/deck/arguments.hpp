@@ -2,36 +2,53 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <lua.hpp>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "deck/object.hpp"
+#include "model/arguments.hpp"
 
 namespace dygita {
 
-class Arguments {
+class LuaArguments : public ModelArguments {
  public:
-  Arguments(lua_State* L, int index) : L_(L), index_(lua_absindex(L, index)) {}
+  // path: the constructor's or method's; folder: the deck's, where its relative paths start.
+  LuaArguments(lua_State* L, int index, std::string path, Origin origin, std::filesystem::path folder)
+      : L_(L),
+        index_(lua_absindex(L, index)),
+        path_(std::move(path)),
+        origin_(std::move(origin)),
+        folder_(std::move(folder)) {}
 
-  bool has(const char* key) const;
-  bool is_number(const char* key) const;
-  bool is_table(const char* key) const;
+  const std::string& path() const override { return path_; }
+  const Origin& origin() const override { return origin_; }
+
+  bool has(const char* key) const override;
+  bool is_number(const char* key) const override;
+  bool is_table(const char* key) const override;
   bool is_function(const char* key) const;
 
-  double number(const char* key) const;
-  double number_or(const char* key, double otherwise) const { return has(key) ? number(key) : otherwise; }
-  int integer(const char* key) const;
-  bool boolean(const char* key) const;
-  std::string text(const char* key) const;
-  Vec3 vector(const char* key) const;
+  double number(const char* key) const override;
+  bool boolean(const char* key) const override;
+  std::string text(const char* key) const override;
+  std::vector<double> numbers(const char* key) const override;
+  std::vector<std::string> texts(const char* key) const override;
+  std::map<std::string, double> settings(const char* key) const override;
+
+  TimeValue value(const char* key) const override;
+  std::vector<Target> targets(const char* key) const override;
+  std::vector<SubstructurePtr> substructures(const char* key) const override;
+  StepPtr step(const char* key) const override;
+  OutputPtr output(const char* key) const override;
+  std::shared_ptr<const Specification> specification(const char* key) const override;
+
   std::array<int, 3> counts(const char* key) const;
-  std::vector<double> numbers(const char* key) const;
-  std::vector<std::string> texts(const char* key) const;
-  std::map<std::string, double> settings(const char* key) const;  // empty when absent
   const Object& object(const char* key) const;
   std::vector<const Object*> objects(const char* key) const;  // one alone counts as a list
+  // The file that an argument names; relative paths start at the deck's folder. Throws InputError if there is none.
+  std::string file(const char* key) const;
 
   // The objects of a list as what they hold.
   template <class T>
@@ -44,15 +61,16 @@ class Arguments {
   // Declaration ids of every object in the table or in its lists.
   std::vector<int> ids() const;
 
-  // Pushes the value of `key` on the stack.
-  void push(const char* key) const { lua_getfield(L_, index_, key); }
-  lua_State* raw() const { return L_; }
-
  private:
   int type(const char* key) const;
+  void push(const char* key) const { lua_getfield(L_, index_, key); }
+  TimeValue function(const char* key) const;
 
   lua_State* L_;
   int index_;
+  std::string path_;
+  Origin origin_;
+  std::filesystem::path folder_;
 };
 
 }  // namespace dygita

@@ -14,21 +14,13 @@ double torque_force(const Arguments& a, double share) {
   return share * a.number("torque") / (a.number("friction_factor") * a.number("diameter"));
 }
 
-bool is_true(const Arguments& a, const char* table, const char* key) {
-  a.push(table);
-  lua_getfield(a.raw(), -1, key);
-  const bool value = lua_toboolean(a.raw(), -1) != 0;
-  lua_pop(a.raw(), 2);
-  return value;
-}
-
 BoltDimensions dimensions(const Arguments& a) {
   std::map<std::string, double> given = a.settings("hand");
   BoltDimensions b{given["diameter"], given["grip"],  given["head"],       given["hole"],
                    given["outer"],    given["young"], given["plate_young"]};
   b.core = given.contains("core") ? given["core"] : b.diameter;
   b.thread = given["thread"];
-  b.is_tapped = is_true(a, "hand", "tapped");
+  b.is_tapped = given["tapped"] != 0.0;
   const auto refuse = [](const char* what, double value, const char* other, double bound, bool below) {
     throw InputError(fmt::format("'hand.{}' = {:g} m must not be {} 'hand.{}' = {:g} m", what, value,
                                  below ? "below" : "above", other, bound));
@@ -45,7 +37,7 @@ BoltDimensions dimensions(const Arguments& a) {
 }  // namespace
 
 void read_bolt(const Declaration& d, Load& load) {
-  const Arguments& a = d.arguments;
+  const LuaArguments& a = d.arguments;
   if (a.has("hand")) load.hand = dimensions(a);
   load.share = a.number_or("share", 1.0);
   if (load.kind == LoadKind::shortening) {

@@ -6,60 +6,11 @@ namespace dygita {
 
 namespace {
 
-// A function of time of the deck, kept by Lua as long as a history needs it.
-class DeckFunction {
- public:
-  // Takes the function on top of the stack.
-  explicit DeckFunction(LuaState& lua) : lua_(lua), alive_(lua.alive()) {
-    lua_Debug info;
-    lua_pushvalue(lua.raw(), -1);
-    lua_getinfo(lua.raw(), ">S", &info);
-    declared_at_ = info.linedefined;
-    reference_ = luaL_ref(lua.raw(), LUA_REGISTRYINDEX);
-  }
-  ~DeckFunction() {
-    if (*alive_) luaL_unref(lua_.raw(), LUA_REGISTRYINDEX, reference_);
-  }
-  DeckFunction(const DeckFunction&) = delete;
-  DeckFunction& operator=(const DeckFunction&) = delete;
-
-  double value(double t) const {
-    CHECK(*alive_, "a history asks its deck's function after the deck has ended");
-    return lua_.value_of_function(reference_, declared_at_, t);
-  }
-
- private:
-  LuaState& lua_;
-  std::shared_ptr<const bool> alive_;
-  int reference_ = LUA_NOREF, declared_at_ = 0;
-};
-
-struct Value {
-  History history;
-  bool is_number = false;
-};
-
-Value value_of(const Declaration& d, const char* key) {
-  if (d.arguments.is_number(key)) return {History::constant(d.arguments.number(key)), true};
-  if (!d.arguments.is_function(key)) return {*d.arguments.object(key).as<std::shared_ptr<const History>>(), false};
-  d.arguments.push(key);
-  const auto function = std::make_shared<const DeckFunction>(d.lua);
-  function->value(0.0);  // what cannot answer at all is told where it is declared
-  return {History::function([function](double t) { return function->value(t); }), false};
-}
-
 void set_value(const Declaration& d, const char* key, size_t component, Load& load) {
   if (!d.arguments.has(key)) return;
-  const Value value = value_of(d, key);
+  const TimeValue value = d.arguments.value(key);
   load.value[component] = value.history;
   load.is_number[component] = value.is_number;
-}
-
-Target target_of(const Object& object) {
-  if (object.kind == "face") return object.as<Face>();
-  if (object.kind == "region") return object.as<Region>();
-  if (object.kind == "interface") return object.as<InterfacePtr>();
-  return object.as<SupportPtr>();
 }
 
 Content build_load(const Declaration& d) {
@@ -76,12 +27,12 @@ Content build_load(const Declaration& d) {
   auto load = std::make_shared<Load>();
   load->kind = kinds.at(d.path);
   load->origin = d.origin;
-  load->on = targets_of(d);
+  load->on = d.arguments.targets("on");
   for (const char* scalar : {"history", "by", "at", "force"}) set_value(d, scalar, 0, *load);
   set_value(d, "x", 0, *load);
   set_value(d, "y", 1, *load);
   set_value(d, "z", 2, *load);
-  if (d.arguments.has("direction")) load->direction = unit_direction(d);
+  if (d.arguments.has("direction")) load->direction = d.arguments.unit_vector("direction");
   if (load->kind == LoadKind::shortening || load->kind == LoadKind::preload) read_bolt(d, *load);
   return LoadPtr(load);
 }
@@ -95,7 +46,7 @@ Content build_step(const Declaration& d) {
 }
 
 Content build_ramp(const Declaration& d) {
-  const Arguments& a = d.arguments;
+  const LuaArguments& a = d.arguments;
   return content(History::ramp(a.number("from"), a.number("to"), a.number("duration")));
 }
 
@@ -108,7 +59,7 @@ Content build_haversine(const Declaration& d) {
 }
 
 Content build_pulse(const Declaration& d) {
-  const Arguments& a = d.arguments;
+  const LuaArguments& a = d.arguments;
   const double rise = a.number("rise"), hold = a.number("hold"), fall = a.number("fall");
   if (rise + hold + fall <= 0.0) throw InputError("'rise', 'hold' and 'fall' are all zero: the pulse has no length");
   return content(History::pulse(a.number("peak"), rise, hold, fall));
@@ -127,15 +78,9 @@ Content build_piecewise(const Declaration& d) {
   return content(History::piecewise(std::move(times), std::move(values)));
 }
 
-Content build_file(const Declaration& d) { return content(History::from_file(file_of(d))); }
+Content build_file(const Declaration& d) { return content(History::from_file(d.arguments.file("file"))); }
 
 }  // namespace
-
-std::vector<Target> targets_of(const Declaration& declaration) {
-  std::vector<Target> targets;
-  for (const Object* object : declaration.arguments.objects("on")) targets.push_back(target_of(*object));
-  return targets;
-}
 
 const Builders& load_builders() {
   static const Builders builders = {

@@ -50,21 +50,4 @@ Face face_of(const SubstructurePtr& part, const std::string& group, const Origin
                                        did_you_mean(group, known)));
 }
 
-std::string file_of(const Declaration& declaration) {
-  const std::string written = declaration.arguments.text("file");
-  const std::filesystem::path path = declaration.folder / written;  // an absolute one stands for itself
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) {
-    throw InputError(declaration.origin,
-                     fmt::format("{}: no file '{}'\n    looked for {}", declaration.path, written, path.string()));
-  }
-  return path.string();
-}
-
-Vec3 unit_direction(const Declaration& declaration) {
-  const Vec3 direction = declaration.arguments.vector("direction");
-  if (direction.norm() > 0.0) return direction.normalized();
-  throw InputError(declaration.origin, declaration.path + ": 'direction' is zero\n    as in direction = { 0, 0, 1 }");
-}
-
 }  // namespace dygita

@@ -1,7 +1,6 @@
 // From checked tables to the model: one builder a constructor of the schema.
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <string>
 
@@ -13,10 +12,9 @@ namespace dygita {
 // One call of a constructor.
 struct Declaration {
   LuaState& lua;
-  const std::filesystem::path& folder;  // the deck's, where its relative paths start
-  std::string path;                     // "interface.contact"
+  std::string path;  // "interface.contact"
   Origin origin;
-  Arguments arguments;
+  LuaArguments arguments;
 };
 
 using Builder = Content (*)(const Declaration&);
@@ -33,15 +31,6 @@ Content build(const Declaration& declaration);
 // The volume `name` of a mesh file and the face `group` of a part (InputError at `origin` for an unknown one).
 MeshPtr volume_of(const GmshMeshes& file, const std::string& name, const Origin& origin);
 Face face_of(const SubstructurePtr& part, const std::string& group, const Origin& origin);
-
-// A path of the deck: relative ones start at the deck's folder. Throws InputError if there is no such file.
-std::string file_of(const Declaration& declaration);
-
-// The argument `on` as targets.
-std::vector<Target> targets_of(const Declaration& declaration);
-
-// Direction of unit length; throws InputError on a zero vector.
-Vec3 unit_direction(const Declaration& declaration);
 
 template <class T>
 std::shared_ptr<T> new_named(const Declaration& declaration) {

@@ -26,7 +26,7 @@ Content build_box(const Declaration& d) {
 
 Content build_gmsh(const Declaration& d) {
   GmshOptions options;
-  options.file = file_of(d);
+  options.file = d.arguments.file("file");
   check_script(options.file);
   options.set = d.arguments.settings("set");
   if (d.arguments.has("size")) options.size = d.arguments.number("size");

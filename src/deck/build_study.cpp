@@ -4,7 +4,6 @@
 
 #include "base/log.hpp"
 #include "deck/build_model.hpp"
-#include "deck/build_specification.hpp"
 
 namespace dygita {
 
@@ -14,7 +13,7 @@ constexpr double most_time_steps = 1e7;
 
 std::shared_ptr<Step> new_step(const Declaration& d) {
   auto step = new_named<Step>(d);
-  if (d.arguments.has("after")) step->after = d.arguments.object("after").as<StepPtr>();
+  step->after = d.arguments.step("after");
   step->loads = d.arguments.list<LoadPtr>("loads");
   if (d.arguments.has("supports")) step->supports = d.arguments.list<SupportPtr>("supports");
   return step;
@@ -43,21 +42,8 @@ Content build_dynamic(const Declaration& d) {
   return StepPtr(step);
 }
 
-// The faces and regions of an argument, none where it is left out.
-std::vector<FaceOrRegion> places_of(const Declaration& d, const char* key) {
-  std::vector<FaceOrRegion> places;
-  if (!d.arguments.has(key)) return places;
-  for (const Object* object : d.arguments.objects(key)) {
-    if (object->kind == "face")
-      places.emplace_back(object->as<Face>());
-    else
-      places.emplace_back(object->as<Region>());
-  }
-  return places;
-}
-
 Content build_latin(const Declaration& d) {
-  const Arguments& a = d.arguments;
+  const LuaArguments& a = d.arguments;
   auto settings = std::make_shared<LatinSettings>();
   settings->tolerance = a.number("tolerance");
   settings->static_tolerance = a.number("static_tolerance");
@@ -89,7 +75,7 @@ Content build_latin(const Declaration& d) {
 }
 
 Content build_monolithic(const Declaration& d) {
-  const Arguments& a = d.arguments;
+  const LuaArguments& a = d.arguments;
   auto settings = std::make_shared<MonolithicSettings>();
   settings->tolerance = a.number("tolerance");
   settings->max_iterations = a.integer("max_iterations");
@@ -99,7 +85,7 @@ Content build_monolithic(const Declaration& d) {
 }
 
 Content build_explicit(const Declaration& d) {
-  const Arguments& a = d.arguments;
+  const LuaArguments& a = d.arguments;
   auto settings = std::make_shared<ExplicitSettings>();
   settings->safety = a.number("safety");
   settings->penalty = a.number("penalty");
@@ -134,23 +120,23 @@ Content build_history(const Declaration& d) {
       {"von_mises", Quantity::von_mises},       {"pressure", Quantity::pressure}};
   auto output = new_named<Output>(d);
   output->kind = OutputKind::history;
-  output->on = targets_of(d);
+  output->on = d.arguments.targets("on");
   output->quantity = quantities.at(d.arguments.text("quantity"));
-  if (d.arguments.has("direction")) output->direction = unit_direction(d);
+  if (d.arguments.has("direction")) output->direction = d.arguments.unit_vector("direction");
   return OutputPtr(output);
 }
 
 Content build_resultant(const Declaration& d) {
   auto output = new_named<Output>(d);
   output->kind = OutputKind::resultant;
-  output->on = targets_of(d);
+  output->on = d.arguments.targets("on");
   return OutputPtr(output);
 }
 
 Content build_joint(const Declaration& d) {
   auto output = new_named<Output>(d);
   output->kind = OutputKind::joint;
-  output->on = targets_of(d);
+  output->on = d.arguments.targets("on");
   return OutputPtr(output);
 }
 
@@ -174,21 +160,21 @@ SrsSettings srs_settings(const Arguments& a) {
 Content build_loop(const Declaration& d) {
   auto output = new_named<Output>(d);
   output->kind = OutputKind::loop;
-  output->on = targets_of(d);
-  output->direction = unit_direction(d);
-  output->between = places_of(d, "between");
-  if (d.arguments.has("after")) output->after = d.arguments.object("after").as<StepPtr>();
+  output->on = d.arguments.targets("on");
+  output->direction = d.arguments.unit_vector("direction");
+  output->between = d.arguments.places("between");
+  output->after = d.arguments.step("after");
   return OutputPtr(output);
 }
 
 Content build_superelement(const Declaration& d) {
   static const std::map<std::string, FaceMotion> motions = {
       {"mean", FaceMotion::mean}, {"rigid", FaceMotion::rigid}, {"nodes", FaceMotion::nodes}};
-  const Arguments& a = d.arguments;
+  const LuaArguments& a = d.arguments;
   auto output = new_named<Output>(d);
   output->kind = OutputKind::superelement;
-  output->on = targets_of(d);
-  if (a.has("after")) output->after = a.object("after").as<StepPtr>();
+  output->on = d.arguments.targets("on");
+  output->after = a.step("after");
   if (a.has("up_to") && a.has("modes"))
     throw InputError("'up_to' and 'modes' exclude each other: modes are kept up to twice 'up_to'");
   output->superelement.motion = motions.at(a.text("motion"));
@@ -199,12 +185,12 @@ Content build_superelement(const Declaration& d) {
 }
 
 Content build_srs(const Declaration& d) {
-  const Arguments& a = d.arguments;
+  const LuaArguments& a = d.arguments;
   auto output = new_named<Output>(d);
   output->kind = OutputKind::srs;
-  output->of = a.object("of").as<OutputPtr>();
+  output->of = a.output("of");
   output->srs = srs_settings(a);
-  output->specification = specification_of(d);
+  output->specification = a.specification("specification");
   if (output->specification && output->srs.quantity != SrsQuantity::absolute_acceleration)
     throw InputError("a 'specification' is of absolute acceleration: leave 'quantity' out");
   return OutputPtr(output);
@@ -213,19 +199,19 @@ Content build_srs(const Declaration& d) {
 Content build_srs_field(const Declaration& d) {
   auto output = new_named<Output>(d);
   output->kind = OutputKind::srs_field;
-  output->on = targets_of(d);
+  output->on = d.arguments.targets("on");
   output->quantity = Quantity::acceleration;
-  if (d.arguments.has("direction")) output->direction = unit_direction(d);
+  if (d.arguments.has("direction")) output->direction = d.arguments.unit_vector("direction");
   output->srs = srs_settings(d.arguments);
   return OutputPtr(output);
 }
 
 Content build_attenuation(const Declaration& d) {
-  const Arguments& a = d.arguments;
+  const LuaArguments& a = d.arguments;
   auto output = new_named<Output>(d);
   output->kind = OutputKind::attenuation;
-  output->of = a.object("entering").as<OutputPtr>();
-  output->leaving = a.object("leaving").as<OutputPtr>();
+  output->of = a.output("entering");
+  output->leaving = a.output("leaving");
   output->srs = srs_settings(a);
   output->bands = a.integer("bands");
   output->n_joints = a.integer("joints");
@@ -233,7 +219,7 @@ Content build_attenuation(const Declaration& d) {
 }
 
 Content build_problem(const Declaration& d) {
-  const Arguments& a = d.arguments;
+  const LuaArguments& a = d.arguments;
   auto problem = new_named<Problem>(d);
   problem->substructures = a.list<SubstructurePtr>("substructures");
   problem->interfaces = a.list<InterfacePtr>("interfaces");

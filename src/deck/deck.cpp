@@ -223,7 +223,7 @@ int run_from_deck(DeckState& state, lua_State* L) {
   }
   state.declared.mark_used(self.id);
   ++state.outcome.n_runs;
-  const Arguments arguments(L, 3);
+  const LuaArguments arguments(L, 3, "run", origin, state.folder);
   const DeckResultPtr start_from =
       arguments.has("start_from") ? arguments.object("start_from").as<DeckResultPtr>() : nullptr;
   DeckResultPtr result = compute_at(origin, state, problem, case_name, start_from);

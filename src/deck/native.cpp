@@ -115,8 +115,8 @@ int make(LuaState& lua, lua_State* L) {
   DeckState& state = DeckState::of(lua);
   const std::string path = lua_tostring(L, 1);
   const Origin origin = state.origin(static_cast<int>(lua_tointeger(L, 4)));
-  const Arguments values(L, 3);
-  Object object{lua_tostring(L, 2), path, "", -1, build({state, state.folder, path, origin, values})};
+  const LuaArguments values(L, 3, path, origin, state.folder);
+  Object object{lua_tostring(L, 2), path, "", -1, build({state, path, origin, values})};
   if (path == "param") {
     keep_parameters(state, L, 3, origin);
   } else {

@@ -1,9 +1,10 @@
 // Sums over the cells that end at nodes, in parallel, with the same result for any number of threads.
 #pragma once
 
-#include <exception>
+#include <mutex>
 #include <vector>
 
+#include "base/parallel.hpp"
 #include "fem/cells.hpp"
 
 namespace dygita {
@@ -36,29 +37,26 @@ NodeOwners node_owners(const Mesh& mesh);
 template <class Kernel>
 void sum_at_nodes(const CellBlock& block, const NodeOwners& owners, const Kernel& kernel) {
   const int n_cells = block.n_cells(), n_local = nodes_per_cell(block.type);
-  std::exception_ptr error;
-
-#pragma omp parallel for schedule(static, 1) num_threads(owners.n_owners)
-  for (int owner = 0; owner < owners.n_owners; ++owner) try {
-      Kernel mine = kernel;
-      if constexpr (requires { mine.begin(owner); }) mine.begin(owner);
-      for (int i = 0; i < n_cells; ++i) {
-        const int* nodes = block.cell(i);
-        bool is_computed = false;
-        for (int a = 0; a < n_local; ++a) {
-          if (owners.owner[nodes[a]] != owner) continue;
-          if (!is_computed) mine.compute(nodes, i);
-          is_computed = true;
-          mine.add(nodes, a);
+  std::mutex one_at_a_time;
+  parallel_for(
+      owners.n_owners,
+      [&](int owner) {
+        Kernel mine = kernel;
+        if constexpr (requires { mine.begin(owner); }) mine.begin(owner);
+        for (int i = 0; i < n_cells; ++i) {
+          const int* nodes = block.cell(i);
+          bool is_computed = false;
+          for (int a = 0; a < n_local; ++a) {
+            if (owners.owner[nodes[a]] != owner) continue;
+            if (!is_computed) mine.compute(nodes, i);
+            is_computed = true;
+            mine.add(nodes, a);
+          }
         }
-      }
-#pragma omp critical(sum_at_nodes)
-      mine.finish();
-    } catch (...) {
-#pragma omp critical(sum_at_nodes)
-      error = std::current_exception();
-    }
-  if (error) std::rethrow_exception(error);
+        const std::scoped_lock lock(one_at_a_time);
+        mine.finish();
+      },
+      Schedule::evenly, owners.n_owners);
 }
 
 }  // namespace dygita

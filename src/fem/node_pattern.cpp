@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "numerics/huge_pages.hpp"
 
 namespace dygita {
@@ -99,8 +100,7 @@ SparseMatrix block_matrix(const NodePattern& pattern) {
   int* rows = matrix.outerIndexPtr();
   rows[0] = 0;
 
-#pragma omp parallel for schedule(static)
-  for (int a = 0; a < n; ++a) {
+  const auto fill = [&](int a) {
     const int first = pattern.starts[a], count = pattern.starts[a + 1] - first;
     int* column = matrix.innerIndexPtr() + 9 * first;
     for (int i = 0; i < 3; ++i) {
@@ -108,7 +108,8 @@ SparseMatrix block_matrix(const NodePattern& pattern) {
       for (int k = 0; k < count; ++k)
         for (int j = 0; j < 3; ++j) *column++ = 3 * pattern.neighbours[first + k] + j;
     }
-  }
+  };
+  parallel_for(n, fill, Schedule::evenly);
   return matrix;
 }
 

@@ -35,10 +35,11 @@ template <class Cell>
 Tensors cell_stresses(const Mesh& mesh, const CellBlock& block, const Elastic& material, const Points& displacement) {
   constexpr int n = Cell::n_nodes;
   Tensors stress(6, static_cast<Eigen::Index>(block.nodes.size()));
-#pragma omp parallel for schedule(static)
-  for (int i = 0; i < block.n_cells(); ++i)
+  const auto compute = [&](int i) {
     stress.middleCols<n>(n * i) =
         Cell::stress(gather<n>(mesh.nodes, block.cell(i)), material, gather<n>(displacement, block.cell(i)));
+  };
+  parallel_for(block.n_cells(), compute, Schedule::evenly);
   return stress;
 }
 
@@ -66,12 +67,12 @@ StressError stress_error(const Mesh& mesh, const Elastic& material, const Points
       constexpr int n = Cell::n_nodes;
       const CellBlock& block = mesh.blocks[b];
       Vec energy(block.n_cells());
-#pragma omp parallel for schedule(static)
-      for (int i = 0; i < block.n_cells(); ++i) {
+      const auto compute = [&](int i) {
         auto difference = of_cells[b].middleCols<n>(n * i);
         for (int a = 0; a < n; ++a) difference.col(a) = smooth.col(block.cell(i)[a]) - difference.col(a);
         energy[i] = cell_energy<Cell>(material, gather<n>(mesh.nodes, block.cell(i)), difference);
-      }
+      };
+      parallel_for(block.n_cells(), compute, Schedule::evenly);
       error.energy += energy.sum();
       const Vec corners = von_mises(of_cells[b]);
       for (size_t i = 0; i < block.nodes.size(); ++i) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "numerics/factor.hpp"
+#include "base/parallel.hpp"
 
 namespace dygita {
 
@@ -134,11 +134,7 @@ CoarseCorrection::CoarseCorrection(const StepModel& model, const Vec& k) {
   pieces_.resize(n);
   make_shapes(model, k, sides);
   std::vector<Mat> share(n);
-#pragma omp parallel for schedule(dynamic)
-  for (int i = 0; i < n; ++i) {
-    prepare_thread();
-    share[i] = respond(*model.pieces[i], model.offset[i], pieces_[i]);
-  }
+  parallel_for(n, [&](int i) { share[i] = respond(*model.pieces[i], model.offset[i], pieces_[i]); });
   Mat stiffness = Mat::Zero(6 * n, 6 * n);
   for (int i = 0; i < n; ++i)
     for (int c = 0; c < share[i].cols(); ++c)

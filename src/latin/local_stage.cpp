@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.hpp"
+
 namespace dygita {
 
 LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k) : model_(&model), k_(k) {
@@ -185,9 +187,10 @@ IndicatorSums LocalStage::run(const Vec& velocity, const Vec& q, Vec& image) {
   constexpr int chunk = 128;
   const int n = static_cast<int>(points_.size()), n_chunks = (n + chunk - 1) / chunk;
   std::vector<IndicatorSums> partial(n_chunks);
-#pragma omp parallel for schedule(static) if (n_chunks > 8)
-  for (int c = 0; c < n_chunks; ++c)
+  const auto run_chunk = [&](int c) {
     for (int i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) partial[c].add(run_point(i, velocity, q, image));
+  };
+  parallel_for(n_chunks, run_chunk, Schedule::evenly, n_chunks > 8 ? 0 : 1);
   IndicatorSums sums;
   for (const IndicatorSums& s : partial) sums.add(s);
   return sums;

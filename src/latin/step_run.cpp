@@ -30,23 +30,12 @@ int window_length(const LatinSettings& s, const Step& step) {
 
 LocalStage make_local_stage(const Problem& problem, StepModel& model, const State& state) {
   const Vec k = search_directions(model, problem.solver.search_direction, window_length(problem.solver, *model.step));
-  const int n = static_cast<int>(model.pieces.size());
-  std::exception_ptr failure;
-  for (const bool has_twin : {false, true}) {  // those whose operators others share come first
-#pragma omp parallel for schedule(dynamic)
-    for (int i = 0; i < n; ++i) {
+  for (const bool has_twin : {false, true})  // those whose operators others share come first
+    parallel_for(static_cast<int>(model.pieces.size()), [&](int i) {
       Piece& piece = *model.pieces[i];
-      if ((piece.setup().twin != nullptr) != has_twin) continue;
-      prepare_thread();
-      try {
+      if ((piece.setup().twin != nullptr) == has_twin)
         piece.set_search_directions(k.segment(model.offset[i], piece.n_rows()), problem.solver.plain);
-      } catch (...) {
-#pragma omp critical
-        failure = std::current_exception();
-      }
-    }
-    if (failure) std::rethrow_exception(failure);
-  }
+    });
   return LocalStage(model, state, k);
 }
 

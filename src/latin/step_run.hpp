@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "base/parallel.hpp"
 #include "latin/anderson.hpp"
 #include "latin/coarse_correction.hpp"
 #include "latin/indicator.hpp"
@@ -63,23 +64,14 @@ class StepRun {
   std::string describe_progress() const;
   Instant instant(int increment, int iterations, double eta) const;
   template <class Function>
-  static void side_by_side(size_t count, Function&& f) {
-    const int n = static_cast<int>(count);
-#pragma omp parallel for schedule(dynamic) if (n > 1)
-    for (int i = 0; i < n; ++i) {
-      prepare_thread();
-      f(i);
-    }
-  }
-  template <class Function>
   void for_each_piece(Function&& f) {
-    side_by_side(model_.pieces.size(), [&](int i) { f(*model_.pieces[i], i); });
+    parallel_for(static_cast<int>(model_.pieces.size()), [&](int i) { f(*model_.pieces[i], i); });
   }
 
   // f on every group of pieces that share a factor.
   template <class Function>
   void for_each_group(Function&& f) {
-    side_by_side(model_.equal.size(), [&](int i) { f(model_.equal[i]); });
+    parallel_for(static_cast<int>(model_.equal.size()), [&](int i) { f(model_.equal[i]); });
   }
   std::vector<Piece*> group(const std::vector<int>& members) {
     std::vector<Piece*> pieces;

@@ -4,7 +4,6 @@
 #include <cholmod.h>
 #include <metis.h>
 #include <omp.h>
-#include <pmmintrin.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/threads.hpp"
 #include "numerics/huge_pages.hpp"
 #include "numerics/partition.hpp"
 
@@ -314,8 +314,7 @@ void multiply_symmetric(const Mat& lower, const Vec& x, Vec& y) {
 }
 
 void prepare_thread() {
-  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-  _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+  flush_denormals();
   openblas_set_num_threads(1);
 }
 

@@ -60,7 +60,7 @@ Mat inverse_spd(Mat matrix, const std::string& what);
 // y = A x with A symmetric, only its lower triangle read.
 void multiply_symmetric(const Mat& lower, const Vec& x, Vec& y);
 
-// Flushes denormals in this thread; one thread inside BLAS. Call in every thread before solving.
+// Flushes denormals in this thread; one thread inside BLAS, whoever calls it. Call before solving.
 void prepare_thread();
 
 // Kernels to ask OpenBLAS for (its OPENBLAS_CORETYPE): a release older than the processor does not know it and takes

@@ -42,4 +42,10 @@ class History {
   std::shared_ptr<const Shape> shape_;
 };
 
+// A value as the deck gives it: a number (ramped in a static step), a history or a function of time.
+struct TimeValue {
+  History history;
+  bool is_number = false;
+};
+
 }  // namespace dygita

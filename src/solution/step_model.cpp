@@ -2,11 +2,10 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <exception>
 #include <map>
-#include <mutex>
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "mesh/facing.hpp"
 #include "solution/rigid_motions.hpp"
 
@@ -219,21 +218,11 @@ void make_pieces(StepModel& model, const std::vector<Body>& bodies, Purpose purp
   std::vector<char> waits(n, 0);
   for (const auto& [matrices, members] : same_body)
     for (size_t m = 1; m < members.size(); ++m) waits[members[m]] = 1;
+  prepare_thread();
   const auto build = [&](char waiting) {
-    std::exception_ptr failure;
-    std::mutex mutex;
-#pragma omp parallel for schedule(dynamic)
-    for (int i = 0; i < n; ++i) {
-      if (waits[i] != waiting) continue;
-      prepare_thread();
-      try {
-        model.pieces[i] = std::make_unique<Piece>(std::move(setups[i]));
-      } catch (...) {
-        const std::scoped_lock lock(mutex);
-        failure = std::current_exception();
-      }
-    }
-    if (failure) std::rethrow_exception(failure);
+    parallel_for(n, [&](int i) {
+      if (waits[i] == waiting) model.pieces[i] = std::make_unique<Piece>(std::move(setups[i]));
+    });
   };
   build(0);
   for (const auto& [matrices, members] : same_body) {

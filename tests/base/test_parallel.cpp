@@ -1,0 +1,117 @@
+// Whatever a loop throws reaches the caller, on any number of threads.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <new>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+
+namespace dygita {
+namespace {
+
+// Two threads, whatever the machine has.
+class ParallelFor : public ::testing::Test {
+ protected:
+  ParallelFor() : before_(omp_get_max_threads()) { omp_set_num_threads(2); }
+  ~ParallelFor() override { omp_set_num_threads(before_); }
+
+ private:
+  int before_;
+};
+
+template <class Error>
+void expect_thrown(const Error& error) {
+  for (const Schedule schedule : {Schedule::evenly, Schedule::as_free})
+    for (const int failing : {0, 3, 7})
+      EXPECT_THROW(parallel_for(
+                       8,
+                       [&](int i) {
+                         if (i == failing) throw error;
+                       },
+                       schedule),
+                   Error);
+}
+
+TEST_F(ParallelFor, brings_every_kind_of_error_back_to_the_caller) {
+  expect_thrown(InputError("a cell is turned inside out"));
+  expect_thrown(NumericalError("the matrix is not positive definite"));
+  expect_thrown(std::bad_alloc());
+  struct NoStandardException {};
+  expect_thrown(NoStandardException());
+  EXPECT_THROW(parallel_for(8, [](int i) { CHECK(i < 6, "six at most"); }), ContractError);
+}
+
+TEST_F(ParallelFor, throws_the_error_of_the_lowest_failing_index) {
+  for (int repetition = 0; repetition < 50; ++repetition)
+    for (const Schedule schedule : {Schedule::evenly, Schedule::as_free}) try {
+        parallel_for(
+            64,
+            [](int i) {
+              if (i >= 31) throw NumericalError(std::to_string(i));
+            },
+            schedule);
+        FAIL() << "nothing was thrown";
+      } catch (const NumericalError& error) {
+        EXPECT_STREQ(error.what(), "31");
+      }
+}
+
+TEST_F(ParallelFor, runs_every_index_once) {
+  for (const Schedule schedule : {Schedule::evenly, Schedule::as_free})
+    for (const int n : {0, 1, 2, 1000})
+      for (const int most_threads : {0, 1, 5}) {
+        std::vector<int> count(n, 0);
+        parallel_for(
+            n, [&](int i) { ++count[i]; }, schedule, most_threads);
+        EXPECT_EQ(count, std::vector<int>(n, 1));
+      }
+}
+
+TEST_F(ParallelFor, shares_the_work_among_as_many_threads_as_it_may) {
+  const auto threads_of = [](int most_threads) {
+    std::vector<int> thread(40, -1), team(40, 0);
+    parallel_for(
+        40,
+        [&](int i) {
+          thread[i] = omp_get_thread_num();
+          team[i] = omp_get_num_threads();
+        },
+        Schedule::evenly, most_threads);
+    EXPECT_EQ(std::set<int>(team.begin(), team.end()).size(), 1U);
+    return std::set<int>(thread.begin(), thread.end());
+  };
+  EXPECT_EQ(threads_of(0), (std::set<int>{0, 1}));
+  EXPECT_EQ(threads_of(1), (std::set<int>{0}));
+}
+
+TEST_F(ParallelFor, inside_another_runs_on_one_thread_and_passes_its_error_on) {
+  std::vector<int> team(2, 0);
+  const auto inner = [&](int outer) {
+    parallel_for(4, [&](int i) {
+      team[outer] = std::max(team[outer], omp_get_num_threads());
+      if (i == 2) throw InputError("inside");
+    });
+  };
+  EXPECT_THROW(parallel_for(2, inner, Schedule::evenly), InputError);
+  EXPECT_EQ(team, std::vector<int>(2, 1));
+}
+
+TEST_F(ParallelFor, flushes_denormals_in_every_thread) {
+  std::vector<double> halved(2, 1.0);
+  parallel_for(
+      2,
+      [&](int i) {
+        volatile double least = std::numeric_limits<double>::min();
+        halved[i] = 0.5 * least;
+      },
+      Schedule::evenly);
+  EXPECT_EQ(halved, std::vector<double>(2, 0.0));
+}
+
+}  // namespace
+}  // namespace dygita
