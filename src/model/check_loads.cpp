@@ -15,8 +15,17 @@ bool is_prescribed_motion(const Load& load) {
   return load.kind == LoadKind::velocity || load.kind == LoadKind::displacement;
 }
 
+// Laws of the table whose interfaces a load can shorten: "an interface.bonded or an interface.plastic".
+std::string what_can_be_tightened() {
+  std::string text;
+  for (const LawEntry& entry : law_table())
+    if (example_of(entry)->can_be_tightened())
+      text += (text.empty() ? "an interface." : " or an interface.") + entry.word;
+  return text;
+}
+
 // What a kind of load acts on, in the deck's words.
-const char* acts_on(LoadKind kind) {
+std::string acts_on(LoadKind kind) {
   switch (kind) {
     case LoadKind::pressure:
     case LoadKind::traction:
@@ -29,7 +38,7 @@ const char* acts_on(LoadKind kind) {
       return "a support.fixed or a support.symmetry";
     case LoadKind::shortening:
     case LoadKind::preload:
-      return "an interface.bonded or an interface.plastic";
+      return what_can_be_tightened();
     case LoadKind::release:
       return "an interface";
     case LoadKind::gravity:
@@ -54,7 +63,7 @@ bool can_act_on(LoadKind kind, const Target& target) {
       return support && ((*support)->kind == SupportKind::fixed || (*support)->kind == SupportKind::symmetry);
     case LoadKind::shortening:
     case LoadKind::preload:
-      return interface && (*interface)->kind != InterfaceKind::contact;
+      return interface && (*interface)->law->can_be_tightened();
     case LoadKind::release:
       return interface != nullptr;
     case LoadKind::gravity:

@@ -35,7 +35,7 @@ Collector::Collector(const Problem& problem, FrameSink sink)
         samplers_[output.get()] = make_superelement_sampler(problem, *output);
         break;
       case OutputKind::vtk:
-        slip_ = std::make_shared<FrictionlessSlip>();
+        motion_ = std::make_shared<FollowedMotion>();
         break;
       case OutputKind::srs_field:
         fields_[output.get()] = std::make_unique<SpectrumField>(problem, *output);
@@ -52,7 +52,7 @@ Collector::Collector(const Problem& problem, FrameSink sink)
 
 void Collector::begin_step(const Instant& start) {
   for (auto& [output, sampler] : samplers_) sampler->begin_step(start);
-  if (slip_) slip_->begin_step(start);
+  if (motion_) motion_->begin_step(start);
   errors_.begin_step(start);
   bolts_.begin_step(start);
   extremes_.before_springs = start.state.energies.scheme;
@@ -60,7 +60,7 @@ void Collector::begin_step(const Instant& start) {
 }
 
 void Collector::accept(const Instant& instant) {
-  if (slip_) slip_->accept(instant);
+  if (motion_) motion_->accept(instant);
   errors_.accept(instant);
   bolts_.accept(instant);
   for (auto& [output, sampler] : samplers_) sampler->accept(instant);
@@ -79,7 +79,7 @@ void Collector::maybe_frame(const Instant& instant) {
     const int n = instant.model.step->n_increments(), frames = std::min(output->frames, n), i = instant.increment + 1;
     // Evenly over the step, its last increment always.
     if (i > 0 && (i * static_cast<long>(frames)) / n == ((i - 1) * static_cast<long>(frames)) / n) continue;
-    Frame frame = make_frame(instant, *output, *slip_);
+    Frame frame = make_frame(instant, *output, *motion_);
     frame.label_time = label_time(instant);
     sink_(frame);
   }
@@ -113,8 +113,7 @@ void Collector::watch(const Instant& instant) {
   extremes_.scheme_gain = std::max(extremes_.scheme_gain, -e.scheme);
   if (instant.fields) extremes_.springs = std::max(extremes_.springs, e.scheme - extremes_.before_springs);
   for (size_t s = 0; s < instant.model.surfaces->size(); ++s) {
-    const Surface& surface = (*instant.model.surfaces)[s];
-    if (!surface.law || !surface.law->rubs()) continue;
+    if (!(*instant.model.surfaces)[s].declared_law().shown().gap) continue;
     for (const LawState& p : instant.state.surfaces[s].points)
       extremes_.penetration = std::max(extremes_.penetration, -p.gap);
   }

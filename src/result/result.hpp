@@ -94,6 +94,7 @@ struct Superelement {
   std::string step;
   bool is_converged = true;                  // the step's last increment
   int n_tied = 0, n_normal = 0, n_open = 0;  // contact points: tied, tied along their normal, open
+  int n_damped = 0;                          // points of interfaces that are in the damping matrix
 };
 
 struct RunResult {

@@ -45,8 +45,7 @@ struct Example {
     problem.substructures = {tetrahedron("lower", 0.0), tetrahedron("upper", 2.0)};
     auto touch = std::make_shared<Interface>();
     touch->name = "touch";
-    touch->kind = InterfaceKind::contact;
-    touch->friction = 0.25;
+    touch->law = make_law("contact", {{"friction", 0.25}, {"gap", 0.0}});
     touch->side_1 = {problem.substructures[0], "top"};
     touch->side_2 = {problem.substructures[1], "bottom"};
     problem.interfaces = {touch};
