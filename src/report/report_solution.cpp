@@ -108,15 +108,15 @@ std::string energy_section(const RunFolder& run, const TimeAxis& time) {
                               {"kinetic", "strain", "loads", "friction", "plastic", "damping", "scheme", "balance"});
     if (t.n_rows() == 0) continue;
     body += energy_figure(t, time);
-    const double most = run.figure("largest energy [J]");
-    const auto percent = [&](const char* name) {
-      const double value = run.figure(name);
+    const double most = run.figure(&Figures::largest_energy);
+    const auto percent = [&](Figure figure) {
+      const double value = run.figure(figure);
       return value < 0.01 ? "less than 0.01 %" : with_unit(value, "%", 2);
     };
     body += html::paragraph(
         fmt::format("Largest energy {}. The balance closes within {} of it; numerical dissipation {}, energy gain {}.",
-                    with_unit(most, "J"), percent("energy imbalance [%]"),
-                    percent("energy dissipated by the scheme [%]"), percent("energy created by the scheme [%]")));
+                    with_unit(most, "J"), percent(&Figures::energy_imbalance), percent(&Figures::numerical_dissipation),
+                    percent(&Figures::energy_gain)));
   }
   return html::section("Energy", body);
 }
@@ -211,7 +211,7 @@ std::string cost_section(const RunFolder& run) {
   if (std::isfinite(number(iterations, "mean")))
     rows.push_back({is_explicit ? "substeps per increment" : "iterations per increment",
                     plain_number(number(iterations, "mean"))});
-  if (const double memory = run.figure("memory of factors and interface operators [MB]"); memory > 0.0)
+  if (const double memory = run.figure(&Figures::factor_memory); memory > 0.0)
     rows.push_back({"memory of factors and interface operators", plain_number(memory) + "\u00a0MB"});
   return html::section("Cost", body + html::table({"", ""}, rows, true));
 }

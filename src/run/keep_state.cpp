@@ -97,7 +97,7 @@ void keep_state(const RunState& state, RunWriter& writer, RunResult& result) {
   try {
     const std::filesystem::path path = writer.path_of(state_file_name);
     write_state(path, state);
-    result.figures["state file [MB]"] = static_cast<double>(std::filesystem::file_size(path)) / 1e6;
+    result.figures.state_file = static_cast<double>(std::filesystem::file_size(path)) / 1e6;
   } catch (const InputError& error) {
     warn(fmt::format("{}\n    this run cannot be continued later; its results are not touched", error.what()));
   }

@@ -28,7 +28,7 @@ TEST_F(Pulse, knows_what_its_tolerance_leaves) {
   const EstimatedRun converged = run_estimated(path_, {}, 1e-11);
   for (const double tolerance : {1e-2, 1e-4}) {
     const EstimatedRun run = run_estimated(path_, {}, tolerance);
-    expect_effective(run.figures.at("error estimate, iteration [%]"), true_error(run, converged));
+    expect_effective(run.figures.iteration_error.value(), true_error(run, converged));
   }
 }
 
@@ -36,7 +36,7 @@ TEST_F(Pulse, knows_what_its_time_step_leaves) {
   for (const char* steps : {"96", "384"}) {
     const EstimatedRun run = run_estimated(path_, {{"steps", steps}});
     const EstimatedRun fine = run_estimated(path_, {{"steps", std::to_string(8 * std::stoi(steps))}});
-    expect_effective(run.figures.at("error estimate, time step [%]"), true_error(run, fine));
+    expect_effective(run.figures.time_step_error.value(), true_error(run, fine));
   }
 }
 
@@ -45,7 +45,7 @@ TEST_F(Pulse, knows_what_its_mesh_leaves) {
     const Settings settings = {{"n", std::to_string(n)}, {"steps", "960"}};
     const EstimatedRun run = run_estimated(path_, settings);
     const EstimatedRun fine = run_estimated(path_, {{"n", std::to_string(8 * n)}, {"steps", "960"}});
-    expect_effective(run.figures.at("error estimate, mesh [%]"), true_error(run, fine, n / 2, 4 * n));
+    expect_effective(run.figures.mesh_error.value(), true_error(run, fine, n / 2, 4 * n));
   }
 }
 
