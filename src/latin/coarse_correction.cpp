@@ -26,7 +26,7 @@ std::vector<CoarseCorrection::Side> CoarseCorrection::find_sides(const StepModel
     for (const auto& [first, end] :
          {std::pair{point.first_port, point.first_port_2}, std::pair{point.first_port_2, point.end_port}})
       for (int d = 0; d < 3; ++d) {
-        const bool has_law = point.law && point.is_active[d] && point.law->acts_on(d);
+        const bool has_law = point.is_active[d] && point.has_law[d];
         Side side;
         double sum = 0.0;
         bool is_held = false;

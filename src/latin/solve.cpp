@@ -15,12 +15,12 @@ namespace {
 // What a run of several steps has kept and spared.
 void tell_run(const std::shared_ptr<const InterfaceFields>& kept, SolverFigures& figures) {
   figures.interface_fields = kept;
-  figures.of_solver["interface fields kept in memory [MB]"] = kept->memory_bytes() / 1e6;
-  figures.of_solver["interface fields kept in a file [MB]"] = kept->file_bytes() / 1e6;
-  figures.of_solver["substitutions"] = static_cast<double>(figures.n_solved);
-  figures.of_solver["substitutions spared where nothing changed"] = static_cast<double>(figures.n_spared);
-  figures.of_solver["pieces solved in full at each iteration, over all steps"] = figures.n_in_full;
-  figures.of_solver["substructures that share another's factor, over all steps"] = figures.n_equal;
+  figures.own.fields_in_memory = kept->memory_bytes() / 1e6;
+  figures.own.fields_in_file = kept->file_bytes() / 1e6;
+  figures.own.substitutions = static_cast<double>(figures.n_solved);
+  figures.own.substitutions_spared = static_cast<double>(figures.n_spared);
+  figures.own.pieces_in_full = figures.n_in_full;
+  figures.own.shared_factors = figures.n_equal;
 }
 
 }  // namespace

@@ -101,9 +101,8 @@ void MergedAssembly::make_rows() {
   int n_rows = 0;
   for (const Point& point : model_->exchange.points) {
     std::array<int, 3>& rows = rows_.emplace_back(std::array{-1, -1, -1});
-    if (!point.law) continue;
     for (int d = 0; d < 3; ++d) {
-      if (!point.law->acts_on(d)) continue;
+      if (!point.has_law[d]) continue;
       std::map<int, double> jump;
       const auto add = [&](const Port& port, double sign) {
         const Node& n = node(port.part, port.node);

@@ -145,9 +145,8 @@ void MonolithicRun::accept_increment(const InterfaceNewton::Outcome& outcome) {
     if (!point.law) continue;
     PointRecord& record = records_[i];
     const LawState end = end_of_point(point, record, increment_);
-    gap_difference_ = std::max(gap_difference_, gap_difference(model_, point, record));
-    const Vec3 force = increment_.is_static ? Vec3(0.5 * (record.law.force + end.force)) : end.force;
-    const Vec3 motion = increment_.dt * (increment_.g * record.law.rate + (1 - increment_.g) * end.rate);
+    gap_difference_ = std::max(gap_difference_, gap_difference(point, record));
+    const Vec3 force = working_force(record.law, end, increment_), motion = motion_of(record.law, end, increment_);
     book_work(point, record, end, increment_, -force.dot(motion), state_);
     record.law = end;
     show_point(point, record, state_);

@@ -17,11 +17,8 @@ State initial_state(const Problem& problem, const std::vector<Surface>& surfaces
     state.anchor.push_back(zero);
   }
   for (const Surface& surface : surfaces) {
-    LawState start;
-    start.gap = surface.initial_gap;
-    if (surface.law && surface.law->rubs()) start.status = PointState::open;
-    state.surfaces.push_back(
-        {std::vector<LawState>(surface.n_points(), start), std::vector<double>(surface.n_points(), 0.0)});
+    state.surfaces.push_back({std::vector<LawState>(surface.n_points(), surface.declared_law().initial()),
+                              std::vector<double>(surface.n_points(), 0.0)});
     state.shortening.push_back(0.0);
     state.released.push_back(0);
   }
@@ -113,11 +110,10 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
   model.step = &step;
   model.surfaces = &surfaces;
   if (!step.is_static) model.scheme = {false, step.dt, 0.5 * (1.0 - problem.numerical_damping())};
-  // A wall that is not among this step's supports has let go.
+  // A wall that is not among this step's supports has let go, a damper carries nothing in a static step.
   std::vector<Surface> in_force = surfaces;
-  const std::vector<SupportPtr>& supports = supports_of(problem, step);
   for (Surface& surface : in_force)
-    if (surface.wall && index_of(supports, surface.wall) < 0) surface.facing = {};
+    if (!takes_part(problem, step, surface)) surface.facing = {};
   model.conditions = make_conditions(problem, step, start);
   const std::vector<Vec> mass_values = masses_of(problem, *cut, bodies);
   std::vector<const Vec*> masses;
@@ -128,10 +124,10 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
     model.loads->evaluate(step.increments - 1);
     for (size_t i = 0; i < masses.size(); ++i) force.push_back(model.external_force(static_cast<int>(i), start));
     // What is free to move, and where it is pinned, is a matter of the substructures.
-    pin_free_motions(problem, step, make_exchange(problem, *no_cut(problem), in_force, model.conditions), force,
+    pin_free_motions(problem, step, make_exchange(problem, step, *no_cut(problem), in_force, model.conditions), force,
                      model.conditions);
   }
-  model.exchange = make_exchange(problem, *cut, in_force, model.conditions);
+  model.exchange = make_exchange(problem, step, *cut, in_force, model.conditions);
   split_loads(model);
   model.offset.assign(1, 0);
   for (const int n : model.exchange.n_unknowns) model.offset.push_back(model.offset.back() + n);
