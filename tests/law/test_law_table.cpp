@@ -1,12 +1,16 @@
 // The table of laws: every duty of every law answered, and answered soundly.
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <set>
 
 #include "base/error.hpp"
 #include "law/law_checks.hpp"
 
 namespace dygita {
+
+void PrintTo(const LawEntry& entry, std::ostream* out) { *out << entry.word; }
+
 namespace {
 
 class EveryLaw : public ::testing::TestWithParam<LawEntry> {
@@ -70,7 +74,6 @@ TEST_P(EveryLaw, dissipates_and_never_creates) {
     EXPECT_GE(work.plastic, 0.0);
     EXPECT_GE(work.damping, 0.0);
     EXPECT_EQ(work.given, 0.0);
-    EXPECT_GE(law->shown().gap ? std::abs(end.gap) : 1.0, 0.0);
     state = end;
   }
 }
@@ -81,7 +84,7 @@ TEST_P(EveryLaw, has_an_explicit_form_or_says_why_not) {
   if (const auto* springs = std::get_if<const PenaltyForm*>(&form)) {
     EXPECT_GT((*springs)->stiffness_factor(0.1), 0.0);
     SpringPoint point = spring_point(*law, law->initial(), 1e-4, 1e8);
-    move_to(*law, {-1e-6, 0, 0}, point);
+    move_to(*law, {-2.0, 0, 0}, point);  // further than the example's gap
     EXPECT_LT(point.force[0], 0.0);
   }
 }
