@@ -146,7 +146,7 @@ void check_cold(DeckState& state, const DeckResult& warm, StudyCase& one) {
   const Difference difference = largest_difference(*warm.problem, *cold, *warm.run);
   one.cold_iterations = cold->iterations;
   one.cold_difference = difference.value;
-  say(fmt::format("  {} iterations from scratch, {} from case '{}': {:.0f} % saved; answers differ by {:.1e} at most{}",
+  say(fmt::format("  {} iterations from scratch, {} from case '{}': {:.0f} % saved; answers differ by at most {:.1e}{}",
                   cold->iterations, warm.run->iterations, one.started_from,
                   100.0 * (1.0 - static_cast<double>(warm.run->iterations) / static_cast<double>(cold->iterations)),
                   difference.value, difference.where.empty() ? "" : " (" + difference.where + ")"));

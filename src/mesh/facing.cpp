@@ -182,7 +182,7 @@ void refuse_same_orientation(const Pair& pair, const Matching& matching) {
   const Vec3 place = pair.in_space_1.polygon(matching.same_way.front()).rowwise().mean();
   throw InputError(
       fmt::format("faces '{}' and '{}' coincide on {} facets, the first at {}, but both have their bodies on the same "
-                  "side: the bodies lie in one another\n    check the places of both bodies, or whether a face of the "
+                  "side: the bodies overlap\n    check the places of both bodies, or whether a face of the "
                   "other end was meant",
                   pair.side_1.name, pair.side_2.name, matching.same_way.size(), at(place)));
 }

@@ -108,7 +108,7 @@ void join_touching_bodies() {
   for (size_t i = 0; i < volumes.size(); ++i) {
     const auto n_pieces =
         std::count_if(origins[i].begin(), origins[i].end(), [](const auto& e) { return e.first == 3; });
-    if (n_pieces != 1) throw InputError(fmt::format("body {} is cut by another one: they lie in one another", i + 1));
+    if (n_pieces != 1) throw InputError(fmt::format("body {} is cut by another one: they overlap", i + 1));
   }
 }
 

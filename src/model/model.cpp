@@ -4,19 +4,6 @@
 
 namespace dygita {
 
-const char* interface_kind_name(InterfaceKind kind) {
-  switch (kind) {
-    case InterfaceKind::bonded:
-      return "bonded";
-    case InterfaceKind::contact:
-      return "contact";
-    case InterfaceKind::plastic:
-      return "plastic";
-  }
-  CHECK(false, "unknown kind of interface");
-  return "";
-}
-
 const char* support_kind_name(SupportKind kind) {
   switch (kind) {
     case SupportKind::fixed:
@@ -29,33 +16,6 @@ const char* support_kind_name(SupportKind kind) {
       return "absorbing";
   }
   CHECK(false, "unknown kind of support");
-  return "";
-}
-
-const char* load_kind_name(LoadKind kind) {
-  switch (kind) {
-    case LoadKind::pressure:
-      return "pressure";
-    case LoadKind::traction:
-      return "traction";
-    case LoadKind::force:
-      return "force";
-    case LoadKind::velocity:
-      return "velocity";
-    case LoadKind::displacement:
-      return "displacement";
-    case LoadKind::base_acceleration:
-      return "base_acceleration";
-    case LoadKind::gravity:
-      return "gravity";
-    case LoadKind::shortening:
-      return "shortening";
-    case LoadKind::release:
-      return "release";
-    case LoadKind::preload:
-      return "preload";
-  }
-  CHECK(false, "unknown kind of load");
   return "";
 }
 

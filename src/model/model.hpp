@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "law/law.hpp"
 #include "material/elastic.hpp"
 #include "mesh/mesh.hpp"
-#include "model/bolt_formula.hpp"
 #include "signal/history.hpp"
 #include "signal/specification.hpp"
 #include "signal/srs.hpp"
@@ -46,17 +46,9 @@ struct Region {
   std::string label() const { return part->name + " (" + std::to_string(nodes.size()) + " nodes)"; }
 };
 
-enum class InterfaceKind { bonded, contact, plastic };
-const char* interface_kind_name(InterfaceKind kind);
-
 struct Interface : Named {
-  InterfaceKind kind = InterfaceKind::bonded;
   Face side_1, side_2;
-  double friction = 0.0;     // contact
-  double gap = 0.0;          // m, contact; negative is an interference
-  double yield = 0.0;        // Pa, plastic
-  double hardening = 0.0;    // Pa/m, plastic
-  bool compression = false;  // plastic: yields in compression too
+  LawPtr law;  // its own
 };
 using InterfacePtr = std::shared_ptr<const Interface>;
 
@@ -68,40 +60,14 @@ using FaceOrRegion = std::variant<Face, Region>;
 struct Support : Named {
   SupportKind kind = SupportKind::fixed;
   std::vector<FaceOrRegion> on;  // symmetry, wall, absorbing: faces only
-  double friction = 0.0;         // wall
-  double gap = 0.0;              // wall, m
+  LawPtr law;                    // wall
 };
 using SupportPtr = std::shared_ptr<const Support>;
 
 // What an output or a load can be on.
 using Target = std::variant<Face, Region, InterfacePtr, SupportPtr>;
 
-enum class LoadKind {
-  pressure,
-  traction,
-  force,
-  velocity,
-  displacement,
-  base_acceleration,
-  gravity,
-  shortening,
-  release,
-  preload
-};
-const char* load_kind_name(LoadKind kind);
-
-struct Load {
-  LoadKind kind = LoadKind::pressure;
-  Origin origin;
-  std::vector<Target> on;  // empty for gravity (all substructures)
-  // pressure, shortening, release, preload: [0]; traction, force, velocity, displacement, gravity: x y z;
-  // base_acceleration: [0] along `direction`. A direction left out is free (velocity, displacement) or zero.
-  std::array<std::optional<History>, 3> value;
-  std::array<bool, 3> is_number{};     // given as a plain number: ramped in a static step
-  Vec3 direction = Vec3::UnitZ();      // base_acceleration, unit
-  std::optional<BoltDimensions> hand;  // shortening, preload: what a hand formula is printed for
-  double share = 1.0;                  // shortening, preload: of the bolt that the model has
-};
+class Load;
 using LoadPtr = std::shared_ptr<const Load>;
 
 struct Step : Named {

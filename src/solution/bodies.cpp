@@ -5,24 +5,24 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "base/overloaded.hpp"
 #include "fem/mass.hpp"
+#include "model/load.hpp"
 
 namespace dygita {
 
 namespace {
 
-void take_off(const Target& target, const SubstructurePtr& part, std::vector<char>& marked) {
-  const auto take_off_place = [&](const FaceOrRegion& place) {
-    if (const Face* face = std::get_if<Face>(&place); face && face->part == part)
-      for (const Facet& facet : face->facets())
-        for (const int node : facet.nodes()) marked[node] = 0;
-    if (const Region* region = std::get_if<Region>(&place); region && region->part == part)
-      for (const int node : region->nodes) marked[node] = 0;
-  };
-  if (const Face* face = std::get_if<Face>(&target)) take_off_place(*face);
-  if (const Region* region = std::get_if<Region>(&target)) take_off_place(*region);
-  if (const SupportPtr* support = std::get_if<SupportPtr>(&target))
-    for (const FaceOrRegion& place : (*support)->on) take_off_place(place);
+void take_off(const FaceOrRegion& place, const SubstructurePtr& part, std::vector<char>& marked) {
+  if (const Face* face = std::get_if<Face>(&place); face && face->part == part)
+    for (const Facet& facet : face->facets())
+      for (const int node : facet.nodes()) marked[node] = 0;
+  if (const Region* region = std::get_if<Region>(&place); region && region->part == part)
+    for (const int node : region->nodes) marked[node] = 0;
+}
+
+void take_off(const std::vector<FaceOrRegion>& places, const SubstructurePtr& part, std::vector<char>& marked) {
+  for (const FaceOrRegion& place : places) take_off(place, part, marked);
 }
 
 // Nodes of a substructure that can do without mass: in contact and in nothing else that counts on it.
@@ -40,21 +40,22 @@ std::vector<char> nodes_in_contact_alone(const Problem& problem, const std::vect
           ++n_surfaces[node];
         }
   };
-  const auto is_contact = [](const Surface& surface) { return surface.law && surface.law->rubs(); };
   for (const Surface& surface : surfaces)
-    if (is_contact(surface)) mark(surface, 1);
+    if (surface.declared_law().allows_massless_nodes()) mark(surface, 1);
   for (const Surface& surface : surfaces)
-    if (!is_contact(surface)) mark(surface, 0);
+    if (!surface.declared_law().allows_massless_nodes()) mark(surface, 0);
   // In an edge or a corner: without its mass the cell there could turn about the few nodes that have some.
   for (size_t node = 0; node < marked.size(); ++node)
     if (n_surfaces[node] > 1) marked[node] = 0;
   for (const StepPtr& step : problem.steps) {
     for (const SupportPtr& support : supports_of(problem, *step))
-      if (support->kind == SupportKind::absorbing) take_off(support, part, marked);
+      if (support->kind == SupportKind::absorbing) take_off(support->on, part, marked);
     for (const LoadPtr& load : step->loads)
-      if (load->kind == LoadKind::velocity || load->kind == LoadKind::displacement ||
-          load->kind == LoadKind::base_acceleration)
-        for (const Target& target : load->on) take_off(target, part, marked);
+      for (const Effect& effect : load->effects())
+        std::visit(overloaded{[&](const PrescribedMotion& motion) { take_off(motion.on, part, marked); },
+                              [&](const BaseMotion& base) { take_off(base.on->on, part, marked); },
+                              Ignored<NodalForces, BodyForce, Shortening, PreloadForce, Release>()},
+                   effect);
   }
   return marked;
 }
@@ -64,7 +65,7 @@ void agree(const std::vector<Surface>& surfaces, std::vector<std::vector<char>>&
   for (bool has_changed = true; has_changed;) {
     has_changed = false;
     for (const Surface& surface : surfaces) {
-      if (surface.part_1 < 0 || surface.part_2 < 0 || !surface.law || !surface.law->rubs()) continue;
+      if (surface.part_1 < 0 || surface.part_2 < 0 || !surface.declared_law().allows_massless_nodes()) continue;
       for (int i = 0; i < surface.n_points(); ++i) {
         char& one = marked[surface.part_1][surface.facing.nodes_1[i]];
         char& two = marked[surface.part_2][surface.facing.nodes_2[i]];
