@@ -11,7 +11,7 @@
 namespace dygita {
 
 // One unknown q of the exchange on a piece: the velocity of a node in a direction.
-struct Row {
+struct InterfaceRow {
   int node;
   Vec3 direction;
   double reference_stiffness;  // added before factorising an unconstrained piece, taken off its Schur complement (N/m)
@@ -54,7 +54,7 @@ class Piece {
   virtual ~Piece() = default;
 
   // The operator.
-  virtual const std::vector<Row>& rows() const = 0;
+  virtual const std::vector<InterfaceRow>& rows() const = 0;
   int n_rows() const { return static_cast<int>(rows().size()); }
   virtual const Vec& node_masses() const = 0;     // kg
   virtual const Vec& unknown_masses() const = 0;  // kg, of the entries of the state's velocity

@@ -13,7 +13,7 @@ namespace dygita {
 struct PieceSetup {
   const Body* body = nullptr;
   Scheme scheme;
-  std::vector<Row> rows;
+  std::vector<InterfaceRow> rows;
   std::unordered_map<int, Held> held;
   std::unordered_map<int, Mat3> absorbing;  // impedance of nodes (N s/m), dynamic steps
   int n_motions = 0;
