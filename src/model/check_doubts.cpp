@@ -2,6 +2,7 @@
 
 #include "base/log.hpp"
 #include "model/check.hpp"
+#include "model/load.hpp"
 
 namespace dygita::check {
 

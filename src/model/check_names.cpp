@@ -2,6 +2,7 @@
 #include <set>
 
 #include "model/check.hpp"
+#include "model/load.hpp"
 
 namespace dygita::check {
 
@@ -42,7 +43,8 @@ bool has_table(const Output& output) { return output.kind != OutputKind::vtk && 
 bool tightens_bolts(const Problem& problem) {
   for (const StepPtr& step : problem.steps)
     for (const LoadPtr& load : step->loads)
-      if (load->kind == LoadKind::shortening || load->kind == LoadKind::preload) return true;
+      for (const Effect& effect : load->effects())
+        if (tightening(effect)) return true;
   return false;
 }
 

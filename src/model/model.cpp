@@ -19,33 +19,6 @@ const char* support_kind_name(SupportKind kind) {
   return "";
 }
 
-const char* load_kind_name(LoadKind kind) {
-  switch (kind) {
-    case LoadKind::pressure:
-      return "pressure";
-    case LoadKind::traction:
-      return "traction";
-    case LoadKind::force:
-      return "force";
-    case LoadKind::velocity:
-      return "velocity";
-    case LoadKind::displacement:
-      return "displacement";
-    case LoadKind::base_acceleration:
-      return "base_acceleration";
-    case LoadKind::gravity:
-      return "gravity";
-    case LoadKind::shortening:
-      return "shortening";
-    case LoadKind::release:
-      return "release";
-    case LoadKind::preload:
-      return "preload";
-  }
-  CHECK(false, "unknown kind of load");
-  return "";
-}
-
 const char* output_kind_name(OutputKind kind) {
   switch (kind) {
     case OutputKind::vtk:

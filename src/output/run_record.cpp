@@ -4,9 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/log.hpp"
+#include "model/load.hpp"
 #include "numerics/factor.hpp"
 #include "output/record_parts.hpp"
 #include "output/vtk_writer.hpp"
+#include "result/recorded_figures.hpp"
 
 namespace dygita {
 
@@ -60,9 +62,12 @@ Json loads(const Step& step) {
   for (const LoadPtr& load : step.loads) {
     Json on = Json::array(), value = Json::array();
     for (const Target& target : load->on) on.push_back(label(target));
-    for (const auto& history : load->value) value.push_back(history ? Json(history->description()) : Json());
+    for (const auto& given : load->values) value.push_back(given ? Json(given->history.description()) : Json());
     while (!value.empty() && value.back().is_null()) value.erase(value.size() - 1);
-    list.push_back({{"kind", load_kind_name(load->kind)}, {"on", on}, {"value", value}});
+    Json json = {{"kind", load->word()}, {"on", on}, {"value", value}, {"unit", load->unit()}};
+    if (load->has_axes()) json["axes"] = {"x", "y", "z"};
+    for (const auto& [name, numbers] : load->settings()) json["settings"][name] = numbers;
+    list.push_back(json);
   }
   return list;
 }
@@ -156,7 +161,7 @@ std::string run_record(const Problem& problem, const RunResult& result, const Ru
       {"iterations", {{"all", result.iterations}, {"mean", result.mean_iterations}}},
       {"steps", steps(problem, result)},
       {"bolts", bolts(result)},
-      {"figures", object(result.figures)},
+      {"figures", object(recorded_figures(problem, result))},
       {"seconds", object(result.seconds)},
       {"threads", identity.threads},
       {"libraries", libraries(identity)},

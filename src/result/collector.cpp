@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/log.hpp"
+#include "result/limits.hpp"
 #include "result/spectra.hpp"
 #include "result/spectrum_band.hpp"
 #include "result/spectrum_field.hpp"
@@ -121,19 +121,6 @@ void Collector::watch(const Instant& instant) {
 
 namespace {
 
-void add_exceedances(const Problem& problem, RunResult& result) {
-  for (const OutputPtr& output : problem.outputs) {
-    if (output->kind != OutputKind::srs || !output->specification || result.tables[output.get()].n_rows() == 0)
-      continue;
-    const Table& spectrum = result.tables[output.get()];
-    const Exceedance worst =
-        largest_exceedance(*output->specification, spectrum.columns.front(), spectrum.column("maximax"));
-    if (!worst.is_known) continue;
-    result.figures["largest exceedance of the specification of '" + output->name + "' [dB]"] = worst.decibels;
-    result.figures["frequency of the largest exceedance of '" + output->name + "' [Hz]"] = worst.frequency;
-  }
-}
-
 void add_error_figures(const ErrorEstimator& errors, const Problem& problem, RunResult& result) {
   const auto has = [&](bool is_static) {
     return std::any_of(problem.steps.begin(), problem.steps.end(),
@@ -141,28 +128,26 @@ void add_error_figures(const ErrorEstimator& errors, const Problem& problem, Run
   };
   if (has(true)) {
     const ErrorEstimator::Estimate e = errors.static_steps();
-    result.figures["error estimate, static, iteration [%]"] = 100 * e.iteration;
-    result.figures["error estimate, static, mesh [%]"] = 100 * e.mesh;
-    result.figures["interface constitutive-relation error, static [J]"] = e.interface_energy;
+    result.figures.static_iteration_error = 100 * e.iteration;
+    result.figures.static_mesh_error = 100 * e.mesh;
+    result.figures.static_interface_error = e.interface_energy;
   }
   if (has(false)) {
     const ErrorEstimator::Estimate e = errors.dynamic_steps();
     if (result.interrupted && e.mesh == 0.0) return;  // stopped before anything was sampled
-    if (!problem.explicit_dynamics) result.figures["error estimate, iteration [%]"] = 100 * e.iteration;
-    result.figures["error estimate, time step [%]"] = 100 * e.time_step;
-    result.figures["error estimate, mesh [%]"] = 100 * e.mesh;
-    if (!problem.explicit_dynamics) result.figures["interface constitutive-relation error [J]"] = e.interface_energy;
-    result.figures["mean frequency of the motion [Hz]"] = e.mean_frequency;
+    if (!problem.explicit_dynamics) result.figures.iteration_error = 100 * e.iteration;
+    result.figures.time_step_error = 100 * e.time_step;
+    result.figures.mesh_error = 100 * e.mesh;
+    if (!problem.explicit_dynamics) result.figures.interface_error = e.interface_energy;
+    result.figures.mean_frequency = e.mean_frequency;
   }
 }
 
-// Of each spectrum: its table, and as figures the mean over its frequencies.
 void add_bands(const ErrorEstimator& errors, const Problem& problem, RunResult& result) {
   for (const OutputPtr& output : problem.outputs) {
     if (output->kind != OutputKind::srs || problem.explicit_dynamics) continue;
     Table band = spectrum_band(result.tables.at(output.get()), output->srs.quantity, errors.dynamic_steps());
     if (band.n_rows() == 0) continue;
-    note_band(output->name, band, result.figures);
     result.bands[output.get()] = std::move(band);
   }
 }
@@ -189,16 +174,14 @@ void Collector::finish(RunResult& result) {
   result.bolts = bolts_.take();
   add_bands(errors_, problem_, result);
   const double percent = extremes_.energy > 0.0 ? 100.0 / extremes_.energy : 0.0;
-  result.figures["largest energy [J]"] = extremes_.energy;
-  result.figures["energy imbalance [%]"] = percent * extremes_.imbalance;
-  result.figures["energy dissipated by the scheme [%]"] = percent * extremes_.scheme_loss;
-  result.figures["energy created by the scheme [%]"] = percent * extremes_.scheme_gain;
-  result.figures["largest penetration [m]"] = extremes_.penetration;
+  result.figures.largest_energy = extremes_.energy;
+  result.figures.energy_imbalance = percent * extremes_.imbalance;
+  result.figures.numerical_dissipation = percent * extremes_.scheme_loss;
+  result.figures.energy_gain = percent * extremes_.scheme_gain;
+  result.figures.largest_penetration = extremes_.penetration;
   add_error_figures(errors_, problem_, result);
-  add_exceedances(problem_, result);
   // What the springs of a penalty hold is what the sides overlap: its interfaces' constitutive-relation error.
-  if (problem_.explicit_dynamics)
-    result.figures["error estimate, penalty [%]"] = 10 * std::sqrt(percent * extremes_.springs);
+  if (problem_.explicit_dynamics) result.figures.penalty_error = limit::penalty_error_of(percent * extremes_.springs);
 }
 
 }  // namespace dygita
