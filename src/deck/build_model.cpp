@@ -3,21 +3,25 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "base/names.hpp"
+#include "model/load.hpp"
 
 namespace dygita {
 
 namespace {
 
+bool begins_with(const std::string& text, const std::string& start) { return text.rfind(start, 0) == 0; }
+
+Content build_load(const Declaration& declaration) { return make_load(declaration.arguments); }
+
 Builder builder_of(const std::string& path) {
-  for (const Builders* builders : {&part_builders(), &load_builders(), &study_builders()}) {
+  if (begins_with(path, "load.")) return build_load;
+  for (const Builders* builders : {&part_builders(), &history_builders(), &study_builders()}) {
     const auto found = builders->find(path);
     if (found != builders->end()) return found->second;
   }
   CHECK(false, "lua/schema.lua has '" + path + "', which nothing builds");
   return nullptr;
 }
-
-bool begins_with(const std::string& text, const std::string& start) { return text.rfind(start, 0) == 0; }
 
 }  // namespace
 

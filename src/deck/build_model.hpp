@@ -20,8 +20,8 @@ struct Declaration {
 using Builder = Content (*)(const Declaration&);
 using Builders = std::map<std::string, Builder>;
 
-const Builders& part_builders();   // mesh, material, substructure, interface, support
-const Builders& load_builders();   // load, history
+const Builders& part_builders();  // mesh, material, substructure, interface, support
+const Builders& history_builders();
 const Builders& study_builders();  // step, solver, output, problem
 
 // Builds the object of `declaration.path`. InputErrors of the modules below come out with the deck's line and the

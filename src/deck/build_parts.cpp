@@ -60,13 +60,11 @@ void doubt_size(const Substructure& part) {
 }
 
 void doubt_locking(const Substructure& part) {
-  const auto& blocks = part.mesh->blocks;
-  const bool has_tet4 =
-      std::any_of(blocks.begin(), blocks.end(), [](const CellBlock& block) { return block.type == CellType::tet4; });
-  if (!has_tet4 || part.material.poisson <= locking_poisson) return;
-  warn(fmt::format(
-      "{}substructure '{}': linear tetrahedra with a Poisson's ratio of {:g} lock; hexahedra or prisms do not",
-      part.origin.prefix(), part.name, part.material.poisson));
+  if (part.material.poisson <= locking_poisson) return;
+  for (const CellBlock& block : part.mesh->blocks)
+    if (const std::string_view cells = cell_shape(block.type).locks_as; !cells.empty())
+      warn(fmt::format("{}substructure '{}': {} with a Poisson's ratio of {:g} lock; hexahedra or prisms do not",
+                       part.origin.prefix(), part.name, cells, part.material.poisson));
 }
 
 Content build_substructure(const Declaration& d) {

@@ -10,8 +10,8 @@ namespace dygita {
 
 bool needs_coarse_correction(const StepModel& model) {
   if (model.scheme.is_static) return true;
-  for (const auto& piece : model.pieces) {
-    const Substructure& part = *piece->setup().body->part;
+  for (const CutPiece& piece : model.cut->pieces()) {
+    const Substructure& part = *piece.body;
     const Vec3 size = part.mesh->nodes.rowwise().maxCoeff() - part.mesh->nodes.rowwise().minCoeff();
     if (part.material.p_wave_speed() * model.scheme.dt > 0.3 * std::cbrt(size.prod())) return true;
   }
@@ -52,7 +52,7 @@ void CoarseCorrection::make_shapes(const StepModel& model, const Vec& k, const s
   const std::vector<Port>& ports = model.exchange.ports;
   const size_t n = model.pieces.size();
   const auto place = [&](const Tied& tied) {
-    const Substructure& part = *model.pieces[ports[tied.port].piece]->setup().body->part;
+    const Substructure& part = *model.cut->piece(ports[tied.port].piece).body;
     return Vec3(part.mesh->nodes.col(ports[tied.port].piece_node) + part.place);
   };
   std::vector<Vec3> centre(n, Vec3::Zero());

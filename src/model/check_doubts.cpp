@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "model/check.hpp"
+#include "model/load.hpp"
 #include "model/output.hpp"
 
 namespace dygita::check {

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "model/check.hpp"
+#include "model/load.hpp"
 #include "model/output.hpp"
 
 namespace dygita::check {
@@ -41,7 +42,8 @@ void has_unique_names(const Problem& problem, const std::vector<std::shared_ptr<
 bool tightens_bolts(const Problem& problem) {
   for (const StepPtr& step : problem.steps)
     for (const LoadPtr& load : step->loads)
-      if (load->kind == LoadKind::shortening || load->kind == LoadKind::preload) return true;
+      for (const Effect& effect : load->effects())
+        if (tightening(effect)) return true;
   return false;
 }
 

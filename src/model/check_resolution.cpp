@@ -7,6 +7,7 @@
 
 #include "base/log.hpp"
 #include "model/check.hpp"
+#include "model/load.hpp"
 #include "model/output.hpp"
 #include "signal/spectrum.hpp"
 
@@ -26,19 +27,18 @@ struct Content {
 
 double load_frequency(const Load& load, const Step& step) {
   double highest = 0.0;
-  for (const auto& history : load.value) {
-    if (!history || history->is_constant()) continue;
+  for (const auto& value : load.values) {
+    if (!value || value->history.is_constant()) continue;
     const int n = std::clamp(4 * step.n_increments(), 256, 2048);
     std::vector<double> samples(n + 1);
-    for (int i = 0; i <= n; ++i) samples[i] = history->value(step.duration * i / n);
+    for (int i = 0; i <= n; ++i) samples[i] = value->history.value(step.duration * i / n);
     highest = std::max(highest, band_limit(samples, step.duration / n, share));
   }
   return highest;
 }
 
 std::string label(const Load& load) {
-  std::string text = std::string("load.") + load_kind_name(load.kind);
-  return load.on.empty() ? text : text + " on " + describe(load.on.front());
+  return load.on.empty() ? load.path : load.path + " on " + describe(load.on.front());
 }
 
 std::string in_unit(double frequency) {

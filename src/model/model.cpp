@@ -19,33 +19,6 @@ const char* support_kind_name(SupportKind kind) {
   return "";
 }
 
-const char* load_kind_name(LoadKind kind) {
-  switch (kind) {
-    case LoadKind::pressure:
-      return "pressure";
-    case LoadKind::traction:
-      return "traction";
-    case LoadKind::force:
-      return "force";
-    case LoadKind::velocity:
-      return "velocity";
-    case LoadKind::displacement:
-      return "displacement";
-    case LoadKind::base_acceleration:
-      return "base_acceleration";
-    case LoadKind::gravity:
-      return "gravity";
-    case LoadKind::shortening:
-      return "shortening";
-    case LoadKind::release:
-      return "release";
-    case LoadKind::preload:
-      return "preload";
-  }
-  CHECK(false, "unknown kind of load");
-  return "";
-}
-
 std::string label(const Target& target) {
   if (const auto* face = std::get_if<Face>(&target)) return face->label();
   if (const auto* region = std::get_if<Region>(&target)) return region->label();

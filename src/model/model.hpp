@@ -11,7 +11,6 @@
 #include "law/law.hpp"
 #include "material/elastic.hpp"
 #include "mesh/mesh.hpp"
-#include "model/bolt_formula.hpp"
 #include "signal/history.hpp"
 
 namespace dygita {
@@ -69,32 +68,7 @@ using Target = std::variant<Face, Region, InterfacePtr, SupportPtr>;
 // "lower.base", "rod (12 nodes)", an interface's or a support's name.
 std::string label(const Target& target);
 
-enum class LoadKind {
-  pressure,
-  traction,
-  force,
-  velocity,
-  displacement,
-  base_acceleration,
-  gravity,
-  shortening,
-  release,
-  preload
-};
-const char* load_kind_name(LoadKind kind);
-
-struct Load {
-  LoadKind kind = LoadKind::pressure;
-  Origin origin;
-  std::vector<Target> on;  // empty for gravity (all substructures)
-  // pressure, shortening, release, preload: [0]; traction, force, velocity, displacement, gravity: x y z;
-  // base_acceleration: [0] along `direction`. A direction left out is free (velocity, displacement) or zero.
-  std::array<std::optional<History>, 3> value;
-  std::array<bool, 3> is_number{};     // given as a plain number: ramped in a static step
-  Vec3 direction = Vec3::UnitZ();      // base_acceleration, unit
-  std::optional<BoltDimensions> hand;  // shortening, preload: what a hand formula is printed for
-  double share = 1.0;                  // shortening, preload: of the bolt that the model has
-};
+class Load;
 using LoadPtr = std::shared_ptr<const Load>;
 
 struct Step : Named {

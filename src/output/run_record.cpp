@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/log.hpp"
+#include "model/load.hpp"
 #include "numerics/factor.hpp"
 #include "output/record_parts.hpp"
 #include "output/vtk_writer.hpp"
@@ -61,9 +62,12 @@ Json loads(const Step& step) {
   for (const LoadPtr& load : step.loads) {
     Json on = Json::array(), value = Json::array();
     for (const Target& target : load->on) on.push_back(label(target));
-    for (const auto& history : load->value) value.push_back(history ? Json(history->description()) : Json());
+    for (const auto& given : load->values) value.push_back(given ? Json(given->history.description()) : Json());
     while (!value.empty() && value.back().is_null()) value.erase(value.size() - 1);
-    list.push_back({{"kind", load_kind_name(load->kind)}, {"on", on}, {"value", value}});
+    Json json = {{"kind", load->word()}, {"on", on}, {"value", value}, {"unit", load->unit()}};
+    if (load->has_axes()) json["axes"] = {"x", "y", "z"};
+    for (const auto& [name, numbers] : load->settings()) json["settings"][name] = numbers;
+    list.push_back(json);
   }
   return list;
 }

@@ -103,7 +103,7 @@ void MonolithicRun::begin_increment(int increment) {
   std::vector<Points> displacement;
   for (size_t i = 0; i < model_.pieces.size(); ++i) {
     displacement.push_back(model_.pieces[i]->displacement());
-    model_.pieces[i]->begin(model_.external_force(static_cast<int>(i), state_), motions);
+    model_.pieces[i]->begin(model_.external_force(static_cast<int>(i), state_), motions, 0.0);
   }
   for (size_t i = 0; i < records_.size(); ++i) {
     const Point& point = model_.exchange.points[i];
@@ -123,8 +123,8 @@ void MonolithicRun::finish_increment() {
   port_force_ = assembly_.port_forces(point_force);
   Vec q = Vec::Zero(model_.n_q());
   std::vector<Points> held;
-  for (const auto& piece : model_.pieces)
-    held.emplace_back(Points::Zero(3, piece->setup().body->part->mesh->n_nodes()));
+  for (const SubstructurePtr& part : model_.problem->substructures)
+    held.emplace_back(Points::Zero(3, part->mesh->n_nodes()));
   for (const Point& point : model_.exchange.points)
     for (int p = point.first_port; p < point.end_port; ++p) {
       const Port& port = model_.exchange.ports[p];
@@ -193,10 +193,8 @@ void MonolithicRun::run() {
 void MonolithicRun::add_to(SolverFigures& figures) const {
   figures.n_dofs = 0;
   double bytes = assembly_.bytes();
-  for (const auto& piece : model_.pieces) {
-    figures.n_dofs += 3 * piece->setup().body->part->mesh->n_nodes();
-    bytes += piece->bytes();
-  }
+  for (const SubstructurePtr& part : model_.problem->substructures) figures.n_dofs += 3 * part->mesh->n_nodes();
+  for (const auto& piece : model_.pieces) bytes += piece->figures().bytes;
   figures.factor_bytes = std::max(figures.factor_bytes, bytes);
   figures.n_interface_unknowns = assembly_.n_rows();
   figures.gap_difference = std::max(figures.gap_difference, gap_difference_);

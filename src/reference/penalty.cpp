@@ -25,7 +25,7 @@ Side side_of(const StepModel& model, const Point& point, int side) {
     const int node = (side == 1 ? surface.facing.nodes_1 : surface.facing.nodes_2)[member.point];
     const Elastic& material = model.problem->substructures[part]->material;
     const double bulk = material.young / (3 * (1 - 2 * material.poisson));
-    const double area = surface.facing.areas[member.point], mass = model.pieces[part]->node_mass(node);
+    const double area = surface.facing.areas[member.point], mass = model.pieces[part]->node_masses()[node];
     // A node on a face has half of the volume of the cells behind its area.
     sum.stiffness += bulk * area * area / (2 * mass / material.density);
     sum.mass += mass;

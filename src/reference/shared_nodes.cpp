@@ -51,7 +51,7 @@ SharedNodes::SharedNodes(const StepModel& model, const std::vector<char>& is_tie
     : group_of_node_(internal.n_dofs() / 3, -1), moved_mass_(internal.n_dofs()) {
   for (int part = 0; part < internal.n_parts(); ++part)
     for (int dof = internal.first(part); dof < internal.first(part + 1); ++dof)
-      moved_mass_[dof] = model.pieces[part]->node_mass((dof - internal.first(part)) / 3);
+      moved_mass_[dof] = model.pieces[part]->node_masses()[(dof - internal.first(part)) / 3];
   collect(model, is_tied, internal);
   for (Group& group : groups_) {
     hold(model, group);
@@ -84,11 +84,11 @@ void SharedNodes::collect(const StepModel& model, const std::vector<char>& is_ti
     const int first = internal.first(part) / 3;
     for (const auto& [node, held] : model.conditions.held[part])
       if (held.n > 0) is_shared[first + node] = 1;
-    for (const auto& [node, impedance] : model.pieces[part]->absorbing()) is_shared[first + node] = 1;
+    for (const auto& [node, impedance] : assembled_piece(model, part).op().absorbing()) is_shared[first + node] = 1;
   }
   std::vector<int> group_of(sets.parent.size(), -1), copy_of(sets.parent.size(), -1);
   for (int part = 0; part < internal.n_parts(); ++part) {
-    const Piece& piece = *model.pieces[part];
+    const PieceOperator& piece = assembled_piece(model, part).op();
     auto absorbing = piece.absorbing().begin();  // by node
     for (int global = internal.first(part) / 3; global < internal.first(part + 1) / 3; ++global) {
       if (!is_shared[global]) continue;
@@ -98,7 +98,7 @@ void SharedNodes::collect(const StepModel& model, const std::vector<char>& is_ti
         groups_.emplace_back();
       }
       const int node = global - internal.first(part) / 3;
-      Copy copy{part, node, 3 * global, piece.node_mass(node)};
+      Copy copy{part, node, 3 * global, model.pieces[part]->node_masses()[node]};
       if (absorbing != piece.absorbing().end() && absorbing->first == node) copy.impedance = (absorbing++)->second;
       group_of_node_[global] = group;
       copy_of[global] = static_cast<int>(groups_[group].copies.size());

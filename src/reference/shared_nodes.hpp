@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "reference/internal_force.hpp"
-#include "solution/step_model.hpp"
+#include "solution/make_pieces.hpp"
 
 namespace dygita {
 

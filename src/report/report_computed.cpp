@@ -1,6 +1,5 @@
 // What was computed: parts, interfaces, supports, steps with their loads, parameters of the deck.
 #include <cmath>
-#include <map>
 #include <sstream>
 
 #include "base/log.hpp"
@@ -20,16 +19,6 @@ std::string joined(const Json& list, const char* separator = ", ") {
 }
 
 std::string count(double n) { return std::isfinite(n) ? fmt::format("{:.0f}", n) : ""; }
-
-const char* unit_of_load(const std::string& kind) {
-  static const std::map<std::string, const char*> units = {{"pressure", "Pa"},    {"traction", "Pa"},
-                                                           {"force", "N"},        {"velocity", "m/s"},
-                                                           {"displacement", "m"}, {"base_acceleration", "m/s^2"},
-                                                           {"gravity", "m/s^2"},  {"shortening", "m"},
-                                                           {"release", "s"},      {"preload", "N"}};
-  const auto found = units.find(kind);
-  return found == units.end() ? "" : found->second;
-}
 
 std::string in_unit(const std::string& text, const std::string& unit) {
   char* end = nullptr;
@@ -55,13 +44,15 @@ std::string loads_of(const Json& step) {
   for (const Json& load : step["loads"]) {
     const std::string kind = text(load, "kind"), on = joined(load.value("on", Json::array()));
     result += (result.empty() ? "" : "; ") + kind + (on.empty() ? "" : " on " + on);
-    const Json values = load.value("value", Json::array());
-    const bool has_axes =
-        kind == "traction" || kind == "force" || kind == "velocity" || kind == "displacement" || kind == "gravity";
-    for (size_t axis = 0; axis < values.size(); ++axis)
-      if (values[axis].is_string())
-        result += (has_axes ? std::string(", ") + "xyz"[axis] + ": " : ", ") +
-                  history_text(values[axis].get<std::string>(), kind);
+    const Json values = load.value("value", Json::array()), axes = load.value("axes", Json::array());
+    for (size_t i = 0; i < values.size(); ++i)
+      if (values[i].is_string())
+        result += (i < axes.size() ? ", " + axes[i].get<std::string>() + ": " : ", ") +
+                  history_text(values[i].get<std::string>(), text(load, "unit"));
+    for (const auto& [name, numbers] : load.value("settings", Json::object()).items()) {
+      result += ", " + name;
+      for (const Json& one : numbers) result += " " + plain_number(one.get<double>());
+    }
   }
   return result.empty() ? "none" : result;
 }
@@ -84,12 +75,11 @@ std::vector<std::string> without_last(std::vector<std::vector<std::string>>& row
 
 }  // namespace
 
-std::string history_text(const std::string& description, const std::string& load_kind) {
+std::string history_text(const std::string& description, const std::string& unit) {
   const size_t open = description.find('(');
   if (open == std::string::npos || description.back() != ')') return description;
   const std::string name = description.substr(0, open),
                     inside = description.substr(open + 1, description.size() - open - 2);
-  const std::string unit = unit_of_load(load_kind);
   if (name == "constant") return in_unit(inside, unit);
   if (name == "file" || name == "piecewise") return name + ", " + inside;
   if (name == "step") {

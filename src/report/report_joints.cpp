@@ -223,7 +223,7 @@ std::string bolts_section(const RunFolder& run) {
   std::string body =
       html::table(header, rows, true) + html::paragraph(
                                             "Forces are those through the modelled part of each bolt, tension "
-                                            "positive; lost: of what its own tightening gave, "
+                                            "positive; lost: relative to its own tightening, "
                                             "at the end; the mean stress is that at the end, over the modelled area.");
   std::vector<std::string> steps = {"after step"};
   for (const Json& bolt : bolts) steps.push_back(text(bolt, "name"));

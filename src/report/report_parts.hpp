@@ -27,7 +27,7 @@ std::string energy_section(const RunFolder& run, const TimeAxis& time);
 std::string convergence_section(const RunFolder& run);
 std::string cost_section(const RunFolder& run);
 
-// "half-sine, peak 100 MPa, duration 40 µs": a history as the record tells it, of a load of this kind.
-std::string history_text(const std::string& description, const std::string& load_kind);
+// "half-sine, peak 100 MPa, duration 40 µs": a history as the record tells it, of values in this unit.
+std::string history_text(const std::string& description, const std::string& unit);
 
 }  // namespace dygita

@@ -45,11 +45,11 @@ std::string energy_figure(const Table& t, const TimeAxis& time) {
   // What was put in: balance = start + loads - all others.
   std::vector<double> given = all;
   for (size_t i = 0; i < given.size(); ++i) given[i] += t.column("balance")[i];
-  plot.lines.push_back({"given: loads and the start", places, given, "#000000", true, false, 1.6});
+  plot.lines.push_back({"input: loads and initial velocities", places, given, "#000000", true, false, 1.6});
   return html::figure(svg(plot),
-                      "Energies held and dissipated, one on top of the other, against what the loads and the initial "
-                      "velocities have given. The balance closes "
-                      "where the dashed line is the top of the areas.");
+                      "Stored and dissipated energies, stacked, against the input of loads and initial velocities. The "
+                      "balance closes "
+                      "where the dashed line follows the top of the areas.");
 }
 
 // The tolerance lines of a convergence chart.
@@ -77,7 +77,7 @@ std::string missed_table(const Table& t, const Json& record) {
                       plain_number(t.column("indicator")[i])});
   }
   if (rows.empty()) return "";
-  return html::heading(n == 1 ? "The increment that missed"
+  return html::heading(n == 1 ? "The increment above the tolerance"
                               : fmt::format("{} increments missed{}", n, n > 10 ? ", the first ten" : "")) +
          html::table({"step", "time", "iterations", "indicator"}, rows, true);
 }

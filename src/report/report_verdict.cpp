@@ -65,7 +65,7 @@ std::string verdict_text(const Json& record) {
                        increments == 1.0 ? "the one increment" : fmt::format("all {} increments", increments),
                        tolerance.empty() ? "what the solver asks for" : "the tolerance of " + tolerance);
   return fmt::format(
-      "NOT converged: {} stopped short of the tolerance{}. Do not build on what follows these increments before they "
+      "NOT converged: {} stopped short of the tolerance{}. Do not rely on what follows these increments before they "
       "converge: more iterations, a smaller dt or more static increments.",
       steps_that_missed(record), tolerance.empty() ? "" : " of " + tolerance);
 }
@@ -107,14 +107,13 @@ std::string verdict_section(const RunFolder& run, const std::vector<std::string>
   add(&Figures::numerical_dissipation, "numerical dissipation",
       has_motion ? "impacts; lower with dt and mesh" : "gaps that close, yielding; lower with more increments",
       limit::numerical_dissipation);
-  add(&Figures::iteration_error, "error left by the iteration", "estimate, of the shock", limit::iteration_error);
-  add(&Figures::penalty_error, "error of the penalty", "estimate, of the shock",
+  add(&Figures::iteration_error, "iteration error", "estimate, of the shock", limit::iteration_error);
+  add(&Figures::penalty_error, "penalty error", "estimate, of the shock",
       limit::penalty_error_of(limit::penalty_energy));
-  add(&Figures::time_step_error, "error of the time step", "estimate, of the shock", limit::discretisation_error);
-  add(&Figures::mesh_error, "error of the mesh", "estimate, of the shock", limit::discretisation_error);
-  add(&Figures::static_iteration_error, "error left by the iteration", "estimate, of static steps",
-      limit::iteration_error);
-  add(&Figures::static_mesh_error, "error of the mesh", "estimate, of static steps", limit::discretisation_error);
+  add(&Figures::time_step_error, "time step error", "estimate, of the shock", limit::discretisation_error);
+  add(&Figures::mesh_error, "mesh error", "estimate, of the shock", limit::discretisation_error);
+  add(&Figures::static_iteration_error, "iteration error", "estimate, of static steps", limit::iteration_error);
+  add(&Figures::static_mesh_error, "mesh error", "estimate, of static steps", limit::discretisation_error);
   if (!cards.empty()) {
     body += "<div class=\"cards\">\n";
     for (const Card& card : cards) body += card_html(card);

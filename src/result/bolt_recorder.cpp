@@ -7,20 +7,18 @@ namespace dygita {
 
 namespace {
 
-bool tightens(const Load& load) { return load.kind == LoadKind::shortening || load.kind == LoadKind::preload; }
+struct Tightened {
+  Tightening by;
+  bool is_to_force = false;
+};
 
-bool is_on(const Load& load, const Interface* interface) {
-  return std::any_of(load.on.begin(), load.on.end(), [&](const Target& target) {
-    const auto* on = std::get_if<InterfacePtr>(&target);
-    return on && on->get() == interface;
-  });
-}
-
-// The load that tightens an interface in a step, or null.
-const Load* tightening(const Step& step, const Interface* interface) {
+// What tightens an interface in a step, if something does.
+std::optional<Tightened> tightened(const Step& step, const Interface* interface) {
   for (const LoadPtr& load : step.loads)
-    if (tightens(*load) && is_on(*load, interface)) return load.get();
-  return nullptr;
+    for (const Effect& effect : load->effects())
+      if (const Tightening* by = tightening(effect); by && by->on.get() == interface)
+        return Tightened{*by, std::holds_alternative<PreloadForce>(effect)};
+  return std::nullopt;
 }
 
 }  // namespace
@@ -29,7 +27,7 @@ BoltRecorder::BoltRecorder(const Problem& problem) {
   for (size_t i = 0; i < problem.interfaces.size(); ++i) {
     const Interface* interface = problem.interfaces[i].get();
     if (std::none_of(problem.steps.begin(), problem.steps.end(),
-                     [&](const StepPtr& step) { return tightening(*step, interface); }))
+                     [&](const StepPtr& step) { return tightened(*step, interface).has_value(); }))
       continue;
     surfaces_.push_back(static_cast<int>(i));
     interfaces_.push_back(interface);
@@ -57,14 +55,13 @@ void BoltRecorder::begin_step(const Instant& start) {
 }
 
 // What a step that tightens was asked for, and what it made.
-void BoltRecorder::note_tightening(size_t b, const Load& load, int increments) {
+void BoltRecorder::note_tightening(size_t b, const Tightening& by, bool is_to_force, int increments) {
   BoltSummary& bolt = bolts_[b];
   bolt.tightened = bolt.last;
   bolt.target.reset();
-  if (load.kind == LoadKind::preload)
-    bolt.target = LoadValue{*load.value[0], load.is_number[0]}.at_static(increments - 1, increments);
-  if (!load.hand && !bolt.formula) return;
-  if (load.hand) bolt.formula = {bolt_resilience(*load.hand), load.share};
+  if (is_to_force) bolt.target = LoadValue{by.value, 0.0}.at_static(increments - 1, increments);
+  if (!by.hand && !bolt.formula) return;
+  if (by.hand) bolt.formula = {bolt_resilience(*by.hand), by.share};
   // Of the whole bolt, which the model has a share of.
   const double compliance = bolt.formula->resilience.sum() / bolt.formula->share;
   bolt.formula->shortening = bolt.target.value_or(bolt.tightened) * compliance;
@@ -87,7 +84,8 @@ void BoltRecorder::accept(const Instant& instant) {
     if (!is_dynamic_) bolt.lowest = bolt.highest = bolt.last;
     if (!instant.is_static() || instant.increment + 1 < step.increments) continue;
     bolt.after_static.push_back(bolt.last);
-    if (const Load* load = tightening(step, interfaces_[b])) note_tightening(b, *load, step.increments);
+    if (const auto now = tightened(step, interfaces_[b]))
+      note_tightening(b, now->by, now->is_to_force, step.increments);
   }
 }
 

@@ -17,7 +17,7 @@ class BoltRecorder {
  private:
   // Force through the interface, N, tension positive; a mean over the time step in a dynamic step.
   static double force(const Instant& instant, int surface);
-  void note_tightening(size_t bolt, const Load& load, int increments);
+  void note_tightening(size_t bolt, const Tightening& by, bool is_to_force, int increments);
 
   std::vector<int> surfaces_;  // of each bolt; interfaces are the first surfaces
   std::vector<const Interface*> interfaces_;

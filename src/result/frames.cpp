@@ -63,7 +63,7 @@ InterfaceFrame interface_frame(const Instant& instant, int s, const FollowedMoti
   }
   for (const Facet& facet : surface.facing.facets) {
     Facet local = facet;
-    for (int i = 0; i < facet.n_nodes; ++i) local.nodes[i] = point_of.at(facet.nodes[i]);
+    for (int& node : local.nodes()) node = point_of.at(node);
     frame.facets.push_back(local);
   }
   frame.fields = {{"displacement", displacement},

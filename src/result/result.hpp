@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "model/bolt_formula.hpp"
 #include "model/output.hpp"
 #include "result/figures.hpp"
 #include "result/frame.hpp"

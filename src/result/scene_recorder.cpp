@@ -111,7 +111,7 @@ void SceneRecorder::find_joints(const Instant& instant) {
         joint.points.col(i) = body.mesh->nodes.col(surface.facing.nodes_1[i]) + body.place;
       }
       for (Facet facet : surface.facing.facets) {
-        for (int i = 0; i < facet.n_nodes; ++i) facet.nodes[i] = point_of.at(facet.nodes[i]);
+        for (int& node : facet.nodes()) node = point_of.at(node);
         joint.facets.push_back(facet);
       }
     }

@@ -18,7 +18,7 @@ SrsSettings srs_settings(const Arguments& arguments) {
                   arguments.integer("per_octave"), quantities.at(arguments.text("quantity"))};
   if (arguments.has("damping")) {
     if (arguments.has("q_factor"))
-      throw InputError("'q_factor' and 'damping' say the same twice: leave one out (Q = 1 / (2 damping))");
+      throw InputError("'q_factor' and 'damping' are the same quantity: leave one out (Q = 1 / (2 damping))");
     srs.q_factor = q_factor_of(arguments.number("damping"));
   }
   if (srs.from >= srs.to)

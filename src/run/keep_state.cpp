@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "base/log.hpp"
+#include "model/load.hpp"
 
 namespace dygita {
 
@@ -35,7 +36,7 @@ const InterfaceFields* start_of(const RunRequest& request) {
   if (!request.start_from) return nullptr;
   if (request.start_from->converged) return request.start_from->interface_fields.get();
   warn(fmt::format(
-      "case '{}': the case to start from has not converged, so its fields are not used as initial guess: the "
+      "case '{}': the case to start from has not converged, so its fields are not used as an initial guess: the "
       "iteration starts from scratch",
       request.case_name));
   return nullptr;
@@ -46,9 +47,9 @@ std::vector<double> load_samples(const Problem& problem, const std::vector<State
   for (size_t i_step = 0; i_step < problem.steps.size() && i_step < steps.size(); ++i_step) {
     const double end = steps[i_step].is_static ? 1.0 : steps[i_step].duration;  // a static step's loads run from 0 to 1
     for (const LoadPtr& load : problem.steps[i_step]->loads) {
-      for (const auto& value : load->value) {
+      for (const auto& value : load->values) {
         if (!value) continue;
-        for (int i = 0; i <= n_load_samples; ++i) samples.push_back(sample(*value, end * i / n_load_samples));
+        for (int i = 0; i <= n_load_samples; ++i) samples.push_back(sample(value->history, end * i / n_load_samples));
       }
     }
   }

@@ -101,24 +101,23 @@ void warn_of_errors(const Problem& problem, const RunResult& result) {
   const double iteration = figures.iteration_error.value_or(0.0), still = figures.static_iteration_error.value_or(0.0);
   if (!problem.monolithic && !problem.explicit_dynamics && iteration > limit::iteration_error && result.converged)
     warn(fmt::format(
-        "the tolerance {:g} leaves about {:.2g} % of error (energy norm) on the shock: {:.1g} would leave 0.1 %",
+        "the tolerance {:g} leaves an error of about {:.2g} % (energy norm) in the shock: {:.1g} would leave 0.1 %",
         problem.solver.tolerance, iteration, 0.1 * problem.solver.tolerance / iteration));
   if (!problem.monolithic && !problem.explicit_dynamics && still > limit::iteration_error && result.converged)
     warn(
-        fmt::format("the static tolerance {:g} leaves about {:.2g} % of error (energy norm) in the static steps: "
+        fmt::format("the static tolerance {:g} leaves an error of about {:.2g} % (energy norm) in the static steps: "
                     "{:.1g} would leave 0.1 %",
                     problem.solver.static_tolerance, still, 0.1 * problem.solver.static_tolerance / still));
   if (const double e = figures.time_step_error.value_or(0.0); e > limit::discretisation_error)
     warn(
-        fmt::format("the time step leaves about {:.2g} % of error (energy norm) on the shock, which moves at {:.3g} "
-                    "kHz on average: a "
-                    "smaller dt leaves less",
+        fmt::format("the time step leaves an error of about {:.2g} % (energy norm) in the shock, which moves at {:.3g} "
+                    "kHz on average: use a smaller dt",
                     e, figures.mean_frequency.value() / 1e3));
   for (const auto& [error, text] :
-       {std::pair{figures.mesh_error, "on the shock"}, {figures.static_mesh_error, "in the static steps"}})
+       {std::pair{figures.mesh_error, "in the shock"}, {figures.static_mesh_error, "in the static steps"}})
     if (const double e = error.value_or(0.0); e > limit::discretisation_error)
       warn(
-          fmt::format("the mesh leaves about {:.2g} % of error (energy norm) {}: smaller cells leave less, "
+          fmt::format("the mesh leaves an error of about {:.2g} % (energy norm) {}: use smaller cells; "
                       "'stress_error' shows where",
                       e, text));
 }

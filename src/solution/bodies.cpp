@@ -5,24 +5,24 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "base/overloaded.hpp"
 #include "fem/mass.hpp"
+#include "model/load.hpp"
 
 namespace dygita {
 
 namespace {
 
-void take_off(const Target& target, const SubstructurePtr& part, std::vector<char>& marked) {
-  const auto take_off_place = [&](const FaceOrRegion& place) {
-    if (const Face* face = std::get_if<Face>(&place); face && face->part == part)
-      for (const Facet& facet : face->facets())
-        for (int i = 0; i < facet.n_nodes; ++i) marked[facet.nodes[i]] = 0;
-    if (const Region* region = std::get_if<Region>(&place); region && region->part == part)
-      for (const int node : region->nodes) marked[node] = 0;
-  };
-  if (const Face* face = std::get_if<Face>(&target)) take_off_place(*face);
-  if (const Region* region = std::get_if<Region>(&target)) take_off_place(*region);
-  if (const SupportPtr* support = std::get_if<SupportPtr>(&target))
-    for (const FaceOrRegion& place : (*support)->on) take_off_place(place);
+void take_off(const FaceOrRegion& place, const SubstructurePtr& part, std::vector<char>& marked) {
+  if (const Face* face = std::get_if<Face>(&place); face && face->part == part)
+    for (const Facet& facet : face->facets())
+      for (const int node : facet.nodes()) marked[node] = 0;
+  if (const Region* region = std::get_if<Region>(&place); region && region->part == part)
+    for (const int node : region->nodes) marked[node] = 0;
+}
+
+void take_off(const std::vector<FaceOrRegion>& places, const SubstructurePtr& part, std::vector<char>& marked) {
+  for (const FaceOrRegion& place : places) take_off(place, part, marked);
 }
 
 // Nodes of a substructure that can do without mass: in contact and in nothing else that counts on it.
@@ -49,11 +49,13 @@ std::vector<char> nodes_in_contact_alone(const Problem& problem, const std::vect
     if (n_surfaces[node] > 1) marked[node] = 0;
   for (const StepPtr& step : problem.steps) {
     for (const SupportPtr& support : supports_of(problem, *step))
-      if (support->kind == SupportKind::absorbing) take_off(support, part, marked);
+      if (support->kind == SupportKind::absorbing) take_off(support->on, part, marked);
     for (const LoadPtr& load : step->loads)
-      if (load->kind == LoadKind::velocity || load->kind == LoadKind::displacement ||
-          load->kind == LoadKind::base_acceleration)
-        for (const Target& target : load->on) take_off(target, part, marked);
+      for (const Effect& effect : load->effects())
+        std::visit(overloaded{[&](const PrescribedMotion& motion) { take_off(motion.on, part, marked); },
+                              [&](const BaseMotion& base) { take_off(base.on->on, part, marked); },
+                              Ignored<NodalForces, BodyForce, Shortening, PreloadForce, Release>()},
+                   effect);
   }
   return marked;
 }

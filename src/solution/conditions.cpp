@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "base/log.hpp"
+#include "base/overloaded.hpp"
 #include "mesh/facing.hpp"
 
 namespace dygita {
@@ -36,16 +37,12 @@ double LoadValue::at_static(int i, int n) const {
   return is_number ? from + s * (history.value(1.0) - from) : history.value(s);
 }
 
-std::string load_key(LoadKind kind, const Target& target, int component) {
-  std::string on;
-  if (const auto* face = std::get_if<Face>(&target)) on = face->label();
-  if (const auto* region = std::get_if<Region>(&target)) {
-    on = region->part->name;
-    for (const int node : region->nodes) on += " " + std::to_string(node);
-  }
-  if (const auto* interface = std::get_if<InterfacePtr>(&target)) on = (*interface)->name;
-  if (const auto* support = std::get_if<SupportPtr>(&target)) on = (*support)->name;
-  return fmt::format("{} {} {}", static_cast<int>(kind), on, component);
+std::string load_key(const std::string& value, const FaceOrRegion& on) {
+  if (const auto* face = std::get_if<Face>(&on)) return value + " " + face->label();
+  const Region& region = std::get<Region>(on);
+  std::string key = value + " " + region.part->name;
+  for (const int node : region.nodes) key += " " + std::to_string(node);
+  return key;
 }
 
 namespace {
@@ -60,7 +57,10 @@ class Builder {
   Conditions build() {
     for (const SupportPtr& support : supports_of(problem_, step_)) add_support(*support);
     for (const LoadPtr& load : step_.loads)
-      if (load->kind == LoadKind::velocity || load->kind == LoadKind::displacement) add_motion(*load);
+      for (const Effect& effect : load->effects())
+        std::visit(overloaded{[&](const PrescribedMotion& motion) { add_motion(motion, *load); },
+                              Ignored<NodalForces, BodyForce, BaseMotion, Shortening, PreloadForce, Release>()},
+                   effect);
     return std::move(result_);
   }
 
@@ -94,54 +94,50 @@ class Builder {
       const double speed = it->second.norm();
       if (speed > 0.0) moves.emplace_back(it->second / speed, add({[speed](int) { return speed; }, speed}));
     }
-    for (const LoadPtr& load : step_.loads) {
-      if (load->kind != LoadKind::base_acceleration) continue;
-      for (const Target& target : load->on) {
-        const auto* on = std::get_if<SupportPtr>(&target);
-        if (!on || on->get() != &support) continue;
-        const History history = *load->value[0];
-        moves.emplace_back(load->direction,
-                           add({[history, dt](int i) { return history.integral(0.0, dt * (i + 1)); }}));
-      }
-    }
+    for (const LoadPtr& load : step_.loads)
+      for (const Effect& effect : load->effects())
+        std::visit(overloaded{[&](const BaseMotion& base) {
+                                if (base.on.get() != &support) return;
+                                const History history = base.acceleration;
+                                moves.emplace_back(
+                                    base.direction,
+                                    add({[history, dt](int i) { return history.integral(0.0, dt * (i + 1)); }}));
+                              },
+                              Ignored<NodalForces, BodyForce, PrescribedMotion, Shortening, PreloadForce, Release>()},
+                   effect);
     return moves;
   }
 
-  void add_motion(const Load& load) {
-    for (const Target& target : load.on) {
-      const FaceOrRegion on = std::holds_alternative<Face>(target) ? FaceOrRegion(std::get<Face>(target))
-                                                                   : FaceOrRegion(std::get<Region>(target));
-      for (int axis = 0; axis < 3; ++axis) {
-        if (!load.value[axis]) continue;
-        const int motion = add(motion_of(load, target, axis));
-        for (const int node : nodes_on(on))
-          hold(part_of(on), node, Vec3::Unit(axis), {{Vec3::Unit(axis), motion}}, nullptr,
-               std::string("load.") + load_kind_name(load.kind), load.origin);
-      }
+  void add_motion(const PrescribedMotion& prescribed, const Load& load) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!prescribed.along[axis]) continue;
+      const int motion = add(motion_of(prescribed, load, axis));
+      for (const int node : nodes_on(prescribed.on))
+        hold(part_of(prescribed.on), node, Vec3::Unit(axis), {{Vec3::Unit(axis), motion}}, nullptr, load.path,
+             load.origin);
     }
   }
 
-  Motion motion_of(const Load& load, const Target& target, int axis) const {
-    const auto reached = start_.reached.find(load_key(load.kind, target, axis));
-    const LoadValue value{*load.value[axis], load.is_number[axis],
-                          reached == start_.reached.end() ? 0.0 : reached->second};
+  Motion motion_of(const PrescribedMotion& prescribed, const Load& load, int axis) const {
+    const auto reached = start_.reached.find(load_key(prescribed.name_along(axis), prescribed.on));
+    const LoadValue value{*prescribed.along[axis], reached == start_.reached.end() ? 0.0 : reached->second};
     const double dt = step_.dt;
     const int n = step_.n_increments();
     if (step_.is_static) {
-      if (load.kind == LoadKind::velocity)
-        throw InputError(load.origin, "load.velocity has no meaning in static step '" + step_.name +
+      if (prescribed.is_velocity)
+        throw InputError(load.origin, load.path + " has no meaning in static step '" + step_.name +
                                           "': a static step has no time; use load.displacement");
       return {[value, n](int i) { return value.at_static(i, n) - value.at_static(i - 1, n); }};
     }
-    if (load.kind == LoadKind::velocity)
+    if (prescribed.is_velocity)
       return {[value, dt](int i) { return value.history.value(dt * (i + 1)); }, value.history.value(0.0)};
     const double start = value.history.value(0.0);
     if (std::abs(start - value.from) > 1e-9 + 1e-6 * std::abs(start))
       warn(
-          fmt::format("{}load.displacement in dynamic step '{}' starts at {:.6g} m where {:.6g} m has been reached: "
+          fmt::format("{}{} in dynamic step '{}' starts at {:.6g} m where {:.6g} m has been reached: "
                       "only its changes in the "
                       "step move the nodes; start the history from there, or bring it there in a static step",
-                      load.origin.prefix(), step_.name, start, value.from));
+                      load.origin.prefix(), load.path, step_.name, start, value.from));
     // U is then the two-point mean of the prescribed displacement and nothing alternates (manual, prescribed
     // displacement).
     const auto mean = [value, dt](double i) {

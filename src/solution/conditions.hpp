@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "model/model.hpp"
+#include "model/load.hpp"
 #include "solution/state.hpp"
 
 namespace dygita {
@@ -39,10 +39,8 @@ struct Conditions {
 // else already holds the node.
 Conditions make_conditions(const Problem& problem, const Step& step, const State& start);
 
-// Value of one load component over a step: what the number or history means in a static and in a dynamic step.
-struct LoadValue {
-  History history;
-  bool is_number = false;
+// A value over a step: what the number or history means in a static and in a dynamic step.
+struct LoadValue : TimeValue {
   double from = 0.0;  // reached in the step before
 
   // Static: at the end of increment i of n (i = 0 .. n - 1; i = -1 is the start).
@@ -51,7 +49,7 @@ struct LoadValue {
   double mean(double t0, double t1) const { return history.integral(t0, t1) / (t1 - t0); }
 };
 
-// Key of a load component in State::reached.
-std::string load_key(LoadKind kind, const Target& target, int component);
+// Key in State::reached of a value of a load (its name, and where).
+std::string load_key(const std::string& value, const FaceOrRegion& on);
 
 }  // namespace dygita

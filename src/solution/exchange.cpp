@@ -154,7 +154,7 @@ class Builder {
     throw InputError(
         surface.interface->origin,
         fmt::format("interface '{}': its two sides are tied to each other at node {} of '{}' ({:.6g}, {:.6g}, {:.6g}) "
-                    "through bonded interfaces ({}): what is tied cannot move apart there",
+                    "through bonded interfaces ({}): tied nodes cannot move apart there",
                     surface.name(), surface.facing.nodes_1[i], problem_.substructures[surface.part_1]->name, x[0], x[1],
                     x[2], path));
   }

@@ -2,123 +2,119 @@
 
 #include <algorithm>
 
+#include "base/overloaded.hpp"
 #include "mesh/facing.hpp"
 
 namespace dygita {
 
 namespace {
 
-// Nodal forces of a unit pressure, traction component or total force.
-std::vector<std::pair<int, Vec3>> unit_pattern(LoadKind kind, const Target& target, int component) {
-  std::vector<std::pair<int, Vec3>> pattern;
-  const Vec3 axis = Vec3::Unit(component);
-  if (const auto* region = std::get_if<Region>(&target)) {
-    for (const int node : region->nodes) pattern.emplace_back(node, axis / static_cast<double>(region->nodes.size()));
-    return pattern;
-  }
-  const Face& face = std::get<Face>(target);
-  const FaceNodes on = face_nodes(*face.part->mesh, face.facets());
-  const double total = on.areas.sum();
-  for (size_t i = 0; i < on.nodes.size(); ++i) {
-    Vec3 force = on.areas[i] * axis;
-    if (kind == LoadKind::pressure) force = -on.areas[i] * on.normals.col(i);
-    if (kind == LoadKind::force) force = on.areas[i] / total * axis;
-    pattern.emplace_back(on.nodes[i], force);
-  }
-  return pattern;
+int part_of(const Problem& problem, const FaceOrRegion& on) {
+  return std::visit([&](const auto& place) { return index_of(problem.substructures, place.part.get()); }, on);
 }
 
-int part_of(const Problem& problem, const Target& target) {
-  if (const auto* face = std::get_if<Face>(&target)) return index_of(problem.substructures, face->part.get());
-  return index_of(problem.substructures, std::get<Region>(target).part.get());
+double value_reached(const State& state, const std::string& key) {
+  const auto it = state.reached.find(key);
+  return it == state.reached.end() ? 0.0 : it->second;
 }
-
-bool is_force(LoadKind kind) {
-  return kind == LoadKind::pressure || kind == LoadKind::traction || kind == LoadKind::force ||
-         kind == LoadKind::gravity;
-}
-
-// Gravity acts on every part: its pattern is the mass.
-const std::string gravity_key = "gravity ";
 
 }  // namespace
 
+NodesUnderLoad nodes_under_load(const FaceOrRegion& on) {
+  NodesUnderLoad result;
+  if (const auto* region = std::get_if<Region>(&on)) {
+    const auto n = static_cast<int>(region->nodes.size());
+    result.nodes = region->nodes;
+    result.loaded = {Points(3, n), Vec::Ones(n), Points::Zero(3, n)};
+  } else {
+    const Face& face = std::get<Face>(on);
+    FaceNodes nodes = face_nodes(*face.part->mesh, face.facets());
+    result.loaded = {Points(3, nodes.areas.size()), std::move(nodes.areas), std::move(nodes.normals)};
+    result.nodes = std::move(nodes.nodes);
+  }
+  const Substructure& part = *std::visit([](const auto& place) { return place.part; }, on);
+  for (size_t i = 0; i < result.nodes.size(); ++i)
+    result.loaded.positions.col(static_cast<int>(i)) = part.mesh->nodes.col(result.nodes[i]) + part.place;
+  return result;
+}
+
 Loads::Loads(const Problem& problem, const Step& step, const State& start, const std::vector<const Vec*>& masses)
     : problem_(problem), step_(step) {
-  const auto from = [&](const std::string& key) {
-    const auto it = start.reached.find(key);
-    return it == start.reached.end() ? 0.0 : it->second;
-  };
-  const auto add_gravity = [&](int component, const LoadValue& value) {
-    for (size_t part = 0; part < masses.size(); ++part) {
-      LoadPattern pattern{static_cast<int>(part), {}, value, gravity_key + std::to_string(component)};
-      for (int node = 0; node < masses[part]->size(); ++node)
-        pattern.nodes.emplace_back(node, (*masses[part])[node] * Vec3::Unit(component));
-      patterns_.push_back(std::move(pattern));
-    }
-  };
-  for (const LoadPtr& load : step.loads) {
-    for (int c = 0; c < 3; ++c) {
-      if (!load->value[c]) continue;
-      if (load->kind == LoadKind::gravity)
-        add_gravity(c, {*load->value[c], load->is_number[c], from(gravity_key + std::to_string(c))});
-      for (const Target& target : load->on) add_component(*load, target, c, start);
-    }
-  }
-  if (!step.is_static) return;
-  add_vanished(start);
-  for (int c = 0; c < 3; ++c) {
-    const std::string key = gravity_key + std::to_string(c);
-    const bool listed = std::any_of(patterns_.begin(), patterns_.end(), [&](const auto& p) { return p.key == key; });
-    if (!listed && from(key) != 0.0) add_gravity(c, {History::constant(0.0), true, from(key)});
+  for (const LoadPtr& load : step.loads)
+    for (const Effect& effect : load->effects())
+      std::visit(overloaded{[&](const NodalForces& forces) { add(forces, forces.value, start); },
+                            [&](const BodyForce& force) { add(force, force.value, start, masses); },
+                            [&](const PrescribedMotion& motion) { note_reached(motion, start); },
+                            [&](const Shortening& shortening) { add(shortening, start); },
+                            [&](const PreloadForce& preload) {
+                              preloads_.emplace_back(preload.on.get(), LoadValue{preload.value, 0.0});
+                            },
+                            [&](const Release& release) { releases_.emplace_back(release.on.get(), release.at); },
+                            Ignored<BaseMotion>()},  // moves with the conditions
+                 effect);
+  if (step.is_static) add_vanished(start, masses);
+}
+
+void Loads::add(const NodalForces& forces, const TimeValue& value, const State& start) {
+  const std::string key = load_key(forces.name, forces.on);
+  const NodesUnderLoad on = nodes_under_load(forces.on);
+  const Points unit = forces.unit(on.loaded);
+  LoadPattern pattern{part_of(problem_, forces.on), {}, {value, value_reached(start, key)}, key};
+  for (size_t i = 0; i < on.nodes.size(); ++i) pattern.nodes.emplace_back(on.nodes[i], unit.col(static_cast<int>(i)));
+  patterns_.push_back(std::move(pattern));
+}
+
+void Loads::add(const BodyForce& force, const TimeValue& value, const State& start,
+                const std::vector<const Vec*>& masses) {
+  for (size_t i = 0; i < masses.size(); ++i) {
+    const Substructure& part = *problem_.substructures[i];
+    LoadPattern pattern{static_cast<int>(i), {}, {value, value_reached(start, force.name)}, force.name};
+    for (int node = 0; node < masses[i]->size(); ++node)
+      pattern.nodes.emplace_back(node, (*masses[i])[node] * force.unit(part.mesh->nodes.col(node) + part.place));
+    patterns_.push_back(std::move(pattern));
   }
 }
 
-void Loads::add_component(const Load& load, const Target& target, int component, const State& start) {
-  const std::string key = load_key(load.kind, target, component);
-  const auto it = start.reached.find(key);
-  const LoadValue value{*load.value[component], load.is_number[component],
-                        it == start.reached.end() ? 0.0 : it->second};
-  if (is_force(load.kind)) {
-    patterns_.push_back({part_of(problem_, target), unit_pattern(load.kind, target, component), value, key});
-  } else if (load.kind == LoadKind::shortening) {
-    const Interface* interface = std::get<InterfacePtr>(target).get();
-    // The bolt keeps the length its last step gave it: a later shortening starts from there. Interfaces are the first
-    // surfaces.
-    LoadValue from_there = value;
-    from_there.from = start.shortening.at(index_of(problem_.interfaces, interface));
-    shortenings_.emplace_back(interface, from_there);
-  } else if (load.kind == LoadKind::preload) {
-    preloads_.emplace_back(std::get<InterfacePtr>(target).get(), value);
-  } else if (load.kind == LoadKind::release) {
-    releases_.emplace_back(std::get<InterfacePtr>(target).get(), load.value[component]->value(0.0));
-  } else if (load.kind == LoadKind::displacement) {
+void Loads::add(const Shortening& shortening, const State& start) {
+  const Interface* interface = shortening.on.get();
+  // The bolt keeps the length its last step gave it: a later shortening starts from there. Interfaces are the first
+  // surfaces.
+  shortenings_.emplace_back(interface,
+                            LoadValue{shortening.value, start.shortening.at(index_of(problem_.interfaces, interface))});
+}
+
+void Loads::note_reached(const PrescribedMotion& motion, const State& start) {
+  if (motion.is_velocity) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!motion.along[axis]) continue;
+    const std::string key = load_key(motion.name_along(axis), motion.on);
+    const LoadValue value{*motion.along[axis], value_reached(start, key)};
     motions_reached_[key] =
         step_.is_static ? value.at_static(step_.increments - 1, step_.increments) : value.history.value(step_.duration);
   }
 }
 
-// A load of the step before that is no longer listed is taken off along the same ramp.
-void Loads::add_vanished(const State& start) {
-  int i_step = -1;
-  for (size_t i = 0; i < problem_.steps.size(); ++i)
-    if (problem_.steps[i].get() == &step_) i_step = static_cast<int>(i);
+// A force of the step before that is no longer listed is taken off along the same ramp.
+void Loads::add_vanished(const State& start, const std::vector<const Vec*>& masses) {
+  const int i_step = index_of(problem_.steps, &step_);
   if (i_step <= 0) return;
+  const TimeValue nothing{History::constant(0.0), true};
+  const auto has_vanished = [&](const std::string& key) {
+    return value_reached(start, key) != 0.0 &&
+           std::none_of(patterns_.begin(), patterns_.end(), [&](const auto& pattern) { return pattern.key == key; });
+  };
+  std::vector<NodalForces> nodal_forces;
+  std::vector<BodyForce> body_forces;
   for (const LoadPtr& load : problem_.steps[i_step - 1]->loads)
-    for (int c = 0; c < 3; ++c) {
-      if (!load->value[c] || !is_force(load->kind)) continue;
-      for (const Target& target : load->on) {
-        const std::string key = load_key(load->kind, target, c);
-        const auto it = start.reached.find(key);
-        const bool listed =
-            std::any_of(patterns_.begin(), patterns_.end(), [&](const auto& p) { return p.key == key; });
-        if (listed || it == start.reached.end() || it->second == 0.0) continue;
-        patterns_.push_back({part_of(problem_, target),
-                             unit_pattern(load->kind, target, c),
-                             {History::constant(0.0), true, it->second},
-                             key});
-      }
-    }
+    for (const Effect& effect : load->effects())
+      std::visit(overloaded{[&](const NodalForces& forces) { nodal_forces.push_back(forces); },
+                            [&](const BodyForce& force) { body_forces.push_back(force); },
+                            Ignored<PrescribedMotion, BaseMotion, Shortening, PreloadForce, Release>()},
+                 effect);
+  for (const NodalForces& forces : nodal_forces)
+    if (has_vanished(load_key(forces.name, forces.on))) add(forces, nothing, start);
+  for (const BodyForce& force : body_forces)
+    if (has_vanished(force.name)) add(force, nothing, start, masses);
 }
 
 void Loads::evaluate(int increment) {

@@ -13,6 +13,13 @@ struct LoadPattern {
   std::string key;
 };
 
+// Nodes of a substructure's mesh under a load, and what a load asks of them.
+struct NodesUnderLoad {
+  std::vector<int> nodes;
+  LoadedNodes loaded;
+};
+NodesUnderLoad nodes_under_load(const FaceOrRegion& on);
+
 class Loads {
  public:
   // masses: nodal masses (kg) of each substructure, for gravity.
@@ -39,8 +46,11 @@ class Loads {
   std::map<std::string, double> reached() const;
 
  private:
-  void add_component(const Load& load, const Target& target, int component, const State& start);
-  void add_vanished(const State& start);
+  void add(const NodalForces& forces, const TimeValue& value, const State& start);
+  void add(const BodyForce& force, const TimeValue& value, const State& start, const std::vector<const Vec*>& masses);
+  void add(const Shortening& shortening, const State& start);
+  void note_reached(const PrescribedMotion& motion, const State& start);
+  void add_vanished(const State& start, const std::vector<const Vec*>& masses);
 
   const Problem& problem_;
   const Step& step_;

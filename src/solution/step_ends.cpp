@@ -1,5 +1,7 @@
 #include "solution/step_ends.hpp"
 
+#include "base/overloaded.hpp"
+
 namespace dygita {
 
 namespace {
@@ -32,11 +34,7 @@ void set_pieces(StepModel& model, int part, const State& state) {
     return;
   }
   const auto elastic_force = [&](int piece) {
-    const Points u = cut.on_piece(piece, state.displacement[part]);
-    Points force(3, u.cols());
-    Eigen::Map<Vec>(force.data(), force.size()) =
-        model.pieces[piece]->setup().body->matrices->stiffness * Eigen::Map<const Vec>(u.data(), u.size());
-    return force;
+    return model.pieces[piece]->elastic_force(cut.on_piece(piece, state.displacement[part]));
   };
   const Points imbalance = cut.summed(part, elastic_force) - state.force[part] - interfaces;
   for (int p = cut.first(part); p < cut.first(part) + cut.n_pieces(part); ++p) {
@@ -103,12 +101,13 @@ void end_step(const StepModel& model, State& state) {
     return;
   }
   for (const LoadPtr& load : model.step->loads)
-    if (load->kind == LoadKind::base_acceleration)
-      for (const Target& target : load->on)
-        if (const auto* support = std::get_if<SupportPtr>(&target)) {
-          auto [it, is_new] = state.base_velocity.emplace(support->get(), Vec3::Zero());
-          it->second += load->direction * load->value[0]->integral(0.0, model.step->duration);
-        }
+    for (const Effect& effect : load->effects())
+      std::visit(overloaded{[&](const BaseMotion& base) {
+                              auto [it, is_new] = state.base_velocity.emplace(base.on.get(), Vec3::Zero());
+                              it->second += base.direction * base.acceleration.integral(0.0, model.step->duration);
+                            },
+                            Ignored<NodalForces, BodyForce, PrescribedMotion, Shortening, PreloadForce, Release>()},
+                 effect);
 }
 
 void book_increment(const std::vector<IncrementEnergy>& increment, Energies& energies) {

@@ -54,10 +54,9 @@ Facing wall_facing(const Face& face) {
 
 // Facets named by two interfaces would carry their forces twice.
 void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces) {
-  std::map<std::pair<int, std::array<int, 4>>, const Surface*> owner;
-  const auto claim = [&](const Surface& surface, int part, std::array<int, 4> nodes) {
-    std::sort(nodes.begin(), nodes.end());
-    const auto [it, is_new] = owner.emplace(std::pair{part, nodes}, &surface);
+  std::map<std::pair<int, FacetKey>, const Surface*> owner;
+  const auto claim = [&](const Surface& surface, int part, const Facet& facet) {
+    const auto [it, is_new] = owner.emplace(std::pair{part, facet_key(facet)}, &surface);
     if (is_new || it->second == &surface) return;
     const Origin& origin = surface.interface ? surface.interface->origin : surface.wall->origin;
     throw InputError(origin, "'" + surface.name() + "' and '" + it->second->name() +
@@ -69,10 +68,10 @@ void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces
     for (int i = 0; i < surface.n_points(); ++i)
       if (surface.part_2 >= 0) partner[surface.facing.nodes_1[i]] = surface.facing.nodes_2[i];
     for (const Facet& facet : surface.facing.facets) {
-      claim(surface, surface.part_1, facet.nodes);
+      claim(surface, surface.part_1, facet);
       if (surface.part_2 < 0) continue;
-      std::array<int, 4> other = facet.nodes;
-      for (int i = 0; i < facet.n_nodes; ++i) other[i] = partner.at(facet.nodes[i]);
+      Facet other = facet;
+      for (int& node : other.nodes()) node = partner.at(node);
       claim(surface, surface.part_2, other);
     }
   }

@@ -5,6 +5,7 @@
 
 #include "base/log.hpp"
 #include "deck/fake_engine.hpp"
+#include "model/load.hpp"
 
 namespace dygita::test {
 
@@ -21,9 +22,9 @@ Problem built(const std::string& text, const std::string& more = "") {
   return fake.problems.at(0);
 }
 
-Load load_built(const std::string& load,
-                const std::string& step = "step.dynamic{ name = 's', duration = 4*us, dt = 1*us") {
-  return *built("local l = " + load + "\nlocal s = " + step + ", loads = { l } }").steps.at(0)->loads.at(0);
+LoadPtr load_built(const std::string& load,
+                   const std::string& step = "step.dynamic{ name = 's', duration = 4*us, dt = 1*us") {
+  return built("local l = " + load + "\nlocal s = " + step + ", loads = { l } }").steps.at(0)->loads.at(0);
 }
 
 TEST(Build, makes_materials_and_substructures) {
@@ -97,19 +98,19 @@ local h = output.history{ name = "h", on = { top, high:face "xmin" }, quantity =
 }
 
 TEST(Build, knows_numbers_from_histories_in_loads) {
-  const Load load =
+  const LoadPtr load =
       load_built("load.traction{ on = high:face 'zmax', x = 3*MPa, z = history.ramp{ to = 1*MPa, duration = 2*us } }");
-  EXPECT_EQ(load.kind, LoadKind::traction);
-  EXPECT_TRUE(load.is_number[0]);
-  EXPECT_EQ(load.value[0]->value(1.0), 3e6);
-  EXPECT_FALSE(load.value[1].has_value());
-  EXPECT_FALSE(load.is_number[2]);
-  EXPECT_DOUBLE_EQ(load.value[2]->value(1e-6), 5e5);
+  EXPECT_EQ(load->path, "load.traction");
+  EXPECT_TRUE(load->values[0]->is_number);
+  EXPECT_EQ(load->values[0]->history.value(1.0), 3e6);
+  EXPECT_FALSE(load->values[1].has_value());
+  EXPECT_FALSE(load->values[2]->is_number);
+  EXPECT_DOUBLE_EQ(load->values[2]->history.value(1e-6), 5e5);
 }
 
 TEST(Build, makes_every_history) {
   const auto value = [](const std::string& history, double t) {
-    return load_built("load.pressure{ on = high:face 'zmax', history = " + history + " }").value[0]->value(t);
+    return load_built("load.pressure{ on = high:face 'zmax', history = " + history + " }")->values[0]->history.value(t);
   };
   EXPECT_EQ(value("history.constant{ value = 5 }", 1.0), 5.0);
   EXPECT_EQ(value("history.step{ value = 5, at = 2*us }", 1e-6), 0.0);
@@ -131,25 +132,25 @@ local push = load.pressure{ on = high:face "zmax", history = history.file{ file 
 local s = step.dynamic{ name = "s", duration = 1*us, dt = 0.1*us, loads = { push } }
 problem{ name = "p", substructures = { low, high }, interfaces = { glue }, supports = { base }, steps = { s } }:run{})");
   run_deck(options, fake.engine());
-  EXPECT_DOUBLE_EQ(fake.problems.at(0).steps[0]->loads[0]->value[0]->value(0.5e-6), 5.0);
+  EXPECT_DOUBLE_EQ(fake.problems.at(0).steps[0]->loads[0]->values[0]->history.value(0.5e-6), 5.0);
 }
 
 TEST(Build, makes_the_other_loads) {
-  const Load shake = load_built("load.base_acceleration{ on = base, direction = { 0, 0, 2 }, history = 100*g0 }");
-  EXPECT_EQ(shake.direction, Vec3(0, 0, 1));
-  EXPECT_DOUBLE_EQ(shake.value[0]->value(0.0), 980.665);
-  EXPECT_EQ(std::get<SupportPtr>(shake.on.at(0))->name, "base");
-  const Load tighten =
+  const LoadPtr shake = load_built("load.base_acceleration{ on = base, direction = { 0, 0, 2 }, history = 100*g0 }");
+  const std::vector<Effect> shaken = shake->effects();
+  EXPECT_EQ(std::get<BaseMotion>(shaken.at(0)).direction, Vec3(0, 0, 1));
+  EXPECT_DOUBLE_EQ(std::get<BaseMotion>(shaken.at(0)).acceleration.value(0.0), 980.665);
+  EXPECT_EQ(std::get<SupportPtr>(shake->on.at(0))->name, "base");
+  const LoadPtr tighten =
       load_built("load.shortening{ on = glue, by = 40*um }", "step.static{ name = 's', increments = 2");
-  EXPECT_EQ(tighten.kind, LoadKind::shortening);
-  EXPECT_TRUE(tighten.is_number[0]);
-  EXPECT_DOUBLE_EQ(tighten.value[0]->value(0.0), 40e-6);
-  const Load release = load_built("load.release{ on = { glue }, at = 2*us }");
-  EXPECT_EQ(release.kind, LoadKind::release);
-  EXPECT_DOUBLE_EQ(release.value[0]->value(0.0), 2e-6);
-  const Load gravity = load_built("load.gravity{ z = -g0 }", "step.static{ name = 's'");
-  EXPECT_TRUE(gravity.on.empty());
-  EXPECT_DOUBLE_EQ(gravity.value[2]->value(0.0), -9.80665);
+  EXPECT_EQ(tighten->path, "load.shortening");
+  EXPECT_TRUE(tighten->values[0]->is_number);
+  EXPECT_DOUBLE_EQ(tighten->values[0]->history.value(0.0), 40e-6);
+  const LoadPtr release = load_built("load.release{ on = { glue }, at = 2*us }");
+  EXPECT_DOUBLE_EQ(std::get<Release>(release->effects().at(0)).at, 2e-6);
+  const LoadPtr gravity = load_built("load.gravity{ z = -g0 }", "step.static{ name = 's'");
+  EXPECT_TRUE(gravity->on.empty());
+  EXPECT_DOUBLE_EQ(gravity->values[2]->history.value(0.0), -9.80665);
 }
 
 TEST(Build, makes_steps_with_supports_of_their_own) {

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "deck/fake_engine.hpp"
+#include "model/load.hpp"
 
 namespace dygita::test {
 
@@ -105,7 +106,7 @@ TEST(TimeLimit, does_not_count_what_the_engine_takes) {
 
 TEST(TimeLimit, counts_functions_of_time_that_the_engine_asks) {
   FakeEngine fake;
-  fake.during = [](const Problem& problem) { problem.steps[0]->loads[0]->value[2]->value(0.5); };
+  fake.during = [](const Problem& problem) { problem.steps[0]->loads[0]->values[2]->history.value(0.5); };
   const Folder folder;
   DeckOptions options;
   options.path = folder.write("deck.lua", std::string(two_blocks) + R"(

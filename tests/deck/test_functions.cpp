@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "deck/fake_engine.hpp"
+#include "model/load.hpp"
 
 namespace dygita::test {
 
@@ -17,7 +18,7 @@ std::string deck_with(const std::string& function) {
          ":run{}";
 }
 
-const History& history_in(const Problem& problem) { return *problem.steps[0]->loads[0]->value[0]; }
+const History& history_in(const Problem& problem) { return problem.steps[0]->loads[0]->values[0]->history; }
 
 TEST(DeckFunction, is_asked_by_the_engine) {
   FakeEngine fake;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "deck/fake_engine.hpp"
+#include "model/load.hpp"
 
 namespace dygita::test {
 

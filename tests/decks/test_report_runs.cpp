@@ -124,7 +124,7 @@ for _, one in ipairs{ b, output.attenuation{ name = "taken", entering = a, leavi
 TEST(ReportRuns, only_static) {
   const Written run = run_and_read(blocks(latin + "local steps = { press }\n"));
   expect_sound(run);
-  EXPECT_NE(run.page.find("error left by the iteration"), std::string::npos);
+  EXPECT_NE(run.page.find("iteration error"), std::string::npos);
   EXPECT_EQ(run.page.find("largest strain energy in the motion"), std::string::npos);
 }
 

@@ -8,7 +8,8 @@
 
 #include "base/log.hpp"
 #include "mesh/box.hpp"
-#include "model/model.hpp"
+#include "model/given_arguments.hpp"
+#include "model/load.hpp"
 
 namespace dygita {
 
@@ -20,13 +21,19 @@ std::shared_ptr<T> declared(const std::string& name, int line) {
   return object;
 }
 
-inline std::shared_ptr<Load> load(LoadKind kind, std::vector<Target> on, double x = 1.0) {
-  auto result = std::make_shared<Load>();
-  result->kind = kind;
-  result->origin = Origin{"deck.lua", 40};
-  result->on = std::move(on);
-  result->value[0] = History::constant(x);
-  return result;
+// A load of these values, and of a direction along z where it has one.
+inline LoadPtr load(const std::string& word, std::vector<Target> on, const std::map<std::string, double>& values,
+                    const Vec3& direction = Vec3::UnitZ()) {
+  GivenArguments arguments("load." + word, {"deck.lua", 40});
+  arguments.on = std::move(on);
+  for (const auto& [key, value] : values) arguments.values_of_time[key] = {History::constant(value), true};
+  arguments.lists["direction"] = {direction[0], direction[1], direction[2]};
+  return make_load(arguments);
+}
+
+// The same value whatever the load calls it; along x where it has axes.
+inline LoadPtr load(const std::string& word, std::vector<Target> on, double value = 1.0) {
+  return load(word, std::move(on), {{"history", value}, {"by", value}, {"at", value}, {"force", value}, {"x", value}});
 }
 
 class Assembly : public ::testing::Test {
@@ -49,11 +56,11 @@ class Assembly : public ::testing::Test {
     }
     base->on = {Face{lower, "zmin"}};
     tighten->is_static = true;
-    tighten->loads = {load(LoadKind::shortening, {InterfacePtr(shank)}, 1e-5)};
+    tighten->loads = {load("shortening", {InterfacePtr(shank)}, 1e-5)};
     shock->after = tighten;
     shock->duration = 200e-6;
     shock->dt = 1e-6;
-    shock->loads = {load(LoadKind::pressure, {Face{upper, "zmax"}}, 1e6)};
+    shock->loads = {load("pressure", {Face{upper, "zmax"}}, 1e6)};
     above->kind = OutputKind::history;
     above->on = {Face{upper, "zmax"}};
     above->quantity = Quantity::acceleration;

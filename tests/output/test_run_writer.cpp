@@ -14,6 +14,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "model/given_arguments.hpp"
+#include "model/load.hpp"
 #include "output/run_writer.hpp"
 #include "scratch.hpp"
 
@@ -55,7 +57,8 @@ struct Scene {
     frame.label_time = time + 1.0;
     frame.step = "shock";
     for (const SubstructurePtr& p : parts) frame.parts.push_back(part_frame(*p, scale));
-    frame.interfaces = {interface("quads", 4, 0.5 * scale), interface("triangle", 3, 2.0 * scale)};
+    frame.interfaces = {interface("quads", {FacetType::quad4, {0, 1, 2, 3}}, 0.5 * scale),
+                        interface("triangle", {FacetType::tri3, {0, 1, 2}}, 2.0 * scale)};
     frame.interfaces[1].fields.push_back({"plastic_opening", Mat::Constant(1, 3, 7.0)});
     return frame;
   }
@@ -70,11 +73,12 @@ struct Scene {
     return frame;
   }
 
-  static InterfaceFrame interface(const std::string& name, int n, double value) {
+  static InterfaceFrame interface(const std::string& name, const Facet& facet, double value) {
+    const auto n = static_cast<Eigen::Index>(facet.nodes().size());
     InterfaceFrame frame;
     frame.name = name;
     frame.points = mixed_mesh()->nodes.leftCols(n);
-    frame.facets = {Facet{{0, 1, 2, n == 4 ? 3 : -1}, n}};
+    frame.facets = {facet};
     frame.fields = {{"pressure", Mat::Constant(1, n, value)}, {"displacement", Mat::Constant(3, n, value)}};
     return frame;
   }
@@ -210,13 +214,12 @@ struct Done {
   Done() {
     problem.name = "crush";
     problem.substructures = {part("punch", {0, 0, 0})};
-    auto load = std::make_shared<Load>();
-    load->kind = LoadKind::pressure;
-    load->on = {Face{problem.substructures[0], "zmax"}};
-    load->value[0] = History::half_sine(2.5, 1e-3);
+    GivenArguments pressure("load.pressure", {});
+    pressure.on = {Face{problem.substructures[0], "zmax"}};
+    pressure.values_of_time["history"] = {History::half_sine(2.5, 1e-3), false};
     auto step = std::make_shared<Step>();
     step->name = "shock";
-    step->loads = {load};
+    step->loads = {make_load(pressure)};
     problem.steps = {step};
     add_output("spread", OutputKind::history, "displacement", "m");
     add_output("", OutputKind::energy, "kinetic", "J");
@@ -273,6 +276,7 @@ TEST(RunWriter, writes_a_record_that_tells_what_was_run_and_how_it_went) {
   EXPECT_EQ(json["steps"][0]["increments_not_converged"], 1);
   EXPECT_EQ(json["steps"][0]["loads"][0]["on"][0], "punch.zmax");
   EXPECT_EQ(json["steps"][0]["loads"][0]["value"], nlohmann::json({"half_sine(peak 2.5, duration 0.001)"}));
+  EXPECT_EQ(json["steps"][0]["loads"][0]["unit"], "Pa");
   EXPECT_EQ(json["figures"]["largest penetration [m]"], 1e-9);
   EXPECT_TRUE(json["figures"]["error estimate, mesh [%]"].is_null());
   EXPECT_EQ(json["figures"].size(), 2);

@@ -95,7 +95,7 @@ class SuperelementOutput final : public Output {
     const Step* step = step_of(problem);
     if (!step)
       check::fail(problem, origin, who + ": the problem has no static step",
-                  "it is made about the state after one; or name another step with 'after'");
+                  "it is taken about the state after one; or name another step with 'after'");
     for (const SupportPtr& support : supports_of(problem, *step))
       if (support->kind == SupportKind::absorbing)
         check::fail(problem, origin,

@@ -1,0 +1,47 @@
+// Arguments as a deck would give them, for loads and outputs built without a deck.
+#pragma once
+
+#include "model/arguments.hpp"
+
+namespace dygita {
+
+class GivenArguments : public ModelArguments {
+ public:
+  GivenArguments(std::string path, Origin origin) : path_(std::move(path)), origin_(std::move(origin)) {}
+
+  std::vector<Target> on;
+  std::map<std::string, TimeValue> values_of_time;  // numbers too
+  std::map<std::string, std::vector<double>> lists;
+  std::map<std::string, std::string> words;
+  std::map<std::string, std::map<std::string, double>> tables;
+
+  const std::string& path() const override { return path_; }
+  const Origin& origin() const override { return origin_; }
+  bool has(const char* key) const override {
+    return values_of_time.contains(key) || lists.contains(key) || words.contains(key) || tables.contains(key);
+  }
+  bool is_number(const char* key) const override {
+    return values_of_time.contains(key) && values_of_time.at(key).is_number;
+  }
+  bool is_table(const char* key) const override { return tables.contains(key); }
+  double number(const char* key) const override { return values_of_time.at(key).history.value(0.0); }
+  bool boolean(const char* key) const override { return number(key) != 0.0; }
+  std::string text(const char* key) const override { return words.at(key); }
+  std::vector<double> numbers(const char* key) const override { return lists.at(key); }
+  std::vector<std::string> texts(const char* key) const override { return {words.at(key)}; }
+  std::map<std::string, double> settings(const char* key) const override {
+    return tables.contains(key) ? tables.at(key) : std::map<std::string, double>();
+  }
+  TimeValue value(const char* key) const override { return values_of_time.at(key); }
+  std::vector<Target> targets(const char*) const override { return on; }
+  std::vector<SubstructurePtr> substructures(const char*) const override { return {}; }
+  StepPtr step(const char*) const override { return nullptr; }
+  OutputPtr output(const char*) const override { return nullptr; }
+  std::shared_ptr<const Specification> specification(const char*) const override { return nullptr; }
+
+ private:
+  std::string path_;
+  Origin origin_;
+};
+
+}  // namespace dygita
