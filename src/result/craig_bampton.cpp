@@ -199,6 +199,7 @@ Superelement condense(const LinearAssembly& assembly, const Problem& problem, co
 
   Superelement element;
   element.rows = coordinates.rows;
+  element.on = request.on;
   for (int i = 0; i < n_m; ++i) element.rows.push_back({-1, -1, i, Vec3::Zero()});
   // Static and fixed-interface modes are orthogonal in K.
   element.stiffness = Mat::Zero(n_q + n_m, n_q + n_m);

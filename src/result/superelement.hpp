@@ -23,15 +23,16 @@ struct SuperelementRequest {
 };
 
 // Mass and stiffness of an assembly on its interface coordinates and modes (manual, eq. D1-D6). Rows: those of the
-// faces in the order of the request's `on`, then the modes.
+// faces in the order of `on`, then the modes.
 struct Superelement {
   struct Row {
-    int on = -1;        // index in the request's `on`; -1: a mode
+    int on = -1;        // index in `on`; -1: a mode
     int node = -1;      // of that part's mesh; -1: a motion of the whole face
     int direction = 0;  // 0 1 2: translation along x y z, 3 4 5: rotation about them; of a mode its number from 0
     Vec3 place = Vec3::Zero();  // m, of the node, or the point about which the face turns
   };
   std::vector<Row> rows;
+  std::vector<Target> on;        // faces and regions that rows refer to
   Mat mass, stiffness, damping;  // n_rows x n_rows; damping empty where no material has any
   Vec fixed_frequencies;         // Hz, of the modes: with the interface coordinates held
   int n_residual = 0;            // how many of them, the last ones, stand for those that were left out

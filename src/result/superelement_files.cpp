@@ -103,7 +103,7 @@ std::vector<std::pair<std::string, std::string>> superelement_files(const std::s
   for (int i = 0; i < n_interface; ++i) {
     const Superelement::Row& row = element.rows[i];
     page +=
-        fmt::format("| {} | {} | {} | {} | {:.9g} | {:.9g} | {:.9g} |\n", i + 1, label(request.on[row.on]),
+        fmt::format("| {} | {} | {} | {} | {:.9g} | {:.9g} | {:.9g} |\n", i + 1, label(element.on[row.on]),
                     row.node < 0 ? std::string("all") : std::to_string(row.node + 1), direction_names[row.direction],
                     coordinate(row.place[0]), coordinate(row.place[1]), coordinate(row.place[2]));
   }

@@ -79,7 +79,9 @@ class VtkOutput final : public Output {
   }
 
   Columns columns() const override { return {}; }
-  Notes record(const Table&, const Findings&) const override { return {}; }
+  Notes record(const Table&, const Findings&) const override {
+    return {{"frames", request_.frames}, {"fields", request_.fields}};
+  }
   std::vector<StudyFigure> study_figures() const override { return {}; }
 
   std::unique_ptr<Recorder> recorder(const Problem& problem, const FrameSink& sink) const override {
