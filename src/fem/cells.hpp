@@ -12,7 +12,7 @@
 namespace dygita {
 
 template <int n>
-using CornerStress = Eigen::Matrix<double, 6, n>;  // Pa, one column a node: xx yy zz xy yz zx
+using CornerStress = Eigen::Matrix<double, 6, n>;  // Pa, one column per node: xx yy zz xy yz zx
 template <int n>
 using MassMatrix = Eigen::Matrix<double, n, n>;  // kg
 

@@ -19,7 +19,7 @@ double power(double x, int exponent) {
 Mat coefficients_of(const ShapeFactor& factor) {
   const auto n = static_cast<Eigen::Index>(factor.nodes.size());
   CHECK(factor.monomials.size() == factor.nodes.size(), "as many monomials as nodes");
-  Mat vandermonde(n, n);  // one row a monomial, one column a node
+  Mat vandermonde(n, n);  // one row per monomial, one column per node
   for (Eigen::Index m = 0; m < n; ++m)
     for (Eigen::Index a = 0; a < n; ++a) {
       vandermonde(m, a) = 1.0;

@@ -20,7 +20,7 @@ class ShapeFunctions {
   struct Factor {
     int first_axis, n_axes;
     std::span<const Exponents> monomials;
-    Mat coefficients;  // one row a node, one column a monomial
+    Mat coefficients;  // one row per node, one column per monomial
 
     double value(int node, const Vec3& xi) const;
     double slope(int node, const Vec3& xi, int axis) const;  // of the element's axis

@@ -65,7 +65,7 @@ class Piece {
   // Diagonal of the interface's own Schur complement in the rows' directions, shared between their laws (N s/m; static
   // N/m). Empty where it is not formed: search directions then follow from rows and masses.
   virtual const Vec& schur_diagonal() const = 0;
-  // Fixes the search directions k (one a row) and with them what answers to interface data. Pieces that share another's
+  // Fixes the search directions k (one per row) and with them what answers to interface data. Pieces that share another's
   // operator come after it. Throws NumericalError.
   virtual void set_search_directions(const Vec& k) = 0;
   virtual const Vec& k() const = 0;

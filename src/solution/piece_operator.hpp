@@ -28,7 +28,7 @@ struct PieceSetup {
 // Do they have the same matrix, rows and order of unknowns?
 bool are_equal(const PieceSetup& a, const PieceSetup& b);
 
-// (M/dt (1 + ...) + c1 K + absorbing + rows' stiffness (N s/m, one a row)) on the free unknowns, in the order of their
+// (M/dt (1 + ...) + c1 K + absorbing + rows' stiffness (N s/m, one per row)) on the free unknowns, in the order of their
 // numbers.
 SparseMatrix piece_matrix(const PieceSetup& setup, const FreeUnknowns& unknowns, const Vec& row_stiffness);
 
