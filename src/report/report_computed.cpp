@@ -54,7 +54,8 @@ std::string loads_of(const Json& step) {
       if (values[i].is_string())
         result += (i < axes.size() ? ", " + axes[i].get<std::string>() + ": " : ", ") +
                   history_text(values[i].get<std::string>(), text(load, "unit"));
-    for (const auto& [name, numbers] : load.value("settings", Json::object()).items()) {
+    const Json settings = load.value("settings", Json::object());
+    for (const auto& [name, numbers] : settings.items()) {
       result += ", " + name;
       for (const Json& one : numbers) result += " " + plain_number(one.get<double>());
     }
