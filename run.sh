@@ -30,7 +30,8 @@ report_packages=(python3 python3-numpy python3-matplotlib)  # of ./run.sh report
 usage() {
   cat <<'END'
 ./run.sh                  install what is missing, build, run decks/bolted_flanges.lua, say which files to open
-./run.sh test [NAME]      install what is missing, build, pass the tests; with NAME those whose name matches it (ctest -R)
+./run.sh test [NAME]      install what is missing, build, pass the tests; with NAME only those whose name matches it (ctest -R)
+./run.sh sanitize         build with address and undefined behaviour sanitizers (build/sanitize), pass the unit tests and run small decks
 ./run.sh bench [...]      measure speed, rewrite manual/performance.md and its figures: all, or of the parts headline kernels
                           scenes scaling those that are named; --quick: small sizes. Full: 20 minutes on a machine left alone
 ./run.sh report [...]     run all verification, rewrite manual/verification.md and its figures (--quick, --only CASE)
@@ -133,6 +134,16 @@ run_tests() {
     fail "tests failed; the last lines above name them" "one of them again: ./run.sh test NAME"
 }
 
+# Decks' tests are left out: they take the sanitizers long, and their parts are all in the unit tests.
+run_sanitized() {
+  say "Building with sanitizers (build/sanitize)"
+  (cd "$root" && cmake --preset sanitize && cmake --build --preset sanitize --parallel "$(n_jobs)" --target dygita unit_tests) ||
+    fail "the build failed; the first error is above"
+  say "Testing with sanitizers"
+  (cd "$root" && ctest --preset sanitize --parallel "$(nproc)" -L unit) ||
+    fail "tests failed with sanitizers; the last lines above name them"
+}
+
 run_bench() {
   local python=/usr/bin/python3 # Debian's has the packages; another one in PATH may not
   [[ -x "$python" ]] || python=python3
@@ -172,17 +183,18 @@ main() {
   (($# == 0)) || shift
   case "$command" in
     help | -h | --help) usage ;;
-    example | test | build)
+    example | test | build | sanitize)
       local taken=0
       [[ "$command" != test ]] || taken=1 # NAME
       (($# <= taken)) || fail "'$command' takes ${taken/#0/no} argument, got: $*" "./run.sh help"
       install_packages
       [[ "$command" != test ]] || install_test_packages
-      build_engine
+      [[ "$command" == sanitize ]] || build_engine
       case "$command" in
         example) run_example ;;
         test) run_tests "$@" ;;
         build) say "Built: $build/dygita" ;;
+        sanitize) run_sanitized ;;
       esac
       ;;
     report | bench)
@@ -199,7 +211,7 @@ main() {
       say "Running $1"
       exec "$build/dygita" run "$@"
       ;;
-    *) fail "unknown command '$command'; known: bench, build, help, report, run, test" "./run.sh help" ;;
+    *) fail "unknown command '$command'; known: bench, build, help, report, run, sanitize, test" "./run.sh help" ;;
   esac
 }
 

@@ -9,6 +9,34 @@ set(dygita_sanitizers -fsanitize=address,undefined -fno-sanitize-recover=undefin
 set(dygita_gnu_false_alarms -Wno-uninitialized -Wno-maybe-uninitialized -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow
   -Wno-aggressive-loop-optimizations)
 
+# Eigen, fmt and the standard library's headers are read once for all modules. A compiler cache does the same and more.
+option(DYGITA_PRECOMPILED_HEADERS "Read common headers once" ON)
+if(CMAKE_CXX_COMPILER_LAUNCHER)
+  set(DYGITA_PRECOMPILED_HEADERS OFF)
+endif()
+
+# dygita_precompiled_headers(NAME [LIBRARIES ...] HEADERS ...): a set that targets with the same compile options and
+# definitions of those libraries take by dygita_take_precompiled_headers(target NAME).
+function(dygita_precompiled_headers name)
+  cmake_parse_arguments(arg "" "" "LIBRARIES;HEADERS" ${ARGN})
+  if(NOT DYGITA_PRECOMPILED_HEADERS)
+    return()
+  endif()
+  set(source ${CMAKE_BINARY_DIR}/precompiled_${name}.cpp)
+  file(CONFIGURE OUTPUT ${source} CONTENT "// Carries the precompiled headers '${name}'.\n")
+  add_library(dygita_precompiled_${name} OBJECT ${source})
+  target_link_libraries(dygita_precompiled_${name} PRIVATE Eigen3::Eigen spdlog::spdlog ${arg_LIBRARIES})
+  target_compile_definitions(dygita_precompiled_${name} PRIVATE EIGEN_DONT_PARALLELIZE)
+  dygita_target_options(dygita_precompiled_${name})
+  target_precompile_headers(dygita_precompiled_${name} PRIVATE ${arg_HEADERS})
+endfunction()
+
+function(dygita_take_precompiled_headers target name)
+  if(DYGITA_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} REUSE_FROM dygita_precompiled_${name})
+  endif()
+endfunction()
+
 function(dygita_target_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
     -Woverloaded-virtual "$<$<CXX_COMPILER_ID:GNU>:${dygita_gnu_false_alarms}>"
@@ -23,6 +51,11 @@ function(dygita_target_options target)
   endif()
 endfunction()
 
+set(dygita_common_headers <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <Eigen/SparseCore> <spdlog/fmt/fmt.h> <algorithm>
+  <array> <cmath> <filesystem> <functional> <map> <memory> <optional> <string> <unordered_map> <variant> <vector>)
+dygita_precompiled_headers(engine HEADERS ${dygita_common_headers})
+dygita_precompiled_headers(json HEADERS ${dygita_common_headers} <nlohmann/json.hpp>)
+
 # dygita_module(NAME DEPENDS lower modules... PRIVATE_LIBRARIES third-party libraries nobody above may name)
 function(dygita_module name)
   cmake_parse_arguments(arg "" "" "DEPENDS;PRIVATE_LIBRARIES" ${ARGN})
@@ -34,4 +67,9 @@ function(dygita_module name)
     PUBLIC ${arg_DEPENDS} Eigen3::Eigen spdlog::spdlog PRIVATE ${arg_PRIVATE_LIBRARIES})
   target_compile_definitions(dygita_${name} PUBLIC EIGEN_DONT_PARALLELIZE)
   dygita_target_options(dygita_${name})
+  if("nlohmann_json::nlohmann_json" IN_LIST arg_PRIVATE_LIBRARIES)
+    dygita_take_precompiled_headers(dygita_${name} json)
+  else()
+    dygita_take_precompiled_headers(dygita_${name} engine)
+  endif()
 endfunction()

@@ -2,7 +2,8 @@
 -- prints its reference (reference.lua) all read this one file.
 --
 -- An entry is a constructor or a method: `path` is what the deck writes, `makes` the kind of object it answers,
--- `arguments` its named arguments in the order of the reference, `later` words of the language that are not built yet.
+-- `arguments` its named arguments in the order of the reference, `later` words of the language that are not built yet,
+-- `tightens` whether a load can shorten the interface.
 --
 -- An argument: { name, type, unit, range = { smallest, largest }, default, required, doc, ... } with the types
 --   number, integer       `or_word`: a word allowed instead; `or_table`: a table of named numbers allowed instead
@@ -131,7 +132,7 @@ words[3] = {
 words[4] = {
   name = "interface", doc = "Where two substructures meet: everything nonlinear happens here.",
   {
-    "bonded", makes = "interface", doc = "A perfect bond.",
+    "bonded", makes = "interface", tightens = true, doc = "A perfect bond.",
     arguments = { name_of "interface", between() },
   },
   {
@@ -143,7 +144,7 @@ words[4] = {
     },
   },
   {
-    "plastic", makes = "interface",
+    "plastic", makes = "interface", tightens = true,
     doc = "A bond that yields along its normal, as a bolt does; unloading and reloading are rigid.",
     arguments = {
       name_of "interface", between(),
@@ -154,6 +155,12 @@ words[4] = {
     },
   },
 }
+
+-- Interfaces that a load can shorten, as a nut does.
+local tightened = {}
+for _, entry in ipairs(words[4]) do
+  if entry.tightens then table.insert(tightened, "interface." .. entry[1]) end
+end
 
 words[5] = {
   name = "support", doc = "What the assembly stands on; rigid.",
@@ -236,7 +243,7 @@ words[6] = {
     "shortening", makes = "load",
     doc = "Brings the two sides of an interface together by a length, as a nut does; frozen when the step ends.",
     arguments = {
-      on({ "interface.bonded", "interface.plastic" }, "shortened interfaces"),
+      on(tightened, "shortened interfaces"),
       { "by", type = "value", unit = "m", range = { -0.01, 0.01 }, required = true, doc = "a positive one tightens" },
       share_of_bolt "the whole bolt of `hand`", by_hand,
     },
@@ -246,7 +253,7 @@ words[6] = {
     doc = "Tightens until a force goes through the interface, by a shortening that is found and frozen when the step ends; static "
       .. "steps only. `force`, or `torque` with `friction_factor` and `diameter`: torque / (friction_factor diameter).",
     arguments = {
-      on({ "interface.bonded", "interface.plastic" }, "tightened interfaces: each gets the force"),
+      on(tightened, "tightened interfaces: each gets the force"),
       { "force", type = "value", unit = "N", range = { 0, 1e8 },
         doc = "through the modelled interface (a quarter model takes a quarter), reached in a ramp from what it carries" },
       { "torque", type = "number", unit = "N m", range = { 0, 1e6 }, doc = "on the nut or head of the whole bolt" },
@@ -493,7 +500,7 @@ words[10] = {
   {
     "joint", makes = "output",
     doc = "All about an interface: normal, shear (N), opening, slip, plastic_opening (m), open_area, stick_area, slip_area "
-      .. "(m^2), friction_work, plastic_work (J).",
+      .. "(m^2), friction_work, plastic_work, damping_work (J).",
     arguments = { name_of "output", on({ "interface", "support.wall" }, "which") },
   },
   {

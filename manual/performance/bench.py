@@ -57,8 +57,8 @@ def chapter(folder, measured):
     lines = [(text, value, verdicts[met], "" if met else why) for text, value, met, why in goals]
     told = [(part, how["machine"], how["date"], f"{how['minutes']:.1f}", "quick" if how["quick"] else "full") for part, how in measured.items() if part in found]
     return "\n\n".join([
-        "# Performance", "Written by `./run.sh bench`; every number and figure below is what that command measured. They are of one machine, and a shared one "
-        "does not always give a program all of its processors: what carries over to another machine are the ratios, whose two sides ran one after the other in one run.",
+        "# Performance", "Written by `./run.sh bench`; every number and figure below is what that command measured. They are from one machine, and a shared machine "
+        "does not always give a program all of its processors. The ratios carry over to other machines: their two sides ran one after the other in the same run.",
         table(["part", "machine", "date", "minutes", "version"], told),
         f"Of {len(goals)} goals {', '.join(f'{n} {words}' for words, n in counts.items() if n)}. Goals are those of the project's design.",
         table(["goal", "measured", "", "what bounds it"], lines), *(section_of(part, folder, rows) for part, rows in found.items())]) + "\n"

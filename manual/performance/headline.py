@@ -141,10 +141,10 @@ def section(rows, study):
     first = rows[0]
     parts = [
         "## The shock against a linear run",
-        f"`{DECK}` at {first['dofs']:.0f} unknowns, {first['steps']:.0f} steps: contact, friction, yielding and prestress. The linear run is what a user of the best linear "
-        f"code pays for the same mesh, material, support, load and time steps: one uncut body of {first['linear dofs']:.0f} unknowns, every joint bonded, factorised by "
-        "CHOLMOD in its own analysis with METIS, one `cholmod_solve2` a step with kept workspace, OpenBLAS on one thread or on all, whichever is faster; "
-        "its loads are evaluated outside the clock. Runs alternate; ratios are of medians over pairs. Factors are beside the clock of both; a factor of LATIN "
+        f"`{DECK}` at {first['dofs']:.0f} unknowns, {first['steps']:.0f} steps: contact, friction, yielding and prestress. The linear run is the cost for a user of the best linear "
+        f"code with the same mesh, material, support, load and time steps: one uncut body of {first['linear dofs']:.0f} unknowns, every joint bonded, factorised by "
+        "CHOLMOD in its own analysis with METIS, one `cholmod_solve2` per step with kept workspace, OpenBLAS on one thread or on all, whichever is faster; "
+        "the evaluation of its loads is not timed. Runs alternate; ratios are of medians over pairs. Factorisations are not timed in either; a factor of LATIN "
         "is that of the static and of the dynamic step. Denormals are flushed in both.",
         "![The shock and the linear run](performance/headline.svg)",
         table(["threads", "LATIN s", "iterations per step", "linear s", "ratio", "to linear without product by K", "to its solves alone", "LATIN factor s",
@@ -152,7 +152,7 @@ def section(rows, study):
     if was_busy(rows):
         parts.append("**The machine was not left alone during this run: these ratios are not to be trusted.**")
     names = [name for _, _, name in HISTORIES]
-    parts += [f"How far a tolerance of the dynamic step leaves the results from the converged ones (1e-9; largest difference over largest value), at {study[0]['dofs']:.0f} "
+    parts += [f"Error of the results at a given tolerance of the dynamic step, against converged ones (1e-9; largest difference over largest value), at {study[0]['dofs']:.0f} "
               "unknowns. "
               + tolerance_words(study),
               table(["tolerance", *names, "iterations per step", "shock s"],

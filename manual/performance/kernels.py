@@ -104,6 +104,6 @@ def section(rows):
               f"{r['share']:.2f}" if r["allowed"] else "") for r in rows]
     return "\n\n".join([
         "## Kernels", "Probes and kernels in one process; processor time where they run on one thread, elapsed time on two. *Read bandwidth* sums an array of that size: where the "
-        "caches hold it, it is the caches'. A solve reads the factor twice (once down, once up); bytes and operations count the entries of L. "
+        "caches hold it, it is that of the caches. A solve reads the factor twice (once down, once up); bytes and operations count the entries of L. "
         "Sizes are cubes of hexahedra in a time step at CFL 1; factors are in METIS's order by nodes.",
         "![Kernels against the machine](performance/kernels.svg)", table(["kernel", "size", "measured", "allowed", "share"], cells)])

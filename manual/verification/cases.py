@@ -68,32 +68,32 @@ BOUNCING_BAR = Case(
     "(Doyen, Ern, Piperno 2011).",
     "d'Alembert: in contact for 2 L/c from t = 1 and from t = 11/3, pressure 300 to 500 and 500 to 300, energy kept.",
     "n", of_n(50, 100, 200, 400), [
-        percent("place until the release", "place until the first release, max of the drop height", 0.5),
-        percent("place after a period", "place after a whole period, of the drop height", 4),
-        percent("place over a period", "place on the way, max of the drop height", None),
-        percent("pressure in impact 1", "pressure in the first impact, rms of its mean", 2),
-        percent("pressure in impact 2", "pressure in the second impact, rms of its mean", 2),
-        Quantity("spells of contact in impact 1", "spells of contact, first impact", "", 0, 1, "1", plotted=False, fitted=False),
-        Quantity("spells of contact in impact 2", "spells of contact, second impact", "", 0, 1, "1", plotted=False, fitted=False),
+        percent("place until the release", "position until first release, max / drop height", 0.5),
+        percent("place after a period", "position after a full period / drop height", 4),
+        percent("place over a period", "position over the period, max / drop height", None),
+        percent("pressure in impact 1", "pressure in the first impact, rms / mean", 2),
+        percent("pressure in impact 2", "pressure in the second impact, rms / mean", 2),
+        Quantity("spells of contact in impact 1", "contact phases, first impact", "", 0, 1, "1", plotted=False, fitted=False),
+        Quantity("spells of contact in impact 2", "contact phases, second impact", "", 0, 1, "1", plotted=False, fitted=False),
         percent("impulse of impact 1", "impulse of the first impact", plotted=False),
         percent("impulse of impact 2", "impulse of the second impact", plotted=False),
-        percent("energy exchanged", "energy lost to the scheme, of weight x drop", 1),
+        percent("energy exchanged", "numerical dissipation / (weight x drop)", 1),
     ], 1, compare=True, history="bouncing_bar",
-    note="dt = 0.5 h/c. Impacts have no order of theory: a front is blunt over some cells. Where all mass is at the nodes (latin, "
-         "monolithic) each impact takes the end node's share, of order h, and the second comes late; masses tuned to dt and a contact "
-         "without mass (latin tuned) do not lose it.")
+    note="dt = 0.5 h/c. Theory gives no order for impacts: a front is smeared over some cells. Where all mass is at the nodes (latin, "
+         "monolithic) each impact dissipates the energy of the end node, of order h, and the second comes late; masses tuned to dt and a contact "
+         "without mass (latin tuned) avoid both.")
 
 TWO_BARS = Case(
     "2", "two_bars", "Two equal bars head on", "decks/verification/two_bars.lua",
-    "Two equal bars meet at 100 m/s each, turn all their motion into strain at L/c, and part at 2 L/c.",
-    "stress -rho c v = -100 MPa for 2 L/c = 2 us, then none; at 1 us the strain energy is all there is.",
+    "Two equal bars meet at 100 m/s each, have turned all kinetic into strain energy at L/c, and part at 2 L/c.",
+    "stress -rho c v = -100 MPa for 2 L/c = 2 us, then none; at 1 us all energy is strain energy.",
     "n", of_n(50, 100, 200, 400), [
-        percent("rms error", "stress, rms over the contact but 5 % at each end", 1),
+        percent("rms error", "stress, rms over the contact time less 5 % at each end", 1),
         percent("the same, max error", "stress, max over the same", 1),
-        Quantity("release, steps late", "release, steps late", "steps", 2, plotted=False, fitted=False),
-        Quantity("spells of contact", "spells of contact", "", 0, 1, "1", plotted=False, fitted=False),
-        percent("strain energy at L / c", "strain energy at L/c, of all", plotted=False, fitted=False),
-        percent("energy exchanged", "energy lost to the scheme, of all"),
+        Quantity("release, time steps late", "release, time steps late", "steps", 2, plotted=False, fitted=False),
+        Quantity("spells of contact", "contact phases", "", 0, 1, "1", plotted=False, fitted=False),
+        percent("strain energy at L / c", "strain energy at L/c / all energy", plotted=False, fitted=False),
+        percent("energy exchanged", "numerical dissipation / all energy"),
     ], 1, compare=True, history="two_bars", note="dt = 0.5 h/c.")
 
 UNEQUAL_BARS = Case(
@@ -104,23 +104,23 @@ UNEQUAL_BARS = Case(
         percent("stress on the plateaus", "stress on the plateaus, rms of the first"),
         Quantity("release, part of T late", "release, part of T late", "T", plotted=True),
         percent("momentum of the right bar", "momentum of the right bar", plotted=False, fitted=False),
-    ], 1, compare=True, history="unequal_bars", note="n cells a transit T of the short bar, dt = 0.5 T/n.")
+    ], 1, compare=True, history="unequal_bars", note="n cells per transit T of the short bar, dt = 0.5 T/n.")
 
 YIELDING = Case(
     "4", "yielding_interface", "Wave through a yielding interface", "decks/verification/yielding_interface.lua",
     "A tension step of 200 MPa meets an interface that yields at 120 MPa, without hardening and with 5 MPa/um.",
-    "without hardening the yield stress gets through, and it opens at 2 (s - yield)/(rho c); with h the stress is "
+    "without hardening the yield stress is transmitted, and the interface opens at 2 (s - yield)/(rho c); with h the stress is "
     "s - (s - yield) exp(-2 h t/(rho c)).",
     "n", of_n(30, 60, 120, 240), [
         percent("perfect: stress", "transmitted stress, perfect, max", 0.5, plotted=False, fitted=False),
         percent("perfect: opening", "opening at the end, perfect"),
         percent("hardening: the same, rms", "transmitted stress, hardening, rms of the incident"),
         percent("hardening: opening", "opening at the end, hardening"),
-    ], 1, compare=True, history="yielding_interface", note="dt = 0.5 h/c. What is left is the front, which is blunt over some cells.")
+    ], 1, compare=True, history="yielding_interface", note="dt = 0.5 h/c. The remaining error is at the front, which is smeared over some cells.")
 
 ROD = Case(
     "5", "rod_in_sleeve", "Prestressed rod in a sleeve", "decks/verification/rod_in_sleeve.lua",
-    "A rod is tightened in a sleeve, pulled to below and to beyond separation, let go, and left alone for 200 steps.",
+    "A rod is tightened in a sleeve, loaded below and beyond separation, unloaded, and left alone for 200 time steps.",
     "springs: F = d/(1/k_r + 1/k_s); it carries F + P k_r/(k_r + k_s), beyond separation all of P, then F again.",
     "head stiffness (GPa)", [(f"{head}", {"head": f"{head}*GPa"}) for head in (2, 20, 200, 2000)], [
         Quantity("force tightened", "force tightened", "", 1e-6),
@@ -130,7 +130,7 @@ ROD = Case(
         Quantity("open area beyond", "open area beyond separation, of all", "", 1e-9, 1, "1", plotted=False, fitted=False),
         Quantity("velocity left alone", "velocity left alone, of wave speed x strain", "", 1e-6, fitted=False),
     ], 3, x=[20e6 / (head * 1e9) for head in (2, 20, 200, 2000)],
-    note="The exact solution has rigid heads; the bars are exact at any mesh, so the error that is left is the heads', of first "
+    note="The exact solution has rigid heads; the bars are exact on any mesh, so the remaining error is that of the heads, of first "
          "order in their compliance. Static tolerance 1e-12.")
 
 SLIDING = Case(
@@ -138,12 +138,12 @@ SLIDING = Case(
     "A block thrown along a rough wall stops; on an incline it stays below the angle of friction and slides above it.",
     "Coulomb: stops after v^2/(2 mu g), all kinetic energy goes into friction; slides g (sin - mu cos) t^2/2 beyond tan = mu.",
     "n", [(f"{n}", {"n": n, "dt": f"{2 / n}*us"}) for n in (1, 2, 4, 8)], [
-        percent("thrown: distance", "way to stop", fitted=False),
+        percent("thrown: distance", "stopping distance", fitted=False),
         percent("thrown: work of friction", "work of friction", fitted=False),
-        percent("shallow: way", "way on a shallow incline, of that without friction", fitted=False),
-        percent("steep: way", "way on a steep incline", fitted=False),
-    ], 1, note="dt = 2/n us. The block is elastic: on the shallow incline it leans, on the steep one its sole "
-    "sticks until the shear has come down, so these two do not fall with the mesh.")
+        percent("shallow: way", "distance on a shallow incline / that without friction", fitted=False),
+        percent("steep: way", "distance on a steep incline", fitted=False),
+    ], 1, note="dt = 2/n us. The block is elastic: on the shallow incline it leans over, on the steep one its sole "
+    "sticks until the shear has come down, so these two errors do not decrease with the mesh.")
 
 PATCH = Case(
     "7", "patch", "Patch tests", "decks/verification/patch.lua",
@@ -176,7 +176,7 @@ SPECTRUM = Case(
 
 PRELOAD = Case(
     "5b", "preload", "Preload by force", "decks/verification/preload.lua",
-    "A rod is tightened in a sleeve to a force: half, all, nothing and all again; by torque; through a rod that yields; through a gap.",
+    "A rod is tightened in a sleeve to a force: half, full, zero and full again; by torque; with a rod that yields; with a gap to close.",
     "springs: the force asked for, and the shortening d = F (1/k_r + 1/k_s), plus the plastic opening, plus the gap.",
     "head stiffness (GPa)", [(f"{head}", {"head": f"{head}*GPa"}) for head in (2, 20, 200, 2000)], [
         Quantity("force asked for in step 4, error of F", "force, of that asked for", "", 1e-3, goal_text="0.001", plotted=False, fitted=False),
@@ -184,17 +184,17 @@ PRELOAD = Case(
         Quantity("force through a gap that closes, error", "force through a gap that closes", "", 1e-3, goal_text="0.001", plotted=False, fitted=False),
         Quantity("shortening found in step 4, error", "shortening found", "", 1e-6),
     ], 3, x=[20e6 / (head * 1e9) for head in (2, 20, 200, 2000)],
-    note="The exact solution has rigid heads: what is left of the shortening is the heads'. The force is found to the static tolerance, 1e-12.")
+    note="The exact solution has rigid heads, which explains the error of the shortening. The force is found to the static tolerance, 1e-12.")
 
 GOODMAN = Case(
     "12", "goodman", "Goodman's joint", "decks/verification/goodman.lua",
-    "A bar pressed evenly on a rough rigid ground, pulled to and fro at five growing amplitudes: it slides gradually from its end.",
-    "Goodman and Klumpp: a cycle between -F and F loses 2/3 F^3 / (E A q), q the friction a metre; the exponent of the loss is 3.",
+    "A bar pressed uniformly on a rough rigid ground, loaded back and forth with five growing amplitudes: it slides gradually from its end.",
+    "Goodman and Klumpp: a cycle between -F and F loses 2/3 F^3 / (E A q), q the friction force per metre; the exponent of the loss is 3.",
     "n", of_n(50, 100, 200, 400), [
         percent("loss, largest error", "loss of a cycle, largest error of five", 1),
         percent("displacement, largest error", "displacement amplitude, largest error", 1, fitted=False),
         Quantity("exponent over the force (3)", "exponent of the loss over the force", "", 0.05, 3.0, "3 to 0.05", plotted=False, fitted=False),
-    ], 2, note="m = 20 increments between two turning points: the trapezoid around the loop keeps part of the error however fine the bar is.")
+    ], 2, note="m = 20 increments between two turning points: the trapezoid around the loop keeps part of the error, however fine the mesh.")
 
 CASES = [BOUNCING_BAR, TWO_BARS, UNEQUAL_BARS, YIELDING, ROD, PRELOAD, SLIDING, PATCH, BONDED, SPECTRUM, GOODMAN]
 

@@ -20,11 +20,11 @@ def opening(summary, machine, quick):
     goals = sum(row[-1] != "no goal" for row in summary)
     return f"""# Verification
 
-Written by `./run.sh report`{" (quick version: fewer sizes and runs)" if quick else ""}; every number and every figure below is of that run, but where a section says that it kept those of an earlier one.
+Written by `./run.sh report`{" (quick version: fewer sizes and runs)" if quick else ""}; every number and every figure below is from that run, unless a section says that it kept those of an earlier one.
 {machine}
 
-Of {goals} goals {goals - missed} are met and {missed} missed. *Measured* is at the size the goal holds for (bold in the tables further down), *order* is the
-slope of log error over log size over all sizes, by least squares. Errors of exact cases are against the exact solution, in the norm
+Of {goals} goals {goals - missed} are met and {missed} missed. *Measured* is at the size for which the goal is set (bold in the tables below), *order* is the
+slope of log error over log size over all sizes, by least squares. Errors of exact cases are relative to the exact solution, in the norm
 that the row names. Goals are those of the project's design; where it sets none the row says so.
 
 {table(exact_pages.HEADS, summary)}
@@ -61,8 +61,8 @@ def hard_section(outcomes):
     n_missed = sum(bool(o.complaints) for o in outcomes)
     said = sum(o.said.startswith("says") for o in outcomes)
     return "\n\n".join([
-        "## Hard cases", "Each must converge or say that it did not (exit code 1), and never return a number that is none, create more than "
-        f"{hard.CREATED_GOAL} % of energy, hang, or penetrate more than v dt/2 of its fastest impact. Of {len(outcomes)} variants "
+        "## Hard cases", "Each must converge or report that it did not (exit code 1). None may return a NaN, gain more than "
+        f"{hard.CREATED_GOAL} % of energy, hang, or penetrate by more than v dt/2 of its fastest impact. Of {len(outcomes)} variants "
         f"{len(outcomes) - n_missed} do and {n_missed} do not; {said} say that some steps did not converge. Decks are in `decks/hard/`.",
         picture("hard", "Hard cases: iterations, energy created, penetration"),
         "*Red:* a goal is missed. *Orange:* met, and the run says that it did not converge. Energy below 1e-6 % is drawn there.",
@@ -71,8 +71,8 @@ def hard_section(outcomes):
 
 def speed_section(done, kept):
     parts = ["## Speed against error", "Every solver and knob on the same machine in one run, one thread each: seconds of computation (processor "
-             "time of all phases of run.json but the output; the median of three where under one) against the relative L2 error in time of what one would look at. "
-             "*mesh*: cells and dt together; *dt* alone; *tolerance* of the iteration; *window*: steps iterated together (1, 5, 20); explicit: part of "
+             "time of all phases of run.json except output; the median of three where below one) against the relative L2 error in time of the quantity of interest. "
+             "*mesh*: cells and dt together; *dt* alone; *tolerance* of the iteration; *window*: steps iterated together (1, 5, 20); explicit: fraction of "
              "the critical step (*safety*) and stiffness of contact (*penalty*). Tables: the cheapest setting that reaches an error; `-`: none of "
              "those tried does. All runs are in [speed.csv](verification/speed.csv)."]
     options = dict.fromkeys((r.solver, r.option) for _, rows, _ in done for r in rows if r.knob == "mesh")
@@ -92,11 +92,11 @@ def speed_section(done, kept):
 
 
 def estimates_section(rows):
-    parts = ["## Error estimates", "Every run estimates its own errors (`figures` in run.json, the lines *estimated errors*). Here they are held "
-             "against true ones in the same norm (energy, worst instant): of the iteration against a tolerance of 1e-11, of the time step against dt/16, "
+    parts = ["## Error estimates", "Every run estimates its own errors (`figures` in run.json, the lines *estimated errors*). Here they are compared "
+             "with true ones in the same norm (energy, worst instant): of the iteration against a tolerance of 1e-11, of the time step against dt/16, "
              "of the mesh against cells 8 times shorter."]
     if rows is None:
         return "\n\n".join(parts + ["This program has none, or its study was not built."])
     return "\n\n".join(parts + [effectivity.worst(rows), picture("effectivity", "Estimated against true errors"),
-                                "Grey: estimated as it is. Above it an estimate is on the safe side.",
+                                "Grey: estimated as it is. Above the diagonal an estimate is on the safe side.",
                                 table(effectivity.HEADS, effectivity.shown(rows))])

@@ -82,8 +82,8 @@ double seconds_of(const std::string& unit, const std::string& where) {
   static const std::map<std::string, double> units = {{"", 1.0},    {"s", 1.0},   {"sec", 1.0}, {"ms", 1e-3},
                                                       {"us", 1e-6}, {"µs", 1e-6}, {"ns", 1e-9}};
   if (const auto found = units.find(unit); found != units.end()) return found->second;
-  throw InputError(
-      fmt::format("{}: the first column is time, and '{}' is no unit of it\n    known: s, ms, us, ns", where, unit));
+  throw InputError(fmt::format("{}: the first column is time, and '{}' is not a unit of time\n    known: s, ms, us, ns",
+                               where, unit));
 }
 
 Signal read_signal(const SrsCommand& command) {
@@ -162,23 +162,31 @@ double make_even(Signal& signal, const std::string& file) {
   return dt;
 }
 
-SrsQuantity quantity_named(const std::string& name) {
-  static const std::map<std::string, SrsQuantity> quantities = {
+const std::map<std::string, SrsQuantity>& quantities() {
+  static const std::map<std::string, SrsQuantity> by_name = {
       {"absolute_acceleration", SrsQuantity::absolute_acceleration},
       {"relative_displacement", SrsQuantity::relative_displacement},
       {"pseudo_velocity", SrsQuantity::pseudo_velocity}};
-  if (const auto found = quantities.find(name); found != quantities.end()) return found->second;
-  std::vector<std::string> known;
-  for (const auto& [word, quantity] : quantities) known.push_back(word);
-  throw InputError(fmt::format("--quantity {}: no such quantity\n    {}", name, did_you_mean(name, known)));
+  return by_name;
+}
+
+SrsQuantity quantity_named(const std::string& name) {
+  if (const auto found = quantities().find(name); found != quantities().end()) return found->second;
+  throw InputError(fmt::format("--quantity {}: no such quantity\n    {}", name, did_you_mean(name, srs_quantities())));
 }
 
 }  // namespace
 
+std::vector<std::string> srs_quantities() {
+  std::vector<std::string> names;
+  for (const auto& [name, quantity] : quantities()) names.push_back(name);
+  return names;
+}
+
 void write_srs(const SrsCommand& command) {
   std::error_code ignored;
   if (!command.out.empty() && std::filesystem::equivalent(command.out, command.signal, ignored))
-    throw InputError(fmt::format("--out {}: that is the signal itself, which would be lost", command.out));
+    throw InputError(fmt::format("--out {}: that is the signal itself, which would be overwritten", command.out));
   SrsSettings settings = command.settings;
   settings.quantity = quantity_named(command.quantity);
   if (command.damping) settings.q_factor = q_factor_of(*command.damping);

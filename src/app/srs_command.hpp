@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "signal/srs.hpp"
 
@@ -14,6 +15,9 @@ struct SrsCommand {
   std::optional<double> damping;  // takes the place of settings.q_factor
   std::string quantity = "absolute_acceleration";
 };
+
+// What --quantity may ask for.
+std::vector<std::string> srs_quantities();
 
 // Reads time (s) in the first column and values in the column asked for, in files like those that dygita writes:
 // columns of text are passed over, of rows of the same time the last counts. A sampling that is not even is made so,

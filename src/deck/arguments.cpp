@@ -56,6 +56,15 @@ std::vector<double> LuaArguments::numbers(const char* key) const {
   return values;
 }
 
+std::map<std::string, double> LuaArguments::plain_numbers() const {
+  std::map<std::string, double> values;
+  for (lua_pushnil(L_); lua_next(L_, index_); lua_pop(L_, 1)) {
+    if (lua_type(L_, -1) == LUA_TNUMBER) values[lua_tostring(L_, -2)] = lua_tonumber(L_, -1);
+    if (lua_isboolean(L_, -1)) values[lua_tostring(L_, -2)] = lua_toboolean(L_, -1) != 0 ? 1.0 : 0.0;
+  }
+  return values;
+}
+
 std::array<int, 3> LuaArguments::counts(const char* key) const {
   const Vec3 values = vector(key);
   return {static_cast<int>(values[0]), static_cast<int>(values[1]), static_cast<int>(values[2])};

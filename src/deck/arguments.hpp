@@ -45,6 +45,7 @@ class LuaArguments : public ModelArguments {
   std::shared_ptr<const Specification> specification(const char* key) const override;
 
   std::array<int, 3> counts(const char* key) const;
+  std::map<std::string, double> plain_numbers() const;  // every argument that is a number, or true (1) or false (0)
   const Object& object(const char* key) const;
   std::vector<const Object*> objects(const char* key) const;  // one alone counts as a list
   // The file that an argument names; relative paths start at the deck's folder. Throws InputError if there is none.

@@ -37,7 +37,7 @@ Content build_pulse(const Declaration& d) {
 Content build_piecewise(const Declaration& d) {
   auto times = d.arguments.numbers("times"), values = d.arguments.numbers("values");
   if (times.size() != values.size()) {
-    throw InputError(fmt::format("{} times and {} values: as many are needed", times.size(), values.size()));
+    throw InputError(fmt::format("{} times and {} values: equally many are needed", times.size(), values.size()));
   }
   for (size_t i = 1; i < times.size(); ++i) {
     if (times[i] > times[i - 1]) continue;

@@ -60,13 +60,11 @@ void doubt_size(const Substructure& part) {
 }
 
 void doubt_locking(const Substructure& part) {
-  const auto& blocks = part.mesh->blocks;
-  const bool has_tet4 =
-      std::any_of(blocks.begin(), blocks.end(), [](const CellBlock& block) { return block.type == CellType::tet4; });
-  if (!has_tet4 || part.material.poisson <= locking_poisson) return;
-  warn(fmt::format(
-      "{}substructure '{}': linear tetrahedra with a Poisson's ratio of {:g} lock; hexahedra or prisms do not",
-      part.origin.prefix(), part.name, part.material.poisson));
+  if (part.material.poisson <= locking_poisson) return;
+  for (const CellBlock& block : part.mesh->blocks)
+    if (const std::string_view cells = cell_shape(block.type).locks_as; !cells.empty())
+      warn(fmt::format("{}substructure '{}': {} with a Poisson's ratio of {:g} lock; hexahedra or prisms do not",
+                       part.origin.prefix(), part.name, cells, part.material.poisson));
 }
 
 Content build_substructure(const Declaration& d) {
@@ -80,9 +78,9 @@ Content build_substructure(const Declaration& d) {
   return SubstructurePtr(part);
 }
 
-std::shared_ptr<Interface> new_interface(const Declaration& d, InterfaceKind kind) {
+// The law of a word, from all numbers and truth values of the declaration.
+Content build_interface(const Declaration& d) {
   auto interface = new_named<Interface>(d);
-  interface->kind = kind;
   const auto faces = d.arguments.list<Face>("between");
   interface->side_1 = faces[0];
   interface->side_2 = faces[1];
@@ -90,23 +88,7 @@ std::shared_ptr<Interface> new_interface(const Declaration& d, InterfaceKind kin
     throw InputError(d.origin,
                      fmt::format("{} '{}': 'between' has face '{}' twice", d.path, interface->name, faces[0].label()));
   }
-  return interface;
-}
-
-Content build_bonded(const Declaration& d) { return InterfacePtr(new_interface(d, InterfaceKind::bonded)); }
-
-Content build_contact(const Declaration& d) {
-  auto interface = new_interface(d, InterfaceKind::contact);
-  interface->friction = d.arguments.number("friction");
-  interface->gap = d.arguments.number("gap");
-  return InterfacePtr(interface);
-}
-
-Content build_plastic(const Declaration& d) {
-  auto interface = new_interface(d, InterfaceKind::plastic);
-  interface->yield = d.arguments.number("yield");
-  interface->hardening = d.arguments.number("hardening");
-  interface->compression = d.arguments.boolean("compression");
+  interface->law = make_law(d.path.substr(d.path.find('.') + 1), d.arguments.plain_numbers());
   return InterfacePtr(interface);
 }
 
@@ -124,10 +106,7 @@ Content build_support(const Declaration& d) {
       support->on.emplace_back(object->as<Region>());
     }
   }
-  if (support->kind == SupportKind::wall) {
-    support->friction = d.arguments.number("friction");
-    support->gap = d.arguments.number("gap");
-  }
+  if (support->kind == SupportKind::wall) support->law = make_law("contact", d.arguments.plain_numbers());
   return SupportPtr(support);
 }
 
@@ -136,20 +115,21 @@ Content build_parameters(const Declaration&) { return std::monostate(); }
 }  // namespace
 
 const Builders& part_builders() {
-  static const Builders builders = {
-      {"mesh.box", build_box},
-      {"mesh.gmsh", build_gmsh},
-      {"material.elastic", build_elastic},
-      {"substructure", build_substructure},
-      {"interface.bonded", build_bonded},
-      {"interface.contact", build_contact},
-      {"interface.plastic", build_plastic},
-      {"support.fixed", build_support},
-      {"support.symmetry", build_support},
-      {"support.wall", build_support},
-      {"support.absorbing", build_support},
-      {"param", build_parameters},
-  };
+  static const Builders builders = [] {
+    Builders all = {
+        {"mesh.box", build_box},
+        {"mesh.gmsh", build_gmsh},
+        {"material.elastic", build_elastic},
+        {"substructure", build_substructure},
+        {"support.fixed", build_support},
+        {"support.symmetry", build_support},
+        {"support.wall", build_support},
+        {"support.absorbing", build_support},
+        {"param", build_parameters},
+    };
+    for (const LawEntry& law : law_table()) all.emplace("interface." + law.word, build_interface);
+    return all;
+  }();
   return builders;
 }
 

@@ -149,7 +149,7 @@ SrsSettings srs_settings(const Arguments& a) {
                   quantities.at(a.text("quantity"))};
   if (a.has("damping")) {
     if (a.has("q_factor"))
-      throw InputError("'q_factor' and 'damping' say the same twice: leave one out (Q = 1 / (2 damping))");
+      throw InputError("'q_factor' and 'damping' are the same quantity: leave one out (Q = 1 / (2 damping))");
     srs.q_factor = q_factor_of(a.number("damping"));
   }
   if (srs.from >= srs.to)

@@ -30,7 +30,7 @@ DeckOutcome continue_run(const ContinueOptions& options) {
   }
   continuation.check_until();
   if (!is_same_text(state))
-    warn(fmt::format("deck '{}' has changed since the run or is gone: the run goes on with the text that it kept",
+    warn(fmt::format("deck '{}' has changed since the run or is gone: the run continues with the text that it kept",
                      state.deck_path));
   DeckOptions deck;
   deck.path = state.deck_path;
@@ -50,7 +50,7 @@ DeckOutcome continue_run(const ContinueOptions& options) {
     throw InputError(
         fmt::format("the deck does not run problem '{}', case '{}' any more", state.problem, state.case_name));
   if (continuation.ends_early()) {
-    say("the deck goes on with cases that have not been computed: it ends here");
+    say("the deck has further cases that have not been computed: it ends here");
     outcome.interrupted = false;
   }
   std::erase_if(outcome.not_converged, [&](const std::string& label) {

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/fnv1a.hpp"
 #include "base/log.hpp"
 #include "base/threads.hpp"
 #include "deck/arguments.hpp"
@@ -31,11 +32,10 @@ std::string text_of(const std::filesystem::path& path) {
   return text;
 }
 
-// FNV-1a, 64 bits.
 std::string digest_of(const std::string& text) {
-  uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return fmt::format("{:016x}", hash);
+  Fnv1a digest;
+  digest.add(text.data(), text.size());
+  return digest.hexadecimal();
 }
 
 LuaLimits limits_of(const DeckOptions& options) {
@@ -157,7 +157,7 @@ void check_cold(DeckState& state, const DeckResult& warm, StudyCase& one) {
   const Difference difference = largest_difference(*warm.problem, *cold, *warm.run);
   one.cold_iterations = cold->iterations;
   one.cold_difference = difference.value;
-  say(fmt::format("  {} iterations from scratch, {} from case '{}': {:.0f} % saved; answers differ by {:.1e} at most{}",
+  say(fmt::format("  {} iterations from scratch, {} from case '{}': {:.0f} % saved; answers differ by at most {:.1e}{}",
                   cold->iterations, warm.run->iterations, one.started_from,
                   100.0 * (1.0 - static_cast<double>(warm.run->iterations) / static_cast<double>(cold->iterations)),
                   difference.value, difference.where.empty() ? "" : " (" + difference.where + ")"));

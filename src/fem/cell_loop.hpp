@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "fem/cells.hpp"
+#include "mesh/mesh.hpp"
 
 namespace dygita {
 

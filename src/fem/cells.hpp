@@ -1,5 +1,9 @@
-// The element kernels, one struct a cell type, all sizes known to the compiler: what element.hpp and assembly.hpp call.
+// The rows of the table of cells with their kernels, all sizes known to the compiler: what element.hpp and assembly.hpp
+// call. A type without kernels of its own has those of a displacement formulation (isoparametric.hpp).
 #pragma once
+
+#include <algorithm>
+#include <cmath>
 
 #include "base/error.hpp"
 #include "fem/shape.hpp"
@@ -9,59 +13,98 @@ namespace dygita {
 
 template <int n>
 using CornerStress = Eigen::Matrix<double, 6, n>;  // Pa, one column per node: xx yy zz xy yz zx
+template <int n>
+using MassMatrix = Eigen::Matrix<double, n, n>;  // kg
+
+// A row and its shape functions at the points of its rules.
+template <CellType cell_type>
+struct ShapedCell {
+  static constexpr CellType type = cell_type;
+  static constexpr const CellShape& row = cell_shape(cell_type);
+  static constexpr int n_nodes = nodes_per_cell(cell_type);
+  static constexpr int n_points = static_cast<int>(row.stiffness.points.size());
+  static constexpr int n_mass_points = static_cast<int>(row.mass.points.size());
+  static constexpr int n_recovery_points = static_cast<int>(row.at_recovery.points.size());
+
+  static const ShapeTable<n_nodes, n_points>& shapes() {
+    static const ShapeTable<n_nodes, n_points> table(shape_functions(type), row.stiffness);
+    return table;
+  }
+  static const ShapeTable<n_nodes, n_mass_points>& mass_shapes() {
+    static const ShapeTable<n_nodes, n_mass_points> table(shape_functions(type), row.mass);
+    return table;
+  }
+  static const ShapeTable<n_nodes, n_recovery_points>& recovery_shapes() {
+    static const ShapeTable<n_nodes, n_recovery_points> table(shape_functions(type), row.at_recovery);
+    return table;
+  }
+  // A row of values at the points of recovery x this = row of values at the nodes.
+  static const Eigen::Matrix<double, n_recovery_points, n_nodes>& to_nodes();
+};
+
+template <CellType cell_type>
+struct Cell : ShapedCell<cell_type> {
+  static constexpr int n = ShapedCell<cell_type>::n_nodes;
+  static Stiffness<n> stiffness(const Nodes<n>& x, const Elastic& material);
+  static CornerStress<n> stress(const Nodes<n>& x, const Elastic& material, const Nodes<n>& displacement);
+  // Between lumped and consistent, for steps of dt (s); of its diagonal nothing is read (manual, eq. S6).
+  static MassMatrix<n> tuned_mass(const Nodes<n>& x, const Elastic& material, double dt);
+};
 
 // Trilinear hexahedron with 12 enhanced strain modes condensed in the cell: the 9 of Taylor, Beresford and Wilson
 // (Int. J. Numer. Methods Eng. 10, 1976), which cure bending and pass the patch test on distorted cells, and the 3
 // volumetric ones of Simo, Armero and Taylor (Comput. Methods Appl. Mech. Eng. 110, 1993), which cure
-// incompressibility. 2x2x2 Gauss points.
-struct Hex8 {
-  static constexpr int n_nodes = 8;
-  static const ShapeTable<8, 8>& shapes() { return hex8_shapes(); }
+// incompressibility. Its mass is tuned along each of its axes.
+template <>
+struct Cell<CellType::hex8> : ShapedCell<CellType::hex8> {
   static Stiffness<8> stiffness(const Nodes<8>& x, const Elastic& material);
   static CornerStress<8> stress(const Nodes<8>& x, const Elastic& material, const Nodes<8>& displacement);
+  static MassMatrix<8> tuned_mass(const Nodes<8>& x, const Elastic& material, double dt);
 };
+using Hex8 = Cell<CellType::hex8>;
 
-// Prism, plain displacement formulation, 3 x 2 points.
-struct Prism6 {
-  static constexpr int n_nodes = 6;
-  static const ShapeTable<6, 6>& shapes() { return prism6_shapes(); }
-  static Stiffness<6> stiffness(const Nodes<6>& x, const Elastic& material);
-  static CornerStress<6> stress(const Nodes<6>& x, const Elastic& material, const Nodes<6>& displacement);
-};
+template <CellType cell_type>
+auto ShapedCell<cell_type>::to_nodes() -> const Eigen::Matrix<double, n_recovery_points, n_nodes>& {
+  static const Eigen::Matrix<double, n_recovery_points, n_nodes> matrix = [] {
+    const ShapeFunctions functions(row.recovery);
+    Eigen::Matrix<double, n_recovery_points, n_recovery_points> at_points;
+    for (int i = 0; i < n_recovery_points; ++i)
+      at_points.col(i) = functions.values(vector_of(row.at_recovery.points[i].at));
+    Eigen::Matrix<double, n_recovery_points, n_nodes> at_nodes;
+    for (int a = 0; a < n_nodes; ++a) at_nodes.col(a) = functions.values(vector_of(row.shape.nodes[a]));
+    return (at_points.inverse() * at_nodes).eval();
+  }();
+  return matrix;
+}
 
-// Tetrahedron of constant strain.
-struct Tet4 {
-  static constexpr int n_nodes = 4;
-  static const ShapeTable<4, 1>& shapes() { return tet4_shapes(); }
-  static Stiffness<4> stiffness(const Nodes<4>& x, const Elastic& material);
-  static CornerStress<4> stress(const Nodes<4>& x, const Elastic& material, const Nodes<4>& displacement);
-};
-
-// Volume of each node: integral of its shape function (the row sums of the consistent mass), so that the total and the
-// centre of mass are exact; positive where the Jacobian is.
+// Volume of each node, as the row lumps; positive where the Jacobian is.
 template <class Cell>
 Eigen::Matrix<double, Cell::n_nodes, 1> node_volumes(const Nodes<Cell::n_nodes>& x) {
   const auto& shapes = Cell::shapes();
   Eigen::Matrix<double, Cell::n_nodes, 1> volumes = Eigen::Matrix<double, Cell::n_nodes, 1>::Zero();
-  for (int i = 0; i < shapes.n_points; ++i) {
-    const double jacobian = (x * shapes.slopes[i]).eval().determinant();
-    volumes += jacobian * shapes.weights[i] * shapes.values.col(i);
+  switch (Cell::row.lumping) {
+    case Lumping::row_sums:
+      for (int i = 0; i < shapes.n_points; ++i) {
+        const double jacobian = (x * shapes.slopes[i]).eval().determinant();
+        volumes += jacobian * shapes.weights[i] * shapes.values.col(i);
+      }
   }
   return volumes;
 }
 
 // Calls `kernel` with the struct of this cell type.
-template <class Kernel>
+template <int first = 0, class Kernel>
 decltype(auto) with_cell(CellType type, Kernel&& kernel) {
-  switch (type) {
-    case CellType::hex8:
-      return kernel(Hex8{});
-    case CellType::prism6:
-      return kernel(Prism6{});
-    case CellType::tet4:
-      break;
+  if constexpr (first + 1 < n_cell_types) {
+    if (static_cast<int>(type) != first) return with_cell<first + 1>(type, std::forward<Kernel>(kernel));
   }
-  return kernel(Tet4{});
+  return kernel(Cell<static_cast<CellType>(first)>{});
+}
+
+// Share of the consistent mass along a length h: linear cells with lumped mass turn a wave by (k h)^2 / 24 too little
+// and those with consistent mass by as much too much; a trapezoidal step turns it by (w dt)^2 / 12 too little.
+inline double consistent_share(double speed, double dt, double h) {
+  return std::min(1.0, 0.5 + std::pow(speed * dt / h, 2));
 }
 
 // Stress (Pa) of a displacement gradient d u_p / d x_q.
@@ -78,3 +121,5 @@ inline void check_point_volume(double volume) {
 }
 
 }  // namespace dygita
+
+#include "fem/isoparametric.hpp"

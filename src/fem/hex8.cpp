@@ -33,7 +33,7 @@ const ByNode& mode_functions() {
   static const ByNode table = [] {
     ByNode functions;
     for (int i = 0; i < 8; ++i) {
-      const Vec3 xi = hex8_shapes().points.col(i);
+      const Vec3 xi = Hex8::shapes().points.col(i);
       functions.row(i) << xi[0], xi[1], xi[2], xi[1] * xi[2], xi[2] * xi[0], xi[0] * xi[1];
     }
     return functions;
@@ -42,7 +42,7 @@ const ByNode& mode_functions() {
 }
 
 Geometry geometry_of(const Nodes<8>& x) {
-  const ShapeTable<8, 8>& shapes = hex8_shapes();
+  const ShapeTable<8, 8>& shapes = Hex8::shapes();
   Geometry cell;
   Mat3 mean = Mat3::Zero();  // the Jacobian at the centre is the mean over the points
   for (int i = 0; i < 8; ++i) {
@@ -199,7 +199,27 @@ CornerStress<8> Hex8::stress(const Nodes<8>& x, const Elastic& material, const N
     gradient.diagonal().array() += scale * functions.tail<3>().dot(modes.tail<3>());
     at_points.col(i) = stress_of_gradient(material, gradient);
   }
-  return at_points * hex8_shapes().to_nodes;
+  return at_points * to_nodes();
+}
+
+// Integrals of rho N_a N_b by two points a direction, at +-s: s = 1 is lumped, s^2 = 1/3 consistent.
+MassMatrix<8> Hex8::tuned_mass(const Nodes<8>& x, const Elastic& material, double dt) {
+  const auto& table = shapes();
+  Mat3 jacobian = Mat3::Zero();
+  for (int i = 0; i < 8; ++i) jacobian += x * table.slopes[i] / 8.0;  // at the centre
+  Vec3 s;
+  for (int d = 0; d < 3; ++d)
+    s[d] = std::sqrt(1.0 - 2.0 / 3.0 * consistent_share(material.p_wave_speed(), dt, 2.0 * jacobian.col(d).norm()));
+  MassMatrix<8> mass = MassMatrix<8>::Zero();
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 corner = table.points.col(i).cwiseSign();
+    Eigen::Matrix<double, 8, 1> values;
+    for (int a = 0; a < 8; ++a)
+      values[a] = (Vec3::Ones() + table.points.col(a).cwiseSign().cwiseProduct(corner).cwiseProduct(s)).prod() / 8.0;
+    const double volume = (x * table.slopes[i]).eval().determinant() * table.weights[i];
+    mass += material.density * volume * values * values.transpose();
+  }
+  return mass;
 }
 
 }  // namespace dygita

@@ -1,10 +1,10 @@
-// Shape functions of hex8, prism6 and tet4, sampled at their quadrature points.
+// Shape functions sampled at quadrature points, all sizes known to the compiler.
 #pragma once
 
 #include <Eigen/LU>
 #include <array>
 
-#include "mesh/mesh.hpp"
+#include "mesh/shape_functions.hpp"
 
 namespace dygita {
 
@@ -22,18 +22,16 @@ struct ShapeTable {
   Eigen::Matrix<double, g, 1> weights;                // sum = volume of the reference cell
   Eigen::Matrix<double, n, g> values;                 // N_a
   std::array<Eigen::Matrix<double, n, 3>, g> slopes;  // d N_a / d xi
-  Eigen::Matrix<double, g, n> to_nodes;               // row of values at the points x this = row of values at the nodes
+
+  ShapeTable(const ShapeFunctions& functions, const QuadratureRule& rule) {
+    for (int i = 0; i < g; ++i) {
+      points.col(i) = vector_of(rule.points[i].at);
+      weights[i] = rule.points[i].weight;
+      values.col(i) = functions.values(points.col(i));
+      slopes[i] = functions.slopes(points.col(i));
+    }
+  }
 };
-
-// Cube [-1, 1]^3, 2x2x2 Gauss points in the order of the nodes: exact for the volume and its first moments.
-const ShapeTable<8, 8>& hex8_shapes();
-
-// Unit triangle over [-1, 1], 3 x 2 points: exact for the volume and its first moments. Node 1 is at (0, 1), node 2 at
-// (1, 0), as in vtkWedge; the mirrored numbering gives the same element.
-const ShapeTable<6, 6>& prism6_shapes();
-
-// Unit tetrahedron, 1 point.
-const ShapeTable<4, 1>& tet4_shapes();
 
 // A quadrature point of a cell in space.
 template <int n>

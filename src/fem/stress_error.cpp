@@ -16,15 +16,8 @@ double energy_density(const Elastic& material, const Eigen::Matrix<double, 6, 1>
 // 1/2 of the integral of d : C^-1 : d over a cell, d interpolated from its nodes.
 template <class Cell>
 double cell_energy(const Elastic& material, const Nodes<Cell::n_nodes>& x, const CornerStress<Cell::n_nodes>& d) {
-  constexpr int n = Cell::n_nodes;
-  const auto& shapes = Cell::shapes();
+  const auto& shapes = Cell::mass_shapes();  // a quadratic, as products of shape functions are
   double energy = 0.0;
-  if constexpr (n == 4) {  // the mean of a quadratic on a tetrahedron: its one point would not see the corners
-    const Eigen::Matrix<double, 6, 1> sum = d.rowwise().sum();
-    energy = energy_density(material, sum);
-    for (int a = 0; a < n; ++a) energy += energy_density(material, d.col(a));
-    return energy * point_in_cell(shapes, x, 0).volume / 20.0;
-  }
   for (int i = 0; i < shapes.n_points; ++i)
     energy += point_in_cell(shapes, x, i).volume * energy_density(material, d * shapes.values.col(i));
   return energy;

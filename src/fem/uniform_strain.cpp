@@ -11,14 +11,26 @@ namespace {
 
 constexpr Lanes zero = {};
 
-// Hourglass base vectors xi_2 xi_3, xi_3 xi_1, xi_1 xi_2, xi_1 xi_2 xi_3 at the corners 0-3; at 4-7 they are
-// minus, minus, plus, minus that.
-constexpr double hourglass_sign[4][4] = {{1, 1, -1, -1}, {1, -1, -1, 1}, {1, -1, 1, -1}, {-1, 1, -1, 1}};
-constexpr double mirror_sign[4] = {-1, -1, 1, -1};
+// The hourglass vectors of a type, where it has any.
+template <class Cell>
+struct Hourglass {
+  static constexpr int n_modes = 0;
+};
 
-double hourglass_vector(int mode, int corner) {
-  return corner < 4 ? hourglass_sign[mode][corner] : mirror_sign[mode] * hourglass_sign[mode][corner - 4];
-}
+// xi_2 xi_3, xi_3 xi_1, xi_1 xi_2, xi_1 xi_2 xi_3 at the corners 0-3; at 4-7 they are minus, minus, plus, minus that.
+template <>
+struct Hourglass<Hex8> {
+  static constexpr int n_modes = 4;
+  static constexpr double sign[4][4] = {{1, 1, -1, -1}, {1, -1, -1, 1}, {1, -1, 1, -1}, {-1, 1, -1, 1}};
+  static constexpr double mirror_sign[4] = {-1, -1, 1, -1};
+
+  static double vector(int mode, int corner) {
+    return corner < 4 ? sign[mode][corner] : mirror_sign[mode] * sign[mode][corner - 4];
+  }
+  // Forces of the hourglass stiffness on the corners (h), what it takes from the stress x volume (s); twice its energy.
+  static Lanes resist(const Lanes (&v)[8][3], const Lanes (&g)[3][3], Lanes stiffness, const Lanes* x_h,
+                      Lanes (&s)[3][3], Lanes (&h)[8][3]);
+};
 
 // Of one cell: mean gradients of the shape functions (1/m), volume, smallest thickness (m).
 template <int n>
@@ -48,19 +60,18 @@ MeanCell<Cell::n_nodes> mean_cell(const Nodes<Cell::n_nodes>& x) {
 
 }  // namespace
 
-// A geometry in Lanes: n x 3 gradients; volume, hourglass stiffness / 8, linear and quadratic viscosity x volume; for
-// hexahedra 4 x 3 projections of the hourglass vectors on the coordinates.
+// A geometry in Lanes: n x 3 gradients; volume, hourglass stiffness / 8, linear and quadratic viscosity x volume; three
+// projections of each hourglass vector on the coordinates.
 struct UniformStrainCells::Loop {
-  static int geometry_size(int n) { return 3 * n + 4 + (n == 8 ? 12 : 0); }
+  template <class Cell>
+  static constexpr int geometry_size = 3 * Cell::n_nodes + 4 + 3 * Hourglass<Cell>::n_modes;
 
   template <class Cell>
   static void fill(UniformStrainCells& cells, const Mesh& mesh, const CellBlock& block, const Elastic& material);
   template <class Cell>
   static void set_lane(const UniformStrainCells& cells, const Nodes<Cell::n_nodes>& x, const Elastic& material,
                        int lane, std::vector<Lanes>& geometry);
-  static Lanes resist_hourglass(const Lanes (&v)[8][3], const Lanes (&g)[3][3], Lanes stiffness, const Lanes* x_h,
-                                Lanes (&s)[3][3], Lanes (&h)[8][3]);
-  template <int n, bool has_stress, bool is_viscous, bool has_energy>
+  template <class Cell, bool has_stress, bool is_viscous, bool has_energy>
   static CellEnergy run(const UniformStrainCells& cells, const double* u, double dt, double* f, Lanes* strain);
 };
 
@@ -80,16 +91,17 @@ void UniformStrainCells::Loop::set_lane(const UniformStrainCells& cells, const N
   scalars[1][lane] = cells.settings_.hourglass / 2 * material.p_wave_modulus() * mean.hourglass_scale / 8;
   scalars[2][lane] = mean.volume * viscosity.linear * impedance * mean.thickness;
   scalars[3][lane] = mean.volume * material.density * length * length;
-  for (int mode = 0; n == 8 && mode < 4; ++mode)
-    for (int d = 0; d < 3; ++d)
-      for (int a = 0; a < n; ++a) scalars[4 + 3 * mode + d][lane] += hourglass_vector(mode, a) * x(d, a);
+  if constexpr (Hourglass<Cell>::n_modes > 0)
+    for (int mode = 0; mode < Hourglass<Cell>::n_modes; ++mode)
+      for (int d = 0; d < 3; ++d)
+        for (int a = 0; a < n; ++a) scalars[4 + 3 * mode + d][lane] += Hourglass<Cell>::vector(mode, a) * x(d, a);
 }
 
 template <class Cell>
 void UniformStrainCells::Loop::fill(UniformStrainCells& cells, const Mesh& mesh, const CellBlock& block,
                                     const Elastic& material) {
   constexpr int n = Cell::n_nodes;
-  const int size = geometry_size(n), n_cells = block.n_cells();
+  const int size = geometry_size<Cell>, n_cells = block.n_cells();
   cells.n_batches_ = (n_cells + n_lanes - 1) / n_lanes;
   cells.dofs_.resize(static_cast<size_t>(cells.n_batches_) * n * n_lanes);
   std::vector<Lanes> geometry(size);
@@ -121,9 +133,8 @@ void UniformStrainCells::Loop::fill(UniformStrainCells& cells, const Mesh& mesh,
   }
 }
 
-// Forces of the hourglass stiffness on the corners (h), what it takes from the stress x volume (s); twice its energy.
-inline Lanes UniformStrainCells::Loop::resist_hourglass(const Lanes (&v)[8][3], const Lanes (&g)[3][3], Lanes stiffness,
-                                                        const Lanes* x_h, Lanes (&s)[3][3], Lanes (&h)[8][3]) {
+inline Lanes Hourglass<Hex8>::resist(const Lanes (&v)[8][3], const Lanes (&g)[3][3], Lanes stiffness, const Lanes* x_h,
+                                     Lanes (&s)[3][3], Lanes (&h)[8][3]) {
   Lanes energy = zero;
   for (int i = 0; i < 3; ++i) {
     Lanes sum[4], difference[4], q[4];
@@ -152,9 +163,10 @@ inline Lanes UniformStrainCells::Loop::resist_hourglass(const Lanes (&v)[8][3], 
 }
 
 // One pass over the cells: gather, mean gradient, stress (times volume), hourglass forces, scatter.
-template <int n, bool has_stress, bool is_viscous, bool has_energy>
+template <class Cell, bool has_stress, bool is_viscous, bool has_energy>
 CellEnergy UniformStrainCells::Loop::run(const UniformStrainCells& cells, const double* u, double dt, double* f,
                                          Lanes* strain) {
+  constexpr int n = Cell::n_nodes;
   const double lambda = cells.lambda_, two_mu = 2 * cells.mu_;
   Lanes dissipated = zero, stored = zero, hourglass = zero;
   for (int batch = 0; batch < cells.n_batches_; ++batch) {
@@ -190,8 +202,8 @@ CellEnergy UniformStrainCells::Loop::run(const UniformStrainCells& cells, const 
         for (int j = 0; j < 3; ++j) s[i][j] += volume * (0.5 * two_mu) * (g[i][j] + g[j][i]);
     }
     Lanes h[n][3] = {};
-    if constexpr (n == 8 && has_stress) {
-      const Lanes energy = resist_hourglass(v, g, scalars[1], x_h, s, h);
+    if constexpr (Hourglass<Cell>::n_modes > 0 && has_stress) {
+      const Lanes energy = Hourglass<Cell>::resist(v, g, scalars[1], x_h, s, h);
       if (has_energy) hourglass += energy;
     }
     for (int a = 0; a < n; ++a)
@@ -210,50 +222,53 @@ CellEnergy UniformStrainCells::Loop::run(const UniformStrainCells& cells, const 
 
 UniformStrainCells::UniformStrainCells(const Mesh& mesh, const CellBlock& block, const Elastic& material,
                                        const UniformStrainSettings& settings)
-    : n_nodes_(nodes_per_cell(block.type)),
+    : type_(block.type),
       settings_(settings),
       lambda_(material.p_wave_modulus() - 2 * material.shear_modulus()),
       mu_(material.shear_modulus()) {
-  with_cell(block.type, [&](auto cell) { Loop::fill<decltype(cell)>(*this, mesh, block, material); });
+  with_cell(type_, [&](auto cell) {
+    using Cell = decltype(cell);
+    static_assert((Cell::row.one_point == OnePoint::hourglass_control) == (Hourglass<Cell>::n_modes > 0),
+                  "a type under hourglass control has its vectors above");
+    Loop::fill<Cell>(*this, mesh, block, material);
+  });
   strain_.assign(n_batches_, zero);
 }
 
 template <class Action>
 CellEnergy UniformStrainCells::dispatch(Action&& action) const {
-  const auto with_stress = [&](auto n) {
-    return settings_.has_stress ? action(n, std::true_type{}) : action(n, std::false_type{});
-  };
-  if (n_nodes_ == 8) return with_stress(std::integral_constant<int, 8>{});
-  if (n_nodes_ == 6) return with_stress(std::integral_constant<int, 6>{});
-  return with_stress(std::integral_constant<int, 4>{});
+  return with_cell(type_, [&](auto cell) {
+    return settings_.has_stress ? action(cell, std::true_type{}) : action(cell, std::false_type{});
+  });
 }
 
 CellEnergy UniformStrainCells::add_elastic_force(const double* displacement, double* force) const {
   if (!settings_.has_stress) return {};
-  return dispatch([&](auto n, auto stress) {
-    return Loop::run<n.value, stress.value, false, true>(*this, displacement, 1.0, force, nullptr);
+  return dispatch([&](auto cell, auto stress) {
+    return Loop::run<decltype(cell), stress.value, false, true>(*this, displacement, 1.0, force, nullptr);
   });
 }
 
 CellEnergy UniformStrainCells::add_force(const double* displacement, double dt, bool has_energy, double* force) {
   const bool is_viscous = settings_.viscosity.linear > 0.0 || settings_.viscosity.quadratic > 0.0;
   if (!is_viscous && has_energy) return add_elastic_force(displacement, force);
-  return dispatch([&](auto n, auto stress) {
-    if (!is_viscous) return Loop::run<n.value, stress.value, false, false>(*this, displacement, dt, force, nullptr);
-    if (!has_energy)
-      return Loop::run<n.value, stress.value, true, false>(*this, displacement, dt, force, strain_.data());
-    return Loop::run<n.value, stress.value, true, true>(*this, displacement, dt, force, strain_.data());
+  return dispatch([&](auto cell, auto stress) {
+    using Cell = decltype(cell);
+    if (!is_viscous) return Loop::run<Cell, stress.value, false, false>(*this, displacement, dt, force, nullptr);
+    if (!has_energy) return Loop::run<Cell, stress.value, true, false>(*this, displacement, dt, force, strain_.data());
+    return Loop::run<Cell, stress.value, true, true>(*this, displacement, dt, force, strain_.data());
   });
 }
 
 void UniformStrainCells::start_from(const double* displacement) {
+  const int n = nodes_per_cell(type_);
   for (int batch = 0; batch < n_batches_; ++batch) {
     strain_[batch] = zero;
-    for (int a = 0; a < n_nodes_; ++a)
+    for (int a = 0; a < n; ++a)
       for (int lane = 0; lane < n_lanes; ++lane)
         for (int d = 0; d < 3; ++d)
           strain_[batch][lane] += geometries_[geometry_of_[batch] + 3 * a + d][lane] *
-                                  displacement[dofs_[(static_cast<size_t>(batch) * n_nodes_ + a) * n_lanes + lane] + d];
+                                  displacement[dofs_[(static_cast<size_t>(batch) * n + a) * n_lanes + lane] + d];
   }
 }
 

@@ -28,13 +28,13 @@ struct CellEnergy {
 
 struct UniformStrainSettings {
   bool has_stress = true;  // false: the bulk viscosity alone, beside a stiffness that somebody else multiplies
-  double hourglass = 0.1;  // kappa of eq. X6, hexahedra
+  double hourglass = 0.1;  // kappa of eq. X6, types under hourglass control
   BulkViscosity viscosity;
 };
 
 // All cells of one block of a mesh. The mean gradient (Flanagan and Belytschko, Int. J. Numer. Methods Eng. 17, 1981)
-// passes the patch test on distorted cells; tetrahedra have no other. Forces are what the cells resist with: M a =
-// external - force. Vectors are by node, 3 n_nodes long, dof = 3 node + axis.
+// passes the patch test on distorted cells; linear tetrahedra have no other. Forces are what the cells resist with: M a
+// = external - force. Vectors are by node, 3 n_nodes long, dof = 3 node + axis.
 class UniformStrainCells {
  public:
   UniformStrainCells(const Mesh& mesh, const CellBlock& block, const Elastic& material,
@@ -55,7 +55,8 @@ class UniformStrainCells {
   template <class Action>
   CellEnergy dispatch(Action&& action) const;
 
-  int n_nodes_ = 0, n_batches_ = 0;
+  CellType type_;
+  int n_batches_ = 0;
   UniformStrainSettings settings_;
   double lambda_ = 0.0, mu_ = 0.0;
   std::vector<int> dofs_;          // (batch, node of the cell, lane): first dof

@@ -10,8 +10,8 @@ namespace dygita {
 
 bool needs_coarse_correction(const StepModel& model) {
   if (model.scheme.is_static) return true;
-  for (const auto& piece : model.pieces) {
-    const Substructure& part = *piece->setup().body->part;
+  for (const CutPiece& piece : model.cut->pieces()) {
+    const Substructure& part = *piece.body;
     const Vec3 size = part.mesh->nodes.rowwise().maxCoeff() - part.mesh->nodes.rowwise().minCoeff();
     if (part.material.p_wave_speed() * model.scheme.dt > 0.3 * std::cbrt(size.prod())) return true;
   }
@@ -26,7 +26,7 @@ std::vector<CoarseCorrection::Side> CoarseCorrection::find_sides(const StepModel
     for (const auto& [first, end] :
          {std::pair{point.first_port, point.first_port_2}, std::pair{point.first_port_2, point.end_port}})
       for (int d = 0; d < 3; ++d) {
-        const bool has_law = point.law && point.is_active[d] && point.law->acts_on(d);
+        const bool has_law = point.is_active[d] && point.has_law[d];
         Side side;
         double sum = 0.0;
         bool is_held = false;
@@ -52,7 +52,7 @@ void CoarseCorrection::make_shapes(const StepModel& model, const Vec& k, const s
   const std::vector<Port>& ports = model.exchange.ports;
   const size_t n = model.pieces.size();
   const auto place = [&](const Tied& tied) {
-    const Substructure& part = *model.pieces[ports[tied.port].piece]->setup().body->part;
+    const Substructure& part = *model.cut->piece(ports[tied.port].piece).body;
     return Vec3(part.mesh->nodes.col(ports[tied.port].piece_node) + part.place);
   };
   std::vector<Vec3> centre(n, Vec3::Zero());

@@ -158,7 +158,7 @@ void LocalStage::set_trial(const Point& point, const Side& side_1, const Side& s
   record.trial.s.setZero();
   record.trial.y.setZero();
   for (int d = 0; d < 3; ++d) {
-    if (!point.is_active[d] || !point.law->acts_on(d)) continue;
+    if (!point.is_active[d] || !point.has_law[d]) continue;
     record.trial.s[d] = side_2.r[d] - side_1.r[d];
     record.trial.y[d] = side_1.inverse_k[d] + side_2.inverse_k[d];
   }
@@ -202,7 +202,7 @@ void LocalStage::accept(State* state) {
     PointRecord& p = points_[i];
     const Increment increment = increment_at(point);
     const LawState end = end_of_point(point, p, increment);
-    gap_difference_ = std::max(gap_difference_, dygita::gap_difference(*model_, point, p));
+    gap_difference_ = std::max(gap_difference_, dygita::gap_difference(point, p));
     if (state) book_work(point, p, end, increment, work_on_pieces(point), *state);
     p.law = end;
     if (state && point.law) show_point(point, p, *state);

@@ -11,4 +11,7 @@ namespace dygita {
 // wave crosses and returns within the window.
 Vec search_directions(const StepModel& model, double multiplier, int n_window);
 
+// Gives every piece its own of k; pieces side by side on the threads at hand. Throws NumericalError.
+void fix_search_directions(StepModel& model, const Vec& k);
+
 }  // namespace dygita

@@ -3,7 +3,6 @@
 // (manual, preload).
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "latin/step_run.hpp"
 
@@ -17,27 +16,15 @@ constexpr int most_sweeps = 5;  // over bolts that loosen each other
 
 }  // namespace
 
-// A preload may send a part away that is still unconstrained.
-bool StepRun::is_lost() const {
-  return extent_ > 0.0 && velocity_.size() > 0 && !(velocity_.cwiseAbs().maxCoeff() <= extent_);
-}
-
-void StepRun::keep_start() {
-  q_start_ = q_;
-  shortenings_start_ = local_.preload_figures().shortening;
-  extent_ = assembly_size();
-}
-
-Outcome StepRun::seat_bolts(int increment, Vec& q_best, int& n) {
-  q_ = q_start_;
-  const double extent = std::exchange(extent_, 0.0);
+void StepRun::seat_bolts(int increment, const BoltStart& start, Best& best) {
+  at_.q = start.q;
   const PreloadFigures figures = local_.preload_figures();
   const Vec &target = figures.target, &stiffest = figures.stiffest;
-  Vec d = shortenings_start_;
+  Vec d = start.shortening;
+  Best roughly;
   const auto forces = [&](const Vec& prescribed) {
     local_.prescribe_shortenings(prescribed);
-    Vec unused;
-    iterate(increment, {std::max(rough, tolerance_), max_iterations_}, unused, n);
+    iterate(increment, {std::max(rough, settings_.tolerance), settings_.max_iterations, 0.0}, roughly);
     return local_.preload_figures().force;
   };
   const double scale = std::max(target.cwiseAbs().maxCoeff(), forces(d).cwiseAbs().maxCoeff());
@@ -49,13 +36,14 @@ Outcome StepRun::seat_bolts(int increment, Vec& q_best, int& n) {
         all[i] = own;
         return forces(all)[i];
       };
-      d[i] = find_shortening(force, target[i], d[i], stiffest[i], scale, close, extent);
+      d[i] = find_shortening(force, target[i], d[i], stiffest[i], scale, close, settings_.assembly_size);
     }
   }
   check_reached(*model_.step, increment, figures.interfaces, forces(d), target);
   local_.prescribe_shortenings({});
-  extent_ = extent;
-  return iterate(increment, {tolerance_, max_iterations_}, q_best, n);
+  best.iterations += roughly.iterations;
+  // A preload may send a part away that is still unconstrained.
+  iterate(increment, {settings_.tolerance, settings_.max_iterations, settings_.assembly_size}, best);
 }
 
 }  // namespace dygita

@@ -7,129 +7,75 @@
 #include <limits>
 
 #include "base/log.hpp"
-#include "latin/search_direction.hpp"
 #include "solution/step_ends.hpp"
 
 namespace dygita {
 
-namespace {
-
-// Defaults of the manual's table, where the deck says nothing.
-int anderson_depth(const LatinSettings& s, bool is_static) {
-  return s.anderson >= 0 ? s.anderson : is_static ? 40 : 10;
-}
-double relaxation(const LatinSettings& s, bool is_static) {
-  return s.relaxation > 0.0 ? s.relaxation : is_static ? 0.8 : 0.95;
-}
-
-// Steps of a window: 1 in a static step.
-int window_length(const LatinSettings& s, const Step& step) {
-  const int n = step.n_increments();
-  return step.is_static ? 1 : s.window == 0 ? n : std::min(s.window, n);
-}
-
-LocalStage make_local_stage(const Problem& problem, StepModel& model, const State& state) {
-  const Vec k = search_directions(model, problem.solver.search_direction, window_length(problem.solver, *model.step));
-  for (const bool has_twin : {false, true})  // those whose operators others share come first
-    parallel_for(static_cast<int>(model.pieces.size()), [&](int i) {
-      Piece& piece = *model.pieces[i];
-      if ((piece.setup().twin != nullptr) == has_twin)
-        piece.set_search_directions(k.segment(model.offset[i], piece.n_rows()), problem.solver.plain);
-    });
-  return LocalStage(model, state, k);
-}
-
-}  // namespace
-
-StepRun::StepRun(const Problem& problem, StepModel& model, State& state, Observer& observer,
-                 const InterfaceFields* start_from, InterfaceFields& kept)
-    : problem_(problem),
+StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, const RunFiles& files)
+    : settings_(settings),
+      files_(files),
       model_(model),
-      state_(state),
-      observer_(observer),
-      start_from_(start_from),
-      kept_(kept),
-      i_step_(index_of(problem.steps, model.step)),
-      local_((start_step(model, state), make_local_stage(problem, model, state))),
-      warm_start_(nullptr, 0, {}),
-      anderson_(0, 0, 1.0, {}),
-      indicator_(0.0) {
-  kept_.begin_step();
-  const LatinSettings& s = problem.solver;
-  const bool is_static = model.scheme.is_static;
-  window_ = window_length(s, *model.step);
-  max_iterations_ = s.max_iterations;
-  is_going_on_ = start_from && s.more_iterations > 0;
-  tolerance_ = is_static ? s.static_tolerance : s.tolerance;
-  window_relaxation_ = s.relaxation > 0.0 ? s.relaxation : 0.8;
-  window_depth_ = s.anderson >= 0 ? s.anderson : window_ > 20 ? 0 : 5;
-  Vec k(model.n_q());
-  for (size_t i = 0; i < model.pieces.size(); ++i)
-    k.segment(model.offset[i], model.pieces[i]->n_rows()) = model.pieces[i]->k();
-  weight_ = k.cwiseSqrt().cwiseInverse();
-  if (window_ == 1 && s.anderson != 0 && needs_coarse_correction(model_)) coarse_ = CoarseCorrection(model_, k);
-  if (is_static) indicator_ = Indicator(k.sum() * assembly_size() * assembly_size());
-  warm_start_ = WarmStart(start_from, i_step_, weight_);
-  anderson_ = Anderson(anderson_depth(s, is_static), is_static ? 0 : 20, relaxation(s, is_static), weight_);
-  q_ = local_.initial_q();
-  velocity_ = Vec::Zero(q_.size());
-  energy_.resize(model.pieces.size());
-  observer_.begin_step(instant(-1, 0, 0.0));
+      weight_(k.cwiseSqrt().cwiseInverse()),
+      coarse_(settings.has_correction ? CoarseCorrection(model, k) : CoarseCorrection()),
+      local_(model, files.state, k),
+      at_{local_.initial_q(), Vec::Zero(k.size()), {}, {}},
+      warm_start_(files.start_from, settings.i_step, weight_),
+      anderson_(settings.of_increment.depth, settings.of_increment.n_problems, settings.of_increment.relaxation,
+                weight_),
+      indicator_(model.scheme.is_static ? k.sum() * settings.assembly_size * settings.assembly_size : 0.0) {
+  books_.energy.resize(model.pieces.size());
 }
 
 // The first iteration only hears what the kept fields are worth.
 StepRun::Goal StepRun::goal_of(bool has_start) const {
-  if (!is_going_on_ || !has_start) return {tolerance_, max_iterations_};
-  return {round_off(), 1 + problem_.solver.more_iterations};
+  const double furthest = local_.has_preloads() ? settings_.assembly_size : 0.0;
+  if (settings_.more_iterations == 0 || !has_start) return {settings_.tolerance, settings_.max_iterations, furthest};
+  return {settings_.round_off, 1 + settings_.more_iterations, furthest};
 }
 
-// Indicator below which iterations change rounding errors only.
-double StepRun::round_off() const {
-  const bool is_single = std::any_of(model_.pieces.begin(), model_.pieces.end(), [](const auto& piece) {
-    return piece->setup().precision == Precision::single_precision;
-  });
-  return is_single ? 1e-8 : 1e-13;
-}
-
-StepRun::Start StepRun::remember() const {
-  Start start{{}, local_};
-  for (const auto& piece : model_.pieces) start.pieces.push_back(piece->snapshot());
-  return start;
-}
-
-void StepRun::go_back(const Start& start) {
-  for (size_t i = 0; i < start.pieces.size(); ++i) model_.pieces[i]->restore(start.pieces[i]);
-  local_ = start.local;
+// Where the iteration of an increment starts; false: not from another case's fields.
+bool StepRun::predict(int increment, Vec& q) {
+  const InterfaceFields* fields = files_.start_from;
+  const bool has_start = warm_start_.predict(increment, q) && fields;
+  if (fields && !has_start && increment == 0 && fields->n_increments(settings_.i_step) > 0)
+    warn(
+        fmt::format("step '{}': nothing of the case to start from fits (other interfaces, another number of pieces or "
+                    "of increments): the "
+                    "iteration starts from scratch",
+                    model_.step->name));
+  return has_start;
 }
 
 void StepRun::accept_increment(int increment, int iterations, double eta) {
+  State& state = files_.state;
   {
-    const Stopwatch watch(seconds_.accept);
-    local_.accept(&state_);
+    const Stopwatch watch(books_.seconds.accept);
+    local_.accept(&state);
   }
-  Energies& energies = state_.energies;
-  book_increment(energy_, energies);
+  Energies& energies = state.energies;
+  book_increment(books_.energy, energies);
   if (!std::isfinite(energies.kinetic + energies.strain + energies.loads))
     throw NumericalError(fmt::format(
         "step '{}', increment {} (t = {:.6g} s): the energies are not finite; likely cause: a load out of proportion",
-        model_.step->name, increment + 1, state_.time));
+        model_.step->name, increment + 1, state.time));
   if (has_flown_off()) eta = std::numeric_limits<double>::infinity();
   indicator_.raise_floor(energies.kinetic + energies.strain + std::abs(energies.loads), model_.scheme.dt);
-  if (!model_.scheme.is_static) state_.time += model_.scheme.dt;
-  ++figures_.increments;
-  kept_.append(q_);
-  figures_.iterations += iterations;
-  figures_.worst_indicator = std::max(figures_.worst_indicator, eta);
-  if (eta > tolerance_) ++figures_.not_converged;
-  const Stopwatch watch(seconds_.output);
-  observer_.accept(instant(increment, iterations, eta));
+  if (!model_.scheme.is_static) state.time += model_.scheme.dt;
+  StepFigures& figures = books_.figures;
+  ++figures.increments;
+  files_.kept.append(at_.q);
+  figures.iterations += iterations;
+  figures.worst_indicator = std::max(figures.worst_indicator, eta);
+  if (eta > settings_.tolerance) ++figures.not_converged;
+  const Stopwatch watch(books_.seconds.output);
+  files_.observer.accept(instant(increment, iterations, eta));
 }
 
 // A static increment that moves bodies by many times the assembly's size has found no equilibrium, whatever the
 // indicator says.
 bool StepRun::has_flown_off() const {
-  if (!model_.scheme.is_static || velocity_.size() == 0) return false;
-  const double moved = velocity_.cwiseAbs().maxCoeff(), size = assembly_size();
+  if (!model_.scheme.is_static || at_.velocity.size() == 0) return false;
+  const double moved = at_.velocity.cwiseAbs().maxCoeff(), size = settings_.assembly_size;
   if (moved <= 10.0 * size) return false;
   warn(fmt::format(
       "static step '{}': an increment moves a substructure by {:.3g} m, {:.0f} times the size of the assembly: it is "
@@ -138,58 +84,50 @@ bool StepRun::has_flown_off() const {
   return true;
 }
 
-// Length of the diagonal of the box around all substructures, m.
-double StepRun::assembly_size() const {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const SubstructurePtr& part : problem_.substructures) {
-    low = low.cwiseMin(part->mesh->nodes.rowwise().minCoeff() + part->place);
-    high = high.cwiseMax(part->mesh->nodes.rowwise().maxCoeff() + part->place);
-  }
-  return (high - low).norm();
-}
-
 void StepRun::check_finite(const Outcome& outcome, int increment) const {
   if (std::isfinite(outcome.eta)) return;
   throw NumericalError(
       fmt::format("step '{}', increment {} (t = {:.6g} s): the iteration has diverged; likely cause: a "
                   "search direction, stiffness or density out of proportion, or a time step far too large",
-                  model_.step->name, increment + 1, state_.time));
+                  model_.step->name, increment + 1, files_.state.time));
 }
 
 std::string StepRun::describe_progress() const {
-  const double mean = figures_.increments ? static_cast<double>(figures_.iterations) / figures_.increments : 0.0;
-  return model_.scheme.is_static ? fmt::format("{} iterations", figures_.iterations)
-                                 : fmt::format("t = {:.4g} us, {:.1f} iterations per step", state_.time * 1e6, mean);
+  const StepFigures& figures = books_.figures;
+  const double mean = figures.increments ? static_cast<double>(figures.iterations) / figures.increments : 0.0;
+  return model_.scheme.is_static
+             ? fmt::format("{} iterations", figures.iterations)
+             : fmt::format("t = {:.4g} us, {:.1f} iterations per step", files_.state.time * 1e6, mean);
 }
 
 Instant StepRun::instant(int increment, int iterations, double eta) const {
-  return {model_,     state_, i_step_,           increment,
-          iterations, eta,    eta <= tolerance_, model_.scheme.dt * sums_.force_distance};
+  return {model_,     files_.state, settings_.i_step,           increment,
+          iterations, eta,          eta <= settings_.tolerance, model_.scheme.dt * at_.sums.force_distance};
 }
-
-void StepRun::leave_state() { end_step(model_, state_); }
 
 void StepRun::add_to(SolverFigures& figures) const {
   figures.n_dofs = 0;
-  for (const SubstructurePtr& part : problem_.substructures) figures.n_dofs += 3 * part->mesh->n_nodes();
+  for (const SubstructurePtr& part : model_.problem->substructures) figures.n_dofs += 3 * part->mesh->n_nodes();
   double bytes = 0.0;
-  for (const auto& piece : model_.pieces) bytes += piece->bytes();
-  figures.factor_bytes = std::max(figures.factor_bytes, bytes);
   for (const auto& piece : model_.pieces) {
-    figures.n_solved += piece->n_solved();
-    figures.n_spared += piece->n_spared();
-    figures.n_in_full += piece->is_mostly_interface();
-    figures.n_equal += piece->shares_factor();
+    const PieceFigures of_piece = piece->figures();
+    bytes += of_piece.bytes;
+    figures.n_solved += of_piece.n_solved;
+    figures.n_spared += of_piece.n_spared;
+    figures.n_in_full += of_piece.is_mostly_interface;
+    figures.n_equal += piece->shares_operator();
   }
+  figures.factor_bytes = std::max(figures.factor_bytes, bytes);
   figures.n_interface_unknowns = model_.n_q();
   figures.gap_difference = std::max(figures.gap_difference, local_.gap_difference());
-  figures.seconds["forward"] += seconds_.forward;
-  figures.seconds["interface operator"] += seconds_.interface;
-  figures.seconds["local stage"] += seconds_.local;
-  figures.seconds["acceleration"] += seconds_.accelerate;
-  figures.seconds["backward"] += seconds_.backward;
-  figures.seconds["laws and energies"] += seconds_.accept;
-  figures.seconds["output"] += seconds_.output;
+  const Seconds& seconds = books_.seconds;
+  figures.seconds["forward"] += seconds.forward;
+  figures.seconds["interface operator"] += seconds.interface;
+  figures.seconds["local stage"] += seconds.local;
+  figures.seconds["acceleration"] += seconds.accelerate;
+  figures.seconds["backward"] += seconds.backward;
+  figures.seconds["laws and energies"] += seconds.accept;
+  figures.seconds["output"] += seconds.output;
 }
 
 }  // namespace dygita

@@ -1,5 +1,5 @@
-// One step while it runs: what the stages of latin.cpp work on. The method is in latin.cpp, the bookkeeping in
-// step_run.cpp.
+// One step while it runs. The method is in latin.cpp, windows of several time steps in window.cpp, preloads whose joint
+// stands open in seat_bolts.cpp, the bookkeeping in step_run.cpp.
 #pragma once
 
 #include <chrono>
@@ -10,97 +10,108 @@
 #include "latin/indicator.hpp"
 #include "latin/latin.hpp"
 #include "latin/local_stage.hpp"
+#include "latin/step_settings.hpp"
 #include "latin/warm_start.hpp"
 
 namespace dygita {
 
+// What is iterated: data go from left to right, and from the image back to q. Length n_q each.
+struct Iterate {
+  Vec q;               // of the linear stage: F_hat + k W_hat, N
+  Vec velocity;        // V, its answer, m/s
+  Vec image;           // F_hat + k W_hat of what the local stage answers to both, N
+  IndicatorSums sums;  // the distance between both answers
+};
+
+// What a run reads and writes besides its own step.
+struct RunFiles {
+  State& state;
+  Observer& observer;
+  const InterfaceFields* start_from;  // of another case, or null
+  InterfaceFields& kept;
+};
+
 class StepRun {
  public:
-  StepRun(const Problem& problem, StepModel& model, State& state, Observer& observer, const InterfaceFields* start_from,
-          InterfaceFields& kept);
+  // The step has been started (start_step) and its pieces have search directions k (length n_q).
+  StepRun(const StepSettings& settings, StepModel& model, const Vec& k, const RunFiles& files);
 
   void run();
-  // Writes displacements, velocities and what loads had reached into the state: the next step starts from it.
-  void leave_state();
-  const StepFigures& figures() const { return figures_; }
+  const StepFigures& figures() const { return books_.figures; }
   void add_to(SolverFigures& figures) const;
 
  private:
-  // What the iteration of an increment is to reach, and with how many iterations at most.
+  // What an iteration is to reach, with how many rounds at most, and velocities beyond which it is lost (0: none).
   struct Goal {
     double tolerance;
     int most;
+    double furthest;
+  };
+  // What iterations have come to: the data that came closest, how close, after how many in all.
+  struct Best {
+    Vec q;
+    Outcome outcome;
+    int iterations = 0;
+  };
+  // Where preloaded bolts begin an increment.
+  struct BoltStart {
+    Vec q, shortening;
   };
 
-  // The stages (latin.cpp).
-  void linear_stage();
-  void coarse_correction();
-  IndicatorSums local_stage();
+  // The stages (latin.cpp): q gives velocity; velocity and q give the image and its distance.
+  void linear_stage(const Vec& q, Vec& velocity);
+  IndicatorSums local_stage(const Vec& velocity, const Vec& q, Vec& image);
+  void coarse_correction(Vec& q, Vec& velocity);
+  void iterate(int increment, const Goal& goal, Best& best);
   void begin_increment(int increment, bool starts_window);
-  void finish_increment();
-  Outcome iterate(int increment, const Goal& goal, Vec& q_best, int& n);
+  void finish_increment(const Vec& q);
   void solve_increment(int increment);
-  void solve_window(int first, int last);
-  void replay(int increment, const Vec& q, bool starts_window, int iterations, double eta);
 
-  // Preloads whose joint stands open (seat_bolts.cpp).
-  Outcome seat_bolts(int increment, Vec& q_best, int& n);
-  void keep_start();
-  bool is_lost() const;
+  void seat_bolts(int increment, const BoltStart& start, Best& best);
 
-  // Bookkeeping (step_run.cpp).
+  // Windows (window.cpp).
   struct Start {
-    std::vector<Piece::Snapshot> pieces;
+    std::vector<PieceState> pieces;
     LocalStage local;
   };
-  Goal goal_of(bool has_start) const;
-  double round_off() const;
+  void solve_window(int first, int last);
+  Outcome sweep(int first, const std::vector<Vec>& q, std::vector<Vec>& image);
+  void replay(int increment, const Vec& q, bool starts_window, int iterations, double eta);
   Start remember() const;
   void go_back(const Start& start);
+
+  // Bookkeeping (step_run.cpp).
+  Goal goal_of(bool has_start) const;
+  bool predict(int increment, Vec& q);
   void accept_increment(int increment, int iterations, double eta);
   bool has_flown_off() const;
-  double assembly_size() const;
   void check_finite(const Outcome& outcome, int increment) const;
   std::string describe_progress() const;
   Instant instant(int increment, int iterations, double eta) const;
+
+  // f on every piece; on every group of pieces that are solved together.
   template <class Function>
   void for_each_piece(Function&& f) {
     parallel_for(static_cast<int>(model_.pieces.size()), [&](int i) { f(*model_.pieces[i], i); });
   }
-
-  // f on every group of pieces that share a factor.
   template <class Function>
   void for_each_group(Function&& f) {
-    parallel_for(static_cast<int>(model_.equal.size()), [&](int i) { f(model_.equal[i]); });
-  }
-  std::vector<Piece*> group(const std::vector<int>& members) {
-    std::vector<Piece*> pieces;
-    for (const int i : members) pieces.push_back(model_.pieces[i].get());
-    return pieces;
+    parallel_for(static_cast<int>(model_.equal.size()), [&](int i) {
+      std::vector<Piece*> group;
+      for (const int member : model_.equal[i]) group.push_back(model_.pieces[member].get());
+      f(group, model_.equal[i]);
+    });
   }
 
-  const Problem& problem_;
-  StepModel& model_;
-  State& state_;
-  Observer& observer_;
-  const InterfaceFields* start_from_;
-  InterfaceFields& kept_;
-  int i_step_ = 0, window_ = 1, max_iterations_ = 200, window_depth_ = 0;
-  bool is_going_on_ = false;  // more iterations from kept fields, whatever the tolerance
-  double tolerance_ = 1e-6, window_relaxation_ = 0.8;
-  Vec weight_, q_, velocity_, image_;
-  LocalStage local_;
-  CoarseCorrection coarse_;
-  WarmStart warm_start_;
-  Anderson anderson_;
-  Indicator indicator_;
-  Vec q_start_, shortenings_start_;  // of the increment, where there are preloads
-  double extent_ = 0.0;              // m, of the assembly, where there are preloads
-  IndicatorSums sums_;               // of the last local stage
-  std::vector<double> motions_;
-  std::vector<IncrementEnergy> energy_;
-  StepFigures figures_;
-  // Wall time by phase of the step.
+  // Wall time by phase of the step, s.
+  struct Seconds {
+    double forward = 0.0, interface = 0.0, local = 0.0, accelerate = 0.0, backward = 0.0, accept = 0.0, output = 0.0;
+  };
+  struct Books {
+    std::vector<IncrementEnergy> energy;  // of the increment, one a piece
+    StepFigures figures;
+    Seconds seconds;
+  };
   class Stopwatch {
    public:
     explicit Stopwatch(double& sum) : sum_(sum), start_(std::chrono::steady_clock::now()) {}
@@ -112,9 +123,20 @@ class StepRun {
     double& sum_;
     std::chrono::steady_clock::time_point start_;
   };
-  struct {
-    double forward = 0.0, interface = 0.0, local = 0.0, accelerate = 0.0, backward = 0.0, accept = 0.0, output = 0.0;
-  } seconds_;
+
+  const StepSettings settings_;
+  RunFiles files_;
+  // Operators, and the laws with what they remember.
+  StepModel& model_;
+  Vec weight_;  // 1/sqrt(k): of the components of q in norms
+  CoarseCorrection coarse_;
+  LocalStage local_;
+  Iterate at_;
+  // Acceleration, and when to stop.
+  WarmStart warm_start_;
+  Anderson anderson_;
+  Indicator indicator_;
+  Books books_;
 };
 
 }  // namespace dygita

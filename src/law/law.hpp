@@ -1,107 +1,109 @@
-// An interface law at one point over one time increment. Knows no mesh and no substructure.
+// An interface law: every duty that a user of laws has. Knows no mesh and no substructure.
 //
-// Components are (N, T1, T2), N from side 1 to side 2; forces are nodal (N), on side 1; a prime is side 2.
-// A law turns the search problem  rate = s - Y F  into the force F and its own state at the end (manual, eq. L1-L6).
+// Each law is one file in laws/, which ends with its entry in the table of laws; nothing else names it. Every duty is
+// pure virtual: a law that forgets one does not compile. A law turns the search problem  rate = s - Y F  into the force
+// F and its own state at the end (manual, interface laws).
 #pragma once
 
-#include "numerics/types.hpp"
+#include <map>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "law/penalty_form.hpp"
+#include "law/point.hpp"
 
 namespace dygita {
 
-enum class PointState { open = 0, stick = 1, slip = 2 };  // a closed frictionless contact slips; a yielding bolt slips
-
-// What a point remembers from increment to increment.
-struct LawState {
-  double gap = 0.0;                // m, contact: from the hat fields, so that closed is exactly closed
-  double plastic_opening = 0.0;    // m, signed
-  double hardening_opening = 0.0;  // m, accumulated: what hardens
-  double opening_rate = 0.0;       // m/s, plastic, of the last dynamic increment; zero after a static one
-  Vec3 slip = Vec3::Zero();        // m, relative tangential displacement while closed
-  Vec3 rate = Vec3::Zero();        // m/s, V' - V at the end of the last increment
-  Vec3 force = Vec3::Zero();       // N, of the last increment
-  PointState status = PointState::stick;
+// An argument of a law, as the deck gave it.
+struct LawParameter {
+  std::string name, unit;  // unit: SI; empty for numbers without and for yes or no
+  std::variant<double, bool> value;
 };
 
-// The increment: static steps have dt = 1, g = 0, rates are increments.
-struct Increment {
-  double dt = 1.0, g = 0.0;
-  bool is_static = true;
-  double push_out = 0.0;  // b: share of a penetration thrown back per step
+// A few words on a law for the report: "yields at {}", with a number where the braces are.
+struct LawRemark {
+  std::string text;
+  double value = 0.0;
+  std::string unit;  // SI
 };
 
-// The search problem of a point. y is zero in directions that both sides have held: they carry no law.
-struct Trial {
-  Vec3 s = Vec3::Zero();     // m/s, r' - r with r = V - F/k
-  Vec3 y = Vec3::Zero();     // m/(N s), 1/k + 1/k'
-  Vec3 jump = Vec3::Zero();  // m, u' - u at the start of the increment
-  double shortening = 0.0;   // m, reached at the end of the increment
-  double area = 0.0;         // m^2
+// What follows from the displacements of the two sides alone, since the law's state does not have it.
+enum class Followed { nothing, slip_while_closed, opening_and_slip };
+
+// What outputs can tell of a point beside its force.
+struct Shown {
+  bool gap = false;              // it keeps a gap of its own: it opens, and may penetrate
+  bool slip = false;             // its state has a slip
+  bool plastic_opening = false;  // it yields
+  bool states = false;           // its points are open, stick or slide (yield)
+  Followed followed = Followed::nothing;
 };
 
 class Law {
  public:
   virtual ~Law() = default;
-  // Does the law carry a force in this direction (0 normal, 1 and 2 tangents)? Others have no unknown.
-  virtual bool acts_on(int direction) const = 0;
-  // Force of the increment (N), a pure function of the trial and the state at its start.
+
+  // The word of the deck: interface.<word>.
+  virtual std::string word() const = 0;
+  virtual std::vector<LawParameter> parameters() const = 0;
+  virtual std::vector<LawRemark> remarks() const = 0;
+  virtual Shown shown() const = 0;
+
+  // Are the sides one body, as long as no load acts on the interface? Such ties form groups (manual, groups).
+  virtual bool is_tie() const = 0;
+  // Do interfaces of equal parameters that lie side by side act as one law at the nodes they share?
+  virtual bool joins_its_like() const = 0;
+  // Can a load shorten it, as a nut does?
+  virtual bool can_be_tightened() const = 0;
+  // Largest normal traction (Pa) that it can carry; infinity where there is none.
+  virtual double most_tension() const = 0;
+  // Can its nodes do without mass in dynamic steps (manual, eq. S7)?
+  virtual bool allows_massless_nodes() const = 0;
+
+  // Does it carry a force in this direction (0 normal, 1 and 2 tangents) in steps of this kind? Others have no unknown.
+  // In a static step these are the directions in which it holds a part.
+  virtual bool acts_on(int direction, bool is_static) const = 0;
+  // State before anything has happened.
+  virtual LawState initial() const = 0;
+  // Force of the increment (N), a pure function of the trial and the state at its start; zero where y is.
   virtual Vec3 force(const Trial& trial, const Increment& increment, const LawState& start) const = 0;
   // State at the end of the increment, once `force` is accepted.
   virtual LawState advance(const Trial& trial, const Increment& increment, const LawState& start,
                            const Vec3& force) const = 0;
-  // Energy (J) that plasticity has dissipated since the beginning.
-  virtual double plastic_work(const LawState&, double /*area*/) const { return 0.0; }
-  // Is the tangential work of this law friction?
-  virtual bool rubs() const { return false; }
+  // What became of the increment's energy at a point of this area (m^2).
+  virtual Work work(const LawState& start, const LawState& end, const Increment& increment, double area) const = 0;
+  // Opening (m) that outputs show.
+  virtual double opening(const LawState& state) const = 0;
+  // Small motions about a state (manual, eq. D1); ties_sliding: points at the limit of friction stick.
+  virtual Tangent tangent(const LawState& state, bool ties_sliding) const = 0;
+  virtual ExplicitForm explicit_form() const = 0;
+
+  // Does it act on any direction in steps of this kind?
+  bool takes_part(bool is_static) const {
+    return acts_on(0, is_static) || acts_on(1, is_static) || acts_on(2, is_static);
+  }
+};
+using LawPtr = std::shared_ptr<const Law>;
+
+// Arguments of a law by name, SI; 1 and 0 for yes and no.
+using LawArguments = std::map<std::string, double>;
+
+// A law of the table: its word, the arguments that it takes, all of them, and how it is made of them.
+struct LawEntry {
+  std::string word;
+  std::vector<std::string> arguments;
+  LawPtr (*make)(const LawArguments& arguments);
 };
 
-// Sides held together, the jump itself held (eq. L1): no drift, and the way a bolt is shortened.
-class BondedLaw : public Law {
- public:
-  bool acts_on(int) const override { return true; }
-  Vec3 force(const Trial& trial, const Increment& increment, const LawState& start) const override;
-  LawState advance(const Trial& trial, const Increment& increment, const LawState& start,
-                   const Vec3& force) const override;
-};
+// Every law there is: one entry for each file of laws/, in the order of their names. CMake writes this function.
+const std::vector<LawEntry>& law_table();
 
-// Rigid-plastic in the normal direction, bonded in the tangents (eq. L2-L3). The plastic opening follows the same
-// two-point sum as the jump does: with p + dt l the sides would be pushed apart at each yielding step, without bound at
-// large steps.
-class PlasticLaw : public BondedLaw {
- public:
-  // yield (Pa), hardening (Pa per metre of plastic opening), compression: yields in compression too.
-  PlasticLaw(double yield, double hardening, bool compression)
-      : yield_(yield), hardening_(hardening), compression_(compression) {}
-  Vec3 force(const Trial& trial, const Increment& increment, const LawState& start) const override;
-  LawState advance(const Trial& trial, const Increment& increment, const LawState& start,
-                   const Vec3& force) const override;
-  double plastic_work(const LawState& state, double area) const override;
+// A law of an entry with every argument 1, to ask what holds for all of them.
+LawPtr example_of(const LawEntry& entry);
 
- private:
-  double opening_rate(const Trial& trial, const Increment& increment, const LawState& start) const;
-  double yield_, hardening_;
-  bool compression_;
-};
-
-// Unilateral contact with Coulomb friction, dynamic impacts without push-out (eq. L4-L6).
-class ContactLaw : public Law {
- public:
-  explicit ContactLaw(double friction) : friction_(friction) {}
-  bool acts_on(int direction) const override { return direction == 0 || friction_ > 0.0; }
-  Vec3 force(const Trial& trial, const Increment& increment, const LawState& start) const override;
-  LawState advance(const Trial& trial, const Increment& increment, const LawState& start,
-                   const Vec3& force) const override;
-  bool rubs() const override { return true; }
-
- private:
-  double friction_;
-};
-
-// Force on the friction disc: F_d = s_d / (Y_d + lambda), lambda >= 0 so that |F| <= limit (eq. L6). Returns F and
-// lambda.
-struct DiscForce {
-  Eigen::Vector2d force;
-  double lambda;
-};
-DiscForce project_on_disc(const Eigen::Vector2d& s, const Eigen::Vector2d& y, double limit);
+// The law of a word; CHECKs that there is one, and that the arguments are those it takes.
+LawPtr make_law(const std::string& word, const LawArguments& arguments = {});
 
 }  // namespace dygita

@@ -34,9 +34,9 @@ std::vector<Facet> side_facets(const Grid& grid, int axis, bool is_max) {
         return grid.node(at);
       };
       if (is_max)
-        facets.push_back({{node(0, 0), node(1, 0), node(1, 1), node(0, 1)}, 4});
+        facets.push_back({FacetType::quad4, {node(0, 0), node(1, 0), node(1, 1), node(0, 1)}});
       else
-        facets.push_back({{node(0, 0), node(0, 1), node(1, 1), node(1, 0)}, 4});
+        facets.push_back({FacetType::quad4, {node(0, 0), node(0, 1), node(1, 1), node(1, 0)}});
     }
   return facets;
 }
@@ -74,13 +74,13 @@ MeshPtr box_mesh(const Vec3& origin, const Vec3& size, const std::array<int, 3>&
       }
 
   CellBlock block{CellType::hex8, {}};
-  block.nodes.reserve(static_cast<size_t>(8) * cells[0] * cells[1] * cells[2]);
+  const std::span<const Place> corners = cell_shape(block.type).shape.nodes;
+  block.nodes.reserve(corners.size() * cells[0] * cells[1] * cells[2]);
   for (int k = 0; k < cells[2]; ++k)
     for (int j = 0; j < cells[1]; ++j)
       for (int i = 0; i < cells[0]; ++i)
-        for (int top = 0; top < 2; ++top)
-          for (const auto& [di, dj] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
-            block.nodes.push_back(grid.node({i + di, j + dj, k + top}));
+        for (const Place& at : corners)
+          block.nodes.push_back(grid.node({i + (at[0] > 0), j + (at[1] > 0), k + (at[2] > 0)}));
   mesh->blocks.push_back(std::move(block));
 
   for (int axis = 0; axis < 3; ++axis)

@@ -6,7 +6,7 @@
 #include <unordered_set>
 
 #include "base/error.hpp"
-#include "mesh/facing.hpp"
+#include "mesh/face_nodes.hpp"
 #include "numerics/partition.hpp"
 
 namespace dygita {
@@ -20,8 +20,8 @@ Graph graph_of_cells(const Mesh& mesh) {
   int cell = 0;
   for (const CellBlock& block : mesh.blocks)
     for (int i = 0; i < block.n_cells(); ++i, ++cell)
-      for (const Facet& facet : facets_of_cell(block, i)) {
-        const auto [at, is_new] = first_cell.try_emplace(facet_key(facet), cell);
+      for (int k = 0; k < facets_per_cell(block.type); ++k) {
+        const auto [at, is_new] = first_cell.try_emplace(facet_key(facet_of_cell(block, i, k)), cell);
         if (!is_new) pairs.emplace_back(at->second, cell);
       }
   Graph graph;
@@ -99,9 +99,6 @@ void number_without_gaps(std::vector<int>& piece) {
   for (int& p : piece) p = static_cast<int>(std::lower_bound(used.begin(), used.end(), p) - used.begin());
 }
 
-// About the nodes a cell stands for in a large mesh, times 6.
-int weight_of(CellType type) { return type == CellType::hex8 ? 6 : type == CellType::prism6 ? 3 : 1; }
-
 }  // namespace
 
 std::vector<int> piece_of_cells(const Mesh& mesh, int n_pieces) {
@@ -110,7 +107,8 @@ std::vector<int> piece_of_cells(const Mesh& mesh, int n_pieces) {
   if (n_pieces < 2) return std::vector<int>(n_cells, 0);
   const Graph graph = graph_of_cells(mesh);
   std::vector<int> weights;
-  for (const CellBlock& block : mesh.blocks) weights.insert(weights.end(), block.n_cells(), weight_of(block.type));
+  for (const CellBlock& block : mesh.blocks)
+    weights.insert(weights.end(), block.n_cells(), cell_shape(block.type).weight);
   const bool is_connected = lumps_of(graph, std::vector<int>(n_cells, 0)).second.size() == 1;
   std::vector<int> piece = partition(graph, weights, n_pieces, is_connected);
   join_fragments(graph, piece, n_pieces);

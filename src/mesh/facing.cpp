@@ -30,19 +30,22 @@ struct FaceInSpace {
   }
 
   Polygon polygon(const Facet& facet) const {
-    Polygon corners(3, facet.n_nodes);
-    for (int a = 0; a < facet.n_nodes; ++a) corners.col(a) = x.col(index.at(facet.nodes[a]));
-    return corners;
+    const std::span<const int> corners = facet.corners();
+    Polygon places(3, corners.size());
+    for (size_t a = 0; a < corners.size(); ++a) places.col(static_cast<long>(a)) = x.col(index.at(corners[a]));
+    return places;
   }
 };
 
 double smallest_edge(const FaceInSpace& face, const std::vector<Facet>& facets) {
   double smallest = std::numeric_limits<double>::max();
-  for (const Facet& facet : facets)
-    for (int a = 0; a < facet.n_nodes; ++a) {
-      const int i = face.index.at(facet.nodes[a]), j = face.index.at(facet.nodes[(a + 1) % facet.n_nodes]);
+  for (const Facet& facet : facets) {
+    const std::span<const int> rim = facet_shape(facet.type()).rim;
+    for (size_t a = 0; a < rim.size(); ++a) {
+      const int i = face.index.at(facet.nodes()[rim[a]]), j = face.index.at(facet.nodes()[rim[(a + 1) % rim.size()]]);
       smallest = std::min(smallest, (face.x.col(i) - face.x.col(j)).norm());
     }
+  }
   return smallest;
 }
 
@@ -89,43 +92,6 @@ class PointGrid {
   std::unordered_map<size_t, std::vector<int>> in_cell_;
 };
 
-// Derivatives of the bilinear shape functions of a quadrangle at (r, s).
-Eigen::Matrix<double, 4, 2> quad_slopes(double r, double s) {
-  Eigen::Matrix<double, 4, 2> slopes;
-  slopes << -(1 - s), -(1 - r), 1 - s, -(1 + r), 1 + s, 1 + r, -(1 + s), 1 - r;
-  return slopes / 4;
-}
-
-// Integrals over the facet of N_a (m^2) and N_a n (m^2, 3 x n_nodes).
-std::pair<Eigen::Vector4d, Eigen::Matrix<double, 3, 4>> facet_integrals(const Points& x, const Facet& facet) {
-  Eigen::Vector4d areas = Eigen::Vector4d::Zero();
-  Eigen::Matrix<double, 3, 4> normals = Eigen::Matrix<double, 3, 4>::Zero();
-  if (facet.n_nodes == 3) {
-    const Vec3 a = x.col(facet.nodes[0]), b = x.col(facet.nodes[1]), c = x.col(facet.nodes[2]);
-    const Vec3 sixth = (b - a).cross(c - a) / 6;
-    areas.head<3>().setConstant(sixth.norm());
-    normals.leftCols<3>().colwise() = sixth;
-    return {areas, normals};
-  }
-  Eigen::Matrix<double, 3, 4> corners;
-  for (int a = 0; a < 4; ++a) corners.col(a) = x.col(facet.nodes[a]);
-  const double gauss = 1 / std::sqrt(3.0);
-  for (const double r : {-gauss, gauss})
-    for (const double s : {-gauss, gauss}) {
-      const Eigen::Matrix<double, 3, 2> tangents = corners * quad_slopes(r, s);
-      const Vec3 normal = tangents.col(0).cross(tangents.col(1));
-      const Eigen::Vector4d shape((1 - r) * (1 - s) / 4, (1 + r) * (1 - s) / 4, (1 + r) * (1 + s) / 4,
-                                  (1 - r) * (1 + s) / 4);
-      areas += shape * normal.norm();
-      normals += normal * shape.transpose();
-    }
-  return {areas, normals};
-}
-
-Vec3 facet_area_vector(const Mesh& mesh, const Facet& facet) {
-  return facet_integrals(mesh.nodes, facet).second.rowwise().sum();
-}
-
 std::string at(const Vec3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x[0], x[1], x[2]); }
 
 // Both faces with their nodes in space.
@@ -150,10 +116,10 @@ std::unordered_map<int, int> partners_on_side_1(const Pair& pair) {
 // The facet with each node replaced by its partner, if all have one.
 std::optional<Facet> translate(const Facet& facet, const std::unordered_map<int, int>& partners) {
   Facet translated = facet;
-  for (int a = 0; a < facet.n_nodes; ++a) {
-    const auto found = partners.find(facet.nodes[a]);
+  for (int& node : translated.nodes()) {
+    const auto found = partners.find(node);
     if (found == partners.end()) return {};
-    translated.nodes[a] = found->second;
+    node = found->second;
   }
   return translated;
 }
@@ -166,10 +132,11 @@ struct Matching {
 };
 
 void add_partners(const Pair& pair, const Facet& facet_2, const Facet& translated, Matching& matching) {
-  for (int a = 0; a < facet_2.n_nodes; ++a) {
-    const auto [known, is_new] = matching.partner.emplace(translated.nodes[a], facet_2.nodes[a]);
-    if (is_new || known->second == facet_2.nodes[a]) continue;
-    const Vec3 place = pair.in_space_1.x.col(pair.in_space_1.index.at(translated.nodes[a]));
+  for (size_t a = 0; a < facet_2.nodes().size(); ++a) {
+    const int node_1 = translated.nodes()[a], node_2 = facet_2.nodes()[a];
+    const auto [known, is_new] = matching.partner.emplace(node_1, node_2);
+    if (is_new || known->second == node_2) continue;
+    const Vec3 place = pair.in_space_1.x.col(pair.in_space_1.index.at(node_1));
     throw InputError(
         fmt::format("faces '{}' and '{}': '{}' has two nodes at {}, the interface could not tell them apart",
                     pair.side_1.name, pair.side_2.name, pair.side_2.name, at(place)));
@@ -202,8 +169,8 @@ Matching match(const Pair& pair) {
     if (std::exchange(other.is_taken, true)) continue;  // side 1 lists the facet twice
     result.matched.push_back(facet);
     add_partners(pair, *other.facet, other.translated, result);
-    const Vec3 area_1 = facet_area_vector(*pair.side_1.mesh, facet);
-    if (area_1.dot(facet_area_vector(*pair.side_2.mesh, *other.facet)) > 0) result.same_way.push_back(facet);
+    const Vec3 area_1 = facet_area_vector(pair.side_1.mesh->nodes, facet);
+    if (area_1.dot(facet_area_vector(pair.side_2.mesh->nodes, *other.facet)) > 0) result.same_way.push_back(facet);
   }
   for (const auto& [key, candidate] : of_side_2)
     if (!candidate.is_taken) result.left_2.push_back(*candidate.facet);
@@ -215,7 +182,7 @@ void refuse_same_orientation(const Pair& pair, const Matching& matching) {
   const Vec3 place = pair.in_space_1.polygon(matching.same_way.front()).rowwise().mean();
   throw InputError(
       fmt::format("faces '{}' and '{}' coincide on {} facets, the first at {}, but both have their bodies on the same "
-                  "side: the bodies lie in one another\n    check the places of both bodies, or whether a face of the "
+                  "side: the bodies overlap\n    check the places of both bodies, or whether a face of the "
                   "other end was meant",
                   pair.side_1.name, pair.side_2.name, matching.same_way.size(), at(place)));
 }
@@ -251,24 +218,6 @@ void refuse_overlap(const Pair& pair, const Matching& matching) {
 }
 
 }  // namespace
-
-FaceNodes face_nodes(const Mesh& mesh, const std::vector<Facet>& facets) {
-  FaceNodes result;
-  result.nodes = nodes_of(facets);
-  const auto n = static_cast<long>(result.nodes.size());
-  result.areas = Vec::Zero(n);
-  result.normals = Points::Zero(3, n);
-  for (const Facet& facet : facets) {
-    const auto [areas, normals] = facet_integrals(mesh.nodes, facet);
-    for (int a = 0; a < facet.n_nodes; ++a) {
-      const long i = std::lower_bound(result.nodes.begin(), result.nodes.end(), facet.nodes[a]) - result.nodes.begin();
-      result.areas[i] += areas[a];
-      result.normals.col(i) += normals.col(a);
-    }
-  }
-  result.normals.colwise().normalize();
-  return result;
-}
 
 Facing match_faces(const PlacedFace& side_1, const PlacedFace& side_2) {
   for (const PlacedFace* side : {&side_1, &side_2})

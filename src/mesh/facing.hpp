@@ -1,7 +1,7 @@
 // How two faces meet: nodes that coincide, normals and areas at them.
 #pragma once
 
-#include "mesh/mesh.hpp"
+#include "mesh/face_nodes.hpp"
 
 namespace dygita {
 
@@ -26,13 +26,5 @@ struct Facing {
 // facets of the two faces overlap (their projections intersect on nearly the same plane): names both faces, a point and
 // counts.
 Facing match_faces(const PlacedFace& side_1, const PlacedFace& side_2);
-
-// Area (m^2) of each node of the facets (lumped: integral of its shape function) and unit normals, outward.
-struct FaceNodes {
-  std::vector<int> nodes;
-  Vec areas;
-  Points normals;
-};
-FaceNodes face_nodes(const Mesh& mesh, const std::vector<Facet>& facets);
 
 }  // namespace dygita

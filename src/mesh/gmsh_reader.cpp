@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/fnv1a.hpp"
 #include "base/log.hpp"
 #include "base/names.hpp"
-#include "mesh/fnv1a.hpp"
 #include "mesh/mesh_file.hpp"
 #include "mesh/tagged_model.hpp"
 
@@ -108,7 +108,7 @@ void join_touching_bodies() {
   for (size_t i = 0; i < volumes.size(); ++i) {
     const auto n_pieces =
         std::count_if(origins[i].begin(), origins[i].end(), [](const auto& e) { return e.first == 3; });
-    if (n_pieces != 1) throw InputError(fmt::format("body {} is cut by another one: they lie in one another", i + 1));
+    if (n_pieces != 1) throw InputError(fmt::format("body {} is cut by another one: they overlap", i + 1));
   }
 }
 
@@ -134,19 +134,40 @@ void load(const GmshOptions& options, const Session& session) {
   });
 }
 
-// The cells of gmsh's type, or an InputError that names it.
-CellType cell_type(int gmsh_type, const std::string& file, const std::string& volume) {
-  if (gmsh_type == 4) return CellType::tet4;
-  if (gmsh_type == 5) return CellType::hex8;
-  if (gmsh_type == 6) return CellType::prism6;
+// What gmsh says of a type of elements.
+struct GmshType {
   std::string name;
   int dimension, order, n_nodes, n_primary;
-  std::vector<double> coordinates;
-  gmsh::model::mesh::getElementProperties(gmsh_type, name, dimension, order, n_nodes, coordinates, n_primary);
+  std::vector<double> coordinates;  // of the nodes, one after the other, `dimension` each
+
+  explicit GmshType(int number) {
+    gmsh::model::mesh::getElementProperties(number, name, dimension, order, n_nodes, coordinates, n_primary);
+  }
+};
+
+// Our cells of gmsh's type, or an InputError that names it.
+const CellShape& cell_of(int gmsh_type, const std::string& file, const std::string& volume) {
+  std::string known;
+  for (const CellShape& cell : cell_shapes) {
+    if (cell.gmsh_type == gmsh_type) return cell;
+    known += fmt::format("{}, ", cell.name);
+  }
+  const GmshType type(gmsh_type);
   throw InputError(
-      fmt::format("{}: volume '{}' has cells of gmsh's type '{}' (order {}, {} nodes)\n    known: hex8, "
-                  "prism6, tet4, all of first order",
-                  file, volume, name, order, n_nodes));
+      fmt::format("{}: volume '{}' has cells of gmsh's type '{}' (order {}, {} nodes)\n    known: {}all of first order",
+                  file, volume, type.name, type.order, type.n_nodes, known));
+}
+
+// Gmsh's number of each of our nodes of a cell: the one at the same place of the reference cell.
+std::vector<int> gmsh_numbers(const CellShape& cell) {
+  const GmshType type(cell.gmsh_type);
+  std::vector<int> numbers;
+  for (const Place& at : cell.shape.nodes)
+    for (int a = 0; a < type.n_nodes; ++a)
+      if ((Vec3(at[0], at[1], at[2]) - Eigen::Map<const Vec3>(&type.coordinates[3 * a])).norm() < 1e-9)
+        numbers.push_back(a);
+  CHECK(numbers.size() == cell.shape.nodes.size(), fmt::format("gmsh's nodes of '{}' are where ours are", cell.name));
+  return numbers;
 }
 
 TaggedVolume read_volume(const std::string& name, const std::vector<int>& entities, const std::string& file) {
@@ -156,12 +177,11 @@ TaggedVolume read_volume(const std::string& name, const std::vector<int>& entiti
     std::vector<std::vector<size_t>> cells, nodes;
     gmsh::model::mesh::getElements(types, cells, nodes, 3, entity);
     for (size_t i = 0; i < types.size(); ++i) {
-      const CellType type = cell_type(types[i], file, name);
-      // gmsh has the first triangle's normal inward, vtkWedge outward.
-      if (type == CellType::prism6)
-        for (size_t first = 0; first < nodes[i].size(); first += 3) std::swap(nodes[i][first + 1], nodes[i][first + 2]);
-      std::vector<size_t>& all = volume.cells[type];
-      all.insert(all.end(), nodes[i].begin(), nodes[i].end());
+      const CellShape& cell = cell_of(types[i], file, name);
+      const std::vector<int> numbers = gmsh_numbers(cell);
+      std::vector<size_t>& all = volume.cells[cell.type];
+      for (size_t first = 0; first < nodes[i].size(); first += numbers.size())
+        for (const int a : numbers) all.push_back(nodes[i][first + a]);
     }
   }
   return volume;
@@ -170,12 +190,13 @@ TaggedVolume read_volume(const std::string& name, const std::vector<int>& entiti
 TaggedSurface read_surface(const std::string& name, const std::vector<int>& entities) {
   TaggedSurface surface{name, {}};
   for (const int entity : entities)
-    for (const auto& [type, n_nodes] : {std::pair{2, 3}, {3, 4}}) {
+    for (const FacetShape& shape : facet_shapes) {
       std::vector<size_t> facets, nodes;
-      gmsh::model::mesh::getElementsByType(type, facets, nodes, entity);
-      for (size_t i = 0; i < facets.size(); ++i) {
-        TaggedFacet facet{{}, n_nodes};
-        std::copy_n(nodes.begin() + static_cast<long>(i) * n_nodes, n_nodes, facet.tags.begin());
+      gmsh::model::mesh::getElementsByType(shape.gmsh_type, facets, nodes, entity);
+      for (size_t i = 0; i < facets.size(); ++i) {  // gmsh has corners first, too
+        TaggedFacet facet{{}, shape.n_corners};
+        std::copy_n(nodes.begin() + static_cast<long>(i * shape.shape.nodes.size()), shape.n_corners,
+                    facet.corners.begin());
         surface.facets.push_back(facet);
       }
     }

@@ -18,7 +18,7 @@ struct GmshOptions {
 class GmshMeshes {
  public:
   // Throws InputError: file missing or unreadable (gmsh's own message), unknown parameter in `set` (with the known
-  // ones), no volume group, unsupported cell type (says which: hex8, prism6, tet4 are known).
+  // ones), no volume group, unsupported cell type (says which are known).
   explicit GmshMeshes(const GmshOptions& options);
 
   // The body of physical volume `name`; its faces are the surface groups "name.x" (as "x") and every other surface

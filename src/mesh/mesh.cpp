@@ -3,41 +3,21 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <limits>
 #include <unordered_map>
 
 #include "base/error.hpp"
-#include "mesh/fnv1a.hpp"
+#include "base/fnv1a.hpp"
 #include "mesh/jacobian.hpp"
 
 namespace dygita {
 
 namespace {
 
-// Local facets of each cell type, normals outward; -1 ends a triangle.
-const std::vector<std::array<int, 4>>& local_facets(CellType type) {
-  static const std::vector<std::array<int, 4>> hex = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4},
-                                                      {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
-  static const std::vector<std::array<int, 4>> prism = {
-      {0, 1, 2, -1}, {3, 5, 4, -1}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}};
-  static const std::vector<std::array<int, 4>> tet = {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}};
-  return type == CellType::hex8 ? hex : type == CellType::prism6 ? prism : tet;
-}
-
 double longest_edge(const Points& x) {
   double longest = 0;
   for (int a = 0; a < x.cols(); ++a)
     for (int b = 0; b < a; ++b) longest = std::max(longest, (x.col(a) - x.col(b)).norm());
   return longest;
-}
-
-// Smallest Jacobian over the corners and the quadrature points.
-double smallest_jacobian(CellType type, const Points& x) {
-  double smallest = std::numeric_limits<double>::max();
-  for (const Vec3& corner : reference_corners(type)) smallest = std::min(smallest, jacobian(type, x, corner));
-  for (const ReferencePoint& point : volume_quadrature(type))
-    smallest = std::min(smallest, jacobian(type, x, point.position));
-  return smallest;
 }
 
 void check_block(const Points& nodes, const CellBlock& block, const std::string& name) {
@@ -52,17 +32,17 @@ void check_block(const Points& nodes, const CellBlock& block, const std::string&
         fmt::format("mesh of '{}': cell {} ({}) at ({:.6g}, {:.6g}, {:.6g}) m, volume {:.3g} m^3, is {}\n"
                     "    every Jacobian must be positive, the smallest is {:.3g} m^3: the cell is turned inside out or "
                     "too distorted",
-                    name, i, cell_type_name(block.type), centre[0], centre[1], centre[2], cell_volume(block.type, x),
+                    name, i, cell_shape(block.type).name, centre[0], centre[1], centre[2], cell_volume(block.type, x),
                     smallest < 0 ? "inverted" : "flat", smallest));
   }
 }
 
 }  // namespace
 
-int nodes_per_cell(CellType type) { return type == CellType::hex8 ? 8 : type == CellType::prism6 ? 6 : 4; }
-
-const char* cell_type_name(CellType type) {
-  return type == CellType::hex8 ? "hex8" : type == CellType::prism6 ? "prism6" : "tet4";
+Facet::Facet(FacetType type, std::span<const int> nodes) : type_(type) {
+  CHECK(static_cast<int>(nodes.size()) == nodes_per_facet(type), "a facet has the nodes of its type");
+  nodes_.fill(-1);
+  std::copy(nodes.begin(), nodes.end(), nodes_.begin());
 }
 
 int Mesh::n_cells() const {
@@ -71,14 +51,12 @@ int Mesh::n_cells() const {
   return n;
 }
 
-std::vector<Facet> facets_of_cell(const CellBlock& block, int i) {
-  std::vector<Facet> facets;
-  for (const std::array<int, 4>& local : local_facets(block.type)) {
-    Facet& facet = facets.emplace_back();
-    for (const int a : local)
-      if (a >= 0) facet.nodes[facet.n_nodes++] = block.cell(i)[a];
-  }
-  return facets;
+Facet facet_of_cell(const CellBlock& block, int i, int k) {
+  const LocalFacet& local = cell_shape(block.type).facets[k];
+  const int n = nodes_per_facet(local.type), *cell = block.cell(i);
+  std::array<int, most_facet_nodes> nodes;
+  for (int a = 0; a < n; ++a) nodes[a] = cell[local.nodes[a]];
+  return {local.type, std::span<const int>(nodes.data(), static_cast<size_t>(n))};
 }
 
 std::vector<Facet> boundary_facets(const std::vector<CellBlock>& blocks) {
@@ -90,7 +68,8 @@ std::vector<Facet> boundary_facets(const std::vector<CellBlock>& blocks) {
   std::vector<FacetKey> order;
   for (const CellBlock& block : blocks)
     for (int i = 0; i < block.n_cells(); ++i)
-      for (const Facet& facet : facets_of_cell(block, i)) {
+      for (int k = 0; k < facets_per_cell(block.type); ++k) {
+        const Facet facet = facet_of_cell(block, i, k);
         const FacetKey key = facet_key(facet);
         const auto [at, is_new] = seen.try_emplace(key, Seen{facet, 0});
         if (is_new) order.push_back(key);
@@ -103,16 +82,18 @@ std::vector<Facet> boundary_facets(const std::vector<CellBlock>& blocks) {
   return boundary;
 }
 
-FacetKey facet_key(const Facet& facet) {
-  FacetKey key = facet.nodes;
+FacetKey facet_key(std::span<const int> corners) {
+  FacetKey key;
+  key.fill(-1);
+  std::copy(corners.begin(), corners.end(), key.begin());
   std::sort(key.begin(), key.end());
   return key;
 }
 
 std::vector<int> nodes_of(const std::vector<Facet>& facets) {
   std::vector<int> nodes;
-  nodes.reserve(facets.size() * 4);
-  for (const Facet& facet : facets) nodes.insert(nodes.end(), facet.nodes.begin(), facet.nodes.begin() + facet.n_nodes);
+  nodes.reserve(facets.size() * most_facet_nodes);
+  for (const Facet& facet : facets) nodes.insert(nodes.end(), facet.nodes().begin(), facet.nodes().end());
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
@@ -141,6 +122,7 @@ void check_mesh(const Mesh& mesh, const std::string& name) {
 }
 
 std::string mesh_digest(const Mesh& mesh) {
+  constexpr size_t least_in_digest = 4;  // nodes of a facet: state files hold digests made so
   Fnv1a digest;
   digest.add(mesh.n_nodes());
   digest.add(mesh.nodes.data(), sizeof(double) * static_cast<size_t>(mesh.nodes.size()));
@@ -152,7 +134,10 @@ std::string mesh_digest(const Mesh& mesh) {
   for (const auto& [name, facets] : mesh.faces) {
     digest.add(name);
     digest.add(facets.size());
-    for (const Facet& facet : facets) digest.add(facet.nodes);
+    for (const Facet& facet : facets) {
+      digest.add(facet.nodes().data(), facet.nodes().size_bytes());
+      for (size_t a = facet.nodes().size(); a < least_in_digest; ++a) digest.add(-1);
+    }
   }
   return digest.hexadecimal();
 }

@@ -7,16 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "mesh/cell_types.hpp"
 #include "numerics/types.hpp"
 
 namespace dygita {
-
-// Node numbering of each type is VTK's (vtkHexahedron, vtkWedge, vtkTetra). Beware of vtkWedge: the normal of the
-// triangle 0 1 2 points out of the cell, away from 3 4 5 (gmsh, Abaqus and most others have it inward).
-enum class CellType { hex8, prism6, tet4 };
-
-int nodes_per_cell(CellType type);
-const char* cell_type_name(CellType type);
 
 struct CellBlock {
   CellType type;
@@ -26,10 +20,21 @@ struct CellBlock {
   const int* cell(int i) const { return nodes.data() + static_cast<size_t>(i) * nodes_per_cell(type); }
 };
 
-// A boundary facet, triangle or quadrangle, ordered so that its normal points out of the body.
-struct Facet {
-  std::array<int, 4> nodes{-1, -1, -1, -1};
-  int n_nodes = 0;
+// A boundary facet, its nodes in the order of its type: corners first, the normal points out of the body.
+class Facet {
+ public:
+  Facet(FacetType type, std::initializer_list<int> nodes) : Facet(type, std::span(nodes.begin(), nodes.size())) {}
+  // As many nodes as the type has.
+  Facet(FacetType type, std::span<const int> nodes);
+
+  FacetType type() const { return type_; }
+  std::span<const int> nodes() const { return {nodes_.data(), static_cast<size_t>(nodes_per_facet(type_))}; }
+  std::span<int> nodes() { return {nodes_.data(), static_cast<size_t>(nodes_per_facet(type_))}; }
+  std::span<const int> corners() const { return nodes().first(static_cast<size_t>(facet_shape(type_).n_corners)); }
+
+ private:
+  FacetType type_;
+  std::array<int, most_facet_nodes> nodes_;
 };
 
 struct Mesh {
@@ -45,9 +50,11 @@ struct Mesh {
 
 using MeshPtr = std::shared_ptr<const Mesh>;
 
-// The facet's nodes in increasing order (-1 first in a triangle): equal for the same facet seen from two cells.
-using FacetKey = std::array<int, 4>;
-FacetKey facet_key(const Facet& facet);
+// The facet's corners in increasing order, -1 first where it has fewer than most: equal for the same facet seen from
+// two cells.
+using FacetKey = std::array<int, most_facet_corners>;
+FacetKey facet_key(std::span<const int> corners);
+inline FacetKey facet_key(const Facet& facet) { return facet_key(facet.corners()); }
 
 struct FacetKeyHash {
   size_t operator()(const FacetKey& key) const {
@@ -57,8 +64,9 @@ struct FacetKeyHash {
   }
 };
 
-// All facets of a cell of the block, normals outward.
-std::vector<Facet> facets_of_cell(const CellBlock& block, int i);
+// Facet `k` of cell `i` of the block, in the order of the cell's type, normal outward.
+Facet facet_of_cell(const CellBlock& block, int i, int k);
+inline int facets_per_cell(CellType type) { return static_cast<int>(cell_shape(type).facets.size()); }
 
 // Facets of the cells that belong to one cell only, normals outward.
 std::vector<Facet> boundary_facets(const std::vector<CellBlock>& blocks);

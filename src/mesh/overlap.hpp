@@ -7,8 +7,8 @@
 
 namespace dygita {
 
-// The corners (3 x n, n = 3 or 4, m) of a facet in space.
-using Polygon = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 4>;
+// The corners (3 x n, m) of a facet in space.
+using Polygon = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, most_facet_corners>;
 
 struct Overlap {
   int n_1 = 0, n_2 = 0;  // polygons of each side that lie on one of the other side

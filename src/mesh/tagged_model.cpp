@@ -32,14 +32,12 @@ IndexOfTag number_nodes(const TaggedModel& model, const TaggedVolume& volume, Me
 
 // Mirrors the numbering of cells whose volume is negative: a generator may give them either way round.
 void turn_right_side_out(const Points& nodes, CellBlock& block) {
-  const int n = nodes_per_cell(block.type);
+  const std::span<const int> mirrored = cell_shape(block.type).mirrored;
   for (int i = 0; i < block.n_cells(); ++i) {
     if (cell_volume(block.type, cell_nodes(nodes, block, i)) >= 0) continue;
-    int* cell = block.nodes.data() + static_cast<size_t>(i) * n;
-    if (block.type == CellType::tet4)
-      std::swap(cell[0], cell[1]);
-    else
-      std::swap_ranges(cell, cell + n / 2, cell + n / 2);
+    int* cell = block.nodes.data() + static_cast<size_t>(i) * mirrored.size();
+    const std::vector<int> before(cell, cell + mirrored.size());
+    std::transform(mirrored.begin(), mirrored.end(), cell, [&](int a) { return before[a]; });
   }
 }
 
@@ -47,14 +45,11 @@ void turn_right_side_out(const Points& nodes, CellBlock& block) {
 std::vector<Facet> facets_on(const FacetOfKey& boundary, const IndexOfTag& index, const TaggedSurface& surface) {
   std::vector<Facet> facets;
   for (const TaggedFacet& tagged : surface.facets) {
-    Facet facet;
-    for (int a = 0; a < tagged.n_nodes; ++a) {
-      const auto found = index.find(tagged.tags[a]);
-      if (found == index.end()) break;
-      facet.nodes[facet.n_nodes++] = found->second;
-    }
-    if (facet.n_nodes < tagged.n_nodes) continue;
-    const auto found = boundary.find(facet_key(facet));
+    std::vector<int> corners;
+    for (int a = 0; a < tagged.n_corners; ++a)
+      if (const auto known = index.find(tagged.corners[a]); known != index.end()) corners.push_back(known->second);
+    if (static_cast<int>(corners.size()) < tagged.n_corners) continue;
+    const auto found = boundary.find(facet_key(corners));
     if (found != boundary.end()) facets.push_back(found->second);
   }
   return facets;

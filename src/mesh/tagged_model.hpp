@@ -13,8 +13,8 @@ struct TaggedVolume {
 };
 
 struct TaggedFacet {
-  std::array<size_t, 4> tags;
-  int n_nodes;
+  std::array<size_t, most_facet_corners> corners;
+  int n_corners;
 };
 
 struct TaggedSurface {

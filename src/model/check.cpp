@@ -79,7 +79,7 @@ void place_exists(const Problem& problem, const Origin& origin, const std::strin
 }
 
 std::string describe(const Interface& interface) {
-  return std::string("interface.") + interface_kind_name(interface.kind) + " '" + interface.name + "'";
+  return "interface." + interface.law->word() + " '" + interface.name + "'";
 }
 
 std::string describe(const Support& support) {

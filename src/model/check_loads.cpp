@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/overloaded.hpp"
+#include "mesh/face_nodes.hpp"
 #include "model/check.hpp"
 #include "model/load.hpp"
 
@@ -110,7 +111,7 @@ class Competition {
     if (bolt != bolt_of(b)) return;
     const bool is_force = std::holds_alternative<PreloadForce>(a) || std::holds_alternative<PreloadForce>(b);
     if (a.index() == b.index())
-      twice(" on " + describe(*bolt), is_force ? "one force a step: give the other one in a step of its own" : in_one);
+      twice(" on " + describe(*bolt), is_force ? "one force per step: give the other one in a step of its own" : in_one);
     if (is_force)
       fail(problem_, b_.origin, who_ + a_.path + " and " + b_.path + " are both on " + describe(*bolt),
            "a preload finds the shortening that brings its force: one of the two, or one after the other in steps of "
@@ -133,12 +134,7 @@ class Competition {
 Vec3 normal_of(const Face& face) {
   const Points& x = face.part->mesh->nodes;
   Vec3 area = Vec3::Zero();
-  for (const Facet& facet : face.facets()) {
-    for (int i = 2; i < facet.n_nodes; ++i) {
-      const Vec3 a = x.col(facet.nodes[0]);
-      area += (x.col(facet.nodes[i - 1]) - a).cross(x.col(facet.nodes[i]) - a) / 2.0;
-    }
-  }
+  for (const Facet& facet : face.facets()) area += facet_area_vector(x, facet);
   return area.normalized();
 }
 
@@ -181,7 +177,7 @@ void preload_holds(const Problem& problem, const Step& step, const Load& load, c
         fail(problem, load.origin,
              "step '" + step.name + "': " + load.path + " is on " + describe(*bolt) + ", which step '" + in->name +
                  "' has released",
-             "what has let go carries no force any more");
+             "a released interface carries no force");
   }
 }
 

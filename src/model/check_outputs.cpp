@@ -155,7 +155,7 @@ void superelement_has_a_state(const Problem& problem, const Output& output) {
     if (!output.after && other->is_static) step = other.get();
   if (!step)
     fail(problem, output.origin, who + ": the problem has no static step",
-         "it is made about the state after one; or name another step with 'after'");
+         "it is taken about the state after one; or name another step with 'after'");
   for (const SupportPtr& support : supports_of(problem, *step))
     if (support->kind == SupportKind::absorbing)
       fail(problem, output.origin,

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "model/check.hpp"
 
 namespace dygita::check {
@@ -35,6 +37,9 @@ void supports_do_not_coincide(const Problem& problem, const Step& step, const Su
 }  // namespace
 
 void interfaces(const Problem& problem) {
+  const bool is_explicit =
+      problem.explicit_dynamics &&
+      std::any_of(problem.steps.begin(), problem.steps.end(), [](const StepPtr& step) { return !step->is_static; });
   for (const InterfacePtr& interface : problem.interfaces) {
     const std::string who = describe(*interface);
     for (const Face* side : {&interface->side_1, &interface->side_2}) {
@@ -44,6 +49,10 @@ void interfaces(const Problem& problem) {
       fail(problem, interface->origin, who + " joins " + interface->side_1.label() + " with itself",
            "'between' takes two faces that meet");
     }
+    const ExplicitForm form = interface->law->explicit_form();
+    if (const auto* none = std::get_if<NoExplicitForm>(&form); none && is_explicit)
+      fail(problem, interface->origin, "solver.explicit does not take " + who + ": " + none->reason,
+           "use solver.latin or solver.monolithic");
   }
 }
 

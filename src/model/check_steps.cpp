@@ -73,15 +73,17 @@ void dynamic_step_has_times(const Problem& problem, const Step& step) {
 void interferences_are_closed_in_a_static_step(const Problem& problem) {
   const Step& first = *problem.steps.front();
   if (first.is_static) return;
-  const auto check_gap = [&](const Named& object, const std::string& what, double gap) {
+  const auto check_gap = [&](const Origin& origin, const std::string& what, double gap) {
     if (gap >= 0.0) return;
-    fail(problem, object.origin,
-         fmt::format("{} '{}' has 'gap' = {:g} m, an interference, but the first step, '{}', is dynamic", what,
-                     object.name, gap, first.name),
+    fail(problem, origin,
+         fmt::format("{} has 'gap' = {:g} m, an interference, but the first step, '{}', is dynamic", what, gap,
+                     first.name),
          "put a step.static before it, which presses the parts apart");
   };
-  for (const InterfacePtr& interface : problem.interfaces) check_gap(*interface, "interface.contact", interface->gap);
-  for (const SupportPtr& support : all_supports(problem)) check_gap(*support, "support.wall", support->gap);
+  for (const InterfacePtr& interface : problem.interfaces)
+    check_gap(interface->origin, describe(*interface), interface->law->initial().gap);
+  for (const SupportPtr& support : all_supports(problem))
+    if (support->law) check_gap(support->origin, describe(*support), support->law->initial().gap);
 }
 
 }  // namespace

@@ -4,19 +4,6 @@
 
 namespace dygita {
 
-const char* interface_kind_name(InterfaceKind kind) {
-  switch (kind) {
-    case InterfaceKind::bonded:
-      return "bonded";
-    case InterfaceKind::contact:
-      return "contact";
-    case InterfaceKind::plastic:
-      return "plastic";
-  }
-  CHECK(false, "unknown kind of interface");
-  return "";
-}
-
 const char* support_kind_name(SupportKind kind) {
   switch (kind) {
     case SupportKind::fixed:

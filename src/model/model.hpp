@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "law/law.hpp"
 #include "material/elastic.hpp"
 #include "mesh/mesh.hpp"
 #include "signal/history.hpp"
@@ -45,17 +46,9 @@ struct Region {
   std::string label() const { return part->name + " (" + std::to_string(nodes.size()) + " nodes)"; }
 };
 
-enum class InterfaceKind { bonded, contact, plastic };
-const char* interface_kind_name(InterfaceKind kind);
-
 struct Interface : Named {
-  InterfaceKind kind = InterfaceKind::bonded;
   Face side_1, side_2;
-  double friction = 0.0;     // contact
-  double gap = 0.0;          // m, contact; negative is an interference
-  double yield = 0.0;        // Pa, plastic
-  double hardening = 0.0;    // Pa/m, plastic
-  bool compression = false;  // plastic: yields in compression too
+  LawPtr law;  // its own
 };
 using InterfacePtr = std::shared_ptr<const Interface>;
 
@@ -67,8 +60,7 @@ using FaceOrRegion = std::variant<Face, Region>;
 struct Support : Named {
   SupportKind kind = SupportKind::fixed;
   std::vector<FaceOrRegion> on;  // symmetry, wall, absorbing: faces only
-  double friction = 0.0;         // wall
-  double gap = 0.0;              // wall, m
+  LawPtr law;                    // wall
 };
 using SupportPtr = std::shared_ptr<const Support>;
 

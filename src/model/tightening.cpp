@@ -2,6 +2,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "law/law.hpp"
+
 namespace dygita {
 
 std::optional<BoltDimensions> bolt_by_hand(const Arguments& arguments) {
@@ -25,11 +27,17 @@ std::optional<BoltDimensions> bolt_by_hand(const Arguments& arguments) {
   return b;
 }
 
-std::string tightened_interfaces() { return "an interface.bonded or an interface.plastic"; }
+std::string tightened_interfaces() {
+  std::string text;
+  for (const LawEntry& entry : law_table())
+    if (example_of(entry)->can_be_tightened())
+      text += (text.empty() ? "an interface." : " or an interface.") + entry.word;
+  return text;
+}
 
 bool can_be_tightened(const Target& target) {
   const InterfacePtr* interface = std::get_if<InterfacePtr>(&target);
-  return interface && (*interface)->kind != InterfaceKind::contact;
+  return interface && (*interface)->law->can_be_tightened();
 }
 
 }  // namespace dygita

@@ -10,6 +10,10 @@
 
 #include "numerics/panels.hpp"
 
+// Without AVX-512 g++ warns at each call that how a function returns such wide vectors depends on the processor. All
+// of these are inlined into two sources of one library, compiled alike: let it be silent to the end of the source.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace dygita {
 
 constexpr int lanes = 8;

@@ -32,17 +32,28 @@ std::string label(const Target& target) {
   return std::get<SupportPtr>(target)->name;
 }
 
+namespace {
+
+// Its parameters, and what the report says of it and of its joints.
+void add_law(const Law& law, Json& json) {
+  for (const LawParameter& parameter : law.parameters())
+    std::visit([&](auto value) { json[parameter.name] = value; }, parameter.value);
+  Json remarks = Json::array();
+  for (const LawRemark& remark : law.remarks())
+    remarks.push_back({{"text", remark.text}, {"value", remark.value}, {"unit", remark.unit}});
+  const Shown shown = law.shown();
+  json["law"] = {{"remarks", remarks}, {"yields", shown.plastic_opening}, {"has_states", shown.states}};
+}
+
+}  // namespace
+
 Json interfaces_record(const Problem& problem) {
   Json list = Json::array();
   for (const InterfacePtr& interface : problem.interfaces) {
     Json json = {{"name", interface->name},
-                 {"kind", interface_kind_name(interface->kind)},
+                 {"kind", interface->law->word()},
                  {"between", {interface->side_1.label(), interface->side_2.label()}}};
-    if (interface->kind == InterfaceKind::contact)
-      json.update({{"friction", interface->friction}, {"gap", interface->gap}});
-    if (interface->kind == InterfaceKind::plastic)
-      json.update(
-          {{"yield", interface->yield}, {"hardening", interface->hardening}, {"compression", interface->compression}});
+    add_law(*interface->law, json);
     list.push_back(json);
   }
   return list;
@@ -55,7 +66,7 @@ Json supports_record(const Problem& problem) {
     for (const FaceOrRegion& place : support->on)
       on.push_back(std::visit([](const auto& p) { return p.label(); }, place));
     Json json = {{"name", support->name}, {"kind", support_kind_name(support->kind)}, {"on", on}};
-    if (support->kind == SupportKind::wall) json.update({{"friction", support->friction}, {"gap", support->gap}});
+    if (support->law) add_law(*support->law, json);
     list.push_back(json);
   }
   return list;

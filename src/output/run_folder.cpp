@@ -87,9 +87,14 @@ std::vector<Json> RunFolder::outputs(const std::string& kind) const {
   return found;
 }
 
-double RunFolder::figure(const std::string& name) const {
+double RunFolder::figure(Figure figure) const {
   const auto figures = record_.find("figures");
-  return figures == record_.end() ? std::numeric_limits<double>::quiet_NaN() : number(*figures, name.c_str());
+  return figures == record_.end() ? std::numeric_limits<double>::quiet_NaN() : number(*figures, label(figure));
+}
+
+bool RunFolder::has_figure(Figure figure) const {
+  const auto figures = record_.find("figures");
+  return figures != record_.end() && figures->contains(label(figure));
 }
 
 }  // namespace dygita

@@ -29,7 +29,8 @@ class RunFolder {
 
   // Outputs of the record of one kind.
   std::vector<Json> outputs(const std::string& kind) const;
-  double figure(const std::string& name) const;  // nan where the run has none
+  double figure(Figure figure) const;  // nan where the run has none, or it is not finite
+  bool has_figure(Figure figure) const;
 
  private:
   std::filesystem::path folder_;

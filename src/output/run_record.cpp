@@ -8,6 +8,7 @@
 #include "numerics/factor.hpp"
 #include "output/record_parts.hpp"
 #include "output/vtk_writer.hpp"
+#include "result/recorded_figures.hpp"
 
 namespace dygita {
 
@@ -160,7 +161,7 @@ std::string run_record(const Problem& problem, const RunResult& result, const Ru
       {"iterations", {{"all", result.iterations}, {"mean", result.mean_iterations}}},
       {"steps", steps(problem, result)},
       {"bolts", bolts(result)},
-      {"figures", object(result.figures)},
+      {"figures", object(recorded_figures(problem, result))},
       {"seconds", object(result.seconds)},
       {"threads", identity.threads},
       {"libraries", libraries(identity)},

@@ -52,6 +52,10 @@ std::string introduction(const Problem& problem, const Output& output, const Sup
       "parts: {:.9g} kg, lumped at the nodes: the rotary inertia of a slender part about "
       "its own axis is too large, by a half with two cells across it.\n\n",
       element.n_tied, element.n_normal, element.n_open, element.mass_of_parts);
+  if (element.n_damped > 0)
+    text += fmt::format(
+        "{} points of interfaces damp relative motion: they are in the damping matrix, and hold nothing.\n\n",
+        element.n_damped);
   return text;
 }
 

@@ -2,7 +2,6 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
@@ -30,27 +29,15 @@ namespace {
 
 constexpr const char* displacement_name = "displacement";
 
-int vtk_cell_type(CellType type) {
-  switch (type) {
-    case CellType::hex8:
-      return VTK_HEXAHEDRON;
-    case CellType::prism6:
-      return VTK_WEDGE;
-    case CellType::tet4:
-      return VTK_TETRA;
-  }
-  CHECK(false, "unknown cell type");
-}
-
 // Cells gathered one by one, for all grids here.
 class Cells {
  public:
   Cells() { types_->SetNumberOfComponents(1); }
 
-  void add(int type, const int* nodes, int n_nodes, int first_node) {
-    cells_->InsertNextCell(n_nodes);
-    for (int i = 0; i < n_nodes; ++i) cells_->InsertCellPoint(first_node + nodes[i]);
-    types_->InsertNextValue(static_cast<unsigned char>(type));
+  void add(int vtk_type, std::span<const int> nodes, int first_node) {
+    cells_->InsertNextCell(static_cast<vtkIdType>(nodes.size()));
+    for (const int node : nodes) cells_->InsertCellPoint(first_node + node);
+    types_->InsertNextValue(static_cast<unsigned char>(vtk_type));
   }
   void give_to(vtkUnstructuredGrid* grid) const { grid->SetCells(types_, cells_); }
 
@@ -164,9 +151,8 @@ void write_part(const PartFrame& frame_of_part, const Frame& frame, const std::f
   set_points(grid, mesh.nodes.colwise() + frame_of_part.part->place);
   Cells cells;
   for (const CellBlock& block : mesh.blocks) {
-    for (int i = 0; i < block.n_cells(); ++i) {
-      cells.add(vtk_cell_type(block.type), block.cell(i), nodes_per_cell(block.type), 0);
-    }
+    const CellShape& shape = cell_shape(block.type);
+    for (int i = 0; i < block.n_cells(); ++i) cells.add(shape.vtk_type, {block.cell(i), shape.shape.nodes.size()}, 0);
   }
   cells.give_to(grid);
   add_field(grid, displacement_name, frame_of_part.displacement);
@@ -190,7 +176,7 @@ void write_interfaces(const Frame& frame, const std::filesystem::path& path) {
   for (const InterfaceFrame& interface : frame.interfaces) {
     points.middleCols(first, interface.points.cols()) = interface.points;
     for (const Facet& facet : interface.facets) {
-      cells.add(facet.n_nodes == 3 ? VTK_TRIANGLE : VTK_QUAD, facet.nodes.data(), facet.n_nodes, first);
+      cells.add(facet_shape(facet.type()).vtk_type, facet.nodes(), first);
       index->InsertNextValue(static_cast<int>(names.size()));
     }
     names.push_back(interface.name);

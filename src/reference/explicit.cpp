@@ -81,17 +81,16 @@ void Runner::run_step(const Step& step) {
   figures_.steps.push_back(run.figures());
   figures_.steps.back().seconds = seconds_since(start);
   figures_.seconds["substeps and output"] += seconds_since(start);
-  double& hourglass = figures_.of_solver["largest hourglass energy [%]"];
-  hourglass = std::max(hourglass, 100.0 * run.hourglass_share());
+  std::optional<double>& hourglass = figures_.own.hourglass_energy;
+  hourglass = std::max(hourglass.value_or(0.0), 100.0 * run.hourglass_share());
 }
 
 void Runner::note(const Step& step, const ExplicitRun& run) {
   say(fmt::format("  step '{}': {} explicit substeps of {:.4g} us in each dt, critical {:.4g} us", step.name,
                   run.n_substeps(), 1e6 * step.dt / run.n_substeps(), 1e6 * run.critical()));
-  double& substeps = figures_.of_solver["explicit substeps per step"];
-  substeps = std::max(substeps, static_cast<double>(run.n_substeps()));
-  auto [critical, is_new] = figures_.of_solver.emplace("critical time step [s]", run.critical());
-  critical->second = std::min(critical->second, run.critical());
+  OwnFigures& own = figures_.own;
+  own.substeps = std::max(own.substeps.value_or(0.0), static_cast<double>(run.n_substeps()));
+  own.critical_step = std::min(own.critical_step.value_or(run.critical()), run.critical());
   figures_.n_dofs = internal_->n_dofs();
   figures_.factor_bytes = std::max(figures_.factor_bytes, run.bytes());
 }

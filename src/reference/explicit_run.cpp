@@ -15,20 +15,6 @@ namespace {
 // Energy from nowhere, of all that was ever put in: beyond it the step is unstable, not merely coarse.
 constexpr double unstable = 1.0;
 
-}  // namespace
-
-std::vector<char> tied_surfaces(const StepModel& model, const State& start) {
-  std::vector<char> is_tied;
-  for (size_t s = 0; s < model.surfaces->size(); ++s) {
-    const Interface* interface = (*model.surfaces)[s].interface;
-    is_tied.push_back(interface && interface->kind == InterfaceKind::bonded && !start.released[s] &&
-                      !model.loads->is_released(interface, model.step->n_increments() - 1));
-  }
-  return is_tied;
-}
-
-namespace {
-
 std::vector<PointRecord> start_records(const StepModel& model, const State& state) {
   std::vector<PointRecord> records;
   for (const Point& point : model.exchange.points) records.push_back(start_point(model, point, state));
@@ -36,6 +22,16 @@ std::vector<PointRecord> start_records(const StepModel& model, const State& stat
 }
 
 }  // namespace
+
+std::vector<char> tied_surfaces(const StepModel& model, const State& start) {
+  std::vector<char> is_tied;
+  for (size_t s = 0; s < model.surfaces->size(); ++s) {
+    const Interface* interface = (*model.surfaces)[s].interface;
+    is_tied.push_back(interface && interface->law->is_tie() && !start.released[s] &&
+                      !model.loads->is_released(interface, model.step->n_increments() - 1));
+  }
+  return is_tied;
+}
 
 ExplicitRun::ExplicitRun(StepModel& model, const std::vector<Body>& bodies, InternalForce& internal,
                          const ExplicitMemory& memory, State& state, Observer& observer)
@@ -46,7 +42,8 @@ ExplicitRun::ExplicitRun(StepModel& model, const std::vector<Body>& bodies, Inte
       i_step_(index_of(model.problem->steps, model.step)),
       records_(start_records(model, state)),
       springs_(model, records_, tied_surfaces(model, state), internal),
-      shared_(model, tied_surfaces(model, state), internal) {
+      shared_(model, tied_surfaces(model, state), internal),
+      inertial_(model, records_, internal, shared_) {
   start(bodies, memory);
   find_substeps();
   collect_loads();
@@ -143,7 +140,9 @@ void ExplicitRun::kick(double tau, double theta, double motion_share, double dri
   };
   count_work();
   damp_masses(tau);
-  shared_.kick(external_, force_, tau, theta, motions, velocity_);
+  const Kick all{external_, tau, theta, motions};
+  inertial_.add_force(all, shared_, inverse_mass_, velocity_, force_);
+  shared_.kick(all, force_, velocity_);
   const int n = static_cast<int>(velocity_.size());
   double* const v = velocity_.data();
   double* const u = moved_.data();
@@ -153,6 +152,7 @@ void ExplicitRun::kick(double tau, double theta, double motion_share, double dri
     v[i] += tau * w[i] * (p[i] - f[i]);
     u[i] += drift * v[i];
   }
+  inertial_.remove_force(force_);
   count_work();
 }
 
@@ -177,6 +177,7 @@ void ExplicitRun::solve_increment(int increment) {
   motions_new_ = model_.motion_velocities(increment);
   velocity_old_ = velocity_;
   state_.energies.scheme += springs_.release(model_, increment);
+  inertial_.release(model_, increment);
   springs_.weigh(0.5);
   for (int i = 0; i < n_substeps_; ++i) {
     const double t = start + i * h;
@@ -227,6 +228,7 @@ void ExplicitRun::check_stability(int increment) const {
 void ExplicitRun::accept(int increment) {
   book_energies();
   springs_.show(model_, records_, state_);
+  inertial_.show(model_, model_.step->dt, records_, state_);
   check_stability(increment);
   shared_.end_increment(velocity_old_, velocity_, model_.step->dt, state_);
   state_.time += model_.step->dt;
@@ -248,6 +250,7 @@ void ExplicitRun::run() {
 // The pieces take the state to the step's end as those of any solver do.
 void ExplicitRun::finish(ExplicitMemory& memory) {
   springs_.keep(model_, records_, state_);
+  inertial_.keep(model_, records_, state_);
   for (size_t i = 0; i < model_.pieces.size(); ++i) {
     const int part = static_cast<int>(i);
     model_.pieces[i]->set_state(displacement(part), velocity(part), model_.external_force(part, state_),
@@ -288,7 +291,8 @@ Instant ExplicitRun::instant(int increment) const {
 }
 
 double ExplicitRun::bytes() const {
-  return internal_.bytes() + springs_.bytes() + shared_.bytes() + 8.0 * 11 * static_cast<double>(internal_.n_dofs());
+  return internal_.bytes() + springs_.bytes() + shared_.bytes() + inertial_.bytes() +
+         8.0 * 11 * static_cast<double>(internal_.n_dofs());
 }
 
 }  // namespace dygita

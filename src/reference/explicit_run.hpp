@@ -2,6 +2,7 @@
 #pragma once
 
 #include "reference/critical_step.hpp"
+#include "reference/inertial_laws.hpp"
 #include "solution/observer.hpp"
 #include "solution/solver_figures.hpp"
 
@@ -12,7 +13,7 @@ struct ExplicitMemory {
   Vec internal;  // elastic force of the substructures, N; empty: that of their stiffness
 };
 
-// Which surfaces hold their sides together all through a step: bonded, and not let go in it.
+// Which surfaces hold their sides together all through a step: ties that are not let go in it.
 std::vector<char> tied_surfaces(const StepModel& model, const State& start);
 
 class ExplicitRun : public NodalFields {
@@ -62,6 +63,7 @@ class ExplicitRun : public NodalFields {
   std::vector<PointRecord> records_;
   PenaltySprings springs_;
   SharedNodes shared_;
+  InertialLaws inertial_;
   int n_substeps_ = 1;
   double substep_ = 0.0, critical_ = 0.0;
 

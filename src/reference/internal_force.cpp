@@ -31,8 +31,7 @@ InternalForce::InternalForce(const std::vector<Body>& bodies, const ExplicitSett
     has_stiffness_damping_ |= part.beta > 0.0;
     const BulkViscosity none, viscosity = settings.bulk_viscosity ? usual_viscosity : none;
     for (const CellBlock& block : mesh.blocks) {
-      // Prisms have no hourglass control of their own and keep their full integration.
-      const bool is_uniform = settings.one_point && block.type != CellType::prism6;
+      const bool is_uniform = settings.one_point && cell_shape(block.type).one_point != OnePoint::none;
       // Viscosity sees the strain alone, not what stiffness damping adds to it: at its rate that is a third derivative.
       const bool is_apart = !is_uniform || part.beta > 0.0;
       if (is_uniform)

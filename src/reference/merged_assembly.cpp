@@ -25,6 +25,7 @@ SparseMatrix sparse(int n_rows, int n_columns, const Triplets& entries) {
 }  // namespace
 
 MergedAssembly::MergedAssembly(const StepModel& model) : model_(&model) {
+  for (size_t i = 0; i < model.pieces.size(); ++i) pieces_.push_back(&assembled_piece(model, static_cast<int>(i)));
   make_groups();
   number_unknowns();
   make_maps();
@@ -34,7 +35,7 @@ MergedAssembly::MergedAssembly(const StepModel& model) : model_(&model) {
 
 // A node of its own for every node of every substructure, but one for all copies that are tied.
 void MergedAssembly::make_groups() {
-  for (const auto& piece : model_->pieces) node_of_.emplace_back(piece->setup().body->part->mesh->n_nodes(), -1);
+  for (const AssembledPiece* piece : pieces_) node_of_.emplace_back(piece->op().unknowns().n_nodes(), -1);
   for (const Point& point : model_->exchange.points)
     for (const auto& [first, end] :
          {std::pair{point.first_port, point.first_port_2}, std::pair{point.first_port_2, point.end_port}}) {
@@ -61,8 +62,9 @@ void MergedAssembly::number_unknowns() {
       if (node.first >= 0) continue;
       node.first = n_;
       if (node.group.empty()) {
-        node.basis = model_->pieces[part]->basis(static_cast<int>(i));
-        node.n = model_->pieces[part]->n_free(static_cast<int>(i));
+        const FreeUnknowns& unknowns = pieces_[part]->op().unknowns();
+        node.basis = unknowns.basis(static_cast<int>(i));
+        node.n = unknowns.count(static_cast<int>(i));
       } else {
         for (int d = 0; d < 3; ++d)
           if (std::none_of(node.group.begin(), node.group.end(),
@@ -76,20 +78,20 @@ void MergedAssembly::number_unknowns() {
 
 void MergedAssembly::make_maps() {
   for (size_t part = 0; part < node_of_.size(); ++part) {
-    const Piece& piece = *model_->pieces[part];
+    const FreeUnknowns& unknowns = pieces_[part]->op().unknowns();
     Triplets entries;
     for (int i = 0; i < static_cast<int>(node_of_[part].size()); ++i) {
       const Node& n = node(static_cast<int>(part), i);
-      const Mat3 basis = piece.basis(i);
-      for (int a = 0; a < piece.n_free(i); ++a)
+      const Mat3 basis = unknowns.basis(i);
+      for (int a = 0; a < unknowns.count(i); ++a)
         for (int b = 0; b < n.n; ++b)
           if (const double value = basis.col(a).dot(n.basis.col(b)); std::abs(value) > 1e-12)
-            entries.emplace_back(piece.first_free(i) + a, n.first + b, value);
+            entries.emplace_back(unknowns.first(i) + a, n.first + b, value);
     }
-    map_.push_back(sparse(piece.n_free(), n_, entries));
-    matrix_.push_back(piece.matrix());
-    prescribed_.emplace_back(Vec::Zero(piece.n_free()));
-    velocity_.emplace_back(Vec::Zero(piece.n_free()));
+    map_.push_back(sparse(unknowns.size(), n_, entries));
+    matrix_.push_back(pieces_[part]->matrix());
+    prescribed_.emplace_back(Vec::Zero(unknowns.size()));
+    velocity_.emplace_back(Vec::Zero(unknowns.size()));
   }
 }
 
@@ -99,9 +101,8 @@ void MergedAssembly::make_rows() {
   int n_rows = 0;
   for (const Point& point : model_->exchange.points) {
     std::array<int, 3>& rows = rows_.emplace_back(std::array{-1, -1, -1});
-    if (!point.law) continue;
     for (int d = 0; d < 3; ++d) {
-      if (!point.law->acts_on(d)) continue;
+      if (!point.has_law[d]) continue;
       std::map<int, double> jump;
       const auto add = [&](const Port& port, double sign) {
         const Node& n = node(port.part, port.node);
@@ -220,10 +221,10 @@ void MergedAssembly::prescribe(const std::vector<double>& motions, const std::ve
       const Port& port = model_->exchange.ports[p];
       Vec3 offset = displacement_of(p) - place;
       if (offset.norm() <= 1e-12 * place.norm()) offset.setZero();
-      const Piece& piece = *model_->pieces[port.part];
-      for (int a = 0; a < piece.n_free(port.node); ++a)
-        prescribed_[port.part][piece.first_free(port.node) + a] =
-            piece.basis(port.node).col(a).dot(held - offset / model_->scheme.dt);
+      const FreeUnknowns& unknowns = pieces_[port.part]->op().unknowns();
+      for (int a = 0; a < unknowns.count(port.node); ++a)
+        prescribed_[port.part][unknowns.first(port.node) + a] =
+            unknowns.basis(port.node).col(a).dot(held - offset / model_->scheme.dt);
     }
   }
 }
@@ -232,7 +233,7 @@ void MergedAssembly::begin(const std::vector<double>& motions, const std::vector
   prescribe(motions, displacement);
   Vec sum = Vec::Zero(n_);
   for (size_t part = 0; part < map_.size(); ++part) {
-    Vec rhs = model_->pieces[part]->right_hand_side();
+    Vec rhs = pieces_[part]->right_hand_side();
     if (!prescribed_[part].isZero(0.0)) rhs -= matrix_[part] * prescribed_[part];
     sum += map_[part].transpose() * rhs;
   }
@@ -271,17 +272,18 @@ void MergedAssembly::finish(const Vec& reduced_force) {
   for (int i = 0; i < n_; ++i) z[i] = rhs_[position_[i]];
   for (size_t part = 0; part < map_.size(); ++part) {
     velocity_[part] = map_[part] * z + prescribed_[part];
-    model_->pieces[part]->set_velocity(velocity_[part]);
+    pieces_[part]->set_velocity(velocity_[part]);
   }
 }
 
 // Force that the other substructures and the laws must put on a node for its substructure's own equation to hold.
 Vec3 MergedAssembly::residual_force(const Port& port) const {
-  const Piece& piece = *model_->pieces[port.part];
-  const Mat3 basis = piece.basis(port.node);
+  const AssembledPiece& piece = *pieces_[port.part];
+  const FreeUnknowns& unknowns = piece.op().unknowns();
+  const Mat3 basis = unknowns.basis(port.node);
   Vec3 force = Vec3::Zero();
-  for (int a = 0; a < piece.n_free(port.node); ++a) {
-    const int i = piece.first_free(port.node) + a;
+  for (int a = 0; a < unknowns.count(port.node); ++a) {
+    const int i = unknowns.first(port.node) + a;
     force += (matrix_[port.part].row(i).dot(velocity_[port.part]) - piece.right_hand_side()[i]) * basis.col(a);
   }
   return force;

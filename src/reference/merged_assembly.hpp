@@ -2,7 +2,7 @@
 // condensed by the sparse factor (manual, eq. R1-R4).
 #pragma once
 
-#include "solution/step_model.hpp"
+#include "solution/make_pieces.hpp"
 
 namespace dygita {
 
@@ -21,7 +21,7 @@ class MergedAssembly {
   // in dynamics).
   const Vec& softening() const { return softening_; }
 
-  // Right-hand side of an increment, after Piece::begin of all pieces: forward solve.
+  // Right-hand side of an increment, after `begin` of all pieces: forward solve.
   // displacement: of every substructure's nodes, m.
   void begin(const std::vector<double>& motions, const std::vector<Points>& displacement);
   // Rates (side 2 - side 1) at the law rows, without any force there, and the part of them that supports prescribe.
@@ -54,6 +54,7 @@ class MergedAssembly {
   void prescribe(const std::vector<double>& motions, const std::vector<Points>& displacement);
 
   const StepModel* model_;
+  std::vector<AssembledPiece*> pieces_;
   std::vector<Node> nodes_;
   std::vector<std::vector<int>> node_of_;  // of each piece's nodes, index in nodes_
   std::vector<int> node_of_unknown_;

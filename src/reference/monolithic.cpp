@@ -103,7 +103,7 @@ void MonolithicRun::begin_increment(int increment) {
   std::vector<Points> displacement;
   for (size_t i = 0; i < model_.pieces.size(); ++i) {
     displacement.push_back(model_.pieces[i]->displacement());
-    model_.pieces[i]->begin(model_.external_force(static_cast<int>(i), state_), motions);
+    model_.pieces[i]->begin(model_.external_force(static_cast<int>(i), state_), motions, 0.0);
   }
   for (size_t i = 0; i < records_.size(); ++i) {
     const Point& point = model_.exchange.points[i];
@@ -123,8 +123,8 @@ void MonolithicRun::finish_increment() {
   port_force_ = assembly_.port_forces(point_force);
   Vec q = Vec::Zero(model_.n_q());
   std::vector<Points> held;
-  for (const auto& piece : model_.pieces)
-    held.emplace_back(Points::Zero(3, piece->setup().body->part->mesh->n_nodes()));
+  for (const SubstructurePtr& part : model_.problem->substructures)
+    held.emplace_back(Points::Zero(3, part->mesh->n_nodes()));
   for (const Point& point : model_.exchange.points)
     for (int p = point.first_port; p < point.end_port; ++p) {
       const Port& port = model_.exchange.ports[p];
@@ -145,9 +145,8 @@ void MonolithicRun::accept_increment(const InterfaceNewton::Outcome& outcome) {
     if (!point.law) continue;
     PointRecord& record = records_[i];
     const LawState end = end_of_point(point, record, increment_);
-    gap_difference_ = std::max(gap_difference_, gap_difference(model_, point, record));
-    const Vec3 force = increment_.is_static ? Vec3(0.5 * (record.law.force + end.force)) : end.force;
-    const Vec3 motion = increment_.dt * (increment_.g * record.law.rate + (1 - increment_.g) * end.rate);
+    gap_difference_ = std::max(gap_difference_, gap_difference(point, record));
+    const Vec3 force = working_force(record.law, end, increment_), motion = motion_of(record.law, end, increment_);
     book_work(point, record, end, increment_, -force.dot(motion), state_);
     record.law = end;
     show_point(point, record, state_);
@@ -194,10 +193,8 @@ void MonolithicRun::run() {
 void MonolithicRun::add_to(SolverFigures& figures) const {
   figures.n_dofs = 0;
   double bytes = assembly_.bytes();
-  for (const auto& piece : model_.pieces) {
-    figures.n_dofs += 3 * piece->setup().body->part->mesh->n_nodes();
-    bytes += piece->bytes();
-  }
+  for (const SubstructurePtr& part : model_.problem->substructures) figures.n_dofs += 3 * part->mesh->n_nodes();
+  for (const auto& piece : model_.pieces) bytes += piece->figures().bytes;
   figures.factor_bytes = std::max(figures.factor_bytes, bytes);
   figures.n_interface_unknowns = assembly_.n_rows();
   figures.gap_difference = std::max(figures.gap_difference, gap_difference_);

@@ -1,4 +1,4 @@
-// Springs at the points of contact, plastic and released interfaces (manual, eq. X8-X12).
+// Springs in place of the laws that have a penalty form (manual, eq. X8-X12).
 #pragma once
 
 #include "reference/internal_force.hpp"
@@ -32,26 +32,17 @@ class PenaltySprings {
   double bytes() const { return static_cast<double>(springs_.size() * sizeof(Spring)); }
 
  private:
-  enum class Kind { contact, plastic, tie };
   struct Spring {
     int point, dof_1, dof_2;  // dof_2 < 0: a wall
-    Kind kind;
+    const PenaltyForm* form;
     Mat3 frame;
-    Vec3 stiffness;                                       // N/m
-    double friction = 0.0, yield = 0.0, hardening = 0.0;  // yield N, hardening N/m
-    bool yields_in_compression = false, is_released = false;
-    double start_gap = 0.0, offset = 0.0;  // m: force = stiffness (gap + offset) where that is negative
-    Vec3 jump = Vec3::Zero(), force = Vec3::Zero(), sum = Vec3::Zero();
+    SpringPoint now;
+    bool has_gap = false, is_released = false;
+    Vec3 sum = Vec3::Zero();
     double weight = 0.0;
-    double plastic = 0.0, accumulated = 0.0, friction_work = 0.0;  // since the step's start; work since last shown
-    double start_plastic = 0.0, start_accumulated = 0.0;
-    Vec3 slip = Vec3::Zero();
-    PointState status = PointState::open;
   };
   static double energy_of(const Spring& spring);
   Vec3 jump_of(const Spring& spring, const Vec& displacement) const;
-  static void add_contact(Spring& spring, const Vec3& jump);
-  static void add_bond(Spring& spring, const Vec3& jump);
   static void put(const Spring& spring, const Vec3& force, Vec& all);
   LawState state_of(const Spring& spring, const LawState& start, const Vec3& force) const;
 

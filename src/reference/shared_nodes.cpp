@@ -48,10 +48,10 @@ void add_held(const Vec3& direction, const std::vector<std::pair<int, double>>& 
 }  // namespace
 
 SharedNodes::SharedNodes(const StepModel& model, const std::vector<char>& is_tied, const InternalForce& internal)
-    : is_shared_(internal.n_dofs() / 3, 0), moved_mass_(internal.n_dofs()) {
+    : group_of_node_(internal.n_dofs() / 3, -1), moved_mass_(internal.n_dofs()) {
   for (int part = 0; part < internal.n_parts(); ++part)
     for (int dof = internal.first(part); dof < internal.first(part + 1); ++dof)
-      moved_mass_[dof] = model.pieces[part]->node_mass((dof - internal.first(part)) / 3);
+      moved_mass_[dof] = model.pieces[part]->node_masses()[(dof - internal.first(part)) / 3];
   collect(model, is_tied, internal);
   for (Group& group : groups_) {
     hold(model, group);
@@ -75,30 +75,32 @@ void SharedNodes::for_each_tie(const StepModel& model, const std::vector<char>& 
 // Groups of nodes tied to each other; those alone count where they are held or absorb.
 void SharedNodes::collect(const StepModel& model, const std::vector<char>& is_tied, const InternalForce& internal) {
   Sets sets(internal.n_dofs() / 3);
+  std::vector<char> is_shared(sets.parent.size(), 0);
   for_each_tie(model, is_tied, internal, [&](int, int, int a, int b) {
-    is_shared_[a] = is_shared_[b] = 1;
+    is_shared[a] = is_shared[b] = 1;
     sets.parent[sets.of(a)] = sets.of(b);
   });
   for (int part = 0; part < internal.n_parts(); ++part) {
     const int first = internal.first(part) / 3;
     for (const auto& [node, held] : model.conditions.held[part])
-      if (held.n > 0) is_shared_[first + node] = 1;
-    for (const auto& [node, impedance] : model.pieces[part]->absorbing()) is_shared_[first + node] = 1;
+      if (held.n > 0) is_shared[first + node] = 1;
+    for (const auto& [node, impedance] : assembled_piece(model, part).op().absorbing()) is_shared[first + node] = 1;
   }
   std::vector<int> group_of(sets.parent.size(), -1), copy_of(sets.parent.size(), -1);
   for (int part = 0; part < internal.n_parts(); ++part) {
-    const Piece& piece = *model.pieces[part];
+    const PieceOperator& piece = assembled_piece(model, part).op();
     auto absorbing = piece.absorbing().begin();  // by node
     for (int global = internal.first(part) / 3; global < internal.first(part + 1) / 3; ++global) {
-      if (!is_shared_[global]) continue;
+      if (!is_shared[global]) continue;
       int& group = group_of[sets.of(global)];
       if (group < 0) {
         group = static_cast<int>(groups_.size());
         groups_.emplace_back();
       }
       const int node = global - internal.first(part) / 3;
-      Copy copy{part, node, 3 * global, piece.node_mass(node)};
+      Copy copy{part, node, 3 * global, model.pieces[part]->node_masses()[node]};
       if (absorbing != piece.absorbing().end() && absorbing->first == node) copy.impedance = (absorbing++)->second;
+      group_of_node_[global] = group;
       copy_of[global] = static_cast<int>(groups_[group].copies.size());
       add_copy(copy, groups_[group]);
     }
@@ -157,36 +159,54 @@ void SharedNodes::average(Vec& field) const {
   }
 }
 
-void SharedNodes::kick(const Vec& external, const Vec& internal, double tau, double theta,
-                       const std::vector<double>& motions, Vec& velocity) {
+Vec3 SharedNodes::force_on(const Group& group, const Kick& kick, const Vec& internal) {
+  Vec3 force = Vec3::Zero();
+  for (const Copy& copy : group.copies) force += kick.external.segment<3>(copy.dof) - internal.segment<3>(copy.dof);
+  return force;
+}
+
+// As if nothing held the group.
+Vec3 SharedNodes::free_velocity(const Group& group, const Kick& kick, const Vec3& force, const Vec3& before) {
+  if (!group.absorbs) return before + kick.tau / group.mass * force;
+  const Mat3 inertia = group.mass / kick.tau * Mat3::Identity();
+  const Vec3 rest = (inertia - (1 - kick.theta) * group.impedance) * before + force;
+  return (inertia + kick.theta * group.impedance).inverse() * rest;
+}
+
+Vec3 SharedNodes::as_held(const Group& group, const Kick& kick, const Vec3& free) {
+  Vec3 velocity = free;
+  for (int j = 0; j < group.held.n; ++j) {
+    const Vec3 d = group.held.directions.col(j);
+    velocity += (motion_velocity(group.held, j, kick.motions) - d.dot(free)) * d;
+  }
+  return velocity;
+}
+
+Vec3 SharedNodes::velocity_after(int group, const Kick& kick, const Vec& internal, const Vec& velocity) const {
+  const Group& g = groups_[group];
+  const Vec3 before = velocity.segment<3>(g.copies.front().dof);
+  return as_held(g, kick, free_velocity(g, kick, force_on(g, kick, internal), before));
+}
+
+Mat3 SharedNodes::mobility(int group, const Kick& kick) const {
+  const Group& g = groups_[group];
+  const Mat3 inertia = g.mass / kick.tau * Mat3::Identity() + kick.theta * g.impedance;
+  const auto held = g.held.directions.leftCols(g.held.n);
+  return (Mat3::Identity() - held * held.transpose()) * inertia.inverse();
+}
+
+void SharedNodes::kick(const Kick& kick, const Vec& internal, Vec& velocity) {
   for (Group& group : groups_) {
-    Vec3 force = Vec3::Zero();
-    for (Copy& copy : group.copies) {
-      const Vec3 own = external.segment<3>(copy.dof) - internal.segment<3>(copy.dof);
-      force += own;
-      copy.impulse += tau * own;
-    }
+    for (Copy& copy : group.copies)
+      copy.impulse += kick.tau * (kick.external.segment<3>(copy.dof) - internal.segment<3>(copy.dof));
     const Vec3 before = velocity.segment<3>(group.copies.front().dof);
-    Vec3 after;
+    const Vec3 free = free_velocity(group, kick, force_on(group, kick, internal), before),
+               after = as_held(group, kick, free);
+    if (group.is_moved) motion_work_ += group.mass * (after - free).dot(0.5 * (before + after));
     if (group.absorbs) {
-      const Mat3 inertia = group.mass / tau * Mat3::Identity();
-      const Vec3 rest = (inertia - (1 - theta) * group.impedance) * before + force;
-      after = (inertia + theta * group.impedance).inverse() * rest;
-    } else {
-      after = before + tau / group.mass * force;
-    }
-    if (group.held.n > 0) {
-      const Vec3 free = after;
-      for (int j = 0; j < group.held.n; ++j) {
-        const Vec3 d = group.held.directions.col(j);
-        after += (motion_velocity(group.held, j, motions) - d.dot(free)) * d;
-      }
-      if (group.is_moved) motion_work_ += group.mass * (after - free).dot(0.5 * (before + after));
-    }
-    if (group.absorbs) {
-      const Vec3 mean = (1 - theta) * before + theta * after;
-      for (Copy& copy : group.copies) copy.drag -= tau * (copy.impedance * mean);
-      absorbed_work_ += tau * mean.dot(group.impedance * mean);
+      const Vec3 mean = (1 - kick.theta) * before + kick.theta * after;
+      for (Copy& copy : group.copies) copy.drag -= kick.tau * (copy.impedance * mean);
+      absorbed_work_ += kick.tau * mean.dot(group.impedance * mean);
     }
     for (const Copy& copy : group.copies) velocity.segment<3>(copy.dof) = after;
   }

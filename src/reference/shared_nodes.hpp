@@ -5,9 +5,17 @@
 #include <utility>
 
 #include "reference/internal_force.hpp"
-#include "solution/step_model.hpp"
+#include "solution/make_pieces.hpp"
 
 namespace dygita {
+
+// A change of velocities by external - internal forces over tau (s). theta: share of the new velocity in what drags;
+// motions: velocities of the prescribed motions after it.
+struct Kick {
+  const Vec& external;  // N
+  double tau, theta;
+  const std::vector<double>& motions;
+};
 
 class SharedNodes {
  public:
@@ -16,10 +24,13 @@ class SharedNodes {
 
   // Gives every copy the mean of a field, weighted with their masses.
   void average(Vec& field) const;
-  // Velocities after a kick of tau (s) by external - internal forces (N): theta is the share of the new
-  // velocity in the drag of absorbing supports. motions: velocities of the prescribed motions after the kick.
-  void kick(const Vec& external, const Vec& internal, double tau, double theta, const std::vector<double>& motions,
-            Vec& velocity);
+  // Velocities after a kick.
+  void kick(const Kick& kick, const Vec& internal, Vec& velocity);
+  // Of a dof, those that it moves with; -1: its node moves by itself.
+  int group_of(int dof) const { return group_of_node_[dof / 3]; }
+  // Velocity (m/s) of a group after a kick, and its change by a further force (m/(N s)).
+  Vec3 velocity_after(int group, const Kick& kick, const Vec& internal, const Vec& velocity) const;
+  Mat3 mobility(int group, const Kick& kick) const;
   // Sums a field of forces over copies and takes held directions off: M^-1 of that is an acceleration they can have.
   void restrict_force(Vec& force) const;
 
@@ -36,7 +47,7 @@ class SharedNodes {
 
   // Mass (kg) that a dof moves with: its node's own or all copies'.
   const Vec& moved_mass() const { return moved_mass_; }
-  bool is_shared(int dof) const { return is_shared_[dof / 3] != 0; }
+  bool is_shared(int dof) const { return group_of(dof) >= 0; }
   double bytes() const;
 
  private:
@@ -67,12 +78,15 @@ class SharedNodes {
   static void for_each_tie(const StepModel& model, const std::vector<char>& is_tied, const InternalForce& internal,
                            Visit&& visit);
   static void add_copy(const Copy& copy, Group& group);
+  static Vec3 force_on(const Group& group, const Kick& kick, const Vec& internal);
+  static Vec3 free_velocity(const Group& group, const Kick& kick, const Vec3& force, const Vec3& before);
+  static Vec3 as_held(const Group& group, const Kick& kick, const Vec3& free);
   void hold(const StepModel& model, Group& group) const;
   static void make_split(const StepModel& model, Group& group);
   void split_forces(Group& group, const Vec& velocity_old, const Vec& velocity, double dt, State& state);
 
   std::vector<Group> groups_;
-  std::vector<char> is_shared_;  // of each node
+  std::vector<int> group_of_node_;
   Vec moved_mass_;
   double motion_work_ = 0.0, absorbed_work_ = 0.0;
 };

@@ -5,15 +5,19 @@
 #include <cmath>
 #include <map>
 
+#include "mesh/face_nodes.hpp"
+
 namespace dygita {
 
 namespace {
 
 using Corner = std::array<double, 2>;
 
-Vec3 facet_normal(const JointScenes& joint, const Facet& f) {
-  const Vec3 a = joint.points.col(f.nodes[0]), b = joint.points.col(f.nodes[1]), c = joint.points.col(f.nodes[2]);
-  return f.n_nodes == 3 ? (b - a).cross(c - a).eval() : (c - a).cross(Vec3(joint.points.col(f.nodes[3])) - b).eval();
+// Nodes in the order they follow each other around the facet.
+std::vector<int> around(const Facet& facet) {
+  std::vector<int> nodes;
+  for (const int a : facet_shape(facet.type()).rim) nodes.push_back(facet.nodes()[a]);
+  return nodes;
 }
 
 std::string nearest_axis(const Vec3& direction) {
@@ -26,15 +30,16 @@ std::string nearest_axis(const Vec3& direction) {
 // before.
 void divide(const JointScenes& joint, const std::vector<Corner>& flat, JointMap& map) {
   const auto middle = [](const Corner& a, const Corner& b) { return Corner{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])}; };
-  for (const Facet& f : joint.facets) {
+  for (const Facet& facet : joint.facets) {
+    const std::vector<int> nodes = around(facet);
+    const size_t n = nodes.size();
     Corner centre{0.0, 0.0};
-    for (int k = 0; k < f.n_nodes; ++k)
-      for (int d = 0; d < 2; ++d) centre[d] += flat[f.nodes[k]][d] / f.n_nodes;
-    for (int k = 0; k < f.n_nodes; ++k) {
-      const Corner &here = flat[f.nodes[k]], &next = flat[f.nodes[(k + 1) % f.n_nodes]],
-                   &before = flat[f.nodes[(k + f.n_nodes - 1) % f.n_nodes]];
+    for (const int node : nodes)
+      for (int d = 0; d < 2; ++d) centre[d] += flat[node][d] / static_cast<double>(n);
+    for (size_t k = 0; k < n; ++k) {
+      const Corner &here = flat[nodes[k]], &next = flat[nodes[(k + 1) % n]], &before = flat[nodes[(k + n - 1) % n]];
       map.cells.push_back({here, middle(here, next), centre, middle(before, here)});
-      map.points.push_back({f.nodes[k]});
+      map.points.push_back({nodes[k]});
     }
   }
 }
@@ -54,10 +59,10 @@ void merge(const JointScenes& joint, const std::vector<Corner>& flat, double siz
     members[at->second].push_back(static_cast<int>(i));
     to[i] = at->second;
   }
-  for (const Facet& f : joint.facets) {
+  for (const Facet& facet : joint.facets) {
     std::vector<int> corners;
-    for (int k = 0; k < f.n_nodes; ++k)
-      if (std::find(corners.begin(), corners.end(), to[f.nodes[k]]) == corners.end()) corners.push_back(to[f.nodes[k]]);
+    for (const int node : around(facet))
+      if (std::find(corners.begin(), corners.end(), to[node]) == corners.end()) corners.push_back(to[node]);
     if (corners.size() < 3) continue;
     std::vector<Corner>& cell = map.cells.emplace_back();
     std::vector<int>& points = map.points.emplace_back();
@@ -77,9 +82,10 @@ JointMap make_joint_map(const JointScenes& joint, int most_cells) {
   JointMap map;
   Vec3 normal = Vec3::Zero();
   double area = 0.0;
-  for (const Facet& f : joint.facets) {
-    normal += facet_normal(joint, f);
-    area += facet_normal(joint, f).norm();
+  for (const Facet& facet : joint.facets) {
+    const Vec3 own = facet_area_vector(joint.points, facet);
+    normal += own;
+    area += own.norm();
   }
   if (!(normal.norm() > 0.3 * area)) return map;
   map.is_flat = true;
@@ -112,8 +118,7 @@ JointMap make_joint_map(const JointScenes& joint, int most_cells) {
     return map;
   }
   merge(joint, flat, 0.0, map);
-  for (double size = std::sqrt(0.5 * area / most_cells); map.cells.size() > static_cast<size_t>(most_cells);
-       size *= 1.2)
+  for (double size = std::sqrt(area / most_cells); map.cells.size() > static_cast<size_t>(most_cells); size *= 1.2)
     merge(joint, flat, size, map);
   return map;
 }

@@ -49,9 +49,9 @@ Points projected(const Points& x, const View& view) {
 }
 
 void draw(ItemBuffer& buffer, const Skin& skin, const Points& p, int i_facet) {
-  const Facet& f = skin.facets[i_facet];
-  for (int k = 2; k < f.n_nodes; ++k) {
-    const int n[3] = {f.nodes[0], f.nodes[k - 1], f.nodes[k]};
+  const SkinFacet& f = skin.facets[i_facet];
+  for (int k = 2; k < f.n_corners; ++k) {
+    const int n[3] = {f.corners[0], f.corners[k - 1], f.corners[k]};
     buffer.draw(i_facet, {p(0, n[0]), p(0, n[1]), p(0, n[2])}, {p(1, n[0]), p(1, n[1]), p(1, n[2])},
                 {p(2, n[0]), p(2, n[1]), p(2, n[2])});
   }
@@ -195,18 +195,19 @@ Picture make_picture(const std::vector<SubstructurePtr>& parts, const View& view
   for (int f = 0; f < static_cast<int>(skin.facets.size()); ++f) {
     if (!seen[f]) continue;
     order.push_back(f);
-    for (int k = 0; k < skin.facets[f].n_nodes; ++k) depth[f] += p(2, skin.facets[f].nodes[k]) / skin.facets[f].n_nodes;
+    const SkinFacet& facet = skin.facets[f];
+    for (int k = 0; k < facet.n_corners; ++k) depth[f] += p(2, facet.corners[k]) / facet.n_corners;
   }
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return depth[a] < depth[b]; });
   const Vec3 light = (view.axes.transpose() * Vec3(-0.35, 0.6, 0.72)).normalized();
   for (const int f : order) {
-    const Facet& facet = skin.facets[f];
+    const SkinFacet& facet = skin.facets[f];
     PictureFacet& flat = picture.facets.emplace_back();
     flat.part = skin.part[f];
     flat.light = std::clamp(light.dot(skin.normal(f).normalized()), 0.0, 1.0);
-    for (int k = 0; k < facet.n_nodes; ++k) {
-      flat.corners.push_back(tenths(p, facet.nodes[k]));
-      flat.value += skin.value[facet.nodes[k]] / facet.n_nodes;
+    for (int k = 0; k < facet.n_corners; ++k) {
+      flat.corners.push_back(tenths(p, facet.corners[k]));
+      flat.value += skin.value[facet.corners[k]] / facet.n_corners;
     }
   }
   picture.edges = seen_edges(skin, view, p, buffer);

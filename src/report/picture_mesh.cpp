@@ -32,11 +32,12 @@ std::vector<CellBlock> kept_cells(const Substructure& part, const View& view) {
 }  // namespace
 
 Vec3 Skin::normal(int i_facet) const {
-  const Facet& f = facets[i_facet];
-  const Vec3 a = position.col(f.nodes[0]), b = position.col(f.nodes[1]), c = position.col(f.nodes[2]);
-  if (f.n_nodes == 3) return (b - a).cross(c - a);
-  const Vec3 d = position.col(f.nodes[3]);
-  return (c - a).cross(d - b);
+  const SkinFacet& f = facets[i_facet];
+  const Vec3 a = position.col(f.corners[0]);
+  Vec3 normal = Vec3::Zero();
+  for (int k = 2; k < f.n_corners; ++k)
+    normal += (position.col(f.corners[k - 1]) - a).cross(position.col(f.corners[k]) - a);
+  return normal;
 }
 
 Skin make_skin(const std::vector<SubstructurePtr>& parts, const View& view, const std::vector<Points>& displacement,
@@ -47,9 +48,9 @@ Skin make_skin(const std::vector<SubstructurePtr>& parts, const View& view, cons
   for (size_t p = 0; p < parts.size(); ++p) {
     const Substructure& part = *parts[p];
     std::vector<int> number(part.mesh->n_nodes(), -1);
-    for (Facet facet : boundary_facets(kept_cells(part, view))) {
-      for (int k = 0; k < facet.n_nodes; ++k) {
-        const int node = facet.nodes[k];
+    for (const Facet& facet : boundary_facets(kept_cells(part, view))) {
+      SkinFacet& drawn = skin.facets.emplace_back();
+      for (const int node : facet.corners()) {
         if (number[node] < 0) {
           number[node] = static_cast<int>(position.size());
           const Vec3 x = part.mesh->nodes.col(node) + part.place;
@@ -58,9 +59,8 @@ Skin make_skin(const std::vector<SubstructurePtr>& parts, const View& view, cons
           position.push_back(u.allFinite() ? Vec3(x + scale * u) : x);
           value.push_back(values.empty() || !std::isfinite(values[p][node]) ? 0.0 : values[p][node]);
         }
-        facet.nodes[k] = number[node];
+        drawn.corners[drawn.n_corners++] = number[node];
       }
-      skin.facets.push_back(facet);
       skin.part.push_back(static_cast<int>(p));
     }
   }
@@ -82,9 +82,9 @@ Skin merged(const Skin& skin, double size) {
   std::vector<double> value;
   Skin coarse;
   for (size_t f = 0; f < skin.facets.size(); ++f) {
-    Facet small;
-    for (int k = 0; k < skin.facets[f].n_nodes; ++k) {
-      const int node = skin.facets[f].nodes[k];
+    SkinFacet small;
+    for (int k = 0; k < skin.facets[f].n_corners; ++k) {
+      const int node = skin.facets[f].corners[k];
       if (to[node] < 0) {
         const Vec3 place = skin.reference.col(node) / size;
         const auto key = std::tuple(skin.part[f], std::lround(place[0]), std::lround(place[1]), std::lround(place[2]));
@@ -101,10 +101,10 @@ Skin merged(const Skin& skin, double size) {
         value[at->second] = std::max(value[at->second], skin.value[node]);
         ++count[at->second];
       }
-      const auto end = small.nodes.begin() + small.n_nodes;
-      if (std::find(small.nodes.begin(), end, to[node]) == end) small.nodes[small.n_nodes++] = to[node];
+      const auto end = small.corners.begin() + small.n_corners;
+      if (std::find(small.corners.begin(), end, to[node]) == end) small.corners[small.n_corners++] = to[node];
     }
-    if (small.n_nodes < 3) continue;
+    if (small.n_corners < 3) continue;
     coarse.facets.push_back(small);
     coarse.part.push_back(skin.part[f]);
   }
@@ -122,9 +122,9 @@ Skin merged(const Skin& skin, double size) {
 std::vector<SharpEdge> sharp_edges(const Skin& skin) {
   std::map<std::pair<int, int>, std::vector<int>> facets_of_edge;
   for (size_t f = 0; f < skin.facets.size(); ++f) {
-    const Facet& facet = skin.facets[f];
-    for (int k = 0; k < facet.n_nodes; ++k) {
-      const int a = facet.nodes[k], b = facet.nodes[(k + 1) % facet.n_nodes];
+    const SkinFacet& facet = skin.facets[f];
+    for (int k = 0; k < facet.n_corners; ++k) {
+      const int a = facet.corners[k], b = facet.corners[(k + 1) % facet.n_corners];
       facets_of_edge[std::minmax(a, b)].push_back(static_cast<int>(f));
     }
   }

@@ -7,12 +7,18 @@
 
 namespace dygita {
 
+// A facet as it is drawn: its corners, of which merging may leave fewer.
+struct SkinFacet {
+  std::array<int, most_facet_corners> corners;
+  int n_corners = 0;
+};
+
 // Boundary facets of all parts, with one numbering of their nodes.
 struct Skin {
   Points position;   // m, deformed
   Points reference;  // m, undeformed
   Vec value;
-  std::vector<Facet> facets;
+  std::vector<SkinFacet> facets;
   std::vector<int> part;  // of each facet
 
   Vec3 normal(int i_facet) const;  // of the deformed facet, its length is twice the area

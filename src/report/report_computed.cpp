@@ -26,20 +26,15 @@ std::string in_unit(const std::string& text, const std::string& unit) {
   return text.empty() || *end != '\0' ? text : with_unit(value, unit);
 }
 
-std::string law_of(const Json& interface) {
-  const std::string kind = text(interface, "kind");
-  if (kind == "contact") {
-    std::string law = "friction " + plain_number(number(interface, "friction"));
-    if (number(interface, "gap") != 0.0)
-      law += (number(interface, "gap") > 0.0 ? ", gap " : ", interference ") +
-             with_unit(std::abs(number(interface, "gap")), "m");
-    return law;
+// "yields at 640 MPa, hardens by 50 MPa per mm".
+std::string law_of(const Json& object) {
+  std::string law;
+  for (const Json& remark : object.value("law", Json::object()).value("remarks", Json::array())) {
+    std::string words = text(remark, "text");
+    if (const size_t at = words.find("{}"); at != std::string::npos)
+      words.replace(at, 2, with_unit(number(remark, "value"), text(remark, "unit")));
+    law += (law.empty() ? "" : ", ") + words;
   }
-  if (kind != "plastic") return "";
-  std::string law = "yields at " + with_unit(number(interface, "yield"), "Pa");
-  if (number(interface, "hardening") > 0.0)
-    law += ", hardens by " + with_unit(1e-3 * number(interface, "hardening"), "Pa") + " per mm";
-  if (interface.value("compression", false)) law += ", in compression too";
   return law;
 }
 
@@ -126,10 +121,7 @@ std::string computed_section(const RunFolder& run) {
   flush("Interfaces", {"interface", "kind", "between", "law"});
   for (const Json& support : record.value("supports", Json::array()))
     rows.push_back(
-        {text(support, "name"), text(support, "kind"), joined(support.value("on", Json::array())),
-         text(support, "kind") == "wall"
-             ? law_of({{"kind", "contact"}, {"friction", number(support, "friction")}, {"gap", number(support, "gap")}})
-             : ""});
+        {text(support, "name"), text(support, "kind"), joined(support.value("on", Json::array())), law_of(support)});
   flush("Supports", {"support", "kind", "on", "law"});
   for (const Json& step : record.at("steps"))
     rows.push_back({text(step, "name"), text(step, "kind"), length_of(step), loads_of(step)});

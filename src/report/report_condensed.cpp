@@ -33,7 +33,7 @@ std::string loop_part(const RunFolder& run, const Json& output) {
                           true,
                           true});
   std::string body = html::heading(text(output, "name")) +
-                     html::figure(svg(plot), "Springs and sliders that have the curve of first loading are in " +
+                     html::figure(svg(plot), "Springs and sliders with the same curve of first loading are in " +
                                                  stem(output) + "_backbone.csv.");
   const Table cycles = run.table(stem(output) + "_cycles.csv",
                                  {"amplitude", "force_amplitude", "secant", "loss", "loss_factor", "exponent"});

@@ -168,7 +168,7 @@ std::string spectra_figure(const std::vector<Spectrum>& group, const TimeAxis& t
     plot.spans.push_back({*plot.x.from, low, "the record is too short"});
     caption += "; unreliable below " + with_unit(low, "Hz") + ", 1/record length";
   }
-  if (has_uncertainty) caption += "; shaded: what iteration, time step and mesh leave by the run's own estimate";
+  if (has_uncertainty) caption += "; shaded: uncertainty from iteration, time step and mesh by the run's own estimate";
   return html::figure(svg(plot), caption + ".");
 }
 

@@ -41,19 +41,34 @@ std::pair<double, double> range(const std::vector<double>& values) {
   return {low, high};
 }
 
-bool is_plastic(const RunFolder& run, const Json& output) {
+struct JointKind {
+  bool yields = false, has_states = true;  // open, stick, slide
+};
+
+// Of the interfaces that an output is on; a wall is none of them, and a contact.
+JointKind kind_of(const RunFolder& run, const Json& output) {
+  JointKind kind;
   for (const Json& interface : run.record().value("interfaces", Json::array()))
-    for (const Json& on : output.value("on", Json::array()))
-      if (text(interface, "kind") == "plastic" && on.is_string() && on.get<std::string>() == text(interface, "name"))
-        return true;
-  return false;
+    for (const Json& on : output.value("on", Json::array())) {
+      if (!on.is_string() || on.get<std::string>() != text(interface, "name")) continue;
+      const Json law = interface.value("law", Json::object());
+      kind.yields |= law.value("yields", false);
+      kind.has_states &= law.value("has_states", true);
+    }
+  return kind;
 }
 
 constexpr double noise = 1e-6;              // of the largest force: not worth a curve
 constexpr double smallest_opening = 1e-12;  // m: what closed points are apart is rounding
 
+// Runs of earlier versions have no such column.
+std::vector<double> damping_work(const Table& t) {
+  const bool has_column = std::find(t.names.begin(), t.names.end(), "damping_work") != t.names.end();
+  return has_column ? t.column("damping_work") : std::vector<double>(static_cast<size_t>(t.n_rows()), 0.0);
+}
+
 // What a joint did, in a sentence or two.
-std::string summary(const Table& t, bool yields) {
+std::string summary(const Table& t, const JointKind& kind) {
   auto [low, high] = range(t.column("normal"));
   const double most = std::max(std::abs(low), std::abs(high));
   for (double* force : {&low, &high})
@@ -72,7 +87,10 @@ std::string summary(const Table& t, bool yields) {
     most_open = std::max(most_open, open[i] / all);
     most_slip = std::max(most_slip, slip[i] / all);
   }
-  if (yields) {
+  if (!kind.has_states) {
+    line += ". Its sides move by up to " + with_unit(largest(t.column("opening")), "m") + " along the normal";
+    if (largest(t.column("slip")) > 0.0) line += ", " + with_unit(largest(t.column("slip")), "m") + " across it";
+  } else if (kind.yields) {
     line += most_slip > 0.0 ? fmt::format(". It yields on up to {:.0f} % of its area", 100.0 * most_slip)
                             : ". It never yields";
     if (largest(t.column("plastic_opening")) > 0.0)
@@ -89,6 +107,7 @@ std::string summary(const Table& t, bool yields) {
     line += ". Friction dissipates " + with_unit(work, "J");
   if (const double work = t.column("plastic_work").back(); work > 0.0)
     line += ". Yielding dissipates " + with_unit(work, "J");
+  if (const double work = damping_work(t).back(); work > 0.0) line += ". Damping dissipates " + with_unit(work, "J");
   return line + ".";
 }
 
@@ -112,6 +131,10 @@ std::string works(const Table& t, const TimeAxis& time) {
   for (const char* work : {"friction_work", "plastic_work"})
     if (largest(t.column(work)) > 0.0)
       plot.lines.push_back({work == std::string("friction_work") ? "friction" : "yielding", places, t.column(work)});
+  if (const std::vector<double> work = damping_work(t); largest(work) > 0.0) {
+    plot.lines.push_back({"damping", places, work});
+    return html::figure(svg(plot), "What the joint has dissipated.");
+  }
   return plot.lines.empty() ? "" : html::figure(svg(plot), "What friction and yielding have dissipated.");
 }
 
@@ -119,7 +142,8 @@ std::string joint_part(const RunFolder& run, const Json& output, const TimeAxis&
   const Table t = run.table(text(output, "file"), {"normal", "shear", "opening", "slip", "plastic_opening", "open_area",
                                                    "stick_area", "slip_area", "friction_work", "plastic_work"});
   if (t.n_rows() == 0) return "";
-  const bool yields = is_plastic(run, output);
+  const JointKind kind = kind_of(run, output);
+  const bool yields = kind.yields;
   const std::vector<double> places = time.places(t);
   Plot area = small_plot("Area by state", time.axis(), {"area", "m^2"});
   area.spans = time.spans();
@@ -136,11 +160,11 @@ std::string joint_part(const RunFolder& run, const Json& output, const TimeAxis&
   std::string on;
   for (const Json& place : output.value("on", Json::array()))
     if (place.is_string()) on += (on.empty() ? "" : ", ") + place.get<std::string>();
-  std::string body = html::heading(text(output, "name") + " on " + on) + html::paragraph(summary(t, yields));
+  std::string body = html::heading(text(output, "name") + " on " + on) + html::paragraph(summary(t, kind));
   body += html::row(
       {html::figure(svg(force), force.lines.size() > 1 ? "Normal and shear force on side 1 against time."
                                                        : "Normal force on side 1 against time; hardly any shear."),
-       html::figure(svg(area), "How much of the joint is in which state."),
+       kind.has_states ? html::figure(svg(area), "How much of the joint is in which state.") : "",
        loop(t, "Normal force against opening", yields ? "plastic_opening" : "opening", "normal"),
        loop(t, "Shear force against slip", "slip", "shear"), works(t, time)});
   if (!run.scenes().is_object() || !run.scenes().contains("joints")) return body;
@@ -199,7 +223,7 @@ std::string bolts_section(const RunFolder& run) {
   std::string body =
       html::table(header, rows, true) + html::paragraph(
                                             "Forces are those through the modelled part of each bolt, tension "
-                                            "positive; lost: of what its own tightening gave, "
+                                            "positive; lost: relative to its own tightening, "
                                             "at the end; the mean stress is that at the end, over the modelled area.");
   std::vector<std::string> steps = {"after step"};
   for (const Json& bolt : bolts) steps.push_back(text(bolt, "name"));

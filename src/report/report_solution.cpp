@@ -45,11 +45,11 @@ std::string energy_figure(const Table& t, const TimeAxis& time) {
   // What was put in: balance = start + loads - all others.
   std::vector<double> given = all;
   for (size_t i = 0; i < given.size(); ++i) given[i] += t.column("balance")[i];
-  plot.lines.push_back({"given: loads and the start", places, given, "#000000", true, false, 1.6});
+  plot.lines.push_back({"input: loads and initial velocities", places, given, "#000000", true, false, 1.6});
   return html::figure(svg(plot),
-                      "Energies held and dissipated, one on top of the other, against what the loads and the initial "
-                      "velocities have given. The balance closes "
-                      "where the dashed line is the top of the areas.");
+                      "Stored and dissipated energies, stacked, against the input of loads and initial velocities. The "
+                      "balance closes "
+                      "where the dashed line follows the top of the areas.");
 }
 
 // The tolerance lines of a convergence chart.
@@ -77,7 +77,7 @@ std::string missed_table(const Table& t, const Json& record) {
                       plain_number(t.column("indicator")[i])});
   }
   if (rows.empty()) return "";
-  return html::heading(n == 1 ? "The increment that missed"
+  return html::heading(n == 1 ? "The increment above the tolerance"
                               : fmt::format("{} increments missed{}", n, n > 10 ? ", the first ten" : "")) +
          html::table({"step", "time", "iterations", "indicator"}, rows, true);
 }
@@ -108,15 +108,15 @@ std::string energy_section(const RunFolder& run, const TimeAxis& time) {
                               {"kinetic", "strain", "loads", "friction", "plastic", "damping", "scheme", "balance"});
     if (t.n_rows() == 0) continue;
     body += energy_figure(t, time);
-    const double most = run.figure("largest energy [J]");
-    const auto percent = [&](const char* name) {
-      const double value = run.figure(name);
+    const double most = run.figure(&Figures::largest_energy);
+    const auto percent = [&](Figure figure) {
+      const double value = run.figure(figure);
       return value < 0.01 ? "less than 0.01 %" : with_unit(value, "%", 2);
     };
     body += html::paragraph(
         fmt::format("Largest energy {}. The balance closes within {} of it; numerical dissipation {}, energy gain {}.",
-                    with_unit(most, "J"), percent("energy imbalance [%]"),
-                    percent("energy dissipated by the scheme [%]"), percent("energy created by the scheme [%]")));
+                    with_unit(most, "J"), percent(&Figures::energy_imbalance), percent(&Figures::numerical_dissipation),
+                    percent(&Figures::energy_gain)));
   }
   return html::section("Energy", body);
 }
@@ -211,7 +211,7 @@ std::string cost_section(const RunFolder& run) {
   if (std::isfinite(number(iterations, "mean")))
     rows.push_back({is_explicit ? "substeps per increment" : "iterations per increment",
                     plain_number(number(iterations, "mean"))});
-  if (const double memory = run.figure("memory of factors and interface operators [MB]"); memory > 0.0)
+  if (const double memory = run.figure(&Figures::factor_memory); memory > 0.0)
     rows.push_back({"memory of factors and interface operators", plain_number(memory) + "\u00a0MB"});
   return html::section("Cost", body + html::table({"", ""}, rows, true));
 }

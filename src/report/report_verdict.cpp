@@ -6,6 +6,7 @@
 #include "report/report_parts.hpp"
 #include "report/svg_text.hpp"
 #include "report/units.hpp"
+#include "result/limits.hpp"
 
 namespace dygita {
 
@@ -26,9 +27,6 @@ std::string card_html(const Card& card) {
 std::string counted(double n, const std::string& what) {
   return fmt::format("{:.0f} {}{}", n, what, n == 1.0 ? "" : "s");
 }
-
-// The limits beyond which a run warns (deck/run_problem.cpp).
-constexpr double most_imbalance = 0.5, most_iteration = 1.0, most_discretisation = 30.0, most_scheme_loss = 5.0;
 
 std::string steps_that_missed(const Json& record) {
   std::string missed;
@@ -67,7 +65,7 @@ std::string verdict_text(const Json& record) {
                        increments == 1.0 ? "the one increment" : fmt::format("all {} increments", increments),
                        tolerance.empty() ? "what the solver asks for" : "the tolerance of " + tolerance);
   return fmt::format(
-      "NOT converged: {} stopped short of the tolerance{}. Do not build on what follows these increments before they "
+      "NOT converged: {} stopped short of the tolerance{}. Do not rely on what follows these increments before they "
       "converge: more iterations, a smaller dt or more static increments.",
       steps_that_missed(record), tolerance.empty() ? "" : " of " + tolerance);
 }
@@ -82,7 +80,7 @@ std::string title_section(const RunFolder& run) {
   if (!text(deck, "path").empty()) under += " · deck " + text(deck, "path");
   under += " · solver " + text(solver, "name");
   if (!text(solver, "command_line").empty()) under += " (" + text(solver, "command_line") + ")";
-  if (const double earlier = run.figure("iterations before the run was continued"); std::isfinite(earlier))
+  if (const double earlier = run.figure(&Figures::earlier_iterations); std::isfinite(earlier))
     under += fmt::format(" · continued from {:.0f} iterations", earlier);
   under += " · dygita " + text(program, "version");
   return "<h1>" + escaped(text(record, "problem")) + "</h1>\n<p class=\"under\">" + escaped(under) + "</p>\n";
@@ -98,24 +96,24 @@ std::string verdict_section(const RunFolder& run, const std::vector<std::string>
   const bool has_motion =
       std::any_of(steps.begin(), steps.end(), [](const Json& step) { return text(step, "kind") == "dynamic"; });
   std::vector<Card> cards;
-  const auto add = [&](const char* figure, const char* name, const char* note, double limit) {
+  const auto add = [&](Figure figure, const char* name, const char* note, double limit) {
     const double value = run.figure(figure);
     if (std::isfinite(value))
       cards.push_back({name, percent(value), note, value <= limit});
-    else if (record.contains("figures") && record["figures"].contains(figure))
+    else if (run.has_figure(figure))
       cards.push_back({name, "not a number", note, false});
   };
-  add("energy imbalance [%]", "energy balance closes within", "of the largest energy", most_imbalance);
-  add("energy dissipated by the scheme [%]", "numerical dissipation",
+  add(&Figures::energy_imbalance, "energy balance closes within", "of the largest energy", limit::energy_imbalance);
+  add(&Figures::numerical_dissipation, "numerical dissipation",
       has_motion ? "impacts; lower with dt and mesh" : "gaps that close, yielding; lower with more increments",
-      most_scheme_loss);
-  add("error estimate, iteration [%]", "error left by the iteration", "estimate, of the shock", most_iteration);
-  add("error estimate, penalty [%]", "error of the penalty", "estimate, of the shock", 10.0 * std::sqrt(5.0));
-  add("error estimate, time step [%]", "error of the time step", "estimate, of the shock", most_discretisation);
-  add("error estimate, mesh [%]", "error of the mesh", "estimate, of the shock", most_discretisation);
-  add("error estimate, static, iteration [%]", "error left by the iteration", "estimate, of static steps",
-      most_iteration);
-  add("error estimate, static, mesh [%]", "error of the mesh", "estimate, of static steps", most_discretisation);
+      limit::numerical_dissipation);
+  add(&Figures::iteration_error, "iteration error", "estimate, of the shock", limit::iteration_error);
+  add(&Figures::penalty_error, "penalty error", "estimate, of the shock",
+      limit::penalty_error_of(limit::penalty_energy));
+  add(&Figures::time_step_error, "time step error", "estimate, of the shock", limit::discretisation_error);
+  add(&Figures::mesh_error, "mesh error", "estimate, of the shock", limit::discretisation_error);
+  add(&Figures::static_iteration_error, "iteration error", "estimate, of static steps", limit::iteration_error);
+  add(&Figures::static_mesh_error, "mesh error", "estimate, of static steps", limit::discretisation_error);
   if (!cards.empty()) {
     body += "<div class=\"cards\">\n";
     for (const Card& card : cards) body += card_html(card);

@@ -229,7 +229,7 @@ std::string study_summary(const std::string& name, const std::vector<StudyCase>&
     }
     if (c.cold_iterations)
       checks += fmt::format(
-          "\n  case '{}' checked cold: {} iterations instead of {} ({:.0f} % saved); answers differ by {:.1e} at most",
+          "\n  case '{}' checked cold: {} iterations instead of {} ({:.0f} % saved); answers differ by at most {:.1e}",
           c.name, *c.cold_iterations, c.iterations,
           100.0 * (1.0 - static_cast<double>(c.iterations) / static_cast<double>(*c.cold_iterations)),
           *c.cold_difference);

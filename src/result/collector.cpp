@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/log.hpp"
+#include "result/limits.hpp"
 #include "result/spectra.hpp"
 #include "result/spectrum_band.hpp"
 #include "result/spectrum_field.hpp"
@@ -35,7 +35,7 @@ Collector::Collector(const Problem& problem, FrameSink sink)
         samplers_[output.get()] = make_superelement_sampler(problem, *output);
         break;
       case OutputKind::vtk:
-        slip_ = std::make_shared<FrictionlessSlip>();
+        motion_ = std::make_shared<FollowedMotion>();
         break;
       case OutputKind::srs_field:
         fields_[output.get()] = std::make_unique<SpectrumField>(problem, *output);
@@ -52,7 +52,7 @@ Collector::Collector(const Problem& problem, FrameSink sink)
 
 void Collector::begin_step(const Instant& start) {
   for (auto& [output, sampler] : samplers_) sampler->begin_step(start);
-  if (slip_) slip_->begin_step(start);
+  if (motion_) motion_->begin_step(start);
   errors_.begin_step(start);
   bolts_.begin_step(start);
   extremes_.before_springs = start.state.energies.scheme;
@@ -60,7 +60,7 @@ void Collector::begin_step(const Instant& start) {
 }
 
 void Collector::accept(const Instant& instant) {
-  if (slip_) slip_->accept(instant);
+  if (motion_) motion_->accept(instant);
   errors_.accept(instant);
   bolts_.accept(instant);
   for (auto& [output, sampler] : samplers_) sampler->accept(instant);
@@ -79,7 +79,7 @@ void Collector::maybe_frame(const Instant& instant) {
     const int n = instant.model.step->n_increments(), frames = std::min(output->frames, n), i = instant.increment + 1;
     // Evenly over the step, its last increment always.
     if (i > 0 && (i * static_cast<long>(frames)) / n == ((i - 1) * static_cast<long>(frames)) / n) continue;
-    Frame frame = make_frame(instant, *output, *slip_);
+    Frame frame = make_frame(instant, *output, *motion_);
     frame.label_time = label_time(instant);
     sink_(frame);
   }
@@ -113,27 +113,13 @@ void Collector::watch(const Instant& instant) {
   extremes_.scheme_gain = std::max(extremes_.scheme_gain, -e.scheme);
   if (instant.fields) extremes_.springs = std::max(extremes_.springs, e.scheme - extremes_.before_springs);
   for (size_t s = 0; s < instant.model.surfaces->size(); ++s) {
-    const Surface& surface = (*instant.model.surfaces)[s];
-    if (!surface.law || !surface.law->rubs()) continue;
+    if (!(*instant.model.surfaces)[s].declared_law().shown().gap) continue;
     for (const LawState& p : instant.state.surfaces[s].points)
       extremes_.penetration = std::max(extremes_.penetration, -p.gap);
   }
 }
 
 namespace {
-
-void add_exceedances(const Problem& problem, RunResult& result) {
-  for (const OutputPtr& output : problem.outputs) {
-    if (output->kind != OutputKind::srs || !output->specification || result.tables[output.get()].n_rows() == 0)
-      continue;
-    const Table& spectrum = result.tables[output.get()];
-    const Exceedance worst =
-        largest_exceedance(*output->specification, spectrum.columns.front(), spectrum.column("maximax"));
-    if (!worst.is_known) continue;
-    result.figures["largest exceedance of the specification of '" + output->name + "' [dB]"] = worst.decibels;
-    result.figures["frequency of the largest exceedance of '" + output->name + "' [Hz]"] = worst.frequency;
-  }
-}
 
 void add_error_figures(const ErrorEstimator& errors, const Problem& problem, RunResult& result) {
   const auto has = [&](bool is_static) {
@@ -142,28 +128,26 @@ void add_error_figures(const ErrorEstimator& errors, const Problem& problem, Run
   };
   if (has(true)) {
     const ErrorEstimator::Estimate e = errors.static_steps();
-    result.figures["error estimate, static, iteration [%]"] = 100 * e.iteration;
-    result.figures["error estimate, static, mesh [%]"] = 100 * e.mesh;
-    result.figures["interface constitutive-relation error, static [J]"] = e.interface_energy;
+    result.figures.static_iteration_error = 100 * e.iteration;
+    result.figures.static_mesh_error = 100 * e.mesh;
+    result.figures.static_interface_error = e.interface_energy;
   }
   if (has(false)) {
     const ErrorEstimator::Estimate e = errors.dynamic_steps();
     if (result.interrupted && e.mesh == 0.0) return;  // stopped before anything was sampled
-    if (!problem.explicit_dynamics) result.figures["error estimate, iteration [%]"] = 100 * e.iteration;
-    result.figures["error estimate, time step [%]"] = 100 * e.time_step;
-    result.figures["error estimate, mesh [%]"] = 100 * e.mesh;
-    if (!problem.explicit_dynamics) result.figures["interface constitutive-relation error [J]"] = e.interface_energy;
-    result.figures["mean frequency of the motion [Hz]"] = e.mean_frequency;
+    if (!problem.explicit_dynamics) result.figures.iteration_error = 100 * e.iteration;
+    result.figures.time_step_error = 100 * e.time_step;
+    result.figures.mesh_error = 100 * e.mesh;
+    if (!problem.explicit_dynamics) result.figures.interface_error = e.interface_energy;
+    result.figures.mean_frequency = e.mean_frequency;
   }
 }
 
-// Of each spectrum: its table, and as figures the mean over its frequencies.
 void add_bands(const ErrorEstimator& errors, const Problem& problem, RunResult& result) {
   for (const OutputPtr& output : problem.outputs) {
     if (output->kind != OutputKind::srs || problem.explicit_dynamics) continue;
     Table band = spectrum_band(result.tables.at(output.get()), output->srs.quantity, errors.dynamic_steps());
     if (band.n_rows() == 0) continue;
-    note_band(output->name, band, result.figures);
     result.bands[output.get()] = std::move(band);
   }
 }
@@ -190,16 +174,14 @@ void Collector::finish(RunResult& result) {
   result.bolts = bolts_.take();
   add_bands(errors_, problem_, result);
   const double percent = extremes_.energy > 0.0 ? 100.0 / extremes_.energy : 0.0;
-  result.figures["largest energy [J]"] = extremes_.energy;
-  result.figures["energy imbalance [%]"] = percent * extremes_.imbalance;
-  result.figures["energy dissipated by the scheme [%]"] = percent * extremes_.scheme_loss;
-  result.figures["energy created by the scheme [%]"] = percent * extremes_.scheme_gain;
-  result.figures["largest penetration [m]"] = extremes_.penetration;
+  result.figures.largest_energy = extremes_.energy;
+  result.figures.energy_imbalance = percent * extremes_.imbalance;
+  result.figures.numerical_dissipation = percent * extremes_.scheme_loss;
+  result.figures.energy_gain = percent * extremes_.scheme_gain;
+  result.figures.largest_penetration = extremes_.penetration;
   add_error_figures(errors_, problem_, result);
-  add_exceedances(problem_, result);
   // What the springs of a penalty hold is what the sides overlap: its interfaces' constitutive-relation error.
-  if (problem_.explicit_dynamics)
-    result.figures["error estimate, penalty [%]"] = 10 * std::sqrt(percent * extremes_.springs);
+  if (problem_.explicit_dynamics) result.figures.penalty_error = limit::penalty_error_of(percent * extremes_.springs);
 }
 
 }  // namespace dygita

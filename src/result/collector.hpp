@@ -41,19 +41,19 @@ std::unique_ptr<Sampler> make_energy_sampler();
 std::unique_ptr<Sampler> make_loop_sampler(const Problem& problem, const Output& output);
 std::unique_ptr<Sampler> make_superelement_sampler(const Problem& problem, const Output& output);
 
-// Relative tangential displacement (m) accumulated while closed, of contact without friction: its law has no tangential
-// unknown.
-class FrictionlessSlip {
+// Openings and slips (m) that laws do not remember, from the displacements of the two sides: slips of contact without
+// friction, which has no tangential unknown, while it is closed; both for laws of rates.
+class FollowedMotion {
  public:
   void begin_step(const Instant& instant);
   void accept(const Instant& instant);
-  // Slip vector of a surface's point, from the law where it has friction.
+  // Of a surface's point, from its law's state where that has them; the slip is a vector.
+  double opening(const Instant& instant, int surface, int point) const;
   Vec3 slip(const Instant& instant, int surface, int point) const;
 
  private:
-  bool tracks(const Surface& surface) const;
   Points relative_displacement(const Instant& instant, int surface) const;
-  std::vector<Points> before_, slip_;
+  std::vector<Points> before_, moved_;  // moved_: empty where nothing is followed
 };
 
 // Largest imbalances and penetrations of the run, in percent of the largest energy and in metres.
@@ -85,7 +85,7 @@ class Collector : public Observer {
   FrameSink sink_;
   std::map<const Output*, std::unique_ptr<Sampler>> samplers_;
   std::map<const Output*, std::unique_ptr<SpectrumField>> fields_;
-  std::shared_ptr<FrictionlessSlip> slip_;
+  std::shared_ptr<FollowedMotion> motion_;
   Table convergence_;
   Extremes extremes_;
   ErrorEstimator errors_;
@@ -93,6 +93,6 @@ class Collector : public Observer {
 };
 
 // The frame of an instant with the fields of one vtk output.
-Frame make_frame(const Instant& instant, const Output& output, const FrictionlessSlip& slip);
+Frame make_frame(const Instant& instant, const Output& output, const FollowedMotion& motion);
 
 }  // namespace dygita

@@ -41,12 +41,12 @@ class HeldInterface {
                                                   "larger cells there",
                                                   output.name, n_b, most_unknowns));
     if (const std::string motion = free_motion(assembly, problem, coordinates.nodes); !motion.empty())
-      throw InputError(
-          output.origin,
-          fmt::format(
-              "output.superelement '{}': {} is unconstrained (open joints, or contact that slides)\n    hold it by a "
-              "support, put a face of it into 'on', or give its contact friction",
-              output.name, motion));
+      throw InputError(output.origin,
+                       fmt::format("output.superelement '{}': {} is unconstrained ({})\n    hold it by a "
+                                   "support, put a face of it into 'on', or give its contact friction",
+                                   output.name, motion,
+                                   assembly.dampers.empty() ? "open joints, or contact that slides"
+                                                            : "open joints, contact that slides, or dampers alone"));
     SparseMatrix a = assembly.stiffness;
     Vec reference = Vec::Zero(n);
     for (int i = 0; i < n; ++i)
@@ -234,6 +234,7 @@ Superelement condense(const LinearAssembly& assembly, const Problem& problem, co
   element.n_tied = assembly.n_tied;
   element.n_normal = assembly.n_normal;
   element.n_open = assembly.n_open;
+  element.n_damped = static_cast<int>(assembly.dampers.size());
   return element;
 }
 

@@ -24,8 +24,9 @@ std::pair<double, double> stress_energies(const Instant& instant, const std::vec
     error += stress_error(*body.mesh, body.material, u).energy;
     for (int p = cut.first(part); p < cut.first(part) + cut.n_pieces(part); ++p) {
       const Points own = cut.on_piece(p, u);
-      const Eigen::Map<const Vec> flat(own.data(), own.size());
-      strain += 0.5 * flat.dot(instant.model.pieces[p]->setup().body->matrices->stiffness * flat);
+      const Points force = instant.model.pieces[p]->elastic_force(own);
+      strain +=
+          0.5 * Eigen::Map<const Vec>(own.data(), own.size()).dot(Eigen::Map<const Vec>(force.data(), force.size()));
     }
   }
   return {error, strain};
@@ -35,8 +36,8 @@ std::pair<double, double> stress_energies(const Instant& instant, const std::vec
 Vec all_masses(const Instant& instant) {
   std::vector<Vec> parts;
   for (const auto& piece : instant.model.pieces)
-    parts.push_back(instant.fields ? Vec(piece->setup().body->mass->lumped.replicate(1, 3).transpose().reshaped())
-                                   : piece->free_mass());
+    parts.push_back(instant.fields ? Vec(piece->node_masses().replicate(1, 3).transpose().reshaped())
+                                   : piece->unknown_masses());
   Vec all(0);
   for (const Vec& part : parts) {
     all.conservativeResize(all.size() + part.size());
@@ -54,7 +55,7 @@ void take_velocities(const Instant& instant, Vec& all) {
       n += velocity.size();
       continue;
     }
-    const Vec& velocity = instant.model.pieces[i]->free_velocity();
+    const Vec& velocity = instant.model.pieces[i]->state().v;
     all.segment(n, velocity.size()) = velocity;
     n += velocity.size();
   }
@@ -115,7 +116,7 @@ void ErrorEstimator::begin_step(const Instant& start) {
   bank_.emplace(mass_, start.model.problem->mass().is_tuned);
   dt_ = start.model.scheme.dt;
   total_mass_ = 0.0;
-  for (const auto& piece : start.model.pieces) total_mass_ += piece->setup().body->mass->lumped.sum();
+  for (const auto& piece : start.model.pieces) total_mass_ += piece->node_masses().sum();
   start_.clear();
   for (size_t i = 0; i < start.model.problem->substructures.size(); ++i)
     start_.push_back(start.displacement(static_cast<int>(i)));

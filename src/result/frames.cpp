@@ -28,10 +28,11 @@ PartFrame part_frame(const Instant& instant, int part, const std::vector<std::st
   return frame;
 }
 
-InterfaceFrame interface_frame(const Instant& instant, int s, const FrictionlessSlip& slip) {
+InterfaceFrame interface_frame(const Instant& instant, int s, const FollowedMotion& motion) {
   const Surface& surface = (*instant.model.surfaces)[s];
   const Substructure& body = *instant.model.problem->substructures[surface.part_1];
   const std::vector<LawState>& state = instant.state.surfaces[s].points;
+  const Shown shown = surface.declared_law().shown();
   const int n = surface.n_points();
   InterfaceFrame frame;
   frame.name = surface.name();
@@ -48,16 +49,18 @@ InterfaceFrame interface_frame(const Instant& instant, int s, const Frictionless
     const Vec3 t = state[i].force / surface.facing.areas[i];
     pressure(0, i) = -t.dot(normal);
     traction.col(i) = t - t.dot(normal) * normal;
-    gap(0, i) = surface.law && surface.law->rubs() ? state[i].gap : 0.0;
+    gap(0, i) = shown.gap                                      ? state[i].gap
+                : shown.followed == Followed::opening_and_slip ? motion.opening(instant, s, i)
+                                                               : 0.0;
     plastic(0, i) = state[i].plastic_opening;
-    slips.col(i) = slip.slip(instant, s, i);
+    slips.col(i) = motion.slip(instant, s, i);
     status(0, i) = static_cast<double>(state[i].status);
     residual(0, i) = instant.state.surfaces[s].residual[i] / surface.facing.areas[i];
     displacement.col(i) = u.col(node);
   }
   for (const Facet& facet : surface.facing.facets) {
     Facet local = facet;
-    for (int i = 0; i < facet.n_nodes; ++i) local.nodes[i] = point_of.at(facet.nodes[i]);
+    for (int& node : local.nodes()) node = point_of.at(node);
     frame.facets.push_back(local);
   }
   frame.fields = {{"displacement", displacement},
@@ -73,14 +76,14 @@ InterfaceFrame interface_frame(const Instant& instant, int s, const Frictionless
 
 }  // namespace
 
-Frame make_frame(const Instant& instant, const Output& output, const FrictionlessSlip& slip) {
+Frame make_frame(const Instant& instant, const Output& output, const FollowedMotion& motion) {
   Frame frame;
   frame.time = instant.time();
   frame.step = instant.model.step->name;
   for (size_t i = 0; i < instant.model.problem->substructures.size(); ++i)
     frame.parts.push_back(part_frame(instant, static_cast<int>(i), output.fields));
   for (size_t s = 0; s < instant.model.surfaces->size(); ++s)
-    frame.interfaces.push_back(interface_frame(instant, static_cast<int>(s), slip));
+    frame.interfaces.push_back(interface_frame(instant, static_cast<int>(s), motion));
   return frame;
 }
 

@@ -26,8 +26,8 @@ std::vector<std::string> columns_of(const Output& output) {
     case OutputKind::resultant:
       return {"time", "normal", "shear", "x", "y", "z"};
     case OutputKind::joint:
-      return {"time",      "normal",     "shear",     "opening",       "slip",        "plastic_opening",
-              "open_area", "stick_area", "slip_area", "friction_work", "plastic_work"};
+      return {"time",      "normal",     "shear",     "opening",       "slip",         "plastic_opening",
+              "open_area", "stick_area", "slip_area", "friction_work", "plastic_work", "damping_work"};
     case OutputKind::srs:
       return {"frequency", "maximax", "positive", "negative", "primary", "residual"};
     case OutputKind::energy:

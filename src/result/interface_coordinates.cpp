@@ -13,7 +13,7 @@ namespace dygita {
 
 namespace {
 
-using Row = std::vector<std::pair<int, Vec3>>;  // node, coefficient of its displacement
+using NodeSum = std::vector<std::pair<int, Vec3>>;  // node, coefficient of its displacement
 
 struct PlacedNodes {
   std::vector<int> nodes;       // counted through all substructures
@@ -44,14 +44,14 @@ Mat3 cross_matrix(const Vec3& r) {
 }
 
 // Six mean motions (eq. D2): translations, and rotations where the nodes do not lie on a line.
-std::vector<Row> mean_rows(const PlacedNodes& on) {
+std::vector<NodeSum> mean_rows(const PlacedNodes& on) {
   Mat3 inertia = Mat3::Zero();
   for (size_t i = 0; i < on.nodes.size(); ++i) {
     const Mat3 c = cross_matrix(on.places[i] - on.centre);
     inertia += on.weights[i] * c.transpose() * c;
   }
   const bool turns = Eigen::SelfAdjointEigenSolver<Mat3>(inertia).eigenvalues()[0] > 1e-9 * inertia.trace();
-  std::vector<Row> rows(turns ? 6 : 3);
+  std::vector<NodeSum> rows(turns ? 6 : 3);
   const Mat3 inverse = turns ? Mat3(inertia.inverse()) : Mat3(Mat3::Zero());
   for (size_t i = 0; i < on.nodes.size(); ++i) {
     const Mat3 turn = on.weights[i] * inverse * cross_matrix(on.places[i] - on.centre);
@@ -66,7 +66,7 @@ class IndependentRows {
  public:
   explicit IndependentRows(const SparseMatrix& map) : map_(map) {}
 
-  bool take(const Row& row) {
+  bool take(const NodeSum& row) {
     std::map<int, double> entries;
     double scale = 0.0;
     for (const auto& [node, coefficient] : row)
@@ -139,7 +139,7 @@ InterfaceCoordinates interface_coordinates(const LinearAssembly& assembly, const
     const int before = n_held, on_index = static_cast<int>(f);
     const int first_row = static_cast<int>(coordinates.rows.size());
     if (motion == FaceMotion::mean) {
-      const std::vector<Row> rows = mean_rows(on);
+      const std::vector<NodeSum> rows = mean_rows(on);
       for (size_t d = 0; d < rows.size(); ++d) {
         if (!independent.take(rows[d])) continue;
         coordinates.rows.push_back({on_index, -1, static_cast<int>(d), on.centre});

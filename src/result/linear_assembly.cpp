@@ -30,8 +30,15 @@ void add_condition(LinearAssembly& assembly, int a, int b, const Vec3& direction
   assembly.conditions.push_back({{a, b}, {direction, Vec3(-direction)}});
 }
 
-void tie(LinearAssembly& assembly, int a, int b) {
-  for (int d = 0; d < 3; ++d) add_condition(assembly, a, b, Vec3::Unit(d));
+// N and two tangents.
+Mat3 frame_of(const Vec3& normal) {
+  int least = 0;
+  normal.cwiseAbs().minCoeff(&least);
+  Mat3 frame;
+  frame.col(0) = normal;
+  frame.col(1) = normal.cross(Vec3::Unit(least)).normalized();
+  frame.col(2) = normal.cross(frame.col(1));
+  return frame;
 }
 
 // Interfaces and walls: what each point does at this instant.
@@ -40,22 +47,20 @@ void add_surfaces(const Instant& instant, bool ties_sliding, LinearAssembly& ass
   for (size_t s = 0; s < instant.model.surfaces->size(); ++s) {
     const Surface& surface = (*instant.model.surfaces)[s];
     if (instant.state.released[s] || (surface.wall && index_of(supports, surface.wall) < 0)) continue;
-    const bool rubs = surface.law && surface.law->rubs(), has_friction = rubs && surface.law->acts_on(1);
+    const Law& law = surface.declared_law();
+    const bool is_contact = law.shown().gap;
     for (int i = 0; i < surface.n_points(); ++i) {
       const int a = assembly.first_node[surface.part_1] + surface.facing.nodes_1[i];
       const int b = surface.part_2 >= 0 ? assembly.first_node[surface.part_2] + surface.facing.nodes_2[i] : -1;
-      const PointState status = instant.state.surfaces[s].points[i].status;
-      if (!rubs) {
-        tie(assembly, a, b);
-      } else if (status == PointState::open) {
-        ++assembly.n_open;
-      } else if (has_friction && (status == PointState::stick || ties_sliding)) {
-        tie(assembly, a, b);
-        ++assembly.n_tied;
-      } else {
-        add_condition(assembly, a, b, surface.facing.normals.col(i));
-        ++assembly.n_normal;
-      }
+      const Tangent tangent = law.tangent(instant.state.surfaces[s].points[i], ties_sliding);
+      const Mat3 frame = frame_of(surface.facing.normals.col(i));
+      const auto n_held = std::count(tangent.holds.begin(), tangent.holds.end(), true);
+      for (int d = 0; d < 3; ++d)
+        if (tangent.holds[d]) add_condition(assembly, a, b, n_held == 3 ? Vec3(Vec3::Unit(d)) : Vec3(frame.col(d)));
+      if (!tangent.damping.isZero(0.0))
+        assembly.dampers.push_back(
+            {{a, b}, surface.facing.areas[i] * frame * tangent.damping.asDiagonal() * frame.transpose()});
+      if (is_contact) ++(n_held == 3 ? assembly.n_tied : n_held > 0 ? assembly.n_normal : assembly.n_open);
     }
   }
 }
@@ -119,6 +124,23 @@ void make_map(LinearAssembly& assembly) {
   assembly.map.setFromTriplets(entries.begin(), entries.end());
 }
 
+void add_dampers(LinearAssembly& assembly) {
+  if (assembly.dampers.empty()) return;
+  Triplets entries;
+  for (const Damper& damper : assembly.dampers)
+    for (int p = 0; p < 2; ++p)
+      for (int q = 0; q < 2; ++q)
+        for (int row = 0; row < 3 && damper.node[p] >= 0 && damper.node[q] >= 0; ++row)
+          for (int column = 0; column < 3; ++column)
+            entries.emplace_back(3 * damper.node[p] + row, 3 * damper.node[q] + column,
+                                 (p == q ? 1.0 : -1.0) * damper.coefficient(row, column));
+  SparseMatrix nodal(assembly.map.rows(), assembly.map.rows());
+  nodal.setFromTriplets(entries.begin(), entries.end());
+  const SparseMatrix transposed = assembly.map.transpose(), c_map = nodal * assembly.map;
+  if (assembly.damping.rows() == 0) assembly.damping.resize(assembly.map.cols(), assembly.map.cols());
+  assembly.damping += SparseMatrix(transposed * c_map);
+}
+
 void add_matrices(const Problem& problem, LinearAssembly& assembly) {
   const int n = static_cast<int>(assembly.map.cols());
   assembly.stiffness.resize(n, n);
@@ -146,6 +168,7 @@ void add_matrices(const Problem& problem, LinearAssembly& assembly) {
     if (assembly.damping.rows() == 0) assembly.damping.resize(n, n);
     assembly.damping += damping.mass * m + damping.stiffness * k;
   }
+  add_dampers(assembly);
   assembly.stiffness.makeCompressed();
   assembly.mass.makeCompressed();
   assembly.damping.makeCompressed();

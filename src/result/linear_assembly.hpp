@@ -15,13 +15,20 @@ struct NodeCondition {
   std::array<Vec3, 2> coefficient{Vec3::Zero(), Vec3::Zero()};
 };
 
+// A force against the relative velocity of two nodes (side 2 of a wall: none).
+struct Damper {
+  std::array<int, 2> node{-1, -1};
+  Mat3 coefficient = Mat3::Zero();  // N s/m
+};
+
 struct LinearAssembly {
   SparseMatrix stiffness, mass;       // n x n; N/m, kg
-  SparseMatrix damping;               // n x n, N s/m; empty where no material has any
+  SparseMatrix damping;               // n x n, N s/m; empty where no material and no interface has any
   SparseMatrix map;                   // 3 x (all nodes) rows: displacements of the nodes from the unknowns
   std::vector<int> first_node;        // of each substructure, and the number of all nodes
   std::vector<int> place_of_unknown;  // unknowns of one place are contiguous
   std::vector<NodeCondition> conditions;
+  std::vector<Damper> dampers;
   int n_tied = 0, n_normal = 0, n_open = 0;  // contact points
   double mass_of_parts = 0.0;                // kg
 

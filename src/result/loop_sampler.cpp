@@ -1,6 +1,4 @@
 // Force against displacement of a joint (manual, eq. C1).
-#include <cmath>
-
 #include "result/loop_cycles.hpp"
 #include "result/surface_sums.hpp"
 #include "result/weighted_nodes.hpp"
@@ -37,12 +35,7 @@ class LoopSampler : public Sampler {
     for (int i = 0; i < table().n_rows(); ++i)
       if (table().step[i] <= i_after) first = i;
     if (table().n_rows() == 0) return;
-    const LoopSummary& loop = result.loops[&output_] = summarise_loop(table(), first);
-    const std::string who = "loop '" + output_.name + "', ";
-    if (std::isfinite(loop.exponent)) result.figures[who + "exponent of the loss over the force"] = loop.exponent;
-    if (std::isfinite(loop.displacement_exponent))
-      result.figures[who + "exponent of the loss over the displacement"] = loop.displacement_exponent;
-    if (std::isfinite(loop.stiffness)) result.figures[who + "first stiffness [N/m]"] = loop.stiffness;
+    result.loops[&output_] = summarise_loop(table(), first);
   }
 
  private:

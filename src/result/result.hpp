@@ -9,8 +9,8 @@
 
 #include "model/bolt_formula.hpp"
 #include "model/model.hpp"
+#include "result/figures.hpp"
 #include "result/frame.hpp"
-#include "solution/interface_fields.hpp"
 
 namespace dygita {
 
@@ -95,6 +95,7 @@ struct Superelement {
   std::string step;
   bool is_converged = true;                  // the step's last increment
   int n_tied = 0, n_normal = 0, n_open = 0;  // contact points: tied, tied along their normal, open
+  int n_damped = 0;                          // points of interfaces that are in the damping matrix
 };
 
 struct RunResult {
@@ -114,8 +115,8 @@ struct RunResult {
   long n_dofs = 0, n_interface_unknowns = 0;
   std::vector<int> pieces;                // into which each substructure was cut; empty: the solver cuts none
   std::map<std::string, double> seconds;  // "assemble", "factor", "forward", "iterate", "backward", "output", ...
-  std::map<std::string, double> figures;  // "largest energy imbalance [%]", "largest penetration [m]", ...
-  std::shared_ptr<const Scenes> scenes;   // what the report draws; null: nobody recorded it
+  Figures figures;
+  std::shared_ptr<const Scenes> scenes;  // what the report draws; null: nobody recorded it
 };
 
 }  // namespace dygita

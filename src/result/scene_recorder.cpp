@@ -96,14 +96,14 @@ void SceneRecorder::find_joints(const Instant& instant) {
     if (output->kind != OutputKind::joint) continue;
     for (const int s : surfaces_of(instant, output->on)) {
       const Surface& surface = (*instant.model.surfaces)[s];
-      const bool is_plastic = surface.interface && surface.interface->kind == InterfaceKind::plastic;
-      const bool is_contact = surface.law && surface.law->rubs();
-      if ((!is_plastic && !is_contact) || std::find(surfaces_.begin(), surfaces_.end(), s) != surfaces_.end()) continue;
+      const Shown shown = surface.declared_law().shown();
+      if ((!shown.plastic_opening && !shown.gap) || std::find(surfaces_.begin(), surfaces_.end(), s) != surfaces_.end())
+        continue;
       surfaces_.push_back(s);
       JointScenes& joint = joints_.emplace_back();
       joint.name = surface.name();
-      joint.is_contact = is_contact;
-      joint.has_slip = is_contact && surface.law->acts_on(1);
+      joint.is_contact = shown.gap;
+      joint.has_slip = shown.slip;
       const Substructure& body = *problem_.substructures[surface.part_1];
       joint.points.resize(3, surface.n_points());
       std::map<int, int> point_of;
@@ -112,7 +112,7 @@ void SceneRecorder::find_joints(const Instant& instant) {
         joint.points.col(i) = body.mesh->nodes.col(surface.facing.nodes_1[i]) + body.place;
       }
       for (Facet facet : surface.facing.facets) {
-        for (int i = 0; i < facet.n_nodes; ++i) facet.nodes[i] = point_of.at(facet.nodes[i]);
+        for (int& node : facet.nodes()) node = point_of.at(node);
         joint.facets.push_back(facet);
       }
     }

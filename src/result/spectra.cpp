@@ -89,6 +89,12 @@ Table spectrum_table(const Problem& problem, const Output& output, const Table& 
           {}};
 }
 
+Exceedance exceedance_of(const Output& output, const RunResult& result) {
+  const auto found = result.tables.find(&output);
+  if (!output.specification || found == result.tables.end() || found->second.n_rows() == 0) return {};
+  return largest_exceedance(*output.specification, found->second.columns.front(), found->second.column("maximax"));
+}
+
 std::vector<std::string> attenuation_columns(const Output& output) {
   std::vector<std::string> names = {"frequency"};
   for (const std::string& axis : axes(*output.of))

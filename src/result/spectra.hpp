@@ -9,6 +9,9 @@ namespace dygita {
 // column; steps of different dt are brought to the smallest. Empty where there is no dynamic row.
 Table spectrum_table(const Problem& problem, const Output& output, const Table& history);
 
+// Against the specification of the output's spectrum; not known where it has none, or no spectrum came.
+Exceedance exceedance_of(const Output& output, const RunResult& result);
+
 // "frequency", then "entering", "leaving", "ratio", for vector histories each with _x, _y, _z.
 std::vector<std::string> attenuation_columns(const Output& output);
 

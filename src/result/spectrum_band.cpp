@@ -49,16 +49,9 @@ void take_iteration_from(const Table& spectrum, const Table& before, Table& band
   add_up(band);
 }
 
-std::string band_figure(const std::string& spectrum, const std::string& column) {
-  return "spectrum '" + spectrum + "', mean band, " + column + " [dB]";
-}
-
-void note_band(const std::string& spectrum, const Table& band, std::map<std::string, double>& figures) {
-  for (size_t i = 1; i < band.names.size(); ++i) {
-    const std::vector<double>& values = band.columns[i];
-    figures[band_figure(spectrum, band.names[i])] =
-        std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-  }
+double mean_band(const Table& band, const std::string& column) {
+  const std::vector<double>& values = band.column(column);
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 double largest_move(const Table& spectrum, const Table& other) {

@@ -15,11 +15,8 @@ Table spectrum_band(const Table& spectrum, SrsQuantity quantity, const ErrorEsti
 // Puts what a spectrum has moved since the pass before in the place of the estimate of what iterating leaves.
 void take_iteration_from(const Table& spectrum, const Table& before, Table& band);
 
-// Writes the mean of each column over the frequencies into the figures.
-void note_band(const std::string& spectrum, const Table& band, std::map<std::string, double>& figures);
-
-// "spectrum 'srs_above', mean band, time_step [dB]": how the run record calls a column's mean over the frequencies.
-std::string band_figure(const std::string& spectrum, const std::string& column);
+// Mean of a column over the frequencies, dB.
+double mean_band(const Table& band, const std::string& column);
 
 // Largest difference of the maximax of two spectra over the same frequencies, dB.
 double largest_move(const Table& spectrum, const Table& other);

@@ -34,7 +34,7 @@ SpectrumField::SpectrumField(const Problem& problem, const Output& output) : pro
       area.faces.points.col(i) = mesh.nodes.col(on.nodes[i]) + face.part->place;
     }
     for (Facet& facet : area.faces.facets)
-      for (int i = 0; i < facet.n_nodes; ++i) facet.nodes[i] = point_of.at(facet.nodes[i]);
+      for (int& node : facet.nodes()) node = point_of.at(node);
     areas_.push_back(std::move(area));
   }
 }

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
+#include "base/fnv1a.hpp"
 
 namespace dygita {
 
@@ -16,28 +17,6 @@ namespace {
 constexpr char magic[] = "DYGITAST";  // 8 bytes
 constexpr std::uint32_t format_version = 1, byte_order = 0x01020304;
 constexpr std::int64_t start_of_header = 24;  // magic, version, byte order, length of the header
-
-// FNV-1a on words of 64 bits, rotated so that the highest bits count as much as the lowest.
-class Checksum {
- public:
-  void add(const void* data, size_t bytes) {
-    const char* at = static_cast<const char*>(data);
-    for (; bytes >= 8; bytes -= 8, at += 8) {
-      std::uint64_t word;
-      std::memcpy(&word, at, 8);
-      mix(word);
-    }
-    if (bytes == 0) return;
-    std::uint64_t word = bytes;
-    std::memcpy(&word, at, bytes);
-    mix(word);
-  }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  void mix(std::uint64_t word) { hash_ = std::rotl((hash_ ^ word) * 0x100000001b3u, 29); }
-  std::uint64_t hash_ = 0xcbf29ce484222325u;
-};
 
 // The header's items, in the order of `visit` below: one description for both directions.
 class Encoder {
@@ -65,7 +44,7 @@ class Decoder {
 
  private:
   const char* take(std::uint64_t size) {
-    if (size > bytes_.size() - at_) throw InputError("its header ends too soon");
+    if (size > bytes_.size() - at_) throw InputError("its header is truncated");
     at_ += size;
     return bytes_.data() + (at_ - size);
   }
@@ -170,7 +149,7 @@ void check_fields(std::FILE* file, std::int64_t begin, std::int64_t bytes) {
   }
   std::uint64_t expected = 0;
   is_good = is_good && std::fread(&expected, 8, 1, file) == 1 && std::fgetc(file) == EOF;
-  if (!is_good) throw InputError("it is not as long as it should be");
+  if (!is_good) throw InputError("it has the wrong length");
   if (expected != sum.value()) throw InputError("its checksum does not match");
 }
 
@@ -179,18 +158,18 @@ RunState read_all(File file) {
   std::uint32_t version = 0, order = 0;
   std::uint64_t length = 0, expected = 0;
   const auto get = [&](void* data, size_t bytes) {
-    if (std::fread(data, 1, bytes, file.get()) != bytes) throw InputError("it ends too soon");
+    if (std::fread(data, 1, bytes, file.get()) != bytes) throw InputError("it is truncated");
   };
   get(found, 8);
-  if (std::memcmp(found, magic, 8) != 0) throw InputError("it is no state file of dygita");
+  if (std::memcmp(found, magic, 8) != 0) throw InputError("it is not a state file of dygita");
   get(&version, 4), get(&order, 4), get(&length, 8);
-  if (order != byte_order) throw InputError("it comes from a machine with another order of bytes");
+  if (order != byte_order) throw InputError("it comes from a machine with another byte order");
   if (version != format_version)
     throw InputError(
         fmt::format("it has version {} of the format, this program reads version {}", version, format_version));
   fseeko(file.get(), 0, SEEK_END);
   if (static_cast<std::uint64_t>(ftello(file.get())) < start_of_header + length || length > (std::uint64_t{1} << 40))
-    throw InputError("it ends too soon");
+    throw InputError("it is truncated");
   fseeko(file.get(), start_of_header, SEEK_SET);
   std::string header(length, '\0');
   get(header.data(), length), get(&expected, 8);

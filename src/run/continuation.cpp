@@ -27,14 +27,14 @@ RunState state_in(const fs::path& run) {
   const auto recorded = read_run_record(run);
   if (!recorded)
     throw InputError(
-        fmt::format("'{}' is no folder of a run: there is no {} in it\n    a run's folder is out/<problem>/<case>",
+        fmt::format("'{}' is not the folder of a run: there is no {} in it\n    a run's folder is out/<problem>/<case>",
                     run.string(), state_file_name));
   throw InputError(
       recorded->solver == "latin"
           ? fmt::format(
                 "'{}' keeps no {}: the run was told --no-state, or an earlier version made it\n    run the deck again",
                 run.string(), state_file_name)
-          : fmt::format("'{}' was computed by solver.{}, which keeps nothing to go on from\n    run the deck again",
+          : fmt::format("'{}' was computed by solver.{}, which keeps nothing to continue from\n    run the deck again",
                         run.string(), recorded->solver));
 }
 
@@ -75,7 +75,8 @@ void check_problem_is_same(const Problem& problem, const RunState& state) {
   }
   if (loads.size() != state.loads.size() || difference > 1e-6 * size)
     throw InputError(
-        "the loads have changed since the run (a file that the deck reads, or results of another case): run the deck "
+        "the loads have changed since the run (a file that the deck reads, or the results of another case): run the "
+        "deck "
         "again");
 }
 
@@ -105,7 +106,7 @@ void Continuation::check_until() const {
   if (!options_.until) return;
   const StateStep& last = state.steps.back();
   if (last.is_static)
-    throw InputError(fmt::format("--until: the last step, '{}', is static and has no time to go on", last.name));
+    throw InputError(fmt::format("--until: the last step, '{}', is static and cannot be extended in time", last.name));
   const double dt = last.duration / last.increments, end = end_of(state);
   if (*options_.until < end + 0.5 * dt)
     throw InputError(

@@ -1,4 +1,4 @@
-// Going on with a run from what it left: to a better answer, or further in time (manual, "Going on").
+// Continuing a run from what it left: to a tighter tolerance, or further in time (manual, "Continuing a run").
 #pragma once
 
 #include <filesystem>

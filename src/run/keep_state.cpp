@@ -36,7 +36,7 @@ const InterfaceFields* start_of(const RunRequest& request) {
   if (!request.start_from) return nullptr;
   if (request.start_from->converged) return request.start_from->interface_fields.get();
   warn(fmt::format(
-      "case '{}': the case to start from has not converged, so its fields are not used as initial guess: the "
+      "case '{}': the case to start from has not converged, so its fields are not used as an initial guess: the "
       "iteration starts from scratch",
       request.case_name));
   return nullptr;
@@ -97,7 +97,7 @@ void keep_state(const RunState& state, RunWriter& writer, RunResult& result) {
   try {
     const std::filesystem::path path = writer.path_of(state_file_name);
     write_state(path, state);
-    result.figures["state file [MB]"] = static_cast<double>(std::filesystem::file_size(path)) / 1e6;
+    result.figures.state_file = static_cast<double>(std::filesystem::file_size(path)) / 1e6;
   } catch (const InputError& error) {
     warn(fmt::format("{}\n    this run cannot be continued later; its results are not touched", error.what()));
   }

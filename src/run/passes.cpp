@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/log.hpp"
+#include "result/limits.hpp"
 #include "result/spectrum_band.hpp"
 
 namespace dygita {
@@ -10,13 +11,6 @@ namespace dygita {
 namespace {
 
 constexpr double first_tolerance = 1e-3;
-constexpr const char* passes = "passes over the run";
-constexpr const char* iterations_of_passes = "iterations of all passes";
-
-double figure_or(const RunResult& result, const std::string& name, double otherwise) {
-  const auto found = result.figures.find(name);
-  return found == result.figures.end() ? otherwise : found->second;
-}
 
 }  // namespace
 
@@ -37,28 +31,26 @@ bool have_settled(const Problem& problem, const RunResult& before, RunResult& re
     if (output->kind != OutputKind::srs) continue;
     const Table &now = result.tables.at(output.get()), &then = before.tables.at(output.get());
     worst = std::max(worst, largest_move(now, then));
-    if (const auto band = result.bands.find(output.get()); band != result.bands.end()) {
+    if (const auto band = result.bands.find(output.get()); band != result.bands.end())
       take_iteration_from(now, then, band->second);
-      note_band(output->name, band->second, result.figures);
-    }
   }
   say(fmt::format("  tolerance {:g}: the spectra have moved by up to {:.3g} dB", problem.solver.tolerance, worst));
-  result.figures["spectra moved in the last pass [dB]"] = worst;
+  result.figures.spectra_moved = worst;
   return worst < problem.solver.spectra;
 }
 
 void add_pass(const RunResult& before, RunResult& result) {
-  result.figures[passes] = 1.0 + figure_or(before, passes, 1.0);
-  result.figures[iterations_of_passes] =
+  result.figures.passes = 1.0 + before.figures.passes.value_or(1.0);
+  result.figures.iterations_of_passes =
       static_cast<double>(result.iterations) +
-      figure_or(before, iterations_of_passes, static_cast<double>(before.iterations));
+      before.figures.iterations_of_passes.value_or(static_cast<double>(before.iterations));
 }
 
 void say_bands(const Problem& problem, const RunResult& result) {
   for (const OutputPtr& output : problem.outputs) {
     const auto band = result.bands.find(output.get());
     if (band == result.bands.end()) continue;
-    const auto mean = [&](const char* column) { return result.figures.at(band_figure(output->name, column)); };
+    const auto mean = [&](const char* column) { return mean_band(band->second, column); };
     say(
         fmt::format("  spectrum '{}': iteration leaves about {:.2g} dB, time step {:.2g} dB, mesh {:.2g} dB (mean over "
                     "its frequencies)",
@@ -67,10 +59,10 @@ void say_bands(const Problem& problem, const RunResult& result) {
 }
 
 void warn_of_bands(const Problem& problem, const RunResult& result) {
-  constexpr double limit = 6.0;  // dB: a factor of two
   for (const OutputPtr& output : problem.outputs) {
-    if (!result.bands.contains(output.get())) continue;
-    if (const double all = result.figures.at(band_figure(output->name, "all")); all > limit)
+    const auto band = result.bands.find(output.get());
+    if (band == result.bands.end()) continue;
+    if (const double all = mean_band(band->second, "all"); all > limit::spectrum_band)
       warn(
           fmt::format("spectrum '{}' is uncertain by about {:.2g} dB (mean over its frequencies, by the run's own "
                       "estimate): little arrives there beside the errors of dt and the mesh",

@@ -15,6 +15,7 @@
 #include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
 #include "result/collector.hpp"
+#include "result/limits.hpp"
 #include "result/scene_recorder.hpp"
 #include "result/spectra.hpp"
 #include "run/condensed_lines.hpp"
@@ -53,46 +54,42 @@ void summarise(const Problem& problem, const SolverFigures& figures, RunResult& 
   result.n_interface_unknowns = figures.n_interface_unknowns;
   result.seconds = figures.seconds;
   result.pieces = figures.pieces;
-  result.figures.insert(figures.of_solver.begin(), figures.of_solver.end());
-  result.figures["memory of factors and interface operators [MB]"] = figures.factor_bytes / 1e6;
-  result.figures["largest difference between the interface gap and the displacements' [m]"] = figures.gap_difference;
+  static_cast<OwnFigures&>(result.figures) = figures.own;
+  result.figures.factor_memory = figures.factor_bytes / 1e6;
+  result.figures.gap_difference = figures.gap_difference;
 }
 
 // Numerical dissipation and energy gain are the price of dt and mesh at impacts: above a few percent the answer is not
 // to be trusted.
 void warn_of_losses(const Problem& problem, const RunResult& result) {
-  const double lost = result.figures.at("energy dissipated by the scheme [%]"),
-               gained = result.figures.at("energy created by the scheme [%]");
-  const double open = result.figures.at("energy imbalance [%]");
+  const double lost = result.figures.numerical_dissipation.value(), gained = result.figures.energy_gain.value(),
+               open = result.figures.energy_imbalance.value();
   if (problem.explicit_dynamics) {
-    const double held = std::pow(result.figures.at("error estimate, penalty [%]"), 2) / 100.0;
-    if (held > 5.0)
+    const double held = limit::penalty_energy_of(result.figures.penalty_error.value());
+    if (held > limit::penalty_energy)
       warn(
           fmt::format("the penalty springs hold up to {:.1f} % of the energy: a larger 'penalty' of solver.explicit "
                       "reduces the overlap of the sides",
                       held));
-    if (const double hourglass = result.figures.contains("largest hourglass energy [%]")
-                                     ? result.figures.at("largest hourglass energy [%]")
-                                     : 0.0;
-        hourglass > 10.0)
+    if (const double hourglass = result.figures.hourglass_energy.value_or(0.0); hourglass > limit::hourglass_energy)
       warn(fmt::format(
           "hourglass modes hold up to {:.1f} % of the energy: take smaller elements or integration = \"full\"",
           hourglass));
-    if (open > 0.5)
+    if (open > limit::energy_imbalance)
       warn(fmt::format("the energy balance is open by {:.2f} %: take a smaller 'safety' of solver.explicit", open));
     return;
   }
-  if (lost > 5.0)
+  if (lost > limit::numerical_dissipation)
     warn(
         fmt::format("numerical dissipation takes {:.1f} % of the energy (impacts; static increments that close a gap): "
                     "a smaller dt, smaller elements or more static increments reduce it",
                     lost));
-  if (gained > 0.5)
+  if (gained > limit::energy_gain)
     warn(
         fmt::format("the numerical energy gain is {:.2f} % of the energy: take a smaller dt or tolerance, or more "
                     "static increments",
                     gained));
-  if (open > 0.5)
+  if (open > limit::energy_imbalance)
     warn(fmt::format(
         "the energy balance is open by {:.2f} %: {}", open,
         result.converged
@@ -102,38 +99,35 @@ void warn_of_losses(const Problem& problem, const RunResult& result) {
 
 // The run's own estimates, where they are too large to build on.
 void warn_of_errors(const Problem& problem, const RunResult& result) {
-  const auto figure = [&](const char* name) { return result.figures.contains(name) ? result.figures.at(name) : 0.0; };
-  const double iteration = figure("error estimate, iteration [%]"),
-               still = figure("error estimate, static, iteration [%]");
-  if (!problem.monolithic && !problem.explicit_dynamics && iteration > 1.0 && result.converged)
+  const Figures& figures = result.figures;
+  const double iteration = figures.iteration_error.value_or(0.0), still = figures.static_iteration_error.value_or(0.0);
+  if (!problem.monolithic && !problem.explicit_dynamics && iteration > limit::iteration_error && result.converged)
     warn(fmt::format(
-        "the tolerance {:g} leaves about {:.2g} % of error (energy norm) on the shock: {:.1g} would leave 0.1 %",
+        "the tolerance {:g} leaves an error of about {:.2g} % (energy norm) in the shock: {:.1g} would leave 0.1 %",
         problem.solver.tolerance, iteration, 0.1 * problem.solver.tolerance / iteration));
-  if (!problem.monolithic && !problem.explicit_dynamics && still > 1.0 && result.converged)
+  if (!problem.monolithic && !problem.explicit_dynamics && still > limit::iteration_error && result.converged)
     warn(
-        fmt::format("the static tolerance {:g} leaves about {:.2g} % of error (energy norm) in the static steps: "
+        fmt::format("the static tolerance {:g} leaves an error of about {:.2g} % (energy norm) in the static steps: "
                     "{:.1g} would leave 0.1 %",
                     problem.solver.static_tolerance, still, 0.1 * problem.solver.static_tolerance / still));
-  if (const double e = figure("error estimate, time step [%]"); e > 30.0)
+  if (const double e = figures.time_step_error.value_or(0.0); e > limit::discretisation_error)
     warn(
-        fmt::format("the time step leaves about {:.2g} % of error (energy norm) on the shock, which moves at {:.3g} "
-                    "kHz on average: a "
-                    "smaller dt leaves less",
-                    e, figure("mean frequency of the motion [Hz]") / 1e3));
-  for (const auto& [name, text] : {std::pair{"error estimate, mesh [%]", "on the shock"},
-                                   {"error estimate, static, mesh [%]", "in the static steps"}})
-    if (const double e = figure(name); e > 30.0)
+        fmt::format("the time step leaves an error of about {:.2g} % (energy norm) in the shock, which moves at {:.3g} "
+                    "kHz on average: use a smaller dt",
+                    e, figures.mean_frequency.value() / 1e3));
+  for (const auto& [error, text] :
+       {std::pair{figures.mesh_error, "in the shock"}, {figures.static_mesh_error, "in the static steps"}})
+    if (const double e = error.value_or(0.0); e > limit::discretisation_error)
       warn(
-          fmt::format("the mesh leaves about {:.2g} % of error (energy norm) {}: smaller cells leave less, "
+          fmt::format("the mesh leaves an error of about {:.2g} % (energy norm) {}: use smaller cells; "
                       "'stress_error' shows where",
                       e, text));
 }
 
 // A shortening that a preload has found has no range of its own.
 void warn_of_bolts(const RunResult& result) {
-  constexpr double longest = 0.01;  // m, the largest load.shortening
   for (const BoltSummary& bolt : result.bolts)
-    if (std::abs(bolt.shortening) > longest)
+    if (std::abs(bolt.shortening) > limit::bolt_shortening)
       warn(fmt::format(
           "bolt '{}' is shortened by {:.3g} mm for its preload: is the force, or a gap, a thousand times too large?",
           bolt.name, bolt.shortening * 1e3));
@@ -154,32 +148,28 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
     say(line);
   }
   for (const std::string& line : bolt_lines(problem, result)) say(line);
-  const double lost = result.figures.at("energy dissipated by the scheme [%]"),
-               gained = result.figures.at("energy created by the scheme [%]");
-  say(fmt::format("  energy balance closes within {:.3g} %, ", result.figures.at("energy imbalance [%]")) +
-      (problem.explicit_dynamics ? fmt::format("penalty springs hold up to {:.3g} %", lost)
-                                 : fmt::format("numerical dissipation {:.3g} %, energy gain {:.3g} %", lost, gained)));
-  const auto figure = [&](const char* name) { return result.figures.at(name); };
-  const bool is_explicit = result.figures.contains("error estimate, penalty [%]");
-  if (result.figures.contains("error estimate, mesh [%]"))
+  const Figures& figures = result.figures;
+  const double lost = figures.numerical_dissipation.value();
+  say(fmt::format("  energy balance closes within {:.3g} %, ", figures.energy_imbalance.value()) +
+      (problem.explicit_dynamics
+           ? fmt::format("penalty springs hold up to {:.3g} %", lost)
+           : fmt::format("numerical dissipation {:.3g} %, energy gain {:.3g} %", lost, figures.energy_gain.value())));
+  if (figures.mesh_error)
     say(fmt::format(
         "  estimated errors (energy norm, {:.3g} kHz on average): {} {:.2g} %, time step {:.2g} %, mesh {:.2g} %",
-        figure("mean frequency of the motion [Hz]") / 1e3, is_explicit ? "penalty" : "iteration",
-        figure(is_explicit ? "error estimate, penalty [%]" : "error estimate, iteration [%]"),
-        figure("error estimate, time step [%]"), figure("error estimate, mesh [%]")));
-  if (result.figures.contains("error estimate, static, mesh [%]"))
+        figures.mean_frequency.value() / 1e3, figures.penalty_error ? "penalty" : "iteration",
+        (figures.penalty_error ? figures.penalty_error : figures.iteration_error).value(),
+        figures.time_step_error.value(), *figures.mesh_error));
+  if (figures.static_mesh_error)
     say(fmt::format("  estimated errors of static steps: iteration {:.2g} %, mesh {:.2g} %",
-                    figure("error estimate, static, iteration [%]"), figure("error estimate, static, mesh [%]")));
+                    figures.static_iteration_error.value(), *figures.static_mesh_error));
   say_bands(problem, result);
   for (const OutputPtr& output : problem.outputs) {
     if (output->kind == OutputKind::attenuation && result.tables.at(output.get()).n_rows() > 0)
       say("  " + attenuation_summary(*output, result.tables.at(output.get())));
-    if (const std::string name = "largest exceedance of the specification of '" + output->name + "' [dB]";
-        output->specification && result.figures.contains(name)) {
-      const double frequency = figure(("frequency of the largest exceedance of '" + output->name + "' [Hz]").c_str());
+    if (const Exceedance worst = exceedance_of(*output, result); worst.is_known)
       say(fmt::format("  spectrum '{}': {:.1f} dB {} its specification at {:.4g} Hz", output->name,
-                      std::abs(figure(name.c_str())), figure(name.c_str()) > 0.0 ? "above" : "below", frequency));
-    }
+                      std::abs(worst.decibels), worst.decibels > 0.0 ? "above" : "below", worst.frequency));
   }
   for (const std::string& line : condensed_lines(problem, result)) say("  " + line);
   if (!directory.empty()) say(fmt::format("  {:.2f} s in all; results in {}", seconds, directory.string()));
@@ -240,7 +230,7 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
   if (request.continues) {
     long earlier = 0;
     for (const Effort& effort : request.continues->efforts) earlier += effort.iterations;
-    result->figures["iterations before the run was continued"] = static_cast<double>(earlier);
+    result->figures.earlier_iterations = static_cast<double>(earlier);
   }
   const bool is_kept = !request.continues || reaches_as_far(state, *request.continues);
   if (writer && request.write_state && is_kept) keep_state(state, *writer, *result);

@@ -47,7 +47,7 @@ void warn_of_limits(size_t n_samples, double dt, const SrsSettings& settings) {
   }
   if (settings.to > 0.5 / dt) {
     warn(fmt::format(
-        "srs: above {:.4g} Hz, half the sampling rate, the record holds nothing: the spectrum is its peak there",
+        "srs: above {:.4g} Hz, half the sampling rate, the record has no content: the spectrum is its peak there",
         0.5 / dt));
   }
 }

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/overloaded.hpp"
 #include "fem/mass.hpp"
+#include "model/load.hpp"
 
 namespace dygita {
 
@@ -15,7 +16,7 @@ namespace {
 void take_off(const FaceOrRegion& place, const SubstructurePtr& part, std::vector<char>& marked) {
   if (const Face* face = std::get_if<Face>(&place); face && face->part == part)
     for (const Facet& facet : face->facets())
-      for (int i = 0; i < facet.n_nodes; ++i) marked[facet.nodes[i]] = 0;
+      for (const int node : facet.nodes()) marked[node] = 0;
   if (const Region* region = std::get_if<Region>(&place); region && region->part == part)
     for (const int node : region->nodes) marked[node] = 0;
 }
@@ -39,11 +40,10 @@ std::vector<char> nodes_in_contact_alone(const Problem& problem, const std::vect
           ++n_surfaces[node];
         }
   };
-  const auto is_contact = [](const Surface& surface) { return surface.law && surface.law->rubs(); };
   for (const Surface& surface : surfaces)
-    if (is_contact(surface)) mark(surface, 1);
+    if (surface.declared_law().allows_massless_nodes()) mark(surface, 1);
   for (const Surface& surface : surfaces)
-    if (!is_contact(surface)) mark(surface, 0);
+    if (!surface.declared_law().allows_massless_nodes()) mark(surface, 0);
   // In an edge or a corner: without its mass the cell there could turn about the few nodes that have some.
   for (size_t node = 0; node < marked.size(); ++node)
     if (n_surfaces[node] > 1) marked[node] = 0;
@@ -65,7 +65,7 @@ void agree(const std::vector<Surface>& surfaces, std::vector<std::vector<char>>&
   for (bool has_changed = true; has_changed;) {
     has_changed = false;
     for (const Surface& surface : surfaces) {
-      if (surface.part_1 < 0 || surface.part_2 < 0 || !surface.law || !surface.law->rubs()) continue;
+      if (surface.part_1 < 0 || surface.part_2 < 0 || !surface.declared_law().allows_massless_nodes()) continue;
       for (int i = 0; i < surface.n_points(); ++i) {
         char& one = marked[surface.part_1][surface.facing.nodes_1[i]];
         char& two = marked[surface.part_2][surface.facing.nodes_2[i]];

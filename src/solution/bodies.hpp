@@ -1,8 +1,8 @@
 // The matrices of a problem's substructures.
 #pragma once
 
+#include "solution/body.hpp"
 #include "solution/cut.hpp"
-#include "solution/piece.hpp"
 #include "solution/surfaces.hpp"
 
 namespace dygita {

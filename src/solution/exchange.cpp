@@ -48,8 +48,9 @@ struct LawCluster {
 
 class Builder {
  public:
-  Builder(const Problem& problem, const Cut& cut, const std::vector<Surface>& surfaces, const Conditions& conditions)
-      : problem_(problem), cut_(cut), surfaces_(surfaces), conditions_(conditions) {
+  Builder(const Problem& problem, const Step& step, const Cut& cut, const std::vector<Surface>& surfaces,
+          const Conditions& conditions)
+      : problem_(problem), step_(step), cut_(cut), surfaces_(surfaces), conditions_(conditions) {
     exchange_.n_unknowns.assign(cut.n_pieces(), 0);
   }
 
@@ -153,7 +154,7 @@ class Builder {
     throw InputError(
         surface.interface->origin,
         fmt::format("interface '{}': its two sides are tied to each other at node {} of '{}' ({:.6g}, {:.6g}, {:.6g}) "
-                    "through bonded interfaces ({}): what is tied cannot move apart there",
+                    "through bonded interfaces ({}): tied nodes cannot move apart there",
                     surface.name(), surface.facing.nodes_1[i], problem_.substructures[surface.part_1]->name, x[0], x[1],
                     x[2], path));
   }
@@ -198,7 +199,8 @@ class Builder {
     const bool has_group = ports_1.size() > 1 || ports_2.size() > 1;
     for (const NodeKey& key : keys) exchange_.ports.push_back(make_port(key, point.frame));
     for (int d = 0; d < 3; ++d) {
-      if (!has_group && !(law && law->acts_on(d))) continue;
+      point.has_law[d] = law && law->acts_on(d, step_.is_static);
+      if (!has_group && !point.has_law[d]) continue;
       for (int p = point.first_port; p < point.end_port; ++p) point.is_active[d] |= !exchange_.ports[p].is_held[d];
       if (!point.is_active[d]) continue;
       for (int p = point.first_port; p < point.end_port; ++p) {
@@ -288,6 +290,7 @@ class Builder {
   }
 
   const Problem& problem_;
+  const Step& step_;
   const Cut& cut_;
   const std::vector<Surface>& surfaces_;
   const Conditions& conditions_;
@@ -302,9 +305,9 @@ class Builder {
 
 }  // namespace
 
-Exchange make_exchange(const Problem& problem, const Cut& cut, const std::vector<Surface>& surfaces,
+Exchange make_exchange(const Problem& problem, const Step& step, const Cut& cut, const std::vector<Surface>& surfaces,
                        const Conditions& conditions) {
-  return Builder(problem, cut, surfaces, conditions).build();
+  return Builder(problem, step, cut, surfaces, conditions).build();
 }
 
 }  // namespace dygita

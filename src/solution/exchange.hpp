@@ -35,6 +35,7 @@ struct Point {
   const Law* law = nullptr;                            // null: the tie of a group alone
   int first_port = 0, first_port_2 = 0, end_port = 0;  // ports of side 1, then of side 2
   bool is_wall = false;                                // side 2 is rigid and at rest
+  std::array<bool, 3> has_law{};                       // directions on which the law acts in this step
   std::array<bool, 3> is_active{};                     // directions that carry an unknown
   std::vector<Member> members;
 };
@@ -53,10 +54,10 @@ struct Exchange {
   std::vector<int> n_unknowns;  // of each piece
 };
 
-// Builds the points of a step from the surfaces and what the step holds. Throws InputError when both sides of a law
-// belong to one group (a bolt shortened between bodies that are tied), or a held direction lies oblique to a law's
-// normal.
-Exchange make_exchange(const Problem& problem, const Cut& cut, const std::vector<Surface>& surfaces,
+// Builds the points of a step from the surfaces that have a part in it and what the step holds. Throws InputError when
+// both sides of a law belong to one group (a bolt shortened between bodies that are tied), or a held direction lies
+// oblique to a law's normal.
+Exchange make_exchange(const Problem& problem, const Step& step, const Cut& cut, const std::vector<Surface>& surfaces,
                        const Conditions& conditions);
 
 }  // namespace dygita

@@ -16,13 +16,7 @@ PointRecord start_point(const StepModel& model, const Point& point, const State&
   LawState& law = record.law;
   for (const Member& member : point.members) {
     const LawState& m = start.surfaces[member.surface].points[member.point];
-    law.gap += member.share * m.gap;
-    law.plastic_opening += member.share * m.plastic_opening;
-    law.hardening_opening += member.share * m.hardening_opening;
-    law.opening_rate += member.share * m.opening_rate;
-    law.slip += member.share * (point.frame.transpose() * m.slip);
-    law.force += point.frame.transpose() * m.force;
-    law.status = m.status;
+    law.add(m, member.share, point.frame);
   }
   record.is_released = start.released[point.members.front().surface] != 0;
   record.shortening_old = record.trial.shortening = start.shortening[point.members.front().surface];
@@ -54,45 +48,40 @@ LawState end_of_point(const Point& point, const PointRecord& record, const Incre
   return end;
 }
 
-double gap_difference(const StepModel& model, const Point& point, const PointRecord& record) {
-  if (!point.law || !point.law->rubs()) return 0.0;
-  return std::abs((*model.surfaces)[point.members.front().surface].initial_gap + record.trial.jump[0] - record.law.gap);
+double gap_difference(const Point& point, const PointRecord& record) {
+  if (!point.law || !point.law->shown().gap) return 0.0;
+  return std::abs(point.law->initial().gap + record.trial.jump[0] - record.law.gap);
+}
+
+void book_dissipation(const Point& point, const Work& work, State& state) {
+  for (const Member& member : point.members) {
+    SurfaceState& surface = state.surfaces[member.surface];
+    surface.friction_work += member.share * work.friction;
+    surface.plastic_work += member.share * work.plastic;
+    surface.damping_work += member.share * work.damping;
+  }
+  state.energies.friction += work.friction;
+  state.energies.plastic += work.plastic;
+  state.energies.damping += work.damping;
 }
 
 void book_work(const Point& point, const PointRecord& record, const LawState& end, const Increment& increment,
                double on_pieces, State& state) {
-  double friction = 0.0, plastic = 0.0, given = 0.0;
+  Work work;
   if (point.law) {
-    const LawState& start = record.law;
-    const Vec3 force = increment.is_static ? Vec3(0.5 * (start.force + end.force)) : end.force;
-    const Vec3 motion = increment.dt * (increment.g * start.rate + (1 - increment.g) * end.rate);
-    if (point.law->rubs()) friction = force.tail<2>().dot(motion.tail<2>());
-    plastic = point.law->plastic_work(end, point.area) - point.law->plastic_work(start, point.area);
-    given = force[0] * (record.trial.shortening - record.shortening_old);
-    // A static increment that crosses yield bends the path: what the mean of both ends leaves out is work of whatever
-    // drives it.
-    if (increment.is_static) given += plastic - force[0] * (end.plastic_opening - start.plastic_opening);
-    // An interference pressed out in a static step is work done from outside.
-    if (increment.is_static && point.law->rubs() && start.gap < 0.0) given -= force[0] * motion[0];
-    for (const Member& member : point.members) {
-      state.surfaces[member.surface].friction_work += member.share * friction;
-      state.surfaces[member.surface].plastic_work += member.share * plastic;
-    }
+    work = point.law->work(record.law, end, increment, point.area);
+    const double force = working_force(record.law, end, increment)[0];
+    work.given += force * (record.trial.shortening - record.shortening_old);
+    book_dissipation(point, work, state);
   }
-  Energies& energies = state.energies;
-  energies.friction += friction;
-  energies.plastic += plastic;
-  energies.loads += given;
-  energies.scheme += given - on_pieces - friction - plastic;
+  state.energies.loads += work.given;
+  state.energies.scheme += work.given - on_pieces - work.friction - work.plastic - work.damping;
 }
 
 void show_point(const Point& point, const PointRecord& record, State& state) {
   for (const Member& member : point.members) {
     LawState& shown = state.surfaces[member.surface].points[member.point];
-    shown = record.law;
-    shown.force = member.share * (point.frame * record.law.force);
-    shown.slip = point.frame * record.law.slip;
-    shown.rate = point.frame * record.law.rate;
+    shown = record.law.member(member.share, point.frame);
     state.shortening[member.surface] = record.trial.shortening;
     state.released[member.surface] = record.is_released;
   }

@@ -24,12 +24,14 @@ void begin_point(const StepModel& model, const Point& point, const Vec3& jump, i
 // The law's state at the end of the increment, with the force found.
 LawState end_of_point(const Point& point, const PointRecord& record, const Increment& increment);
 // Largest difference between a contact law's gap and that of the displacements, m; zero for other laws.
-double gap_difference(const StepModel& model, const Point& point, const PointRecord& record);
+double gap_difference(const Point& point, const PointRecord& record);
 
-// Where the work of a point goes: friction, plasticity, the tool that shortens the bolt, and the scheme (impacts,
+// Where the work of a point goes: what its law dissipates, the tool that shortens the bolt, and the scheme (impacts,
 // residuals). on_pieces: work of the interface on the substructures during the increment, J.
 void book_work(const Point& point, const PointRecord& record, const LawState& end, const Increment& increment,
                double on_pieces, State& state);
+// What a law has dissipated, into the energies and its surfaces.
+void book_dissipation(const Point& point, const Work& work, State& state);
 // Forces, gaps and slips of a point with a law into the surfaces' state, once record.law is that of the end.
 void show_point(const Point& point, const PointRecord& record, State& state);
 // A substructure's force inside a group, split over its bonded interfaces: least norm weighted with nodal areas.

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/overloaded.hpp"
+#include "law/law.hpp"
 
 namespace dygita {
 
@@ -67,10 +68,10 @@ void check_reached(const Step& step, int increment, const std::vector<const Inte
     if (force[i] >= 0.5 * target[i]) continue;
     throw NumericalError(
         fmt::format("step '{}', increment {}: load.preload asks for {:.6g} N through interface.{} '{}', and no "
-                    "shortening brings more than {:.3g} N; likely "
+                    "shortening gives more than {:.3g} N; likely "
                     "cause: nothing takes the force on one of its sides (a part that is held by this interface alone, "
                     "a joint that cannot close)",
-                    step.name, increment + 1, target[i], interface_kind_name(interfaces[i]->kind), interfaces[i]->name,
+                    step.name, increment + 1, target[i], interfaces[i]->law->word(), interfaces[i]->name,
                     force[i] > 1e-6 * target[i] ? force[i] : 0.0));
   }
 }
@@ -80,20 +81,20 @@ namespace {
 void check_preload(const Problem& problem, const Step& step, const Load& load, const PreloadForce& preload,
                    const std::vector<Surface>& surfaces) {
   const Interface& interface = *preload.on;
-  if (interface.kind != InterfaceKind::plastic || interface.hardening > 0.0) return;
-  const double area = surfaces.at(index_of(problem.interfaces, &interface)).facing.areas.sum(),
-               limit = interface.yield * area;
+  const double yield = interface.law->most_tension();
+  if (std::isinf(yield)) return;
+  const double area = surfaces.at(index_of(problem.interfaces, &interface)).facing.areas.sum(), limit = yield * area;
   double most = 0.0;
   for (int i = 0; i < step.increments; ++i)
     most = std::max(most, LoadValue{preload.value, 0.0}.at_static(i, step.increments));
   if (most < limit) return;
   throw InputError(load.origin, fmt::format("problem '{}': step '{}': {} asks for {:.6g} N through "
-                                            "interface.plastic '{}', which cannot be "
+                                            "interface.{} '{}', which cannot be "
                                             "reached: it yields at {:.6g} N ({:.4g} MPa on {:.4g} mm^2) and has "
                                             "no hardening\n    the largest force is "
                                             "below {:.6g} N; or give it 'hardening'",
-                                            problem.name, step.name, load.path, most, interface.name, limit,
-                                            interface.yield / 1e6, area * 1e6, limit));
+                                            problem.name, step.name, load.path, most, interface.law->word(),
+                                            interface.name, limit, yield / 1e6, area * 1e6, limit));
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ Mat constraint_gram(const Problem& problem, const Exchange& exchange, const Cond
     for (int d = 0; d < 3; ++d) {
       for (int p = point.first_port + 1; p < point.first_port_2; ++p) tie(p, point.first_port, d);
       for (int p = point.first_port_2 + 1; p < point.end_port; ++p) tie(p, point.first_port_2, d);
-      if (!point.law || !point.law->acts_on(d)) continue;
+      if (!point.has_law[d]) continue;
       tie(point.first_port, point.is_wall ? -1 : point.first_port_2, d);
     }
   }

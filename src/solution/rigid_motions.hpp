@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "solution/exchange.hpp"
-#include "solution/piece.hpp"
 
 namespace dygita {
 

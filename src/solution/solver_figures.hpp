@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,19 +19,30 @@ struct StepFigures {
   double seconds = 0.0;
 };
 
+// What only some solvers have to tell; empty: this one has not.
+struct OwnFigures {
+  std::optional<double> fields_in_memory, fields_in_file;     // MB, of the interface fields kept
+  std::optional<double> substitutions, substitutions_spared;  // spared: nothing had changed
+  std::optional<double> pieces_in_full;                       // solved in full at each iteration, over all steps
+  std::optional<double> shared_factors;                       // substructures that use another's, over all steps
+  std::optional<double> hourglass_energy;                     // %, largest
+  std::optional<double> substeps;                             // per step, most
+  std::optional<double> critical_step;                        // s
+};
+
 struct SolverFigures {
   std::vector<StepFigures> steps;
   std::shared_ptr<const InterfaceFields> interface_fields;  // null: the solver keeps none
   bool interrupted = false;
   std::vector<int> pieces;  // into which each substructure was cut; empty: the solver cuts none
   long n_dofs = 0, n_interface_unknowns = 0;
-  long n_solved = 0, n_spared = 0;          // substitutions, and those spared because nothing had changed
-  int n_in_full = 0;                        // pieces solved in full at each iteration, summed over the steps
-  int n_equal = 0;                          // pieces that use another one's factor, summed over the steps
-  double factor_bytes = 0.0;                // factors and interface operators of the largest step
-  double gap_difference = 0.0;              // m, largest between the laws' gaps and the displacements'
-  std::map<std::string, double> of_solver;  // the solver's own, with unit in the name: for the run record
-  std::map<std::string, double> seconds;    // by phase: set up, linear, iterate, output
+  long n_solved = 0, n_spared = 0;        // substitutions, and those spared because nothing had changed
+  int n_in_full = 0;                      // pieces solved in full at each iteration, summed over the steps
+  int n_equal = 0;                        // pieces that use another one's factor, summed over the steps
+  double factor_bytes = 0.0;              // factors and interface operators of the largest step
+  double gap_difference = 0.0;            // m, largest between the laws' gaps and the displacements'
+  OwnFigures own;                         // for the run record
+  std::map<std::string, double> seconds;  // by phase: set up, linear, iterate, output
 };
 
 }  // namespace dygita

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "law/law.hpp"
+#include "law/point.hpp"
 #include "numerics/types.hpp"
 
 namespace dygita {
@@ -24,7 +24,7 @@ struct SurfaceState {
   std::vector<LawState> points;
   std::vector<double>
       residual;  // N, of each point: what is left between the force of the substructure and that of the law
-  double friction_work = 0.0, plastic_work = 0.0;  // J, so far
+  double friction_work = 0.0, plastic_work = 0.0, damping_work = 0.0;  // J, so far
 };
 
 struct State {

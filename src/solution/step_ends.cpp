@@ -18,7 +18,7 @@ void place_returning_walls(const StepModel& model, State& state) {
     if (!surface.wall || index_of(now, surface.wall) < 0 || index_of(before, surface.wall) >= 0) continue;
     for (int i = 0; i < surface.n_points(); ++i)
       state.surfaces[s].points[i].gap =
-          surface.initial_gap -
+          surface.declared_law().initial().gap -
           surface.facing.normals.col(i).dot(state.displacement[surface.part_1].col(surface.facing.nodes_1[i]));
   }
 }
@@ -34,11 +34,7 @@ void set_pieces(StepModel& model, int part, const State& state) {
     return;
   }
   const auto elastic_force = [&](int piece) {
-    const Points u = cut.on_piece(piece, state.displacement[part]);
-    Points force(3, u.cols());
-    Eigen::Map<Vec>(force.data(), force.size()) =
-        model.pieces[piece]->setup().body->matrices->stiffness * Eigen::Map<const Vec>(u.data(), u.size());
-    return force;
+    return model.pieces[piece]->elastic_force(cut.on_piece(piece, state.displacement[part]));
   };
   const Points imbalance = cut.summed(part, elastic_force) - state.force[part] - interfaces;
   for (int p = cut.first(part); p < cut.first(part) + cut.n_pieces(part); ++p) {
@@ -53,13 +49,13 @@ void set_pieces(StepModel& model, int part, const State& state) {
 void start_step(StepModel& model, State& state) {
   const bool is_static = model.scheme.is_static;
   const bool first_dynamic = !is_static && !state.has_moved;
-  // A wall that is no longer a support has let go.
+  // A wall that is no longer a support has let go, and so does a law that has no part in such a step.
   for (size_t s = 0; s < model.surfaces->size(); ++s) {
-    const Support* wall = (*model.surfaces)[s].wall;
-    if (!wall || index_of(supports_of(*model.problem, *model.step), wall) >= 0) continue;
+    const Surface& surface = (*model.surfaces)[s];
+    if (takes_part(*model.problem, *model.step, surface)) continue;
     for (LawState& point : state.surfaces[s].points) {
       point.force.setZero();
-      point.status = PointState::open;
+      point.status = surface.declared_law().initial().status;
     }
   }
   for (size_t i = 0; i < state.velocity.size(); ++i) {

@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "solution/bodies.hpp"
+#include "solution/exchange.hpp"
 #include "solution/loads.hpp"
 #include "solution/piece.hpp"
+#include "solution/scheme.hpp"
 #include "solution/state.hpp"
 
 namespace dygita {

@@ -1,6 +1,7 @@
 #include "solution/surfaces.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <map>
 
 #include "solution/preload.hpp"
@@ -9,10 +10,15 @@ namespace dygita {
 
 PlacedFace placed(const Face& face) { return {face.part->mesh.get(), face.facets(), face.part->place, face.label()}; }
 
+bool takes_part(const Problem& problem, const Step& step, const Surface& surface) {
+  if (surface.wall && index_of(supports_of(problem, step), surface.wall) < 0) return false;
+  return surface.declared_law().takes_part(step.is_static);
+}
+
 namespace {
 
-// A bonded interface that is shortened or released in some step is a law of its own, never part of a group.
-bool acts_on_interface(const Problem& problem, const Interface* interface) {
+// What some load acts on is a law of its own, never part of a group nor one with its neighbours.
+bool has_load(const Problem& problem, const Interface* interface) {
   for (const StepPtr& step : problem.steps)
     for (const LoadPtr& load : step->loads)
       for (const Target& target : load->on)
@@ -20,31 +26,26 @@ bool acts_on_interface(const Problem& problem, const Interface* interface) {
   return false;
 }
 
-// Contacts of equal friction and gap share one law: where such faces meet at a node they act as one (exchange.cpp).
-class ContactLaws {
+bool is_alike(const Law& a, const Law& b) {
+  const std::vector<LawParameter> of_a = a.parameters(), of_b = b.parameters();
+  return a.word() == b.word() &&
+         std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                    [](const LawParameter& p, const LawParameter& q) { return p.value == q.value; });
+}
+
+// Laws that join their like share one object: where such faces meet at a node they act as one (exchange.cpp).
+class SharedLaws {
  public:
-  std::shared_ptr<const Law> of(double friction, double gap) {
-    auto& law = known_[{friction, gap}];
-    if (!law) law = std::make_shared<ContactLaw>(friction);
-    return law;
+  const LawPtr& of(const LawPtr& law) {
+    if (!law->joins_its_like()) return law;
+    const auto same =
+        std::find_if(known_.begin(), known_.end(), [&](const LawPtr& known) { return is_alike(*known, *law); });
+    return same != known_.end() ? *same : known_.emplace_back(law);
   }
 
  private:
-  std::map<std::pair<double, double>, std::shared_ptr<const Law>> known_;
+  std::deque<LawPtr> known_;
 };
-
-std::shared_ptr<const Law> make_law(const Problem& problem, const Interface& interface, ContactLaws& contacts) {
-  switch (interface.kind) {
-    case InterfaceKind::contact:
-      if (acts_on_interface(problem, &interface)) return std::make_shared<ContactLaw>(interface.friction);
-      return contacts.of(interface.friction, interface.gap);
-    case InterfaceKind::plastic:
-      return std::make_shared<PlasticLaw>(interface.yield, interface.hardening, interface.compression);
-    case InterfaceKind::bonded:
-      break;
-  }
-  return acts_on_interface(problem, &interface) ? std::make_shared<BondedLaw>() : nullptr;
-}
 
 Facing wall_facing(const Face& face) {
   const FaceNodes on_face = face_nodes(*face.part->mesh, face.facets());
@@ -53,10 +54,9 @@ Facing wall_facing(const Face& face) {
 
 // Facets named by two interfaces would carry their forces twice.
 void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces) {
-  std::map<std::pair<int, std::array<int, 4>>, const Surface*> owner;
-  const auto claim = [&](const Surface& surface, int part, std::array<int, 4> nodes) {
-    std::sort(nodes.begin(), nodes.end());
-    const auto [it, is_new] = owner.emplace(std::pair{part, nodes}, &surface);
+  std::map<std::pair<int, FacetKey>, const Surface*> owner;
+  const auto claim = [&](const Surface& surface, int part, const Facet& facet) {
+    const auto [it, is_new] = owner.emplace(std::pair{part, facet_key(facet)}, &surface);
     if (is_new || it->second == &surface) return;
     const Origin& origin = surface.interface ? surface.interface->origin : surface.wall->origin;
     throw InputError(origin, "'" + surface.name() + "' and '" + it->second->name() +
@@ -68,10 +68,10 @@ void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces
     for (int i = 0; i < surface.n_points(); ++i)
       if (surface.part_2 >= 0) partner[surface.facing.nodes_1[i]] = surface.facing.nodes_2[i];
     for (const Facet& facet : surface.facing.facets) {
-      claim(surface, surface.part_1, facet.nodes);
+      claim(surface, surface.part_1, facet);
       if (surface.part_2 < 0) continue;
-      std::array<int, 4> other = facet.nodes;
-      for (int i = 0; i < facet.n_nodes; ++i) other[i] = partner.at(facet.nodes[i]);
+      Facet other = facet;
+      for (int& node : other.nodes()) node = partner.at(node);
       claim(surface, surface.part_2, other);
     }
   }
@@ -81,7 +81,7 @@ void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces
 
 std::vector<Surface> make_surfaces(const Problem& problem) {
   std::vector<Surface> surfaces;
-  ContactLaws contacts;
+  SharedLaws laws;
   for (const InterfacePtr& interface : problem.interfaces) {
     Surface surface;
     surface.interface = interface.get();
@@ -92,8 +92,10 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
     } catch (const InputError& error) {
       throw InputError(interface->origin, "interface '" + interface->name + "': " + error.what());
     }
-    surface.law = make_law(problem, *interface, contacts);
-    surface.initial_gap = interface->kind == InterfaceKind::contact ? interface->gap : 0.0;
+    if (has_load(problem, interface.get()))
+      surface.law = interface->law;
+    else if (!interface->law->is_tie())
+      surface.law = laws.of(interface->law);
     surfaces.push_back(std::move(surface));
   }
   std::vector<const Support*> walls;
@@ -108,8 +110,7 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
       surface.wall = wall;
       surface.part_1 = index_of(problem.substructures, face.part.get());
       surface.facing = wall_facing(face);
-      surface.law = contacts.of(wall->friction, wall->gap);
-      surface.initial_gap = wall->gap;
+      surface.law = laws.of(wall->law);
       surfaces.push_back(std::move(surface));
     }
   check_overlaps(problem, surfaces);

@@ -21,7 +21,7 @@ void study_tolerance(const char* scene, const std::filesystem::path& path, const
   const EstimatedRun converged = run_estimated(path, settings, 1e-11);
   for (const char* tolerance : {"1e-2", "1e-3", "1e-4", "1e-5", "1e-6"}) {
     const EstimatedRun r = run_estimated(path, settings, std::stod(tolerance));
-    line(scene, "tolerance", tolerance, r.figures.at("error estimate, iteration [%]"), true_error(r, converged));
+    line(scene, "tolerance", tolerance, r.figures.iteration_error.value(), true_error(r, converged));
   }
 }
 
@@ -32,14 +32,13 @@ void study_bar(const char* scene, const char* text) {
   for (const int steps : {96, 192, 384, 768}) {
     const EstimatedRun r = run_estimated(path, {{"steps", std::to_string(steps)}});
     const EstimatedRun fine = run_estimated(path, {{"steps", std::to_string(16 * steps)}});
-    line(scene, "steps", std::to_string(steps), r.figures.at("error estimate, time step [%]"), true_error(r, fine));
+    line(scene, "steps", std::to_string(steps), r.figures.time_step_error.value(), true_error(r, fine));
   }
   for (const int n : {20, 40, 80, 160}) {
     const std::string steps = std::to_string(48 * n);
     const EstimatedRun r = run_estimated(path, {{"n", std::to_string(n)}, {"steps", steps}});
     const EstimatedRun fine = run_estimated(path, {{"n", std::to_string(8 * n)}, {"steps", steps}});
-    line(scene, "cells", std::to_string(n), r.figures.at("error estimate, mesh [%]"),
-         true_error(r, fine, n / 2, 4 * n));
+    line(scene, "cells", std::to_string(n), r.figures.mesh_error.value(), true_error(r, fine, n / 2, 4 * n));
   }
   // Mesh and time step together, as one refines them; the same fine run for both masses.
   for (const int n : {20, 40, 80, 160}) {
@@ -49,8 +48,7 @@ void study_bar(const char* scene, const char* text) {
     const EstimatedRun fine = run_estimated(path, settings(8 * n), 0.0, true);
     for (const bool is_tuned : {false, true}) {
       const EstimatedRun r = run_estimated(path, settings(n), 0.0, is_tuned);
-      const double estimate =
-          std::hypot(r.figures.at("error estimate, time step [%]"), r.figures.at("error estimate, mesh [%]"));
+      const double estimate = std::hypot(r.figures.time_step_error.value(), r.figures.mesh_error.value());
       line(scene, is_tuned ? "cells and steps (tuned mass)" : "cells and steps", std::to_string(n), estimate,
            true_error(r, fine, n / 2, 4 * n));
     }

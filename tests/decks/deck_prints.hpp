@@ -45,7 +45,7 @@ inline bool is_finite(const DeckRun& run) {
     for (const std::vector<double>& column : table.columns)
       for (const double v : column)
         if (!std::isfinite(v)) return false;
-  for (const auto& [name, value] : run.result->figures)
+  for (const auto& [name, value] : run.figures())
     if (!std::isfinite(value)) return false;
   return true;
 }

@@ -42,7 +42,7 @@ class Recorder : public Observer {
 
 struct EstimatedRun {
   Problem problem;
-  std::map<std::string, double> figures;
+  Figures figures;
   Fields fields;
 };
 

@@ -11,6 +11,7 @@
 
 #include "base/progress.hpp"
 #include "deck/deck.hpp"
+#include "result/recorded_figures.hpp"
 
 namespace dygita::test {
 
@@ -27,7 +28,9 @@ struct DeckRun {
   const std::vector<double>& column(const std::string& name, const std::string& of) const {
     return table(name).column(of);
   }
-  double figure(const std::string& name) const { return result->figures.at(name); }
+  // As the run record tells them.
+  std::map<std::string, double> figures() const { return recorded_figures(problem, *result); }
+  double figure(const std::string& name) const { return figures().at(name); }
 };
 
 using Settings = std::vector<std::pair<std::string, std::string>>;

@@ -1,5 +1,5 @@
-// dygita continue: going on from the kept fields gives what had been asked for at first, and whatever fails leaves the
-// old results.
+// dygita continue: continuing from the kept fields gives what had been asked for at first, and whatever fails leaves
+// the old results.
 #include <gtest/gtest.h>
 
 #include <iterator>
@@ -212,7 +212,7 @@ TEST_F(Continue, goes_on_with_the_text_that_the_run_kept) {
   testing::internal::CaptureStderr();
   continue_run(options);
   EXPECT_NE(testing::internal::GetCapturedStderr().find(
-                "has changed since the run or is gone: the run goes on with the text that it kept"),
+                "has changed since the run or is gone: the run continues with the text that it kept"),
             std::string::npos);
   put("flanges.lua", bolted_flanges());
   EXPECT_LT(largest_difference(run("again", "latin{ tolerance = 1e-6 }"), kept), 1e-4);
@@ -240,12 +240,12 @@ TEST_F(Continue, says_what_is_wrong_and_leaves_the_old_results) {
   options.tolerance = 1e-8;
   EXPECT_NE(refusal(options).find("no folder '"), std::string::npos) << refusal(options);
   options.run = folder_;
-  EXPECT_NE(refusal(options).find("is no folder of a run"), std::string::npos) << refusal(options);
+  EXPECT_NE(refusal(options).find("is not the folder of a run"), std::string::npos) << refusal(options);
   options.run = run("none", "latin{}", {}, false);
   EXPECT_FALSE(fs::exists(options.run / state_file_name));
   EXPECT_NE(refusal(options).find("the run was told --no-state"), std::string::npos) << refusal(options);
   options.run = run("other", "monolithic{}");
-  EXPECT_NE(refusal(options).find("was computed by solver.monolithic, which keeps nothing to go on from"),
+  EXPECT_NE(refusal(options).find("was computed by solver.monolithic, which keeps nothing to continue from"),
             std::string::npos)
       << refusal(options);
 

@@ -191,7 +191,7 @@ problem{ name = "nothing", substructures = { low, high }, interfaces = { glue },
       EXPECT_STREQ(error.what(),
                    "step 'tighten', increment 1: load.preload asks for 10000 N through interface.bonded 'glue', and no "
                    "shortening "
-                   "brings more than 0 N; likely cause: nothing takes the force on one of its sides (a part that is "
+                   "gives more than 0 N; likely cause: nothing takes the force on one of its sides (a part that is "
                    "held by this "
                    "interface alone, a joint that cannot close)");
     }

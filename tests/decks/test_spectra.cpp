@@ -92,7 +92,7 @@ TEST(Passes, are_none_where_no_spectrum_is_asked_for) {
   std::string text = crush_with_spectra;
   text.replace(text.find("{ a, srs }"), 10, "{ a, output.energy{} }");
   const DeckRun run = run_text(text, {}, 1).at(0);
-  EXPECT_FALSE(run.result->figures.contains("passes over the run"));
+  EXPECT_FALSE(run.figures().contains("passes over the run"));
 }
 }  // namespace
 }  // namespace dygita::test

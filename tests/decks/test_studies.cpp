@@ -16,7 +16,8 @@ namespace {
 // Of each case of a study by name; the runs that check a case cold follow it and are left out.
 std::map<double, DeckRun> by_friction(const std::vector<DeckRun>& runs) {
   std::map<double, DeckRun> cases;
-  for (const DeckRun& run : runs) cases.emplace(run.problem.interfaces.front()->friction, run);
+  for (const DeckRun& run : runs)
+    cases.emplace(std::get<double>(run.problem.interfaces.front()->law->parameters().front().value), run);
   return cases;
 }
 

@@ -13,7 +13,12 @@
 
 namespace dygita::test {
 
-inline const std::array<CellType, 3> cell_types = {CellType::hex8, CellType::prism6, CellType::tet4};
+// All of the table.
+inline const std::vector<CellType> cell_types = [] {
+  std::vector<CellType> types;
+  for (const CellShape& cell : cell_shapes) types.push_back(cell.type);
+  return types;
+}();
 
 inline Elastic material_of(double young, double poisson, double density = 1.0) {
   Elastic material;
@@ -127,7 +132,7 @@ inline Points pressure_forces(const Mesh& mesh, const std::function<bool(const V
   const double signs[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   for (const Facet& facet : boundary_facets(mesh.blocks)) {
     Eigen::Matrix<double, 3, 4> x;
-    for (int a = 0; a < 4; ++a) x.col(a) = mesh.nodes.col(facet.nodes[a]);
+    for (int a = 0; a < 4; ++a) x.col(a) = mesh.nodes.col(facet.nodes()[a]);
     if (!is_loaded(x.rowwise().mean())) continue;
     for (const auto& point : signs) {
       Eigen::Vector4d shape;
@@ -138,7 +143,7 @@ inline Points pressure_forces(const Mesh& mesh, const std::function<bool(const V
         slope.row(a) << signs[a][0] * s / 4, signs[a][1] * r / 4;
       }
       const Vec3 along_r = x * slope.col(0), along_s = x * slope.col(1), area = along_r.cross(along_s);
-      for (int a = 0; a < 4; ++a) forces.col(facet.nodes[a]) -= shape[a] * area;
+      for (int a = 0; a < 4; ++a) forces.col(facet.nodes()[a]) -= shape[a] * area;
     }
   }
   return forces;

@@ -81,8 +81,8 @@ TEST(Cantilever, of_prisms_or_tetrahedra_is_too_stiff_by_far) {
   for (const CellType type : {CellType::prism6, CellType::tet4}) {
     const double coarse = tip_ratio(cantilever(type, 10), 0.3);
     const double fine = tip_ratio(box_of(type, {length, height, height}, {40, 4, 4}), 0.3);
-    print(cell_type_name(type), 0.3, coarse);
-    print((std::string(cell_type_name(type)) + ", 4 x 4 cells in the section").c_str(), 0.3, fine);
+    print(cell_shape(type).name, 0.3, coarse);
+    print((std::string(cell_shape(type).name) + ", 4 x 4 cells in the section").c_str(), 0.3, fine);
     EXPECT_LT(coarse, 0.9);
     EXPECT_GT(fine, coarse);
     EXPECT_LT(fine, 1.0);

@@ -46,17 +46,17 @@ TEST(Element, is_at_rest_in_the_six_rigid_motions_and_in_no_other) {
       const CellNodes x = distorted_cell(type);
       const CellMatrix stiffness = element_stiffness(type, x, material_of(1.0, poisson));
       for (int i = 0; i < 6; ++i)
-        EXPECT_LT((stiffness * flat(rigid_motion(x, i))).norm(), 1e-13 * stiffness.norm()) << cell_type_name(type);
+        EXPECT_LT((stiffness * flat(rigid_motion(x, i))).norm(), 1e-13 * stiffness.norm()) << cell_shape(type).name;
       const Vec eigenvalues = Eigen::SelfAdjointEigenSolver<Mat>(stiffness).eigenvalues();
-      EXPECT_LT(eigenvalues.head(6).cwiseAbs().maxCoeff(), 1e-12) << cell_type_name(type) << ", nu " << poisson;
-      EXPECT_GT(eigenvalues[6], 1e-2) << cell_type_name(type) << ", nu " << poisson;
+      EXPECT_LT(eigenvalues.head(6).cwiseAbs().maxCoeff(), 1e-12) << cell_shape(type).name << ", nu " << poisson;
+      EXPECT_GT(eigenvalues[6], 1e-2) << cell_shape(type).name << ", nu " << poisson;
     }
 }
 
 TEST(Element, has_a_symmetric_stiffness) {
   for (const CellType type : cell_types) {
     const CellMatrix stiffness = element_stiffness(type, distorted_cell(type), material_of(1.0, 0.3));
-    EXPECT_EQ((stiffness - stiffness.transpose()).cwiseAbs().maxCoeff(), 0.0) << cell_type_name(type);
+    EXPECT_EQ((stiffness - stiffness.transpose()).cwiseAbs().maxCoeff(), 0.0) << cell_shape(type).name;
   }
 }
 
@@ -70,7 +70,7 @@ TEST(Element, does_not_depend_on_the_frame) {
     for (int a = 0; a < x.cols(); ++a) turn.block<3, 3>(3 * a, 3 * a) = rotation;
     const Mat expected = turn * stiffness * turn.transpose();
     EXPECT_LT((element_stiffness(type, turned, material) - expected).norm(), 1e-13 * stiffness.norm())
-        << cell_type_name(type);
+        << cell_shape(type).name;
   }
 }
 
@@ -148,8 +148,8 @@ TEST(Element, mass_is_positive_and_has_the_exact_total_and_centre) {
       total += mass.sum();
       moment += x * mass;
     }
-    EXPECT_NEAR(total, 7.0 * 30.0, 1e-12 * total) << cell_type_name(type);
-    EXPECT_LT((moment / total - shear * size / 2).norm(), 1e-13) << cell_type_name(type);
+    EXPECT_NEAR(total, 7.0 * 30.0, 1e-12 * total) << cell_shape(type).name;
+    EXPECT_LT((moment / total - shear * size / 2).norm(), 1e-13) << cell_shape(type).name;
   }
 }
 
@@ -173,7 +173,7 @@ TEST(Element, stress_is_exact_for_constant_strain) {
     const CellNodes x = distorted_cell(type);
     const Tensors stress = element_stress(type, x, material, gradient * x);
     EXPECT_EQ(stress.cols(), x.cols());
-    EXPECT_LT((stress.colwise() - expected).norm(), 1e-12 * expected.norm()) << cell_type_name(type);
+    EXPECT_LT((stress.colwise() - expected).norm(), 1e-12 * expected.norm()) << cell_shape(type).name;
   }
 }
 
@@ -202,7 +202,7 @@ TEST(Element, refuses_an_inverted_cell) {
   for (const CellType type : cell_types) {
     CellNodes x = distorted_cell(type);
     x.row(0) *= -1;
-    EXPECT_THROW(element_stiffness(type, x, material_of(1.0, 0.3)), ContractError) << cell_type_name(type);
+    EXPECT_THROW(element_stiffness(type, x, material_of(1.0, 0.3)), ContractError) << cell_shape(type).name;
   }
 }
 

@@ -116,9 +116,9 @@ double imprint(CellType type, int n, double poisson) {
     Vec shares = Vec::Zero(mesh.n_nodes());
     for (const Facet& facet : mesh.faces.at("zmax")) {
       Vec3 centre = Vec3::Zero();
-      for (const int node : facet.nodes) centre += mesh.nodes.col(node) / 4;
+      for (const int node : facet.nodes()) centre += mesh.nodes.col(node) / 4;
       if (centre[0] < 0.5 && centre[1] < 0.5)
-        for (const int node : facet.nodes) shares[node] += 0.25 / (n * n);
+        for (const int node : facet.nodes()) shares[node] += 0.25 / (n * n);
     }
     return shares;
   }();
@@ -161,7 +161,7 @@ TEST(Incompressible, confined_compression_has_the_wave_modulus) {
       double force = 0;
       for (int a = 0; a < mesh.n_nodes(); ++a)
         if (mesh.nodes(2, a) > size[2] - 1e-9) force -= reactions[3 * a + 2];
-      EXPECT_NEAR(force / (0.001 * material.p_wave_modulus()), 1.0, 1e-10) << cell_type_name(type) << ", " << poisson;
+      EXPECT_NEAR(force / (0.001 * material.p_wave_modulus()), 1.0, 1e-10) << cell_shape(type).name << ", " << poisson;
     }
 }
 

@@ -58,7 +58,7 @@ TEST(UniformStrain, constant_strain_gives_the_forces_of_the_assembled_stiffness_
     const Points force = elastic_force(mesh, u);
     EXPECT_LT((Eigen::Map<const Vec>(force.data(), force.size()) - full).cwiseAbs().maxCoeff(),
               1e-11 * full.cwiseAbs().maxCoeff())
-        << cell_type_name(type);
+        << cell_shape(type).name;
   }
 }
 

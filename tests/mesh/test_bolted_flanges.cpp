@@ -64,8 +64,8 @@ TEST_P(BoltedFlanges, have_five_bodies_of_good_hexahedra) {
         shortest = std::min(shortest, length);
         longest = std::max(longest, length);
       }
-      for (const Vec3& corner : reference_corners(CellType::hex8)) {
-        const double determinant = jacobian(CellType::hex8, x, corner);
+      for (const Place& at : cell_shape(CellType::hex8).shape.nodes) {
+        const double determinant = jacobian(CellType::hex8, x, Vec3(at[0], at[1], at[2]));
         smallest = std::min(smallest, determinant);
         largest = std::max(largest, determinant);
       }

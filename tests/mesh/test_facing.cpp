@@ -137,8 +137,8 @@ Mesh ring(int n, double radius_in, double radius_out) {
   }
   mesh.blocks.push_back(block);
   for (const Facet& facet : boundary_facets(mesh.blocks)) {
-    const double radius = mesh.nodes.col(facet.nodes[0]).head<2>().norm();
-    const double opposite = mesh.nodes.col(facet.nodes[2]).head<2>().norm();
+    const double radius = mesh.nodes.col(facet.nodes()[0]).head<2>().norm();
+    const double opposite = mesh.nodes.col(facet.nodes()[2]).head<2>().norm();
     if (std::abs(radius - opposite) < 1e-9)
       mesh.faces[radius > (radius_in + radius_out) / 2 ? "out" : "in"].push_back(facet);
   }

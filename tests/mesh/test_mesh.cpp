@@ -12,9 +12,10 @@ namespace {
 
 Vec3 area_vector(const Mesh& mesh, const Facet& facet) {
   Vec3 area = Vec3::Zero();
-  const Vec3 first = mesh.nodes.col(facet.nodes[0]);
-  for (int i = 1; i + 1 < facet.n_nodes; ++i)
-    area += (Vec3(mesh.nodes.col(facet.nodes[i])) - first).cross(Vec3(mesh.nodes.col(facet.nodes[i + 1])) - first) / 2;
+  const std::span<const int> corners = facet.corners();
+  const Vec3 first = mesh.nodes.col(corners[0]);
+  for (size_t i = 1; i + 1 < corners.size(); ++i)
+    area += (Vec3(mesh.nodes.col(corners[i])) - first).cross(Vec3(mesh.nodes.col(corners[i + 1])) - first) / 2;
   return area;
 }
 
@@ -102,7 +103,8 @@ TEST(Mesh, has_outward_facets_of_the_right_area_on_every_cell_type) {
     for (const Facet& facet : boundary_facets(mesh->blocks)) {
       const Vec3 normal = area_vector(*mesh, facet);
       area += normal.norm();
-      EXPECT_GT(normal.dot(Vec3(mesh->nodes.col(facet.nodes[0])) - centre), 0) << cell_type_name(mesh->blocks[0].type);
+      EXPECT_GT(normal.dot(Vec3(mesh->nodes.col(facet.nodes()[0])) - centre), 0)
+          << cell_shape(mesh->blocks[0].type).name;
     }
     EXPECT_NEAR(area, expected_area, 1e-14);
   }
@@ -178,7 +180,7 @@ TEST(FaceNodes, of_a_skewed_quadrangle_share_it_as_the_shape_functions_do) {
   Mesh mesh;
   mesh.nodes.resize(3, 4);
   mesh.nodes << 0, 2, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0;
-  const FaceNodes nodes = face_nodes(mesh, {{{0, 1, 2, 3}, 4}});
+  const FaceNodes nodes = face_nodes(mesh, {Facet{FacetType::quad4, {0, 1, 2, 3}}});
   EXPECT_NEAR(nodes.areas.sum(), 1.5, 1e-15);
   EXPECT_NEAR(nodes.areas[0], 5.0 / 12, 1e-15);
   EXPECT_NEAR(nodes.areas[1], 5.0 / 12, 1e-15);

@@ -48,8 +48,8 @@ class Assembly : public ::testing::Test {
   Assembly() {
     lower->mesh = box_mesh(Vec3::Zero(), Vec3::Ones(), {2, 2, 2});
     upper->mesh = box_mesh(Vec3(0, 0, 1), Vec3::Ones(), {2, 2, 2});
-    shank->kind = InterfaceKind::plastic;
-    mating->kind = InterfaceKind::contact;
+    shank->law = make_law("plastic", {{"yield", 5e8}, {"hardening", 0.0}, {"compression", 0.0}});
+    mating->law = make_law("contact", {{"friction", 0.0}, {"gap", 0.0}});
     for (const auto& interface : {shank, mating}) {
       interface->side_1 = Face{lower, "zmax"};
       interface->side_2 = Face{upper, "zmin"};

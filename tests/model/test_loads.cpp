@@ -79,7 +79,7 @@ TEST_F(Loads, of_each_kind_are_accepted_where_they_act) {
   EXPECT_EQ(complaint_of(load("base_acceleration", {SupportPtr(base)})), "");
   EXPECT_EQ(complaint_of(load("release", {InterfacePtr(mating)}, 1e-5)), "");
   EXPECT_EQ(complaint_of(load("gravity", {})), "");
-  shank->kind = InterfaceKind::bonded;
+  shank->law = make_law("bonded");
   EXPECT_EQ(complaint(), "");
 }
 

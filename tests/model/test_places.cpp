@@ -1,3 +1,4 @@
+#include "law/law_double.hpp"
 #include "model/assembly.hpp"
 
 namespace dygita {
@@ -107,6 +108,15 @@ TEST_F(Places, of_symmetry_and_a_fixed_corner_may_share_nodes) {
   problem.supports.push_back(symmetry);
   base->on = {Region{lower, {0}}};
   EXPECT_EQ(complaint(), "");
+}
+
+TEST_F(Places, of_a_law_without_an_explicit_form_are_refused_by_the_explicit_solver) {
+  mating->law = std::make_shared<LawDouble>();
+  EXPECT_EQ(complaint(), "");
+  problem.explicit_dynamics.emplace();
+  EXPECT_EQ(complaint(),
+            "deck.lua:11: problem 'bolted': solver.explicit does not take interface.double 'mating': it has none\n"
+            "    use solver.latin or solver.monolithic");
 }
 
 }  // namespace dygita

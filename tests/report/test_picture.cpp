@@ -137,7 +137,7 @@ JointScenes square(int n) {
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
       const int a = i + (n + 1) * j;
-      joint.facets.push_back({{a, a + 1, a + n + 2, a + n + 1}, 4});
+      joint.facets.push_back({FacetType::quad4, {a, a + 1, a + n + 2, a + n + 1}});
     }
   return joint;
 }
@@ -178,7 +178,7 @@ TEST(JointMap, does_not_lay_a_tube_flat) {
       tube.points.col(2 * i + k) = Vec3(std::cos(2 * M_PI * i / n), std::sin(2 * M_PI * i / n), k);
   for (int i = 0; i < n; ++i) {
     const int a = 2 * i, b = 2 * ((i + 1) % n);
-    tube.facets.push_back({{a, b, b + 1, a + 1}, 4});
+    tube.facets.push_back({FacetType::quad4, {a, b, b + 1, a + 1}});
   }
   EXPECT_FALSE(make_joint_map(tube).is_flat);
 }

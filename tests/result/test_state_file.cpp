@@ -122,7 +122,7 @@ TEST_F(StateFile, of_another_version_or_program_says_so) {
           "' cannot be used: it has version 7 of the format, this program reads version 1\n    run the deck again");
   put("something else altogether, and long enough to be read");
   EXPECT_EQ(refusal(),
-            "'" + path_.string() + "' cannot be used: it is no state file of dygita\n    run the deck again");
+            "'" + path_.string() + "' cannot be used: it is not a state file of dygita\n    run the deck again");
 }
 
 TEST_F(StateFile, that_cannot_be_written_leaves_nothing) {

@@ -10,8 +10,7 @@ class Shorten final : public Load {
  public:
   explicit Shorten(const ModelArguments& a)
       : Load(a, one_value(a, "by")), hand_(bolt_by_hand(a)), share_(a.number_or("share", 1.0)) {
-    if (a.has("share") && !hand_)
-      throw InputError("'share' is of the bolt that 'hand' describes, and there is no 'hand'");
+    if (a.has("share") && !hand_) throw InputError("'share' refers to the bolt described by 'hand', which is missing");
   }
 
   std::string acts_on() const override { return tightened_interfaces(); }

@@ -1,0 +1,39 @@
+// The command line as a table: its commands, their options and the exit codes. What is parsed, --help, the completions
+// of shells and the man page are all made from it.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <string>
+#include <vector>
+
+#include "app/report_command.hpp"
+#include "app/srs_command.hpp"
+#include "deck/continue_run.hpp"
+#include "deck/deck.hpp"
+
+namespace dygita {
+
+enum ExitCode { done = 0, not_converged = 1, wrong_input = 2, failed = 3, broken = 4, stopped = 130 };
+
+struct ExitMeaning {
+  ExitCode code;
+  const char* meaning;
+};
+
+const std::vector<ExitMeaning>& exit_meanings();
+
+// What a command line asks for.
+struct Command {
+  DeckOptions deck;
+  std::vector<std::string> settings;
+  SrsCommand srs;
+  ReportCommand report;
+  ContinueOptions going_on;
+  std::string until;
+  bool is_quiet = false, has_no_frames = false, has_no_state = false;
+};
+
+// Declares commands and options, which write into `asked`. Hidden options print the pages of command_pages.hpp.
+void declare_commands(CLI::App& app, Command& asked);
+
+}  // namespace dygita

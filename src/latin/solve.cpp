@@ -1,0 +1,64 @@
+// The steps of a problem one after the other, each from the state that the last one left.
+#include <chrono>
+#include <utility>
+
+#include "base/progress.hpp"
+#include "latin/search_direction.hpp"
+#include "latin/step_run.hpp"
+#include "numerics/factor.hpp"
+#include "solution/step_ends.hpp"
+
+namespace dygita {
+
+namespace {
+
+// What a run of several steps has kept and spared.
+void tell_run(const std::shared_ptr<const InterfaceFields>& kept, SolverFigures& figures) {
+  figures.interface_fields = kept;
+  figures.own.fields_in_memory = kept->memory_bytes() / 1e6;
+  figures.own.fields_in_file = kept->file_bytes() / 1e6;
+  figures.own.substitutions = static_cast<double>(figures.n_solved);
+  figures.own.substitutions_spared = static_cast<double>(figures.n_spared);
+  figures.own.pieces_in_full = figures.n_in_full;
+  figures.own.shared_factors = figures.n_equal;
+}
+
+}  // namespace
+
+SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceFields* start_from) {
+  using clock = std::chrono::steady_clock;
+  auto start = clock::now();
+  const auto lap = [&] {
+    return std::chrono::duration<double>(clock::now() - std::exchange(start, clock::now())).count();
+  };
+  prepare_thread();
+  const std::vector<Surface> surfaces = make_surfaces(problem);
+  const CutPtr cut = make_cut(problem);
+  const std::vector<Body> bodies = make_bodies(problem, surfaces, *cut);
+  State state = initial_state(problem, surfaces);
+  auto kept = std::make_shared<InterfaceFields>(problem.solver.history_memory);
+  SolverFigures figures;
+  figures.pieces = cut->counts();
+  figures.seconds["assemble"] = lap();
+  for (const StepPtr& step : problem.steps) {
+    if (interrupt_requested()) break;
+    StepModel model = make_step_model(problem, *step, surfaces, bodies, state, cut);
+    if (interrupt_requested()) break;  // the factorisation may have taken long
+    const StepSettings settings = step_settings(problem, model, start_from != nullptr);
+    start_step(model, state);
+    const Vec k = search_directions(model, problem.solver.search_direction, settings.window);
+    fix_search_directions(model, k);
+    StepRun run(settings, model, k, {state, observer, start_from, *kept});
+    figures.seconds["factor"] += lap();
+    run.run();
+    end_step(model, state);
+    figures.steps.push_back(run.figures());
+    figures.steps.back().seconds = lap();
+    run.add_to(figures);
+  }
+  tell_run(kept, figures);
+  figures.interrupted = interrupt_requested();
+  return figures;
+}
+
+}  // namespace dygita

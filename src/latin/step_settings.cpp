@@ -1,0 +1,49 @@
+#include "latin/step_settings.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "latin/coarse_correction.hpp"
+
+namespace dygita {
+
+namespace {
+
+// Length of the diagonal of the box around all substructures, m.
+double assembly_size(const Problem& problem) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const SubstructurePtr& part : problem.substructures) {
+    low = low.cwiseMin(part->mesh->nodes.rowwise().minCoeff() + part->place);
+    high = high.cwiseMax(part->mesh->nodes.rowwise().maxCoeff() + part->place);
+  }
+  return (high - low).norm();
+}
+
+bool is_single(const StepModel& model) {
+  return std::any_of(model.pieces.begin(), model.pieces.end(),
+                     [](const auto& piece) { return piece->figures().is_in_single_precision; });
+}
+
+}  // namespace
+
+StepSettings step_settings(const Problem& problem, const StepModel& model, bool has_start) {
+  const LatinSettings& asked = problem.solver;
+  const bool is_static = model.scheme.is_static;
+  const int n = model.step->n_increments();
+  StepSettings settings;
+  settings.i_step = index_of(problem.steps, model.step);
+  settings.tolerance = is_static ? asked.static_tolerance : asked.tolerance;
+  settings.max_iterations = asked.max_iterations;
+  settings.more_iterations = has_start ? asked.more_iterations : 0;
+  settings.round_off = is_single(model) ? 1e-8 : 1e-13;
+  settings.window = is_static ? 1 : asked.window == 0 ? n : std::min(asked.window, n);
+  settings.assembly_size = assembly_size(problem);
+  settings.has_correction = settings.window == 1 && asked.anderson != 0 && needs_coarse_correction(model);
+  const auto relaxation = [&](double usual) { return asked.relaxation > 0.0 ? asked.relaxation : usual; };
+  const auto depth = [&](int usual) { return asked.anderson >= 0 ? asked.anderson : usual; };
+  settings.of_increment = {depth(is_static ? 40 : 10), is_static ? 0 : 20, relaxation(is_static ? 0.8 : 0.95)};
+  settings.of_window = {depth(settings.window > 20 ? 0 : 5), 0, relaxation(0.8)};
+  return settings;
+}
+
+}  // namespace dygita

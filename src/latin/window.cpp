@@ -1,0 +1,78 @@
+// Windows of several time steps, as the paper has the whole interval: each iteration sweeps all of a window.
+#include <algorithm>
+
+#include "latin/step_run.hpp"
+
+namespace dygita {
+
+StepRun::Start StepRun::remember() const {
+  Start start{{}, local_};
+  for (const auto& piece : model_.pieces) start.pieces.push_back(piece->state());
+  return start;
+}
+
+void StepRun::go_back(const Start& start) {
+  for (size_t i = 0; i < start.pieces.size(); ++i) model_.pieces[i]->restore(start.pieces[i]);
+  local_ = start.local;
+}
+
+// Both stages of every time step, each from the end of the one before: from data q their images, and the worst outcome.
+// Nothing is kept but those.
+Outcome StepRun::sweep(int first, const std::vector<Vec>& q, std::vector<Vec>& image) {
+  const Indicator before = indicator_;
+  Outcome worst{0.0};
+  for (size_t i = 0; i < q.size(); ++i) {
+    const int increment = first + static_cast<int>(i);
+    begin_increment(increment, i == 0);
+    linear_stage(q[i], at_.velocity);
+    const Outcome outcome = indicator_.measure(local_stage(at_.velocity, q[i], image[i]));
+    indicator_.accept(outcome);
+    worst.eta = std::max(worst.eta, outcome.eta);
+    check_finite(outcome, increment);
+    finish_increment(q[i]);
+    local_.accept(nullptr);
+  }
+  indicator_ = before;
+  return worst;
+}
+
+void StepRun::solve_window(int first, int last) {
+  const int n_steps = last - first;
+  const Eigen::Index n_q = at_.q.size();
+  const Start start = remember();
+  std::vector<Vec> q(n_steps, at_.q), image(n_steps);
+  bool has_start = files_.start_from != nullptr;
+  for (int i = 0; i < n_steps && files_.start_from; ++i)
+    has_start &= files_.start_from->read(settings_.i_step, first + i, n_q, q[i]);
+  const Goal goal = goal_of(has_start);
+  Vec all(n_steps * n_q), all_image(all.size());
+  const StepSettings::Acceleration& asked = settings_.of_window;
+  Anderson anderson(asked.depth, asked.n_problems, asked.relaxation, weight_.replicate(n_steps, 1));
+  for (int n = 1;; ++n) {
+    const Outcome worst = sweep(first, q, image);
+    go_back(start);
+    if (worst.eta <= goal.tolerance || n >= goal.most) {
+      for (int i = 0; i < n_steps; ++i) replay(first + i, q[i], i == 0, n, worst.eta);
+      return;
+    }
+    for (int i = 0; i < n_steps; ++i) {
+      all.segment(i * n_q, n_q) = q[i];
+      all_image.segment(i * n_q, n_q) = image[i];
+    }
+    anderson.advance(all, all_image);
+    for (int i = 0; i < n_steps; ++i) q[i] = all.segment(i * n_q, n_q);
+  }
+}
+
+// A time step of the last sweep once more, this time shown.
+void StepRun::replay(int increment, const Vec& q, bool starts_window, int iterations, double eta) {
+  begin_increment(increment, starts_window);
+  at_.q = q;
+  linear_stage(at_.q, at_.velocity);
+  at_.sums = local_stage(at_.velocity, at_.q, at_.image);
+  indicator_.accept(indicator_.measure(at_.sums));
+  finish_increment(at_.q);
+  accept_increment(increment, iterations, eta);
+}
+
+}  // namespace dygita

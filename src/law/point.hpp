@@ -1,0 +1,71 @@
+// What a law and its users say to each other of one interface point over one time increment.
+//
+// Components are (N, T1, T2), N from side 1 to side 2; forces are nodal (N), on side 1; a prime is side 2.
+#pragma once
+
+#include <array>
+
+#include "numerics/types.hpp"
+
+namespace dygita {
+
+enum class PointState { open = 0, stick = 1, slip = 2 };  // a closed frictionless contact slips; a yielding bolt slips
+
+// What a point remembers from increment to increment.
+struct LawState {
+  double gap = 0.0;                // m, contact: from the hat fields, so that closed is exactly closed
+  double plastic_opening = 0.0;    // m, signed
+  double hardening_opening = 0.0;  // m, accumulated: what hardens
+  double opening_rate = 0.0;       // m/s, plastic, of the last dynamic increment; zero after a static one
+  Vec3 slip = Vec3::Zero();        // m, relative tangential displacement while closed
+  Vec3 rate = Vec3::Zero();        // m/s, V' - V at the end of the last increment
+  Vec3 force = Vec3::Zero();       // N, of the last increment
+  PointState status = PointState::stick;
+
+  // Adds the memory of one of the surface points (global axes) that a point of this frame stands for, by its share of
+  // the area. The rate is not taken: it restarts with each step.
+  void add(const LawState& member, double share, const Mat3& frame);
+  // The memory of such a surface point, in global axes.
+  LawState member(double share, const Mat3& frame) const;
+};
+
+// The increment: static steps have dt = 1, g = 0, rates are increments.
+struct Increment {
+  double dt = 1.0, g = 0.0;
+  bool is_static = true;
+  double push_out = 0.0;  // b: share of a penetration thrown back per step
+};
+
+// The search problem of a point. y is zero in directions that both sides have held: they carry no law.
+struct Trial {
+  Vec3 s = Vec3::Zero();     // m/s, r' - r with r = V - F/k
+  Vec3 y = Vec3::Zero();     // m/(N s), 1/k + 1/k'
+  Vec3 jump = Vec3::Zero();  // m, u' - u at the start of the increment
+  double shortening = 0.0;   // m, reached at the end of the increment
+  double area = 0.0;         // m^2
+};
+
+// Where the energy of a point goes in an increment, J.
+struct Work {
+  double friction = 0.0, plastic = 0.0, damping = 0.0;  // dissipated
+  double given = 0.0;                                   // by whatever drives the point, beside a shortening
+
+  double dissipated() const { return friction + plastic + damping; }
+};
+
+// Force (N) that works over an increment, of a law with the force of the step's end in static steps and the mean of the
+// step in dynamic ones; and the motion (m) of side 2 against side 1.
+inline Vec3 working_force(const LawState& start, const LawState& end, const Increment& increment) {
+  return increment.is_static ? Vec3(0.5 * (start.force + end.force)) : end.force;
+}
+inline Vec3 motion_of(const LawState& start, const LawState& end, const Increment& increment) {
+  return increment.dt * (increment.g * start.rate + (1 - increment.g) * end.rate);
+}
+
+// A law seen by small motions about a state.
+struct Tangent {
+  std::array<bool, 3> holds{};  // no relative motion in this direction
+  Vec3 damping = Vec3::Zero();  // Pa s/m, traction per relative velocity
+};
+
+}  // namespace dygita

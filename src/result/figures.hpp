@@ -1,0 +1,39 @@
+// What a run was, in figures: every one with the name under which the run record tells it, unit included, said once.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "solution/solver_figures.hpp"
+
+namespace dygita {
+
+// Empty: the run has none of it.
+struct Figures : OwnFigures {
+  // %, of the largest energy.
+  std::optional<double> energy_imbalance, numerical_dissipation, energy_gain;
+  std::optional<double> largest_energy;       // J
+  std::optional<double> largest_penetration;  // m
+  std::optional<double> gap_difference;       // m, between the interfaces' gaps and the displacements'
+  std::optional<double> factor_memory;        // MB
+  // The run's own estimates (manual, eq. Q1-Q6), %, energy norm, of the shock or of the static steps.
+  std::optional<double> iteration_error, time_step_error, mesh_error, penalty_error;
+  std::optional<double> static_iteration_error, static_mesh_error;
+  std::optional<double> interface_error, static_interface_error;  // J
+  std::optional<double> mean_frequency;                           // Hz
+  std::optional<double> passes, iterations_of_passes;
+  std::optional<double> spectra_moved;       // dB, in the last pass
+  std::optional<double> state_file;          // MB
+  std::optional<double> earlier_iterations;  // before the run was continued
+};
+
+// One of them: `&Figures::energy_imbalance`.
+using Figure = std::optional<double> Figures::*;
+
+// "energy imbalance [%]".
+const char* label(Figure figure);
+
+// What the run has, by label.
+std::map<std::string, double> by_label(const Figures& figures);
+
+}  // namespace dygita

@@ -1,0 +1,22 @@
+// Where a run's own figures are too large to build on: it warns beyond them, and the report's cards turn from green.
+#pragma once
+
+#include <cmath>
+
+namespace dygita::limit {
+
+inline constexpr double energy_imbalance = 0.5;       // %, of the largest energy
+inline constexpr double energy_gain = 0.5;            // %
+inline constexpr double numerical_dissipation = 5.0;  // %
+inline constexpr double penalty_energy = 5.0;         // %, that the springs of a penalty hold
+inline constexpr double hourglass_energy = 10.0;      // %
+inline constexpr double iteration_error = 1.0;        // %, in energy norm, where a tolerance could leave 0.1 %
+inline constexpr double discretisation_error = 30.0;  // %, of the time step, of the mesh
+inline constexpr double spectrum_band = 6.0;          // dB, mean over a spectrum's frequencies: a factor of two
+inline constexpr double bolt_shortening = 0.01;       // m, the longest that load.shortening takes
+
+// What the springs hold (%) and the error in energy norm (%) that goes with it.
+inline double penalty_energy_of(double error) { return std::pow(error, 2) / 100.0; }
+inline double penalty_error_of(double energy) { return 10.0 * std::sqrt(energy); }
+
+}  // namespace dygita::limit

@@ -1,0 +1,165 @@
+#include "solution/condensed_piece.hpp"
+
+#include "base/error.hpp"
+
+namespace dygita {
+
+namespace {
+
+// f on one vector where there is one piece, on the columns of a matrix where there are several.
+template <class Function>
+void together(const std::vector<Vec*>& vectors, Function&& f) {
+  if (vectors.size() == 1) return f(*vectors.front());
+  Mat columns(vectors.front()->size(), static_cast<Eigen::Index>(vectors.size()));
+  for (size_t i = 0; i < vectors.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = *vectors[i];
+  f(columns);
+  for (size_t i = 0; i < vectors.size(); ++i) *vectors[i] = columns.col(static_cast<Eigen::Index>(i));
+}
+
+}  // namespace
+
+Condensation::Condensation(std::unique_ptr<Factor> own, const PieceOperator& op, const Vec& reference) {
+  Mat with_reference = own->interface_schur();
+  own->release_interface();
+  factor = std::move(own);
+  schur = std::make_shared<const Mat>(std::move(with_reference));
+  schur = std::make_shared<const Mat>(with_rows(op, -reference));
+  schur_diagonal.resize(op.n_rows());
+  const int n_i = factor->n_interior();
+  for (int i = 0; i < op.n_rows(); ++i) {
+    const Trace& t = op.traces()[i];
+    double diagonal = 0.0;
+    for (int a = 0; a < t.n; ++a)
+      for (int b = 0; b < t.n; ++b) diagonal += t.value[a] * t.value[b] * (*schur)(t.at[a] - n_i, t.at[b] - n_i);
+    schur_diagonal[i] = diagonal / op.setup().rows[i].n_sharing;
+  }
+}
+
+Mat Condensation::with_rows(const PieceOperator& op, const Vec& k) const {
+  CHECK(schur, "the Schur complement has been given away for H");
+  Mat sum = *schur;
+  const int n_i = factor->n_interior();
+  for (int i = 0; i < op.n_rows(); ++i) {
+    const Trace& t = op.traces()[i];
+    for (int a = 0; a < t.n; ++a)
+      for (int b = 0; b < t.n; ++b) sum(t.at[a] - n_i, t.at[b] - n_i) += k[i] * t.value[a] * t.value[b];
+  }
+  return sum;
+}
+
+Mat on_rows(const Mat& h, const PieceOperator& op, int n_interior) {
+  Mat compliance = Mat::Zero(op.n_rows(), op.n_rows());
+  for (int i = 0; i < op.n_rows(); ++i)
+    for (int j = 0; j < op.n_rows(); ++j) {
+      const Trace &one = op.traces()[i], &other = op.traces()[j];
+      for (int a = 0; a < one.n; ++a)
+        for (int b = 0; b < other.n; ++b) {
+          const int row = one.at[a] - n_interior, column = other.at[b] - n_interior;
+          compliance(i, j) += one.value[a] * other.value[b] * h(std::max(row, column), std::min(row, column));
+        }
+    }
+  return compliance;
+}
+
+CondensedPiece::CondensedPiece(PieceOperator op, Condensation condensation, const CondensedPiece* twin)
+    : ImplicitPiece(std::move(op)), condensation_(std::move(condensation)), twin_(twin) {
+  schur_diagonal_ = condensation_.schur_diagonal;
+}
+
+void CondensedPiece::set_search_directions(const Vec& k) {
+  ImplicitPiece::set_search_directions(k);
+  const PieceSetup& setup = op_.setup();
+  h_ = twin_ && twin_->h_ && (twin_->k_.array() == k.array()).all()
+           ? twin_->h_
+           : std::make_shared<const SymmetricOperator>(inverse_spd(condensation_.with_rows(op_, k), setup.what),
+                                                       setup.precision, setup.storage_error / 16);
+  condensation_.schur.reset();
+}
+
+void CondensedPiece::prepare(double quiet) {
+  add_start_force();
+  // A support that moves never rests: what its velocity brings would be left out of W.
+  quiet_ = solves_for_change() && !op_.has_motions() ? quiet : 0.0;
+  is_forward_due_ = true;
+  const bool is_quiet =
+      quiet_ > 0.0 && op_.scheme().dt * work_.x.cwiseAbs2().cwiseQuotient(op_.mass().lumped()).sum() <= quiet_;
+  is_moved_ = !is_quiet;
+}
+
+void CondensedPiece::take_forward() {
+  is_forward_due_ = false;
+  b_ = work_.x.tail(condensation_.factor->n_interface());
+  ++n_solved_;
+}
+
+void CondensedPiece::forward(std::span<Piece* const> equal) {
+  std::vector<Vec*> vectors;
+  std::vector<CondensedPiece*> moved;
+  for (Piece* piece : equal) {
+    auto* own = static_cast<CondensedPiece*>(piece);  // the key is one of these
+    if (!own->is_forward_due_ || !own->is_moved_) continue;
+    moved.push_back(own);
+    vectors.push_back(&own->work_.x);
+  }
+  if (!moved.empty()) together(vectors, [&](auto& x) { condensation_.factor->forward(x); });
+  for (CondensedPiece* piece : moved) piece->take_forward();
+}
+
+void CondensedPiece::backward(std::span<Piece* const> equal) {
+  std::vector<Vec*> vectors;
+  for (Piece* piece : equal) {
+    auto* own = static_cast<CondensedPiece*>(piece);
+    if (!own->is_moved_) {
+      own->n_spared_ += 2;
+      continue;
+    }
+    if (own->n_rows() > 0) own->work_.x.tail(own->dv_b_.size()) = own->dv_b_;
+    vectors.push_back(&own->work_.x);
+    ++own->n_solved_;
+  }
+  if (!vectors.empty()) together(vectors, [&](auto& x) { condensation_.factor->backward(x); });
+}
+
+void CondensedPiece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) {
+  const bool for_change = solves_for_change();
+  const std::vector<Trace>& traces = op_.traces();
+  if (!is_moved_) {
+    const double change = (q - state_.q).cwiseAbs2().cwiseQuotient(k_).sum();
+    if (change <= quiet_) {
+      for (int i = 0; i < n_rows(); ++i) velocity[i] = traces[i].of(work_.v_old);
+      return;
+    }
+    is_moved_ = true;
+    Piece* const self = this;
+    forward({&self, 1});
+  }
+  const int n_i = condensation_.factor->n_interior();
+  thread_local Vec rhs;
+  rhs = b_;
+  for (int i = 0; i < n_rows(); ++i)
+    for (int a = 0; a < traces[i].n; ++a)
+      rhs[traces[i].at[a] - n_i] += traces[i].value[a] * (for_change ? q[i] - state_.q[i] : q[i]);
+  h_->multiply(rhs, dv_b_);
+  for (int i = 0; i < n_rows(); ++i) {
+    velocity[i] = for_change ? traces[i].of(work_.v_old) : 0.0;
+    for (int a = 0; a < traces[i].n; ++a) velocity[i] += traces[i].value[a] * dv_b_[traces[i].at[a] - n_i];
+  }
+}
+
+bool CondensedPiece::find_velocity() {
+  if (!is_moved_) return false;
+  state_.v = work_.x;
+  if (solves_for_change()) state_.v += work_.v_old;
+  return true;
+}
+
+PieceFigures CondensedPiece::figures() const {
+  PieceFigures figures = ImplicitPiece::figures();
+  if (!twin_) figures.bytes += condensation_.factor->bytes();
+  if (h_ && !(twin_ && twin_->h_ == h_)) figures.bytes += h_->bytes();
+  figures.n_solved = n_solved_;
+  figures.n_spared = n_spared_;
+  return figures;
+}
+
+}  // namespace dygita

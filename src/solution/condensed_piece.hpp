@@ -1,0 +1,59 @@
+// An implicit piece whose interior is condensed: one forward and one backward solve in an increment, and in between
+// products with the interface operator H alone (manual, eq. H1-H4).
+#pragma once
+
+#include "solution/implicit_piece.hpp"
+
+namespace dygita {
+
+// The factor of a piece's interior and what it leaves on the interface; shared by equal pieces.
+struct Condensation {
+  std::shared_ptr<const Factor> factor;
+  std::shared_ptr<const Mat> schur;  // S0, n_interface x n_interface, without the rows' reference stiffness
+  Vec schur_diagonal;                // in the rows' directions, shared between their laws
+
+  // op: of the piece that was factorised, its unknowns in the factor's order; reference: of its rows, included in the
+  // factor.
+  Condensation(std::unique_ptr<Factor> own, const PieceOperator& op, const Vec& reference);
+  // S0 + T^T k T, with T the rows on the interface unknowns.
+  Mat with_rows(const PieceOperator& op, const Vec& k) const;
+};
+
+// T H T^T, with T the rows of op on the interface unknowns; H by its lower triangle.
+Mat on_rows(const Mat& h, const PieceOperator& op, int n_interior);
+
+class CondensedPiece final : public ImplicitPiece {
+ public:
+  // twin: the equal piece that the condensation comes from, null for its own.
+  CondensedPiece(PieceOperator op, Condensation condensation, const CondensedPiece* twin);
+
+  const Condensation* condensation() const override { return &condensation_; }
+  void set_search_directions(const Vec& k) override;
+  Mat row_compliance() const override { return on_rows(h_->lower(), op_, condensation_.factor->n_interior()); }
+  bool shares_operator() const override { return twin_ != nullptr; }
+  const void* shared_key() const override { return condensation_.factor.get(); }
+  void forward(std::span<Piece* const> equal) override;
+  void backward(std::span<Piece* const> equal) override;
+  void interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) override;
+  PieceFigures figures() const override;
+
+ protected:
+  void prepare(double quiet) override;
+  bool find_velocity() override;
+  // Nodes without mass have a recurrence of their own.
+  bool solves_for_change() const override { return !op_.scheme().is_static && !op_.mass().has_massless(); }
+
+ private:
+  void take_forward();
+
+  Condensation condensation_;
+  const CondensedPiece* twin_;
+  std::shared_ptr<const SymmetricOperator> h_;
+  // Of the increment at hand: the condensed right-hand side, and the interface's answer.
+  Vec b_, dv_b_;
+  double quiet_ = 0.0;
+  bool is_forward_due_ = false, is_moved_ = false;  // the forward solve is put off; the interfaces have moved
+  long n_solved_ = 0, n_spared_ = 0;
+};
+
+}  // namespace dygita

@@ -1,0 +1,79 @@
+#include "solution/free_unknowns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace dygita {
+
+FreeUnknowns::FreeUnknowns(int n_nodes, const std::vector<Row>& rows, const std::unordered_map<int, Held>& held)
+    : special_(n_nodes, -1), count_(n_nodes, 3), first_(n_nodes) {
+  std::unordered_map<int, std::vector<Vec3>> wanted;
+  for (const Row& row : rows) wanted[row.node].push_back(row.direction);
+  for (const auto& [node, conditions] : held) wanted[node];
+  for (const auto& [node, directions] : wanted) {
+    Held basis;
+    if (const auto it = held.find(node); it != held.end()) basis = it->second;
+    const int n_held = basis.n, n_free = 3 - n_held;
+    for (int j = 0; j < n_held; ++j) held_.push_back({node, basis.directions.col(j), basis.motion[j]});
+    for (const Vec3& d : directions)
+      if (basis.n < 3 && (basis.directions.leftCols(basis.n).transpose() * d).norm() < 1e-9)
+        basis.directions.col(basis.n++) = d;
+    const auto rest = basis.free_basis();
+    Mat3 free = Mat3::Zero();
+    for (int j = 0; j < n_free; ++j)
+      free.col(j) =
+          n_held + j < basis.n ? Vec3(basis.directions.col(n_held + j)) : Vec3(rest.col(n_held + j - basis.n));
+    special_[node] = static_cast<int>(bases_.size());
+    count_[node] = n_free;
+    bases_.push_back(free);
+  }
+  for (int node = 0; node < n_nodes; ++node) {
+    first_[node] = static_cast<int>(node_of_unknown_.size());
+    node_of_unknown_.insert(node_of_unknown_.end(), count_[node], node);
+  }
+  // They came out in hash order: reproducible sums need node order.
+  std::stable_sort(held_.begin(), held_.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
+  position_.resize(node_of_unknown_.size());
+  std::iota(position_.begin(), position_.end(), 0);
+}
+
+void FreeUnknowns::put_in_order(const std::vector<int>& order) {
+  for (size_t i = 0; i < order.size(); ++i) position_[order[i]] = static_cast<int>(i);
+}
+
+Trace FreeUnknowns::trace(int node, const Vec3& direction) const {
+  Trace trace;
+  for (int j = 0; j < count_[node]; ++j) {
+    const double value = is_plain(node) ? direction[j] : bases_[special_[node]].col(j).dot(direction);
+    if (std::abs(value) < 1e-12) continue;
+    trace.at[trace.n] = at(node, j);
+    trace.value[trace.n++] = value;
+  }
+  return trace;
+}
+
+Vec FreeUnknowns::restrict_nodal(const Points& nodal) const {
+  Vec free(size());
+  for (int node = 0; node < n_nodes(); ++node)
+    for (int j = 0; j < count_[node]; ++j)
+      free[at(node, j)] = is_plain(node) ? nodal(j, node) : bases_[special_[node]].col(j).dot(nodal.col(node));
+  return free;
+}
+
+Points FreeUnknowns::expand(const Vec& free, const std::vector<double>& held) const {
+  Points nodal(3, n_nodes());
+  for (int node = 0; node < n_nodes(); ++node) {
+    if (is_plain(node)) {
+      for (int j = 0; j < 3; ++j) nodal(j, node) = free[at(node, j)];
+      continue;
+    }
+    Vec3 value = Vec3::Zero();
+    for (int j = 0; j < count_[node]; ++j) value += free[at(node, j)] * bases_[special_[node]].col(j);
+    nodal.col(node) = value;
+  }
+  for (size_t i = 0; i < held_.size(); ++i) nodal.col(held_[i].node) += held[i] * held_[i].direction;
+  return nodal;
+}
+
+}  // namespace dygita

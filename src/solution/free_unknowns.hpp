@@ -1,0 +1,70 @@
+// The free unknowns of a piece: the directions of its nodes that nothing holds, in the order of its factor.
+#pragma once
+
+#include <array>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "solution/conditions.hpp"
+#include "solution/piece.hpp"
+
+namespace dygita {
+
+struct HeldDirection {
+  int node;
+  Vec3 direction;
+  std::vector<std::pair<int, double>> motion;  // (index of a motion, factor)
+};
+
+// A direction of a node in terms of free unknowns x: its value is sum value[a] x[at[a]].
+struct Trace {
+  int n = 0;
+  std::array<int, 3> at{};
+  std::array<double, 3> value{};
+
+  double of(const Vec& x) const {
+    double sum = 0.0;
+    for (int a = 0; a < n; ++a) sum += value[a] * x[at[a]];
+    return sum;
+  }
+  void add(double amount, Vec& x) const {
+    for (int a = 0; a < n; ++a) x[at[a]] += value[a] * amount;
+  }
+};
+
+class FreeUnknowns {
+ public:
+  // Of a node they are numbered from first(node) on, along the columns of its basis: the rows' own directions where
+  // they are orthonormal, so that a row is one unknown.
+  FreeUnknowns(int n_nodes, const std::vector<Row>& rows, const std::unordered_map<int, Held>& held);
+
+  int size() const { return static_cast<int>(node_of_unknown_.size()); }
+  int n_nodes() const { return static_cast<int>(count_.size()); }
+  int first(int node) const { return first_[node]; }
+  int count(int node) const { return count_[node]; }
+  Mat3 basis(int node) const { return is_plain(node) ? Mat3(Mat3::Identity()) : bases_[special_[node]]; }
+  // Are the node's unknowns its x, y and z?
+  bool is_plain(int node) const { return special_[node] < 0; }
+  const std::vector<int>& node_of_unknown() const { return node_of_unknown_; }
+  const std::vector<HeldDirection>& held() const { return held_; }  // by node
+
+  // Vectors are in this order from now on: order[i] is the unknown at position i.
+  void put_in_order(const std::vector<int>& order);
+  // Where unknown j of a node stands in such vectors.
+  int at(int node, int j) const { return position_[first_[node] + j]; }
+  int position(int unknown) const { return position_[unknown]; }
+  Trace trace(int node, const Vec3& direction) const;
+
+  // Nodal field (3 x n_nodes) to the free unknowns, and back with values of the held directions.
+  Vec restrict_nodal(const Points& nodal) const;
+  Points expand(const Vec& free, const std::vector<double>& held) const;
+
+ private:
+  std::vector<int> special_, count_, first_, node_of_unknown_;  // special: index in bases_, -1 for x, y and z
+  std::vector<Mat3> bases_;
+  std::vector<int> position_;
+  std::vector<HeldDirection> held_;
+};
+
+}  // namespace dygita

@@ -1,0 +1,69 @@
+#include "solution/full_piece.hpp"
+
+namespace dygita {
+
+FullPiece::FullPiece(PieceOperator op, std::optional<Condensation> condensation, bool is_shared)
+    : ImplicitPiece(std::move(op)), condensation_(std::move(condensation)), is_shared_(is_shared) {
+  if (condensation_) schur_diagonal_ = condensation_->schur_diagonal;
+}
+
+void FullPiece::set_search_directions(const Vec& k) {
+  ImplicitPiece::set_search_directions(k);
+  const PieceSetup& setup = op_.setup();
+  const std::vector<char> no_interface(op_.n_free(), 0);
+  const std::vector<int>& nodes = op_.unknowns().node_of_unknown();
+  factor_ = condensation_ ? std::make_unique<Factor>(op_.matrix(k), nodes, no_interface, setup.what)
+                          : std::make_unique<Factor>(op_.matrix(k), nodes, no_interface, setup.what, setup.precision,
+                                                     setup.storage_error);
+}
+
+void FullPiece::prepare(double /*quiet*/) { add_start_force(); }
+
+// The right-hand side stays as it is for the next q.
+void FullPiece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) {
+  const bool for_change = solves_for_change();
+  const std::vector<Trace>& traces = op_.traces();
+  const FreeUnknowns& unknowns = op_.unknowns();
+  Vec& v = state_.v;
+  v = work_.x;
+  for (int i = 0; i < n_rows(); ++i) traces[i].add(for_change ? q[i] - state_.q[i] : q[i], v);
+  Vec ordered(v.size());
+  for (int i = 0; i < v.size(); ++i) ordered[i] = v[unknowns.position(factor_->order()[i])];
+  factor_->solve(ordered);
+  for (int i = 0; i < v.size(); ++i) v[unknowns.position(factor_->order()[i])] = ordered[i];
+  if (for_change) v += work_.v_old;
+  for (int i = 0; i < n_rows(); ++i) velocity[i] = traces[i].of(v);
+}
+
+Mat FullPiece::row_compliance() const {
+  if (condensation_)
+    return on_rows(inverse_spd(condensation_->with_rows(op_, k_), op_.setup().what), op_,
+                   condensation_->factor->n_interior());
+  constexpr int together = 16;
+  const std::vector<Trace>& traces = op_.traces();
+  Mat compliance = Mat::Zero(n_rows(), n_rows());
+  std::vector<int> place(op_.n_free());
+  for (int i = 0; i < op_.n_free(); ++i) place[factor_->order()[i]] = i;
+  for (int first = 0; first < n_rows(); first += together) {
+    const int n = std::min(together, n_rows() - first);
+    Mat x = Mat::Zero(op_.n_free(), n);
+    for (int c = 0; c < n; ++c)
+      for (int a = 0; a < traces[first + c].n; ++a) x(place[traces[first + c].at[a]], c) += traces[first + c].value[a];
+    factor_->solve(x);
+    for (int c = 0; c < n; ++c)
+      for (int r = 0; r < n_rows(); ++r)
+        for (int a = 0; a < traces[r].n; ++a)
+          compliance(r, first + c) += traces[r].value[a] * x(place[traces[r].at[a]], c);
+  }
+  return compliance;
+}
+
+PieceFigures FullPiece::figures() const {
+  PieceFigures figures = ImplicitPiece::figures();
+  if (condensation_ && !is_shared_) figures.bytes += condensation_->factor->bytes();
+  if (factor_) figures.bytes += factor_->bytes();
+  figures.is_mostly_interface = !condensation_;
+  return figures;
+}
+
+}  // namespace dygita

@@ -1,0 +1,87 @@
+#include "solution/make_piece.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dygita {
+
+namespace {
+
+// What is known of a piece before anything is factorised.
+struct Layout {
+  FreeUnknowns unknowns;
+  std::vector<char> is_interface, none;  // of the free unknowns
+  Vec reference;                         // of the rows, N/m
+
+  explicit Layout(const PieceSetup& setup)
+      : unknowns(setup.n_nodes(), setup.rows, setup.held),
+        is_interface(unknowns.size(), 0),
+        none(unknowns.size(), 0),
+        reference(setup.rows.size()) {
+    for (size_t i = 0; i < setup.rows.size(); ++i) {
+      const Row& row = setup.rows[i];
+      reference[static_cast<Eigen::Index>(i)] = row.reference_stiffness;
+      const Trace t = unknowns.trace(row.node, row.direction);
+      for (int j = 0; j < t.n; ++j) is_interface[t.at[j]] = 1;
+    }
+  }
+  double n_interface() const { return static_cast<double>(std::count(is_interface.begin(), is_interface.end(), 1)); }
+};
+
+// As stored; in single precision fitted to the operators of the bolted flanges.
+double bytes_of_operator_entry(const PieceSetup& setup) {
+  return setup.precision == Precision::double_precision ? 8.0 : 0.1 * std::log2(16.0 / setup.storage_error) - 1.5;
+}
+
+double factor_bytes(const PieceSetup& setup, const SparseMatrix& matrix, const Layout& layout,
+                    const std::vector<char>& is_interface) {
+  return Factor::predicted_bytes(matrix, layout.unknowns.node_of_unknown(), is_interface, setup.precision,
+                                 setup.storage_error);
+}
+
+// Bytes that an iteration reads in each form, the two condensed substitutions of a time step spread over the usual
+// number of iterations. Gives the bytes of the factor in full where that is less, else nothing.
+std::optional<double> cheaper_in_full(const PieceSetup& setup, const SparseMatrix& matrix, const Layout& layout) {
+  constexpr double iterations = 6.0;
+  const double n_b = layout.n_interface(), n = layout.unknowns.size();
+  if (n_b < 0.3 * n || n_b < 300) return {};  // never seen to pay; saves the second ordering
+  const double full = factor_bytes(setup, matrix, layout, layout.none);
+  const double interior = n_b < n ? factor_bytes(setup, matrix, layout, layout.is_interface) : 0.0;
+  const double products = iterations * bytes_of_operator_entry(setup) * 0.5 * n_b * n_b;
+  return iterations * 2.0 * full < 2.0 * interior + products ? std::optional(full) : std::nullopt;
+}
+
+}  // namespace
+
+std::unique_ptr<ImplicitPiece> make_piece(const PieceSetup& setup, bool is_plain, const ImplicitPiece* twin) {
+  Layout layout(setup);
+  FreeUnknowns& unknowns = layout.unknowns;
+  if (unknowns.size() == 0) return std::make_unique<ImplicitPiece>(PieceOperator(setup, unknowns));
+  const SparseMatrix matrix = piece_matrix(setup, unknowns, layout.reference);
+  if (cheaper_in_full(setup, matrix, layout))
+    return std::make_unique<FullPiece>(PieceOperator(setup, unknowns), std::nullopt, false);
+  std::unique_ptr<Factor> own;
+  if (!twin)
+    own = std::make_unique<Factor>(matrix, unknowns.node_of_unknown(), layout.is_interface, setup.what, setup.precision,
+                                   setup.storage_error);
+  unknowns.put_in_order(twin ? twin->condensation()->factor->order() : own->order());
+  PieceOperator op(setup, std::move(unknowns));
+  Condensation condensation = twin ? *twin->condensation() : Condensation(std::move(own), op, layout.reference);
+  if (is_plain) return std::make_unique<FullPiece>(std::move(op), std::move(condensation), twin != nullptr);
+  return std::make_unique<CondensedPiece>(std::move(op), std::move(condensation),
+                                          static_cast<const CondensedPiece*>(twin));
+}
+
+double predicted_bytes(const PieceSetup& setup, bool has_twin) {
+  const Layout layout(setup);
+  const double vectors = 8.0 * 12.0 * layout.unknowns.size();
+  if (layout.unknowns.size() == 0) return vectors;
+  const SparseMatrix matrix = piece_matrix(setup, layout.unknowns, layout.reference);
+  if (const std::optional<double> full = cheaper_in_full(setup, matrix, layout)) return *full + vectors;
+  if (has_twin) return vectors;
+  const double n_b = layout.n_interface();
+  return factor_bytes(setup, matrix, layout, layout.is_interface) + bytes_of_operator_entry(setup) * 0.5 * n_b * n_b +
+         vectors;
+}
+
+}  // namespace dygita

@@ -1,0 +1,200 @@
+#include "solution/make_pieces.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <map>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "mesh/facing.hpp"
+#include "solution/rigid_motions.hpp"
+
+namespace dygita {
+
+namespace {
+
+// Impedance of absorbing supports at each node (manual, absorbing support).
+std::unordered_map<int, Mat3> absorbing_impedance(const Problem& problem, const Step& step, int part) {
+  std::unordered_map<int, Mat3> impedance;
+  if (step.is_static) return impedance;
+  const Substructure& body = *problem.substructures[part];
+  const double z_n = body.material.density * body.material.p_wave_speed();
+  const double z_t = body.material.density * body.material.s_wave_speed();
+  for (const SupportPtr& support : supports_of(problem, step)) {
+    if (support->kind != SupportKind::absorbing) continue;
+    for (const FaceOrRegion& on : support->on) {
+      const Face& face = std::get<Face>(on);
+      if (face.part.get() != &body) continue;
+      const FaceNodes nodes = face_nodes(*body.mesh, face.facets());
+      for (size_t i = 0; i < nodes.nodes.size(); ++i) {
+        const Mat3 along = nodes.normals.col(i) * nodes.normals.col(i).transpose();
+        auto [it, is_new] = impedance.emplace(nodes.nodes[i], Mat3::Zero());
+        it->second += nodes.areas[i] * (z_n * along + z_t * (Mat3::Identity() - along));
+      }
+    }
+  }
+  return impedance;
+}
+
+// Held directions of a piece's nodes: every copy of a node is held as the node is.
+std::unordered_map<int, Held> held_of_piece(const StepModel& model, int piece) {
+  const CutPiece& own = model.cut->piece(piece);
+  const std::unordered_map<int, Held>& of_part = model.conditions.held[own.part];
+  if (own.is_whole()) return of_part;
+  std::unordered_map<int, Held> held;
+  for (size_t i = 0; i < own.nodes.size(); ++i)
+    if (const auto it = of_part.find(own.nodes[i]); it != of_part.end()) held.emplace(static_cast<int>(i), it->second);
+  return held;
+}
+
+std::unordered_map<int, Mat3> absorbing_of_piece(const Cut& cut, int piece,
+                                                 const std::unordered_map<int, Mat3>& of_part) {
+  std::unordered_map<int, Mat3> own;
+  for (const auto& [node, impedance] : of_part)
+    if (const Copy owner = cut.owner(cut.piece(piece).part, node); owner.piece == piece)
+      own.emplace(owner.node, impedance);
+  return own;
+}
+
+std::vector<Row> rows_of(const StepModel& model, int piece, const std::unordered_map<int, Held>& held) {
+  std::vector<Row> rows(model.exchange.n_unknowns[piece]);
+  const Substructure& body = *model.cut->piece(piece).body;
+  double total_area = 0.0;
+  for (const Port& port : model.exchange.ports)
+    if (port.piece == piece) total_area += port.area;
+  const bool needs_reference = model.scheme.is_static && is_floating(body, held);
+  const double length = total_area > 0.0 ? volume(*body.mesh) / total_area : 1.0;
+  for (const Point& point : model.exchange.points)
+    for (int p = point.first_port; p < point.end_port; ++p) {
+      const Port& port = model.exchange.ports[p];
+      if (port.piece != piece) continue;
+      for (int d = 0; d < 3; ++d) {
+        if (port.unknown[d] < 0) continue;
+        const double modulus = d == 0 ? body.material.young : body.material.shear_modulus();
+        const double stiffness = modulus * port.area / length;
+        rows[port.unknown[d]] = {port.piece_node, point.frame.col(d), needs_reference ? stiffness : 0.0, stiffness,
+                                 1.0};
+      }
+    }
+  std::unordered_map<int, std::vector<int>> at_node;
+  for (size_t i = 0; i < rows.size(); ++i) at_node[rows[i].node].push_back(static_cast<int>(i));
+  for (auto& [node, members] : at_node)
+    for (const int i : members) {
+      rows[i].n_sharing = 0.0;
+      for (const int j : members) rows[i].n_sharing += std::pow(rows[i].direction.dot(rows[j].direction), 2);
+    }
+  return rows;
+}
+
+// Single precision takes a third of what a solve reads from memory, and less of what an interface product reads. A
+// static step has no mass that would bound what rounding does to soft motions, and nodes without mass have a recurrence
+// of their own.
+Precision precision_of(const StepModel& model, int part, const Body& body) {
+  constexpr int large = 4000;  // unknowns
+  if (model.scheme.is_static || !body.mass->is_massless.empty()) return Precision::double_precision;
+  if (const auto& asked = model.problem->solver.precision) return *asked;
+  if (model.problem->solver.tolerance < 1e-7) return Precision::double_precision;
+  return 3 * model.problem->substructures[part]->mesh->n_nodes() > large ? Precision::single_precision
+                                                                         : Precision::double_precision;
+}
+
+std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body>& bodies) {
+  const int n = model.cut->n_pieces();
+  CHECK(static_cast<int>(bodies.size()) == n, "one body a piece");
+  std::vector<std::unordered_map<int, Mat3>> absorbing;
+  for (size_t part = 0; part < model.problem->substructures.size(); ++part)
+    absorbing.push_back(absorbing_impedance(*model.problem, *model.step, static_cast<int>(part)));
+  std::vector<PieceSetup> setups(n);
+  for (int i = 0; i < n; ++i) {
+    const int part = model.cut->piece(i).part, n_cut = model.cut->n_pieces(part);
+    PieceSetup& setup = setups[i];
+    setup.body = &bodies[i];
+    setup.scheme = model.scheme;
+    setup.held = held_of_piece(model, i);
+    setup.absorbing = absorbing_of_piece(*model.cut, i, absorbing[part]);
+    setup.rows = rows_of(model, i, setup.held);
+    setup.n_motions = static_cast<int>(model.conditions.motions.size());
+    setup.what = (n_cut > 1 ? fmt::format("piece {} of {} of ", i - model.cut->first(part) + 1, n_cut) : "") +
+                 "substructure '" + bodies[i].part->name + "' in step '" + model.step->name + "'";
+    setup.precision = precision_of(model, part, bodies[i]);
+    // Far below what the tolerance leaves of a step; what is stored of an entry follows.
+    setup.storage_error = std::clamp(model.problem->solver.tolerance / 64.0, 0x1p-27, 0x1p-21);
+  }
+  return setups;
+}
+
+// The first piece that each is equal to; -1 where there is none before it.
+std::vector<int> twins_of(const std::vector<PieceSetup>& setups) {
+  std::map<const BodyMatrices*, std::vector<int>> known;
+  std::vector<int> twins(setups.size(), -1);
+  for (int i = 0; i < static_cast<int>(setups.size()); ++i) {
+    std::vector<int>& before = known[setups[i].body->matrices.get()];
+    const auto twin =
+        std::find_if(before.begin(), before.end(), [&](int j) { return are_equal(setups[j], setups[i]); });
+    if (twin != before.end())
+      twins[i] = *twin;
+    else
+      before.push_back(i);
+  }
+  return twins;
+}
+
+}  // namespace
+
+Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies) {
+  const std::vector<PieceSetup> setups = setups_of(model, bodies);
+  const std::vector<int> twins = twins_of(setups);
+  const int n = static_cast<int>(setups.size());
+  std::vector<std::unique_ptr<ImplicitPiece>> built(n);
+  prepare_thread();
+  for (const bool has_twin : {false, true})
+    parallel_for(n, [&](int i) {
+      if ((twins[i] >= 0) == has_twin)
+        built[i] = make_piece(setups[i], model.problem->solver.plain, has_twin ? built[twins[i]].get() : nullptr);
+    });
+  return {std::make_move_iterator(built.begin()), std::make_move_iterator(built.end())};
+}
+
+Pieces make_assembled_pieces(const StepModel& model, const std::vector<Body>& bodies) {
+  Pieces pieces;
+  for (const PieceSetup& setup : setups_of(model, bodies))
+    pieces.push_back(
+        std::make_unique<AssembledPiece>(PieceOperator(setup, FreeUnknowns(setup.n_nodes(), setup.rows, setup.held))));
+  return pieces;
+}
+
+AssembledPiece& assembled_piece(const StepModel& model, int i) {
+  auto* piece = dynamic_cast<AssembledPiece*>(model.pieces[i].get());
+  CHECK(piece, "the step's pieces are made to be solved one by one");
+  return *piece;
+}
+
+// Sixteen right-hand sides are as many as one pass over a factor takes.
+std::vector<std::vector<int>> group_equal(const Pieces& pieces) {
+  std::vector<std::vector<int>> groups;
+  std::map<const void*, size_t> open;
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    const void* key = pieces[i]->shared_key();
+    const auto it = key ? open.find(key) : open.end();
+    if (it != open.end() && groups[it->second].size() < 16) {
+      groups[it->second].push_back(static_cast<int>(i));
+      continue;
+    }
+    if (key) open[key] = groups.size();
+    groups.push_back({static_cast<int>(i)});
+  }
+  return groups;
+}
+
+double predicted_bytes(const StepModel& model, const std::vector<Body>& bodies) {
+  const std::vector<PieceSetup> setups = setups_of(model, bodies);
+  const std::vector<int> twins = twins_of(setups);
+  std::vector<double> bytes(setups.size());
+  parallel_for(static_cast<int>(setups.size()), [&](int i) { bytes[i] = predicted_bytes(setups[i], twins[i] >= 0); });
+  double sum = 0.0;
+  for (const double own : bytes) sum += own;
+  return sum;
+}
+
+}  // namespace dygita

@@ -1,0 +1,199 @@
+#include "solution/piece_operator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dygita {
+
+namespace {
+
+std::vector<std::pair<int, Mat3>> by_node(const std::unordered_map<int, Mat3>& impedance) {
+  std::vector<std::pair<int, Mat3>> sorted(impedance.begin(), impedance.end());
+  std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return sorted;
+}
+
+// Frames of places that differ by a shift agree but for rounding.
+bool same(double a, double b) { return std::abs(a - b) <= 1e-12 * (std::abs(a) + std::abs(b)); }
+bool same(const Vec3& a, const Vec3& b) { return (a - b).norm() < 1e-12; }
+
+bool are_equal(const std::vector<Row>& one, const std::vector<Row>& other) {
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(), [](const Row& a, const Row& b) {
+    return a.node == b.node && same(a.direction, b.direction) && same(a.reference_stiffness, b.reference_stiffness) &&
+           same(a.n_sharing, b.n_sharing);
+  });
+}
+
+// What moves it is no matter of the matrix.
+bool are_equal(const std::unordered_map<int, Held>& one, const std::unordered_map<int, Held>& other) {
+  size_t n_one = 0, n_other = 0;
+  for (const auto& [node, held] : one) n_one += held.n;
+  for (const auto& [node, held] : other) n_other += held.n;
+  if (n_one != n_other) return false;
+  for (const auto& [node, held] : one) {
+    const auto it = other.find(node);
+    for (int i = 0; i < held.n; ++i) {
+      bool is_found = false;
+      for (int j = 0; it != other.end() && j < it->second.n; ++j)
+        is_found |= same(it->second.directions.col(j), held.directions.col(i));
+      if (!is_found) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+double PieceSetup::mass_share() const {
+  return scheme.inverse_dt() + (1 - scheme.g) * scheme.alpha(body->part->material.damping);
+}
+
+bool are_equal(const PieceSetup& a, const PieceSetup& b) {
+  const Damping &damping_a = a.body->part->material.damping, &damping_b = b.body->part->material.damping;
+  return a.body->matrices == b.body->matrices && a.body->mass == b.body->mass && a.precision == b.precision &&
+         a.scheme.c1(damping_a) == b.scheme.c1(damping_b) && a.mass_share() == b.mass_share() && a.absorbing.empty() &&
+         b.absorbing.empty() && are_equal(a.rows, b.rows) && are_equal(a.held, b.held);
+}
+
+SparseMatrix piece_matrix(const PieceSetup& setup, const FreeUnknowns& unknowns, const Vec& row_stiffness) {
+  const SparseMatrix& k = setup.body->matrices->stiffness;
+  const Scheme& scheme = setup.scheme;
+  const Mass& mass = *setup.body->mass;
+  const double mass_factor = setup.mass_share(), c1 = scheme.c1(setup.body->part->material.damping);
+  SparseMatrix a(unknowns.size(), unknowns.size());
+  std::vector<int> count(unknowns.size());
+  const auto neighbours = [&](int node) {  // blocks of three columns
+    const int begin = k.outerIndexPtr()[3 * node], end = k.outerIndexPtr()[3 * node + 1];
+    return std::pair{begin, end};
+  };
+  for (int node = 0; node < unknowns.n_nodes(); ++node) {
+    int columns = 0;
+    const auto [begin, end] = neighbours(node);
+    for (int e = begin; e < end; e += 3) columns += unknowns.count(k.innerIndexPtr()[e] / 3);
+    for (int j = 0; j < unknowns.count(node); ++j) count[unknowns.first(node) + j] = columns;
+  }
+  a.reserve(count);
+  const auto scale = [&](int at) {
+    const bool is_massless = !scheme.is_static && !mass.is_massless.empty() && mass.is_massless[at];
+    return is_massless ? 1.0 / (1.0 - scheme.g) : 1.0;
+  };
+  for (int node = 0; node < unknowns.n_nodes(); ++node) {
+    const auto [begin, end] = neighbours(node);
+    for (int e = 0; e < end - begin; e += 3) {
+      const int other = k.innerIndexPtr()[begin + e] / 3;
+      Mat3 block;
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) block(r, c) = c1 * k.valuePtr()[k.outerIndexPtr()[3 * node + r] + e + c];
+      block *= scale(node) * scale(other);
+      if (!scheme.is_static && mass.matrix.size() > 0)
+        block.diagonal().array() += mass_factor * mass.matrix.valuePtr()[mass.matrix.outerIndexPtr()[node] + e / 3];
+      else if (!scheme.is_static && other == node)
+        block.diagonal().array() += mass_factor * mass.lumped[node];
+      if (!unknowns.is_plain(node)) block = (unknowns.basis(node).transpose() * block).eval();
+      if (!unknowns.is_plain(other)) block = (block * unknowns.basis(other)).eval();
+      for (int r = 0; r < unknowns.count(node); ++r)
+        for (int c = 0; c < unknowns.count(other); ++c)
+          a.insertBackUncompressed(unknowns.first(node) + r, unknowns.first(other) + c) = block(r, c);
+    }
+  }
+  a.makeCompressed();
+  const auto add_block = [&](int node, const Mat3& block) {
+    const Mat3 basis = unknowns.basis(node);
+    for (int r = 0; r < unknowns.count(node); ++r)
+      for (int c = 0; c < unknowns.count(node); ++c)
+        a.coeffRef(unknowns.first(node) + r, unknowns.first(node) + c) += basis.col(r).dot(block * basis.col(c));
+  };
+  for (const auto& [node, impedance] : by_node(setup.absorbing)) add_block(node, (1 - scheme.g) * impedance);
+  for (int i = 0; i < row_stiffness.size(); ++i)
+    if (row_stiffness[i] != 0.0)
+      add_block(setup.rows[i].node, row_stiffness[i] * setup.rows[i].direction * setup.rows[i].direction.transpose());
+  return a;
+}
+
+PieceOperator::PieceOperator(PieceSetup setup, FreeUnknowns unknowns)
+    : setup_(std::move(setup)),
+      unknowns_(std::move(unknowns)),
+      mass_(*setup_.body, setup_.scheme, unknowns_),
+      absorbing_(by_node(setup_.absorbing)),
+      c0_(setup_.scheme.c0(damping())),
+      c1_(setup_.scheme.c1(damping())) {
+  for (const Row& row : setup_.rows) traces_.push_back(unknowns_.trace(row.node, row.direction));
+  make_couplings();
+}
+
+void PieceOperator::make_couplings() {
+  coupling_.resize(setup_.n_motions);
+  mass_coupling_.resize(setup_.n_motions);
+  std::vector<Points> unit(setup_.n_motions);
+  for (const HeldDirection& held : unknowns_.held())
+    for (const auto& [motion, factor] : held.motion) {
+      if (unit[motion].size() == 0) unit[motion] = Points::Zero(3, unknowns_.n_nodes());
+      unit[motion].col(held.node) += factor * held.direction;
+      has_motions_ = true;
+    }
+  for (int m = 0; m < setup_.n_motions; ++m) {
+    if (unit[m].size() == 0) continue;
+    coupling_[m] = stiffness_times(unit[m]);
+    for (const int i : mass_.massless()) coupling_[m][i] /= 1.0 - scheme().g;  // their force is that of the step's end
+    if (mass_.is_matrix()) mass_coupling_[m] = unknowns_.restrict_nodal(mass_.times_nodal(unit[m]));
+  }
+}
+
+Vec PieceOperator::at_rows(const Vec& x) const {
+  Vec values = Vec::Zero(n_rows());
+  for (int i = 0; i < n_rows(); ++i) values[i] = traces_[i].of(x);
+  return values;
+}
+
+Points PieceOperator::elastic_force(const Points& nodal) const {
+  Points result(3, nodal.cols());
+  Eigen::Map<Vec>(result.data(), result.size()) =
+      setup_.body->matrices->stiffness * Eigen::Map<const Vec>(nodal.data(), nodal.size());
+  return result;
+}
+
+std::vector<double> PieceOperator::stiffness_times_held(const Points& nodal) const {
+  const SparseMatrix& k = setup_.body->matrices->stiffness;
+  const Eigen::Map<const Vec> flat(nodal.data(), nodal.size());
+  const std::vector<HeldDirection>& held = unknowns_.held();
+  std::vector<double> values(held.size(), 0.0);
+  for (size_t i = 0; i < held.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      if (held[i].direction[axis] != 0.0)
+        values[i] += held[i].direction[axis] * k.row(3 * held[i].node + axis).dot(flat);
+  return values;
+}
+
+Vec PieceOperator::momentum(const Vec& v, const std::vector<double>& held_v) const {
+  if (has_motions_ && mass_.is_matrix())
+    return unknowns_.restrict_nodal(mass_.times_nodal(unknowns_.expand(v, held_v)));
+  return mass_.times(v);
+}
+
+Vec PieceOperator::pull_of_held(const std::vector<double>& held_v) const {
+  const Points nodal = unknowns_.expand(Vec::Zero(n_free()), held_v);
+  Vec pull = c1_ * stiffness_times(nodal);
+  if (mass_.is_matrix()) pull += mass_share() * unknowns_.restrict_nodal(mass_.times_nodal(nodal));
+  return pull;
+}
+
+Vec PieceOperator::pull_of_motions(const std::vector<double>& motion_velocity) const {
+  Vec pull = Vec::Zero(n_free());
+  for (size_t m = 0; m < coupling_.size(); ++m) {
+    if (coupling_[m].size() > 0) pull += c1_ * motion_velocity[m] * coupling_[m];
+    if (mass_coupling_[m].size() > 0) pull += mass_share() * motion_velocity[m] * mass_coupling_[m];
+  }
+  return pull;
+}
+
+void PieceOperator::apply_absorbing(const Vec& v, double factor, Vec& out) const {
+  for (const auto& [node, impedance] : absorbing_) {
+    const Mat3 basis = unknowns_.basis(node);
+    Vec3 nodal = Vec3::Zero();
+    for (int j = 0; j < unknowns_.count(node); ++j) nodal += v[unknowns_.at(node, j)] * basis.col(j);
+    const Vec3 force = factor * (impedance * nodal);
+    for (int j = 0; j < unknowns_.count(node); ++j) out[unknowns_.at(node, j)] += basis.col(j).dot(force);
+  }
+}
+
+}  // namespace dygita

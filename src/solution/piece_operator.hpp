@@ -1,0 +1,83 @@
+// The operator of a piece in one step, integrated implicitly: matrix of an increment, mass, couplings to moving
+// supports, traces of the interface rows. Nothing of it changes while the step runs.
+#pragma once
+
+#include <string>
+
+#include "numerics/factor.hpp"
+#include "solution/piece_mass.hpp"
+
+namespace dygita {
+
+// What a piece is in a step.
+struct PieceSetup {
+  const Body* body = nullptr;
+  Scheme scheme;
+  std::vector<Row> rows;
+  std::unordered_map<int, Held> held;
+  std::unordered_map<int, Mat3> absorbing;  // impedance of nodes (N s/m), dynamic steps
+  int n_motions = 0;
+  std::string what;                                   // "substructure 'rod' in step 'shock'", for messages
+  Precision precision = Precision::double_precision;  // of what is stored of the factor and of H
+  double storage_error = 0x1p-26;                     // in single precision, of entries of the factor; H: a sixteenth
+
+  int n_nodes() const { return body->part->mesh->n_nodes(); }
+  double mass_share() const;  // of M V1 in the equation of an increment, 1/s
+};
+
+// Do they have the same matrix, rows and order of unknowns?
+bool are_equal(const PieceSetup& a, const PieceSetup& b);
+
+// (M/dt (1 + ...) + c1 K + absorbing + rows' stiffness (N s/m, one per row)) on the free unknowns, in the order of their
+// numbers.
+SparseMatrix piece_matrix(const PieceSetup& setup, const FreeUnknowns& unknowns, const Vec& row_stiffness);
+
+class PieceOperator {
+ public:
+  // unknowns: in their final order.
+  PieceOperator(PieceSetup setup, FreeUnknowns unknowns);
+
+  const PieceSetup& setup() const { return setup_; }
+  const Scheme& scheme() const { return setup_.scheme; }
+  const Damping& damping() const { return setup_.body->part->material.damping; }
+  const FreeUnknowns& unknowns() const { return unknowns_; }
+  const std::vector<HeldDirection>& held() const { return unknowns_.held(); }
+  const PieceMass& mass() const { return mass_; }
+  const std::vector<Trace>& traces() const { return traces_; }  // of the rows
+  int n_rows() const { return static_cast<int>(setup_.rows.size()); }
+  int n_free() const { return unknowns_.size(); }
+  bool has_motions() const { return has_motions_; }
+  double c0() const { return c0_; }
+  double c1() const { return c1_; }
+  double mass_share() const { return setup_.mass_share(); }
+
+  SparseMatrix matrix(const Vec& row_stiffness) const { return piece_matrix(setup_, unknowns_, row_stiffness); }
+  Vec at_rows(const Vec& x) const;
+  // K times a nodal field: 3 x n_nodes; on the free unknowns; at the held directions.
+  Points elastic_force(const Points& nodal) const;
+  Vec stiffness_times(const Points& nodal) const { return unknowns_.restrict_nodal(elastic_force(nodal)); }
+  std::vector<double> stiffness_times_held(const Points& nodal) const;
+  // Momentum of the free unknowns, what moving supports bring included.
+  Vec momentum(const Vec& v, const std::vector<double>& held_v) const;
+  // A times velocities of held directions, of all motions, on the free unknowns.
+  Vec pull_of_held(const std::vector<double>& held_v) const;
+  Vec pull_of_motions(const std::vector<double>& motion_velocity) const;
+  // out += factor Z v, at non-reflecting supports.
+  void apply_absorbing(const Vec& v, double factor, Vec& out) const;
+  const std::vector<std::pair<int, Mat3>>& absorbing() const { return absorbing_; }  // node, impedance (N s/m), by node
+
+ private:
+  void make_couplings();
+
+  PieceSetup setup_;
+  FreeUnknowns unknowns_;
+  PieceMass mass_;
+  std::vector<std::pair<int, Mat3>> absorbing_;
+  std::vector<Trace> traces_;
+  // B^T K, B^T M of a unit velocity of each motion; empty where the motion is elsewhere.
+  std::vector<Vec> coupling_, mass_coupling_;
+  bool has_motions_ = false;
+  double c0_, c1_;
+};
+
+}  // namespace dygita

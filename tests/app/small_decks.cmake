@@ -1,0 +1,48 @@
+# Small cases of the decks run to their end with every solver, for a build with sanitizers: whatever these find ends the
+# program with another exit code. cmake -DDYGITA=program -DSOURCE_DIR=folder -P small_decks.cmake
+
+set(out ${CMAKE_CURRENT_BINARY_DIR}/small_decks_out)
+file(REMOVE_RECURSE ${out})
+
+function(dygita)
+  execute_process(COMMAND ${DYGITA} ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE error)
+  if(NOT code EQUAL 0 AND NOT code EQUAL 1)  # 1: so coarse a case may not converge
+    string(JOIN " " command ${ARGN})
+    message(SEND_ERROR "dygita ${command}: exit code ${code}\n${output}${error}")
+  endif()
+endfunction()
+
+# A deck of decks/ with settings NAME=VALUE and options.
+function(run deck)
+  set(arguments "")
+  foreach(argument ${ARGN})
+    if(argument MATCHES "^[a-z_]+=" AND NOT argument MATCHES "[{]")
+      list(APPEND arguments --set ${argument})
+    else()
+      list(APPEND arguments ${argument})
+    endif()
+  endforeach()
+  dygita(run ${SOURCE_DIR}/decks/${deck}.lua --quiet --out ${out} ${arguments})
+endfunction()
+
+run(crush n=1 dt=1.2*us)
+dygita(continue ${out}/crush/base --tolerance 1e-9 --quiet)
+dygita(report ${out}/crush/base)
+run(crush n=1 dt=1.2*us --solver monolithic)
+run(crush n=1 dt=1.2*us --solver "explicit{ penalty = 1 }" --threads 2)
+run(crush n=1 dt=1.2*us --solver "explicit{ integration = \"full\" }")
+run(crush n=1 dt=1.2*us --solver "latin{ window = 5, mass = \"tuned\" }")
+run(crush n=2 dt=1.2*us --solver "latin{ pieces = 2, precision = \"single\", tolerance = 1e-5 }")
+run(verification/bouncing_bar n=5 --solver "latin{ mass = \"tuned\", massless_contact = true }")
+run(bolted_flanges size=8*mm duration=10*us)
+run(bolted_flanges size=8*mm duration=4*us --solver monolithic)
+run(condensed_joint n=8 layers=1 m=3)
+run(condensed_flanges size=8*mm up_to=10*kHz)
+run(plastic_beam dt=1*us)
+run(spectrum_through_joint size=8*mm duration=10*us)
+run(study_friction n=1 cases=2 increments=4)
+run(hard/junction n=1)
+run(hard/press_fit n=1)
+run(hard/one_element)
+run(verification/patch)
+message("small cases of all decks end as they should")

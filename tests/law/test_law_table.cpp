@@ -1,0 +1,143 @@
+// The table of laws: every duty of every law answered, and answered soundly.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/error.hpp"
+#include "law/law_checks.hpp"
+
+namespace dygita {
+namespace {
+
+class EveryLaw : public ::testing::TestWithParam<LawEntry> {
+ protected:
+  LawPtr law = example_of(GetParam());
+};
+
+INSTANTIATE_TEST_SUITE_P(Table, EveryLaw, ::testing::ValuesIn(law_table()),
+                         [](const auto& info) { return info.param.word; });
+
+TEST_P(EveryLaw, has_the_word_and_the_parameters_of_its_entry) {
+  EXPECT_EQ(law->word(), GetParam().word);
+  std::set<std::string> names;
+  for (const LawParameter& parameter : law->parameters()) {
+    EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name;
+    const double value = std::visit([](auto v) { return static_cast<double>(v); }, parameter.value);
+    EXPECT_EQ(value, 1.0) << parameter.name << " is not what was given";
+  }
+  EXPECT_EQ(names, std::set<std::string>(GetParam().arguments.begin(), GetParam().arguments.end()));
+}
+
+TEST_P(EveryLaw, says_its_parameters_with_their_numbers) {
+  for (const LawRemark& remark : law->remarks()) {
+    EXPECT_FALSE(remark.text.empty());
+    if (!remark.unit.empty()) EXPECT_NE(remark.text.find("{}"), std::string::npos) << remark.text;
+    EXPECT_TRUE(std::isfinite(remark.value));
+  }
+}
+
+TEST_P(EveryLaw, puts_no_force_where_both_sides_are_held_or_it_does_not_act) {
+  const Increment increment{1e-6, 0.5, false};
+  LawState start = law->initial();
+  start.rate = {-1.0, 2.0, 0.5};
+  Trial t = trial({-1.0, 2.0, 0.5});
+  t.y.setZero();
+  EXPECT_EQ(law->force(t, increment, start), Vec3(0, 0, 0));
+  t = trial({-1.0, 2.0, 0.5});
+  const Vec3 force = law->force(t, increment, start);
+  for (int d = 0; d < 3; ++d)
+    if (!law->acts_on(d, false)) EXPECT_EQ(force[d], 0.0) << d;
+}
+
+TEST_P(EveryLaw, obeys_the_search_problem_and_shows_its_force) {
+  for (const Increment& increment : {dynamic_step, static_step}) {
+    if (!law->takes_part(increment.is_static)) continue;
+    const Trial t = trial({-1.0, 2.0, 0.5});
+    const LawState start = law->initial();
+    const Vec3 force = law->force(t, increment, start);
+    const LawState end = law->advance(t, increment, start, force);
+    EXPECT_EQ(end.force, force);
+    EXPECT_LT((end.rate - (t.s - t.y.cwiseProduct(force))).norm(), 1e-15);
+  }
+}
+
+TEST_P(EveryLaw, dissipates_and_never_creates) {
+  LawState state = law->initial();
+  for (int i = 0; i < 200; ++i) {
+    const Trial t = trial(2e3 * Vec3(std::sin(0.7 * i), std::cos(1.3 * i), std::sin(2.1 * i)), {1e-2, 1e-2, 1e-2});
+    const LawState end = law->advance(t, dynamic_step, state, law->force(t, dynamic_step, state));
+    const Work work = law->work(state, end, dynamic_step, t.area);
+    EXPECT_GE(work.plastic, 0.0);
+    EXPECT_GE(work.damping, 0.0);
+    EXPECT_EQ(work.given, 0.0);
+    EXPECT_GE(law->shown().gap ? std::abs(end.gap) : 1.0, 0.0);
+    state = end;
+  }
+}
+
+TEST_P(EveryLaw, has_an_explicit_form_or_says_why_not) {
+  const ExplicitForm form = law->explicit_form();
+  if (const auto* none = std::get_if<NoExplicitForm>(&form)) EXPECT_FALSE(none->reason.empty());
+  if (const auto* springs = std::get_if<const PenaltyForm*>(&form)) {
+    EXPECT_GT((*springs)->stiffness_factor(0.1), 0.0);
+    SpringPoint point = spring_point(*law, law->initial(), 1e-4, 1e8);
+    move_to(*law, {-1e-6, 0, 0}, point);
+    EXPECT_LT(point.force[0], 0.0);
+  }
+}
+
+TEST_P(EveryLaw, holds_for_small_motions_only_where_it_acts) {
+  for (const PointState status : {PointState::open, PointState::stick, PointState::slip}) {
+    LawState state = law->initial();
+    state.status = status;
+    const Tangent tangent = law->tangent(state, true);
+    for (int d = 0; d < 3; ++d) {
+      EXPECT_GE(tangent.damping[d], 0.0);
+      EXPECT_FALSE(tangent.holds[d] && tangent.damping[d] > 0.0);
+      if (tangent.holds[d]) EXPECT_TRUE(law->acts_on(d, true));
+    }
+  }
+}
+
+TEST_P(EveryLaw, that_joins_groups_or_is_tightened_holds_all_directions) {
+  for (int d = 0; d < 3; ++d) {
+    if (law->is_tie()) EXPECT_TRUE(law->acts_on(d, true) && law->tangent(law->initial(), false).holds[d]);
+    if (law->can_be_tightened()) EXPECT_TRUE(law->acts_on(d, true));
+  }
+  if (law->can_be_tightened()) EXPECT_GT(law->most_tension(), 0.0);
+}
+
+TEST(LawTable, has_one_entry_a_word_and_knows_the_first_laws) {
+  std::set<std::string> words;
+  for (const LawEntry& entry : law_table()) EXPECT_TRUE(words.insert(entry.word).second) << entry.word;
+  for (const char* word : {"bonded", "contact", "plastic"}) EXPECT_TRUE(words.contains(word)) << word;
+}
+
+TEST(LawTable, makes_a_law_only_of_the_arguments_it_takes) {
+  EXPECT_THROW(make_law("glue"), ContractError);
+  EXPECT_THROW(make_law("contact", {{"friction", 0.1}}), ContractError);
+  EXPECT_THROW(make_law("bonded", {{"friction", 0.1}}), ContractError);
+}
+
+// A point of one frame stands for surface points of another: what goes in comes out.
+TEST(LawStates, are_turned_and_shared) {
+  Mat3 frame;
+  frame << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  LawState member;
+  member.gap = 1e-6;
+  member.slip = {1e-6, 2e-6, 3e-6};
+  member.force = {1, 2, 3};
+  member.status = PointState::slip;
+  LawState point;
+  point.add(member, 0.25, frame);
+  point.add(member, 0.75, frame);
+  EXPECT_DOUBLE_EQ(point.gap, 1e-6);
+  EXPECT_EQ(point.force, Vec3(6, 2, 4));  // both members', along N, T1, T2
+  const LawState back = point.member(0.5, frame);
+  EXPECT_LT((back.slip - member.slip).norm(), 1e-20);
+  EXPECT_EQ(back.force, member.force);
+  EXPECT_EQ(back.status, PointState::slip);
+}
+
+}  // namespace
+}  // namespace dygita

@@ -1,0 +1,198 @@
+// The operator of a piece against dense matrices.
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "solution/piece_case.hpp"
+
+namespace dygita {
+namespace {
+
+constexpr double dt = 0.4e-6;
+
+void expect_equal(const Mat& found, const Mat& expected, double tolerance) {
+  ASSERT_EQ(found.rows(), expected.rows());
+  ASSERT_EQ(found.cols(), expected.cols());
+  EXPECT_LT((found - expected).norm(), tolerance * expected.norm());
+}
+
+std::vector<PieceCase> cases() {
+  std::vector<PieceCase> all(8);
+  for (PieceCase& c : all) c.dt = dt;
+  all[1].dt = 0.0;                   // static
+  all[2].holds_normal_alone = true;  // nodes of whose directions one is held
+  all[3].is_absorbing = true;        // and nothing held
+  all[4].has_matrix = true;          // tuned mass
+  all[5].has_massless = true;
+  all[6].damping = {2e3, 3e-8};
+  all[6].g = 0.45;
+  all[7].dt = 0.0;  // static, unconstrained: only the rows hold it
+  all[7].is_held = false;
+  for (PieceCase& c : all) c.make();
+  return all;
+}
+
+TEST(PieceOperator, answers_with_the_inverse_of_the_whole_matrix_at_the_rows) {
+  for (const PieceCase& c : cases())
+    for (const bool is_plain : {false, true})
+      expect_equal(c.piece(is_plain)->row_compliance(), DensePiece(c).compliance(c.directions()), 1e-8);
+}
+
+TEST(PieceOperator, gives_the_diagonal_of_the_schur_complement_without_reference_stiffness) {
+  for (const PieceCase& c : cases()) {
+    const DensePiece dense(c);
+    // The rows span all directions of their nodes: S0 is the inverse of the compliance, where there is one.
+    const Mat a = dense.free.transpose() * dense.matrix() * dense.free, b = dense.free.transpose() * dense.rows;
+    const Mat inside = Mat::Identity(a.rows(), a.rows()) - b * b.transpose();
+    const Mat interior = inside * a * inside + b * b.transpose();
+    const Mat coupling = inside * a * b;
+    const Mat schur = b.transpose() * a * b - coupling.transpose() * interior.fullPivLu().solve(coupling);
+    expect_equal(c.piece()->schur_diagonal(), schur.diagonal(), 1e-8);
+  }
+}
+
+TEST(PieceOperator, shares_the_schur_diagonal_among_laws_at_a_node) {
+  PieceCase c;
+  c.dt = dt;
+  c.make();
+  const Vec alone = c.piece()->schur_diagonal();
+  const size_t n = c.setup.rows.size();
+  for (size_t i = 0; i < n; ++i) {
+    c.setup.rows[i].n_sharing = 2.0;
+    c.setup.rows.push_back(c.setup.rows[i]);
+  }
+  const Vec shared = c.piece()->schur_diagonal();
+  expect_equal(shared.head(static_cast<Eigen::Index>(n)), 0.5 * alone, 1e-13);
+  expect_equal(shared.tail(static_cast<Eigen::Index>(n)), 0.5 * alone, 1e-13);
+}
+
+TEST(PieceOperator, serves_an_equal_piece_too) {
+  for (const bool is_plain : {false, true}) {
+    PieceCase c;
+    c.dt = dt;
+    c.make();
+    const auto first = c.piece(is_plain);
+    const auto second = make_piece(c.setup, is_plain, first.get());
+    second->set_search_directions(c.directions());
+    EXPECT_FALSE(first->shares_operator());
+    EXPECT_TRUE(second->shares_operator());
+    EXPECT_EQ(first->condensation()->factor, second->condensation()->factor);
+    EXPECT_EQ(first->shared_key(), second->shared_key());
+    EXPECT_EQ(first->shared_key() == nullptr, is_plain);
+    EXPECT_EQ(first->row_compliance(), second->row_compliance());
+    if (is_plain) continue;
+    EXPECT_LT(second->figures().bytes, 0.5 * first->figures().bytes);
+  }
+}
+
+TEST(PieceOperator, of_other_search_directions_is_its_own_but_for_the_factor) {
+  PieceCase c;
+  c.dt = dt;
+  c.make();
+  const auto first = make_piece(c.setup, false, nullptr), second = make_piece(c.setup, false, first.get());
+  EXPECT_THROW(second->set_search_directions(Vec::Ones(1)), ContractError);
+  first->set_search_directions(c.directions());
+  second->set_search_directions(2.0 * c.directions());
+  expect_equal(first->row_compliance(), DensePiece(c).compliance(c.directions()), 1e-8);
+  expect_equal(second->row_compliance(), DensePiece(c).compliance(2.0 * c.directions()), 1e-8);
+}
+
+TEST(PieceSetup, is_equal_to_another_only_where_the_matrices_are) {
+  PieceCase c;
+  c.dt = dt;
+  c.make();
+  PieceSetup other = c.setup;
+  EXPECT_TRUE(are_equal(c.setup, other));
+  other.rows[3].direction += Vec3::Constant(1e-15);  // frames of places that differ by a shift
+  EXPECT_TRUE(are_equal(c.setup, other));
+  other.rows[3].direction += Vec3::Constant(1e-6);
+  EXPECT_FALSE(are_equal(c.setup, other));
+  other = c.setup;
+  other.held.erase(other.held.begin());
+  EXPECT_FALSE(are_equal(c.setup, other));
+  EXPECT_FALSE(are_equal(other, c.setup));
+  other = c.setup;
+  other.held.begin()->second.motion[0] = {{0, 1.0}};  // what moves it is not in the matrix
+  EXPECT_TRUE(are_equal(c.setup, other));
+  other = c.setup;
+  other.absorbing[0] = Mat3::Identity();
+  EXPECT_FALSE(are_equal(c.setup, other));
+  other = c.setup;
+  other.precision = Precision::single_precision;
+  EXPECT_FALSE(are_equal(c.setup, other));
+}
+
+// Equal meshes of one material share their matrices; damping comes in with the step.
+TEST(PieceSetup, is_not_equal_to_one_that_is_damped_otherwise) {
+  for (const Damping damping : {Damping{2e3, 0.0}, Damping{0.0, 3e-8}}) {
+    PieceCase c;
+    c.dt = dt;
+    c.make();
+    Substructure damped = *c.part;
+    damped.material.damping = damping;
+    Body body = c.body;
+    body.part = &damped;
+    PieceSetup other = c.setup;
+    other.body = &body;
+    EXPECT_FALSE(are_equal(c.setup, other));
+    other.scheme = {};  // a static step knows no damping
+    PieceSetup still = c.setup;
+    still.scheme = {};
+    EXPECT_TRUE(are_equal(still, other));
+  }
+}
+
+TEST(PieceOperator, predicts_the_bytes_of_its_factor) {
+  PieceCase c;
+  c.dt = dt;
+  c.make();
+  const double held = c.piece()->figures().bytes;
+  EXPECT_NEAR(predicted_bytes(c.setup, false), held, 0.2 * held);
+  EXPECT_LT(predicted_bytes(c.setup, true), 0.5 * held);
+}
+
+TEST(PieceOperator, of_a_piece_that_is_held_everywhere_has_nothing_to_find) {
+  PieceCase c;
+  c.dt = dt;
+  c.make();
+  c.setup.rows.clear();
+  for (int node = 0; node < c.n_nodes(); ++node) c.setup.held[node] = Held{3, Mat3::Identity(), {}, {}};
+  const auto piece = make_piece(c.setup, false, nullptr);
+  piece->set_search_directions(Vec());
+  const Points still = Points::Zero(3, c.n_nodes());
+  piece->set_state(still, still, still, still);
+  advance(*piece, random_points(c.n_nodes(), 1), Vec(), {});
+  EXPECT_EQ(piece->displacement(), still);
+  EXPECT_LT((piece->reactions(still) + random_points(c.n_nodes(), 1)).norm(), 1e-15);
+}
+
+TEST(PieceOperator, that_cannot_be_factorised_is_named) {
+  PieceCase c;
+  c.make();
+  BodyMatrices negative = *c.body.matrices;
+  negative.stiffness *= -1.0;
+  c.body.matrices = std::make_shared<const BodyMatrices>(negative);
+  try {
+    make_piece(c.setup, false, nullptr);
+    FAIL() << "a negative definite matrix was factorised";
+  } catch (const NumericalError& error) {
+    EXPECT_NE(std::string(error.what()).find("substructure 'block' in step 'test'"), std::string::npos) << error.what();
+  }
+}
+
+TEST(FreeUnknowns, take_fields_apart_and_put_them_together) {
+  for (const PieceCase& c : cases()) {
+    const auto piece = c.piece();
+    const FreeUnknowns& unknowns = piece->op().unknowns();
+    const Points field = random_points(c.n_nodes(), 9);
+    std::vector<double> held;
+    for (const HeldDirection& direction : unknowns.held())
+      held.push_back(direction.direction.dot(field.col(direction.node)));
+    EXPECT_LT((unknowns.expand(unknowns.restrict_nodal(field), held) - field).norm(), 1e-14 * field.norm());
+    const Vec free = unknowns.restrict_nodal(field);
+    for (const Row& row : c.setup.rows)
+      EXPECT_NEAR(unknowns.trace(row.node, row.direction).of(free), row.direction.dot(field.col(row.node)), 1e-14);
+  }
+}
+
+}  // namespace
+}  // namespace dygita
