@@ -218,6 +218,16 @@ words[6] = {
     one_of = { "x", "y", "z" },
   },
   {
+    "torque", makes = "load",
+    doc = "A moment about an axis, right-handed, spread over a face as tractions around the axis that grow with the radius.",
+    arguments = {
+      on({ "face" }, "twisted faces: each gets the torque"),
+      { "axis", type = "vector", required = true, doc = "direction of the axis; its length does not matter" },
+      { "through", type = "vector", unit = "m", range = { -1000, 1000 }, default_doc = "the centroid of the face", doc = "a point of the axis" },
+      { "history", type = "value", unit = "N m", range = { -1e9, 1e9 }, required = true, doc = "the torque" },
+    },
+  },
+  {
     "velocity", makes = "load", doc = "Prescribed velocity; a direction left out is free.",
     arguments = { on({ "face", "region" }, "driven faces or nodes"), components("velocity", "m/s", { -20000, 20000 }) },
     one_of = { "x", "y", "z" },
