@@ -22,13 +22,13 @@ std::shared_ptr<T> declared(const std::string& name, int line) {
   return object;
 }
 
-// A load of these values, and of a direction along z where it has one.
+// A load of these values, and of a direction or an axis along z where it has one.
 inline LoadPtr load(const std::string& word, std::vector<Target> on, const std::map<std::string, double>& values,
                     const Vec3& direction = Vec3::UnitZ()) {
   GivenArguments arguments("load." + word, {"deck.lua", 40});
   arguments.on = std::move(on);
   for (const auto& [key, value] : values) arguments.values_of_time[key] = {History::constant(value), true};
-  arguments.lists["direction"] = {direction[0], direction[1], direction[2]};
+  for (const char* key : {"direction", "axis"}) arguments.lists[key] = {direction[0], direction[1], direction[2]};
   return make_load(arguments);
 }
 

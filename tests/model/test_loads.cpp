@@ -174,6 +174,14 @@ TEST_F(Loads, of_different_kinds_places_or_directions_add_up) {
   EXPECT_EQ(complaint(), "");
 }
 
+TEST_F(Loads, turn_a_face_about_several_axes) {
+  const Face face{upper, "zmax"};
+  shock->loads = {load("torque", {face}), load("torque", {face})};
+  EXPECT_EQ(complaint(), in_shock + "two load.torque on face 'upper.zmax'" + give_their_sum);
+  shock->loads.back() = load("torque", {face}, {{"history", 1.0}}, Vec3::UnitX());
+  EXPECT_EQ(complaint(), "");
+}
+
 TEST_F(Loads, shake_a_base_in_perpendicular_directions) {
   const LoadPtr along_z = load("base_acceleration", {SupportPtr(base)});
   shock->loads = {along_z, load("base_acceleration", {SupportPtr(base)})};
