@@ -48,7 +48,7 @@ struct StudyFigure {
 };
 
 // What a spectrum can be taken of.
-struct Signal {
+struct HistoryKind {
   std::string quantity;  // "acceleration"
   bool has_direction = false;
 };
@@ -84,7 +84,7 @@ class Output : public Named {
   virtual void doubt(const Problem&) const {}
   // Hz, that time step and mesh are to carry for it; none: it asks for none.
   virtual std::optional<double> highest_frequency() const { return std::nullopt; }
-  virtual std::optional<Signal> signal() const { return std::nullopt; }
+  virtual std::optional<HistoryKind> history() const { return std::nullopt; }
   // Interfaces and walls whose points the report maps.
   virtual std::vector<Target> mapped() const { return {}; }
   // Do passes over the run go on until it stands still (solver.latin{ spectra })?

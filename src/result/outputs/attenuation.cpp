@@ -66,12 +66,12 @@ class AttenuationOutput final : public Output {
     for (const auto& [i, key, of] : {std::tuple{0, "entering", entering_}, {1, "leaving", leaving_}}) {
       if (!of) check::fail(problem, origin, fmt::format("{} has no '{}'", who, key), hint);
       check::listed(problem, fmt::format("{} has '{}' of output", who, key), *of, problem.outputs, "outputs");
-      const std::optional<Signal> signal = of->signal();
-      if (!signal || signal->quantity != "acceleration")
-        check::fail(problem, origin,
-                    fmt::format("{}: '{}' is {}{}", who, key, of->known_as(), signal ? ", a " + signal->quantity : ""),
-                    hint);
-      has_direction[i] = signal->has_direction;
+      const std::optional<HistoryKind> history = of->history();
+      if (!history || history->quantity != "acceleration")
+        check::fail(
+            problem, origin,
+            fmt::format("{}: '{}' is {}{}", who, key, of->known_as(), history ? ", a " + history->quantity : ""), hint);
+      has_direction[i] = history->has_direction;
     }
     if (has_direction[0] != has_direction[1])
       check::fail(problem, origin, who + ": one of 'entering' and 'leaving' has a direction, the other has none",
@@ -132,8 +132,9 @@ class AttenuationOutput final : public Output {
  private:
   // Of the columns' names.
   std::vector<std::string> axes() const {
-    const std::optional<Signal> signal = entering_->signal();
-    return signal && signal->has_direction ? std::vector<std::string>{""} : std::vector<std::string>{"_x", "_y", "_z"};
+    const std::optional<HistoryKind> history = entering_->history();
+    return history && history->has_direction ? std::vector<std::string>{""}
+                                             : std::vector<std::string>{"_x", "_y", "_z"};
   }
 
   // Mean ratio of each axis over the bands, the lowest and the highest, beside the rule of thumb (-3 dB a bolted

@@ -160,7 +160,9 @@ class HistoryOutput final : public Output {
     return std::make_unique<HistoryRecorder>(columns(), problem, request_);
   }
 
-  std::optional<Signal> signal() const override { return Signal{request_.what.name, request_.direction.has_value()}; }
+  std::optional<HistoryKind> history() const override {
+    return HistoryKind{request_.what.name, request_.direction.has_value()};
+  }
 
  private:
   // Why it cannot be on a target; empty: it can.

@@ -41,11 +41,11 @@ class SrsOutput final : public Output {
     const std::string hint = "'of' takes an output.history of quantity 'acceleration' with a 'direction'";
     if (!of_) check::fail(problem, origin, who + " has no 'of'", hint);
     check::listed(problem, who + " is of output", *of_, problem.outputs, "outputs");
-    const std::optional<Signal> signal = of_->signal();
-    if (!signal) check::fail(problem, origin, who + " is of " + of_->known_as(), hint);
-    if (signal->quantity != "acceleration")
-      check::fail(problem, origin, who + " is of " + of_->known_as() + ", a " + signal->quantity, hint);
-    if (!signal->has_direction)
+    const std::optional<HistoryKind> history = of_->history();
+    if (!history) check::fail(problem, origin, who + " is of " + of_->known_as(), hint);
+    if (history->quantity != "acceleration")
+      check::fail(problem, origin, who + " is of " + of_->known_as() + ", a " + history->quantity, hint);
+    if (!history->has_direction)
       check::fail(problem, origin, who + " is of " + of_->known_as() + ", which has no direction", hint);
     check_spectrum(problem, *this);
   }
