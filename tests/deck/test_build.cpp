@@ -1,12 +1,15 @@
 // From the deck's words to the model.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/log.hpp"
 #include "deck/fake_engine.hpp"
 #include "model/load.hpp"
+#include "model/output.hpp"
 #include "result/recorder.hpp"
+#include "result/result.hpp"
 
 namespace dygita::test {
 
@@ -90,12 +93,14 @@ local s = hold
 local top = high:where(function(x, y, z) return near(z, 20*mm) end)
 local h = output.history{ name = "h", on = { top, high:face "xmin" }, quantity = "velocity", direction = { 0, 3, 4 } })",
                                 "outputs = { h }");
-  const Output& output = *problem.outputs.at(0);
-  ASSERT_EQ(output.on.size(), 2u);
-  EXPECT_EQ(std::get<Region>(output.on[0]).nodes.size(), 4u);
-  EXPECT_EQ(std::get<Face>(output.on[1]).group, "xmin");
-  EXPECT_NEAR((*output.direction - Vec3(0, 0.6, 0.8)).norm(), 0.0, 1e-15);
-  EXPECT_EQ(output.quantity, Quantity::velocity);
+  const Notes notes = problem.outputs.at(0)->record({}, {});
+  const auto noted = [&](const std::string& name) {
+    return std::find_if(notes.begin(), notes.end(), [&](const Note& note) { return note.name == name; })->value;
+  };
+  EXPECT_EQ(std::get<std::vector<std::string>>(noted("on")), (std::vector<std::string>{"high (4 nodes)", "high.xmin"}));
+  const auto direction = std::get<std::vector<double>>(noted("direction"));
+  EXPECT_NEAR((Vec3(direction.at(0), direction.at(1), direction.at(2)) - Vec3(0, 0.6, 0.8)).norm(), 0.0, 1e-15);
+  EXPECT_EQ(std::get<std::string>(noted("quantity")), "velocity");
 }
 
 TEST(Build, knows_numbers_from_histories_in_loads) {

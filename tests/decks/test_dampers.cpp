@@ -1,11 +1,13 @@
 // Dampers in decks, with every solver: waves and decays by hand, static steps, energies, outputs, superelements.
 #include <gtest/gtest.h>
 
+#include <any>
 #include <cmath>
 
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "decks/deck_prints.hpp"
+#include "result/superelement.hpp"
 
 namespace dygita::test {
 namespace {
@@ -71,7 +73,7 @@ TEST(Dampers, in_an_edge_are_the_same_to_every_solver) {
   }
   for (const DeckRun* run : {&latin, &monolithic, &full}) {
     EXPECT_LT(run->figure("energy imbalance [%]"), 0.2);
-    EXPECT_EQ(run->column("side", "normal").back(), 0.0);   // let go
+    EXPECT_EQ(run->column("side", "normal").back(), 0.0);     // let go
     EXPECT_LT(largest(run->column("side", "shear")), 1e-20);  // free along its tangents
     // Both dampers and the absorbing support.
     const double joints = run->column("foot", "damping_work").back() + run->column("side", "damping_work").back();
@@ -148,7 +150,7 @@ problem{ name = "hung", substructures = { low, high }, interfaces = { damper }, 
   outputs = { output.superelement{ name = "element", on = high:face "zmax", modes = 4 } } }:run{}
 )"))
                           .at(0);
-  const Superelement& element = run.result->superelements.begin()->second;
+  const Superelement& element = *std::any_cast<const SuperelementPtr&>(run.result->findings.begin()->second.model);
   ASSERT_EQ(element.damping.rows(), element.stiffness.rows());
   const double area = 1e-4;
   // Rows: x, y, z and three rotations of the upper block's face; the first six motions are rigid.
