@@ -82,9 +82,7 @@ std::string describe(const Interface& interface) {
   return "interface." + interface.law->word() + " '" + interface.name + "'";
 }
 
-std::string describe(const Support& support) {
-  return std::string("support.") + support_kind_name(support.kind) + " '" + support.name + "'";
-}
+std::string describe(const Support& support) { return "support." + support.kind->word() + " '" + support.name + "'"; }
 
 std::string describe(const Target& target) {
   if (const Face* face = std::get_if<Face>(&target)) return "face '" + face->label() + "'";

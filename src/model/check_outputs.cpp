@@ -20,7 +20,7 @@ bool has_dynamic_step(const Problem& problem) {
 
 bool is_wall(const Target& target) {
   const SupportPtr* support = std::get_if<SupportPtr>(&target);
-  return support && (*support)->kind == SupportKind::wall;
+  return support && (*support)->kind->law();
 }
 
 // What an output can be on, in the deck's words; empty when `target` is.
@@ -157,7 +157,7 @@ void superelement_has_a_state(const Problem& problem, const Output& output) {
     fail(problem, output.origin, who + ": the problem has no static step",
          "it is taken about the state after one; or name another step with 'after'");
   for (const SupportPtr& support : supports_of(problem, *step))
-    if (support->kind == SupportKind::absorbing)
+    if (support->kind->absorbs())
       fail(problem, output.origin,
            who + ": " + describe(*support) + " is a non-reflecting boundary in step '" + step->name +
                "', which a superelement cannot represent",

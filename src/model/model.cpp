@@ -4,21 +4,6 @@
 
 namespace dygita {
 
-const char* support_kind_name(SupportKind kind) {
-  switch (kind) {
-    case SupportKind::fixed:
-      return "fixed";
-    case SupportKind::symmetry:
-      return "symmetry";
-    case SupportKind::wall:
-      return "wall";
-    case SupportKind::absorbing:
-      return "absorbing";
-  }
-  CHECK(false, "unknown kind of support");
-  return "";
-}
-
 const char* output_kind_name(OutputKind kind) {
   switch (kind) {
     case OutputKind::vtk:

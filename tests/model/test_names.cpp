@@ -85,7 +85,6 @@ TEST_F(Names, are_not_needed_by_vtk_and_energy_which_come_once) {
 }
 
 TEST_F(Names, of_every_kind_are_the_words_of_the_deck) {
-  EXPECT_STREQ(support_kind_name(SupportKind::absorbing), "absorbing");
   EXPECT_STREQ(output_kind_name(OutputKind::resultant), "resultant");
   EXPECT_STREQ(quantity_name(Quantity::von_mises), "von_mises");
 }

@@ -26,6 +26,7 @@ TEST_F(Outputs, are_on_listed_objects) {
 
 TEST_F(Outputs, may_be_on_a_support_of_any_step) {
   auto late = declared<Support>("late", 21);
+  late->kind = make_support("fixed");
   late->on = {Face{upper, "zmax"}};
   EXPECT_NE(complaint_of(OutputKind::resultant, SupportPtr(late)).find("is on support 'late', which is not in"),
             std::string::npos);
@@ -48,7 +49,7 @@ TEST_F(Outputs, of_pressure_are_on_interfaces_and_walls) {
             of_above +
                 "history 'above' cannot be on support.fixed 'base'\n"
                 "    quantity 'pressure' takes an interface or a support.wall");
-  base->kind = SupportKind::wall;
+  base->kind = a_wall();
   EXPECT_EQ(complaint(), "");
 }
 
@@ -132,7 +133,7 @@ TEST_F(Doubts, are_said_of_a_substructure_that_nothing_touches) {
 }
 
 TEST_F(Doubts, are_said_of_an_absorbing_support_without_a_dynamic_step) {
-  base->kind = SupportKind::absorbing;
+  base->kind = make_support("absorbing");
   problem.steps = {tighten};
   problem.outputs.clear();
   EXPECT_EQ(only_warning(),
