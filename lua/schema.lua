@@ -154,6 +154,17 @@ words[4] = {
       { "compression", type = "boolean", default = false, doc = "yields in compression too, with isotropic hardening" },
     },
   },
+  {
+    "viscous", makes = "interface",
+    doc = "A damper, as a gasket or a layer of grease: a traction in proportion to the relative velocity, pulling and pushing. It carries "
+      .. "nothing in a static step.",
+    arguments = {
+      name_of "interface", between(),
+      { "normal", type = "number", unit = "Pa s/m", range = { 0, 1e12 }, required = true,
+        doc = "traction per relative velocity along the normal: viscosity / thickness of a layer; 0: free" },
+      { "tangential", type = "number", unit = "Pa s/m", range = { 0, 1e12 }, default = 0, doc = "the same along the tangents; 0: free" },
+    },
+  },
 }
 
 -- Interfaces that a load can shorten, as a nut does.

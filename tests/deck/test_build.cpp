@@ -6,6 +6,7 @@
 #include "base/log.hpp"
 #include "deck/fake_engine.hpp"
 #include "model/load.hpp"
+#include "result/recorder.hpp"
 
 namespace dygita::test {
 
@@ -189,16 +190,27 @@ local a = output.history{ name = "a", on = high:face "zmax", quantity = "acceler
 local r = output.srs{ name = "r", of = a, q_factor = 25, from = 1*kHz, to = 50*kHz, per_octave = 24 }
 local f = output.resultant{ name = "f", on = { glue, base } })",
                                 "outputs = { a, r, f, output.vtk{ frames = 7 }, output.energy{} }");
-  EXPECT_EQ(problem.outputs.at(1)->of, problem.outputs.at(0));
-  EXPECT_EQ(problem.outputs[1]->srs.q_factor, 25.0);
-  EXPECT_EQ(problem.outputs[1]->srs.from, 1e3);
-  EXPECT_EQ(problem.outputs[1]->srs.to, 5e4);
-  EXPECT_EQ(problem.outputs[1]->srs.per_octave, 24);
-  EXPECT_EQ(problem.outputs[2]->on.size(), 2u);
-  EXPECT_EQ(problem.outputs[3]->frames, 7);
+  const auto told = [&](size_t i, const std::string& name) {
+    for (const Note& note : problem.outputs.at(i)->record({}, {}))
+      if (note.name == name) return note.value;
+    throw std::runtime_error("no " + name);
+  };
+  EXPECT_EQ(std::get<std::string>(told(1, "of")), "a");
+  EXPECT_EQ(std::get<double>(told(1, "q_factor")), 25.0);
+  EXPECT_EQ(std::get<std::vector<std::string>>(told(2, "on")), (std::vector<std::string>{"glue", "base"}));
+  EXPECT_EQ(std::get<int>(told(3, "frames")), 7);
   const std::vector<std::string> fields = {"displacement", "velocity", "stress", "von_mises", "stress_error"};
-  EXPECT_EQ(problem.outputs[3]->fields, fields);
-  EXPECT_EQ(problem.outputs[4]->kind, OutputKind::energy);
+  EXPECT_EQ(std::get<std::vector<std::string>>(told(3, "fields")), fields);
+  EXPECT_EQ(problem.outputs[4]->word, "energy");
+  // From 1 kHz by 24 an octave up to 50 kHz.
+  RunResult run;
+  run.tables[problem.outputs[0].get()] = {{"time", "a"}, {"s", "m/s^2"}, {{0, 1e-6, 2e-6}, {0, 1, 0}}, {0, 0, 0}};
+  Table spectrum;
+  Findings findings;
+  problem.outputs[1]->conclude({problem, run, {}}, spectrum, findings);
+  ASSERT_EQ(spectrum.n_rows(), 1 + static_cast<int>(24 * std::log2(50.0)));
+  EXPECT_EQ(spectrum.columns[0].front(), 1e3);
+  EXPECT_NEAR(spectrum.columns[0].back(), 5e4, 0.05 * 5e4);
 }
 
 TEST(Build, doubts_a_part_of_implausible_size) {

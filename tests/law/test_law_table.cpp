@@ -1,12 +1,16 @@
 // The table of laws: every duty of every law answered, and answered soundly.
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <set>
 
 #include "base/error.hpp"
 #include "law/law_checks.hpp"
 
 namespace dygita {
+
+void PrintTo(const LawEntry& entry, std::ostream* out) { *out << entry.word; }
+
 namespace {
 
 class EveryLaw : public ::testing::TestWithParam<LawEntry> {
@@ -15,7 +19,7 @@ class EveryLaw : public ::testing::TestWithParam<LawEntry> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Table, EveryLaw, ::testing::ValuesIn(law_table()),
-                         [](const auto& info) { return info.param.word; });
+                         [](const auto& tested) { return tested.param.word; });
 
 TEST_P(EveryLaw, has_the_word_and_the_parameters_of_its_entry) {
   EXPECT_EQ(law->word(), GetParam().word);
@@ -31,7 +35,9 @@ TEST_P(EveryLaw, has_the_word_and_the_parameters_of_its_entry) {
 TEST_P(EveryLaw, says_its_parameters_with_their_numbers) {
   for (const LawRemark& remark : law->remarks()) {
     EXPECT_FALSE(remark.text.empty());
-    if (!remark.unit.empty()) EXPECT_NE(remark.text.find("{}"), std::string::npos) << remark.text;
+    if (!remark.unit.empty()) {
+      EXPECT_NE(remark.text.find("{}"), std::string::npos) << remark.text;
+    }
     EXPECT_TRUE(std::isfinite(remark.value));
   }
 }
@@ -46,7 +52,9 @@ TEST_P(EveryLaw, puts_no_force_where_both_sides_are_held_or_it_does_not_act) {
   t = trial({-1.0, 2.0, 0.5});
   const Vec3 force = law->force(t, increment, start);
   for (int d = 0; d < 3; ++d)
-    if (!law->acts_on(d, false)) EXPECT_EQ(force[d], 0.0) << d;
+    if (!law->acts_on(d, false)) {
+      EXPECT_EQ(force[d], 0.0) << d;
+    }
 }
 
 TEST_P(EveryLaw, obeys_the_search_problem_and_shows_its_force) {
@@ -70,18 +78,19 @@ TEST_P(EveryLaw, dissipates_and_never_creates) {
     EXPECT_GE(work.plastic, 0.0);
     EXPECT_GE(work.damping, 0.0);
     EXPECT_EQ(work.given, 0.0);
-    EXPECT_GE(law->shown().gap ? std::abs(end.gap) : 1.0, 0.0);
     state = end;
   }
 }
 
 TEST_P(EveryLaw, has_an_explicit_form_or_says_why_not) {
   const ExplicitForm form = law->explicit_form();
-  if (const auto* none = std::get_if<NoExplicitForm>(&form)) EXPECT_FALSE(none->reason.empty());
+  if (const auto* none = std::get_if<NoExplicitForm>(&form)) {
+    EXPECT_FALSE(none->reason.empty());
+  }
   if (const auto* springs = std::get_if<const PenaltyForm*>(&form)) {
     EXPECT_GT((*springs)->stiffness_factor(0.1), 0.0);
     SpringPoint point = spring_point(*law, law->initial(), 1e-4, 1e8);
-    move_to(*law, {-1e-6, 0, 0}, point);
+    move_to(*law, {-2.0, 0, 0}, point);  // further than the example's gap
     EXPECT_LT(point.force[0], 0.0);
   }
 }
@@ -94,17 +103,25 @@ TEST_P(EveryLaw, holds_for_small_motions_only_where_it_acts) {
     for (int d = 0; d < 3; ++d) {
       EXPECT_GE(tangent.damping[d], 0.0);
       EXPECT_FALSE(tangent.holds[d] && tangent.damping[d] > 0.0);
-      if (tangent.holds[d]) EXPECT_TRUE(law->acts_on(d, true));
+      if (tangent.holds[d]) {
+        EXPECT_TRUE(law->acts_on(d, true));
+      }
     }
   }
 }
 
 TEST_P(EveryLaw, that_joins_groups_or_is_tightened_holds_all_directions) {
   for (int d = 0; d < 3; ++d) {
-    if (law->is_tie()) EXPECT_TRUE(law->acts_on(d, true) && law->tangent(law->initial(), false).holds[d]);
-    if (law->can_be_tightened()) EXPECT_TRUE(law->acts_on(d, true));
+    if (law->is_tie()) {
+      EXPECT_TRUE(law->acts_on(d, true) && law->tangent(law->initial(), false).holds[d]);
+    }
+    if (law->can_be_tightened()) {
+      EXPECT_TRUE(law->acts_on(d, true));
+    }
   }
-  if (law->can_be_tightened()) EXPECT_GT(law->most_tension(), 0.0);
+  if (law->can_be_tightened()) {
+    EXPECT_GT(law->most_tension(), 0.0);
+  }
 }
 
 TEST(LawTable, has_one_entry_a_word_and_knows_the_first_laws) {
