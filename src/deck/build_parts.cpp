@@ -88,25 +88,14 @@ Content build_interface(const Declaration& d) {
     throw InputError(d.origin,
                      fmt::format("{} '{}': 'between' has face '{}' twice", d.path, interface->name, faces[0].label()));
   }
-  interface->law = make_law(d.path.substr(d.path.find('.') + 1), d.arguments.plain_numbers());
+  interface->law = make_law(d.arguments.word(), d.arguments.plain_numbers());
   return InterfacePtr(interface);
 }
 
 Content build_support(const Declaration& d) {
-  static const std::map<std::string, SupportKind> kinds = {{"support.fixed", SupportKind::fixed},
-                                                           {"support.symmetry", SupportKind::symmetry},
-                                                           {"support.wall", SupportKind::wall},
-                                                           {"support.absorbing", SupportKind::absorbing}};
   auto support = new_named<Support>(d);
-  support->kind = kinds.at(d.path);
-  for (const Object* object : d.arguments.objects("on")) {
-    if (object->kind == "face") {
-      support->on.emplace_back(object->as<Face>());
-    } else {
-      support->on.emplace_back(object->as<Region>());
-    }
-  }
-  if (support->kind == SupportKind::wall) support->law = make_law("contact", d.arguments.plain_numbers());
+  support->on = d.arguments.places("on");
+  support->kind = make_support(d.arguments.word(), d.arguments.plain_numbers());
   return SupportPtr(support);
 }
 
@@ -121,13 +110,10 @@ const Builders& part_builders() {
         {"mesh.gmsh", build_gmsh},
         {"material.elastic", build_elastic},
         {"substructure", build_substructure},
-        {"support.fixed", build_support},
-        {"support.symmetry", build_support},
-        {"support.wall", build_support},
-        {"support.absorbing", build_support},
         {"param", build_parameters},
     };
     for (const LawEntry& law : law_table()) all.emplace("interface." + law.word, build_interface);
+    for (const SupportEntry& kind : support_table()) all.emplace("support." + kind.word, build_support);
     return all;
   }();
   return builders;

@@ -35,7 +35,7 @@ bool has_dynamic_step(const Problem& problem) {
 
 bool is_wall(const Target& target) {
   const SupportPtr* support = std::get_if<SupportPtr>(&target);
-  return support && (*support)->kind == SupportKind::wall;
+  return support && (*support)->kind->law();
 }
 
 std::vector<SupportPtr> all_supports(const Problem& problem) {
@@ -96,9 +96,7 @@ std::string describe(const Interface& interface) {
   return "interface." + interface.law->word() + " '" + interface.name + "'";
 }
 
-std::string describe(const Support& support) {
-  return std::string("support.") + support_kind_name(support.kind) + " '" + support.name + "'";
-}
+std::string describe(const Support& support) { return "support." + support.kind->word() + " '" + support.name + "'"; }
 
 std::string describe(const Target& target) {
   if (const Face* face = std::get_if<Face>(&target)) return "face '" + face->label() + "'";

@@ -39,7 +39,7 @@ void doubt_supports(const Problem& problem, bool moves) {
   }
   if (moves) return;
   for (const SupportPtr& support : all_supports(problem)) {
-    if (support->kind != SupportKind::absorbing) continue;
+    if (!support->kind->absorbs()) continue;
     doubt(problem, support->origin, describe(*support) + " acts like a fixed one: there is no dynamic step");
   }
 }

@@ -139,15 +139,26 @@ Vec3 normal_of(const Face& face) {
   return area.normalized();
 }
 
-// A support takes the directions it holds: all of them, or its normal.
+bool claims(const Support& support, const FaceOrRegion& place, int axis) {
+  const double aligned = 0.99;
+  switch (support.kind->claims()) {
+    case Directions::none:
+      return false;
+    case Directions::normal:
+      return std::abs(normal_of(std::get<Face>(place))[axis]) >= aligned;
+    case Directions::all:
+      return true;
+  }
+  CHECK(false, "unknown directions of a support");
+  return true;
+}
+
 void support_leaves_motion_free(const Problem& problem, const Step& step, const Load& load,
                                 const PrescribedMotion& motion, const Support& support) {
-  const bool holds_all = support.kind == SupportKind::fixed || support.kind == SupportKind::absorbing;
   for (const FaceOrRegion& place : support.on) {
     if (!one_in_other(motion.on, place)) continue;
     for (int d = 0; d < 3; ++d) {
-      const double aligned = 0.99;
-      if (!motion.along[d] || (!holds_all && std::abs(normal_of(std::get<Face>(place))[d]) < aligned)) continue;
+      if (!motion.along[d] || !claims(support, place, d)) continue;
       fail(problem, load.origin,
            "step '" + step.name + "': " + load.path + " moves " + describe(target_of(motion.on)) + " along " +
                "xyz"[d] + ", where " + describe(support) + " holds it",

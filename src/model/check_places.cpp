@@ -11,7 +11,7 @@ void support_is_on_what_it_can_be(const Problem& problem, const Support& support
   for (size_t i = 0; i < support.on.size(); ++i) {
     const FaceOrRegion& place = support.on[i];
     place_exists(problem, support.origin, describe(support) + " is on", place);
-    if (support.kind != SupportKind::fixed && std::holds_alternative<Region>(place)) {
+    if (!support.kind->takes_regions() && std::holds_alternative<Region>(place)) {
       fail(problem, support.origin, describe(support) + " is on a region: " + label_of(place),
            "a region has no normal and no area: give a face (part:face \"group\"); support.fixed takes both");
     }

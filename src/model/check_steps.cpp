@@ -83,7 +83,7 @@ void interferences_are_closed_in_a_static_step(const Problem& problem) {
   for (const InterfacePtr& interface : problem.interfaces)
     check_gap(interface->origin, describe(*interface), interface->law->initial().gap);
   for (const SupportPtr& support : all_supports(problem))
-    if (support->law) check_gap(support->origin, describe(*support), support->law->initial().gap);
+    if (const LawPtr law = support->kind->law()) check_gap(support->origin, describe(*support), law->initial().gap);
 }
 
 }  // namespace

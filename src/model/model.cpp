@@ -4,21 +4,6 @@
 
 namespace dygita {
 
-const char* support_kind_name(SupportKind kind) {
-  switch (kind) {
-    case SupportKind::fixed:
-      return "fixed";
-    case SupportKind::symmetry:
-      return "symmetry";
-    case SupportKind::wall:
-      return "wall";
-    case SupportKind::absorbing:
-      return "absorbing";
-  }
-  CHECK(false, "unknown kind of support");
-  return "";
-}
-
 std::string label(const Target& target) {
   if (const auto* face = std::get_if<Face>(&target)) return face->label();
   if (const auto* region = std::get_if<Region>(&target)) return region->label();

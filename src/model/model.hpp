@@ -11,6 +11,7 @@
 #include "law/law.hpp"
 #include "material/elastic.hpp"
 #include "mesh/mesh.hpp"
+#include "model/support.hpp"
 #include "signal/history.hpp"
 
 namespace dygita {
@@ -50,15 +51,11 @@ struct Interface : Named {
 };
 using InterfacePtr = std::shared_ptr<const Interface>;
 
-enum class SupportKind { fixed, symmetry, wall, absorbing };
-const char* support_kind_name(SupportKind kind);
-
 using FaceOrRegion = std::variant<Face, Region>;
 
 struct Support : Named {
-  SupportKind kind = SupportKind::fixed;
-  std::vector<FaceOrRegion> on;  // symmetry, wall, absorbing: faces only
-  LawPtr law;                    // wall
+  SupportKindPtr kind;
+  std::vector<FaceOrRegion> on;
 };
 using SupportPtr = std::shared_ptr<const Support>;
 

@@ -57,8 +57,8 @@ Json supports_record(const Problem& problem) {
     Json on = Json::array();
     for (const FaceOrRegion& place : support->on)
       on.push_back(std::visit([](const auto& p) { return p.label(); }, place));
-    Json json = {{"name", support->name}, {"kind", support_kind_name(support->kind)}, {"on", on}};
-    if (support->law) add_law(*support->law, json);
+    Json json = {{"name", support->name}, {"kind", support->kind->word()}, {"on", on}};
+    if (const LawPtr law = support->kind->law()) add_law(*law, json);
     list.push_back(json);
   }
   return list;

@@ -52,7 +52,7 @@ void add_support(Resultant& r, Vec3& tangential, const Instant& instant, const P
       nodes = std::get<Region>(on).nodes;
       normals = Points::Zero(3, nodes.size());
     }
-    const bool is_absorbing = support.kind == SupportKind::absorbing && !instant.is_static();
+    const bool is_absorbing = support.kind->absorbs() && !instant.is_static();
     const Points force =
         is_absorbing ? Points(instant.absorbing_force(part) + instant.state.anchor[part]) : instant.reactions(part);
     for (size_t i = 0; i < nodes.size(); ++i) {
@@ -77,7 +77,7 @@ Resultant resultant(const Instant& instant, const Problem& problem, const std::v
       add(r, tangential, instant.state.surfaces[s].points[i].force, surface.facing.normals.col(i));
   }
   for (const Target& target : targets)
-    if (const auto* support = std::get_if<SupportPtr>(&target); support && (*support)->kind != SupportKind::wall)
+    if (const auto* support = std::get_if<SupportPtr>(&target); support && !(*support)->kind->law())
       add_support(r, tangential, instant, problem, **support);
   r.shear = tangential.norm();
   return r;

@@ -49,7 +49,7 @@ std::vector<char> nodes_in_contact_alone(const Problem& problem, const std::vect
     if (n_surfaces[node] > 1) marked[node] = 0;
   for (const StepPtr& step : problem.steps) {
     for (const SupportPtr& support : supports_of(problem, *step))
-      if (support->kind == SupportKind::absorbing) take_off(support->on, part, marked);
+      if (support->kind->absorbs()) take_off(support->on, part, marked);
     for (const LoadPtr& load : step->loads)
       for (const Effect& effect : load->effects())
         std::visit(overloaded{[&](const PrescribedMotion& motion) { take_off(motion.on, part, marked); },

@@ -66,23 +66,27 @@ class Builder {
 
  private:
   void add_support(const Support& support) {
-    const bool holds_all =
-        support.kind == SupportKind::fixed || (support.kind == SupportKind::absorbing && step_.is_static);
-    if (!holds_all && support.kind != SupportKind::symmetry) return;
+    const Directions held = support.kind->holds(step_.is_static);
+    if (held == Directions::none) return;
     const std::vector<std::pair<Vec3, int>> moves = base_motions(support);
-    for (const FaceOrRegion& on : support.on) {
-      const int part = part_of(on);
-      if (support.kind == SupportKind::symmetry) {
-        const Face& face = std::get<Face>(on);
-        const FaceNodes on_face = face_nodes(*face.part->mesh, face.facets());
-        for (size_t i = 0; i < on_face.nodes.size(); ++i)
-          hold(part, on_face.nodes[i], on_face.normals.col(i), moves, &support, support.name, support.origin);
-      } else {
-        for (const int node : nodes_on(on))
-          for (int axis = 0; axis < 3; ++axis)
-            hold(part, node, Vec3::Unit(axis), moves, &support, support.name, support.origin);
+    for (const FaceOrRegion& on : support.on) switch (held) {
+        case Directions::none:
+          break;
+        case Directions::normal:
+          hold_normals(support, std::get<Face>(on), moves);
+          break;
+        case Directions::all:
+          for (const int node : nodes_on(on))
+            for (int axis = 0; axis < 3; ++axis)
+              hold(part_of(on), node, Vec3::Unit(axis), moves, &support, support.name, support.origin);
+          break;
       }
-    }
+  }
+
+  void hold_normals(const Support& support, const Face& face, const std::vector<std::pair<Vec3, int>>& moves) {
+    const FaceNodes on_face = face_nodes(*face.part->mesh, face.facets());
+    for (size_t i = 0; i < on_face.nodes.size(); ++i)
+      hold(part_of(face), on_face.nodes[i], on_face.normals.col(i), moves, &support, support.name, support.origin);
   }
 
   // Motion of an accelerated support: absolute velocity = what it has + integral of a.

@@ -22,7 +22,7 @@ std::unordered_map<int, Mat3> absorbing_impedance(const Problem& problem, const 
   const double z_n = body.material.density * body.material.p_wave_speed();
   const double z_t = body.material.density * body.material.s_wave_speed();
   for (const SupportPtr& support : supports_of(problem, step)) {
-    if (support->kind != SupportKind::absorbing) continue;
+    if (!support->kind->absorbs()) continue;
     for (const FaceOrRegion& on : support->on) {
       const Face& face = std::get<Face>(on);
       if (face.part.get() != &body) continue;

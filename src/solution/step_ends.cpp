@@ -92,7 +92,7 @@ void end_step(const StepModel& model, State& state) {
     state.anchor[i].setZero();
     const Points reactions = model.reactions(part, state);
     for (const auto& [node, held] : model.conditions.held[i])
-      if (held.n > 0 && held.support[0] && held.support[0]->kind == SupportKind::absorbing)
+      if (held.n > 0 && held.support[0] && held.support[0]->kind->absorbs())
         state.anchor[i].col(node) = reactions.col(node);
   }
   state.reached = model.loads->reached();

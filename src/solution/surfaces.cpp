@@ -101,7 +101,7 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
   std::vector<const Support*> walls;
   for (const StepPtr& step : problem.steps)
     for (const SupportPtr& support : supports_of(problem, *step))
-      if (support->kind == SupportKind::wall && std::find(walls.begin(), walls.end(), support.get()) == walls.end())
+      if (support->kind->law() && std::find(walls.begin(), walls.end(), support.get()) == walls.end())
         walls.push_back(support.get());
   for (const Support* wall : walls)
     for (const FaceOrRegion& on : wall->on) {
@@ -110,7 +110,7 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
       surface.wall = wall;
       surface.part_1 = index_of(problem.substructures, face.part.get());
       surface.facing = wall_facing(face);
-      surface.law = laws.of(wall->law);
+      surface.law = laws.of(wall->kind->law());
       surfaces.push_back(std::move(surface));
     }
   check_overlaps(problem, surfaces);

@@ -18,7 +18,7 @@ struct Surface {
   LawPtr law;                    // of its points; null: a tie in all steps, the sides become a group
 
   // The law of the interface or the wall, ties included.
-  const Law& declared_law() const { return interface ? *interface->law : *wall->law; }
+  const Law& declared_law() const { return interface ? *interface->law : *wall->kind->law(); }
   const std::string& name() const { return interface ? interface->name : wall->name; }
   int n_points() const { return static_cast<int>(facing.nodes_1.size()); }
 };

@@ -121,7 +121,7 @@ void LinearAnalysis::merge_nodes() {
 void LinearAnalysis::number_unknowns() {
   const Conditions conditions = make_conditions(problem_, *step_, forces_->start);
   for (const SupportPtr& support : supports_of(problem_, *step_))
-    if (support->kind == SupportKind::absorbing) refuse(*support, "absorbing supports");
+    if (support->kind->absorbs()) refuse(*support, "absorbing supports");
   if (!conditions.motions.empty()) refuse(*step_, "moving supports");
   std::vector<char> is_held(3 * static_cast<size_t>(n_nodes_), 0);
   for (size_t part = 0; part < node_of_.size(); ++part)

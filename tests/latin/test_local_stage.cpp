@@ -270,7 +270,7 @@ TEST(LocalStage, at_a_wall_stops_the_block) {
   Problem problem;
   const BlockPtr alone = cube("alone", 0, 0, 0, 1);
   problem.substructures = {alone};
-  problem.supports = {support(SupportKind::wall, {face(alone, "zmin")}, contact(0.0))};
+  problem.supports = {support("wall", {face(alone, "zmin")}, {{"friction", 0.0}, {"gap", 0.0}})};
   problem.steps = {dynamic_step("test", 1, dt, {})};
   set_progress_enabled(false);
   Modelled of(problem);

@@ -37,6 +37,8 @@ inline LoadPtr load(const std::string& word, std::vector<Target> on, double valu
   return load(word, std::move(on), {{"history", value}, {"by", value}, {"at", value}, {"force", value}, {"x", value}});
 }
 
+inline SupportKindPtr a_wall() { return make_support("wall", {{"friction", 0.0}, {"gap", 0.0}}); }
+
 class Assembly : public ::testing::Test {
  protected:
   std::shared_ptr<Substructure> lower = declared<Substructure>("lower", 1), upper = declared<Substructure>("upper", 2);
@@ -56,6 +58,7 @@ class Assembly : public ::testing::Test {
       interface->side_2 = Face{upper, "zmin"};
     }
     base->on = {Face{lower, "zmin"}};
+    base->kind = make_support("fixed");
     tighten->is_static = true;
     tighten->loads = {load("shortening", {InterfacePtr(shank)}, 1e-5)};
     shock->after = tighten;

@@ -12,7 +12,7 @@ TEST_F(Doubts, are_said_of_a_substructure_that_nothing_touches) {
 }
 
 TEST_F(Doubts, are_said_of_an_absorbing_support_without_a_dynamic_step) {
-  base->kind = SupportKind::absorbing;
+  base->kind = make_support("absorbing");
   problem.steps = {tighten};
   problem.outputs.clear();
   EXPECT_EQ(only_warning(),

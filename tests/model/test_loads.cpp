@@ -84,10 +84,10 @@ TEST_F(LoadRules, of_each_kind_are_accepted_where_they_act) {
 }
 
 TEST_F(LoadRules, of_base_acceleration_need_a_support_that_holds) {
-  base->kind = SupportKind::wall;
+  base->kind = a_wall();
   EXPECT_NE(complaint_of(load("base_acceleration", {SupportPtr(base)})).find("cannot act on support.wall"),
             std::string::npos);
-  base->kind = SupportKind::symmetry;
+  base->kind = make_support("symmetry");
   EXPECT_EQ(complaint(), "");
 }
 
@@ -201,7 +201,7 @@ TEST_F(LoadRules, do_not_move_what_a_support_holds) {
 }
 
 TEST_F(LoadRules, may_slide_along_a_plane_of_symmetry_but_not_leave_it) {
-  base->kind = SupportKind::symmetry;
+  base->kind = make_support("symmetry");
   EXPECT_EQ(complaint_of(load("displacement", {Face{lower, "zmin"}})), "");
   EXPECT_NE(complaint_of(load("displacement", {Face{lower, "zmin"}}, {{"z", 1e-6}}))
                 .find("moves face 'lower.zmin' along z, where support.symmetry 'base' holds it"),

@@ -51,12 +51,13 @@ TEST_F(Places, of_a_support_are_on_listed_substructures) {
 
 TEST_F(Places, of_a_support_are_checked_in_the_steps_that_replace_it) {
   auto late = declared<Support>("late", 21);
+  late->kind = make_support("fixed");
   shock->supports = {{late}};
   EXPECT_EQ(complaint(), "deck.lua:21: problem 'bolted': support.fixed 'late' is on nothing");
 }
 
 TEST_F(Places, of_a_wall_are_faces) {
-  base->kind = SupportKind::wall;
+  base->kind = a_wall();
   base->on = {Region{lower, {0, 1}}};
   EXPECT_EQ(complaint(),
             "deck.lua:20: problem 'bolted': support.wall 'base' is on a region: lower (2 nodes)\n"
@@ -81,7 +82,7 @@ TEST_F(Places, of_a_support_are_given_once) {
 
 TEST_F(Places, are_under_one_support_in_a_step) {
   auto floor = declared<Support>("floor", 21);
-  floor->kind = SupportKind::wall;
+  floor->kind = a_wall();
   floor->on = {Face{lower, "zmin"}};
   problem.supports.push_back(floor);
   EXPECT_EQ(
@@ -93,7 +94,7 @@ TEST_F(Places, are_under_one_support_in_a_step) {
 
 TEST_F(Places, may_change_support_from_step_to_step) {
   auto floor = declared<Support>("floor", 21);
-  floor->kind = SupportKind::wall;
+  floor->kind = a_wall();
   floor->on = {Face{lower, "zmin"}};
   shock->supports = {{floor}};
   EXPECT_EQ(complaint(), "");
@@ -103,7 +104,7 @@ TEST_F(Places, may_change_support_from_step_to_step) {
 
 TEST_F(Places, of_symmetry_and_a_fixed_corner_may_share_nodes) {
   auto symmetry = declared<Support>("symmetry", 21);
-  symmetry->kind = SupportKind::symmetry;
+  symmetry->kind = make_support("symmetry");
   symmetry->on = {Face{lower, "xmin"}, Face{lower, "ymin"}};
   problem.supports.push_back(symmetry);
   base->on = {Region{lower, {0}}};

@@ -90,8 +90,7 @@ TEST_F(Steps, with_an_interference_begin_with_a_static_one) {
 }
 
 TEST_F(Steps, with_an_interference_at_a_wall_begin_with_a_static_one) {
-  base->kind = SupportKind::wall;
-  base->law = make_law("contact", {{"friction", 0.0}, {"gap", -2e-5}});
+  base->kind = make_support("wall", {{"friction", 0.0}, {"gap", -2e-5}});
   shock->after = nullptr;
   problem.steps = {shock};
   EXPECT_NE(complaint().find("deck.lua:20: problem 'bolted': support.wall 'base' has 'gap' = -2e-05 m"),

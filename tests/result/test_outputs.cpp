@@ -47,6 +47,7 @@ TEST_F(Outputs, are_on_listed_objects) {
 
 TEST_F(Outputs, may_be_on_a_support_of_any_step) {
   auto late = declared<Support>("late", 21);
+  late->kind = make_support("fixed");
   late->on = {Face{upper, "zmax"}};
   EXPECT_NE(complaint_of("resultant", SupportPtr(late)).find("is on support 'late', which is not in"),
             std::string::npos);
@@ -68,7 +69,7 @@ TEST_F(Outputs, of_pressure_are_on_interfaces_and_walls) {
             of_above +
                 "history 'above' cannot be on support.fixed 'base'\n"
                 "    quantity 'pressure' takes an interface or a support.wall");
-  base->kind = SupportKind::wall;
+  base->kind = a_wall();
   EXPECT_EQ(complaint(), "");
 }
 

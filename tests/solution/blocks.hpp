@@ -54,12 +54,12 @@ inline LawPtr plastic(double yield, double hardening = 0.0, bool compression = f
   return make_law("plastic", {{"yield", yield}, {"hardening", hardening}, {"compression", compression ? 1.0 : 0.0}});
 }
 
-inline std::shared_ptr<Support> support(SupportKind kind, std::vector<FaceOrRegion> on, LawPtr law = nullptr) {
+inline std::shared_ptr<Support> support(const std::string& word, std::vector<FaceOrRegion> on,
+                                        const LawArguments& arguments = {}) {
   auto made = std::make_shared<Support>();
-  made->name = std::string("support.") + support_kind_name(kind);
-  made->kind = kind;
+  made->name = "support." + word;
+  made->kind = make_support(word, arguments);
   made->on = std::move(on);
-  made->law = std::move(law);
   return made;
 }
 
@@ -183,7 +183,7 @@ inline Problem two_cubes(LawPtr law, std::vector<StepPtr> steps, int n = 2) {
   const BlockPtr lower = cube("lower", 0, 0, 0, n), upper = cube("upper", 0, 0, 1, n);
   problem.substructures = {lower, upper};
   problem.interfaces = {interface("between", face(lower, "zmax"), face(upper, "zmin"), std::move(law))};
-  problem.supports = {support(SupportKind::fixed, {face(lower, "zmin")})};
+  problem.supports = {support("fixed", {face(lower, "zmin")})};
   problem.steps = std::move(steps);
   problem.solver.tolerance = problem.solver.static_tolerance = 1e-11;
   problem.solver.max_iterations = 2000;

@@ -156,7 +156,7 @@ TEST(Exchange, ties_a_group_on_one_side_of_a_law) {
 TEST(Exchange, leaves_held_directions_to_their_support) {
   Problem problem = two_cubes(bonded(), {dynamic_step("test", 1, dt, {})});
   const BlockPtr lower = std::const_pointer_cast<Substructure>(problem.substructures[0]);
-  problem.supports.push_back(support(SupportKind::symmetry, {face(lower, "xmin")}));
+  problem.supports.push_back(support("symmetry", {face(lower, "xmin")}));
   const Modelled of(problem);
   expect_sound(of);
   int n_held = 0;
@@ -177,7 +177,7 @@ TEST(Exchange, at_a_wall_has_one_side) {
   Problem problem;
   const BlockPtr alone = cube("alone", 0, 0, 0);
   problem.substructures = {alone};
-  problem.supports = {support(SupportKind::wall, {face(alone, "zmin")}, contact(0.3))};
+  problem.supports = {support("wall", {face(alone, "zmin")}, {{"friction", 0.3}, {"gap", 0.0}})};
   problem.steps = {dynamic_step("test", 1, dt, {})};
   const Modelled of(problem);
   expect_sound(of);
@@ -193,7 +193,7 @@ TEST(Exchange, of_a_step_without_that_wall_has_none) {
   Problem problem;
   const BlockPtr alone = cube("alone", 0, 0, 0);
   problem.substructures = {alone};
-  problem.supports = {support(SupportKind::wall, {face(alone, "zmin")}, contact(0.3))};
+  problem.supports = {support("wall", {face(alone, "zmin")}, {{"friction", 0.3}, {"gap", 0.0}})};
   auto away = dynamic_step("away", 1, dt, {});
   away->supports.emplace();
   problem.steps = {dynamic_step("test", 1, dt, {}), away};
@@ -254,8 +254,7 @@ TEST(StepModel, shares_the_operators_of_equal_pieces) {
   const BlockPtr other = std::const_pointer_cast<Substructure>(problem.substructures[3]);
   other->material.density = 2700.0;
   problem.steps = {dynamic_step("test", 1, dt, {})};
-  for (const auto& part : problem.substructures)
-    problem.supports.push_back(support(SupportKind::fixed, {Face{part, "zmin"}}));
+  for (const auto& part : problem.substructures) problem.supports.push_back(support("fixed", {Face{part, "zmin"}}));
   const Modelled of(problem);
   const auto& pieces = of.model.pieces;
   EXPECT_FALSE(pieces[0]->shares_operator());

@@ -21,8 +21,7 @@ BlockPtr part_of(const Problem& problem) { return std::const_pointer_cast<Substr
 TEST(Conditions, hold_all_of_a_fixed_face_and_the_normal_of_a_symmetry) {
   Problem problem = one_cube({dynamic_step("test", 1, dt, {})});
   const BlockPtr part = part_of(problem);
-  problem.supports = {support(SupportKind::fixed, {face(part, "zmin")}),
-                      support(SupportKind::symmetry, {face(part, "xmin")})};
+  problem.supports = {support("fixed", {face(part, "zmin")}), support("symmetry", {face(part, "xmin")})};
   const Modelled of(problem);
   const Conditions& conditions = of.model.conditions;
   const auto held_at = [&](const Vec3& place) { return conditions.at(0, of.node_at(0, place)); };
@@ -39,7 +38,7 @@ TEST(Conditions, hold_all_of_a_fixed_face_and_the_normal_of_a_symmetry) {
 TEST(Conditions, hold_what_absorbs_in_a_static_step_and_let_it_go_in_a_dynamic_one) {
   const StepPtr press = static_step("press", 1, {});
   Problem problem = one_cube({press, dynamic_step("shock", 1, dt, {}, press)});
-  problem.supports = {support(SupportKind::absorbing, {face(part_of(problem), "zmin")})};
+  problem.supports = {support("absorbing", {face(part_of(problem), "zmin")})};
   const Modelled at_rest(problem, 0), in_motion(problem, 1);
   EXPECT_EQ(at_rest.model.conditions.held[0].size(), 9U);
   EXPECT_TRUE(in_motion.model.conditions.held[0].empty());
@@ -69,7 +68,7 @@ TEST(Conditions, move_a_face_by_its_velocity_at_the_end_of_an_increment) {
 TEST(Conditions, refuse_a_motion_of_what_is_held) {
   Problem problem = one_cube({});
   const Face top{problem.substructures[0], "zmax"};
-  problem.supports = {support(SupportKind::fixed, {top})};
+  problem.supports = {support("fixed", {top})};
   problem.steps = {dynamic_step("test", 4, dt, {load("velocity", {top}, History::constant(1.0), 2)})};
   EXPECT_THROW(Modelled{problem}, InputError);
 }
@@ -96,7 +95,7 @@ TEST(Loads, of_a_face_are_pressure_traction_and_force) {
 TEST(Loads, of_gravity_are_the_weight_of_every_node) {
   Problem problem = one_cube({});
   problem.steps = {static_step("rest", 4, {number("gravity", {}, -9.81, 2)})};
-  problem.supports = {support(SupportKind::fixed, {face(part_of(problem), "zmin")})};
+  problem.supports = {support("fixed", {face(part_of(problem), "zmin")})};
   const Modelled of(problem);
   for (int i = 0; i < 4; ++i) {
     of.model.loads->evaluate(i);  // a number is ramped in a static step
@@ -110,7 +109,7 @@ TEST(Loads, that_a_later_static_step_does_not_list_fade_away_in_it) {
   const Face top{problem.substructures[0], "zmax"};
   const StepPtr press = static_step("press", 2, {number("pressure", {top}, 40.0)});
   problem.steps = {press, static_step("let go", 2, {}, press)};
-  problem.supports = {support(SupportKind::fixed, {face(part_of(problem), "zmin")})};
+  problem.supports = {support("fixed", {face(part_of(problem), "zmin")})};
   Modelled of(problem);
   of.state.reached = of.model.loads->reached();
   StepModel next = make_step_model(of.problem, *of.problem.steps[1], of.surfaces, of.bodies, of.state, of.cut);
@@ -170,7 +169,7 @@ TEST(StepEnds, book_what_a_new_support_stops) {
   const StepPtr fly = dynamic_step("fly", 2, dt, {});
   auto caught = dynamic_step("caught", 2, dt, {}, fly);
   caught->supports.emplace();
-  caught->supports->push_back(support(SupportKind::fixed, {face(part_of(problem), "zmin")}));
+  caught->supports->push_back(support("fixed", {face(part_of(problem), "zmin")}));
   problem.steps = {fly, caught};
   Modelled of(problem);
   start_step(of.model, of.state);

@@ -10,10 +10,15 @@ class BaseAcceleration final : public Load {
   explicit BaseAcceleration(const ModelArguments& a)
       : Load(a, one_value(a, "history")), direction_(a.unit_vector("direction")) {}
 
-  std::string acts_on() const override { return "a support.fixed or a support.symmetry"; }
+  std::string acts_on() const override {
+    std::string text;
+    for (const SupportEntry& entry : support_table())
+      if (example_of(entry)->can_be_shaken()) text += (text.empty() ? "a support." : " or a support.") + entry.word;
+    return text;
+  }
   bool can_act_on(const Target& target) const override {
     const SupportPtr* support = std::get_if<SupportPtr>(&target);
-    return support && ((*support)->kind == SupportKind::fixed || (*support)->kind == SupportKind::symmetry);
+    return support && (*support)->kind->can_be_shaken();
   }
   bool is_everywhere() const override { return false; }
   const char* unit() const override { return "m/s^2"; }

@@ -97,7 +97,7 @@ class SuperelementOutput final : public Output {
       check::fail(problem, origin, who + ": the problem has no static step",
                   "it is taken about the state after one; or name another step with 'after'");
     for (const SupportPtr& support : supports_of(problem, *step))
-      if (support->kind == SupportKind::absorbing)
+      if (support->kind->absorbs())
         check::fail(problem, origin,
                     who + ": " + check::describe(*support) + " is a non-reflecting boundary in step '" + step->name +
                         "', which a superelement cannot represent",
