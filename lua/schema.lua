@@ -154,6 +154,17 @@ words[4] = {
       { "compression", type = "boolean", default = false, doc = "yields in compression too, with isotropic hardening" },
     },
   },
+  {
+    "viscous", makes = "interface",
+    doc = "A damper, as a gasket or a layer of grease: a traction in proportion to the relative velocity, pulling and pushing. It carries "
+      .. "nothing in a static step.",
+    arguments = {
+      name_of "interface", between(),
+      { "normal", type = "number", unit = "Pa s/m", range = { 0, 1e12 }, required = true,
+        doc = "traction per relative velocity along the normal: viscosity / thickness of a layer; 0: free" },
+      { "tangential", type = "number", unit = "Pa s/m", range = { 0, 1e12 }, default = 0, doc = "the same along the tangents; 0: free" },
+    },
+  },
 }
 
 -- Interfaces that a load can shorten, as a nut does.
@@ -205,6 +216,16 @@ words[6] = {
     "force", makes = "load", doc = "A force in all, spread evenly.",
     arguments = { on({ "face", "region" }, "loaded faces or nodes"), components("force", "N", { -1e10, 1e10 }) },
     one_of = { "x", "y", "z" },
+  },
+  {
+    "torque", makes = "load",
+    doc = "A moment about an axis, right-handed, spread over a face as tractions around the axis that grow with the radius.",
+    arguments = {
+      on({ "face" }, "twisted faces: each gets the torque"),
+      { "axis", type = "vector", required = true, doc = "direction of the axis; its length does not matter" },
+      { "through", type = "vector", unit = "m", range = { -1000, 1000 }, default_doc = "the centroid of the face", doc = "a point of the axis" },
+      { "history", type = "value", unit = "N m", range = { -1e9, 1e9 }, required = true, doc = "the torque" },
+    },
   },
   {
     "velocity", makes = "load", doc = "Prescribed velocity; a direction left out is free.",

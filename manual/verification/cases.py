@@ -118,6 +118,18 @@ YIELDING = Case(
         percent("hardening: opening", "opening at the end, hardening"),
     ], 1, compare=True, history="yielding_interface", note="dt = 0.5 h/c. The remaining error is at the front, which is smeared over some cells.")
 
+DAMPER = Case(
+    "4b", "damper", "Damper", "decks/verification/damper.lua",
+    "A step of stress goes through a damper between two equal bars; a block on a damper slows down.",
+    "2 c/(2 c + rho c_P) of the stress gets through, 2/3 at c = rho c_P; t^2/c per area and time is dissipated; exp(-c A t/m).",
+    "n", of_n(30, 60, 120, 240), [
+        percent("wave: stress that gets through, error", "stress that gets through, mean", 0.2, fitted=False),
+        percent("wave: stroke at the end", "stroke at the end"),
+        percent("wave: energy dissipated", "energy dissipated"),
+        percent("normal: velocity", "block, along the normal", 0.2, plotted=False, fitted=False),
+        percent("tangent: velocity", "block, along a tangent", 0.2, plotted=False, fitted=False),
+    ], 1, compare=True, note="dt = 0.5 h/c. What is left is the front, which is blunt over some cells. The block is one cell: its error is that of dt.")
+
 ROD = Case(
     "5", "rod_in_sleeve", "Prestressed rod in a sleeve", "decks/verification/rod_in_sleeve.lua",
     "A rod is tightened in a sleeve, loaded below and beyond separation, unloaded, and left alone for 200 time steps.",
@@ -196,7 +208,7 @@ GOODMAN = Case(
         Quantity("exponent over the force (3)", "exponent of the loss over the force", "", 0.05, 3.0, "3 to 0.05", plotted=False, fitted=False),
     ], 2, note="m = 20 increments between two turning points: the trapezoid around the loop keeps part of the error, however fine the mesh.")
 
-CASES = [BOUNCING_BAR, TWO_BARS, UNEQUAL_BARS, YIELDING, ROD, PRELOAD, SLIDING, PATCH, BONDED, SPECTRUM, GOODMAN]
+CASES = [BOUNCING_BAR, TWO_BARS, UNEQUAL_BARS, YIELDING, DAMPER, ROD, PRELOAD, SLIDING, PATCH, BONDED, SPECTRUM, GOODMAN]
 
 SERIES = {  # of decks/verification/orders.lua: name in its lines -> (name in tables, theory, sizes, what x is)
     "h_hex8": ("h, hexahedra", 2, [40, 80, 160, 320], "n"),

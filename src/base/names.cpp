@@ -48,4 +48,15 @@ std::string did_you_mean(const std::string& name, std::vector<std::string> known
   return known.empty() ? text + "none" : text;
 }
 
+std::string file_name_of(const std::string& name) {
+  if (name.empty()) return "unnamed";
+  std::string file_name = name;
+  for (char& c : file_name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f || c == '/' || c == '\\') c = '_';
+  }
+  if (file_name.front() == '.') file_name.front() = '_';
+  return file_name;
+}
+
 }  // namespace dygita

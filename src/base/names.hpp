@@ -1,4 +1,4 @@
-// The closest known name to a misspelt one: every "did you mean" comes from here.
+// Names: the closest known one to a misspelt one (every "did you mean" comes from here), and as those of files.
 #pragma once
 
 #include <string>
@@ -11,5 +11,9 @@ std::string closest_name(const std::string& name, const std::vector<std::string>
 
 // "did you mean 'young'? known: damping, density, name" with the known names sorted.
 std::string did_you_mean(const std::string& name, std::vector<std::string> known);
+
+// The name as a file's or directory's: '/', '\' and control characters become '_', a '.' in front too, an empty name
+// "unnamed". A name that check_problem lets through is unchanged.
+std::string file_name_of(const std::string& name);
 
 }  // namespace dygita

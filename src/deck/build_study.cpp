@@ -4,6 +4,7 @@
 
 #include "base/log.hpp"
 #include "deck/build_model.hpp"
+#include "result/output_table.hpp"
 
 namespace dygita {
 
@@ -95,128 +96,7 @@ Content build_explicit(const Declaration& d) {
   return std::shared_ptr<const ExplicitSettings>(settings);
 }
 
-Content build_vtk(const Declaration& d) {
-  auto output = std::make_shared<Output>();
-  output->name = "vtk";
-  output->origin = d.origin;
-  output->kind = OutputKind::vtk;
-  output->frames = d.arguments.integer("frames");
-  output->fields = d.arguments.texts("fields");
-  return OutputPtr(output);
-}
-
-Content build_energy(const Declaration& d) {
-  auto output = std::make_shared<Output>();
-  output->name = "energy";
-  output->origin = d.origin;
-  output->kind = OutputKind::energy;
-  return OutputPtr(output);
-}
-
-Content build_history(const Declaration& d) {
-  static const std::map<std::string, Quantity> quantities = {
-      {"displacement", Quantity::displacement}, {"velocity", Quantity::velocity},
-      {"acceleration", Quantity::acceleration}, {"stress", Quantity::stress},
-      {"von_mises", Quantity::von_mises},       {"pressure", Quantity::pressure}};
-  auto output = new_named<Output>(d);
-  output->kind = OutputKind::history;
-  output->on = d.arguments.targets("on");
-  output->quantity = quantities.at(d.arguments.text("quantity"));
-  if (d.arguments.has("direction")) output->direction = d.arguments.unit_vector("direction");
-  return OutputPtr(output);
-}
-
-Content build_resultant(const Declaration& d) {
-  auto output = new_named<Output>(d);
-  output->kind = OutputKind::resultant;
-  output->on = d.arguments.targets("on");
-  return OutputPtr(output);
-}
-
-Content build_joint(const Declaration& d) {
-  auto output = new_named<Output>(d);
-  output->kind = OutputKind::joint;
-  output->on = d.arguments.targets("on");
-  return OutputPtr(output);
-}
-
-SrsSettings srs_settings(const Arguments& a) {
-  static const std::map<std::string, SrsQuantity> quantities = {
-      {"absolute_acceleration", SrsQuantity::absolute_acceleration},
-      {"relative_displacement", SrsQuantity::relative_displacement},
-      {"pseudo_velocity", SrsQuantity::pseudo_velocity}};
-  SrsSettings srs{a.number_or("q_factor", 10.0), a.number("from"), a.number("to"), a.integer("per_octave"),
-                  quantities.at(a.text("quantity"))};
-  if (a.has("damping")) {
-    if (a.has("q_factor"))
-      throw InputError("'q_factor' and 'damping' are the same quantity: leave one out (Q = 1 / (2 damping))");
-    srs.q_factor = q_factor_of(a.number("damping"));
-  }
-  if (srs.from >= srs.to)
-    throw InputError(fmt::format("'from' = {:g} Hz is not below 'to' = {:g} Hz", srs.from, srs.to));
-  return srs;
-}
-
-Content build_loop(const Declaration& d) {
-  auto output = new_named<Output>(d);
-  output->kind = OutputKind::loop;
-  output->on = d.arguments.targets("on");
-  output->direction = d.arguments.unit_vector("direction");
-  output->between = d.arguments.places("between");
-  output->after = d.arguments.step("after");
-  return OutputPtr(output);
-}
-
-Content build_superelement(const Declaration& d) {
-  static const std::map<std::string, FaceMotion> motions = {
-      {"mean", FaceMotion::mean}, {"rigid", FaceMotion::rigid}, {"nodes", FaceMotion::nodes}};
-  const LuaArguments& a = d.arguments;
-  auto output = new_named<Output>(d);
-  output->kind = OutputKind::superelement;
-  output->on = d.arguments.targets("on");
-  output->after = a.step("after");
-  if (a.has("up_to") && a.has("modes"))
-    throw InputError("'up_to' and 'modes' exclude each other: modes are kept up to twice 'up_to'");
-  output->superelement.motion = motions.at(a.text("motion"));
-  output->superelement.up_to = a.number_or("up_to", 0.0);
-  output->superelement.modes = a.has("modes") ? a.integer("modes") : 0;
-  output->superelement.ties_sliding = a.text("sliding") == "tied";
-  return OutputPtr(output);
-}
-
-Content build_srs(const Declaration& d) {
-  const LuaArguments& a = d.arguments;
-  auto output = new_named<Output>(d);
-  output->kind = OutputKind::srs;
-  output->of = a.output("of");
-  output->srs = srs_settings(a);
-  output->specification = a.specification("specification");
-  if (output->specification && output->srs.quantity != SrsQuantity::absolute_acceleration)
-    throw InputError("a 'specification' is of absolute acceleration: leave 'quantity' out");
-  return OutputPtr(output);
-}
-
-Content build_srs_field(const Declaration& d) {
-  auto output = new_named<Output>(d);
-  output->kind = OutputKind::srs_field;
-  output->on = d.arguments.targets("on");
-  output->quantity = Quantity::acceleration;
-  if (d.arguments.has("direction")) output->direction = d.arguments.unit_vector("direction");
-  output->srs = srs_settings(d.arguments);
-  return OutputPtr(output);
-}
-
-Content build_attenuation(const Declaration& d) {
-  const LuaArguments& a = d.arguments;
-  auto output = new_named<Output>(d);
-  output->kind = OutputKind::attenuation;
-  output->of = a.output("entering");
-  output->leaving = a.output("leaving");
-  output->srs = srs_settings(a);
-  output->bands = a.integer("bands");
-  output->n_joints = a.integer("joints");
-  return OutputPtr(output);
-}
+Content build_output(const Declaration& d) { return make_output(d.arguments); }
 
 Content build_problem(const Declaration& d) {
   const LuaArguments& a = d.arguments;
@@ -242,24 +122,14 @@ Content build_problem(const Declaration& d) {
 }  // namespace
 
 const Builders& study_builders() {
-  static const Builders builders = {
-      {"step.static", build_static},
-      {"step.dynamic", build_dynamic},
-      {"solver.latin", build_latin},
-      {"solver.monolithic", build_monolithic},
-      {"solver.explicit", build_explicit},
-      {"output.vtk", build_vtk},
-      {"output.history", build_history},
-      {"output.resultant", build_resultant},
-      {"output.joint", build_joint},
-      {"output.srs", build_srs},
-      {"output.energy", build_energy},
-      {"output.srs_field", build_srs_field},
-      {"output.attenuation", build_attenuation},
-      {"output.loop", build_loop},
-      {"output.superelement", build_superelement},
-      {"problem", build_problem},
-  };
+  static const Builders builders = [] {
+    Builders all = {
+        {"step.static", build_static},           {"step.dynamic", build_dynamic},     {"solver.latin", build_latin},
+        {"solver.monolithic", build_monolithic}, {"solver.explicit", build_explicit}, {"problem", build_problem},
+    };
+    for (const OutputEntry& output : output_table()) all.emplace("output." + output.word, build_output);
+    return all;
+  }();
   return builders;
 }
 

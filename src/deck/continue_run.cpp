@@ -2,24 +2,10 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "base/log.hpp"
+#include "deck/deck_text.hpp"
 
 namespace dygita {
-
-namespace {
-
-bool is_same_text(const RunState& state) {
-  std::ifstream file(state.deck_path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
-  if (text.rfind("#!", 0) == 0) text.replace(0, 2, "--");
-  return file.good() || file.eof() ? text == state.deck_text : false;
-}
-
-}  // namespace
 
 DeckOutcome continue_run(const ContinueOptions& options) {
   Continuation continuation(options);
@@ -29,7 +15,7 @@ DeckOutcome continue_run(const ContinueOptions& options) {
     return {};
   }
   continuation.check_until();
-  if (!is_same_text(state))
+  if (read_deck_text(state.deck_path) != state.deck_text)
     warn(fmt::format("deck '{}' has changed since the run or is gone: the run continues with the text that it kept",
                      state.deck_path));
   DeckOptions deck;

@@ -2,14 +2,12 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "base/fnv1a.hpp"
 #include "base/log.hpp"
 #include "base/threads.hpp"
 #include "deck/arguments.hpp"
 #include "deck/deck_state.hpp"
+#include "deck/deck_text.hpp"
 #include "deck/results.hpp"
 #include "numerics/factor.hpp"
 #include "result/hollow_result.hpp"
@@ -19,17 +17,8 @@ namespace dygita {
 namespace {
 
 std::string text_of(const std::filesystem::path& path) {
-  std::error_code ignored;
-  std::ifstream stream(path, std::ios::binary);
-  if (!std::filesystem::is_regular_file(path, ignored) || !stream) {
-    throw InputError(fmt::format("no deck '{}'", path.string()));
-  }
-  std::ostringstream content;
-  content << stream.rdbuf();
-  std::string text = content.str();
-  if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);  // byte order mark of some editors
-  if (text.rfind("#!", 0) == 0) text.replace(0, 2, "--");
-  return text;
+  if (std::optional<std::string> text = read_deck_text(path)) return *std::move(text);
+  throw InputError(fmt::format("no deck '{}'", path.string()));
 }
 
 std::string digest_of(const std::string& text) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/names.hpp"
+#include "model/output.hpp"
 
 namespace dygita {
 
@@ -39,9 +40,7 @@ std::vector<std::string> value_columns(const OutputData& data) {
 
 bool is_vector(const OutputData& data) { return value_columns(data) == std::vector<std::string>{"x", "y", "z"}; }
 
-std::string label_of(const OutputData& data) {
-  return fmt::format("output.{} '{}'", output_kind_name(data.output->kind), data.output->name);
-}
+std::string label_of(const OutputData& data) { return data.output->known_as(); }
 
 Series series_of(const OutputData& data, const std::string& column) {
   const Table& table = *data.table;
@@ -72,8 +71,9 @@ int push_output_data(lua_State* L, const DeckResultPtr& result, const Object& ke
     push_object(L, {"data", key.path, output->name, -1, OutputData{result, output, &found->second}});
     return 1;
   }
-  if (output->kind == OutputKind::vtk) {
-    throw InputError(origin, "output.vtk has no data in the deck\n    its frames are files for ParaView");
+  if (output->columns().empty()) {
+    throw InputError(origin,
+                     "output." + output->word + " has no data in the deck\n    its frames are files for ParaView");
   }
   const auto& listed = result->problem->outputs;
   if (index_of(listed, output.get()) >= 0) {
@@ -118,24 +118,24 @@ int read_series(lua_State* L, const Series& series, const Origin& origin) {
   unknown(origin, fmt::format("series '{}'", series.name), key, {"at", "first", "last", "max", "min", series.abscissa});
 }
 
-// The tables and figures of a condensed joint; false where `key` is none of them, or the table at hand is one of them.
-bool push_of_loop(lua_State* L, const OutputData& data, const std::string& key) {
-  const auto found = data.result->run->loops.find(data.output.get());
-  if (found == data.result->run->loops.end()) return false;
-  const LoopSummary& loop = found->second;
-  if (data.table == &loop.cycles || data.table == &loop.backbone) return false;
-  const std::map<std::string, const Table*> tables = {{"cycles", &loop.cycles}, {"backbone", &loop.backbone}};
-  if (const auto table = tables.find(key); table != tables.end()) {
-    push_object(L, {"data", "output.loop", data.output->name, -1, OutputData{data.result, data.output, table->second}});
+// What an output tells beside its table: tables and numbers, under these names.
+const Findings& findings_beside(const OutputData& data) {
+  static const Findings none;
+  const RunResult& run = *data.result->run;
+  return data.table == &run.tables.at(data.output.get()) ? run.findings_of(*data.output) : none;
+}
+
+bool push_finding(lua_State* L, const OutputData& data, const std::string& key) {
+  const Findings& findings = findings_beside(data);
+  for (const auto& [part, table] : findings.parts) {
+    if (part != key) continue;
+    push_object(L, {"data", "output." + data.output->word, data.output->name, -1,
+                    OutputData{data.result, data.output, &table}});
     return true;
   }
-  const std::map<std::string, double> figures = {{"exponent", loop.exponent},
-                                                 {"displacement_exponent", loop.displacement_exponent},
-                                                 {"stiffness", loop.stiffness},
-                                                 {"secant", loop.secant}};
-  const auto figure = figures.find(key);
-  if (figure == figures.end()) return false;
-  lua_pushnumber(L, figure->second);
+  const auto value = findings.values.find(key);
+  if (value == findings.values.end()) return false;
+  lua_pushnumber(L, value->second);
   return true;
 }
 
@@ -145,7 +145,7 @@ int read_output(lua_State* L, const OutputData& data, const Origin& origin) {
     return read_series(L, series_of(data, columns[0]), origin);
   }
   const std::string key = key_text(L);
-  if (data.output->kind == OutputKind::loop && push_of_loop(L, data, key)) return 1;
+  if (push_finding(L, data, key)) return 1;
   if (std::find(columns.begin(), columns.end(), key) != columns.end()) {
     push_series(L, series_of(data, key));
     return 1;
@@ -158,8 +158,8 @@ int read_output(lua_State* L, const OutputData& data, const Origin& origin) {
   if (is_vector(data) && key == "max") return push_value(L, *summary_of(modulus_of(data), key, origin));
   std::vector<std::string> known = data.table->names;
   if (is_vector(data)) known.push_back("max");
-  if (data.output->kind == OutputKind::loop)
-    known.insert(known.end(), {"backbone", "cycles", "displacement_exponent", "exponent", "secant", "stiffness"});
+  for (const auto& [part, table] : findings_beside(data).parts) known.push_back(part);
+  for (const auto& [value, number] : findings_beside(data).values) known.push_back(value);
   unknown(origin, label_of(data), key, std::move(known));
 }
 

@@ -14,7 +14,7 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
     const bool has_schur = piece.schur_diagonal().size() > 0;
     for (int d = 0; d < 3; ++d) {
       if (port.unknown[d] < 0) continue;
-      const Row& row = piece.rows()[port.unknown[d]];
+      const InterfaceRow& row = piece.rows()[port.unknown[d]];
       const double schur = has_schur ? piece.schur_diagonal()[port.unknown[d]] : 0.0;
       double& direction = k[model.unknown(port, d)];
       if (model.scheme.is_static) {

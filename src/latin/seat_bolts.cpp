@@ -10,40 +10,56 @@ namespace dygita {
 
 namespace {
 
-constexpr double rough = 1e-4;  // tolerance of the iterations for a given shortening
-constexpr double close = 2e-2;  // to the force asked for
+// Of the search, one after the other: tolerance of the iterations for given shortenings, and how close the forces are
+// to come to those asked for.
+struct Level {
+  double tolerance, precision;
+};
+constexpr Level levels[] = {{1e-4, 2e-2}, {1e-6, 1e-4}, {1e-8, 1e-6}};
 constexpr int most_sweeps = 5;  // over bolts that loosen each other
 
 }  // namespace
 
-void StepRun::seat_bolts(int increment, const BoltStart& start, Best& best) {
-  at_.q = start.q;
+Vec StepRun::search_shortenings(int increment, double tolerance, double precision, Vec& d, Best& best) {
   const PreloadFigures figures = local_.preload_figures();
-  const Vec &target = figures.target, &stiffest = figures.stiffest;
-  Vec d = start.shortening;
-  Best roughly;
   const auto forces = [&](const Vec& prescribed) {
     local_.prescribe_shortenings(prescribed);
-    iterate(increment, {std::max(rough, settings_.tolerance), settings_.max_iterations, 0.0}, roughly);
+    iterate(increment, {tolerance, settings_.max_iterations, 0.0}, best);
     return local_.preload_figures().force;
   };
+  const Vec& target = figures.target;
   const double scale = std::max(target.cwiseAbs().maxCoeff(), forces(d).cwiseAbs().maxCoeff());
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    if (sweep > 0 && (forces(d) - target).cwiseAbs().maxCoeff() <= 5 * close * scale) break;
+    if (sweep > 0 && (forces(d) - target).cwiseAbs().maxCoeff() <= 5 * precision * scale) break;
     for (int i = 0; i < d.size(); ++i) {
       const auto force = [&](double own) {
         Vec all = d;
         all[i] = own;
         return forces(all)[i];
       };
-      d[i] = find_shortening(force, target[i], d[i], stiffest[i], scale, close, settings_.assembly_size);
+      d[i] = find_shortening(force, target[i], d[i], figures.stiffest[i], scale, precision, settings_.assembly_size);
     }
   }
-  check_reached(*model_.step, increment, figures.interfaces, forces(d), target);
-  local_.prescribe_shortenings({});
+  return forces(d);
+}
+
+void StepRun::seat_bolts(int increment, const BoltStart& start, Best& best) {
+  at_.q = start.q;
+  const PreloadFigures figures = local_.preload_figures();
+  Vec d = start.shortening;
+  Best roughly;
+  for (const Level& level : levels) {
+    const Vec force =
+        search_shortenings(increment, std::max(level.tolerance, settings_.tolerance), level.precision, d, roughly);
+    if (&level == levels) check_reached(*model_.step, increment, figures.interfaces, force, figures.target);
+    const Vec seated = at_.q;
+    local_.prescribe_shortenings({});
+    // A preload may send a part away that is still unconstrained: it is then seated more closely.
+    iterate(increment, {settings_.tolerance, settings_.max_iterations, settings_.assembly_size}, best);
+    if (best.outcome.eta <= settings_.tolerance) break;
+    at_.q = seated;
+  }
   best.iterations += roughly.iterations;
-  // A preload may send a part away that is still unconstrained.
-  iterate(increment, {settings_.tolerance, settings_.max_iterations, settings_.assembly_size}, best);
 }
 
 }  // namespace dygita

@@ -67,7 +67,10 @@ class StepRun {
   void finish_increment(const Vec& q);
   void solve_increment(int increment);
 
+  // Preloads whose joint stands open (seat_bolts.cpp). The search improves shortenings d (m), each bolt's in turn,
+  // until forces are right to `precision`; answers them (N), `best` being the iteration at d.
   void seat_bolts(int increment, const BoltStart& start, Best& best);
+  Vec search_shortenings(int increment, double tolerance, double precision, Vec& d, Best& best);
 
   // Windows (window.cpp).
   struct Start {

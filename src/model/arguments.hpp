@@ -3,6 +3,7 @@
 
 #include "base/arguments.hpp"
 #include "model/model.hpp"
+#include "signal/specification.hpp"
 
 namespace dygita {
 

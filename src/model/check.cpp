@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/log.hpp"
 #include "base/names.hpp"
 
 namespace dygita {
@@ -22,6 +23,19 @@ namespace check {
 void fail(const Problem& problem, const Origin& origin, const std::string& text, const std::string& hint) {
   throw InputError(origin.file.empty() ? problem.origin : origin,
                    "problem '" + problem.name + "': " + text + (hint.empty() ? "" : "\n    " + hint));
+}
+
+void doubt(const Problem& problem, const Origin& origin, const std::string& text) {
+  warn((origin.file.empty() ? problem.origin : origin).prefix() + "problem '" + problem.name + "': " + text);
+}
+
+bool has_dynamic_step(const Problem& problem) {
+  return std::any_of(problem.steps.begin(), problem.steps.end(), [](const StepPtr& step) { return !step->is_static; });
+}
+
+bool is_wall(const Target& target) {
+  const SupportPtr* support = std::get_if<SupportPtr>(&target);
+  return support && (*support)->kind == SupportKind::wall;
 }
 
 std::vector<SupportPtr> all_supports(const Problem& problem) {

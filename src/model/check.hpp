@@ -1,6 +1,7 @@
 // The parts of check_problem and what they share. Each throws InputError with the origin of the object at fault.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,20 @@ void resolution(const Problem& problem);
 // Throws InputError "<origin>: problem '<name>': <text>"; `hint`, where given, follows on its own line.
 [[noreturn]] void fail(const Problem& problem, const Origin& origin, const std::string& text,
                        const std::string& hint = "");
+
+// Warns of it: "<origin>: problem '<name>': <text>".
+void doubt(const Problem& problem, const Origin& origin, const std::string& text);
+
+bool has_dynamic_step(const Problem& problem);
+bool is_wall(const Target& target);
+
+// Throws unless an output is on something, and on listed objects only; `refused` says why it cannot be on a target,
+// nothing where it can.
+void is_on(const Problem& problem, const Output& output, const std::vector<Target>& on,
+           const std::function<std::string(const Target&)>& refused);
+
+// Throws where another output is called as files of this one are: its own name and one of the suffixes.
+void names_are_free(const Problem& problem, const Output& output, const std::vector<std::string>& suffixes);
 
 // Every support in force in some step, each once, the problem's own first.
 std::vector<SupportPtr> all_supports(const Problem& problem);

@@ -1,16 +1,12 @@
 #include <algorithm>
 
-#include "base/log.hpp"
 #include "model/check.hpp"
 #include "model/load.hpp"
+#include "model/output.hpp"
 
 namespace dygita::check {
 
 namespace {
-
-void doubt(const Problem& problem, const Origin& origin, const std::string& text) {
-  warn((origin.file.empty() ? problem.origin : origin).prefix() + "problem '" + problem.name + "': " + text);
-}
 
 bool is_touched(const Problem& problem, const SubstructurePtr& part) {
   for (const InterfacePtr& interface : problem.interfaces) {
@@ -32,7 +28,7 @@ bool is_touched(const Problem& problem, const SubstructurePtr& part) {
   return false;
 }
 
-void doubt_supports(const Problem& problem, bool has_dynamic_step) {
+void doubt_supports(const Problem& problem, bool moves) {
   for (const SupportPtr& support : problem.supports) {
     const bool is_used = std::any_of(problem.steps.begin(), problem.steps.end(), [&](const StepPtr& step) {
       return index_of(supports_of(problem, *step), support.get()) >= 0;
@@ -41,7 +37,7 @@ void doubt_supports(const Problem& problem, bool has_dynamic_step) {
       doubt(problem, support->origin, describe(*support) + " holds in no step: every step has 'supports' of its own");
     }
   }
-  if (has_dynamic_step) return;
+  if (moves) return;
   for (const SupportPtr& support : all_supports(problem)) {
     if (support->kind != SupportKind::absorbing) continue;
     doubt(problem, support->origin, describe(*support) + " acts like a fixed one: there is no dynamic step");
@@ -51,10 +47,9 @@ void doubt_supports(const Problem& problem, bool has_dynamic_step) {
 }  // namespace
 
 void doubts(const Problem& problem) {
-  const bool has_dynamic_step =
-      std::any_of(problem.steps.begin(), problem.steps.end(), [](const StepPtr& step) { return !step->is_static; });
+  const bool moves = has_dynamic_step(problem);
   const bool has_spectrum = std::any_of(problem.outputs.begin(), problem.outputs.end(),
-                                        [](const OutputPtr& output) { return output->kind == OutputKind::srs; });
+                                        [](const OutputPtr& output) { return output->settles(); });
   if (problem.solver.spectra > 0.0 && !has_spectrum)
     doubt(
         problem, problem.origin,
@@ -62,17 +57,12 @@ void doubts(const Problem& problem) {
   for (const SubstructurePtr& part : problem.substructures) {
     const std::string who = "substructure '" + part->name + "'";
     if (!is_touched(problem, part)) doubt(problem, part->origin, "no interface, support or load touches " + who);
-    if (!has_dynamic_step && !part->velocity.isZero()) {
+    if (!moves && !part->velocity.isZero()) {
       doubt(problem, part->origin, "the velocity of " + who + " is not used: there is no dynamic step");
     }
   }
-  doubt_supports(problem, has_dynamic_step);
-  for (const OutputPtr& output : problem.outputs) {
-    const bool is_rate = output->quantity == Quantity::velocity || output->quantity == Quantity::acceleration;
-    if (has_dynamic_step || output->kind != OutputKind::history || !is_rate) continue;
-    doubt(problem, output->origin,
-          "output.history '" + output->name + "' is zero throughout: there is no dynamic step");
-  }
+  doubt_supports(problem, moves);
+  for (const OutputPtr& output : problem.outputs) output->doubt(problem);
 }
 
 }  // namespace dygita::check

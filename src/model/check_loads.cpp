@@ -111,7 +111,8 @@ class Competition {
     if (bolt != bolt_of(b)) return;
     const bool is_force = std::holds_alternative<PreloadForce>(a) || std::holds_alternative<PreloadForce>(b);
     if (a.index() == b.index())
-      twice(" on " + describe(*bolt), is_force ? "one force per step: give the other one in a step of its own" : in_one);
+      twice(" on " + describe(*bolt),
+            is_force ? "one force per step: give the other one in a step of its own" : in_one);
     if (is_force)
       fail(problem_, b_.origin, who_ + a_.path + " and " + b_.path + " are both on " + describe(*bolt),
            "a preload finds the shortening that brings its force: one of the two, or one after the other in steps of "

@@ -3,6 +3,7 @@
 
 #include "model/check.hpp"
 #include "model/load.hpp"
+#include "model/output.hpp"
 
 namespace dygita::check {
 
@@ -38,8 +39,6 @@ void has_unique_names(const Problem& problem, const std::vector<std::shared_ptr<
   }
 }
 
-bool has_table(const Output& output) { return output.kind != OutputKind::vtk && output.kind != OutputKind::energy; }
-
 bool tightens_bolts(const Problem& problem) {
   for (const StepPtr& step : problem.steps)
     for (const LoadPtr& load : step->loads)
@@ -51,9 +50,9 @@ bool tightens_bolts(const Problem& problem) {
 // Tables are <name>.csv beside energy.csv and convergence.csv; ParaView's files and the energies come once a problem.
 void outputs_keep_apart(const Problem& problem) {
   std::vector<OutputPtr> tables;
-  std::set<OutputKind> seen;
+  std::set<std::string> seen;
   for (const OutputPtr& output : problem.outputs) {
-    if (has_table(*output)) {
+    if (output->is_named) {
       if (output->name == "energy" || output->name == "convergence") {
         fail(problem, output->origin, "output '" + output->name + "' would overwrite " + output->name + ".csv",
              "'energy' and 'convergence' are the names of tables of the run itself");
@@ -61,15 +60,9 @@ void outputs_keep_apart(const Problem& problem) {
       if (output->name == "bolts" && tightens_bolts(problem))
         fail(problem, output->origin, "output 'bolts' would overwrite bolts.csv",
              "'bolts' is the name of the table of all tightened interfaces");
-      if (output->kind == OutputKind::srs_field && (output->name == problem.name || output->name == "interfaces")) {
-        fail(problem, output->origin,
-             "output.srs_field '" + output->name + "' would overwrite " + output->name + ".pvd",
-             "the problem's own name and 'interfaces' are those of the run's frames");
-      }
       tables.push_back(output);
-    } else if (!seen.insert(output->kind).second) {
-      fail(problem, output->origin,
-           std::string("'outputs' has more than one output.") + output_kind_name(output->kind));
+    } else if (!seen.insert(output->word).second) {
+      fail(problem, output->origin, "'outputs' has more than one output." + output->word);
     }
   }
   has_unique_names(problem, tables, "output");

@@ -8,6 +8,7 @@
 #include "base/log.hpp"
 #include "model/check.hpp"
 #include "model/load.hpp"
+#include "model/output.hpp"
 #include "signal/spectrum.hpp"
 
 namespace dygita::check {
@@ -54,11 +55,8 @@ std::vector<Content> contents(const Problem& problem, const Step& step) {
       list.push_back(
           {f, fmt::format("{:.0f} % of the energy of {} lies below", 100 * share, label(*load)), load->origin});
   for (const OutputPtr& output : problem.outputs)
-    if (output->kind == OutputKind::srs || output->kind == OutputKind::srs_field ||
-        output->kind == OutputKind::attenuation)
-      list.push_back({output->srs.to,
-                      fmt::format("output.{} '{}' asks for", output_kind_name(output->kind), output->name),
-                      output->origin});
+    if (const std::optional<double> f = output->highest_frequency())
+      list.push_back({*f, output->known_as() + " asks for", output->origin});
   return list;
 }
 
@@ -97,7 +95,7 @@ void resolution(const Problem& problem) {
       const double steps = 1.0 / (content.frequency * step->dt);
       if (steps < steps_a_period)
         say(problem, content,
-            fmt::format("step '{}' makes {:.2g} steps a period there: {:.0f} are wanted, dt = {:.2g} us", step->name,
+            fmt::format("step '{}' makes {:.2g} time steps per period there: {:.0f} are wanted, dt = {:.2g} us", step->name,
                         steps, steps_a_period, 1e6 / (steps_a_period * content.frequency)));
     }
     const auto highest = std::max_element(all.begin(), all.end(),

@@ -19,50 +19,11 @@ const char* support_kind_name(SupportKind kind) {
   return "";
 }
 
-const char* output_kind_name(OutputKind kind) {
-  switch (kind) {
-    case OutputKind::vtk:
-      return "vtk";
-    case OutputKind::history:
-      return "history";
-    case OutputKind::resultant:
-      return "resultant";
-    case OutputKind::srs:
-      return "srs";
-    case OutputKind::srs_field:
-      return "srs_field";
-    case OutputKind::attenuation:
-      return "attenuation";
-    case OutputKind::joint:
-      return "joint";
-    case OutputKind::energy:
-      return "energy";
-    case OutputKind::loop:
-      return "loop";
-    case OutputKind::superelement:
-      return "superelement";
-  }
-  CHECK(false, "unknown kind of output");
-  return "";
-}
-
-const char* quantity_name(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::displacement:
-      return "displacement";
-    case Quantity::velocity:
-      return "velocity";
-    case Quantity::acceleration:
-      return "acceleration";
-    case Quantity::stress:
-      return "stress";
-    case Quantity::von_mises:
-      return "von_mises";
-    case Quantity::pressure:
-      return "pressure";
-  }
-  CHECK(false, "unknown quantity");
-  return "";
+std::string label(const Target& target) {
+  if (const auto* face = std::get_if<Face>(&target)) return face->label();
+  if (const auto* region = std::get_if<Region>(&target)) return region->label();
+  if (const auto* interface = std::get_if<InterfacePtr>(&target)) return (*interface)->name;
+  return std::get<SupportPtr>(target)->name;
 }
 
 int Step::n_increments() const {

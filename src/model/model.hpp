@@ -12,8 +12,6 @@
 #include "material/elastic.hpp"
 #include "mesh/mesh.hpp"
 #include "signal/history.hpp"
-#include "signal/specification.hpp"
-#include "signal/srs.hpp"
 
 namespace dygita {
 
@@ -66,6 +64,9 @@ using SupportPtr = std::shared_ptr<const Support>;
 
 // What an output or a load can be on.
 using Target = std::variant<Face, Region, InterfacePtr, SupportPtr>;
+
+// "lower.base", "rod (12 nodes)", an interface's or a support's name.
+std::string label(const Target& target);
 
 class Load;
 using LoadPtr = std::shared_ptr<const Load>;
@@ -127,38 +128,7 @@ struct ExplicitSettings {
   bool bulk_viscosity = true;
 };
 
-enum class OutputKind { vtk, history, resultant, srs, srs_field, attenuation, joint, energy, loop, superelement };
-const char* output_kind_name(OutputKind kind);
-enum class Quantity { displacement, velocity, acceleration, stress, von_mises, pressure };
-const char* quantity_name(Quantity quantity);
-
-// What of a face moves with the interface of a superelement (manual, eq. D2).
-enum class FaceMotion { mean, rigid, nodes };
-
-struct SuperelementSettings {
-  FaceMotion motion = FaceMotion::mean;
-  int modes = 0;              // fixed-interface modes kept; 0: all up to twice `up_to`
-  double up_to = 0.0;         // Hz, frequency up to which it is to be used
-  bool ties_sliding = false;  // contact points at the limit of friction are tied along their tangents too
-};
-
-struct Output : Named {
-  OutputKind kind = OutputKind::energy;
-  std::vector<Target> on;  // history, resultant, joint, srs_field
-  Quantity quantity = Quantity::displacement;
-  std::optional<Vec3> direction;                       // history, srs_field: unit vector; none: x y z
-  int frames = 50;                                     // vtk: a step
-  std::vector<std::string> fields;                     // vtk
-  std::shared_ptr<const Output> of;                    // srs; attenuation: the history that enters
-  std::shared_ptr<const Output> leaving;               // attenuation
-  SrsSettings srs;                                     // srs, srs_field, attenuation
-  std::shared_ptr<const Specification> specification;  // srs; null: none
-  int bands = 1;                                       // attenuation: an octave
-  int n_joints = 1;                                    // attenuation: bolted joints on the way, for the rule of thumb
-  std::vector<FaceOrRegion> between;  // loop: one (against the ground) or two; empty: both sides of what it is on
-  StepPtr after;                      // loop, superelement: none is the start, or the last static step
-  SuperelementSettings superelement;
-};
+class Output;
 using OutputPtr = std::shared_ptr<const Output>;
 
 struct Problem : Named {

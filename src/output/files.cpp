@@ -10,17 +10,6 @@ namespace dygita {
 
 namespace fs = std::filesystem;
 
-std::string file_name_of(const std::string& name) {
-  if (name.empty()) return "unnamed";
-  std::string file_name = name;
-  for (char& c : file_name) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f || c == '/' || c == '\\') c = '_';
-  }
-  if (file_name.front() == '.') file_name.front() = '_';
-  return file_name;
-}
-
 void write_text(const fs::path& path, const std::string& text) {
   const fs::path temporary = path.string() + ".tmp";
   errno = 0;

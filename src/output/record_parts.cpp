@@ -1,6 +1,6 @@
 #include "output/record_parts.hpp"
 
-#include "output/files.hpp"
+#include "base/names.hpp"
 
 namespace dygita {
 
@@ -8,29 +8,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json labels(const std::vector<Target>& targets) {
-  Json list = Json::array();
-  for (const Target& target : targets) list.push_back(label(target));
-  return list;
-}
-
-Json specification(const Specification& specification, const Table& spectrum) {
-  Json json = {
-      {"source", specification.source}, {"frequency", specification.frequency}, {"level", specification.level}};
-  if (spectrum.n_rows() == 0) return json;
-  const Exceedance worst = largest_exceedance(specification, spectrum.columns.front(), spectrum.column("maximax"));
-  if (worst.is_known) json["exceedance"] = {{"decibels", worst.decibels}, {"frequency", worst.frequency}};
+Json json_of(const Notes& notes) {
+  Json json = Json::object();
+  for (const Note& note : notes)
+    json[note.name] = std::visit(
+        [](const auto& value) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(value)>, Notes>)
+            return json_of(value);
+          else
+            return Json(value);
+        },
+        note.value);
   return json;
 }
 
 }  // namespace
-
-std::string label(const Target& target) {
-  if (const auto* face = std::get_if<Face>(&target)) return face->label();
-  if (const auto* region = std::get_if<Region>(&target)) return region->label();
-  if (const auto* interface = std::get_if<InterfacePtr>(&target)) return (*interface)->name;
-  return std::get<SupportPtr>(target)->name;
-}
 
 namespace {
 
@@ -72,44 +64,13 @@ Json supports_record(const Problem& problem) {
   return list;
 }
 
-namespace {
-
-const char* spectrum_quantity(SrsQuantity quantity) {
-  switch (quantity) {
-    case SrsQuantity::relative_displacement:
-      return "relative displacement";
-    case SrsQuantity::pseudo_velocity:
-      return "pseudo-velocity";
-    case SrsQuantity::absolute_acceleration:
-      break;
-  }
-  return "acceleration";
-}
-
-}  // namespace
-
 Json outputs_record(const Problem& problem, const RunResult& result) {
   Json list = Json::array();
   for (const OutputPtr& output : problem.outputs) {
-    const auto found = result.tables.find(output.get());
-    if (found == result.tables.end()) continue;
-    const bool is_energy = output->kind == OutputKind::energy;
-    Json json = {{"name", output->name},
-                 {"kind", output_kind_name(output->kind)},
-                 {"file", (is_energy ? "energy" : file_name_of(output->name)) + ".csv"}};
-    if (!output->on.empty()) json["on"] = labels(output->on);
-    if (output->kind == OutputKind::history) json["quantity"] = quantity_name(output->quantity);
-    if (output->direction)
-      json["direction"] = {(*output->direction)[0], (*output->direction)[1], (*output->direction)[2]};
-    if (output->kind == OutputKind::srs) {
-      json.update({{"of", output->of->name},
-                   {"quantity", spectrum_quantity(output->srs.quantity)},
-                   {"q_factor", output->srs.q_factor}});
-      if (result.bands.contains(output.get())) json["band"] = file_name_of(output->name) + "_band.csv";
-      if (output->specification) json["specification"] = specification(*output->specification, found->second);
-    }
-    if (output->kind == OutputKind::attenuation)
-      json.update({{"entering", output->of->name}, {"leaving", output->leaving->name}, {"joints", output->n_joints}});
+    const auto table = result.tables.find(output.get());
+    if (table == result.tables.end()) continue;
+    Json json = {{"name", output->name}, {"kind", output->word}, {"file", file_name_of(output->name) + ".csv"}};
+    json.update(json_of(output->record(table->second, result.findings_of(*output))));
     list.push_back(json);
   }
   return list;

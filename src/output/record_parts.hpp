@@ -7,12 +7,9 @@
 
 namespace dygita {
 
-// "lower.base", "rod (12 nodes)", an interface's or a support's name.
-std::string label(const Target& target);
-
 nlohmann::ordered_json interfaces_record(const Problem& problem);
 nlohmann::ordered_json supports_record(const Problem& problem);
-// Outputs with a table, in the deck's order, with the file of each; a spectrum with its specification.
+// Outputs with a table, in the deck's order, with the file of each and what it tells of itself.
 nlohmann::ordered_json outputs_record(const Problem& problem, const RunResult& result);
 // Tolerances and what else tells how it was solved.
 nlohmann::ordered_json solver_record(const Problem& problem);

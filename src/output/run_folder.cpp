@@ -78,12 +78,13 @@ Table RunFolder::table(const std::string& file, const std::vector<std::string>& 
   }
 }
 
-std::vector<Json> RunFolder::outputs(const std::string& kind) const {
+std::vector<Json> RunFolder::outputs(Display::As as) const {
   std::vector<Json> found;
   const auto outputs = record_.find("outputs");
   if (outputs == record_.end()) return found;
   for (const Json& output : *outputs)
-    if (text(output, "kind") == kind) found.push_back(output);
+    if (const OutputEntry* entry = output_entry(text(output, "kind")); entry && entry->display.as == as)
+      found.push_back(output);
   return found;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "result/output_table.hpp"
 #include "result/result.hpp"
 
 namespace dygita {
@@ -27,8 +28,8 @@ class RunFolder {
   Table table(const std::string& file, const std::vector<std::string>& columns = {}) const;
   const std::vector<std::string>& faults() const { return faults_; }
 
-  // Outputs of the record of one kind.
-  std::vector<Json> outputs(const std::string& kind) const;
+  // Outputs of the record that are shown in one way.
+  std::vector<Json> outputs(Display::As as) const;
   double figure(Figure figure) const;  // nan where the run has none, or it is not finite
   bool has_figure(Figure figure) const;
 

@@ -161,7 +161,7 @@ std::string run_record(const Problem& problem, const RunResult& result, const Ru
       {"iterations", {{"all", result.iterations}, {"mean", result.mean_iterations}}},
       {"steps", steps(problem, result)},
       {"bolts", bolts(result)},
-      {"figures", object(recorded_figures(problem, result))},
+      {"figures", object(recorded_figures(result))},
       {"seconds", object(result.seconds)},
       {"threads", identity.threads},
       {"libraries", libraries(identity)},

@@ -9,7 +9,6 @@
 #include "output/csv.hpp"
 #include "output/manifest.hpp"
 #include "output/run_record.hpp"
-#include "output/superelement_files.hpp"
 #include "output/vtk_writer.hpp"
 
 namespace dygita {
@@ -81,26 +80,24 @@ void RunWriter::write_tables(const Problem& problem, const RunResult& result) {
   const std::vector<std::string> steps = step_names(problem);
   std::set<std::string> written;
   for (const OutputPtr& output : problem.outputs) {  // in the deck's order
-    const auto found = result.tables.find(output.get());
-    if (found == result.tables.end()) continue;
-    const std::string name = output->kind == OutputKind::energy ? "energy" : file_name_of(output->name);
+    const auto table = result.tables.find(output.get());
+    if (table == result.tables.end()) continue;
+    const Findings& findings = result.findings_of(*output);
+    const std::string name = file_name_of(output->name);
     CHECK(written.insert(name).second && name != "convergence", "two tables are called '" + name + "'");
-    write(name + ".csv", csv_text(found->second, steps));
-    if (const auto element = result.superelements.find(output.get()); element != result.superelements.end())
-      for (const auto& [suffix, text] : superelement_files(problem, *output, element->second))
-        write(name + suffix, text);
-    if (const auto loop = result.loops.find(output.get()); loop != result.loops.end()) {
-      write(name + "_cycles.csv", csv_text(loop->second.cycles, steps));
-      write(name + "_backbone.csv", csv_text(loop->second.backbone, steps));
-    }
+    write(name + ".csv", csv_text(table->second, steps));
+    if (findings.files)
+      for (const auto& [suffix, text] : findings.files()) write(name + suffix, text);
+    for (const auto& [part, of_part] : findings.parts) write(name + "_" + part + ".csv", csv_text(of_part, steps));
   }
-  for (const auto& [output, frames] : result.fields) write_field(file_name_of(output->name), frames);
+  for (const OutputPtr& output : problem.outputs)
+    if (const Findings& findings = result.findings_of(*output); !findings.frames.empty())
+      write_field(file_name_of(output->name), findings.frames);
   for (const OutputPtr& output : problem.outputs) {
-    const auto found = result.bands.find(output.get());
-    if (found == result.bands.end()) continue;
+    const Findings& findings = result.findings_of(*output);
     const std::string name = file_name_of(output->name) + "_band";
-    if (written.insert(name).second)
-      write(name + ".csv", csv_text(found->second, steps));  // else an output of the deck has the name
+    if (findings.band.n_rows() > 0 && written.insert(name).second)
+      write(name + ".csv", csv_text(findings.band, steps));  // else an output of the deck has the name
   }
   if (!result.convergence.columns.empty()) write("convergence.csv", csv_text(result.convergence, steps));
   if (!result.bolts.empty()) {

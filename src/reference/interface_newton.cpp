@@ -234,12 +234,7 @@ InterfaceNewton::Outcome InterfaceNewton::solve(std::vector<PointRecord>& record
   outcome.converged = outcome.residual <= settings_.tolerance;
   largest_ = std::max(largest_, residual.size);
   const Vec rate = rate_of(f_), force = force_of(f_, rate);
-  // A singular system has been "solved" by going very far.
-  if (increment.is_static && rate.size() > 0 && rate.cwiseAbs().maxCoeff() > extent_)
-    throw NumericalError(fmt::format(
-        "step '{}': sides of an interface move apart by more than the assembly's size; likely cause: a body "
-        "that was held by contact alone has come off, so that there is no equilibrium",
-        model_->step->name));
+  outcome.is_apart = increment.is_static && rate.size() > 0 && rate.cwiseAbs().maxCoeff() > extent_;
   for (size_t p = 0; p < records.size(); ++p) {
     PointRecord& record = records[p];
     record.trial = trial_of(p, rate, force, record);
@@ -248,6 +243,14 @@ InterfaceNewton::Outcome InterfaceNewton::solve(std::vector<PointRecord>& record
     if (point.law && !record.is_released) record.force = point.law->force(record.trial, increment, record.law);
   }
   return outcome;
+}
+
+void InterfaceNewton::check_together(const Outcome& outcome) const {
+  if (!outcome.is_apart) return;
+  throw NumericalError(
+      fmt::format("step '{}': sides of an interface move apart by more than the assembly's size; likely cause: a body "
+                  "that was held by contact alone has come off, so that there is no equilibrium",
+                  model_->step->name));
 }
 
 }  // namespace dygita

@@ -19,9 +19,12 @@ class InterfaceNewton {
     double residual = 0.0;  // relative, as LATIN's indicator is
     double distance = 0.0;  // W, what the residual is of: sum Y phi^2
     bool converged = true;
+    bool is_apart = false;  // a singular system has been "solved" by going very far
   };
   // Solves for the records' forces, from those at hand, and completes their trials. Throws NumericalError.
   Outcome solve(std::vector<PointRecord>& records, const Increment& increment);
+  // Throws NumericalError where the sides of an interface have moved apart.
+  void check_together(const Outcome& outcome) const;
   const Vec& reduced_force() const { return f_; }
   // Keeps increments where nothing happens from iterating on round-off: energy seen so far, J.
   void raise_floor(double energy, double dt) { floor_ = std::max(floor_, 1e-12 * energy / dt); }

@@ -53,7 +53,11 @@ Mat PreloadNewton::slopes(const Vec& d, const Vec& force) {
 
 InterfaceNewton::Outcome PreloadNewton::solve(InterfaceNewton& newton, std::vector<PointRecord>& records,
                                               const Increment& increment, int i_increment) {
-  if (preloads_.empty()) return newton.solve(records, increment);
+  if (preloads_.empty()) {
+    const InterfaceNewton::Outcome outcome = newton.solve(records, increment);
+    newton.check_together(outcome);
+    return outcome;
+  }
   records_ = &records;
   solve_ = [&] { return newton.solve(records, increment); };
   n_iterations_ = 0;
@@ -88,7 +92,8 @@ InterfaceNewton::Outcome PreloadNewton::solve(InterfaceNewton& newton, std::vect
   }
   std::vector<const Interface*> interfaces;
   for (const Preload& preload : preloads_) interfaces.push_back(preload.interface);
-  check_reached(*model_->step, i_increment, interfaces, force, target_);
+  check_reached(*model_->step, i_increment, interfaces, force, target_);  // says more than that a part has come off
+  newton.check_together(outcome_);
   outcome_.iterations = n_iterations_;
   outcome_.residual = std::max(outcome_.residual, error());
   outcome_.converged = outcome_.converged && error() <= tolerance_;

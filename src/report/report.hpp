@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "model/model.hpp"
+#include "signal/specification.hpp"
 
 namespace dygita {
 

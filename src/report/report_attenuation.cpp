@@ -54,7 +54,7 @@ std::string attenuation_part(const RunFolder& run, const Json& output) {
 
 std::string attenuation_section(const RunFolder& run) {
   std::string body;
-  for (const Json& output : run.outputs("attenuation")) body += attenuation_part(run, output);
+  for (const Json& output : run.outputs(Display::As::attenuation)) body += attenuation_part(run, output);
   return html::section("Through the joint", body);
 }
 

@@ -68,8 +68,8 @@ std::string superelement_part(const RunFolder& run, const Json& output) {
 
 std::string condensed_section(const RunFolder& run) {
   std::string body;
-  for (const Json& output : run.outputs("loop")) body += loop_part(run, output);
-  for (const Json& output : run.outputs("superelement")) body += superelement_part(run, output);
+  for (const Json& output : run.outputs(Display::As::loop)) body += loop_part(run, output);
+  for (const Json& output : run.outputs(Display::As::frequencies)) body += superelement_part(run, output);
   return html::section("Condensed models", body);
 }
 

@@ -41,7 +41,7 @@ SpecificationPtr specification_of(const Json& output, const ReportRequest& reque
 
 std::vector<Spectrum> spectra_of(const RunFolder& run, const ReportRequest& request) {
   std::vector<Spectrum> spectra;
-  for (const Json& output : run.outputs("srs")) {
+  for (const Json& output : run.outputs(Display::As::spectrum)) {
     Spectrum spectrum{text(output, "name"),
                       text(output, "of"),
                       text(output, "quantity"),
@@ -172,6 +172,19 @@ std::string spectra_figure(const std::vector<Spectrum>& group, const TimeAxis& t
   return html::figure(svg(plot), caption + ".");
 }
 
+// What the columns are of: the output's own, or what the record tells.
+std::string quantity_of(const Json& output) {
+  const OutputEntry* entry = output_entry(text(output, "kind"));
+  return entry && !entry->display.quantity.empty() ? entry->display.quantity : text(output, "quantity");
+}
+
+// How many are drawn.
+size_t n_drawn(const Json& output, const Table& table) {
+  const OutputEntry* entry = output_entry(text(output, "kind"));
+  const size_t all = table.columns.size() - 1;
+  return entry && entry->display.n_columns > 0 ? std::min<size_t>(entry->display.n_columns, all) : all;
+}
+
 std::string title_of(const Json& output) {
   const Json on = output.value("on", Json::array());
   std::string places;
@@ -186,22 +199,20 @@ std::string title_of(const Json& output) {
         direction = std::string(" along ") + (d[axis] < 0.0 ? "−" : "") + "xyz"[axis];
     if (direction.empty()) direction = fmt::format(" along ({:.3g}, {:.3g}, {:.3g})", d[0], d[1], d[2]);
   }
-  const std::string quantity = text(output, "kind") == "resultant" ? "force" : text(output, "quantity");
-  return text(output, "name") + ": " + quantity + direction + (places.empty() ? "" : ", on " + places);
+  return text(output, "name") + ": " + quantity_of(output) + direction + (places.empty() ? "" : ", on " + places);
 }
 
 std::string history_figure(const Json& output, const Table& table, const TimeAxis& time) {
-  const bool is_resultant = text(output, "kind") == "resultant";
-  std::string quantity = is_resultant ? "force" : text(output, "quantity");
+  std::string quantity = quantity_of(output);
   std::replace(quantity.begin(), quantity.end(), '_', ' ');
   Plot plot{.title = title_of(output), .x = time.axis(), .y = {quantity, table.units.at(1)}};
   plot.spans = time.spans();
   plot.width = 530;
   plot.height = 270;
   const std::vector<double> places = time.places(table);
-  const size_t n = is_resultant ? 3 : table.columns.size();  // of a resultant: normal and shear
-  for (size_t c = 1; c < n && c < table.columns.size(); ++c)
-    plot.lines.push_back({n > 2 ? table.names[c] : "", places, table.columns[c], {}, false, table.n_rows() < 30});
+  const size_t n = n_drawn(output, table);
+  for (size_t c = 1; c <= n; ++c)
+    plot.lines.push_back({n > 1 ? table.names[c] : "", places, table.columns[c], {}, false, table.n_rows() < 30});
   return html::figure(svg(plot), title_of(output));
 }
 
@@ -231,11 +242,15 @@ std::string spectra_section(const RunFolder& run, const TimeAxis& time, const Re
 
 std::string histories_section(const RunFolder& run, const TimeAxis& time) {
   std::vector<std::string> figures;
-  for (const char* kind : {"history", "resultant"})
-    for (const Json& output : run.outputs(kind)) {
-      const Table table = run.table(text(output, "file"));
-      if (table.n_rows() > 0 && table.columns.size() > 1) figures.push_back(history_figure(output, table, time));
-    }
+  // Quantities that decks choose first, then what other outputs are of.
+  std::vector<Json> outputs = run.outputs(Display::As::curves);
+  std::stable_partition(outputs.begin(), outputs.end(), [](const Json& output) {
+    return output_entry(text(output, "kind"))->display.quantity.empty();
+  });
+  for (const Json& output : outputs) {
+    const Table table = run.table(text(output, "file"));
+    if (table.n_rows() > 0 && table.columns.size() > 1) figures.push_back(history_figure(output, table, time));
+  }
   return html::section("Histories", html::row(figures));
 }
 

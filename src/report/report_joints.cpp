@@ -178,7 +178,7 @@ std::string joint_part(const RunFolder& run, const Json& output, const TimeAxis&
 
 std::string joints_section(const RunFolder& run, const TimeAxis& time) {
   std::string body;
-  for (const Json& output : run.outputs("joint")) body += joint_part(run, output, time);
+  for (const Json& output : run.outputs(Display::As::joint)) body += joint_part(run, output, time);
   return html::section("Joints", body);
 }
 

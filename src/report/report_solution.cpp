@@ -103,7 +103,7 @@ std::string bar_of_seconds(const std::vector<std::pair<std::string, double>>& ph
 
 std::string energy_section(const RunFolder& run, const TimeAxis& time) {
   std::string body;
-  for (const Json& output : run.outputs("energy")) {
+  for (const Json& output : run.outputs(Display::As::energy)) {
     const Table t = run.table(text(output, "file"),
                               {"kinetic", "strain", "loads", "friction", "plastic", "damping", "scheme", "balance"});
     if (t.n_rows() == 0) continue;

@@ -29,25 +29,29 @@ double mean(const std::vector<double>& values) {
   return n > 0.0 ? sum / n : std::numeric_limits<double>::quiet_NaN();
 }
 
-class Summary {
- public:
-  Summary(const Output& output, const Table& table, std::vector<CaseFigure>& figures)
-      : output_(output), table_(table), figures_(figures) {}
+double lowest(const std::vector<double>& values) {
+  return values.empty() ? std::numeric_limits<double>::quiet_NaN() : *std::min_element(values.begin(), values.end());
+}
 
-  void add(const std::string& column, const char* what, double (*value)(const std::vector<double>&)) {
-    const auto found = std::find(table_.names.begin(), table_.names.end(), column);
-    if (found == table_.names.end()) return;
-    const auto i = static_cast<size_t>(found - table_.names.begin());
-    figures_.push_back({output_.name + "." + column + " " + what, table_.units[i], value(table_.columns[i])});
-  }
-
- private:
-  const Output& output_;
-  const Table& table_;
-  std::vector<CaseFigure>& figures_;
+struct Reduction {
+  const char* name;
+  double (*of)(const std::vector<double>&);
 };
 
-std::string name_of(const Output& output) { return output.kind == OutputKind::energy ? "energy" : output.name; }
+Reduction reduction(StudyFigure::Of of) {
+  switch (of) {
+    case StudyFigure::Of::largest:
+      return {"largest", largest};
+    case StudyFigure::Of::last:
+      return {"last", last};
+    case StudyFigure::Of::mean:
+      return {"mean", mean};
+    case StudyFigure::Of::lowest:
+      return {"lowest", lowest};
+  }
+  CHECK(false, "unknown figure of a study");
+  return {};
+}
 
 }  // namespace
 
@@ -64,38 +68,13 @@ std::vector<CaseFigure> case_summary(const Problem& problem, const RunResult& re
     const auto found = result.tables.find(output.get());
     if (found == result.tables.end()) continue;
     const Table& table = found->second;
-    Summary summary(*output, table, figures);
-    switch (output->kind) {
-      case OutputKind::joint:
-        summary.add("normal", "last", last);
-        for (const char* column : {"opening", "slip", "plastic_opening"}) summary.add(column, "largest", largest);
-        for (const char* column : {"friction_work", "plastic_work"}) summary.add(column, "last", last);
-        break;
-      case OutputKind::resultant:
-        for (const char* column : {"normal", "shear"}) summary.add(column, "largest", largest);
-        break;
-      case OutputKind::srs:
-        summary.add("maximax", "largest", largest);
-        break;
-      case OutputKind::srs_field:
-        summary.add("highest", "largest", largest);
-        break;
-      case OutputKind::attenuation:
-        for (const char* axis : {"", "_x", "_y", "_z"}) summary.add(std::string("ratio") + axis, "mean", mean);
-        break;
-      case OutputKind::history:
-        for (size_t i = 1; i < table.names.size(); ++i) summary.add(table.names[i], "largest", largest);
-        break;
-      case OutputKind::loop:
-        for (const char* column : {"displacement", "force"}) summary.add(column, "largest", largest);
-        break;
-      case OutputKind::superelement:
-        summary.add("frequency", "lowest",
-                    [](const std::vector<double>& values) { return values.empty() ? 0.0 : values.front(); });
-        break;
-      case OutputKind::energy:
-      case OutputKind::vtk:
-        break;
+    for (const StudyFigure& figure : output->study_figures()) {
+      const auto column = std::find(table.names.begin(), table.names.end(), figure.column);
+      if (column == table.names.end()) continue;
+      const auto i = static_cast<size_t>(column - table.names.begin());
+      const Reduction reduce = reduction(figure.of);
+      figures.push_back(
+          {output->name + "." + figure.column + " " + reduce.name, table.units[i], reduce.of(table.columns[i])});
     }
   }
   return figures;
@@ -112,7 +91,7 @@ Difference largest_difference(const Problem& problem, const RunResult& a, const 
     if (in_a == a.tables.end() || in_b == b.tables.end()) continue;
     const Table &x = in_a->second, &y = in_b->second;
     if (x.n_rows() != y.n_rows()) {
-      meet(std::numeric_limits<double>::infinity(), name_of(*output));
+      meet(std::numeric_limits<double>::infinity(), output->name);
       continue;
     }
     for (size_t i = 1; i < x.names.size(); ++i) {
@@ -124,7 +103,7 @@ Difference largest_difference(const Problem& problem, const RunResult& a, const 
         const double d = std::abs(x.columns[i][static_cast<size_t>(row)] - y.columns[i][static_cast<size_t>(row)]);
         if (d > difference) difference = d;
       }
-      if (size > noise_of(x.units[i])) meet(difference / size, name_of(*output) + "." + x.names[i]);
+      if (size > noise_of(x.units[i])) meet(difference / size, output->name + "." + x.names[i]);
     }
   }
   return worst;

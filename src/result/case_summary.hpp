@@ -13,9 +13,7 @@ struct CaseFigure {
   double value = 0.0;      // SI; NaN where the run gave nothing
 };
 
-// Largest modulus of histories, resultants (normal, shear) and spectra; of joints the force at the end and the largest
-// opening, slip and plastic opening, and the works at the end; mean ratio of attenuations. In the problem's order of
-// outputs.
+// What each output says of itself (Output::study_figures), in the problem's order.
 std::vector<CaseFigure> case_summary(const Problem& problem, const RunResult& result);
 
 // What rounding leaves of a quantity that is zero, by its SI unit: far below what anyone measures.

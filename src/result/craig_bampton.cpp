@@ -26,7 +26,7 @@ constexpr double reference_share = 0.1;
 class HeldInterface {
  public:
   HeldInterface(const LinearAssembly& assembly, const InterfaceCoordinates& coordinates, const Problem& problem,
-                const Output& output)
+                const SuperelementRequest& request)
       : assembly_(assembly) {
     const int n = assembly.n();
     std::vector<char> is_interface(n, 0);
@@ -36,15 +36,15 @@ class HeldInterface {
     // All unknowns of a place, tied copies that are not on the face included.
     const int n_b = static_cast<int>(std::count(is_interface.begin(), is_interface.end(), 1));
     if (n_b > most_unknowns)
-      throw InputError(output.origin, fmt::format("output.superelement '{}': the faces of 'on' have {} unknowns, at "
-                                                  "most {} are allowed: take smaller faces or "
-                                                  "larger cells there",
-                                                  output.name, n_b, most_unknowns));
+      throw InputError(request.origin, fmt::format("output.superelement '{}': the faces of 'on' have {} unknowns, at "
+                                                   "most {} are allowed: take smaller faces or "
+                                                   "larger cells there",
+                                                   request.name, n_b, most_unknowns));
     if (const std::string motion = free_motion(assembly, problem, coordinates.nodes); !motion.empty())
-      throw InputError(output.origin,
+      throw InputError(request.origin,
                        fmt::format("output.superelement '{}': {} is unconstrained ({})\n    hold it by a "
                                    "support, put a face of it into 'on', or give its contact friction",
-                                   output.name, motion,
+                                   request.name, motion,
                                    assembly.dampers.empty() ? "open joints, or contact that slides"
                                                             : "open joints, contact that slides, or dampers alone"));
     SparseMatrix a = assembly.stiffness;
@@ -54,7 +54,7 @@ class HeldInterface {
         reference[i] = reference_share * a.coeff(i, i);
         a.coeffRef(i, i) += reference[i];
       }
-    const std::string what = "output.superelement '" + output.name + "'";
+    const std::string what = "output.superelement '" + request.name + "'";
     factor_ = std::make_unique<Factor>(a, assembly.place_of_unknown, is_interface, what);
     position_.resize(n);
     for (int i = 0; i < n; ++i) position_[factor_->order()[i]] = i;
@@ -125,14 +125,13 @@ class HeldInterface {
 
 double hertz(double lambda) { return std::sqrt(std::max(0.0, lambda)) / (2 * std::numbers::pi); }
 
-Modes fixed_modes(const HeldInterface& held, const LinearAssembly& assembly, const Output& output) {
-  const SuperelementSettings& settings = output.superelement;
-  ModeRequest request;
-  request.n = settings.modes;
-  request.up_to = std::pow(2 * 2 * std::numbers::pi * settings.up_to, 2);
+Modes fixed_modes(const HeldInterface& held, const LinearAssembly& assembly, const SuperelementRequest& request) {
+  ModeRequest wanted;
+  wanted.n = request.modes;
+  wanted.up_to = std::pow(2 * 2 * std::numbers::pi * request.up_to, 2);
   return lowest_modes(
-      assembly.n(), [&](Eigen::Ref<Mat> x) { held.solve(x); }, assembly.mass, 0.0, request,
-      "output.superelement '" + output.name + "'");
+      assembly.n(), [&](Eigen::Ref<Mat> x) { held.solve(x); }, assembly.mass, 0.0, wanted,
+      "output.superelement '" + request.name + "'");
 }
 
 Mat symmetric(const Mat& m) { return 0.5 * (m + m.transpose()); }
@@ -154,8 +153,8 @@ Modes residual_modes(const HeldInterface& held, const LinearAssembly& assembly, 
 }
 
 // rad/s, up to which modes are kept.
-double cut_off(const Output& output, const Modes& kept) {
-  if (output.superelement.up_to > 0.0) return 2 * 2 * std::numbers::pi * output.superelement.up_to;
+double cut_off(const SuperelementRequest& request, const Modes& kept) {
+  if (request.up_to > 0.0) return 2 * 2 * std::numbers::pi * request.up_to;
   return kept.values.size() > 0 ? std::sqrt(std::max(0.0, kept.values.tail(1)[0])) : 0.0;
 }
 
@@ -177,16 +176,16 @@ Mat slow_motions(const LinearAssembly& assembly, const Mat& psi, const Modes& ke
 
 }  // namespace
 
-Superelement condense(const LinearAssembly& assembly, const Problem& problem, const Output& output) {
-  const InterfaceCoordinates coordinates = interface_coordinates(assembly, problem, output);
-  const HeldInterface held(assembly, coordinates, problem, output);
-  Modes modes = fixed_modes(held, assembly, output);
+Superelement condense(const LinearAssembly& assembly, const Problem& problem, const SuperelementRequest& request) {
+  const InterfaceCoordinates coordinates = interface_coordinates(assembly, problem, request);
+  const HeldInterface held(assembly, coordinates, problem, request);
+  Modes modes = fixed_modes(held, assembly, request);
   const int n_kept = static_cast<int>(modes.values.size());
   const Mat psi = held.static_modes() * coordinates.of_rows;
   if (!modes.is_all) {
     // Of the many rows of nodes those combinations that move up to twice the frequency of the modes kept.
-    const Mat motions = output.superelement.motion == FaceMotion::nodes
-                            ? Mat(psi * slow_motions(assembly, psi, modes, 2 * cut_off(output, modes)))
+    const Mat motions = request.motion == FaceMotion::nodes
+                            ? Mat(psi * slow_motions(assembly, psi, modes, 2 * cut_off(request, modes)))
                             : psi;
     const Modes rest = residual_modes(held, assembly, motions, modes);
     const int n = static_cast<int>(rest.values.size());
@@ -200,6 +199,7 @@ Superelement condense(const LinearAssembly& assembly, const Problem& problem, co
 
   Superelement element;
   element.rows = coordinates.rows;
+  element.on = request.on;
   for (int i = 0; i < n_m; ++i) element.rows.push_back({-1, -1, i, Vec3::Zero()});
   // Static and fixed-interface modes are orthogonal in K.
   element.stiffness = Mat::Zero(n_q + n_m, n_q + n_m);
@@ -220,9 +220,9 @@ Superelement condense(const LinearAssembly& assembly, const Problem& problem, co
   element.frequencies = eigen.values.unaryExpr([](double lambda) { return hertz(lambda); });
   element.fixed_frequencies = modes.values.unaryExpr([](double lambda) { return hertz(lambda); });
   element.n_residual = n_m - n_kept;
-  element.valid_to = output.superelement.up_to > 0.0 ? output.superelement.up_to
-                     : n_kept > 0                    ? 0.5 * element.fixed_frequencies[n_kept - 1]
-                                                     : 0.0;
+  element.valid_to = request.up_to > 0.0 ? request.up_to
+                     : n_kept > 0        ? 0.5 * element.fixed_frequencies[n_kept - 1]
+                                         : 0.0;
   element.damping_ratios = Vec::Zero(element.frequencies.size());
   for (int i = 0; i < element.frequencies.size() && element.damping.rows() > 0; ++i) {
     const Vec phi = eigen.vectors.col(i);

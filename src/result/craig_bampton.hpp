@@ -2,7 +2,7 @@
 #pragma once
 
 #include "result/linear_assembly.hpp"
-#include "result/result.hpp"
+#include "result/superelement.hpp"
 
 namespace dygita {
 
@@ -14,13 +14,13 @@ struct InterfaceCoordinates {
   std::vector<int> nodes;               // of the faces, counted through all substructures
 };
 
-// Motions of the faces as the output asks: six means (fewer where a support holds them, or the face is a line), rigid,
+// Motions of the faces as the request asks: six means (fewer where a support holds them, or the face is a line), rigid,
 // or node by node. Throws InputError where a rigid face is partly held, or nothing of a face can move.
 InterfaceCoordinates interface_coordinates(const LinearAssembly& assembly, const Problem& problem,
-                                           const Output& output);
+                                           const SuperelementRequest& request);
 
 // The reduced model (Craig, Bampton 1968; Kim, Lee 2015). Throws InputError where something can move freely with the
 // interface held, or the dense matrices of the interface would be too large; NumericalError.
-Superelement condense(const LinearAssembly& assembly, const Problem& problem, const Output& output);
+Superelement condense(const LinearAssembly& assembly, const Problem& problem, const SuperelementRequest& request);
 
 }  // namespace dygita

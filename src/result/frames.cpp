@@ -1,8 +1,11 @@
-// Frames for ParaView: only the fields asked for are computed.
-#include <algorithm>
+// Only the fields asked for are computed.
+#include "result/frames.hpp"
 
+#include <algorithm>
+#include <map>
+
+#include "fem/assembly.hpp"
 #include "fem/stress_error.hpp"
-#include "result/collector.hpp"
 
 namespace dygita {
 
@@ -76,12 +79,12 @@ InterfaceFrame interface_frame(const Instant& instant, int s, const FollowedMoti
 
 }  // namespace
 
-Frame make_frame(const Instant& instant, const Output& output, const FollowedMotion& motion) {
+Frame make_frame(const Instant& instant, const std::vector<std::string>& fields, const FollowedMotion& motion) {
   Frame frame;
   frame.time = instant.time();
   frame.step = instant.model.step->name;
   for (size_t i = 0; i < instant.model.problem->substructures.size(); ++i)
-    frame.parts.push_back(part_frame(instant, static_cast<int>(i), output.fields));
+    frame.parts.push_back(part_frame(instant, static_cast<int>(i), fields));
   for (size_t s = 0; s < instant.model.surfaces->size(); ++s)
     frame.interfaces.push_back(interface_frame(instant, static_cast<int>(s), motion));
   return frame;

@@ -124,16 +124,16 @@ std::string label_of(const FaceOrRegion& place) {
 }  // namespace
 
 InterfaceCoordinates interface_coordinates(const LinearAssembly& assembly, const Problem& problem,
-                                           const Output& output) {
-  const FaceMotion motion = output.superelement.motion;
+                                           const SuperelementRequest& request) {
+  const FaceMotion motion = request.motion;
   InterfaceCoordinates coordinates;
   IndependentRows independent(assembly.map);
   std::vector<Eigen::Triplet<double>> of_rows;
   int n_held = 0;
-  for (size_t f = 0; f < output.on.size(); ++f) {
-    const FaceOrRegion place = std::holds_alternative<Face>(output.on[f])
-                                   ? FaceOrRegion(std::get<Face>(output.on[f]))
-                                   : FaceOrRegion(std::get<Region>(output.on[f]));
+  for (size_t f = 0; f < request.on.size(); ++f) {
+    const FaceOrRegion place = std::holds_alternative<Face>(request.on[f])
+                                   ? FaceOrRegion(std::get<Face>(request.on[f]))
+                                   : FaceOrRegion(std::get<Region>(request.on[f]));
     const PlacedNodes on = placed_nodes(assembly, problem, place);
     coordinates.nodes.insert(coordinates.nodes.end(), on.nodes.begin(), on.nodes.end());
     const int before = n_held, on_index = static_cast<int>(f);
@@ -156,10 +156,10 @@ InterfaceCoordinates interface_coordinates(const LinearAssembly& assembly, const
             coordinates.rows.push_back({on_index, on.nodes[i] - assembly.first_node[part], d, on.places[i]});
             of_rows.emplace_back(n_held, static_cast<int>(coordinates.rows.size()) - 1, 1.0);
           } else if (is_rigid && !is_free) {
-            throw InputError(output.origin, fmt::format("output.superelement '{}': a node of {} is held by a support, "
-                                                        "or tied to another of the faces, so that "
-                                                        "it cannot move as a rigid body\n    take motion = \"mean\"",
-                                                        output.name, label_of(place)));
+            throw InputError(request.origin, fmt::format("output.superelement '{}': a node of {} is held by a support, "
+                                                         "or tied to another of the faces, so that "
+                                                         "it cannot move as a rigid body\n    take motion = \"mean\"",
+                                                         request.name, label_of(place)));
           } else if (is_rigid) {
             const Vec3 arm = on.places[i] - on.centre;
             of_rows.emplace_back(n_held, first_row + d, 1.0);
@@ -171,9 +171,9 @@ InterfaceCoordinates interface_coordinates(const LinearAssembly& assembly, const
         }
     }
     if (n_held == before)
-      throw InputError(output.origin, fmt::format("output.superelement '{}': nothing of {} can move: a support holds "
-                                                  "it, or other faces of 'on' have all of it",
-                                                  output.name, label_of(place)));
+      throw InputError(request.origin, fmt::format("output.superelement '{}': nothing of {} can move: a support holds "
+                                                   "it, or other faces of 'on' have all of it",
+                                                   request.name, label_of(place)));
   }
   coordinates.w = independent.matrix();
   coordinates.of_rows = Mat::Zero(n_held, static_cast<int>(coordinates.rows.size()));

@@ -6,6 +6,17 @@
 
 namespace dygita {
 
+// A joint as a system model takes it: what output.loop makes of force against displacement (manual, eq. C1-C7).
+struct LoopSummary {
+  Table cycles;    // one row a closed cycle
+  Table backbone;  // force against displacement of first loading, and the sliders that have it
+  double exponent =
+      0.0;  // of loss against force amplitude, least squares; nan where two cycles with a loss are not there
+  double displacement_exponent = 0.0;        // the same against displacement amplitude
+  double stiffness = 0.0;                    // N/m, of the first rows of the backbone; nan where there is none
+  double secant = 0.0, largest_force = 0.0;  // N/m and N, at its end
+};
+
 // table: columns time (s), displacement (m), force (N), steps; first: the row that counts as the origin (the tightened
 // state). The path is cut at the turning points of the displacement; travels below a thousandth of the whole range are
 // no turn. A cycle is a branch and the way back to where it began, closed by a straight line where it misses that by at

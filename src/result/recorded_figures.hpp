@@ -6,6 +6,6 @@
 namespace dygita {
 
 // By label, with unit: "energy imbalance [%]", "spectrum 'above', mean band, mesh [dB]".
-std::map<std::string, double> recorded_figures(const Problem& problem, const RunResult& result);
+std::map<std::string, double> recorded_figures(const RunResult& result);
 
 }  // namespace dygita

@@ -13,4 +13,20 @@ const std::vector<double>& Table::column(const std::string& name) const {
   return columns.at(static_cast<size_t>(found - names.begin()));
 }
 
+Table empty_table(const Columns& columns) {
+  Table table;
+  for (const Column& column : columns) {
+    table.names.push_back(column.name);
+    table.units.push_back(column.unit);
+  }
+  table.columns.resize(columns.size());
+  return table;
+}
+
+const Findings& RunResult::findings_of(const Output& output) const {
+  static const Findings none;
+  const auto found = findings.find(&output);
+  return found == findings.end() ? none : found->second;
+}
+
 }  // namespace dygita

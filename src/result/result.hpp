@@ -1,6 +1,8 @@
 // What was asked for, as tables; what a run was, as figures. Every reader (deck, CSV, run record) takes these.
 #pragma once
 
+#include <any>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -8,7 +10,7 @@
 #include <vector>
 
 #include "model/bolt_formula.hpp"
-#include "model/model.hpp"
+#include "model/output.hpp"
 #include "result/figures.hpp"
 #include "result/frame.hpp"
 
@@ -24,6 +26,9 @@ struct Table {
   int n_rows() const { return columns.empty() ? 0 : static_cast<int>(columns.front().size()); }
   const std::vector<double>& column(const std::string& name) const;  // CHECKs that it exists
 };
+
+// With these columns, and no row.
+Table empty_table(const Columns& columns);
 
 struct StepSummary {
   std::string name;
@@ -63,49 +68,24 @@ struct BoltSummary {
 
 struct Scenes;
 
-// A joint as a system model takes it: what output.loop makes of force against displacement (manual, eq. C1-C7).
-struct LoopSummary {
-  Table cycles;    // one row a closed cycle
-  Table backbone;  // force against displacement of first loading, and the sliders that have it
-  double exponent =
-      0.0;  // of loss against force amplitude, least squares; nan where two cycles with a loss are not there
-  double displacement_exponent = 0.0;        // the same against displacement amplitude
-  double stiffness = 0.0;                    // N/m, of the first rows of the backbone; nan where there is none
-  double secant = 0.0, largest_force = 0.0;  // N/m and N, at its end
-};
-
-// Mass and stiffness of an assembly on its interface coordinates and modes (manual, eq. D1-D6). Rows: those of the
-// faces in the order of the output's `on`, then the modes.
-struct Superelement {
-  struct Row {
-    int on = -1;        // index in the output's `on`; -1: a mode
-    int node = -1;      // of that part's mesh; -1: a motion of the whole face
-    int direction = 0;  // 0 1 2: translation along x y z, 3 4 5: rotation about them; of a mode its number from 0
-    Vec3 place = Vec3::Zero();  // m, of the node, or the point about which the face turns
-  };
-  std::vector<Row> rows;
-  Mat mass, stiffness, damping;  // n_rows x n_rows; damping empty where no material has any
-  Vec fixed_frequencies;         // Hz, of the modes: with the interface coordinates held
-  int n_residual = 0;            // how many of them, the last ones, stand for those that were left out
-  Vec frequencies;               // Hz, of the superelement itself, increasing
-  Vec damping_ratios;            // of each, of critical damping
-  double valid_to = 0.0;         // Hz
-  double mass_of_parts = 0.0;    // kg
-  int n_unknowns = 0;            // of the assembly
-  std::string step;
-  bool is_converged = true;                  // the step's last increment
-  int n_tied = 0, n_normal = 0, n_open = 0;  // contact points: tied, tied along their normal, open
-  int n_damped = 0;                          // points of interfaces that are in the damping matrix
+// What an output tells beside its table.
+struct Findings {
+  std::vector<std::pair<std::string, Table>> parts;  // further tables: <name>_<part>.csv, and result[output].<part>
+  std::map<std::string, double> values;              // result[output].<value>
+  Table band;                 // dB, what iteration, time step and mesh leave on a spectrum (manual, eq. Q7-Q8)
+  std::vector<Frame> frames;  // over frequencies: <name>.pvd
+  // Further files, made when they are written: what follows on the output's name, and the text.
+  std::function<std::vector<std::pair<std::string, std::string>>()> files;
+  std::map<std::string, double> figures;     // of the run record, by label with unit
+  std::vector<std::string> lines, warnings;  // for the screen
+  std::any model;                            // for who knows its type: a SuperelementPtr
 };
 
 struct RunResult {
   std::vector<BoltSummary> bolts;
-  std::map<const Output*, LoopSummary> loops;
-  std::map<const Output*, Superelement> superelements;
-  std::map<const Output*, Table> tables;               // of all outputs but vtk
-  std::map<const Output*, std::vector<Frame>> fields;  // srs_field: a frame a frequency
-  std::map<const Output*, Table> bands;                // of each srs, dB: frequency, iteration, time_step, mesh, all
-  Table convergence;                                   // time, step, iterations, indicator, converged (1 or 0)
+  std::map<const Output*, Table> tables;  // of all outputs but vtk
+  std::map<const Output*, Findings> findings;
+  Table convergence;  // time, step, iterations, indicator, converged (1 or 0)
   std::vector<StepSummary> steps;
   std::shared_ptr<const InterfaceFields> interface_fields;  // what start_from takes; null: the solver keeps none
   bool converged = true;
@@ -117,6 +97,8 @@ struct RunResult {
   std::map<std::string, double> seconds;  // "assemble", "factor", "forward", "iterate", "backward", "output", ...
   Figures figures;
   std::shared_ptr<const Scenes> scenes;  // what the report draws; null: nobody recorded it
+
+  const Findings& findings_of(const Output& output) const;  // empty where it told nothing
 };
 
 }  // namespace dygita

@@ -93,8 +93,7 @@ void SceneRecorder::keep_assembly(const Instant& instant, AssemblyScene& scene) 
 void SceneRecorder::find_joints(const Instant& instant) {
   has_joints_ = true;
   for (const OutputPtr& output : problem_.outputs) {
-    if (output->kind != OutputKind::joint) continue;
-    for (const int s : surfaces_of(instant, output->on)) {
+    for (const int s : surfaces_of(instant, output->mapped())) {
       const Surface& surface = (*instant.model.surfaces)[s];
       const Shown shown = surface.declared_law().shown();
       if ((!shown.plastic_opening && !shown.gap) || std::find(surfaces_.begin(), surfaces_.end(), s) != surfaces_.end())

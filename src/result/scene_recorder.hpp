@@ -1,5 +1,5 @@
 // Watches a run for what the report draws (scenes.hpp). Cheap: it copies displacements a few tens of times per run at
-// most, and the state of the points of interfaces with an output.joint.
+// most, and the state of the points of interfaces that an output has mapped.
 #pragma once
 
 #include <vector>

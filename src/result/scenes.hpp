@@ -27,7 +27,7 @@ struct JointScene {
   std::vector<float> plastic_opening;  // m
 };
 
-// An interface or wall with an output.joint that opens (contact) or yields (plastic).
+// An interface or wall that an output has mapped that opens (contact) or yields (plastic).
 struct JointScenes {
   std::string name;
   bool is_contact = true;

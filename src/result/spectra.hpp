@@ -1,28 +1,27 @@
-// Shock response spectra of what a run recorded: of histories, between two places.
+// Shock response spectra of what a run recorded: what the outputs that give them share.
 #pragma once
 
+#include "model/arguments.hpp"
+#include "model/output.hpp"
 #include "result/result.hpp"
+#include "signal/srs.hpp"
 
 namespace dygita {
 
-// Columns frequency (Hz), maximax, positive, negative, primary, residual, of the dynamic rows of a history with one
-// column; steps of different dt are brought to the smallest. Empty where there is no dynamic row.
-Table spectrum_table(const Problem& problem, const Output& output, const Table& history);
+inline constexpr const char* spectrum_names[] = {"maximax", "positive", "negative", "primary", "residual"};
 
-// Against the specification of the output's spectrum; not known where it has none, or no spectrum came.
-Exceedance exceedance_of(const Output& output, const RunResult& result);
+// The arguments of a spectrum. Throws InputError on both of 'q_factor' and 'damping', and on 'from' not below 'to'.
+SrsSettings srs_settings(const Arguments& arguments);
 
-// "frequency", then "entering", "leaving", "ratio", for vector histories each with _x, _y, _z.
-std::vector<std::string> attenuation_columns(const Output& output);
+// Of a spectrum of accelerations (m/s^2).
+std::string spectrum_unit(const SrsSettings& settings);
 
-// Band by band the level of both spectra (mean in dB over the band's frequencies) and their ratio in dB, leaving over
-// entering, NaN along an axis into which a millionth of the strongest axis' level enters at most; the band's frequency
-// is its centre (Hz). Bands that the spectra do not fill are left out; less than one is a band of its own.
-Table attenuation_table(const Problem& problem, const Output& output, const Table& entering, const Table& leaving);
+// Throws InputError where the problem has no dynamic step.
+void check_spectrum(const Problem& problem, const Output& output);
 
-// One line: mean ratio of each axis over the bands, the lowest and the highest, beside the rule of thumb (-3 dB a
-// bolted joint).
-std::string attenuation_summary(const Output& output, const Table& attenuation);
+// Of a column of a history over its dynamic rows; steps of different dt are brought to the smallest. No frequency where
+// there is no such row.
+Srs spectrum_of(const Problem& problem, const SrsSettings& settings, const Table& history, size_t column);
 
 // Linear between instants (s, increasing), every dt from the first to the last: what a spectrum takes.
 std::vector<double> evenly(const std::vector<double>& time, const std::vector<double>& value, double dt);

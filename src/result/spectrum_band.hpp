@@ -3,6 +3,7 @@
 
 #include "result/error_estimator.hpp"
 #include "result/result.hpp"
+#include "signal/srs.hpp"
 
 namespace dygita {
 

@@ -83,9 +83,9 @@ Resultant resultant(const Instant& instant, const Problem& problem, const std::v
   return r;
 }
 
-double mean_pressure(const Instant& instant, const Output& output) {
+double mean_pressure(const Instant& instant, const std::vector<Target>& targets) {
   double normal = 0.0, area = 0.0;
-  for (const int s : surfaces_of(instant, output.on)) {
+  for (const int s : surfaces_of(instant, targets)) {
     const Surface& surface = (*instant.model.surfaces)[s];
     for (int i = 0; i < surface.n_points(); ++i) {
       normal += instant.state.surfaces[s].points[i].force.dot(surface.facing.normals.col(i));

@@ -1,7 +1,7 @@
 // Sums over the points of interfaces and supports.
 #pragma once
 
-#include "result/collector.hpp"
+#include "solution/observer.hpp"
 
 namespace dygita {
 
@@ -16,7 +16,7 @@ struct Resultant {
 };
 Resultant resultant(const Instant& instant, const Problem& problem, const std::vector<Target>& targets);
 
-// Area-weighted mean pressure (Pa, compression positive) of the interfaces an output is on.
-double mean_pressure(const Instant& instant, const Output& output);
+// Area-weighted mean pressure (Pa, compression positive) of the interfaces and walls among the targets.
+double mean_pressure(const Instant& instant, const std::vector<Target>& targets);
 
 }  // namespace dygita

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "base/log.hpp"
+#include "base/names.hpp"
 #include "output/csv.hpp"
 #include "output/run_record.hpp"
 #include "result/hollow_result.hpp"
@@ -183,9 +184,8 @@ std::shared_ptr<const RunResult> Continuation::result_of_other(const Problem& pr
   std::vector<std::string> steps;
   for (const StepPtr& step : problem.steps) steps.push_back(step->name);
   for (const OutputPtr& output : problem.outputs) {
-    const fs::path file =
-        folder / ((output->kind == OutputKind::energy ? "energy" : file_name_of(output->name)) + ".csv");
-    if (output->kind != OutputKind::vtk && fs::exists(file)) result->tables[output.get()] = read_csv(file, steps);
+    const fs::path file = folder / (file_name_of(output->name) + ".csv");
+    if (!output->columns().empty() && fs::exists(file)) result->tables[output.get()] = read_csv(file, steps);
   }
   say(fmt::format("problem '{}', case '{}': read from {}", problem.name, request.case_name, folder.string()));
   return result;

@@ -1,4 +1,4 @@
-// Spectra that were asked for: passes over the run until they stand still, and what is said of their errors.
+// Spectra that were asked for: passes over the run until they stand still.
 #pragma once
 
 #include "model/model.hpp"
@@ -10,17 +10,11 @@ namespace dygita {
 // spectra }).
 std::vector<double> pass_tolerances(const Problem& problem);
 
-// Compares the spectra of a pass with those of the one before: what they have moved becomes their iteration band. True
-// where none has moved by as much as the problem allows.
+// Compares the spectra of a pass with those of the one before, which tells their bands of iteration. True where none
+// has moved by as much as the problem allows.
 bool have_settled(const Problem& problem, const RunResult& before, RunResult& result);
 
 // Adds what the pass before took to the figures of this one.
 void add_pass(const RunResult& before, RunResult& result);
-
-// A line for each spectrum: its mean band.
-void say_bands(const Problem& problem, const RunResult& result);
-
-// Warns of spectra whose band is wider than a factor of two.
-void warn_of_bands(const Problem& problem, const RunResult& result);
 
 }  // namespace dygita

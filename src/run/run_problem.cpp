@@ -17,8 +17,6 @@
 #include "result/collector.hpp"
 #include "result/limits.hpp"
 #include "result/scene_recorder.hpp"
-#include "result/spectra.hpp"
-#include "run/condensed_lines.hpp"
 #include "run/keep_state.hpp"
 #include "run/passes.hpp"
 #include "run/run_files.hpp"
@@ -163,21 +161,14 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
   if (figures.static_mesh_error)
     say(fmt::format("  estimated errors of static steps: iteration {:.2g} %, mesh {:.2g} %",
                     figures.static_iteration_error.value(), *figures.static_mesh_error));
-  say_bands(problem, result);
-  for (const OutputPtr& output : problem.outputs) {
-    if (output->kind == OutputKind::attenuation && result.tables.at(output.get()).n_rows() > 0)
-      say("  " + attenuation_summary(*output, result.tables.at(output.get())));
-    if (const Exceedance worst = exceedance_of(*output, result); worst.is_known)
-      say(fmt::format("  spectrum '{}': {:.1f} dB {} its specification at {:.4g} Hz", output->name,
-                      std::abs(worst.decibels), worst.decibels > 0.0 ? "above" : "below", worst.frequency));
-  }
-  for (const std::string& line : condensed_lines(problem, result)) say("  " + line);
+  for (const OutputPtr& output : problem.outputs)
+    for (const std::string& line : result.findings_of(*output).lines) say("  " + line);
   if (!directory.empty()) say(fmt::format("  {:.2f} s in all; results in {}", seconds, directory.string()));
 }
 
 // Solves all steps once; tables and figures; scenes for the report where `keeps_scenes`.
-std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* start_from,
-                                 const Collector::FrameSink& sink, bool keeps_scenes) {
+std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* start_from, const FrameSink& sink,
+                                 bool keeps_scenes) {
   Collector collector(problem, sink);
   SceneRecorder scenes(problem);
   Observers observers({&collector});
@@ -206,7 +197,7 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
   const std::filesystem::path directory =
       replacement ? request.replaces : request.out / declared.name / request.case_name;
   std::unique_ptr<RunWriter> writer;
-  Collector::FrameSink sink;
+  FrameSink sink;
   if (request.write_files && request.write_frames) sink = [&](const Frame& frame) { writer->write_frame(frame); };
   const std::vector<double> tolerances = pass_tolerances(declared);
   Problem problem = declared;  // with the tolerance of the pass
@@ -236,7 +227,8 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
   if (writer && request.write_state && is_kept) keep_state(state, *writer, *result);
   warn_of_losses(problem, *result);
   warn_of_errors(problem, *result);
-  warn_of_bands(problem, *result);
+  for (const OutputPtr& output : problem.outputs)
+    for (const std::string& warning : result->findings_of(*output).warnings) warn(warning);
   warn_of_bolts(*result);
   const std::vector<std::string> warnings = take_warnings();
   RunIdentity identity = request.identity;

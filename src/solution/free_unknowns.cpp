@@ -6,10 +6,11 @@
 
 namespace dygita {
 
-FreeUnknowns::FreeUnknowns(int n_nodes, const std::vector<Row>& rows, const std::unordered_map<int, Held>& held)
+FreeUnknowns::FreeUnknowns(int n_nodes, const std::vector<InterfaceRow>& rows,
+                           const std::unordered_map<int, Held>& held)
     : special_(n_nodes, -1), count_(n_nodes, 3), first_(n_nodes) {
   std::unordered_map<int, std::vector<Vec3>> wanted;
-  for (const Row& row : rows) wanted[row.node].push_back(row.direction);
+  for (const InterfaceRow& row : rows) wanted[row.node].push_back(row.direction);
   for (const auto& [node, conditions] : held) wanted[node];
   for (const auto& [node, directions] : wanted) {
     Held basis;

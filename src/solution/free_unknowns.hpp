@@ -37,7 +37,7 @@ class FreeUnknowns {
  public:
   // Of a node they are numbered from first(node) on, along the columns of its basis: the rows' own directions where
   // they are orthonormal, so that a row is one unknown.
-  FreeUnknowns(int n_nodes, const std::vector<Row>& rows, const std::unordered_map<int, Held>& held);
+  FreeUnknowns(int n_nodes, const std::vector<InterfaceRow>& rows, const std::unordered_map<int, Held>& held);
 
   int size() const { return static_cast<int>(node_of_unknown_.size()); }
   int n_nodes() const { return static_cast<int>(count_.size()); }

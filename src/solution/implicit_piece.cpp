@@ -166,7 +166,8 @@ Vec ImplicitPiece::mean_velocity() const {
 void ImplicitPiece::start_massless() {
   const double g = op_.scheme().g;
   const PieceMass& mass = op_.mass();
-  state_.z = g * op_.scheme().dt * (state_.w / op_.c1() - mass.massless_stiffness_times(state_.v));
+  const Vec own = mass.of_massless(state_.v);
+  state_.z = g * op_.scheme().dt * (state_.w / op_.c1() - mass.massless_columns() * own);
   state_.p += mass.end_factor().cwiseProduct(state_.z);
 }
 
@@ -179,7 +180,8 @@ void ImplicitPiece::advance_massless() {
   const Vec end = s.w.cwiseQuotient(mass.end_factor());  // dt K D V1
   work_.change = s.z + end;
   s.p += s.z - mass.end_factor().cwiseProduct(s.z) + end;
-  s.z = g / (1 - g) * (end - op_.scheme().dt * mass.massless_stiffness_times(s.v));
+  const Vec own = mass.of_massless(s.v);
+  s.z = g / (1 - g) * (end - op_.scheme().dt * (mass.massless_columns() * own));
   s.p += mass.end_factor().cwiseProduct(s.z);
 }
 

@@ -17,7 +17,7 @@ class ImplicitPiece : public Piece {
   // What its factor leaves on the interface, for equal pieces to share; null: it has none.
   virtual const Condensation* condensation() const { return nullptr; }
 
-  const std::vector<Row>& rows() const override { return op_.setup().rows; }
+  const std::vector<InterfaceRow>& rows() const override { return op_.setup().rows; }
   const Vec& node_masses() const override { return op_.setup().body->mass->lumped; }
   const Vec& unknown_masses() const override { return op_.mass().lumped(); }
   bool is_massless(int node) const override;

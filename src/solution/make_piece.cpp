@@ -19,7 +19,7 @@ struct Layout {
         none(unknowns.size(), 0),
         reference(setup.rows.size()) {
     for (size_t i = 0; i < setup.rows.size(); ++i) {
-      const Row& row = setup.rows[i];
+      const InterfaceRow& row = setup.rows[i];
       reference[static_cast<Eigen::Index>(i)] = row.reference_stiffness;
       const Trace t = unknowns.trace(row.node, row.direction);
       for (int j = 0; j < t.n; ++j) is_interface[t.at[j]] = 1;

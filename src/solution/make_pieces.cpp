@@ -57,8 +57,8 @@ std::unordered_map<int, Mat3> absorbing_of_piece(const Cut& cut, int piece,
   return own;
 }
 
-std::vector<Row> rows_of(const StepModel& model, int piece, const std::unordered_map<int, Held>& held) {
-  std::vector<Row> rows(model.exchange.n_unknowns[piece]);
+std::vector<InterfaceRow> rows_of(const StepModel& model, int piece, const std::unordered_map<int, Held>& held) {
+  std::vector<InterfaceRow> rows(model.exchange.n_unknowns[piece]);
   const Substructure& body = *model.cut->piece(piece).body;
   double total_area = 0.0;
   for (const Port& port : model.exchange.ports)

@@ -11,7 +11,7 @@
 namespace dygita {
 
 // One unknown q of the exchange on a piece: the velocity of a node in a direction.
-struct Row {
+struct InterfaceRow {
   int node;
   Vec3 direction;
   double reference_stiffness;  // added before factorising an unconstrained piece, taken off its Schur complement (N/m)
@@ -54,7 +54,7 @@ class Piece {
   virtual ~Piece() = default;
 
   // The operator.
-  virtual const std::vector<Row>& rows() const = 0;
+  virtual const std::vector<InterfaceRow>& rows() const = 0;
   int n_rows() const { return static_cast<int>(rows().size()); }
   virtual const Vec& node_masses() const = 0;     // kg
   virtual const Vec& unknown_masses() const = 0;  // kg, of the entries of the state's velocity
@@ -65,8 +65,8 @@ class Piece {
   // Diagonal of the interface's own Schur complement in the rows' directions, shared between their laws (N s/m; static
   // N/m). Empty where it is not formed: search directions then follow from rows and masses.
   virtual const Vec& schur_diagonal() const = 0;
-  // Fixes the search directions k (one per row) and with them what answers to interface data. Pieces that share another's
-  // operator come after it. Throws NumericalError.
+  // Fixes the search directions k (one per row) and with them what answers to interface data. Pieces that share
+  // another's operator come after it. Throws NumericalError.
   virtual void set_search_directions(const Vec& k) = 0;
   virtual const Vec& k() const = 0;
   // Velocities at the rows for a unit q at each of them, T (A + T^T k T)^-1 T^T (n_rows x n_rows).

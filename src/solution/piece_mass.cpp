@@ -94,10 +94,10 @@ std::vector<double> PieceMass::times_held(const Points& nodal, const std::vector
   return values;
 }
 
-Vec PieceMass::massless_stiffness_times(const Vec& v) const {
+Vec PieceMass::of_massless(const Vec& v) const {
   Vec own(static_cast<Eigen::Index>(massless_.size()));
   for (size_t i = 0; i < massless_.size(); ++i) own[static_cast<Eigen::Index>(i)] = v[massless_[i]];
-  return massless_columns_ * own;
+  return own;
 }
 
 }  // namespace dygita

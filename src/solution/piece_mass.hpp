@@ -22,9 +22,9 @@ class PieceMass {
   // Unknowns without mass in a dynamic step: their force is that of the step's end (manual, eq. S7).
   bool has_massless() const { return !massless_.empty(); }
   const std::vector<int>& massless() const { return massless_; }
-  // K times v with all but these zero.
-  Vec massless_stiffness_times(const Vec& v) const;
-  const Vec& end_factor() const { return end_factor_; }  // D: 1 - g, and 1 for them
+  Vec of_massless(const Vec& v) const;                                        // those entries of v
+  const SparseMatrix& massless_columns() const { return massless_columns_; }  // of K, one a massless unknown
+  const Vec& end_factor() const { return end_factor_; }                       // D: 1 - g, and 1 for them
 
  private:
   void make_massless(const Body& body, const Scheme& scheme, const FreeUnknowns& unknowns);
@@ -34,7 +34,7 @@ class PieceMass {
   Vec lumped_;
   SparseMatrix matrix_;  // empty: lumped
   std::vector<int> massless_;
-  SparseMatrix massless_columns_;  // of K, one a massless unknown
+  SparseMatrix massless_columns_;
   Vec end_factor_;
 };
 

@@ -17,11 +17,12 @@ std::vector<std::pair<int, Mat3>> by_node(const std::unordered_map<int, Mat3>& i
 bool same(double a, double b) { return std::abs(a - b) <= 1e-12 * (std::abs(a) + std::abs(b)); }
 bool same(const Vec3& a, const Vec3& b) { return (a - b).norm() < 1e-12; }
 
-bool are_equal(const std::vector<Row>& one, const std::vector<Row>& other) {
-  return std::equal(one.begin(), one.end(), other.begin(), other.end(), [](const Row& a, const Row& b) {
-    return a.node == b.node && same(a.direction, b.direction) && same(a.reference_stiffness, b.reference_stiffness) &&
-           same(a.n_sharing, b.n_sharing);
-  });
+bool are_equal(const std::vector<InterfaceRow>& one, const std::vector<InterfaceRow>& other) {
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(),
+                    [](const InterfaceRow& a, const InterfaceRow& b) {
+                      return a.node == b.node && same(a.direction, b.direction) &&
+                             same(a.reference_stiffness, b.reference_stiffness) && same(a.n_sharing, b.n_sharing);
+                    });
 }
 
 // What moves it is no matter of the matrix.
@@ -117,7 +118,7 @@ PieceOperator::PieceOperator(PieceSetup setup, FreeUnknowns unknowns)
       absorbing_(by_node(setup_.absorbing)),
       c0_(setup_.scheme.c0(damping())),
       c1_(setup_.scheme.c1(damping())) {
-  for (const Row& row : setup_.rows) traces_.push_back(unknowns_.trace(row.node, row.direction));
+  for (const InterfaceRow& row : setup_.rows) traces_.push_back(unknowns_.trace(row.node, row.direction));
   make_couplings();
 }
 

@@ -13,7 +13,7 @@ namespace dygita {
 struct PieceSetup {
   const Body* body = nullptr;
   Scheme scheme;
-  std::vector<Row> rows;
+  std::vector<InterfaceRow> rows;
   std::unordered_map<int, Held> held;
   std::unordered_map<int, Mat3> absorbing;  // impedance of nodes (N s/m), dynamic steps
   int n_motions = 0;
@@ -28,8 +28,8 @@ struct PieceSetup {
 // Do they have the same matrix, rows and order of unknowns?
 bool are_equal(const PieceSetup& a, const PieceSetup& b);
 
-// (M/dt (1 + ...) + c1 K + absorbing + rows' stiffness (N s/m, one per row)) on the free unknowns, in the order of their
-// numbers.
+// (M/dt (1 + ...) + c1 K + absorbing + rows' stiffness (N s/m, one per row)) on the free unknowns, in the order of
+// their numbers.
 SparseMatrix piece_matrix(const PieceSetup& setup, const FreeUnknowns& unknowns, const Vec& row_stiffness);
 
 class PieceOperator {

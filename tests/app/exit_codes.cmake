@@ -44,6 +44,12 @@ file(WRITE ${signal} "time [weeks],acceleration [g]\n0,0\n1,1\n")
 expect(2 srs ${signal})
 file(REMOVE ${signal})
 
+# An error inside a parallel region ends as any other: by its exit code, with its message.
+expect(3 run ${CMAKE_CURRENT_LIST_DIR}/loose_lump.lua --threads 2 --quiet --out ${CMAKE_CURRENT_BINARY_DIR}/exit_codes_out)
+if(NOT err MATCHES "substructure 'part 1' in step 'press': the matrix is not positive definite")
+  message(SEND_ERROR "the message of a factorisation on two threads is lost: ${err}")
+endif()
+
 # Without frames there are the tables and the record, and --solver is in the record.
 set(out ${CMAKE_CURRENT_BINARY_DIR}/exit_codes_out)
 file(REMOVE_RECURSE ${out})

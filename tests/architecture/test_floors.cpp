@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iostream>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "architecture/floors.hpp"
@@ -88,13 +89,15 @@ TEST(Floors, refuse_a_lower_floor_that_is_not_named) {
 }
 
 TEST(Floors, keep_a_library_in_its_module) {
-  const std::vector<std::pair<std::string, std::string>> homes = {
-      {"cholmod.h", "numerics"}, {"metis.h", "numerics"},        {"cblas.h", "numerics"}, {"lapacke.h", "numerics"},
-      {"gmsh.h", "mesh"},        {"vtkCellType.h", "output"},    {"lua.hpp", "deck"},     {"lauxlib.h", "deck"},
-      {"CLI/CLI.hpp", "app"},    {"nlohmann/json.hpp", "output"}};
+  const std::vector<std::pair<std::string, std::set<std::string>>> homes = {
+      {"cholmod.h", {"numerics"}}, {"metis.h", {"numerics"}},
+      {"cblas.h", {"numerics"}},   {"lapacke.h", {"numerics"}},
+      {"gmsh.h", {"mesh"}},        {"vtkCellType.h", {"output"}},
+      {"lua.hpp", {"deck"}},       {"lauxlib.h", {"deck"}},
+      {"CLI/CLI.hpp", {"app"}},    {"nlohmann/json.hpp", {"output", "report"}}};
   for (const auto& [header, home] : homes) {
     for (const std::string& module : modules()) {
-      const size_t expected = module == home ? 0U : 1U;
+      const size_t expected = home.contains(module) ? 0U : 1U;
       EXPECT_EQ(violations(module, "#include <" + header + ">").size(), expected) << header << " in " << module;
     }
   }

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "fem/assembly.hpp"
+#include "numerics/factor.hpp"
 #include "solution/loads.hpp"
 #include "solution/step_model.hpp"
 #include "solution/surfaces.hpp"

@@ -1,11 +1,15 @@
 // From the deck's words to the model.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/log.hpp"
 #include "deck/fake_engine.hpp"
 #include "model/load.hpp"
+#include "model/output.hpp"
+#include "result/recorder.hpp"
+#include "result/result.hpp"
 
 namespace dygita::test {
 
@@ -89,12 +93,14 @@ local s = hold
 local top = high:where(function(x, y, z) return near(z, 20*mm) end)
 local h = output.history{ name = "h", on = { top, high:face "xmin" }, quantity = "velocity", direction = { 0, 3, 4 } })",
                                 "outputs = { h }");
-  const Output& output = *problem.outputs.at(0);
-  ASSERT_EQ(output.on.size(), 2u);
-  EXPECT_EQ(std::get<Region>(output.on[0]).nodes.size(), 4u);
-  EXPECT_EQ(std::get<Face>(output.on[1]).group, "xmin");
-  EXPECT_NEAR((*output.direction - Vec3(0, 0.6, 0.8)).norm(), 0.0, 1e-15);
-  EXPECT_EQ(output.quantity, Quantity::velocity);
+  const Notes notes = problem.outputs.at(0)->record({}, {});
+  const auto noted = [&](const std::string& name) {
+    return std::find_if(notes.begin(), notes.end(), [&](const Note& note) { return note.name == name; })->value;
+  };
+  EXPECT_EQ(std::get<std::vector<std::string>>(noted("on")), (std::vector<std::string>{"high (4 nodes)", "high.xmin"}));
+  const auto direction = std::get<std::vector<double>>(noted("direction"));
+  EXPECT_NEAR((Vec3(direction.at(0), direction.at(1), direction.at(2)) - Vec3(0, 0.6, 0.8)).norm(), 0.0, 1e-15);
+  EXPECT_EQ(std::get<std::string>(noted("quantity")), "velocity");
 }
 
 TEST(Build, knows_numbers_from_histories_in_loads) {
@@ -189,16 +195,27 @@ local a = output.history{ name = "a", on = high:face "zmax", quantity = "acceler
 local r = output.srs{ name = "r", of = a, q_factor = 25, from = 1*kHz, to = 50*kHz, per_octave = 24 }
 local f = output.resultant{ name = "f", on = { glue, base } })",
                                 "outputs = { a, r, f, output.vtk{ frames = 7 }, output.energy{} }");
-  EXPECT_EQ(problem.outputs.at(1)->of, problem.outputs.at(0));
-  EXPECT_EQ(problem.outputs[1]->srs.q_factor, 25.0);
-  EXPECT_EQ(problem.outputs[1]->srs.from, 1e3);
-  EXPECT_EQ(problem.outputs[1]->srs.to, 5e4);
-  EXPECT_EQ(problem.outputs[1]->srs.per_octave, 24);
-  EXPECT_EQ(problem.outputs[2]->on.size(), 2u);
-  EXPECT_EQ(problem.outputs[3]->frames, 7);
+  const auto told = [&](size_t i, const std::string& name) {
+    for (const Note& note : problem.outputs.at(i)->record({}, {}))
+      if (note.name == name) return note.value;
+    throw std::runtime_error("no " + name);
+  };
+  EXPECT_EQ(std::get<std::string>(told(1, "of")), "a");
+  EXPECT_EQ(std::get<double>(told(1, "q_factor")), 25.0);
+  EXPECT_EQ(std::get<std::vector<std::string>>(told(2, "on")), (std::vector<std::string>{"glue", "base"}));
+  EXPECT_EQ(std::get<int>(told(3, "frames")), 7);
   const std::vector<std::string> fields = {"displacement", "velocity", "stress", "von_mises", "stress_error"};
-  EXPECT_EQ(problem.outputs[3]->fields, fields);
-  EXPECT_EQ(problem.outputs[4]->kind, OutputKind::energy);
+  EXPECT_EQ(std::get<std::vector<std::string>>(told(3, "fields")), fields);
+  EXPECT_EQ(problem.outputs[4]->word, "energy");
+  // From 1 kHz by 24 an octave up to 50 kHz.
+  RunResult run;
+  run.tables[problem.outputs[0].get()] = {{"time", "a"}, {"s", "m/s^2"}, {{0, 1e-6, 2e-6}, {0, 1, 0}}, {0, 0, 0}};
+  Table spectrum;
+  Findings findings;
+  problem.outputs[1]->conclude({problem, run, {}}, spectrum, findings);
+  ASSERT_EQ(spectrum.n_rows(), 1 + static_cast<int>(24 * std::log2(50.0)));
+  EXPECT_EQ(spectrum.columns[0].front(), 1e3);
+  EXPECT_NEAR(spectrum.columns[0].back(), 5e4, 0.05 * 5e4);
 }
 
 TEST(Build, doubts_a_part_of_implausible_size) {

@@ -21,15 +21,22 @@ struct DeckRun {
 
   const Output& output(const std::string& name) const {
     for (const OutputPtr& o : problem.outputs)
-      if (o->name == name || (name == "energy" && o->kind == OutputKind::energy)) return *o;
+      if (o->name == name) return *o;
     throw std::runtime_error("no output named " + name);
   }
   const Table& table(const std::string& name) const { return result->tables.at(&output(name)); }
+  const Findings& findings(const std::string& name) const { return result->findings_of(output(name)); }
+  // A table beside an output's own.
+  const Table& part(const std::string& name, const std::string& of) const {
+    for (const auto& [part, table] : findings(name).parts)
+      if (part == of) return table;
+    throw std::runtime_error("no " + of + " of " + name);
+  }
   const std::vector<double>& column(const std::string& name, const std::string& of) const {
     return table(name).column(of);
   }
   // As the run record tells them.
-  std::map<std::string, double> figures() const { return recorded_figures(problem, *result); }
+  std::map<std::string, double> figures() const { return recorded_figures(*result); }
   double figure(const std::string& name) const { return figures().at(name); }
 };
 

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "decks/effectivity.hpp"
+#include "result/given_output.hpp"
 #include "result/spectrum_band.hpp"
 
 namespace dygita::test {
@@ -39,18 +40,14 @@ inline SpectraRun run_spectra(const std::filesystem::path& path, const Settings&
       [&](Problem problem, const RunRequest&) {
         if (tolerance > 0.0) problem.solver.tolerance = tolerance;
         for (const Place& place : places) {
-          auto history = std::make_shared<Output>();
+          std::vector<Target> on;
           for (const SubstructurePtr& part : problem.substructures)
-            if (part->name == place.part) history->on = {Face{part, place.face}};
-          history->name = "a_" + place.part + "_" + place.face;
-          history->kind = OutputKind::history;
-          history->quantity = Quantity::acceleration;
-          history->direction = Vec3::UnitZ();
-          auto srs = std::make_shared<Output>();
-          srs->name = place.part + "." + place.face;
-          srs->kind = OutputKind::srs;
-          srs->of = history;
-          srs->srs = {10.0, from, to, 12};
+            if (part->name == place.part) on = {Face{part, place.face}};
+          const OutputPtr history =
+              make_history("a_" + place.part + "_" + place.face, on, "acceleration", Vec3::UnitZ());
+          GivenArguments arguments = given_spectrum("srs", place.part + "." + place.face, from, to);
+          arguments.outputs["of"] = history;
+          const OutputPtr srs = make_output(arguments);
           problem.outputs.insert(problem.outputs.end(), {history, srs});
         }
         Collector collector(problem, nullptr);
@@ -61,8 +58,8 @@ inline SpectraRun run_spectra(const std::filesystem::path& path, const Settings&
         result->seconds["all"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         result->interface_fields = figures.interface_fields;
         for (const OutputPtr& output : problem.outputs)
-          if (output->kind == OutputKind::srs)
-            done.spectra.push_back({output->name, result->tables.at(output.get()), result->bands.at(output.get())});
+          if (output->settles())
+            done.spectra.push_back({output->name, result->tables.at(output.get()), result->findings_of(*output).band});
         for (const StepFigures& step : figures.steps) result->iterations += step.iterations;
         done.problem = problem;
         done.result = result;

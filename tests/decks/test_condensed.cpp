@@ -21,7 +21,7 @@ namespace {
 TEST(Goodman, loses_what_his_solution_says) {
   const PrintedRun bar = run_printing("verification/goodman.lua", {{"n", "100"}, {"m", "16"}});
   EXPECT_TRUE(bar.runs.at(0).result->converged);
-  EXPECT_EQ(bar.runs.at(0).result->loops.begin()->second.cycles.n_rows(), 5);
+  EXPECT_EQ(bar.runs.at(0).part("bar", "cycles").n_rows(), 5);
   EXPECT_LT(bar.number("loss, largest error"), 2.0);
   EXPECT_LT(bar.number("displacement, largest error"), 2.0);
   EXPECT_NEAR(bar.number("exponent over the force"), 3.0, 0.02);
@@ -30,7 +30,7 @@ TEST(Goodman, loses_what_his_solution_says) {
   const DeckRun& run = bar.runs.at(0);
   const std::vector<double>& work = run.column("sole", "friction_work");
   const double spent = work.at(11 * 16) - work.at(9 * 16);
-  EXPECT_NEAR(run.result->loops.at(&run.output("bar")).cycles.column("loss").back(), spent, 0.01 * spent);
+  EXPECT_NEAR(run.part("bar", "cycles").column("loss").back(), spent, 0.01 * spent);
 }
 
 TEST(Goodman, comes_closer_with_mesh_and_increments) {
@@ -43,31 +43,29 @@ TEST(CondensedJoint, slides_gradually_with_an_exponent_between_two_and_three) {
   const PrintedRun joint = run_printing("condensed_joint.lua");
   const DeckRun& run = joint.runs.at(0);
   EXPECT_TRUE(run.result->converged);
-  const LoopSummary& ends = run.result->loops.at(&run.output("ends"));
-  ASSERT_EQ(ends.cycles.n_rows(), 6);
-  EXPECT_GT(ends.exponent, 2.0);
-  EXPECT_LT(ends.exponent, 3.2);
+  const Table& cycles = run.part("ends", "cycles");
+  ASSERT_EQ(cycles.n_rows(), 6);
+  EXPECT_GT(run.findings("ends").values.at("exponent"), 2.0);
+  EXPECT_LT(run.findings("ends").values.at("exponent"), 3.2);
   for (int i = 1; i < 6; ++i) {
-    EXPECT_GT(ends.cycles.column("exponent")[i], 2.0) << i;
-    EXPECT_LT(ends.cycles.column("exponent")[i], 3.2) << i;
+    EXPECT_GT(cycles.column("exponent")[i], 2.0) << i;
+    EXPECT_LT(cycles.column("exponent")[i], 3.2) << i;
   }
   // Goodman's loss for two parts that both stretch, from below: parts of a finite thickness hold on at the ends.
   for (int i = 0; i < 6; ++i) {
-    const double force = ends.cycles.column("force_amplitude")[i],
+    const double force = cycles.column("force_amplitude")[i],
                  thin = std::pow(force, 3) / (3 * 70e9 * 10e-6 * 0.3 * 10e6 * 10e-3);
-    const double ratio = ends.cycles.column("loss")[i] / thin;
+    const double ratio = cycles.column("loss")[i] / thin;
     EXPECT_GT(ratio, 0.84) << force;
     EXPECT_LT(ratio, 1.0) << force;
   }
   // The area of the last loop is the work of friction in that cycle: from increment 11 m to 13 m of the cycling step.
   const std::vector<double>& work = run.column("mating", "friction_work");
   const double spent = work.at(13 * 12) - work.at(11 * 12);
-  EXPECT_NEAR(ends.cycles.column("loss").back(), spent, 0.01 * spent);
+  EXPECT_NEAR(cycles.column("loss").back(), spent, 0.01 * spent);
   // Masing's rule from the first loading is what a system model will lose.
   for (int i = 2; i < 6; ++i)
-    EXPECT_NEAR(ends.cycles.column("masing_loss")[i], ends.cycles.column("loss")[i],
-                0.06 * ends.cycles.column("loss")[i])
-        << i;
+    EXPECT_NEAR(cycles.column("masing_loss")[i], cycles.column("loss")[i], 0.06 * cycles.column("loss")[i]) << i;
 }
 
 // The whole linear model that a superelement stands for, caught at the end of its step.
@@ -96,7 +94,7 @@ struct Condensed {
     throw std::runtime_error("no output " + name);
   }
   const Superelement& element(const std::string& name = "element") const {
-    return result->superelements.at(&output(name));
+    return *std::any_cast<const SuperelementPtr&>(result->findings_of(output(name)).model);
   }
 };
 
@@ -148,7 +146,7 @@ Vec frequencies_of(const LinearAssembly& full, int n, double shift_frequency) {
 // Acceleration (m/s^2) of one interface coordinate for 1 N on another, harmonic, of the whole and of the superelement.
 using Complex = std::complex<double>;
 Complex full_response(const Condensed& c, int to, int from, double frequency) {
-  const SparseMatrix w = interface_coordinates(c.full, c.problem, c.output()).w;
+  const SparseMatrix w = interface_coordinates(c.full, c.problem, {"element", {}, c.element().on}).w;
   const double omega = 2 * std::numbers::pi * frequency;
   const Eigen::SparseMatrix<Complex> k = (c.full.stiffness - omega * omega * c.full.mass).cast<Complex>() +
                                          Complex(0, omega) * c.full.damping.cast<Complex>();
@@ -305,7 +303,7 @@ TEST(Superelement, is_not_made_and_says_why_where_a_part_is_held_by_nothing) {
                "\"zmin\" } }");
   const Condensed c = condensed_text(text);
   const std::string said = testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr();
-  EXPECT_TRUE(c.result->superelements.empty());
+  EXPECT_FALSE(c.result->findings_of(c.output()).model.has_value());
   EXPECT_NE(said.find("superelement 'element': NOT MADE"), std::string::npos) << said;
   EXPECT_NE(said.find("is unconstrained (open joints, or contact that slides)"), std::string::npos) << said;
 }

@@ -75,7 +75,7 @@ TEST(Warnings, are_none_where_mesh_step_and_tolerance_carry_the_load) { EXPECT_E
 TEST(Warnings, name_a_time_step_too_large_for_the_load_and_the_one_that_would_do) {
   const std::string said = warnings({{"dt", "5*us"}});
   EXPECT_NE(said.find("95 % of the energy of load.pressure on face 'b.zmax' lies below"), std::string::npos) << said;
-  EXPECT_NE(said.find("steps a period there: 10 are wanted, dt = "), std::string::npos) << said;
+  EXPECT_NE(said.find("time steps per period there: 10 are wanted, dt = "), std::string::npos) << said;
 }
 
 TEST(Warnings, name_a_mesh_too_coarse_for_the_wavelength) {

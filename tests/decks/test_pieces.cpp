@@ -14,7 +14,7 @@ double largest_difference(const DeckRun& a, const DeckRun& b) {
   double worst = 0.0;
   std::string where;
   for (const OutputPtr& output : a.problem.outputs) {
-    const std::string name = output->kind == OutputKind::energy ? "energy" : output->name;
+    const std::string name = output->name;
     const Table &of_a = a.table(name), &of_b = b.table(name);
     for (size_t c = 0; c < of_a.columns.size(); ++c) {
       if (of_a.names[c] == "balance" || of_a.names[c] == "status" || of_a.units[c].empty()) continue;
@@ -108,8 +108,7 @@ TEST(Pieces, give_the_same_bits_for_any_number_of_threads) {
   for (const int threads : {2, 3}) {
     const DeckRun other = run_text(clamped, settings, threads).at(0);
     for (const auto& [output, table] : one.result->tables)
-      EXPECT_EQ(table.columns, other.table(output->kind == OutputKind::energy ? "energy" : output->name).columns)
-          << output->name << " " << threads;
+      EXPECT_EQ(table.columns, other.table(output->name).columns) << output->name << " " << threads;
   }
 }
 

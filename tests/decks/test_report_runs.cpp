@@ -117,7 +117,7 @@ for _, one in ipairs{ b, output.attenuation{ name = "taken", entering = a, leavi
   expect_sound(run);
   for (const char* part :
        {"<h2>Through the joint", "taken: from top to behind", "<h2>Condensed models", "pseudo (undamped)",
-        "maximax pseudo-velocity (", "shaded: what iteration, time step and mesh leave"})
+        "maximax pseudo-velocity (", "shaded: uncertainty from iteration, time step and mesh"})
     EXPECT_NE(run.page.find(part), std::string::npos) << part;
 }
 

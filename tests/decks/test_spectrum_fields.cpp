@@ -39,7 +39,7 @@ const DeckRun& blocks() {
 
 TEST(SpectrumField, has_at_a_node_the_spectrum_of_that_nodes_history) {
   const DeckRun& run = blocks();
-  const std::vector<Frame>& frames = run.result->fields.at(&run.output("along"));
+  const std::vector<Frame>& frames = run.findings("along").frames;
   const Table& one = run.table("one");
   ASSERT_EQ(static_cast<int>(frames.size()), one.n_rows());
   ASSERT_EQ(frames[0].interfaces.size(), 2u);
@@ -62,7 +62,7 @@ TEST(SpectrumField, has_at_a_node_the_spectrum_of_that_nodes_history) {
 
 TEST(SpectrumField, has_a_table_of_the_highest_and_the_mean_over_its_nodes) {
   const DeckRun& run = blocks();
-  const std::vector<Frame>& frames = run.result->fields.at(&run.output("along"));
+  const std::vector<Frame>& frames = run.findings("along").frames;
   for (size_t f = 0; f < frames.size(); ++f) {
     double highest = 0.0, sum = 0.0, n = 0.0;
     for (const InterfaceFrame& face : frames[f].interfaces) {
@@ -78,8 +78,7 @@ TEST(SpectrumField, has_a_table_of_the_highest_and_the_mean_over_its_nodes) {
 
 TEST(SpectrumField, without_a_direction_takes_the_strongest_axis) {
   const DeckRun& run = blocks();
-  const std::vector<Frame>&along = run.result->fields.at(&run.output("along")),
-        &any = run.result->fields.at(&run.output("any"));
+  const std::vector<Frame>&along = run.findings("along").frames, &any = run.findings("any").frames;
   for (size_t f = 0; f < any.size(); ++f) {
     const auto difference = any[f].interfaces[0].fields[0].values - along[f].interfaces[0].fields[0].values;
     EXPECT_GE(difference.minCoeff(), 0.0);

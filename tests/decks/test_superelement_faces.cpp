@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "decks/engine.hpp"
+#include "result/superelement.hpp"
 
 namespace dygita::test {
 namespace {
@@ -22,7 +23,9 @@ local result = problem{ name = "block", substructures = { a }, supports = )" +
 )")
       .at(0);
 }
-const Superelement& element_of(const DeckRun& run) { return run.result->superelements.at(&run.output("element")); }
+const Superelement& element_of(const DeckRun& run) {
+  return *std::any_cast<const SuperelementPtr&>(run.findings("element").model);
+}
 int n_interface(const Superelement& e) {
   return static_cast<int>(e.rows.size() - static_cast<size_t>(e.fixed_frequencies.size()));
 }
@@ -54,7 +57,7 @@ TEST(SuperelementFaces, that_are_partly_held_cannot_be_rigid) {
   testing::internal::CaptureStderr();
   const DeckRun run = block("on = a:face 'zmax', modes = 10, motion = 'rigid'");
   const std::string said = testing::internal::GetCapturedStderr();
-  EXPECT_TRUE(run.result->superelements.empty());
+  EXPECT_FALSE(run.findings("element").model.has_value());
   EXPECT_NE(said.find("a node of a.zmax is held by a support"), std::string::npos) << said;
 }
 

@@ -198,8 +198,8 @@ Physical Volume("bar") = {out[1]}; Physical Surface("top") = {out[0]}; Physical 
   ASSERT_EQ(bar->blocks.size(), 1u);
   EXPECT_EQ(bar->blocks[0].type, CellType::prism6);
   EXPECT_NEAR(volume(*bar), 2.0, 1e-12);
-  EXPECT_EQ(bar->faces.at("top")[0].nodes().size(), 3u);
-  EXPECT_EQ(bar->faces.at("side")[0].nodes().size(), 4u);
+  EXPECT_EQ(bar->faces.at("top")[0].type(), FacetType::tri3);
+  EXPECT_EQ(bar->faces.at("side")[0].type(), FacetType::quad4);
   EXPECT_TRUE(face_nodes(*bar, bar->faces.at("top")).normals.col(0).isApprox(Vec3::UnitZ()));
 
   const std::string tetrahedra =

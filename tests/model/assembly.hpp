@@ -10,6 +10,7 @@
 #include "mesh/box.hpp"
 #include "model/given_arguments.hpp"
 #include "model/load.hpp"
+#include "model/output_double.hpp"
 
 namespace dygita {
 
@@ -21,13 +22,13 @@ std::shared_ptr<T> declared(const std::string& name, int line) {
   return object;
 }
 
-// A load of these values, and of a direction along z where it has one.
+// A load of these values, and of a direction or an axis along z where it has one.
 inline LoadPtr load(const std::string& word, std::vector<Target> on, const std::map<std::string, double>& values,
                     const Vec3& direction = Vec3::UnitZ()) {
   GivenArguments arguments("load." + word, {"deck.lua", 40});
   arguments.on = std::move(on);
   for (const auto& [key, value] : values) arguments.values_of_time[key] = {History::constant(value), true};
-  arguments.lists["direction"] = {direction[0], direction[1], direction[2]};
+  for (const char* key : {"direction", "axis"}) arguments.lists[key] = {direction[0], direction[1], direction[2]};
   return make_load(arguments);
 }
 
@@ -42,7 +43,7 @@ class Assembly : public ::testing::Test {
   std::shared_ptr<Interface> shank = declared<Interface>("shank", 10), mating = declared<Interface>("mating", 11);
   std::shared_ptr<Support> base = declared<Support>("base", 20);
   std::shared_ptr<Step> tighten = declared<Step>("tighten", 30), shock = declared<Step>("shock", 31);
-  std::shared_ptr<Output> above = declared<Output>("above", 50), spectrum = declared<Output>("spectrum", 51);
+  std::shared_ptr<OutputDouble> above = output_double("above", 50), below = output_double("below", 51);
   Problem problem;
 
   Assembly() {
@@ -61,19 +62,13 @@ class Assembly : public ::testing::Test {
     shock->duration = 200e-6;
     shock->dt = 1e-6;
     shock->loads = {load("pressure", {Face{upper, "zmax"}}, 1e6)};
-    above->kind = OutputKind::history;
-    above->on = {Face{upper, "zmax"}};
-    above->quantity = Quantity::acceleration;
-    above->direction = Vec3::UnitZ();
-    spectrum->kind = OutputKind::srs;
-    spectrum->of = above;
     problem.name = "bolted";
     problem.origin = Origin{"deck.lua", 84};
     problem.substructures = {lower, upper};
     problem.interfaces = {shank, mating};
     problem.supports = {base};
     problem.steps = {tighten, shock};
-    problem.outputs = {above, spectrum};
+    problem.outputs = {above, below};
     take_warnings();
   }
 

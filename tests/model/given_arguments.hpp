@@ -14,6 +14,11 @@ class GivenArguments : public ModelArguments {
   std::map<std::string, std::vector<double>> lists;
   std::map<std::string, std::string> words;
   std::map<std::string, std::map<std::string, double>> tables;
+  std::map<std::string, std::vector<std::string>> word_lists;
+  std::map<std::string, std::vector<Target>> places_of;  // beside `on`
+  std::map<std::string, OutputPtr> outputs;
+  std::map<std::string, StepPtr> steps;
+  std::map<std::string, std::shared_ptr<const Specification>> specifications;
 
   const std::string& path() const override { return path_; }
   const Origin& origin() const override { return origin_; }
@@ -28,18 +33,26 @@ class GivenArguments : public ModelArguments {
   bool boolean(const char* key) const override { return number(key) != 0.0; }
   std::string text(const char* key) const override { return words.at(key); }
   std::vector<double> numbers(const char* key) const override { return lists.at(key); }
-  std::vector<std::string> texts(const char* key) const override { return {words.at(key)}; }
-  std::map<std::string, double> settings(const char* key) const override {
-    return tables.contains(key) ? tables.at(key) : std::map<std::string, double>();
-  }
+  std::vector<std::string> texts(const char* key) const override { return word_lists.at(key); }
+  std::map<std::string, double> settings(const char* key) const override { return given(tables, key); }
   TimeValue value(const char* key) const override { return values_of_time.at(key); }
-  std::vector<Target> targets(const char*) const override { return on; }
+  std::vector<Target> targets(const char* key) const override {
+    return std::string(key) == "on" ? on : given(places_of, key);
+  }
   std::vector<SubstructurePtr> substructures(const char*) const override { return {}; }
-  StepPtr step(const char*) const override { return nullptr; }
-  OutputPtr output(const char*) const override { return nullptr; }
-  std::shared_ptr<const Specification> specification(const char*) const override { return nullptr; }
+  StepPtr step(const char* key) const override { return given(steps, key); }
+  OutputPtr output(const char* key) const override { return given(outputs, key); }
+  std::shared_ptr<const Specification> specification(const char* key) const override {
+    return given(specifications, key);
+  }
 
  private:
+  template <class T>
+  static T given(const std::map<std::string, T>& values, const char* key) {
+    const auto found = values.find(key);
+    return found == values.end() ? T() : found->second;
+  }
+
   std::string path_;
   Origin origin_;
 };

@@ -2,7 +2,7 @@
 
 namespace dygita {
 
-class Loads : public Assembly {
+class LoadRules : public Assembly {
  protected:
   std::string complaint_of(const LoadPtr& load_of_shock) {
     shock->loads = {load_of_shock};
@@ -16,14 +16,14 @@ class Loads : public Assembly {
 
 const std::string in_shock = "deck.lua:40: problem 'bolted': step 'shock': ";
 
-TEST_F(Loads, are_on_listed_interfaces) {
+TEST_F(LoadRules, are_on_listed_interfaces) {
   problem.interfaces = {mating};
   EXPECT_EQ(complaint(),
             "deck.lua:84: problem 'bolted': step 'tighten' loads interface 'shank', which is not in 'interfaces'\n"
             "    add it to 'interfaces'; known: mating");
 }
 
-TEST_F(Loads, are_on_listed_substructures) {
+TEST_F(LoadRules, are_on_listed_substructures) {
   auto stray = declared<Substructure>("nut", 3);
   stray->mesh = lower->mesh;
   EXPECT_EQ(complaint_of(load("force", {Face{stray, "xmin"}})),
@@ -31,14 +31,14 @@ TEST_F(Loads, are_on_listed_substructures) {
             "    add it to 'substructures'; known: lower, upper");
 }
 
-TEST_F(Loads, are_on_supports_in_force_in_their_step) {
+TEST_F(LoadRules, are_on_supports_in_force_in_their_step) {
   shock->supports = std::vector<SupportPtr>{};
   EXPECT_EQ(complaint_of(load("base_acceleration", {SupportPtr(base)})),
             "deck.lua:84: problem 'bolted': step 'shock' loads support 'base', which is not in 'supports'\n"
             "    add it to 'supports'; known: none");
 }
 
-TEST_F(Loads, of_each_kind_act_on_what_they_can) {
+TEST_F(LoadRules, of_each_kind_act_on_what_they_can) {
   const Face face{upper, "zmax"};
   const Region region{upper, {0, 1}};
   const InterfacePtr bolt = shank, contact = mating;
@@ -69,7 +69,7 @@ TEST_F(Loads, of_each_kind_act_on_what_they_can) {
             "    load.shortening acts on an interface.bonded or an interface.plastic");
 }
 
-TEST_F(Loads, of_each_kind_are_accepted_where_they_act) {
+TEST_F(LoadRules, of_each_kind_are_accepted_where_they_act) {
   const Region region{upper, {0, 1}};
   const Face face{upper, "zmax"};
   EXPECT_EQ(complaint_of(load("traction", {face})), "");
@@ -83,7 +83,7 @@ TEST_F(Loads, of_each_kind_are_accepted_where_they_act) {
   EXPECT_EQ(complaint(), "");
 }
 
-TEST_F(Loads, of_base_acceleration_need_a_support_that_holds) {
+TEST_F(LoadRules, of_base_acceleration_need_a_support_that_holds) {
   base->kind = SupportKind::wall;
   EXPECT_NE(complaint_of(load("base_acceleration", {SupportPtr(base)})).find("cannot act on support.wall"),
             std::string::npos);
@@ -91,36 +91,36 @@ TEST_F(Loads, of_base_acceleration_need_a_support_that_holds) {
   EXPECT_EQ(complaint(), "");
 }
 
-TEST_F(Loads, are_on_something) {
+TEST_F(LoadRules, are_on_something) {
   EXPECT_EQ(complaint_of(load("pressure", {})),
             in_shock + "load.pressure is on nothing\n    load.pressure acts on a face");
 }
 
-TEST_F(Loads, are_on_a_place_once) {
+TEST_F(LoadRules, are_on_a_place_once) {
   const Face face{upper, "zmax"};
   EXPECT_EQ(complaint_of(load("pressure", {face, face})), in_shock + "load.pressure is twice on face 'upper.zmax'");
 }
 
-TEST_F(Loads, are_listed_once) {
+TEST_F(LoadRules, are_listed_once) {
   shock->loads.push_back(shock->loads.front());
   EXPECT_EQ(complaint(), in_shock + "one load.pressure is listed twice");
 }
 
-TEST_F(Loads, have_a_value) {
+TEST_F(LoadRules, have_a_value) {
   EXPECT_EQ(complaint_of(load("traction", {Face{upper, "zmax"}}, std::map<std::string, double>())),
             in_shock + "load.traction has no value\n    give at least one of x, y, z");
   EXPECT_EQ(complaint_of(load("pressure", {Face{upper, "zmax"}}, {{"y", 1.0}})),
             in_shock + "load.pressure has no value");
 }
 
-TEST_F(Loads, that_shorten_a_bolt_act_in_static_steps) {
+TEST_F(LoadRules, that_shorten_a_bolt_act_in_static_steps) {
   EXPECT_EQ(complaint_of(load("shortening", {InterfacePtr(shank)})),
             in_shock +
                 "load.shortening acts in static steps only, and this one is dynamic\n"
                 "    tighten in a step.static before it; the bolt keeps its length afterwards");
 }
 
-TEST_F(Loads, that_need_time_act_in_dynamic_steps) {
+TEST_F(LoadRules, that_need_time_act_in_dynamic_steps) {
   EXPECT_EQ(
       complaint_of_static(load("base_acceleration", {SupportPtr(base)})),
       "deck.lua:40: problem 'bolted': step 'tighten': load.base_acceleration acts in dynamic steps only, and this "
@@ -132,14 +132,14 @@ TEST_F(Loads, that_need_time_act_in_dynamic_steps) {
             "    a static step has no time: use load.displacement");
 }
 
-TEST_F(Loads, release_within_their_step) {
+TEST_F(LoadRules, release_within_their_step) {
   EXPECT_EQ(complaint_of(load("release", {InterfacePtr(shank)}, 3e-4)),
             in_shock +
                 "load.release.at = 0.0003, outside the step [0, 0.0002]\n"
                 "    'at' counts in seconds from the step's start");
 }
 
-TEST_F(Loads, prescribe_a_direction_once) {
+TEST_F(LoadRules, prescribe_a_direction_once) {
   const Face face{upper, "zmax"};
   shock->loads = {load("velocity", {face}), load("displacement", {face})};
   EXPECT_EQ(complaint(),
@@ -152,14 +152,14 @@ TEST_F(Loads, prescribe_a_direction_once) {
 
 const std::string give_their_sum = "\n    give their sum in one load; a history may be a function(t)";
 
-TEST_F(Loads, shorten_a_bolt_once_a_step) {
+TEST_F(LoadRules, shorten_a_bolt_once_a_step) {
   tighten->loads.push_back(load("shortening", {InterfacePtr(shank)}, 2e-5));
   EXPECT_EQ(complaint(),
             "deck.lua:40: problem 'bolted': step 'tighten': two load.shortening on interface.plastic 'shank'" +
                 give_their_sum);
 }
 
-TEST_F(Loads, of_one_kind_on_one_place_are_given_as_one) {
+TEST_F(LoadRules, of_one_kind_on_one_place_are_given_as_one) {
   const Face face{upper, "zmax"};
   shock->loads = {load("pressure", {face}), load("pressure", {face})};
   EXPECT_EQ(complaint(), in_shock + "two load.pressure on face 'upper.zmax'" + give_their_sum);
@@ -167,14 +167,22 @@ TEST_F(Loads, of_one_kind_on_one_place_are_given_as_one) {
   EXPECT_EQ(complaint(), in_shock + "two load.gravity" + give_their_sum);
 }
 
-TEST_F(Loads, of_different_kinds_places_or_directions_add_up) {
+TEST_F(LoadRules, of_different_kinds_places_or_directions_add_up) {
   const Face face{upper, "zmax"};
   shock->loads = {load("pressure", {face}), load("pressure", {Face{upper, "xmax"}}), load("traction", {face}),
                   load("traction", {face}, {{"y", 1.0}})};
   EXPECT_EQ(complaint(), "");
 }
 
-TEST_F(Loads, shake_a_base_in_perpendicular_directions) {
+TEST_F(LoadRules, turn_a_face_about_several_axes) {
+  const Face face{upper, "zmax"};
+  shock->loads = {load("torque", {face}), load("torque", {face})};
+  EXPECT_EQ(complaint(), in_shock + "two load.torque on face 'upper.zmax'" + give_their_sum);
+  shock->loads.back() = load("torque", {face}, {{"history", 1.0}}, Vec3::UnitX());
+  EXPECT_EQ(complaint(), "");
+}
+
+TEST_F(LoadRules, shake_a_base_in_perpendicular_directions) {
   const LoadPtr along_z = load("base_acceleration", {SupportPtr(base)});
   shock->loads = {along_z, load("base_acceleration", {SupportPtr(base)})};
   EXPECT_EQ(complaint(), in_shock + "two load.base_acceleration on support.fixed 'base'" + give_their_sum);
@@ -182,7 +190,7 @@ TEST_F(Loads, shake_a_base_in_perpendicular_directions) {
   EXPECT_EQ(complaint(), "");
 }
 
-TEST_F(Loads, do_not_move_what_a_support_holds) {
+TEST_F(LoadRules, do_not_move_what_a_support_holds) {
   EXPECT_EQ(complaint_of(load("displacement", {Face{lower, "zmin"}})),
             in_shock +
                 "load.displacement moves face 'lower.zmin' along x, where support.fixed 'base' holds it\n"
@@ -192,7 +200,7 @@ TEST_F(Loads, do_not_move_what_a_support_holds) {
   EXPECT_EQ(complaint(), "");
 }
 
-TEST_F(Loads, may_slide_along_a_plane_of_symmetry_but_not_leave_it) {
+TEST_F(LoadRules, may_slide_along_a_plane_of_symmetry_but_not_leave_it) {
   base->kind = SupportKind::symmetry;
   EXPECT_EQ(complaint_of(load("displacement", {Face{lower, "zmin"}})), "");
   EXPECT_NE(complaint_of(load("displacement", {Face{lower, "zmin"}}, {{"z", 1e-6}}))

@@ -14,9 +14,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
-#include "model/given_arguments.hpp"
 #include "model/load.hpp"
 #include "output/run_writer.hpp"
+#include "result/given_output.hpp"
 #include "scratch.hpp"
 
 namespace dygita {
@@ -221,8 +221,8 @@ struct Done {
     step->name = "shock";
     step->loads = {make_load(pressure)};
     problem.steps = {step};
-    add_output("spread", OutputKind::history, "displacement", "m");
-    add_output("", OutputKind::energy, "kinetic", "J");
+    add_output(make_history("spread", {}, "displacement"), "displacement", "m");
+    add_output(make_output(given_output("energy", "")), "kinetic", "J");
     result.convergence = {{"time", "iterations"}, {"s", ""}, {{1e-6}, {5.0}}, {0}};
     result.steps = {{"shock", false, 10, 1, 50, 2e-6, 0.25}};
     result.iterations = 50;
@@ -232,10 +232,7 @@ struct Done {
     identity = {"crush.lua", "feed", {{"mu", 0.3}}, "latin{ window = 5 }", {{"punch", "beef"}}, 2, {{"gmsh", "4.8.4"}}};
   }
 
-  void add_output(const std::string& name, OutputKind kind, const std::string& column, const std::string& unit) {
-    auto output = std::make_shared<Output>();
-    output->name = name;
-    output->kind = kind;
+  void add_output(const OutputPtr& output, const std::string& column, const std::string& unit) {
     problem.outputs.push_back(output);
     result.tables[output.get()] = {{"time", column}, {"s", unit}, {{0.0}, {1.5}}, {0}};
   }

@@ -1,6 +1,7 @@
 // Figures of a run under the names that its record gives them.
 #include <gtest/gtest.h>
 
+#include "result/given_output.hpp"
 #include "result/limits.hpp"
 #include "result/recorded_figures.hpp"
 
@@ -19,21 +20,14 @@ TEST(Figures, are_recorded_by_label_where_the_run_has_them) {
   EXPECT_STREQ(label(&Figures::energy_gain), "energy created by the scheme [%]");
 }
 
-TEST(Figures, of_outputs_carry_their_names) {
-  Problem problem;
+TEST(Figures, of_outputs_stand_beside_those_of_the_run) {
   RunResult result;
-  const auto spectrum = std::make_shared<Output>();
-  spectrum->name = "above";
-  spectrum->specification = std::make_shared<Specification>(Specification{{10.0, 1000.0}, {1.0, 1.0}, "deck"});
-  problem.outputs = {spectrum};
-  result.tables[spectrum.get()] = {{"frequency", "maximax"}, {"Hz", "m/s^2"}, {{100.0, 200.0}, {0.1, 10.0}}, {}};
-  result.bands[spectrum.get()] = {{"frequency", "mesh", "all"}, {"Hz", "dB", "dB"}, {{1, 2}, {1, 3}, {2, 5}}, {}};
-  const std::map<std::string, double> figures = recorded_figures(problem, result);
-  EXPECT_EQ(figures.size(), 4u);
-  EXPECT_DOUBLE_EQ(figures.at("spectrum 'above', mean band, mesh [dB]"), 2.0);
-  EXPECT_DOUBLE_EQ(figures.at("spectrum 'above', mean band, all [dB]"), 3.5);
-  EXPECT_NEAR(figures.at("largest exceedance of the specification of 'above' [dB]"), 20.0, 1e-12);
-  EXPECT_DOUBLE_EQ(figures.at("frequency of the largest exceedance of 'above' [Hz]"), 200.0);
+  result.figures.energy_gain = 1.0;
+  const OutputPtr loop = make_history("path", {}, "displacement");
+  result.findings[loop.get()].figures["loop 'path', first stiffness [N/m]"] = 2.0;
+  const std::map<std::string, double> expected = {{"energy created by the scheme [%]", 1.0},
+                                                  {"loop 'path', first stiffness [N/m]", 2.0}};
+  EXPECT_EQ(recorded_figures(result), expected);
 }
 
 TEST(Limits, of_what_a_penalty_holds_and_of_its_error_are_one) {

@@ -10,6 +10,7 @@
 #include "output/scratch.hpp"
 #include "report/report.hpp"
 #include "report/svg_checks.hpp"
+#include "result/given_output.hpp"
 #include "result/scenes.hpp"
 #include "run/run_files.hpp"
 
@@ -53,18 +54,17 @@ struct Example {
     result.steps = {{"tighten", true, 2, 0, 30, 5e-9, 0.1}, {"shock", false, 3, 0, 12, 8e-7, 0.2}};
     const std::vector<int> rows = {0, 0, 1, 1, 1};
     const std::vector<double> time = {0, 0, 1e-6, 2e-6, 3e-6};
-    const OutputPtr history = add(OutputKind::history, "above",
-                                  {{"time", "acceleration"}, {"s", "m/s^2"}, {time, {0, 0, 10, 20, -5}}, rows}, {});
-    auto spectrum = std::make_shared<Output>();
-    spectrum->of = history;
-    spectrum->specification = std::make_shared<Specification>(Specification{{100.0, 1000.0}, {10.0, 10.0}, "deck"});
-    add(OutputKind::srs, "srs",
-        {{"frequency", "maximax", "positive", "negative"},
-         {"Hz", "m/s^2", "m/s^2", "m/s^2"},
-         {{100, 500, 1000}, {5, 25, 8}, {4, 25, 8}, {5, 20, 7}},
-         {}},
-        {}, spectrum);
-    add(OutputKind::joint, "grip",
+    const OutputPtr history = add(make_history("above", {}, "acceleration"),
+                                  {{"time", "acceleration"}, {"s", "m/s^2"}, {time, {0, 0, 10, 20, -5}}, rows});
+    GivenArguments spectrum = given_spectrum("srs", "srs");
+    spectrum.outputs["of"] = history;
+    spectrum.specifications["specification"] =
+        std::make_shared<Specification>(Specification{{100.0, 1000.0}, {10.0, 10.0}, "deck"});
+    add(make_output(spectrum), {{"frequency", "maximax", "positive", "negative"},
+                                {"Hz", "m/s^2", "m/s^2", "m/s^2"},
+                                {{100, 500, 1000}, {5, 25, 8}, {4, 25, 8}, {5, 20, 7}},
+                                {}});
+    add(make_output(given_output("joint", "grip", {InterfacePtr(touch)})),
         {{"time", "normal", "shear", "opening", "slip", "plastic_opening", "open_area", "stick_area", "slip_area",
           "friction_work", "plastic_work"},
          {"s", "N", "N", "m", "m", "m", "m^2", "m^2", "m^2", "J", "J"},
@@ -79,9 +79,8 @@ struct Example {
           {0, 0, 1e-4, 0, 0},
           {0, 0, 1e-4, 1e-4, 1e-4},
           {0, 0, 0, 0, 0}},
-         rows},
-        {touch});
-    add(OutputKind::energy, "energy",
+         rows});
+    add(make_output(given_output("energy", "")),
         {{"time", "kinetic", "strain", "loads", "friction", "plastic", "damping", "scheme", "balance"},
          {"s", "J", "J", "J", "J", "J", "J", "J", "J"},
          {time,
@@ -93,8 +92,7 @@ struct Example {
           {0, 0, 0, 0, 0},
           {0, 0, 0, 0, 0},
           {0, 0, 0, 0, 0}},
-         rows},
-        {});
+         rows});
     result.convergence = {{"time", "iterations", "indicator", "converged"},
                           {"s", "", "", ""},
                           {time, {20, 10, 4, 4, 4}, {5e-9, 4e-9, 8e-7, 7e-7, 6e-7}, {1, 1, 1, 1, 1}},
@@ -123,13 +121,7 @@ struct Example {
     return step;
   }
 
-  OutputPtr add(OutputKind kind, const std::string& name, Table table, const std::vector<Target>& on,
-                std::shared_ptr<Output> output = nullptr) {
-    if (!output) output = std::make_shared<Output>();
-    output->kind = kind;
-    output->name = name;
-    output->quantity = Quantity::acceleration;
-    output->on = on;
+  OutputPtr add(const OutputPtr& output, Table table) {
     problem.outputs.push_back(output);
     result.tables[output.get()] = std::move(table);
     return output;

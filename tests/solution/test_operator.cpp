@@ -189,7 +189,7 @@ TEST(FreeUnknowns, take_fields_apart_and_put_them_together) {
       held.push_back(direction.direction.dot(field.col(direction.node)));
     EXPECT_LT((unknowns.expand(unknowns.restrict_nodal(field), held) - field).norm(), 1e-14 * field.norm());
     const Vec free = unknowns.restrict_nodal(field);
-    for (const Row& row : c.setup.rows)
+    for (const InterfaceRow& row : c.setup.rows)
       EXPECT_NEAR(unknowns.trace(row.node, row.direction).of(free), row.direction.dot(field.col(row.node)), 1e-14);
   }
 }

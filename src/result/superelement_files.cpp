@@ -1,10 +1,10 @@
-#include "output/superelement_files.hpp"
+#include "result/superelement_files.hpp"
 
 #include <cmath>
 #include <iterator>
 
 #include "base/log.hpp"
-#include "output/files.hpp"
+#include "base/names.hpp"
 
 namespace dygita {
 
@@ -25,23 +25,18 @@ const char* motion_text(FaceMotion motion) {
   return "";
 }
 
-std::string label_of(const Target& target) {
-  if (const auto* face = std::get_if<Face>(&target)) return face->label();
-  return std::get<Region>(target).label();
-}
-
 // m, without the round-off of a mean that is zero.
 double coordinate(double x) { return std::abs(x) < 1e-12 ? 0.0 : x; }
 
-std::string introduction(const Problem& problem, const Output& output, const Superelement& element) {
+std::string introduction(const std::string& problem, const std::string& name, const Superelement& element) {
   const size_t n_modes = static_cast<size_t>(element.fixed_frequencies.size());
   std::string text = fmt::format(
       "# Superelement `{}` of problem `{}`\n\n"
       "The linear assembly about its state at the end of step `{}`, reduced to {} rows: {} interface coordinates and "
       "{} modes "
       "(Craig and Bampton, 1968), {} of which stand for all that are left out, from {} unknowns.{}\n\n",
-      output.name, problem.name, element.step, element.rows.size(), element.rows.size() - n_modes, n_modes,
-      element.n_residual, element.n_unknowns, element.is_converged ? "" : " THE STEP DID NOT CONVERGE.");
+      name, problem, element.step, element.rows.size(), element.rows.size() - n_modes, n_modes, element.n_residual,
+      element.n_unknowns, element.is_converged ? "" : " THE STEP DID NOT CONVERGE.");
   text += fmt::format(
       "**To be used up to {:.4g} Hz**, half of the frequency up to which modes with the interface held are kept.\n\n",
       element.valid_to);
@@ -59,8 +54,7 @@ std::string introduction(const Problem& problem, const Output& output, const Sup
   return text;
 }
 
-std::string file_list(const Output& output, const Superelement& element) {
-  const std::string name = file_name_of(output.name);
+std::string file_list(const std::string& name, const Superelement& element) {
   std::string text = "## Files\n\n| file | content |\n| --- | --- |\n";
   text += fmt::format(
       "| `{0}_mass.mtx`, `{0}_stiffness.mtx` | symmetric, Matrix Market; SI: kg, N/m; where a row is a rotation in "
@@ -93,22 +87,23 @@ std::string matrix_market_text(const Mat& symmetric, const std::string& comment)
   return text;
 }
 
-std::vector<std::pair<std::string, std::string>> superelement_files(const Problem& problem, const Output& output,
+std::vector<std::pair<std::string, std::string>> superelement_files(const std::string& problem,
+                                                                    const SuperelementRequest& request,
                                                                     const Superelement& element) {
-  std::string page = introduction(problem, output, element) + file_list(output, element);
+  std::string page = introduction(problem, request.name, element) + file_list(file_name_of(request.name), element);
   page += fmt::format(
       "## Rows\n\nA coordinate is {}. Rotations turn about the point given, the face's centroid. The force of an "
       "interface row works on "
       "that motion: N, or N m about the point. Rows of modes are amplitudes (sqrt(kg) m), without force as long as "
       "nothing acts inside.\n\n"
       "| row | what | node | direction | x (m) | y (m) | z (m) |\n| --- | --- | --- | --- | --- | --- | --- |\n",
-      motion_text(output.superelement.motion));
+      motion_text(request.motion));
   const int n = static_cast<int>(element.rows.size()),
             n_interface = n - static_cast<int>(element.fixed_frequencies.size());
   for (int i = 0; i < n_interface; ++i) {
     const Superelement::Row& row = element.rows[i];
     page +=
-        fmt::format("| {} | {} | {} | {} | {:.9g} | {:.9g} | {:.9g} |\n", i + 1, label_of(output.on[row.on]),
+        fmt::format("| {} | {} | {} | {} | {:.9g} | {:.9g} | {:.9g} |\n", i + 1, label(element.on[row.on]),
                     row.node < 0 ? std::string("all") : std::to_string(row.node + 1), direction_names[row.direction],
                     coordinate(row.place[0]), coordinate(row.place[1]), coordinate(row.place[2]));
   }
@@ -131,7 +126,7 @@ std::vector<std::pair<std::string, std::string>> superelement_files(const Proble
     files.emplace_back(
         std::string("_") + what + ".mtx",
         matrix_market_text(matrix, fmt::format("{} ({}) of superelement '{}' after step '{}': see {}.md", what, unit,
-                                               output.name, element.step, file_name_of(output.name))));
+                                               request.name, element.step, file_name_of(request.name))));
   };
   add("mass", "kg", element.mass);
   add("stiffness", "N/m", element.stiffness);

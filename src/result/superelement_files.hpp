@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "result/result.hpp"
+#include "result/superelement.hpp"
 
 namespace dygita {
 
@@ -14,7 +14,8 @@ namespace dygita {
 std::string matrix_market_text(const Mat& symmetric, const std::string& comment);
 
 // Names (after the output's) and contents: _mass.mtx, _stiffness.mtx, _damping.mtx where there is any, and .md.
-std::vector<std::pair<std::string, std::string>> superelement_files(const Problem& problem, const Output& output,
+std::vector<std::pair<std::string, std::string>> superelement_files(const std::string& problem,
+                                                                    const SuperelementRequest& request,
                                                                     const Superelement& element);
 
 }  // namespace dygita

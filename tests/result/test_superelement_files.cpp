@@ -1,7 +1,7 @@
 // Matrices and page of a superelement.
 #include <gtest/gtest.h>
 
-#include "output/superelement_files.hpp"
+#include "result/superelement_files.hpp"
 
 namespace dygita {
 namespace {
@@ -18,20 +18,16 @@ TEST(SuperelementFiles, are_matrices_and_a_page_that_names_their_rows) {
   auto part = std::make_shared<Substructure>();
   part->name = "flange";
   part->mesh = mesh;
-  Problem problem;
-  problem.name = "p";
-  Output output;
-  output.kind = OutputKind::superelement;
-  output.name = "element";
-  output.on = {Face{part, "top"}};
+  const SuperelementRequest request{"element", {}, {}};
   Superelement element;
+  element.on = {Face{part, "top"}};
   element.rows = {{0, -1, 5, Vec3(1, 2, 1e-19)}, {-1, -1, 0, Vec3::Zero()}};
   element.mass = element.stiffness = Mat::Identity(2, 2);
   element.fixed_frequencies = Vec::Constant(1, 1234.5);
   element.frequencies = element.damping_ratios = Vec::Constant(2, 0.5);
   element.valid_to = 600.0;
   element.step = "tighten";
-  const auto files = superelement_files(problem, output, element);
+  const auto files = superelement_files("p", request, element);
   ASSERT_EQ(files.size(), 3u);
   EXPECT_EQ(files[0].first, "_mass.mtx");
   EXPECT_EQ(files[1].first, "_stiffness.mtx");
@@ -41,7 +37,7 @@ TEST(SuperelementFiles, are_matrices_and_a_page_that_names_their_rows) {
   EXPECT_NE(page.find("| 2 | 1234.5 |\n"), std::string::npos) << page;
   EXPECT_NE(page.find("**To be used up to 600 Hz**"), std::string::npos) << page;
   element.damping = Mat::Identity(2, 2);
-  EXPECT_EQ(superelement_files(problem, output, element)[2].first, "_damping.mtx");
+  EXPECT_EQ(superelement_files("p", request, element)[2].first, "_damping.mtx");
 }
 
 }  // namespace

@@ -1,0 +1,65 @@
+#include "result/followed_motion.hpp"
+
+namespace dygita {
+
+namespace {
+
+Followed followed(const Surface& surface) { return surface.declared_law().shown().followed; }
+
+}  // namespace
+
+Points FollowedMotion::relative_displacement(const Instant& instant, int s) const {
+  const Surface& surface = (*instant.model.surfaces)[s];
+  const Points u_1 = instant.displacement(surface.part_1);
+  const Points u_2 = surface.part_2 >= 0 ? instant.displacement(surface.part_2) : Points();
+  Points relative(3, surface.n_points());
+  for (int i = 0; i < surface.n_points(); ++i) {
+    relative.col(i) = -u_1.col(surface.facing.nodes_1[i]);
+    if (surface.part_2 >= 0) relative.col(i) += u_2.col(surface.facing.nodes_2[i]);
+  }
+  return relative;
+}
+
+void FollowedMotion::begin_step(const Instant& instant) {
+  const size_t n = instant.model.surfaces->size();
+  before_.resize(n);
+  moved_.resize(n);
+  for (size_t s = 0; s < n; ++s) {
+    const Surface& surface = (*instant.model.surfaces)[s];
+    if (followed(surface) == Followed::nothing) continue;
+    before_[s] = relative_displacement(instant, static_cast<int>(s));
+    if (moved_[s].size() == 0) moved_[s] = Points::Zero(3, surface.n_points());
+  }
+}
+
+void FollowedMotion::accept(const Instant& instant) {
+  for (size_t s = 0; s < before_.size(); ++s) {
+    const Surface& surface = (*instant.model.surfaces)[s];
+    if (moved_[s].size() == 0) continue;
+    const bool is_slip = followed(surface) == Followed::slip_while_closed;
+    const Points now = relative_displacement(instant, static_cast<int>(s));
+    for (int i = 0; i < surface.n_points(); ++i) {
+      if (is_slip && instant.state.surfaces[s].points[i].status == PointState::open) continue;
+      const Vec3 n = surface.facing.normals.col(i), moved = now.col(i) - before_[s].col(i);
+      moved_[s].col(i) += is_slip ? Vec3(moved - moved.dot(n) * n) : moved;
+    }
+    before_[s] = now;
+  }
+}
+
+double FollowedMotion::opening(const Instant& instant, int surface, int point) const {
+  const Surface& of = (*instant.model.surfaces)[surface];
+  if (followed(of) == Followed::opening_and_slip && moved_[surface].size() > 0)
+    return moved_[surface].col(point).dot(of.facing.normals.col(point));
+  return of.declared_law().opening(instant.state.surfaces[surface].points[point]);
+}
+
+Vec3 FollowedMotion::slip(const Instant& instant, int surface, int point) const {
+  const Surface& of = (*instant.model.surfaces)[surface];
+  if (followed(of) == Followed::nothing || moved_[surface].size() == 0)
+    return instant.state.surfaces[surface].points[point].slip;
+  const Vec3 n = of.facing.normals.col(point), moved = moved_[surface].col(point);
+  return followed(of) == Followed::slip_while_closed ? moved : Vec3(moved - moved.dot(n) * n);
+}
+
+}  // namespace dygita

@@ -1,0 +1,187 @@
+// output.history: a quantity against time, as the mean over a face or a region (manual, instants and means).
+#include "fem/assembly.hpp"
+#include "model/check.hpp"
+#include "result/output_table.hpp"
+#include "result/recorder.hpp"
+#include "result/surface_sums.hpp"
+#include "result/weighted_nodes.hpp"
+
+namespace dygita {
+
+namespace {
+
+enum class Quantity { displacement, velocity, acceleration, stress, von_mises, pressure };
+
+struct QuantityEntry {
+  Quantity quantity;
+  const char *name, *unit;
+};
+constexpr QuantityEntry quantities[] = {
+    {Quantity::displacement, "displacement", "m"},     {Quantity::velocity, "velocity", "m/s"},
+    {Quantity::acceleration, "acceleration", "m/s^2"}, {Quantity::stress, "stress", "Pa"},
+    {Quantity::von_mises, "von_mises", "Pa"},          {Quantity::pressure, "pressure", "Pa"}};
+
+const QuantityEntry& quantity_named(const std::string& name) {
+  for (const QuantityEntry& entry : quantities)
+    if (entry.name == name) return entry;
+  CHECK(false, "unknown quantity '" + name + "'");
+  return quantities[0];
+}
+
+struct HistoryRequest {
+  std::vector<Target> on;
+  QuantityEntry what;
+  std::optional<Vec3> direction;  // unit; none: x y z
+
+  bool is_of_surfaces() const { return what.quantity == Quantity::pressure; }
+  bool is_scalar() const { return direction || what.quantity == Quantity::von_mises || is_of_surfaces(); }
+  bool is_mean() const { return what.quantity == Quantity::acceleration || is_of_surfaces(); }
+};
+
+// Nodes of the faces and regions it is on; weights of all groups sum to one.
+std::vector<WeightedNodes> weigh(const Problem& problem, const std::vector<Target>& on) {
+  std::vector<WeightedNodes> groups;
+  double total = 0.0;
+  for (const Target& target : on) {
+    const std::optional<FaceOrRegion> place = check::place_of(target);
+    if (!place) continue;
+    groups.push_back(weighted_nodes(problem, *place));
+    for (const double w : groups.back().weights) total += w;
+  }
+  for (WeightedNodes& group : groups)
+    for (double& w : group.weights) w /= total;
+  return groups;
+}
+
+class HistoryRecorder : public TableRecorder {
+ public:
+  HistoryRecorder(const Columns& columns, const Problem& problem, const HistoryRequest& request)
+      : TableRecorder(columns), problem_(problem), request_(request), groups_(weigh(problem, request.on)) {}
+
+  void begin_step(const Instant& instant) override {
+    if (!request_.is_mean() && (!instant.is_static() || instant.i_step == 0))
+      add_row(instant, instant.time(), values(instant));
+  }
+  void accept(const Instant& instant) override {
+    add_row(instant, request_.is_mean() ? mean_time(instant) : instant.time(), values(instant));
+  }
+
+ private:
+  std::vector<double> values(const Instant& instant) const {
+    const Quantity quantity = request_.what.quantity;
+    if (quantity == Quantity::pressure) return {mean_pressure(instant, request_.on)};
+    if (quantity == Quantity::stress || quantity == Quantity::von_mises) return stresses(instant);
+    Vec3 mean = Vec3::Zero();
+    for (const WeightedNodes& group : groups_) {
+      const Points field = quantity == Quantity::displacement ? instant.displacement(group.part)
+                           : quantity == Quantity::velocity   ? instant.velocity(group.part)
+                                                              : instant.acceleration(group.part);
+      for (size_t i = 0; i < group.nodes.size(); ++i) mean += group.weights[i] * field.col(group.nodes[i]);
+    }
+    if (request_.direction) return {mean.dot(*request_.direction)};
+    return {mean[0], mean[1], mean[2]};
+  }
+
+  std::vector<double> stresses(const Instant& instant) const {
+    const bool is_von_mises = request_.what.quantity == Quantity::von_mises;
+    Eigen::Matrix<double, 6, 1> mean = Eigen::Matrix<double, 6, 1>::Zero();
+    double mises = 0.0;
+    for (const WeightedNodes& group : groups_) {
+      const Substructure& part = *problem_.substructures[group.part];
+      const Tensors stress = nodal_stress(*part.mesh, part.material, instant.displacement(group.part));
+      const Vec equivalent = is_von_mises ? von_mises(stress) : Vec();
+      for (size_t i = 0; i < group.nodes.size(); ++i) {
+        mean += group.weights[i] * stress.col(group.nodes[i]);
+        if (equivalent.size() > 0) mises += group.weights[i] * equivalent[group.nodes[i]];
+      }
+    }
+    if (is_von_mises) return {mises};
+    if (!request_.direction) return {mean.data(), mean.data() + 6};
+    const Vec3& d = *request_.direction;
+    return {d[0] * d[0] * mean[0] + d[1] * d[1] * mean[1] + d[2] * d[2] * mean[2] +
+            2.0 * (d[0] * d[1] * mean[3] + d[1] * d[2] * mean[4] + d[2] * d[0] * mean[5])};
+  }
+
+  const Problem& problem_;
+  const HistoryRequest& request_;
+  std::vector<WeightedNodes> groups_;
+};
+
+class HistoryOutput final : public Output {
+ public:
+  explicit HistoryOutput(const ModelArguments& a)
+      : Output(a), request_{a.targets("on"), quantity_named(a.text("quantity")), {}} {
+    if (a.has("direction")) request_.direction = a.unit_vector("direction");
+  }
+
+  void check(const Problem& problem) const override {
+    check::is_on(problem, *this, request_.on, [this](const Target& target) { return refused(target); });
+    if (request_.direction && (request_.what.quantity == Quantity::von_mises || request_.is_of_surfaces()))
+      check::fail(problem, origin, known_as() + ": quantity '" + request_.what.name + "' has no direction");
+  }
+
+  void doubt(const Problem& problem) const override {
+    const Quantity quantity = request_.what.quantity;
+    const bool is_rate = quantity == Quantity::velocity || quantity == Quantity::acceleration;
+    if (is_rate && !check::has_dynamic_step(problem))
+      check::doubt(problem, origin, known_as() + " is zero throughout: there is no dynamic step");
+  }
+
+  Columns columns() const override {
+    Columns columns = {{"time", "s"}};
+    const auto add = [&](const std::vector<std::string>& names) {
+      for (const std::string& column : names) columns.push_back({column, request_.what.unit});
+    };
+    if (request_.is_scalar())
+      add({request_.what.name});
+    else if (request_.what.quantity == Quantity::stress)
+      add({"xx", "yy", "zz", "xy", "yz", "zx"});
+    else
+      add({"x", "y", "z"});
+    return columns;
+  }
+
+  Notes record(const Table&, const Findings&) const override {
+    Notes notes;
+    note_targets(request_.on, notes);
+    notes.push_back({"quantity", request_.what.name});
+    note_direction(request_.direction, notes);
+    return notes;
+  }
+
+  std::vector<StudyFigure> study_figures() const override {
+    std::vector<StudyFigure> figures;
+    for (const Column& column : columns())
+      if (column.name != "time") figures.push_back({column.name, StudyFigure::Of::largest});
+    return figures;
+  }
+
+  std::unique_ptr<Recorder> recorder(const Problem& problem, const FrameSink&) const override {
+    return std::make_unique<HistoryRecorder>(columns(), problem, request_);
+  }
+
+  std::optional<HistoryKind> history() const override {
+    return HistoryKind{request_.what.name, request_.direction.has_value()};
+  }
+
+ private:
+  // Why it cannot be on a target; empty: it can.
+  std::string refused(const Target& target) const {
+    const bool is_interface = std::holds_alternative<InterfacePtr>(target);
+    if (request_.is_of_surfaces())
+      return is_interface || check::is_wall(target) ? "" : "quantity 'pressure' takes an interface or a support.wall";
+    return is_interface || std::holds_alternative<SupportPtr>(target)
+               ? "quantity '" + std::string(request_.what.name) + "' takes a face or a region"
+               : "";
+  }
+
+  HistoryRequest request_;
+};
+
+}  // namespace
+
+namespace outputs {
+OutputEntry history() { return {"history", new_output<HistoryOutput>, {Display::As::curves, "", 0}}; }
+}  // namespace outputs
+
+}  // namespace dygita

@@ -1,0 +1,141 @@
+// output.srs: the shock response spectrum of a history, with its band and what it is held against.
+#include <algorithm>
+#include <cmath>
+
+#include "base/log.hpp"
+#include "base/names.hpp"
+#include "model/check.hpp"
+#include "result/limits.hpp"
+#include "result/output_table.hpp"
+#include "result/recorder.hpp"
+#include "result/spectra.hpp"
+#include "result/spectrum_band.hpp"
+
+namespace dygita {
+
+namespace {
+
+const char* quantity_text(SrsQuantity quantity) {
+  switch (quantity) {
+    case SrsQuantity::relative_displacement:
+      return "relative displacement";
+    case SrsQuantity::pseudo_velocity:
+      return "pseudo-velocity";
+    case SrsQuantity::absolute_acceleration:
+      break;
+  }
+  return "acceleration";
+}
+
+class SrsOutput final : public Output {
+ public:
+  explicit SrsOutput(const ModelArguments& a)
+      : Output(a), of_(a.output("of")), srs_(srs_settings(a)), specification_(a.specification("specification")) {
+    if (specification_ && srs_.quantity != SrsQuantity::absolute_acceleration)
+      throw InputError("a 'specification' is of absolute acceleration: leave 'quantity' out");
+  }
+
+  // A spectrum is of one absolute acceleration over dynamic steps.
+  void check(const Problem& problem) const override {
+    const std::string who = known_as();
+    const std::string hint = "'of' takes an output.history of quantity 'acceleration' with a 'direction'";
+    if (!of_) check::fail(problem, origin, who + " has no 'of'", hint);
+    check::listed(problem, who + " is of output", *of_, problem.outputs, "outputs");
+    const std::optional<HistoryKind> history = of_->history();
+    if (!history) check::fail(problem, origin, who + " is of " + of_->known_as(), hint);
+    if (history->quantity != "acceleration")
+      check::fail(problem, origin, who + " is of " + of_->known_as() + ", a " + history->quantity, hint);
+    if (!history->has_direction)
+      check::fail(problem, origin, who + " is of " + of_->known_as() + ", which has no direction", hint);
+    check_spectrum(problem, *this);
+  }
+
+  Columns columns() const override {
+    Columns columns = {{"frequency", "Hz"}};
+    for (const char* spectrum : spectrum_names) columns.push_back({spectrum, spectrum_unit(srs_)});
+    return columns;
+  }
+
+  Notes record(const Table& table, const Findings& findings) const override {
+    Notes notes = {{"of", of_->name}, {"quantity", quantity_text(srs_.quantity)}, {"q_factor", srs_.q_factor}};
+    if (findings.band.n_rows() > 0) notes.push_back({"band", file_name_of(name) + "_band.csv"});
+    if (!specification_) return notes;
+    Notes against = {
+        {"source", specification_->source}, {"frequency", specification_->frequency}, {"level", specification_->level}};
+    if (const Exceedance worst = exceedance(table); worst.is_known)
+      against.push_back({"exceedance", Notes{{"decibels", worst.decibels}, {"frequency", worst.frequency}}});
+    notes.push_back({"specification", std::move(against)});
+    return notes;
+  }
+
+  std::vector<StudyFigure> study_figures() const override { return {{"maximax", StudyFigure::Of::largest}}; }
+  std::unique_ptr<Recorder> recorder(const Problem&, const FrameSink&) const override { return nullptr; }
+  std::optional<double> highest_frequency() const override { return srs_.to; }
+
+  void conclude(const RunEnd& end, Table& table, Findings& findings) const override {
+    const Srs srs = spectrum_of(end.problem, srs_, end.result.tables.at(of_.get()), 1);
+    table = {};
+    if (!srs.frequency.empty()) {
+      table = empty_table(columns());
+      table.columns = {srs.frequency, srs.maximax, srs.positive, srs.negative, srs.primary, srs.residual};
+      if (!end.problem.explicit_dynamics) findings.band = spectrum_band(table, srs_.quantity, end.errors);
+    }
+    tell(table, findings);
+  }
+
+  bool settles() const override { return true; }
+  double settle(const Table& before, const Table& table, Findings& findings) const override {
+    if (findings.band.n_rows() > 0) take_iteration_from(table, before, findings.band);
+    tell(table, findings);
+    return largest_move(table, before);
+  }
+
+ private:
+  Exceedance exceedance(const Table& table) const {
+    if (!specification_ || table.n_rows() == 0) return {};
+    return largest_exceedance(*specification_, table.columns.front(), table.column("maximax"));
+  }
+
+  void tell(const Table& table, Findings& findings) const {
+    findings.figures.clear();
+    findings.lines.clear();
+    findings.warnings.clear();
+    if (findings.band.n_rows() > 0) tell_band(findings);
+    const Exceedance worst = exceedance(table);
+    if (!worst.is_known) return;
+    findings.figures["largest exceedance of the specification of '" + name + "' [dB]"] = worst.decibels;
+    findings.figures["frequency of the largest exceedance of '" + name + "' [Hz]"] = worst.frequency;
+    findings.lines.push_back(fmt::format("spectrum '{}': {:.1f} dB {} its specification at {:.4g} Hz", name,
+                                         std::abs(worst.decibels), worst.decibels > 0.0 ? "above" : "below",
+                                         worst.frequency));
+  }
+
+  void tell_band(Findings& findings) const {
+    const auto mean = [&](const std::string& column) { return mean_band(findings.band, column); };
+    for (size_t i = 1; i < findings.band.names.size(); ++i) {
+      const std::string& column = findings.band.names[i];
+      findings.figures["spectrum '" + name + "', mean band, " + column + " [dB]"] = mean(column);
+    }
+    findings.lines.push_back(
+        fmt::format("spectrum '{}': iteration leaves about {:.2g} dB, time step {:.2g} dB, mesh {:.2g} dB (mean over "
+                    "its frequencies)",
+                    name, mean("iteration"), mean("time_step"), mean("mesh")));
+    if (const double all = mean("all"); all > limit::spectrum_band)
+      findings.warnings.push_back(
+          fmt::format("spectrum '{}' is uncertain by about {:.2g} dB (mean over its frequencies, by the run's own "
+                      "estimate): little arrives there beside the errors of dt and the mesh",
+                      name, all));
+  }
+
+  OutputPtr of_;
+  SrsSettings srs_;
+  std::shared_ptr<const Specification> specification_;
+};
+
+}  // namespace
+
+namespace outputs {
+OutputEntry srs() { return {"srs", new_output<SrsOutput>, {Display::As::spectrum, "", 0}}; }
+}  // namespace outputs
+
+}  // namespace dygita

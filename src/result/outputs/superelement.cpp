@@ -1,0 +1,142 @@
+// output.superelement: the assembly condensed about the end of a step.
+#include "base/log.hpp"
+#include "model/check.hpp"
+#include "result/craig_bampton.hpp"
+#include "result/output_table.hpp"
+#include "result/recorder.hpp"
+#include "result/superelement_files.hpp"
+
+namespace dygita {
+
+namespace {
+
+std::string line_of(const std::string& name, const Superelement& element) {
+  const size_t n_modes = static_cast<size_t>(element.fixed_frequencies.size());
+  std::string line = fmt::format(
+      "superelement '{}': {} interface rows and {} modes after step '{}', to be used up to {:.4g} Hz; natural "
+      "frequencies",
+      name, element.rows.size() - n_modes, n_modes, element.step, element.valid_to);
+  int n = 0;
+  for (;
+       n < std::min<int>(8, static_cast<int>(element.frequencies.size())) && element.frequencies[n] <= element.valid_to;
+       ++n)
+    line += fmt::format(" {:.5g}", element.frequencies[n]);
+  return line + (n == 0 ? " above that" : n < 8 ? " Hz, the others above that" : " ... Hz");
+}
+
+class SuperelementRecorder : public TableRecorder {
+ public:
+  SuperelementRecorder(const Columns& columns, const Problem& problem, const SuperelementRequest& request,
+                       const Step* step)
+      : TableRecorder(columns), problem_(problem), request_(request), i_step_(index_of(problem.steps, step)) {}
+
+  // What is wrong with it does not stop a run that has other outputs: it is said, and nothing is written.
+  void accept(const Instant& instant) override {
+    if (instant.i_step != i_step_ || instant.increment + 1 != instant.model.step->n_increments()) return;
+    try {
+      auto element =
+          std::make_shared<Superelement>(condense(linearise(instant, request_.ties_sliding), problem_, request_));
+      element->step = instant.model.step->name;
+      element->is_converged = instant.converged;
+      element_ = std::move(element);
+    } catch (const InputError& error) {
+      warn(error.what());
+    } catch (const NumericalError& error) {
+      warn(error.what());
+    }
+  }
+
+  void finish(Table& table, Findings& findings) override {
+    if (element_) {
+      for (int i = 0; i < element_->frequencies.size(); ++i)
+        add_values({element_->frequencies[i], element_->damping_ratios[i]});
+      findings.model = element_;
+      findings.files = [problem = problem_.name, request = request_, element = element_] {
+        return superelement_files(problem, request, *element);
+      };
+    }
+    findings.lines = {element_ ? line_of(request_.name, *element_)
+                               : fmt::format("superelement '{}': NOT MADE", request_.name)};
+    TableRecorder::finish(table, findings);
+  }
+
+ private:
+  const Problem& problem_;
+  const SuperelementRequest& request_;
+  const int i_step_;
+  SuperelementPtr element_;
+};
+
+SuperelementRequest request_of(const ModelArguments& a) {
+  static const std::map<std::string, FaceMotion> motions = {
+      {"mean", FaceMotion::mean}, {"rigid", FaceMotion::rigid}, {"nodes", FaceMotion::nodes}};
+  if (a.has("up_to") && a.has("modes"))
+    throw InputError("'up_to' and 'modes' exclude each other: modes are kept up to twice 'up_to'");
+  SuperelementRequest request{a.text("name"), a.origin(), a.targets("on")};
+  request.motion = motions.at(a.text("motion"));
+  request.up_to = a.number_or("up_to", 0.0);
+  request.modes = a.has("modes") ? a.integer("modes") : 0;
+  request.ties_sliding = a.text("sliding") == "tied";
+  return request;
+}
+
+class SuperelementOutput final : public Output {
+ public:
+  explicit SuperelementOutput(const ModelArguments& a) : Output(a), request_(request_of(a)), after_(a.step("after")) {}
+
+  // It is taken about the end of a step, with that step's supports.
+  void check(const Problem& problem) const override {
+    const std::string who = known_as();
+    check::is_on(problem, *this, request_.on, [](const Target& target) {
+      return check::place_of(target) ? ""
+                                     : "output.superelement takes faces or regions: where something is to be attached";
+    });
+    if (after_) check::listed(problem, who + " is made after step", *after_, problem.steps, "steps");
+    const Step* step = step_of(problem);
+    if (!step)
+      check::fail(problem, origin, who + ": the problem has no static step",
+                  "it is taken about the state after one; or name another step with 'after'");
+    for (const SupportPtr& support : supports_of(problem, *step))
+      if (support->kind == SupportKind::absorbing)
+        check::fail(problem, origin,
+                    who + ": " + check::describe(*support) + " is a non-reflecting boundary in step '" + step->name +
+                        "', which a superelement cannot represent",
+                    "give the step its own 'supports', without it");
+  }
+
+  Columns columns() const override { return {{"frequency", "Hz"}, {"damping", ""}}; }
+
+  Notes record(const Table&, const Findings&) const override {
+    Notes notes;
+    note_targets(request_.on, notes);
+    return notes;
+  }
+
+  std::vector<StudyFigure> study_figures() const override { return {{"frequency", StudyFigure::Of::lowest}}; }
+
+  std::unique_ptr<Recorder> recorder(const Problem& problem, const FrameSink&) const override {
+    return std::make_unique<SuperelementRecorder>(columns(), problem, request_, step_of(problem));
+  }
+
+ private:
+  // The last static step where none is named; null: there is none.
+  const Step* step_of(const Problem& problem) const {
+    const Step* step = after_.get();
+    for (const StepPtr& other : problem.steps)
+      if (!after_ && other->is_static) step = other.get();
+    return step;
+  }
+
+  SuperelementRequest request_;
+  StepPtr after_;
+};
+
+}  // namespace
+
+namespace outputs {
+OutputEntry superelement() {
+  return {"superelement", new_output<SuperelementOutput>, {Display::As::frequencies, "", 0}};
+}
+}  // namespace outputs
+
+}  // namespace dygita

@@ -1,0 +1,120 @@
+// What output.srs makes of a history once a run has ended.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/log.hpp"
+#include "result/given_output.hpp"
+#include "result/recorder.hpp"
+
+namespace dygita {
+namespace {
+
+// A ringing of 1 kHz recorded for 20 ms, and its spectrum about it, held against 10 m/s^2.
+class SpectrumOutput : public ::testing::Test {
+ protected:
+  SpectrumOutput() {
+    auto step = std::make_shared<Step>();
+    step->name = "shock";
+    step->duration = 20e-3;
+    step->dt = 20e-6;
+    problem.steps = {step};
+    history = make_history("above", {}, "acceleration", Vec3::UnitZ());
+    GivenArguments arguments = given_spectrum("srs", "spectrum", 500.0, 2000.0);
+    arguments.outputs["of"] = history;
+    arguments.specifications["specification"] =
+        std::make_shared<Specification>(Specification{{100.0, 1e4}, {10.0, 10.0}, "deck"});
+    spectrum = make_output(arguments);
+    problem.outputs = {history, spectrum};
+    Table& table = result.tables[history.get()] = empty_table(history->columns());
+    for (int i = 0; i < step->n_increments(); ++i) {
+      table.columns[0].push_back(i * step->dt);
+      table.columns[1].push_back(std::sin(2.0 * std::numbers::pi * 1e3 * i * step->dt));
+      table.step.push_back(0);
+    }
+    errors.velocity = 1e-3;
+    errors.iteration = 0.01;
+    errors.time_step = 0.02;
+    errors.mesh = 0.1;
+  }
+
+  void conclude() {
+    spectrum->conclude({problem, result, errors}, result.tables[spectrum.get()], findings());
+    take_warnings();
+  }
+  Findings& findings() { return result.findings[spectrum.get()]; }
+
+  Problem problem;
+  RunResult result;
+  OutputPtr history, spectrum;
+  ErrorEstimator::Estimate errors;
+};
+
+TEST_F(SpectrumOutput, has_a_spectrum_a_band_and_its_distance_from_the_specification) {
+  conclude();
+  const Table& table = result.tables.at(spectrum.get());
+  ASSERT_EQ(table.n_rows(), 25);  // two octaves of 12
+  const std::vector<double>& maximax = table.column("maximax");
+  const double peak = *std::max_element(maximax.begin(), maximax.end());
+  EXPECT_NEAR(peak, 10.0 * (1.0 - std::exp(-std::numbers::pi)), 0.5);  // Q 10 after 20 periods
+  EXPECT_EQ(findings().band.n_rows(), 25);
+  EXPECT_NEAR(findings().figures.at("largest exceedance of the specification of 'spectrum' [dB]"),
+              20.0 * std::log10(peak / 10.0), 1e-12);
+  EXPECT_NEAR(findings().figures.at("frequency of the largest exceedance of 'spectrum' [Hz]"), 1e3, 1.0);
+  EXPECT_EQ(findings().figures.size(), 6u);
+  EXPECT_EQ(findings().lines.size(), 2u);
+}
+
+TEST_F(SpectrumOutput, tells_the_mean_of_its_band_and_warns_beyond_a_factor_of_two) {
+  conclude();
+  double sum = 0.0;
+  for (const double value : findings().band.column("all")) sum += value;
+  const double mean = sum / 25.0;
+  EXPECT_DOUBLE_EQ(findings().figures.at("spectrum 'spectrum', mean band, all [dB]"), mean);
+  EXPECT_LT(mean, 6.0);
+  EXPECT_TRUE(findings().warnings.empty());
+  errors.velocity = 10.0;
+  conclude();
+  ASSERT_EQ(findings().warnings.size(), 1u);
+  EXPECT_EQ(findings().warnings[0].find("spectrum 'spectrum' is uncertain by about"), 0u) << findings().warnings[0];
+}
+
+TEST_F(SpectrumOutput, has_no_band_where_the_solver_estimates_no_error_of_iteration) {
+  problem.explicit_dynamics.emplace();
+  conclude();
+  EXPECT_EQ(findings().band.n_rows(), 0);
+  EXPECT_EQ(findings().figures.size(), 2u);
+}
+
+TEST_F(SpectrumOutput, takes_what_it_has_moved_since_the_pass_before_for_its_band_of_iteration) {
+  conclude();
+  Table before = result.tables.at(spectrum.get());
+  for (double& value : before.columns[1]) value *= std::pow(10.0, 0.1);  // 2 dB
+  EXPECT_TRUE(spectrum->settles());
+  EXPECT_NEAR(spectrum->settle(before, result.tables.at(spectrum.get()), findings()), 2.0, 1e-9);
+  EXPECT_NEAR(findings().figures.at("spectrum 'spectrum', mean band, iteration [dB]"), 2.0, 1e-9);
+}
+
+TEST_F(SpectrumOutput, is_empty_where_nothing_moved) {
+  result.tables[history.get()] = empty_table(history->columns());
+  conclude();
+  EXPECT_EQ(result.tables.at(spectrum.get()).n_rows(), 0);
+  EXPECT_TRUE(findings().figures.empty());
+}
+
+TEST_F(SpectrumOutput, is_recorded_with_what_it_is_of_and_held_against) {
+  conclude();
+  const Notes notes = spectrum->record(result.tables.at(spectrum.get()), findings());
+  std::vector<std::string> names;
+  for (const Note& note : notes) names.push_back(note.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"of", "quantity", "q_factor", "band", "specification"}));
+  EXPECT_EQ(std::get<std::string>(notes[0].value), "above");
+  EXPECT_EQ(std::get<std::string>(notes[3].value), "spectrum_band.csv");
+  const Notes& against = std::get<Notes>(notes[4].value);
+  ASSERT_EQ(against.size(), 4u);
+  EXPECT_EQ(against[3].name, "exceedance");
+}
+
+}  // namespace
+}  // namespace dygita
