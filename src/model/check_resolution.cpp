@@ -95,8 +95,8 @@ void resolution(const Problem& problem) {
       const double steps = 1.0 / (content.frequency * step->dt);
       if (steps < steps_a_period)
         say(problem, content,
-            fmt::format("step '{}' makes {:.2g} time steps per period there: {:.0f} are wanted, dt = {:.2g} us", step->name,
-                        steps, steps_a_period, 1e6 / (steps_a_period * content.frequency)));
+            fmt::format("step '{}' makes {:.2g} time steps per period there: {:.0f} are wanted, dt = {:.2g} us",
+                        step->name, steps, steps_a_period, 1e6 / (steps_a_period * content.frequency)));
     }
     const auto highest = std::max_element(all.begin(), all.end(),
                                           [](const Content& a, const Content& b) { return a.frequency < b.frequency; });

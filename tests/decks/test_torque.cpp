@@ -11,7 +11,7 @@ namespace {
 const std::string two_bars = R"(
 local p = param{ dynamic = 0 }
 local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
-local mesh = mesh.box{ size = { 8*mm, 8*mm, 32*mm }, cells = { 6, 6, 16 } }
+local mesh = mesh.box{ size = { 8*mm, 8*mm, 32*mm }, cells = { 8, 8, 16 } }
 local low = substructure{ name = "low", material = steel, mesh = mesh }
 local high = substructure{ name = "high", material = steel, mesh = mesh, place = { 0, 0, 32*mm } }
 local weld = interface.bonded{ name = "weld", between = { low:face "zmax", high:face "zmin" } }
