@@ -18,7 +18,10 @@ INSTANTIATE_TEST_SUITE_P(Damper, EverySolver, ::testing::Values("latin", "monoli
 
 TEST_P(EverySolver, lets_through_a_damper_what_is_exact_and_slows_a_block_down_exponentially) {
   for (const char* ratio : {"0.25", "1", "4"}) {
-    const PrintedRun run = run_printing("verification/damper.lua", {{"ratio", ratio}, {"n", "120"}}, GetParam());
+    // Bulk viscosity takes 1 % of the energy of a front: the explicit code is compared without it.
+    const std::string solver =
+        GetParam() == std::string("explicit") ? "explicit{ bulk_viscosity = false }" : GetParam();
+    const PrintedRun run = run_printing("verification/damper.lua", {{"ratio", ratio}, {"n", "120"}}, solver);
     const double c = std::atof(ratio);
     EXPECT_NEAR(run.number("wave: stress that gets through, exact"), 20.0 * 2 * c / (2 * c + 1), 0.01);
     EXPECT_LT(std::abs(run.number("wave: stress that gets through, error")), 0.2);
