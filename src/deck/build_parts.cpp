@@ -4,6 +4,7 @@
 
 #include "base/log.hpp"
 #include "deck/build_model.hpp"
+#include "law/law.hpp"
 #include "mesh/box.hpp"
 #include "mesh/geo_script.hpp"
 

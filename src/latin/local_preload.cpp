@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "latin/local_stage.hpp"
+#include "law/law.hpp"
 
 namespace dygita {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "law/law.hpp"
 
 namespace dygita {
 

@@ -5,12 +5,11 @@
 // F and its own state at the end (manual, interface laws).
 #pragma once
 
-#include <map>
-#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "law/law_fwd.hpp"
 #include "law/penalty_form.hpp"
 #include "law/point.hpp"
 
@@ -85,10 +84,6 @@ class Law {
     return acts_on(0, is_static) || acts_on(1, is_static) || acts_on(2, is_static);
   }
 };
-using LawPtr = std::shared_ptr<const Law>;
-
-// Arguments of a law by name, SI; 1 and 0 for yes and no.
-using LawArguments = std::map<std::string, double>;
 
 // A law of the table: its word, the arguments that it takes, all of them, and how it is made of them.
 struct LawEntry {

@@ -4,6 +4,7 @@
 
 #include "base/log.hpp"
 #include "base/names.hpp"
+#include "law/law.hpp"
 
 namespace dygita {
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "law/law.hpp"
 #include "model/check.hpp"
 
 namespace dygita::check {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "law/law.hpp"
 #include "model/check.hpp"
 
 namespace dygita::check {

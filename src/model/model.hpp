@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "law/law.hpp"
+#include "law/law_fwd.hpp"
 #include "material/elastic.hpp"
 #include "mesh/mesh.hpp"
 #include "model/support.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "law/law.hpp"
 
 namespace dygita {
 

@@ -4,7 +4,10 @@
 // duty is pure virtual: a kind that forgets one does not compile.
 #pragma once
 
-#include "law/law.hpp"
+#include <string>
+#include <vector>
+
+#include "law/law_fwd.hpp"
 
 namespace dygita {
 

@@ -1,6 +1,7 @@
 #include "output/record_parts.hpp"
 
 #include "base/names.hpp"
+#include "law/law.hpp"
 
 namespace dygita {
 

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/progress.hpp"
+#include "law/law.hpp"
 
 namespace dygita {
 

@@ -1,5 +1,7 @@
 #include "reference/inertial_laws.hpp"
 
+#include "law/law.hpp"
+
 #include <algorithm>
 #include <map>
 #include <ranges>

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "law/law.hpp"
 
 namespace dygita {
 

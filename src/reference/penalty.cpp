@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fem/assembly.hpp"
+#include "law/law.hpp"
 
 namespace dygita {
 

@@ -1,6 +1,7 @@
 // Springs in place of the laws that have a penalty form (manual, eq. X8-X12).
 #pragma once
 
+#include "law/penalty_form.hpp"
 #include "reference/internal_force.hpp"
 #include "solution/point_record.hpp"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "law/law.hpp"
 #include "result/limits.hpp"
 #include "result/recorder.hpp"
 

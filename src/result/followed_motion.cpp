@@ -1,5 +1,7 @@
 #include "result/followed_motion.hpp"
 
+#include "law/law.hpp"
+
 namespace dygita {
 
 namespace {

@@ -6,6 +6,7 @@
 
 #include "fem/assembly.hpp"
 #include "fem/stress_error.hpp"
+#include "law/law.hpp"
 
 namespace dygita {
 

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "fem/assembly.hpp"
+#include "law/law.hpp"
 #include "numerics/dense.hpp"
 
 namespace dygita {

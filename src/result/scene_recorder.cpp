@@ -5,6 +5,7 @@
 #include <map>
 
 #include "fem/assembly.hpp"
+#include "law/law.hpp"
 #include "result/surface_sums.hpp"
 
 namespace dygita {

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/overloaded.hpp"
 #include "fem/mass.hpp"
+#include "law/law.hpp"
 #include "model/load.hpp"
 
 namespace dygita {

@@ -1,5 +1,7 @@
 #include "solution/exchange.hpp"
 
+#include "law/law.hpp"
+
 #include <spdlog/fmt/fmt.h>
 
 #include <Eigen/Geometry>

@@ -1,5 +1,7 @@
 #include "solution/point_record.hpp"
 
+#include "law/law.hpp"
+
 #include <Eigen/QR>
 #include <cmath>
 

@@ -1,6 +1,7 @@
 #include "solution/step_ends.hpp"
 
 #include "base/overloaded.hpp"
+#include "law/law.hpp"
 
 namespace dygita {
 

@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "law/law.hpp"
 #include "solution/make_pieces.hpp"
 #include "solution/rigid_motions.hpp"
 

@@ -4,6 +4,7 @@
 #include <deque>
 #include <map>
 
+#include "law/law.hpp"
 #include "solution/preload.hpp"
 
 namespace dygita {

@@ -6,6 +6,7 @@
 
 #include "base/log.hpp"
 #include "deck/fake_engine.hpp"
+#include "law/law.hpp"
 #include "model/load.hpp"
 #include "model/output.hpp"
 #include "result/recorder.hpp"

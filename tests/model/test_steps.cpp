@@ -1,3 +1,4 @@
+#include "law/law.hpp"
 #include "model/assembly.hpp"
 
 namespace dygita {

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "law/law.hpp"
 #include "model/support.hpp"
 
 namespace dygita {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "law/law.hpp"
 #include "output/scratch.hpp"
 #include "report/report.hpp"
 #include "report/svg_checks.hpp"

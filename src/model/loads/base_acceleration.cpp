@@ -1,4 +1,5 @@
 // load.base_acceleration: a support that is shaken, as on a shock table.
+#include "law/law.hpp"
 #include "model/load.hpp"
 
 namespace dygita {

@@ -1,4 +1,5 @@
 // support.wall: a rigid wall, unilateral contact with friction.
+#include "law/law.hpp"
 #include "model/support.hpp"
 
 namespace dygita {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "law/law.hpp"
 #include "model/check.hpp"
 #include "result/followed_motion.hpp"
 #include "result/output_table.hpp"
