@@ -1,10 +1,10 @@
 #include "reference/inertial_laws.hpp"
 
-#include "law/law.hpp"
-
 #include <algorithm>
 #include <map>
 #include <ranges>
+
+#include "law/law.hpp"
 
 namespace dygita {
 

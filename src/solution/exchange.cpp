@@ -1,13 +1,13 @@
 #include "solution/exchange.hpp"
 
-#include "law/law.hpp"
-
 #include <spdlog/fmt/fmt.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 #include <numeric>
+
+#include "law/law.hpp"
 
 namespace dygita {
 

@@ -1,9 +1,9 @@
 #include "solution/point_record.hpp"
 
-#include "law/law.hpp"
-
 #include <Eigen/QR>
 #include <cmath>
+
+#include "law/law.hpp"
 
 namespace dygita {
 

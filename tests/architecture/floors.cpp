@@ -24,7 +24,7 @@ const std::map<std::string, std::set<std::string>> may_use = {
     {"latin", {"base", "numerics", "mesh", "signal", "material", "fem", "law", "model", "solution"}},
     {"reference", {"base", "numerics", "mesh", "signal", "material", "fem", "law", "model", "solution"}},
     {"result", {"base", "numerics", "mesh", "signal", "material", "fem", "law", "model", "solution"}},
-    {"output", {"base", "numerics", "mesh", "model", "result"}},
+    {"output", {"base", "numerics", "mesh", "law", "model", "result"}},
     {"report", {"base", "signal", "mesh", "model", "result", "output"}},
     {"run",
      {"base", "numerics", "mesh", "signal", "model", "solution", "latin", "reference", "result", "output", "report"}},

@@ -7,6 +7,7 @@
 
 #include "base/log.hpp"
 #include "decks/deck_prints.hpp"
+#include "law/law.hpp"
 #include "report/study_files.hpp"
 #include "result/case_summary.hpp"
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/log.hpp"
+#include "law/law.hpp"
 #include "mesh/box.hpp"
 #include "model/given_arguments.hpp"
 #include "model/load.hpp"
