@@ -53,7 +53,7 @@ class Plastic final : public Law, public TieSprings {
 std::vector<LawRemark> Plastic::remarks() const {
   std::vector<LawRemark> remarks = {{"yields at {}", yield_, "Pa"}};
   if (hardening_ > 0.0) remarks.push_back({"hardens by {} per mm", 1e-3 * hardening_, "Pa"});
-  if (compression_) remarks.push_back({"in compression too"});
+  if (compression_) remarks.push_back({"in compression too", 0.0, ""});
   return remarks;
 }
 
