@@ -475,6 +475,15 @@ words[10] = {
     arguments = { name_of "output", on({ "interface", "support" }, "what transmits the force") },
   },
   {
+    "momentum", makes = "output",
+    doc = "Linear momentum of parts: impulse and rebound without reading a velocity at a point. Columns: x, y, z (N s); over their mass, "
+      .. "the velocity of their centre of gravity.",
+    arguments = {
+      name_of "output",
+      { "of", type = "objects", kinds = { "substructure" }, at_least = 1, or_single = true, default_doc = "all", doc = "which parts" },
+    },
+  },
+  {
     "srs", makes = "output",
     doc = "Shock response spectrum of a history. Columns: frequency, maximax, positive, negative, primary, residual.",
     arguments = spectrum({
