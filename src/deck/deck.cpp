@@ -10,6 +10,7 @@
 #include "deck/deck_text.hpp"
 #include "deck/results.hpp"
 #include "numerics/factor.hpp"
+#include "numerics/panel_choice.hpp"
 #include "result/hollow_result.hpp"
 
 namespace dygita {
@@ -113,6 +114,7 @@ RunRequest request_of(const DeckState& state, const Problem& problem, const std:
   request.identity.parameters = state.parameters;
   request.identity.solver = state.options.solver;
   request.identity.threads = state.options.threads;
+  request.identity.kernels = panel_kernels().name;
   for (const SubstructurePtr& part : problem.substructures) {
     request.identity.mesh_digests.emplace_back(part->name, part->mesh->digest);
   }

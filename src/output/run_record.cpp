@@ -164,6 +164,7 @@ std::string run_record(const Problem& problem, const RunResult& result, const Ru
       {"figures", object(recorded_figures(result))},
       {"seconds", object(result.seconds)},
       {"threads", identity.threads},
+      {"kernels", identity.kernels},
       {"libraries", libraries(identity)},
       {"files", files},
   };

@@ -20,6 +20,7 @@ struct RunIdentity {
   std::string solver;                                             // --solver; empty: the deck's own
   std::vector<std::pair<std::string, std::string>> mesh_digests;  // substructure, digest; left out: the mesh's own
   int threads = 1;
+  std::string kernels;  // of panels: "avx512", "avx2" or "generic"
   std::vector<std::pair<std::string, std::string>>
       libraries;  // name, version, beside those that output itself can name
   std::string case_name = "base";

@@ -204,6 +204,7 @@ std::string cost_section(const RunFolder& run) {
   const Json size = record.value("size", Json::object()), iterations = record.value("iterations", Json::object());
   row("seconds in all", all, "s");
   row("threads", number(record, "threads"), "");
+  if (record.contains("kernels")) rows.push_back({"kernels compiled for", text(record, "kernels")});
   row("degrees of freedom", number(size, "dofs"), "");
   row("interface unknowns", number(size, "interface_unknowns"), "");
   const bool is_explicit = text(record.value("solver", Json::object()), "name") == "explicit";
