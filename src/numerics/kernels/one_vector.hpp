@@ -70,7 +70,7 @@ struct ColumnSums {
     if (++n_summed == most_summed) flush();
   }
   void finish() {
-    flush();
+    if (n_summed > 0) flush();
     for (int c = 0; c < columns; ++c) total[c] += sum(doubles[c]);
   }
 };
@@ -93,15 +93,20 @@ inline void backward_panel(const View& view, double* y) {
       sums.count();
     }
   });
-  sums.finish();
   with_first(view, [&](const auto* triangle) {
-    double x[columns];
-    for (int c = 0; c < columns; ++c) {
-      x[c] = y[c] - sums.total[c];
-      for (int r = columns; r < height; ++r) x[c] -= static_cast<double>(triangle[c * height + r]) * y[r];
+    // Its rows below the triangle; what stands above them is multiplied by zero.
+    double rows[height] = {};
+    for (int r = columns; r < height; ++r) rows[r] = y[r];
+    for (int h = 0; h < height; h += n_doubles) {
+      const Doubles here = load(rows + h);
+      for (int c = 0; c < columns; ++c) sums.doubles[c] += load(triangle + c * height + h) * here;
     }
+    sums.finish();
+    // The unknown found last comes last in each sum, so that the others need not wait for it.
+    double x[columns];
     for (int c = columns; c-- > 0;) {
-      for (int r = c + 1; r < columns; ++r) x[c] -= static_cast<double>(triangle[c * height + r]) * x[r];
+      x[c] = y[c] - sums.total[c];
+      for (int r = columns; r-- > c + 1;) x[c] -= static_cast<double>(triangle[c * height + r]) * x[r];
       x[c] *= static_cast<double>(triangle[c * height + c]);
     }
     for (int c = 0; c < columns; ++c) y[c] = x[c];
@@ -110,19 +115,25 @@ inline void backward_panel(const View& view, double* y) {
 
 // The first tile of a symmetric panel: rows of the square on the diagonal count once, those below it twice.
 template <int columns, class T, class X>
-inline void add_first(const T* tile, const X* at, const X* x, double* y) {
-  for (int c = 0; c < columns; ++c)
-    for (int r = 0; r < height; ++r) {
-      const double a = static_cast<double>(tile[c * height + r]);
-      y[r] += a * static_cast<double>(at[c]);
-      if (r >= columns) y[c] += a * static_cast<double>(x[r]);
+inline void add_first(const T* tile, const X* x, double* y, ColumnSums<columns>& sums) {
+  double rows[height] = {};
+  for (int r = columns; r < height; ++r) rows[r] = static_cast<double>(x[r]);
+  for (int h = 0; h < height; h += n_doubles) {
+    const Doubles here = load(rows + h);
+    Doubles product{};
+    for (int c = 0; c < columns; ++c) {
+      const Doubles a = load(tile + c * height + h);
+      product += a * static_cast<double>(x[c]);
+      sums.doubles[c] += a * here;
     }
+    store(load(y + h) + product, y + h);
+  }
 }
 
 template <int columns>
 inline void multiply_panel(const View& view, const double* x, double* y) {
   ColumnSums<columns> sums;
-  with_first(view, [&](const auto* entries) { add_first<columns>(entries, x, x, y); });
+  with_first(view, [&](const auto* entries) { add_first<columns>(entries, x, y, sums); });
   for_each_below<columns>(view, [&](const auto* entries, const Tile& tile) {
     if constexpr (std::is_same_v<decltype(entries), const double*>)
       for (int h = 0; h < height; h += n_doubles) {
@@ -136,13 +147,14 @@ inline void multiply_panel(const View& view, const double* x, double* y) {
         store(load(y + tile.row + h) + product, y + tile.row + h);
       }
   });
-  for (int c = 0; c < columns; ++c) y[c] += sum(sums.doubles[c]);
+  sums.finish();
+  for (int c = 0; c < columns; ++c) y[c] += sums.total[c];
 }
 
 template <int columns>
 inline void multiply_panel(const View& view, const float* x, double* y) {
   ColumnSums<columns> sums;
-  with_first(view, [&](const auto* entries) { add_first<columns>(entries, x, x, y); });
+  with_first(view, [&](const auto* entries) { add_first<columns>(entries, x, y, sums); });
   for_each_below<columns>(view, [&](const auto* entries, const Tile& tile) {
     if constexpr (!std::is_same_v<decltype(entries), const double*>) {
       for (int h = 0; h < height; h += n_floats) {
