@@ -59,7 +59,7 @@ class CheckDrawings {
                           "interface. 'apart' pulls the parts from each other.");
   }
 
-  // Joints of which no triangle was drawn, and names that no drawing of a part shows.
+  // Names that no drawing shows: supports on regions of nodes, groups inside a hole. Known once panels are made.
   std::vector<std::string> remarks() const { return remarks_; }
 
  private:
@@ -69,6 +69,7 @@ class CheckDrawings {
     request.axes = axes_;
     request.width = width;
     request.height = height;
+    request.names_hidden = true;
     return request;
   }
 
@@ -78,7 +79,7 @@ class CheckDrawings {
       all.items.push_back({problem_.substructures[p]->name, part_color(static_cast<int>(p))});
     all.item = part_;
     Panel panel = labelled_panel(mesh_, all);
-    tell_hidden("Not seen among the parts: ", all.items, panel.is_named);
+    tell_hidden("Parts that have no boundary: ", all.items, panel.is_named);
     return panel;
   }
 
@@ -91,7 +92,7 @@ class CheckDrawings {
       found.item.push_back(joint >= 0 ? joint : PanelRequest::outline);
     }
     Panel panel = labelled_panel(mesh_, found);
-    tell_hidden("Behind others, or on regions of nodes: ", found.items, panel.is_named);
+    tell_hidden("Without a face that is drawn: ", found.items, panel.is_named);
     return panel;
   }
 
@@ -99,6 +100,7 @@ class CheckDrawings {
   std::vector<Panel> of_part(int p) const {
     const std::string& name = problem_.substructures[p]->name;
     PanelRequest front = request(name, 300.0, 240.0);
+    front.names_hidden = false;  // the other side shows it
     front.items.push_back({"", unnamed});
     std::vector<int> item_of_label(names_.labels.size(), 0);
     for (size_t l = 0; l < names_.labels.size(); ++l) {
@@ -185,12 +187,12 @@ std::string check_picture_html(const Problem& problem) {
   for (const Panel& panel : panels)
     figures.push_back(
         html::figure(open_svg(panel.width, panel.height, "problem '" + problem.name + "'") + panel.svg + "</svg>\n"));
-  std::string parts;
+  std::string parts, remarks;
+  for (const std::string& remark : drawings.remarks()) remarks += html::paragraph(remark);
   for (size_t i = 2; i < figures.size(); ++i) parts += figures[i];
   return html::page(problem.name + ", as declared",
                     "<h1>" + escaped(problem.name) + ", as declared</h1>\n" +
-                        html::list(drawings.remarks(), "warnings") +
-                        html::section("The assembly", drawings.turning() + figures[0] + figures[1]) +
+                        html::section("The assembly", drawings.turning() + figures[0] + figures[1] + remarks) +
                         html::section("The parts and their groups", html::row({parts})));
 }
 

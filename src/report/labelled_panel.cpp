@@ -25,7 +25,8 @@ std::string shaded(const std::string& color, double light) {
 
 struct Label {
   int item;
-  double x, y;    // the place it is of, px
+  double x, y;  // the place it is of, px
+  bool is_hidden = false;
   double at = 0;  // its own height
 };
 
@@ -191,7 +192,19 @@ class Drawing {
       labels[label_of[item]].x = x;
       labels[label_of[item]].y = y;
     });
+    if (request_.names_hidden) add_hidden(label_of, labels);
     return labels;
+  }
+
+  // At the middle of their triangles.
+  void add_hidden(const std::vector<int>& label_of, std::vector<Label>& labels) const {
+    std::vector<Vec3> sum(request_.items.size(), Vec3::Zero());
+    for (size_t t = 0; t < mesh_.triangles.size(); ++t)
+      if (const int item = request_.item[t]; item >= 0)
+        for (const int node : mesh_.triangles[t]) sum[item] += Vec3(p_(0, node), p_(1, node), 1.0);
+    for (size_t i = 0; i < sum.size(); ++i)
+      if (label_of[i] < 0 && sum[i][2] > 0.0 && !request_.items[i].name.empty())
+        labels.push_back({static_cast<int>(i), sum[i][0] / sum[i][2], sum[i][1] / sum[i][2], true});
   }
 
   // One column: from top to bottom as their places are, none over another.
@@ -211,10 +224,12 @@ class Drawing {
     for (const Label& label : labels) {
       const double x = is_right ? request_.width + 4.0 : -4.0;
       result += fmt::format(
-          "<path d=\"M{0} {1}H{2}L{3} {4}\" fill=\"none\" stroke=\"#333333\" stroke-width=\"0.8\"/><circle cx=\"{3}\" "
+          "<path d=\"M{0} {1}H{2}L{3} {4}\" fill=\"none\" stroke=\"#333333\" stroke-width=\"0.8\"{8}/><circle "
+          "cx=\"{3}\" "
           "cy=\"{4}\" r=\"2\" fill=\"#333333\"/><text x=\"{0}\" y=\"{5}\" text-anchor=\"{6}\">{7}</text>\n",
           coordinate(x), coordinate(label.at), coordinate(is_right ? x - 10.0 : x + 10.0), coordinate(label.x),
-          coordinate(label.y), coordinate(label.at + 4.0), is_right ? "start" : "end", escaped(name_of(label)));
+          coordinate(label.y), coordinate(label.at + 4.0), is_right ? "start" : "end", escaped(name_of(label)),
+          label.is_hidden ? " stroke-dasharray=\"4 3\"" : "");
     }
     return result;
   }

@@ -18,6 +18,7 @@ struct PanelRequest {
   std::vector<PanelItem> items;
   std::vector<int> item;  // of each triangle of the mesh; -1: left out, outline: only its edges are drawn
   double width = 340.0, height = 300.0;  // px, of the drawing without names
+  bool names_hidden = false;             // what is behind others too, by a dashed line to its place
   static constexpr int outline = -2;
 };
 

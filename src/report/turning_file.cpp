@@ -121,11 +121,11 @@ double largest_displacement(const SkinMotion& motion) {
 // The frame of largest stress in the motion, where there is one.
 int shown(const Json& frames) {
   int best = 0;
-  double top = -1.0;
+  std::pair<bool, double> highest{false, -1.0};
   for (size_t k = 0; k < frames.size(); ++k) {
-    const double score = (frames[k]["static"].get<bool>() ? 0.0 : 1e30) + frames[k]["top"].get<double>();
-    if (score < top) continue;
-    top = score;
+    const std::pair<bool, double> score{!frames[k]["static"].get<bool>(), frames[k]["top"].get<double>()};
+    if (!(highest < score)) continue;
+    highest = score;
     best = static_cast<int>(k);
   }
   return best;

@@ -1,4 +1,4 @@
-// motion.json: the picture of a report that turns. Its size is bounded: some 600 kB for what moves, whatever the mesh.
+// motion.json: the picture of a report that turns. Its size is bounded: 1 MB, whatever the mesh and the number of steps.
 #pragma once
 
 #include <string>

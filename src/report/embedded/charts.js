@@ -45,7 +45,7 @@ class Axis {
     const piece = this.pieces.find((p) => pixel >= p.from - 0.5 && pixel <= p.to + 0.5);
     if (!piece) return null;
     const value = piece.value + (pixel - piece.at) * piece.slope;
-    return {value, text: shown(value, Math.ceil(-Math.log10(Math.abs(piece.slope) * 0.2) - 1e-9))};
+    return {value, text: shown(value, Math.round(-Math.log10(Math.abs(piece.slope) * 0.2)))};
   }
 
   // Ticks of the part of the axis between two pixels: pixel and label.
@@ -259,11 +259,14 @@ class Chart {
       if (y >= this.top - 1 && y <= this.top + this.height + 1) make(this.over, "circle", {cx: at, cy: y, r: 3.5, fill: r.color, stroke: "#ffffff"});
       if (r.read) lines.push([(r.name ? r.name + "  " : "") + r.read.text + unit, r.color]);
     }
-    const wide = 14 + 6.6 * Math.max(...lines.map(([text]) => text.length)), high = 8 + 15 * lines.length;
+    const wide = 26 + 6.6 * Math.max(...lines.map(([text]) => text.length)), high = 8 + 15 * lines.length;
     const left = at + wide + 12 < this.left + this.width ? at + 10 : at - wide - 10, top = Math.max(this.top, Math.min(p[1] - 0.5 * high, this.top + this.height - high));
     const box = make(this.over, "g", {class: "values"});
     make(box, "rect", {x: left, y: top, width: wide, height: high, rx: 3, fill: "#ffffff", "fill-opacity": 0.94, stroke: "#999999"});
-    lines.forEach(([text, color], i) => make(box, "text", {x: left + 7, y: top + 16 + 15 * i, fill: color}, text));
+    lines.forEach(([text, color], i) => {
+      if (i > 0) make(box, "rect", {x: left + 7, y: top + 7 + 15 * i, width: 9, height: 9, fill: color});
+      make(box, "text", {x: left + (i > 0 ? 20 : 7), y: top + 16 + 15 * i, fill: "#222222"}, text);
+    });
   }
 }
 

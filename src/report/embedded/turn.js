@@ -237,7 +237,7 @@ function setUp(figure) {
   const tip = element(stage, "div", {class: "tip"}), legend = element(figure, "div", {class: "legend"});
   const second = element(figure, "div", {class: "controls"});
   const picture = new Picture(canvas, model);
-  const state = {frame: Math.max(0, model.shown || 0), warp: model.warp || 0, apart: 0, field: model.frames.length ? "von_mises" : "", cut: null,
+  const state = {frame: Math.max(0, model.shown || 0), warp: model.warp || 0, apart: model.label ? 0.6 : 0, field: model.frames.length ? "von_mises" : "", cut: null,
                  hidden: new Set(), range: [0, 1], colorOf: null};
   let waiting = false, playing = 0;
   const ranges = {};
@@ -297,7 +297,7 @@ function setUp(figure) {
     const warp = control(second, "displacements ×", "input", {type: "number", min: 0, step: "any", value: state.warp});
     warp.oninput = () => { state.warp = Math.max(0, Number(warp.value) || 0); draw(); };
   }
-  const apart = control(second, "apart", "input", {type: "range", min: 0, max: 2, step: 0.01, value: 0});
+  const apart = control(second, "apart", "input", {type: "range", min: 0, max: 2, step: 0.01, value: state.apart});
   apart.oninput = () => { state.apart = Number(apart.value); draw(true); };
   apart.onchange = () => draw();
   const cut = control(second, "cut", "select");
