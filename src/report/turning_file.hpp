@@ -1,4 +1,5 @@
-// motion.json: the picture of a report that turns. Its size is bounded: 1 MB, whatever the mesh and the number of steps.
+// motion.json: the picture of a report that turns. Its size is bounded: 1 MB, whatever the mesh and the number of
+// steps.
 #pragma once
 
 #include <string>
