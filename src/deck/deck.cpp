@@ -253,6 +253,14 @@ void load_module(DeckState& state, const char* name) {
   state.call(1, 1);
 }
 
+std::string text_of_module(const char* name) {
+  const DeckOptions options;
+  const Engine engine;
+  DeckState state(options, engine, false);
+  load_module(state, name);
+  return lua_tostring(state.raw(), -1);
+}
+
 }  // namespace
 
 double parse_quantity(const std::string& what, const std::string& text) {
@@ -268,13 +276,9 @@ double parse_quantity(const std::string& what, const std::string& text) {
   return lua_tonumber(L, -1);
 }
 
-std::string deck_reference() {
-  const DeckOptions options;
-  const Engine engine;
-  DeckState state(options, engine, false);
-  load_module(state, "reference");
-  return lua_tostring(state.raw(), -1);
-}
+std::string deck_reference() { return text_of_module("reference"); }
+
+std::string deck_definitions() { return text_of_module("definitions"); }
 
 std::string version() { return program_version(); }
 

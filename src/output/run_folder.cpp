@@ -78,6 +78,8 @@ Table RunFolder::table(const std::string& file, const std::vector<std::string>& 
   }
 }
 
+std::string RunFolder::file_text(const std::string& file) const { return text_of(folder_ / file).value_or(""); }
+
 std::vector<Json> RunFolder::outputs(Display::As as) const {
   std::vector<Json> found;
   const auto outputs = record_.find("outputs");

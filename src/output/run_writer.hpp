@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "output/files.hpp"
+#include "output/frame_summary.hpp"
 #include "result/frame.hpp"
 #include "result/result.hpp"
 
@@ -56,6 +57,7 @@ class RunWriter {
   std::filesystem::path path_of(const std::string& file_name);
 
   const std::filesystem::path& directory() const { return directory_; }
+  const std::vector<FrameSummary>& frames() const;  // those written
 
  private:
   struct Index;  // the frames written so far

@@ -1,5 +1,6 @@
 #include "report/html.hpp"
 
+#include "report/embedded.hpp"
 #include "report/svg_text.hpp"
 
 namespace dygita::html {
@@ -43,7 +44,8 @@ svg { max-width: 100%; height: auto; }
 std::string page(const std::string& title, const std::string& body_html) {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + escaped(title) +
          "</title>\n<meta name=\"viewport\" content=\"width=device-width\">\n<style>" + style +
-         "</style>\n</head>\n<body>\n" + body_html + "</body>\n</html>\n";
+         embedded_text("page.css") + "</style>\n</head>\n<body>\n" + body_html + "<script>\n" +
+         embedded_text("charts.js") + embedded_text("turn.js") + "</script>\n</body>\n</html>\n";
 }
 
 std::string section(const std::string& title, const std::string& body_html) {

@@ -11,8 +11,8 @@ namespace {
 std::string page_of(const RunFolder& run, const ReportRequest& request) {
   const TimeAxis time(run.record().at("steps"));
   // Verdict first on the page, faults of the folder known only at the end.
-  std::string body =
-      verdict_section(run, spectra_findings(run, request)) + computed_section(run) + picture_section(run);
+  std::string body = verdict_section(run, spectra_findings(run, request)) + computed_section(run) +
+                     picture_section(run) + motion_section(run);
   body += spectra_section(run, time, request) + attenuation_section(run) + histories_section(run, time) +
           bolts_section(run) + joints_section(run, time) + condensed_section(run);
   body += energy_section(run, time) + convergence_section(run) + cost_section(run);

@@ -14,6 +14,7 @@ std::string title_section(const RunFolder& run);
 std::string verdict_section(const RunFolder& run, const std::vector<std::string>& findings);
 std::string computed_section(const RunFolder& run);
 std::string picture_section(const RunFolder& run);
+std::string motion_section(const RunFolder& run);
 std::string spectra_section(const RunFolder& run, const TimeAxis& time, const ReportRequest& request);
 // A line for each spectrum with a specification: how far it is above or below.
 std::vector<std::string> spectra_findings(const RunFolder& run, const ReportRequest& request);

@@ -234,6 +234,7 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
   RunIdentity identity = request.identity;
   identity.threads = omp_get_max_threads();
   identity.case_name = request.case_name;
+  if (writer) write_view(*writer, problem, directory);
   if (writer) write_run_files(*writer, problem, *result, identity, warnings);
   if (replacement && is_kept) replacement->commit();
   if (request.continues) say(continuation_line(*request.continues, *result));
