@@ -9,6 +9,7 @@
 #include "deck/deck_state.hpp"
 #include "deck/deck_text.hpp"
 #include "deck/results.hpp"
+#include "deck/syntax_hint.hpp"
 #include "numerics/factor.hpp"
 #include "numerics/panel_choice.hpp"
 #include "result/hollow_result.hpp"
@@ -42,8 +43,13 @@ int load_vocabulary(lua_State* L) {
   lua_call(L, 1, 1);
   lua_getfield(L, -1, "read");
   lua_getfield(L, -2, "write");
-  set_object_metatable(L, lua_absindex(L, -2), lua_absindex(L, -1), guarded<length>);
-  lua_pop(L, 2);
+  lua_getfield(L, -3, "operators");
+  set_object_metatable(L, lua_absindex(L, -3), lua_absindex(L, -2), lua_absindex(L, -1), guarded<length>);
+  lua_pop(L, 3);
+  lua_pushcfunction(L, load_vocabulary);  // any function: they share one metatable
+  lua_getfield(L, -2, "operators_of_functions");
+  lua_setmetatable(L, -2);
+  lua_pop(L, 1);
   lua_getfield(L, -1, "environment");
   return 1;
 }
@@ -59,7 +65,11 @@ void run_text(DeckState& state, const std::string& text) {
   lua_State* L = state.raw();
   lua_pushcfunction(L, load_vocabulary);
   state.call(0, 1);
-  state.load(text, "@" + state.deck_name());
+  try {
+    state.load(text, "@" + state.deck_name());
+  } catch (const DeckScriptError& error) {
+    throw DeckScriptError(error.what() + syntax_hint(error.what(), text));
+  }
   lua_insert(L, -2);
   lua_setupvalue(L, -2, 1);  // its _ENV
   state.call(0, 0);

@@ -62,8 +62,8 @@ Object* object_at(lua_State* L, int index);
 // The object at `index`; CHECKs that it is one (the Lua side has checked it).
 Object& the_object_at(lua_State* L, int index);
 
-// Registers the metatable; `read` and `write` are the stack indices of Lua functions (object, key) and of `length`
-// (object).
-void set_object_metatable(lua_State* L, int read, int write, lua_CFunction length);
+// Registers the metatable; `read` and `write` are the stack indices of Lua functions (object, key), `operators` that of
+// a table of metamethods; `length` is one of (object).
+void set_object_metatable(lua_State* L, int read, int write, int operators, lua_CFunction length);
 
 }  // namespace dygita

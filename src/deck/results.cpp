@@ -46,7 +46,8 @@ Series series_of(const OutputData& data, const std::string& column) {
   const Table& table = *data.table;
   return {data.result->problem,  data.output->name + "." + column,
           table.names.front(),   table.column(column),
-          table.columns.front(), table.step};
+          table.columns.front(), table.step,
+          data.result->is_hollow};
 }
 
 // Modulus of a vector history, row by row.
@@ -96,6 +97,11 @@ int read_result(lua_State* L, const Object& object, const Origin& origin) {
     lua_pushnumber(L, result->run->mean_iterations);
   } else if (key == "converged") {
     lua_pushboolean(L, result->run->converged);
+  } else if (const auto& outputs = result->problem->outputs;
+             std::any_of(outputs.begin(), outputs.end(), [&](const OutputPtr& o) { return o->name == key; })) {
+    throw InputError(origin, fmt::format("a result has no '{}'\n    an output is asked for by itself, not by its name: "
+                                         "result[{}], without quotes",
+                                         key, key));
   } else {
     unknown(origin, "a result", key, {"converged", "iterations", "mean_iterations"});
   }
@@ -107,11 +113,12 @@ int read_series(lua_State* L, const Series& series, const Origin& origin) {
     const auto n = static_cast<lua_Integer>(series.values.size());
     if (*row >= 1 && *row <= n) return push_value(L, series.values[static_cast<size_t>(*row - 1)]);
     if (*row == n + 1) return 0;  // where ipairs stops
+    if (*row > n && series.is_hollow) return push_value(L, series.values.empty() ? 0.0 : series.values.back());
     throw InputError(origin, fmt::format("series '{}' has rows 1 to {}, not {}", series.name, n, *row));
   }
   const std::string key = key_text(L);
   if (key == series.abscissa) {
-    push_series(L, {series.problem, series.name + "." + key, key, series.at, series.at, series.step});
+    push_series(L, {series.problem, series.name + "." + key, key, series.at, series.at, series.step, series.is_hollow});
     return 1;
   }
   if (const auto value = summary_of(series, key, origin)) return push_value(L, *value);
@@ -152,7 +159,8 @@ int read_output(lua_State* L, const OutputData& data, const Origin& origin) {
   }
   if (key == data.table->names.front()) {
     const auto& at = data.table->columns.front();
-    push_series(L, {data.result->problem, data.output->name + "." + key, key, at, at, data.table->step});
+    push_series(L, {data.result->problem, data.output->name + "." + key, key, at, at, data.table->step,
+                    data.result->is_hollow});
     return 1;
   }
   if (is_vector(data) && key == "max") return push_value(L, *summary_of(modulus_of(data), key, origin));

@@ -16,6 +16,7 @@
 #include "reference/monolithic.hpp"
 #include "result/collector.hpp"
 #include "result/limits.hpp"
+#include "result/penetration_watch.hpp"
 #include "result/scene_recorder.hpp"
 #include "run/keep_state.hpp"
 #include "run/passes.hpp"
@@ -171,7 +172,8 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* 
                                  bool keeps_scenes) {
   Collector collector(problem, sink);
   SceneRecorder scenes(problem);
-  Observers observers({&collector});
+  PenetrationWatch watch(problem);
+  Observers observers({&collector, &watch});
   if (keeps_scenes) observers.add(scenes);
   auto result = std::make_shared<RunResult>();
   const SolverFigures figures = problem.explicit_dynamics ? solve_explicit(problem, observers)
@@ -180,6 +182,7 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* 
   result->interface_fields = figures.interface_fields;
   summarise(problem, figures, *result);
   collector.finish(*result);
+  watch.finish();
   if (keeps_scenes) scenes.finish(*result);
   return result;
 }
@@ -247,6 +250,7 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
 std::string check_report(const Problem& problem) {
   check_problem(problem);
   const std::vector<Surface> surfaces = make_surfaces(problem);
+  doubt_neighbours(problem, surfaces);
   State state = initial_state(problem, surfaces);
   long n_dofs = 0;
   std::string text = fmt::format("problem '{}'\n", problem.name);
