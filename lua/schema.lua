@@ -393,7 +393,8 @@ words[9] = {
         doc = "of the linear stage" },
       { "anderson", type = "integer", range = { 0, 100 }, default_doc = "10; 40 in static steps; 5 in windows, 0 beyond 20 steps",
         doc = "depth of Anderson's acceleration; 0: none" },
-      { "max_iterations", type = "integer", range = { 1, 1000000 }, default = 200, doc = "of one window" },
+      { "max_iterations", type = "integer", range = { 1, 1000000 }, default_doc = "200, in static steps 400, and on to ten times as many while they help",
+        doc = "of an increment or a window" },
       { "numerical_damping", type = "number", range = { 0, 1 }, default = 0, doc = "of the time scheme; 0: none" },
       { "push_out", type = "number", range = { 0, 1 }, default = 0, doc = "part of a penetration undone in a time step" },
       { "search_direction", type = "number", range = { 1e-6, 1e6 }, default = 1, doc = "multiplies every search direction" },
@@ -547,6 +548,8 @@ words[10] = {
         doc = "two places, on side 1 and on side 2: the displacement is the second's against the first's, flexibility of the parts included; one: "
           .. "against the ground; left out: of the joint's sides themselves" },
       { "after", type = "object", kinds = { "step" }, doc = "the loading begins at the end of this step (the tightened joint); left out: at the start" },
+      { "steps", type = "objects", kinds = { "step" }, at_least = 1, or_single = true, default_doc = "those after `after`, as long as they are of one kind",
+        doc = "the steps in which it is loaded and its cycles are closed, one after the other" },
     },
   },
   {
@@ -641,7 +644,7 @@ local reading = {
   { "series:at(step)", "the value in the last row of a step" },
   { "series.time", "its times, a series (.frequency for a spectrum)" },
   { "result[loop].cycles, .backbone", "its tables: their columns by their names, as `result[loop].cycles.loss`" },
-  { "result[loop].exponent", "exponent of the loss against the force amplitude; also .displacement_exponent, .stiffness, .secant" },
+  { "result[loop].exponent", "exponent of the loss against the force amplitude; also .displacement_exponent, .stiffness, .secant, .not_converged (increments)" },
   { "result[history].max", "a history with one column answers as that series; of x, y, z `.max` is the largest modulus" },
   { "result.iterations", "iterations of all steps, a whole number" },
   { "result.mean_iterations", "iterations per increment" },

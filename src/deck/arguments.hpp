@@ -41,6 +41,7 @@ class LuaArguments : public ModelArguments {
   std::vector<Target> targets(const char* key) const override;
   std::vector<SubstructurePtr> substructures(const char* key) const override;
   StepPtr step(const char* key) const override;
+  std::vector<StepPtr> steps(const char* key) const override;
   OutputPtr output(const char* key) const override;
   std::shared_ptr<const Specification> specification(const char* key) const override;
 

@@ -44,7 +44,7 @@ Content build_latin(const Declaration& d) {
   settings->window = a.is_number("window") ? a.integer("window") : 0;  // the only word is "whole"
   settings->relaxation = a.number_or("relaxation", settings->relaxation);
   settings->anderson = a.has("anderson") ? a.integer("anderson") : settings->anderson;
-  settings->max_iterations = a.integer("max_iterations");
+  settings->max_iterations = a.has("max_iterations") ? a.integer("max_iterations") : settings->max_iterations;
   settings->numerical_damping = a.number("numerical_damping");
   settings->push_out = a.number("push_out");
   settings->search_direction = a.number("search_direction");

@@ -56,6 +56,8 @@ std::vector<SubstructurePtr> LuaArguments::substructures(const char* key) const 
 
 StepPtr LuaArguments::step(const char* key) const { return has(key) ? object(key).as<StepPtr>() : nullptr; }
 
+std::vector<StepPtr> LuaArguments::steps(const char* key) const { return list<StepPtr>(key); }
+
 OutputPtr LuaArguments::output(const char* key) const { return has(key) ? object(key).as<OutputPtr>() : nullptr; }
 
 std::shared_ptr<const Specification> LuaArguments::specification(const char* key) const {

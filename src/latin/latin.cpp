@@ -36,6 +36,7 @@ void StepRun::coarse_correction(Vec& q, Vec& velocity) {
 void StepRun::iterate(int increment, const Goal& goal, Best& best) {
   anderson_.begin();
   best.outcome = {};
+  Persistence persistence(goal.limit);
   for (int i = 0;; ++i) {
     linear_stage(at_.q, at_.velocity);
     if (i > 0) coarse_correction(at_.q, at_.velocity);  // what is in balance to the tolerance is left as it is
@@ -49,7 +50,10 @@ void StepRun::iterate(int increment, const Goal& goal, Best& best) {
     }
     const bool is_lost =
         goal.furthest > 0.0 && at_.velocity.size() > 0 && !(at_.velocity.cwiseAbs().maxCoeff() <= goal.furthest);
-    if (outcome.eta <= goal.tolerance || i + 1 >= goal.most || is_lost) return;
+    if (outcome.eta <= goal.tolerance || is_lost || persistence.ends(i + 1, best.outcome.eta)) {
+      best.missed = persistence.missed(increment, settings_.tolerance);
+      return;
+    }
     const Stopwatch watch(books_.seconds.accelerate);
     anderson_.advance(at_.q, at_.image);
   }
@@ -103,6 +107,7 @@ void StepRun::solve_increment(int increment) {
   }
   indicator_.accept(best.outcome);
   finish_increment(at_.q);
+  if (best.outcome.eta > settings_.tolerance) note_missed(best.missed);
   accept_increment(increment, best.iterations, best.outcome.eta);
 }
 

@@ -24,7 +24,7 @@ Vec StepRun::search_shortenings(int increment, double tolerance, double precisio
   const PreloadFigures figures = local_.preload_figures();
   const auto forces = [&](const Vec& prescribed) {
     local_.prescribe_shortenings(prescribed);
-    iterate(increment, {tolerance, settings_.max_iterations, 0.0}, best);
+    iterate(increment, {tolerance, settings_.limit, 0.0}, best);
     return local_.preload_figures().force;
   };
   const Vec& target = figures.target;
@@ -55,7 +55,7 @@ void StepRun::seat_bolts(int increment, const BoltStart& start, Best& best) {
     const Vec seated = at_.q;
     local_.prescribe_shortenings({});
     // A preload may send a part away that is still unconstrained: it is then seated more closely.
-    iterate(increment, {settings_.tolerance, settings_.max_iterations, settings_.assembly_size}, best);
+    iterate(increment, {settings_.tolerance, settings_.limit, settings_.assembly_size}, best);
     if (best.outcome.eta <= settings_.tolerance) break;
     at_.q = seated;
   }

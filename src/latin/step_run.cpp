@@ -29,8 +29,9 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
 // The first iteration only hears what the kept fields are worth.
 StepRun::Goal StepRun::goal_of(bool has_start) const {
   const double furthest = local_.has_preloads() ? settings_.assembly_size : 0.0;
-  if (settings_.more_iterations == 0 || !has_start) return {settings_.tolerance, settings_.max_iterations, furthest};
-  return {settings_.round_off, 1 + settings_.more_iterations, furthest};
+  if (settings_.more_iterations == 0 || !has_start) return {settings_.tolerance, settings_.limit, furthest};
+  const int most = 1 + settings_.more_iterations;
+  return {settings_.round_off, {most, most}, furthest};
 }
 
 // Where the iteration of an increment starts; false: not from another case's fields.
@@ -69,6 +70,13 @@ void StepRun::accept_increment(int increment, int iterations, double eta) {
   if (eta > settings_.tolerance) ++figures.not_converged;
   const Stopwatch watch(books_.seconds.output);
   files_.observer.accept(instant(increment, iterations, eta));
+}
+
+// Those first and last tell enough of a step that misses everywhere.
+void StepRun::note_missed(const Missed& missed) {
+  std::vector<Missed>& all = books_.figures.missed;
+  if (missed.indicator <= settings_.tolerance) return;
+  if (all.size() < 1000) all.push_back(missed);
 }
 
 // A static increment that moves bodies by many times the assembly's size has found no equilibrium, whatever the

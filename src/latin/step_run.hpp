@@ -44,7 +44,7 @@ class StepRun {
   // What an iteration is to reach, with how many rounds at most, and velocities beyond which it is lost (0: none).
   struct Goal {
     double tolerance;
-    int most;
+    IterationLimit limit;
     double furthest;
   };
   // What iterations have come to: the data that came closest, how close, after how many in all.
@@ -52,6 +52,7 @@ class StepRun {
     Vec q;
     Outcome outcome;
     int iterations = 0;
+    Missed missed{};  // where the goal was not reached
   };
   // Where preloaded bolts begin an increment.
   struct BoltStart {
@@ -87,6 +88,7 @@ class StepRun {
   Goal goal_of(bool has_start) const;
   bool predict(int increment, Vec& q);
   void accept_increment(int increment, int iterations, double eta);
+  void note_missed(const Missed& missed);
   bool has_flown_off() const;
   void check_finite(const Outcome& outcome, int increment) const;
   std::string describe_progress() const;

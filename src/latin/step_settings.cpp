@@ -33,7 +33,9 @@ StepSettings step_settings(const Problem& problem, const StepModel& model, bool 
   StepSettings settings;
   settings.i_step = index_of(problem.steps, model.step);
   settings.tolerance = is_static ? asked.static_tolerance : asked.tolerance;
-  settings.max_iterations = asked.max_iterations;
+  settings.limit = asked.max_iterations > 0 ? IterationLimit{asked.max_iterations, asked.max_iterations}
+                   : is_static              ? IterationLimit{400, 5000}
+                                            : IterationLimit{200, 2000};
   settings.more_iterations = has_start ? asked.more_iterations : 0;
   settings.round_off = is_single(model) ? 1e-8 : 1e-13;
   settings.window = is_static ? 1 : asked.window == 0 ? n : std::min(asked.window, n);

@@ -1,6 +1,7 @@
 // What a step asks of the method, with the defaults of the manual's table where the deck says nothing.
 #pragma once
 
+#include "latin/persistence.hpp"
 #include "solution/step_model.hpp"
 
 namespace dygita {
@@ -8,7 +9,7 @@ namespace dygita {
 struct StepSettings {
   int i_step = 0;  // in the problem's steps
   double tolerance = 1e-6;
-  int max_iterations = 200;  // of an increment, or of a window
+  IterationLimit limit;  // of an increment, or of a window
   // From kept fields: so many iterations more, down to rounding errors, whatever the tolerance; 0: as tolerance asks.
   int more_iterations = 0;
   double round_off = 1e-13;     // indicator below which iterations change rounding errors only

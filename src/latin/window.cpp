@@ -48,10 +48,12 @@ void StepRun::solve_window(int first, int last) {
   Vec all(n_steps * n_q), all_image(all.size());
   const StepSettings::Acceleration& asked = settings_.of_window;
   Anderson anderson(asked.depth, asked.n_problems, asked.relaxation, weight_.replicate(n_steps, 1));
+  Persistence persistence(goal.limit);
   for (int n = 1;; ++n) {
     const Outcome worst = sweep(first, q, image);
     go_back(start);
-    if (worst.eta <= goal.tolerance || n >= goal.most) {
+    if (worst.eta <= goal.tolerance || persistence.ends(n, worst.eta)) {
+      if (worst.eta > settings_.tolerance) note_missed(persistence.missed(first, settings_.tolerance));
       for (int i = 0; i < n_steps; ++i) replay(first + i, q[i], i == 0, n, worst.eta);
       return;
     }

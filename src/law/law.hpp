@@ -5,6 +5,7 @@
 // F and its own state at the end (manual, interface laws).
 #pragma once
 
+#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -40,6 +41,13 @@ struct Shown {
   Followed followed = Followed::nothing;
 };
 
+// The largest normal traction that a law can carry, and what to say to who asks for more.
+struct TensionLimit {
+  double traction = std::numeric_limits<double>::infinity();  // Pa
+  std::string why;   // "it yields at {} and has no hardening", with the force where the braces are
+  std::string cure;  // "give it 'hardening'"; empty: there is none
+};
+
 class Law {
  public:
   virtual ~Law() = default;
@@ -56,8 +64,7 @@ class Law {
   virtual bool joins_its_like() const = 0;
   // Can a load shorten it, as a nut does?
   virtual bool can_be_tightened() const = 0;
-  // Largest normal traction (Pa) that it can carry; infinity where there is none.
-  virtual double most_tension() const = 0;
+  virtual TensionLimit tension_limit() const = 0;
   // Can its nodes do without mass in dynamic steps (manual, eq. S7)?
   virtual bool allows_massless_nodes() const = 0;
 

@@ -85,6 +85,8 @@ class Output : public Named {
   // Hz, that time step and mesh are to carry for it; none: it asks for none.
   virtual std::optional<double> highest_frequency() const { return std::nullopt; }
   virtual std::optional<HistoryKind> history() const { return std::nullopt; }
+  // Does it show nothing but a motion that the deck prescribes, in every dynamic step?
+  virtual bool is_prescribed(const Problem&) const { return false; }
   // Interfaces and walls whose points the report maps.
   virtual std::vector<Target> mapped() const { return {}; }
   // Do passes over the run go on until it stands still (solver.latin{ spectra })?

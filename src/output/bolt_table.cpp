@@ -29,7 +29,10 @@ std::string shown(const std::optional<double>& force) {
   return fmt::format("{:.3f}", std::abs(*force) < 0.5 ? 0.0 : *force / 1e3);
 }
 
-std::string percent(double value) { return fmt::format("{:.2f} %", std::abs(value) < 5e-5 ? 0.0 : 100.0 * value); }
+std::string percent(const std::optional<double>& value) {
+  if (!value) return "-";
+  return fmt::format("{:.2f} %", std::abs(*value) < 5e-5 ? 0.0 : 100.0 * *value);
+}
 
 bool is_same(const BoltByHand& a, const BoltByHand& b) {
   return a.resilience.bolt == b.resilience.bolt && a.resilience.plates == b.resilience.plates && a.share == b.share &&
@@ -61,8 +64,9 @@ std::string bolts_csv(const Problem& problem, const RunResult& result) {
     text += quoted(bolt.name) + "," + number(bolt.area) + "," + number(bolt.target);
     for (size_t i = 0; i < steps.size(); ++i)
       text += "," + (i < bolt.after_static.size() ? number(bolt.after_static[i]) : std::string());
-    for (const double value :
-         {bolt.lowest, bolt.highest, bolt.last, bolt.loss(), bolt.shortening, bolt.plastic_opening})
+    for (const std::optional<double>& value :
+         {std::optional(bolt.lowest), std::optional(bolt.highest), std::optional(bolt.last), bolt.loss(),
+          std::optional(bolt.shortening), std::optional(bolt.plastic_opening)})
       text += "," + number(value);
     text += "," + number(bolt.hand);
     text += bolt.formula ? "," + number(bolt.formula->shortening) + "," + number(bolt.formula->resilience.load_factor())

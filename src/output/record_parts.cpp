@@ -82,7 +82,8 @@ Json solver_record(const Problem& problem) {
   if (problem.explicit_dynamics) return json;
   json["tolerance"] = problem.monolithic ? problem.monolithic->tolerance : problem.solver.tolerance;
   if (!problem.monolithic) json["static_tolerance"] = problem.solver.static_tolerance;
-  json["max_iterations"] = problem.monolithic ? problem.monolithic->max_iterations : problem.solver.max_iterations;
+  const int most = problem.monolithic ? problem.monolithic->max_iterations : problem.solver.max_iterations;
+  json["max_iterations"] = most > 0 ? Json(most) : Json();  // as many as help
   return json;
 }
 

@@ -105,7 +105,7 @@ Json bolts(const RunResult& result) {
                  {"lowest", bolt.lowest},
                  {"highest", bolt.highest},
                  {"last", bolt.last},
-                 {"loss", bolt.loss()},
+                 {"loss", bolt.loss() ? Json(*bolt.loss()) : Json()},
                  {"shortening", bolt.shortening},
                  {"plastic_opening", bolt.plastic_opening}};
     if (bolt.target) json["target"] = *bolt.target;

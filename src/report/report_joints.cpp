@@ -215,7 +215,8 @@ std::string bolts_section(const RunFolder& run) {
     if (has_motion)
       for (const char* key : {"lowest", "highest"}) row.push_back(force(number(bolt, key)));
     row.push_back(force(number(bolt, "last")));
-    row.push_back(plain_number(100.0 * number(bolt, "loss")) + " %");
+    const double lost = number(bolt, "loss");
+    row.push_back(std::isfinite(lost) ? plain_number(100.0 * lost) + " %" : "-");
     row.push_back(number(bolt, "area") > 0.0 ? with_unit(number(bolt, "last") / number(bolt, "area"), "Pa") : "");
     row.push_back(with_unit(number(bolt, "plastic_opening"), "m"));
     rows.push_back(std::move(row));

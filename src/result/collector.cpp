@@ -5,6 +5,7 @@
 
 #include "law/law.hpp"
 #include "result/limits.hpp"
+#include "result/overloaded_joints.hpp"
 #include "result/recorder.hpp"
 
 namespace dygita {
@@ -23,18 +24,32 @@ void Collector::begin_step(const Instant& start) {
   for (auto& [output, recorder] : recorders_) recorder->begin_step(start);
   errors_.begin_step(start);
   bolts_.begin_step(start);
+  motion_.begin_step(start);
   extremes_.before_springs = start.state.energies.scheme;
 }
 
 void Collector::accept(const Instant& instant) {
   errors_.accept(instant);
   bolts_.accept(instant);
+  motion_.accept(instant);
   for (auto& [output, recorder] : recorders_) recorder->accept(instant);
   const double row[] = {instant.time(), static_cast<double>(instant.iterations), instant.indicator,
                         instant.converged ? 1.0 : 0.0};
   for (int i = 0; i < 4; ++i) convergence_.columns[i].push_back(row[i]);
   convergence_.step.push_back(instant.i_step);
+  if (instant.is_static() && !instant.converged && !is_overloaded(instant.i_step)) note_overload(instant);
   watch(instant);
+}
+
+bool Collector::is_overloaded(int i_step) const {
+  return std::find(overloaded_.begin(), overloaded_.end(), i_step) != overloaded_.end();
+}
+
+// The first increment of a step that says it is enough: the same load grows in those that follow.
+void Collector::note_overload(const Instant& instant) {
+  const std::vector<std::string> lines = overloaded_joints(instant);
+  if (!lines.empty()) overloaded_.push_back(instant.i_step);
+  warnings_.insert(warnings_.end(), lines.begin(), lines.end());
 }
 
 void Collector::watch(const Instant& instant) {
@@ -93,6 +108,9 @@ void Collector::finish(RunResult& result) {
   finish_outputs(result);
   result.convergence = std::move(convergence_);
   result.bolts = bolts_.take();
+  result.warnings = std::move(warnings_);
+  result.overloaded_steps = std::move(overloaded_);
+  motion_.finish(result);
   const double percent = extremes_.energy > 0.0 ? 100.0 / extremes_.energy : 0.0;
   result.figures.largest_energy = extremes_.energy;
   result.figures.energy_imbalance = percent * extremes_.imbalance;

@@ -6,6 +6,7 @@
 #include "model/output.hpp"
 #include "result/bolt_recorder.hpp"
 #include "result/error_estimator.hpp"
+#include "result/motion_watch.hpp"
 #include "result/result.hpp"
 #include "solution/observer.hpp"
 
@@ -31,14 +32,19 @@ class Collector : public Observer {
 
  private:
   void watch(const Instant& instant);
+  void note_overload(const Instant& instant);
+  bool is_overloaded(int i_step) const;
   void finish_outputs(RunResult& result);
 
   const Problem& problem_;
   std::vector<std::pair<const Output*, std::unique_ptr<Recorder>>> recorders_;
   Table convergence_;
+  std::vector<std::string> warnings_;
+  std::vector<int> overloaded_;  // steps
   Extremes extremes_;
   ErrorEstimator errors_;
   BoltRecorder bolts_;
+  MotionWatch motion_;
 };
 
 }  // namespace dygita

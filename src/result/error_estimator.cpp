@@ -46,19 +46,21 @@ Vec all_masses(const Instant& instant) {
   return all;
 }
 
-void take_velocities(const Instant& instant, Vec& all) {
+Points all_directions(const Instant& instant) {
+  std::vector<Points> parts;
   Eigen::Index n = 0;
-  for (size_t i = 0; i < instant.model.pieces.size(); ++i) {
-    if (instant.fields) {
-      const Points velocity = instant.velocity(static_cast<int>(i));
-      all.segment(n, velocity.size()) = velocity.reshaped();
-      n += velocity.size();
-      continue;
-    }
-    const Vec& velocity = instant.model.pieces[i]->state().v;
-    all.segment(n, velocity.size()) = velocity;
-    n += velocity.size();
+  for (const auto& piece : instant.model.pieces) {
+    parts.push_back(instant.fields ? Points(Mat3::Identity().replicate(1, piece->node_masses().size()))
+                                   : piece->unknown_directions());
+    n += parts.back().cols();
   }
+  Points all(3, n);
+  n = 0;
+  for (const Points& part : parts) {
+    all.middleCols(n, part.cols()) = part;
+    n += part.cols();
+  }
+  return all;
 }
 
 double ratio(double energy, double of) { return of > 0.0 ? std::sqrt(std::max(0.0, energy) / of) : 0.0; }
@@ -103,14 +105,36 @@ double OctaveBank::phase_error(double factor) const {
   return std::sqrt(sum);
 }
 
+// Relative to the assembly's motion as a whole, which bends no cell and turns no phase (eq. Q0).
+void ErrorEstimator::take_velocities(const Instant& instant) {
+  Eigen::Index n = 0;
+  for (size_t i = 0; i < instant.model.pieces.size(); ++i) {
+    if (instant.fields) {
+      const Points velocity = instant.velocity(static_cast<int>(i));
+      velocity_.segment(n, velocity.size()) = velocity.reshaped();
+      n += velocity.size();
+      continue;
+    }
+    const Vec& velocity = instant.model.pieces[i]->state().v;
+    velocity_.segment(n, velocity.size()) = velocity;
+    n += velocity.size();
+  }
+  const Vec3 carried = carried_->at(instant, [&] { return Vec3(directions_ * mass_.cwiseProduct(velocity_)); });
+  if (!carried.isZero(0.0)) velocity_.noalias() -= directions_.transpose() * carried;
+  kinetic_now_ = 0.5 * velocity_.dot(mass_.cwiseProduct(velocity_));
+}
+
 void ErrorEstimator::begin_step(const Instant& start) {
   if (bank_) {
     const Estimate so_far = dynamic_steps();
-    before_ = so_far.time_step * std::sqrt(std::max(2.0 * kinetic_, 1e-8 * stored_));
+    before_ = so_far.time_step * std::sqrt(energy());
     bank_.reset();
   }
+  still_ = {start.state.energies.loads, start.state.energies.balance()};
   if (start.is_static()) return;
   mass_ = all_masses(start);
+  directions_ = all_directions(start);
+  carried_.emplace(start);
   velocity_.resize(mass_.size());
   velocity_old_.resize(0);
   bank_.emplace(mass_, start.model.problem->mass().is_tuned);
@@ -122,11 +146,18 @@ void ErrorEstimator::begin_step(const Instant& start) {
     start_.push_back(start.displacement(static_cast<int>(i)));
 }
 
+// What increments leave adds up along a static path: friction keeps it. It is held against the work that the step's own
+// loads do, since what an earlier step has stored says nothing of this one; and it is no less than what the energy
+// balance misses in the step (eq. Q9).
 void ErrorEstimator::accept_static(const Instant& instant) {
+  const Energies& energies = instant.state.energies;
   static_.interface_energy += instant.interface_energy;
-  const double strain = instant.state.energies.strain;
-  static_.iteration = std::max(static_.iteration, ratio(instant.interface_energy, strain));
+  still_.left += std::sqrt(std::max(0.0, instant.interface_energy));
+  still_.work = std::max(still_.work, std::abs(energies.loads - still_.loads));
+  still_.missing = std::max(still_.missing, std::abs(energies.balance() - still_.balance));
   if (instant.increment + 1 < instant.model.step->n_increments()) return;
+  if (const double work = std::max(still_.work, 1e-8 * energies.strain); work > 0.0)
+    static_.iteration = std::max({static_.iteration, still_.left / std::sqrt(work), still_.missing / work});
   const auto [error, of] = stress_energies(instant, nullptr);
   static_.mesh = std::max(static_.mesh, ratio(error, of));
 }
@@ -136,6 +167,7 @@ void ErrorEstimator::sample_stress(const Instant& instant) {
   stress_energy_ = std::max(stress_energy_, error);
   stress_sum_ += error;
   strain_sum_ += strain;
+  shock_energy_ = std::max(shock_energy_, kinetic_now_ + strain);
   ++n_stress_;
 }
 
@@ -145,9 +177,9 @@ void ErrorEstimator::accept(const Instant& instant) {
   phase_factor_ = instant.fields ? 0.5 / std::pow(std::max(1, instant.iterations), 2) : 1.0;
   dynamic_.interface_energy += instant.interface_energy;
   const Energies& energies = instant.state.energies;
-  kinetic_ = std::max(kinetic_, energies.kinetic);
+  take_velocities(instant);
+  kinetic_ = std::max(kinetic_, kinetic_now_);
   stored_ = std::max(stored_, energies.kinetic + energies.strain);
-  take_velocities(instant, velocity_);
   if (velocity_old_.size() > 0) {
     for (Eigen::Index i = 0; i < velocity_.size(); ++i)
       rate_ += mass_[i] * std::pow((velocity_[i] - velocity_old_[i]) / dt_, 2);
@@ -161,8 +193,7 @@ void ErrorEstimator::accept(const Instant& instant) {
 
 ErrorEstimator::Estimate ErrorEstimator::dynamic_steps() const {
   Estimate estimate = dynamic_;
-  // Twice the kinetic energy, as of a wave; at rest there is no shock to compare with, but what is stored.
-  const double energy = std::max(2.0 * kinetic_, 1e-8 * stored_);
+  const double energy = this->energy();
   if (energy <= 0.0) return estimate;
   const double root = std::sqrt(energy);
   estimate.velocity = total_mass_ > 0.0 ? root / std::sqrt(total_mass_) : 0.0;

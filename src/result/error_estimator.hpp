@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "solution/observer.hpp"
+#include "result/carried_motion.hpp"
 
 namespace dygita {
 
@@ -54,15 +54,32 @@ class ErrorEstimator {
 
  private:
   void accept_static(const Instant& instant);
+  void take_velocities(const Instant& instant);
   void sample_stress(const Instant& instant);
 
+  // Of the shock, J, relative to which errors are: twice the kinetic energy, as of a wave; of a slow motion, what is
+  // stored in it; at rest, next to nothing of what was there before.
+  double energy() const { return std::max({2.0 * kinetic_, shock_energy_, 1e-8 * stored_}); }
+
+  // Of a static step so far.
+  struct StaticStep {
+    double loads = 0.0, balance = 0.0;  // J, work of the loads and what the balance misses, at its start
+    double left = 0.0;                  // sqrt of J, sum of what its increments leave
+    double work = 0.0, missing = 0.0;   // J, largest so far since its start
+  };
+
   Estimate static_, dynamic_;
+  StaticStep still_;
   std::optional<OctaveBank> bank_;           // of the step
   double before_ = 0.0, before_mesh_ = 0.0;  // phase errors (norms, sqrt of J) of the dynamic steps before
-  Vec velocity_, velocity_old_, mass_;       // of all substructures' free unknowns, in their order
+  Vec velocity_, velocity_old_, mass_;       // of all substructures' free unknowns, in their order; relative (Q0)
+  Points directions_;                        // 3 x n, of the same
+  std::optional<CarriedMotion> carried_;     // of the step
   double dt_ = 0.0, phase_factor_ = 1.0;
   std::vector<Points> start_;            // displacements at the start of the dynamic steps: what they add is the shock
-  double kinetic_ = 0.0, stored_ = 0.0;  // J, largest so far: kinetic, kinetic + strain
+  double kinetic_now_ = 0.0;             // J, of the relative velocities
+  double kinetic_ = 0.0, stored_ = 0.0;  // J, largest so far: kinetic of the relative velocities; kinetic + strain
+  double shock_energy_ = 0.0;            // J, largest of the samples: kinetic, and strain of the shock
   double stress_energy_ = 0.0;           // J, largest of the samples
   double stress_sum_ = 0.0, strain_sum_ = 0.0;  // of the samples: stress error and strain energy of the shock
   int n_stress_ = 0;

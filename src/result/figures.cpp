@@ -31,6 +31,8 @@ constexpr Labelled labels[] = {
     {&Figures::passes, "passes over the run"},
     {&Figures::iterations_of_passes, "iterations of all passes"},
     {&Figures::spectra_moved, "spectra moved in the last pass [dB]"},
+    {&Figures::largest_slip, "largest slip [contact cells]"},
+    {&Figures::largest_rotation, "largest rotation [degrees]"},
     {&Figures::state_file, "state file [MB]"},
     {&Figures::earlier_iterations, "iterations before the run was continued"},
     {&Figures::fields_in_memory, "interface fields kept in memory [MB]"},

@@ -22,7 +22,9 @@ struct Figures : OwnFigures {
   std::optional<double> interface_error, static_interface_error;  // J
   std::optional<double> mean_frequency;                           // Hz
   std::optional<double> passes, iterations_of_passes;
-  std::optional<double> spectra_moved;       // dB, in the last pass
+  std::optional<double> spectra_moved;  // dB, in the last pass
+  std::optional<double> largest_slip,
+      largest_rotation;                      // contact cells, degrees; where small displacements do not hold
   std::optional<double> state_file;          // MB
   std::optional<double> earlier_iterations;  // before the run was continued
 };

@@ -13,6 +13,10 @@ inline constexpr double hourglass_energy = 10.0;      // %
 inline constexpr double iteration_error = 1.0;        // %, in energy norm, where a tolerance could leave 0.1 %
 inline constexpr double discretisation_error = 30.0;  // %, of the time step, of the mesh
 inline constexpr double spectrum_band = 6.0;          // dB, mean over a spectrum's frequencies: a factor of two
+inline constexpr double loop_energy_error = 0.05;     // of the loss of a cycle, that the energy balance misses
+inline constexpr double rotation = 5.0;               // degrees, of a cell: what small displacements bear
+inline constexpr double slip_in_cells = 0.5;          // of a contact cell, along the slip
+inline constexpr double passing_in_cells = 0.01;      // of a cell, of released sides into each other
 inline constexpr double bolt_shortening = 0.01;       // m, the longest that load.shortening takes
 
 // What the springs hold (%) and the error in energy norm (%) that goes with it.

@@ -20,11 +20,19 @@ struct Path {
 };
 
 struct Cycle {
-  int start = 0, turn = 0;  // rows
+  int start = 0, turn = 0, close = 0;  // rows
   double amplitude = 0.0, force_amplitude = 0.0, mean = 0.0, mean_force = 0.0;
   double on_reversal = 0.0, at_end = 0.0;  // N/m
   double loss = 0.0;                       // J
   bool has_loss() const { return loss > smallest_loss * amplitude * force_amplitude; }
+  bool gains() const { return loss < -smallest_loss * amplitude * force_amplitude; }
+  bool has_converged(const LoopRows& rows) const {
+    return rows.converged.empty() || std::all_of(rows.converged.begin() + start, rows.converged.begin() + close + 1,
+                                                 [](char is_there) { return is_there != 0; });
+  }
+  double energy_error(const LoopRows& rows) const {
+    return rows.balance.empty() ? not_known : std::abs(rows.balance[close] - rows.balance[start]);
+  }
 };
 
 // Slope of the rows i and i + step, or further along where the displacement stands still.
@@ -57,6 +65,7 @@ bool close_cycle(const Path& path, int start, int turn, int end, Cycle& cycle) {
   const double back = path.x[turn] - x_last, force_back = path.f[turn] - f_last;
   cycle.start = start;
   cycle.turn = turn;
+  cycle.close = std::min(i, end);
   cycle.amplitude = 0.25 * std::abs(range + back);
   cycle.force_amplitude = 0.25 * std::abs(path.f[turn] - path.f[start] + force_back);
   cycle.mean = 0.25 * (2 * path.x[turn] + path.x[start] + x_last);
@@ -148,10 +157,10 @@ Table backbone_table(const std::array<Side, 2>& sides) {
   return table;
 }
 
-Table cycle_table(const Table& loop, const std::vector<Cycle>& cycles, const Side& side) {
+Table cycle_table(const Table& loop, const std::vector<Cycle>& cycles, const Side& side, const LoopRows& rows) {
   Table table{{"time", "amplitude", "force_amplitude", "mean", "mean_force", "secant", "reversal", "end", "loss",
-               "loss_factor", "exponent", "masing_loss"},
-              {"s", "m", "N", "m", "N", "N/m", "N/m", "N/m", "J", "", "", "J"},
+               "loss_factor", "exponent", "masing_loss", "energy_error", "converged"},
+              {"s", "m", "N", "m", "N", "N/m", "N/m", "N/m", "J", "", "", "J", "J", ""},
               {},
               {}};
   table.columns.resize(table.names.size());
@@ -175,7 +184,9 @@ Table cycle_table(const Table& loop, const std::vector<Cycle>& cycles, const Sid
                           c.loss,
                           c.loss / (std::numbers::pi * secant * c.amplitude * c.amplitude),
                           local,
-                          masing};
+                          masing,
+                          c.energy_error(rows),
+                          c.has_converged(rows) ? 1.0 : 0.0};
     for (size_t i = 0; i < table.columns.size(); ++i) table.columns[i].push_back(row[i]);
     table.step.push_back(loop.step[c.start]);
     before = &c;
@@ -252,28 +263,38 @@ double exponent_of(const std::vector<double>& x, const std::vector<double>& y) {
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-LoopSummary summarise_loop(const Table& table, int first) {
-  const Path path{table.column("displacement"), table.column("force")};
+LoopSummary summarise_loop(const Table& table, int first, const LoopRows& rows) {
+  Path path{table.column("displacement"), table.column("force")};
   LoopSummary summary;
+  const auto [low, high] = std::minmax_element(path.x.begin() + first, path.x.end());
+  summary.range = *high - *low;
+  if (summary.range <= rows.resolution) path.x.assign(path.x.size(), path.x[first]);  // it does not move
   const std::array<Side, 2> sides = first_loading(path, first);
   // That of more rows: to and fro, the second side shows only the ends that happen to reach a little further.
   const Side& side = sides[0].x.size() >= sides[1].x.size() ? sides[0] : sides[1];
   const std::vector<Cycle> cycles = cycles_of(path, turning_points(path.x, path.f, first));
-  summary.cycles = cycle_table(table, cycles, side);
+  summary.cycles = cycle_table(table, cycles, side, rows);
   summary.backbone = backbone_table(sides);
   std::vector<double> amplitude, force, loss;
   for (const Cycle& c : cycles) {
+    summary.n_gaining += c.gains();
     if (!c.has_loss()) continue;
+    if (!rows.balance.empty()) summary.energy_error = std::max(summary.energy_error, c.energy_error(rows) / c.loss);
     amplitude.push_back(c.amplitude);
     force.push_back(c.force_amplitude);
     loss.push_back(c.loss);
   }
   summary.exponent = exponent_of(force, loss);
   summary.displacement_exponent = exponent_of(amplitude, loss);
-  const bool has_side = side.x.size() > 1;
-  summary.stiffness = has_side ? side.f[1] / side.x[1] : not_known;
-  summary.secant = has_side ? side.f.back() / side.x.back() : not_known;
-  summary.largest_force = side.f.back();
+  const auto stiffness = [&](size_t row) {
+    // Where the force turns against the displacement there is no stiffness: inertia, or a load between the two places.
+    return row > 0 && row < side.x.size() && side.f[row] > 0.0 ? side.f[row] / side.x[row] : not_known;
+  };
+  size_t visible = 1;
+  while (visible < side.x.size() && side.x[visible] <= rows.resolution) ++visible;
+  summary.stiffness = stiffness(visible);
+  summary.secant = stiffness(side.x.size() - 1);
+  summary.largest_force = std::isfinite(summary.secant) ? side.f.back() : not_known;
   return summary;
 }
 

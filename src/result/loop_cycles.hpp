@@ -14,14 +14,25 @@ struct LoopSummary {
       0.0;  // of loss against force amplitude, least squares; nan where two cycles with a loss are not there
   double displacement_exponent = 0.0;        // the same against displacement amplitude
   double stiffness = 0.0;                    // N/m, of the first rows of the backbone; nan where there is none
-  double secant = 0.0, largest_force = 0.0;  // N/m and N, at its end
+  double secant = 0.0, largest_force = 0.0;  // N/m and N, at its end; nan likewise
+  double range = 0.0;                        // m, of the displacement
+  int n_gaining = 0;                         // cycles with a negative loss
+  double not_converged = 0.0;                // increments, of the steps that it was asked for
+  double energy_error = 0.0;                 // of the loss of a cycle, largest share that the run's balance misses
+};
+
+// What is known of the rows of a loop beside their values; empty: nothing to say.
+struct LoopRows {
+  std::vector<char> converged;  // of each row
+  std::vector<double> balance;  // J, energy that the run's balance misses so far
+  double resolution = 0.0;      // m, what the tolerance leaves of a displacement: less is no motion
 };
 
 // table: columns time (s), displacement (m), force (N), steps; first: the row that counts as the origin (the tightened
 // state). The path is cut at the turning points of the displacement; travels below a thousandth of the whole range are
 // no turn. A cycle is a branch and the way back to where it began, closed by a straight line where it misses that by at
 // most a fifth of its range.
-LoopSummary summarise_loop(const Table& table, int first);
+LoopSummary summarise_loop(const Table& table, int first, const LoopRows& rows = {});
 
 // Rows at which the displacement turns, the ends of the path included; where it stands still, the row at which the
 // force turns.

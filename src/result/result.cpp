@@ -1,11 +1,23 @@
 #include "result/result.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.hpp"
 #include "base/names.hpp"
 
 namespace dygita {
+
+double BoltSummary::largest() const {
+  double most = std::max({std::abs(lowest), std::abs(highest), std::abs(last)});
+  for (const double force : after_static) most = std::max(most, std::abs(force));
+  return most;
+}
+
+std::optional<double> BoltSummary::loss() const {
+  if (!(tightened > 0.1 * largest())) return std::nullopt;
+  return 1.0 - last / tightened;
+}
 
 const std::vector<double>& Table::column(const std::string& name) const {
   const auto found = std::find(names.begin(), names.end(), name);

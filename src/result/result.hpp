@@ -38,6 +38,7 @@ struct StepSummary {
   long iterations = 0;
   double worst_indicator = 0.0;  // largest accepted
   double seconds = 0.0;
+  std::vector<Missed> missed;  // increments that did not converge, where the solver tells of them
 };
 
 // What VDI 2230's hand formula says of a bolt (manual, eq. B3-B6).
@@ -62,8 +63,10 @@ struct BoltSummary {
   double tightened = 0.0;              // N, at the end of the last step that shortened or preloaded it
   std::optional<BoltByHand> formula;   // where the deck gives the bolt's dimensions
 
-  // Of what the bolt's own tightening gave, what is gone at the end; zero where that is nothing.
-  double loss() const { return tightened != 0.0 ? 1.0 - last / tightened : 0.0; }
+  // Of what the bolt's own tightening gave, the share that is gone at the end; none where the bolt was hardly
+  // tightened: a tenth of the largest force through it, which then is the load's and not the bolt's.
+  std::optional<double> loss() const;
+  double largest() const;  // N, modulus: at the end of static steps, in the dynamic ones, at the end
 };
 
 struct Scenes;
@@ -88,6 +91,8 @@ struct RunResult {
   Table convergence;  // time, step, iterations, indicator, converged (1 or 0)
   std::vector<StepSummary> steps;
   std::shared_ptr<const InterfaceFields> interface_fields;  // what start_from takes; null: the solver keeps none
+  std::vector<std::string> warnings;                        // of who watched the run
+  std::vector<int> overloaded_steps;                        // static steps in which something slides or comes off
   bool converged = true;
   bool interrupted = false;
   long iterations = 0;  // all increments of all steps

@@ -15,12 +15,12 @@
 #include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
 #include "result/collector.hpp"
-#include "result/limits.hpp"
 #include "result/penetration_watch.hpp"
 #include "result/scene_recorder.hpp"
 #include "run/keep_state.hpp"
 #include "run/passes.hpp"
 #include "run/run_files.hpp"
+#include "run/run_warnings.hpp"
 #include "solution/step_model.hpp"
 
 namespace dygita {
@@ -41,8 +41,8 @@ void summarise(const Problem& problem, const SolverFigures& figures, RunResult& 
   for (size_t i = 0; i < figures.steps.size(); ++i) {
     const StepFigures& f = figures.steps[i];
     const Step& step = *problem.steps[i];
-    result.steps.push_back(
-        {step.name, step.is_static, f.increments, f.not_converged, f.iterations, f.worst_indicator, f.seconds});
+    result.steps.push_back({step.name, step.is_static, f.increments, f.not_converged, f.iterations, f.worst_indicator,
+                            f.seconds, f.missed});
     result.iterations += f.iterations;
     increments += f.increments;
     if (f.not_converged > 0) result.converged = false;
@@ -56,80 +56,6 @@ void summarise(const Problem& problem, const SolverFigures& figures, RunResult& 
   static_cast<OwnFigures&>(result.figures) = figures.own;
   result.figures.factor_memory = figures.factor_bytes / 1e6;
   result.figures.gap_difference = figures.gap_difference;
-}
-
-// Numerical dissipation and energy gain are the price of dt and mesh at impacts: above a few percent the answer is not
-// to be trusted.
-void warn_of_losses(const Problem& problem, const RunResult& result) {
-  const double lost = result.figures.numerical_dissipation.value(), gained = result.figures.energy_gain.value(),
-               open = result.figures.energy_imbalance.value();
-  if (problem.explicit_dynamics) {
-    const double held = limit::penalty_energy_of(result.figures.penalty_error.value());
-    if (held > limit::penalty_energy)
-      warn(
-          fmt::format("the penalty springs hold up to {:.1f} % of the energy: a larger 'penalty' of solver.explicit "
-                      "reduces the overlap of the sides",
-                      held));
-    if (const double hourglass = result.figures.hourglass_energy.value_or(0.0); hourglass > limit::hourglass_energy)
-      warn(fmt::format(
-          "hourglass modes hold up to {:.1f} % of the energy: take smaller elements or integration = \"full\"",
-          hourglass));
-    if (open > limit::energy_imbalance)
-      warn(fmt::format("the energy balance is open by {:.2f} %: take a smaller 'safety' of solver.explicit", open));
-    return;
-  }
-  if (lost > limit::numerical_dissipation)
-    warn(
-        fmt::format("numerical dissipation takes {:.1f} % of the energy (impacts; static increments that close a gap): "
-                    "a smaller dt, smaller elements or more static increments reduce it",
-                    lost));
-  if (gained > limit::energy_gain)
-    warn(
-        fmt::format("the numerical energy gain is {:.2f} % of the energy: take a smaller dt or tolerance, or more "
-                    "static increments",
-                    gained));
-  if (open > limit::energy_imbalance)
-    warn(fmt::format(
-        "the energy balance is open by {:.2f} %: {}", open,
-        result.converged
-            ? "every increment has converged, so this is an error of the program: please report it with the deck"
-            : "some increments have not converged"));
-}
-
-// The run's own estimates, where they are too large to build on.
-void warn_of_errors(const Problem& problem, const RunResult& result) {
-  const Figures& figures = result.figures;
-  const double iteration = figures.iteration_error.value_or(0.0), still = figures.static_iteration_error.value_or(0.0);
-  if (!problem.monolithic && !problem.explicit_dynamics && iteration > limit::iteration_error && result.converged)
-    warn(fmt::format(
-        "the tolerance {:g} leaves an error of about {:.2g} % (energy norm) in the shock: {:.1g} would leave 0.1 %",
-        problem.solver.tolerance, iteration, 0.1 * problem.solver.tolerance / iteration));
-  if (!problem.monolithic && !problem.explicit_dynamics && still > limit::iteration_error && result.converged)
-    warn(
-        fmt::format("the static tolerance {:g} leaves an error of about {:.2g} % (energy norm) in the static steps: "
-                    "{:.1g} would leave 0.1 %",
-                    problem.solver.static_tolerance, still, 0.1 * problem.solver.static_tolerance / still));
-  if (const double e = figures.time_step_error.value_or(0.0); e > limit::discretisation_error)
-    warn(
-        fmt::format("the time step leaves an error of about {:.2g} % (energy norm) in the shock, which moves at {:.3g} "
-                    "kHz on average: use a smaller dt",
-                    e, figures.mean_frequency.value() / 1e3));
-  for (const auto& [error, text] :
-       {std::pair{figures.mesh_error, "in the shock"}, {figures.static_mesh_error, "in the static steps"}})
-    if (const double e = error.value_or(0.0); e > limit::discretisation_error)
-      warn(
-          fmt::format("the mesh leaves an error of about {:.2g} % (energy norm) {}: use smaller cells; "
-                      "'stress_error' shows where",
-                      e, text));
-}
-
-// A shortening that a preload has found has no range of its own.
-void warn_of_bolts(const RunResult& result) {
-  for (const BoltSummary& bolt : result.bolts)
-    if (std::abs(bolt.shortening) > limit::bolt_shortening)
-      warn(fmt::format(
-          "bolt '{}' is shortened by {:.3g} mm for its preload: is the force, or a gap, a thousand times too large?",
-          bolt.name, bolt.shortening * 1e3));
 }
 
 void say_summary(const Problem& problem, const RunResult& result, const std::filesystem::path& directory,
@@ -228,11 +154,7 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
   }
   const bool is_kept = !request.continues || reaches_as_far(state, *request.continues);
   if (writer && request.write_state && is_kept) keep_state(state, *writer, *result);
-  warn_of_losses(problem, *result);
-  warn_of_errors(problem, *result);
-  for (const OutputPtr& output : problem.outputs)
-    for (const std::string& warning : result->findings_of(*output).warnings) warn(warning);
-  warn_of_bolts(*result);
+  warn_of_run(problem, *result, writer && request.write_state && is_kept ? directory : std::filesystem::path());
   const std::vector<std::string> warnings = take_warnings();
   RunIdentity identity = request.identity;
   identity.threads = omp_get_max_threads();

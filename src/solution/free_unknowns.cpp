@@ -62,6 +62,15 @@ Vec FreeUnknowns::restrict_nodal(const Points& nodal) const {
   return free;
 }
 
+Points FreeUnknowns::directions() const {
+  Points along(3, size());
+  for (int node = 0; node < n_nodes(); ++node) {
+    const Mat3 own = basis(node);
+    for (int j = 0; j < count_[node]; ++j) along.col(at(node, j)) = own.col(j);
+  }
+  return along;
+}
+
 Points FreeUnknowns::expand(const Vec& free, const std::vector<double>& held) const {
   Points nodal(3, n_nodes());
   for (int node = 0; node < n_nodes(); ++node) {

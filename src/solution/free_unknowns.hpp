@@ -55,6 +55,8 @@ class FreeUnknowns {
   int at(int node, int j) const { return position_[first_[node] + j]; }
   int position(int unknown) const { return position_[unknown]; }
   Trace trace(int node, const Vec3& direction) const;
+  // Of each free unknown, 3 x size.
+  Points directions() const;
 
   // Nodal field (3 x n_nodes) to the free unknowns, and back with values of the held directions.
   Vec restrict_nodal(const Points& nodal) const;

@@ -20,6 +20,7 @@ class ImplicitPiece : public Piece {
   const std::vector<InterfaceRow>& rows() const override { return op_.setup().rows; }
   const Vec& node_masses() const override { return op_.setup().body->mass->lumped; }
   const Vec& unknown_masses() const override { return op_.mass().lumped(); }
+  Points unknown_directions() const override { return op_.unknowns().directions(); }
   bool is_massless(int node) const override;
   bool has_motions() const override { return op_.has_motions(); }
   Points elastic_force(const Points& displacement) const override { return op_.elastic_force(displacement); }

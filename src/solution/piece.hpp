@@ -58,6 +58,7 @@ class Piece {
   int n_rows() const { return static_cast<int>(rows().size()); }
   virtual const Vec& node_masses() const = 0;     // kg
   virtual const Vec& unknown_masses() const = 0;  // kg, of the entries of the state's velocity
+  virtual Points unknown_directions() const = 0;  // 3 x n, unit, of the same entries
   // Has the node given its mass away in this step (manual, eq. S7)?
   virtual bool is_massless(int node) const = 0;
   virtual bool has_motions() const = 0;                                // of supports and prescribed ones

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/log.hpp"
 #include "base/overloaded.hpp"
 #include "law/law.hpp"
 
@@ -78,23 +79,28 @@ void check_reached(const Step& step, int increment, const std::vector<const Inte
 
 namespace {
 
+constexpr double smallest_preload = 1e6;  // Pa, mean stress: below it hardly anyone tightens a bolt
+
 void check_preload(const Problem& problem, const Step& step, const Load& load, const PreloadForce& preload,
                    const std::vector<Surface>& surfaces) {
   const Interface& interface = *preload.on;
-  const double yield = interface.law->most_tension();
-  if (std::isinf(yield)) return;
-  const double area = surfaces.at(index_of(problem.interfaces, &interface)).facing.areas.sum(), limit = yield * area;
+  const double area = surfaces.at(index_of(problem.interfaces, &interface)).facing.areas.sum();
   double most = 0.0;
   for (int i = 0; i < step.increments; ++i)
     most = std::max(most, LoadValue{preload.value, 0.0}.at_static(i, step.increments));
+  const std::string who = fmt::format("problem '{}': step '{}': {} asks for {:.6g} N through interface.{} '{}'",
+                                      problem.name, step.name, load.path, most, interface.law->word(), interface.name);
+  if (most > 0.0 && most < smallest_preload * area)
+    warn(fmt::format("{}{}, a mean stress of {:.2g} MPa: was a unit forgotten, as in {:.6g}*kN?", load.origin.prefix(),
+                     who, 1e-6 * most / area, most));
+  const TensionLimit law = interface.law->tension_limit();
+  const double limit = law.traction * area;
   if (most < limit) return;
-  throw InputError(load.origin, fmt::format("problem '{}': step '{}': {} asks for {:.6g} N through "
-                                            "interface.{} '{}', which cannot be "
-                                            "reached: it yields at {:.6g} N ({:.4g} MPa on {:.4g} mm^2) and has "
-                                            "no hardening\n    the largest force is "
-                                            "below {:.6g} N; or give it 'hardening'",
-                                            problem.name, step.name, load.path, most, interface.law->word(),
-                                            interface.name, limit, yield / 1e6, area * 1e6, limit));
+  const std::string force = fmt::format("{:.6g} N ({:.4g} MPa on {:.4g} mm^2)", limit, law.traction / 1e6, area * 1e6);
+  throw InputError(
+      load.origin,
+      fmt::format("{}, which cannot be reached: {}\n    the largest force is below {:.6g} N{}", who,
+                  fmt::format(fmt::runtime(law.why), force), limit, law.cure.empty() ? "" : "; or " + law.cure));
 }
 
 }  // namespace

@@ -11,9 +11,18 @@
 
 namespace dygita {
 
+// An increment that missed the tolerance.
+struct Missed {
+  int increment = 0, iterations = 0;
+  double indicator = 0.0, tolerance = 0.0;
+  bool is_falling = false;        // it was still on its way: the later half of the iterations has halved the indicator
+  std::optional<double> halving;  // iterations in which it did, lately
+};
+
 // What a run was, step by step.
 struct StepFigures {
   int increments = 0, not_converged = 0;
+  std::vector<Missed> missed;  // of solvers that tell
   long iterations = 0;
   double worst_indicator = 0.0;  // largest accepted
   double seconds = 0.0;

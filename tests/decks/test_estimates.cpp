@@ -2,7 +2,8 @@
 // than dt, mesh or tolerance can give.
 #include <gtest/gtest.h>
 
-#include "decks/effectivity.hpp"
+#include "decks/spectra.hpp"
+#include "result/limits.hpp"
 
 namespace dygita::test {
 namespace {
@@ -47,6 +48,97 @@ TEST_F(Pulse, knows_what_its_mesh_leaves) {
     const EstimatedRun fine = run_estimated(path_, {{"n", std::to_string(8 * n)}, {"steps", "960"}});
     expect_effective(run.figures.mesh_error.value(), true_error(run, fine, n / 2, 4 * n));
   }
+}
+
+// A bar shaken across at its foot, of tetrahedra that lock or of hexahedra that do not: how it bends is little beside
+// how it is carried along.
+const std::string shaken = R"(
+local p = param{ hexahedra = 1, n = 10, across = 1 }
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 8000 }
+local cells = p.hexahedra == 1 and mesh.box{ size = { 5*mm, 5*mm, 50*mm }, cells = { p.across, p.across, p.n } }
+  or mesh.gmsh{ file = "BAR", set = { n = p.n, cells = 0 } }:volume "bar"
+local bar = substructure{ name = "bar", material = steel, mesh = cells }
+local foot = support.fixed{ name = "foot", on = bar:face "zmin" }
+local shake = step.dynamic{ name = "shake", duration = 1.92*ms, dt = 10*us, loads = {
+  load.base_acceleration{ on = foot, direction = { 1, 0, 0 }, history = history.half_sine{ peak = 500*g0, duration = 0.5*ms } } } }
+local top = output.history{ name = "top", on = bar:face "zmax", quantity = "acceleration", direction = { 1, 0, 0 } }
+local below = output.history{ name = "below", on = bar:face "zmin", quantity = "acceleration", direction = { 1, 0, 0 } }
+problem{ name = "shaken", substructures = { bar }, supports = { foot }, steps = { shake }, outputs = { top, below,
+  output.srs{ name = "top_srs", of = top, from = 600, to = 6*kHz }, output.srs{ name = "below_srs", of = below, from = 600, to = 6*kHz } } }:run{}
+)";
+
+class ShakenBar : public Pulse {
+ protected:
+  void SetUp() override {
+    Pulse::SetUp();
+    std::string text = shaken;
+    text.replace(text.find("BAR"), 3, (std::filesystem::path(DYGITA_SOURCE_DIR) / "meshes/bar.geo").string());
+    std::ofstream(path_) << text;
+  }
+
+  // Kinetic energy of the error of a coarse mesh's velocities, at its own nodes, over that of the motion against the
+  // foot:
+  // %, at the worst instants.
+  static double true_error_of(const EstimatedRun& coarse, const EstimatedRun& fine) {
+    const Substructure &a = *coarse.problem.substructures[0], &b = *fine.problem.substructures[0];
+    const Vec mass = make_bodies(coarse.problem, make_surfaces(coarse.problem))[0].matrices->mass;
+    std::vector<int> same;
+    for (int i = 0; i < a.mesh->n_nodes(); ++i) {
+      Eigen::Index at = 0;
+      EXPECT_LT((b.mesh->nodes.colwise() - a.mesh->nodes.col(i)).colwise().norm().minCoeff(&at), 1e-9);
+      same.push_back(static_cast<int>(at));
+    }
+    double worst = 0.0, moved = 0.0;
+    for (size_t t = 0; t < fine.fields.velocity.size(); ++t) {
+      const Points &v = coarse.fields.velocity[t][0], &exact = fine.fields.velocity[t][0];
+      double error = 0.0, now = 0.0;
+      for (int i = 0; i < a.mesh->n_nodes(); ++i) {
+        error += mass[i] * (v.col(i) - exact.col(same[i])).squaredNorm();
+        now += mass[i] * (exact.col(same[i]) - exact.col(0)).squaredNorm();  // node 0 is of the foot
+      }
+      worst = std::max(worst, error);
+      moved = std::max(moved, now);
+    }
+    return 100.0 * std::sqrt(worst / moved);
+  }
+};
+
+TEST_F(ShakenBar, of_tetrahedra_that_lock_is_told_to_be_poor_and_of_hexahedra_to_be_good) {
+  const EstimatedRun fine = run_estimated(path_, {{"n", "40"}, {"across", "2"}});
+  const EstimatedRun good = run_estimated(path_, {{"n", "20"}});
+  const EstimatedRun poor = run_estimated(path_, {{"n", "20"}, {"hexahedra", "0"}});
+  for (const EstimatedRun* run : {&good, &poor})
+    std::cout << "mesh error: estimated " << run->figures.mesh_error.value() << " %, true " << true_error_of(*run, fine)
+              << " %\n";
+  expect_effective(poor.figures.mesh_error.value(), true_error_of(poor, fine));
+  EXPECT_GT(poor.figures.mesh_error.value(), limit::discretisation_error);
+  EXPECT_LT(good.figures.mesh_error.value(), limit::discretisation_error);
+}
+
+TEST_F(ShakenBar, has_no_band_for_the_motion_of_its_foot) {
+  const SpectraRun run = run_spectra(path_, {}, {}, 0.0, 0.0);
+  for (const OutputPtr& output : run.problem.outputs) {
+    const Findings& findings = run.result->findings_of(*output);
+    if (output->name == "below_srs") EXPECT_EQ(findings.band.n_rows(), 0);
+    if (output->name == "top_srs") EXPECT_GT(findings.band.n_rows(), 0);
+  }
+}
+
+// What one sees of an impact does not depend on the train one sits in.
+TEST_F(Pulse, is_estimated_alike_in_any_frame) {
+  std::string text = impact;
+  for (const auto& [from, to] :
+       {std::pair{"\"left\", 0, 100", "\"left\", 0, 1100"}, {"\"right\", L, -100", "\"right\", L, 900"}}) {
+    ASSERT_NE(text.find(from), std::string::npos);
+    text.replace(text.find(from), std::string(from).size(), to);
+  }
+  std::ofstream(path_) << impact;
+  const EstimatedRun rest = run_estimated(path_, {});
+  std::ofstream(path_) << text;
+  const EstimatedRun moving = run_estimated(path_, {});
+  for (const Figure figure : {&Figures::iteration_error, &Figures::time_step_error, &Figures::mesh_error})
+    EXPECT_NEAR((moving.figures.*figure).value(), (rest.figures.*figure).value(), 0.02 * (rest.figures.*figure).value())
+        << label(figure);
 }
 
 // A bar under a half-sine; what the run warned of.

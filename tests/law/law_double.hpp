@@ -14,7 +14,7 @@ class LawDouble : public Law {
   bool is_tie() const override { return false; }
   bool joins_its_like() const override { return false; }
   bool can_be_tightened() const override { return false; }
-  double most_tension() const override { return 0.0; }
+  TensionLimit tension_limit() const override { return {}; }
   bool allows_massless_nodes() const override { return false; }
   bool acts_on(int, bool) const override { return true; }
   LawState initial() const override { return {}; }

@@ -120,7 +120,7 @@ TEST_P(EveryLaw, that_joins_groups_or_is_tightened_holds_all_directions) {
     }
   }
   if (law->can_be_tightened()) {
-    EXPECT_GT(law->most_tension(), 0.0);
+    EXPECT_GT(law->tension_limit().traction, 0.0);
   }
 }
 

@@ -18,7 +18,7 @@ class GivenArguments : public ModelArguments {
   std::map<std::string, std::vector<std::string>> word_lists;
   std::map<std::string, std::vector<Target>> places_of;  // beside `on`
   std::map<std::string, OutputPtr> outputs;
-  std::map<std::string, StepPtr> steps;
+  std::map<std::string, StepPtr> step_of;
   std::map<std::string, std::shared_ptr<const Specification>> specifications;
 
   const std::string& path() const override { return path_; }
@@ -41,7 +41,8 @@ class GivenArguments : public ModelArguments {
     return std::string(key) == "on" ? on : given(places_of, key);
   }
   std::vector<SubstructurePtr> substructures(const char*) const override { return parts; }
-  StepPtr step(const char* key) const override { return given(steps, key); }
+  StepPtr step(const char* key) const override { return given(step_of, key); }
+  std::vector<StepPtr> steps(const char*) const override { return {}; }
   OutputPtr output(const char* key) const override { return given(outputs, key); }
   std::shared_ptr<const Specification> specification(const char* key) const override {
     return given(specifications, key);

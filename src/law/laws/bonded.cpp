@@ -17,7 +17,7 @@ class Bonded final : public Law, public TieSprings {
   bool is_tie() const override { return true; }
   bool joins_its_like() const override { return false; }
   bool can_be_tightened() const override { return true; }
-  double most_tension() const override { return std::numeric_limits<double>::infinity(); }
+  TensionLimit tension_limit() const override { return {}; }
   bool allows_massless_nodes() const override { return false; }
 
   bool acts_on(int, bool) const override { return true; }

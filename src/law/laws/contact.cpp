@@ -37,7 +37,7 @@ class Contact final : public Law, public PenaltyForm {
   bool is_tie() const override { return false; }
   bool joins_its_like() const override { return true; }
   bool can_be_tightened() const override { return false; }
-  double most_tension() const override { return 0.0; }
+  TensionLimit tension_limit() const override { return {0.0, "it cannot pull", ""}; }
   bool allows_massless_nodes() const override { return true; }
 
   bool acts_on(int direction, bool) const override { return direction == 0 || friction_ > 0.0; }

@@ -26,7 +26,10 @@ class Plastic final : public Law, public TieSprings {
   bool is_tie() const override { return false; }
   bool joins_its_like() const override { return false; }
   bool can_be_tightened() const override { return true; }
-  double most_tension() const override { return hardening_ > 0.0 ? std::numeric_limits<double>::infinity() : yield_; }
+  TensionLimit tension_limit() const override {
+    if (hardening_ > 0.0) return {};
+    return {yield_, "it yields at {} and has no hardening", "give it 'hardening'"};
+  }
   bool allows_massless_nodes() const override { return false; }
 
   bool acts_on(int, bool) const override { return true; }

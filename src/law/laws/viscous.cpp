@@ -25,7 +25,7 @@ class Viscous final : public Law {
   bool is_tie() const override { return false; }
   bool joins_its_like() const override { return false; }
   bool can_be_tightened() const override { return false; }
-  double most_tension() const override { return std::numeric_limits<double>::infinity(); }
+  TensionLimit tension_limit() const override { return {}; }
   bool allows_massless_nodes() const override { return false; }
 
   bool acts_on(int direction, bool is_static) const override { return !is_static && coefficient_[direction] > 0.0; }

@@ -1,4 +1,6 @@
 // load.shortening: draws the two sides of an interface together by a length, as a nut does.
+#include <spdlog/fmt/fmt.h>
+
 #include "model/load.hpp"
 #include "model/tightening.hpp"
 
@@ -17,7 +19,17 @@ class Shorten final : public Load {
   bool can_act_on(const Target& target) const override { return can_be_tightened(target); }
   bool is_everywhere() const override { return false; }
   const char* unit() const override { return "m"; }
-  std::optional<Complaint> complaint(const Step& step) const override { return static_only(step, tighten_before); }
+  std::optional<Complaint> complaint(const Step& step) const override {
+    if (!step.is_static) return static_only(step, tighten_before);
+    for (int i = 1; i <= step.increments; ++i)
+      if (const double by = values[0]->history.value(static_cast<double>(i) / step.increments); by < 0.0)
+        return Complaint{fmt::format(" asks for {:.6g} m in increment {}: a nut draws the sides together, 'by' is not "
+                                     "negative",
+                                     by, i),
+                         "by = 0 loosens the bolt; what pushes two sides apart is an interface.contact with a "
+                         "negative 'gap'"};
+    return std::nullopt;
+  }
   std::vector<Effect> effects() const override {
     std::vector<Effect> all;
     for (const Target& target : on)

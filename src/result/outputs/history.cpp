@@ -1,6 +1,9 @@
 // output.history: a quantity against time, as the mean over a face or a region (manual, instants and means).
+#include <algorithm>
+
 #include "fem/assembly.hpp"
 #include "model/check.hpp"
+#include "model/load.hpp"
 #include "result/output_table.hpp"
 #include "result/recorder.hpp"
 #include "result/surface_sums.hpp"
@@ -160,11 +163,47 @@ class HistoryOutput final : public Output {
     return std::make_unique<HistoryRecorder>(columns(), problem, request_);
   }
 
+  bool is_prescribed(const Problem& problem) const override {
+    return std::all_of(problem.steps.begin(), problem.steps.end(), [&](const StepPtr& step) {
+      return step->is_static || std::all_of(request_.on.begin(), request_.on.end(), [&](const Target& target) {
+               const std::optional<FaceOrRegion> place = check::place_of(target);
+               return place && is_held(problem, *step, *place);
+             });
+    });
+  }
+
   std::optional<HistoryKind> history() const override {
     return HistoryKind{request_.what.name, request_.direction.has_value()};
   }
 
  private:
+  // Are all its nodes on one support that holds them, shaken or at rest, or under one load that moves them along its
+  // direction?
+  bool is_held(const Problem& problem, const Step& step, const FaceOrRegion& place) const {
+    const std::vector<int> nodes = check::nodes_at(place);
+    const auto lies_in = [&](const FaceOrRegion& other) {
+      if (&check::part_of(other) != &check::part_of(place)) return false;
+      const std::vector<int> all = check::nodes_at(other);
+      return std::includes(all.begin(), all.end(), nodes.begin(), nodes.end());
+    };
+    for (const SupportPtr& support : supports_of(problem, step))
+      if (support->kind->holds(false) == Directions::all &&
+          std::any_of(support->on.begin(), support->on.end(), lies_in))
+        return true;
+    for (const LoadPtr& load : step.loads)
+      for (const Effect& effect : load->effects())
+        if (const auto* motion = std::get_if<PrescribedMotion>(&effect);
+            motion && moves_along(*motion) && lies_in(motion->on))
+          return true;
+    return false;
+  }
+
+  bool moves_along(const PrescribedMotion& motion) const {
+    for (int d = 0; d < 3; ++d)
+      if (!motion.along[d] && (!request_.direction || std::abs((*request_.direction)[d]) > 1e-9)) return false;
+    return true;
+  }
+
   // Why it cannot be on a target; empty: it can.
   std::string refused(const Target& target) const {
     const bool is_interface = std::holds_alternative<InterfacePtr>(target);

@@ -5,94 +5,62 @@
 
 #include "base/log.hpp"
 #include "model/check.hpp"
+#include "result/limits.hpp"
 #include "result/loop_cycles.hpp"
+#include "result/loop_recorder.hpp"
 #include "result/output_table.hpp"
-#include "result/recorder.hpp"
-#include "result/surface_sums.hpp"
-#include "result/weighted_nodes.hpp"
 
 namespace dygita {
 
 namespace {
 
-struct LoopRequest {
-  std::vector<Target> on;             // interfaces, or supports
-  Vec3 direction;                     // unit
-  std::vector<FaceOrRegion> between;  // one (against the ground) or two; empty: both sides of what it is on
-  StepPtr after;                      // none: from the start
+// "steps 'load' to 'back'".
+std::string steps_text(const Problem& problem, const std::pair<int, int>& range) {
+  const std::vector<StepPtr>& steps = problem.steps;
+  if (range.second - range.first == 1) return "step '" + steps[range.first]->name + "'";
+  return "steps '" + steps[range.first]->name + "' to '" + steps[range.second - 1]->name + "'";
+}
 
-  bool is_of_supports() const { return std::holds_alternative<SupportPtr>(on.front()); }
-};
-
-class LoopRecorder : public TableRecorder {
- public:
-  LoopRecorder(const Columns& columns, const Problem& problem, const LoopRequest& request)
-      : TableRecorder(columns), problem_(problem), request_(request) {
-    for (const FaceOrRegion& place : request.between) between_.push_back(weighted_nodes(problem, place));
-  }
-
-  void begin_step(const Instant& instant) override {
-    before_ = displacement(instant);
-    if (instant.i_step == 0) add_row(instant, instant.time(), {before_, 0.0});
-  }
-
-  // The force is a mean over a time step; so is the displacement then.
-  void accept(const Instant& instant) override {
-    const double now = displacement(instant),
-                 force = resultant(instant, problem_, request_.on).force.dot(request_.direction);
-    add_row(instant, mean_time(instant),
-            {instant.is_static() ? now : 0.5 * (before_ + now), request_.is_of_supports() ? -force : force});
-    before_ = now;
-  }
-
- private:
-  // Of side 2 against side 1; the ground is side 1 of a support.
-  double displacement(const Instant& instant) const {
-    if (!between_.empty()) {
-      Vec3 moved = mean_over(between_.back(), instant.displacement(between_.back().part));
-      if (between_.size() > 1) moved -= mean_over(between_.front(), instant.displacement(between_.front().part));
-      return moved.dot(request_.direction);
-    }
-    double sum = 0.0, area = 0.0;
-    for (const int s : surfaces_of(instant, request_.on)) {
-      const Surface& surface = (*instant.model.surfaces)[s];
-      const Points u_1 = instant.displacement(surface.part_1);
-      const Points u_2 = surface.part_2 >= 0 ? instant.displacement(surface.part_2) : Points();
-      for (int i = 0; i < surface.n_points(); ++i) {
-        Vec3 jump = -u_1.col(surface.facing.nodes_1[i]);
-        if (surface.part_2 >= 0) jump += u_2.col(surface.facing.nodes_2[i]);
-        sum += surface.facing.areas[i] * jump.dot(request_.direction);
-        area += surface.facing.areas[i];
-      }
-    }
-    // A wall is side 2 of its surface, and side 1 here.
-    return (request_.is_of_supports() ? -sum : sum) / area;
-  }
-
-  const Problem& problem_;
-  const LoopRequest& request_;
-  std::vector<WeightedNodes> between_;
-  double before_ = 0.0;
-};
-
-std::string line_of(const std::string& name, const LoopSummary& loop) {
+std::string line_of(const std::string& name, const LoopSummary& loop, double resolution, const std::string& where) {
   std::string line = fmt::format("loop '{}': ", name);
+  if (loop.range <= resolution)
+    return line + fmt::format(
+                      "nothing moves in {}: the displacement stays within {:.2g} m, and the tolerance leaves "
+                      "{:.2g} m",
+                      where, loop.range, resolution);
   const int n = loop.cycles.n_rows();
   if (n == 0) {
-    line += "no closed cycle";
+    line += "no closed cycle in " + where;
   } else {
     const std::vector<double>& force = loop.cycles.column("force_amplitude");
     const auto [low, high] = std::minmax_element(force.begin(), force.end());
     line += fmt::format("{} cycle{} of {:.4g}{} N", n, n > 1 ? "s" : "", *low,
                         n > 1 ? fmt::format(" to {:.4g}", *high) : "");
-    if (std::isfinite(loop.exponent))
+    if (std::isfinite(loop.exponent) && loop.n_gaining == 0)
       line += fmt::format(", loss grows with the force to the power {:.2f}, with the displacement to the power {:.2f}",
                           loop.exponent, loop.displacement_exponent);
   }
-  if (std::isfinite(loop.stiffness))
+  if (std::isfinite(loop.stiffness) && std::isfinite(loop.secant))
     line += fmt::format("; stiffness {:.4g} N/m at first, {:.4g} N/m at {:.4g} N", loop.stiffness, loop.secant,
                         loop.largest_force);
   return line;
+}
+
+// What makes a loop doubtful.
+std::vector<std::string> doubts_of(const std::string& name, const LoopSummary& loop) {
+  std::vector<std::string> doubts;
+  if (loop.n_gaining > 0)
+    doubts.push_back(
+        fmt::format("loop '{}': {} of its {} cycles gain{} energy, which no joint does: inertia of the parts (a "
+                    "dynamic step), or a "
+                    "load between the two places; their loss factors mean nothing",
+                    name, loop.n_gaining, loop.cycles.n_rows(), loop.n_gaining == 1 ? "s" : ""));
+  if (loop.energy_error > limit::loop_energy_error)
+    doubts.push_back(
+        fmt::format("loop '{}': the energy balance misses up to {:.2g} % of the loss of a cycle: take a "
+                    "tighter tolerance (static_tolerance of solver.latin)",
+                    name, 100.0 * loop.energy_error));
+  return doubts;
 }
 
 // What a deck reads.
@@ -101,13 +69,15 @@ void give(const LoopSummary& loop, Findings& findings) {
   findings.values = {{"exponent", loop.exponent},
                      {"displacement_exponent", loop.displacement_exponent},
                      {"stiffness", loop.stiffness},
-                     {"secant", loop.secant}};
+                     {"secant", loop.secant},
+                     {"not_converged", loop.not_converged}};
 }
 
 class LoopOutput final : public Output {
  public:
   explicit LoopOutput(const ModelArguments& a)
-      : Output(a), request_{a.targets("on"), a.unit_vector("direction"), a.places("between"), a.step("after")} {}
+      : Output(a),
+        request_{a.targets("on"), a.unit_vector("direction"), a.places("between"), a.step("after"), a.steps("steps")} {}
 
   void check(const Problem& problem) const override {
     check::is_on(problem, *this, request_.on, [](const Target& target) {
@@ -120,10 +90,12 @@ class LoopOutput final : public Output {
 
   Columns columns() const override { return {{"time", "s"}, {"displacement", "m"}, {"force", "N"}}; }
 
-  Notes record(const Table&, const Findings&) const override {
+  Notes record(const Table&, const Findings& findings) const override {
     Notes notes;
     note_targets(request_.on, notes);
     note_direction(request_.direction, notes);
+    if (const auto missed = findings.values.find("not_converged"); missed != findings.values.end())
+      notes.push_back({"increments_not_converged", static_cast<int>(missed->second)});
     return notes;
   }
 
@@ -136,21 +108,35 @@ class LoopOutput final : public Output {
   }
 
   void conclude(const RunEnd& end, Table& table, Findings& findings) const override {
-    if (table.n_rows() == 0) return;
-    int first = 0;
-    const int i_after = request_.after ? index_of(end.problem.steps, request_.after.get()) : -1;
-    for (int i = 0; i < table.n_rows(); ++i)
-      if (table.step[i] <= i_after) first = i;
-    const LoopSummary loop = summarise_loop(table, first);
+    const auto* trace = std::any_cast<LoopTrace>(&findings.model);
+    if (table.n_rows() == 0 || !trace) return;
+    const auto [begin, last] = request_.range(end.problem);
+    int first = 0, n = 0, missed = 0;
+    for (int i = 0; i < table.n_rows(); ++i) {
+      if (table.step[i] < begin) first = i;
+      if (table.step[i] < last) n = i + 1;
+      missed += table.step[i] >= begin && table.step[i] < last && !trace->converged[i];
+    }
+    cut(table, n);
+    const bool is_static = begin < static_cast<int>(end.problem.steps.size()) && end.problem.steps[begin]->is_static;
+    LoopRows rows{{trace->converged.begin(), trace->converged.begin() + n},
+                  {trace->balance.begin(), trace->balance.begin() + n},
+                  10.0 * tolerance_of(end.problem, is_static) * trace->moved};
+    LoopSummary loop = summarise_loop(table, first, rows);
+    loop.not_converged = missed;
     give(loop, findings);
     const auto note = [&](const char* what, double value) {
-      if (std::isfinite(value)) findings.figures["loop '" + name + "', " + what] = value;
+      if (std::isfinite(value) && missed == 0) findings.figures["loop '" + name + "', " + what] = value;
     };
     note("exponent of the loss over the force", loop.exponent);
     note("exponent of the loss over the displacement", loop.displacement_exponent);
     note("first stiffness [N/m]", loop.stiffness);
-    findings.lines = {line_of(name, loop) +
-                      (end.result.converged ? "" : "; NOT TO BE USED: increments have not converged")};
+    const std::string where = steps_text(end.problem, {begin, last});
+    findings.lines = {line_of(name, loop, rows.resolution, where)};
+    if (missed > 0)
+      findings.lines[0] +=
+          fmt::format("; NOT TO BE USED: {} of {} increments have not converged", missed, n - 1 - first);
+    findings.warnings = doubts_of(name, loop);
   }
 
   void hollow(const Table& table, Findings& findings) const override {
@@ -160,7 +146,7 @@ class LoopOutput final : public Output {
       for (std::vector<double>& column : part->columns) column.assign(1, not_known);
       part->step.assign(1, 0);
     }
-    loop.exponent = loop.displacement_exponent = loop.stiffness = loop.secant = not_known;
+    loop.exponent = loop.displacement_exponent = loop.stiffness = loop.secant = loop.not_converged = not_known;
     give(loop, findings);
   }
 
@@ -184,7 +170,40 @@ class LoopOutput final : public Output {
       check::fail(problem, origin,
                   fmt::format("{}: 'between' takes one or two places, got {}", who, request_.between.size()));
     for (const FaceOrRegion& place : request_.between) check::place_exists(problem, origin, who + " is between", place);
-    if (request_.after) check::listed(problem, who + " begins after step", *request_.after, problem.steps, "steps");
+    steps_follow(problem);
+  }
+
+  // Of the displacements in steps of a kind.
+  static double tolerance_of(const Problem& problem, bool is_static) {
+    if (problem.monolithic) return problem.monolithic->tolerance;
+    if (problem.explicit_dynamics && !is_static) return 0.0;
+    return is_static ? problem.solver.static_tolerance : problem.solver.tolerance;
+  }
+
+  static void cut(Table& table, int n) {
+    for (std::vector<double>& column : table.columns) column.resize(n);
+    table.step.resize(n);
+  }
+
+  void steps_follow(const Problem& problem) const {
+    const std::string who = known_as();
+    if (request_.after) {
+      check::listed(problem, who + " begins after step", *request_.after, problem.steps, "steps");
+      if (request_.after == problem.steps.back())
+        check::fail(problem, origin, who + " begins after '" + request_.after->name + "', the last step");
+    }
+    for (size_t i = 0; i < request_.steps.size(); ++i) {
+      const Step& step = *request_.steps[i];
+      check::listed(problem, who + " is closed in step", step, problem.steps, "steps");
+      const int at = index_of(problem.steps, &step);
+      if (i > 0 && at != index_of(problem.steps, request_.steps[i - 1].get()) + 1)
+        check::fail(problem, origin,
+                    fmt::format("{}: step '{}' does not follow on '{}'", who, step.name, request_.steps[i - 1]->name),
+                    "'steps' are those of the problem, one after the other");
+      if (request_.after && at <= index_of(problem.steps, request_.after.get()))
+        check::fail(problem, origin,
+                    fmt::format("{}: step '{}' is not after '{}'", who, step.name, request_.after->name));
+    }
   }
 
   void sides_are_in_order(const Problem& problem) const {

@@ -78,7 +78,8 @@ class SrsOutput final : public Output {
     if (!srs.frequency.empty()) {
       table = empty_table(columns());
       table.columns = {srs.frequency, srs.maximax, srs.positive, srs.negative, srs.primary, srs.residual};
-      if (!end.problem.explicit_dynamics) findings.band = spectrum_band(table, srs_.quantity, end.errors);
+      if (!end.problem.explicit_dynamics && !of_->is_prescribed(end.problem))  // what is prescribed has no error
+        findings.band = spectrum_band(table, srs_.quantity, end.errors);
     }
     tell(table, findings);
   }

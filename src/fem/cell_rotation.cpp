@@ -1,0 +1,62 @@
+#include "fem/cell_rotation.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "fem/cell_loop.hpp"
+
+namespace dygita {
+
+namespace {
+
+// Mean of 1/2 curl u over a cell.
+template <class Cell>
+Vec3 mean_rotation(const Nodes<Cell::n_nodes>& x, const Nodes<Cell::n_nodes>& u) {
+  const auto& shapes = Cell::shapes();
+  Mat3 gradient = Mat3::Zero();  // d u_p / d x_q
+  double volume = 0.0;
+  for (int i = 0; i < shapes.n_points; ++i) {
+    const auto point = point_in_cell(shapes, x, i);
+    gradient += point.volume * (u * point.gradient);
+    volume += point.volume;
+  }
+  gradient /= volume;
+  return 0.5 * Vec3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0), gradient(1, 0) - gradient(0, 1));
+}
+
+}  // namespace
+
+CellRotation largest_rotation(const Mesh& mesh, const Points& displacement) {
+  CellRotation worst;
+  for (const CellBlock& block : mesh.blocks)
+    with_cell(block.type, [&](auto cell) {
+      using Cell = decltype(cell);
+      constexpr int n = Cell::n_nodes;
+      Vec angle(block.n_cells());
+      const auto compute = [&](int i) {
+        const int* nodes = block.cell(i);
+        angle[i] = std::atan(mean_rotation<Cell>(gather<n>(mesh.nodes, nodes), gather<n>(displacement, nodes)).norm());
+      };
+      parallel_for(block.n_cells(), compute, Schedule::evenly, block.n_cells() > 1000 ? 0 : 1);
+      Eigen::Index at = 0;
+      if (const double most = angle.maxCoeff(&at); most > worst.angle)
+        worst = {most, gather<n>(mesh.nodes, block.cell(static_cast<int>(at))).rowwise().mean()};
+    });
+  return worst;
+}
+
+double smallest_cell(const Mesh& mesh) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const CellBlock& block : mesh.blocks)
+    for (int i = 0; i < block.n_cells(); ++i) {
+      Vec3 low = mesh.nodes.col(block.cell(i)[0]), high = low;
+      for (int a = 1; a < nodes_per_cell(block.type); ++a) {
+        low = low.cwiseMin(mesh.nodes.col(block.cell(i)[a]));
+        high = high.cwiseMax(mesh.nodes.col(block.cell(i)[a]));
+      }
+      smallest = std::min(smallest, (high - low).minCoeff());
+    }
+  return smallest;
+}
+
+}  // namespace dygita

@@ -1,0 +1,53 @@
+#include "result/carried_motion.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include "law/law.hpp"
+
+namespace dygita {
+
+CarriedMotion::CarriedMotion(const Instant& start) {
+  const StepModel& model = start.model;
+  const auto n_motions = static_cast<Eigen::Index>(model.conditions.motions.size());
+  pull_ = Eigen::Matrix3Xd::Zero(3, n_motions);
+  square_ = Mat::Zero(n_motions, n_motions);
+  Mat3 held = Mat3::Zero();
+  for (const auto& of_part : model.conditions.held)
+    for (const auto& [node, at_node] : of_part)
+      for (int j = 0; j < at_node.n; ++j) {
+        const Vec3 d = at_node.directions.col(j);
+        held += d * d.transpose();
+        for (const auto& [i, share] : at_node.motion[j]) {
+          pull_.col(i) += share * d;
+          for (const auto& [k, other] : at_node.motion[j]) square_(i, k) += share * other;
+        }
+      }
+  for (const Surface& surface : *model.surfaces)
+    if (surface.wall && takes_part(*model.problem, *model.step, surface))
+      held += surface.facing.normals * surface.facing.normals.transpose();
+  for (const SupportPtr& support : supports_of(*model.problem, *model.step))
+    if (support->kind->absorbs()) held += Mat3::Identity();
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(held);
+  for (int d = 0; d < 3; ++d) {
+    const Vec3 axis = axes.eigenvectors().col(d);
+    if (axes.eigenvalues()[d] < 1e-6) continue;
+    held_inverse_ += axis * axis.transpose() / axes.eigenvalues()[d];
+    free_ -= axis * axis.transpose();
+  }
+  for (const auto& piece : model.pieces) mass_ += piece->node_masses().sum();
+}
+
+Vec3 CarriedMotion::at(const Instant& instant, const std::function<Vec3()>& momentum) const {
+  Vec3 carried = Vec3::Zero();
+  if (pull_.cols() > 0) {
+    const std::vector<double> motions = instant.model.motion_velocities(std::max(instant.increment, 0));
+    const Eigen::Map<const Vec> v(motions.data(), static_cast<Eigen::Index>(motions.size()));
+    const Vec3 pulled = pull_ * v;
+    const double all = v.dot(square_ * v), together = pulled.dot(held_inverse_ * pulled);
+    if (together > 0.99 * all) carried = held_inverse_ * pulled;  // all that is held moves alike
+  }
+  if (free_.trace() > 0.5 && mass_ > 0.0) carried += free_ * momentum() / mass_;
+  return carried;
+}
+
+}  // namespace dygita

@@ -1,0 +1,27 @@
+// The motion of an assembly as a whole: what shakes it, or what it has gathered where nothing holds it.
+#pragma once
+
+#include <functional>
+
+#include "solution/observer.hpp"
+
+namespace dygita {
+
+// Velocity (m/s) that a dynamic step's motions are measured against. Along directions that supports, walls or
+// prescribed motions hold it is theirs, as far as they all move alike, else zero; along others that of the centre of
+// mass.
+class CarriedMotion {
+ public:
+  explicit CarriedMotion(const Instant& start);
+  // momentum: kg m/s, of the whole assembly; asked for only where something is free to move.
+  Vec3 at(const Instant& instant, const std::function<Vec3()>& momentum) const;
+
+ private:
+  Mat3 held_inverse_ = Mat3::Zero();  // of the sum of d d' over held directions, on their span
+  Mat3 free_ = Mat3::Identity();      // on to the directions that nothing holds
+  Eigen::Matrix3Xd pull_;             // 3 x motions: sum of d times the share of a motion
+  Mat square_;                        // motions x motions: sum of the products of shares
+  double mass_ = 0.0;                 // kg
+};
+
+}  // namespace dygita

@@ -1,0 +1,211 @@
+#include "result/motion_watch.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "fem/cell_rotation.hpp"
+#include "law/law.hpp"
+#include "result/limits.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr int samples = 50;  // a step
+
+bool is_sampled(const Instant& instant) {
+  const long n = instant.model.step->n_increments(), i = instant.increment + 1, k = std::min<long>(n, samples);
+  return (i * k) / n != ((i - 1) * k) / n;
+}
+
+std::string when(const Instant& instant) {
+  const std::string& step = instant.model.step->name;
+  if (instant.is_static()) return fmt::format("increment {} of static step '{}'", instant.increment + 1, step);
+  return fmt::format("t = {:.4g} ms in step '{}'", 1e3 * instant.time(), step);
+}
+
+std::string in_mm(const Vec3& place) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", 1e3 * place[0], 1e3 * place[1], 1e3 * place[2]);
+}
+
+// Where the points of side 1 stand.
+Points places_of(const Instant& instant, const Surface& surface) {
+  const Substructure& part = *instant.model.problem->substructures[surface.part_1];
+  Points places(3, surface.n_points());
+  for (int i = 0; i < surface.n_points(); ++i)
+    places.col(i) = part.mesh->nodes.col(surface.facing.nodes_1[i]) + part.place;
+  return places;
+}
+
+double extent(const Points& places, const Vec3& along) {
+  const Eigen::RowVectorXd way = along.transpose() * places;
+  return way.maxCoeff() - way.minCoeff();
+}
+
+// The longest that a facet around node `node` of side 1 reaches along a direction.
+double cell_along(const Surface& surface, const Mesh& mesh, int node, const Vec3& along) {
+  double longest = 0.0;
+  for (const Facet& facet : surface.facing.facets) {
+    const std::span<const int> nodes = facet.nodes();
+    if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) continue;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const int other : nodes) {
+      low = std::min(low, mesh.nodes.col(other).dot(along));
+      high = std::max(high, mesh.nodes.col(other).dot(along));
+    }
+    longest = std::max(longest, high - low);
+  }
+  return longest;
+}
+
+}  // namespace
+
+void MotionWatch::prepare(const Instant& instant) {
+  is_ready_ = true;
+  const Problem& problem = *instant.model.problem;
+  for (const SubstructurePtr& part : problem.substructures) {
+    parts_.push_back(part->name);
+    smallest_cell_.push_back(smallest_cell(*part->mesh));
+  }
+  rotation_.resize(parts_.size());
+  for (size_t s = 0; s < instant.model.surfaces->size(); ++s) {
+    const Surface& surface = (*instant.model.surfaces)[s];
+    Watched watched{
+        static_cast<int>(s), (surface.interface ? "interface '" : "wall '") + surface.name() + "'", {}, 0.0};
+    const Mesh& mesh = *problem.substructures[surface.part_1]->mesh;
+    std::vector<double> shortest(mesh.n_nodes(), std::numeric_limits<double>::infinity()), edges;
+    for (const Facet& facet : surface.facing.facets) {
+      const std::span<const int> rim = facet_shape(facet.type()).rim, nodes = facet.nodes();
+      for (size_t k = 0; k < rim.size(); ++k) {
+        const int a = nodes[rim[k]], b = nodes[rim[(k + 1) % rim.size()]];
+        edges.push_back((mesh.nodes.col(a) - mesh.nodes.col(b)).norm());
+        for (const int node : {a, b}) shortest[node] = std::min(shortest[node], edges.back());
+      }
+    }
+    if (edges.empty()) continue;
+    for (const int node : surface.facing.nodes_1) watched.shortest.push_back(shortest[node]);
+    std::nth_element(edges.begin(), edges.begin() + edges.size() / 2, edges.end());
+    watched.cell = edges[edges.size() / 2];
+    surfaces_.push_back(std::move(watched));
+  }
+}
+
+void MotionWatch::begin_step(const Instant& start) {
+  if (!is_ready_) prepare(start);
+}
+
+void MotionWatch::note(const Instant& instant, double share, Finding found, Finding& finding) {
+  if (!(share > finding.most)) return;
+  found.most = share;
+  found.at = when(instant);
+  found.first = finding.first.empty() && share > 1.0 ? found.at : finding.first;
+  finding = std::move(found);
+}
+
+void MotionWatch::accept(const Instant& instant) {
+  if (!is_sampled(instant) || (instant.is_static() && !instant.converged)) return;  // no equilibrium: no motion
+  std::vector<Points> displacement;
+  for (size_t i = 0; i < parts_.size(); ++i) {
+    displacement.push_back(instant.displacement(static_cast<int>(i)));
+    watch_part(instant, static_cast<int>(i), displacement.back());
+  }
+  for (Watched& watched : surfaces_) watch_surface(instant, displacement, watched);
+}
+
+// Cells turn no more than displacements differ over the smallest of them.
+void MotionWatch::watch_part(const Instant& instant, int part, const Points& displacement) {
+  const Vec3 range = displacement.rowwise().maxCoeff() - displacement.rowwise().minCoeff();
+  Finding& worst = rotation_[part];
+  const double allowed = limit::rotation * std::numbers::pi / 180.0;
+  if (range.norm() < std::max(1.0, worst.most) * std::tan(allowed) * smallest_cell_[part]) return;
+  const Substructure& body = *instant.model.problem->substructures[part];
+  const CellRotation turned = largest_rotation(*body.mesh, displacement);
+  note(instant, turned.angle / allowed, {.value = turned.angle, .place = turned.place + body.place}, worst);
+}
+
+void MotionWatch::watch_surface(const Instant& instant, const std::vector<Points>& displacement,
+                                Watched& watched) const {
+  const Surface& surface = (*instant.model.surfaces)[watched.surface];
+  const bool is_contact = surface.declared_law().shown().gap, is_released = instant.state.released[watched.surface];
+  if (!is_contact && !is_released) return;
+  const Facing& facing = surface.facing;
+  double least = std::numeric_limits<double>::infinity(), deepest = 0.0;
+  int slid = -1, at_least = 0, at_deepest = 0;
+  double furthest = std::max(1.0, watched.slip.most);  // of half the shortest edge: nothing less is looked at closely
+  Vec3 way = Vec3::Zero();
+  for (int i = 0; i < surface.n_points(); ++i) {
+    Vec3 jump = -displacement[surface.part_1].col(facing.nodes_1[i]);
+    if (surface.part_2 >= 0) jump += displacement[surface.part_2].col(facing.nodes_2[i]);
+    const Vec3 normal = facing.normals.col(i);
+    const double opened = jump.dot(normal);
+    const Vec3 tangential = jump - opened * normal;
+    if (opened < least) least = opened, at_least = i;
+    if (-opened > deepest) deepest = -opened, at_deepest = i;
+    const double share = tangential.norm() / (limit::slip_in_cells * watched.shortest[i]);
+    if (is_contact && share > furthest) furthest = share, slid = i, way = tangential;
+  }
+  const auto place = [&](int i) {
+    const Substructure& part = *instant.model.problem->substructures[surface.part_1];
+    return Vec3(part.mesh->nodes.col(facing.nodes_1[i]) + part.place);
+  };
+  if (slid >= 0) {
+    const Mesh& mesh = *instant.model.problem->substructures[surface.part_1]->mesh;
+    const double length = way.norm(), cell = cell_along(surface, mesh, facing.nodes_1[slid], way / length);
+    note(instant, length / (limit::slip_in_cells * cell),
+         {.value = length,
+          .length = extent(places_of(instant, surface), way / length),
+          .cell = cell,
+          .place = place(slid)},
+         watched.slip);
+  }
+  if (is_contact)
+    note(instant, least / watched.cell, {.value = least, .cell = watched.cell, .place = place(at_least)},
+         watched.opening);
+  if (is_released && instant.state.shortening[watched.surface] == 0.0)
+    note(instant, deepest / (limit::passing_in_cells * watched.cell),
+         {.value = deepest, .cell = watched.cell, .place = place(at_deepest)}, watched.passing);
+}
+
+void MotionWatch::finish(RunResult& result) const {
+  const auto since = [](const Finding& f) { return f.first == f.at ? "" : "; too much since " + f.first; };
+  double slip = 0.0, turned = 0.0;
+  for (const Watched& w : surfaces_) {
+    slip = std::max(slip, limit::slip_in_cells * w.slip.most);
+    if (w.slip.most > 1.0)
+      result.warnings.push_back(fmt::format(
+          "{} slides by {:.4g} mm at {}, {}{}: {}; displacements are taken as small, each node presses on the one it "
+          "faced at first",
+          w.name, 1e3 * w.slip.value, in_mm(w.slip.place), w.slip.at, since(w.slip),
+          w.slip.value > w.slip.length
+              ? fmt::format("it is {:.4g} mm long there, so that one side has left the other and is still carried",
+                            1e3 * w.slip.length)
+              : fmt::format("half of its cells is {:.4g} mm there", 0.5e3 * w.slip.cell)));
+    if (w.opening.most > 1.0)
+      result.warnings.push_back(
+          fmt::format("{} is open all over, by {:.4g} mm at least, {}{}: its sides have left each other by more than a "
+                      "cell ({:.4g} mm); where they meet again, each node still meets the one it faced at first",
+                      w.name, 1e3 * w.opening.value, w.opening.at, since(w.opening), 1e3 * w.opening.cell));
+    if (w.passing.most > 1.0)
+      result.warnings.push_back(
+          fmt::format("{} is released, and its sides pass into each other by {:.4g} mm at {}, {}{}: nothing keeps them "
+                      "apart after load.release",
+                      w.name, 1e3 * w.passing.value, in_mm(w.passing.place), w.passing.at, since(w.passing)));
+  }
+  for (size_t i = 0; i < rotation_.size(); ++i) {
+    const Finding& r = rotation_[i];
+    turned = std::max(turned, r.value * 180.0 / std::numbers::pi);
+    if (r.most > 1.0)
+      result.warnings.push_back(
+          fmt::format("substructure '{}' turns by {:.3g} degrees at {}, {}{}: displacements are taken as small, which "
+                      "holds to about {:g} degrees",
+                      parts_[i], r.value * 180.0 / std::numbers::pi, in_mm(r.place), r.at, since(r), limit::rotation));
+  }
+  if (slip > limit::slip_in_cells) result.figures.largest_slip = slip;
+  if (turned > limit::rotation) result.figures.largest_rotation = turned;
+}
+
+}  // namespace dygita

@@ -1,0 +1,177 @@
+#include "run/run_warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/log.hpp"
+#include "law/law.hpp"
+#include "result/limits.hpp"
+
+namespace dygita {
+
+namespace {
+
+// "increment 3 of 4", "increments 3, 4, 5 ... of 200".
+std::string list_increments(const StepSummary& step) {
+  std::string list;
+  const size_t shown = std::min<size_t>(step.missed.size(), 5);
+  for (size_t i = 0; i < shown; ++i) list += fmt::format("{}{}", i ? ", " : "", step.missed[i].increment + 1);
+  const int n = step.increments_not_converged;
+  return fmt::format("increment{} {}{} of {}", n > 1 ? "s" : "", list, n > static_cast<int>(shown) ? " ..." : "",
+                     step.increments);
+}
+
+// More iterations, since they still help: so many, and how to ask for them.
+std::string cure_by_iterations(const StepSummary& step, const Missed& worst, const std::filesystem::path& kept) {
+  double more = 0.0, halving = 0.0;
+  for (const Missed& m : step.missed)
+    if (m.halving) {
+      more = std::max(more, *m.halving * std::log2(m.indicator / m.tolerance));
+      halving = std::max(halving, *m.halving);
+    }
+  const int asked = std::max(static_cast<int>(std::ceil(2.0 * more / 100.0)) * 100, 100);
+  std::string text = "the indicator still falls";
+  if (more > 0.0) text += fmt::format(", by half in {:.0f} iterations: about {:.0f} more would do", halving, more);
+  text += ": ";
+  if (!kept.empty()) text += fmt::format("`dygita continue {} --iterations {}`, or ", kept.string(), asked);
+  return text + fmt::format("solver.latin{{ max_iterations = {} }}", (worst.iterations + 99) / 100 * 100 + asked);
+}
+
+// The indicator stands still: iterations do not help, if there were enough to tell.
+std::string cure_of_stall(const Problem& problem, const StepSummary& step, const Missed& worst) {
+  if (problem.solver.max_iterations > 0 && problem.solver.max_iterations < 1000)
+    return "leave out 'max_iterations': the iteration then goes on as long as it helps";
+  std::string text = "the indicator stands still: more iterations will not help; ";
+  if (worst.indicator < 30.0 * worst.tolerance)
+    return text + fmt::format("it is within {:.0f} times the tolerance: {} = {:.0e} accepts it",
+                              std::ceil(worst.indicator / worst.tolerance),
+                              step.is_static ? "static_tolerance" : "tolerance", 2.0 * worst.indicator);
+  if (!step.is_static) return text + "take half of dt";
+  const bool has_friction =
+      std::any_of(problem.interfaces.begin(), problem.interfaces.end(),
+                  [](const InterfacePtr& i) { return i->law->shown().gap && i->law->shown().slip; });
+  return text + fmt::format("take more increments{}",
+                            has_friction ? ", or see what friction alone has to hold (output.joint)" : "");
+}
+
+void warn_of_missed(const Problem& problem, const RunResult& result, const std::filesystem::path& kept) {
+  const bool is_latin = !problem.monolithic && !problem.explicit_dynamics;
+  for (size_t i = 0; i < result.steps.size(); ++i) {
+    const StepSummary& step = result.steps[i];
+    if (step.missed.empty() || !is_latin) continue;
+    const std::vector<int>& overloaded = result.overloaded_steps;
+    if (std::find(overloaded.begin(), overloaded.end(), static_cast<int>(i)) != overloaded.end()) continue;  // was told
+    const auto less = [](const Missed& a, const Missed& b) { return a.indicator < b.indicator; };
+    const Missed& worst = *std::max_element(step.missed.begin(), step.missed.end(), less);
+    const bool is_falling =
+        std::all_of(step.missed.begin(), step.missed.end(), [](const Missed& m) { return m.is_falling; });
+    warn(fmt::format(
+        "step '{}': {} not converged: the indicator is at {:.2g} after {} iterations, the tolerance is {:g}; {}",
+        step.name, list_increments(step), worst.indicator, worst.iterations, worst.tolerance,
+        is_falling ? cure_by_iterations(step, worst, kept) : cure_of_stall(problem, step, worst)));
+  }
+}
+
+// What a loose tolerance leaves adds up from increment to increment, and the balance shows it.
+std::string cure_of_balance(const Problem& problem) {
+  const LatinSettings usual;
+  const LatinSettings& asked = problem.solver;
+  if (!problem.monolithic && (asked.static_tolerance > usual.static_tolerance || asked.tolerance > usual.tolerance))
+    return fmt::format(
+        "the tolerance is loose (tolerance {:g}, static_tolerance {:g}) and its errors add up: take {:g} "
+        "and {:g}",
+        asked.tolerance, asked.static_tolerance, usual.tolerance, usual.static_tolerance);
+  return "every increment has converged: if a ten times smaller tolerance does not close it, this is an error of the "
+         "program: please report it with the deck";
+}
+
+// Numerical dissipation and energy gain are the price of dt and mesh at impacts: above a few percent the answer is not
+// to be trusted.
+void warn_of_losses(const Problem& problem, const RunResult& result) {
+  const double lost = result.figures.numerical_dissipation.value(), gained = result.figures.energy_gain.value(),
+               open = result.figures.energy_imbalance.value();
+  if (problem.explicit_dynamics) {
+    const double held = limit::penalty_energy_of(result.figures.penalty_error.value());
+    if (held > limit::penalty_energy)
+      warn(
+          fmt::format("the penalty springs hold up to {:.1f} % of the energy: a larger 'penalty' of solver.explicit "
+                      "reduces the overlap of the sides",
+                      held));
+    if (const double hourglass = result.figures.hourglass_energy.value_or(0.0); hourglass > limit::hourglass_energy)
+      warn(fmt::format(
+          "hourglass modes hold up to {:.1f} % of the energy: take smaller elements or integration = \"full\"",
+          hourglass));
+    if (open > limit::energy_imbalance)
+      warn(fmt::format("the energy balance is open by {:.2f} %: take a smaller 'safety' of solver.explicit", open));
+    return;
+  }
+  if (lost > limit::numerical_dissipation)
+    warn(
+        fmt::format("numerical dissipation takes {:.1f} % of the energy (impacts; static increments that close a gap): "
+                    "a smaller dt, smaller elements or more static increments reduce it",
+                    lost));
+  if (gained > limit::energy_gain)
+    warn(
+        fmt::format("the numerical energy gain is {:.2f} % of the energy: take a smaller dt or tolerance, or more "
+                    "static increments",
+                    gained));
+  if (open > limit::energy_imbalance)
+    warn(fmt::format("the energy balance is open by {:.2f} %: {}", open,
+                     result.converged ? cure_of_balance(problem) : "some increments have not converged"));
+}
+
+// The run's own estimates, where they are too large to build on.
+void warn_of_errors(const Problem& problem, const RunResult& result) {
+  const Figures& figures = result.figures;
+  const double iteration = figures.iteration_error.value_or(0.0), still = figures.static_iteration_error.value_or(0.0);
+  if (!problem.monolithic && !problem.explicit_dynamics && iteration > limit::iteration_error && result.converged)
+    warn(fmt::format(
+        "the tolerance {:g} leaves an error of about {:.2g} % (energy norm) in the shock: {:.1g} would leave 0.1 %",
+        problem.solver.tolerance, iteration, 0.1 * problem.solver.tolerance / iteration));
+  if (!problem.monolithic && !problem.explicit_dynamics && still > limit::iteration_error && result.converged)
+    warn(
+        fmt::format("the static tolerance {:g} leaves an error of about {:.2g} % (energy norm) in the static steps: "
+                    "{:.1g} would leave 0.1 %",
+                    problem.solver.static_tolerance, still, 0.1 * problem.solver.static_tolerance / still));
+  if (const double e = figures.time_step_error.value_or(0.0); e > limit::discretisation_error)
+    warn(
+        fmt::format("the time step leaves an error of about {:.2g} % (energy norm) in the shock, which moves at {:.3g} "
+                    "kHz on average: use a smaller dt",
+                    e, figures.mean_frequency.value() / 1e3));
+  for (const auto& [error, text] :
+       {std::pair{figures.mesh_error, "in the shock"}, {figures.static_mesh_error, "in the static steps"}})
+    if (const double e = error.value_or(0.0); e > limit::discretisation_error)
+      warn(
+          fmt::format("the mesh leaves an error of about {:.2g} % (energy norm) {}: use smaller cells; "
+                      "'stress_error' shows where",
+                      e, text));
+}
+
+// A shortening that a preload has found has no range of its own.
+void warn_of_bolts(const RunResult& result) {
+  for (const BoltSummary& bolt : result.bolts)
+    if (std::abs(bolt.shortening) > limit::bolt_shortening)
+      warn(fmt::format(
+          "bolt '{}' is shortened by {:.3g} mm for its preload: is the force, or a gap, a thousand times too large?",
+          bolt.name, bolt.shortening * 1e3));
+  for (const BoltSummary& bolt : result.bolts)
+    if (!bolt.loss() && bolt.target.value_or(bolt.tightened) > 0.0)
+      warn(
+          fmt::format("bolt '{}' is tightened to {:.4g} N, and up to {:.4g} N go through it: less than a tenth of that "
+                      "is its own, so no loss is given; was a unit forgotten, or is the joint open?",
+                      bolt.name, bolt.tightened, bolt.largest()));
+}
+
+}  // namespace
+
+void warn_of_run(const Problem& problem, const RunResult& result, const std::filesystem::path& kept) {
+  for (const std::string& warning : result.warnings) warn(warning);
+  warn_of_missed(problem, result, kept);
+  warn_of_losses(problem, result);
+  warn_of_errors(problem, result);
+  for (const OutputPtr& output : problem.outputs)
+    for (const std::string& warning : result.findings_of(*output).warnings) warn(warning);
+  warn_of_bolts(result);
+}
+
+}  // namespace dygita

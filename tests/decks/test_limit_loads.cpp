@@ -1,0 +1,98 @@
+// What a run says of increments that have not converged: why, and what helps.
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "decks/deck_prints.hpp"
+
+namespace dygita::test {
+namespace {
+
+// A run with what it warned of on the screen.
+struct Said {
+  DeckRun run;
+  std::string warnings;
+};
+
+Said said_by(const std::string& text, const Settings& settings = {}) {
+  testing::internal::CaptureStderr();
+  DeckRun run = run_text(text, settings).at(0);
+  return {run, testing::internal::GetCapturedStderr()};
+}
+
+void expect_in(const std::string& said, const std::vector<std::string>& what) {
+  for (const std::string& each : what) EXPECT_NE(said.find(each), std::string::npos) << each << "\nnot in\n" << said;
+}
+
+// A strap clamped on a base by a pressure, and pulled along it.
+const std::string strap = R"(
+local p = param{ pull = 100, iterations = 0, increments = 2, lift = 0 }
+local m = material.elastic{ name = "m", young = 70*GPa, poisson = 0.3, density = 2700 }
+local base = substructure{ name = "base", material = m, mesh = mesh.box{ size = { 40*mm, 10*mm, 5*mm }, cells = { 8, 2, 1 } } }
+local strap = substructure{ name = "strap", material = m, mesh = mesh.box{ origin = { 0, 0, 5*mm }, size = { 40*mm, 10*mm, 5*mm }, cells = { 8, 2, 1 } } }
+local mating = interface.contact{ name = "mating", between = { base:face "zmax", strap:face "zmin" }, friction = 0.25 }
+local floor = support.fixed{ name = "floor", on = base:face "zmin" }
+local press = load.pressure{ on = strap:face "zmax", history = 10*MPa }
+local clamp = step.static{ name = "clamp", loads = { press } }
+local pull = step.static{ name = "pull", after = clamp, increments = p.increments, loads = { press,
+  load.force{ on = strap:face "xmax", x = p.pull }, load.traction{ on = strap:face "zmax", z = p.lift } } }
+problem{ name = "strap", substructures = { base, strap }, interfaces = { mating }, supports = { floor }, steps = { clamp, pull },
+  solver = p.iterations > 0 and solver.latin{ max_iterations = p.iterations } or solver.latin{} }:run{}
+)";
+
+TEST(LimitLoad, a_joint_that_slides_as_a_whole_is_named_with_force_and_capacity) {
+  // 10 MPa on 400 mm^2: friction holds 0.25 x 4000 N.
+  const Said slides = said_by(strap, {{"pull", "1500"}});
+  EXPECT_FALSE(slides.run.result->converged);
+  expect_in(slides.warnings,
+            {"static step 'pull', increment 2: 'strap' slides as a whole: 1500 N pull along (1.00, 0.00, 0.00)",
+             "joints hold about 1000 N of it ('mating' slides at 1000 N)", "more preload or friction"});
+}
+
+TEST(LimitLoad, a_part_that_is_pulled_off_is_named) {
+  const Said lifted = said_by(strap, {{"pull", "0"}, {"lift", "20*MPa"}});
+  EXPECT_FALSE(lifted.run.result->converged);
+  expect_in(lifted.warnings,
+            {"static step 'pull', increment 2: 'strap' comes off as a whole: 4000 N pull along (", "'mating' is open"});
+}
+
+TEST(LimitLoad, a_joint_that_holds_is_not_complained_of) {
+  const Said holds = said_by(strap, {{"pull", "900"}});
+  EXPECT_TRUE(holds.run.result->converged);
+  EXPECT_EQ(holds.warnings, "");
+}
+
+TEST(LimitLoad, of_a_block_between_jaws_is_what_the_deck_of_hard_cases_asks_for) {
+  testing::internal::CaptureStderr();
+  const PrintedRun clamp = run_printing("hard/held_by_contact.lua", {{"pull", "1.5"}});
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_FALSE(clamp.runs.at(0).result->converged);
+  expect_in(said, {"'block' slides as a whole: ", "'a' slides at", "'b' slides at"});
+}
+
+// Too few iterations are told apart from an indicator that stands still, and what the message asks for is enough.
+TEST(NotConverged, asks_for_as_many_iterations_as_are_enough) {
+  const Said few = said_by(strap, {{"pull", "900"}, {"iterations", "20"}});
+  EXPECT_FALSE(few.run.result->converged);
+  expect_in(few.warnings, {"step 'pull': increment", "the indicator still falls, by half in ", "more would do"});
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(few.warnings, found, std::regex(R"(max_iterations = (\d+))"))) << few.warnings;
+  const Said enough = said_by(strap, {{"pull", "900"}, {"iterations", found[1]}});
+  EXPECT_TRUE(enough.run.result->converged) << found[1];
+  EXPECT_LT(std::stoi(found[1]), 1000);
+}
+
+// The defaults go on as long as iterations help.
+TEST(NotConverged, is_not_what_ordinary_bolts_are_at_the_defaults) {
+  const PrintedRun box = run_printing("electronics_box.lua", {{"duration", "0"}, {"around", "2"}});
+  const DeckRun& run = box.runs.at(0);
+  EXPECT_EQ(run.problem.substructures.size(), 18u);
+  EXPECT_EQ(run.problem.interfaces.size(), 21u);
+  EXPECT_TRUE(run.result->converged);
+  ASSERT_EQ(run.result->bolts.size(), 4u);
+  for (const BoltSummary& bolt : run.result->bolts) EXPECT_NEAR(bolt.tightened, 8000.0, 1.0) << bolt.name;
+  for (const StepSummary& step : run.result->steps) EXPECT_LE(step.worst_indicator, 1e-8) << step.name;
+}
+
+}  // namespace
+}  // namespace dygita::test
