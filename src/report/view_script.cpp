@@ -91,7 +91,8 @@ std::string view_script(const Problem& problem, const std::vector<FrameSummary>&
   put("PRESSURE", fmt::format("{}", largest(frames, &FrameSummary::pressure)));
   put("CENTRE", vector(view.centre));
   put("SIZE", fmt::format("{}", view.size));
-  put("HALF_HEIGHT", fmt::format("{}", 0.62 * view.size * std::max(0.75, double(view.height) / view.width)));
+  put("HALF_HEIGHT", fmt::format("{}", 0.58 * view.size * view.height / view.width));
+  put("HALF_WIDTH", fmt::format("{}", 0.58 * view.size));
   put("EYE", vector(view.axes.row(2).transpose()));
   put("UP", vector(view.axes.row(1).transpose()));
   put("NORMAL", vector(clip_normal(view)));

@@ -42,8 +42,7 @@ def colored(view, display, field, title, top, low=0.0):
     display.SetScalarBarVisibility(view, True)
 
 
-def new_view(width):
-    view = CreateView("RenderView")
+def set_up(view, width):
     view.ViewSize = [width, 720]
     view.UseColorPaletteForBackground = 0
     view.Background = [1.0, 1.0, 1.0]
@@ -65,10 +64,6 @@ def label(view, text, place):
     display.FontSize = 14
 
 
-for layout_of_start in GetLayouts().values():  # the empty view that ParaView starts with
-    RemoveLayout(layout_of_start)
-layout = CreateLayout("dygita: " + PROBLEM)
-
 # Parts: deformed, coloured, with a clip that shows their inside.
 parts = read(PROBLEM, PROBLEM_FILE)
 deformed = warped("deformed", parts)
@@ -77,8 +72,11 @@ clip.ClipType = "Plane"
 clip.ClipType.Origin = CENTRE
 clip.ClipType.Normal = NORMAL
 clip.Invert = 1
-view = new_view(960 if INTERFACES_FILE else 1440)
-AssignViewToLayout(view=view, layout=layout, hint=0)
+view = set_up(GetActiveViewOrCreate("RenderView"), 960 if INTERFACES_FILE else 1440)  # ParaView starts with an empty one
+layout = GetLayout(view)
+if not layout:
+    layout = CreateLayout("dygita")
+    AssignViewToLayout(view=view, layout=layout, hint=0)
 for source in (deformed, clip):
     display = Show(source, view)
     display.Representation = "Surface"
@@ -97,7 +95,7 @@ display.Color = [0.1, 0.1, 0.1]
 if INTERFACES_FILE:
     interfaces = read("interfaces", INTERFACES_FILE)
     deformed_interfaces = warped("deformed interfaces", interfaces)
-    second = new_view(960)
+    second = set_up(CreateView("RenderView"), 960)
     layout.SplitHorizontal(0, 0.5)
     AssignViewToLayout(view=second, layout=layout, hint=2)
     display = Show(deformed_interfaces, second)
@@ -114,7 +112,10 @@ scene = GetAnimationScene()
 scene.UpdateAnimationUsingDataTimeSteps()
 scene.AnimationTime = TIME
 SetActiveView(view)
-SetActiveSource(clip if IS_CUT else deformed)
+SetActiveSource(deformed)  # the clip would show its plane
+for one in [view, second] if INTERFACES_FILE else [view]:  # a window's views have the size they find room for
+    width, height = one.ViewSize
+    one.CameraParallelScale = max(HALF_HEIGHT, HALF_WIDTH * height / max(1, width))
 RenderAllViews()
 if len(sys.argv) == 2 and sys.argv[1].endswith(".png"):  # pvpython view.py picture.png
     SaveScreenshot(sys.argv[1], layout, ImageResolution=[1920 if INTERFACES_FILE else 1440, 720])
