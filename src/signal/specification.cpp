@@ -104,10 +104,11 @@ Specification read_specification(const std::string& path) {
 }
 
 Exceedance largest_exceedance(const Specification& specification, const std::vector<double>& frequency,
-                              const std::vector<double>& value) {
+                              const std::vector<double>& value, const FrequencyRange& judged) {
   CHECK(frequency.size() == value.size(), "a value for each frequency");
   Exceedance worst;
   for (size_t i = 0; i < frequency.size(); ++i) {
+    if (!judged.holds(frequency[i])) continue;
     const double decibels = 20.0 * std::log10(value[i] / specification.level_at(frequency[i]));
     if (!std::isfinite(decibels) || (worst.is_known && decibels <= worst.decibels)) continue;
     worst = {decibels, frequency[i], true};

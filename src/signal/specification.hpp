@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "signal/frequency_range.hpp"
+
 namespace dygita {
 
 struct Specification {
@@ -31,9 +33,9 @@ struct Exceedance {
   bool is_known = false;   // false: the spectrum and the specification share no frequency
 };
 
-// Frequencies (Hz) and values (m/s^2) of the spectrum; those outside the specification, and values that are not above
-// zero, are passed over.
+// Frequencies (Hz) and values (m/s^2) of the spectrum; those outside the specification or outside `judged`, and values
+// that are not above zero, are passed over.
 Exceedance largest_exceedance(const Specification& specification, const std::vector<double>& frequency,
-                              const std::vector<double>& value);
+                              const std::vector<double>& value, const FrequencyRange& judged = {});
 
 }  // namespace dygita

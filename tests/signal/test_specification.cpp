@@ -48,6 +48,19 @@ TEST(Specification, is_straight_in_log_log) {
   EXPECT_TRUE(std::isnan(plateau.level_at(10100.0)));
 }
 
+TEST(Specification, is_judged_only_where_the_record_allows_it) {
+  const Specification flat{{10.0, 1e5}, {10.0, 10.0}, "deck"};
+  const std::vector<double> frequency = {50, 100, 1000, 60000}, value = {1e4, 20, 5, 1e5};
+  EXPECT_EQ(largest_exceedance(flat, frequency, value).frequency, 60000);
+  const FrequencyRange record = reliable_range(0.01, 1e-5);
+  EXPECT_DOUBLE_EQ(record.from, 100.0);
+  EXPECT_DOUBLE_EQ(record.to, 5e4);
+  const Exceedance judged = largest_exceedance(flat, frequency, value, record);
+  EXPECT_EQ(judged.frequency, 100);
+  EXPECT_NEAR(judged.decibels, 20 * std::log10(2.0), 1e-12);
+  EXPECT_FALSE(largest_exceedance(flat, frequency, value, reliable_range(0.0, 1e-5)).is_known);
+}
+
 TEST(Specification, tells_the_largest_exceedance_and_where) {
   const Exceedance above = largest_exceedance(plateau, {50.0, 500.0, 2000.0}, {1e9, 1000.0, 4000.0});
   EXPECT_TRUE(above.is_known);
