@@ -103,6 +103,8 @@ words[2] = {
       { "young", type = "number", unit = "Pa", range = { 1e6, 2e12 }, required = true, doc = "Young's modulus" },
       { "poisson", type = "number", range = { -0.9, 0.4999 }, required = true, doc = "Poisson's ratio" },
       { "density", type = "number", unit = "kg/m^3", range = { 10, 100000 }, required = true, doc = "mass per volume" },
+      { "yield", type = "number", unit = "Pa", range = { 1e5, 1e11 },
+        doc = "yield stress: the run then watches the von Mises stress of its parts and states the margin; the material stays elastic" },
       { "damping", type = "number", unit = "s", range = { 0, 0.01 }, default = 0,
         doc = "stiffness-proportional damping, or { mass = (1/s), stiffness = (s) }",
         or_table = {
@@ -481,7 +483,7 @@ words[10] = {
       name_of "output",
       { "of", type = "object", kinds = { "output.history" }, required = true, doc = "an acceleration with a direction" },
       { "specification", type = "specification", unit = "m/s^2", doc = "what the maximax is held against in report.html: a CSV of frequency "
-        .. "(Hz) and level (m/s^2; g where its header says [g]), or { {100, 20*g0}, {1000, 500*g0} }; log-log in between" },
+        .. "(Hz) and level (m/s^2; g where its header says [g]), or { {100, 20*g0}, {1000, 500*g0} }; log-log in between; judged from 1/record length to half the sampling rate" },
     }, 12),
   },
   {

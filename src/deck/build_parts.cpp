@@ -37,18 +37,19 @@ Content build_gmsh(const Declaration& d) {
 }
 
 Content build_elastic(const Declaration& d) {
-  auto material = std::make_shared<Elastic>();
+  auto material = std::make_shared<Material>();
   material->name = d.arguments.text("name");
   material->young = d.arguments.number("young");
   material->poisson = d.arguments.number("poisson");
   material->density = d.arguments.number("density");
+  if (d.arguments.has("yield")) material->yield = d.arguments.number("yield");
   if (d.arguments.is_number("damping")) {
     material->damping.stiffness = d.arguments.number("damping");
   } else {
     const auto damping = d.arguments.settings("damping");
     material->damping = {damping.at("mass"), damping.at("stiffness")};
   }
-  return std::shared_ptr<const Elastic>(material);
+  return std::shared_ptr<const Material>(material);
 }
 
 void doubt_size(const Substructure& part) {
@@ -71,7 +72,9 @@ void doubt_locking(const Substructure& part) {
 Content build_substructure(const Declaration& d) {
   auto part = new_named<Substructure>(d);
   part->mesh = d.arguments.object("mesh").as<MeshPtr>();
-  part->material = *d.arguments.object("material").as<std::shared_ptr<const Elastic>>();
+  const auto& material = d.arguments.object("material").as<std::shared_ptr<const Material>>();
+  part->material = *material;
+  part->yield = material->yield;
   part->place = d.arguments.vector("place");
   part->velocity = d.arguments.vector("velocity");
   doubt_size(*part);

@@ -98,7 +98,7 @@ int note_parameter(LuaState& lua, lua_State* L) {
 
 int is_data(LuaState&, lua_State* L) {
   const std::string& what = the_object_at(L, 1).kind;
-  lua_pushboolean(L, what == "result" || what == "data" || what == "series");
+  lua_pushboolean(L, what == "result" || what == "data" || what == "part data" || what == "series");
   return 1;
 }
 

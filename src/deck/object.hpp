@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "material/material.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "model/model.hpp"
 #include "result/result.hpp"
@@ -30,12 +31,18 @@ struct OutputData {
   const Table* table = nullptr;  // in *result->run
 };
 
+// result[part].
+struct PartData {
+  DeckResultPtr result;
+  int part = -1;  // index in the problem's substructures
+};
+
 using Content =
-    std::variant<std::monostate, MeshPtr, std::shared_ptr<const GmshMeshes>, std::shared_ptr<const Elastic>,
+    std::variant<std::monostate, MeshPtr, std::shared_ptr<const GmshMeshes>, std::shared_ptr<const Material>,
                  SubstructurePtr, Face, Region, InterfacePtr, SupportPtr, LoadPtr, std::shared_ptr<const History>,
                  StepPtr, std::shared_ptr<const LatinSettings>, std::shared_ptr<const MonolithicSettings>,
                  std::shared_ptr<const ExplicitSettings>, OutputPtr, std::shared_ptr<const Problem>, DeckResultPtr,
-                 OutputData, std::shared_ptr<const Series>>;
+                 OutputData, PartData, std::shared_ptr<const Series>>;
 
 struct Object {
   std::string kind;  // "substructure", "face", "series"; the schema's `makes`

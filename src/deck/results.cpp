@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/names.hpp"
+#include "deck/part_results.hpp"
 #include "model/output.hpp"
 
 namespace dygita {
@@ -85,9 +86,14 @@ int push_output_data(lua_State* L, const DeckResultPtr& result, const Object& ke
 int read_result(lua_State* L, const Object& object, const Origin& origin) {
   const auto& result = object.as<DeckResultPtr>();
   if (const Object* key = object_at(L, 2)) {
+    if (key->kind == "substructure") {
+      push_part_data(L, result, *key, origin);
+      return 1;
+    }
     if (key->kind == "output") return push_output_data(L, result, *key, origin);
-    throw InputError(origin,
-                     fmt::format("result[{}]: a result is asked for an output, as in result[bolt]", key->label()));
+    throw InputError(
+        origin, fmt::format("result[{}]: a result is asked for an output, as in result[bolt], or for a substructure",
+                            key->label()));
   }
   const std::string key = key_text(L);
   if (key == "iterations") {
@@ -179,6 +185,7 @@ int read_data(lua_State* L, const Origin& origin) {
   const Object& object = the_object_at(L, 1);
   if (object.kind == "result") return read_result(L, object, origin);
   if (object.kind == "data") return read_output(L, object.as<OutputData>(), origin);
+  if (object.kind == "part data") return read_part(L, object.as<PartData>(), origin);
   return read_series(L, *object.as<std::shared_ptr<const Series>>(), origin);
 }
 

@@ -26,6 +26,7 @@ struct Substructure : Named {
   Elastic material;
   Vec3 place = Vec3::Zero();     // m, added to every node
   Vec3 velocity = Vec3::Zero();  // m/s, at the start of the first dynamic step
+  std::optional<double> yield;   // Pa, von Mises, of its material: what margins of stress refer to
 };
 using SubstructurePtr = std::shared_ptr<const Substructure>;
 

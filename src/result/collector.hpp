@@ -7,6 +7,7 @@
 #include "result/bolt_recorder.hpp"
 #include "result/error_estimator.hpp"
 #include "result/result.hpp"
+#include "result/stress_recorder.hpp"
 #include "solution/observer.hpp"
 
 namespace dygita {
@@ -39,6 +40,7 @@ class Collector : public Observer {
   Extremes extremes_;
   ErrorEstimator errors_;
   BoltRecorder bolts_;
+  StressRecorder stresses_;
 };
 
 }  // namespace dygita

@@ -18,6 +18,7 @@
 #include "result/limits.hpp"
 #include "result/scene_recorder.hpp"
 #include "run/keep_state.hpp"
+#include "run/part_lines.hpp"
 #include "run/passes.hpp"
 #include "run/run_files.hpp"
 #include "solution/step_model.hpp"
@@ -146,6 +147,7 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
     say(line);
   }
   for (const std::string& line : bolt_lines(problem, result)) say(line);
+  if (const std::string line = stress_line(problem, result); !line.empty()) say(line);
   const Figures& figures = result.figures;
   const double lost = figures.numerical_dissipation.value();
   say(fmt::format("  energy balance closes within {:.3g} %, ", figures.energy_imbalance.value()) +
@@ -230,6 +232,7 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
   for (const OutputPtr& output : problem.outputs)
     for (const std::string& warning : result->findings_of(*output).warnings) warn(warning);
   warn_of_bolts(*result);
+  warn_of_stresses(problem, *result);
   const std::vector<std::string> warnings = take_warnings();
   RunIdentity identity = request.identity;
   identity.threads = omp_get_max_threads();
@@ -252,9 +255,9 @@ std::string check_report(const Problem& problem) {
   for (const SubstructurePtr& part : problem.substructures) {
     check_mesh(*part->mesh, part->name);
     n_dofs += 3L * part->mesh->n_nodes();
-    text += fmt::format("  substructure '{}': {} nodes, {} cells, {}\n", part->name, part->mesh->n_nodes(),
-                        part->mesh->n_cells(), part->material.name);
+    text += part_line(*part);
   }
+  text += mass_line(problem);
   for (const Surface& surface : surfaces)
     text += fmt::format("  {} '{}': {} points, {:.4g} mm^2\n", surface.interface ? "interface" : "wall", surface.name(),
                         surface.n_points(), surface.facing.areas.sum() * 1e6);
