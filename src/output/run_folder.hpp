@@ -37,6 +37,7 @@ class RunFolder {
   std::filesystem::path folder_;
   Json record_, scenes_;
   mutable std::vector<std::string> faults_;
+  mutable std::map<std::string, Table> read_;  // several sections ask for the same table
 };
 
 // Of an object's member: nan where it is missing or null; "" likewise.
