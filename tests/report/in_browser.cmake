@@ -64,4 +64,23 @@ execute_process(
 if(NOT code EQUAL 0 OR NOT EXISTS ${out}/report.pdf)
   message(SEND_ERROR "chromium prints no PDF: exit code ${code}\n${log}")
 endif()
+
+# What is folded on the screen is printed: folded or open, the sections give the same paper.
+file(READ ${folder}/report.html page)
+foreach(state "<details>" "<details open>")
+  string(REPLACE "<section>" "${state}<summary>Folded</summary><section>" folded "${page}")
+  string(REPLACE "</section>" "</section></details>" folded "${folded}")
+  file(WRITE ${folder}/folded.html "${folded}")
+  execute_process(
+    COMMAND ${CHROMIUM} --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --user-data-dir=${out}/profile --print-to-pdf=${out}/folded.pdf file://${folder}/folded.html
+    OUTPUT_QUIET ERROR_QUIET TIMEOUT 120)
+  file(SIZE ${out}/folded.pdf size)
+  list(APPEND sizes ${size})
+endforeach()
+list(GET sizes 0 when_folded)
+list(GET sizes 1 when_open)
+math(EXPR apart "${when_open} - ${when_folded}")
+if(apart GREATER 1000 OR apart LESS -1000)
+  message(SEND_ERROR "folded the page prints as ${when_folded} bytes, open as ${when_open}: what is folded must be printed")
+endif()
 file(REMOVE_RECURSE ${out})
