@@ -155,7 +155,7 @@ TEST(Results, that_are_not_there_are_errors) {
   EXPECT_EQ(message_when("local x = result.bold"),
             "a result has no 'bold'\n    known: converged, iterations, mean_iterations");
   EXPECT_EQ(message_when("local x = result[glue]"),
-            "result[interface 'glue']: a result is asked for an output, as in result[bolt]");
+            "result[interface 'glue']: a result is asked for an output, as in result[bolt], or for a substructure");
   EXPECT_EQ(message_when("local n = #low"), "substructure 'low' has no length");
 }
 
