@@ -84,7 +84,7 @@ void run(const Upsampler& upsampler, double last, std::vector<Oscillator>& oscil
 }
 
 void append(Srs& srs, double frequency, const Oscillator& oscillator) {
-  const Extremes during = oscillator.during(), after = oscillator.after();
+  const ResponsePeaks during = oscillator.during(), after = oscillator.after();
   srs.frequency.push_back(frequency);
   srs.positive.push_back(std::max(during.highest, after.highest));
   srs.negative.push_back(-std::min(during.lowest, after.lowest) + 0.0);  // + 0: no "-0"
