@@ -137,7 +137,9 @@ TEST_F(Pulse, is_estimated_alike_in_any_frame) {
   std::ofstream(path_) << text;
   const EstimatedRun moving = run_estimated(path_, {});
   for (const Figure figure : {&Figures::iteration_error, &Figures::time_step_error, &Figures::mesh_error})
-    EXPECT_NEAR((moving.figures.*figure).value(), (rest.figures.*figure).value(), 0.02 * (rest.figures.*figure).value())
+    // A thousandth of a percent is the rounding of a train ten times as fast as the impact.
+    EXPECT_NEAR((moving.figures.*figure).value(), (rest.figures.*figure).value(),
+                1e-3 + 0.02 * (rest.figures.*figure).value())
         << label(figure);
 }
 

@@ -12,7 +12,8 @@ namespace {
 
 struct WeighedPart {
   int index;   // in problem.substructures
-  Vec masses;  // kg, the integral of density times each node's shape function: exact for the sum, whatever the mass matrix
+  Vec masses;  // kg, the integral of density times each node's shape function: exact for the sum, whatever the mass
+               // matrix
 };
 
 class MomentumRecorder : public TableRecorder {
