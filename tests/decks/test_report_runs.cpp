@@ -215,7 +215,7 @@ TEST(ReportRuns, stays_small_on_a_large_mesh) {
   text.replace(text.find("n = 2 }"), 7, "n = 22 }");
   const Written large = run_and_read(text);
   expect_sound(large);
-  EXPECT_LT(large.page.size(), 600000u);
+  EXPECT_LT(large.page.size(), 1600000u);  // 1 MB of it is what the turning picture may take
   EXPECT_GT(large.page.size(), small.page.size());
 }
 
