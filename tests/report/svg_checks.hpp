@@ -52,7 +52,11 @@ inline std::string xml_fault(const std::string& text, const std::vector<std::str
       open.pop_back();
     } else if (!is_empty && !is_void(name)) {
       open.push_back(name);
-      if (name == "style" || name == "script") end = text.find("</" + name + ">", end) - 1;  // its text is no markup
+      if (name == "style" || name == "script") {  // its text is no markup
+        const size_t closed = text.find("</" + name + ">", end);
+        if (closed == std::string::npos) return "<" + name + "> without end";
+        end = closed - 1;
+      }
     }
     i = end;
   }

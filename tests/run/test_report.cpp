@@ -184,7 +184,8 @@ TEST(Report, tells_verdict_what_was_computed_and_every_output) {
               "<h2>Convergence</h2>", "<h2>Cost</h2>", "It opens on up to 100 % of its area, by up to 1\u00a0µm",
               "tighten (static)", "laid flat", "von Mises stress up to 3\u00a0MPa"});
   EXPECT_EQ(page.find("<h2>Bolts"), std::string::npos);
-  for (const char* from_elsewhere : {"href", "src=", "@import", "url("})
+  for (const char* from_elsewhere : {"<script src", "<script type=\"module", "import(", "fetch(", "XMLHttpRequest",
+                                     "href", "src=", "@import", "url("})
     EXPECT_EQ(page.find(from_elsewhere), std::string::npos) << from_elsewhere;
 }
 
