@@ -10,21 +10,23 @@ file(MAKE_DIRECTORY ${pages})
 # gmsh's library leaks when the process ends, which a build with sanitizers would take for a failure.
 set(print_page ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0 $<TARGET_FILE:dygita>)
 add_custom_command(
-  OUTPUT ${pages}/dygita.1 ${pages}/dygita.bash ${pages}/_dygita ${pages}/dygita.fish
+  OUTPUT ${pages}/dygita.1 ${pages}/dygita.bash ${pages}/_dygita ${pages}/dygita.fish ${pages}/dygita.lua
   COMMAND ${print_page} --man > ${pages}/dygita.1
   COMMAND ${print_page} --completion bash > ${pages}/dygita.bash
   COMMAND ${print_page} --completion zsh > ${pages}/_dygita
   COMMAND ${print_page} --completion fish > ${pages}/dygita.fish
+  COMMAND ${print_page} schema --lua > ${pages}/dygita.lua
   DEPENDS dygita
-  COMMENT "Printing the man page and the completions")
+  COMMENT "Printing the man page, the completions and the definitions for editors")
 add_custom_target(dygita_pages ALL
-  DEPENDS ${pages}/dygita.1 ${pages}/dygita.bash ${pages}/_dygita ${pages}/dygita.fish)
+  DEPENDS ${pages}/dygita.1 ${pages}/dygita.bash ${pages}/_dygita ${pages}/dygita.fish ${pages}/dygita.lua)
 
 install(TARGETS dygita RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES ${pages}/dygita.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${pages}/dygita.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME dygita)
 install(FILES ${pages}/_dygita DESTINATION ${DYGITA_ZSH_COMPLETIONS})
 install(FILES ${pages}/dygita.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+install(FILES ${pages}/dygita.lua DESTINATION ${CMAKE_INSTALL_DATADIR}/dygita/editor)
 
 # Decks find their meshes beside them: ../meshes.
 install(DIRECTORY decks meshes DESTINATION ${CMAKE_INSTALL_DATADIR}/dygita

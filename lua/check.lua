@@ -26,6 +26,8 @@ local function describe(value)
   return value == nil and "nothing" or article(type(value))
 end
 
+check.describe = describe
+
 local function wrong_type(call, label, wanted, value, hint)
   fail(call, ("'%s' must be %s, got %s"):format(label, wanted, describe(value)), hint)
 end
@@ -44,6 +46,10 @@ local function check_number(call, argument, value, label)
     fail(call, ("'%s' = %s is outside the plausible range %s"):format(label, with_unit(("%g"):format(value), unit),
       with_unit(("[%g, %g]"):format(range[1], range[2]), unit)),
       unit and "a bare number is SI; was a unit forgotten, or the wrong one used?")
+  end
+  local usual = argument.usual
+  if usual and (value < usual[1] or value > usual[2]) then
+    native.warn(call.line, message(call, ("'%s' = %s is unusual: %s"):format(label, with_unit(("%g"):format(value), unit), usual[3])))
   end
   return value
 end
@@ -173,8 +179,10 @@ function types.counts(call, argument, value, label)
 end
 
 function types.numbers(call, argument, value, label)
-  local numbers, n = {}, check_list(call, value, label, "a list of numbers")
+  if argument.or_single and type(value) == "number" then return { types.number(call, argument, value, label) } end
+  local numbers, n = {}, check_list(call, value, label, argument.or_single and "a number, or a list of numbers" or "a list of numbers")
   if n < argument.at_least then fail(call, ("'%s' must have at least %d numbers"):format(label, argument.at_least)) end
+  if n > (argument.at_most or n) then fail(call, ("'%s' must have %d numbers at most, got %d"):format(label, argument.at_most, n)) end
   for i = 1, n do numbers[i] = types.number(call, argument, value[i], ("%s[%d]"):format(label, i)) end
   return numbers
 end
@@ -219,6 +227,11 @@ function types.value(call, argument, value, label)
   local arguments = native.arguments(value)
   for _, key in ipairs { "value", "from", "to", "peak" } do
     if arguments[key] then check_number(call, argument, arguments[key], label .. "." .. key) end
+  end
+  local low, high = native.extremes(value)
+  if low then
+    check_number(call, argument, low, label .. " (smallest value)")
+    check_number(call, argument, high, label .. " (largest value)")
   end
   return value
 end
@@ -272,7 +285,7 @@ local function check_known(call, arguments, given, prefix)
   for key in pairs(given) do
     if type(key) ~= "string" then
       fail(call, ("arguments are named: %s stands alone at place %s"):format(describe(given[key]), tostring(key)),
-        native.did_you_mean("", known))
+        native.did_you_mean("", known) .. (type(given[key]) == "number" and "; decimals take a point" or ""))
     end
     if not is_known[key] then unknown[#unknown + 1] = key end
   end

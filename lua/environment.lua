@@ -36,6 +36,29 @@ local of_texts = getmetatable("")
 for event in pairs(of_texts) do of_texts[event] = nil end  -- "10" * mm is an error, not a number
 of_texts.__index = safe_string
 
+-- In a deck that is checked, a value that was not computed is nan: it must stop nothing that a computed one would not.
+function safe_string.format(...)
+  if not native.has_no_values() then return raw.format(...) end
+  local arguments = table.pack(...)
+  for i = 1, arguments.n do
+    if arguments[i] ~= arguments[i] then arguments[i] = 0 end
+  end
+  return raw.format(table.unpack(arguments, 1, arguments.n))
+end
+
+local function assert_value(...)
+  local n, value, message = select("#", ...), ...
+  if n == 0 then assert() end
+  if value or native.has_no_values() then return ... end
+  error(n > 1 and message or "assertion failed!", 2)
+end
+
+local function raise(message, level)
+  if native.has_no_values() then return end
+  level = level or 1
+  error(message, level > 0 and level + 1 or 0)
+end
+
 local safe_math = {}
 for name, member in pairs(math) do safe_math[name] = member end
 safe_math.randomseed = nil
@@ -56,6 +79,13 @@ local function read_only(members, what)
         native.did_you_mean(tostring(key), known)))
     end,
     __newindex = function(_, key) native.fail(native.line(), ("%s.%s cannot be changed"):format(what, tostring(key))) end,
+    __call = function()
+      local known = {}
+      for name in pairs(members) do known[#known + 1] = name end
+      table.sort(known)
+      native.fail(native.line(), ("%s is not called itself, but one of its members: %s.%s"):format(what, what,
+        table.concat(known, (", %s."):format(what))))
+    end,
     __pairs = function()
       local copy = {}
       for name, member in pairs(members) do copy[name] = member end
@@ -78,7 +108,7 @@ return {
   functions = {
     math = read_only(safe_math, "math"), string = read_only(safe_string, "string"), table = read_only(safe_table, "table"),
     ipairs = ipairs, pairs = pairs, next = next, select = select, type = type, tonumber = tonumber, tostring = tostring,
-    error = error, assert = assert, print = native.print, near = near,
+    error = raise, assert = assert_value, print = native.print, near = near,
   },
   refused = {
     os = true, io = true, package = true, debug = true, loadstring = true, dofile = true, loadfile = true,

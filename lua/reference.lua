@@ -14,6 +14,7 @@ local function type_of(argument)
                   choice = "text", choices = "list of texts" }
   local text = names[argument.type] or argument.type
   if argument.kinds then text = table.concat(argument.kinds, " or ") end
+  if argument.type == "numbers" and argument.or_single then return "number or list of numbers" end
   if argument.exactly then text = ("list of %d: %s"):format(argument.exactly, text)
   elseif argument.or_single then text = text .. ", or a list"
   elseif argument.type == "objects" then text = "list of " .. text end

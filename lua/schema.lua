@@ -5,14 +5,15 @@
 -- `arguments` its named arguments in the order of the reference, `later` words of the language that are not built yet,
 -- `tightens` whether a load can shorten the interface.
 --
--- An argument: { name, type, unit, range = { smallest, largest }, default, required, doc, ... } with the types
+-- An argument: { name, type, unit, range = { smallest, largest }, default, required, doc, ... }; `usual` = { smallest, largest,
+-- text } warns beyond it. The types:
 --   number, integer       `or_word`: a word allowed instead; `or_table`: a table of named numbers allowed instead
 --   boolean, choice       `choices`
 --   choices               a list of `choices`
 --   name                  text that may become a file name
 --   file                  a path, relative to the deck's folder
 --   vector, counts        three numbers, three whole numbers
---   numbers               a list of numbers, at least `at_least`
+--   numbers               a list of numbers, `at_least`, `at_most`; `or_single`: one alone needs no list
 --   settings              a table of numbers by name
 --   specification         a file, or a list of { frequency, level }
 --   table                 a table of the named `fields`
@@ -33,12 +34,12 @@ local function on(kinds, doc)
   return { "on", type = "objects", kinds = kinds, at_least = 1, or_single = true, required = true, doc = doc }
 end
 
-local function component(axis, what, unit, range)
-  return { axis, type = "value", unit = unit, range = range, doc = what .. " along " .. axis }
+local function component(axis, what, unit, range, usual)
+  return { axis, type = "value", unit = unit, range = range, usual = usual, doc = what .. " along " .. axis }
 end
 
-local function components(what, unit, range)
-  return component("x", what, unit, range), component("y", what, unit, range), component("z", what, unit, range)
+local function components(what, unit, range, usual)
+  return component("x", what, unit, range, usual), component("y", what, unit, range, usual), component("z", what, unit, range, usual)
 end
 
 -- A bolted joint for the hand formula of VDI 2230.
@@ -62,9 +63,12 @@ local function share_of_bolt(of)
   return { "share", type = "number", range = { 1e-6, 1 }, default_doc = "1", doc = "part of it that the model has: 0.25 of " .. of .. " in a quarter model" }
 end
 
-local friction = { "friction", type = "number", range = { 0, 1000 }, default = 0, doc = "Coulomb's coefficient" }
+local friction = { "friction", type = "number", range = { 0, 1000 }, usual = { 0, 2, "metals have 0.05 to 1" }, default = 0, doc = "Coulomb's coefficient" }
 local duration = { 1e-9, 100 }  -- s
 local any_value = { -1e15, 1e15 }
+local usual_gap = { -0.0005, 0.002, "between faces whose meshes coincide gaps are tenths of a millimetre" }
+local usual_velocity = { -1000, 1000, "is it in m/s?" }
+local usual_acceleration = { -980665, 980665, "beyond 100000 g; is it in m/s^2 already?" }
 
 local words = {}
 
@@ -101,14 +105,20 @@ words[2] = {
     arguments = {
       name_of "material",
       { "young", type = "number", unit = "Pa", range = { 1e6, 2e12 }, required = true, doc = "Young's modulus" },
-      { "poisson", type = "number", range = { -0.9, 0.4999 }, required = true, doc = "Poisson's ratio" },
+      { "poisson", type = "number", range = { -0.9, 0.4999 }, usual = { 0, 0.4999, "metals have 0.25 to 0.35" }, required = true, doc = "Poisson's ratio" },
       { "density", type = "number", unit = "kg/m^3", range = { 10, 100000 }, required = true, doc = "mass per volume" },
+      { "yield", type = "number", unit = "Pa", range = { 1e5, 1e11 },
+        doc = "yield stress: the run then watches the von Mises stress of its parts and states the margin; the material stays elastic" },
       { "damping", type = "number", unit = "s", range = { 0, 0.01 }, default = 0,
-        doc = "stiffness-proportional damping, or { mass = (1/s), stiffness = (s) }",
+        doc = "stiffness-proportional damping (a time, not a ratio), or { mass = (1/s), stiffness = (s) }",
         or_table = {
           { "mass", type = "number", unit = "1/s", range = { 0, 1e6 }, default = 0, doc = "mass-proportional" },
           { "stiffness", type = "number", unit = "s", range = { 0, 0.01 }, default = 0, doc = "stiffness-proportional" },
         } },
+      { "damping_ratio", type = "numbers", range = { 0, 1 }, at_least = 1, at_most = 2, or_single = true,
+        doc = "in place of `damping`: part of critical damping at `damping_frequency`, 0.02 for 2 %; one for both frequencies, or one for each" },
+      { "damping_frequency", type = "numbers", unit = "Hz", range = { 1e-3, 1e8 }, at_least = 1, at_most = 2, or_single = true,
+        doc = "where the ratio holds: one frequency (proportional to it elsewhere), or two (least in between)" },
     },
   },
 }
@@ -123,7 +133,7 @@ words[3] = {
       { "material", type = "object", kinds = { "material" }, required = true, doc = "what it is made of" },
       { "place", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 },
         doc = "translation of the mesh" },
-      { "velocity", type = "vector", unit = "m/s", range = { -20000, 20000 }, default = { 0, 0, 0 },
+      { "velocity", type = "vector", unit = "m/s", range = { -20000, 20000 }, usual = usual_velocity, default = { 0, 0, 0 },
         doc = "velocity at the start of the first dynamic step" },
     },
   },
@@ -139,7 +149,7 @@ words[4] = {
     "contact", makes = "interface", doc = "Unilateral contact with Coulomb friction.",
     arguments = {
       name_of "interface", between(), friction,
-      { "gap", type = "number", unit = "m", range = { -0.01, 0.01 }, default = 0,
+      { "gap", type = "number", unit = "m", range = { -0.01, 0.01 }, usual = usual_gap, default = 0,
         doc = "initial gap; a negative one is an interference" },
     },
   },
@@ -187,7 +197,7 @@ words[5] = {
     "wall", makes = "support", doc = "A rigid wall: unilateral contact with friction.",
     arguments = {
       name_of "support", on({ "face" }, "faces that may touch the wall"), friction,
-      { "gap", type = "number", unit = "m", range = { -0.01, 0.01 }, default = 0, doc = "initial gap" },
+      { "gap", type = "number", unit = "m", range = { -0.01, 0.01 }, usual = { -0.0005, 0.01, usual_gap[3] }, default = 0, doc = "initial gap" },
     },
   },
   {
@@ -229,7 +239,7 @@ words[6] = {
   },
   {
     "velocity", makes = "load", doc = "Prescribed velocity; a direction left out is free.",
-    arguments = { on({ "face", "region" }, "driven faces or nodes"), components("velocity", "m/s", { -20000, 20000 }) },
+    arguments = { on({ "face", "region" }, "driven faces or nodes"), components("velocity", "m/s", { -20000, 20000 }, usual_velocity) },
     one_of = { "x", "y", "z" },
   },
   {
@@ -242,12 +252,12 @@ words[6] = {
     arguments = {
       on({ "support" }, "driven supports"),
       { "direction", type = "vector", required = true, doc = "direction; its length does not matter" },
-      { "history", type = "value", unit = "m/s^2", range = { -1e9, 1e9 }, required = true, doc = "the acceleration" },
+      { "history", type = "value", unit = "m/s^2", range = { -1e9, 1e9 }, usual = usual_acceleration, required = true, doc = "the acceleration" },
     },
   },
   {
     "gravity", makes = "load", doc = "A uniform acceleration field on every substructure.",
-    arguments = { components("acceleration", "m/s^2", { -1e7, 1e7 }) },
+    arguments = { components("acceleration", "m/s^2", { -1e7, 1e7 }, usual_acceleration) },
     one_of = { "x", "y", "z" },
   },
   {
@@ -286,7 +296,8 @@ words[6] = {
 words[7] = {
   name = "history", 
   doc = "A value that depends on time, counted from the start of the step (from 0 to 1 in a static one). Any `function(t)` "
-    .. "does as well.",
+    .. "does as well. Histories and functions can be scaled and added, `2*signal`, `-signal`, `signal/3`, `signal*g0`, `signal + other`, "
+    .. "`signal - 5`, and `signal(t)` is the value at a time.",
   {
     "constant", makes = "history", doc = "The same at all times.",
     arguments = { { "value", type = "number", range = any_value, required = true, doc = "the value" } },
@@ -337,7 +348,9 @@ words[7] = {
     },
   },
   {
-    "file", makes = "history", doc = "Two columns, time (s) and value, separated by a comma or blanks, linear in between.",
+    "file", makes = "history",
+    doc = "Two columns, time and value, separated by a comma, a semicolon or blanks, linear in between; beyond its ends the first and the last value "
+      .. "hold. Its header may give units in brackets, `time [ms], acceleration (g)`; without, values are in SI.",
     arguments = { { "file", type = "file", required = true, doc = "path, relative to the deck's folder" } },
   },
 }
@@ -476,13 +489,22 @@ words[10] = {
     arguments = { name_of "output", on({ "interface", "support" }, "what transmits the force") },
   },
   {
+    "momentum", makes = "output",
+    doc = "Linear momentum of parts: impulse and rebound without reading a velocity at a point. Columns: x, y, z (N s); over their mass, "
+      .. "the velocity of their centre of gravity.",
+    arguments = {
+      name_of "output",
+      { "of", type = "objects", kinds = { "substructure" }, at_least = 1, or_single = true, default_doc = "all", doc = "which parts" },
+    },
+  },
+  {
     "srs", makes = "output",
     doc = "Shock response spectrum of a history. Columns: frequency, maximax, positive, negative, primary, residual.",
     arguments = spectrum({
       name_of "output",
       { "of", type = "object", kinds = { "output.history" }, required = true, doc = "an acceleration with a direction" },
       { "specification", type = "specification", unit = "m/s^2", doc = "what the maximax is held against in report.html: a CSV of frequency "
-        .. "(Hz) and level (m/s^2; g where its header says [g]), or { {100, 20*g0}, {1000, 500*g0} }; log-log in between" },
+        .. "(Hz) and level (m/s^2; other units as its header says in brackets, [g] or (g)), or { {100, 20*g0}, {1000, 500*g0} }; log-log in between; judged from 1/record length to half the sampling rate" },
     }, 12),
   },
   {
@@ -588,6 +610,17 @@ local methods = {
     kind = "substructure", "where", write = "part:where(function(x, y, z) return boolean end)", makes = "region",
     doc = "The nodes at which the function answers true; near(a, b) compares coordinates with a tolerance.",
     argument = { "function", type = "function", doc = "function(x, y, z), in metres" },
+  },
+  {
+    kind = "history", "shifted", write = "signal:shifted(t)", makes = "history",
+    doc = "The same later: what it was at 0 it is at t; before, it has the value that it had before 0.",
+    argument = { "t", type = "number", unit = "s", range = { -100, 100 }, doc = "how much later; negative: earlier" },
+  },
+  {
+    kind = "history", "scaled", write = "signal:scaled(t)", makes = "history",
+    doc = "The same stretched in time, t times as long: `signal:scaled(1e-3)` where a file's times without a unit are milliseconds. Its values are scaled by "
+      .. "`2*signal`.",
+    argument = { "t", type = "number", range = { 1e-12, 1e12 }, doc = "times as long" },
   },
   {
     kind = "problem", "run", write = "problem:run{}", makes = "result",

@@ -4,7 +4,7 @@ return {
   ms = 1e-3, us = 1e-6,
   kN = 1e3,
   kPa = 1e3, MPa = 1e6, GPa = 1e9,
-  Hz = 1, kHz = 1e3,
+  Hz = 1, kHz = 1e3, MHz = 1e6,
   g0 = 9.80665,
   deg = math.pi / 180,
 }

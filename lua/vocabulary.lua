@@ -6,6 +6,7 @@ local units = native.module "units"
 local check = native.module "check"
 local environment = native.module "environment"
 local command_line = native.module "command_line"
+local arithmetic = native.module "arithmetic"
 
 local function fail(line, text, hint) native.fail(line, text .. (hint and "\n    " .. hint or "")) end
 
@@ -58,12 +59,20 @@ for _, entry in ipairs(schema.methods) do
   methods[entry.kind] = methods[entry.kind] or {}
   methods[entry.kind][entry[1]] = function(self, ...)
     local line = native.line()
+    if entry.kind == "history" and type(self) == "function" then self = native.combine("scaled", self, 1, line) end
     if native.kind(self) ~= entry.kind then fail(line, ("%s is called with a colon: %s"):format(entry[1], entry.write)) end
     local checked
     if entry.argument then checked = check.plain(entry, line, ...) else checked = check.call(entry, line, ...) end
     local answer = native.call(entry.path, self, checked, line)
     return answer
   end
+end
+
+-- f:shifted(t) of a function of time.
+arithmetic.of_functions.__index = function(_, key)
+  local method = methods.history[key]
+  if method then return method end
+  fail(native.line(), ("a function has no '%s'"):format(tostring(key)), "is it to be called? a method is written with a colon and its arguments")
 end
 
 local function at(self, ...)
@@ -75,6 +84,8 @@ local function at(self, ...)
   return value
 end
 methods.series, methods.data = { at = at }, { at = at }
+
+local of_results = { iterations = true, mean_iterations = true, converged = true }
 
 -- What the deck reads from an object: a method, the data of a result, or an argument it was declared with.
 local function read(object, key)
@@ -90,6 +101,10 @@ local function read(object, key)
   if value ~= nil and path == "param" then native.note_parameter(key) end
   if type(value) == "table" then return table.move(value, 1, #value, 1, {}) end
   if value ~= nil then return value end
+  if kind == "problem" and (native.kind(key) == "output" or of_results[key]) then
+    fail(native.line(), ("problem '%s' has no results: it is declared here, and not run"):format(name),
+      "its result is what run answers: local result = problem{ ... }:run{}")
+  end
   fail(native.line(), ("%s has no '%s'"):format(name ~= "" and ("%s '%s'"):format(kind, name) or path, tostring(key)),
     native.did_you_mean(tostring(key), keys_of(own, arguments)))
 end
@@ -127,12 +142,26 @@ for _, members in ipairs { environment.functions, units, words } do
   for name, member in pairs(members) do globals[name] = member end
 end
 
+-- What other languages and habits would write.
+local habits = {
+  True = "write true", False = "write false", None = "write nil", null = "write nil", NULL = "write nil",
+  pi = "write math.pi", sin = "write math.sin", cos = "write math.cos", exp = "write math.exp", sqrt = "write math.sqrt",
+  abs = "write math.abs", max = "write math.max", floor = "write math.floor",
+  g = "write g0 for the standard acceleration of gravity, 9.80665 m/s^2", G = "write g0 for the standard acceleration of gravity",
+  cm = "write 10*mm", inch = "write 25.4*mm", bar = "write 0.1*MPa", psi = "write 6895, in Pa", ksi = "write 6.895*MPa",
+  degrees = "write deg", rad = "angles are in radians: write the number alone", min = "write math.min",
+}
+for _, name in ipairs { "m", "s", "N", "Pa", "kg", "J" } do
+  habits[name] = ("numbers are in SI units: write 5 for 5 %s"):format(name)
+end
+
 local function undefined(name)
   local line = native.line()
   if environment.refused[name] then
     fail(line, ("'%s' is not there in a deck"):format(name),
       "a deck reaches no file, system or program; files are read through mesh.gmsh and history.file")
   end
+  if habits[name] then fail(line, ("'%s' is not defined"):format(name), habits[name]) end
   local near_by = native.locals()  -- first: of two names as near, the deck's own
   table.move(keys_of(globals), 1, #keys_of(globals), #near_by + 1, near_by)
   local best = native.closest_name(name, near_by)
@@ -143,6 +172,8 @@ end
 return {
   read = read,
   write = write,
+  operators = arithmetic.of_objects,
+  operators_of_functions = arithmetic.of_functions,
   environment = setmetatable({}, {
     __index = function(_, name)
       local member = globals[name]

@@ -7,9 +7,9 @@ work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 program="$(realpath "$program")"
 (cd "$root" && "$program" run decks/bolted_flanges.lua --out "$work" --quiet --no-frames)
-# What stays on the picture: title, verdict, assembly.
-sed 's#</style>#section { display: none } section:nth-of-type(1), section:nth-of-type(3) { display: block } body { margin: 12px auto }</style>#' \
+# What stays on the picture: title, verdict, parts, assembly.
+sed 's#</style>#section { display: none } section:nth-of-type(-n+3) { display: block } body { margin: 12px auto }</style>#' \
   "$work/bolted_flanges/base/report.html" > "$work/part.html"
-chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --window-size=1140,1740 --user-data-dir="$work/profile" \
+chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --window-size=1140,1640 --user-data-dir="$work/profile" \
   --screenshot="$work/report.png" "file://$work/part.html" 2>/dev/null
 mv "$work/report.png" "$root/manual/pictures/report.png"

@@ -58,7 +58,7 @@ def chapter(folder, measured):
     told = [(part, how["machine"], how["date"], f"{how['minutes']:.1f}", "quick" if how["quick"] else "full") for part, how in measured.items() if part in found]
     return "\n\n".join([
         "# Performance", "Written by `./run.sh bench`; every number and figure below is what that command measured. They are from one machine, and a shared machine "
-        "does not always give a program all of its processors. The ratios carry over to other machines: their two sides ran one after the other in the same run.",
+        "does not always give a program all of its processors. The two sides of a ratio ran one after the other in the same run; it holds for the processor named here.",
         table(["part", "machine", "date", "minutes", "version"], told),
         f"Of {len(goals)} goals {', '.join(f'{n} {words}' for words, n in counts.items() if n)}. Goals are those of the project's design.",
         table(["goal", "measured", "", "what bounds it"], lines), *(section_of(part, folder, rows) for part, rows in found.items())]) + "\n"

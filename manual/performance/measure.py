@@ -106,13 +106,15 @@ class Machine:
 
 
 def processor():
-    """Name of the processor and what it runs under, in a line."""
+    """Name of the processor, its widest registers and how many cores there are, in a line."""
     try:
         lines = Path("/proc/cpuinfo").read_text().splitlines()
         name = next(line.split(":")[1].strip() for line in lines if line.startswith("model name"))
+        flags = next((line for line in lines if line.startswith("flags")), "").split()
     except (OSError, StopIteration):
-        name = platform.processor() or platform.machine()
-    return f"{name}, {os.cpu_count()} cores"
+        name, flags = platform.processor() or platform.machine(), []
+    widest = next((known for flag, known in (("avx512f", "AVX-512"), ("avx2", "AVX2")) if flag in flags), None)
+    return f"{name}{f' ({widest})' if widest else ''}, {os.cpu_count()} cores"
 
 
 def write_rows(path, rows):

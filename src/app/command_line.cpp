@@ -51,6 +51,14 @@ void add_run_options(CLI::App& command, Command& asked) {
   command.add_flag("--no-state", asked.has_no_state, "no state file: the run cannot be continued later");
 }
 
+void add_check_options(CLI::App& command, Command& asked) {
+  add_deck_options(command, asked);
+  command
+      .add_option("--picture", asked.picture,
+                  "draw parts, their named faces and the interfaces found: .svg, or .html to turn it")
+      ->type_name("FILE");
+}
+
 void add_continue_options(CLI::App& command, Command& asked) {
   ContinueOptions& options = asked.going_on;
   add_run_folder(command, options.run);
@@ -98,6 +106,13 @@ void add_report_options(CLI::App& command, ReportCommand& asked) {
                   "deck's")
       ->type_name("FILE.csv");
   command.add_option("--out", asked.out, "file to write (default: report.html in the folder)")->type_name("FILE");
+}
+
+void add_view_options(CLI::App& command, ViewCommand& asked) {
+  add_run_folder(command, asked.run);
+  command.add_option("--paraview", asked.program, "ParaView's program, a name or a path")
+      ->capture_default_str()
+      ->type_name("FILE");
 }
 
 OptionRow row_of(const CLI::Option& option) {
@@ -172,11 +187,13 @@ void declare_commands(CLI::App& app, Command& asked) {
   add_run_options(*app.add_subcommand("run", "compute a deck"), asked);
   add_continue_options(*app.add_subcommand("continue", "continue a run: to a tighter tolerance, or further in time"),
                        asked);
-  add_deck_options(*app.add_subcommand("check", "declare and check a deck, say what it would compute, solve nothing"),
-                   asked);
+  add_check_options(*app.add_subcommand("check", "declare and check a deck, say what it would compute, solve nothing"),
+                    asked);
   add_srs_options(*app.add_subcommand("srs", "shock response spectrum of a CSV file"), asked.srs);
-  app.add_subcommand("schema", "the reference of the deck language, as Markdown");
+  app.add_subcommand("schema", "the reference of the deck language, as Markdown")
+      ->add_flag("--lua", asked.is_for_editors, "definitions for editors instead, which then complete and check decks");
   add_report_options(*app.add_subcommand("report", "write report.html of a run again"), asked.report);
+  add_view_options(*app.add_subcommand("view", "open a run in ParaView: deformed, coloured, cut"), asked.view);
   add_hidden_pages(app);
 }
 

@@ -8,6 +8,7 @@
 
 #include "app/report_command.hpp"
 #include "app/srs_command.hpp"
+#include "app/view_command.hpp"
 #include "deck/continue_run.hpp"
 #include "deck/deck.hpp"
 
@@ -28,9 +29,10 @@ struct Command {
   std::vector<std::string> settings;
   SrsCommand srs;
   ReportCommand report;
+  ViewCommand view;
   ContinueOptions going_on;
-  std::string until;
-  bool is_quiet = false, has_no_frames = false, has_no_state = false;
+  std::string until, picture;
+  bool is_quiet = false, has_no_frames = false, has_no_state = false, is_for_editors = false;
 };
 
 // Declares commands and options, which write into `asked`. Hidden options print the pages of command_pages.hpp.

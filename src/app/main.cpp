@@ -4,6 +4,7 @@
 #include <exception>
 #include <new>
 
+#include "app/check_command.hpp"
 #include "app/command_line.hpp"
 #include "base/names.hpp"
 #include "base/progress.hpp"
@@ -39,7 +40,7 @@ int run_or_check(Command& asked, bool solves) {
   asked.deck.write_state = !asked.has_no_state;
   set_progress_enabled(!asked.is_quiet);
   catch_interrupts();
-  const Engine engine{run_problem, check_report};
+  const Engine engine{run_problem, CheckWithPicture(asked.picture)};
   return exit_code(solves ? run_deck(asked.deck, engine) : check_deck(asked.deck, engine),
                    "stopped; the results so far are written");
 }
@@ -70,7 +71,9 @@ int command_line(int argc, char** argv) {
   if (app.got_subcommand("continue")) return go_on(asked);
   if (app.got_subcommand("srs")) write_srs(asked.srs);
   if (app.got_subcommand("report")) write_report(asked.report);
-  if (app.got_subcommand("schema")) std::fputs(deck_reference().c_str(), stdout);
+  if (app.got_subcommand("view")) start_view(asked.view);
+  if (app.got_subcommand("schema"))
+    std::fputs((asked.is_for_editors ? deck_definitions() : deck_reference()).c_str(), stdout);
   return done;
 }
 

@@ -15,6 +15,7 @@
 #include "base/log.hpp"
 #include "base/names.hpp"
 #include "output/csv.hpp"
+#include "signal/unit.hpp"
 
 namespace dygita {
 
@@ -52,12 +53,12 @@ std::optional<double> number_in(const std::string& text) {
   return !text.empty() && *end == '\0' && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-// "acceleration [m/s^2]" without its unit.
-std::string name_in(const std::string& header) { return trimmed(header.substr(0, header.find('['))); }
+// "acceleration [m/s^2]", "acceleration (g)" without its unit, and the unit.
+std::string name_in(const std::string& header) { return trimmed(header.substr(0, header.find_first_of("[("))); }
 
 std::string unit_in(const std::string& header) {
-  const size_t open = header.find('['), close = header.find(']');
-  return open < close && close != std::string::npos ? header.substr(open + 1, close - open - 1) : "";
+  const size_t open = header.find_first_of("[("), close = header.find_first_of("])");
+  return open < close && close != std::string::npos ? trimmed(header.substr(open + 1, close - open - 1)) : "";
 }
 
 // The column of values, from the header and the first row of numbers.
@@ -78,12 +79,15 @@ size_t column_of(const SrsCommand& command, const std::vector<std::string>& head
       fmt::format("{}: no column '{}'\n    {}", command.signal, command.column, did_you_mean(command.column, known)));
 }
 
-double seconds_of(const std::string& unit, const std::string& where) {
-  static const std::map<std::string, double> units = {{"", 1.0},    {"s", 1.0},   {"sec", 1.0}, {"ms", 1e-3},
-                                                      {"us", 1e-6}, {"µs", 1e-6}, {"ns", 1e-9}};
-  if (const auto found = units.find(unit); found != units.end()) return found->second;
-  throw InputError(fmt::format("{}: the first column is time, and '{}' is not a unit of time\n    known: s, ms, us, ns",
-                               where, unit));
+double seconds_of(const std::string& title, const Origin& origin) {
+  const std::optional<Unit> unit = unit_of({name_in(title), unit_in(title)}, origin, "s");
+  return unit ? unit->factor : 1.0;
+}
+
+// As spectra name it: what is an acceleration in m/s^2 or g stays so, a unit that nobody knows is told.
+std::string value_unit(const std::string& title, const Origin& origin) {
+  unit_of({name_in(title), unit_in(title)}, origin);
+  return unit_in(title);
 }
 
 Signal read_signal(const SrsCommand& command) {
@@ -101,12 +105,12 @@ Signal read_signal(const SrsCommand& command) {
     if (time) *time *= seconds;
     if (!time && signal.time.empty() && header.empty()) {
       header = cells;
-      seconds = seconds_of(unit_in(cells[0]), fmt::format("{}:{}", command.signal, n));
+      seconds = seconds_of(cells[0], {command.signal, n});
       continue;
     }
     if (signal.time.empty()) {
       column = column_of(command, header, cells);
-      if (column < header.size()) signal.unit = unit_in(header[column]);
+      if (column < header.size()) signal.unit = value_unit(header[column], {command.signal, n});
     }
     const auto value = column < cells.size() ? number_in(cells[column]) : std::nullopt;
     if (!time || !value) throw InputError(fmt::format("{}:{}: no numbers in '{}'", command.signal, n, line));

@@ -1,6 +1,7 @@
 #include "base/names.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
 
 namespace dygita {
@@ -22,10 +23,17 @@ size_t edit_distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
+std::string in_lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
 }  // namespace
 
 std::string closest_name(const std::string& name, const std::vector<std::string>& known) {
   if (name.empty()) return "";
+  for (const std::string& candidate : known)
+    if (in_lower_case(candidate) == in_lower_case(name)) return candidate;
   std::string best;
   size_t best_distance = std::max<size_t>(2, (name.size() + 1) / 2);
   for (const std::string& candidate : known) {

@@ -1,6 +1,12 @@
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "base/log.hpp"
 #include "deck/build_model.hpp"
+#include "deck/deck_state.hpp"
+#include "signal/signal_file.hpp"
 
 namespace dygita {
 
@@ -47,7 +53,35 @@ Content build_piecewise(const Declaration& d) {
   return content(History::piecewise(std::move(times), std::move(values)));
 }
 
-Content build_file(const Declaration& d) { return content(History::from_file(d.arguments.file("file"))); }
+std::string in_written_unit(const SampledSignal& signal, double value) {
+  if (signal.unit_written.empty()) return fmt::format("{:.4g}", value);
+  return fmt::format("{:.4g} {}", value / signal.unit_factor, signal.unit_written);
+}
+
+// What the record is, for the eye: a unit read wrongly shows in its peak.
+std::string description(const std::string& file, const SampledSignal& signal) {
+  const auto peak = std::max_element(signal.values.begin(), signal.values.end(),
+                                     [](double a, double b) { return std::abs(a) < std::abs(b); });
+  std::string text =
+      fmt::format("signal '{}': {} points from {:.4g} to {:.4g} ms, peak {} at {:.4g} ms", file, signal.times.size(),
+                  1e3 * signal.times.front(), 1e3 * signal.times.back(), in_written_unit(signal, *peak),
+                  1e3 * signal.times[static_cast<size_t>(peak - signal.values.begin())]);
+  if (signal.unit_written.empty())
+    text += ", taken as SI (its header gives no unit)";
+  else if (signal.unit_factor != 1.0)
+    text += fmt::format(" ({:.4g} {})", *peak, signal.unit);
+  return text + fmt::format("; before them {} holds, after them {}", in_written_unit(signal, signal.values.front()),
+                            in_written_unit(signal, signal.values.back()));
+}
+
+Content build_file(const Declaration& d) {
+  const std::string path = d.arguments.file("file");
+  SampledSignal signal = read_signal(path);
+  const std::string text = description(d.arguments.text("file"), signal);
+  DeckState& state = DeckState::of(d.lua);
+  if (state.signals_told.insert(text).second) say(text);
+  return content(History::record(std::move(signal), path));
+}
 
 }  // namespace
 

@@ -36,19 +36,36 @@ Content build_gmsh(const Declaration& d) {
   return std::make_shared<const GmshMeshes>(options);
 }
 
+Damping damping_by_ratio(const LuaArguments& a) {
+  if (!a.is_number("damping") || a.number("damping") != 0.0)
+    throw InputError("'damping' and 'damping_ratio' are two words for one thing: give one of them");
+  if (!a.has("damping_frequency"))
+    throw InputError(
+        "'damping_ratio' needs the frequency where it holds\n    damping_frequency = 1*kHz, or { 200*Hz, 2*kHz }");
+  const std::vector<double> ratio = a.numbers("damping_ratio"), frequency = a.numbers("damping_frequency");
+  if (ratio.size() > frequency.size())
+    throw InputError("'damping_ratio' has two values and 'damping_frequency' one: each ratio has a frequency");
+  if (frequency.size() == 1) return damping_of(ratio[0], frequency[0]);
+  return damping_of({ratio.front(), ratio.back()}, {frequency[0], frequency[1]});
+}
+
+Damping damping_in(const LuaArguments& a) {
+  if (a.has("damping_ratio")) return damping_by_ratio(a);
+  if (a.has("damping_frequency")) throw InputError("'damping_frequency' goes with 'damping_ratio', which is missing");
+  if (a.is_number("damping")) return {0.0, a.number("damping")};
+  const auto damping = a.settings("damping");
+  return {damping.at("mass"), damping.at("stiffness")};
+}
+
 Content build_elastic(const Declaration& d) {
-  auto material = std::make_shared<Elastic>();
+  auto material = std::make_shared<Material>();
   material->name = d.arguments.text("name");
   material->young = d.arguments.number("young");
   material->poisson = d.arguments.number("poisson");
   material->density = d.arguments.number("density");
-  if (d.arguments.is_number("damping")) {
-    material->damping.stiffness = d.arguments.number("damping");
-  } else {
-    const auto damping = d.arguments.settings("damping");
-    material->damping = {damping.at("mass"), damping.at("stiffness")};
-  }
-  return std::shared_ptr<const Elastic>(material);
+  if (d.arguments.has("yield")) material->yield = d.arguments.number("yield");
+  material->damping = damping_in(d.arguments);
+  return std::shared_ptr<const Material>(material);
 }
 
 void doubt_size(const Substructure& part) {
@@ -71,7 +88,9 @@ void doubt_locking(const Substructure& part) {
 Content build_substructure(const Declaration& d) {
   auto part = new_named<Substructure>(d);
   part->mesh = d.arguments.object("mesh").as<MeshPtr>();
-  part->material = *d.arguments.object("material").as<std::shared_ptr<const Elastic>>();
+  const auto& material = d.arguments.object("material").as<std::shared_ptr<const Material>>();
+  part->material = *material;
+  part->yield = material->yield;
   part->place = d.arguments.vector("place");
   part->velocity = d.arguments.vector("velocity");
   doubt_size(*part);

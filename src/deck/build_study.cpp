@@ -1,8 +1,5 @@
 #include <spdlog/fmt/fmt.h>
 
-#include <cmath>
-
-#include "base/log.hpp"
 #include "deck/build_model.hpp"
 #include "result/output_table.hpp"
 
@@ -36,10 +33,6 @@ Content build_dynamic(const Declaration& d) {
     throw InputError(fmt::format("'dt' = {:g} s is longer than 'duration' = {:g} s", step->dt, step->duration));
   }
   if (n > most_time_steps) throw InputError(fmt::format("{:.3g} time steps are more than {:g}", n, most_time_steps));
-  if (std::abs(n - std::round(n)) > 1e-6 * n) {
-    warn(fmt::format("{}step '{}': 'duration' is {:g} times 'dt'; {:.0f} time steps are computed", d.origin.prefix(),
-                     step->name, n, std::round(n)));
-  }
   return StepPtr(step);
 }
 

@@ -9,7 +9,9 @@
 #include "deck/deck_state.hpp"
 #include "deck/deck_text.hpp"
 #include "deck/results.hpp"
+#include "deck/syntax_hint.hpp"
 #include "numerics/factor.hpp"
+#include "numerics/panel_choice.hpp"
 #include "result/hollow_result.hpp"
 
 namespace dygita {
@@ -41,8 +43,13 @@ int load_vocabulary(lua_State* L) {
   lua_call(L, 1, 1);
   lua_getfield(L, -1, "read");
   lua_getfield(L, -2, "write");
-  set_object_metatable(L, lua_absindex(L, -2), lua_absindex(L, -1), guarded<length>);
-  lua_pop(L, 2);
+  lua_getfield(L, -3, "operators");
+  set_object_metatable(L, lua_absindex(L, -3), lua_absindex(L, -2), lua_absindex(L, -1), guarded<length>);
+  lua_pop(L, 3);
+  lua_pushcfunction(L, load_vocabulary);  // any function: they share one metatable
+  lua_getfield(L, -2, "operators_of_functions");
+  lua_setmetatable(L, -2);
+  lua_pop(L, 1);
   lua_getfield(L, -1, "environment");
   return 1;
 }
@@ -58,7 +65,11 @@ void run_text(DeckState& state, const std::string& text) {
   lua_State* L = state.raw();
   lua_pushcfunction(L, load_vocabulary);
   state.call(0, 1);
-  state.load(text, "@" + state.deck_name());
+  try {
+    state.load(text, "@" + state.deck_name());
+  } catch (const DeckScriptError& error) {
+    throw DeckScriptError(error.what() + syntax_hint(error.what(), text));
+  }
   lua_insert(L, -2);
   lua_setupvalue(L, -2, 1);  // its _ENV
   state.call(0, 0);
@@ -113,6 +124,7 @@ RunRequest request_of(const DeckState& state, const Problem& problem, const std:
   request.identity.parameters = state.parameters;
   request.identity.solver = state.options.solver;
   request.identity.threads = state.options.threads;
+  request.identity.kernels = panel_kernels().name;
   for (const SubstructurePtr& part : problem.substructures) {
     request.identity.mesh_digests.emplace_back(part->name, part->mesh->digest);
   }
@@ -251,6 +263,14 @@ void load_module(DeckState& state, const char* name) {
   state.call(1, 1);
 }
 
+std::string text_of_module(const char* name) {
+  const DeckOptions options;
+  const Engine engine;
+  DeckState state(options, engine, false);
+  load_module(state, name);
+  return lua_tostring(state.raw(), -1);
+}
+
 }  // namespace
 
 double parse_quantity(const std::string& what, const std::string& text) {
@@ -266,13 +286,9 @@ double parse_quantity(const std::string& what, const std::string& text) {
   return lua_tonumber(L, -1);
 }
 
-std::string deck_reference() {
-  const DeckOptions options;
-  const Engine engine;
-  DeckState state(options, engine, false);
-  load_module(state, "reference");
-  return lua_tostring(state.raw(), -1);
-}
+std::string deck_reference() { return text_of_module("reference"); }
+
+std::string deck_definitions() { return text_of_module("definitions"); }
 
 std::string version() { return program_version(); }
 

@@ -56,6 +56,9 @@ double parse_quantity(const std::string& what, const std::string& text);
 // The reference of the deck language, Markdown.
 std::string deck_reference();
 
+// The same as definitions for editors: Lua with the annotations of LuaLS and EmmyLua.
+std::string deck_definitions();
+
 // "0.1.0".
 std::string version();
 

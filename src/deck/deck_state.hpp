@@ -26,7 +26,7 @@ struct DeckState : LuaState {
   std::set<std::pair<std::string, std::string>> cases;  // problem and case names that ran
   DeckOutcome outcome;
   Study study;
-  std::set<std::string> parameters_read;
+  std::set<std::string> parameters_read, signals_told;
   Origin parameters_origin;
   bool has_parameters = false;   // param{} was called
   bool has_read_hollow = false;  // the deck has read a value that was not computed

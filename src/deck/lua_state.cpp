@@ -191,14 +191,27 @@ LuaState::Pause::~Pause() {
   state_.watch();
 }
 
+// The deck's clock while the engine asks one of its functions; a function may ask a history, and so another one.
+struct LuaState::FunctionClock {
+  explicit FunctionClock(LuaState& state) : state_(state) {
+    if (state_.function_depth_++ == 0 && state_.is_paused_) state_.section_start_ = processor_seconds();
+  }
+  ~FunctionClock() {
+    if (--state_.function_depth_ == 0 && state_.is_paused_)
+      state_.spent_ += processor_seconds() - state_.section_start_;
+  }
+  FunctionClock(const FunctionClock&) = delete;
+  FunctionClock& operator=(const FunctionClock&) = delete;
+  LuaState& state_;
+};
+
 double LuaState::value_of_function(int reference, int declared_at, double t) {
   // The engine may ask from several threads; the deck's clock runs while its code does.
   const std::scoped_lock lock(function_mutex_);
-  if (is_paused_) section_start_ = processor_seconds();
+  const FunctionClock clock(*this);
   lua_rawgeti(L_, LUA_REGISTRYINDEX, reference);
   lua_pushnumber(L_, t);
   call(1, 1);
-  if (is_paused_) spent_ += processor_seconds() - section_start_;
   const bool is_number = lua_type(L_, -1) == LUA_TNUMBER;
   const double value = is_number ? lua_tonumber(L_, -1) : 0.0;
   const std::string answer = is_number ? fmt::format("{:g}", value) : luaL_typename(L_, -1);

@@ -84,6 +84,7 @@ class LuaState {
   std::shared_ptr<const bool> alive() const { return alive_; }
 
  private:
+  struct FunctionClock;
   size_t outside_bytes();
   static void* allocate(void* self, void* block, size_t old_size, size_t new_size);
   static void hook(lua_State* L, lua_Debug* event);
@@ -99,7 +100,7 @@ class LuaState {
   lua_State* L_ = nullptr;
   size_t used_bytes_ = 0;
   double spent_ = 0.0, section_start_ = 0.0;  // s
-  int last_line_ = 0;
+  int last_line_ = 0, function_depth_ = 0;
   bool is_paused_ = false;
   std::vector<std::pair<std::weak_ptr<const void>, size_t>> outside_;
   std::exception_ptr held_;

@@ -1,40 +1,28 @@
 // Arguments that become parts of the model: values in time, targets, steps, outputs, specifications.
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+
+#include "base/log.hpp"
 #include "deck/arguments.hpp"
-#include "deck/lua_state.hpp"
+#include "deck/deck_state.hpp"
+#include "deck/histories.hpp"
+#include "signal/unit.hpp"
 
 namespace dygita {
 
 namespace {
 
-// A function of time of the deck, kept by Lua as long as a history needs it.
-class DeckFunction {
- public:
-  // Takes the function on top of the stack.
-  explicit DeckFunction(LuaState& lua) : lua_(lua), alive_(lua.alive()) {
-    lua_Debug info;
-    lua_pushvalue(lua.raw(), -1);
-    lua_getinfo(lua.raw(), ">S", &info);
-    declared_at_ = info.linedefined;
-    reference_ = luaL_ref(lua.raw(), LUA_REGISTRYINDEX);
-  }
-  ~DeckFunction() {
-    if (*alive_) luaL_unref(lua_.raw(), LUA_REGISTRYINDEX, reference_);
-  }
-  DeckFunction(const DeckFunction&) = delete;
-  DeckFunction& operator=(const DeckFunction&) = delete;
-
-  double value(double t) const {
-    CHECK(*alive_, "a history asks its deck's function after the deck has ended");
-    return lua_.value_of_function(reference_, declared_at_, t);
-  }
-
- private:
-  LuaState& lua_;
-  std::shared_ptr<const bool> alive_;
-  int reference_ = LUA_NOREF, declared_at_ = 0;
-};
+// What the file holds, for the eye: a unit read wrongly shows.
+void tell(DeckState& state, const Specification& s) {
+  const Unit unit = unit_named(s.unit).value_or(Unit{1.0, "m/s^2"});
+  const auto [low, high] = std::minmax_element(s.level.begin(), s.level.end());
+  const std::string text =
+      fmt::format("specification '{}': {} points from {:.4g} to {:.4g} Hz, levels from {:.4g} to {:.4g} {}{}", s.source,
+                  s.frequency.size(), s.frequency.front(), s.frequency.back(), *low / unit.factor, *high / unit.factor,
+                  s.unit.empty() ? "m/s^2" : s.unit, s.unit.empty() ? " (its header gives no unit)" : "");
+  if (state.signals_told.insert(text).second) say(text);
+}
 
 Target target_of(const Object& object) {
   if (object.kind == "face") return object.as<Face>();
@@ -47,9 +35,9 @@ Target target_of(const Object& object) {
 
 TimeValue LuaArguments::function(const char* key) const {
   push(key);
-  const auto function = std::make_shared<const DeckFunction>(LuaState::of(L_));
-  function->value(0.0);  // what cannot answer at all is told where it is declared
-  return {History::function([function](double t) { return function->value(t); }), false};
+  History history = history_of_function(L_, -1);
+  lua_pop(L_, 1);
+  return {std::move(history), false};
 }
 
 TimeValue LuaArguments::value(const char* key) const {
@@ -78,6 +66,7 @@ std::shared_ptr<const Specification> LuaArguments::specification(const char* key
   if (!is_table(key)) {
     *specification = read_specification(file(key));
     specification->source = text(key);
+    tell(DeckState::of(LuaState::of(L_)), *specification);
     return specification;
   }
   specification->source = "deck";

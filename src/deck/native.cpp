@@ -6,6 +6,7 @@
 #include "deck/build_model.hpp"
 #include "deck/deck_state.hpp"
 #include "deck/embedded_lua.hpp"
+#include "deck/histories.hpp"
 #include "deck/results.hpp"
 
 namespace dygita {
@@ -59,6 +60,11 @@ int fail_on_value(LuaState& state, lua_State* L) {
   throw DeckScriptError(state.origin(static_cast<int>(lua_tointeger(L, 1))), lua_tostring(L, 2));
 }
 
+int warn_at(LuaState& state, lua_State* L) {
+  warn(state.origin(static_cast<int>(lua_tointeger(L, 1))).prefix() + lua_tostring(L, 2));
+  return 0;
+}
+
 int refuse(LuaState&, lua_State* L) { throw InputError(lua_tostring(L, 1)); }
 
 int did_you_mean_names(LuaState&, lua_State* L) {
@@ -98,7 +104,7 @@ int note_parameter(LuaState& lua, lua_State* L) {
 
 int is_data(LuaState&, lua_State* L) {
   const std::string& what = the_object_at(L, 1).kind;
-  lua_pushboolean(L, what == "result" || what == "data" || what == "series");
+  lua_pushboolean(L, what == "result" || what == "data" || what == "part data" || what == "series");
   return 1;
 }
 
@@ -170,6 +176,7 @@ int call_method(LuaState& lua, lua_State* L) {
   const Object& self = the_object_at(L, 2);
   const Origin origin = state.origin(static_cast<int>(lua_tointeger(L, 4)));
   if (method == "problem:run") return run_from_deck(state, L);
+  if (self.kind == "history") return move_history(L, method);
   if (method == "mesh file:volume") {
     const std::string name = lua_tostring(L, 3);
     push_object(
@@ -182,6 +189,12 @@ int call_method(LuaState& lua, lua_State* L) {
     const Region region = region_of(self.as<SubstructurePtr>(), L, origin);
     push_object(L, {"region", method, self.name, self.id, region});
   }
+  return 1;
+}
+
+// has_no_values(): the deck is only checked, and has read results.
+int has_no_values(LuaState& lua, lua_State* L) {
+  lua_pushboolean(L, DeckState::of(lua).has_read_hollow);
   return 1;
 }
 
@@ -231,6 +244,7 @@ void push_native(DeckState& state) {
                                        {"line", guarded<line>},
                                        {"fail", guarded<fail>},
                                        {"fail_on_value", guarded<fail_on_value>},
+                                       {"warn", guarded<warn_at>},
                                        {"refuse", guarded<refuse>},
                                        {"did_you_mean", guarded<did_you_mean_names>},
                                        {"closest_name", guarded<closest>},
@@ -239,7 +253,11 @@ void push_native(DeckState& state) {
                                        {"arguments", guarded<arguments>},
                                        {"note_parameter", guarded<note_parameter>},
                                        {"is_data", guarded<is_data>},
+                                       {"has_no_values", guarded<has_no_values>},
                                        {"make", guarded<make>},
+                                       {"combine", guarded<combine_histories>},
+                                       {"value_of", guarded<value_of_history>},
+                                       {"extremes", guarded<extremes_of_history>},
                                        {"call", guarded<call_method>},
                                        {"read", guarded<read>},
                                        {"at", guarded<at>},

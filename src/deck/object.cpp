@@ -20,8 +20,13 @@ int describe(lua_State* L) {
 
 }  // namespace
 
-void set_object_metatable(lua_State* L, int read, int write, lua_CFunction length) {
+void set_object_metatable(lua_State* L, int read, int write, int operators, lua_CFunction length) {
   luaL_newmetatable(L, metatable_name);
+  for (lua_pushnil(L); lua_next(L, operators);) {
+    lua_pushvalue(L, -2);
+    lua_insert(L, -2);  // event, event, operator
+    lua_settable(L, -4);
+  }
   lua_pushvalue(L, read);
   lua_setfield(L, -2, "__index");
   lua_pushvalue(L, write);

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "material/material.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "model/model.hpp"
 #include "result/result.hpp"
@@ -30,12 +31,18 @@ struct OutputData {
   const Table* table = nullptr;  // in *result->run
 };
 
+// result[part].
+struct PartData {
+  DeckResultPtr result;
+  int part = -1;  // index in the problem's substructures
+};
+
 using Content =
-    std::variant<std::monostate, MeshPtr, std::shared_ptr<const GmshMeshes>, std::shared_ptr<const Elastic>,
+    std::variant<std::monostate, MeshPtr, std::shared_ptr<const GmshMeshes>, std::shared_ptr<const Material>,
                  SubstructurePtr, Face, Region, InterfacePtr, SupportPtr, LoadPtr, std::shared_ptr<const History>,
                  StepPtr, std::shared_ptr<const LatinSettings>, std::shared_ptr<const MonolithicSettings>,
                  std::shared_ptr<const ExplicitSettings>, OutputPtr, std::shared_ptr<const Problem>, DeckResultPtr,
-                 OutputData, std::shared_ptr<const Series>>;
+                 OutputData, PartData, std::shared_ptr<const Series>>;
 
 struct Object {
   std::string kind;  // "substructure", "face", "series"; the schema's `makes`
@@ -62,8 +69,8 @@ Object* object_at(lua_State* L, int index);
 // The object at `index`; CHECKs that it is one (the Lua side has checked it).
 Object& the_object_at(lua_State* L, int index);
 
-// Registers the metatable; `read` and `write` are the stack indices of Lua functions (object, key) and of `length`
-// (object).
-void set_object_metatable(lua_State* L, int read, int write, lua_CFunction length);
+// Registers the metatable; `read` and `write` are the stack indices of Lua functions (object, key), `operators` that of
+// a table of metamethods; `length` is one of (object).
+void set_object_metatable(lua_State* L, int read, int write, int operators, lua_CFunction length);
 
 }  // namespace dygita

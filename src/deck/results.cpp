@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/names.hpp"
+#include "deck/part_results.hpp"
 #include "model/output.hpp"
 
 namespace dygita {
@@ -46,7 +47,8 @@ Series series_of(const OutputData& data, const std::string& column) {
   const Table& table = *data.table;
   return {data.result->problem,  data.output->name + "." + column,
           table.names.front(),   table.column(column),
-          table.columns.front(), table.step};
+          table.columns.front(), table.step,
+          data.result->is_hollow};
 }
 
 // Modulus of a vector history, row by row.
@@ -85,9 +87,14 @@ int push_output_data(lua_State* L, const DeckResultPtr& result, const Object& ke
 int read_result(lua_State* L, const Object& object, const Origin& origin) {
   const auto& result = object.as<DeckResultPtr>();
   if (const Object* key = object_at(L, 2)) {
+    if (key->kind == "substructure") {
+      push_part_data(L, result, *key, origin);
+      return 1;
+    }
     if (key->kind == "output") return push_output_data(L, result, *key, origin);
-    throw InputError(origin,
-                     fmt::format("result[{}]: a result is asked for an output, as in result[bolt]", key->label()));
+    throw InputError(
+        origin, fmt::format("result[{}]: a result is asked for an output, as in result[bolt], or for a substructure",
+                            key->label()));
   }
   const std::string key = key_text(L);
   if (key == "iterations") {
@@ -96,6 +103,11 @@ int read_result(lua_State* L, const Object& object, const Origin& origin) {
     lua_pushnumber(L, result->run->mean_iterations);
   } else if (key == "converged") {
     lua_pushboolean(L, result->run->converged);
+  } else if (const auto& outputs = result->problem->outputs;
+             std::any_of(outputs.begin(), outputs.end(), [&](const OutputPtr& o) { return o->name == key; })) {
+    throw InputError(origin, fmt::format("a result has no '{}'\n    an output is asked for by itself, not by its name: "
+                                         "result[{}], without quotes",
+                                         key, key));
   } else {
     unknown(origin, "a result", key, {"converged", "iterations", "mean_iterations"});
   }
@@ -107,11 +119,12 @@ int read_series(lua_State* L, const Series& series, const Origin& origin) {
     const auto n = static_cast<lua_Integer>(series.values.size());
     if (*row >= 1 && *row <= n) return push_value(L, series.values[static_cast<size_t>(*row - 1)]);
     if (*row == n + 1) return 0;  // where ipairs stops
+    if (*row > n && series.is_hollow) return push_value(L, series.values.empty() ? 0.0 : series.values.back());
     throw InputError(origin, fmt::format("series '{}' has rows 1 to {}, not {}", series.name, n, *row));
   }
   const std::string key = key_text(L);
   if (key == series.abscissa) {
-    push_series(L, {series.problem, series.name + "." + key, key, series.at, series.at, series.step});
+    push_series(L, {series.problem, series.name + "." + key, key, series.at, series.at, series.step, series.is_hollow});
     return 1;
   }
   if (const auto value = summary_of(series, key, origin)) return push_value(L, *value);
@@ -152,7 +165,8 @@ int read_output(lua_State* L, const OutputData& data, const Origin& origin) {
   }
   if (key == data.table->names.front()) {
     const auto& at = data.table->columns.front();
-    push_series(L, {data.result->problem, data.output->name + "." + key, key, at, at, data.table->step});
+    push_series(L, {data.result->problem, data.output->name + "." + key, key, at, at, data.table->step,
+                    data.result->is_hollow});
     return 1;
   }
   if (is_vector(data) && key == "max") return push_value(L, *summary_of(modulus_of(data), key, origin));
@@ -179,6 +193,7 @@ int read_data(lua_State* L, const Origin& origin) {
   const Object& object = the_object_at(L, 1);
   if (object.kind == "result") return read_result(L, object, origin);
   if (object.kind == "data") return read_output(L, object.as<OutputData>(), origin);
+  if (object.kind == "part data") return read_part(L, object.as<PartData>(), origin);
   return read_series(L, *object.as<std::shared_ptr<const Series>>(), origin);
 }
 

@@ -1,6 +1,7 @@
 // Isotropic linear elasticity, its wave speeds and impedances.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -11,7 +12,16 @@ namespace dygita {
 struct Damping {
   double mass = 0.0;       // 1/s
   double stiffness = 0.0;  // s
+
+  // Of critical damping at a frequency (Hz) (manual, eq. D8).
+  double ratio(double frequency) const;
 };
+
+// Damping proportional to the stiffness with a ratio at a frequency (Hz) (manual, eq. D8).
+Damping damping_of(double ratio, double frequency);
+// Rayleigh's, with a ratio at each of two frequencies (Hz). Throws InputError where they ask for a negative mass or
+// stiffness part.
+Damping damping_of(const std::array<double, 2>& ratio, const std::array<double, 2>& frequency);
 
 struct Elastic {
   std::string name;

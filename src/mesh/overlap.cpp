@@ -45,13 +45,19 @@ Polygon2 clip(Polygon2 subject, const Polygon2& window) {
   return subject;
 }
 
-// Middle of the common region of two polygons, if there is one.
-std::optional<Vec3> common_place(const Polygon& x_1, const Polygon& x_2) {
+struct Common {
+  Vec3 place;
+  double area;
+};
+
+// The common region of two polygons, if there is one.
+std::optional<Common> common_region(const Polygon& x_1, const Polygon& x_2, Facings facings) {
   const Vec3 area_1 = area_vector(x_1), area_2 = area_vector(x_2);
   const double smaller = std::min(area_1.norm(), area_2.norm());
   const Vec3 n_1 = area_1.normalized(), n_2 = area_2.normalized();
   const double cosine = std::abs(n_1.dot(n_2)), sine = n_1.cross(n_2).norm();
   if (cosine < 0.8 || smaller == 0) return {};
+  if (facings == Facings::opposed && n_1.dot(n_2) > 0.0) return {};
 
   // Project on the mean plane.
   const Vec3 normal = (n_1 + std::copysign(1.0, n_1.dot(n_2)) * n_2).normalized();
@@ -74,7 +80,7 @@ std::optional<Vec3> common_place(const Polygon& x_1, const Polygon& x_2) {
   };
   const double distance = std::abs(height(x_1, n_1) - height(x_2, n_2));
   if (distance > std::sqrt(smaller) * (1e-3 + 0.5 * sine)) return {};
-  return place;
+  return Common{place, signed_area(common)};
 }
 
 struct Bounds {
@@ -123,18 +129,23 @@ double mean_diameter(const std::vector<Polygon>& polygons) {
 
 }  // namespace
 
-std::optional<Overlap> find_overlap(const std::vector<Polygon>& side_1, const std::vector<Polygon>& side_2) {
+std::optional<Overlap> find_overlap(const std::vector<Polygon>& side_1, const std::vector<Polygon>& side_2,
+                                    Facings facings) {
   if (side_1.empty() || side_2.empty()) return {};
   const PolygonGrid grid(side_1, std::max(mean_diameter(side_1), mean_diameter(side_2)));
   std::vector<bool> overlaps_1(side_1.size(), false);
   std::optional<Overlap> overlap;
-  for (const Polygon& x_2 : side_2) {
+  for (size_t j = 0; j < side_2.size(); ++j) {
     bool overlaps_2 = false;
-    grid.for_each_near(x_2, [&](int i) {
-      if (overlaps_1[i] && overlaps_2) return;
-      const std::optional<Vec3> place = common_place(side_1[i], x_2);
-      if (!place) return;
-      if (!overlap) overlap = Overlap{0, 0, *place};
+    std::vector<int> met;
+    grid.for_each_near(side_2[j], [&](int i) {
+      if (facings == Facings::all && overlaps_1[i] && overlaps_2) return;
+      if (std::find(met.begin(), met.end(), i) != met.end()) return;  // shares several cells of the grid
+      met.push_back(i);
+      const std::optional<Common> common = common_region(side_1[i], side_2[j], facings);
+      if (!common) return;
+      if (!overlap) overlap = Overlap{0, 0, common->place, 0.0, i, static_cast<int>(j)};
+      overlap->area += common->area;
       overlap->n_1 += overlaps_1[i] ? 0 : 1;
       overlap->n_2 += overlaps_2 ? 0 : 1;
       overlaps_1[i] = overlaps_2 = true;

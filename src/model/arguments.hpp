@@ -12,9 +12,9 @@ class ModelArguments : public Arguments {
   virtual TimeValue value(const char* key) const = 0;
   virtual std::vector<Target> targets(const char* key) const = 0;  // empty when absent
   virtual std::vector<SubstructurePtr> substructures(const char* key) const = 0;
-  virtual StepPtr step(const char* key) const = 0;      // null when absent
+  virtual StepPtr step(const char* key) const = 0;                // null when absent
   virtual std::vector<StepPtr> steps(const char* key) const = 0;  // empty when absent
-  virtual OutputPtr output(const char* key) const = 0;  // null when absent
+  virtual OutputPtr output(const char* key) const = 0;            // null when absent
   // A list of points of the deck or a file beside it; null when absent. Throws InputError on one that makes no sense.
   virtual std::shared_ptr<const Specification> specification(const char* key) const = 0;
 

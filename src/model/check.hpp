@@ -32,6 +32,11 @@ void doubts(const Problem& problem);
 // figures.
 void resolution(const Problem& problem);
 
+// Histories of loads and the steps they act in: pulses that a step cuts off or a time step swallows, records held
+// beyond their ends, peaks that no step reaches: said with warn(). Throws where a record is in another unit than its
+// load.
+void histories(const Problem& problem);
+
 // Throws InputError "<origin>: problem '<name>': <text>"; `hint`, where given, follows on its own line.
 [[noreturn]] void fail(const Problem& problem, const Origin& origin, const std::string& text,
                        const std::string& hint = "");

@@ -1,5 +1,9 @@
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 
+#include "law/law.hpp"
+#include "mesh/face_nodes.hpp"
 #include "model/check.hpp"
 #include "model/load.hpp"
 #include "model/output.hpp"
@@ -44,6 +48,34 @@ void doubt_supports(const Problem& problem, bool moves) {
   }
 }
 
+// Extent of a face's part along the face's mean normal (m).
+double length_behind(const Face& face) {
+  const Points& x = face.part->mesh->nodes;
+  Vec3 area = Vec3::Zero();
+  for (const Facet& facet : face.facets()) area += facet_area_vector(x, facet);
+  const Eigen::RowVectorXd along = area.normalized().transpose() * x;
+  return along.maxCoeff() - along.minCoeff();
+}
+
+// A traction per length times the length of what yields is a plastic modulus: below a thousandth of Young's it is no
+// metal's, and hardly what was meant.
+void doubt_hardening(const Problem& problem, const Interface& interface) {
+  for (const LawParameter& parameter : interface.law->parameters()) {
+    const double* value = std::get_if<double>(&parameter.value);
+    if (parameter.unit != "Pa/m" || !value || *value <= 0.0) continue;
+    const bool first = length_behind(interface.side_1) >= length_behind(interface.side_2);
+    const Face& face = first ? interface.side_1 : interface.side_2;
+    const double length = length_behind(face), young = face.part->material.young, modulus = *value * length;
+    if (modulus >= 1e-3 * young) continue;
+    doubt(problem, interface.origin,
+          fmt::format("{}: '{}' = {:g} Pa/m over the {:.4g} mm of '{}' is a plastic modulus of {:.3g} MPa, {:.2g} % of "
+                      "its Young's "
+                      "modulus; it is H/L, for a modulus H over a length L: is the division by L missing?",
+                      describe(interface), parameter.name, *value, 1e3 * length, face.part->name, 1e-6 * modulus,
+                      100.0 * modulus / young));
+  }
+}
+
 }  // namespace
 
 void doubts(const Problem& problem) {
@@ -62,6 +94,7 @@ void doubts(const Problem& problem) {
     }
   }
   doubt_supports(problem, moves);
+  for (const InterfacePtr& interface : problem.interfaces) doubt_hardening(problem, *interface);
   for (const OutputPtr& output : problem.outputs) output->doubt(problem);
 }
 

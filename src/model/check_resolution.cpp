@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "base/log.hpp"
 #include "model/check.hpp"
@@ -18,6 +19,7 @@ namespace {
 constexpr double share = 0.95;            // of a load's energy that must be carried
 constexpr double steps_a_period = 10.0;   // a trapezoidal step then turns a wave by 3 % too little each period
 constexpr double cells_a_wavelength = 5;  // a mesh turns it by 7 %
+constexpr double most_damping = 0.2;      // of critical
 
 struct Content {
   double frequency = 0.0;  // Hz
@@ -84,6 +86,26 @@ void say(const Problem& problem, const Content& content, const std::string& text
                    text));
 }
 
+// Materials whose damping takes most of the motion that the step is to show. Where nothing says which frequencies
+// matter, the lowest of the step counts: what is overdamped there is so everywhere.
+void doubt_damping(const Problem& problem, const Step& step, double highest) {
+  const double lowest = 1.0 / step.duration, f = std::max(highest, lowest);
+  std::set<std::string> told;
+  for (const SubstructurePtr& part : problem.substructures) {
+    if (!told.insert(part->material.name).second) continue;
+    const Damping& damping = part->material.damping;
+    const double at = damping.ratio(f);
+    if (at <= most_damping) continue;
+    doubt(problem, part->origin,
+          fmt::format("damping of material '{}' is {:.3g} % of critical at {}{}: what moves so fast is damped away "
+                      "within a period; 'damping' is in seconds, 'damping_ratio' with "
+                      "'damping_frequency' takes the ratio",
+                      part->material.name, 100.0 * at, in_unit(f),
+                      highest > 0.0 ? ", which step '" + step.name + "' is to show"
+                                    : ", the lowest of step '" + step.name + "'"));
+  }
+}
+
 }  // namespace
 
 void resolution(const Problem& problem) {
@@ -100,6 +122,7 @@ void resolution(const Problem& problem) {
     }
     const auto highest = std::max_element(all.begin(), all.end(),
                                           [](const Content& a, const Content& b) { return a.frequency < b.frequency; });
+    doubt_damping(problem, *step, highest == all.end() ? 0.0 : highest->frequency);
     if (highest == all.end()) continue;
     if (size.empty())
       for (const SubstructurePtr& part : problem.substructures) size.push_back(cell_size(*part));

@@ -26,6 +26,7 @@ struct Substructure : Named {
   Elastic material;
   Vec3 place = Vec3::Zero();     // m, added to every node
   Vec3 velocity = Vec3::Zero();  // m/s, at the start of the first dynamic step
+  std::optional<double> yield;   // Pa, von Mises, of its material: what margins of stress refer to
 };
 using SubstructurePtr = std::shared_ptr<const Substructure>;
 
@@ -93,7 +94,7 @@ struct LatinSettings {
   int window = 1;           // steps; 0: the whole interval
   double relaxation = 0.0;  // 0: .95 dynamic, .8 static and windows of many steps
   int anderson = -1;        // -1: 10 dynamic, 40 static, windows of several steps 5, 0 beyond 20
-  int max_iterations = 0;    // 0: as many as bring the indicator down, see the table
+  int max_iterations = 0;   // 0: as many as bring the indicator down, see the table
   double numerical_damping = 0.0;
   double push_out = 0.0;          // b of the contact law
   double search_direction = 1.0;  // multiplies every k (studies, hard cases)

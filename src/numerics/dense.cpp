@@ -1,6 +1,7 @@
 #include "numerics/dense.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 
 namespace dygita {
@@ -22,6 +23,8 @@ EigenPairs tridiagonal_eigen(const std::vector<double>& diagonal, const std::vec
                                Eigen::Map<const Vec>(subdiagonal.data(), n - 1));
   return {eigen.eigenvalues(), eigen.eigenvectors()};
 }
+
+Mat solve_dense(const Mat& a, const Mat& b) { return a.fullPivLu().solve(b); }
 
 QrFactors full_qr(const Mat& a) {
   const Eigen::HouseholderQR<Mat> qr(a);

@@ -2,17 +2,42 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
-#include "numerics/panel_tiles.hpp"
+#include "numerics/panel_choice.hpp"
 
 namespace dygita {
 
-double panel_bytes(int n_rows, int n_columns) {
-  return 8.0 * ((n_rows + Panels::height - 1) / Panels::height) * Panels::height * n_columns;
+using namespace panel;
+
+namespace {
+
+template <class T>
+size_t tile_bytes(int n_columns) {
+  return sizeof(T) * height * n_columns;
 }
 
-Panels::Kind Panels::kind_of(double largest, double tolerance) const {
+// f(entries, tile) for every tile, the first of the panel first.
+template <class Function>
+void for_each_tile(const View& view, Function&& f) {
+  const std::byte* at = view.data;
+  const Tile* tile = view.tiles;
+  const auto run = [&](int n, auto zero) {
+    using T = decltype(zero);
+    for (int i = 0; i < n; ++i, ++tile, at += tile_bytes<T>(view.n_columns)) f(reinterpret_cast<const T*>(at), *tile);
+  };
+  run(view.count[full], 0.0);
+  run(view.count[float_32], 0.0f);
+  run(view.count[int_16], std::int16_t{0});
+  run(view.count[int_8], std::int8_t{0});
+}
+
+}  // namespace
+
+double panel_bytes(int n_rows, int n_columns) { return 8.0 * ((n_rows + height - 1) / height) * height * n_columns; }
+
+Kind Panels::kind_of(double largest, double tolerance) const {
   if (precision_ == Precision::double_precision) return full;
   if (largest <= 254.0 * tolerance) return int_8;  // the error of an integer is half a unit, of 127 or 32767
   if (largest <= 65534.0 * tolerance) return int_16;
@@ -90,147 +115,21 @@ double Panels::bytes() const {
   return static_cast<double>(data_.size() + tiles_.size() * sizeof(Tile) + panels_.size() * sizeof(Panel));
 }
 
-void Panels::forward(size_t i_panel, double* y) const {
-  const Panel& panel = panels_[i_panel];
-  with_width(panel.n_columns, [&](auto n) {
-    constexpr int columns = n;
-    double x[columns];
-    float x_single[columns];
-    for_each_tile(panel, [&](const auto* entries, const Tile& tile) {
-      if (tile.row > 0) {
-        if constexpr (std::is_same_v<decltype(entries), const double*>)
-          return subtract_product<columns>(entries, 1.0, x, y + tile.row);
-        else
-          return subtract_product<columns>(entries, tile.scale, x_single, y + tile.row);
-      }
-      for (int c = 0; c < columns; ++c) x[c] = y[c];
-      for (int c = 0; c < columns; ++c) {
-        x[c] *= static_cast<double>(entries[c * height + c]);
-        for (int r = c + 1; r < columns; ++r) x[r] -= static_cast<double>(entries[c * height + r]) * x[c];
-      }
-      subtract_product<columns>(entries, 1.0, x, y);
-      for (int c = 0; c < columns; ++c) y[c] = x[c];
-      for (int c = 0; c < columns; ++c) x_single[c] = static_cast<float>(x[c]);
-    });
-  });
+void Panels::forward(size_t i, double* y) const { panel_kernels().forward(view(panels_[i]), y); }
+void Panels::backward(size_t i, double* y) const { panel_kernels().backward(view(panels_[i]), y); }
+void Panels::forward(size_t i, double* y, int n) const { panel_kernels().forward_many(view(panels_[i]), y, n); }
+void Panels::backward(size_t i, double* y, int n) const { panel_kernels().backward_many(view(panels_[i]), y, n); }
+void Panels::multiply_symmetric(size_t i, const double* x, double* y) const {
+  panel_kernels().multiply_double(view(panels_[i]), x, y);
 }
-
-void Panels::backward(size_t i_panel, double* y) const {
-  const Panel& panel = panels_[i_panel];
-  with_width(panel.n_columns, [&](auto n) {
-    constexpr int columns = n;
-    Lanes sums[columns] = {};
-    WideLanes sums_single[columns] = {};
-    double total[columns] = {};
-    int n_summed = 0;
-    const auto flush = [&] {
-      for (int c = 0; c < columns; ++c) {
-        total[c] += sum(sums_single[c]);
-        sums_single[c] = WideLanes{};
-      }
-      n_summed = 0;
-    };
-    const double* triangle_double = nullptr;
-    const float* triangle_float = nullptr;
-    for_each_tile(panel, [&](const auto* entries, const Tile& tile) {
-      if (tile.row > 0) {
-        if constexpr (std::is_same_v<decltype(entries), const double*>) {
-          add_transposed<columns>(entries, 1.0, y + tile.row, sums);
-        } else {
-          add_transposed<columns>(entries, tile.scale, y + tile.row, sums_single);
-          if (++n_summed == most_summed) flush();
-        }
-        return;
-      }
-      if constexpr (std::is_same_v<decltype(entries), const double*>) triangle_double = entries;
-      if constexpr (std::is_same_v<decltype(entries), const float*>) triangle_float = entries;
-    });
-    if (triangle_float) flush();
-    const auto solve = [&](const auto* triangle) {
-      double x[columns];
-      for (int c = 0; c < columns; ++c) {
-        x[c] = y[c] - (sum(sums[c]) + total[c]);
-        for (int r = columns; r < height; ++r) x[c] -= static_cast<double>(triangle[c * height + r]) * y[r];
-      }
-      for (int c = columns; c-- > 0;) {
-        for (int r = c + 1; r < columns; ++r) x[c] -= static_cast<double>(triangle[c * height + r]) * x[r];
-        x[c] *= static_cast<double>(triangle[c * height + c]);
-      }
-      for (int c = 0; c < columns; ++c) y[c] = x[c];
-    };
-    if (triangle_double)
-      solve(triangle_double);
-    else
-      solve(triangle_float);
-  });
-}
-
-namespace {
-
-// The first tile of a symmetric panel: rows of the square on the diagonal count once, those below it twice.
-template <int columns, class T, class X>
-void add_first(const T* tile, const X* at, const X* x, double* y) {
-  for (int c = 0; c < columns; ++c)
-    for (int r = 0; r < Panels::height; ++r) {
-      const double a = static_cast<double>(tile[c * Panels::height + r]);
-      y[r] += a * at[c];
-      if (r >= columns) y[c] += a * x[r];
-    }
-}
-
-}  // namespace
-
-void Panels::multiply_symmetric(size_t i_panel, const double* x, double* y) const {
-  const Panel& panel = panels_[i_panel];
-  with_width(panel.n_columns, [&](auto n) {
-    constexpr int columns = n;
-    double at[columns];
-    for (int c = 0; c < columns; ++c) at[c] = x[c];
-    Lanes sums[columns] = {};
-    for_each_tile(panel, [&](const auto* entries, const Tile& tile) {
-      if (tile.row > 0) return add_both<columns>(entries, tile.scale, at, x + tile.row, y + tile.row, sums);
-      add_first<columns>(entries, at, x, y);
-    });
-    for (int c = 0; c < columns; ++c) y[c] += sum(sums[c]);
-  });
-}
-
-void Panels::multiply_symmetric(size_t i_panel, const float* x, double* y) const {
-  const Panel& panel = panels_[i_panel];
-  with_width(panel.n_columns, [&](auto n) {
-    constexpr int columns = n;
-    float at[columns];
-    double total[columns] = {};
-    for (int c = 0; c < columns; ++c) at[c] = x[c];
-    WideLanes sums[columns] = {};
-    int n_summed = 0;
-    const auto flush = [&] {
-      for (int c = 0; c < columns; ++c) {
-        total[c] += sum(sums[c]);
-        sums[c] = WideLanes{};
-      }
-      n_summed = 0;
-    };
-    for_each_tile(panel, [&](const auto* entries, const Tile& tile) {
-      using T = std::remove_cvref_t<decltype(*entries)>;
-      if constexpr (!std::is_same_v<T, double>) {
-        if (tile.row > 0) {
-          add_both<columns>(entries, tile.scale, at, x + tile.row, y + tile.row, sums);
-          if (++n_summed == most_summed) flush();
-          return;
-        }
-        add_first<columns>(entries, at, x, y);
-      }
-    });
-    flush();
-    for (int c = 0; c < columns; ++c) y[c] += total[c];
-  });
+void Panels::multiply_symmetric(size_t i, const float* x, double* y) const {
+  panel_kernels().multiply_single(view(panels_[i]), x, y);
 }
 
 void Panels::unpack(size_t i_panel, double* values, int stride) const {
   const Panel& panel = panels_[i_panel];
   for (int c = 0; c < panel.n_columns; ++c) std::fill_n(values + static_cast<size_t>(c) * stride, panel.n_rows, 0.0);
-  for_each_tile(panel, [&](const auto* entries, const Tile& tile) {
+  for_each_tile(view(panel), [&](const auto* entries, const Tile& tile) {
     const int n = std::min(height, panel.n_rows - tile.row);
     for (int c = 0; c < panel.n_columns; ++c)
       for (int i = 0; i < n; ++i)

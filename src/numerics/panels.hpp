@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "numerics/huge_pages.hpp"
+#include "numerics/panel_kernels.hpp"
 #include "numerics/types.hpp"
 
 namespace dygita {
@@ -17,8 +17,7 @@ namespace dygita {
 // single precision, all longer sums in double.
 class Panels {
  public:
-  static constexpr int width = 8;    // most columns of a panel
-  static constexpr int height = 16;  // rows of a tile
+  static constexpr int width = panel::width, height = panel::height;
 
   explicit Panels(Precision precision = Precision::double_precision) : precision_(precision) {}
 
@@ -49,23 +48,19 @@ class Panels {
   void unpack(size_t panel, double* values, int stride) const;
 
  private:
-  enum Kind { full, float_32, int_16, int_8, n_kinds };
-  struct Tile {
-    int row;      // of the panel, where it starts
-    float scale;  // of the integers
-  };
   struct Panel {
     size_t data, tiles;
     int n_rows, n_columns;
-    int count[n_kinds];  // tiles of each kind, in this order; the first tile of the panel leads
+    int count[panel::n_kinds];
   };
-  template <class Function>
-  void for_each_tile(const Panel& panel, Function&& f) const;
-  Kind kind_of(double largest, double tolerance) const;
+  panel::View view(const Panel& panel) const {
+    return {data_.data() + panel.data, tiles_.data() + panel.tiles, panel.n_columns, panel.count};
+  }
+  panel::Kind kind_of(double largest, double tolerance) const;
 
   Precision precision_;
   std::vector<Panel> panels_;
-  std::vector<Tile> tiles_;
+  std::vector<panel::Tile> tiles_;
   StreamedVector<std::byte> data_;
 };
 

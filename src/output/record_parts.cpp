@@ -1,5 +1,6 @@
 #include "output/record_parts.hpp"
 
+#include "base/error.hpp"
 #include "base/names.hpp"
 #include "law/law.hpp"
 
@@ -38,7 +39,43 @@ void add_law(const Law& law, Json& json) {
   json["law"] = {{"remarks", remarks}, {"yields", shown.plastic_opening}, {"has_states", shown.states}};
 }
 
+// The law that a record of an earlier version tells by its kind and parameters alone; null: none is known by them.
+LawPtr recorded_law(const std::string& word, const Json& object) {
+  for (const LawEntry& entry : law_table()) {
+    if (entry.word != word) continue;
+    LawArguments arguments;
+    for (const std::string& name : entry.arguments) {
+      const auto found = object.find(name);
+      if (found == object.end() || (!found->is_number() && !found->is_boolean())) return nullptr;
+      arguments[name] = found->is_boolean() ? (found->get<bool>() ? 1.0 : 0.0) : found->get<double>();
+    }
+    return entry.make(arguments);
+  }
+  return nullptr;
+}
+
 }  // namespace
+
+void complete_laws(Json& record) {
+  const auto text = [](const Json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+  };
+  if (const auto interfaces = record.find("interfaces"); interfaces != record.end() && interfaces->is_array())
+    for (Json& interface : *interfaces) {
+      if (!interface.is_object() || interface.contains("law")) continue;
+      const LawPtr law = recorded_law(text(interface, "kind"), interface);
+      if (!law)
+        throw InputError("run.json does not tell the law of interface '" + text(interface, "name") + "' (" +
+                         text(interface, "kind") +
+                         ")\n    another version of dygita has written it: run the deck again");
+      add_law(*law, interface);
+    }
+  if (const auto supports = record.find("supports"); supports != record.end() && supports->is_array())
+    for (Json& support : *supports)
+      if (support.is_object() && !support.contains("law") && text(support, "kind") == "wall")
+        if (const LawPtr law = recorded_law("contact", support)) add_law(*law, support);
+}
 
 Json interfaces_record(const Problem& problem) {
   Json list = Json::array();

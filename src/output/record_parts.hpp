@@ -7,6 +7,10 @@
 
 namespace dygita {
 
+// Gives the interfaces and walls of a record the `law` that earlier versions did not write, made from their kind
+// and parameters. Throws InputError where an interface cannot be told: it must not pass for a contact.
+void complete_laws(nlohmann::ordered_json& record);
+
 nlohmann::ordered_json interfaces_record(const Problem& problem);
 nlohmann::ordered_json supports_record(const Problem& problem);
 // Outputs with a table, in the deck's order, with the file of each and what it tells of itself.

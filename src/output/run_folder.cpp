@@ -10,6 +10,7 @@
 #include "base/log.hpp"
 #include "output/csv.hpp"
 #include "output/files.hpp"
+#include "output/record_parts.hpp"
 
 namespace dygita {
 
@@ -52,6 +53,11 @@ RunFolder::RunFolder(fs::path folder, const std::string& record_text) : folder_(
   if (!record_.is_object() || !record_.contains("problem") || !record_.contains("verdict") ||
       !record_.contains("steps") || !record_["steps"].is_array())
     throw InputError("'" + (folder_ / "run.json").string() + damaged);
+  try {
+    complete_laws(record_);
+  } catch (const InputError& error) {
+    throw InputError("'" + folder_.string() + "': " + error.what());
+  }
   if (const auto scenes = text_of(folder_ / scene_file)) {
     scenes_ = Json::parse(*scenes, nullptr, false);
     if (!scenes_.is_object()) {
@@ -62,21 +68,27 @@ RunFolder::RunFolder(fs::path folder, const std::string& record_text) : folder_(
 }
 
 Table RunFolder::table(const std::string& file, const std::vector<std::string>& columns) const {
-  std::ifstream stream(folder_ / file);
   try {
-    if (!stream) throw InputError("is missing");
-    std::vector<std::string> steps;
-    for (const Json& step : record_.at("steps")) steps.push_back(text(step, "name"));
-    Table table = parse_csv(stream, steps);
+    if (read_.find(file) == read_.end()) {
+      std::ifstream stream(folder_ / file);
+      if (!stream) throw InputError("is missing");
+      std::vector<std::string> steps;
+      for (const Json& step : record_.at("steps")) steps.push_back(text(step, "name"));
+      read_[file] = parse_csv(stream, steps);
+    }
+    const Table& table = read_.at(file);
     for (const std::string& name : columns)
       if (std::find(table.names.begin(), table.names.end(), name) == table.names.end())
         throw InputError("has no column '" + name + "'");
     return table;
   } catch (const InputError& error) {
-    faults_.push_back(file + " " + error.what() + ": it is left out");
+    const std::string fault = file + " " + error.what() + ": it is left out";
+    if (std::find(faults_.begin(), faults_.end(), fault) == faults_.end()) faults_.push_back(fault);
     return {};
   }
 }
+
+std::string RunFolder::file_text(const std::string& file) const { return text_of(folder_ / file).value_or(""); }
 
 std::vector<Json> RunFolder::outputs(Display::As as) const {
   std::vector<Json> found;

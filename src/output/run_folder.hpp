@@ -28,6 +28,9 @@ class RunFolder {
   Table table(const std::string& file, const std::vector<std::string>& columns = {}) const;
   const std::vector<std::string>& faults() const { return faults_; }
 
+  // A file of the folder as it is; empty where there is none.
+  std::string file_text(const std::string& file) const;
+
   // Outputs of the record that are shown in one way.
   std::vector<Json> outputs(Display::As as) const;
   double figure(Figure figure) const;  // nan where the run has none, or it is not finite
@@ -37,6 +40,7 @@ class RunFolder {
   std::filesystem::path folder_;
   Json record_, scenes_;
   mutable std::vector<std::string> faults_;
+  mutable std::map<std::string, Table> read_;  // several sections ask for the same table
 };
 
 // Of an object's member: nan where it is missing or null; "" likewise.

@@ -32,6 +32,30 @@ Json libraries(const RunIdentity& identity) {
   return json;
 }
 
+// What a unit slip shows in: mass (kg), bounding box (m), material (SI).
+Json body(const Substructure& part) {
+  const Elastic& material = part.material;
+  const Points& nodes = part.mesh->nodes;
+  const Vec3 low = nodes.rowwise().minCoeff() + part.place, high = nodes.rowwise().maxCoeff() + part.place;
+  Json json = {{"mass", material.density * volume(*part.mesh)},
+               {"low", {low[0], low[1], low[2]}},
+               {"high", {high[0], high[1], high[2]}},
+               {"young", material.young},
+               {"poisson", material.poisson},
+               {"density", material.density}};
+  if (part.yield) json["yield"] = *part.yield;
+  return json;
+}
+
+Json stress(const PartStress& peak, const Problem& problem) {
+  return {{"von_mises", peak.von_mises},
+          {"margin", peak.margin()},
+          {"volume_above_yield", peak.above},
+          {"step", peak.step >= 0 ? problem.steps[static_cast<size_t>(peak.step)]->name : ""},
+          {"time", peak.time},
+          {"place", {peak.place[0], peak.place[1], peak.place[2]}}};
+}
+
 Json substructures(const Problem& problem, const RunResult& result, const RunIdentity& identity) {
   Json list = Json::array();
   for (size_t i = 0; i < problem.substructures.size(); ++i) {
@@ -42,10 +66,13 @@ Json substructures(const Problem& problem, const RunResult& result, const RunIde
                  {"nodes", part->mesh->n_nodes()},
                  {"cells", part->mesh->n_cells()},
                  {"material", part->material.name}};
+    json.update(body(*part));
     for (const auto& [name, digest] : identity.mesh_digests) {
       if (name == part->name) json["digest"] = digest;
     }
     if (i < result.pieces.size() && result.pieces[i] > 1) json["pieces"] = result.pieces[i];
+    for (const PartStress& peak : result.stresses)
+      if (peak.part == static_cast<int>(i)) json["stress"] = stress(peak, problem);
     list.push_back(json);
   }
   return list;
@@ -108,6 +135,12 @@ Json bolts(const RunResult& result) {
                  {"loss", bolt.loss() ? Json(*bolt.loss()) : Json()},
                  {"shortening", bolt.shortening},
                  {"plastic_opening", bolt.plastic_opening}};
+    json["swing"] = bolt.swing;
+    if (const auto by_yield = bolt.loss_by_yield()) {
+      json["stiffness"] = *bolt.stiffness;
+      json["loss_by_yield"] = *by_yield;
+      if (const auto before = bolt.loss_before_motion()) json["loss_before_motion"] = *before;
+    }
     if (bolt.target) json["target"] = *bolt.target;
     if (bolt.formula)
       json["hand"] = {{"force", bolt.hand.value_or(0.0)},
@@ -164,6 +197,7 @@ std::string run_record(const Problem& problem, const RunResult& result, const Ru
       {"figures", object(recorded_figures(result))},
       {"seconds", object(result.seconds)},
       {"threads", identity.threads},
+      {"kernels", identity.kernels},
       {"libraries", libraries(identity)},
       {"files", files},
   };

@@ -33,8 +33,7 @@ struct RunWriter::Index {
 
   Manifest manifest;
   Collection parts, interfaces;
-  int n_frames = 0;
-  double last_time = 0.0;
+  std::vector<FrameSummary> frames;
 };
 
 RunWriter::RunWriter(fs::path directory, std::string problem_name)
@@ -50,9 +49,10 @@ RunWriter::RunWriter(fs::path directory, std::string problem_name)
 RunWriter::~RunWriter() = default;
 
 void RunWriter::write_frame(const Frame& frame) {
-  CHECK(index_->n_frames == 0 || frame.label_time > index_->last_time, "frames come in the order of their label_time");
+  CHECK(index_->frames.empty() || frame.label_time > index_->frames.back().label_time,
+        "frames come in the order of their label_time");
   make_directory(directory_ / frames_folder / "interfaces");
-  const std::string number = fmt::format("_{:05}.vtu", index_->n_frames);
+  const std::string number = fmt::format("_{:05}.vtu", index_->frames.size());
   const auto listed = [this](const fs::path& file) {
     index_->manifest.add(file);
     return directory_ / file;
@@ -72,9 +72,10 @@ void RunWriter::write_frame(const Frame& frame) {
   }
   if (!index_->parts.is_empty()) write(file_name_of(problem_name_) + ".pvd", index_->parts.text());
   if (!index_->interfaces.is_empty()) write(interfaces_file, index_->interfaces.text());
-  index_->last_time = frame.label_time;
-  ++index_->n_frames;
+  index_->frames.push_back(summary_of(frame));
 }
+
+const std::vector<FrameSummary>& RunWriter::frames() const { return index_->frames; }
 
 void RunWriter::write_tables(const Problem& problem, const RunResult& result) {
   const std::vector<std::string> steps = step_names(problem);

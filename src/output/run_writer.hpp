@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "output/files.hpp"
+#include "output/frame_summary.hpp"
 #include "result/frame.hpp"
 #include "result/result.hpp"
 
@@ -20,6 +21,7 @@ struct RunIdentity {
   std::string solver;                                             // --solver; empty: the deck's own
   std::vector<std::pair<std::string, std::string>> mesh_digests;  // substructure, digest; left out: the mesh's own
   int threads = 1;
+  std::string kernels;  // of panels: "avx512", "avx2" or "generic"
   std::vector<std::pair<std::string, std::string>>
       libraries;  // name, version, beside those that output itself can name
   std::string case_name = "base";
@@ -55,6 +57,7 @@ class RunWriter {
   std::filesystem::path path_of(const std::string& file_name);
 
   const std::filesystem::path& directory() const { return directory_; }
+  const std::vector<FrameSummary>& frames() const;  // those written
 
  private:
   struct Index;  // the frames written so far

@@ -1,5 +1,10 @@
 #include "report/html.hpp"
 
+#include <algorithm>
+#include <cctype>
+
+#include "base/log.hpp"
+#include "report/embedded.hpp"
 #include "report/svg_text.hpp"
 
 namespace dygita::html {
@@ -19,7 +24,11 @@ p { margin: 6px 0; max-width: 900px; }
 .cards { display: flex; flex-wrap: wrap; gap: 10px; margin: 12px 0; }
 .card { border: 1px solid #ccc; border-top: 4px solid #888; padding: 6px 12px 8px; min-width: 150px; flex: 1; max-width: 240px; }
 .card.fine { border-top-color: #009e73; }
+.card.fair { border-top-color: #e69f00; }
 .card.poor { border-top-color: #d55e00; }
+details { margin: 14px 0; }
+summary { font-weight: bold; font-size: 16px; cursor: pointer; }
+td.sum { border-top: 2px solid #bbb; }
 .card b { display: block; font-size: 20px; }
 .card small { color: #555; display: block; }
 ul.warnings { list-style: none; padding: 0; }
@@ -28,22 +37,32 @@ table { border-collapse: collapse; margin: 8px 0 16px; font-size: 14px; }
 th { text-align: left; border-bottom: 2px solid #bbb; padding: 3px 14px 3px 0; vertical-align: bottom; }
 td { border-bottom: 1px solid #e4e4e4; padding: 3px 14px 3px 0; vertical-align: top; }
 table.numbers td + td, table.numbers th + th { text-align: right; }
+table.numbers td.text, table.numbers th.text { text-align: left; }
+td:first-child { white-space: nowrap; }
 figure { margin: 8px 0; break-inside: avoid; }
 figcaption { color: #555; font-size: 13px; max-width: 900px; }
 svg { max-width: 100%; height: auto; }
 .blocks { display: flex; flex-wrap: wrap; gap: 0 48px; align-items: flex-start; }
 .row { display: flex; flex-wrap: wrap; gap: 4px 20px; align-items: flex-start; }
 .row figure { flex: 1 1 480px; min-width: 0; max-width: 540px; }
-@media print { body { margin: 0; max-width: none; font-size: 12px; } h2 { break-after: avoid; } h3 { break-after: avoid; }
+@media print { details::details-content { content-visibility: visible; display: block; } summary { list-style: none; } body { margin: 0; max-width: none; font-size: 12px; } h2 { break-after: avoid; } h3 { break-after: avoid; }
   .row figure { flex-basis: 300px; } .card, .verdict, ul.warnings li { -webkit-print-color-adjust: exact; print-color-adjust: exact; } }
 )";
+
+// A column of words among numbers.
+bool is_text(const std::vector<std::vector<std::string>>& rows, size_t column) {
+  return std::all_of(rows.begin(), rows.end(), [&](const std::vector<std::string>& row) {
+    return column >= row.size() || row[column].empty() || std::isalpha(static_cast<unsigned char>(row[column].front()));
+  });
+}
 
 }  // namespace
 
 std::string page(const std::string& title, const std::string& body_html) {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + escaped(title) +
          "</title>\n<meta name=\"viewport\" content=\"width=device-width\">\n<style>" + style +
-         "</style>\n</head>\n<body>\n" + body_html + "</body>\n</html>\n";
+         embedded_text("page.css") + "</style>\n</head>\n<body>\n" + body_html + "<script>\n" +
+         embedded_text("charts.js") + embedded_text("turn.js") + "</script>\n</body>\n</html>\n";
 }
 
 std::string section(const std::string& title, const std::string& body_html) {
@@ -70,14 +89,29 @@ std::string table(const std::vector<std::string>& header, const std::vector<std:
                   bool numbers) {
   if (rows.empty()) return "";
   std::string result = numbers ? "<table class=\"numbers\">\n<tr>" : "<table>\n<tr>";
-  for (const std::string& cell : header) result += "<th>" + escaped(cell) + "</th>";
+  const auto mark = [&](size_t column) {
+    return numbers && column > 0 && is_text(rows, column) ? " class=\"text\"" : "";
+  };
+  for (size_t i = 0; i < header.size(); ++i)
+    result += std::string("<th") + mark(i) + ">" + escaped(header[i]) + "</th>";
   result += "</tr>\n";
   for (const std::vector<std::string>& cells : rows) {
     result += "<tr>";
-    for (const std::string& cell : cells) result += "<td>" + escaped(cell) + "</td>";
+    for (size_t i = 0; i < cells.size(); ++i)
+      result += std::string("<td") + mark(i) + ">" + escaped(cells[i]) + "</td>";
     result += "</tr>\n";
   }
   return result + "</table>\n";
+}
+
+std::string folded(const std::string& title, const std::string& body_html) {
+  return body_html.empty() ? "" : "<details>\n<summary>" + escaped(title) + "</summary>\n" + body_html + "</details>\n";
+}
+
+std::string table_under(const std::string& title, const std::string& table_html, size_t n_rows) {
+  constexpr size_t most_rows = 12;
+  if (table_html.empty()) return "";
+  return n_rows > most_rows ? folded(fmt::format("{} ({})", title, n_rows), table_html) : heading(title) + table_html;
 }
 
 std::string block(const std::string& body_html) { return "<div>\n" + body_html + "</div>\n"; }

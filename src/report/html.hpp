@@ -21,6 +21,10 @@ std::string table(const std::vector<std::string>& header, const std::vector<std:
 // Blocks stand side by side where they have room.
 std::string block(const std::string& body_html);
 std::string blocks(const std::string& blocks_html);
+// Closed until it is asked for, open in print.
+std::string folded(const std::string& title, const std::string& body_html);
+// `folded` where a table has more rows than a reader takes in at a glance; else under a heading.
+std::string table_under(const std::string& title, const std::string& table_html, size_t n_rows);
 std::string list(const std::vector<std::string>& items, const char* style = "");
 
 }  // namespace dygita::html

@@ -15,6 +15,9 @@ class ItemBuffer {
   // For each item whether it has a pixel.
   std::vector<char> seen(int n_items) const;
 
+  // The item seen at a pixel; -1: none.
+  int item(int x, int y) const { return item_[static_cast<size_t>(y) * width_ + x]; }
+
   // Whether what lies at this place and depth is at most `tolerance` behind the nearest.
   bool is_in_front(double x, double y, double depth, double tolerance) const;
 

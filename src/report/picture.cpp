@@ -144,6 +144,7 @@ View view_of(const std::vector<SubstructurePtr>& parts) {
     towards[up_axis] = 0.0;
     if (length > 2.5 * second) towards[longest] = 0.0;
     towards.maxCoeff(&axis);
+    view.cut_at = view.centre;
     view.cut = Vec3::Unit(axis) * (view.axes(2, axis) > 0.0 ? 1.0 : -1.0);
   }
   return view;

@@ -33,8 +33,9 @@ struct View {
   Vec3 centre = Vec3::Zero();     // m
   double size = 1.0;              // m, across the picture's width
   int width = 640, height = 480;  // px
-  bool is_cut = false;            // cells in front of a plane through the centre, normal to `cut`, are left out
-  Vec3 cut = Vec3::Zero();
+  bool is_cut = false;            // what lies in front of a plane is left out, cells divided where it passes
+  Vec3 cut = Vec3::Zero();        // its normal, unit, towards the reader
+  Vec3 cut_at = Vec3::Zero();     // m, a point of it
 };
 
 // An isometric view that the whole assembly fits in, flatter for what is long and thin; laid on its side if it is tall.

@@ -24,7 +24,8 @@ struct Skin {
   Vec3 normal(int i_facet) const;  // of the deformed facet, its length is twice the area
 };
 
-// Empty `displacement`, `values`: zero. Cells in front of the view's cut are left out.
+// Empty `displacement`, `values`: zero. What lies in front of the view's cut is left out; cells that
+// it passes through are divided by it, and what they show in its plane is part of the boundary.
 Skin make_skin(const std::vector<SubstructurePtr>& parts, const View& view, const std::vector<Points>& displacement,
                const std::vector<Vec>& values, double scale);
 

@@ -27,6 +27,9 @@ class PlotScale {
   const std::vector<Tick>& ticks() const { return ticks_; }
   // "time (µs)"
   std::string title() const;
+  double unit_size() const { return unit_.size; }  // SI, of what labels count in
+  bool is_log() const { return axis_.is_log; }
+  bool has_own_ticks() const { return !axis_.ticks.empty(); }  // given, not found: places are not values
 
  private:
   void add_linear_ticks(int n_ticks);

@@ -10,12 +10,12 @@ namespace {
 
 std::string page_of(const RunFolder& run, const ReportRequest& request) {
   const TimeAxis time(run.record().at("steps"));
-  // Verdict first on the page, faults of the folder known only at the end.
-  std::string body =
-      verdict_section(run, spectra_findings(run, request)) + computed_section(run) + picture_section(run);
-  body += spectra_section(run, time, request) + attenuation_section(run) + histories_section(run, time) +
-          bolts_section(run) + joints_section(run, time) + condensed_section(run);
-  body += energy_section(run, time) + convergence_section(run) + cost_section(run);
+  // What matters first; the folder's faults are known only at the end.
+  std::string body = verdict_section(run, request) + masses_section(run) + picture_section(run) + motion_section(run) +
+                     peaks_section(run, time, request) + margins_section(run) + bolts_section(run);
+  body += spectra_section(run, time, request) + attenuation_section(run, time) + histories_section(run, time) +
+          joints_section(run, time) + condensed_section(run) + energy_section(run, time);
+  body += convergence_section(run) + cost_section(run) + computed_section(run);
   return html::page(text(run.record(), "problem") + ", " + text(run.record(), "case"),
                     title_section(run) + html::list(run.faults(), "warnings") + body);
 }

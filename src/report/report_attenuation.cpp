@@ -16,15 +16,18 @@ std::string decibels(double value) {
   return std::isfinite(value) ? fmt::format("{}{:.1f} dB", value < 0.0 ? "−" : "+", std::abs(value)) : "nothing enters";
 }
 
-std::string attenuation_part(const RunFolder& run, const Json& output) {
+std::string attenuation_part(const RunFolder& run, const Json& output, const FrequencyRange& judged) {
   const Table table = run.table(text(output, "file"));
   if (table.n_rows() == 0 || table.columns.size() < 4) return "";
   const std::vector<double>& frequency = table.columns.front();
   Plot plot{.title = text(output, "name"), .x = {"centre of the band", "Hz", true}, .y = {"behind over before", "dB"}};
   std::vector<std::string> header = {"band"};
   std::vector<std::vector<std::string>> rows;
-  for (const double f : frequency) rows.push_back({with_unit(f, "Hz")});
   std::string silent;
+  for (const double f : frequency) rows.push_back({with_unit(f, "Hz") + (judged.holds(f) ? "" : " *")});
+  if (std::any_of(frequency.begin(), frequency.end(), [&](double f) { return !judged.holds(f); }))
+    silent += " *: unreliable, beyond what the record holds (" + with_unit(judged.from, "Hz") +
+              ", 1/record length, to " + with_unit(judged.to, "Hz") + ").";
   for (size_t i = 1; i + 2 < table.columns.size(); i += 3) {
     const std::vector<double>& ratio = table.columns[i + 2];
     const std::string axis = table.names[i + 2].size() > 6 ? "along " + table.names[i + 2].substr(6) : "";
@@ -52,9 +55,9 @@ std::string attenuation_part(const RunFolder& run, const Json& output) {
 
 }  // namespace
 
-std::string attenuation_section(const RunFolder& run) {
+std::string attenuation_section(const RunFolder& run, const TimeAxis& time) {
   std::string body;
-  for (const Json& output : run.outputs(Display::As::attenuation)) body += attenuation_part(run, output);
+  for (const Json& output : run.outputs(Display::As::attenuation)) body += attenuation_part(run, output, time.judged());
   return html::section("Through the joint", body);
 }
 

@@ -1,4 +1,4 @@
-// What was computed: parts, interfaces, supports, steps with their loads, parameters of the deck.
+// What was computed: interfaces, supports, steps with their loads, parameters of the deck.
 #include <cmath>
 #include <sstream>
 
@@ -106,15 +106,13 @@ std::string computed_section(const RunFolder& run) {
   std::string body;
   std::vector<std::vector<std::string>> rows;
   const auto flush = [&](const std::string& title, std::vector<std::string> header) {
-    if (!rows.empty()) body += html::block(html::heading(title) + html::table(without_last(rows, header), rows));
+    const std::vector<std::string> kept = without_last(rows, header);
+    if (!rows.empty()) body += html::table_under(title, html::table(kept, rows), rows.size());
     rows.clear();
   };
-  for (const Json& part : record.value("substructures", Json::array())) {
-    const double pieces = number(part, "pieces");
-    rows.push_back({text(part, "name"), text(part, "material"), count(number(part, "nodes")),
-                    count(number(part, "cells")), pieces > 1.0 ? "cut into " + count(pieces) + " pieces" : ""});
-  }
-  flush("Parts", {"part", "material", "nodes", "cells", ""});
+  for (const Json& step : record.at("steps"))
+    rows.push_back({text(step, "name"), text(step, "kind"), length_of(step), loads_of(step)});
+  flush("Steps", {"step", "kind", "length", "loads"});
   for (const Json& interface : record.value("interfaces", Json::array()))
     rows.push_back({text(interface, "name"), text(interface, "kind"),
                     joined(interface.value("between", Json::array()), " — "), law_of(interface)});
@@ -123,14 +121,11 @@ std::string computed_section(const RunFolder& run) {
     rows.push_back(
         {text(support, "name"), text(support, "kind"), joined(support.value("on", Json::array())), law_of(support)});
   flush("Supports", {"support", "kind", "on", "law"});
-  for (const Json& step : record.at("steps"))
-    rows.push_back({text(step, "name"), text(step, "kind"), length_of(step), loads_of(step)});
-  flush("Steps", {"step", "kind", "length", "loads"});
   const Json parameters = record.value("parameters", Json::object());
   for (const auto& [name, value] : parameters.items())
     rows.push_back({name, value.is_number() ? plain_number(value.get<double>(), 6) : "not a number"});
   flush("Parameters of the deck (SI)", {"parameter", "value"});
-  return html::section("What was computed", html::blocks(body));
+  return html::section("What was computed", body);
 }
 
 }  // namespace dygita

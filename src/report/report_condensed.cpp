@@ -4,6 +4,7 @@
 
 #include "base/log.hpp"
 #include "report/html.hpp"
+#include "report/quantities.hpp"
 #include "report/report_parts.hpp"
 #include "report/svg_plot.hpp"
 #include "report/units.hpp"
@@ -37,17 +38,17 @@ std::string loop_part(const RunFolder& run, const Json& output) {
                                                  stem(output) + "_backbone.csv.");
   const Table cycles = run.table(stem(output) + "_cycles.csv",
                                  {"amplitude", "force_amplitude", "secant", "loss", "loss_factor", "exponent"});
-  std::vector<std::vector<std::string>> rows;
+  Cells rows;
   for (int i = 0; i < cycles.n_rows(); ++i) {
     const auto at = [&](const char* column) { return cycles.column(column)[static_cast<size_t>(i)]; };
-    rows.push_back({std::to_string(i + 1), with_unit(at("force_amplitude"), "N"), with_unit(at("amplitude"), "m"),
-                    plain_number(at("secant")) + " N/m", with_unit(at("loss"), "J"), plain_number(at("loss_factor")),
+    rows.push_back({std::to_string(i + 1), Cell(at("force_amplitude"), "N"), Cell(at("amplitude"), "m"),
+                    plain_number(at("secant")) + " N/m", Cell(at("loss"), "J"), plain_number(at("loss_factor")),
                     std::isfinite(at("exponent")) ? plain_number(at("exponent")) : ""});
   }
   if (rows.empty()) return body + html::paragraph("No cycle was closed.");
   return body + html::table({"cycle", "force amplitude", "displacement amplitude", "secant stiffness", "loss",
                              "loss factor", "exponent of loss over force"},
-                            rows, true);
+                            in_common_units(rows), true);
 }
 
 std::string superelement_part(const RunFolder& run, const Json& output) {

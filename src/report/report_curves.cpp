@@ -1,4 +1,4 @@
-// Spectra, with the specification that each is held against, and histories.
+// Charts of spectra, with the specification that each is held against, and of histories.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -7,97 +7,14 @@
 #include "base/log.hpp"
 #include "report/html.hpp"
 #include "report/report_parts.hpp"
+#include "report/spectra.hpp"
 #include "report/svg_text.hpp"
 #include "report/units.hpp"
+#include "result/limits.hpp"
 
 namespace dygita {
 
 namespace {
-
-using SpecificationPtr = std::shared_ptr<const Specification>;
-
-// A spectrum with what it is held against.
-struct Spectrum {
-  std::string name, of, quantity;
-  double q_factor;
-  Table table;
-  SpecificationPtr specification;
-  Table band;  // dB, what iteration, time step and mesh leave; empty: not known
-
-  const std::vector<double>& frequency() const { return table.columns.front(); }
-  const std::vector<double>& level() const { return table.column("maximax"); }
-};
-
-SpecificationPtr specification_of(const Json& output, const ReportRequest& request) {
-  if (request.specification) return request.specification;
-  if (!output.contains("specification")) return nullptr;
-  const Json& json = output["specification"];
-  auto found = std::make_shared<Specification>();
-  found->source = text(json, "source");
-  found->frequency = json.at("frequency").get<std::vector<double>>();
-  found->level = json.at("level").get<std::vector<double>>();
-  return found;
-}
-
-std::vector<Spectrum> spectra_of(const RunFolder& run, const ReportRequest& request) {
-  std::vector<Spectrum> spectra;
-  for (const Json& output : run.outputs(Display::As::spectrum)) {
-    Spectrum spectrum{text(output, "name"),
-                      text(output, "of"),
-                      text(output, "quantity"),
-                      number(output, "q_factor"),
-                      run.table(text(output, "file"), {"maximax", "positive", "negative"}),
-                      specification_of(output, request),
-                      {}};
-    if (output.contains("band")) spectrum.band = run.table(text(output, "band"), {"all"});
-    if (spectrum.table.n_rows() > 0) spectra.push_back(std::move(spectrum));
-  }
-  return spectra;
-}
-
-std::string decibels(double value) { return fmt::format("{}{:.1f}\u00a0dB", value < 0.0 ? "−" : "+", std::abs(value)); }
-
-// "1.2 to 1.6 kHz, above 4 kHz": where a spectrum is more than `limit` dB above (sign 1) or below (sign -1) its
-// specification.
-std::string ranges_outside(const Spectrum& spectrum, double limit, int sign) {
-  std::string result;
-  const std::vector<double>& f = spectrum.frequency();
-  const auto is_outside = [&](size_t i) {
-    const double difference = 20.0 * std::log10(spectrum.level()[i] / spectrum.specification->level_at(f[i]));
-    return std::isfinite(difference) && sign * difference > limit;
-  };
-  int n = 0;
-  for (size_t i = 0; i < f.size(); ++i) {
-    if (!is_outside(i)) continue;
-    const size_t first = i;
-    while (i + 1 < f.size() && is_outside(i + 1)) ++i;
-    if (++n > 4) return result + " and further ranges";
-    result +=
-        (result.empty() ? "" : ", ") + with_unit(f[first], "Hz") + (i > first ? " to " + with_unit(f[i], "Hz") : "");
-  }
-  return result;
-}
-
-std::string finding(const Spectrum& s) {
-  const Exceedance worst = largest_exceedance(*s.specification, s.frequency(), s.level());
-  if (!worst.is_known) return fmt::format("Spectrum '{}' and its specification share no frequency.", s.name);
-  const std::string where = with_unit(worst.frequency, "Hz");
-  std::string line = worst.decibels > 0.0
-                         ? fmt::format("Spectrum '{}' exceeds its specification by up to {} at {}", s.name,
-                                       decibels(worst.decibels), where)
-                         : fmt::format("Spectrum '{}' stays below its specification everywhere, nearest at {} with {}",
-                                       s.name, where, decibels(worst.decibels));
-  const std::string above_6 = ranges_outside(s, 6.0, 1), above_3 = ranges_outside(s, 3.0, 1),
-                    below_6 = ranges_outside(s, 6.0, -1);
-  if (!above_6.empty())
-    line += "; above the +6 dB band at " + above_6;
-  else if (!above_3.empty())
-    line += "; above the +3 dB band at " + above_3;
-  else if (worst.decibels > 0.0)
-    line += ", within the +3 dB band";
-  if (!below_6.empty()) line += "; below the −6 dB band at " + below_6;
-  return line + ".";
-}
 
 std::vector<double> scaled(const std::vector<double>& values, double factor) {
   std::vector<double> result = values;
@@ -128,13 +45,41 @@ bool add_uncertainty(const Spectrum& s, int i_line, Plot& plot) {
   return true;
 }
 
+// A ring at each range above the specification; at the nearest place where there is none.
+void mark_worst(const Spectrum& s, const FrequencyRange& judged, Plot& plot) {
+  constexpr size_t most_marks = 3;
+  std::vector<Excursion> marked = excursions(s, judged, limit::specification, 1);
+  if (marked.size() > most_marks) marked.resize(most_marks);
+  if (marked.empty())
+    if (const Exceedance worst = largest_exceedance(*s.specification, s.frequency(), s.level(), judged); worst.is_known)
+      marked.push_back({worst.frequency, worst.frequency, worst.decibels, worst.frequency});
+  for (const Excursion& range : marked) {
+    const auto at = std::find(s.frequency().begin(), s.frequency().end(), range.at) - s.frequency().begin();
+    plot.marks.push_back({range.at, s.level()[static_cast<size_t>(at)], decibels(range.worst)});
+  }
+}
+
+// Shades what the record does not allow to judge, and says so.
+std::string shade_unreliable(const FrequencyRange& judged, Plot& plot) {
+  std::string caption;
+  if (judged.from > *plot.x.from && *plot.x.from < *plot.x.to) {
+    plot.spans.push_back({*plot.x.from, std::min(judged.from, *plot.x.to), "the record is too short"});
+    caption += "; unreliable, and not judged, below " + with_unit(judged.from, "Hz") + ", 1/record length";
+  }
+  if (judged.to < *plot.x.to) {
+    plot.spans.push_back({std::max(judged.to, *plot.x.from), *plot.x.to, "beyond the sampling"});
+    caption += "; beyond " + with_unit(judged.to, "Hz") + ", half the sampling rate, the record has no content";
+  }
+  return caption;
+}
+
 std::string spectra_figure(const std::vector<Spectrum>& group, const TimeAxis& time) {
   Plot plot{.title = "Shock response spectra of " + group.front().quantity,
             .x = {"frequency", "Hz", true},
             .y = {"maximax " + group.front().quantity, group.front().table.units.at(1), true}};
   plot.height = 400;
   plot.width = 820;
-  std::vector<SpecificationPtr> drawn;
+  std::vector<std::shared_ptr<const Specification>> drawn;
   for (const Spectrum& s : group)
     plot.lines.push_back({s.name + (std::isfinite(s.q_factor) ? fmt::format(" (Q {:g})", s.q_factor) : " (undamped)"),
                           s.frequency(), s.level()});
@@ -150,24 +95,15 @@ std::string spectra_figure(const std::vector<Spectrum>& group, const TimeAxis& t
     plot.x.from = std::min(*plot.x.from, s.frequency().front());
     plot.x.to = std::max(*plot.x.to, s.frequency().back());
     if (!s.specification) continue;
-    const bool is_new = std::none_of(drawn.begin(), drawn.end(), [&](const SpecificationPtr& d) {
+    const bool is_new = std::none_of(drawn.begin(), drawn.end(), [&](const auto& d) {
       return d->frequency == s.specification->frequency && d->level == s.specification->level;
     });
     if (is_new) add_specification(*s.specification, plot);
     if (is_new) drawn.push_back(s.specification);
-    const Exceedance worst = largest_exceedance(*s.specification, s.frequency(), s.level());
-    if (worst.is_known)
-      plot.marks.push_back(
-          {worst.frequency,
-           s.level()[static_cast<size_t>(std::find(s.frequency().begin(), s.frequency().end(), worst.frequency) -
-                                         s.frequency().begin())],
-           decibels(worst.decibels)});
+    mark_worst(s, time.judged(), plot);
   }
   std::string caption = "Maximax response of oscillators to the acceleration of the dynamic steps";
-  if (const double low = time.record() > 0.0 ? 1.0 / time.record() : 0.0; low > *plot.x.from && low < *plot.x.to) {
-    plot.spans.push_back({*plot.x.from, low, "the record is too short"});
-    caption += "; unreliable below " + with_unit(low, "Hz") + ", 1/record length";
-  }
+  if (time.record() > 0.0) caption += shade_unreliable(time.judged(), plot);
   if (has_uncertainty) caption += "; shaded: uncertainty from iteration, time step and mesh by the run's own estimate";
   return html::figure(svg(plot), caption + ".");
 }
@@ -185,22 +121,7 @@ size_t n_drawn(const Json& output, const Table& table) {
   return entry && entry->display.n_columns > 0 ? std::min<size_t>(entry->display.n_columns, all) : all;
 }
 
-std::string title_of(const Json& output) {
-  const Json on = output.value("on", Json::array());
-  std::string places;
-  for (const Json& place : on)
-    if (place.is_string()) places += (places.empty() ? "" : ", ") + place.get<std::string>();
-  std::string direction;
-  if (output.contains("direction") && output["direction"].size() == 3) {
-    const double d[3] = {output["direction"][0].get<double>(), output["direction"][1].get<double>(),
-                         output["direction"][2].get<double>()};
-    for (int axis = 0; axis < 3; ++axis)
-      if (std::abs(std::abs(d[axis]) - 1.0) < 1e-9)
-        direction = std::string(" along ") + (d[axis] < 0.0 ? "−" : "") + "xyz"[axis];
-    if (direction.empty()) direction = fmt::format(" along ({:.3g}, {:.3g}, {:.3g})", d[0], d[1], d[2]);
-  }
-  return text(output, "name") + ": " + quantity_of(output) + direction + (places.empty() ? "" : ", on " + places);
-}
+std::string title_of(const Json& output) { return text(output, "name") + ": " + subject_of(output); }
 
 std::string history_figure(const Json& output, const Table& table, const TimeAxis& time) {
   std::string quantity = quantity_of(output);
@@ -218,11 +139,21 @@ std::string history_figure(const Json& output, const Table& table, const TimeAxi
 
 }  // namespace
 
-std::vector<std::string> spectra_findings(const RunFolder& run, const ReportRequest& request) {
-  std::vector<std::string> findings;
-  for (const Spectrum& spectrum : spectra_of(run, request))
-    if (spectrum.specification) findings.push_back(finding(spectrum));
-  return findings;
+std::string subject_of(const Json& output) {
+  const Json on = output.value("on", Json::array());
+  std::string places;
+  for (const Json& place : on)
+    if (place.is_string()) places += (places.empty() ? "" : ", ") + place.get<std::string>();
+  std::string direction;
+  if (output.contains("direction") && output["direction"].size() == 3) {
+    const double d[3] = {output["direction"][0].get<double>(), output["direction"][1].get<double>(),
+                         output["direction"][2].get<double>()};
+    for (int axis = 0; axis < 3; ++axis)
+      if (std::abs(std::abs(d[axis]) - 1.0) < 1e-9)
+        direction = std::string(" along ") + (d[axis] < 0.0 ? "−" : "") + "xyz"[axis];
+    if (direction.empty()) direction = fmt::format(" along ({:.3g}, {:.3g}, {:.3g})", d[0], d[1], d[2]);
+  }
+  return quantity_of(output) + direction + (places.empty() ? "" : ", on " + places);
 }
 
 std::string spectra_section(const RunFolder& run, const TimeAxis& time, const ReportRequest& request) {
@@ -233,9 +164,9 @@ std::string spectra_section(const RunFolder& run, const TimeAxis& time, const Re
     body += spectra_figure(group, time);
     for (const Spectrum& spectrum : group)
       if (spectrum.specification)
-        body += html::paragraph(finding(spectrum) + (spectrum.specification->source.empty()
-                                                         ? ""
-                                                         : " Specification: " + spectrum.specification->source + "."));
+        body += html::paragraph(
+            verdict_of(spectrum, time.judged()).sentence +
+            (spectrum.specification->source.empty() ? "" : " Specification: " + spectrum.specification->source + "."));
   }
   return html::section("Shock response spectra", body);
 }

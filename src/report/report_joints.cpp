@@ -1,4 +1,4 @@
-// Bolts, and each joint: areas by state, forces, loops, works, maps.
+// Each joint: areas by state, forces, loops, works, maps.
 #include <algorithm>
 #include <cmath>
 
@@ -180,68 +180,6 @@ std::string joints_section(const RunFolder& run, const TimeAxis& time) {
   std::string body;
   for (const Json& output : run.outputs(Display::As::joint)) body += joint_part(run, output, time);
   return html::section("Joints", body);
-}
-
-// What became of each bolt, and below it all forces after each static step where there are several.
-std::string bolts_section(const RunFolder& run) {
-  const Json bolts = run.record().value("bolts", Json::array());
-  if (bolts.empty()) return "";
-  const auto by_hand = [](const Json& bolt, const char* key) {
-    return number(bolt.value("hand", Json::object()), key);
-  };
-  const auto force = [](double value) { return std::isfinite(value) ? with_unit(value, "N", 4) : std::string(); };
-  const auto any = [&](auto&& value) {
-    return std::any_of(bolts.begin(), bolts.end(), [&](const Json& b) { return std::isfinite(value(b)); });
-  };
-  const bool has_target = any([](const Json&b) { return number(b, "target"); }),
-             has_hand = any([&](const Json&b) { return by_hand(b, "force"); });
-  std::vector<std::string> header = {"bolt"};
-  if (has_target) header.push_back("asked for");
-  header.push_back("tightened to");
-  if (has_hand) header.push_back("VDI 2230, same shortening");
-  const Json& steps_of_run = run.record().at("steps");
-  const bool has_motion = std::any_of(steps_of_run.begin(), steps_of_run.end(),
-                                      [](const Json& step) { return text(step, "kind") == "dynamic"; });
-  header.push_back("shortened by");
-  if (has_motion) header.insert(header.end(), {"lowest in motion", "highest in motion"});
-  for (const char* name : {"at the end", "lost", "mean stress", "residual opening"}) header.push_back(name);
-  std::vector<std::vector<std::string>> rows;
-  for (const Json& bolt : bolts) {
-    std::vector<std::string> row = {text(bolt, "name")};
-    if (has_target) row.push_back(force(number(bolt, "target")));
-    row.push_back(force(number(bolt, "tightened")));
-    if (has_hand) row.push_back(force(by_hand(bolt, "force")));
-    row.push_back(with_unit(number(bolt, "shortening"), "m"));
-    if (has_motion)
-      for (const char* key : {"lowest", "highest"}) row.push_back(force(number(bolt, key)));
-    row.push_back(force(number(bolt, "last")));
-    const double lost = number(bolt, "loss");
-    row.push_back(std::isfinite(lost) ? plain_number(100.0 * lost) + " %" : "-");
-    row.push_back(number(bolt, "area") > 0.0 ? with_unit(number(bolt, "last") / number(bolt, "area"), "Pa") : "");
-    row.push_back(with_unit(number(bolt, "plastic_opening"), "m"));
-    rows.push_back(std::move(row));
-  }
-  std::string body =
-      html::table(header, rows, true) + html::paragraph(
-                                            "Forces are those through the modelled part of each bolt, tension "
-                                            "positive; lost: relative to its own tightening, "
-                                            "at the end; the mean stress is that at the end, over the modelled area.");
-  std::vector<std::string> steps = {"after step"};
-  for (const Json& bolt : bolts) steps.push_back(text(bolt, "name"));
-  std::vector<std::vector<std::string>> history;
-  for (const Json& step : run.record().at("steps")) {
-    if (text(step, "kind") != "static") continue;
-    std::vector<std::string> row = {text(step, "name")};
-    for (const Json& bolt : bolts) {
-      const Json after = bolt.value("after_static", Json::array());
-      row.push_back(history.size() < after.size() && after[history.size()].is_number()
-                        ? force(after[history.size()].get<double>())
-                        : "");
-    }
-    history.push_back(std::move(row));
-  }
-  if (history.size() > 1) body += html::table(steps, history, true);
-  return html::section("Bolts", body);
 }
 
 }  // namespace dygita

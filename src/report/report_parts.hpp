@@ -10,15 +10,19 @@
 namespace dygita {
 
 std::string title_section(const RunFolder& run);
-// Verdict, the numbers that matter and warnings; `spectra` is what spectra_against_specifications tells.
-std::string verdict_section(const RunFolder& run, const std::vector<std::string>& findings);
+// Verdict, the figures that matter with their limits, spectra against their specifications, warnings.
+std::string verdict_section(const RunFolder& run, const ReportRequest& request);
+// Total mass, each part's mass, material and bounding box.
+std::string masses_section(const RunFolder& run);
+// The largest value of every history, spectrum and joint, by name.
+std::string peaks_section(const RunFolder& run, const TimeAxis& time, const ReportRequest& request);
+std::string margins_section(const RunFolder& run);
 std::string computed_section(const RunFolder& run);
 std::string picture_section(const RunFolder& run);
+std::string motion_section(const RunFolder& run);
 std::string spectra_section(const RunFolder& run, const TimeAxis& time, const ReportRequest& request);
-// A line for each spectrum with a specification: how far it is above or below.
-std::vector<std::string> spectra_findings(const RunFolder& run, const ReportRequest& request);
 std::string condensed_section(const RunFolder& run);
-std::string attenuation_section(const RunFolder& run);
+std::string attenuation_section(const RunFolder& run, const TimeAxis& time);
 std::string histories_section(const RunFolder& run, const TimeAxis& time);
 std::string bolts_section(const RunFolder& run);
 std::string joints_section(const RunFolder& run, const TimeAxis& time);
@@ -27,6 +31,8 @@ std::string energy_section(const RunFolder& run, const TimeAxis& time);
 std::string convergence_section(const RunFolder& run);
 std::string cost_section(const RunFolder& run);
 
+// What an output is of: "acceleration along z, on upper.top".
+std::string subject_of(const Json& output);
 // "half-sine, peak 100 MPa, duration 40 µs": a history as the record tells it, of values in this unit.
 std::string history_text(const std::string& description, const std::string& unit);
 

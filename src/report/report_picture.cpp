@@ -1,5 +1,6 @@
 // The assembly as SVG: facets back to front, by part or by von Mises stress, the undeformed outline over it.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/log.hpp"
@@ -56,7 +57,7 @@ std::string pale(const std::string& color) {
   std::string result = "#";
   for (int c = 0; c < 3; ++c)
     result +=
-        fmt::format("{:02x}", (std::stoi(color.substr(1 + 2 * static_cast<size_t>(c), 2), nullptr, 16) + 160) / 2 + 32);
+        fmt::format("{:02x}", (2 * std::stoi(color.substr(1 + 2 * static_cast<size_t>(c), 2), nullptr, 16) + 225) / 3);
   return result;
 }
 
@@ -116,6 +117,42 @@ std::string drawn(const std::vector<DrawnFacet>& facets, const std::vector<std::
   return result;
 }
 
+// A number on each part, at the facet nearest to the middle of what is seen of it.
+std::string numbers(const std::vector<DrawnFacet>& facets, size_t n_parts) {
+  const auto middle = [](const DrawnFacet& facet) {
+    std::array<double, 2> sum{0.0, 0.0};
+    for (size_t k = 0; k < 2 * facet.n; ++k)
+      sum[k % 2] += 0.1 * (*facet.list)[facet.first + k].get<double>() / static_cast<double>(facet.n);
+    return sum;
+  };
+  std::vector<std::array<double, 3>> sum(n_parts, {0.0, 0.0, 0.0});
+  for (const DrawnFacet& facet : facets) {
+    if (facet.part < 0 || facet.part >= static_cast<int>(n_parts)) continue;
+    const std::array<double, 2> at = middle(facet);
+    std::array<double, 3>& of_part = sum[static_cast<size_t>(facet.part)];
+    of_part = {of_part[0] + at[0], of_part[1] + at[1], of_part[2] + 1.0};
+  }
+  std::vector<double> nearest(n_parts, 1e300);
+  std::vector<std::array<double, 2>> place(n_parts);
+  for (const DrawnFacet& facet : facets) {
+    if (facet.part < 0 || facet.part >= static_cast<int>(n_parts)) continue;
+    const auto p = static_cast<size_t>(facet.part);
+    const std::array<double, 2> at = middle(facet);
+    const double distance = std::hypot(at[0] - sum[p][0] / sum[p][2], at[1] - sum[p][1] / sum[p][2]);
+    if (distance >= nearest[p]) continue;
+    nearest[p] = distance;
+    place[p] = at;
+  }
+  std::string result;
+  for (size_t p = 0; p < n_parts; ++p)
+    if (nearest[p] < 1e300)
+      result += fmt::format(
+          "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" font-weight=\"bold\" fill=\"#111111\" stroke=\"#ffffff\" "
+          "stroke-width=\"3\" paint-order=\"stroke\">{}</text>\n",
+          coordinate(place[p][0]), coordinate(place[p][1] + 4.0), p + 1);
+  return result;
+}
+
 std::string by_part(const Json& picture, const Json& parts) {
   const std::vector<DrawnFacet> facets = facets_of(picture);
   std::vector<std::string> colors;
@@ -126,13 +163,15 @@ std::string by_part(const Json& picture, const Json& parts) {
                                 "The assembly, a colour for each part");
   result += "<g transform=\"scale(0.1)\" stroke-width=\"8\" stroke-linejoin=\"round\">\n" + drawn(facets, colors) +
             lines(picture.at("edges"), "stroke=\"#333333\" stroke-width=\"9\"") + "</g>\n" + axes_of(picture, height);
+  if (parts.size() > 1) result += numbers(facets, parts.size());
   for (size_t i = 0; i < parts.size(); ++i) {
     const double x = 20.0 + (width - 20.0) / 3 * static_cast<double>(i % 3),
                  y = height + row * static_cast<double>(i / 3);
     result += fmt::format(
         "<rect x=\"{}\" y=\"{}\" width=\"14\" height=\"14\" fill=\"{}\"/><text x=\"{}\" y=\"{}\">{}</text>\n",
         coordinate(x), coordinate(y), pale(series_color(static_cast<int>(i))), coordinate(x + 20.0),
-        coordinate(y + 12.0), escaped(text(parts[i], "name")));
+        coordinate(y + 12.0),
+        escaped(parts.size() > 1 ? fmt::format("{} {}", i + 1, text(parts[i], "name")) : text(parts[i], "name")));
   }
   return result + "</svg>\n";
 }
@@ -165,6 +204,12 @@ std::string by_stress(const Json& picture, const std::string& title) {
   return result + "</svg>\n";
 }
 
+// Runs of earlier versions were cut through the middle only.
+std::string cut_of(const Json& picture) {
+  const std::string told = text(picture, "cut_text");
+  return told.empty() ? "through the middle" : told;
+}
+
 std::string caption_of(const Json& picture) {
   const double moved = number(picture, "largest_displacement"), scale = number(picture, "scale");
   std::string caption = picture.value("static", false)
@@ -177,7 +222,7 @@ std::string caption_of(const Json& picture) {
              : scale == 1.0 ? "drawn as they are"
                             : "drawn " + plain_number(scale, 6) + " times as large";
   caption += "; von Mises stress up to " + with_unit(number(picture, "largest"), "Pa") + ".";
-  if (picture.value("cut", false)) caption += " Cut through the middle to show the inside.";
+  if (picture.value("cut", false)) caption += " Cut " + cut_of(picture) + ".";
   return caption + (scale > 0.0 ? " Dashed: undeformed." : "");
 }
 
@@ -188,10 +233,9 @@ std::string picture_section(const RunFolder& run) {
   std::vector<std::string> figures;
   for (const Json& picture : run.scenes()["assembly"]) {
     if (text(picture, "colour") == "part")
-      figures.push_back(html::figure(by_part(picture, run.record().value("substructures", Json::array())),
-                                     picture.value("cut", false)
-                                         ? "The same, cut through the middle to show the inside."
-                                         : "The assembly, undeformed."));
+      figures.push_back(html::figure(
+          by_part(picture, run.record().value("substructures", Json::array())),
+          picture.value("cut", false) ? "The same, cut " + cut_of(picture) + "." : "The assembly, undeformed."));
     else
       figures.push_back(html::figure(by_stress(picture, caption_of(picture)), caption_of(picture)));
   }

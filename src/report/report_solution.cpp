@@ -113,10 +113,11 @@ std::string energy_section(const RunFolder& run, const TimeAxis& time) {
       const double value = run.figure(figure);
       return value < 0.01 ? "less than 0.01 %" : with_unit(value, "%", 2);
     };
-    body += html::paragraph(
-        fmt::format("Largest energy {}. The balance closes within {} of it; numerical dissipation {}, energy gain {}.",
-                    with_unit(most, "J"), percent(&Figures::energy_imbalance), percent(&Figures::numerical_dissipation),
-                    percent(&Figures::energy_gain)));
+    body +=
+        html::paragraph(fmt::format("Largest energy {}: the top of the chart, all that is stored and dissipated. The "
+                                    "balance closes within {} of it; numerical dissipation {}, energy gain {}.",
+                                    with_unit(most, "J"), percent(&Figures::energy_imbalance),
+                                    percent(&Figures::numerical_dissipation), percent(&Figures::energy_gain)));
   }
   return html::section("Energy", body);
 }
@@ -204,6 +205,7 @@ std::string cost_section(const RunFolder& run) {
   const Json size = record.value("size", Json::object()), iterations = record.value("iterations", Json::object());
   row("seconds in all", all, "s");
   row("threads", number(record, "threads"), "");
+  if (record.contains("kernels")) rows.push_back({"kernels compiled for", text(record, "kernels")});
   row("degrees of freedom", number(size, "dofs"), "");
   row("interface unknowns", number(size, "interface_unknowns"), "");
   const bool is_explicit = text(record.value("solver", Json::object()), "name") == "explicit";

@@ -4,6 +4,7 @@
 #include "base/log.hpp"
 #include "report/html.hpp"
 #include "report/report_parts.hpp"
+#include "report/spectra.hpp"
 #include "report/svg_text.hpp"
 #include "report/units.hpp"
 #include "result/limits.hpp"
@@ -12,16 +13,12 @@ namespace dygita {
 
 namespace {
 
-struct Card {
-  std::string name, value, note;
-  bool is_fine = true;
-};
-
 std::string percent(double value) { return value >= 0.0 && value < 0.01 ? "< 0.01\u00a0%" : with_unit(value, "%", 2); }
 
 std::string card_html(const Card& card) {
+  static constexpr const char* names[] = {"fine", "fair", "poor"};
   return fmt::format("<div class=\"card {}\"><small>{}</small><b>{}</b><small>{}</small></div>\n",
-                     card.is_fine ? "fine" : "poor", escaped(card.name), escaped(card.value), escaped(card.note));
+                     names[static_cast<int>(card.grade)], escaped(card.name), escaped(card.value), escaped(card.note));
 }
 
 std::string counted(double n, const std::string& what) {
@@ -70,6 +67,63 @@ std::string verdict_text(const Json& record) {
       steps_that_missed(record), tolerance.empty() ? "" : " of " + tolerance);
 }
 
+// The smallest margin against yield.
+void add_margin(const RunFolder& run, std::vector<Card>& cards) {
+  const Json* least = nullptr;
+  const Json parts = run.record().value("substructures", Json::array());
+  const auto margin = [](const Json& part) { return number(part.at("stress"), "margin"); };
+  for (const Json& part : parts)
+    if (part.contains("stress") && number(part["stress"], "von_mises") != 0.0 &&
+        (!least || !(margin(part) >= margin(*least))))
+      least = &part;
+  if (!least) return;
+  const double value = margin(*least);
+  cards.push_back({"smallest margin against yield",
+                   std::isfinite(value) ? plain_number(100.0 * value, 3) + "\u00a0%" : "not a number",
+                   "in '" + text(*least, "name") + "', yield / von Mises − 1",
+                   value >= limit::yield_margin ? Grade::fine : Grade::poor});
+}
+
+// A figure, if the run has it: fine up to `good`, poor beyond `limit`.
+struct Judged {
+  Figure figure;
+  const char *name, *note;
+  double good, limit;
+};
+
+std::vector<Card> cards_of(const RunFolder& run) {
+  const Json& steps = run.record().at("steps");
+  const bool has_motion =
+      std::any_of(steps.begin(), steps.end(), [](const Json& step) { return text(step, "kind") == "dynamic"; });
+  const char* shock = "estimate, of the shock";
+  const char* still = "estimate, of static steps";
+  const double penalty = limit::penalty_error_of(limit::penalty_energy);
+  const Judged all[] = {
+      {&Figures::energy_imbalance, "energy balance closes within", "of the largest energy", limit::energy_imbalance,
+       limit::energy_imbalance},
+      {&Figures::numerical_dissipation, "numerical dissipation",
+       has_motion ? "impacts; lower with dt and mesh" : "gaps that close, yielding; lower with more increments",
+       limit::numerical_dissipation, limit::numerical_dissipation},
+      {&Figures::iteration_error, "iteration error", shock, limit::iteration_error, limit::iteration_error},
+      {&Figures::penalty_error, "penalty error", shock, penalty, penalty},
+      {&Figures::time_step_error, "time step error", shock, limit::good_discretisation, limit::discretisation_error},
+      {&Figures::mesh_error, "mesh error", shock, limit::good_discretisation, limit::discretisation_error},
+      {&Figures::static_iteration_error, "iteration error", still, limit::iteration_error, limit::iteration_error},
+      {&Figures::static_mesh_error, "mesh error", still, limit::good_discretisation, limit::discretisation_error}};
+  std::vector<Card> cards;
+  for (const Judged& one : all) {
+    if (!run.has_figure(one.figure)) continue;
+    const double value = run.figure(one.figure);
+    const Grade grade = value <= one.good ? Grade::fine : value <= one.limit ? Grade::fair : Grade::poor;
+    cards.push_back({one.name, std::isfinite(value) ? percent(value) : "not a number", one.note, grade});
+  }
+  // A gain is mostly none: only one that matters has a card.
+  if (const double gain = run.figure(&Figures::energy_gain); gain > limit::energy_gain)
+    cards.push_back({"numerical energy gain", percent(gain), "of the largest energy", Grade::poor});
+  add_margin(run, cards);
+  return cards;
+}
+
 }  // namespace
 
 std::string title_section(const RunFolder& run) {
@@ -86,42 +140,32 @@ std::string title_section(const RunFolder& run) {
   return "<h1>" + escaped(text(record, "problem")) + "</h1>\n<p class=\"under\">" + escaped(under) + "</p>\n";
 }
 
-std::string verdict_section(const RunFolder& run, const std::vector<std::string>& findings) {
+std::string verdict_section(const RunFolder& run, const ReportRequest& request) {
   const Json& record = run.record();
   const bool is_good = text(record, "verdict") == "converged";
   std::string body =
       fmt::format("<p class=\"verdict {}\">{}</p>\n", is_good ? "good" : "bad", escaped(verdict_text(record)));
 
-  const Json& steps = record.at("steps");
-  const bool has_motion =
-      std::any_of(steps.begin(), steps.end(), [](const Json& step) { return text(step, "kind") == "dynamic"; });
-  std::vector<Card> cards;
-  const auto add = [&](Figure figure, const char* name, const char* note, double limit) {
-    const double value = run.figure(figure);
-    if (std::isfinite(value))
-      cards.push_back({name, percent(value), note, value <= limit});
-    else if (run.has_figure(figure))
-      cards.push_back({name, "not a number", note, false});
-  };
-  add(&Figures::energy_imbalance, "energy balance closes within", "of the largest energy", limit::energy_imbalance);
-  add(&Figures::numerical_dissipation, "numerical dissipation",
-      has_motion ? "impacts; lower with dt and mesh" : "gaps that close, yielding; lower with more increments",
-      limit::numerical_dissipation);
-  add(&Figures::iteration_error, "iteration error", "estimate, of the shock", limit::iteration_error);
-  add(&Figures::penalty_error, "penalty error", "estimate, of the shock",
-      limit::penalty_error_of(limit::penalty_energy));
-  add(&Figures::time_step_error, "time step error", "estimate, of the shock", limit::discretisation_error);
-  add(&Figures::mesh_error, "mesh error", "estimate, of the shock", limit::discretisation_error);
-  add(&Figures::static_iteration_error, "iteration error", "estimate, of static steps", limit::iteration_error);
-  add(&Figures::static_mesh_error, "mesh error", "estimate, of static steps", limit::discretisation_error);
+  std::vector<Card> cards = cards_of(run);
+  std::vector<std::string> findings;
+  for (const Spectrum& spectrum : spectra_of(run, request)) {
+    if (!spectrum.specification) continue;
+    SpectrumVerdict found = verdict_of(spectrum, TimeAxis(record.at("steps")).judged());
+    cards.push_back(std::move(found.card));
+    findings.push_back(std::move(found.sentence));
+  }
   if (!cards.empty()) {
     body += "<div class=\"cards\">\n";
     for (const Card& card : cards) body += card_html(card);
     body += "</div>\n";
-    body += html::paragraph(
-        "Green: below the limit at which a run warns. Errors are in the energy norm: a force or a displacement is "
-        "usually better, an "
-        "acceleration worse.");
+    body += html::paragraph(fmt::format(
+        "Green: fine. Amber: to be kept in mind (a mesh or time step error above {:g} %, a specification that is met "
+        "by less "
+        "than the spectrum is uncertain, or not judged over all of it). Red: beyond the limit at which a run warns, a "
+        "specification exceeded, a yield reached. Errors are in the energy norm: a force or a displacement is usually "
+        "better, "
+        "an acceleration worse.",
+        limit::good_discretisation));
   }
   body += html::list(findings);
   std::vector<std::string> warnings;

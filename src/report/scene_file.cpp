@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/cut_plane.hpp"
 #include "report/joint_map.hpp"
 #include "report/picture.hpp"
 
@@ -51,30 +52,60 @@ double largest(const std::vector<Points>& displacement) {
   return largest;
 }
 
+// Where the pictures are seen from: the whole assembly and, where there is something to see inside, cut open.
+struct Views {
+  View whole;
+  std::optional<View> cut;
+  std::string cut_text;
+};
+
+// Through the bolts where there are any, else through the middle where a part is hidden.
+Views views_of(const Problem& problem) {
+  Views views{view_of(problem.substructures), {}, {}};
+  if (const std::optional<CutPlane> plane = plane_through_bolts(problem, views.whole)) {
+    views.cut = views.whole;
+    views.cut->is_cut = true;
+    views.cut->cut = plane->normal;
+    views.cut->cut_at = plane->point;
+    views.cut_text = plane->text;
+  } else if (views.whole.is_cut) {
+    views.cut = views.whole;
+    views.cut_text = "through the middle, " + plane_text(views.whole.cut, views.whole.cut_at);
+  }
+  views.whole.is_cut = false;
+  return views;
+}
+
+Json stress_picture(const Problem& problem, const View& view, const AssemblyScene& scene) {
+  const double scale = picture_scale(view, scene.displacement);
+  Json json = json_of(make_picture(problem.substructures, view, scene.displacement, scene.von_mises, scale));
+  json["colour"] = "von_mises";
+  json["step"] = scene.step;
+  json["static"] = scene.is_static;
+  json["time"] = scene.time;
+  json["scale"] = scale;
+  const double moved = largest(scene.displacement);
+  json["largest_displacement"] = std::isfinite(moved) ? Json(moved) : Json();
+  return json;
+}
+
 Json assembly(const Problem& problem, const Scenes& scenes) {
-  View view = view_of(problem.substructures);
-  const bool is_cut = view.is_cut;
-  view.is_cut = false;
+  const Views views = views_of(problem);
   Json list = Json::array();
-  const auto add_shape = [&] {
-    Json shape = json_of(make_picture(problem.substructures, view, {}, {}, 0.0));
-    shape["colour"] = "part";
-    list.push_back(std::move(shape));
+  const auto add = [&](Json picture, bool is_cut) {
+    if (is_cut) picture["cut_text"] = views.cut_text;
+    list.push_back(std::move(picture));
   };
-  add_shape();
-  view.is_cut = is_cut;
-  if (is_cut) add_shape();
+  const auto shape = [&](const View& view) {
+    Json picture = json_of(make_picture(problem.substructures, view, {}, {}, 0.0));
+    picture["colour"] = "part";
+    return picture;
+  };
+  add(shape(views.whole), false);
+  if (views.cut) add(shape(*views.cut), true);
   for (const AssemblyScene& scene : scenes.assembly) {
-    const double scale = picture_scale(view, scene.displacement);
-    Json json = json_of(make_picture(problem.substructures, view, scene.displacement, scene.von_mises, scale));
-    json["colour"] = "von_mises";
-    json["step"] = scene.step;
-    json["static"] = scene.is_static;
-    json["time"] = scene.time;
-    json["scale"] = scale;
-    const double moved = largest(scene.displacement);
-    json["largest_displacement"] = std::isfinite(moved) ? Json(moved) : Json();
-    list.push_back(std::move(json));
+    add(stress_picture(problem, views.whole, scene), false);
+    if (views.cut) add(stress_picture(problem, *views.cut, scene), true);
   }
   return list;
 }

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "report/plot_attributes.hpp"
 #include "report/plot_legend.hpp"
 #include "report/plot_scale.hpp"
 #include "report/svg_text.hpp"
@@ -81,16 +82,17 @@ class Chart {
         plot_.width, plot_.height, escaped(plot_.title), text_height);
     if (!plot_.description.empty()) put("<desc>{}</desc>\n", escaped(plot_.description));
     put("<rect width=\"{}\" height=\"{}\" fill=\"#ffffff\"/>\n", plot_.width, plot_.height);
-    put("<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\">\n", coordinate(frame_.left),
-        coordinate(frame_.top), coordinate(frame_.right - frame_.left), coordinate(frame_.bottom - frame_.top));
+    put("<svg class=\"plot\" x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\"{4}{5}>\n",
+        coordinate(frame_.left), coordinate(frame_.top), coordinate(frame_.right - frame_.left),
+        coordinate(frame_.bottom - frame_.top), axis_data("x", x_), axis_data("y", y_));
   }
 
   // The inner svg clips what it holds to the frame, without an id that would have to be unique in a page.
   void draw_spans() {
     for (const PlotSpan& span : plot_.spans)
-      put("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#f0ede4\"/>\n", coordinate(x_.pixel(span.from)),
-          coordinate(frame_.top), coordinate(std::max(1.0, x_.pixel(span.to) - x_.pixel(span.from))),
-          coordinate(frame_.bottom - frame_.top));
+      put("<rect class=\"span\"{} x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#f0ede4\"/>\n", named(span.label),
+          coordinate(x_.pixel(span.from)), coordinate(frame_.top),
+          coordinate(std::max(1.0, x_.pixel(span.to) - x_.pixel(span.from))), coordinate(frame_.bottom - frame_.top));
   }
 
   void draw_grid() {
@@ -105,7 +107,7 @@ class Chart {
           path += fmt::format("M{} {}H{}", coordinate(frame_.left), coordinate(y_.pixel(tick.value)),
                               coordinate(frame_.right));
       if (!path.empty())
-        put("<path d=\"{}\" stroke=\"{}\" fill=\"none\" stroke-width=\"0.7\"/>\n", path,
+        put("<path class=\"grid\" d=\"{}\" stroke=\"{}\" fill=\"none\" stroke-width=\"0.7\"/>\n", path,
             is_minor ? "#efefef" : "#dcdcdc");
     }
     if (y_.low() < 0.0 && y_.high() > 0.0 && !plot_.y.is_log)
@@ -181,8 +183,8 @@ class Chart {
   void draw_stacked() {
     for (size_t k = edges_.size(); k-- > 0;) {
       const std::vector<double> floor = k == 0 ? filled(edges_[k].x.size(), 0.0) : edges_[k - 1].y;
-      put("<path d=\"{}\" fill=\"{}\" fill-opacity=\"0.75\"/>\n", area_path(edges_[k].x, floor, edges_[k].y),
-          color_of(edges_[k], k));
+      put("<path class=\"area\"{} d=\"{}\" fill=\"{}\" fill-opacity=\"0.75\"/>\n", named(edges_[k].name),
+          area_path(edges_[k].x, floor, edges_[k].y), color_of(edges_[k], k));
     }
   }
 
@@ -206,8 +208,9 @@ class Chart {
           if (x_.shows(line.x[k]) && y_.shows(line.y[k])) dots += dot(line.x[k], line.y[k]);
       }
       if (!path.empty())
-        put("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{}/>\n", path,
-            color, line.width, line.is_dashed ? " stroke-dasharray=\"6 4\"" : "");
+        put("<path class=\"line\"{} d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" "
+            "stroke-linejoin=\"round\"{}/>\n",
+            named(line.name), path, color, line.width, line.is_dashed ? " stroke-dasharray=\"6 4\"" : "");
       if (!dots.empty()) put("<g fill=\"{}\">{}</g>\n", color, dots);
     }
   }
@@ -257,14 +260,15 @@ class Chart {
     for (const PlotScale::Tick& tick : x_.ticks()) {
       const double x = x_.pixel(tick.value), half = 0.5 * text_width(tick.label);
       if (tick.label.empty() || x - half < free_from || x < frame_.left - 1.0 || x > frame_.right + 1.0) continue;
-      text_ += text_at(std::min(x, plot_.width - half - 2.0), frame_.bottom + 16.0, tick.label, "middle", grey);
+      text_ += text_at(std::min(x, plot_.width - half - 2.0), frame_.bottom + 16.0, tick.label, "middle", grey,
+                       " class=\"tick\"");
       free_from = x + half + 6.0;
     }
     double free_below = 1e9;
     for (const PlotScale::Tick& tick : y_.ticks()) {
       const double y = y_.pixel(tick.value);
       if (tick.label.empty() || y > free_below || y < frame_.top - 1.0 || y > frame_.bottom + 1.0) continue;
-      text_ += text_at(frame_.left - 6.0, y + 4.0, tick.label, "end", grey);
+      text_ += text_at(frame_.left - 6.0, y + 4.0, tick.label, "end", grey, " class=\"tick\"");
       free_below = y - text_height;
     }
     text_ += text_at(0.5 * (frame_.left + frame_.right), plot_.height - 8.0, x_.title(), "middle");
@@ -276,7 +280,7 @@ class Chart {
       const double half = 0.5 * text_width(span.label);
       const double x = std::max(0.5 * (x_.pixel(span.from) + x_.pixel(span.to)), frame_.left + half - 20.0);
       if (x - half < taken_to) continue;
-      text_ += text_at(x, frame_.top - 5.0, span.label, "middle", grey);
+      text_ += text_at(x, frame_.top - 5.0, span.label, "middle", grey, " class=\"tick\"");
       taken_to = x + half + 6.0;
     }
   }

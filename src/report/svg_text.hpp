@@ -10,8 +10,9 @@ namespace dygita {
 // "12.3", "12", "-0.5": one decimal, no trailing zero; "0" for what is not finite.
 std::string coordinate(double value);
 
-// Colours of Okabe and Ito (2008), the first seven of a cycle; black is left for limits and specifications.
-const char* series_color(int i);
+// Colour of a line or a part, no two alike. The first seven are those of Okabe and Ito (2008), which colour-blind
+// readers tell apart; black is left for limits and specifications.
+std::string series_color(int i);
 
 // Colours of a scale from low (0) to high (1), after Matplotlib's viridis: even in lightness, so that it prints in
 // grey.

@@ -20,7 +20,10 @@ int increments_of(const Json& step) {
 
 TimeAxis::TimeAxis(const Json& steps) {
   for (const Json& step : steps)
-    if (!is_static_step(step) && number(step, "dt") > 0.0) dynamic_ += increments_of(step) * number(step, "dt");
+    if (!is_static_step(step) && number(step, "dt") > 0.0 && increments_of(step) > 0) {
+      dynamic_ += increments_of(step) * number(step, "dt");
+      dt_ = dt_ > 0.0 ? std::min(dt_, number(step, "dt")) : number(step, "dt");
+    }
   // Static steps ahead of the motion lie before zero, so that dynamic places are times.
   const double unit = dynamic_ > 0.0 ? 0.12 * dynamic_ : 0.0;
   const auto width = [&](const Json& step) { return unit > 0.0 ? unit : static_cast<double>(increments_of(step)); };

@@ -5,6 +5,7 @@
 
 #include "output/run_folder.hpp"
 #include "report/svg_plot.hpp"
+#include "signal/frequency_range.hpp"
 
 namespace dygita {
 
@@ -19,6 +20,8 @@ class TimeAxis {
   PlotAxis axis() const;
   const std::vector<PlotSpan>& spans() const { return spans_; }
   double record() const { return dynamic_; }  // s, of the dynamic steps
+  // Frequencies that a spectrum of the run can be judged at.
+  FrequencyRange judged() const { return reliable_range(dynamic_, dt_); }
 
   static PlotAxis increments();
 
@@ -31,7 +34,7 @@ class TimeAxis {
   };
   std::vector<Range> ranges_;
   std::vector<PlotSpan> spans_;
-  double dynamic_ = 0.0;
+  double dynamic_ = 0.0, dt_ = 0.0;  // s; the smallest dt
 };
 
 // Shaded ranges of the static steps among increments 1, 2, ... of all steps; none if all steps are dynamic.

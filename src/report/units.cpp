@@ -23,6 +23,8 @@ const std::map<std::string, std::vector<EngineeringUnit>>& known_units() {
       {"m^2", {{1e-6, "mm²"}, {1.0, "m²"}}},
       {"N", {{1e-3, "mN"}, {1.0, "N"}, {1e3, "kN"}, {1e6, "MN"}}},
       {"Pa", {{1.0, "Pa"}, {1e3, "kPa"}, {1e6, "MPa"}, {1e9, "GPa"}}},
+      {"kg", {{1e-6, "mg"}, {1e-3, "g"}, {1.0, "kg"}, {1e3, "t"}}},
+      {"kg/m^3", {{1.0, "kg/m³"}}},
       {"J", {{1e-9, "nJ"}, {1e-6, "µJ"}, {1e-3, "mJ"}, {1.0, "J"}, {1e3, "kJ"}}},
   };
   return units;
@@ -82,7 +84,11 @@ std::string plain_number(double value, int digits) {
 
 std::string with_unit(double value, const std::string& si_unit, int digits) {
   if (!std::isfinite(value)) return plain_number(value);
-  const EngineeringUnit unit = engineering_unit(si_unit, value);
+  return in_unit(value, engineering_unit(si_unit, value), digits);
+}
+
+std::string in_unit(double value, const EngineeringUnit& unit, int digits) {
+  if (!std::isfinite(value)) return plain_number(value);
   const std::string number = plain_number(value / unit.size, digits);
   return unit.name.empty() ? number : number + "\u00a0" + unit.name;
 }

@@ -15,14 +15,21 @@ class BoltRecorder {
   std::vector<BoltSummary> take() { return std::move(bolts_); }
 
  private:
-  // Force through the interface, N, tension positive; a mean over the time step in a dynamic step.
-  static double force(const Instant& instant, int surface);
+  // What a bolt is at one instant. Force: through the interface, N, tension positive, a mean over the time step in a
+  // dynamic step; opening: plastic, mean over the area, m.
+  struct Held {
+    double force = 0.0, opening = 0.0, shortening = 0.0;
+  };
+  static Held held(const Instant& instant, int surface);
   void note_tightening(size_t bolt, const Tightening& by, bool is_to_force, int increments);
+  void follow_motion(const Instant& instant, size_t bolt, double force);
 
   std::vector<int> surfaces_;  // of each bolt; interfaces are the first surfaces
   std::vector<const Interface*> interfaces_;
   std::vector<BoltSummary> bolts_;
-  bool is_dynamic_ = false;  // some dynamic step has begun
+  std::vector<Held> now_, before_, tightened_;    // of each bolt; `before_`: an increment earlier
+  std::vector<std::pair<double, double>> swing_;  // N, lowest and highest in the last tenth of the step
+  bool is_dynamic_ = false;                       // some dynamic step has begun
 };
 
 }  // namespace dygita

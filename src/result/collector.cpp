@@ -12,7 +12,8 @@ namespace dygita {
 
 Collector::~Collector() = default;
 
-Collector::Collector(const Problem& problem, const FrameSink& sink) : problem_(problem), bolts_(problem) {
+Collector::Collector(const Problem& problem, const FrameSink& sink)
+    : problem_(problem), bolts_(problem), stresses_(problem) {
   for (const OutputPtr& output : problem.outputs)
     if (auto recorder = output->recorder(problem, sink)) recorders_.emplace_back(output.get(), std::move(recorder));
   convergence_.names = {"time", "iterations", "indicator", "converged"};
@@ -32,6 +33,7 @@ void Collector::accept(const Instant& instant) {
   errors_.accept(instant);
   bolts_.accept(instant);
   motion_.accept(instant);
+  stresses_.accept(instant);
   for (auto& [output, recorder] : recorders_) recorder->accept(instant);
   const double row[] = {instant.time(), static_cast<double>(instant.iterations), instant.indicator,
                         instant.converged ? 1.0 : 0.0};
@@ -54,7 +56,10 @@ void Collector::note_overload(const Instant& instant) {
 
 void Collector::watch(const Instant& instant) {
   const Energies& e = instant.state.energies;
-  extremes_.energy = std::max({extremes_.energy, e.start, e.kinetic + e.strain + std::abs(e.loads)});
+  // The top of the report's chart: all that is stored and dissipated, which is what was given as far as the balance
+  // closes.
+  const double accounted = e.kinetic + e.strain + e.friction + e.plastic + e.damping + e.scheme;
+  extremes_.energy = std::max({extremes_.energy, accounted, std::abs(e.start + e.loads)});
   extremes_.imbalance = std::max(extremes_.imbalance, std::abs(e.balance()));
   extremes_.scheme_loss = std::max(extremes_.scheme_loss, e.scheme);
   extremes_.scheme_gain = std::max(extremes_.scheme_gain, -e.scheme);
@@ -111,6 +116,12 @@ void Collector::finish(RunResult& result) {
   result.warnings = std::move(warnings_);
   result.overloaded_steps = std::move(overloaded_);
   motion_.finish(result);
+  result.stresses = stresses_.take();
+  for (const PartStress& stress : result.stresses) {
+    std::optional<double>& least = result.figures.yield_margin;
+    if (!least || std::isnan(stress.margin()) || stress.margin() < *least) least = stress.margin();
+    if (std::isnan(*least)) break;
+  }
   const double percent = extremes_.energy > 0.0 ? 100.0 / extremes_.energy : 0.0;
   result.figures.largest_energy = extremes_.energy;
   result.figures.energy_imbalance = percent * extremes_.imbalance;

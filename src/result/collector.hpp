@@ -8,6 +8,7 @@
 #include "result/error_estimator.hpp"
 #include "result/motion_watch.hpp"
 #include "result/result.hpp"
+#include "result/stress_recorder.hpp"
 #include "solution/observer.hpp"
 
 namespace dygita {
@@ -45,6 +46,7 @@ class Collector : public Observer {
   ErrorEstimator errors_;
   BoltRecorder bolts_;
   MotionWatch motion_;
+  StressRecorder stresses_;
 };
 
 }  // namespace dygita

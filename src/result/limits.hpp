@@ -1,4 +1,6 @@
 // Where a run's own figures are too large to build on: it warns beyond them, and the report's cards turn from green.
+// Warnings, cards, spectra and margins take their limits from here and from nowhere else; the frequencies at which
+// a spectrum is judged are those that its record holds (signal/frequency_range.hpp).
 #pragma once
 
 #include <cmath>
@@ -12,11 +14,14 @@ inline constexpr double penalty_energy = 5.0;         // %, that the springs of 
 inline constexpr double hourglass_energy = 10.0;      // %
 inline constexpr double iteration_error = 1.0;        // %, in energy norm, where a tolerance could leave 0.1 %
 inline constexpr double discretisation_error = 30.0;  // %, of the time step, of the mesh
+inline constexpr double good_discretisation = 10.0;   // %, beyond it a card is amber: stresses are off by as much
 inline constexpr double spectrum_band = 6.0;          // dB, mean over a spectrum's frequencies: a factor of two
 inline constexpr double loop_energy_error = 0.05;     // of the loss of a cycle, that the energy balance misses
 inline constexpr double rotation = 5.0;               // degrees, of a cell: what small displacements bear
 inline constexpr double slip_in_cells = 0.5;          // of a contact cell, along the slip
 inline constexpr double passing_in_cells = 0.01;      // of a cell, of released sides into each other
+inline constexpr double specification = 0.0;          // dB above it: exceeded
+inline constexpr double yield_margin = 0.0;           // yield / von Mises - 1, below it the material would yield
 inline constexpr double bolt_shortening = 0.01;       // m, the longest that load.shortening takes
 
 // What the springs hold (%) and the error in energy norm (%) that goes with it.

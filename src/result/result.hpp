@@ -1,6 +1,7 @@
 // What was asked for, as tables; what a run was, as figures. Every reader (deck, CSV, run record) takes these.
 #pragma once
 
+#include <algorithm>
 #include <any>
 #include <functional>
 #include <map>
@@ -51,22 +52,50 @@ struct BoltByHand {
 // What became of a bolt: an interface that a step shortens or preloads. Forces through the modelled interface, N,
 // tension positive.
 struct BoltSummary {
-  std::string name;                    // of the interface
-  double area = 0.0;                   // m^2, of the modelled interface
-  std::vector<double> after_static;    // N, at the end of each static step, in the problem's order of static steps
-  std::optional<double> target;        // N, load.preload's last one
-  std::optional<double> hand;          // N, by the hand formula at the shortening that its last tightening made
-  double shortening = 0.0;             // m, at the end
-  double lowest = 0.0, highest = 0.0;  // N, during the dynamic steps; the force before them where there are none
-  double last = 0.0;                   // N, at the end of the run
-  double plastic_opening = 0.0;        // m, largest at the end
-  double tightened = 0.0;              // N, at the end of the last step that shortened or preloaded it
-  std::optional<BoltByHand> formula;   // where the deck gives the bolt's dimensions
+  std::string name;                     // of the interface
+  double area = 0.0;                    // m^2, of the modelled interface
+  std::vector<double> after_static;     // N, at the end of each static step, in the problem's order of static steps
+  std::optional<double> target;         // N, load.preload's last one
+  std::optional<double> hand;           // N, by the hand formula at the shortening that its last tightening made
+  double shortening = 0.0;              // m, at the end
+  double lowest = 0.0, highest = 0.0;   // N, during the dynamic steps; the force before them where there are none
+  double last = 0.0;                    // N, at the end of the run
+  double plastic_opening = 0.0;         // m, largest at the end
+  double tightened = 0.0;               // N, at the end of the last step that shortened or preloaded it
+  double yielded = 0.0;                 // m, mean plastic opening since then
+  double swing = 0.0;                   // N, half of what the force moves by in the last tenth of the motion
+  std::optional<double> stiffness;      // N/m, force gained per shortening in the last increment of its tightening
+  std::optional<double> before_motion;  // N, where the first dynamic step began, if it was tightened by then
+  double yielded_before = 0.0;          // m, `yielded` there
+  std::optional<BoltByHand> formula;    // where the deck gives the bolt's dimensions
 
   // Of what the bolt's own tightening gave, the share that is gone at the end; none where the bolt was hardly
   // tightened: a tenth of the largest force through it, which then is the load's and not the bolt's.
   std::optional<double> loss() const;
   double largest() const;  // N, modulus: at the end of static steps, in the dynamic ones, at the end
+  // Of it, what yielding of the bolt itself took: the plastic opening released as much as loosening the nut by it
+  // (manual, eq. B7). The rest is the joint's.
+  std::optional<double> loss_by_yield() const {
+    if (!stiffness || tightened == 0.0) return std::nullopt;
+    return std::min(1.0, *stiffness * yielded / tightened);
+  }
+  // Of the rest, what was gone when the motion began: other bolts' tightening, static loads, slip under them.
+  std::optional<double> loss_before_motion() const {
+    if (!stiffness || !before_motion || tightened == 0.0) return std::nullopt;
+    return 1.0 - *before_motion / tightened - std::min(1.0, *stiffness * yielded_before / tightened);
+  }
+};
+
+// The largest von Mises stress that a watched substructure has met (stress_recorder.hpp).
+struct PartStress {
+  int part = -1;              // index in problem.substructures
+  double von_mises = 0.0;     // Pa, at a node
+  double yield = 0.0;         // Pa, of its material
+  double time = 0.0;          // s, of the run
+  int step = -1;              // index in problem.steps
+  Vec3 place = Vec3::Zero();  // m, of the node, undeformed
+  double above = 0.0;         // share of the volume beyond yield at once, at most
+  double margin() const { return yield / von_mises - 1.0; }
 };
 
 struct Scenes;
@@ -102,6 +131,7 @@ struct RunResult {
   std::map<std::string, double> seconds;  // "assemble", "factor", "forward", "iterate", "backward", "output", ...
   Figures figures;
   std::shared_ptr<const Scenes> scenes;  // what the report draws; null: nobody recorded it
+  std::vector<PartStress> stresses;      // of the substructures whose material has a yield, in their order
 
   const Findings& findings_of(const Output& output) const;  // empty where it told nothing
 };

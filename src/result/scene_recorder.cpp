@@ -72,6 +72,7 @@ std::vector<JointScene> choose(std::vector<JointScene> sampled) {
 
 void SceneRecorder::accept(const Instant& instant) {
   if (!has_joints_) find_joints(instant);
+  motion_.accept(instant);
   const bool is_last = instant.increment + 1 == instant.model.step->n_increments();
   if (instant.is_static()) {
     if (is_last && shocked_.displacement.empty()) keep_assembly(instant, tightened_);
@@ -150,8 +151,10 @@ void SceneRecorder::finish(RunResult& result) {
       const Substructure& part = *problem_.substructures[i];
       scene->von_mises.push_back(von_mises(nodal_stress(*part.mesh, part.material, scene->displacement[i])));
     }
+    motion_.add(*scene);
     scenes->assembly.push_back(std::move(*scene));
   }
+  scenes->motion = motion_.take();
   for (JointScenes& joint : joints_) {
     joint.instants = choose(std::move(joint.instants));
     scenes->joints.push_back(std::move(joint));

@@ -6,13 +6,14 @@
 
 #include "result/result.hpp"
 #include "result/scenes.hpp"
+#include "result/skin_recorder.hpp"
 #include "solution/observer.hpp"
 
 namespace dygita {
 
 class SceneRecorder : public Observer {
  public:
-  explicit SceneRecorder(const Problem& problem) : problem_(problem) {}
+  explicit SceneRecorder(const Problem& problem) : problem_(problem), motion_(problem) {}
 
   void begin_step(const Instant&) override {}
   void accept(const Instant& instant) override;
@@ -25,6 +26,7 @@ class SceneRecorder : public Observer {
   void keep_joints(const Instant& instant);
 
   const Problem& problem_;
+  SkinRecorder motion_;
   AssemblyScene tightened_, shocked_;  // without displacements: not met yet
   double strain_energy_ = -1.0;        // J, of shocked_
   bool has_joints_ = false;

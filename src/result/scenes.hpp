@@ -6,6 +6,7 @@
 
 #include "mesh/mesh.hpp"
 #include "model/model.hpp"
+#include "result/skin_motion.hpp"
 
 namespace dygita {
 
@@ -41,6 +42,7 @@ struct Scenes {
   std::vector<AssemblyScene>
       assembly;  // the end of tightening, the instant of the largest strain energy in the dynamic steps
   std::vector<JointScenes> joints;
+  SkinMotion motion;
 };
 
 }  // namespace dygita

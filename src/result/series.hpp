@@ -15,7 +15,8 @@ struct Series {
   std::string name;      // "bolt.normal", for messages
   std::string abscissa;  // "time" or "frequency"
   std::vector<double> values, at;
-  std::vector<int> step;  // problem's step of each row; empty for spectra
+  std::vector<int> step;   // problem's step of each row; empty for spectra
+  bool is_hollow = false;  // stands for one that a run would give, of as many rows as it will have
 };
 
 // max, min, first or last; nothing for another key. Throws InputError on an empty series.

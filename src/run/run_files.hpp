@@ -9,4 +9,7 @@ namespace dygita {
 void write_run_files(RunWriter& writer, const Problem& problem, const RunResult& result, const RunIdentity& identity,
                      const std::vector<std::string>& warnings);
 
+// view.py, where frames were written; `folder` is where the run's files are in the end.
+void write_view(RunWriter& writer, const Problem& problem, const std::filesystem::path& folder);
+
 }  // namespace dygita

@@ -15,8 +15,10 @@
 #include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
 #include "result/collector.hpp"
+#include "result/penetration_watch.hpp"
 #include "result/scene_recorder.hpp"
 #include "run/keep_state.hpp"
+#include "run/part_lines.hpp"
 #include "run/passes.hpp"
 #include "run/run_files.hpp"
 #include "run/run_warnings.hpp"
@@ -72,6 +74,7 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
     say(line);
   }
   for (const std::string& line : bolt_lines(problem, result)) say(line);
+  if (const std::string line = stress_line(problem, result); !line.empty()) say(line);
   const Figures& figures = result.figures;
   const double lost = figures.numerical_dissipation.value();
   say(fmt::format("  energy balance closes within {:.3g} %, ", figures.energy_imbalance.value()) +
@@ -97,7 +100,8 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* 
                                  bool keeps_scenes) {
   Collector collector(problem, sink);
   SceneRecorder scenes(problem);
-  Observers observers({&collector});
+  PenetrationWatch watch(problem);
+  Observers observers({&collector, &watch});
   if (keeps_scenes) observers.add(scenes);
   auto result = std::make_shared<RunResult>();
   const SolverFigures figures = problem.explicit_dynamics ? solve_explicit(problem, observers)
@@ -106,6 +110,7 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* 
   result->interface_fields = figures.interface_fields;
   summarise(problem, figures, *result);
   collector.finish(*result);
+  watch.finish();
   if (keeps_scenes) scenes.finish(*result);
   return result;
 }
@@ -152,10 +157,12 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
   const bool is_kept = !request.continues || reaches_as_far(state, *request.continues);
   if (writer && request.write_state && is_kept) keep_state(state, *writer, *result);
   warn_of_run(problem, *result, writer && request.write_state && is_kept ? directory : std::filesystem::path());
+  warn_of_stresses(problem, *result);
   const std::vector<std::string> warnings = take_warnings();
   RunIdentity identity = request.identity;
   identity.threads = omp_get_max_threads();
   identity.case_name = request.case_name;
+  if (writer) write_view(*writer, problem, directory);
   if (writer) write_run_files(*writer, problem, *result, identity, warnings);
   if (replacement && is_kept) replacement->commit();
   if (request.continues) say(continuation_line(*request.continues, *result));
@@ -168,15 +175,16 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
 std::string check_report(const Problem& problem) {
   check_problem(problem);
   const std::vector<Surface> surfaces = make_surfaces(problem);
+  doubt_neighbours(problem, surfaces);
   State state = initial_state(problem, surfaces);
   long n_dofs = 0;
   std::string text = fmt::format("problem '{}'\n", problem.name);
   for (const SubstructurePtr& part : problem.substructures) {
     check_mesh(*part->mesh, part->name);
     n_dofs += 3L * part->mesh->n_nodes();
-    text += fmt::format("  substructure '{}': {} nodes, {} cells, {}\n", part->name, part->mesh->n_nodes(),
-                        part->mesh->n_cells(), part->material.name);
+    text += part_line(*part);
   }
+  text += mass_line(problem);
   for (const Surface& surface : surfaces)
     text += fmt::format("  {} '{}': {} points, {:.4g} mm^2\n", surface.interface ? "interface" : "wall", surface.name(),
                         surface.n_points(), surface.facing.areas.sum() * 1e6);

@@ -6,19 +6,12 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "signal/history_shape.hpp"
 #include "signal/signal_file.hpp"
 
 namespace dygita {
 
 using std::numbers::pi;
-
-struct History::Shape {
-  virtual ~Shape() = default;
-  virtual double value(double t) const = 0;
-  virtual double integral(double t0, double t1) const = 0;
-  virtual bool is_constant() const { return false; }
-  virtual std::string description() const = 0;
-};
 
 namespace {
 
@@ -63,6 +56,12 @@ class Polyline : public History::Shape {
     return std::all_of(values_.begin(), values_.end(), [this](double v) { return v == values_.front(); });
   }
   std::string description() const override { return description_; }
+  std::optional<Profile> profile() const override {
+    const auto [low, high] = std::minmax_element(values_.begin(), values_.end());
+    const auto peak = -*low > *high ? low : high;
+    return Profile{times_.front(), times_.back(), *low, *high, times_[static_cast<size_t>(peak - values_.begin())],
+                   false};
+  }
 
  private:
   // The point that ends the segment in which t lies; 0 before the first point, their number after the last.
@@ -81,6 +80,11 @@ class Polyline : public History::Shape {
   std::string description_;
 };
 
+// Of a pulse that is highest in its middle.
+Profile profile_of_pulse(double peak, double duration) {
+  return {0.0, duration, std::min(peak, 0.0), std::max(peak, 0.0), 0.5 * duration, false};
+}
+
 class HalfSine : public History::Shape {
  public:
   HalfSine(double peak, double duration) : peak_(peak), duration_(duration) {}
@@ -95,6 +99,7 @@ class HalfSine : public History::Shape {
     return 2.0 * peak_ * duration_ / pi * std::sin(middle) * std::sin(half);
   }
   std::string description() const override { return fmt::format("half_sine(peak {}, duration {})", peak_, duration_); }
+  std::optional<Profile> profile() const override { return profile_of_pulse(peak_, duration_); }
 
  private:
   double peak_, duration_;
@@ -115,6 +120,7 @@ class Haversine : public History::Shape {
     return peak_ * (0.5 * (b - a) - 0.5 * duration_ / pi * std::cos(middle) * std::sin(half));
   }
   std::string description() const override { return fmt::format("haversine(peak {}, duration {})", peak_, duration_); }
+  std::optional<Profile> profile() const override { return profile_of_pulse(peak_, duration_); }
 
  private:
   double peak_, duration_;
@@ -143,6 +149,24 @@ class Function : public History::Shape {
 
  private:
   std::function<double(double)> f_;
+};
+
+// A file's signal: it goes on after its ends with the values that it has there.
+class Record final : public Polyline {
+ public:
+  Record(SampledSignal signal, std::string description)
+      : Polyline(std::move(signal.times), std::move(signal.values), std::move(description)),
+        unit_(std::move(signal.unit)) {}
+
+  std::string unit() const override { return unit_; }
+  std::optional<Profile> profile() const override {
+    std::optional<Profile> profile = Polyline::profile();
+    profile->is_record = true;
+    return profile;
+  }
+
+ private:
+  std::string unit_;
 };
 
 template <class Kind, class... Arguments>
@@ -213,11 +237,13 @@ History History::piecewise(std::vector<double> times, std::vector<double> values
   return History(make<Polyline>(std::move(times), std::move(values), std::move(description)));
 }
 
-History History::from_file(const std::string& path) {
-  SampledSignal signal = read_signal(path);
-  std::string description = fmt::format("file({}, {} points)", path, signal.times.size());
-  return History(make<Polyline>(std::move(signal.times), std::move(signal.values), std::move(description)));
+History History::record(SampledSignal signal, const std::string& source) {
+  CHECK(!signal.times.empty() && signal.times.size() == signal.values.size(), "a record has points");
+  std::string description = fmt::format("file({}, {} points)", source, signal.times.size());
+  return History(make<Record>(std::move(signal), std::move(description)));
 }
+
+History History::from_file(const std::string& path) { return record(read_signal(path), path); }
 
 History History::function(std::function<double(double)> f) {
   if (!f) throw InputError("history.function: no function was given");
@@ -234,5 +260,9 @@ double History::integral(double t0, double t1) const {
 bool History::is_constant() const { return shape_->is_constant(); }
 
 std::string History::description() const { return shape_->description(); }
+
+std::optional<Profile> History::profile() const { return shape_->profile(); }
+
+std::string History::unit() const { return shape_->unit(); }
 
 }  // namespace dygita

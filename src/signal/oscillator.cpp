@@ -31,12 +31,12 @@ double vertex(double a, double b, double c) {
 
 }  // namespace
 
-void Extremes::meet(double value) {
+void ResponsePeaks::meet(double value) {
   highest = std::max(highest, value);
   lowest = std::min(lowest, value);
 }
 
-double Extremes::maximax() const { return std::max(highest, -lowest); }
+double ResponsePeaks::maximax() const { return std::max(highest, -lowest); }
 
 Oscillator::Oscillator(double frequency, double q_factor, double dt, double first, SrsQuantity quantity) : x_(first) {
   const double wn = 2.0 * pi * frequency, damping = 0.5 / q_factor;
@@ -81,16 +81,16 @@ void Oscillator::advance(const std::vector<double>& base) {
   extremes_ = {highest, lowest};
 }
 
-Extremes Oscillator::during() const {
-  Extremes extremes = extremes_;
+ResponsePeaks Oscillator::during() const {
+  ResponsePeaks extremes = extremes_;
   extremes.meet(u_.real());
   return extremes;
 }
 
-Extremes Oscillator::after() const {
+ResponsePeaks Oscillator::after() const {
   // y(t) = Re(u e^(pt)) is level where Re(p u e^(pt)) = 0: two of these, half a damped period apart, hold both
   // extremes.
-  Extremes extremes;
+  ResponsePeaks extremes;
   extremes.meet(u_.real());
   const double to_crest = 0.5 * pi - std::arg(pole_ * u_);
   const double angle = to_crest - pi * std::floor(to_crest / pi);

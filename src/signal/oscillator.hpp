@@ -9,7 +9,7 @@
 namespace dygita {
 
 // Largest and smallest response met, zero at rest included.
-struct Extremes {
+struct ResponsePeaks {
   double highest = 0.0, lowest = 0.0;
 
   void meet(double value);
@@ -32,16 +32,16 @@ class Oscillator {
 
   double response() const { return u_.real(); }
   // During the samples met so far; a peak between samples is the vertex of the parabola through three of them.
-  Extremes during() const;
+  ResponsePeaks during() const;
   // After the last one, if the base stood still from then on: closed form.
-  Extremes after() const;
+  ResponsePeaks after() const;
 
  private:
   double wd_;
   std::complex<double> pole_, decay_, from_old_, from_new_;
   std::complex<double> u_ = 0.0;
   double x_, y_old_ = 0.0;
-  Extremes extremes_;
+  ResponsePeaks extremes_;
 };
 
 }  // namespace dygita

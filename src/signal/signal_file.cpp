@@ -6,10 +6,10 @@
 #include <fstream>
 #include <optional>
 #include <string_view>
-#include <utility>
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "signal/unit.hpp"
 
 namespace dygita {
 
@@ -54,17 +54,22 @@ SampledSignal read_signal(const std::string& path) {
   }
   SampledSignal signal;
   Origin origin{path, 0};
-  bool titles_may_come = true;
+  TwoColumns columns("s", "");
   for (std::string line; std::getline(file, line);) {
     if (++origin.line == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte order mark of spreadsheets
     const std::vector<std::string_view> fields = fields_of(line);
-    if (fields.empty() || fields.front().front() == '#') continue;
-    if (std::exchange(titles_may_come, false) && !number(fields.front())) continue;
+    if (fields.empty()) continue;
+    if (fields.front().front() == '#') {
+      if (signal.times.empty()) columns.comment(line, origin);
+      continue;
+    }
+    if (signal.times.empty() && !number(fields.front()) && columns.take(line, origin)) continue;
     if (fields.size() != 2) {
       throw InputError(origin, fmt::format("{} {} where two are expected: time (s) and value; decimals take a point",
                                            fields.size(), fields.size() == 1 ? "number" : "columns"));
     }
-    const double time = finite_number(origin, fields[0]), value = finite_number(origin, fields[1]);
+    const double time = columns.factor(0) * finite_number(origin, fields[0]);
+    const double value = columns.factor(1) * finite_number(origin, fields[1]);
     if (!signal.times.empty() && time <= signal.times.back()) {
       throw InputError(
           origin, fmt::format("time {} s does not come after {} s: times must increase", time, signal.times.back()));
@@ -74,6 +79,11 @@ SampledSignal read_signal(const std::string& path) {
   }
   if (signal.times.empty())
     throw InputError("'" + path + "' has no points: two columns are expected, time (s) and value");
+  if (const std::optional<Unit>& unit = columns.unit(1)) {
+    signal.unit = unit->si;
+    signal.unit_written = columns.text(1);
+    signal.unit_factor = unit->factor;
+  }
   return signal;
 }
 

@@ -8,12 +8,11 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "signal/unit.hpp"
 
 namespace dygita {
 
 namespace {
-
-constexpr double standard_gravity = 9.80665;
 
 std::string trimmed(const std::string& text) {
   const size_t first = text.find_first_not_of(" \t\r\""), last = text.find_last_not_of(" \t\r\"");
@@ -74,26 +73,27 @@ Specification read_specification(const std::string& path) {
   Specification s;
   s.source = path;
   std::vector<std::string> where;
-  double unit = 1.0, hertz = 1.0;
-  bool has_header = false;
+  TwoColumns columns("Hz", "m/s^2");
   std::string line;
   for (int n = 1; std::getline(file, line); ++n) {
-    if (trimmed(line).empty() || trimmed(line).front() == '#') continue;
+    if (n == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte order mark of spreadsheets
+    const Origin origin{path, n};
+    if (trimmed(line).empty()) continue;
+    if (trimmed(line).front() == '#') {
+      if (where.empty()) columns.comment(line, origin);
+      continue;
+    }
     const std::vector<std::string> cells = cells_of(line);
     double frequency = 0.0, level = 0.0;
     const bool are_numbers = cells.size() == 2 && read_number(cells[0], frequency) && read_number(cells[1], level);
-    if (!are_numbers && !has_header && where.empty()) {
-      has_header = true;
-      if (cells.size() == 2 && cells[1].ends_with("[g]")) unit = standard_gravity;
-      if (!cells.empty() && cells[0].ends_with("[kHz]")) hertz = 1e3;
-      continue;
-    }
+    if (where.empty() && !read_number(cells[0], frequency) && columns.take(line, origin)) continue;
     if (!are_numbers)
       throw InputError(fmt::format("{}:{}: '{}' is not a frequency (Hz) and a level", path, n, trimmed(line)));
-    s.frequency.push_back(hertz * frequency);
-    s.level.push_back(unit * level);
+    s.frequency.push_back(columns.factor(0) * frequency);
+    s.level.push_back(columns.factor(1) * level);
     where.push_back(fmt::format("{}:{}", path, n));
   }
+  s.unit = columns.text(1);
   try {
     check_specification(s, where);
   } catch (const InputError& error) {
@@ -104,10 +104,11 @@ Specification read_specification(const std::string& path) {
 }
 
 Exceedance largest_exceedance(const Specification& specification, const std::vector<double>& frequency,
-                              const std::vector<double>& value) {
+                              const std::vector<double>& value, const FrequencyRange& judged) {
   CHECK(frequency.size() == value.size(), "a value for each frequency");
   Exceedance worst;
   for (size_t i = 0; i < frequency.size(); ++i) {
+    if (!judged.holds(frequency[i])) continue;
     const double decibels = 20.0 * std::log10(value[i] / specification.level_at(frequency[i]));
     if (!std::isfinite(decibels) || (worst.is_known && decibels <= worst.decibels)) continue;
     worst = {decibels, frequency[i], true};

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "signal/frequency_range.hpp"
 #include "signal/oscillator.hpp"
 #include "signal/upsampler.hpp"
 
@@ -41,14 +42,15 @@ void check(const std::vector<double>& signal, double dt, const SrsSettings& sett
 
 void warn_of_limits(size_t n_samples, double dt, const SrsSettings& settings) {
   const double duration = static_cast<double>(n_samples) * dt;
-  if (settings.from < 1.0 / duration) {
-    warn(fmt::format("srs: the spectrum is unreliable below {:.4g} Hz, 1/record length ({:.4g} s)", 1.0 / duration,
+  const FrequencyRange reliable = reliable_range(duration, dt);
+  if (settings.from < reliable.from) {
+    warn(fmt::format("srs: the spectrum is unreliable below {:.4g} Hz, 1/record length ({:.4g} s)", reliable.from,
                      duration));
   }
-  if (settings.to > 0.5 / dt) {
+  if (settings.to > reliable.to) {
     warn(fmt::format(
         "srs: above {:.4g} Hz, half the sampling rate, the record has no content: the spectrum is its peak there",
-        0.5 / dt));
+        reliable.to));
   }
 }
 
@@ -82,7 +84,7 @@ void run(const Upsampler& upsampler, double last, std::vector<Oscillator>& oscil
 }
 
 void append(Srs& srs, double frequency, const Oscillator& oscillator) {
-  const Extremes during = oscillator.during(), after = oscillator.after();
+  const ResponsePeaks during = oscillator.during(), after = oscillator.after();
   srs.frequency.push_back(frequency);
   srs.positive.push_back(std::max(during.highest, after.highest));
   srs.negative.push_back(-std::min(during.lowest, after.lowest) + 0.0);  // + 0: no "-0"

@@ -8,7 +8,7 @@ if(NOT code EQUAL 0)
   message(FATAL_ERROR "cmake --install: exit code ${code}\n${error}")
 endif()
 foreach(file bin/dygita share/man/man1/dygita.1 share/bash-completion/completions/dygita ${ZSH_COMPLETIONS}/_dygita
-    share/fish/vendor_completions.d/dygita.fish share/dygita/decks/crush.lua share/dygita/decks/verification/patch.lua
+    share/fish/vendor_completions.d/dygita.fish share/dygita/editor/dygita.lua share/dygita/decks/crush.lua share/dygita/decks/verification/patch.lua
     share/dygita/meshes share/doc/dygita/README.md share/doc/dygita/LICENSE share/doc/dygita/copyright
     share/doc/dygita/CHANGELOG.md share/doc/dygita/CITATION.cff share/doc/dygita/manual/user-guide.md
     share/doc/dygita/manual/pictures/bolted_flanges.png share/doc/dygita/manual/bar.lua)

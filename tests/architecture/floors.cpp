@@ -27,7 +27,8 @@ const std::map<std::string, std::set<std::string>> may_use = {
     {"output", {"base", "numerics", "mesh", "law", "model", "result"}},
     {"report", {"base", "signal", "mesh", "model", "result", "output"}},
     {"run",
-     {"base", "numerics", "mesh", "signal", "model", "solution", "latin", "reference", "result", "output", "report"}},
+     {"base", "numerics", "mesh", "signal", "law", "model", "solution", "latin", "reference", "result", "output",
+      "report"}},
     {"deck", {"base", "numerics", "mesh", "signal", "material", "law", "model", "result", "output", "run"}},
     {"app", {"base", "signal", "output", "report", "deck"}},
 };

@@ -149,10 +149,13 @@ TEST(Results, that_are_not_there_are_errors) {
   EXPECT_EQ(message_when("local x = result[vtk]"),
             "output.vtk has no data in the deck\n    its frames are files for ParaView");
   EXPECT_EQ(message_when("local x = result[a].max"), "the run gave nothing for output 'a'");
-  EXPECT_EQ(message_when("local x = result.bolt"),
-            "a result has no 'bolt'\n    known: converged, iterations, mean_iterations");
+  EXPECT_EQ(
+      message_when("local x = result.bolt"),
+      "a result has no 'bolt'\n    an output is asked for by itself, not by its name: result[bolt], without quotes");
+  EXPECT_EQ(message_when("local x = result.bold"),
+            "a result has no 'bold'\n    known: converged, iterations, mean_iterations");
   EXPECT_EQ(message_when("local x = result[glue]"),
-            "result[interface 'glue']: a result is asked for an output, as in result[bolt]");
+            "result[interface 'glue']: a result is asked for an output, as in result[bolt], or for a substructure");
   EXPECT_EQ(message_when("local n = #low"), "substructure 'low' has no length");
 }
 

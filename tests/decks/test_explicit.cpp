@@ -34,7 +34,8 @@ TEST(Explicit, a_bouncing_bar_comes_nearer_to_the_exact_one_with_a_stiffer_penal
     const double error = run.number("place until the release, max error");
     EXPECT_LT(error, before / 2);
     EXPECT_EQ(run.number("spells of contact in impact 1"), 1.0);
-    EXPECT_LT(drift(run.runs.at(0)), penalty == "10" ? 4.0 : 0.2);  // what stiff springs cost at impacts: measured 2.8
+    EXPECT_LT(drift(run.runs.at(0)),
+              penalty == "10" ? 7.3 : 0.2);  // what stiff springs cost at impacts, of the largest energy: measured 5.1
     before = error;
   }
   EXPECT_LT(before, 2.5);

@@ -309,9 +309,9 @@ TEST(BoltPattern, loses_force_bolt_by_bolt_and_gets_it_back_in_a_second_pass) {
   for (const BoltSummary& bolt : star.bolts) {
     EXPECT_EQ(bolt.target, 25e3);
     EXPECT_NEAR(bolt.tightened, 25e3, 1e-3) << bolt.name;
-    EXPECT_LT(bolt.loss(), 0.005) << bolt.name;
+    EXPECT_LT(bolt.loss().value(), 0.005) << bolt.name;
   }
-  EXPECT_NEAR(star.bolts.at(1).loss(), 0.0042, 0.0002);
+  EXPECT_NEAR(star.bolts.at(1).loss().value(), 0.0042, 0.0002);
 }
 
 TEST(Preload, keeps_its_energy_balance) {

@@ -100,7 +100,11 @@ TEST(ReportRuns, tightened_and_shocked_with_a_specification) {
   for (const auto& [output, table] : run.result->tables)
     if (output->name == "s") spectrum = &table;
   ASSERT_NE(spectrum, nullptr);
-  EXPECT_NEAR(exceedance, 20.0 * std::log10(largest(spectrum->column("maximax")) / 98.0665), 1e-9);
+  double highest = 0.0;  // of what 30 us can tell: 33 kHz and more
+  for (size_t i = 0; i < spectrum->columns[0].size(); ++i)
+    if (spectrum->columns[0][i] > 1.0 / 30e-6) highest = std::max(highest, spectrum->column("maximax")[i]);
+  EXPECT_NEAR(exceedance, 20.0 * std::log10(highest / 98.0665), 1e-9);
+  EXPECT_NE(run.page.find("Of the specification not judged: 1\u00a0kHz to 33.3\u00a0kHz"), std::string::npos);
   EXPECT_NE(run.page.find("exceeds its specification by up to +"), std::string::npos);
   EXPECT_NE(run.page.find("End of step &#39;press&#39;"), std::string::npos);
   EXPECT_NE(run.page.find("The largest strain energy in the motion, step &#39;shock&#39;"), std::string::npos);
@@ -161,6 +165,49 @@ TEST(ReportRuns, explicit_and_monolithic) {
   }
 }
 
+// Two posts pull a cap down, one harder than the other; their material has a yield.
+const std::string posts = R"(
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0, density = 8000, yield = 300*MPa }
+local lead = material.elastic{ name = "lead", young = 16*GPa, poisson = 0.44, density = 11340 }
+local function block(name, material, x, z, size, cells) return substructure{ name = name, material = material,
+  mesh = mesh.box{ origin = { x, 0, z }, size = size, cells = cells } } end
+local foot, cap = block("foot", lead, 0, 0, { 50*mm, 10*mm, 5*mm }, { 5, 1, 1 }), block("cap", lead, 0, 15*mm, { 50*mm, 10*mm, 5*mm }, { 5, 1, 1 })
+local a, b, pad = block("a", steel, 0, 5*mm, { 10*mm, 10*mm, 10*mm }, { 1, 1, 2 }), block("b", steel, 40*mm, 5*mm, { 10*mm, 10*mm, 10*mm }, { 1, 1, 2 }),
+  block("pad", lead, 20*mm, 5*mm, { 10*mm, 10*mm, 10*mm }, { 1, 1, 2 })
+local bolt_a = interface.bonded{ name = "bolt a", between = { a:face "zmax", cap:face "zmin" } }
+local bolt_b = interface.bonded{ name = "bolt b", between = { b:face "zmax", cap:face "zmin" } }
+local interfaces = { bolt_a, bolt_b }
+for _, post in ipairs{ a, b, pad } do interfaces[#interfaces + 1] = interface.bonded{ name = "foot of " .. post.name, between = { foot:face "zmax", post:face "zmin" } } end
+interfaces[#interfaces + 1] = interface.contact{ name = "seat", between = { pad:face "zmax", cap:face "zmin" } }
+local base = support.fixed{ name = "base", on = foot:face "zmin" }
+local first = step.static{ name = "first", increments = 2, loads = { load.shortening{ on = bolt_a, by = 2*um } } }
+local second = step.static{ name = "second", after = first, increments = 2, loads = { load.shortening{ on = bolt_b, by = 1*um } } }
+problem{ name = "posts", substructures = { foot, cap, a, b, pad }, interfaces = interfaces, supports = { base }, steps = { first, second }, outputs = {} }:run{}
+)";
+
+TEST(ReportRuns, is_cut_through_its_bolts_and_tells_masses_and_margins) {
+  const Written run = run_and_read(posts);
+  ;
+  EXPECT_EQ(xml_fault(run.page, {"meta"}), "");
+  for (const char* part : {"cut through &#39;bolt a&#39;, &#39;bolt b&#39;, the plane y = 5\u00a0mm",
+                           "50 × 10 × 20\u00a0mm", "<td>8\u00a0g</td>", "<td>28.35\u00a0g</td>", "84.04\u00a0g in all",
+                           "<h2>Stress against yield", "Not watched, since their material has no yield: foot, cap, pad",
+                           "Force after each static step", "by other bolts, static loads"})
+    EXPECT_NE(run.page.find(part), std::string::npos) << part;
+  ASSERT_EQ(run.result->stresses.size(), 2u);
+  EXPECT_NE(run.record.find("\"volume_above_yield\": 0.0"), std::string::npos);
+  EXPECT_EQ(run.record.find("above the yield"), std::string::npos);
+}
+
+TEST(ReportRuns, warns_of_a_part_that_would_yield) {
+  std::string text = posts;
+  text.replace(text.find("300*MPa"), 7, "1*MPa");
+  const Written run = run_and_read(text);
+  EXPECT_NE(run.record.find("substructure 'a' reaches "), std::string::npos);
+  EXPECT_NE(run.record.find("(von Mises), above the yield of 1 MPa of 'steel'"), std::string::npos);
+  EXPECT_NE(run.page.find("card poor\"><small>smallest margin against yield"), std::string::npos);
+}
+
 // A large mesh gives a page of bounded size: pictures and maps merge what is too fine to be seen.
 TEST(ReportRuns, stays_small_on_a_large_mesh) {
   const Written small = run_and_read(blocks(latin + "local steps = { hit('shock', nil, 1*us) }\n"));
@@ -168,7 +215,7 @@ TEST(ReportRuns, stays_small_on_a_large_mesh) {
   text.replace(text.find("n = 2 }"), 7, "n = 22 }");
   const Written large = run_and_read(text);
   expect_sound(large);
-  EXPECT_LT(large.page.size(), 600000u);
+  EXPECT_LT(large.page.size(), 1600000u);  // 1 MB of it is what the turning picture may take
   EXPECT_GT(large.page.size(), small.page.size());
 }
 

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <Eigen/SparseCholesky>
 #include <functional>
 #include <map>
-#include <random>
 #include <set>
 
 #include "fem/assembly.hpp"
@@ -20,133 +18,35 @@ inline const std::vector<CellType> cell_types = [] {
   return types;
 }();
 
-inline Elastic material_of(double young, double poisson, double density = 1.0) {
-  Elastic material;
-  material.young = young;
-  material.poisson = poisson;
-  material.density = density;
-  return material;
-}
+Elastic material_of(double young, double poisson, double density = 1.0);
 
 // The cells that fill a hexahedron of nodes `hex`.
-inline std::vector<int> split(CellType type, const int* hex) {
-  static const std::map<CellType, std::vector<int>> local = {
-      {CellType::hex8, {0, 1, 2, 3, 4, 5, 6, 7}},
-      {CellType::prism6, {0, 2, 1, 4, 6, 5, 0, 3, 2, 4, 7, 6}},
-      {CellType::tet4, {0, 1, 2, 6, 0, 2, 3, 6, 0, 3, 7, 6, 0, 7, 4, 6, 0, 4, 5, 6, 0, 5, 1, 6}}};
-  std::vector<int> nodes;
-  for (const int a : local.at(type)) nodes.push_back(hex[a]);
-  return nodes;
-}
+std::vector<int> split(CellType type, const int* hex);
 
 // A box of one cell type.
-inline Mesh box_of(CellType type, const Vec3& size, const std::array<int, 3>& cells) {
-  Mesh mesh = *box_mesh(Vec3::Zero(), size, cells);
-  const CellBlock hexahedra = mesh.blocks[0];
-  mesh.blocks = {{type, {}}};
-  for (int i = 0; i < hexahedra.n_cells(); ++i)
-    for (const int node : split(type, hexahedra.cell(i))) mesh.blocks[0].nodes.push_back(node);
-  return mesh;
-}
+Mesh box_of(CellType type, const Vec3& size, const std::array<int, 3>& cells);
 
 // A box of hexahedra where x is under the middle, of prisms beyond.
-inline Mesh mixed_box(const Vec3& size, const std::array<int, 3>& cells) {
-  Mesh mesh = *box_mesh(Vec3::Zero(), size, cells);
-  const CellBlock hexahedra = mesh.blocks[0];
-  mesh.blocks = {{CellType::hex8, {}}, {CellType::prism6, {}}};
-  for (int i = 0; i < hexahedra.n_cells(); ++i) {
-    const int* cell = hexahedra.cell(i);
-    CellBlock& block = mesh.blocks[mesh.nodes(0, cell[0]) + 1e-9 < size[0] / 2 ? 0 : 1];
-    for (const int node : split(block.type, cell)) block.nodes.push_back(node);
-  }
-  return mesh;
-}
+Mesh mixed_box(const Vec3& size, const std::array<int, 3>& cells);
 
-inline bool is_on_boundary(const Vec3& x, const Vec3& size) {
-  return (x.array().abs() < 1e-9).any() || ((x - size).array().abs() < 1e-9).any();
-}
+bool is_on_boundary(const Vec3& x, const Vec3& size);
 
 // Moves the inner nodes of a box by up to `amplitude` (m) along each axis.
-inline void distort(Mesh& mesh, const Vec3& size, double amplitude) {
-  std::mt19937 generator(7);
-  std::uniform_real_distribution<double> shift(-amplitude, amplitude);
-  for (int a = 0; a < mesh.n_nodes(); ++a) {
-    const Vec3 move(shift(generator), shift(generator), shift(generator));
-    if (!is_on_boundary(mesh.nodes.col(a), size)) mesh.nodes.col(a) += move;
-  }
-}
+void distort(Mesh& mesh, const Vec3& size, double amplitude);
 
 // Coordinates of the nodes of a cell.
 // All three cell types, none of them regular, in 1 x 1.2 x 0.9.
-inline Mesh distorted_mixed_box() {
-  const Vec3 size(1.0, 1.2, 0.9);
-  Mesh mesh = mixed_box(size, {4, 3, 3});
-  distort(mesh, size, 0.05);
-  return mesh;
-}
+Mesh distorted_mixed_box();
 
-inline CellNodes nodes_of_cell(const Mesh& mesh, const CellBlock& block, int i_cell) {
-  CellNodes x(3, nodes_per_cell(block.type));
-  for (int a = 0; a < x.cols(); ++a) x.col(a) = mesh.nodes.col(block.cell(i_cell)[a]);
-  return x;
-}
+CellNodes nodes_of_cell(const Mesh& mesh, const CellBlock& block, int i_cell);
 
-inline Vec flat(const Points& field) { return Eigen::Map<const Vec>(field.data(), field.size()); }
+Vec flat(const Points& field);
 
 // Displacement (3 x n) under nodal forces (3 x n) with prescribed values by dof.
-inline Points solve(const SparseMatrix& stiffness, const Points& forces, const std::map<int, double>& prescribed) {
-  const auto n = static_cast<int>(stiffness.rows());
-  std::vector<int> position(n, -1);
-  int n_free = 0;
-  for (int i = 0; i < n; ++i)
-    if (!prescribed.contains(i)) position[i] = n_free++;
-
-  Vec rhs(n_free);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int i = 0; i < n; ++i) {
-    if (position[i] < 0) continue;
-    rhs[position[i]] = forces.data()[i];
-    for (SparseMatrix::InnerIterator entry(stiffness, i); entry; ++entry) {
-      const auto j = static_cast<int>(entry.col());
-      if (position[j] >= 0)
-        entries.emplace_back(position[i], position[j], entry.value());
-      else
-        rhs[position[i]] -= entry.value() * prescribed.at(j);
-    }
-  }
-  Eigen::SparseMatrix<double> free(n_free, n_free);
-  free.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(free);
-  Vec solution = factor.solve(rhs);
-  solution += factor.solve(rhs - free * solution);
-
-  Points displacement(3, n / 3);
-  for (int i = 0; i < n; ++i) displacement.data()[i] = position[i] < 0 ? prescribed.at(i) : solution[position[i]];
-  return displacement;
-}
+Points solve(const SparseMatrix& stiffness, const Points& forces, const std::map<int, double>& prescribed);
 
 // Nodal forces (3 x n) of a unit pressure on the quadrangles for whose centre `is_loaded` is true, against the outward
 // normal.
-inline Points pressure_forces(const Mesh& mesh, const std::function<bool(const Vec3&)>& is_loaded) {
-  Points forces = Points::Zero(3, mesh.n_nodes());
-  const double signs[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-  for (const Facet& facet : boundary_facets(mesh.blocks)) {
-    Eigen::Matrix<double, 3, 4> x;
-    for (int a = 0; a < 4; ++a) x.col(a) = mesh.nodes.col(facet.nodes()[a]);
-    if (!is_loaded(x.rowwise().mean())) continue;
-    for (const auto& point : signs) {
-      Eigen::Vector4d shape;
-      Eigen::Matrix<double, 4, 2> slope;
-      for (int a = 0; a < 4; ++a) {
-        const double r = 1 + signs[a][0] * point[0] / std::sqrt(3.0), s = 1 + signs[a][1] * point[1] / std::sqrt(3.0);
-        shape[a] = r * s / 4;
-        slope.row(a) << signs[a][0] * s / 4, signs[a][1] * r / 4;
-      }
-      const Vec3 along_r = x * slope.col(0), along_s = x * slope.col(1), area = along_r.cross(along_s);
-      for (int a = 0; a < 4; ++a) forces.col(facet.nodes()[a]) -= shape[a] * area;
-    }
-  }
-  return forces;
-}
+Points pressure_forces(const Mesh& mesh, const std::function<bool(const Vec3&)>& is_loaded);
 
 }  // namespace dygita::test

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/progress.hpp"
 #include "latin/local_stage.hpp"
 #include "solution/blocks.hpp"
 

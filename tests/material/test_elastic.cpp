@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <numbers>
 
+#include "base/error.hpp"
 #include "material/elastic.hpp"
 
 namespace dygita::test {
@@ -34,6 +36,24 @@ TEST(Elastic, carries_waves_without_lateral_effect_at_zero_poisson_ratio) {
   EXPECT_DOUBLE_EQ(m.p_wave_modulus(), 900.0);
   EXPECT_DOUBLE_EQ(m.p_wave_speed(), 30.0);
   EXPECT_DOUBLE_EQ(m.s_wave_speed(), std::sqrt(450.0));
+}
+
+TEST(Damping, has_the_ratios_it_was_asked_for) {
+  const Damping one = damping_of(0.02, 1000.0);
+  EXPECT_EQ(one.mass, 0.0);
+  EXPECT_NEAR(one.stiffness, 0.02 / (std::numbers::pi * 1000.0), 1e-18);
+  EXPECT_NEAR(one.ratio(1000.0), 0.02, 1e-15);
+  EXPECT_NEAR(one.ratio(5000.0), 0.1, 1e-15);
+  const Damping two = damping_of({0.02, 0.03}, {200.0, 2000.0});
+  EXPECT_NEAR(two.ratio(200.0), 0.02, 1e-15);
+  EXPECT_NEAR(two.ratio(2000.0), 0.03, 1e-15);
+  EXPECT_LT(two.ratio(500.0), 0.02);
+  const Damping swapped = damping_of({0.03, 0.02}, {2000.0, 200.0});
+  EXPECT_NEAR(swapped.mass, two.mass, 1e-12);
+  EXPECT_NEAR(swapped.stiffness, two.stiffness, 1e-18);
+  EXPECT_THROW(damping_of({0.01, 0.09}, {1000.0, 2000.0}), InputError);
+  EXPECT_THROW(damping_of({0.09, 0.01}, {1000.0, 2000.0}), InputError);
+  EXPECT_THROW(damping_of({0.01, 0.01}, {1000.0, 1000.0}), InputError);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ class GivenArguments : public ModelArguments {
   GivenArguments(std::string path, Origin origin) : path_(std::move(path)), origin_(std::move(origin)) {}
 
   std::vector<Target> on;
+  std::vector<SubstructurePtr> parts;
   std::map<std::string, TimeValue> values_of_time;  // numbers too
   std::map<std::string, std::vector<double>> lists;
   std::map<std::string, std::string> words;
@@ -39,7 +40,7 @@ class GivenArguments : public ModelArguments {
   std::vector<Target> targets(const char* key) const override {
     return std::string(key) == "on" ? on : given(places_of, key);
   }
-  std::vector<SubstructurePtr> substructures(const char*) const override { return {}; }
+  std::vector<SubstructurePtr> substructures(const char*) const override { return parts; }
   StepPtr step(const char* key) const override { return given(step_of, key); }
   std::vector<StepPtr> steps(const char*) const override { return {}; }
   OutputPtr output(const char* key) const override { return given(outputs, key); }

@@ -35,4 +35,22 @@ TEST_F(Doubts, are_said_of_a_support_that_every_step_replaces) {
       "deck.lua:20: problem 'bolted': support.fixed 'base' holds in no step: every step has 'supports' of its own");
 }
 
+TEST_F(Doubts, are_said_of_a_hardening_without_a_length) {
+  lower->material = upper->material = {"steel", 2e11, 0.3, 7800.0, {}};
+  shock->loads.clear();
+  const auto harden = [&](double hardening) {
+    shank->law = make_law("plastic", {{"yield", 5e8}, {"hardening", hardening}, {"compression", 0.0}});
+  };
+  harden(1e8);  // over one metre: E / 2000
+  EXPECT_EQ(only_warning(),
+            "deck.lua:10: problem 'bolted': interface.plastic 'shank': 'hardening' = 1e+08 Pa/m over the 1000 mm of "
+            "'lower' is a plastic modulus of 100 MPa, 0.05 % of its Young's modulus; it is H/L, for a modulus H over a "
+            "length L: is the division by L missing?");
+  for (const double none : {0.0, 2e9}) {
+    harden(none);
+    EXPECT_EQ(complaint(), "");
+    EXPECT_TRUE(take_warnings().empty());
+  }
+}
+
 }  // namespace dygita

@@ -49,9 +49,9 @@ TEST(BoltTable, is_a_csv_with_a_row_a_bolt_and_a_column_a_static_step) {
   EXPECT_EQ(
       bolts_csv(two_steps(), two_bolts()),
       "bolt,area [m^2],target [N],\"after tighten, first [N]\",lowest [N],highest [N],last [N],loss [1],shortening [m],"
-      "plastic_opening [m],hand [N],hand_shortening [m],load_factor [1]\n"
-      "one,8.1e-05,25000,25000,20000,30000,22000,0.12,5e-05,0,12500,0.0001,0.75\n"
-      "the other,8.1e-05,,25000,20000,30000,25000,0,5e-05,0,,,\n");
+      "plastic_opening [m],hand [N],hand_shortening [m],load_factor [1],loss_by_yield [1],swing [N]\n"
+      "one,8.1e-05,25000,25000,20000,30000,22000,0.12,5e-05,0,12500,0.0001,0.75,,0\n"
+      "the other,8.1e-05,,25000,20000,30000,25000,0,5e-05,0,,,,,0\n");
 }
 
 TEST(BoltTable, is_read_by_people) {

@@ -229,7 +229,8 @@ struct Done {
     result.figures.largest_penetration = 1e-9;
     result.figures.mesh_error = std::nan("");
     result.seconds = {{"factor", 0.5}};
-    identity = {"crush.lua", "feed", {{"mu", 0.3}}, "latin{ window = 5 }", {{"punch", "beef"}}, 2, {{"gmsh", "4.8.4"}}};
+    identity = {"crush.lua",         "feed", {{"mu", 0.3}}, "latin{ window = 5 }",
+                {{"punch", "beef"}}, 2,      "generic",     {{"gmsh", "4.8.4"}}};
   }
 
   void add_output(const OutputPtr& output, const std::string& column, const std::string& unit) {
@@ -268,6 +269,7 @@ TEST(RunWriter, writes_a_record_that_tells_what_was_run_and_how_it_went) {
   EXPECT_EQ(json["deck"]["digest"], "feed");
   EXPECT_EQ(json["parameters"]["mu"], 0.3);
   EXPECT_EQ(json["solver"]["command_line"], "latin{ window = 5 }");
+  EXPECT_EQ(json["kernels"], "generic");
   EXPECT_EQ(json["substructures"][0]["digest"], "beef");
   EXPECT_EQ(json["substructures"][0]["nodes"], 11);
   EXPECT_EQ(json["steps"][0]["increments_not_converged"], 1);

@@ -47,7 +47,7 @@ struct Whole {
   int dof(const Modelled& of, int port) const {
     return (of.model.exchange.ports[port].part == 0 ? 0 : n_one) + 3 * of.model.exchange.ports[port].node;
   }
-  Mat inverse() const { return free * Mat(free.transpose() * a * free).inverse() * free.transpose(); }
+  Mat inverse() const { return free * solve_dense(free.transpose() * a * free, free.transpose()); }
 };
 
 void begin(Modelled& of, MergedAssembly& assembly) {

@@ -12,7 +12,7 @@ local shock = step.dynamic{ name = "shock", after = press, duration = 40*us, dt 
   load.traction{ on = high:face "zmax", z = history.half_sine{ peak = 80*MPa, duration = 20*us } } } }
 local a = output.history{ name = "top", on = high:face "zmax", quantity = "acceleration", direction = { 0, 0, 1 } }
 problem{ name = "page", substructures = { low, high }, interfaces = { touch }, supports = { base, guide }, steps = { press, shock },
-  outputs = { a, output.joint{ name = "grip", on = touch }, output.energy{}, output.resultant{ name = "foot", on = base },
+  outputs = { a, output.joint{ name = "grip", on = touch }, output.energy{}, output.vtk{ frames = 4 }, output.resultant{ name = "foot", on = base },
     output.history{ name = "motion", on = high:face "zmax", quantity = "displacement" },
     output.srs{ name = "srs_top", of = a, from = 1*kHz, to = 100*kHz, specification = { {1*kHz, 100*g0}, {10*kHz, 4000*g0}, {100*kHz, 4000*g0} } } },
 }:run{}

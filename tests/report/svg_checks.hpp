@@ -52,9 +52,7 @@ inline std::string xml_fault(const std::string& text, const std::vector<std::str
       open.pop_back();
     } else if (!is_empty && !is_void(name)) {
       open.push_back(name);
-      if (name == "style") {  // its text is no markup
-        end = text.find("</style>", end) - 1;
-      }
+      if (name == "style" || name == "script") end = text.find("</" + name + ">", end) - 1;  // its text is no markup
     }
     i = end;
   }

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "report/item_buffer.hpp"
 #include "report/joint_map.hpp"
 #include "report/picture.hpp"
+#include "report/picture_mesh.hpp"
+#include "report/svg_text.hpp"
 
 namespace dygita {
 namespace {
@@ -86,6 +89,84 @@ TEST(Picture, is_cut_where_a_part_cannot_be_seen_from_outside) {
   EXPECT_TRUE(view.is_cut);
   EXPECT_GT(of_part(make_picture(parts, view, {}, {}, 0.0), 0), 0);
   EXPECT_FALSE(view_of({outside}).is_cut);
+}
+
+// What a closed surface encloses, m^3; its area vectors must cancel.
+double enclosed(const Skin& skin) {
+  double volume = 0.0;
+  Vec3 sum = Vec3::Zero();
+  for (const SkinFacet& facet : skin.facets)
+    for (int k = 2; k < facet.n_corners; ++k) {
+      const Vec3 a = skin.position.col(facet.corners[0]), b = skin.position.col(facet.corners[k - 1]),
+                 c = skin.position.col(facet.corners[k]);
+      volume += a.dot(b.cross(c)) / 6.0;
+      sum += (b - a).cross(c - a);
+    }
+  EXPECT_LT(sum.norm(), 1e-12);
+  return volume;
+}
+
+View cut_at(double x, const Vec3& normal) {
+  View view;
+  view.size = 0.01;
+  view.is_cut = true;
+  view.cut = normal.normalized();
+  view.cut_at = {x, 0.005, 0.005};
+  return view;
+}
+
+TEST(Picture, is_cut_by_the_plane_and_not_by_whole_cells) {
+  const SubstructurePtr cube = box(4, 0.01);
+  // Through the middle of cells, through nodes, and askew: what is left has the volume behind the plane.
+  for (const double x : {0.001, 0.0037, 0.005, 0.0075})
+    EXPECT_NEAR(enclosed(make_skin({cube}, cut_at(x, Vec3::UnitX()), {}, {}, 0.0)), x * 1e-4, 2e-12) << x;
+  EXPECT_NEAR(enclosed(make_skin({cube}, cut_at(0.005, {1, 2, 3}), {}, {}, 0.0)), 0.5e-6, 2e-12);
+  EXPECT_NEAR(enclosed(make_skin({cube}, cut_at(0.02, Vec3::UnitX()), {}, {}, 0.0)), 1e-6, 1e-15);
+  EXPECT_TRUE(make_skin({cube}, cut_at(-0.001, Vec3::UnitX()), {}, {}, 0.0).facets.empty());
+}
+
+// Every other type of cell: a unit brick of them.
+TEST(Picture, cuts_prisms_and_tetrahedra_by_the_plane) {
+  auto part = std::make_shared<Substructure>();
+  auto mesh = std::make_shared<Mesh>();
+  mesh->nodes.resize(3, 8);
+  mesh->nodes << 0, 1, 1, 0, 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1;
+  mesh->nodes *= 0.01;
+  part->mesh = mesh;
+  for (const CellBlock& block :
+       {CellBlock{CellType::prism6, {0, 2, 1, 4, 6, 5, 0, 3, 2, 4, 7, 6}},
+        CellBlock{CellType::tet4, {0, 1, 3, 4, 1, 2, 3, 6, 1, 4, 5, 6, 3, 4, 6, 7, 1, 3, 4, 6}}}) {
+    mesh->blocks = {block};
+    for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(0.3, 1, 0), Vec3(1, 1, 1)})
+      EXPECT_NEAR(enclosed(make_skin({part}, cut_at(0.005, normal), {}, {}, 0.0)), 0.5e-6, 2e-12) << block.n_cells();
+  }
+}
+
+TEST(Picture, carries_displacements_and_values_to_the_cut) {
+  const SubstructurePtr cube = box(2, 0.01);
+  Points u = Points::Zero(3, 27);
+  u.row(2) = cube->mesh->nodes.row(0);
+  const Skin skin = make_skin({cube}, cut_at(0.0031, Vec3::UnitX()), {u}, {cube->mesh->nodes.row(0).transpose()}, 0.5);
+  for (Eigen::Index i = 0; i < skin.position.cols(); ++i) {
+    EXPECT_NEAR(skin.value[i], skin.reference(0, i), 1e-12);
+    EXPECT_NEAR(skin.position(2, i), skin.reference(2, i) + 0.5 * skin.reference(0, i), 1e-12);
+  }
+  EXPECT_NEAR(skin.reference.row(0).maxCoeff(), 0.0031, 1e-7);
+}
+
+TEST(Colours, do_not_repeat) {
+  std::set<std::string> colors;
+  for (int i = 0; i < 200; ++i) EXPECT_TRUE(colors.insert(series_color(i)).second) << i;
+  const auto channel = [](const std::string& color, size_t c) {
+    return std::stoi(color.substr(1 + 2 * c, 2), nullptr, 16);
+  };
+  for (int i = 0; i < 40; ++i)
+    for (int j = 0; j < i; ++j) {
+      int apart = 0;
+      for (size_t c = 0; c < 3; ++c)
+        apart = std::max(apart, std::abs(channel(series_color(i), c) - channel(series_color(j), c)));
+      EXPECT_GE(apart, 25) << i << " " << j;
+    }
 }
 
 TEST(Picture, stays_small_on_a_fine_mesh) {

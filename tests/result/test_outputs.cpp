@@ -95,6 +95,25 @@ TEST_F(Outputs, of_joints_are_on_interfaces_and_walls) {
                                                          "    output.joint takes an interface or a support.wall");
 }
 
+TEST_F(Outputs, of_momentum_are_of_listed_parts_each_once) {
+  GivenArguments arguments = given_output("momentum", "rebound");
+  problem.outputs = {make_output(arguments)};
+  EXPECT_EQ(complaint(), "");
+  arguments.parts = {upper, upper};
+  problem.outputs = {make_output(arguments)};
+  EXPECT_EQ(complaint(),
+            "deck.lua:50: problem 'bolted': output.momentum 'rebound': substructure 'upper' stands in 'of' twice");
+  arguments.parts = {std::make_shared<Substructure>(*upper)};
+  problem.outputs = {make_output(arguments)};
+  EXPECT_NE(complaint().find("output.momentum 'rebound' is of substructure 'upper', which is not in 'substructures'"),
+            std::string::npos);
+  arguments.parts = {};
+  problem.outputs = {make_output(arguments)};
+  problem.steps = {tighten};
+  EXPECT_EQ(only_warning(),
+            "deck.lua:50: problem 'bolted': output.momentum 'rebound' is zero throughout: there is no dynamic step");
+}
+
 TEST_F(Outputs, of_scalars_have_no_direction) {
   declare(Vec3::UnitZ(), "von_mises");
   EXPECT_EQ(complaint(), of_above + "history 'above': quantity 'von_mises' has no direction");
@@ -155,8 +174,8 @@ TEST_F(Outputs, without_a_name_are_called_by_their_word) {
 TEST(OutputTable, has_every_output_under_its_word) {
   std::vector<std::string> words;
   for (const OutputEntry& entry : output_table()) words.push_back(entry.word);
-  EXPECT_EQ(words, (std::vector<std::string>{"attenuation", "energy", "history", "joint", "loop", "resultant", "srs",
-                                             "srs_field", "superelement", "vtk"}));
+  EXPECT_EQ(words, (std::vector<std::string>{"attenuation", "energy", "history", "joint", "loop", "momentum",
+                                             "resultant", "srs", "srs_field", "superelement", "vtk"}));
   EXPECT_EQ(output_entry("srs")->display.as, Display::As::spectrum);
   EXPECT_EQ(output_entry("vacuum"), nullptr);
 }

@@ -112,8 +112,31 @@ TEST_F(SpectrumOutput, is_recorded_with_what_it_is_of_and_held_against) {
   EXPECT_EQ(std::get<std::string>(notes[0].value), "above");
   EXPECT_EQ(std::get<std::string>(notes[3].value), "spectrum_band.csv");
   const Notes& against = std::get<Notes>(notes[4].value);
-  ASSERT_EQ(against.size(), 4u);
+  ASSERT_EQ(against.size(), 5u);
   EXPECT_EQ(against[3].name, "exceedance");
+  EXPECT_EQ(against[4].name, "judged");
+  const auto judged = std::get<std::vector<double>>(against[4].value);
+  EXPECT_NEAR(judged[0], 50.0, 1e-9);
+  EXPECT_NEAR(judged[1], 25e3, 1e-6);
+}
+
+// Half a millisecond tells nothing of 1 kHz, a quarter nothing of the whole spectrum.
+TEST_F(SpectrumOutput, is_not_judged_where_its_record_is_too_short) {
+  Table& table = result.tables[history.get()];
+  for (std::vector<double>& column : table.columns) column.resize(25);
+  table.step.resize(25);
+  conclude();
+  EXPECT_NEAR(findings().values.at("judged_from"), 2e3, 1e-6);
+  EXPECT_NEAR(findings().values.at("exceedance_at"), 2e3, 1.0);
+  table.columns[0].resize(12);
+  table.columns[1].resize(12);
+  table.step.resize(12);
+  conclude();
+  EXPECT_TRUE(findings().figures.find("largest exceedance of the specification of 'spectrum' [dB]") ==
+              findings().figures.end());
+  EXPECT_TRUE(std::isnan(findings().values.at("exceedance")));
+  ASSERT_FALSE(findings().warnings.empty());
+  EXPECT_NE(findings().warnings.back().find("is not held against its specification"), std::string::npos);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "base/log.hpp"
 #include "signal/history.hpp"
 
 namespace dygita {
@@ -152,6 +153,82 @@ TEST_F(HistoryFile, is_read_with_commas_blanks_titles_and_comments) {
   EXPECT_EQ(history.value(2.0), -1.0);
   EXPECT_NEAR(history.integral(0.0, 1.0), 1.5, 1e-15);
   EXPECT_NE(history.description().find("3 points"), std::string::npos);
+}
+
+TEST_F(HistoryFile, is_read_in_the_units_of_its_titles) {
+  const double g = 9.80665;
+  for (const char* titles :
+       {"time [ms],acceleration [g]", "time (ms); acceleration (g)", "Time [ms] Acceleration X [g]",
+        "\"t (ms)\",\"a (gn)\"", "# t [ms], a [g]", "t,a\n[ms],[g]", "t a\nms g"}) {
+    const History history = read(std::string(titles) + "\n0 0\n2 10\n4 -20\n");
+    EXPECT_NEAR(history.value(2e-3), 10.0 * g, 1e-12) << titles;
+    EXPECT_EQ(history.unit(), "m/s^2") << titles;
+    const Profile profile = history.profile().value();
+    EXPECT_NEAR(profile.low, -20.0 * g, 1e-12);
+    EXPECT_NEAR(profile.largest(), 20.0 * g, 1e-12);
+    EXPECT_DOUBLE_EQ(profile.peak, 4e-3);
+    EXPECT_TRUE(profile.is_record);
+  }
+  EXPECT_DOUBLE_EQ(read("t [\xC2\xB5s], F [kN]\n0,0\n1,2\n").value(1e-6), 2000.0);
+  EXPECT_DOUBLE_EQ(read("t [s], p [N/mm\xC2\xB2]\n0,0\n1,2\n").value(1.0), 2e6);
+  EXPECT_EQ(read("# measured by (Bob) on [Friday]\nt, v\n0,0\n1,2\n").value(1.0), 2.0);
+  EXPECT_EQ(read("t, v\n0,0\n1,2\n").unit(), "");
+}
+
+TEST_F(HistoryFile, in_a_unit_that_is_not_known_is_refused) {
+  EXPECT_TRUE(
+      message("time [ms], acceleration [furlong]\n0,1\n")
+          .starts_with(":1: 'furlong' is not a unit that is known, in the title 'acceleration'\n    known: s, ms"));
+  EXPECT_EQ(message("time [Hz], a [g]\n0,1\n"),
+            ":1: column 'time' is in 'Hz', where a time is expected\n    known: s, ms, us, ns, sec, msec, usec, min");
+  EXPECT_EQ(message("time acceleration [g]\n0 1\n"),
+            ":1: 1 title with units where there are two columns: separate them by a comma");
+  EXPECT_EQ(message("t,a\n[ms],[furlong]\n0,1\n"), ":2: '[ms]' is not a finite number");
+}
+
+TEST_F(HistoryFile, with_a_unit_outside_of_brackets_is_doubted) {
+  take_warnings();
+  EXPECT_EQ(read("time_ms,acc_g\n0,0\n1,2\n").value(1.0), 2.0);
+  const std::vector<std::string> warnings = take_warnings();
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[0].find(":1: column 'time_ms' is read in SI: a unit is read where it stands in brackets, [ms]"),
+            std::string::npos);
+}
+
+TEST(ComposedHistory, is_what_its_terms_are) {
+  const History sine = History::half_sine(3.0, 0.4), ramp = History::ramp(0.0, 2.0, 0.5);
+  const History wave = History::function([](double t) { return std::cos(t); });
+  const auto near = [](double a, double b) { EXPECT_NEAR(a, b, 1e-13); };
+  for (const double t : {-0.1, 0.0, 0.13, 0.2, 0.45, 0.9}) {
+    near(sine.scaled(-2.0).value(t), -2.0 * sine.value(t));
+    near(sine.plus(ramp).plus(wave).value(t), sine.value(t) + ramp.value(t) + std::cos(t));
+    near(sine.shifted(0.1).value(t), sine.value(t - 0.1));
+    near(ramp.stretched(4.0).value(t), ramp.value(t / 4.0));
+    near(sine.scaled(-2.0).integral(t, t + 0.2), -2.0 * sine.integral(t, t + 0.2));
+    near(sine.plus(ramp).integral(t, t + 0.2), sine.integral(t, t + 0.2) + ramp.integral(t, t + 0.2));
+    near(sine.shifted(0.1).integral(t, t + 0.2), sine.integral(t - 0.1, t + 0.1));
+    near(ramp.stretched(4.0).integral(t, t + 0.2), 4.0 * ramp.integral(t / 4.0, t / 4.0 + 0.05));
+  }
+  EXPECT_EQ(sine.scaled(2.0).description(), "2 * half_sine(peak 3, duration 0.4)");
+  EXPECT_TRUE(History::constant(1.0).plus(History::constant(2.0)).is_constant());
+  EXPECT_THROW(sine.scaled(NAN), InputError);
+  EXPECT_THROW(sine.stretched(0.0), InputError);
+  EXPECT_THROW(sine.shifted(INFINITY), InputError);
+}
+
+TEST(ComposedHistory, tells_its_course) {
+  const Profile pulse = History::haversine(-5.0, 0.2).scaled(-2.0).shifted(0.3).profile().value();
+  EXPECT_DOUBLE_EQ(pulse.begin, 0.3);
+  EXPECT_DOUBLE_EQ(pulse.end, 0.5);
+  EXPECT_DOUBLE_EQ(pulse.peak, 0.4);
+  EXPECT_DOUBLE_EQ(pulse.high, 10.0);
+  EXPECT_DOUBLE_EQ(pulse.low, 0.0);
+  const Profile two = History::half_sine(3.0, 0.2).plus(History::half_sine(-4.0, 0.2).shifted(0.5)).profile().value();
+  EXPECT_DOUBLE_EQ(two.end, 0.7);
+  EXPECT_NEAR(two.peak, 0.6, 1e-12);
+  EXPECT_NEAR(two.high, 3.0, 1e-12);
+  EXPECT_NEAR(two.low, -4.0, 1e-12);
+  EXPECT_FALSE(History::half_sine(1.0, 1.0).plus(History::function([](double t) { return t; })).profile());
 }
 
 TEST_F(HistoryFile, that_is_wrong_is_named_with_its_line) {

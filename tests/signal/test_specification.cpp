@@ -48,6 +48,19 @@ TEST(Specification, is_straight_in_log_log) {
   EXPECT_TRUE(std::isnan(plateau.level_at(10100.0)));
 }
 
+TEST(Specification, is_judged_only_where_the_record_allows_it) {
+  const Specification flat{{10.0, 1e5}, {10.0, 10.0}, "deck"};
+  const std::vector<double> frequency = {50, 100, 1000, 60000}, value = {1e4, 20, 5, 1e5};
+  EXPECT_EQ(largest_exceedance(flat, frequency, value).frequency, 60000);
+  const FrequencyRange record = reliable_range(0.01, 1e-5);
+  EXPECT_DOUBLE_EQ(record.from, 100.0);
+  EXPECT_DOUBLE_EQ(record.to, 5e4);
+  const Exceedance judged = largest_exceedance(flat, frequency, value, record);
+  EXPECT_EQ(judged.frequency, 100);
+  EXPECT_NEAR(judged.decibels, 20 * std::log10(2.0), 1e-12);
+  EXPECT_FALSE(largest_exceedance(flat, frequency, value, reliable_range(0.0, 1e-5)).is_known);
+}
+
 TEST(Specification, tells_the_largest_exceedance_and_where) {
   const Exceedance above = largest_exceedance(plateau, {50.0, 500.0, 2000.0}, {1e9, 1000.0, 4000.0});
   EXPECT_TRUE(above.is_known);
@@ -68,7 +81,14 @@ TEST_F(SpecificationFile, takes_commas_semicolons_blanks_and_a_header_with_a_uni
     EXPECT_EQ(s.frequency, (std::vector<double>{100.0, 1000.0})) << text;
     EXPECT_EQ(s.level, (std::vector<double>{200.0, 2000.0})) << text;
   }
-  EXPECT_NEAR(read("frequency [Hz],level [g]\n100,20\n1000,500\n").level[1], 500 * 9.80665, 1e-9);
+  for (const char* titles :
+       {"frequency [Hz],level [g]", "frequency (Hz),level (g)", "f (Hz); SRS maximax (g)", "# f [Hz], a [g]"}) {
+    const Specification s = read(std::string(titles) + "\n100,20\n1000,500\n");
+    EXPECT_NEAR(s.level[1], 500 * 9.80665, 1e-9) << titles;
+    EXPECT_EQ(s.frequency[1], 1000.0);
+    EXPECT_EQ(s.unit.substr(0, 1), "g");
+  }
+  EXPECT_NEAR(read("frequency (kHz),level (m/s2)\n0.1,20\n1,500\n").frequency[0], 100.0, 1e-12);
 }
 
 TEST_F(SpecificationFile, says_where_it_is_wrong) {
@@ -77,6 +97,11 @@ TEST_F(SpecificationFile, says_where_it_is_wrong) {
   EXPECT_EQ(fault("100,200\n1000,-5\n"), ":2: the level -5 is not above zero");
   EXPECT_EQ(fault("f,l\n0,200\n1000,5\n"), ":2: the frequency 0 Hz is not above zero");
   EXPECT_EQ(fault("f,l\n100,200\nabc,5\n"), ":3: 'abc,5' is not a frequency (Hz) and a level");
+  EXPECT_EQ(fault("f (Hz),level (Pa)\n100,200\n").substr(0, 54),
+            ":1: column 'level' is in 'Pa', where m/s^2 is expected");
+  EXPECT_TRUE(
+      fault("f (Hz),level (dB)\n100,200\n").starts_with(":1: 'dB' is not a unit that is known, in the title 'level'"));
+  EXPECT_EQ(fault("100,2oo\n1000,200\n"), ":1: '100,2oo' is not a frequency (Hz) and a level");
   EXPECT_EQ(fault("f,l\n100,200,3\n"), ":2: '100,200,3' is not a frequency (Hz) and a level");
   EXPECT_THROW(read_specification("nowhere.csv"), InputError);
 }

@@ -9,8 +9,6 @@
 #include <vector>
 
 #include "base/log.hpp"
-#include "base/progress.hpp"
-#include "law/law.hpp"
 #include "mesh/box.hpp"
 #include "model/given_arguments.hpp"
 #include "model/load.hpp"
@@ -24,80 +22,29 @@ namespace dygita {
 
 using BlockPtr = std::shared_ptr<Substructure>;
 
-inline BlockPtr block(const std::string& name, const Vec3& origin, const Vec3& size, const std::array<int, 3>& cells) {
-  auto part = std::make_shared<Substructure>();
-  part->name = name;
-  part->mesh = box_mesh(origin, size, cells);
-  part->material = steel();
-  return part;
-}
-inline Face face(const BlockPtr& part, const char* group) { return {part, group}; }
+BlockPtr block(const std::string& name, const Vec3& origin, const Vec3& size, const std::array<int, 3>& cells);
+Face face(const BlockPtr& part, const char* group);
 
 // Cubes of 10 mm with n cells along each edge, at a place counted in cubes.
-inline BlockPtr cube(const std::string& name, int x, int y, int z, int n = 2) {
-  return block(name, 0.01 * Vec3(x, y, z), Vec3::Constant(0.01), {n, n, n});
-}
+BlockPtr cube(const std::string& name, int x, int y, int z, int n = 2);
 
-inline InterfacePtr interface(const std::string& name, const Face& side_1, const Face& side_2, LawPtr law) {
-  auto made = std::make_shared<Interface>();
-  made->name = name;
-  made->side_1 = side_1;
-  made->side_2 = side_2;
-  made->law = std::move(law);
-  return made;
-}
-inline LawPtr bonded() { return make_law("bonded"); }
-inline LawPtr contact(double friction, double gap = 0.0) {
-  return make_law("contact", {{"friction", friction}, {"gap", gap}});
-}
-inline LawPtr plastic(double yield, double hardening = 0.0, bool compression = false) {
-  return make_law("plastic", {{"yield", yield}, {"hardening", hardening}, {"compression", compression ? 1.0 : 0.0}});
-}
+InterfacePtr interface(const std::string& name, const Face& side_1, const Face& side_2, LawPtr law);
+LawPtr bonded();
+LawPtr contact(double friction, double gap = 0.0);
+LawPtr plastic(double yield, double hardening = 0.0, bool compression = false);
 
-inline std::shared_ptr<Support> support(const std::string& word, std::vector<FaceOrRegion> on,
-                                        const LawArguments& arguments = {}) {
-  auto made = std::make_shared<Support>();
-  made->name = "support." + word;
-  made->kind = make_support(word, arguments);
-  made->on = std::move(on);
-  return made;
-}
+std::shared_ptr<Support> support(const std::string& word, std::vector<FaceOrRegion> on,
+                                 const LawArguments& arguments = {});
 
 // A load by its word; component: of those along x, y and z.
-inline LoadPtr load(const std::string& word, std::vector<Target> on, const History& value, int component = 0,
-                    bool is_number = false) {
-  GivenArguments given("load." + word, Origin());
-  given.on = std::move(on);
-  static const std::map<std::string, std::string> keys = {
-      {"pressure", "history"}, {"shortening", "by"}, {"preload", "force"}, {"release", "at"}};
-  const auto key = keys.find(word);
-  given.values_of_time[key == keys.end() ? std::string(1, "xyz"[component]) : key->second] = {value, is_number};
-  return make_load(given);
-}
-inline LoadPtr number(const std::string& word, std::vector<Target> on, double value, int component = 0) {
-  return load(word, std::move(on), History::constant(value), component, true);
-}
+LoadPtr load(const std::string& word, std::vector<Target> on, const History& value, int component = 0,
+             bool is_number = false);
+LoadPtr number(const std::string& word, std::vector<Target> on, double value, int component = 0);
 
-inline std::shared_ptr<Step> static_step(const std::string& name, int increments, std::vector<LoadPtr> loads,
-                                         StepPtr after = nullptr) {
-  auto step = std::make_shared<Step>();
-  step->name = name;
-  step->is_static = true;
-  step->increments = increments;
-  step->loads = std::move(loads);
-  step->after = std::move(after);
-  return step;
-}
-inline std::shared_ptr<Step> dynamic_step(const std::string& name, int n, double dt, std::vector<LoadPtr> loads,
-                                          StepPtr after = nullptr) {
-  auto step = std::make_shared<Step>();
-  step->name = name;
-  step->duration = n * dt;
-  step->dt = dt;
-  step->loads = std::move(loads);
-  step->after = std::move(after);
-  return step;
-}
+std::shared_ptr<Step> static_step(const std::string& name, int increments, std::vector<LoadPtr> loads,
+                                  StepPtr after = nullptr);
+std::shared_ptr<Step> dynamic_step(const std::string& name, int n, double dt, std::vector<LoadPtr> loads,
+                                   StepPtr after = nullptr);
 
 // What a solver's model of a step is made of, with everything that it points to.
 struct Modelled {
@@ -120,13 +67,7 @@ struct Modelled {
   Modelled& operator=(const Modelled&) = delete;
 
   // Node of a substructure at a place, m.
-  int node_at(int part, const Vec3& place) const {
-    const Points& nodes = problem.substructures[part]->mesh->nodes;
-    for (int i = 0; i < nodes.cols(); ++i)
-      if ((nodes.col(i) - place).norm() < 1e-9) return i;
-    ADD_FAILURE() << "no node of substructure " << part << " at " << place.transpose();
-    return 0;
-  }
+  int node_at(int part, const Vec3& place) const;
 };
 
 // Everything that a solver shows.
@@ -142,16 +83,7 @@ struct Recorder : Observer {
   std::vector<Row> rows;
 
   void begin_step(const Instant&) override {}
-  void accept(const Instant& instant) override {
-    Row row{instant.time(),   {}, {}, {}, instant.state.surfaces, instant.state.energies, instant.iterations,
-            instant.converged};
-    for (int part = 0; part < static_cast<int>(instant.model.problem->substructures.size()); ++part) {
-      row.displacement.push_back(instant.displacement(part));
-      row.velocity.push_back(instant.velocity(part));
-      row.reactions.push_back(instant.reactions(part));
-    }
-    rows.push_back(std::move(row));
-  }
+  void accept(const Instant& instant) override;
 };
 
 // Largest difference of a nodal field between two runs, of the largest value of the second.
@@ -167,29 +99,11 @@ double difference(const Recorder& one, const Recorder& other, Field&& field) {
   EXPECT_GT(size, 0.0);
   return apart / size;
 }
-inline double displacement_difference(const Recorder& one, const Recorder& other) {
-  return difference(
-      one, other, [](const Recorder::Row& row) -> const auto& { return row.displacement; });
-}
-inline double velocity_difference(const Recorder& one, const Recorder& other) {
-  return difference(
-      one, other, [](const Recorder::Row& row) -> const auto& { return row.velocity; });
-}
+double displacement_difference(const Recorder& one, const Recorder& other);
+double velocity_difference(const Recorder& one, const Recorder& other);
 
 // Two cubes, one on the other with a law between them, the lower one fixed below; in `steps`.
-inline Problem two_cubes(LawPtr law, std::vector<StepPtr> steps, int n = 2) {
-  Problem problem;
-  problem.name = "two_cubes";
-  const BlockPtr lower = cube("lower", 0, 0, 0, n), upper = cube("upper", 0, 0, 1, n);
-  problem.substructures = {lower, upper};
-  problem.interfaces = {interface("between", face(lower, "zmax"), face(upper, "zmin"), std::move(law))};
-  problem.supports = {support("fixed", {face(lower, "zmin")})};
-  problem.steps = std::move(steps);
-  problem.solver.tolerance = problem.solver.static_tolerance = 1e-11;
-  problem.solver.max_iterations = 2000;
-  set_progress_enabled(false);
-  return problem;
-}
-inline Face top_of(const Problem& problem) { return {problem.substructures[1], "zmax"}; }
+Problem two_cubes(LawPtr law, std::vector<StepPtr> steps, int n = 2);
+Face top_of(const Problem& problem);
 
 }  // namespace dygita

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
+#include "base/progress.hpp"
 #include "solution/blocks.hpp"
 
 namespace dygita {

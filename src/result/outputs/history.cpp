@@ -164,12 +164,15 @@ class HistoryOutput final : public Output {
   }
 
   bool is_prescribed(const Problem& problem) const override {
-    return std::all_of(problem.steps.begin(), problem.steps.end(), [&](const StepPtr& step) {
-      return step->is_static || std::all_of(request_.on.begin(), request_.on.end(), [&](const Target& target) {
-               const std::optional<FaceOrRegion> place = check::place_of(target);
-               return place && is_held(problem, *step, *place);
-             });
-    });
+    const auto is_held_in = [&](const StepPtr& step) {
+      return std::all_of(request_.on.begin(), request_.on.end(), [&](const Target& target) {
+        const std::optional<FaceOrRegion> place = check::place_of(target);
+        return place && is_held(problem, *step, *place);
+      });
+    };
+    return check::has_dynamic_step(problem) && !request_.on.empty() &&
+           std::all_of(problem.steps.begin(), problem.steps.end(),
+                       [&](const StepPtr& step) { return step->is_static || is_held_in(step); });
   }
 
   std::optional<HistoryKind> history() const override {

@@ -1,6 +1,7 @@
 // output.srs: the shock response spectrum of a history, with its band and what it is held against.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/log.hpp"
 #include "base/names.hpp"
@@ -14,6 +15,8 @@
 namespace dygita {
 
 namespace {
+
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 const char* quantity_text(SrsQuantity quantity) {
   switch (quantity) {
@@ -62,8 +65,10 @@ class SrsOutput final : public Output {
     if (!specification_) return notes;
     Notes against = {
         {"source", specification_->source}, {"frequency", specification_->frequency}, {"level", specification_->level}};
-    if (const Exceedance worst = exceedance(table); worst.is_known)
+    if (const Exceedance worst = exceedance(table, findings); worst.is_known)
       against.push_back({"exceedance", Notes{{"decibels", worst.decibels}, {"frequency", worst.frequency}}});
+    const FrequencyRange judged = judged_range(findings);
+    against.push_back({"judged", std::vector<double>{judged.from, judged.to}});
     notes.push_back({"specification", std::move(against)});
     return notes;
   }
@@ -73,6 +78,8 @@ class SrsOutput final : public Output {
   std::optional<double> highest_frequency() const override { return srs_.to; }
 
   void conclude(const RunEnd& end, Table& table, Findings& findings) const override {
+    const FrequencyRange judged = record_range(end.problem, end.result.tables.at(of_.get()));
+    findings.values = {{"judged_from", judged.from}, {"judged_to", judged.to}};
     const Srs srs = spectrum_of(end.problem, srs_, end.result.tables.at(of_.get()), 1);
     table = {};
     if (!srs.frequency.empty()) {
@@ -84,6 +91,12 @@ class SrsOutput final : public Output {
     tell(table, findings);
   }
 
+  void hollow(const Table&, Findings& findings) const override {
+    for (const char* value : {"judged_from", "judged_to"}) findings.values[value] = not_known;
+    if (specification_)
+      for (const char* value : {"exceedance", "exceedance_at"}) findings.values[value] = not_known;
+  }
+
   bool settles() const override { return true; }
   double settle(const Table& before, const Table& table, Findings& findings) const override {
     if (findings.band.n_rows() > 0) take_iteration_from(table, before, findings.band);
@@ -92,9 +105,27 @@ class SrsOutput final : public Output {
   }
 
  private:
-  Exceedance exceedance(const Table& table) const {
+  // Of the history's dynamic rows, one an increment.
+  static FrequencyRange record_range(const Problem& problem, const Table& history) {
+    double record = 0.0, shortest = std::numeric_limits<double>::infinity();
+    for (const int i_step : history.step) {
+      const Step& step = *problem.steps[static_cast<size_t>(i_step)];
+      if (step.is_static) continue;
+      record += step.dt;
+      shortest = std::min(shortest, step.dt);
+    }
+    return reliable_range(record, shortest);
+  }
+
+  // Everything, where nobody has concluded it.
+  static FrequencyRange judged_range(const Findings& findings) {
+    const auto from = findings.values.find("judged_from"), to = findings.values.find("judged_to");
+    return from == findings.values.end() ? FrequencyRange{} : FrequencyRange{from->second, to->second};
+  }
+
+  Exceedance exceedance(const Table& table, const Findings& findings) const {
     if (!specification_ || table.n_rows() == 0) return {};
-    return largest_exceedance(*specification_, table.columns.front(), table.column("maximax"));
+    return largest_exceedance(*specification_, table.columns.front(), table.column("maximax"), judged_range(findings));
   }
 
   void tell(const Table& table, Findings& findings) const {
@@ -102,8 +133,21 @@ class SrsOutput final : public Output {
     findings.lines.clear();
     findings.warnings.clear();
     if (findings.band.n_rows() > 0) tell_band(findings);
-    const Exceedance worst = exceedance(table);
-    if (!worst.is_known) return;
+    if (specification_ && table.n_rows() > 0) tell_specification(table, findings);
+  }
+
+  void tell_specification(const Table& table, Findings& findings) const {
+    const Exceedance worst = exceedance(table, findings);
+    findings.values["exceedance"] = worst.is_known ? worst.decibels : not_known;
+    findings.values["exceedance_at"] = worst.is_known ? worst.frequency : not_known;
+    if (!worst.is_known) {
+      findings.warnings.push_back(
+          fmt::format("spectrum '{}' is not held against its specification ({:.4g} to {:.4g} Hz): they share no "
+                      "frequency between {:.4g} Hz, 1/record length, and {:.4g} Hz, half the sampling rate",
+                      name, specification_->frequency.front(), specification_->frequency.back(),
+                      findings.values["judged_from"], findings.values["judged_to"]));
+      return;
+    }
     findings.figures["largest exceedance of the specification of '" + name + "' [dB]"] = worst.decibels;
     findings.figures["frequency of the largest exceedance of '" + name + "' [Hz]"] = worst.frequency;
     findings.lines.push_back(fmt::format("spectrum '{}': {:.1f} dB {} its specification at {:.4g} Hz", name,

@@ -1,0 +1,18 @@
+# Kernels of panels, each kind compiled for its processors whatever the rest is compiled for; the program chooses when it
+# starts (numerics/panel_choice.hpp). Elsewhere than on x86-64 there is the generic kind alone.
+function(dygita_kernels target)
+  set(folder ${CMAKE_SOURCE_DIR}/src/numerics/kernels)
+  set(generic_flags "")
+  set(kinds generic)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+    list(APPEND kinds avx2 avx512)
+    set(generic_flags -march=x86-64)
+    set(avx2_flags -march=x86-64-v3)
+    set(avx512_flags -march=x86-64-v4)
+  endif()
+  foreach(kind IN LISTS kinds)
+    set(source ${folder}/panel_kernels_${kind}.cpp)
+    target_sources(${target} PRIVATE ${source})
+    set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "${${kind}_flags}")
+  endforeach()
+endfunction()

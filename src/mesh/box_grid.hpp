@@ -1,0 +1,67 @@
+// Boxes in space, and which of many are near a place: a regular grid of cells.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "numerics/types.hpp"
+
+namespace dygita {
+
+struct Box {
+  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
+
+  void add(const Vec3& x) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  bool is_empty() const { return (low.array() > high.array()).any(); }
+  Vec3 size() const { return high - low; }
+  Box grown(double by) const { return {low - Vec3::Constant(by), high + Vec3::Constant(by)}; }
+  Box common(const Box& other) const { return {low.cwiseMax(other.low), high.cwiseMin(other.high)}; }
+  bool meets(const Box& other) const { return !common(other).is_empty(); }
+};
+
+class BoxGrid {
+ public:
+  // `cell`: the edge of a cell (m), about as large as the boxes.
+  BoxGrid(const std::vector<Box>& boxes, double cell) : boxes_(boxes), cell_(cell), last_asked_(boxes.size(), -1) {
+    for (size_t i = 0; i < boxes.size(); ++i)
+      for_each_cell(boxes[i], [&](size_t key) { in_cell_[key].push_back(static_cast<int>(i)); });
+  }
+
+  // Calls visit(i) once for each box that meets `box`.
+  template <typename Visit>
+  void for_each_meeting(const Box& box, Visit visit) {
+    ++n_asked_;
+    for_each_cell(box, [&](size_t key) {
+      const auto found = in_cell_.find(key);
+      if (found == in_cell_.end()) return;
+      for (const int i : found->second)
+        if (last_asked_[static_cast<size_t>(i)] != n_asked_ && boxes_[static_cast<size_t>(i)].meets(box)) {
+          last_asked_[static_cast<size_t>(i)] = n_asked_;
+          visit(i);
+        }
+    });
+  }
+
+ private:
+  template <typename Visit>
+  void for_each_cell(const Box& box, Visit visit) const {
+    const auto first = (box.low.array() / cell_).floor().cast<long>().eval();
+    const auto last = (box.high.array() / cell_).floor().cast<long>().eval();
+    for (long k = first[2]; k <= last[2]; ++k)
+      for (long j = first[1]; j <= last[1]; ++j)
+        for (long i = first[0]; i <= last[0]; ++i)
+          visit(static_cast<size_t>(i) * 73856093u ^ static_cast<size_t>(j) * 19349663u ^
+                static_cast<size_t>(k) * 83492791u);
+  }
+
+  const std::vector<Box>& boxes_;
+  double cell_;
+  std::unordered_map<size_t, std::vector<int>> in_cell_;
+  std::vector<long> last_asked_;
+  long n_asked_ = 0;
+};
+
+}  // namespace dygita

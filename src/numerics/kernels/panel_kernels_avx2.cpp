@@ -1,0 +1,2 @@
+#define DYGITA_ISA avx2
+#include "numerics/kernels/panel_arithmetic.hpp"

@@ -1,0 +1,2 @@
+#define DYGITA_ISA generic
+#include "numerics/kernels/panel_arithmetic.hpp"

@@ -1,0 +1,23 @@
+// What a frame holds at most, for who sets up a picture of it without reading it back.
+#pragma once
+
+#include <string>
+
+#include "result/frame.hpp"
+
+namespace dygita {
+
+struct FrameSummary {
+  double label_time = 0.0;
+  std::string step;
+  double displacement = 0.0;  // m, largest modulus of the parts'
+  // Pa, what one point in two hundred exceeds, so that a notch does not hide the rest; 0 where no such field was asked
+  // for.
+  double von_mises = 0.0, pressure = 0.0;
+  bool has_interfaces = false;
+};
+
+// Values that are not finite are passed over.
+FrameSummary summary_of(const Frame& frame);
+
+}  // namespace dygita

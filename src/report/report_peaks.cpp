@@ -1,0 +1,181 @@
+// What matters first: what each output reached, and how near stresses come to yield.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/log.hpp"
+#include "report/html.hpp"
+#include "report/quantities.hpp"
+#include "report/report_parts.hpp"
+#include "report/spectra.hpp"
+#include "report/units.hpp"
+#include "result/limits.hpp"
+
+namespace dygita {
+
+namespace {
+
+// The row of the largest modulus; -1: no finite value.
+int row_of_largest(const std::vector<double>& values) {
+  int best = -1;
+  for (size_t i = 0; i < values.size(); ++i)
+    if (std::isfinite(values[i]) && (best < 0 || std::abs(values[i]) > std::abs(values[static_cast<size_t>(best)])))
+      best = static_cast<int>(i);
+  return best;
+}
+
+// "shock, 46 µs"; a static step has no time.
+std::string instant(const RunFolder& run, const Table& table, int row) {
+  const Json& step = run.record().at("steps").at(static_cast<size_t>(table.step[static_cast<size_t>(row)]));
+  const std::string name = text(step, "name");
+  return text(step, "kind") == "static" ? name + " (static)"
+                                        : name + ", " + with_unit(table.columns[0][static_cast<size_t>(row)], "s");
+}
+
+struct NamedColumn {
+  std::string name;
+  std::vector<double> values;
+};
+
+// What peaks are told of: the modulus of a vector, else every column that is drawn, of many the largest.
+std::vector<NamedColumn> columns_of(const Json& output, const Table& table) {
+  if (table.names == std::vector<std::string>{"time", "x", "y", "z"}) {
+    NamedColumn modulus{"modulus", table.columns[1]};
+    for (size_t i = 0; i < modulus.values.size(); ++i)
+      modulus.values[i] = std::hypot(table.columns[1][i], table.columns[2][i], table.columns[3][i]);
+    return {modulus};
+  }
+  const OutputEntry* entry = output_entry(text(output, "kind"));
+  const size_t all = table.columns.size() - 1;
+  const size_t n = entry && entry->display.n_columns > 0 ? std::min<size_t>(entry->display.n_columns, all) : all;
+  std::vector<NamedColumn> columns;
+  for (size_t c = 1; c <= n; ++c) columns.push_back({n > 1 ? table.names[c] : "", table.columns[c]});
+  const auto peak = [](const NamedColumn& column) {
+    const int row = row_of_largest(column.values);
+    return row < 0 ? -1.0 : std::abs(column.values[static_cast<size_t>(row)]);
+  };
+  if (columns.size() <= 3) return columns;
+  return {*std::max_element(columns.begin(), columns.end(),
+                            [&](const NamedColumn& a, const NamedColumn& b) { return peak(a) < peak(b); })};
+}
+
+void add_histories(const RunFolder& run, Cells& rows) {
+  for (const Json& output : run.outputs(Display::As::curves)) {
+    const Table table = run.table(text(output, "file"));
+    if (table.n_rows() == 0 || table.columns.size() < 2) continue;
+    for (const NamedColumn& column : columns_of(output, table)) {
+      const int row = row_of_largest(column.values);
+      if (row < 0) continue;
+      rows.push_back({text(output, "name"), subject_of(output) + (column.name.empty() ? "" : ", " + column.name),
+                      with_unit(column.values[static_cast<size_t>(row)], table.units.at(1)), instant(run, table, row)});
+    }
+  }
+}
+
+void add_spectra(const RunFolder& run, const TimeAxis& time, const ReportRequest& request, Cells& rows) {
+  for (const Spectrum& spectrum : spectra_of(run, request)) {
+    std::vector<double> level = spectrum.level();
+    for (size_t i = 0; i < level.size(); ++i)
+      if (!time.judged().holds(spectrum.frequency()[i])) level[i] = std::nan("");
+    const int row = row_of_largest(level);
+    if (row < 0) continue;
+    rows.push_back({spectrum.name, "spectrum of " + spectrum.of,
+                    with_unit(level[static_cast<size_t>(row)], spectrum.table.units.at(1)),
+                    with_unit(spectrum.frequency()[static_cast<size_t>(row)], "Hz")});
+  }
+}
+
+// The least margin first; what is not a number before all, a part without stress last.
+double rank(const Json& stress) {
+  const double margin = number(stress, "margin");
+  if (std::isfinite(margin)) return margin;
+  return number(stress, "von_mises") == 0.0 ? std::numeric_limits<double>::max() : -2.0;
+}
+
+double last_of(const Table& table, const char* column) {
+  const auto at = std::find(table.names.begin(), table.names.end(), column);
+  return at == table.names.end() || table.n_rows() == 0
+             ? std::nan("")
+             : table.columns[static_cast<size_t>(at - table.names.begin())].back();
+}
+
+std::string joints_table(const RunFolder& run) {
+  Cells rows;
+  for (const Json& output : run.outputs(Display::As::joint)) {
+    const Table t = run.table(text(output, "file"), {"normal", "shear", "opening", "slip", "plastic_opening"});
+    if (t.n_rows() == 0) continue;
+    const auto largest = [&](const char* column) {
+      const std::vector<double>& values = t.column(column);
+      const int row = row_of_largest(values);
+      return row < 0 ? std::nan("") : values[static_cast<size_t>(row)];
+    };
+    const std::vector<double>& normal = t.column("normal");
+    double low = 0.0, high = 0.0;
+    for (const double force : normal) {
+      low = std::min(low, force);
+      high = std::max(high, force);
+    }
+    double dissipated = 0.0;
+    for (const char* work : {"friction_work", "plastic_work", "damping_work"})
+      if (const double value = last_of(t, work); std::isfinite(value)) dissipated += value;
+    rows.push_back({text(output, "name"), Cell(-low, "N"), Cell(high, "N"), Cell(largest("shear"), "N"),
+                    Cell(largest("opening"), "m"), Cell(largest("plastic_opening"), "m"), Cell(largest("slip"), "m"),
+                    Cell(dissipated, "J")});
+  }
+  if (rows.empty()) return "";
+  return html::heading("Joints") + html::table({"joint", "pressed by up to", "pulled by up to", "shear", "opening",
+                                                "of it plastic", "slip", "dissipated"},
+                                               in_common_units(rows), true);
+}
+
+}  // namespace
+
+std::string peaks_section(const RunFolder& run, const TimeAxis& time, const ReportRequest& request) {
+  Cells rows;
+  add_histories(run, rows);
+  add_spectra(run, time, request, rows);
+  std::string body;
+  if (!rows.empty()) body = html::table({"name", "of", "largest", "when, at which frequency"}, in_common_units(rows));
+  return html::section("Peaks", body + joints_table(run));
+}
+
+std::string margins_section(const RunFolder& run) {
+  Cells rows;
+  std::string unwatched;
+  std::vector<Json> watched;
+  for (const Json& part : run.record().value("substructures", Json::array())) {
+    if (part.contains("stress"))
+      watched.push_back(part);
+    else
+      unwatched += (unwatched.empty() ? "" : ", ") + text(part, "name");
+  }
+  std::stable_sort(watched.begin(), watched.end(),
+                   [](const Json& a, const Json& b) { return rank(a["stress"]) < rank(b["stress"]); });
+  for (const Json& part : watched) {
+    const Json& stress = part["stress"];
+    const Json place = stress.value("place", Json::array());
+    std::string where;
+    for (const Json& x : place)
+      where += (where.empty() ? "" : ", ") + plain_number(1e3 * without_round_off(x.get<double>()));
+    const bool moves = number(stress, "time") > 0.0;
+    rows.push_back({text(part, "name"), text(part, "material"), Cell(number(part, "yield"), "Pa"),
+                    Cell(number(stress, "von_mises"), "Pa"), Cell(100.0 * number(stress, "margin"), "%"),
+                    Cell(100.0 * number(stress, "volume_above_yield"), "%", 2),
+                    text(stress, "step") + (moves ? ", " + with_unit(number(stress, "time"), "s") : ""),
+                    "(" + where + ")"});
+  }
+  if (rows.empty()) return "";
+  return html::section(
+      "Stress against yield",
+      html::table({"part", "material", "yield", "largest von Mises", "margin", "volume beyond", "when", "where (mm)"},
+                  in_common_units(rows), true) +
+          html::paragraph(
+              "Margin: yield / von Mises − 1; the material stays elastic beyond yield. Stress is that at nodes, the "
+              "mean of the "
+              "cells around: at an edge, a corner or the rim of a contact it grows with a finer mesh, so see how much "
+              "of the "
+              "volume is beyond." +
+              (unwatched.empty() ? "" : " Not watched, since their material has no yield: " + unwatched + ".")));
+}
+
+}  // namespace dygita

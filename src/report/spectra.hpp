@@ -1,0 +1,51 @@
+// Spectra of a run, and how each stands against its specification.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "output/run_folder.hpp"
+#include "report/card.hpp"
+#include "report/report.hpp"
+
+namespace dygita {
+
+// A spectrum with what it is held against.
+struct Spectrum {
+  std::string name, of, quantity;
+  double q_factor;
+  Table table;
+  std::shared_ptr<const Specification> specification;
+  Table band;  // dB, what iteration, time step and mesh leave; empty: not known
+
+  const std::vector<double>& frequency() const { return table.columns.front(); }
+  const std::vector<double>& level() const { return table.column("maximax"); }
+};
+
+// Those of the record whose tables are there.
+std::vector<Spectrum> spectra_of(const RunFolder& run, const ReportRequest& request);
+
+// "+7.1 dB", with a true minus.
+std::string decibels(double value);
+
+// A range of frequencies that lies outside, with the worst of it.
+struct Excursion {
+  double from, to;  // Hz
+  double worst;     // dB from the specification
+  double at;        // Hz
+};
+
+// Where the spectrum, at the frequencies judged, is above (sign 1) or below (sign -1) its specification by more than
+// `limit` dB; the worst first.
+std::vector<Excursion> excursions(const Spectrum& spectrum, const FrequencyRange& judged, double limit, int sign);
+
+struct SpectrumVerdict {
+  std::string sentence;
+  Card card;
+};
+
+// Of a spectrum with a specification, at the frequencies that the record allows.
+SpectrumVerdict verdict_of(const Spectrum& spectrum, const FrequencyRange& judged);
+
+}  // namespace dygita

@@ -1,0 +1,88 @@
+// output.momentum: linear momentum of parts (manual, instants and means).
+#include <algorithm>
+
+#include "fem/assembly.hpp"
+#include "model/check.hpp"
+#include "result/output_table.hpp"
+#include "result/recorder.hpp"
+
+namespace dygita {
+
+namespace {
+
+struct WeighedPart {
+  int index;   // in problem.substructures
+  Vec masses;  // kg, the integral of density times each node's shape function: exact for the sum, whatever the mass
+               // matrix
+};
+
+class MomentumRecorder : public TableRecorder {
+ public:
+  MomentumRecorder(const Columns& columns, std::vector<WeighedPart> parts)
+      : TableRecorder(columns), parts_(std::move(parts)) {}
+
+  void begin_step(const Instant& instant) override {
+    if (!instant.is_static() || instant.i_step == 0) accept(instant);
+  }
+  void accept(const Instant& instant) override {
+    Vec3 momentum = Vec3::Zero();
+    for (const WeighedPart& part : parts_) momentum += instant.velocity(part.index) * part.masses;
+    add_row(instant, instant.time(), {momentum[0], momentum[1], momentum[2]});
+  }
+
+ private:
+  std::vector<WeighedPart> parts_;
+};
+
+class MomentumOutput final : public Output {
+ public:
+  explicit MomentumOutput(const ModelArguments& a) : Output(a), of_(a.substructures("of")) {}
+
+  void check(const Problem& problem) const override {
+    for (size_t i = 0; i < of_.size(); ++i) {
+      check::listed(problem, known_as() + " is of substructure", *of_[i], problem.substructures, "substructures");
+      for (size_t j = 0; j < i; ++j)
+        if (of_[i] == of_[j])
+          check::fail(problem, origin, known_as() + ": substructure '" + of_[i]->name + "' stands in 'of' twice");
+    }
+  }
+
+  void doubt(const Problem& problem) const override {
+    if (!check::has_dynamic_step(problem))
+      check::doubt(problem, origin, known_as() + " is zero throughout: there is no dynamic step");
+  }
+
+  Columns columns() const override { return {{"time", "s"}, {"x", "N s"}, {"y", "N s"}, {"z", "N s"}}; }
+
+  Notes record(const Table&, const Findings&) const override {
+    std::vector<std::string> names;
+    for (const SubstructurePtr& part : of_) names.push_back(part->name);
+    if (names.empty()) return {};
+    return {{"of", names}};
+  }
+
+  std::vector<StudyFigure> study_figures() const override {
+    return {{"x", StudyFigure::Of::last}, {"y", StudyFigure::Of::last}, {"z", StudyFigure::Of::last}};
+  }
+
+  std::unique_ptr<Recorder> recorder(const Problem& problem, const FrameSink&) const override {
+    std::vector<WeighedPart> parts;
+    for (size_t i = 0; i < problem.substructures.size(); ++i) {
+      const SubstructurePtr& part = problem.substructures[i];
+      const bool is_asked = of_.empty() || std::find(of_.begin(), of_.end(), part) != of_.end();
+      if (is_asked) parts.push_back({static_cast<int>(i), part->material.density * nodal_volumes(*part->mesh)});
+    }
+    return std::make_unique<MomentumRecorder>(columns(), std::move(parts));
+  }
+
+ private:
+  std::vector<SubstructurePtr> of_;  // empty: all
+};
+
+}  // namespace
+
+namespace outputs {
+OutputEntry momentum() { return {"momentum", new_output<MomentumOutput>, {Display::As::curves, "momentum", 0}}; }
+}  // namespace outputs
+
+}  // namespace dygita

@@ -1,0 +1,74 @@
+#include "result/penetration_watch.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/log.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr int looks = 100;               // a step, evenly
+constexpr double smallest_depth = 1e-5;  // of the smaller part's size: deformation that no face can tell from rounding
+
+bool is_looked_at(const Instant& instant) {
+  const long n = instant.model.step->n_increments(), i = instant.increment + 1, k = std::min<long>(n, looks);
+  return (i * k) / n != ((i - 1) * k) / n;
+}
+
+}  // namespace
+
+void PenetrationWatch::begin_step(const Instant& start) {
+  if (std::exchange(has_begun_, true)) return;
+  pairs_ = doubt_neighbours(problem_, *start.model.surfaces);
+  std::erase_if(pairs_, [](const Unjoined& pair) { return !pair.neighbours.are_near(); });
+  deepest_.resize(pairs_.size());
+}
+
+void PenetrationWatch::accept(const Instant& instant) {
+  if (pairs_.empty() || !is_looked_at(instant)) return;
+  std::vector<Points> displacement(problem_.substructures.size());
+  for (const Unjoined& pair : pairs_)
+    for (const int part : {pair.part_1, pair.part_2})
+      if (auto& u = displacement[static_cast<size_t>(part)]; u.cols() == 0) u = instant.displacement(part);
+  for (size_t p = 0; p < pairs_.size(); ++p) look(instant, p, displacement);
+}
+
+void PenetrationWatch::look(const Instant& instant, size_t pair, const std::vector<Points>& displacement) {
+  const Unjoined& of = pairs_[pair];
+  Deepest& deepest = deepest_[pair];
+  const auto look_at = [&](const std::vector<NearNode>& nodes, int part, int other) {
+    const Points &u = displacement[static_cast<size_t>(part)], &v = displacement[static_cast<size_t>(other)];
+    for (const NearNode& near : nodes) {
+      Vec3 apart = u.col(near.node);
+      for (size_t a = 0; a < near.facet.nodes().size(); ++a) apart -= near.weights[a] * v.col(near.facet.nodes()[a]);
+      const double depth = -near.gap - near.normal.dot(apart);
+      if (depth <= deepest.depth) continue;
+      deepest = {depth, &near, part, other, instant.model.step, instant.time()};
+    }
+  };
+  look_at(of.neighbours.nodes_1, of.part_1, of.part_2);
+  look_at(of.neighbours.nodes_2, of.part_2, of.part_1);
+}
+
+void PenetrationWatch::finish() const {
+  for (size_t p = 0; p < pairs_.size(); ++p) {
+    const Deepest& deepest = deepest_[p];
+    if (deepest.depth <= smallest_depth * pairs_[p].size) continue;
+    const Substructure& body = *problem_.substructures[static_cast<size_t>(deepest.part)];
+    const Vec3 x = 1e3 * (body.mesh->nodes.col(deepest.at->node) + body.place);
+    const std::string name_1 = problem_.substructures[static_cast<size_t>(pairs_[p].part_1)]->name,
+                      name_2 = problem_.substructures[static_cast<size_t>(pairs_[p].part_2)]->name;
+    warn(fmt::format(
+        "substructures '{}' and '{}' pass {:.3g} mm into each other where no interface joins them, at ({:.4g}, {:.4g}, "
+        "{:.4g}) mm through {}, in step '{}'{}: an interface.contact would keep them apart",
+        name_1, name_2, 1e3 * deepest.depth, x[0], x[1], x[2],
+        face_with(*problem_.substructures[static_cast<size_t>(deepest.other)], deepest.at->facet), deepest.step->name,
+        deepest.step->is_static ? "" : fmt::format(" at {:.4g} ms", 1e3 * deepest.time)));
+  }
+}
+
+}  // namespace dygita

@@ -1,0 +1,39 @@
+// Watches a run for parts that pass into each other where no interface keeps them apart. Pairs are found once, where
+// bounding boxes are near; without such pairs the watch costs nothing.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "solution/observer.hpp"
+#include "solution/unjoined.hpp"
+
+namespace dygita {
+
+class PenetrationWatch : public Observer {
+ public:
+  explicit PenetrationWatch(const Problem& problem) : problem_(problem) {}
+
+  // Finds the pairs in the first step, and says which touch or overlap from the start.
+  void begin_step(const Instant& start) override;
+  void accept(const Instant& instant) override;
+  // Says how deep, where and when.
+  void finish() const;
+
+ private:
+  struct Deepest {
+    double depth = 0.0;            // m
+    const NearNode* at = nullptr;  // in pairs_
+    int part = -1, other = -1;     // of the node, of its facet
+    const Step* step = nullptr;
+    double time = 0.0;  // s
+  };
+  void look(const Instant& instant, size_t pair, const std::vector<Points>& displacement);
+
+  const Problem& problem_;
+  bool has_begun_ = false;
+  std::vector<Unjoined> pairs_;
+  std::vector<Deepest> deepest_;  // of each pair
+};
+
+}  // namespace dygita

@@ -1,0 +1,44 @@
+// Watches a run for the picture that turns (skin_motion.hpp). Stress is computed in the cells on the boundary only, at
+// no more than twenty instants a run, and what is kept stays below 64 MB.
+#pragma once
+
+#include <vector>
+
+#include "result/scenes.hpp"
+#include "result/skin_motion.hpp"
+#include "solution/observer.hpp"
+
+namespace dygita {
+
+class SkinRecorder {
+ public:
+  explicit SkinRecorder(const Problem& problem) : problem_(problem) {}
+
+  void accept(const Instant& instant);
+  // Whole fields that others kept join in, each at its instant unless there is a frame already.
+  void add(const AssemblyScene& scene);
+  SkinMotion take() { return std::move(motion_); }
+
+ private:
+  // A part's boundary nodes and the cells around them, as a mesh of its own.
+  struct Layer {
+    Mesh mesh;
+    std::vector<int> node_of;   // of the part, for each node of `mesh`
+    std::vector<int> boundary;  // nodes of `mesh`, in the order of SkinMotion::nodes
+  };
+  void prepare();
+  static Layer layer_of(const Mesh& mesh, const std::vector<int>& boundary);
+  template <class Displacement>
+  void fill(SkinFrame& frame, const Displacement& of_part) const;
+
+  const Problem& problem_;
+  SkinMotion motion_;
+  std::vector<Layer> layers_;
+  std::vector<int> samples_;  // frames of each step
+};
+
+// How many frames each step gets of `n_frames`: static steps their last increment, dynamic ones what remains; where
+// there are more steps than frames, steps are passed over evenly, the last never.
+std::vector<int> shared_out(const std::vector<bool>& is_static, int n_frames);
+
+}  // namespace dygita

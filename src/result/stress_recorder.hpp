@@ -1,0 +1,45 @@
+// Watches the von Mises stress of the substructures whose material has a yield; of others nothing is computed.
+//
+// Every node at the end of each static increment and at two hundred instants of a dynamic step; in between, at every
+// increment, the nodes that had been the most stressed until then: a peak between two instants is met where stress is
+// high again and again, and missed where it was never high before.
+#pragma once
+
+#include <vector>
+
+#include "result/result.hpp"
+#include "solution/observer.hpp"
+
+namespace dygita {
+
+inline constexpr int stress_instants = 200;  // of a dynamic step, at which all nodes are looked at
+inline constexpr int most_hot_nodes = 64;    // of a substructure, followed in between
+
+class StressRecorder {
+ public:
+  explicit StressRecorder(const Problem& problem);
+  void accept(const Instant& instant);
+  // In the order of the substructures.
+  std::vector<PartStress> take();
+
+ private:
+  // A substructure, and the cells around its most stressed nodes as a mesh of their own.
+  struct Watched {
+    PartStress peak;
+    Vec volumes;  // m^3, of nodes
+    Vec largest;  // Pa, of each node so far
+    Mesh around;
+    std::vector<int> node;  // of the body, for each of `around`
+    std::vector<int> hot;   // nodes of `around`
+  };
+
+  void look_at_all(const Instant& instant, Watched& watched);
+  void look_at_hot(const Instant& instant, Watched& watched);
+  static void follow(const Mesh& mesh, Watched& watched);
+  void meet(const Instant& instant, double stress, int node, Watched& watched) const;
+
+  const Problem& problem_;
+  std::vector<Watched> watched_;
+};
+
+}  // namespace dygita

@@ -1,0 +1,50 @@
+#include "run/part_lines.hpp"
+
+#include <cmath>
+
+#include "base/log.hpp"
+#include "result/limits.hpp"
+
+namespace dygita {
+
+std::string part_line(const Substructure& part) {
+  const Points& nodes = part.mesh->nodes;
+  const Vec3 size = 1e3 * (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff());
+  return fmt::format("  substructure '{}': {} nodes, {} cells, {}, {:.4g} kg, {:.4g} x {:.4g} x {:.4g} mm\n", part.name,
+                     part.mesh->n_nodes(), part.mesh->n_cells(), part.material.name,
+                     part.material.density * volume(*part.mesh), size[0], size[1], size[2]);
+}
+
+std::string mass_line(const Problem& problem) {
+  double mass = 0.0;
+  for (const SubstructurePtr& part : problem.substructures) mass += part->material.density * volume(*part->mesh);
+  return fmt::format("  {:.4g} kg in all\n", mass);
+}
+
+void warn_of_stresses(const Problem& problem, const RunResult& result) {
+  for (const PartStress& peak : result.stresses) {
+    const Substructure& part = *problem.substructures[static_cast<size_t>(peak.part)];
+    if (std::isnan(peak.von_mises))
+      warn(fmt::format("the stress of substructure '{}' is not a number: its margin against yield is not known",
+                       part.name));
+    if (peak.margin() < limit::yield_margin)
+      warn(fmt::format(
+          "substructure '{}' reaches {:.4g} MPa (von Mises), above the yield of {:.4g} MPa of '{}': up to {:.2g} % of "
+          "its volume at once. The material stays elastic there; at an edge or a corner the peak grows with a finer "
+          "mesh",
+          part.name, peak.von_mises / 1e6, peak.yield / 1e6, part.material.name, 100.0 * peak.above));
+  }
+}
+
+// "stress: smallest margin against yield 0.32, in 'rod' (485 MPa of 640)".
+std::string stress_line(const Problem& problem, const RunResult& result) {
+  const PartStress* least = nullptr;
+  for (const PartStress& peak : result.stresses)
+    if (!least || !(peak.margin() >= least->margin())) least = &peak;
+  if (!least) return "";
+  return fmt::format("  smallest margin against yield {:.3g}, in '{}' ({:.4g} MPa of {:.4g})", least->margin(),
+                     problem.substructures[static_cast<size_t>(least->part)]->name, least->von_mises / 1e6,
+                     least->yield / 1e6);
+}
+
+}  // namespace dygita

@@ -1,0 +1,20 @@
+// Substructures in words: what a check tells of them, what a run says of their stress.
+#pragma once
+
+#include <string>
+
+#include "result/result.hpp"
+
+namespace dygita {
+
+// "  substructure 'rod': 120 nodes, 80 cells, steel, 0.0123 kg, 8 x 8 x 60 mm\n".
+std::string part_line(const Substructure& part);
+// "  1.23 kg in all\n".
+std::string mass_line(const Problem& problem);
+
+// Warns of each substructure that leaves the elastic range of its material.
+void warn_of_stresses(const Problem& problem, const RunResult& result);
+// "  smallest margin against yield 0.32, in 'rod' (485 MPa of 640)"; empty where no material has a yield.
+std::string stress_line(const Problem& problem, const RunResult& result);
+
+}  // namespace dygita

@@ -1,0 +1,202 @@
+#include "solution/unjoined.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <unordered_map>
+
+#include "law/law.hpp"
+#include "mesh/face_nodes.hpp"
+#include "model/check.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr double reach = 0.05;  // of the smaller part's size
+
+std::string at(const Vec3& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]); }
+
+// Facets of the second side, as the second body numbers its nodes.
+std::vector<Facet> facets_2(const Surface& surface) {
+  std::unordered_map<int, int> partner;
+  for (int i = 0; i < surface.n_points(); ++i) partner[surface.facing.nodes_1[i]] = surface.facing.nodes_2[i];
+  std::vector<Facet> facets = surface.facing.facets;
+  for (Facet& facet : facets)
+    for (int& node : facet.nodes()) node = partner.at(node);
+  return facets;
+}
+
+void join(PlacedBody& body, const std::vector<Facet>& facets) {
+  for (const Facet& facet : facets) {
+    body.joined.insert(facet_key(facet));
+    body.joined_nodes.insert(facet.nodes().begin(), facet.nodes().end());
+  }
+}
+
+PlacedBody body_of(const Problem& problem, int part) {
+  const Substructure& body = *problem.substructures[static_cast<size_t>(part)];
+  return {body.mesh.get(), body.place};
+}
+
+double area_of(const Substructure& part, const std::vector<Facet>& facets) {
+  double area = 0.0;
+  for (const Facet& facet : facets) area += facet_area_vector(part.mesh->nodes, facet).norm();
+  return area;
+}
+
+Box box_of(const Substructure& part, const std::vector<Facet>& facets) {
+  Box box;
+  for (const Facet& facet : facets)
+    for (const int node : facet.nodes()) box.add(part.mesh->nodes.col(node) + part.place);
+  return box;
+}
+
+// Two faces of one size, of which a part only coincides, are hardly meant to lie a cell or two apart.
+void doubt_shift(const Problem& problem, const Surface& surface) {
+  const Face &face_1 = surface.interface->side_1, &face_2 = surface.interface->side_2;
+  const std::vector<Facet>&all_1 = face_1.facets(), &all_2 = face_2.facets(), &matched = surface.facing.facets;
+  if (matched.size() == all_1.size() || matched.size() == all_2.size()) return;
+  const double area_1 = area_of(*face_1.part, all_1), area_2 = area_of(*face_2.part, all_2);
+  const Box box_1 = box_of(*face_1.part, all_1), box_2 = box_of(*face_2.part, all_2);
+  const double size = box_1.size().norm(), cell = std::sqrt(area_1 / static_cast<double>(all_1.size()));
+  if (std::abs(area_1 - area_2) > 1e-6 * area_1 || (box_1.size() - box_2.size()).norm() > 1e-6 * size) return;
+  const Vec3 shift = box_2.low - box_1.low;
+  if (shift.cwiseAbs().maxCoeff() > 2.5 * cell) return;
+  check::doubt(
+      problem, surface.interface->origin,
+      fmt::format("{} joins two faces of one size, {} and {}, of which {:.3g} % coincide: the second is shifted "
+                  "by {}",
+                  check::describe(*surface.interface), face_1.label(), face_2.label(),
+                  100.0 * surface.facing.areas.sum() / area_1, at(shift)));
+}
+
+// How many facets have all their nodes among those that a support holds.
+int n_held(const std::vector<Facet>& facets, const std::vector<int>& held) {
+  return static_cast<int>(std::count_if(facets.begin(), facets.end(), [&](const Facet& facet) {
+    return std::all_of(facet.nodes().begin(), facet.nodes().end(),
+                       [&](int node) { return std::binary_search(held.begin(), held.end(), node); });
+  }));
+}
+
+void doubt_held_side(const Problem& problem, const Surface& surface, const SubstructurePtr& part,
+                     const std::vector<Facet>& facets) {
+  for (const SupportPtr& support : check::all_supports(problem)) {
+    if (support->kind->law()) continue;
+    for (const FaceOrRegion& place : support->on) {
+      if (&check::part_of(place) != part.get()) continue;
+      const std::vector<int> held = check::nodes_at(place);
+      const int n = n_held(facets, held);
+      if (n == 0 || static_cast<int>(held.size()) == part->mesh->n_nodes()) continue;
+      check::doubt(problem, surface.interface->origin,
+                   fmt::format("{} of {} facets of {} are also under {} ({}): what the support holds there, the "
+                               "interface does not move",
+                               n, facets.size(), check::describe(*surface.interface), check::describe(*support),
+                               check::label_of(place)));
+    }
+  }
+}
+
+}  // namespace
+
+std::string face_with(const Substructure& part, const Facet& facet) {
+  const FacetKey key = facet_key(facet);
+  const std::string* best = nullptr;
+  size_t fewest = 0;
+  for (const auto& [name, facets] : part.mesh->faces) {
+    if (best && facets.size() >= fewest) continue;
+    if (std::none_of(facets.begin(), facets.end(), [&](const Facet& f) { return facet_key(f) == key; })) continue;
+    best = &name;
+    fewest = facets.size();
+  }
+  return best ? "'" + part.name + "." + *best + "'" : "'" + part.name + "'";
+}
+
+std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Surface>& surfaces) {
+  const int n = static_cast<int>(problem.substructures.size());
+  std::vector<Box> boxes;
+  for (int i = 0; i < n; ++i) boxes.push_back(body_of(problem, i).box());
+  std::vector<Unjoined> found;
+  for (int i = 0; i < n; ++i)
+    for (int j = i + 1; j < n; ++j) {
+      const double size = std::min(boxes[i].size().norm(), boxes[j].size().norm());
+      if (!boxes[i].grown(reach * size).meets(boxes[j].grown(reach * size))) continue;
+      PlacedBody body_1 = body_of(problem, i), body_2 = body_of(problem, j);
+      for (const Surface& surface : surfaces) {
+        if (surface.part_1 == i && surface.part_2 == j) {
+          join(body_1, surface.facing.facets);
+          join(body_2, facets_2(surface));
+        } else if (surface.part_1 == j && surface.part_2 == i) {
+          join(body_2, surface.facing.facets);
+          join(body_1, facets_2(surface));
+        }
+      }
+      Neighbours neighbours = find_neighbours(body_1, body_2, reach * size);
+      if (neighbours.touch || neighbours.intrusion || neighbours.are_near())
+        found.push_back({i, j, size, std::move(neighbours)});
+    }
+  return found;
+}
+
+namespace {
+
+// Parts that touch one part alike, as the bolts of a pattern do, are named together.
+void doubt_touches(const Problem& problem, const std::vector<Unjoined>& unjoined) {
+  std::map<std::pair<int, long>, std::vector<const Unjoined*>> alike;
+  for (const Unjoined& pair : unjoined)
+    if (pair.neighbours.touch && !pair.neighbours.intrusion)
+      alike[{pair.part_1, std::lround(1e3 * std::log(pair.neighbours.touch->area))}].push_back(&pair);
+  for (const auto& [key, pairs] : alike) {
+    const auto part = [&](int i) -> const Substructure& { return *problem.substructures[static_cast<size_t>(i)]; };
+    const Substructure &a = part(pairs.front()->part_1), &b = part(pairs.front()->part_2);
+    const Touch& touch = *pairs.front()->neighbours.touch;
+    std::string others;
+    for (size_t i = 0; i < pairs.size(); ++i)
+      others += (i == 0 ? "" : i + 1 == pairs.size() ? " and " : ", ") + ("'" + part(pairs[i]->part_2).name + "'");
+    check::doubt(
+        problem, b.origin,
+        fmt::format("substructures '{}' and {} touch on {:.4g} mm^2{} where no interface joins them, at {} ({} on "
+                    "{}): they pass through each other there; an interface.contact keeps them apart",
+                    a.name, others, 1e6 * touch.area, pairs.size() > 1 ? " each" : "", at(touch.place),
+                    face_with(a, touch.facet_1), face_with(b, touch.facet_2)));
+  }
+}
+
+void doubt_unjoined(const Problem& problem, const std::vector<Unjoined>& unjoined) {
+  for (const Unjoined& pair : unjoined) {
+    const Substructure &a = *problem.substructures[static_cast<size_t>(pair.part_1)],
+                       &b = *problem.substructures[static_cast<size_t>(pair.part_2)];
+    const std::string who = fmt::format("substructures '{}' and '{}'", a.name, b.name);
+    if (const auto& intrusion = pair.neighbours.intrusion) {
+      const Box& box = intrusion->extent;
+      check::doubt(problem, b.origin,
+                   fmt::format("{} overlap, up to {:.3g} mm deep at {}, between {} and {}: check 'place', 'origin' and "
+                               "'unit'",
+                               who, 1e3 * intrusion->depth, at(intrusion->place), at(box.low), at(box.high)));
+    }
+  }
+  doubt_touches(problem, unjoined);
+}
+
+void doubt_surfaces(const Problem& problem, const std::vector<Surface>& surfaces) {
+  for (const Surface& surface : surfaces) {
+    if (!surface.interface) continue;
+    doubt_shift(problem, surface);
+    doubt_held_side(problem, surface, surface.interface->side_1.part, surface.facing.facets);
+    doubt_held_side(problem, surface, surface.interface->side_2.part, facets_2(surface));
+  }
+}
+
+}  // namespace
+
+std::vector<Unjoined> doubt_neighbours(const Problem& problem, const std::vector<Surface>& surfaces) {
+  doubt_surfaces(problem, surfaces);
+  std::vector<Unjoined> pairs = find_unjoined(problem, surfaces);
+  doubt_unjoined(problem, pairs);
+  return pairs;
+}
+
+}  // namespace dygita

@@ -1,0 +1,179 @@
+// Parts near each other without an interface: what check and run say of them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/log.hpp"
+#include "decks/engine.hpp"
+
+namespace dygita::test {
+
+namespace {
+
+// A plate of 40 x 40 x 10 mm that is held, and a block of 20 x 20 x 20 mm at `place`.
+std::string blocks_at(const std::string& place, const std::string& more) {
+  return R"(
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local plate = substructure{ name = "plate", material = steel, mesh = mesh.box{ size = { 40*mm, 40*mm, 10*mm }, cells = { 8, 8, 2 } } }
+local block = substructure{ name = "block", material = steel, place = )" +
+         place + R"(, velocity = { 0, 0, -1 },
+                            mesh = mesh.box{ size = { 20*mm, 20*mm, 20*mm }, cells = { 4, 4, 4 } } }
+local base = support.fixed{ name = "base", on = plate:face "zmin" }
+local interfaces, supports = {}, { base }
+)" + more +
+         R"(
+local fall = step.dynamic{ name = "fall", duration = 100*us, dt = 1*us }
+problem{ name = "drop", substructures = { plate, block }, interfaces = interfaces, supports = supports, steps = { fall } }:run{}
+)";
+}
+
+// Warnings that name a word, of a run or of a check.
+std::vector<std::string> warnings_with(const std::string& word) {
+  std::vector<std::string> found;
+  for (const std::string& warning : take_warnings())
+    if (warning.find(word) != std::string::npos) found.push_back(warning);
+  return found;
+}
+
+std::vector<std::string> said_of_run(const std::string& text, const std::string& word) {
+  take_warnings();
+  testing::internal::CaptureStderr();  // a run takes its own warnings
+  run_text(text);
+  const std::string all = testing::internal::GetCapturedStderr();
+  std::vector<std::string> found;
+  for (size_t at = 0; at < all.size();) {
+    const size_t end = std::min(all.find('\n', at), all.size());
+    const std::string line = all.substr(at, end - at);
+    if (line.find(word) != std::string::npos) found.push_back(line.substr(line.find("substructures")));
+    at = end + 1;
+  }
+  return found;
+}
+
+std::vector<std::string> said_of_check(const std::string& text, const std::string& word) {
+  take_warnings();
+  const Engine engine{run_problem, check_report};
+  DeckOptions options;
+  options.path = "drop.lua";
+  options.text = text;
+  check_deck(options, engine);
+  return warnings_with(word);
+}
+
+TEST(Unjoined, parts_that_touch_and_pass_through_each_other_are_named) {
+  const std::string text = blocks_at("{ 10*mm, 10*mm, 10*mm }", "");
+  const std::vector<std::string> touch = said_of_check(text, "touch on");
+  ASSERT_EQ(touch.size(), 1u);
+  EXPECT_NE(touch[0].find("substructures 'plate' and 'block' touch on 400 mm^2 where no interface joins them, at ("),
+            std::string::npos)
+      << touch[0];
+  EXPECT_NE(touch[0].find("('plate.zmax' on 'block.zmin')"), std::string::npos) << touch[0];
+  // 1 m/s for 100 us.
+  const std::vector<std::string> through = said_of_run(text, "into each other");
+  ASSERT_EQ(through.size(), 1u);
+  EXPECT_EQ(through[0].substr(0, through[0].find(", at (")),
+            "substructures 'plate' and 'block' pass 0.1 mm into each other where no interface joins them");
+  EXPECT_NE(through[0].find("in step 'fall' at 0.1 ms: an interface.contact would keep them apart"), std::string::npos);
+}
+
+TEST(Unjoined, parts_are_watched_across_a_gap_and_where_cells_differ) {
+  const std::vector<std::string> through = said_of_run(blocks_at("{ 9*mm, 8*mm, 10.04*mm }", ""), "into each other");
+  ASSERT_EQ(through.size(), 1u);
+  EXPECT_NE(through[0].find("pass 0.06 mm into each other"), std::string::npos) << through[0];
+  EXPECT_TRUE(said_of_run(blocks_at("{ 9*mm, 8*mm, 10.2*mm }", ""), "into each other").empty()) << "does not get there";
+  EXPECT_TRUE(said_of_run(blocks_at("{ 9*mm, 8*mm, 30*mm }", ""), "into each other").empty());
+}
+
+TEST(Unjoined, parts_that_an_interface_keeps_apart_are_not_named) {
+  const std::string text = blocks_at(
+      "{ 10*mm, 10*mm, 10*mm }",
+      "interfaces = { interface.contact{ name = 'seat', between = { plate:face 'zmax', block:face 'zmin' } } }");
+  EXPECT_TRUE(said_of_run(text, "each other").empty());
+  EXPECT_TRUE(said_of_check(text, "touch on").empty());
+}
+
+TEST(Unjoined, parts_that_overlap_are_named_with_depth) {
+  const std::vector<std::string> overlap = said_of_check(blocks_at("{ 10*mm, 10*mm, 6*mm }", ""), "overlap");
+  ASSERT_EQ(overlap.size(), 1u);
+  EXPECT_NE(overlap[0].find("substructures 'plate' and 'block' overlap, up to 4 mm deep at ("), std::string::npos)
+      << overlap[0];
+}
+
+TEST(Unjoined, faces_of_one_size_a_cell_apart_are_named) {
+  const std::string contact =
+      "interfaces = { interface.contact{ name = 'seat', between = { plate:face 'zmax', block:face 'zmin' } } }";
+  EXPECT_TRUE(said_of_check(blocks_at("{ 15*mm, 10*mm, 10*mm }", contact), "shifted").empty()) << "faces of two sizes";
+  std::string equal = blocks_at("{ 5*mm, 0, 10*mm }", contact);
+  equal.replace(equal.find("{ 20*mm, 20*mm, 20*mm }, cells = { 4, 4, 4 }"), 44,
+                "{ 40*mm, 40*mm, 20*mm }, cells = { 8, 8, 4 }");
+  const std::vector<std::string> shifted = said_of_check(equal, "shifted");
+  ASSERT_EQ(shifted.size(), 1u);
+  EXPECT_NE(
+      shifted[0].find("joins two faces of one size, plate.zmax and block.zmin, of which 87.5 % coincide: the second is "
+                      "shifted by (5, 0, 0) mm"),
+      std::string::npos)
+      << shifted[0];
+}
+
+TEST(Unjoined, a_face_in_an_interface_and_under_a_support_is_named) {
+  const std::vector<std::string> both = said_of_check(
+      blocks_at(
+          "{ 10*mm, 10*mm, 10*mm }",
+          "interfaces = { interface.contact{ name = 'seat', between = { plate:face 'zmax', block:face 'zmin' } } }\n"
+          "supports = { base, support.fixed{ name = 'lid', on = plate:face 'zmax' } }"),
+      "under support");
+  ASSERT_EQ(both.size(), 1u);
+  EXPECT_NE(both[0].find("16 of 16 facets of interface.contact 'seat' are also under support.fixed 'lid' (plate.zmax)"),
+            std::string::npos)
+      << both[0];
+}
+
+TEST(Unjoined, two_laws_on_one_pair_of_faces_are_refused) {
+  const std::string two = R"(interfaces = {
+  interface.contact{ name = 'seat', between = { plate:face 'zmax', block:face 'zmin' } },
+  interface.bonded{ name = 'glue', between = { block:face 'zmin', plate:face 'zmax' } } }
+)";
+  try {
+    said_of_check(blocks_at("{ 10*mm, 10*mm, 10*mm }", two), "");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "drop.lua:10: 'glue' and 'seat' share facets of substructure 'block': a facet can be in one interface "
+                 "or wall only");
+  }
+}
+
+// A bar whose end is pulled and let go: its free oscillation decays by the ratio asked for.
+TEST(Damping, of_a_ratio_is_that_of_a_free_oscillation) {
+  const double pi = 3.14159265358979;
+  // First mode of a bar held at one end: a quarter of a wave, sqrt(E/rho) / (4 L) = 5 kHz.
+  for (const std::string frequency : {"5*kHz", "{ 5*kHz, 10*kHz }"}) {
+    const std::vector<DeckRun> runs = run_text(R"(
+local steel = material.elastic{ name = "s", young = 200*GPa, poisson = 0, density = 8000, damping_ratio = 0.03, damping_frequency = )" +
+                                               frequency + R"( }
+local bar = substructure{ name = "bar", material = steel, mesh = mesh.box{ size = { 5*mm, 5*mm, 250*mm }, cells = { 1, 1, 50 } } }
+local base = support.fixed{ name = "base", on = bar:face "zmin" }
+local pull = load.traction{ on = bar:face "zmax", z = 10*MPa }
+local hold = step.static{ name = "hold", loads = { pull } }
+local ring = step.dynamic{ name = "ring", after = hold, duration = 2*ms, dt = 2*us }
+local u = output.history{ name = "u", on = bar:face "zmax", quantity = "displacement", direction = { 0, 0, 1 } }
+problem{ name = "bar", substructures = { bar }, supports = { base }, steps = { hold, ring }, outputs = { u } }:run{}
+)");
+    const Table& table = runs.at(0).table("u");
+    const std::vector<double>&t = table.columns[0], &u = table.columns[1];
+    const auto peak_near = [&](double at) {
+      double best = 0.0;
+      for (size_t i = 0; i < t.size(); ++i)
+        if (std::abs(t[i] - at) < 20e-6 && table.step[i] == 1) best = std::max(best, u[i]);
+      return best;
+    };
+    // Peaks of the first mode one period apart; the others have died away by then.
+    const double decrement = std::log(peak_near(1600e-6) / peak_near(1800e-6));
+    EXPECT_NEAR(decrement / (2.0 * pi), 0.03, 0.0006) << frequency;
+  }
+}
+
+}  // namespace
+
+}  // namespace dygita::test

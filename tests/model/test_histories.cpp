@@ -1,0 +1,145 @@
+// Histories and the steps they act in: what is cut off, swallowed, held or never reached is said.
+#include <cmath>
+#include <numbers>
+
+#include "model/assembly.hpp"
+#include "signal/signal_file.hpp"
+
+namespace dygita {
+
+namespace {
+
+// A problem whose shock (200 us in steps of 1 us) is driven by one history.
+class Histories : public Assembly {
+ protected:
+  void push_with(const History& history, const std::string& word = "pressure") {
+    GivenArguments arguments("load." + word, {"deck.lua", 40});
+    arguments.on = {Face{upper, "zmax"}};
+    arguments.values_of_time["history"] = {history, false};
+    shock->loads = {make_load(arguments)};
+  }
+  // What follows on "step 'shock': load.pressure on face 'upper.zmax' "; other warnings do not count here.
+  std::string doubt_of(const History& history) {
+    push_with(history);
+    take_warnings();
+    EXPECT_EQ(complaint(), "");
+    const std::string start = "deck.lua:40: problem 'bolted': step 'shock': load.pressure on face 'upper.zmax' ";
+    std::string found;
+    for (const std::string& warning : take_warnings())
+      if (warning.starts_with(start)) found += (found.empty() ? "" : "; ") + warning.substr(start.size());
+    return found;
+  }
+};
+
+History record(std::vector<double> times, std::vector<double> values, const std::string& unit = "") {
+  return History::record({std::move(times), std::move(values), unit, unit, 1.0}, "shot.csv");
+}
+
+TEST_F(Histories, that_fit_their_step_are_not_doubted) {
+  for (const History& history :
+       {History::half_sine(5.0, 100e-6), History::haversine(5.0, 200e-6), History::pulse(5.0, 0.0, 50e-6, 0.0),
+        History::constant(3.0), History::step(3.0, 20e-6),
+        History::ramp(0.0, 3.0, 400e-6).scaled(0.0).plus(History::constant(1.0)), History::ramp(0.0, 3.0, 150e-6),
+        History::function([](double t) { return 1e6 * t; }),
+        History::function([](double t) { return std::sin(2.0 * std::numbers::pi * 1e4 * t); }),
+        record({0.0, 50e-6, 100e-6}, {0.0, 5.0, 0.01}), record({0.0, 50e-6, 300e-6}, {0.0, 5.0, 4.0})})
+    EXPECT_EQ(doubt_of(history), "") << history.description();
+}
+
+TEST_F(Histories, that_are_cut_off_by_the_end_of_the_step_are_named) {
+  EXPECT_EQ(doubt_of(History::half_sine(5.0, 300e-6)),
+            "lasts until 300 us and is cut off at the end of the step, 200 us, where it is 4.33 Pa");
+  EXPECT_EQ(doubt_of(History::half_sine(5.0, 11e-3)),
+            "reaches its largest value, 5 Pa, at 5.5 ms, after the end of the step at 200 us: within the step it is "
+            "0.2854 Pa at most");
+  EXPECT_EQ(doubt_of(History::half_sine(5.0, 100e-6).shifted(150e-6)),
+            "lasts until 250 us and is cut off at the end of the step, 200 us, where it is 5 Pa");
+  EXPECT_EQ(doubt_of(History::step(5.0, 1e-3)), "jumps at 1 ms, after the end of the step at 200 us");
+}
+
+TEST_F(Histories, that_a_time_step_swallows_are_named) {
+  EXPECT_EQ(doubt_of(History::half_sine(5.0, 0.5e-6)),
+            "lasts 0.5 us, shorter than 'dt' = 1 us: only its impulse is left of it");
+}
+
+TEST_F(Histories, from_files_are_named_where_they_are_held_beyond_their_ends) {
+  EXPECT_EQ(
+      doubt_of(record({0.0, 50e-6, 100e-6}, {0.0, 5.0, 2.0})),
+      "has a record that ends at 100 us with 2 Pa, 40 % of its largest value, which goes on acting until the end of "
+      "the step at 200 us");
+  EXPECT_EQ(doubt_of(record({20e-6, 50e-6, 100e-6}, {1.0, 5.0, 0.0})),
+            "has a record that begins at 20 us with 1 Pa, 20 % of its largest value, which acts from 0 on");
+  EXPECT_EQ(doubt_of(record({0.0, 50e-6, 100e-6}, {-1.0, 5.0, 0.0})),
+            "has a record that begins at 0 ms with -1 Pa, 20 % of its largest value, which acts at once");
+  EXPECT_EQ(doubt_of(record({-20e-6, 50e-6, 100e-6}, {0.0, 5.0, 0.0})),
+            "has a record that begins at -20 us: what lies before 0 does not act; :shifted(2e-05) brings it in");
+  EXPECT_EQ(
+      doubt_of(record({0.0, 50e-6, 100e-6}, {0.0, 5.0, 2.0}).scaled(-3.0)),
+      "has a record that ends at 100 us with -6 Pa, 40 % of its largest value, which goes on acting until the end of "
+      "the step at 200 us");
+}
+
+TEST_F(Histories, without_a_peak_in_the_step_are_named) {
+  const auto wave = [](double frequency) {
+    return History::function([=](double t) { return 5.0 * std::sin(2.0 * std::numbers::pi * frequency * t); });
+  };
+  EXPECT_EQ(
+      doubt_of(wave(1000.0)),
+      "has no peak within the step: it still rises at its end, 200 us, where it is 4.755 Pa; is a frequency in kHz, "
+      "or an angle in degrees?");
+  EXPECT_EQ(doubt_of(wave(1300.0)), "");
+  EXPECT_EQ(doubt_of(History::function([](double) { return 0.0; })), "is zero throughout the step");
+  EXPECT_EQ(doubt_of(History::function([](double t) { return t < 0.5 ? 3.0 : 0.0; })),
+            "is 3 Pa throughout the step: does it depend on t, and is t in seconds?");
+}
+
+TEST_F(Histories, in_milliseconds_are_over_at_once_in_a_static_step) {
+  shock->is_static = true;
+  shock->increments = 4;
+  EXPECT_EQ(doubt_of(History::half_sine(5.0, 1e-3)),
+            "is over after 1 ms, within the first increment: time goes from 0 to 1 s in a static step");
+  EXPECT_EQ(doubt_of(History::piecewise({0.0, 0.5, 1.0}, {0.0, 1.0, -1.0})), "");
+  EXPECT_EQ(doubt_of(History::piecewise({0.0, 5.0, 10.0}, {0.0, 1.0, 0.0})),
+            "reaches its largest value, 1 Pa, at 5 s, after the end of the step at 1 s: within the step it is 0.2 Pa "
+            "at most");
+}
+
+TEST_F(Histories, in_another_unit_than_their_load_are_refused) {
+  push_with(record({0.0, 50e-6}, {0.0, 5.0}, "m/s^2"));
+  EXPECT_EQ(
+      complaint(),
+      "deck.lua:40: problem 'bolted': step 'shock': load.pressure on face 'upper.zmax' takes Pa, and the file of its "
+      "history is in m/s^2\n    a number times the signal, as in 7.2*signal for a mass of 7.2 kg, counts as a plain "
+      "number");
+  push_with(record({0.0, 50e-6}, {0.0, 5.0}, "m/s^2").scaled(7.2));
+  EXPECT_EQ(complaint(), "");
+  push_with(record({0.0, 50e-6}, {0.0, 5.0}, "Pa"));
+  EXPECT_EQ(complaint(), "");
+}
+
+using Damped = Assembly;
+
+std::string damping_doubt() {
+  for (const std::string& warning : take_warnings())
+    if (warning.find("damping of material") != std::string::npos) return warning;
+  return "";
+}
+
+TEST_F(Damped, beyond_a_fifth_of_critical_within_the_band_is_named) {
+  lower->material.name = "steel";
+  shock->loads.clear();
+  lower->material.damping.stiffness = 0.01;  // meant as a ratio
+  EXPECT_EQ(complaint(), "");
+  EXPECT_EQ(
+      damping_doubt(),
+      "deck.lua:1: problem 'bolted': damping of material 'steel' is 1.57e+04 % of critical at 5 kHz, the lowest of "
+      "step 'shock': what moves so fast is damped away within a period; 'damping' is in seconds, 'damping_ratio' "
+      "with 'damping_frequency' takes the ratio");
+  lower->material.damping = damping_of(0.02, 1e4);
+  EXPECT_EQ(complaint(), "");
+  EXPECT_EQ(damping_doubt(), "");
+}
+
+}  // namespace
+
+}  // namespace dygita

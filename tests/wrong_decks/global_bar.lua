@@ -1,0 +1,1 @@
+local pressure = 20*bar

@@ -1,0 +1,1 @@
+local length = 20*cm

@@ -1,0 +1,1 @@
+local angle = 20*degrees

@@ -1,0 +1,1 @@
+local level = 20*g

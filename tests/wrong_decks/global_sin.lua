@@ -1,0 +1,2 @@
+local wave = function(t) return sin(t) end
+local x = sin(3)

@@ -1,0 +1,1 @@
+local law = interface.plastic{ name = "shank", compression = True }

@@ -1,0 +1,1 @@
+local h = history.file{ file = "furlongs.csv" }

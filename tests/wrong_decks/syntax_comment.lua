@@ -1,0 +1,2 @@
+// a comment
+local n = 3

@@ -1,0 +1,2 @@
+local n = 3
+if n != 2 then print(n) end
