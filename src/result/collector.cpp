@@ -104,7 +104,7 @@ void Collector::finish_outputs(RunResult& result) {
     recorder->finish(table, result.findings[output]);
     if (!output->columns().empty()) result.tables[output] = std::move(table);
   }
-  const RunEnd end{problem_, result, errors_.dynamic_steps()};
+  const RunEnd end{problem_, result, errors_.dynamic_steps(), errors_.static_steps()};
   for (const OutputPtr& output : problem_.outputs)
     if (!output->columns().empty()) output->conclude(end, result.tables[output.get()], result.findings[output.get()]);
 }

@@ -13,7 +13,6 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 constexpr double smallest_turn = 1e-3;  // of the range of the displacement
 constexpr double standstill = 1e-6;     // of that range: where a joint sticks, the force turns first
 constexpr double widest_opening = 0.2;  // of a cycle, of its range: what a straight line closes
-constexpr double smallest_loss = 1e-5;  // of force x displacement amplitude: below is what a tolerance leaves
 
 struct Path {
   std::vector<double> x, f;
@@ -24,11 +23,12 @@ struct Cycle {
   double amplitude = 0.0, force_amplitude = 0.0, mean = 0.0, mean_force = 0.0;
   double on_reversal = 0.0, at_end = 0.0;  // N/m
   double loss = 0.0;                       // J
-  bool has_loss() const { return loss > smallest_loss * amplitude * force_amplitude; }
-  bool gains() const { return loss < -smallest_loss * amplitude * force_amplitude; }
+  bool has_loss(const LoopRows& rows) const { return loss > noise(rows); }
+  bool gains(const LoopRows& rows) const { return loss < -noise(rows); }
+  double noise(const LoopRows& rows) const { return rows.noise * amplitude * force_amplitude; }
   bool has_converged(const LoopRows& rows) const {
-    return rows.converged.empty() || std::all_of(rows.converged.begin() + start, rows.converged.begin() + close + 1,
-                                                 [](char is_there) { return is_there != 0; });
+    const auto& all = rows.converged;
+    return all.empty() || std::count(all.begin() + start, all.begin() + close + 1, 0) == 0;
   }
   double energy_error(const LoopRows& rows) const {
     return rows.balance.empty() ? not_known : std::abs(rows.balance[close] - rows.balance[start]);
@@ -168,7 +168,7 @@ Table cycle_table(const Table& loop, const std::vector<Cycle>& cycles, const Sid
   for (const Cycle& c : cycles) {
     const double secant = c.force_amplitude / c.amplitude;
     double local = not_known;
-    if (before && before->has_loss() && c.has_loss())
+    if (before && before->has_loss(rows) && c.has_loss(rows))
       local = exponent_of({before->force_amplitude, c.force_amplitude}, {before->loss, c.loss});
     // Masing's rule: branches are the backbone doubled (eq. C7).
     const auto [work, force] = side.up_to(c.amplitude);
@@ -224,45 +224,6 @@ std::vector<int> turning_points(const std::vector<double>& x, const std::vector<
   return turns;
 }
 
-std::vector<double> decreasing(const std::vector<double>& stiffness, const std::vector<double>& length) {
-  struct Pool {
-    double value, length;
-    int n;
-  };
-  std::vector<Pool> pools;
-  for (size_t i = 0; i < stiffness.size(); ++i) {
-    pools.push_back({stiffness[i], length[i], 1});
-    while (pools.size() > 1 && pools.back().value > pools[pools.size() - 2].value) {
-      const Pool last = pools.back();
-      pools.pop_back();
-      Pool& into = pools.back();
-      into.value = (into.value * into.length + last.value * last.length) / (into.length + last.length);
-      into.length += last.length;
-      into.n += last.n;
-    }
-  }
-  std::vector<double> result;
-  for (const Pool& pool : pools) result.insert(result.end(), pool.n, pool.value);
-  return result;
-}
-
-double exponent_of(const std::vector<double>& x, const std::vector<double>& y) {
-  double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0, low = 0.0, high = 0.0;
-  for (size_t i = 0; i < x.size(); ++i) {
-    if (!(x[i] > 0.0) || !(y[i] > 0.0)) continue;
-    const double u = std::log(x[i]), v = std::log(y[i]);
-    low = n == 0.0 ? x[i] : std::min(low, x[i]);
-    high = std::max(high, x[i]);
-    n += 1.0;
-    sx += u;
-    sy += v;
-    sxx += u * u;
-    sxy += u * v;
-  }
-  if (n < 2.0 || high < 1.05 * low) return not_known;
-  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
-}
-
 LoopSummary summarise_loop(const Table& table, int first, const LoopRows& rows) {
   Path path{table.column("displacement"), table.column("force")};
   LoopSummary summary;
@@ -277,9 +238,10 @@ LoopSummary summarise_loop(const Table& table, int first, const LoopRows& rows) 
   summary.backbone = backbone_table(sides);
   std::vector<double> amplitude, force, loss;
   for (const Cycle& c : cycles) {
-    summary.n_gaining += c.gains();
-    if (!c.has_loss()) continue;
-    if (!rows.balance.empty()) summary.energy_error = std::max(summary.energy_error, c.energy_error(rows) / c.loss);
+    summary.n_gaining += c.gains(rows);
+    if (!c.has_loss(rows)) continue;
+    if (!rows.balance.empty())
+      summary.energy_error = std::max({summary.energy_error, c.energy_error(rows) / c.loss, c.noise(rows) / c.loss});
     amplitude.push_back(c.amplitude);
     force.push_back(c.force_amplitude);
     loss.push_back(c.loss);

@@ -25,6 +25,7 @@ struct LoopSummary {
 struct LoopRows {
   std::vector<char> converged;  // of each row
   std::vector<double> balance;  // J, energy that the run's balance misses so far
+  double noise = 1e-5;          // of force x displacement amplitude: less is no loss, but what a tolerance leaves
   double resolution = 0.0;      // m, what the tolerance leaves of a displacement: less is no motion
 };
 

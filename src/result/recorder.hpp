@@ -38,6 +38,7 @@ struct RunEnd {
   const Problem& problem;
   const RunResult& result;          // with all tables that were recorded
   ErrorEstimator::Estimate errors;  // of the dynamic steps
+  ErrorEstimator::Estimate static_errors{};
 };
 
 }  // namespace dygita

@@ -57,7 +57,7 @@ std::vector<std::string> doubts_of(const std::string& name, const LoopSummary& l
                     name, loop.n_gaining, loop.cycles.n_rows(), loop.n_gaining == 1 ? "s" : ""));
   if (loop.energy_error > limit::loop_energy_error)
     doubts.push_back(
-        fmt::format("loop '{}': the energy balance misses up to {:.2g} % of the loss of a cycle: take a "
+        fmt::format("loop '{}': the tolerance leaves up to {:.2g} % of the loss of a cycle: take a "
                     "tighter tolerance (static_tolerance of solver.latin)",
                     name, 100.0 * loop.energy_error));
   return doubts;
@@ -121,6 +121,7 @@ class LoopOutput final : public Output {
     const bool is_static = begin < static_cast<int>(end.problem.steps.size()) && end.problem.steps[begin]->is_static;
     LoopRows rows{{trace->converged.begin(), trace->converged.begin() + n},
                   {trace->balance.begin(), trace->balance.begin() + n},
+                  std::max(1e-5, is_static ? end.static_errors.iteration : end.errors.iteration),
                   10.0 * tolerance_of(end.problem, is_static) * trace->moved};
     LoopSummary loop = summarise_loop(table, first, rows);
     loop.not_converged = missed;
