@@ -11,7 +11,8 @@
 --
 -- Run        dygita run decks/electronics_box.lua               --set force=6*kN    --set mu=0.2    --set around=3
 -- See        out/electronics_box/base/report.html
--- Expect     EXPECT
+-- Expect     each bolt at 8.00 kN when its turn comes and within 0.3 % of it after the shock; one warning, of the
+--            coarse mesh (error 58 % of the shock's energy norm: --set around=6 --set layers=2 is finer)
 -- Mesh       meshes/electronics_box.geo: volumes box bracket shank washer head nut
 -- Read next  bolt_pattern.lua
 
