@@ -76,12 +76,12 @@ struct BoltSummary {
   // Of it, what yielding of the bolt itself took: the plastic opening released as much as loosening the nut by it
   // (manual, eq. B7). The rest is the joint's.
   std::optional<double> loss_by_yield() const {
-    if (!stiffness || tightened == 0.0) return std::nullopt;
+    if (!stiffness || !loss()) return std::nullopt;
     return std::min(1.0, *stiffness * yielded / tightened);
   }
   // Of the rest, what was gone when the motion began: other bolts' tightening, static loads, slip under them.
   std::optional<double> loss_before_motion() const {
-    if (!stiffness || !before_motion || tightened == 0.0) return std::nullopt;
+    if (!stiffness || !before_motion || !loss()) return std::nullopt;
     return 1.0 - *before_motion / tightened - std::min(1.0, *stiffness * yielded_before / tightened);
   }
 };

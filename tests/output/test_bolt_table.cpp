@@ -84,5 +84,25 @@ TEST(BoltTable, is_in_the_run_record) {
   EXPECT_FALSE(json["bolts"][1].contains("target"));
 }
 
+// A clamp that a shock pulls open carries the load's force, not its own: neither its loss nor a split of it means
+// anything.
+TEST(BoltTable, splits_no_loss_of_a_bolt_that_was_hardly_tightened) {
+  RunResult result = two_bolts();
+  for (BoltSummary& bolt : result.bolts) {
+    bolt.stiffness = 1e8;
+    bolt.yielded = bolt.yielded_before = 5e-6;
+    bolt.before_motion = 24e3;
+  }
+  result.bolts[1].tightened = 100.0;
+  const auto json = nlohmann::json::parse(run_record(two_steps(), result, {}, {}, {}));
+  EXPECT_DOUBLE_EQ(json["bolts"][0]["loss_by_yield"].get<double>(), 0.02);
+  EXPECT_DOUBLE_EQ(json["bolts"][0]["loss_before_motion"].get<double>(), 0.02);
+  EXPECT_TRUE(json["bolts"][1]["loss"].is_null());
+  EXPECT_FALSE(json["bolts"][1].contains("loss_by_yield"));
+  EXPECT_FALSE(json["bolts"][1].contains("loss_before_motion"));
+  EXPECT_NE(bolts_csv(two_steps(), result).find("the other,8.1e-05,,25000,20000,30000,25000,,5e-05,0,,,,,0\n"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace dygita
