@@ -8,18 +8,17 @@
 #include <Eigen/Geometry>
 
 #include "fem/cells.hpp"
+#include "fem/hex8_modes.hpp"
 
 namespace dygita {
 
 namespace {
 
-constexpr int n_modes = 12;
-
 using Column8 = Eigen::Matrix<double, 8, 1>;
 using Square8 = Eigen::Matrix<double, 8, 8>;
-using ByNode = Eigen::Matrix<double, 8, 6>;                  // one column a mode function
-using Coupling = Eigen::Matrix<double, 24, n_modes>;         // row 8 axis + node: whole vectors for the processor
-using ModeMatrix = Eigen::Matrix<double, n_modes, n_modes>;  // mode 3 j + axis for a_j, 9 + k for b
+using ByNode = Eigen::Matrix<double, 8, 6>;                // one column a mode function
+using Coupling = Eigen::Matrix<double, 24, n_hex8_modes>;  // row 8 axis + node: whole vectors for the processor
+using ModeMatrix = Eigen::Matrix<double, n_hex8_modes, n_hex8_modes>;  // mode 3 j + axis for a_j, 9 + k for b
 
 struct Geometry {
   Square8 gradient[3];  // (node, point): d N / d x_p, 1/m
@@ -123,13 +122,13 @@ ModeMatrix mode_stiffness(const Geometry& cell, double lambda, double mu) {
 
 // Forward elimination of the modes: on return the condensed stiffness is that of the nodes minus
 // sum_m coupling_m coupling_m^T / pivot_m. Returns 1 / pivot.
-Eigen::Matrix<double, n_modes, 1> eliminate(ModeMatrix& modes, Coupling& coupling) {
-  Eigen::Matrix<double, n_modes, 1> inverse_pivots;
-  for (int m = 0; m < n_modes; ++m) {
+Eigen::Matrix<double, n_hex8_modes, 1> eliminate(ModeMatrix& modes, Coupling& coupling) {
+  Eigen::Matrix<double, n_hex8_modes, 1> inverse_pivots;
+  for (int m = 0; m < n_hex8_modes; ++m) {
     inverse_pivots[m] = 1 / modes(m, m);
-    for (int r = m + 1; r < n_modes; ++r) {
+    for (int r = m + 1; r < n_hex8_modes; ++r) {
       const double factor = modes(r, m) * inverse_pivots[m];
-      for (int c = r; c < n_modes; ++c) modes(c, r) -= factor * modes(c, m);
+      for (int c = r; c < n_hex8_modes; ++c) modes(c, r) -= factor * modes(c, m);
       coupling.col(r) -= factor * coupling.col(m);
     }
   }
@@ -184,8 +183,8 @@ CornerStress<8> Hex8::stress(const Nodes<8>& x, const Elastic& material, const N
   // Recover the modes.
   Eigen::Matrix<double, 24, 1> by_axis;
   for (int p = 0; p < 3; ++p) by_axis.segment<8>(8 * p) = displacement.row(p);
-  const Eigen::Matrix<double, n_modes, 1> force = couple(cell, lambda, mu).transpose() * by_axis;
-  const Eigen::Matrix<double, n_modes, 1> modes = -mode_stiffness(cell, lambda, mu).ldlt().solve(force);
+  const Eigen::Matrix<double, n_hex8_modes, 1> force = couple(cell, lambda, mu).transpose() * by_axis;
+  const Eigen::Matrix<double, n_hex8_modes, 1> modes = -mode_stiffness(cell, lambda, mu).ldlt().solve(force);
 
   // Stress at the points, then its trilinear interpolation at the nodes.
   const Mat3 incompatible = Eigen::Map<const Mat3>(modes.data());  // column j: a_j

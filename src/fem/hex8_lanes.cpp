@@ -2,13 +2,13 @@
 #include <cmath>
 
 #include "fem/cell_lanes.hpp"
+#include "fem/hex8_modes.hpp"
 
 namespace dygita {
 
 namespace {
 
 constexpr Lanes zero = {};
-constexpr int n_modes = 12;
 
 // What the mode functions xi_1 xi_2 xi_3 xi_2 xi_3 xi_3 xi_1 xi_1 xi_2 sum to over the points in the order of the
 // nodes, times f: sums and differences of pairs, since each is a constant with a sign.
@@ -26,7 +26,7 @@ inline void sum_modes(const Lanes (&f)[8][8], int a, Lanes scale, double s, Lane
 
 // Stiffness of the modes and its factor L D L^T: unit lower triangle, and 1 / D on the diagonal.
 struct ModeLanes {
-  Lanes at[n_modes][n_modes];
+  Lanes at[n_hex8_modes][n_hex8_modes];
 
   ModeLanes(const PointLanes<8, 8>& points, const Lanes (&centre)[3][3], Lanes j_centre, double lambda, double mu) {
     const auto& xi = Hex8::shapes().points;
@@ -61,9 +61,9 @@ struct ModeLanes {
         for (int c = 0; c < 3; ++c) at[9 + k][3 * j + c] = bulk * product[3 + k][j] * centre[j][c];
       for (int l = 0; l <= k; ++l) at[9 + k][9 + l] = 3 * bulk * product[3 + k][3 + l];
     }
-    for (int m = 0; m < n_modes; ++m) {
+    for (int m = 0; m < n_hex8_modes; ++m) {
       const Lanes inverse = 1.0 / at[m][m];
-      for (int r = m + 1; r < n_modes; ++r) {
+      for (int r = m + 1; r < n_hex8_modes; ++r) {
         const Lanes entry = at[r][m];
         at[r][m] = entry * inverse;
         for (int c = m + 1; c <= r; ++c) at[r][c] -= c == r ? entry * at[r][m] : entry * at[c][m];
@@ -75,7 +75,7 @@ struct ModeLanes {
 
 // Coupling of the modes with the nodes along each axis, after elimination: [axis][mode][node]; and scaled by 1 / D.
 void couple(const PointLanes<8, 8>& points, const Lanes (&centre)[3][3], Lanes j_centre, double lambda, double mu,
-            const ModeLanes& modes, Lanes (&coupling)[3][n_modes][8], Lanes (&scaled)[3][n_modes][8]) {
+            const ModeLanes& modes, Lanes (&coupling)[3][n_hex8_modes][8], Lanes (&scaled)[3][n_hex8_modes][8]) {
   Lanes by_axis[3][6][8];  // integral of each mode function times d N / d x_p
   const double s = std::abs(Hex8::shapes().points(0, 0));
   for (int p = 0; p < 3; ++p)
@@ -87,7 +87,7 @@ void couple(const PointLanes<8, 8>& points, const Lanes (&centre)[3][3], Lanes j
       along[j] =
           mu * (centre[j][0] * by_axis[0][j][a] + centre[j][1] * by_axis[1][j][a] + centre[j][2] * by_axis[2][j][a]);
     for (int q = 0; q < 3; ++q) {
-      Lanes column[n_modes];
+      Lanes column[n_hex8_modes];
       for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 3; ++i) {
           column[3 * j + i] = lambda * centre[j][i] * by_axis[q][j][a] + mu * centre[j][q] * by_axis[i][j][a];
@@ -95,10 +95,10 @@ void couple(const PointLanes<8, 8>& points, const Lanes (&centre)[3][3], Lanes j
         }
       for (int k = 0; k < 3; ++k) column[9 + k] = bulk * by_axis[q][3 + k][a];
 #pragma GCC unroll 12
-      for (int m = 0; m < n_modes; ++m)
+      for (int m = 0; m < n_hex8_modes; ++m)
 #pragma GCC unroll 12
-        for (int r = m + 1; r < n_modes; ++r) column[r] -= modes.at[r][m] * column[m];
-      for (int m = 0; m < n_modes; ++m) {
+        for (int r = m + 1; r < n_hex8_modes; ++r) column[r] -= modes.at[r][m] * column[m];
+      for (int m = 0; m < n_hex8_modes; ++m) {
         coupling[q][m][a] = column[m];
         scaled[q][m][a] = column[m] * modes.at[m][m];
       }
@@ -118,9 +118,9 @@ void stiffness_in_lanes<Hex8>(const Lanes (&x)[8][3], const Elastic& material, C
   for (int j = 0; j < 3; ++j)
     for (int p = 0; p < 3; ++p) centre[j][p] = jacobian.adjugate[j][p] / jacobian.determinant;
   const ModeLanes modes(points, centre, jacobian.determinant, lambda, mu);
-  Lanes coupling[3][n_modes][8], scaled[3][n_modes][8];
+  Lanes coupling[3][n_hex8_modes][8], scaled[3][n_hex8_modes][8];
   couple(points, centre, jacobian.determinant, lambda, mu, modes, coupling, scaled);
-  sum_points<8, 8, n_modes>(points, scaled, coupling, lambda, mu, matrices);
+  sum_points<8, 8, n_hex8_modes>(points, scaled, coupling, lambda, mu, matrices);
 }
 
 }  // namespace dygita

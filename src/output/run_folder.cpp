@@ -55,8 +55,8 @@ RunFolder::RunFolder(fs::path folder, const std::string& record_text) : folder_(
     throw InputError("'" + (folder_ / "run.json").string() + damaged);
   try {
     complete_laws(record_);
-  } catch (const InputError& error) {
-    throw InputError("'" + folder_.string() + "': " + error.what());
+  } catch (const InputError& unknown) {
+    throw InputError("'" + folder_.string() + "': " + unknown.what());
   }
   if (const auto scenes = text_of(folder_ / scene_file)) {
     scenes_ = Json::parse(*scenes, nullptr, false);

@@ -12,7 +12,7 @@ namespace dygita {
 
 namespace {
 
-constexpr double margin = 24.0;  // px
+constexpr double picture_margin = 24.0;  // px
 
 struct Box {
   Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
@@ -41,7 +41,7 @@ Mat3 turned(int right_hand, int up, double azimuth, double elevation) {
 // Pixels across and down, and depth towards the reader.
 Points projected(const Points& x, const View& view) {
   Points p = view.axes * (x.colwise() - view.centre);
-  const double pixels = (view.width - 2.0 * margin) / view.size;
+  const double pixels = (view.width - 2.0 * picture_margin) / view.size;
   p.row(0) = (0.5 * view.width + pixels * p.row(0).array()).matrix();
   p.row(1) = (0.5 * view.height - pixels * p.row(1).array()).matrix();
   p.row(2) *= pixels;
@@ -128,10 +128,10 @@ View view_of(const std::vector<SubstructurePtr>& parts) {
   const double across = std::max(high[0] - low[0], 1e-9), up = std::max(high[1] - low[1], 1e-9);
   // Deformed shapes need some room.
   view.size = 1.08 * across;
-  double height = up / view.size * (view.width - 2.0 * margin) + 2.0 * margin + 16.0;
+  double height = up / view.size * (view.width - 2.0 * picture_margin) + 2.0 * picture_margin + 16.0;
   constexpr double highest = 560.0;
   if (height > highest) {
-    view.size *= (height - 2.0 * margin) / (highest - 2.0 * margin);
+    view.size *= (height - 2.0 * picture_margin) / (highest - 2.0 * picture_margin);
     height = highest;
   }
   view.height = static_cast<int>(std::lround(height));

@@ -60,7 +60,7 @@ std::string unit_of(const std::vector<StudyCase>& cases, const std::string& name
   return "";
 }
 
-std::string number(double value) { return fmt::format("{:.9g}", value); }
+std::string nine_digits(double value) { return fmt::format("{:.9g}", value); }
 
 // The abscissa of the charts: a parameter that varies, or the case's number.
 struct Abscissa {
@@ -157,14 +157,14 @@ std::string study_csv(const std::vector<StudyCase>& cases) {
   text += ",iterations,mean_iterations,cold_iterations,cold_difference,converged,seconds [s]\n";
   for (const StudyCase& c : cases) {
     text += quoted(c.name) + "," + quoted(c.started_from);
-    for (const std::string& name : parameters) text += "," + number(parameter(c, name));
+    for (const std::string& name : parameters) text += "," + nine_digits(parameter(c, name));
     for (const std::string& name : figures) {
       const CaseFigure* known = figure(c, name);
-      text += "," + number(known ? known->value : not_a_number);
+      text += "," + nine_digits(known ? known->value : not_a_number);
     }
-    text += fmt::format(",{},{},{},{},{},{:.3f}\n", c.iterations, number(c.mean_iterations),
+    text += fmt::format(",{},{},{},{},{},{:.3f}\n", c.iterations, nine_digits(c.mean_iterations),
                         c.cold_iterations ? std::to_string(*c.cold_iterations) : "",
-                        c.cold_difference ? number(*c.cold_difference) : "", c.converged ? 1 : 0, c.seconds);
+                        c.cold_difference ? nine_digits(*c.cold_difference) : "", c.converged ? 1 : 0, c.seconds);
   }
   return text;
 }

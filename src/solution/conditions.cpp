@@ -47,9 +47,9 @@ std::string load_key(const std::string& value, const FaceOrRegion& on) {
 
 namespace {
 
-class Builder {
+class ConditionsBuilder {
  public:
-  Builder(const Problem& problem, const Step& step, const State& start)
+  ConditionsBuilder(const Problem& problem, const Step& step, const State& start)
       : problem_(problem), step_(step), start_(start) {
     result_.held.resize(problem.substructures.size());
   }
@@ -200,7 +200,7 @@ class Builder {
 }  // namespace
 
 Conditions make_conditions(const Problem& problem, const Step& step, const State& start) {
-  return Builder(problem, step, start).build();
+  return ConditionsBuilder(problem, step, start).build();
 }
 
 }  // namespace dygita

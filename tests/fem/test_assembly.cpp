@@ -11,7 +11,7 @@
 namespace dygita::test {
 namespace {
 
-const Vec3 size(1.0, 1.2, 0.9);
+const Vec3 brick(1.0, 1.2, 0.9);
 
 // The plain way: element by element through the public functions and a list of entries.
 Eigen::SparseMatrix<double, Eigen::RowMajor> from_triplets(const Mesh& mesh, const Elastic& material) {
@@ -35,8 +35,8 @@ double difference(const SparseMatrix& a, const SparseMatrix& b) {
 
 TEST(Assembly, equals_the_sum_of_triplets) {
   const Elastic material = material_of(2.1e11, 0.3, 7800.0);
-  Mesh tetrahedra = box_of(CellType::tet4, size, {3, 3, 3});
-  distort(tetrahedra, size, 0.05);
+  Mesh tetrahedra = box_of(CellType::tet4, brick, {3, 3, 3});
+  distort(tetrahedra, brick, 0.05);
   for (const Mesh& mesh : {distorted_mixed_box(), tetrahedra, box_of(CellType::hex8, {1, 2, 4}, {4, 4, 4})}) {
     const SparseMatrix assembled = assemble(mesh, material).stiffness, expected = from_triplets(mesh, material);
     EXPECT_TRUE(assembled.isCompressed());
@@ -63,8 +63,8 @@ TEST(Assembly, has_sorted_columns_and_both_triangles) {
 }
 
 TEST(Assembly, is_the_same_to_the_bit_with_any_number_of_threads) {
-  Mesh mesh = mixed_box(size, {16, 12, 12});
-  distort(mesh, size, 0.01);
+  Mesh mesh = mixed_box(brick, {16, 12, 12});
+  distort(mesh, brick, 0.01);
   const Elastic material = material_of(1.0, 0.3, 2.0);
   const int n_threads = omp_get_max_threads();
   omp_set_num_threads(1);
@@ -92,8 +92,8 @@ TEST(Assembly, has_the_mass_of_the_body_and_the_weight_of_gravity) {
   const Mesh mesh = distorted_mixed_box();
   const BodyMatrices body = assemble(mesh, material_of(1.0, 0.3, 7800.0));
   EXPECT_GT(body.mass.minCoeff(), 0.0);
-  EXPECT_NEAR(body.mass.sum(), 7800.0 * size.prod(), 1e-9);
-  EXPECT_LT((mesh.nodes * body.mass / body.mass.sum() - size / 2).norm(), 1e-14);
+  EXPECT_NEAR(body.mass.sum(), 7800.0 * brick.prod(), 1e-9);
+  EXPECT_LT((mesh.nodes * body.mass / body.mass.sum() - brick / 2).norm(), 1e-14);
   EXPECT_LT((nodal_volumes(mesh) * 7800.0 - body.mass).cwiseAbs().maxCoeff(), 1e-12);
 
   // Held below under its weight: the reactions carry it.
@@ -110,9 +110,9 @@ TEST(Assembly, has_the_mass_of_the_body_and_the_weight_of_gravity) {
     total[dof % 3] += reactions[dof];
     moment += mesh.nodes.col(dof / 3).cross(Vec3(Vec3::Unit(dof % 3) * reactions[dof]));
   }
-  const double expected = 7800.0 * size.prod() * g;
+  const double expected = 7800.0 * brick.prod() * g;
   EXPECT_LT((total - Vec3(0, 0, expected)).norm(), 1e-9 * expected);
-  EXPECT_LT((moment - (size / 2).cross(Vec3(0, 0, expected))).norm(), 1e-9 * expected);
+  EXPECT_LT((moment - (brick / 2).cross(Vec3(0, 0, expected))).norm(), 1e-9 * expected);
 }
 
 // Exact frequencies of the element, from the dense eigenvalue problem.

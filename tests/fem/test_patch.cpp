@@ -8,7 +8,7 @@
 namespace dygita::test {
 namespace {
 
-const Vec3 size(1.0, 1.2, 0.9);
+const Vec3 patch_size(1.0, 1.2, 0.9);
 
 // Largest errors of displacement and of nodal stress, relative to the largest exact value.
 struct PatchErrors {
@@ -24,7 +24,7 @@ PatchErrors patch_errors(const Mesh& mesh, double poisson) {
 
   std::map<int, double> prescribed;
   for (int a = 0; a < mesh.n_nodes(); ++a)
-    if (is_on_boundary(mesh.nodes.col(a), size))
+    if (is_on_boundary(mesh.nodes.col(a), patch_size))
       for (int i = 0; i < 3; ++i) prescribed[3 * a + i] = exact(i, a);
   EXPECT_LT(prescribed.size(), 3 * static_cast<size_t>(mesh.n_nodes())) << "no inner node: nothing is tested";
 
@@ -41,7 +41,7 @@ PatchErrors patch_errors(const Mesh& mesh, double poisson) {
 }
 
 void expect_passed(const char* what, Mesh mesh, double poisson, double amplitude) {
-  distort(mesh, size, amplitude);
+  distort(mesh, patch_size, amplitude);
   check_mesh(mesh, what);
   const PatchErrors errors = patch_errors(mesh, poisson);
   std::cout << "patch test, " << what << ", nu " << poisson << ": displacement " << errors.displacement << ", stress "
@@ -51,23 +51,23 @@ void expect_passed(const char* what, Mesh mesh, double poisson, double amplitude
 }
 
 TEST(PatchTest, is_passed_by_distorted_hexahedra) {
-  expect_passed("hex8", box_of(CellType::hex8, size, {3, 3, 3}), 0.3, 0.09);
+  expect_passed("hex8", box_of(CellType::hex8, patch_size, {3, 3, 3}), 0.3, 0.09);
 }
 
 TEST(PatchTest, is_passed_by_distorted_prisms) {
-  expect_passed("prism6", box_of(CellType::prism6, size, {3, 3, 3}), 0.3, 0.06);
+  expect_passed("prism6", box_of(CellType::prism6, patch_size, {3, 3, 3}), 0.3, 0.06);
 }
 
 TEST(PatchTest, is_passed_by_distorted_tetrahedra) {
-  expect_passed("tet4", box_of(CellType::tet4, size, {3, 3, 3}), 0.3, 0.06);
+  expect_passed("tet4", box_of(CellType::tet4, patch_size, {3, 3, 3}), 0.3, 0.06);
 }
 
 TEST(PatchTest, is_passed_by_hexahedra_and_prisms_together) {
-  expect_passed("hex8 and prism6", mixed_box(size, {4, 3, 3}), 0.3, 0.05);
+  expect_passed("hex8 and prism6", mixed_box(patch_size, {4, 3, 3}), 0.3, 0.05);
 }
 
 TEST(PatchTest, is_passed_near_incompressibility) {
-  expect_passed("hex8", box_of(CellType::hex8, size, {3, 3, 3}), 0.4999, 0.09);
+  expect_passed("hex8", box_of(CellType::hex8, patch_size, {3, 3, 3}), 0.4999, 0.09);
 }
 
 }  // namespace

@@ -18,10 +18,10 @@ Vec random_vector(int n, int seed) {
 }
 
 // G(q) = A q + b, a contraction.
-struct Problem {
+struct LinearProblem {
   Mat a;
   Vec b;
-  explicit Problem(int n, double radius = 0.9) : a(n, n), b(random_vector(n, 1)) {
+  explicit LinearProblem(int n, double radius = 0.9) : a(n, n), b(random_vector(n, 1)) {
     for (int j = 0; j < n; ++j) a.col(j) = random_vector(n, j + 2);
     a *= radius / a.norm();
     for (int j = 0; j < n; ++j) a(j, j) += radius * (j % 2 ? 0.7 : -0.7) * j / n;
@@ -83,7 +83,7 @@ TEST(Differences, dependent_ones_are_left_out) {
 
 TEST(Anderson, iterates_are_those_of_a_qr) {
   const int n = 40, depth = 5;
-  const Problem problem(n);
+  const LinearProblem problem(n);
   Vec weight(n);
   for (int i = 0; i < n; ++i) weight[i] = 1.0 + 0.5 * std::cos(i);
   Anderson anderson(depth, 0, 0.9, weight);
@@ -110,7 +110,7 @@ TEST(Anderson, iterates_are_those_of_a_qr) {
 
 TEST(Anderson, solves_a_linear_problem_in_as_many_steps_as_it_has_unknowns) {
   const int n = 12;
-  const Problem problem(n);
+  const LinearProblem problem(n);
   Anderson anderson(20, 0, 0.8, Vec::Ones(n));
   anderson.begin();
   Vec q = Vec::Zero(n);
@@ -121,7 +121,7 @@ TEST(Anderson, solves_a_linear_problem_in_as_many_steps_as_it_has_unknowns) {
 // Loads of three shapes: once three problems are solved, the fourth is predicted but for the first evaluation.
 TEST(Anderson, past_problems_predict_the_next) {
   const int n = 30;
-  Problem problem(n);
+  LinearProblem problem(n);
   const Mat shapes = (Mat(n, 3) << random_vector(n, 5), random_vector(n, 6), random_vector(n, 7)).finished();
   Anderson with(10, 20, 0.95, Vec::Ones(n)), without(10, 0, 0.95, Vec::Ones(n));
   Vec q = Vec::Zero(n), q_without = q;
@@ -144,7 +144,7 @@ TEST(Anderson, past_problems_predict_the_next) {
 }
 
 TEST(Anderson, depth_zero_is_relaxation) {
-  const Problem problem(10);
+  const LinearProblem problem(10);
   Anderson anderson(0, 20, 0.7, Vec::Ones(10));
   anderson.begin();
   Vec q = Vec::Zero(10), expected = q;

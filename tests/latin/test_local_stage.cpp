@@ -10,7 +10,7 @@
 namespace dygita {
 namespace {
 
-constexpr double dt = 0.5e-6;
+constexpr double local_dt = 0.5e-6;
 
 // A point of the local stage as its user sees it: data, velocities and image of both sides, in the point's frame.
 struct Sides {
@@ -69,7 +69,7 @@ struct Stage {
 Problem problem_of(LawPtr law, bool is_static = false, std::vector<LoadPtr> loads = {}) {
   Problem problem = two_cubes(std::move(law), {}, 1);
   problem.steps = {is_static ? static_step("test", 2, std::move(loads))
-                             : dynamic_step("test", 10, dt, std::move(loads))};
+                             : dynamic_step("test", 10, local_dt, std::move(loads))};
   return problem;
 }
 // Loads on the interface between the cubes.
@@ -136,7 +136,7 @@ TEST(LocalStage, of_a_contact_with_a_gap_lets_it_close_and_no_more) {
   const Stage slow(problem_of(contact(0.0, gap)), 0.0, 1.0), fast(problem_of(contact(0.0, gap)), 0.0, 10.0);
   for (int i = 0; i < 4; ++i) {
     EXPECT_NEAR(slow.sides(i).force_1()[0], 0.0, 1e-12);  // 2 m/s x 0.5 us is the gap, just
-    EXPECT_NEAR(fast.sides(i).rate()[0], -gap / dt, 1e-12);
+    EXPECT_NEAR(fast.sides(i).rate()[0], -gap / local_dt, 1e-12);
     EXPECT_LT(fast.sides(i).force_1()[0], 0.0);
   }
 }
@@ -272,7 +272,7 @@ TEST(LocalStage, at_a_wall_stops_the_block) {
   const BlockPtr alone = cube("alone", 0, 0, 0, 1);
   problem.substructures = {alone};
   problem.supports = {support("wall", {face(alone, "zmin")}, {{"friction", 0.0}, {"gap", 0.0}})};
-  problem.steps = {dynamic_step("test", 1, dt, {})};
+  problem.steps = {dynamic_step("test", 1, local_dt, {})};
   set_progress_enabled(false);
   Modelled of(problem);
   start_step(of.model, of.state);

@@ -14,7 +14,7 @@
 namespace dygita {
 namespace {
 
-constexpr double dt = 0.4e-6;
+constexpr double direction_dt = 0.4e-6;
 
 // Velocities of the linear stage for data q, all pieces.
 Vec linear_stage(StepModel& model, const Vec& q) {
@@ -48,7 +48,7 @@ TEST(SearchDirections, of_a_static_step_are_the_diagonal_of_the_schur_complement
 }
 
 TEST(SearchDirections, of_a_dynamic_step_stand_between_the_schur_complement_and_the_wave) {
-  const Modelled of(two_cubes(contact(0.3), {dynamic_step("test", 4, dt, {})}));
+  const Modelled of(two_cubes(contact(0.3), {dynamic_step("test", 4, direction_dt, {})}));
   const Vec k = search_directions(of.model, 1.0, 1), impedance = search_directions(of.model, 1.0, 6);
   const Elastic material = steel();
   for (const Port& port : of.model.exchange.ports)
@@ -58,13 +58,13 @@ TEST(SearchDirections, of_a_dynamic_step_stand_between_the_schur_complement_and_
       const double speed = d == 0 ? material.p_wave_speed() : material.s_wave_speed();
       const double wave = material.density * speed * port.area;
       EXPECT_DOUBLE_EQ(impedance[i], wave);  // windows of many steps
-      const double step = std::hypot(0.5 * wave, piece.node_masses()[port.piece_node] / dt);
+      const double step = std::hypot(0.5 * wave, piece.node_masses()[port.piece_node] / direction_dt);
       EXPECT_NEAR(k[i], std::pow(piece.schur_diagonal()[port.unknown[d]], 0.75) * std::pow(step, 0.25), 1e-12 * k[i]);
     }
 }
 
 TEST(StepSettings, follow_the_table_and_what_the_deck_says) {
-  Problem problem = two_cubes(bonded(), {static_step("press", 1, {}), dynamic_step("shock", 30, dt, {})});
+  Problem problem = two_cubes(bonded(), {static_step("press", 1, {}), dynamic_step("shock", 30, direction_dt, {})});
   problem.solver = {};
   {
     const Modelled of(problem, 0);
@@ -180,7 +180,7 @@ TEST(Window, of_several_time_steps_is_the_same_as_one_by_one) {
     const Face top = top_of(problem);
     problem.solver.mass.is_moved_from_contact = is_massless;
     const StepPtr press = static_step("press", 1, {number("pressure", {top}, 50e6)});
-    problem.steps = {press, dynamic_step("strike", 12, dt,
+    problem.steps = {press, dynamic_step("strike", 12, direction_dt,
                                          {load("pressure", {top}, History::constant(50e6)),
                                           load("traction", {top}, History::half_sine(60e6, 3e-6), 0)},
                                          press)};
@@ -202,7 +202,7 @@ TEST(Window, of_several_time_steps_is_the_same_as_one_by_one) {
 TEST(Latin, from_its_own_fields_has_nothing_to_do) {
   Problem problem = two_cubes(contact(0.2), {});
   problem.steps = {
-      dynamic_step("strike", 10, dt, {load("pressure", {top_of(problem)}, History::half_sine(60e6, 3e-6))})};
+      dynamic_step("strike", 10, direction_dt, {load("pressure", {top_of(problem)}, History::half_sine(60e6, 3e-6))})};
   Recorder first, again;
   const SolverFigures kept = solve(problem, first);
   problem.solver.tolerance = 1e-9;
@@ -216,7 +216,7 @@ TEST(Latin, from_its_own_fields_has_nothing_to_do) {
 TEST(Latin, solved_in_full_is_the_same) {
   Problem problem = two_cubes(contact(0.2), {});
   problem.steps = {
-      dynamic_step("strike", 10, dt, {load("pressure", {top_of(problem)}, History::half_sine(60e6, 3e-6))})};
+      dynamic_step("strike", 10, direction_dt, {load("pressure", {top_of(problem)}, History::half_sine(60e6, 3e-6))})};
   Recorder condensed, full;
   solve(problem, condensed);
   problem.solver.plain = true;
@@ -236,7 +236,7 @@ TEST(Latin, damps_each_of_two_equal_blocks_by_its_own_material) {
     block.mesh = problem.substructures[0]->mesh;
     block.place = Vec3(0.0, 0.0, 0.01 * part);
   }
-  problem.steps = {dynamic_step("fly", 10, dt, {})};
+  problem.steps = {dynamic_step("fly", 10, direction_dt, {})};
   {
     const Modelled of(problem);
     ASSERT_EQ(of.bodies[0].matrices, of.bodies[1].matrices);
@@ -245,7 +245,7 @@ TEST(Latin, damps_each_of_two_equal_blocks_by_its_own_material) {
   Recorder flight;
   solve(problem, flight);
   for (const int part : {0, 1}) {
-    const double half = 0.5 * dt * damping[part];
+    const double half = 0.5 * direction_dt * damping[part];
     EXPECT_NEAR(flight.rows.back().velocity[part](0, 0), std::pow((1.0 - half) / (1.0 + half), 10), 1e-9);
   }
 }

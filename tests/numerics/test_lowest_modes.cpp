@@ -11,9 +11,9 @@ namespace dygita {
 namespace {
 
 // A grid of masses on springs along x and y, held by weak springs: many eigenvalues are double.
-struct Grid {
+struct Membrane {
   SparseMatrix stiffness, mass;
-  explicit Grid(int n) : stiffness(n * n, n * n), mass(n * n, n * n) {
+  explicit Membrane(int n) : stiffness(n * n, n * n), mass(n * n, n * n) {
     Mat k = 1e-3 * Mat::Identity(n * n, n * n);
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j)
@@ -42,7 +42,7 @@ struct Grid {
 };
 
 TEST(LowestModes, are_those_of_the_dense_solver_double_ones_included) {
-  const Grid grid(14);
+  const Membrane grid(14);
   const Vec exact = grid.exact();
   for (const double shift : {0.0, 0.1}) {
     const Modes modes = grid.lowest({30, 0.0}, shift);
@@ -55,7 +55,7 @@ TEST(LowestModes, are_those_of_the_dense_solver_double_ones_included) {
 }
 
 TEST(LowestModes, up_to_a_bound_are_all_of_them_and_no_more) {
-  const Grid grid(14);
+  const Membrane grid(14);
   const Vec exact = grid.exact();
   for (const double bound : {1e-4, 0.01, 0.2, 1.0}) {
     const Modes modes = grid.lowest({0, bound});
@@ -64,7 +64,7 @@ TEST(LowestModes, up_to_a_bound_are_all_of_them_and_no_more) {
 }
 
 TEST(LowestModes, are_all_there_are_where_more_is_asked_for) {
-  const Grid grid(3);
+  const Membrane grid(3);
   for (const ModeRequest& request : {ModeRequest{50, 0.0}, ModeRequest{0, 1e9}}) {
     const Modes modes = grid.lowest(request);
     ASSERT_EQ(modes.values.size(), 9);
@@ -77,7 +77,7 @@ TEST(LowestModes, are_all_there_are_where_more_is_asked_for) {
 TEST(LowestModes, refuse_what_would_never_end) {
   ModeRequest request{0, 1e9};
   request.most = 10;
-  EXPECT_THROW(Grid(14).lowest(request), NumericalError);
+  EXPECT_THROW(Membrane(14).lowest(request), NumericalError);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace dygita {
 namespace {
 
-constexpr double dt = 0.4e-6;
+constexpr double parts_dt = 0.4e-6;
 
 // Both cubes as one dense system: A V = r on all nodal directions, lower face of the first one held.
 struct Whole {
@@ -28,7 +28,7 @@ struct Whole {
       stiffness.block(at, at, k.rows(), k.rows()) = k;
       for (int i = 0; i < k.rows(); ++i) mass(at + i, at + i) = of.bodies[part].mass->lumped[i / 3];
     }
-    a = mass / dt + 0.25 * dt * stiffness;
+    a = mass / parts_dt + 0.25 * parts_dt * stiffness;
     free = Mat::Zero(n, n - 3 * static_cast<int>(of.model.conditions.held[0].size()));
     for (int i = 0, c = 0; i < n; ++i)
       if (i >= n_one || !of.model.conditions.at(0, i / 3)) free(i, c++) = 1.0;
@@ -64,7 +64,7 @@ void begin(Modelled& of, MergedAssembly& assembly) {
 
 Problem struck(LawPtr law) {
   Problem problem = two_cubes(std::move(law), {});
-  problem.steps = {dynamic_step("strike", 4, dt,
+  problem.steps = {dynamic_step("strike", 4, parts_dt,
                                 {load("pressure", {top_of(problem)}, History::constant(80e6)),
                                  load("traction", {top_of(problem)}, History::constant(60e6), 0)})};
   return problem;

@@ -11,7 +11,7 @@
 namespace dygita {
 namespace {
 
-constexpr double dt = 0.4e-6;
+constexpr double reference_dt = 0.4e-6;
 
 Recorder run_latin(Problem problem) {
   problem.monolithic.reset();
@@ -39,7 +39,7 @@ Recorder run_explicit(Problem problem) {
 std::vector<StepPtr> press_and_strike(const Problem& of, int n) {
   const Face top = top_of(of);
   const StepPtr press = static_step("press", 2, {number("pressure", {top}, 50e6)});
-  return {press, dynamic_step("strike", n, dt,
+  return {press, dynamic_step("strike", n, reference_dt,
                               {load("pressure", {top}, History::constant(50e6)),
                                load("traction", {top}, History::half_sine(60e6, 8e-6), 0)},
                               press)};
@@ -70,14 +70,14 @@ TEST(Monolithic, is_what_latin_converges_to_where_an_interface_yields) {
 TEST(Monolithic, keeps_the_energy_of_a_free_flight) {
   Problem problem = two_cubes(contact(0.0, 1e-3), {});
   std::const_pointer_cast<Substructure>(problem.substructures[1])->velocity = {1.0, -2.0, 3.0};
-  problem.steps = {dynamic_step("fly", 20, dt, {})};
+  problem.steps = {dynamic_step("fly", 20, reference_dt, {})};
   const Recorder flight = run_monolithic(problem);
   const double mass = 7800.0 * 1e-6, kinetic = 0.5 * mass * 14.0;
   for (const Recorder::Row& row : flight.rows) {
     EXPECT_NEAR(row.energies.kinetic, kinetic, 1e-12 * kinetic);
     EXPECT_LT(row.energies.strain, 1e-12 * kinetic);
   }
-  EXPECT_LT((flight.rows.back().displacement[1].colwise() - 20 * dt * Vec3(1.0, -2.0, 3.0)).norm(), 1e-13);
+  EXPECT_LT((flight.rows.back().displacement[1].colwise() - 20 * reference_dt * Vec3(1.0, -2.0, 3.0)).norm(), 1e-13);
 }
 
 // Both are of second order in time: half the step, a quarter of the difference.
@@ -103,7 +103,8 @@ TEST(Explicit, in_balance_of_a_static_step_stays_there) {
   Problem problem = two_cubes(bonded(), {});
   const Face top = top_of(problem);
   const StepPtr press = static_step("press", 1, {number("pressure", {top}, 50e6)});
-  problem.steps = {press, dynamic_step("hold", 20, dt, {load("pressure", {top}, History::constant(50e6))}, press)};
+  problem.steps = {press,
+                   dynamic_step("hold", 20, reference_dt, {load("pressure", {top}, History::constant(50e6))}, press)};
   const Recorder held = run_explicit(problem);
   const Points start = held.rows.front().displacement[1];
   for (const Recorder::Row& row : held.rows) EXPECT_LT((row.displacement[1] - start).norm(), 1e-9 * start.norm());
@@ -112,7 +113,8 @@ TEST(Explicit, in_balance_of_a_static_step_stays_there) {
 TEST(Explicit, gives_the_force_of_a_weight_to_its_support) {
   Problem problem = two_cubes(bonded(), {});
   const StepPtr rest = static_step("rest", 1, {number("gravity", {}, -9.81, 2)});
-  problem.steps = {rest, dynamic_step("hold", 5, dt, {load("gravity", {}, History::constant(-9.81), 2)}, rest)};
+  problem.steps = {rest,
+                   dynamic_step("hold", 5, reference_dt, {load("gravity", {}, History::constant(-9.81), 2)}, rest)};
   const double weight = 2 * 7800.0 * 1e-6 * 9.81;
   const Recorder held = run_explicit(problem);
   for (const Recorder::Row& row : held.rows) {

@@ -16,7 +16,7 @@ namespace dygita {
 namespace {
 
 // A box of n^3 hexahedra with its six faces.
-SubstructurePtr box(int n, double size, const Vec3& place = Vec3::Zero(), const std::string& name = "box") {
+SubstructurePtr turning_box(int n, double size, const Vec3& place = Vec3::Zero(), const std::string& name = "box") {
   auto mesh = std::make_shared<Mesh>();
   const int m = n + 1;
   mesh->nodes.resize(3, m * m * m);
@@ -53,7 +53,8 @@ SubstructurePtr box(int n, double size, const Vec3& place = Vec3::Zero(), const 
 Problem two_boxes(int n, const std::string& face_of_upper = "zmin") {
   Problem problem;
   problem.name = "two";
-  problem.substructures = {box(n, 0.01, Vec3::Zero(), "low"), box(n, 0.01, {0, 0, 0.01}, "high </script>")};
+  problem.substructures = {turning_box(n, 0.01, Vec3::Zero(), "low"),
+                           turning_box(n, 0.01, {0, 0, 0.01}, "high </script>")};
   auto grip = std::make_shared<Interface>();
   grip->name = "grip";
   grip->side_1 = {problem.substructures[0], "zmax"};
@@ -94,7 +95,7 @@ double volume(const TurningMesh& mesh) {
 }
 
 TEST(TurningMesh, keeps_a_coarse_boundary_as_it_is) {
-  const TurningMesh mesh = make_turning_mesh({box(3, 0.01)}, {}, 1000);
+  const TurningMesh mesh = make_turning_mesh({turning_box(3, 0.01)}, {}, 1000);
   EXPECT_EQ(mesh.nodes.cols(), 56);
   EXPECT_EQ(mesh.triangles.size(), 108u);
   EXPECT_EQ(mesh.edges.size(), 36u);  // twelve edges of three
@@ -102,7 +103,7 @@ TEST(TurningMesh, keeps_a_coarse_boundary_as_it_is) {
 }
 
 TEST(TurningMesh, keeps_corners_and_volume_of_a_fine_one) {
-  const TurningMesh mesh = make_turning_mesh({box(40, 0.01), box(2, 0.002, {0.02, 0, 0})}, {}, 600);
+  const TurningMesh mesh = make_turning_mesh({turning_box(40, 0.01), turning_box(2, 0.002, {0.02, 0, 0})}, {}, 600);
   EXPECT_LE(mesh.nodes.cols(), 600);
   EXPECT_GT(mesh.nodes.cols(), 150);
   EXPECT_EQ(mesh.parts[1].n_nodes, 26);  // the small part is not merged for the large one's sake

@@ -12,7 +12,7 @@
 namespace dygita {
 namespace {
 
-constexpr double dt = 0.5e-6;
+constexpr double exchange_dt = 0.5e-6;
 
 struct Sides {
   int n_1, n_2;
@@ -43,7 +43,7 @@ void expect_sound(const Modelled& of) {
 }
 
 TEST(Exchange, pairs_the_nodes_of_two_faces_along_their_normal) {
-  const Modelled of(two_cubes(contact(0.3), {dynamic_step("test", 1, dt, {})}));
+  const Modelled of(two_cubes(contact(0.3), {dynamic_step("test", 1, exchange_dt, {})}));
   expect_sound(of);
   ASSERT_EQ(of.model.exchange.points.size(), 9U);
   double area = 0.0;
@@ -64,7 +64,7 @@ TEST(Exchange, pairs_the_nodes_of_two_faces_along_their_normal) {
 }
 
 TEST(Exchange, of_a_law_without_friction_has_normals_alone) {
-  const Modelled of(two_cubes(contact(0.0), {dynamic_step("test", 1, dt, {})}));
+  const Modelled of(two_cubes(contact(0.0), {dynamic_step("test", 1, exchange_dt, {})}));
   EXPECT_EQ(of.model.n_q(), 2 * 9);
   for (const Point& point : of.model.exchange.points) EXPECT_EQ(point.is_active, (std::array{true, false, false}));
 }
@@ -80,7 +80,7 @@ TEST(Exchange, makes_one_group_of_three_pieces_on_an_edge) {
                         interface("ac", face(a, "zmax"), face(c, "zmin"), bonded()),
                         interface("bd", face(b, "zmax"), face(d, "zmin"), bonded()),
                         interface("cd", face(c, "xmax"), face(d, "xmin"), bonded())};
-  problem.steps = {dynamic_step("test", 1, dt, {})};
+  problem.steps = {dynamic_step("test", 1, exchange_dt, {})};
   const Modelled of(problem);
   expect_sound(of);
   int n_edge = 0, n_pairs = 0;
@@ -109,7 +109,7 @@ TEST(Exchange, gives_a_node_under_two_laws_a_q_for_each) {
   problem.substructures = {a, b, c};
   problem.interfaces = {interface("ab", face(a, "xmax"), face(b, "xmin"), contact(0.2)),
                         interface("ac", face(a, "zmax"), face(c, "zmin"), contact(0.2))};
-  problem.steps = {dynamic_step("test", 1, dt, {})};
+  problem.steps = {dynamic_step("test", 1, exchange_dt, {})};
   const Modelled of(problem);
   expect_sound(of);
   EXPECT_EQ(of.model.exchange.points.size(), 18U);
@@ -137,7 +137,7 @@ TEST(Exchange, ties_a_group_on_one_side_of_a_law) {
   problem.interfaces = {interface("ab", face(a, "xmax"), face(b, "xmin"), bonded()),
                         interface("ac", face(a, "zmax"), face(c, "zmin"), law),
                         interface("bc", face(b, "zmax"), face(c, "zmin"), contact(0.1))};
-  problem.steps = {dynamic_step("test", 1, dt, {})};
+  problem.steps = {dynamic_step("test", 1, exchange_dt, {})};
   const Modelled of(problem);
   expect_sound(of);
   const int corner = of.node_at(2, {0.01, 0.005, 0.01});
@@ -154,7 +154,7 @@ TEST(Exchange, ties_a_group_on_one_side_of_a_law) {
 }
 
 TEST(Exchange, leaves_held_directions_to_their_support) {
-  Problem problem = two_cubes(bonded(), {dynamic_step("test", 1, dt, {})});
+  Problem problem = two_cubes(bonded(), {dynamic_step("test", 1, exchange_dt, {})});
   const BlockPtr lower = std::const_pointer_cast<Substructure>(problem.substructures[0]);
   problem.supports.push_back(support("symmetry", {face(lower, "xmin")}));
   const Modelled of(problem);
@@ -178,7 +178,7 @@ TEST(Exchange, at_a_wall_has_one_side) {
   const BlockPtr alone = cube("alone", 0, 0, 0);
   problem.substructures = {alone};
   problem.supports = {support("wall", {face(alone, "zmin")}, {{"friction", 0.3}, {"gap", 0.0}})};
-  problem.steps = {dynamic_step("test", 1, dt, {})};
+  problem.steps = {dynamic_step("test", 1, exchange_dt, {})};
   const Modelled of(problem);
   expect_sound(of);
   ASSERT_EQ(of.model.exchange.points.size(), 9U);
@@ -194,9 +194,9 @@ TEST(Exchange, of_a_step_without_that_wall_has_none) {
   const BlockPtr alone = cube("alone", 0, 0, 0);
   problem.substructures = {alone};
   problem.supports = {support("wall", {face(alone, "zmin")}, {{"friction", 0.3}, {"gap", 0.0}})};
-  auto away = dynamic_step("away", 1, dt, {});
+  auto away = dynamic_step("away", 1, exchange_dt, {});
   away->supports.emplace();
-  problem.steps = {dynamic_step("test", 1, dt, {}), away};
+  problem.steps = {dynamic_step("test", 1, exchange_dt, {}), away};
   EXPECT_EQ(Modelled(problem, 0).model.exchange.points.size(), 9U);
   EXPECT_EQ(Modelled(problem, 1).model.exchange.points.size(), 0U);
 }
@@ -205,7 +205,7 @@ TEST(Exchange, ties_what_a_cut_takes_apart) {
   Problem problem;
   const BlockPtr one = cube("one", 0, 0, 0, 4);
   problem.substructures = {one};
-  problem.steps = {dynamic_step("test", 1, dt, {})};
+  problem.steps = {dynamic_step("test", 1, exchange_dt, {})};
   problem.solver.pieces = 2;
   const Modelled of(problem);
   expect_sound(of);
@@ -236,7 +236,7 @@ TEST(Exchange, refuses_a_law_between_sides_that_are_tied) {
                         interface("ac", face(a, "zmax"), face(c, "zmin"), bonded()),
                         interface("bd", face(b, "zmax"), face(d, "zmin"), bonded()),
                         interface("cd", face(c, "xmax"), face(d, "xmin"), contact(0.1))};
-  problem.steps = {dynamic_step("test", 1, dt, {})};
+  problem.steps = {dynamic_step("test", 1, exchange_dt, {})};
   EXPECT_NE(complaint(problem).find("interface 'cd': its two sides are tied to each other"), std::string::npos)
       << complaint(problem);
 }
@@ -253,7 +253,7 @@ TEST(StepModel, shares_the_operators_of_equal_pieces) {
   }
   const BlockPtr other = std::const_pointer_cast<Substructure>(problem.substructures[3]);
   other->material.density = 2700.0;
-  problem.steps = {dynamic_step("test", 1, dt, {})};
+  problem.steps = {dynamic_step("test", 1, exchange_dt, {})};
   for (const auto& part : problem.substructures) problem.supports.push_back(support("fixed", {Face{part, "zmin"}}));
   const Modelled of(problem);
   const auto& pieces = of.model.pieces;
@@ -272,7 +272,7 @@ TEST(StepModel, tells_which_substructure_cannot_be_factorised) {
   Problem problem;
   for (int i = 0; i < 4; ++i) problem.substructures.push_back(cube("cube " + std::to_string(i), 3 * i, 0, 0));
   const_cast<Substructure&>(*problem.substructures[2]).material.young = 1e11;  // matrices of its own
-  problem.steps = {dynamic_step("test", 1, dt, {})};
+  problem.steps = {dynamic_step("test", 1, exchange_dt, {})};
   const std::vector<Surface> surfaces = make_surfaces(problem);
   std::vector<Body> bodies = make_bodies(problem, surfaces);
   BodyMatrices broken = *bodies[2].matrices;

@@ -8,7 +8,7 @@
 namespace dygita {
 namespace {
 
-constexpr double dt = 0.4e-6;
+constexpr double increment_dt = 0.4e-6;
 
 struct Variant {
   const char* name;
@@ -76,7 +76,7 @@ struct Pair {
   Vec k;
 
   explicit Pair(const Variant& variant, bool is_plain = false) {
-    of.dt = dt;
+    of.dt = increment_dt;
     variant.set(of);
     of.make();
     piece = of.piece(is_plain);
@@ -223,7 +223,7 @@ TEST(Increment, without_a_change_is_not_solved) {
 // Sixteen columns of one factor's solve are sixteen pieces.
 TEST(Increment, of_equal_pieces_together_is_that_of_each) {
   PieceCase c;
-  c.dt = dt;
+  c.dt = increment_dt;
   c.make();
   constexpr int n = 5;
   std::vector<std::unique_ptr<ImplicitPiece>> together;
@@ -255,7 +255,7 @@ TEST(Increment, of_equal_pieces_together_is_that_of_each) {
 // Single precision bounds what is stored; products by K every few increments keep the recurrence from drifting.
 TEST(Increment, in_single_precision_stays_close) {
   PieceCase c;
-  c.dt = dt;
+  c.dt = increment_dt;
   c.make();
   const auto exact = c.piece();
   c.setup.precision = Precision::single_precision;
@@ -275,7 +275,7 @@ TEST(Increment, in_single_precision_stays_close) {
 // A node of a bent plate is all interface: solved in full because that costs less.
 TEST(Increment, of_a_piece_that_is_almost_all_interface_is_solved_in_full) {
   PieceCase c;
-  c.dt = dt;
+  c.dt = increment_dt;
   c.make();
   c.part->mesh = box_mesh(Vec3::Zero(), {0.1, 0.1, 0.002}, {16, 16, 1});
   c.body.matrices = std::make_shared<const BodyMatrices>(assemble(*c.part->mesh, c.part->material));

@@ -8,7 +8,7 @@
 namespace dygita {
 namespace {
 
-constexpr double dt = 0.4e-6;
+constexpr double operator_dt = 0.4e-6;
 
 void expect_equal(const Mat& found, const Mat& expected, double tolerance) {
   ASSERT_EQ(found.rows(), expected.rows());
@@ -18,7 +18,7 @@ void expect_equal(const Mat& found, const Mat& expected, double tolerance) {
 
 std::vector<PieceCase> cases() {
   std::vector<PieceCase> all(8);
-  for (PieceCase& c : all) c.dt = dt;
+  for (PieceCase& c : all) c.dt = operator_dt;
   all[1].dt = 0.0;                   // static
   all[2].holds_normal_alone = true;  // nodes of whose directions one is held
   all[3].is_absorbing = true;        // and nothing held
@@ -53,7 +53,7 @@ TEST(PieceOperator, gives_the_diagonal_of_the_schur_complement_without_reference
 
 TEST(PieceOperator, shares_the_schur_diagonal_among_laws_at_a_node) {
   PieceCase c;
-  c.dt = dt;
+  c.dt = operator_dt;
   c.make();
   const Vec alone = c.piece()->schur_diagonal();
   const size_t n = c.setup.rows.size();
@@ -69,7 +69,7 @@ TEST(PieceOperator, shares_the_schur_diagonal_among_laws_at_a_node) {
 TEST(PieceOperator, serves_an_equal_piece_too) {
   for (const bool is_plain : {false, true}) {
     PieceCase c;
-    c.dt = dt;
+    c.dt = operator_dt;
     c.make();
     const auto first = c.piece(is_plain);
     const auto second = make_piece(c.setup, is_plain, first.get());
@@ -87,7 +87,7 @@ TEST(PieceOperator, serves_an_equal_piece_too) {
 
 TEST(PieceOperator, of_other_search_directions_is_its_own_but_for_the_factor) {
   PieceCase c;
-  c.dt = dt;
+  c.dt = operator_dt;
   c.make();
   const auto first = make_piece(c.setup, false, nullptr), second = make_piece(c.setup, false, first.get());
   EXPECT_THROW(second->set_search_directions(Vec::Ones(1)), ContractError);
@@ -99,7 +99,7 @@ TEST(PieceOperator, of_other_search_directions_is_its_own_but_for_the_factor) {
 
 TEST(PieceSetup, is_equal_to_another_only_where_the_matrices_are) {
   PieceCase c;
-  c.dt = dt;
+  c.dt = operator_dt;
   c.make();
   PieceSetup other = c.setup;
   EXPECT_TRUE(are_equal(c.setup, other));
@@ -126,7 +126,7 @@ TEST(PieceSetup, is_equal_to_another_only_where_the_matrices_are) {
 TEST(PieceSetup, is_not_equal_to_one_that_is_damped_otherwise) {
   for (const Damping damping : {Damping{2e3, 0.0}, Damping{0.0, 3e-8}}) {
     PieceCase c;
-    c.dt = dt;
+    c.dt = operator_dt;
     c.make();
     Substructure damped = *c.part;
     damped.material.damping = damping;
@@ -144,7 +144,7 @@ TEST(PieceSetup, is_not_equal_to_one_that_is_damped_otherwise) {
 
 TEST(PieceOperator, predicts_the_bytes_of_its_factor) {
   PieceCase c;
-  c.dt = dt;
+  c.dt = operator_dt;
   c.make();
   const double held = c.piece()->figures().bytes;
   EXPECT_NEAR(predicted_bytes(c.setup, false), held, 0.2 * held);
@@ -153,7 +153,7 @@ TEST(PieceOperator, predicts_the_bytes_of_its_factor) {
 
 TEST(PieceOperator, of_a_piece_that_is_held_everywhere_has_nothing_to_find) {
   PieceCase c;
-  c.dt = dt;
+  c.dt = operator_dt;
   c.make();
   c.setup.rows.clear();
   for (int node = 0; node < c.n_nodes(); ++node) c.setup.held[node] = Held{3, Mat3::Identity(), {}, {}};

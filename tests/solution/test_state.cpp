@@ -6,11 +6,11 @@
 namespace dygita {
 namespace {
 
-constexpr double dt = 0.4e-6;
+constexpr double state_dt = 0.4e-6;
 
 std::vector<PieceCase> cases() {
   std::vector<PieceCase> all(5);
-  for (PieceCase& c : all) c.dt = dt;
+  for (PieceCase& c : all) c.dt = state_dt;
   all[1].damping = {2e5, 1e-7};
   all[1].is_moved = true;
   all[2].has_massless = true;

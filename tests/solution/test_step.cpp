@@ -8,7 +8,7 @@
 namespace dygita {
 namespace {
 
-constexpr double dt = 0.5e-6;
+constexpr double step_dt = 0.5e-6;
 
 Problem one_cube(std::vector<StepPtr> steps) {
   Problem problem;
@@ -20,7 +20,7 @@ Problem one_cube(std::vector<StepPtr> steps) {
 BlockPtr part_of(const Problem& problem) { return std::const_pointer_cast<Substructure>(problem.substructures[0]); }
 
 TEST(Conditions, hold_all_of_a_fixed_face_and_the_normal_of_a_symmetry) {
-  Problem problem = one_cube({dynamic_step("test", 1, dt, {})});
+  Problem problem = one_cube({dynamic_step("test", 1, step_dt, {})});
   const BlockPtr part = part_of(problem);
   problem.supports = {support("fixed", {face(part, "zmin")}), support("symmetry", {face(part, "xmin")})};
   const Modelled of(problem);
@@ -38,7 +38,7 @@ TEST(Conditions, hold_all_of_a_fixed_face_and_the_normal_of_a_symmetry) {
 
 TEST(Conditions, hold_what_absorbs_in_a_static_step_and_let_it_go_in_a_dynamic_one) {
   const StepPtr press = static_step("press", 1, {});
-  Problem problem = one_cube({press, dynamic_step("shock", 1, dt, {}, press)});
+  Problem problem = one_cube({press, dynamic_step("shock", 1, step_dt, {}, press)});
   problem.supports = {support("absorbing", {face(part_of(problem), "zmin")})};
   const Modelled at_rest(problem, 0), in_motion(problem, 1);
   EXPECT_EQ(at_rest.model.conditions.held[0].size(), 9U);
@@ -56,7 +56,8 @@ TEST(Conditions, hold_what_absorbs_in_a_static_step_and_let_it_go_in_a_dynamic_o
 TEST(Conditions, move_a_face_by_its_velocity_at_the_end_of_an_increment) {
   Problem problem = one_cube({});
   const Face top{problem.substructures[0], "zmax"};
-  problem.steps = {dynamic_step("test", 4, dt, {load("velocity", {top}, History::ramp(0.0, 8.0, 4 * dt), 2)})};
+  problem.steps = {
+      dynamic_step("test", 4, step_dt, {load("velocity", {top}, History::ramp(0.0, 8.0, 4 * step_dt), 2)})};
   const Modelled of(problem);
   ASSERT_EQ(of.model.conditions.motions.size(), 1U);
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(of.model.motion_velocities(i)[0], 2.0 * (i + 1), 1e-12);
@@ -70,7 +71,7 @@ TEST(Conditions, refuse_a_motion_of_what_is_held) {
   Problem problem = one_cube({});
   const Face top{problem.substructures[0], "zmax"};
   problem.supports = {support("fixed", {top})};
-  problem.steps = {dynamic_step("test", 4, dt, {load("velocity", {top}, History::constant(1.0), 2)})};
+  problem.steps = {dynamic_step("test", 4, step_dt, {load("velocity", {top}, History::constant(1.0), 2)})};
   EXPECT_THROW(Modelled{problem}, InputError);
 }
 
@@ -79,7 +80,8 @@ TEST(Loads, of_a_face_are_pressure_traction_and_force) {
     Problem problem = one_cube({});
     const Face top{problem.substructures[0], "zmax"};
     const int axis = std::string(word) == "pressure" ? 0 : 2;
-    problem.steps = {dynamic_step("test", 4, dt, {load(word, {top}, History::ramp(0.0, 80.0, 4 * dt), axis)})};
+    problem.steps = {
+        dynamic_step("test", 4, step_dt, {load(word, {top}, History::ramp(0.0, 80.0, 4 * step_dt), axis)})};
     const Modelled of(problem);
     of.model.loads->evaluate(1);  // mean over the second increment: 30
     const Points force = of.model.external_force(0, of.state);
@@ -123,8 +125,8 @@ TEST(Loads, that_a_later_static_step_does_not_list_fade_away_in_it) {
 TEST(StepEnds, give_initial_velocities_to_the_first_dynamic_step_alone) {
   Problem problem = one_cube({});
   part_of(problem)->velocity = {0.0, 0.0, -3.0};
-  const StepPtr rest = static_step("rest", 1, {}), fly = dynamic_step("fly", 2, dt, {}, rest);
-  problem.steps = {rest, fly, dynamic_step("fly on", 2, dt, {}, fly)};
+  const StepPtr rest = static_step("rest", 1, {}), fly = dynamic_step("fly", 2, step_dt, {}, rest);
+  problem.steps = {rest, fly, dynamic_step("fly on", 2, step_dt, {}, fly)};
   const double kinetic = 0.5 * 7800.0 * 1e-6 * 9.0;
   Modelled of(problem);
   start_step(of.model, of.state);
@@ -144,7 +146,7 @@ TEST(StepEnds, give_initial_velocities_to_the_first_dynamic_step_alone) {
 }
 
 TEST(StepEnds, leave_the_fields_of_the_pieces) {
-  Problem problem = one_cube({dynamic_step("test", 1, dt, {})});
+  Problem problem = one_cube({dynamic_step("test", 1, step_dt, {})});
   problem.substructures = {cube("cube", 0, 0, 0, 4)};
   for (const int pieces : {1, 2}) {
     problem.solver.pieces = pieces;
@@ -167,8 +169,8 @@ TEST(StepEnds, leave_the_fields_of_the_pieces) {
 TEST(StepEnds, book_what_a_new_support_stops) {
   Problem problem = one_cube({});
   part_of(problem)->velocity = {0.0, 0.0, -3.0};
-  const StepPtr fly = dynamic_step("fly", 2, dt, {});
-  auto caught = dynamic_step("caught", 2, dt, {}, fly);
+  const StepPtr fly = dynamic_step("fly", 2, step_dt, {});
+  auto caught = dynamic_step("caught", 2, step_dt, {}, fly);
   caught->supports.emplace();
   caught->supports->push_back(support("fixed", {face(part_of(problem), "zmin")}));
   problem.steps = {fly, caught};
@@ -184,7 +186,7 @@ TEST(StepEnds, book_what_a_new_support_stops) {
 }
 
 TEST(StepSize, is_predicted_without_a_factor) {
-  const Modelled of(two_cubes(contact(0.3), {dynamic_step("test", 1, dt, {})}, 4));
+  const Modelled of(two_cubes(contact(0.3), {dynamic_step("test", 1, step_dt, {})}, 4));
   const StepSize size = predict_step(of.problem, *of.problem.steps[0], of.surfaces, of.bodies, of.state, of.cut);
   EXPECT_EQ(size.n_unknowns, of.model.n_q());
   double bytes = 0.0;
