@@ -59,6 +59,36 @@ void add_check_options(CLI::App& command, Command& asked) {
       ->type_name("FILE");
 }
 
+void add_converge_options(CLI::App& command, Command& asked) {
+  add_deck_options(command, asked);
+  command
+      .add_option(
+          "--vary", asked.vary,
+          "parameters to refine, with commas: size (halved each time), size/1.5, n*2 (a number of cells or steps)")
+      ->required()
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAMES");
+  command
+      .add_option("--output", asked.outputs,
+                  "figures to watch, with commas: shank.normal.max (or .min, .last, .mean), a spectrum by its name "
+                  "(default: those of studies, and all spectra)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAMES");
+  command
+      .add_option("--to", asked.aim,
+                  "how close to the limit, as 1% (of spectra its decibels): refines until it is met, and says the "
+                  "cheapest setting that meets it")
+      ->type_name("SHARE");
+  command.add_option("--budget", asked.budget, "begin no run that would exceed this, as 90s, 10min or 2h")
+      ->type_name("TIME");
+  command.add_option("--out", asked.deck.out, "folder of the results, out/<deck>_converge")
+      ->capture_default_str()
+      ->type_name("DIR");
+  add_threads(command, asked.deck.threads);
+}
+
 void add_continue_options(CLI::App& command, Command& asked) {
   ContinueOptions& options = asked.going_on;
   add_run_folder(command, options.run);
@@ -92,7 +122,7 @@ void add_srs_options(CLI::App& command, SrsCommand& asked) {
       ->capture_default_str()
       ->type_name(quantities + "}");
   command.add_option("--from", asked.settings.from, "first frequency, Hz")->capture_default_str();
-  command.add_option("--to", asked.settings.to, "last frequency, Hz")->capture_default_str();
+  command.add_option("--to", asked.settings.to, "highest frequency, Hz")->capture_default_str();
   command.add_option("--per-octave", asked.settings.per_octave, "frequencies per octave")->capture_default_str();
   command.add_option("--column", asked.column, "name of the column of values (default: the first)")->type_name("NAME");
   command.add_option("--out", asked.out, "file to write (default: standard output)")->type_name("FILE");
@@ -189,6 +219,9 @@ void declare_commands(CLI::App& app, Command& asked) {
                        asked);
   add_check_options(*app.add_subcommand("check", "declare and check a deck, say what it would compute, solve nothing"),
                     asked);
+  add_converge_options(
+      *app.add_subcommand("converge", "run a deck ever finer: orders of convergence, limits, the cheapest setting"),
+      asked);
   add_srs_options(*app.add_subcommand("srs", "shock response spectrum of a CSV file"), asked.srs);
   app.add_subcommand("schema", "the reference of the deck language, as Markdown")
       ->add_flag("--lua", asked.is_for_editors, "definitions for editors instead, which then complete and check decks");

@@ -10,6 +10,7 @@
 #include "app/srs_command.hpp"
 #include "app/view_command.hpp"
 #include "deck/continue_run.hpp"
+#include "deck/converge.hpp"
 #include "deck/deck.hpp"
 
 namespace dygita {
@@ -31,6 +32,8 @@ struct Command {
   ReportCommand report;
   ViewCommand view;
   ContinueOptions going_on;
+  std::vector<std::string> vary, outputs;
+  std::string aim, budget;
   std::string until, picture;
   bool is_quiet = false, has_no_frames = false, has_no_state = false, is_for_editors = false;
 };

@@ -45,6 +45,19 @@ int run_or_check(Command& asked, bool solves) {
                    "stopped; the results so far are written");
 }
 
+int converge_deck(Command& asked) {
+  for (const std::string& text : asked.settings) asked.deck.settings.push_back(parse_setting(text));
+  set_progress_enabled(!asked.is_quiet);
+  catch_interrupts();
+  ConvergeOptions options{asked.deck, {}, asked.outputs};
+  for (const std::string& text : asked.vary) options.variations.push_back(parse_variation(text));
+  if (!asked.aim.empty()) options.aim = parse_share("--to", asked.aim);
+  if (!asked.budget.empty()) options.budget = parse_duration("--budget", asked.budget);
+  const ConvergeOutcome outcome = converge(options, {run_problem, check_report});
+  if (outcome.interrupted) return say_error("stopped", stopped);
+  return outcome.is_met && outcome.is_whole ? done : not_converged;
+}
+
 // The name of an unknown command, which CLI11 would only call missing.
 void check_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
@@ -69,6 +82,7 @@ int command_line(int argc, char** argv) {
   if (app.got_subcommand("run")) return run_or_check(asked, true);
   if (app.got_subcommand("check")) return run_or_check(asked, false);
   if (app.got_subcommand("continue")) return go_on(asked);
+  if (app.got_subcommand("converge")) return converge_deck(asked);
   if (app.got_subcommand("srs")) write_srs(asked.srs);
   if (app.got_subcommand("report")) write_report(asked.report);
   if (app.got_subcommand("view")) start_view(asked.view);

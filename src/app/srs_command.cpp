@@ -84,10 +84,26 @@ double seconds_of(const std::string& title, const Origin& origin) {
   return unit ? unit->factor : 1.0;
 }
 
-// As spectra name it: what is an acceleration in m/s^2 or g stays so, a unit that nobody knows is told.
+// As spectra name it: what is an acceleration in m/s^2 or g stays so, another unit is told.
 std::string value_unit(const std::string& title, const Origin& origin) {
-  unit_of({name_in(title), unit_in(title)}, origin);
+  const std::optional<Unit> unit = unit_of({name_in(title), unit_in(title)}, origin);
+  if (unit && unit->si != "m/s^2")
+    throw InputError(origin,
+                     fmt::format("'{}' is in {}: a shock response spectrum is taken of an acceleration, in m/s^2 or g",
+                                 name_in(title), unit_in(title)));
   return unit_in(title);
+}
+
+// The signal without a column's name, where the file has several.
+void say_choice(const SrsCommand& command, const std::vector<std::string>& header, size_t column) {
+  std::vector<std::string> others;
+  for (size_t i = 1; i < header.size(); ++i)
+    if (i != column && name_in(header[i]) != "step") others.push_back(name_in(header[i]));
+  if (!command.column.empty() || others.empty()) return;
+  std::string list;
+  for (const std::string& name : others) list += (list.empty() ? "" : ", ") + name;
+  warn(fmt::format("{}: the spectrum is of column '{}'; --column takes another: {}", command.signal,
+                   name_in(header[column]), list));
 }
 
 Signal read_signal(const SrsCommand& command) {
@@ -111,6 +127,7 @@ Signal read_signal(const SrsCommand& command) {
     if (signal.time.empty()) {
       column = column_of(command, header, cells);
       if (column < header.size()) signal.unit = value_unit(header[column], {command.signal, n});
+      if (column < header.size()) say_choice(command, header, column);
     }
     const auto value = column < cells.size() ? number_in(cells[column]) : std::nullopt;
     if (!time || !value) throw InputError(fmt::format("{}:{}: no numbers in '{}'", command.signal, n, line));
@@ -118,6 +135,9 @@ Signal read_signal(const SrsCommand& command) {
       throw InputError(
           fmt::format("{}:{}: time {:g} s comes after {:g} s", command.signal, n, *time, signal.time.back()));
     }
+    const bool has_steps = std::find(header.begin(), header.end(), "step") != header.end();
+    if (!signal.time.empty() && *time == signal.time.back() && !has_steps)
+      throw InputError(fmt::format("{}:{}: time {:g} s comes twice", command.signal, n, *time));
     if (!signal.time.empty() && *time == signal.time.back()) {
       signal.values.back() = *value;  // time stands still in static steps
       signal.starts_in_static_step |= signal.time.size() == 1;
@@ -141,7 +161,7 @@ Signal read_signal(const SrsCommand& command) {
       signal.values.erase(signal.values.begin());
     }
   }
-  if (signal.time.size() < 2) throw InputError(fmt::format("{}: fewer than two instants", command.signal));
+  if (signal.time.size() < 2) throw InputError(fmt::format("{}: fewer than two instants (decimals take a point)", command.signal));
   return signal;
 }
 

@@ -106,6 +106,7 @@ DeckOutcome execute(const DeckOptions& options, const Engine& engine, bool solve
     say(fmt::format("the check ends here, where the deck uses results that a check does not compute:\n    {}",
                     error.what()));
   }
+  state.outcome.parameters = state.parameters;
   return state.outcome;
 }
 
@@ -138,7 +139,7 @@ DeckResultPtr compute(DeckState& state, std::shared_ptr<const Problem> problem, 
   if (!state.is_solving) {
     std::string report = state.engine.check(*problem);
     while (!report.empty() && report.back() == '\n') report.pop_back();
-    say(report);
+    if (!report.empty()) say(report);
     return std::make_shared<const DeckResult>(DeckResult{problem, hollow_result(*problem), true, case_name});
   }
   RunRequest request = request_of(state, *problem, case_name);

@@ -36,8 +36,9 @@ struct DeckOptions {
 
 struct DeckOutcome {
   int n_runs = 0;
-  std::vector<std::string> not_converged;  // "problem 'crush', case 'base'"
-  bool interrupted = false;                // by the user; what was computed is written
+  std::vector<std::string> not_converged;                  // "problem 'crush', case 'base'"
+  bool interrupted = false;                                // by the user; what was computed is written
+  std::vector<std::pair<std::string, double>> parameters;  // of param{}, --set included
 };
 
 // Runs the deck to its end. Throws InputError (deck, mesh, limits; with file:line), NumericalError.

@@ -1,0 +1,277 @@
+#include "deck/converge.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "base/log.hpp"
+#include "base/names.hpp"
+#include "report/convergence_files.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr int most_refinements = 6;
+
+class Converge {
+ public:
+  Converge(const ConvergeOptions& options, const Engine& engine)
+      : options_(options), engine_(engine), study_(known_variations()) {}
+
+  ConvergeOutcome run() {
+    if (refine_twice()) refine_until_met();
+    if (outcome_.interrupted) return outcome_;
+    conclude();
+    return outcome_;
+  }
+
+ private:
+  // The deck's parameters and outputs, by a check: before anything is computed, what is misspelt is told.
+  std::vector<Variation> known_variations() {
+    const Engine look{nullptr, [this](const Problem& problem) {
+                        note_names(problem);
+                        return std::string();
+                      }};
+    const DeckOutcome checked = check_deck(options_.deck, look);
+    if (checked.n_runs == 0) throw InputError("the deck runs no problem");
+    for (const std::string& name : options_.outputs)
+      if (!known_names_.count(name)) WatchedName(*last_problem_, name, "--output");  // throws
+    std::vector<std::string> known;
+    for (const auto& [name, value] : checked.parameters) known.push_back(name);
+    std::vector<Variation> variations = options_.variations;
+    for (Variation& variation : variations) {
+      const auto found = std::find(known.begin(), known.end(), variation.parameter);
+      if (found == known.end())
+        throw InputError(fmt::format("--vary {}: the deck has no parameter '{}'\n    {}", variation.parameter,
+                                     variation.parameter, did_you_mean(variation.parameter, known)));
+      variation.base = checked.parameters[static_cast<size_t>(found - known.begin())].second;
+      if (!(variation.base > 0.0))
+        throw InputError(fmt::format("--vary {}: its value in the deck is {:g}; it must be above zero",
+                                     variation.parameter, variation.base));
+    }
+    return variations;
+  }
+
+  void note_names(const Problem& problem) {
+    last_problem_ = std::make_shared<Problem>(problem);
+    for (const std::string& name : options_.outputs.empty() ? watched_by_default(problem) : options_.outputs) {
+      try {
+        WatchedName(problem, name, "--output");
+        known_names_.insert(name);
+      } catch (const InputError&) {  // of another problem of the deck, or told later
+      }
+    }
+  }
+
+  // A run's figures; of the deck's last run that has them.
+  void note_figures(const Problem& problem, const RunResult& result, ConvergenceRun& run) const {
+    for (const std::string& name : options_.outputs.empty() ? watched_by_default(problem) : options_.outputs) {
+      const bool is_here = std::any_of(problem.outputs.begin(), problem.outputs.end(), [&](const OutputPtr& output) {
+        return name == output->name || name.rfind(output->name + ".", 0) == 0;
+      });
+      const auto figure = is_here ? WatchedName(problem, name, "--output").of(result) : std::nullopt;
+      if (!figure) continue;
+      const auto same = [&](const WatchedFigure& known) { return known.name == name; };
+      std::erase_if(run.figures, same);
+      run.figures.push_back(*figure);
+    }
+    run.converged &= result.converged;
+    if (const auto all = result.seconds.find("all"); all != result.seconds.end()) run.seconds += all->second;
+  }
+
+  // Runs a setting unless it has been run or exceeds the budget; false: it was not.
+  bool compute(const Levels& levels) {
+    if (study_.runs().count(levels)) return true;
+    const bool is_first = study_.runs().empty();
+    const double predicted = is_first ? 0.0 : study_.predicted_seconds(levels);
+    if (spent_ + predicted > options_.budget) {
+      outcome_.is_whole = false;
+      say(fmt::format("{} would take about {:.3g} s, beyond the budget: {:.3g} of {:.3g} s are spent",
+                      setting_text(study_, levels), predicted, spent_, options_.budget));
+      return false;
+    }
+    say(fmt::format("== {}{}", setting_text(study_, levels),
+                    is_first ? "" : fmt::format(", about {:.3g} s or less", predicted)));
+    DeckOptions deck = options_.deck;
+    deck.write_files = deck.write_frames = deck.write_state = deck.is_study = false;
+    for (size_t i = 0; i < levels.size(); ++i) {
+      const Variation& variation = study_.variations()[i];
+      std::erase_if(deck.settings, [&](const auto& setting) { return setting.first == variation.parameter; });
+      deck.settings.emplace_back(variation.parameter, fmt::format("{:.17g}", variation.value(levels[i])));
+    }
+    ConvergenceRun run;
+    const DeckOutcome done = run_deck(deck, {[&](const Problem& problem, const RunRequest& request) {
+                                               auto result = engine_.run(problem, request);
+                                               note_figures(problem, *result, run);
+                                               return result;
+                                             },
+                                             engine_.check});
+    outcome_.interrupted = done.interrupted;
+    outcome_.is_whole &= run.converged;
+    if (!run.converged) say("  this run did not converge: its figures are left out");
+    spent_ += run.seconds;
+    study_.add(levels, std::move(run));
+    return !outcome_.interrupted;
+  }
+
+  bool refine_twice() {
+    if (!compute(study_.coarsest())) return false;
+    for (int level = 1; level <= 2; ++level)
+      for (size_t i = 0; i < study_.variations().size(); ++i)
+        if (!compute(study_.along(i, level))) return false;
+    return true;
+  }
+
+  // Figures that have a limit in these runs: others can meet no aim.
+  std::vector<FigureConvergence> with_limit() const {
+    std::vector<FigureConvergence> figures = study_.figures();
+    std::erase_if(figures, [&](const FigureConvergence& figure) {
+      return !std::isfinite(figure.at(study_.variations(), study_.finest()));
+    });
+    return figures;
+  }
+
+  void refine_until_met() {
+    while (options_.aim > 0.0) {
+      const std::vector<FigureConvergence> figures = with_limit();
+      if (figures.empty() || study_.meets(figures, study_.finest(), options_.aim)) return;
+      const size_t worst = study_.worst_variation(figures, options_.aim);
+      const int level = study_.deepest(worst) + 1;
+      if (level > most_refinements || !compute(study_.along(worst, level))) return;
+    }
+  }
+
+  bool has_enough() const {
+    for (size_t i = 0; i < study_.variations().size(); ++i)
+      if (study_.runs().empty() || study_.deepest(i) < 2) return false;
+    return true;
+  }
+
+  void conclude() {
+    if (!has_enough()) {
+      outcome_.is_met = options_.aim == 0.0;
+      say("an order of convergence takes two refinements of each parameter: raise --budget, or start coarser (--set)");
+      return;
+    }
+    outcome_.figures = study_.figures();
+    const std::vector<FigureConvergence>& figures = outcome_.figures;
+    say(fmt::format("\n{} runs in {:.3g} s:", study_.runs().size(), spent_));
+    say(convergence_text(study_, figures));
+    if (options_.aim > 0.0) recommend(figures);
+    const std::filesystem::path folder = options_.deck.out / (options_.deck.path.stem().string() + "_converge");
+    write_convergence(folder, options_.deck.path.stem().string(), study_, figures);
+    say(fmt::format("table and figure: {}, {}", (folder / "converge.csv").string(),
+                    (folder / "converge.svg").string()));
+  }
+
+  // The cheapest setting that is predicted to meet the aim, computed and compared with the limit.
+  void recommend(const std::vector<FigureConvergence>& all) {
+    const std::vector<FigureConvergence> figures = with_limit();
+    outcome_.is_met = !figures.empty() && (options_.outputs.empty() || figures.size() == options_.outputs.size());
+    if (figures.size() < all.size() || !outcome_.is_met)
+      say("figures without a limit, or of runs that did not converge, meet no aim");
+    const auto levels = figures.empty() ? std::nullopt : study_.cheapest(figures, options_.aim);
+    if (!levels) {
+      outcome_.is_met = false;
+      say(fmt::format("no setting that was tried is within {:g} % of every limit", 100.0 * options_.aim));
+      return;
+    }
+    const std::string setting = setting_text(study_, *levels);
+    say(fmt::format("cheapest setting within {:g} %: {}, about {:.3g} s", 100.0 * options_.aim, setting,
+                    study_.predicted_seconds(*levels)));
+    if (!compute(*levels)) {
+      say("  it has not been run: its error is predicted from the runs along each parameter");
+    } else if (!study_.runs().at(*levels).converged) {
+      outcome_.is_met = false;
+    } else {
+      compare(figures, *levels);
+    }
+    std::string command = "dygita run " + options_.deck.path.string();
+    for (const auto& [name, value] : options_.deck.settings) command += " --set " + name + "=" + value;
+    for (size_t i = 0; i < levels->size(); ++i)
+      command +=
+          fmt::format(" --set {}={:.9g}", study_.variations()[i].parameter, study_.variations()[i].value((*levels)[i]));
+    say("  " + command);
+  }
+
+  // What the predictions are worth where several parameters are refined at once.
+  void compare(const std::vector<FigureConvergence>& figures, const Levels& levels) {
+    for (const FigureConvergence& figure : figures) {
+      double off = std::numeric_limits<double>::quiet_NaN();
+      for (const WatchedFigure& found : study_.runs().at(levels).figures)
+        if (found.name == figure.name) {
+          off = 0.0;
+          for (size_t k = 0; k < found.values.size(); ++k)
+            off = std::max(off, std::abs(found.values[k] - figure.limit[k]) / figure.scale);
+        }
+      const bool is_level = figure.unit == "dB";
+      const double predicted = figure.at(study_.variations(), levels), unit = is_level ? 1.0 : 100.0;
+      say(fmt::format("  {}: {:.2g} {} from the limit, {:.2g} predicted at most", figure.name, unit * off,
+                      is_level ? "dB" : "%", unit * predicted));
+      if (!(off <= figure.allowed(options_.aim))) outcome_.is_met = false;
+    }
+  }
+
+  const ConvergeOptions& options_;
+  const Engine& engine_;
+  std::shared_ptr<const Problem> last_problem_;
+  std::set<std::string> known_names_;
+  ConvergenceStudy study_;
+  ConvergeOutcome outcome_;
+  double spent_ = 0.0;
+};
+
+}  // namespace
+
+namespace {
+
+// A number, and what follows on it.
+std::pair<double, std::string> number_and_rest(const std::string& text) {
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  return {end == text.c_str() ? std::numeric_limits<double>::quiet_NaN() : number, end};
+}
+
+}  // namespace
+
+Variation parse_variation(const std::string& text) {
+  Variation variation;
+  const size_t sign = text.find_first_of("/*");
+  variation.parameter = text.substr(0, sign);
+  variation.is_count = sign != std::string::npos && text[sign] == '*';
+  std::string rest;
+  if (sign != std::string::npos) std::tie(variation.ratio, rest) = number_and_rest(text.substr(sign + 1));
+  if (variation.parameter.empty() || !rest.empty() || !(variation.ratio > 1.0) || !(variation.ratio <= 10.0))
+    throw InputError("--vary " + text +
+                     ": write a parameter and what to refine it by, above 1 and at most 10: size (halved), size/1.5, "
+                     "n*2 (a number of cells or steps)");
+  return variation;
+}
+
+double parse_share(const std::string& what, const std::string& text) {
+  const auto [number, rest] = number_and_rest(text);
+  const double share = rest == "%" ? number / 100.0 : number;
+  if ((!rest.empty() && rest != "%") || !(share > 0.0) || !(share < 1.0))
+    throw InputError(what + " " + text + ": write a share as 1% or 0.01, above 0 and below 100%");
+  return share;
+}
+
+double parse_duration(const std::string& what, const std::string& text) {
+  const auto [number, rest] = number_and_rest(text);
+  const std::map<std::string, double> seconds = {{"", 1.0}, {"s", 1.0}, {"min", 60.0}, {"h", 3600.0}};
+  const auto unit = seconds.find(rest);
+  if (unit == seconds.end() || !(number > 0.0) || !std::isfinite(number))
+    throw InputError(what + " " + text + ": write a time as 90s, 10min or 2h");
+  return number * unit->second;
+}
+
+ConvergeOutcome converge(const ConvergeOptions& options, const Engine& engine) {
+  return Converge(options, engine).run();
+}
+
+}  // namespace dygita

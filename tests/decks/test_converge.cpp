@@ -1,0 +1,51 @@
+// Decks run ever finer with the real engine.
+#include <gtest/gtest.h>
+
+#include "deck/converge.hpp"
+#include "engine.hpp"
+
+namespace dygita::test {
+namespace {
+
+// A cantilever under a shear traction at its end.
+const char* const cantilever = R"(
+local p = param{ n = 1 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local beam = substructure{ name = "beam", material = steel,
+  mesh = mesh.box{ size = { 60*mm, 10*mm, 10*mm }, cells = { 6*p.n, p.n, p.n } } }
+local held = support.fixed{ name = "held", on = beam:face "xmin" }
+local bend = step.static{ name = "bend", loads = { load.traction{ on = beam:face "xmax", z = 10*MPa } } }
+problem{ name = "beam", substructures = { beam }, interfaces = {}, supports = { held }, steps = { bend },
+  outputs = { output.history{ name = "tip", on = beam:face "xmax", quantity = "displacement", direction = { 0, 0, 1 } } },
+}:run{}
+)";
+
+double tip(int n) {
+  const auto runs = run_text(cantilever, {{"n", std::to_string(n)}});
+  return runs.front().table("tip").columns.back().back();
+}
+
+TEST(Convergence, of_a_cantilever_tells_how_far_a_finer_mesh_is) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("dygita_converge_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  ConvergeOptions options;
+  options.deck.path = folder / "beam.lua";
+  options.deck.out = folder;
+  std::ofstream(options.deck.path) << cantilever;
+  options.variations = {parse_variation("n*2")};
+  set_progress_enabled(false);
+  const ConvergeOutcome outcome = converge(options, {run_problem, check_report});
+  std::filesystem::remove_all(folder);
+  ASSERT_EQ(outcome.figures.size(), 1u);
+  const FigureConvergence& figure = outcome.figures.front();
+  const double fine = tip(8), limit = figure.limit[0];
+  EXPECT_TRUE(outcome.is_whole);
+  EXPECT_GT(figure.by[0].order, 0.9);
+  EXPECT_NEAR(fine, limit, figure.by[0].uncertainty);  // of n = 4
+  EXPECT_LT(std::abs(fine - limit), 0.5 * std::abs(tip(4) - limit));
+  EXPECT_NEAR(limit, 10e6 * 1e-4 * std::pow(0.06, 3) / (3.0 * 210e9 * std::pow(0.01, 4) / 12.0), 0.05 * limit);
+}
+
+}  // namespace
+}  // namespace dygita::test
