@@ -174,7 +174,7 @@ local of_lua = {
   error = "---@param message any\n---@param level? integer\nfunction error(message, level) end",
   assert = "---@generic T\n---@param v? T\n---@param message? any\n---@return T\n---@return any ...\nfunction assert(v, message, ...) end",
   print = "function print(...) end",
-  near = "--- Whether two coordinates (m) are the same but for round-off.\n---@param a number\n---@param b number\n---@return boolean\nfunction near(a, b) end",
+  near = "--- Whether two coordinates (m) are the same but for round-off, or within a distance.\n---@param a number\n---@param b number\n---@param by? number\n---@return boolean\nfunction near(a, b, by) end",
 }
 local tables_of_lua = { math = true, string = true, table = true }
 

@@ -95,8 +95,14 @@ local function read_only(members, what)
   })
 end
 
--- Whether two coordinates (m) are the same but for round-off: 1e-8 m and a millionth of the larger.
-local function near(a, b)
+-- Whether two coordinates (m) are the same but for round-off, 1e-8 m and a millionth of the larger, or within `by`.
+local function near(a, b, by)
+  if by ~= nil then
+    if type(a) ~= "number" or type(b) ~= "number" or type(by) ~= "number" or not (by >= 0) then
+      native.fail(native.line(), "near(a, b, by) takes three numbers, the last a distance that is not below zero")
+    end
+    return math.abs(a - b) <= by
+  end
   if type(a) ~= "number" or type(b) ~= "number" then
     native.fail(native.line(), "near(a, b) compares two numbers, got a " .. type(a) .. " and a " .. type(b))
   end

@@ -223,7 +223,7 @@ words[6] = {
     one_of = { "x", "y", "z" },
   },
   {
-    "force", makes = "load", doc = "A force in all, spread evenly.",
+    "force", makes = "load", doc = "A force in all, spread evenly over the area of all faces of `on` together, or over the nodes of its regions.",
     arguments = { on({ "face", "region" }, "loaded faces or nodes"), components("force", "N", { -1e10, 1e10 }) },
     one_of = { "x", "y", "z" },
   },
@@ -453,7 +453,7 @@ local function spectrum(arguments, per_octave)
     { "quantity", type = "choice", default = "absolute_acceleration",
       choices = { "absolute_acceleration", "relative_displacement", "pseudo_velocity" }, doc = "what of the oscillator" },
     { "from", type = "number", unit = "Hz", range = { 0.01, 1e8 }, default = 100, doc = "first frequency" },
-    { "to", type = "number", unit = "Hz", range = { 0.01, 1e8 }, default = 10000, doc = "last frequency" },
+    { "to", type = "number", unit = "Hz", range = { 0.01, 1e8 }, default = 10000, doc = "highest frequency: the last is the highest of from, from 2^(1/per_octave), ... up to it" },
     { "per_octave", type = "integer", range = { 1, 1000 }, default = per_octave, doc = "frequencies per octave" },
   } do
     table.insert(arguments, argument)
@@ -485,7 +485,7 @@ words[10] = {
     },
   },
   {
-    "resultant", makes = "output", doc = "The force through an interface or a support. Columns: normal, shear, x, y, z (N).",
+    "resultant", makes = "output", doc = "The force through an interface or a support, of a list their sum (x, y, z: on the first part that each names). Columns: normal, shear, x, y, z (N).",
     arguments = { name_of "output", on({ "interface", "support" }, "what transmits the force") },
   },
   {

@@ -65,6 +65,10 @@ std::vector<int> nodes_at(const FaceOrRegion& place) {
   return nodes;
 }
 
+Target target_of(const FaceOrRegion& place) {
+  return std::visit([](const auto& p) { return Target(p); }, place);
+}
+
 bool one_in_other(const FaceOrRegion& a, const FaceOrRegion& b) {
   if (&part_of(a) != &part_of(b)) return false;
   const std::vector<int> nodes_a = nodes_at(a), nodes_b = nodes_at(b);

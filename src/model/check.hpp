@@ -76,6 +76,7 @@ std::string describe(const Target& target);
 std::string describe(const Interface& interface);
 std::string describe(const Support& support);
 
+Target target_of(const FaceOrRegion& place);
 // The face or region of a target, if it is one.
 std::optional<FaceOrRegion> place_of(const Target& target);
 

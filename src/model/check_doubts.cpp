@@ -1,7 +1,10 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 
+#include "base/overloaded.hpp"
 #include "law/law.hpp"
 #include "mesh/face_nodes.hpp"
 #include "model/check.hpp"
@@ -76,6 +79,136 @@ void doubt_hardening(const Problem& problem, const Interface& interface) {
   }
 }
 
+// Mass damping brakes whatever moves, a body that does not deform too.
+void doubt_mass_damping(const Problem& problem) {
+  double duration = 0.0;
+  bool moves_freely = std::any_of(problem.substructures.begin(), problem.substructures.end(),
+                                  [](const SubstructurePtr& part) { return !part->velocity.isZero(); });
+  for (const StepPtr& step : problem.steps) {
+    if (step->is_static) continue;
+    duration += step->duration;
+    const std::vector<SupportPtr>& supports = supports_of(problem, *step);
+    moves_freely |= std::none_of(supports.begin(), supports.end(), [](const SupportPtr& support) {
+      return support->kind->holds(false) != Directions::none;
+    });
+    for (const LoadPtr& load : step->loads)
+      for (const Effect& effect : load->effects())
+        moves_freely |= std::holds_alternative<BaseMotion>(effect) || std::holds_alternative<PrescribedMotion>(effect);
+  }
+  if (!moves_freely || duration == 0.0) return;
+  std::set<std::string> told;
+  for (const SubstructurePtr& part : problem.substructures) {
+    const double lost = 1.0 - std::exp(-part->material.damping.mass * duration);
+    if (lost < 1e-3 || !told.insert(part->material.name).second) continue;
+    doubt(problem, part->origin,
+          fmt::format(
+              "damping of material '{}' at two frequencies has a part proportional to the mass, {:.3g} 1/s, which "
+              "brakes rigid motion too: {:.2g} % of a free velocity in the {:.3g} ms of the dynamic steps, and a "
+              "force that shows in reactions and momentum; a ratio at one frequency has no such part",
+              part->material.name, part->material.damping.mass, 100.0 * lost, 1e3 * duration));
+  }
+}
+
+// Sound that creeps: a modulus in the wrong unit.
+void doubt_moduli(const Problem& problem) {
+  const double slowest = 300.0;
+  std::set<std::string> told;
+  for (const SubstructurePtr& part : problem.substructures) {
+    const auto& material = part->material;
+    const double speed = std::sqrt(material.young / material.density);
+    if (speed >= slowest || !told.insert(material.name).second) continue;
+    doubt(problem, part->origin,
+          fmt::format(
+              "a bar of material '{}' (young {:.4g} GPa, density {:.4g} kg/m^3) carries waves at {:.3g} m/s, as rubber "
+              "does: is the modulus in GPa?",
+              material.name, material.young / 1e9, material.density, speed));
+  }
+}
+
+// Far more than a bolt can be stretched by.
+void doubt_shortenings(const Problem& problem) {
+  const double most = 0.02;  // of the longer of the two parts: steel is at 4 GPa
+  for (const StepPtr& step : problem.steps)
+    for (const LoadPtr& load : step->loads)
+      for (const Effect& effect : load->effects()) {
+        const auto* shortening = std::get_if<Shortening>(&effect);
+        if (!shortening) continue;
+        const double length = std::max(length_behind(shortening->on->side_1), length_behind(shortening->on->side_2)),
+                     by = shortening->value.history.value(1.0);
+        if (std::abs(by) <= most * length) continue;
+        doubt(
+            problem, load->origin,
+            fmt::format("step '{}': {} of {:.4g} mm on {} is {:.2g} % of the {:.4g} mm of the longer part it joins: no "
+                        "bolt is stretched so far; was a unit forgotten?",
+                        step->name, load->path, 1e3 * by, describe(*shortening->on), 100.0 * std::abs(by) / length,
+                        1e3 * length));
+      }
+}
+
+// What moves when a static step begins stops in no time.
+void doubt_sudden_rest(const Problem& problem) {
+  for (size_t i = 1; i < problem.steps.size(); ++i)
+    if (problem.steps[i]->is_static && !problem.steps[i - 1]->is_static)
+      doubt(
+          problem, problem.steps[i]->origin,
+          "static step '" + problem.steps[i]->name + "' comes after the dynamic step '" + problem.steps[i - 1]->name +
+              "': whatever still moves then stops at once, and its kinetic energy is booked as numerical dissipation");
+}
+
+// A force of a load: its name and where it acts (nowhere in particular: on every mass).
+struct Force {
+  std::string name;
+  std::optional<FaceOrRegion> on;
+  TimeValue value;
+};
+
+std::vector<Force> forces_of(const Load& load) {
+  std::vector<Force> forces;
+  for (const Effect& effect : load.effects())
+    std::visit(overloaded{[&](const NodalForces& force) {
+                            forces.push_back({force.name, force.on, force.value});
+                          },
+                          [&](const BodyForce& force) {
+                            forces.push_back({force.name, std::nullopt, force.value});
+                          },
+                          Ignored<PrescribedMotion, BaseMotion, Shortening, PreloadForce, Release>()},
+               effect);
+  return forces;
+}
+
+bool goes_on(const Force& force, const Step& step) {
+  for (const LoadPtr& load : step.loads)
+    for (const Force& other : forces_of(*load))
+      if (other.name == force.name && other.on.has_value() == force.on.has_value() &&
+          (!force.on || coincide(*force.on, *other.on)))
+        return true;
+  return false;
+}
+
+// What is left of it when its step ends; zero where that is nothing beside what it was.
+double left_at_end(const Force& force, const Step& step) {
+  const double end = step.is_static ? 1.0 : step.duration, left = force.value.history.value(end);
+  double largest = std::abs(left);
+  const int n = 64;
+  for (int i = 0; i < n; ++i) largest = std::max(largest, std::abs(force.value.history.value(end * i / n)));
+  return std::abs(left) > 1e-3 * largest ? left : 0.0;
+}
+
+// A load that stands at the end of a step and is not listed in the dynamic step that follows is a shock by itself.
+void doubt_dropped_loads(const Problem& problem, const Step& before, const Step& step) {
+  for (const LoadPtr& load : before.loads)
+    for (const Force& force : forces_of(*load)) {
+      const double left = left_at_end(force, before);
+      if (left == 0.0 || goes_on(force, step)) continue;
+      doubt(problem, load->origin,
+            fmt::format("{}{} stands at {:.4g} {} at the end of step '{}' and is not listed in the dynamic step '{}', "
+                        "where it is gone at once: a shock in itself; list it there too, or there with the value 0 if "
+                        "its sudden release is meant",
+                        force.name, force.on ? " on " + describe(target_of(*force.on)) : "", left, load->unit(),
+                        before.name, step.name));
+    }
+}
+
 }  // namespace
 
 void doubts(const Problem& problem) {
@@ -94,7 +227,13 @@ void doubts(const Problem& problem) {
     }
   }
   doubt_supports(problem, moves);
+  doubt_mass_damping(problem);
+  doubt_moduli(problem);
+  doubt_shortenings(problem);
+  doubt_sudden_rest(problem);
   for (const InterfacePtr& interface : problem.interfaces) doubt_hardening(problem, *interface);
+  for (size_t i = 1; i < problem.steps.size(); ++i)
+    if (!problem.steps[i]->is_static) doubt_dropped_loads(problem, *problem.steps[i - 1], *problem.steps[i]);
   for (const OutputPtr& output : problem.outputs) output->doubt(problem);
 }
 

@@ -42,10 +42,6 @@ void fits_step(const Problem& problem, const Step& step, const Load& load) {
   if (const auto complaint = load.complaint(step)) fail(problem, load.origin, who + complaint->text, complaint->hint);
 }
 
-Target target_of(const FaceOrRegion& place) {
-  return std::visit([](const auto& p) { return Target(p); }, place);
-}
-
 // The interface whose force or life an effect decides, or null.
 InterfacePtr bolt_of(const Effect& effect) {
   return std::visit(
@@ -177,6 +173,42 @@ void supports_leave_motions_free(const Problem& problem, const Step& step, const
                  effect);
 }
 
+// Is every node of a face held or moved along an axis, and by what? Empty: not.
+std::string driver_of(const Problem& problem, const Step& step, const Face& face, int axis) {
+  const auto covers = [&](const FaceOrRegion& place) {
+    if (&part_of(place) != face.part.get()) return false;
+    const std::vector<int> all = nodes_at(place), nodes = nodes_at(face);
+    return std::includes(all.begin(), all.end(), nodes.begin(), nodes.end());
+  };
+  for (const SupportPtr& support : supports_of(problem, step))
+    for (const FaceOrRegion& place : support->on)
+      if (support->kind->holds(step.is_static) != Directions::none && claims(*support, place, axis) && covers(place))
+        return describe(*support);
+  for (const LoadPtr& load : step.loads)
+    for (const Effect& effect : load->effects())
+      if (const auto* motion = std::get_if<PrescribedMotion>(&effect);
+          motion && motion->along[static_cast<size_t>(axis)] && covers(motion->on))
+        return load->path;
+  return "";
+}
+
+// An interface both of whose sides move as told transmits nothing and may stand open or overlap unseen.
+void interfaces_have_a_free_side(const Problem& problem, const Step& step) {
+  for (const InterfacePtr& interface : problem.interfaces) {
+    const Vec3 normal = normal_of(interface->side_1);
+    int axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    const std::string one = driver_of(problem, step, interface->side_1, axis);
+    if (one.empty()) continue;
+    const std::string other = driver_of(problem, step, interface->side_2, axis);
+    if (other.empty()) continue;
+    fail(problem, interface->origin,
+         "step '" + step.name + "': both sides of " + describe(*interface) + " are held or moved along " + "xyz"[axis] +
+             ", by " + one + " and " + other + ": it would transmit nothing, and stand open or overlap as they say",
+         "drive one side: the interface carries the motion to the other");
+  }
+}
+
 using Released = std::vector<std::pair<InterfacePtr, const Step*>>;
 
 // What has let go carries no force.
@@ -218,6 +250,7 @@ void loads(const Problem& problem) {
       }
       supports_leave_motions_free(problem, *step, load);
     }
+    interfaces_have_a_free_side(problem, *step);
   }
   preloads_hold(problem);
 }

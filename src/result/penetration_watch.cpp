@@ -19,6 +19,11 @@ bool is_looked_at(const Instant& instant) {
   return (i * k) / n != ((i - 1) * k) / n;
 }
 
+// In um where mm would be all zeros.
+std::string length_text(double length) {
+  return length < 1e-5 ? fmt::format("{:.3g} um", 1e6 * length) : fmt::format("{:.3g} mm", 1e3 * length);
+}
+
 }  // namespace
 
 void PenetrationWatch::begin_step(const Instant& start) {
@@ -55,20 +60,36 @@ void PenetrationWatch::look(const Instant& instant, size_t pair, const std::vect
 }
 
 void PenetrationWatch::finish() const {
-  for (size_t p = 0; p < pairs_.size(); ++p) {
-    const Deepest& deepest = deepest_[p];
-    if (deepest.depth <= smallest_depth * pairs_[p].size) continue;
-    const Substructure& body = *problem_.substructures[static_cast<size_t>(deepest.part)];
-    const Vec3 x = 1e3 * (body.mesh->nodes.col(deepest.at->node) + body.place);
-    const std::string name_1 = problem_.substructures[static_cast<size_t>(pairs_[p].part_1)]->name,
-                      name_2 = problem_.substructures[static_cast<size_t>(pairs_[p].part_2)]->name;
-    warn(fmt::format(
-        "substructures '{}' and '{}' pass {:.3g} mm into each other where no interface joins them, at ({:.4g}, {:.4g}, "
-        "{:.4g}) mm through {}, in step '{}'{}: an interface.contact would keep them apart",
-        name_1, name_2, 1e3 * deepest.depth, x[0], x[1], x[2],
-        face_with(*problem_.substructures[static_cast<size_t>(deepest.other)], deepest.at->facet), deepest.step->name,
-        deepest.step->is_static ? "" : fmt::format(" at {:.4g} ms", 1e3 * deepest.time)));
-  }
+  std::vector<size_t> deep;
+  for (size_t p = 0; p < pairs_.size(); ++p)
+    if (deepest_[p].depth > smallest_depth * pairs_[p].size) deep.push_back(p);
+  std::sort(deep.begin(), deep.end(), [&](size_t a, size_t b) { return deepest_[a].depth > deepest_[b].depth; });
+  const size_t most_told = 3;
+  for (size_t i = 0; i < std::min(deep.size(), most_told); ++i) warn(text_of(deep[i]));
+  if (deep.size() <= most_told) return;
+  std::string others;
+  for (size_t i = most_told; i < deep.size(); ++i)
+    others += fmt::format("{}'{}' and '{}' {}", i == most_told ? "" : ", ", name_of(pairs_[deep[i]].part_1),
+                          name_of(pairs_[deep[i]].part_2), length_text(deepest_[deep[i]].depth));
+  warn(fmt::format("{} more pairs pass into each other where no interface joins them: {}", deep.size() - most_told,
+                   others));
+}
+
+const std::string& PenetrationWatch::name_of(int part) const {
+  return problem_.substructures[static_cast<size_t>(part)]->name;
+}
+
+std::string PenetrationWatch::text_of(size_t pair) const {
+  const Deepest& deepest = deepest_[pair];
+  const Substructure& body = *problem_.substructures[static_cast<size_t>(deepest.part)];
+  const Vec3 x = 1e3 * (body.mesh->nodes.col(deepest.at->node) + body.place);
+  return fmt::format(
+      "substructures '{}' and '{}' pass {} into each other where no interface joins them, at ({:.4g}, {:.4g}, {:.4g}) "
+      "mm "
+      "through {}, in step '{}'{}: an interface.contact would keep them apart",
+      name_of(pairs_[pair].part_1), name_of(pairs_[pair].part_2), length_text(deepest.depth), x[0], x[1], x[2],
+      face_with(*problem_.substructures[static_cast<size_t>(deepest.other)], deepest.at->facet), deepest.step->name,
+      deepest.step->is_static ? "" : fmt::format(" at {:.4g} ms", 1e3 * deepest.time));
 }
 
 }  // namespace dygita

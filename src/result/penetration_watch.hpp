@@ -17,7 +17,7 @@ class PenetrationWatch : public Observer {
   // Finds the pairs in the first step, and says which touch or overlap from the start.
   void begin_step(const Instant& start) override;
   void accept(const Instant& instant) override;
-  // Says how deep, where and when.
+  // Says how deep, where and when; of more than three pairs the deepest, and the others in one warning.
   void finish() const;
 
  private:
@@ -29,6 +29,8 @@ class PenetrationWatch : public Observer {
     double time = 0.0;  // s
   };
   void look(const Instant& instant, size_t pair, const std::vector<Points>& displacement);
+  const std::string& name_of(int part) const;
+  std::string text_of(size_t pair) const;
 
   const Problem& problem_;
   bool has_begun_ = false;

@@ -15,6 +15,7 @@
 #include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
 #include "result/collector.hpp"
+#include "result/lumped_inertia.hpp"
 #include "result/penetration_watch.hpp"
 #include "result/scene_recorder.hpp"
 #include "run/keep_state.hpp"
@@ -123,6 +124,7 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
   check_problem(declared);
   say(fmt::format("problem '{}', case '{}': {} substructures, {} interfaces, {} steps", declared.name,
                   request.case_name, declared.substructures.size(), declared.interfaces.size(), declared.steps.size()));
+  doubt_lumped_inertia(declared);
   std::optional<Replacement> replacement;
   if (!request.replaces.empty()) replacement.emplace(request.replaces);
   const std::filesystem::path directory =
@@ -176,6 +178,7 @@ std::string check_report(const Problem& problem) {
   check_problem(problem);
   const std::vector<Surface> surfaces = make_surfaces(problem);
   doubt_neighbours(problem, surfaces);
+  doubt_lumped_inertia(problem);
   State state = initial_state(problem, surfaces);
   long n_dofs = 0;
   std::string text = fmt::format("problem '{}'\n", problem.name);

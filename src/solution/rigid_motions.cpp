@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/log.hpp"
+#include "law/law.hpp"
 #include "numerics/dense.hpp"
 
 namespace dygita {
@@ -82,6 +83,15 @@ Mat constraint_gram(const Problem& problem, const Exchange& exchange, const Cond
   return gram;
 }
 
+// Interfaces of a part that carry nothing in a static step: "; interface 'gasket' does not in a static step".
+std::string what_lets_go(const Problem& problem, const Substructure& part) {
+  for (const InterfacePtr& interface : problem.interfaces)
+    if ((interface->side_1.part.get() == &part || interface->side_2.part.get() == &part) &&
+        !interface->law->takes_part(true))
+      return ": interface." + interface->law->word() + " '" + interface->name + "' carries nothing in a static step";
+  return "";
+}
+
 }  // namespace
 
 bool is_floating(const Substructure& part, const std::unordered_map<int, Held>& held) {
@@ -137,7 +147,8 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
     const std::string what = fmt::format("static step '{}': {} of substructure '{}'", step.name,
                                          describe(motion.segment<6>(6 * part)), problem.substructures[part]->name);
     if (std::abs(work) > 1e-7 * scale && scale > 0.0)
-      throw InputError(step.origin, what + " is loaded, but no support and no interface holds it");
+      throw InputError(step.origin, what + " is loaded, but no support and no interface holds it" +
+                                        what_lets_go(problem, *problem.substructures[part]));
     warn(what + " is unconstrained; nothing loads it, it is left at zero");
     const Substructure& body = *problem.substructures[part];
     int best_node = -1, best_axis = 0;

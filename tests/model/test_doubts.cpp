@@ -53,4 +53,71 @@ TEST_F(Doubts, are_said_of_a_hardening_without_a_length) {
   }
 }
 
+TEST_F(Doubts, are_said_of_a_load_that_a_dynamic_step_drops) {
+  const Face top{upper, "zmax"};
+  tighten->loads.push_back(load("pressure", {top}, 2e5));
+  shock->loads = {load("pressure", {Face{upper, "xmax"}}, 1e6)};
+  EXPECT_EQ(
+      only_warning(),
+      "deck.lua:40: problem 'bolted': load.pressure on face 'upper.zmax' stands at 2e+05 Pa at the end of step "
+      "'tighten' and is not listed in the dynamic step 'shock', where it is gone at once: a shock in itself; list "
+      "it there too, or there with the value 0 if its sudden release is meant");
+  for (const double value : {2e5, 0.0}) {  // kept, or let go on purpose
+    shock->loads = {load("pressure", {top}, value)};
+    EXPECT_EQ(complaint(), "");
+    EXPECT_TRUE(take_warnings().empty()) << value;
+  }
+  shock->loads.clear();
+  shock->is_static = true;  // ramped off
+  problem.outputs.clear();
+  EXPECT_EQ(complaint(), "");
+  EXPECT_TRUE(take_warnings().empty());
+}
+
+TEST_F(Doubts, are_said_of_gravity_that_a_dynamic_step_drops) {
+  tighten->loads.push_back(load("gravity", {}, {{"z", -9.81}}));
+  const std::string start = "deck.lua:40: problem 'bolted': load.gravity z stands at -9.81 m/s^2 at the end of step";
+  EXPECT_EQ(only_warning().substr(0, start.size()), start);
+}
+
+TEST_F(Doubts, are_said_of_mass_damping_where_parts_fly_or_are_driven) {
+  lower->material = upper->material = {"steel", 2e11, 0.3, 7800.0, {100.0, 1e-7}};
+  shock->duration = 1e-3;
+  EXPECT_EQ(complaint(), "");
+  EXPECT_TRUE(take_warnings().empty());  // held, not driven
+  upper->velocity = Vec3(0, 0, -1);
+  EXPECT_EQ(only_warning(),
+            "deck.lua:1: problem 'bolted': damping of material 'steel' at two frequencies has a part proportional to "
+            "the mass, 100 1/s, which brakes rigid motion too: 9.5 % of a free velocity in the 1 ms of the dynamic "
+            "steps, and a force that shows in reactions and momentum; a ratio at one frequency has no such part");
+}
+
+TEST_F(Doubts, are_said_of_a_modulus_in_the_wrong_unit) {
+  lower->material = upper->material = {"steel", 210e6, 0.3, 7800.0, {}};
+  EXPECT_EQ(
+      only_warning(),
+      "deck.lua:1: problem 'bolted': a bar of material 'steel' (young 0.21 GPa, density 7800 kg/m^3) carries waves "
+      "at 164 m/s, as rubber does: is the modulus in GPa?");
+}
+
+TEST_F(Doubts, are_said_of_a_bolt_that_is_shortened_by_its_length) {
+  tighten->loads = {load("shortening", {InterfacePtr(shank)}, 0.03)};
+  EXPECT_EQ(
+      only_warning(),
+      "deck.lua:40: problem 'bolted': step 'tighten': load.shortening of 30 mm on interface.plastic 'shank' is 3 % "
+      "of the 1000 mm of the longer part it joins: no bolt is stretched so far; was a unit forgotten?");
+}
+
+TEST_F(Doubts, are_said_of_a_static_step_that_stops_what_moves) {
+  auto rest = declared<Step>("rest", 32);
+  rest->is_static = true;
+  rest->after = shock;
+  rest->loads = shock->loads;
+  problem.steps.push_back(rest);
+  EXPECT_EQ(
+      only_warning(),
+      "deck.lua:32: problem 'bolted': static step 'rest' comes after the dynamic step 'shock': whatever still moves "
+      "then stops at once, and its kinetic energy is booked as numerical dissipation");
+}
+
 }  // namespace dygita

@@ -32,6 +32,15 @@ TEST_F(LoadEffects, of_forces_are_one_for_each_value_and_place) {
   EXPECT_TRUE(traction[3].value.is_number);
 }
 
+// A force in all: faces of one size take half of it each, wherever they are.
+TEST_F(LoadEffects, of_a_force_on_two_faces_share_it_by_their_area) {
+  const auto halves = effects<NodalForces>(load("force", {top, side}, {{"z", 100.0}}));
+  ASSERT_EQ(halves.size(), 2U);
+  LoadedNodes nodes;
+  nodes.weights = Vec::Constant(4, 0.25);  // a face of 1 m^2
+  for (const NodalForces& half : halves) EXPECT_DOUBLE_EQ(half.unit(nodes).row(2).sum(), 0.5);
+}
+
 TEST_F(LoadEffects, of_gravity_act_on_masses) {
   const auto gravity = effects<BodyForce>(load("gravity", {}, {{"z", -9.0}}));
   ASSERT_EQ(gravity.size(), 1U);

@@ -150,9 +150,20 @@ class SrsOutput final : public Output {
     }
     findings.figures["largest exceedance of the specification of '" + name + "' [dB]"] = worst.decibels;
     findings.figures["frequency of the largest exceedance of '" + name + "' [Hz]"] = worst.frequency;
-    findings.lines.push_back(fmt::format("spectrum '{}': {:.1f} dB {} its specification at {:.4g} Hz", name,
+    findings.lines.push_back(fmt::format("spectrum '{}': {:.1f} dB {} its specification at {:.4g} Hz{}", name,
                                          std::abs(worst.decibels), worst.decibels > 0.0 ? "above" : "below",
-                                         worst.frequency));
+                                         worst.frequency, not_judged(table, findings, worst)));
+  }
+
+  // Where the spectrum reads worse than in the range that is judged: ", judged from 1667 Hz on; at 500 Hz, ...".
+  std::string not_judged(const Table& table, const Findings& findings, const Exceedance& worst) const {
+    const Exceedance all = largest_exceedance(*specification_, table.columns.front(), table.column("maximax"));
+    if (all.decibels <= worst.decibels) return "";
+    const FrequencyRange judged = judged_range(findings);
+    return fmt::format(
+        "; judged between {:.4g} Hz, 1/record length, and {:.4g} Hz, half the sampling rate: outside, at "
+        "{:.4g} Hz, it reads {:.1f} dB {}, which this record cannot tell",
+        judged.from, judged.to, all.frequency, std::abs(all.decibels), all.decibels > 0.0 ? "above" : "below");
   }
 
   void tell_band(Findings& findings) const {
