@@ -22,7 +22,7 @@ struct InterfaceRow {
   std::vector<NodeAlong> nodes;
   double reference_stiffness;  // added before factorising an unconstrained piece, taken off its Schur complement (N/m)
   double static_stiffness;     // of the substructure behind the node, E A / L or G A / L (N/m)
-  double n_sharing;            // laws with a q each at these nodes and directions (manual, eq. K4)
+  double n_sharing;            // laws with a q each at these nodes and directions (manual, eq. K8)
   int side = -1;               // one number for all rows of one side of an interface between two meshes; -1: a node's
 
   bool is_of_one_node() const { return nodes.size() == 1; }

@@ -1,5 +1,5 @@
 // What of a piece stands against a force at one of its interface rows, and how rows at the same nodes share it (manual,
-// eq. K4, K6).
+// eq. K6, K8).
 #pragma once
 
 #include "solution/condensed_piece.hpp"
