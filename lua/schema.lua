@@ -146,6 +146,8 @@ words[3] = {
         doc = "translation of the mesh" },
       { "velocity", type = "vector", unit = "m/s", range = { -20000, 20000 }, usual = usual_velocity, default = { 0, 0, 0 },
         doc = "velocity at the start of the first dynamic step" },
+      { "integration", type = "choice", choices = { "implicit", "automatic", "explicit" }, default_doc = "as the solver has it",
+        doc = "of its motion in dynamic steps of solver.latin: explicit needs no factor and takes as many increments in a dt as its cells require" },
     },
   },
 }
@@ -417,6 +419,8 @@ words[9] = {
         doc = "of the cells: tuned to dt so that waves keep their speed, or all at the nodes" },
       { "massless_contact", type = "boolean", default = false,
         doc = "nodes in contact give their mass to those behind them: an impact then costs no energy" },
+      { "integration", type = "choice", choices = { "implicit", "automatic", "explicit" }, default = "implicit",
+        doc = "of substructures in dynamic steps; \"automatic\": explicit where that costs less; \"explicit\": wherever it is possible" },
       { "precision", type = "choice", choices = { "single", "double" }, default_doc = "single in substructures of more than 4000 unknowns, unless tolerance is below 1e-7",
         doc = "of the stored factors in dynamic steps; arithmetic is in double precision either way" },
       { "pieces", type = "integer", range = { 1, 100000 }, default = "auto", or_word = "auto",

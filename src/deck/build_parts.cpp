@@ -4,6 +4,7 @@
 
 #include "base/log.hpp"
 #include "deck/build_model.hpp"
+#include "deck/integration.hpp"
 #include "law/law.hpp"
 #include "mesh/box.hpp"
 #include "mesh/geo_script.hpp"
@@ -93,6 +94,7 @@ Content build_substructure(const Declaration& d) {
   part->yield = material->yield;
   part->place = d.arguments.vector("place");
   part->velocity = d.arguments.vector("velocity");
+  if (d.arguments.has("integration")) part->integration = integration_of(d.arguments.text("integration"));
   doubt_size(*part);
   doubt_locking(*part);
   return SubstructurePtr(part);

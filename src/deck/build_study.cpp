@@ -1,6 +1,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "deck/build_model.hpp"
+#include "deck/integration.hpp"
 #include "result/output_table.hpp"
 
 namespace dygita {
@@ -49,6 +50,7 @@ Content build_latin(const Declaration& d) {
   settings->push_out = a.number("push_out");
   settings->search_direction = a.number("search_direction");
   settings->mass = {a.text("mass") == "tuned", a.boolean("massless_contact")};
+  settings->integration = integration_of(a.text("integration"));
   if (a.has("precision"))
     settings->precision = a.text("precision") == "single" ? Precision::single_precision : Precision::double_precision;
   if (settings->precision == Precision::single_precision && settings->tolerance < 1e-7)

@@ -118,7 +118,9 @@ void StepRun::run() {
   Progress progress(model_.step->name, n);
   for (int i = 0; i < n && !interrupt_requested(); i += settings_.window) {
     const int last = std::min(i + settings_.window, n);
-    if (settings_.window == 1)
+    if (model_.has_explicit())
+      solve_interval(i);
+    else if (settings_.window == 1)
       solve_increment(i);
     else
       solve_window(i, last);

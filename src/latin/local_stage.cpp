@@ -78,6 +78,7 @@ void LocalStage::begin(int increment, const std::vector<double>& motions, bool s
     displacement[i] = model_->pieces[i]->row_displacements();
   for (size_t i = 0; i < exchange.points.size(); ++i) {
     const Point& point = exchange.points[i];
+    if (point.is_direct) continue;
     for (int p = point.first_port; p < point.end_port; ++p) {
       const Port& port = exchange.ports[p];
       PortState& state = ports_[p];
@@ -167,6 +168,7 @@ void LocalStage::set_trial(const Point& point, const Side& side_1, const Side& s
 
 IndicatorSums LocalStage::run_point(size_t i_point, const Vec& velocity, const Vec& q, Vec& image) {
   const Point& point = model_->exchange.points[i_point];
+  if (point.is_direct) return {};
   PointRecord& state = points_[i_point];
   const Side side_1 = gather(point.first_port, point.first_port_2, velocity, q);
   const Side side_2 = gather(point.first_port_2, point.end_port, velocity, q);
@@ -200,6 +202,7 @@ IndicatorSums LocalStage::run(const Vec& velocity, const Vec& q, Vec& image) {
 void LocalStage::accept(State* state) {
   for (size_t i = 0; i < points_.size(); ++i) {
     const Point& point = model_->exchange.points[i];
+    if (point.is_direct) continue;
     PointRecord& p = points_[i];
     const Increment increment = increment_at(point);
     const LawState end = end_of_point(point, p, increment);
@@ -209,6 +212,7 @@ void LocalStage::accept(State* state) {
     if (state && point.law) show_point(point, p, *state);
   }
   for (const Point& point : model_->exchange.points) {
+    if (point.is_direct) continue;
     const double g = increment_at(point).g;
     for (int i = point.first_port; i < point.end_port; ++i)
       ports_[i].u += increment_.dt * (g * ports_[i].w_old + (1 - g) * ports_[i].w);
@@ -224,14 +228,17 @@ void LocalStage::accept(State* state) {
 void LocalStage::show_residuals(State& state) const {
   const Exchange& exchange = model_->exchange;
   for (const Point& point : exchange.points) {
+    if (point.is_direct) continue;
     double worst = 0.0;
     for (int p = point.first_port; p < point.end_port; ++p) worst = std::max(worst, ports_[p].residual.norm());
     for (const Member& member : point.members)
       state.surfaces[member.surface].residual[member.point] = member.share * worst;
   }
-  for (const Tie& tie : exchange.ties)
+  for (const Tie& tie : exchange.ties) {
+    if (exchange.points[tie.point].is_direct) continue;
     state.surfaces[tie.surface].residual[tie.surface_point] =
         std::max(ports_[tie.port_1].residual.norm(), ports_[tie.port_2].residual.norm());
+  }
 }
 
 bool LocalStage::is_massless(const Point& point) const {
@@ -253,7 +260,7 @@ double LocalStage::work_on_pieces(const Point& point) const {
 Points LocalStage::held_force(int piece) const {
   Points force = Points::Zero(3, model_->cut->piece(piece).body->mesh->n_nodes());
   for (const Point& point : model_->exchange.points)
-    for (int p = point.first_port; p < point.end_port; ++p) {
+    for (int p = point.first_port; p < point.end_port && !point.is_direct; ++p) {
       const Port& port = model_->exchange.ports[p];
       if (port.piece != piece) continue;
       if (port.trace) spread(*model_->cut, port, point.frame * ports_[p].f, force);

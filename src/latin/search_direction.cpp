@@ -57,6 +57,10 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
       const InterfaceRow& row = piece.rows()[port.unknown[d]];
       const double schur = has_schur ? piece.schur_diagonal()[port.unknown[d]] : 0.0;
       double& direction = k[model.unknown(port, d)];
+      if (piece.is_explicit()) {  // its answer is known, whatever q is
+        direction = schur;
+        continue;
+      }
       if (model.scheme.is_static) {
         // A body that only this unknown could hold has no stiffness of its own there.
         direction = has_schur ? std::max(schur, 1e-3 * row.reference_stiffness) : row.static_stiffness;

@@ -18,12 +18,28 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
       weight_(k.cwiseSqrt().cwiseInverse()),
       coarse_(settings.has_correction ? CoarseCorrection(model, k) : CoarseCorrection()),
       local_(model, files.state, k),
+      direct_(model, files.state),
       at_{local_.initial_q(), Vec::Zero(k.size()), {}, {}},
       warm_start_(files.start_from, settings.i_step, weight_),
       anderson_(settings.of_increment.depth, settings.of_increment.n_problems, settings.of_increment.relaxation,
                 weight_),
       indicator_(model.scheme.is_static ? k.sum() * settings.assembly_size * settings.assembly_size : 0.0) {
   books_.energy.resize(model.pieces.size());
+  long n_explicit = 0;
+  for (const auto& piece : model.pieces) {
+    explicit_.push_back(dynamic_cast<ExplicitPiece*>(piece.get()));
+    if (explicit_.back()) n_explicit += piece->node_masses().size();
+  }
+  StepFigures& figures = books_.figures;
+  figures.substeps = model.n_substeps();
+  for (size_t i = 0; i < model.integration.parts.size(); ++i) {
+    const Integration::Part& part = model.integration.parts[i];
+    if (!part.is_explicit) continue;
+    figures.explicit_parts.push_back(model.problem->substructures[i]->name);
+    figures.stable_step = figures.stable_step > 0.0 ? std::min(figures.stable_step, part.longest) : part.longest;
+  }
+  // An increment of less is over before threads have met.
+  if (n_explicit > 0 && n_explicit < 4000) piece_threads_ = 1;
 }
 
 // The first iteration only hears what the kept fields are worth.
@@ -48,11 +64,18 @@ bool StepRun::predict(int increment, Vec& q) {
 }
 
 void StepRun::accept_increment(int increment, int iterations, double eta) {
-  State& state = files_.state;
   {
     const Stopwatch watch(books_.seconds.accept);
-    local_.accept(&state);
+    local_.accept(&files_.state);
   }
+  if (!model_.scheme.is_static) files_.state.time += model_.scheme.dt;
+  files_.kept.append(at_.q);
+  accept_interval(increment, iterations, eta, model_.scheme.dt * at_.sums.force_distance);
+}
+
+// Books a time step of the deck, and shows it.
+void StepRun::accept_interval(int increment, int iterations, double eta, double interface_energy) {
+  State& state = files_.state;
   Energies& energies = state.energies;
   book_increment(books_.energy, energies);
   if (!std::isfinite(energies.kinetic + energies.strain + energies.loads))
@@ -61,15 +84,15 @@ void StepRun::accept_increment(int increment, int iterations, double eta) {
         model_.step->name, increment + 1, state.time));
   if (has_flown_off()) eta = std::numeric_limits<double>::infinity();
   indicator_.raise_floor(energies.kinetic + energies.strain + std::abs(energies.loads), model_.scheme.dt);
-  if (!model_.scheme.is_static) state.time += model_.scheme.dt;
   StepFigures& figures = books_.figures;
   ++figures.increments;
-  files_.kept.append(at_.q);
   figures.iterations += iterations;
   figures.worst_indicator = std::max(figures.worst_indicator, eta);
   if (eta > settings_.tolerance) ++figures.not_converged;
   const Stopwatch watch(books_.seconds.output);
-  files_.observer.accept(instant(increment, iterations, eta));
+  Instant shown = instant(increment, iterations, eta);
+  shown.interface_energy = interface_energy;
+  files_.observer.accept(shown);
 }
 
 // Those first and last tell enough of a step that misses everywhere.
@@ -109,8 +132,7 @@ std::string StepRun::describe_progress() const {
 }
 
 Instant StepRun::instant(int increment, int iterations, double eta) const {
-  return {model_,     files_.state, settings_.i_step,           increment,
-          iterations, eta,          eta <= settings_.tolerance, model_.scheme.dt * at_.sums.force_distance};
+  return {model_, files_.state, settings_.i_step, increment, iterations, eta, eta <= settings_.tolerance};
 }
 
 void StepRun::add_to(SolverFigures& figures) const {
@@ -127,7 +149,7 @@ void StepRun::add_to(SolverFigures& figures) const {
   }
   figures.factor_bytes = std::max(figures.factor_bytes, bytes);
   figures.n_interface_unknowns = model_.n_q();
-  figures.gap_difference = std::max(figures.gap_difference, local_.gap_difference());
+  figures.gap_difference = std::max({figures.gap_difference, local_.gap_difference(), direct_.gap_difference()});
   const Seconds& seconds = books_.seconds;
   figures.seconds["forward"] += seconds.forward;
   figures.seconds["interface operator"] += seconds.interface;

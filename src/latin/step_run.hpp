@@ -7,6 +7,7 @@
 #include "base/parallel.hpp"
 #include "latin/anderson.hpp"
 #include "latin/coarse_correction.hpp"
+#include "latin/direct_points.hpp"
 #include "latin/indicator.hpp"
 #include "latin/latin.hpp"
 #include "latin/local_stage.hpp"
@@ -68,6 +69,14 @@ class StepRun {
   void finish_increment(const Vec& q);
   void solve_increment(int increment);
 
+  // Steps with explicit pieces (substeps.cpp): the time step of the deck in one or several increments.
+  void solve_interval(int increment);
+  void begin_substep(int increment, int substep);
+  Best solve_substep(int increment, int substep);
+  void finish_substep(int substep);
+  void add_forces();
+  void show_mean_forces();
+
   // Preloads whose joint stands open (seat_bolts.cpp). The search improves shortenings d (m), each bolt's in turn,
   // until forces are right to `precision`; answers them (N), `best` being the iteration at d.
   void seat_bolts(int increment, const BoltStart& start, Best& best);
@@ -88,6 +97,7 @@ class StepRun {
   Goal goal_of(bool has_start) const;
   bool predict(int increment, Vec& q);
   void accept_increment(int increment, int iterations, double eta);
+  void accept_interval(int increment, int iterations, double eta, double interface_energy);
   void note_missed(const Missed& missed);
   bool has_flown_off() const;
   void check_finite(const Outcome& outcome, int increment) const;
@@ -97,7 +107,9 @@ class StepRun {
   // f on every piece; on every group of pieces that are solved together.
   template <class Function>
   void for_each_piece(Function&& f) {
-    parallel_for(static_cast<int>(model_.pieces.size()), [&](int i) { f(*model_.pieces[i], i); });
+    parallel_for(
+        static_cast<int>(model_.pieces.size()), [&](int i) { f(*model_.pieces[i], i); }, Schedule::as_free,
+        piece_threads_);
   }
   template <class Function>
   void for_each_group(Function&& f) {
@@ -113,7 +125,8 @@ class StepRun {
     double forward = 0.0, interface = 0.0, local = 0.0, accelerate = 0.0, backward = 0.0, accept = 0.0, output = 0.0;
   };
   struct Books {
-    std::vector<IncrementEnergy> energy;  // of the increment, one a piece
+    std::vector<IncrementEnergy> energy;   // of the increment, one a piece
+    std::vector<std::vector<Vec3>> force;  // N, of the surfaces' points, summed over the substeps of a time step
     StepFigures figures;
     Seconds seconds;
   };
@@ -136,6 +149,9 @@ class StepRun {
   Vec weight_;  // 1/sqrt(k): of the components of q in norms
   CoarseCorrection coarse_;
   LocalStage local_;
+  DirectPoints direct_;
+  std::vector<ExplicitPiece*> explicit_;  // null: implicit
+  int piece_threads_ = 0;                 // in loops over pieces; 1: they are too small to share
   Iterate at_;
   // Acceleration, and when to stop.
   WarmStart warm_start_;

@@ -38,9 +38,10 @@ StepSettings step_settings(const Problem& problem, const StepModel& model, bool 
                                             : IterationLimit{200, 2000};
   settings.more_iterations = has_start ? asked.more_iterations : 0;
   settings.round_off = is_single(model) ? 1e-8 : 1e-13;
-  settings.window = is_static ? 1 : asked.window == 0 ? n : std::min(asked.window, n);
+  settings.window = is_static || model.has_explicit() ? 1 : asked.window == 0 ? n : std::min(asked.window, n);
   settings.assembly_size = assembly_size(problem);
-  settings.has_correction = settings.window == 1 && asked.anderson != 0 && needs_coarse_correction(model);
+  settings.has_correction =
+      model.n_q() > 0 && settings.window == 1 && asked.anderson != 0 && needs_coarse_correction(model);
   const auto relaxation = [&](double usual) { return asked.relaxation > 0.0 ? asked.relaxation : usual; };
   const auto depth = [&](int usual) { return asked.anderson >= 0 ? asked.anderson : usual; };
   settings.of_increment = {depth(is_static ? 40 : 10), is_static ? 0 : 20, relaxation(is_static ? 0.8 : 0.95)};

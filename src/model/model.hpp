@@ -22,12 +22,16 @@ struct Named {
   Origin origin;
 };
 
+// How a substructure's motion is integrated in dynamic steps of LATIN.
+enum class IntegrationChoice { implicitly, as_cheapest, explicitly };
+
 struct Substructure : Named {
   MeshPtr mesh;
   Elastic material;
-  Vec3 place = Vec3::Zero();     // m, added to every node
-  Vec3 velocity = Vec3::Zero();  // m/s, at the start of the first dynamic step
-  std::optional<double> yield;   // Pa, von Mises, of its material: what margins of stress refer to
+  Vec3 place = Vec3::Zero();                     // m, added to every node
+  Vec3 velocity = Vec3::Zero();                  // m/s, at the start of the first dynamic step
+  std::optional<double> yield;                   // Pa, von Mises, of its material: what margins of stress refer to
+  std::optional<IntegrationChoice> integration;  // none: as the solver has it
 };
 using SubstructurePtr = std::shared_ptr<const Substructure>;
 
@@ -104,6 +108,7 @@ struct LatinSettings {
   double push_out = 0.0;          // b of the contact law
   double search_direction = 1.0;  // multiplies every k (studies, hard cases)
   MassSettings mass;
+  IntegrationChoice integration = IntegrationChoice::implicitly;  // of substructures that do not say
   std::optional<Precision>
       precision;                  // of the stored factors in dynamic steps; none: single where a substructure is large
   int pieces = 0;                 // of each substructure; 0: large ones are cut

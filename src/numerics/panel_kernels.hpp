@@ -1,5 +1,5 @@
-// The arithmetic of panels (panels.hpp), compiled once for each kind of processor and chosen at its start
-// (panel_choice.hpp).
+// The arithmetic of panels (panels.hpp) and of products by edges, compiled once for each kind of processor and chosen
+// at its start (panel_choice.hpp).
 #pragma once
 
 #include <cstddef>
@@ -26,6 +26,15 @@ struct View {
 };
 }  // namespace panel
 
+// A symmetric matrix of 3x3 blocks whose rows add up to zero, without its diagonal blocks: those above it, node by
+// node, row-major and followed by two numbers that are read and not used.
+struct EdgeView {
+  const int* starts;  // of the blocks of each node
+  const int* others;  // the node at the other end of each
+  const float* blocks;
+  int n_nodes;
+};
+
 // What is done with a panel; see the functions of Panels for what each means.
 struct PanelKernels {
   const char* name;  // "avx512", "avx2" or "generic"
@@ -36,6 +45,8 @@ struct PanelKernels {
   void (*backward_many)(const panel::View&, double* y, int n);
   void (*multiply_double)(const panel::View&, const double* x, double* y);
   void (*multiply_single)(const panel::View&, const float* x, double* y);
+  // y += K x, four numbers a node, of which the last of x is zero and of y is left alone
+  void (*add_edge_product)(const EdgeView&, const double* x, double* y);
 };
 
 }  // namespace dygita

@@ -138,7 +138,7 @@ void ErrorEstimator::begin_step(const Instant& start) {
   velocity_.resize(mass_.size());
   velocity_old_.resize(0);
   bank_.emplace(mass_, start.model.problem->mass().is_tuned);
-  dt_ = start.model.scheme.dt;
+  dt_ = start.interval();
   total_mass_ = 0.0;
   for (const auto& piece : start.model.pieces) total_mass_ += piece->node_masses().sum();
   start_.clear();
@@ -174,7 +174,7 @@ void ErrorEstimator::sample_stress(const Instant& instant) {
 void ErrorEstimator::accept(const Instant& instant) {
   if (instant.is_static()) return accept_static(instant);
   // Central differences of n substeps turn a motion by (w dt / n)^2 / 24 too much.
-  phase_factor_ = instant.fields ? 0.5 / std::pow(std::max(1, instant.iterations), 2) : 1.0;
+  phase_factor_ = instant.fields ? 0.5 / std::pow(std::max(1, instant.iterations), 2) : instant.model.phase_factor();
   dynamic_.interface_energy += instant.interface_energy;
   const Energies& energies = instant.state.energies;
   take_velocities(instant);

@@ -15,7 +15,7 @@ void TableRecorder::add_values(const std::vector<double>& values) {
 }
 
 double TableRecorder::mean_time(const Instant& instant) {
-  return instant.is_static() ? instant.time() : instant.time() - 0.5 * instant.model.scheme.dt;
+  return instant.is_static() ? instant.time() : instant.time() - 0.5 * instant.interval();
 }
 
 }  // namespace dygita

@@ -39,7 +39,10 @@ struct StepSummary {
   long iterations = 0;
   double worst_indicator = 0.0;  // largest accepted
   double seconds = 0.0;
-  std::vector<Missed> missed;  // increments that did not converge, where the solver tells of them
+  std::vector<Missed> missed;               // increments that did not converge, where the solver tells of them
+  std::vector<std::string> explicit_parts;  // substructures integrated explicitly
+  int substeps = 1;                         // increments in each time step of the deck
+  double stable_step = 0.0;                 // s, longest increment that they are stable with; 0: there are none
 };
 
 // What VDI 2230's hand formula says of a bolt (manual, eq. B3-B6).

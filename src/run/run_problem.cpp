@@ -38,13 +38,19 @@ std::string list_pieces(const Problem& problem, const std::vector<int>& pieces) 
   return list;
 }
 
+std::string list_names(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "'" : ", '") + name + "'";
+  return list;
+}
+
 void summarise(const Problem& problem, const SolverFigures& figures, RunResult& result) {
   int increments = 0;
   for (size_t i = 0; i < figures.steps.size(); ++i) {
     const StepFigures& f = figures.steps[i];
     const Step& step = *problem.steps[i];
     result.steps.push_back({step.name, step.is_static, f.increments, f.not_converged, f.iterations, f.worst_indicator,
-                            f.seconds, f.missed});
+                            f.seconds, f.missed, f.explicit_parts, f.substeps, f.stable_step});
     result.iterations += f.iterations;
     increments += f.increments;
     if (f.not_converged > 0) result.converged = false;
@@ -69,6 +75,9 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
         fmt::format("  {} '{}': {} increments, {:.1f} {} each, {:.2f} s", step.is_static ? "static" : "dynamic",
                     step.name, step.increments, step.increments ? double(step.iterations) / step.increments : 0.0,
                     problem.explicit_dynamics && !step.is_static ? "substeps" : "iterations", step.seconds);
+    if (!step.explicit_parts.empty())
+      line += fmt::format("; explicit: {}, {} substep{} of each dt", list_names(step.explicit_parts), step.substeps,
+                          step.substeps == 1 ? "" : "s");
     if (step.increments_not_converged > 0)
       line += fmt::format("; {} NOT CONVERGED (worst indicator {:.1e})", step.increments_not_converged,
                           step.worst_indicator);
@@ -212,6 +221,7 @@ std::string check_report(const Problem& problem) {
                         step->is_static ? "static" : "dynamic", step->name, step->n_increments(),
                         step->is_static ? "" : fmt::format(" of {:.4g} us", step->dt * 1e6), size.n_unknowns,
                         size.bytes / 1e6);
+    if (const std::string how = describe(size.integration, problem, *step); !how.empty()) text += "    " + how + "\n";
     increments += step->n_increments();
     bytes = std::max(bytes, size.bytes);
   }

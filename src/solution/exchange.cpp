@@ -54,8 +54,13 @@ struct LawCluster {
 class Builder {
  public:
   Builder(const Problem& problem, const Step& step, const Cut& cut, const std::vector<Surface>& surfaces,
-          const Conditions& conditions)
-      : problem_(problem), step_(step), cut_(cut), surfaces_(surfaces), conditions_(conditions) {
+          const Conditions& conditions, const std::vector<char>& explicit_pieces)
+      : problem_(problem),
+        step_(step),
+        cut_(cut),
+        surfaces_(surfaces),
+        conditions_(conditions),
+        explicit_pieces_(explicit_pieces) {
     exchange_.n_unknowns.assign(cut.n_pieces(), 0);
   }
 
@@ -72,6 +77,8 @@ class Builder {
       point_of_group_[group] = static_cast<int>(exchange_.points.size()) - 1;
     }
     add_ties();
+    if (!explicit_pieces_.empty()) find_direct();
+    number_unknowns();
     return std::move(exchange_);
   }
 
@@ -209,7 +216,7 @@ class Builder {
       exchange_.ports.push_back(spread_port(surface, s, i, 2, point.frame));
       for (int d = 0; d < 3; ++d)
         point.has_law[d] = point.law->acts_on(d, step_.is_static) && !is_held_along(surface, point, d);
-      number_unknowns(point, false);
+      activate(point, false);
       exchange_.points.push_back(std::move(point));
     }
   }
@@ -290,15 +297,10 @@ class Builder {
     return frame;
   }
 
-  void number_unknowns(Point& point, bool has_group) {
+  void activate(Point& point, bool has_group) const {
     for (int d = 0; d < 3; ++d) {
       if (!has_group && !point.has_law[d]) continue;
       for (int p = point.first_port; p < point.end_port; ++p) point.is_active[d] |= !exchange_.ports[p].is_held[d];
-      if (!point.is_active[d]) continue;
-      for (int p = point.first_port; p < point.end_port; ++p) {
-        Port& port = exchange_.ports[p];
-        if (!port.is_held[d]) port.unknown[d] = exchange_.n_unknowns[port.piece]++;
-      }
     }
   }
 
@@ -318,8 +320,46 @@ class Builder {
     const bool has_group = ports_1.size() > 1 || ports_2.size() > 1;
     for (const NodeKey& key : keys) exchange_.ports.push_back(make_port(key, point.frame));
     for (int d = 0; d < 3; ++d) point.has_law[d] = law && law->acts_on(d, step_.is_static);
-    number_unknowns(point, has_group);
+    activate(point, has_group);
     exchange_.points.push_back(std::move(point));
+  }
+
+  // Points linked through nodes of explicit pieces depend on each other within a step: one that meets an implicit piece
+  // has all of them iterated.
+  void find_direct() {
+    Groups linked;
+    std::vector<NodeKey> any(exchange_.points.size(), NodeKey{-1, -1});
+    const auto is_explicit = [&](const Port& port) { return explicit_pieces_[port.piece] != 0; };
+    for (size_t i = 0; i < exchange_.points.size(); ++i) {
+      const Point& point = exchange_.points[i];
+      for (int p = point.first_port; p < point.end_port; ++p) {
+        const Port& port = exchange_.ports[p];
+        if (!is_explicit(port)) continue;
+        const NodeKey key{port.piece, port.piece_node};
+        if (any[i].first < 0) any[i] = key;
+        linked.tie(any[i], key);
+      }
+    }
+    std::map<int, bool> has_implicit;
+    for (size_t i = 0; i < exchange_.points.size(); ++i) {
+      const Point& point = exchange_.points[i];
+      if (any[i].first < 0) continue;
+      bool& found = has_implicit[linked.of(any[i])];
+      for (int p = point.first_port; p < point.end_port; ++p) found |= !is_explicit(exchange_.ports[p]);
+    }
+    for (size_t i = 0; i < exchange_.points.size(); ++i)
+      exchange_.points[i].is_direct = any[i].first >= 0 && !has_implicit.at(linked.of(any[i]));
+  }
+
+  void number_unknowns() {
+    for (const Point& point : exchange_.points)
+      for (int d = 0; d < 3; ++d) {
+        if (!point.is_active[d] || point.is_direct) continue;
+        for (int p = point.first_port; p < point.end_port; ++p) {
+          Port& port = exchange_.ports[p];
+          if (!port.is_held[d]) port.unknown[d] = exchange_.n_unknowns[port.piece]++;
+        }
+      }
   }
 
   Port make_port(const NodeKey& key, const Mat3& frame) const {
@@ -396,6 +436,7 @@ class Builder {
   const Cut& cut_;
   const std::vector<Surface>& surfaces_;
   const Conditions& conditions_;
+  const std::vector<char>& explicit_pieces_;
   Exchange exchange_;
   Groups groups_;
   std::map<NodeKey, double> area_;
@@ -413,8 +454,8 @@ void spread(const Cut& cut, const Port& port, const Vec3& force, Points& on_piec
 }
 
 Exchange make_exchange(const Problem& problem, const Step& step, const Cut& cut, const std::vector<Surface>& surfaces,
-                       const Conditions& conditions) {
-  return Builder(problem, step, cut, surfaces, conditions).build();
+                       const Conditions& conditions, const std::vector<char>& explicit_pieces) {
+  return Builder(problem, step, cut, surfaces, conditions, explicit_pieces).build();
 }
 
 }  // namespace dygita

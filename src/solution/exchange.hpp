@@ -51,6 +51,7 @@ struct Point {
   bool is_wall = false;                                // side 2 is rigid and at rest
   std::array<bool, 3> has_law{};                       // directions on which the law acts in this step
   std::array<bool, 3> is_active{};                     // directions that carry an unknown
+  bool is_direct = false;                              // solved in closed form, without unknowns (manual, eq. G4-G6)
   std::vector<Member> members;
 };
 
@@ -68,10 +69,13 @@ struct Exchange {
   std::vector<int> n_unknowns;  // of each piece
 };
 
+// explicit_pieces: which are integrated explicitly; points that connect to no other piece, not even through points that
+// share a node of theirs, are direct. Empty: none.
+//
 // Builds the points of a step from the surfaces that have a part in it and what the step holds. Throws InputError when
 // both sides of a law belong to one group (a bolt shortened between bodies that are tied), or a held direction lies
 // oblique to a law's normal.
 Exchange make_exchange(const Problem& problem, const Step& step, const Cut& cut, const std::vector<Surface>& surfaces,
-                       const Conditions& conditions);
+                       const Conditions& conditions, const std::vector<char>& explicit_pieces = {});
 
 }  // namespace dygita

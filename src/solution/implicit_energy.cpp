@@ -121,7 +121,7 @@ double ImplicitPiece::change_with_motions(const Vec& v) const {
 void ImplicitPiece::add_work_of_motions(const Points& interface_force, double& work) {
   const double dt = op_.scheme().dt;
   const std::vector<HeldDirection>& held = op_.held();
-  const std::vector<double> reaction = held_forces(interface_force);
+  const std::vector<double> reaction = held_forces(interface_force, means_of_increment());
   for (size_t i = 0; i < held.size(); ++i) {
     const double mean = op_.scheme().is_static ? 0.5 * (state_.held_reaction[i] + reaction[i]) : reaction[i];
     work += dt * held_mean_velocity(i) * mean;
@@ -130,27 +130,62 @@ void ImplicitPiece::add_work_of_motions(const Points& interface_force, double& w
   state_.held_reaction = reaction;
 }
 
-// Force of whatever holds each direction over the last increment: inertia + stiffness - external - interfaces.
-std::vector<double> ImplicitPiece::held_forces(const Points& interface_force) const {
+ImplicitPiece::Means ImplicitPiece::means_of_increment() const {
   const Scheme& scheme = op_.scheme();
-  const std::vector<HeldDirection>& directions = op_.held();
   // The displacement that K multiplies in the equation of the increment: U0 + c0 V0 + c1 V1.
   const double old_share = op_.c0() - scheme.dt * scheme.g, new_share = op_.c1() - scheme.dt * (1 - scheme.g);
-  std::vector<double> held(directions.size());
+  const FreeUnknowns& unknowns = op_.unknowns();
+  std::vector<double> held(op_.held().size()), change(held.size(), 0.0);
   for (size_t i = 0; i < held.size(); ++i)
     held[i] = state_.held_u[i] + old_share * work_.held_v_old[i] + new_share * state_.held_v[i];
   Vec there = state_.u + old_share * work_.v_old + new_share * state_.v;
   for (const int i : op_.mass().massless()) there[i] = state_.u[i] - scheme.g * scheme.dt * state_.v[i];
-  std::vector<double> values = op_.stiffness_times_held(op_.unknowns().expand(there, held));
-  if (!scheme.is_static) {
-    const Points mean = op_.unknowns().expand(mean_velocity(), held_mean_velocities());
-    const std::vector<double> inertia =
-        op_.mass().times_held(acceleration() + scheme.alpha(op_.damping()) * mean, directions);
-    for (size_t i = 0; i < held.size(); ++i) values[i] += inertia[i];
+  Means means{unknowns.expand(there, held), work_.nodal_force, {}, {}};
+  if (scheme.is_static) return means;
+  for (size_t i = 0; i < held.size(); ++i) change[i] = (state_.held_v[i] - work_.held_v_old[i]) / scheme.dt;
+  means.acceleration = unknowns.expand((state_.v - work_.v_old) / scheme.dt, change);
+  means.velocity = unknowns.expand(mean_velocity(), held_mean_velocities());
+  return means;
+}
+
+void ImplicitPiece::begin_interval() {
+  interval_ = {};
+  interval_.has_begun = true;
+}
+
+void ImplicitPiece::add_to_interval() {
+  if (!interval_.has_begun) return;
+  const Means means = means_of_increment();
+  if (interval_.n++ == 0) {
+    interval_.sum = means;
+    return;
   }
-  for (size_t i = 0; i < held.size(); ++i)
-    values[i] -= directions[i].direction.dot(work_.nodal_force.col(directions[i].node) +
-                                             interface_force.col(directions[i].node));
+  Means& sum = interval_.sum;
+  sum.displacement += means.displacement;
+  sum.force += means.force;
+  sum.acceleration += means.acceleration;
+  sum.velocity += means.velocity;
+}
+
+ImplicitPiece::Means ImplicitPiece::means() const {
+  if (interval_.n < 2) return means_of_increment();
+  const Means& sum = interval_.sum;
+  const double share = 1.0 / interval_.n;
+  return {share * sum.displacement, share * sum.force, share * sum.acceleration, share * sum.velocity};
+}
+
+// Force of whatever holds each direction: inertia + stiffness - external - interfaces.
+std::vector<double> ImplicitPiece::held_forces(const Points& interface_force, const Means& means) const {
+  const std::vector<HeldDirection>& directions = op_.held();
+  std::vector<double> values = op_.stiffness_times_held(means.displacement);
+  if (!op_.scheme().is_static) {
+    const std::vector<double> inertia =
+        op_.mass().times_held(means.acceleration + op_.scheme().alpha(op_.damping()) * means.velocity, directions);
+    for (size_t i = 0; i < values.size(); ++i) values[i] += inertia[i];
+  }
+  for (size_t i = 0; i < values.size(); ++i)
+    values[i] -=
+        directions[i].direction.dot(means.force.col(directions[i].node) + interface_force.col(directions[i].node));
   return values;
 }
 

@@ -148,6 +148,7 @@ IncrementEnergy ImplicitPiece::finish(Eigen::Ref<const Vec> given, const Points*
     CHECK(interface_force, "moving supports need the interface force on them");
     add_work_of_motions(*interface_force, energy.loads);
   }
+  add_to_interval();
   return energy;
 }
 
@@ -197,6 +198,7 @@ Points ImplicitPiece::acceleration() const {
   const Scheme& scheme = op_.scheme();
   const bool has_past = work_.v_old.size() == state_.v.size() && work_.held_v_old.size() == state_.held_v.size();
   if (scheme.is_static || !has_past) return Points::Zero(3, op_.unknowns().n_nodes());
+  if (interval_.n > 1) return means().acceleration;
   std::vector<double> held(state_.held_v.size());
   for (size_t i = 0; i < held.size(); ++i) held[i] = (state_.held_v[i] - work_.held_v_old[i]) / scheme.dt;
   return op_.unknowns().expand((state_.v - work_.v_old) / scheme.dt, held);
@@ -206,7 +208,8 @@ Points ImplicitPiece::absorbing_force() const {
   Points force = Points::Zero(3, op_.unknowns().n_nodes());
   if (work_.v_old.size() != state_.v.size()) return force;
   const double g = op_.scheme().g;
-  const Points mean = op_.unknowns().expand(g * work_.v_old + (1 - g) * state_.v, state_.held_v);
+  const Points mean =
+      interval_.n > 1 ? means().velocity : op_.unknowns().expand(g * work_.v_old + (1 - g) * state_.v, state_.held_v);
   for (const auto& [node, impedance] : op_.absorbing()) force.col(node) = -impedance * mean.col(node);
   return force;
 }
@@ -214,7 +217,7 @@ Points ImplicitPiece::absorbing_force() const {
 Points ImplicitPiece::reactions(const Points& interface_force) const {
   Points result = Points::Zero(3, op_.unknowns().n_nodes());
   if (work_.v_old.size() != state_.v.size()) return result;
-  const std::vector<double> forces = held_forces(interface_force);
+  const std::vector<double> forces = held_forces(interface_force, means());
   const std::vector<HeldDirection>& held = op_.held();
   for (size_t i = 0; i < held.size(); ++i) result.col(held[i].node) += forces[i] * held[i].direction;
   return result;

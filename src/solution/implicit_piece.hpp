@@ -35,6 +35,7 @@ class ImplicitPiece : public Piece {
   void restore(const PieceState& state) override { state_ = state; }
   IncrementEnergy stored_energy() const override;
 
+  void begin_interval() override;
   void begin(const Points& force, const std::vector<double>& motion_velocity, double quiet) override;
   void interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) override;
   IncrementEnergy finish(Eigen::Ref<const Vec> q, const Points* interface_force) override;
@@ -79,6 +80,22 @@ class ImplicitPiece : public Piece {
   void advance_forces(Eigen::Ref<const Vec> q, bool is_moved);
   void resynchronise();
   Vec mean_velocity() const;  // of the last increment: g V0 + (1 - g) V1, and V1 where there is no mass
+  // What reactions follow from, mean over an increment or over several: the displacement that K multiplies in S1 and
+  // the external force, the acceleration and the velocity; 3 x n_nodes each.
+  struct Means {
+    Points displacement, force, acceleration, velocity;
+  };
+  Means means_of_increment() const;
+  Means means() const;
+  void add_to_interval();
+  // Of a time step of the deck that is made of several increments; no increments: there is none.
+  struct Interval {
+    bool has_begun = false;
+    int n = 0;
+    Means sum;
+  };
+  Interval interval_;
+
   double held_mean_velocity(size_t i) const;
   std::vector<double> held_mean_velocities() const;
   double kinetic_energy() const;
@@ -88,7 +105,7 @@ class ImplicitPiece : public Piece {
   double massive_flow(const Vec& v_mean) const;
   double change_with_motions(const Vec& v) const;
   void add_work_of_motions(const Points& interface_force, double& work);
-  std::vector<double> held_forces(const Points& interface_force) const;
+  std::vector<double> held_forces(const Points& interface_force, const Means& means) const;
 };
 
 }  // namespace dygita

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "mesh/facing.hpp"
+#include "solution/explicit_piece.hpp"
 #include "solution/rigid_motions.hpp"
 #include "solution/row_stiffness.hpp"
 
@@ -125,14 +126,16 @@ std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body
   return setups;
 }
 
-// The first piece that each is equal to; -1 where there is none before it.
-std::vector<int> twins_of(const std::vector<PieceSetup>& setups) {
+// The first piece that each is equal to, explicit ones by their stiffness alone; -1 where there is none before it.
+std::vector<int> twins_of(const StepModel& model, const std::vector<PieceSetup>& setups) {
   std::map<const BodyMatrices*, std::vector<int>> known;
   std::vector<int> twins(setups.size(), -1);
   for (int i = 0; i < static_cast<int>(setups.size()); ++i) {
     std::vector<int>& before = known[setups[i].body->matrices.get()];
-    const auto twin =
-        std::find_if(before.begin(), before.end(), [&](int j) { return are_equal(setups[j], setups[i]); });
+    const auto twin = std::find_if(before.begin(), before.end(), [&](int j) {
+      const bool is_explicit = model.integration.is_explicit_piece(i);
+      return model.integration.is_explicit_piece(j) == is_explicit && (is_explicit || are_equal(setups[j], setups[i]));
+    });
     if (twin != before.end())
       twins[i] = *twin;
     else
@@ -145,16 +148,24 @@ std::vector<int> twins_of(const std::vector<PieceSetup>& setups) {
 
 Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies) {
   const std::vector<PieceSetup> setups = setups_of(model, bodies);
-  const std::vector<int> twins = twins_of(setups);
+  const std::vector<int> twins = twins_of(model, setups);
   const int n = static_cast<int>(setups.size());
   std::vector<std::unique_ptr<ImplicitPiece>> built(n);
+  std::vector<std::shared_ptr<const ExplicitOperator>> operators(n);
   prepare_thread();
   for (const bool has_twin : {false, true})
     parallel_for(n, [&](int i) {
-      if ((twins[i] >= 0) == has_twin)
+      if ((twins[i] >= 0) != has_twin) return;
+      if (model.integration.is_explicit_piece(i))
+        operators[i] = has_twin ? operators[twins[i]]
+                                : std::make_shared<const ExplicitOperator>(setups[i].body->matrices->stiffness);
+      else
         built[i] = make_piece(setups[i], model.problem->solver.plain, has_twin ? built[twins[i]].get() : nullptr);
     });
-  return {std::make_move_iterator(built.begin()), std::make_move_iterator(built.end())};
+  Pieces pieces(std::make_move_iterator(built.begin()), std::make_move_iterator(built.end()));
+  for (int i = 0; i < n; ++i)
+    if (operators[i]) pieces[i] = std::make_unique<ExplicitPiece>(setups[i], operators[i]);
+  return pieces;
 }
 
 Pieces make_assembled_pieces(const StepModel& model, const std::vector<Body>& bodies) {
@@ -190,9 +201,12 @@ std::vector<std::vector<int>> group_equal(const Pieces& pieces) {
 
 double predicted_bytes(const StepModel& model, const std::vector<Body>& bodies) {
   const std::vector<PieceSetup> setups = setups_of(model, bodies);
-  const std::vector<int> twins = twins_of(setups);
+  const std::vector<int> twins = twins_of(model, setups);
   std::vector<double> bytes(setups.size());
-  parallel_for(static_cast<int>(setups.size()), [&](int i) { bytes[i] = predicted_bytes(setups[i], twins[i] >= 0); });
+  parallel_for(static_cast<int>(setups.size()), [&](int i) {
+    bytes[i] = model.integration.is_explicit_piece(i) ? explicit_bytes(setups[i], twins[i] >= 0)
+                                                      : predicted_bytes(setups[i], twins[i] >= 0);
+  });
   double sum = 0.0;
   for (const double own : bytes) sum += own;
   return sum;

@@ -28,6 +28,7 @@ struct Instant {
   const NodalFields* fields = nullptr;  // null: the pieces have them
 
   double time() const { return state.time; }
+  double interval() const { return is_static() ? model.scheme.dt : model.step->dt; }  // s, of the deck
   bool is_static() const { return model.scheme.is_static; }
   // 3 x n_nodes each: m, m/s, m/s^2 (mean over the increment).
   Points displacement(int part) const {

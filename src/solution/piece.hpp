@@ -70,6 +70,8 @@ class Piece {
   virtual Points unknown_directions() const = 0;  // 3 x n, unit, of the same entries
   // Has the node given its mass away in this step (manual, eq. S7)?
   virtual bool is_massless(int node) const = 0;
+  // Does a node answer to a force on it at once, and to no other (explicit_piece.hpp)?
+  virtual bool is_explicit() const { return false; }
   virtual bool has_motions() const = 0;                                // of supports and prescribed ones
   virtual Points elastic_force(const Points& displacement) const = 0;  // K u, 3 x n_nodes, N
   // Diagonal of the interface's own Schur complement in the rows' directions, shared between their laws (N s/m; static
@@ -94,6 +96,9 @@ class Piece {
   virtual void restore(const PieceState& state) = 0;
   virtual IncrementEnergy stored_energy() const = 0;  // kinetic and strain now
 
+  // A time step of the deck begins, made of one increment or of several: accelerations, reactions and forces of
+  // supports are means from here on.
+  virtual void begin_interval() {}
   // An increment. Right-hand side: external force (3 x n_nodes), velocities of the motions at its end. Where the forces
   // changed by less than `quiet` (sum of f^2 dt/m, W) nothing need be solved until the interfaces ask for it.
   virtual void begin(const Points& force, const std::vector<double>& motion_velocity, double quiet) = 0;

@@ -100,10 +100,11 @@ void show_point(const Point& point, const PointRecord& record, State& state) {
 }
 
 void show_ties(const StepModel& model, const std::vector<PointRecord>& records, const std::vector<Vec3>& port_force,
-               State& state) {
+               State& state, bool direct) {
   const Exchange& exchange = model.exchange;
   std::vector<std::vector<const Tie*>> ties_of(exchange.points.size());
-  for (const Tie& tie : exchange.ties) ties_of[tie.point].push_back(&tie);
+  for (const Tie& tie : exchange.ties)
+    if (exchange.points[tie.point].is_direct == direct) ties_of[tie.point].push_back(&tie);
   for (size_t i = 0; i < ties_of.size(); ++i) {
     if (ties_of[i].empty()) continue;
     const Point& point = exchange.points[i];

@@ -36,8 +36,9 @@ void book_dissipation(const Point& point, const Work& work, State& state);
 // Forces, gaps and slips of a point with a law into the surfaces' state, once record.law is that of the end.
 void show_point(const Point& point, const PointRecord& record, State& state);
 // A substructure's force inside a group, split over its bonded interfaces: least norm weighted with nodal areas.
-// port_force: of the interfaces on each port, in its point's frame, N.
+// port_force: of the interfaces on each port, in its point's frame, N. direct: of the points that are solved in closed
+// form, or of the others.
 void show_ties(const StepModel& model, const std::vector<PointRecord>& records, const std::vector<Vec3>& port_force,
-               State& state);
+               State& state, bool direct = false);
 
 }  // namespace dygita

@@ -26,6 +26,9 @@ struct StepFigures {
   long iterations = 0;
   double worst_indicator = 0.0;  // largest accepted
   double seconds = 0.0;
+  std::vector<std::string> explicit_parts;  // substructures integrated explicitly
+  int substeps = 1;                         // increments in each time step of the deck
+  double stable_step = 0.0;                 // s, longest increment that they are stable with; 0: there are none
 };
 
 // What only some solvers have to tell; empty: this one has not.

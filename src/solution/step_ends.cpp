@@ -2,6 +2,7 @@
 
 #include "base/overloaded.hpp"
 #include "law/law.hpp"
+#include "solution/explicit_piece.hpp"
 
 namespace dygita {
 
@@ -45,6 +46,24 @@ void set_pieces(StepModel& model, int part, const State& state) {
   }
 }
 
+// Explicit pieces keep the loads that are theirs: a field of forces in each increment would cost what a product does.
+void give_loads(StepModel& model, const State& state) {
+  for (int i = 0; i < static_cast<int>(model.pieces.size()); ++i) {
+    auto* piece = dynamic_cast<ExplicitPiece*>(model.pieces[i].get());
+    if (!piece) continue;
+    const int part = model.cut->piece(i).part;
+    std::vector<ExplicitPiece::PatternLoad> loads;
+    if (model.cut->is_cut(part)) {
+      for (const StepModel::PieceLoad& load : model.piece_loads[i]) loads.push_back({load.pattern, load.nodes});
+    } else {
+      for (size_t p = 0; p < model.loads->patterns().size(); ++p)
+        if (const LoadPattern& pattern = model.loads->patterns()[p]; pattern.part == part)
+          loads.push_back({p, pattern.nodes});
+    }
+    piece->set_loads(model.cut->on_owners(i, state.anchor[part]), loads);
+  }
+}
+
 }  // namespace
 
 void start_step(StepModel& model, State& state) {
@@ -66,6 +85,7 @@ void start_step(StepModel& model, State& state) {
     set_pieces(model, static_cast<int>(i), state);
     velocity = model.cut->from_owners(static_cast<int>(i), [&](int piece) { return model.pieces[piece]->velocity(); });
   }
+  give_loads(model, state);
   place_returning_walls(model, state);
   Energies& energies = state.energies;
   const double before = energies.kinetic + energies.strain;

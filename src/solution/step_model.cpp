@@ -2,6 +2,9 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "law/law.hpp"
 #include "solution/make_pieces.hpp"
 #include "solution/rigid_motions.hpp"
@@ -30,8 +33,16 @@ State initial_state(const Problem& problem, const std::vector<Surface>& surfaces
 
 std::vector<double> StepModel::motion_velocities(int increment) const {
   std::vector<double> velocities;
-  for (const Motion& motion : conditions.motions) velocities.push_back(motion.velocity(increment));
+  for (const Motion& motion : conditions.motions)
+    velocities.push_back(motion.velocity((increment + 1) * scheme.dt, scheme.dt));
   return velocities;
+}
+
+double StepModel::phase_factor() const {
+  const bool is_all_explicit =
+      has_explicit() &&
+      std::find(integration.is_explicit.begin(), integration.is_explicit.end(), 0) == integration.is_explicit.end();
+  return (is_all_explicit ? 0.5 : 1.0) / std::pow(n_substeps(), 2);
 }
 
 double StepModel::held_velocity(const Port& port, const Vec3& direction, const std::vector<double>& motions) const {
@@ -108,7 +119,7 @@ void split_loads(StepModel& model) {
 }
 
 StepModel make_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
-                     const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
+                     const std::vector<Body>& bodies, const State& start, const CutPtr& cut, bool chooses_integration) {
   StepModel model;
   model.cut = cut;
   model.problem = &problem;
@@ -128,7 +139,11 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
     pin_free_motions(problem, step, make_exchange(problem, step, *no_cut(problem), surfaces, model.conditions), force,
                      model.conditions);
   }
-  model.exchange = make_exchange(problem, step, *cut, surfaces, model.conditions);
+  if (chooses_integration && !step.is_static) {
+    model.integration = choose_integration(problem, step, bodies, *cut, model.conditions, surfaces);
+    model.scheme.dt = step.dt / model.integration.n_substeps;
+  }
+  model.exchange = make_exchange(problem, step, *cut, surfaces, model.conditions, model.integration.is_explicit);
   split_loads(model);
   model.offset.assign(1, 0);
   for (const int n : model.exchange.n_unknowns) model.offset.push_back(model.offset.back() + n);
@@ -139,7 +154,7 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
 
 StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                           const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
-  StepModel model = make_model(problem, step, surfaces, bodies, start, cut);
+  StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true);
   model.pieces = make_pieces(model, bodies);
   model.equal = group_equal(model.pieces);
   return model;
@@ -147,7 +162,7 @@ StepModel make_step_model(const Problem& problem, const Step& step, const std::v
 
 StepModel make_assembled_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                                const std::vector<Body>& bodies, const State& start) {
-  StepModel model = make_model(problem, step, surfaces, bodies, start, no_cut(problem));
+  StepModel model = make_model(problem, step, surfaces, bodies, start, no_cut(problem), false);
   model.pieces = make_assembled_pieces(model, bodies);
   model.equal = group_equal(model.pieces);
   return model;
@@ -155,8 +170,8 @@ StepModel make_assembled_model(const Problem& problem, const Step& step, const s
 
 StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                       const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
-  const StepModel model = make_model(problem, step, surfaces, bodies, start, cut);
-  return {predicted_bytes(model, bodies), model.n_q()};
+  const StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true);
+  return {predicted_bytes(model, bodies), model.n_q(), model.integration};
 }
 
 }  // namespace dygita

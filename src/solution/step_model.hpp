@@ -6,6 +6,7 @@
 
 #include "solution/bodies.hpp"
 #include "solution/exchange.hpp"
+#include "solution/integration.hpp"
 #include "solution/loads.hpp"
 #include "solution/piece.hpp"
 #include "solution/scheme.hpp"
@@ -27,11 +28,17 @@ struct StepModel {
   std::unique_ptr<Loads> loads;
   std::vector<std::unique_ptr<Piece>> pieces;
   std::vector<std::vector<int>> equal;  // pieces that share a factor and are solved together, at most 16 in a group
+  Integration integration;              // of the pieces
   std::vector<int> offset;              // of each piece in the assembled q; the last entry is its length
 
   int n_q() const { return offset.back(); }
+  // Increments in each time step of the deck: the scheme's dt is that of one.
+  int n_substeps() const { return integration.n_substeps; }
+  bool has_explicit() const { return integration.has_explicit(); }
   // Index in the assembled q of a port's direction; -1 where it has none.
   int unknown(const Port& port, int d) const { return port.unknown[d] < 0 ? -1 : offset[port.piece] + port.unknown[d]; }
+  // By how much the time scheme turns a motion, of what trapezoidal steps of the deck's dt would (manual, eq. Q2).
+  double phase_factor() const;
   // Velocities of all motions at the end of an increment.
   std::vector<double> motion_velocities(int increment) const;
   // Velocity of a held direction of a port, from the motions' velocities.
@@ -65,6 +72,7 @@ StepModel make_assembled_model(const Problem& problem, const Step& step, const s
 struct StepSize {
   double bytes = 0.0;
   long n_unknowns = 0;
+  Integration integration;
 };
 StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                       const std::vector<Body>& bodies, const State& start, const CutPtr& cut);

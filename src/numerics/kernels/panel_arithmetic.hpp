@@ -5,6 +5,7 @@
 // translation units must not hold instructions that the processor may lack.
 #pragma once
 
+#include "numerics/kernels/edge_product.hpp"
 #include "numerics/kernels/many_vectors.hpp"
 #include "numerics/kernels/one_vector.hpp"
 
@@ -37,8 +38,8 @@ void multiply_single(const View& view, const float* x, double* y) {
 
 #define DYGITA_TEXT_OF(name) #name
 #define DYGITA_TEXT(name) DYGITA_TEXT_OF(name)
-const PanelKernels kernels{DYGITA_TEXT(DYGITA_ISA), forward,         backward,       forward_many,
-                           backward_many,           multiply_double, multiply_single};
+const PanelKernels kernels{DYGITA_TEXT(DYGITA_ISA), forward,         backward,        forward_many,
+                           backward_many,           multiply_double, multiply_single, add_edge_product};
 
 }  // namespace
 

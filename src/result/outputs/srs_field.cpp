@@ -51,7 +51,7 @@ class FieldRecorder : public Recorder {
 
   void accept(const Instant& instant) override {
     if (instant.is_static()) return;
-    const double dt = instant.model.scheme.dt;
+    const double dt = instant.interval();
     dt_ = dt_ == 0.0 ? dt : std::min(dt, dt_);
     time_.push_back(instant.time() - 0.5 * dt);
     std::vector<float> row;

@@ -1,0 +1,29 @@
+// A stiffness by edges: of each pair of neighbours the force that their difference makes. There are no diagonal blocks,
+// since a translation has no force: it has none here either, however coarsely the blocks are stored.
+#pragma once
+
+#include <vector>
+
+#include "numerics/panel_kernels.hpp"
+#include "numerics/types.hpp"
+
+namespace dygita {
+
+// In single precision, which changes the material by some 3e-8 and neither momentum nor energy balance. Fields have
+// four numbers a node, the fourth of them zero: what a register takes.
+class EdgeBlocks {
+ public:
+  // stiffness: symmetric, 3n x 3n, with the 3x3 block pattern of `assemble`, rows adding up to zero.
+  explicit EdgeBlocks(const SparseMatrix& stiffness);
+
+  int n_nodes() const { return static_cast<int>(starts_.size()) - 1; }
+  // y += K x, both 4 n long.
+  void add_product(const double* x, double* y) const;
+  double bytes() const { return 4.0 * static_cast<double>(starts_.size() + others_.size() + blocks_.size()); }
+
+ private:
+  std::vector<int> starts_, others_;
+  std::vector<float> blocks_;
+};
+
+}  // namespace dygita

@@ -1,0 +1,89 @@
+// What direct points keep and tell: the laws' memory, works, forces over the time step of the deck.
+#include <algorithm>
+
+#include "latin/direct_points.hpp"
+#include "law/law.hpp"
+
+namespace dygita {
+
+void DirectPoints::begin_interval(int increment) {
+  interval_ = 0.0;
+  for (OwnPoint& p : points_) {
+    p.impulse.setZero();
+    p.work = {};
+    p.on_pieces = 0.0;
+    for (int i = p.side_1.first; i < p.side_2.end; ++i) ports_[i].impulse.setZero();
+    if (!p.point->law) continue;
+    const Interface* interface = (*model_->surfaces)[p.point->members.front().surface].interface;
+    if (interface && !p.record.is_released) p.record.is_released = model_->loads->is_released(interface, increment);
+  }
+}
+
+void DirectPoints::add_held_force(const OwnPoint& p, const OwnPort& port) {
+  const Port& of = model_->exchange.ports[port.index];
+  for (int d = 0; d < 3; ++d)
+    if (of.is_held[d]) port.piece->add_held_force(port.node, port.force[d] * p.point->frame.col(d));
+}
+
+// The law moves on; works and impulses of the increment, with the velocities that the nodes end with.
+void DirectPoints::end_point(OwnPoint& p) {
+  for (int i = p.side_1.first; i < p.side_2.end; ++i) {
+    OwnPort& port = ports_[i];
+    const Vec3 v = port.piece->velocity_of(port.node);
+    p.on_pieces += 0.5 * increment_.dt * port.force.dot(p.point->frame.transpose() * (port.v_old + v));
+    port.v_old = v;
+    if (port.is_moved) add_held_force(p, port);
+    port.impulse += increment_.dt * port.force;
+  }
+  const LawState end = dygita::end_of_point(*p.point, p.record, increment_);
+  if (p.point->law) {
+    const Work work = p.point->law->work(p.record.law, end, increment_, p.point->area);
+    p.work.friction += work.friction;
+    p.work.plastic += work.plastic;
+    p.work.damping += work.damping;
+    p.work.given += work.given;
+  }
+  p.record.law = end;
+  p.impulse += increment_.dt * p.record.force;
+}
+
+void DirectPoints::show(State& state) {
+  if (points_.empty()) return;
+  std::vector<PointRecord> records(model_->exchange.points.size());
+  std::vector<Vec3> port_force(model_->exchange.ports.size(), Vec3::Zero());
+  for (OwnPoint& p : points_) {
+    PointRecord& shown = records[p.index];
+    shown = p.record;
+    shown.law.force = p.impulse / interval_;
+    for (int i = p.side_1.first; i < p.side_2.end; ++i) port_force[ports_[i].index] = ports_[i].impulse / interval_;
+    if (p.point->law) {
+      book_dissipation(*p.point, p.work, state);
+      show_point(*p.point, shown, state);
+      gap_difference_ = std::max(gap_difference_, difference_of_gaps(p));
+    }
+    state.energies.loads += p.work.given;
+    state.energies.scheme += p.work.given - p.on_pieces - p.work.dissipated();
+    for (const Member& member : p.point->members) state.surfaces[member.surface].residual[member.point] = 0.0;
+  }
+  for (const Tie& tie : model_->exchange.ties)
+    if (model_->exchange.points[tie.point].is_direct) state.surfaces[tie.surface].residual[tie.surface_point] = 0.0;
+  show_ties(*model_, records, port_force, state, true);
+}
+
+double DirectPoints::difference_of_gaps(const OwnPoint& p) const {
+  if (!p.keeps_gap) return 0.0;
+  std::array<double, 2> mean{};
+  for (const int which : {0, 1}) {
+    const Side& side = which == 0 ? p.side_1 : p.side_2;
+    for (int i = side.first; i < side.end; ++i)
+      mean[which] +=
+          p.point->frame.col(0).dot(ports_[i].piece->displacement_of(ports_[i].node)) / (side.end - side.first);
+  }
+  return std::abs(p.first_gap + mean[1] - mean[0] - p.record.law.gap);
+}
+
+double DirectPoints::bytes() const {
+  return static_cast<double>(sizeof(OwnPort) * ports_.size() + sizeof(OwnPoint) * points_.size());
+}
+
+}  // namespace dygita

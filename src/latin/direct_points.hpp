@@ -1,0 +1,102 @@
+// Interface points between explicit pieces: the velocity of a node without a force is known, and so is what a force
+// adds to it, so the law of a point gives its force at once (manual, eq. G4-G6). Points that share a node take turns.
+#pragma once
+
+#include <utility>
+
+#include "solution/explicit_piece.hpp"
+#include "solution/point_record.hpp"
+
+namespace dygita {
+
+class DirectPoints {
+ public:
+  // Takes the laws' memory from `start`.
+  DirectPoints(const StepModel& model, const State& start);
+
+  bool is_empty() const { return points_.empty(); }
+  // A time step of the deck begins: what has let go by its middle has let go for all of it.
+  void begin_interval(int increment);
+  // Forces and velocities of one increment, the pieces having begun it. motions: velocities at its end.
+  void solve(const std::vector<double>& motions);
+  // Fields and works of the time step of the deck into the state: forces are means over its increments.
+  void show(State& state);
+
+  // Largest part of a force, relative to the largest, that points sharing nodes have left to each other since this was
+  // last asked.
+  double take_change() { return std::exchange(largest_change_, 0.0); }
+  // Rounds over points that share nodes, of all increments, and of the worst.
+  long n_sweeps() const { return n_sweeps_; }
+  int most_sweeps() const { return most_sweeps_; }
+  double gap_difference() const { return gap_difference_; }  // as LocalStage's
+  double bytes() const;
+
+ private:
+  struct Turns {
+    std::vector<Vec3> change;  // N, of the ports' forces in a round, one after the other
+  };
+  struct OwnPort {
+    ExplicitPiece* piece = nullptr;
+    int node = 0, index = 0;                            // of the piece; of the port in the exchange
+    bool is_plain = true;                               // a force along an axis of the frame moves the node along it
+    bool has_held = false, is_moved = false;            // directions that a support holds; one that moves does
+    Vec3 inverse = Vec3::Zero();                        // 1/k along the frame's axes, s/kg; 0 where held
+    Vec3 held_velocity = Vec3::Zero();                  // m/s, in the frame
+    Vec3 v_old = Vec3::Zero();                          // m/s, global
+    Vec3 free = Vec3::Zero();                           // m/s, in the frame, without this law's force
+    Vec3 force = Vec3::Zero(), impulse = Vec3::Zero();  // N, in the frame; N s, so far in the time step
+    Vec3 offset = Vec3::Zero();                         // m/s, closes the jump inside the group
+  };
+  struct Side {
+    int first = 0, end = 0;
+    Vec3 r = Vec3::Zero(), inverse_k = Vec3::Zero();
+  };
+  struct OwnPoint {
+    const Point* point = nullptr;
+    int index = 0;
+    PointRecord record;
+    Side side_1, side_2;
+    bool keeps_gap = false;    // its law does, from this on
+    double first_gap = 0.0;    // m
+    bool needs_place = false;  // it needs displacements: its law holds the jump, or a side is a group
+    Vec3 impulse = Vec3::Zero();
+    Work work;
+    double on_pieces = 0.0;
+  };
+
+  void add_point(const StepModel& model, int index, const State& start);
+  void find_clusters();
+  void begin_point(OwnPoint& p, const std::vector<double>& motions);
+  void begin_places(OwnPoint& p);
+  void gather(const OwnPoint& p, Side& side);
+  void push(const OwnPoint& p, OwnPort& port, const Vec3& force);
+  void scatter(const OwnPoint& p, const Side& side, const Vec3& force);
+  void find_force(OwnPoint& p);
+  void end_point(OwnPoint& p);
+  void add_held_force(const OwnPoint& p, const OwnPort& port);
+  double difference_of_gaps(const OwnPoint& p) const;
+  void solve_alone(OwnPoint& p, const std::vector<double>& motions);
+  std::pair<double, double> take_turns(const std::vector<int>& members, Turns& turns);
+  void leap(const std::vector<int>& members, const Turns& turns, const Turns& before);
+  void solve_cluster(const std::vector<int>& members, const std::vector<double>& motions);
+
+  const StepModel* model_;
+  Increment increment_;
+  double close_enough_;  // of the largest force, between rounds over points that share nodes
+  std::vector<OwnPort> ports_;
+  std::vector<OwnPoint> points_;
+  std::vector<int> alone_;
+  std::vector<std::vector<int>> clusters_;
+  struct Swept {
+    double change = 0.0;
+    int sweeps = 0;
+    Turns turns, before;  // of the last two rounds
+  };
+  std::vector<Swept> swept_;  // of each cluster in the last increment
+  double interval_ = 0.0;
+  double largest_force_ = 0.0, largest_change_ = 0.0, gap_difference_ = 0.0;
+  long n_sweeps_ = 0;
+  int most_sweeps_ = 0;
+};
+
+}  // namespace dygita

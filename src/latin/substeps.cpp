@@ -1,0 +1,132 @@
+// Steps with explicit pieces: the time step of the deck is made of increments that they are stable with, each solved as
+// any other. Where a point connects explicit pieces alone nothing is iterated.
+#include <cmath>
+
+#include "latin/step_run.hpp"
+#include "solution/step_ends.hpp"
+
+namespace dygita {
+
+void StepRun::begin_substep(int increment, int substep) {
+  const Stopwatch watch(books_.seconds.forward);
+  const std::vector<double> motions = model_.motion_velocities(substep);
+  model_.loads->evaluate_mean(substep * model_.scheme.dt, (substep + 1) * model_.scheme.dt);
+  const double quiet = indicator_.quiet(settings_.tolerance);
+  for_each_piece([&](Piece& piece, int i) {
+    if (explicit_[i])
+      explicit_[i]->begin(model_.loads->values(), motions);
+    else
+      piece.begin(model_.piece_force(i, files_.state), motions, quiet);
+  });
+  if (model_.n_q() > 0) {
+    for_each_group([&](const std::vector<Piece*>& group, const std::vector<int>&) { group.front()->forward(group); });
+    local_.begin(increment, motions, true);
+  }
+  const Stopwatch laws(books_.seconds.local);
+  direct_.solve(motions);
+}
+
+StepRun::Best StepRun::solve_substep(int increment, int substep) {
+  begin_substep(increment, substep);
+  Best best{at_.q, {0.0}};
+  best.iterations = 1;
+  if (model_.n_q() > 0) {
+    best = {at_.q, {}};
+    const Goal goal = goal_of(predict(substep, at_.q));
+    iterate(increment, goal, best);
+    const bool is_solved = best.outcome.eta <= goal.tolerance;
+    anderson_.end(at_.q, at_.image, is_solved);
+    if (!is_solved) at_.q = best.q;
+    if (!is_solved || (best.iterations > 1 && !coarse_.is_empty())) linear_stage(at_.q, at_.velocity);
+    if (!is_solved) at_.sums = local_stage(at_.velocity, at_.q, at_.image);
+    indicator_.accept(best.outcome);
+  }
+  finish_substep(substep);
+  return best;
+}
+
+void StepRun::finish_substep(int substep) {
+  {
+    const Stopwatch watch(books_.seconds.backward);
+    if (model_.n_q() > 0)
+      for_each_group(
+          [&](const std::vector<Piece*>& group, const std::vector<int>&) { group.front()->backward(group); });
+    for_each_piece([&](Piece& piece, int i) {
+      // Explicit pieces have heard of the direct points' force from these.
+      const bool needs_force = piece.has_motions() && (model_.n_q() > 0 || !explicit_[i]);
+      const Points held = needs_force ? local_.held_force(i) : Points();
+      const IncrementEnergy energy =
+          piece.finish(at_.q.segment(model_.offset[i], piece.n_rows()), needs_force ? &held : nullptr);
+      IncrementEnergy& sum = books_.energy[i];
+      sum.loads += energy.loads;
+      sum.damping += energy.damping;
+      sum.scheme += energy.scheme;
+      sum.kinetic = energy.kinetic;
+      sum.strain = energy.strain;
+    });
+  }
+  const Stopwatch watch(books_.seconds.accept);
+  if (model_.n_q() > 0) {
+    local_.accept(&files_.state);
+    add_forces();
+    files_.kept.append(at_.q);
+  } else if ((substep + 1) % model_.n_substeps() == 0) {
+    files_.kept.append(at_.q);
+  }
+}
+
+// Forces that outputs show are means over the time step of the deck.
+void StepRun::add_forces() {
+  if (model_.n_substeps() == 1) return;
+  const std::vector<SurfaceState>& surfaces = files_.state.surfaces;
+  books_.force.resize(surfaces.size());
+  for (size_t s = 0; s < surfaces.size(); ++s) {
+    books_.force[s].resize(surfaces[s].points.size(), Vec3::Zero());
+    for (size_t i = 0; i < surfaces[s].points.size(); ++i) books_.force[s][i] += surfaces[s].points[i].force;
+  }
+}
+
+void StepRun::show_mean_forces() {
+  for (size_t s = 0; s < books_.force.size(); ++s)
+    for (size_t i = 0; i < books_.force[s].size(); ++i) {
+      files_.state.surfaces[s].points[i].force = books_.force[s][i] / model_.n_substeps();
+      books_.force[s][i].setZero();
+    }
+}
+
+void StepRun::solve_interval(int increment) {
+  for (const auto& piece : model_.pieces)
+    if (piece->is_explicit() || model_.n_substeps() > 1) piece->begin_interval();
+  direct_.begin_interval(increment);
+  books_.energy.assign(model_.pieces.size(), {});
+  const int n = model_.n_substeps();
+  const double start = files_.state.time;
+  int iterations = 0;
+  double eta = 0.0, interface_energy = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const Best best = solve_substep(increment, increment * n + i);
+    iterations += best.iterations;
+    if (best.outcome.eta > settings_.tolerance) note_missed(best.missed);
+    eta = std::max(eta, best.outcome.eta);
+    interface_energy += model_.scheme.dt * at_.sums.force_distance;
+  }
+  if (const double change = direct_.take_change(); change > settings_.tolerance) {
+    eta = std::max(eta, change);
+    note_missed({increment, iterations, change, settings_.tolerance, false, {}});
+  }
+  for (size_t i = 0; i < explicit_.size(); ++i) {
+    if (!explicit_[i]) continue;
+    const IncrementEnergy stored = explicit_[i]->stored_energy();
+    books_.energy[i].kinetic = stored.kinetic;
+    books_.energy[i].strain = stored.strain;
+  }
+  {
+    const Stopwatch watch(books_.seconds.accept);
+    show_mean_forces();
+    direct_.show(files_.state);
+  }
+  files_.state.time = start + model_.step->dt;
+  accept_interval(increment, iterations, eta, interface_energy);
+}
+
+}  // namespace dygita

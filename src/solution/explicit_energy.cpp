@@ -1,0 +1,193 @@
+// State, energies and fields of an explicit piece (manual, eq. E3).
+#include <algorithm>
+
+#include "solution/explicit_piece.hpp"
+
+namespace dygita {
+
+namespace {
+
+// Three of every four numbers.
+Points nodal(const std::vector<double>& field) {
+  return Eigen::Map<const Points, 0, Eigen::OuterStride<4>>(field.data(), 3,
+                                                            static_cast<Eigen::Index>(field.size() / 4));
+}
+
+void put(const Points& values, std::vector<double>& field) {
+  Eigen::Map<Points, 0, Eigen::OuterStride<4>>(field.data(), 3, values.cols()) = values;
+}
+
+}  // namespace
+
+Points ExplicitPiece::unknown_directions() const {
+  return Mat3::Identity().replicate(1, static_cast<Eigen::Index>(inverse_.size()));
+}
+
+Points ExplicitPiece::elastic_force(const Points& displacement) const {
+  Points force(3, displacement.cols());
+  Eigen::Map<Vec>(force.data(), force.size()) =
+      setup_.body->matrices->stiffness * Eigen::Map<const Vec>(displacement.data(), displacement.size());
+  return force;
+}
+
+void ExplicitPiece::set_state(const Points& displacement, const Points& velocity, const Points& force,
+                              const Points& /*interface_force*/) {
+  const double dt = setup_.scheme.dt;
+  const Points elastic = elastic_force(displacement);
+  Points v = velocity;
+  for (const Special& s : specials_)
+    for (const auto& [direction, motions] : s.held)
+      if (motions.empty()) v.col(s.node) -= direction.dot(v.col(s.node)) * direction;
+  put(displacement, start_);
+  put(elastic, start_force_);
+  put(elastic - force, base_);
+  put(v, v_);
+  put(0.5 * dt * v, d_);
+  start_strain_ = 0.5 * displacement.cwiseProduct(elastic).sum();
+  // What a step before this would have left: K X for the X half a step before U.
+  std::vector<double> before(d_.size());
+  std::transform(d_.begin(), d_.end(), before.begin(), [](double d) { return -d; });
+  y_ = base_;
+  op_->stiffness.add_product(before.data(), y_.data());
+  has_forces_ = false;
+  begin_interval();
+}
+
+const PieceState& ExplicitPiece::state() const {
+  const Points u = displacement(), v = velocity();
+  shown_.u = u.reshaped();
+  shown_.v = v.reshaped();
+  return shown_;
+}
+
+void ExplicitPiece::restore(const PieceState& state) {
+  const Eigen::Index n = static_cast<Eigen::Index>(inverse_.size());
+  const Points v = state.v.reshaped(3, n);
+  put(v, v_);
+  put(Points(state.u.reshaped(3, n)) - nodal(start_) + 0.5 * setup_.scheme.dt * v, d_);
+}
+
+// E3: of the middles before and after U, from the product that the step has made.
+IncrementEnergy ExplicitPiece::stored_energy() const {
+  const double dt = setup_.scheme.dt;
+  const Vec& mass = node_masses();
+  double kinetic = 0.0, strain = 0.0;
+  for (size_t i = 0; i < inverse_.size(); ++i) {
+    double v2 = 0.0;
+    for (size_t c = 4 * i; c < 4 * i + 3; ++c) {
+      v2 += v_[c] * v_[c];
+      strain += start_force_[c] * (2.0 * d_[c] - dt * v_[c]) + (y_[c] - base_[c]) * d_[c];
+    }
+    kinetic += mass[static_cast<Eigen::Index>(i)] * v2;
+  }
+  IncrementEnergy energy;
+  energy.kinetic = 0.5 * kinetic;
+  energy.strain = start_strain_ + 0.5 * strain;
+  return energy;
+}
+
+double ExplicitPiece::damping_work() {
+  const double dt = setup_.scheme.dt, alpha = setup_.body->part->material.damping.mass;
+  const Vec& mass = node_masses();
+  double sum = 0.0;
+  for (size_t i = 0; i < inverse_.size(); ++i) {
+    double v2 = 0.0;
+    for (size_t c = 4 * i; c < 4 * i + 3; ++c) v2 += (v_old_[c] + v_[c]) * (v_old_[c] + v_[c]);
+    sum += mass[static_cast<Eigen::Index>(i)] * v2;
+  }
+  return 0.25 * dt * alpha * sum;
+}
+
+// What non-reflecting supports take and moving ones give, and the sums that means over the deck's time step need.
+void ExplicitPiece::book_special(Special& s, IncrementEnergy& energy) {
+  const double dt = setup_.scheme.dt;
+  const double mass = node_masses()[s.node], alpha = setup_.scheme.alpha(setup_.body->part->material.damping);
+  const Vec3 v = velocity_of(s.node), mean = 0.5 * (s.v_old + v);
+  const Vec3 pull = Eigen::Map<const Vec3>(y_.data() + 4 * static_cast<size_t>(s.node));
+  s.pull += dt * pull;
+  s.moved += dt * mean;
+  if (s.absorbs) {
+    const Vec3 own = s.free * (s.free.transpose() * mean);
+    energy.damping += dt * own.dot(s.impedance * own);
+  }
+  if (!has_motions_ || !s.has_held) return;
+  const Vec3 reaction = mass * ((v - s.v_old) / dt + alpha * mean) + pull - s.held_force;
+  for (const auto& [direction, motions] : s.held)
+    if (!motions.empty()) energy.loads += dt * direction.dot(mean) * direction.dot(reaction);
+}
+
+void ExplicitPiece::begin_interval() {
+  v_interval_ = v_;
+  interval_ = 0.0;
+  for (Special& s : specials_) {
+    s.pull.setZero();
+    s.moved.setZero();
+  }
+}
+
+Vec3 ExplicitPiece::start_displacement_of(int node, const Vec3& start_velocity) const {
+  const size_t at = 4 * static_cast<size_t>(node);
+  return Eigen::Map<const Vec3>(start_.data() + at) + Eigen::Map<const Vec3>(d_.data() + at) -
+         setup_.scheme.dt * (0.5 * start_velocity + velocity_of(node));
+}
+
+Vec3 ExplicitPiece::displacement_of(int node) const {
+  const size_t at = 4 * static_cast<size_t>(node);
+  return Eigen::Map<const Vec3>(start_.data() + at) + Eigen::Map<const Vec3>(d_.data() + at) -
+         0.5 * setup_.scheme.dt * velocity_of(node);
+}
+
+Points ExplicitPiece::displacement() const { return nodal(start_) + nodal(d_) - 0.5 * setup_.scheme.dt * nodal(v_); }
+
+Points ExplicitPiece::velocity() const { return nodal(v_); }
+
+Points ExplicitPiece::acceleration() const {
+  if (interval_ == 0.0) return Points::Zero(3, static_cast<Eigen::Index>(inverse_.size()));
+  return (nodal(v_) - nodal(v_interval_)) / interval_;
+}
+
+// Of the increment's start: it has begun when the laws ask.
+Vec ExplicitPiece::row_displacements() const {
+  Vec values(n_rows());
+  for (const Special& s : specials_) {
+    if (s.rows.empty()) continue;
+    const Vec3 u = start_displacement_of(s.node, s.v_old);
+    for (const int i : s.rows) values[i] = at_row(i, u);
+  }
+  return values;
+}
+
+Points ExplicitPiece::reactions(const Points& interface_force) const {
+  const double alpha = setup_.scheme.alpha(setup_.body->part->material.damping);
+  Points force = Points::Zero(3, static_cast<Eigen::Index>(inverse_.size()));
+  if (interval_ == 0.0) return force;
+  for (const Special& s : specials_) {
+    const Vec3 change =
+        velocity_of(s.node) - Eigen::Map<const Vec3>(v_interval_.data() + 4 * static_cast<size_t>(s.node));
+    const Vec3 all =
+        (node_masses()[s.node] * (change + alpha * s.moved) + s.pull) / interval_ - interface_force.col(s.node);
+    for (const auto& [direction, motions] : s.held) force.col(s.node) += direction.dot(all) * direction;
+  }
+  return force;
+}
+
+Points ExplicitPiece::absorbing_force() const {
+  Points force = Points::Zero(3, static_cast<Eigen::Index>(inverse_.size()));
+  if (interval_ == 0.0) return force;
+  for (const Special& s : specials_)
+    if (s.absorbs) force.col(s.node) = -s.impedance * s.moved / interval_;
+  return force;
+}
+
+double explicit_bytes(const PieceSetup& setup, bool shares) {
+  const double n = setup.n_nodes(), blocks = setup.body->matrices->stiffness.nonZeros() / 9.0;
+  return 8.0 * 29.0 * n + (shares ? 0.0 : 4.0 * n + 40.0 * 0.5 * (blocks - n));
+}
+
+PieceFigures ExplicitPiece::figures() const {
+  PieceFigures figures;
+  figures.bytes = op_->stiffness.bytes() + 8.0 * (29.0 + (v_old_.empty() ? 0.0 : 4.0)) * inverse_.size();
+  return figures;
+}
+
+}  // namespace dygita

@@ -1,0 +1,225 @@
+#include "solution/integration.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "base/parallel.hpp"
+#include "model/model.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr double safety = 0.98;
+// Bytes that are read and written: of an unknown in an explicit increment, and of a point; entries of a factor are so
+// many n^1.5, its and H's in single precision so many bytes; iterations of an increment.
+constexpr double explicit_unknown = 244.0, explicit_point = 1100.0, fill = 1.4, single_factor = 3.6, single_h = 1.5;
+constexpr double iterations = 5.0;
+
+struct Size {
+  double unknowns = 0.0, interface_unknowns = 0.0;
+};
+
+// Of a whole substructure: what an increment reads.
+double explicit_cost(const Size& size) {
+  return explicit_unknown * size.unknowns + explicit_point * size.interface_unknowns / 6.0;
+}
+double implicit_cost(const Size& size, double tolerance) {
+  const bool is_single = size.unknowns > 4000 && tolerance >= 1e-7;
+  const double n = size.unknowns, n_b = std::min(size.interface_unknowns, n);
+  return 2.0 * fill * std::pow(n, 1.5) * (is_single ? single_factor : 8.0) +
+         iterations * 0.5 * n_b * n_b * (is_single ? single_h : 8.0);
+}
+
+std::vector<Size> sizes_of(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces) {
+  std::vector<std::set<int>> nodes(problem.substructures.size());
+  for (const Surface& s : surfaces) {
+    if (!takes_part(problem, step, s)) continue;
+    const auto take = [](const SideTrace& side, std::set<int>& of) {
+      for (int i = 0; i < side.n_points(); ++i)
+        for (int k = 0; k < side.n_shares(i); ++k) of.insert(side.share(i, k).node);
+    };
+    take(s.facing.side_1, nodes[s.part_1]);
+    if (s.part_2 >= 0) take(s.facing.side_2, nodes[s.part_2]);
+  }
+  std::vector<Size> sizes;
+  for (size_t i = 0; i < nodes.size(); ++i)
+    sizes.push_back({3.0 * problem.substructures[i]->mesh->n_nodes(), 3.0 * static_cast<double>(nodes[i].size())});
+  return sizes;
+}
+
+std::unordered_map<int, Held> held_of(const Cut& cut, int piece, const Conditions& conditions) {
+  const CutPiece& own = cut.piece(piece);
+  if (own.is_whole()) return conditions.held[own.part];
+  std::unordered_map<int, Held> held;
+  for (size_t i = 0; i < own.nodes.size(); ++i)
+    if (const Held* h = conditions.at(own.part, own.nodes[i])) held.emplace(static_cast<int>(i), *h);
+  return held;
+}
+
+// What the deck says of a substructure: implicit, as the program chooses, or explicit.
+IntegrationChoice asked_of(const Problem& problem, const Substructure& part) {
+  return part.integration.value_or(problem.solver.integration);
+}
+
+class Chooser {
+ public:
+  Chooser(const Problem& problem, const Step& step, std::vector<Integration::Part> parts, std::vector<Size> sizes)
+      : problem_(problem), step_(step), parts_(std::move(parts)), sizes_(std::move(sizes)) {}
+
+  // The set of explicit substructures that costs least, of those that a longest step separates.
+  Integration best() const {
+    std::vector<double> limits{std::numeric_limits<double>::infinity()};
+    for (size_t i = 0; i < parts_.size(); ++i)
+      if (may_be(i) && !must_be(i)) limits.push_back(parts_[i].longest);
+    std::sort(limits.begin(), limits.end());
+    Integration best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double limit : limits) {
+      std::vector<char> set;
+      for (size_t i = 0; i < parts_.size(); ++i) set.push_back(must_be(i) || (may_be(i) && parts_[i].longest >= limit));
+      if (limit == limits.back())  // the parts without a limit are no reason to begin with
+        for (size_t i = 0; i < parts_.size(); ++i) set[i] = must_be(i);
+      const double cost = cost_of(set);
+      if (cost >= least) continue;
+      least = cost;
+      best.parts = parts_;
+      for (size_t i = 0; i < parts_.size(); ++i) best.parts[i].is_explicit = set[i] != 0;
+      best.n_substeps = substeps(set);
+      best.cost = cost / cost_of(std::vector<char>(parts_.size(), 0));
+    }
+    return best;
+  }
+
+ private:
+  bool must_be(size_t i) const {
+    return parts_[i].why_not.empty() && asked_of(problem_, *problem_.substructures[i]) == IntegrationChoice::explicitly;
+  }
+  bool may_be(size_t i) const {
+    return parts_[i].why_not.empty() && asked_of(problem_, *problem_.substructures[i]) != IntegrationChoice::implicitly;
+  }
+  int substeps(const std::vector<char>& set) const {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (size_t i = 0; i < set.size(); ++i)
+      if (set[i]) shortest = std::min(shortest, parts_[i].longest);
+    return std::isinf(shortest) ? 1 : std::max(1, static_cast<int>(std::ceil(step_.dt / shortest * (1.0 - 1e-9))));
+  }
+  double cost_of(const std::vector<char>& set) const {
+    double cost = 0.0;
+    bool is_mixed = false;
+    for (size_t i = 0; i < set.size(); ++i) {
+      cost += set[i] ? explicit_cost(sizes_[i]) : implicit_cost(sizes_[i], problem_.solver.tolerance);
+      is_mixed |= set[i] != set[0];
+    }
+    const bool has_must = [&] {
+      for (size_t i = 0; i < set.size(); ++i)
+        if (must_be(i)) return true;
+      return false;
+    }();
+    // A window of several steps is iterated: not with increments inside them.
+    if (is_mixed && problem_.solver.window != 1 && !has_must) return std::numeric_limits<double>::infinity();
+    return substeps(set) * cost;
+  }
+
+  const Problem& problem_;
+  const Step& step_;
+  std::vector<Integration::Part> parts_;
+  std::vector<Size> sizes_;
+};
+
+void refuse(const Problem& problem, const std::vector<Integration::Part>& parts) {
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const Substructure& part = *problem.substructures[i];
+    if (part.integration != IntegrationChoice::explicitly || parts[i].why_not.empty()) continue;
+    throw InputError(part.origin, fmt::format("substructure '{}': integration = \"explicit\" is not possible: {}",
+                                              part.name, parts[i].why_not));
+  }
+}
+
+void refuse_mixed_window(const Problem& problem, const Integration& chosen) {
+  if (problem.solver.window == 1) return;
+  const auto count =
+      std::count_if(chosen.parts.begin(), chosen.parts.end(), [](const auto& p) { return p.is_explicit; });
+  if (count == 0 || count == static_cast<long>(chosen.parts.size())) return;
+  throw InputError(problem.origin,
+                   fmt::format("problem '{}': 'window' is for time steps that are iterated together, and some of its "
+                               "substructures are explicit\n    leave 'window' out, or make all of them implicit",
+                               problem.name));
+}
+
+}  // namespace
+
+std::string why_not_explicit(const Body& body, double numerical_damping) {
+  if (numerical_damping != 0.0) return "'numerical_damping' belongs to the implicit scheme";
+  if (body.mass->matrix.size() > 0) return "mass = \"tuned\" couples the nodes";
+  if (!body.mass->is_massless.empty()) return "'massless_contact' leaves nodes without mass";
+  if (body.part->material.damping.stiffness > 0.0) return "its material has stiffness damping";
+  if (body.mass->lumped.minCoeff() <= 0.0) return "it has a node without mass";
+  return "";
+}
+
+Integration choose_integration(const Problem& problem, const Step& step, const std::vector<Body>& bodies,
+                               const Cut& cut, const Conditions& conditions, const std::vector<Surface>& surfaces) {
+  const size_t n = problem.substructures.size();
+  const bool is_asked = std::any_of(problem.substructures.begin(), problem.substructures.end(), [&](const auto& part) {
+    return asked_of(problem, *part) != IntegrationChoice::implicitly;
+  });
+  if (!is_asked || problem.monolithic || problem.explicit_dynamics) return {};
+  std::vector<Integration::Part> parts(n);
+  std::vector<double> longest(bodies.size(), std::numeric_limits<double>::infinity());
+  for (size_t p = 0; p < bodies.size(); ++p) {
+    std::string& why_not = parts[cut.piece(static_cast<int>(p)).part].why_not;
+    if (why_not.empty()) why_not = why_not_explicit(bodies[p], problem.numerical_damping());
+  }
+  for (const Surface& s : surfaces) {
+    if (s.facing.matches() || !takes_part(problem, step, s)) continue;
+    for (const int part : {s.part_1, s.part_2})
+      if (part >= 0 && parts[part].why_not.empty())
+        parts[part].why_not = "interface '" + s.name() + "' joins it to a mesh that does not match";
+  }
+  refuse(problem, parts);
+  parallel_for(static_cast<int>(bodies.size()), [&](int p) {
+    const int part = cut.piece(p).part;
+    if (parts[part].why_not.empty() && asked_of(problem, *problem.substructures[part]) != IntegrationChoice::implicitly)
+      longest[p] = safety * longest_explicit_step(bodies[p], held_of(cut, p, conditions));
+  });
+  for (size_t i = 0; i < n; ++i) {
+    const int first = cut.first(static_cast<int>(i));
+    parts[i].longest =
+        *std::min_element(longest.begin() + first, longest.begin() + first + cut.n_pieces(static_cast<int>(i)));
+  }
+  Integration chosen = Chooser(problem, step, parts, sizes_of(problem, step, surfaces)).best();
+  refuse_mixed_window(problem, chosen);
+  for (const CutPiece& piece : cut.pieces()) chosen.is_explicit.push_back(chosen.parts[piece.part].is_explicit);
+  if (std::find(chosen.is_explicit.begin(), chosen.is_explicit.end(), 1) == chosen.is_explicit.end())
+    chosen.is_explicit.clear();
+  return chosen;
+}
+
+std::string describe(const Integration& integration, const Problem& problem, const Step& step) {
+  if (integration.parts.empty()) return "";
+  std::string is_explicit, is_implicit;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < integration.parts.size(); ++i) {
+    const Integration::Part& part = integration.parts[i];
+    std::string& list = part.is_explicit ? is_explicit : is_implicit;
+    list += (list.empty() ? "'" : ", '") + problem.substructures[i]->name + "'";
+    if (!part.why_not.empty()) list += " (" + part.why_not + ")";
+    if (part.is_explicit) shortest = std::min(shortest, part.longest);
+  }
+  std::string text;
+  if (!is_explicit.empty())
+    text = fmt::format(
+        "explicit: {}; {} increment{} of {:.4g} us in each dt (stable to {:.4g} us), an estimated {:.2g} "
+        "of the cost of implicit ones",
+        is_explicit, integration.n_substeps, integration.n_substeps == 1 ? "" : "s",
+        1e6 * step.dt / integration.n_substeps, 1e6 * shortest, integration.cost);
+  if (!is_implicit.empty()) text += (text.empty() ? "implicit: " : "; implicit: ") + is_implicit;
+  return text;
+}
+
+}  // namespace dygita

@@ -1,0 +1,46 @@
+// How each substructure is integrated in a dynamic step, and in how many increments the time step of the deck is made
+// (manual, eq. S11): explicitly where that costs less, or as the deck asks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solution/body.hpp"
+#include "solution/conditions.hpp"
+#include "solution/cut.hpp"
+#include "solution/surfaces.hpp"
+
+namespace dygita {
+
+struct Integration {
+  struct Part {
+    bool is_explicit = false;
+    double longest = 0.0;  // s, increment that is stable; 0: nobody has asked
+    std::string why_not;   // it cannot be explicit; empty: it can
+  };
+  std::vector<char> is_explicit;  // of each piece; empty: none is
+  int n_substeps = 1;             // increments in each time step of the deck
+  std::vector<Part> parts;        // of each substructure; empty in static steps and where all are to be implicit
+  double cost = 1.0;              // of a time step, estimated, of what it would be with all implicit
+
+  bool is_explicit_piece(int i) const { return !is_explicit.empty() && is_explicit[i]; }
+  bool has_explicit() const { return !is_explicit.empty(); }
+};
+
+// bodies: of the pieces. Throws InputError where a substructure is to be
+// explicit and cannot be.
+Integration choose_integration(const Problem& problem, const Step& step, const std::vector<Body>& bodies,
+                               const Cut& cut, const Conditions& conditions, const std::vector<Surface>& surfaces);
+
+// Why a body cannot be integrated explicitly: "its material has stiffness damping"; empty: it can.
+std::string why_not_explicit(const Body& body, double numerical_damping);
+
+// Longest stable increment (s) of a body by itself, from its highest frequency by Lanczos' iteration: within a percent,
+// and not above it. held: of its nodes.
+double longest_explicit_step(const Body& body, const std::unordered_map<int, Held>& held);
+
+// "explicit: 'a', 'b' (12 increments of 0.08 us in each dt, stable to 0.09 us); implicit: 'c' (its material has
+// stiffness damping)"; empty: all are implicit and none was to be anything else.
+std::string describe(const Integration& integration, const Problem& problem, const Step& step);
+
+}  // namespace dygita

@@ -1,0 +1,254 @@
+// Explicit pieces in LATIN's steps: against implicit ones, alone and mixed; balances; the limit of stability.
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+#include <random>
+
+#include "latin/latin.hpp"
+#include "law/law.hpp"
+#include "solution/blocks.hpp"
+#include "solution/explicit_piece.hpp"
+
+namespace dygita {
+namespace {
+
+using enum IntegrationChoice;
+
+Problem hit_cubes(LawPtr law, double dt, IntegrationChoice lower, IntegrationChoice upper, int n_steps = 0) {
+  const double duration = 6e-6;
+  Problem problem =
+      two_cubes(std::move(law),
+                {dynamic_step("hit", n_steps > 0 ? n_steps : static_cast<int>(std::lround(duration / dt)), dt, {})}, 3);
+  auto step = std::make_shared<Step>(*problem.steps[0]);
+  step->loads = {load("traction", {top_of(problem)}, History::half_sine(-8e7, 3e-6), 2),
+                 load("traction", {top_of(problem)}, History::half_sine(3e7, 4e-6), 0)};
+  problem.steps = {step};
+  const auto with = [&](int i, IntegrationChoice choice) {
+    auto part = std::make_shared<Substructure>(*problem.substructures[i]);
+    part->integration = choice;
+    return part;
+  };
+  const auto one = with(0, lower), two = with(1, upper);
+  problem.substructures = {one, two};
+  problem.supports = {support("fixed", {Face{one, "zmin"}}), support("absorbing", {Face{two, "ymax"}})};
+  auto between = std::make_shared<Interface>(*problem.interfaces[0]);
+  between->side_1.part = one;
+  between->side_2.part = two;
+  problem.interfaces = {between};
+  step->loads = {load("traction", {Face{two, "zmax"}}, History::half_sine(-8e7, 3e-6), 2),
+                 load("traction", {Face{two, "zmax"}}, History::half_sine(3e7, 4e-6), 0)};
+  return problem;
+}
+
+Recorder solved(const Problem& problem) {
+  Recorder recorder;
+  const SolverFigures figures = solve(problem, recorder);
+  EXPECT_EQ(figures.steps.at(0).not_converged, 0);
+  return recorder;
+}
+
+double imbalance(const Recorder& recorder) {
+  double worst = 0.0, size = 0.0;
+  for (const Recorder::Row& row : recorder.rows) {
+    worst = std::max(worst, std::abs(row.energies.balance()));
+    size = std::max(size, row.energies.loads);
+  }
+  return worst / size;
+}
+
+double last_difference(const Recorder& one, const Recorder& other) {
+  double apart = 0.0, size = 0.0;
+  for (size_t part = 0; part < one.rows.back().displacement.size(); ++part) {
+    const Points &a = one.rows.back().displacement[part], &b = other.rows.back().displacement[part];
+    apart = std::max(apart, (a - b).cwiseAbs().maxCoeff());
+    size = std::max(size, b.cwiseAbs().maxCoeff());
+  }
+  return apart / size;
+}
+
+TEST(ExplicitPieces, alone_and_mixed_converge_to_what_implicit_ones_give) {
+  for (const LawPtr& law : {contact(0.3), bonded(), plastic(3e7, 1e10)}) {
+    const Recorder finest = solved(hit_cubes(law, 1e-8, implicitly, implicitly));
+    for (const auto& [lower, upper] :
+         {std::pair{explicitly, explicitly}, {implicitly, explicitly}, {explicitly, implicitly}}) {
+      double before = 1.0;
+      for (const double dt : {2e-7, 1e-7, 5e-8}) {
+        const Recorder run = solved(hit_cubes(law, dt, lower, upper));
+        const double error = last_difference(run, finest);
+        std::cout << law->word() << " dt " << dt << ": " << 100 * error << " %, imbalance " << imbalance(run)
+                  << ", iterations " << run.rows.back().iterations << "\n";
+        EXPECT_LT(error, before);
+        EXPECT_LT(imbalance(run), lower == explicitly && upper == explicitly ? 1e-12 : 1e-9);
+        before = error;
+      }
+      EXPECT_LT(before, 0.01);
+    }
+  }
+}
+
+// A time step of the deck in several increments, against as many time steps.
+TEST(ExplicitPieces, forces_and_reactions_are_means_over_the_time_step_of_the_deck) {
+  for (const auto& [lower, upper] : {std::pair{explicitly, explicitly}, {implicitly, explicitly}}) {
+    const Problem problem = hit_cubes(contact(0.3), 2e-6, lower, upper);
+    const int n = Modelled(problem).model.n_substeps();
+    ASSERT_GT(n, 2);
+    const Recorder coarse = solved(problem), fine = solved(hit_cubes(contact(0.3), 2e-6 / n, lower, upper));
+    ASSERT_EQ(fine.rows.size(), n * coarse.rows.size());
+    const double exact = lower == upper ? 1e-9 : 1e-6;
+    for (size_t i = 0; i < coarse.rows.size(); ++i) {
+      const Recorder::Row& row = coarse.rows[i];
+      const Recorder::Row& last = fine.rows[(i + 1) * n - 1];
+      Points reactions = Points::Zero(3, row.reactions[0].cols());
+      for (size_t p = 0; p < row.surfaces[0].points.size(); ++p) {
+        Vec3 mean = Vec3::Zero();
+        for (int j = 0; j < n; ++j) mean += fine.rows[i * n + j].surfaces[0].points[p].force / n;
+        EXPECT_LT((row.surfaces[0].points[p].force - mean).norm(), exact * 1e3);
+        EXPECT_NEAR(row.surfaces[0].points[p].gap, last.surfaces[0].points[p].gap, exact * 1e-6);
+      }
+      for (int j = 0; j < n; ++j) reactions += fine.rows[i * n + j].reactions[0] / n;
+      EXPECT_LT((row.reactions[0] - reactions).cwiseAbs().maxCoeff(), exact * 1e3);
+      if (i > 1) EXPECT_GT(reactions.cwiseAbs().maxCoeff(), 1.0);
+      EXPECT_LT((row.displacement[1] - last.displacement[1]).cwiseAbs().maxCoeff(), exact * 1e-5);
+      EXPECT_NEAR(row.energies.kinetic, last.energies.kinetic, exact * 1e-1);
+      EXPECT_NEAR(row.energies.friction, last.energies.friction, exact * 1e-1);
+    }
+    EXPECT_EQ(coarse.rows.back().time, 6e-6);
+  }
+}
+
+// A free cube with random velocities, at a part of its longest stable step.
+double growth(double part_of_longest) {
+  const Problem problem = hit_cubes(contact(0.0), 1e-7, explicitly, explicitly);
+  Modelled modelled(problem);
+  PieceSetup setup;
+  setup.body = &modelled.bodies[0];
+  setup.scheme = {false, part_of_longest * longest_explicit_step(modelled.bodies[0], {}), 0.5};
+  setup.what = "cube";
+  ExplicitPiece piece(setup, std::make_shared<const ExplicitOperator>(modelled.bodies[0].matrices->stiffness));
+  const int n = setup.n_nodes();
+  Points zero = Points::Zero(3, n), v(3, n);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (double& value : v.reshaped()) value = uniform(random);
+  piece.set_state(zero, v, zero, zero);
+  piece.set_loads(zero, {});
+  const IncrementEnergy before = piece.stored_energy();
+  for (int i = 0; i < 5000; ++i) {
+    piece.begin(std::vector<double>{}, {});
+    piece.finish(Vec(0), nullptr);
+  }
+  const IncrementEnergy after = piece.stored_energy();
+  return (after.kinetic + after.strain) / (before.kinetic + before.strain);
+}
+
+TEST(ExplicitPieces, are_stable_up_to_the_longest_step_and_not_beyond) {
+  EXPECT_NEAR(growth(0.5), 1.0, 1e-11);
+  EXPECT_NEAR(growth(0.98), 1.0, 1e-10);
+  EXPECT_FALSE(growth(1.01) < 1e3);
+}
+
+// At the limit itself: ties, friction, walls and non-reflecting supports do not shorten it.
+TEST(ExplicitPieces, are_stable_there_with_friction_ties_and_supports) {
+  for (const LawPtr& law : {contact(0.5), bonded()}) {
+    const Problem any = hit_cubes(law, 1e-7, explicitly, explicitly);
+    Modelled modelled(any);
+    double limit = 1.0;
+    for (const Integration::Part& part : modelled.model.integration.parts) limit = std::min(limit, part.longest);
+    const Recorder run = solved(hit_cubes(law, limit, explicitly, explicitly, 4000));
+    EXPECT_EQ(run.rows.back().iterations, 1);
+    EXPECT_LT(imbalance(run), 1e-11);
+    EXPECT_LT(run.rows.back().energies.kinetic + run.rows.back().energies.strain, run.rows.back().energies.loads);
+  }
+}
+
+// Three cubes in a corner of two rough walls, nodes under several laws, one of them on a non-reflecting support.
+Problem corner(IntegrationChoice choice, double dt, int pieces = 1, int n = 3) {
+  Problem problem;
+  problem.name = "corner";
+  const BlockPtr low = cube("low", 0, 0, 0, n), middle = cube("middle", 0, 0, 1, n), top = cube("top", 0, 0, 2, n);
+  for (const BlockPtr& part : {low, middle, top}) part->integration = choice;
+  problem.substructures = {low, middle, top};
+  problem.interfaces = {interface("rubs", face(low, "zmax"), face(middle, "zmin"), contact(0.3)),
+                        interface("tied", face(middle, "zmax"), face(top, "zmin"), bonded())};
+  problem.supports = {
+      support("wall", {face(low, "zmin"), face(low, "xmin"), face(middle, "xmin")}, {{"friction", 0.2}, {"gap", 0.0}}),
+      support("absorbing", {face(middle, "ymax")})};
+  problem.steps = {dynamic_step("hit", static_cast<int>(std::lround(6e-6 / dt)), dt,
+                                {load("traction", {face(top, "zmax")}, History::half_sine(-1e8, 4e-6), 2),
+                                 load("traction", {face(top, "zmax")}, History::half_sine(-5e7, 3e-6), 0)})};
+  problem.solver.tolerance = 1e-11;
+  problem.solver.pieces = pieces;
+  return problem;
+}
+
+TEST(ExplicitPieces, take_turns_where_points_share_nodes) {
+  const Recorder finest = solved(corner(implicitly, 1e-8));
+  double before = 1.0;
+  for (const double dt : {2e-7, 1e-7, 5e-8}) {
+    const Recorder run = solved(corner(explicitly, dt));
+    const double error = last_difference(run, finest);
+    std::cout << "dt " << dt << ": " << 100 * error << " %, imbalance " << imbalance(run) << "\n";
+    EXPECT_LT(error, 0.5 * before);
+    EXPECT_LT(imbalance(run), 1e-11);
+    EXPECT_GT(run.rows.back().energies.friction, 0.0);
+    before = error;
+  }
+  EXPECT_LT(before, 0.01);
+}
+
+TEST(ExplicitPieces, that_are_cut_are_the_uncut_ones) {
+  const Recorder whole = solved(corner(explicitly, 1e-7)), cut = solved(corner(explicitly, 1e-7, 3));
+  EXPECT_LT(displacement_difference(cut, whole), 1e-9);
+  EXPECT_LT(velocity_difference(cut, whole), 1e-9);
+  EXPECT_LT(imbalance(cut), 1e-11);
+}
+
+TEST(ExplicitPieces, give_the_same_bits_on_any_number_of_threads) {
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const Recorder one = solved(corner(explicitly, 2e-7, 2, 12));
+  omp_set_num_threads(3);
+  const Recorder three = solved(corner(explicitly, 2e-7, 2, 12));
+  omp_set_num_threads(before);
+  EXPECT_EQ(displacement_difference(one, three), 0.0);
+  EXPECT_EQ(one.rows.back().energies.friction, three.rows.back().energies.friction);
+  EXPECT_EQ(one.rows.back().energies.scheme, three.rows.back().energies.scheme);
+}
+
+// Tightened, then left alone: what the static step has left stays at rest.
+TEST(ExplicitPieces, rest_where_a_static_step_has_left_them_in_balance) {
+  for (const LawPtr& law : {plastic(1e9), contact(0.3)}) {
+    auto press = static_step("press", 1, {});
+    Problem problem = hit_cubes(law, 1e-7, explicitly, explicitly);
+    const SubstructurePtr upper = problem.substructures[1];
+    problem.supports.pop_back();
+    press->loads = {number("pressure", {Face{upper, "zmax"}}, 3e7)};
+    auto rest = dynamic_step("rest", 50, 1e-7, {number("pressure", {Face{upper, "zmax"}}, 3e7)}, press);
+    problem.steps = {press, rest};
+    const Recorder run = solved(problem);
+    EXPECT_LT((run.rows.back().displacement[1] - run.rows.front().displacement[1]).norm(),
+              1e-7 * run.rows.front().displacement[1].norm());
+    EXPECT_GT(run.rows.front().displacement[1].norm(), 1e-7);
+    EXPECT_LT(run.rows.back().energies.kinetic, 1e-12 * run.rows.back().energies.strain);
+  }
+}
+
+// A base that shakes: nodes held by a moving support, in contact on top of it.
+TEST(ExplicitPieces, follow_a_moving_support_and_book_its_work) {
+  const auto shaken = [&](IntegrationChoice choice, double dt) {
+    Problem problem = hit_cubes(contact(0.3), dt, choice, choice);
+    auto step = std::make_shared<Step>(*problem.steps[0]);
+    step->loads = {load("velocity", {Face{problem.substructures[0], "zmin"}}, History::haversine(5.0, 4e-6), 2)};
+    problem.steps = {step};
+    problem.supports.erase(problem.supports.begin());
+    return solved(problem);
+  };
+  const Recorder finest = shaken(implicitly, 1e-8), run = shaken(explicitly, 5e-8);
+  EXPECT_LT(last_difference(run, finest), 0.01);
+  EXPECT_LT(imbalance(run), 1e-11);
+  EXPECT_GT(run.rows.back().energies.loads, 0.0);
+}
+
+}  // namespace
+}  // namespace dygita
