@@ -11,9 +11,9 @@ namespace dygita {
 
 namespace {
 
-constexpr double least_cosine = 0.5;   // between a normal and the opposite of the other
-constexpr double sharp = 0.7;          // cosine of the angle between neighbours that make an edge, no round face
-constexpr double least_share = 1e-10;  // of the smaller part's area
+constexpr double least_cosine = 0.5;     // between a normal and the opposite of the other
+constexpr double sharp = 0.7;            // cosine of the angle between neighbours that make an edge, no round face
+constexpr double least_segment = 1e-10;  // of the smaller part's area
 
 std::vector<Polygon> polygons_of(const FaceInSpace& face) {
   std::vector<Polygon> polygons;
@@ -119,7 +119,7 @@ std::vector<Segment> SegmentFinder::segments(int index) const {
     Polygon2 region = clip(project(other.x), window);
     if (region.size() < 3) continue;
     const double area = signed_area(region);
-    if (area < least_share * std::min(part.area, other.area)) continue;
+    if (area < least_segment * std::min(part.area, other.area)) continue;
     Vec2 middle = Vec2::Zero();
     for (const Vec2& p : region) middle += p / static_cast<double>(region.size());
     // Along the part's normal, to the plane of the other.

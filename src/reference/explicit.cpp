@@ -3,8 +3,8 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <chrono>
 
+#include "base/clock.hpp"
 #include "base/log.hpp"
 #include "base/progress.hpp"
 #include "reference/explicit_run.hpp"
@@ -14,9 +14,6 @@
 namespace dygita {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
 
 // Energies go on where one explicit step follows another: the pieces know the full stiffness only.
 void go_on(const Energies& before, bool is_first_dynamic, Energies& energies) {

@@ -3,9 +3,9 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <chrono>
 #include <cmath>
 
+#include "base/clock.hpp"
 #include "base/progress.hpp"
 #include "reference/interface_newton.hpp"
 #include "reference/merged_assembly.hpp"
@@ -15,9 +15,6 @@
 namespace dygita {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
 
 class MonolithicRun {
  public:

@@ -98,22 +98,22 @@ std::string known_units(const std::string& si) {
   return list;
 }
 
-std::string trimmed(const std::string& text) {
+std::string without_quotes(const std::string& text) {
   const size_t first = text.find_first_not_of(" \t\r\"'#"), last = text.find_last_not_of(" \t\r\"'");
   return first == std::string::npos || last < first ? "" : text.substr(first, last - first + 1);
 }
 
 // The last bracket of a text, or rather the last that holds a known unit.
 Title title_of(const std::string& text) {
-  Title title{trimmed(text), std::nullopt};
+  Title title{without_quotes(text), std::nullopt};
   bool is_known = false;
   for (size_t open = text.find_first_of("[("); open != std::string::npos; open = text.find_first_of("[(", open + 1)) {
     const size_t close = text.find(text[open] == '[' ? ']' : ')', open);
     if (close == std::string::npos) break;
-    const std::string inside = trimmed(text.substr(open + 1, close - open - 1));
+    const std::string inside = without_quotes(text.substr(open + 1, close - open - 1));
     if (is_known && !unit_named(inside)) continue;
     is_known = unit_named(inside).has_value();
-    title = {trimmed(text.substr(0, open)), inside};
+    title = {without_quotes(text.substr(0, open)), inside};
   }
   return title;
 }
@@ -138,7 +138,7 @@ std::vector<Title> titles_between_blanks(const std::string& line) {
   std::vector<Title> titles;
   std::string words;
   const auto close = [&] {
-    if (!trimmed(words).empty()) titles.push_back(title_of(words));
+    if (!without_quotes(words).empty()) titles.push_back(title_of(words));
     words.clear();
   };
   for (const std::string& word : split(line, " \r")) {
