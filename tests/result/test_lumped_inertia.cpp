@@ -11,7 +11,7 @@ namespace {
 
 TEST(LumpedInertia, of_a_bar_follows_its_cells_across) {
   for (const int n : {1, 2, 4}) {
-    const LumpedInertia found = lumped_inertia(box_mesh(Vec3(0.1, 0.2, 0.3), Vec3(0.01, 0.01, 0.1), {n, n, 10 * n}));
+    const LumpedInertia found = lumped_inertia(*box_mesh(Vec3(0.1, 0.2, 0.3), Vec3(0.01, 0.01, 0.1), {n, n, 10 * n}));
     EXPECT_NEAR(found.ratio, 1.0 + 2.0 / (n * n), 1e-9) << n;
     EXPECT_NEAR(std::abs(found.axis.z()), 1.0, 1e-9) << n;
   }
