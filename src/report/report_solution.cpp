@@ -15,7 +15,7 @@ namespace {
 
 constexpr double smallest_share = 2e-4;  // of the largest energy: what is less is not seen
 
-double largest(const std::vector<double>& values) {
+double largest_of(const std::vector<double>& values) {
   double max = 0.0;
   for (const double v : values)
     if (std::isfinite(v)) max = std::max(max, std::abs(v));
@@ -35,12 +35,12 @@ std::string energy_figure(const Table& t, const TimeAxis& time) {
                                    {"friction", "friction", "#e69f00"}, {"plastic", "yielding", "#d55e00"},
                                    {"damping", "damping", "#cc79a7"},   {"scheme", "scheme", "#999999"}};
   std::vector<double> all(places.size(), 0.0);
-  double most = largest(t.column("loads"));
-  for (const Term& term : terms) most = std::max(most, largest(t.column(term.column)));
+  double most = largest_of(t.column("loads"));
+  for (const Term& term : terms) most = std::max(most, largest_of(t.column(term.column)));
   for (const Term& term : terms) {
     const std::vector<double>& values = t.column(term.column);
     for (size_t i = 0; i < all.size(); ++i) all[i] += values[i];
-    if (largest(values) > smallest_share * most) plot.stacked.push_back({term.name, places, values, term.color});
+    if (largest_of(values) > smallest_share * most) plot.stacked.push_back({term.name, places, values, term.color});
   }
   // What was put in: balance = start + loads - all others.
   std::vector<double> given = all;
@@ -144,13 +144,13 @@ std::string convergence_section(const RunFolder& run) {
   iterations.y.from = 0.0;
   std::vector<std::string> figures = {html::figure(svg(iterations), iterations.title + ".")};
   const std::vector<double>& indicator = t.column("indicator");
-  if (largest(indicator) > 0.0) {
+  if (largest_of(indicator) > 0.0) {
     Plot plot = chart("Indicator at the end of each increment", "indicator");
     plot.y.is_log = true;
     plot.lines.push_back({"", place, indicator, {}, false, true, 1.2});
     plot.levels = tolerance_levels(record);
     // One that is far below the tolerance (nothing moves yet) would flatten the rest.
-    double low = largest(indicator);
+    double low = largest_of(indicator);
     for (const PlotLevel& level : plot.levels) low = std::min(low, level.y);
     double least = low;
     for (const double v : indicator)
