@@ -33,9 +33,10 @@ struct PowerLaws {
   }
 };
 
-const std::string deck = std::string("local p = param{ size = 4, n = 3 }\nlocal used = p.size + p.n\n") + two_blocks +
-                         "problem{ name = 'pair', substructures = { low, high }, interfaces = { glue }, "
-                         "supports = { base }, steps = { hold, ring }, outputs = { joint } }:run{}\n";
+const std::string refined_deck = std::string("local p = param{ size = 4, n = 3 }\nlocal used = p.size + p.n\n") +
+                                 two_blocks +
+                                 "problem{ name = 'pair', substructures = { low, high }, interfaces = { glue }, "
+                                 "supports = { base }, steps = { hold, ring }, outputs = { joint } }:run{}\n";
 
 class Converging : public ::testing::Test {
  protected:
@@ -44,7 +45,7 @@ class Converging : public ::testing::Test {
   ConvergeOptions options;
 
   ConvergeOutcome run(const std::vector<std::string>& vary, const std::vector<std::string>& outputs) {
-    options.deck.path = folder.write("deck.lua", deck);
+    options.deck.path = folder.write("deck.lua", refined_deck);
     options.deck.out = folder.path() / "out";
     options.variations.clear();
     for (const std::string& text : vary) options.variations.push_back(parse_variation(text));

@@ -10,7 +10,7 @@ namespace dygita::test {
 namespace {
 
 // A deck that drives the blocks by `history`, an expression of the deck with `signal`, `other` and `f` at hand.
-std::string deck_with(const std::string& history, const std::string& word = "pressure") {
+std::string deck_with_history(const std::string& history, const std::string& word = "pressure") {
   const std::string on = word == "pressure" ? "on = high:face 'zmax'" : "on = base, direction = { 0, 0, 1 }";
   return std::string(two_blocks) + R"(
 local signal = history.piecewise{ times = { 0, 1*us, 4*us }, values = { 0, 2, 0 } }
@@ -28,7 +28,7 @@ double value_of(const std::string& history, double t) {
   FakeEngine fake;
   double value = 0.0;
   fake.during = [&](const Problem& problem) { value = problem.steps[0]->loads[0]->values[0]->history.value(t); };
-  run_text(deck_with(history), fake);
+  run_text(deck_with_history(history), fake);
   return value;
 }
 
@@ -68,7 +68,7 @@ TEST(DeckHistory, is_asked_for_a_value_where_the_deck_wants_one) {
 TEST(DeckHistory, that_was_used_in_another_is_used) {
   take_warnings();
   FakeEngine fake;
-  run_text(deck_with("2*signal + other*f(1)"), fake);
+  run_text(deck_with_history("2*signal + other*f(1)"), fake);
   for (const std::string& warning : take_warnings()) EXPECT_EQ(warning.find("history"), std::string::npos) << warning;
 }
 
@@ -77,7 +77,7 @@ std::pair<std::string, std::vector<std::string>> said_with(const std::string& cs
   const Folder folder;
   folder.write("shot.csv", csv);
   DeckOptions options;
-  options.path = folder.write("deck.lua", deck_with(history, "base_acceleration"));
+  options.path = folder.write("deck.lua", deck_with_history(history, "base_acceleration"));
   take_warnings();
   FakeEngine fake;
   testing::internal::CaptureStdout();
@@ -126,13 +126,13 @@ int count(const std::vector<std::string>& warnings, const std::string& text) {
 }
 
 TEST(Unusual, values_are_warned_of) {
-  EXPECT_EQ(count(warnings_of(deck_with("2e6*g0", "base_acceleration")),
+  EXPECT_EQ(count(warnings_of(deck_with_history("2e6*g0", "base_acceleration")),
                   "'history' = 1.96133e+07 m/s^2 is unusual: beyond 100000 g; is it in m/s^2 already?"),
             1);
-  EXPECT_EQ(count(warnings_of(deck_with("1e6*g0*other", "base_acceleration")),
+  EXPECT_EQ(count(warnings_of(deck_with_history("1e6*g0*other", "base_acceleration")),
                   "'history (largest value)' = 2.942e+07 m/s^2 is unusual"),
             1);
-  EXPECT_EQ(count(warnings_of(deck_with("500*g0", "base_acceleration")), "unusual"), 0);
+  EXPECT_EQ(count(warnings_of(deck_with_history("500*g0", "base_acceleration")), "unusual"), 0);
   const std::string contact =
       "local touch = interface.contact{ name = 'touch', between = { low:face 'xmax', high:face 'xmin' }, friction = ";
   EXPECT_EQ(count(warnings_of(std::string(two_blocks) + contact + "30 }"),

@@ -118,7 +118,8 @@ problem{ name = "hung", substructures = { low, high }, interfaces = { damper }, 
     run_text(on("high"), {}, 1, GetParam());
     FAIL() << "a loaded part that nothing holds is accepted";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("'high' is loaded, but no support and no interface holds it: interface.viscous 'film' "),
+    EXPECT_NE(std::string(error.what())
+                  .find("'high' is loaded, but no support and no interface holds it: interface.viscous 'film' "),
               std::string::npos)
         << error.what();
   }

@@ -8,8 +8,8 @@
 namespace dygita::test {
 namespace {
 
-constexpr double tolerance = 1e-8;  // of LATIN
-constexpr double agreement = 10 * tolerance;
+constexpr double reference_tolerance = 1e-8;  // of LATIN
+constexpr double agreement = 10 * reference_tolerance;
 
 // The decks say `solver = pick` and have p.monolithic.
 const std::string choice = R"(

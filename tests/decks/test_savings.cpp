@@ -8,7 +8,7 @@ namespace dygita::test {
 namespace {
 
 // A plate on a clamped side carries n equal posts in frictional contact, each pressed and hit in its own way.
-const std::string posts = R"(
+const std::string standing_posts = R"(
 local p = param{ n = 3, last = 1, plain = 0, single = 0, tolerance = 1e-9, history = 512 }
 local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
 local other = material.elastic{ name = "other", young = 210*GPa * p.last, poisson = 0.3, density = 7800 }
@@ -33,13 +33,13 @@ problem{ name = "posts", substructures = parts, interfaces = joints, supports = 
 constexpr const char* n_shared = "substructures that share another's factor, over all steps";
 
 TEST(EqualSubstructures, share_a_factor_and_are_solved_as_if_each_had_its_own) {
-  const DeckRun shared = run_text(posts).at(0);
+  const DeckRun shared = run_text(standing_posts).at(0);
   EXPECT_TRUE(shared.result->converged);
   EXPECT_EQ(shared.figure(n_shared), 2 * 2);  // two of three posts, in two steps
   // A post that is not quite like the others has its own.
-  const DeckRun own = run_text(posts, {{"last", "1 + 1e-13"}}).at(0);
+  const DeckRun own = run_text(standing_posts, {{"last", "1 + 1e-13"}}).at(0);
   EXPECT_EQ(own.figure(n_shared), 2 * 1);
-  const DeckRun plain = run_text(posts, {{"plain", "1"}}).at(0);
+  const DeckRun plain = run_text(standing_posts, {{"plain", "1"}}).at(0);
   for (const char* top : {"top1", "top2", "top3"})
     for (const char* axis : {"x", "z"}) {
       EXPECT_LT(difference(own.column(top, axis), shared.column(top, axis)), 1e-6) << top << axis;
@@ -50,8 +50,8 @@ TEST(EqualSubstructures, share_a_factor_and_are_solved_as_if_each_had_its_own) {
 }
 
 TEST(EqualSubstructures, more_than_sixteen_are_solved_in_groups) {
-  const DeckRun many = run_text(posts, {{"n", "18"}}).at(0),
-                plain = run_text(posts, {{"n", "18"}, {"plain", "1"}}).at(0);
+  const DeckRun many = run_text(standing_posts, {{"n", "18"}}).at(0),
+                plain = run_text(standing_posts, {{"n", "18"}, {"plain", "1"}}).at(0);
   EXPECT_EQ(many.figure(n_shared), 2 * 17);
   for (const char* top : {"top1", "top9", "top18"})
     EXPECT_LT(difference(plain.column(top, "z"), many.column(top, "z")), 1e-6) << top;
@@ -59,7 +59,7 @@ TEST(EqualSubstructures, more_than_sixteen_are_solved_in_groups) {
 
 TEST(SinglePrecision, of_what_is_stored_changes_results_less_than_the_tolerance_allows) {
   const Settings usual{{"tolerance", "1e-6"}}, single{{"tolerance", "1e-6"}, {"single", "1"}};
-  const DeckRun a = run_text(posts, usual).at(0), b = run_text(posts, single).at(0);
+  const DeckRun a = run_text(standing_posts, usual).at(0), b = run_text(standing_posts, single).at(0);
   EXPECT_LT(b.figure("energy imbalance [%]"), 1e-3);
   for (const char* top : {"top1", "top2", "top3"})
     EXPECT_LT(difference(a.column(top, "z"), b.column(top, "z")), 2e-5) << top;
@@ -164,7 +164,7 @@ problem{ name = "washer", substructures = { low, washer, up }, interfaces = { a,
 }
 
 TEST(InterfaceFields, beyond_the_budget_come_back_from_a_file) {
-  std::string text = posts;
+  std::string text = standing_posts;
   text.replace(text.find("problem{"), 8, "local function case(start)\nreturn problem{");
   text.replace(text.find(":run{}"), 6,
                ":run{ start_from = start, case = start and 'again' or 'first' }\nend\ncase(case())\n");
