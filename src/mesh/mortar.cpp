@@ -82,7 +82,7 @@ bool is_second_chosen(const Census& first, const Census& second, const MeetingOp
 
 using Weights = std::vector<std::pair<int, double>>;  // (node, weight), by node
 
-// Sums entries of one node; zeros stay, since the nodes count in eq. M4.
+// Sums entries of one node; zeros stay, since the nodes count in eq. J4.
 void gather(Weights& weights) {
   std::stable_sort(weights.begin(), weights.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   size_t n = 0;
