@@ -13,7 +13,7 @@ struct FacetPart {
 struct FacetParts {
   std::span<const FacetPart> parts;
   // Are the multipliers dual to the facet's own shape functions? Else to the linear ones of each part, whose areas are
-  // all positive (manual, eq. M2).
+  // all positive (manual, eq. J2).
   bool has_own_multipliers;
 };
 

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/parallel.hpp"
+#include "mesh/facet_parts.hpp"
 #include "numerics/dense.hpp"
 
 namespace dygita {
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double least_share = 0.5;      // of a point's function that must be covered
 constexpr double coarser = 1.3;          // of two sizes, to count as different
+constexpr double fewer_points = 0.02;    // of the smaller number, likewise
 constexpr double better_covered = 0.01;  // of two shares, likewise
 constexpr double rounding = 1e-6;        // of the smallest edge: touching faces are not farther apart
 constexpr double nothing = 1e-14;        // a weight
@@ -22,6 +24,7 @@ constexpr double flat = 1e-9;            // of the largest: an inertia without a
 // A side of the overlap by itself.
 struct Census {
   double size = 0.0, coverage = 0.0;  // m, median side of the parts that take part; covered share of these
+  double n_points = 0.0;              // nodes of which enough is covered
 };
 
 double median(std::vector<double> values) {
@@ -31,41 +34,55 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+// covered: m^2, of each part.
+Census census_of(const FaceInSpace& face, const std::vector<double>& covered) {
+  std::vector<double> sizes, of_node(face.nodes.size(), 0.0), all_of_node(face.nodes.size(), 0.0);
+  double sum = 0.0, touched = 0.0;
+  for (size_t i = 0; i < face.parts.size(); ++i) {
+    const FaceInSpace::Part& part = face.parts[i];
+    const FacetPart& shape = facet_parts(face.types[part.facet]).parts[part.k];
+    for (int a = 0; a < shape.n; ++a) {
+      const int node = face.facets[part.facet][shape.corners[a]];
+      of_node[node] += covered[i];
+      all_of_node[node] += part.area;
+    }
+    if (covered[i] == 0.0) continue;
+    sizes.push_back(std::sqrt(part.area));
+    sum += covered[i];
+    touched += part.area;
+  }
+  Census census{median(sizes), touched > 0.0 ? sum / touched : 0.0, 0.0};
+  for (size_t i = 0; i < of_node.size(); ++i)
+    if (of_node[i] > 0.0 && of_node[i] >= least_share * all_of_node[i]) census.n_points += 1.0;
+  return census;
+}
+
 std::pair<Census, Census> take_census(const FaceInSpace& one, const FaceInSpace& other, double reach) {
   const SegmentFinder finder(one, other, reach);
   std::vector<std::vector<Segment>> segments(one.parts.size());
   parallel_for(static_cast<int>(segments.size()), [&](int i) { segments[i] = finder.segments(i); });
-  std::vector<char> takes_part(other.parts.size(), 0);
-  std::vector<double> sizes_1, sizes_2;
-  double covered = 0.0, area_1 = 0.0, area_2 = 0.0;
-  for (size_t i = 0; i < segments.size(); ++i) {
-    if (segments[i].empty()) continue;
-    sizes_1.push_back(std::sqrt(one.parts[i].area));
-    area_1 += one.parts[i].area;
+  std::vector<double> of_one(one.parts.size(), 0.0), of_other(other.parts.size(), 0.0);
+  for (size_t i = 0; i < segments.size(); ++i)
     for (const Segment& segment : segments[i]) {
-      covered += segment.area;
-      takes_part[segment.other] = 1;
+      of_one[i] += segment.area;
+      of_other[segment.other] += segment.area;
     }
-  }
-  for (size_t i = 0; i < takes_part.size(); ++i) {
-    if (!takes_part[i]) continue;
-    sizes_2.push_back(std::sqrt(other.parts[i].area));
-    area_2 += other.parts[i].area;
-  }
-  if (covered == 0.0) return {};
-  return {{median(sizes_1), covered / area_1}, {median(sizes_2), covered / area_2}};
+  return {census_of(one, of_one), census_of(other, of_other)};
 }
 
 bool is_second_chosen(const Census& first, const Census& second, const MeetingOptions& options) {
   if (options.points != Carrier::coarser) return options.points == Carrier::second;
   if (std::max(first.size, second.size) >= coarser * std::min(first.size, second.size)) return second.size > first.size;
+  // With more points than the other side has nodes, that side could not answer them all.
+  if (std::abs(first.n_points - second.n_points) > fewer_points * std::min(first.n_points, second.n_points))
+    return second.n_points < first.n_points;
   if (std::abs(first.coverage - second.coverage) > better_covered) return second.coverage > first.coverage;
   return options.is_second_softer;
 }
 
 using Weights = std::vector<std::pair<int, double>>;  // (node, weight), by node
 
-// Sums entries of one node; zeros stay, since the nodes count in eq. M4.
+// Sums entries of one node; zeros stay, since the nodes count in eq. J4.
 void gather(Weights& weights) {
   std::stable_sort(weights.begin(), weights.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   size_t n = 0;

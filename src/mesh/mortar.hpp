@@ -1,4 +1,4 @@
-// Interface points between faces whose meshes do not match: dual mortar (manual, eq. M1-M5).
+// Interface points between faces whose meshes do not match: dual mortar (manual, eq. J1-J5).
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// Integrals of dual multipliers over what a facet has in common with another mesh (manual, eq. M2-M3).
+// Integrals of dual multipliers over what a facet has in common with another mesh (manual, eq. J2-J3).
 #pragma once
 
 #include "mesh/segments.hpp"

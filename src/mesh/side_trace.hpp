@@ -1,4 +1,4 @@
-// How the points of an interface move with the nodes of one of its sides (manual, eq. M1).
+// How the points of an interface move with the nodes of one of its sides (manual, eq. J1).
 #pragma once
 
 #include <utility>

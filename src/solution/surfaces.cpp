@@ -146,7 +146,7 @@ void check_gap_of_geometry(const Interface& interface, const Facing& facing) {
 }
 
 // The points of an interface. Where three bodies are tied along a line, one of the ties leaves it to the others: tied
-// once too often, it would not converge well (manual, eq. M5).
+// once too often, it would not converge well (manual, eq. J5).
 Facing facing_of(const Problem& problem, int i, const std::vector<Meeting>& meetings, const FacetsOfOthers& others) {
   const Interface& interface = *problem.interfaces[i];
   const auto is_taken = [&](const Vec3& x) { return others.take(problem, i, x); };

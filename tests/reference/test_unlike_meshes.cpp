@@ -142,7 +142,7 @@ std::vector<StepPtr> press_and_strike(const Problem& of, int n) {
 void expect_that_both_agree(LawPtr law, const Pair& cells) {
   Problem problem = stack(cells, std::move(law));
   problem.supports = {support("fixed", {face_of(problem, 0, "zmin")})};
-  problem.steps = press_and_strike(problem, 30);
+  problem.steps = press_and_strike(problem, 15);
   const Recorder latin = run_latin(problem), whole = run_monolithic(problem);
   EXPECT_LT(displacement_difference(latin, whole), 1e-6);
   EXPECT_LT(velocity_difference(latin, whole), 1e-5);
@@ -200,7 +200,7 @@ Impact impact(const Pair& cells, double ratio = 1.0) {
   auto upper = std::const_pointer_cast<Substructure>(problem.substructures[1]);
   upper->velocity = {2.0, 1.0, -10.0};
   upper->material.young /= ratio;
-  problem.steps = {dynamic_step("hit", 60, 0.5e-6, {})};
+  problem.steps = {dynamic_step("hit", 40, 0.5e-6, {})};
   problem.solver.tolerance = 1e-6;
   Recorder run;
   solve(problem, run);
@@ -228,19 +228,20 @@ Impact impact(const Pair& cells, double ratio = 1.0) {
 
 TEST(UnlikeMeshes, that_meet_get_no_energy_and_keep_their_momentum) {
   const Impact matching = impact({5, 5});
-  for (const Pair& cells : {Pair{3, 5}, Pair{5, 3}, Pair{3, 5, true}, Pair{1, 5}, Pair{5, 1}}) {
-    for (const double ratio : {1.0, 50.0}) {
-      const Impact unlike = impact(cells, ratio);
-      std::printf(
-          "%d:%d%s, moduli %g: energy at most %.9f of the start, %.3f left; momentum %.1e; %.1f iterations (5:5 "
-          "%.1f)\n",
-          cells.lower, cells.upper, cells.reversed ? " reversed" : "", ratio, unlike.highest, unlike.left,
-          unlike.momentum, unlike.iterations, matching.iterations);
-      EXPECT_LT(unlike.highest, 1.0 + 1e-9);
-      EXPECT_LT(unlike.momentum, 1e-5);
-    }
+  double at_ratio = 0.0;  // 3:5
+  for (const auto& [cells, ratio] :
+       {std::pair{Pair{3, 5}, 1.0}, std::pair{Pair{3, 5, true}, 50.0}, std::pair{Pair{5, 3}, 50.0},
+        std::pair{Pair{1, 5}, 1.0}, std::pair{Pair{5, 1}, 1.0}}) {
+    const Impact unlike = impact(cells, ratio);
+    std::printf(
+        "%d:%d%s, moduli %g: energy at most %.9f of the start, %.3f left; momentum %.1e; %.1f iterations (5:5 %.1f)\n",
+        cells.lower, cells.upper, cells.reversed ? " reversed" : "", ratio, unlike.highest, unlike.left,
+        unlike.momentum, unlike.iterations, matching.iterations);
+    EXPECT_LT(unlike.highest, 1.0 + 1e-9);
+    EXPECT_LT(unlike.momentum, 1e-5);
+    if (at_ratio == 0.0) at_ratio = unlike.iterations;
   }
-  EXPECT_LT(impact({3, 5}).iterations, 1.3 * matching.iterations);
+  EXPECT_LT(at_ratio, 1.3 * matching.iterations);
 }
 
 // Three blocks tied along a line are tied once too often: a point there is left out.
