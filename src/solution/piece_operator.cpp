@@ -53,7 +53,8 @@ bool are_equal(const PieceSetup& a, const PieceSetup& b) {
   const Damping &damping_a = a.body->part->material.damping, &damping_b = b.body->part->material.damping;
   return a.body->matrices == b.body->matrices && a.body->mass == b.body->mass && a.precision == b.precision &&
          a.scheme.c1(damping_a) == b.scheme.c1(damping_b) && a.mass_share() == b.mass_share() && a.absorbing.empty() &&
-         b.absorbing.empty() && are_equal(a.rows, b.rows) && are_equal(a.held, b.held);
+         b.absorbing.empty() && a.absorbing_pairs.empty() && b.absorbing_pairs.empty() && are_equal(a.rows, b.rows) &&
+         are_equal(a.held, b.held);
 }
 
 SparseMatrix piece_matrix(const PieceSetup& setup, const FreeUnknowns& unknowns, const Vec& row_stiffness) {
@@ -98,16 +99,18 @@ SparseMatrix piece_matrix(const PieceSetup& setup, const FreeUnknowns& unknowns,
     }
   }
   a.makeCompressed();
-  const auto add_block = [&](int node, const Mat3& block) {
-    const Mat3 basis = unknowns.basis(node);
+  const auto add_block = [&](int node, int other, const Mat3& block) {
+    const Mat3 left = unknowns.basis(node), right = unknowns.basis(other);
     for (int r = 0; r < unknowns.count(node); ++r)
-      for (int c = 0; c < unknowns.count(node); ++c)
-        a.coeffRef(unknowns.first(node) + r, unknowns.first(node) + c) += basis.col(r).dot(block * basis.col(c));
+      for (int c = 0; c < unknowns.count(other); ++c)
+        a.coeffRef(unknowns.first(node) + r, unknowns.first(other) + c) += left.col(r).dot(block * right.col(c));
   };
-  for (const auto& [node, impedance] : by_node(setup.absorbing)) add_block(node, (1 - scheme.g) * impedance);
+  for (const auto& [node, impedance] : by_node(setup.absorbing)) add_block(node, node, (1 - scheme.g) * impedance);
+  for (const auto& [node, other, impedance] : setup.absorbing_pairs) add_block(node, other, (1 - scheme.g) * impedance);
   for (int i = 0; i < row_stiffness.size(); ++i)
     if (row_stiffness[i] != 0.0)
-      add_block(setup.rows[i].node, row_stiffness[i] * setup.rows[i].direction * setup.rows[i].direction.transpose());
+      add_block(setup.rows[i].node, setup.rows[i].node,
+                row_stiffness[i] * setup.rows[i].direction * setup.rows[i].direction.transpose());
   return a;
 }
 
@@ -188,13 +191,15 @@ Vec PieceOperator::pull_of_motions(const std::vector<double>& motion_velocity) c
 }
 
 void PieceOperator::apply_absorbing(const Vec& v, double factor, Vec& out) const {
-  for (const auto& [node, impedance] : absorbing_) {
-    const Mat3 basis = unknowns_.basis(node);
+  const auto add = [&](int node, int other, const Mat3& impedance) {
+    const Mat3 left = unknowns_.basis(node), right = unknowns_.basis(other);
     Vec3 nodal = Vec3::Zero();
-    for (int j = 0; j < unknowns_.count(node); ++j) nodal += v[unknowns_.at(node, j)] * basis.col(j);
+    for (int j = 0; j < unknowns_.count(other); ++j) nodal += v[unknowns_.at(other, j)] * right.col(j);
     const Vec3 force = factor * (impedance * nodal);
-    for (int j = 0; j < unknowns_.count(node); ++j) out[unknowns_.at(node, j)] += basis.col(j).dot(force);
-  }
+    for (int j = 0; j < unknowns_.count(node); ++j) out[unknowns_.at(node, j)] += left.col(j).dot(force);
+  };
+  for (const auto& [node, impedance] : absorbing_) add(node, node, impedance);
+  for (const auto& [node, other, impedance] : setup_.absorbing_pairs) add(node, other, impedance);
 }
 
 }  // namespace dygita

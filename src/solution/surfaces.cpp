@@ -53,6 +53,19 @@ Facing wall_facing(const Face& face) {
   return {face.facets(), on_face.nodes, {}, on_face.normals, on_face.areas};
 }
 
+// A law acts point by point with the force on the area of a node: forces that are zero or pull at the corners of a
+// facet under uniform pressure would open it there.
+void check_facets(const Surface& surface) {
+  if (!surface.law) return;
+  for (const Facet& facet : surface.facing.facets)
+    if (facet_shape(facet.type()).is_shared_by_sub_facets) {
+      const Origin& origin = surface.interface ? surface.interface->origin : surface.wall->origin;
+      throw InputError(origin, "'" + surface.name() + "' is on facets of " + std::to_string(facet.nodes().size()) +
+                                   " nodes, which only interface.bonded without loads can join yet\n    mesh both "
+                                   "parts with order = 1, or with cell = \"hex27\" where they are hexahedra");
+    }
+}
+
 // Facets named by two interfaces would carry their forces twice.
 void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces) {
   std::map<std::pair<int, FacetKey>, const Surface*> owner;
@@ -114,6 +127,7 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
       surface.law = laws.of(wall->kind->law());
       surfaces.push_back(std::move(surface));
     }
+  for (const Surface& surface : surfaces) check_facets(surface);
   check_overlaps(problem, surfaces);
   check_preloads(problem, surfaces);
   return surfaces;
