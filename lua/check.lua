@@ -114,7 +114,9 @@ function types.number(call, argument, value, label)
   if argument.or_table and type(value) == "table" then
     return check.arguments(call, argument.or_table, value, label .. ".")
   end
-  if type(value) ~= "number" then wrong_type(call, label, of_unit("a number", argument.unit), value) end
+  if argument.or_word and value == argument.or_word then return value end
+  local wanted = of_unit("a number", argument.unit) .. (argument.or_word and ' or "' .. argument.or_word .. '"' or "")
+  if type(value) ~= "number" then wrong_type(call, label, wanted, value) end
   return check_number(call, argument, value, label)
 end
 

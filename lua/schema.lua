@@ -30,6 +30,17 @@ local function between()
            doc = "the two faces; the first is side 1, on which resultants are counted" }
 end
 
+-- What may be said where the meshes of two faces do not match.
+local function within()
+  return { "within", type = "number", unit = "m", range = { 0, 0.1 }, default_doc = "a ten thousandth of the assembly's diagonal",
+           doc = "how far apart faces may be that touch, beside what the facets of round ones are off" }
+end
+
+local function points()
+  return { "points", type = "choice", choices = { "first", "second" }, default_doc = "the face with the larger facets",
+           doc = "which face has the interface's points at its nodes, where the two meshes do not match" }
+end
+
 local function on(kinds, doc)
   return { "on", type = "objects", kinds = kinds, at_least = 1, or_single = true, required = true, doc = doc }
 end
@@ -204,21 +215,23 @@ words[4] = {
   name = "interface", doc = "Where two substructures meet: everything nonlinear happens here.",
   {
     "bonded", makes = "interface", tightens = true, doc = "A perfect bond.",
-    arguments = { name_of "interface", between() },
+    arguments = { name_of "interface", between(), within(), points() },
   },
   {
     "contact", makes = "interface", doc = "Unilateral contact with Coulomb friction.",
     arguments = {
       name_of "interface", between(), friction,
-      { "gap", type = "number", unit = "m", range = { -0.01, 0.01 }, usual = usual_gap, default = 0,
-        doc = "initial gap; a negative one is an interference" },
+      { "gap", type = "number", unit = "m", range = { -0.01, 0.01 }, usual = usual_gap, default = 0, or_word = "geometry",
+        doc = "initial gap; a negative one is an interference; that of the places, point by point, where the meshes do not match" },
+      { "closed", type = "boolean", default = false, doc = "says that the faces touch, whatever lies between their facets: the gap is 0" },
+      within(), points(),
     },
   },
   {
     "plastic", makes = "interface", tightens = true,
     doc = "A bond that yields along its normal, as a bolt does; unloading and reloading are rigid.",
     arguments = {
-      name_of "interface", between(),
+      name_of "interface", between(), within(), points(),
       { "yield", type = "number", unit = "Pa", range = { 1e3, 1e11 }, required = true, doc = "normal traction at yield" },
       { "hardening", type = "number", unit = "Pa/m", range = { 0, 1e17 }, default = 0,
         doc = "traction per metre of plastic opening: H/L for an axial modulus H over a shank of length L" },
@@ -230,7 +243,7 @@ words[4] = {
     doc = "A damper, as a gasket or a layer of grease: a traction in proportion to the relative velocity, pulling and pushing. It carries "
       .. "nothing in a static step.",
     arguments = {
-      name_of "interface", between(),
+      name_of "interface", between(), within(), points(),
       { "normal", type = "number", unit = "Pa s/m", range = { 0, 1e12 }, required = true,
         doc = "traction per relative velocity along the normal: viscosity / thickness of a layer; 0: free" },
       { "tangential", type = "number", unit = "Pa s/m", range = { 0, 1e12 }, default = 0, doc = "the same along the tangents; 0: free" },

@@ -168,7 +168,20 @@ Content build_interface(const Declaration& d) {
     throw InputError(d.origin,
                      fmt::format("{} '{}': 'between' has face '{}' twice", d.path, interface->name, faces[0].label()));
   }
-  interface->law = make_law(d.arguments.word(), d.arguments.plain_numbers());
+  std::map<std::string, double> of_law = d.arguments.plain_numbers();
+  if (of_law.erase("within") > 0) interface->within = d.arguments.number("within");
+  if (d.arguments.has("points"))
+    interface->points = d.arguments.text("points") == "first" ? Carrier::first : Carrier::second;
+  if (d.arguments.has("gap") && !d.arguments.is_number("gap")) {
+    interface->has_gap_of_geometry = true;
+    of_law["gap"] = 0.0;
+  }
+  of_law.erase("closed");
+  if (d.arguments.has("closed") && d.arguments.boolean("closed") &&
+      (interface->has_gap_of_geometry || d.arguments.number("gap") != 0.0))
+    throw InputError(d.origin,
+                     fmt::format("{} '{}': 'closed' and 'gap' contradict each other", d.path, interface->name));
+  interface->law = make_law(d.arguments.word(), of_law);
   return InterfacePtr(interface);
 }
 

@@ -18,8 +18,8 @@ LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k)
     const Point& point = exchange.points[i];
     for (int p = point.first_port; p < point.end_port; ++p) {
       const Port& port = exchange.ports[p];
-      ports_[p].u = point.frame.transpose() * start.displacement[port.part].col(port.node);
-      if (!scheme.is_static) ports_[p].w = point.frame.transpose() * start.velocity[port.part].col(port.node);
+      ports_[p].u = point.frame.transpose() * port.motion(start.displacement[port.part]);
+      if (!scheme.is_static) ports_[p].w = point.frame.transpose() * port.motion(start.velocity[port.part]);
     }
     points_[i] = start_point(model, point, start);
     // Forces of the step before, on whichever port carries the node.
@@ -30,9 +30,9 @@ LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k)
         const Port& port = exchange.ports[p];
         const bool is_first = p < point.first_port_2;
         const int part = is_first ? surface.part_1 : surface.part_2;
-        const int node = is_first   ? surface.facing.nodes_1[member.point]
+        const int node = is_first   ? surface.facing.side_1.main_node(member.point)
                          : part < 0 ? -1
-                                    : surface.facing.nodes_2[member.point];
+                                    : surface.facing.side_2.main_node(member.point);
         if (port.is_owner && port.part == part && port.node == node) ports_[p].f += is_first ? force : Vec3(-force);
       }
     }
@@ -256,7 +256,8 @@ Points LocalStage::held_force(int piece) const {
     for (int p = point.first_port; p < point.end_port; ++p) {
       const Port& port = model_->exchange.ports[p];
       if (port.piece != piece) continue;
-      for (int d = 0; d < 3; ++d)
+      if (port.trace) spread(*model_->cut, port, point.frame * ports_[p].f, force);
+      for (int d = 0; d < 3 && !port.trace; ++d)
         if (port.is_held[d]) force.col(port.piece_node) += ports_[p].f[d] * point.frame.col(d);
     }
   return force;

@@ -1,13 +1,53 @@
 #include "latin/search_direction.hpp"
 
 #include <cmath>
+#include <map>
+#include <unordered_map>
 
 #include "base/parallel.hpp"
 
 namespace dygita {
 
+namespace {
+
+// Areas (m^2) of the nodes of each side of interfaces whose faces do not match, by the port's side.
+using NodeAreas = std::map<int, std::unordered_map<int, double>>;
+
+NodeAreas node_areas(const StepModel& model) {
+  NodeAreas areas;
+  for (size_t s = 0; s < model.surfaces->size(); ++s) {
+    const Surface& surface = (*model.surfaces)[s];
+    if (surface.facing.matches()) continue;
+    for (const int which : {0, 1}) {
+      const int part = which == 0 ? surface.part_1 : surface.part_2;
+      const FaceNodes nodes = face_nodes(*model.problem->substructures[part]->mesh,
+                                         which == 0 ? surface.facing.facets_1 : surface.facing.facets_2);
+      for (size_t i = 0; i < nodes.nodes.size(); ++i)
+        areas[2 * static_cast<int>(s) + which][nodes.nodes[i]] = nodes.areas[static_cast<Eigen::Index>(i)];
+    }
+  }
+  return areas;
+}
+
+// Mass (kg) behind a port: the node's, or the mean of the nodes' masses per area on the area of the point.
+double mass_at(const StepModel& model, const Port& port, const NodeAreas& areas) {
+  const Vec& masses = model.pieces[port.piece]->node_masses();
+  if (!port.trace) return masses[port.piece_node];
+  double sum = 0.0, weights = 0.0;
+  for (int k = 0; k < port.trace->n_shares(port.point); ++k) {
+    const SideTrace::Share& share = port.trace->share(port.point, k);
+    const double weight = std::abs(share.weight);
+    sum += weight * masses[model.cut->owner(port.part, share.node).node] / areas.at(port.side).at(share.node);
+    weights += weight;
+  }
+  return port.area * sum / weights;
+}
+
+}  // namespace
+
 Vec search_directions(const StepModel& model, double multiplier, int n_window) {
   Vec k = Vec::Zero(model.n_q());
+  const NodeAreas areas = node_areas(model);
   for (const Port& port : model.exchange.ports) {
     const Piece& piece = *model.pieces[port.piece];
     const Elastic& material = model.cut->piece(port.piece).body->material;
@@ -22,7 +62,7 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
         direction = has_schur ? std::max(schur, 1e-3 * row.reference_stiffness) : row.static_stiffness;
         continue;
       }
-      const double mass = piece.node_masses()[port.piece_node];
+      const double mass = mass_at(model, port, areas);
       const double speed = d == 0 ? material.p_wave_speed() : material.s_wave_speed();
       const double impedance = material.density * speed * port.area;
       if (n_window > 5) {

@@ -33,7 +33,7 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
   };
   prepare_thread();
   const std::vector<Surface> surfaces = make_surfaces(problem);
-  const CutPtr cut = make_cut(problem);
+  const CutPtr cut = make_cut(problem, surfaces);
   const std::vector<Body> bodies = make_bodies(problem, surfaces, *cut);
   State state = initial_state(problem, surfaces);
   auto kept = std::make_shared<InterfaceFields>(problem.solver.history_memory);

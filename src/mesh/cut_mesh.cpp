@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -101,7 +102,65 @@ void number_without_gaps(std::vector<int>& piece) {
 
 }  // namespace
 
-std::vector<int> piece_of_cells(const Mesh& mesh, int n_pieces) {
+namespace {
+
+// One vertex for the cells that stay together: its number for each cell; others have their own.
+std::vector<int> vertex_of_cells(const Mesh& mesh, const std::vector<std::vector<int>>& together) {
+  std::vector<int> parent(mesh.n_cells());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (const std::vector<int>& set : together) {
+    std::vector<char> is_in_set(mesh.n_nodes(), 0);
+    for (const int node : set) is_in_set[node] = 1;
+    int cell = 0, first = -1;
+    for (const CellBlock& block : mesh.blocks)
+      for (int i = 0; i < block.n_cells(); ++i, ++cell) {
+        const int* nodes = block.cell(i);
+        if (std::none_of(nodes, nodes + nodes_per_cell(block.type), [&](int node) { return is_in_set[node] != 0; }))
+          continue;
+        if (first < 0) first = cell;
+        parent[root(cell)] = root(first);
+      }
+  }
+  for (int i = 0; i < mesh.n_cells(); ++i) parent[i] = root(i);
+  return parent;
+}
+
+// The graph with the cells of one vertex contracted, and the vertex of each cell in it.
+std::pair<Graph, std::vector<int>> contracted(const Graph& graph, std::vector<int> vertex) {
+  number_without_gaps(vertex);
+  const int n = 1 + *std::max_element(vertex.begin(), vertex.end());
+  std::vector<std::vector<int>> neighbours(n);
+  for (int cell = 0; cell < graph.n_vertices(); ++cell)
+    for (int e = graph.starts[cell]; e < graph.starts[cell + 1]; ++e)
+      if (const int other = vertex[graph.neighbours[e]]; other != vertex[cell])
+        neighbours[vertex[cell]].push_back(other);
+  Graph result;
+  for (std::vector<int>& own : neighbours) {
+    std::sort(own.begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    result.neighbours.insert(result.neighbours.end(), own.begin(), own.end());
+    result.starts.push_back(static_cast<int>(result.neighbours.size()));
+  }
+  return {std::move(result), std::move(vertex)};
+}
+
+// All cells in one piece, where too many of them must stay together or they do not.
+bool is_whole(const std::vector<int>& vertex, const std::vector<int>& piece) {
+  std::map<int, int> n_cells, piece_of;
+  for (size_t cell = 0; cell < vertex.size(); ++cell) {
+    if (4 * static_cast<size_t>(++n_cells[vertex[cell]]) > vertex.size() && n_cells[vertex[cell]] > 1) return true;
+    if (!piece.empty() && piece_of.emplace(vertex[cell], piece[cell]).first->second != piece[cell]) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<int> piece_of_cells(const Mesh& mesh, int n_pieces, const std::vector<std::vector<int>>& together) {
   const int n_cells = mesh.n_cells();
   n_pieces = std::min(n_pieces, n_cells);
   if (n_pieces < 2) return std::vector<int>(n_cells, 0);
@@ -110,8 +169,20 @@ std::vector<int> piece_of_cells(const Mesh& mesh, int n_pieces) {
   for (const CellBlock& block : mesh.blocks)
     weights.insert(weights.end(), block.n_cells(), cell_shape(block.type).weight);
   const bool is_connected = lumps_of(graph, std::vector<int>(n_cells, 0)).second.size() == 1;
-  std::vector<int> piece = partition(graph, weights, n_pieces, is_connected);
+  std::vector<int> piece;
+  if (together.empty()) {
+    piece = partition(graph, weights, n_pieces, is_connected);
+  } else {
+    const std::vector<int> kept_together = vertex_of_cells(mesh, together);
+    if (is_whole(kept_together, {})) return std::vector<int>(n_cells, 0);
+    const auto [small, vertex] = contracted(graph, kept_together);
+    std::vector<int> sums(small.n_vertices(), 0);
+    for (int cell = 0; cell < n_cells; ++cell) sums[vertex[cell]] += weights[cell];
+    const std::vector<int> of_vertices = partition(small, sums, n_pieces, is_connected);
+    for (const int v : vertex) piece.push_back(of_vertices[v]);
+  }
   join_fragments(graph, piece, n_pieces);
+  if (!together.empty() && is_whole(vertex_of_cells(mesh, together), piece)) return std::vector<int>(n_cells, 0);
   number_without_gaps(piece);
   return piece;
 }

@@ -17,12 +17,12 @@ namespace dygita {
 namespace {
 
 // Nodes of one face at their place in space; `index` numbers them from 0 in the order of `nodes`.
-struct FaceInSpace {
+struct FaceByNode {
   std::vector<int> nodes;
   Points x;
   std::unordered_map<int, int> index;
 
-  explicit FaceInSpace(const PlacedFace& face) : nodes(nodes_of(face.facets)), x(3, nodes.size()) {
+  explicit FaceByNode(const PlacedFace& face) : nodes(nodes_of(face.facets)), x(3, nodes.size()) {
     for (size_t i = 0; i < nodes.size(); ++i) {
       x.col(static_cast<long>(i)) = face.mesh->nodes.col(nodes[i]) + face.place;
       index[nodes[i]] = static_cast<int>(i);
@@ -37,7 +37,7 @@ struct FaceInSpace {
   }
 };
 
-double smallest_edge(const FaceInSpace& face, const std::vector<Facet>& facets) {
+double smallest_edge(const FaceByNode& face, const std::vector<Facet>& facets) {
   double smallest = std::numeric_limits<double>::max();
   for (const Facet& facet : facets) {
     const std::span<const int> rim = facet_shape(facet.type()).rim;
@@ -97,7 +97,7 @@ std::string at(const Vec3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m",
 // Both faces with their nodes in space.
 struct Pair {
   const PlacedFace &side_1, &side_2;
-  FaceInSpace in_space_1, in_space_2;
+  FaceByNode in_space_1, in_space_2;
 };
 
 // Node of side 1 at the place of each node of side 2 that has one.
@@ -161,7 +161,7 @@ Matching match(const Pair& pair) {
 
   for (const Facet& facet : pair.side_1.facets) {
     const auto found = of_side_2.find(facet_key(facet));
-    if (found == of_side_2.end()) {
+    if (found == of_side_2.end() || found->second.facet->type() != facet.type()) {  // as quad8 on quad9
       result.left_1.push_back(facet);
       continue;
     }
@@ -187,55 +187,71 @@ void refuse_same_orientation(const Pair& pair, const Matching& matching) {
                   pair.side_1.name, pair.side_2.name, matching.same_way.size(), at(place)));
 }
 
-void refuse_overlap(const Pair& pair, const Matching& matching) {
-  const auto polygons = [](const FaceInSpace& face, const std::vector<Facet>& facets) {
+bool overlaps(const Pair& pair, const Matching& matching) {
+  const auto polygons = [](const FaceByNode& face, const std::vector<Facet>& facets) {
     std::vector<Polygon> corners;
     for (const Facet& facet : facets) corners.push_back(face.polygon(facet));
     return corners;
   };
-  const std::optional<Overlap> overlap =
-      find_overlap(polygons(pair.in_space_1, matching.left_1), polygons(pair.in_space_2, matching.left_2));
-  if (!overlap) return;
-  const std::string &name_1 = pair.side_1.name, &name_2 = pair.side_2.name;
-  throw InputError(fmt::format(
-      "faces '{}' and '{}' overlap with nodes that do not match: {} of {} facets of '{}' lie on {} of {} facets of "
-      "'{}' without the same nodes, around {}; {} facets match\n    mesh both faces alike over the common region",
-      name_1, name_2, overlap->n_1, pair.side_1.facets.size(), name_1, overlap->n_2, pair.side_2.facets.size(), name_2,
-      at(overlap->place), matching.matched.size()));
+  return find_overlap(polygons(pair.in_space_1, matching.left_1), polygons(pair.in_space_2, matching.left_2))
+      .has_value();
 }
 
-[[noreturn]] void refuse_apart(const Pair& pair) {
-  const Points &x_1 = pair.in_space_1.x, &x_2 = pair.in_space_2.x;
-  const Vec3 low_1 = x_1.rowwise().minCoeff(), high_1 = x_1.rowwise().maxCoeff();
-  const Vec3 low_2 = x_2.rowwise().minCoeff(), high_2 = x_2.rowwise().maxCoeff();
-  const double distance = (low_2 - high_1).cwiseMax(low_1 - high_2).cwiseMax(0).norm();
-  const std::string &name_1 = pair.side_1.name, &name_2 = pair.side_2.name;
-  throw InputError(
-      fmt::format("faces '{}' and '{}' do not meet: no facet of one has its nodes on a facet of the other; their "
-                  "bounding boxes are "
-                  "{:.3g} m apart\n    '{}' spans {} to {}\n    '{}' spans {} to {}",
-                  name_1, name_2, distance, name_1, at(low_1), at(high_1), name_2, at(low_2), at(high_2)));
+std::vector<Facet> renumbered(const std::vector<Facet>& facets, const std::unordered_map<int, int>& number) {
+  std::vector<Facet> result = facets;
+  for (Facet& facet : result)
+    for (int& node : facet.nodes()) node = number.at(node);
+  return result;
 }
 
 }  // namespace
 
-Facing match_faces(const PlacedFace& side_1, const PlacedFace& side_2) {
+void refuse_apart(const PlacedFace& side_1, const PlacedFace& side_2) {
+  const Points x_1 = FaceByNode(side_1).x, x_2 = FaceByNode(side_2).x;
+  const Vec3 low_1 = x_1.rowwise().minCoeff(), high_1 = x_1.rowwise().maxCoeff();
+  const Vec3 low_2 = x_2.rowwise().minCoeff(), high_2 = x_2.rowwise().maxCoeff();
+  const double distance = (low_2 - high_1).cwiseMax(low_1 - high_2).cwiseMax(0).norm();
+  const std::string &name_1 = side_1.name, &name_2 = side_2.name;
+  throw InputError(
+      fmt::format("faces '{}' and '{}' do not meet: no facet of one lies on a facet of the other; their bounding boxes "
+                  "are {:.3g} m apart\n    '{}' spans {} to {}\n    '{}' spans {} to {}",
+                  name_1, name_2, distance, name_1, at(low_1), at(high_1), name_2, at(low_2), at(high_2)));
+}
+
+Facing facing_of(const PlacedFace& face) {
+  FaceNodes points = face_nodes(*face.mesh, face.facets);
+  Facing facing;
+  std::unordered_map<int, int> number;
+  facing.places.resize(3, static_cast<Eigen::Index>(points.nodes.size()));
+  for (size_t i = 0; i < points.nodes.size(); ++i) {
+    number[points.nodes[i]] = static_cast<int>(i);
+    facing.places.col(static_cast<Eigen::Index>(i)) = face.mesh->nodes.col(points.nodes[i]) + face.place;
+  }
+  facing.facets_1 = face.facets;
+  facing.facets = renumbered(face.facets, number);
+  facing.side_1 = SideTrace(points.nodes);
+  facing.areas = std::move(points.areas);
+  facing.normals = std::move(points.normals);
+  facing.gaps = Vec::Zero(facing.areas.size());
+  return facing;
+}
+
+std::optional<Facing> match_faces(const PlacedFace& side_1, const PlacedFace& side_2) {
   for (const PlacedFace* side : {&side_1, &side_2})
     if (side->facets.empty()) throw InputError(fmt::format("face '{}' has no facet", side->name));
-  const Pair pair{side_1, side_2, FaceInSpace(side_1), FaceInSpace(side_2)};
+  const Pair pair{side_1, side_2, FaceByNode(side_1), FaceByNode(side_2)};
 
   Matching matching = match(pair);
   refuse_same_orientation(pair, matching);
-  refuse_overlap(pair, matching);
-  if (matching.matched.empty()) refuse_apart(pair);
+  if (matching.matched.empty() || overlaps(pair, matching)) return {};
 
-  FaceNodes points = face_nodes(*side_1.mesh, matching.matched);
-  Facing facing;
-  facing.facets = std::move(matching.matched);
-  facing.nodes_1 = std::move(points.nodes);
-  for (const int node : facing.nodes_1) facing.nodes_2.push_back(matching.partner.at(node));
-  facing.areas = std::move(points.areas);
-  facing.normals = std::move(points.normals);
+  PlacedFace common = side_1;
+  common.facets = std::move(matching.matched);
+  Facing facing = facing_of(common);
+  facing.facets_2 = renumbered(facing.facets_1, matching.partner);
+  std::vector<int> nodes_2;
+  for (int i = 0; i < facing.n_points(); ++i) nodes_2.push_back(matching.partner.at(facing.side_1.main_node(i)));
+  facing.side_2 = SideTrace(nodes_2);
   return facing;
 }
 

@@ -1,7 +1,10 @@
-// How two faces meet: nodes that coincide, normals and areas at them.
+// How two faces meet: points, what moves with them on either side, normals and areas.
 #pragma once
 
+#include <optional>
+
 #include "mesh/face_nodes.hpp"
+#include "mesh/side_trace.hpp"
 
 namespace dygita {
 
@@ -14,17 +17,34 @@ struct PlacedFace {
 };
 
 struct Facing {
-  std::vector<Facet> facets;  // matched facets, node numbers of side 1, normals from side 1 to side 2
-  std::vector<int> nodes_1;   // node of side 1 at each interface point
-  std::vector<int> nodes_2;   // node of side 2 at the same place
-  Points normals;             // unit, from side 1 to side 2, area-weighted mean of the matched facets
-  Vec areas;                  // m^2, integral of the shape function over the matched facets
+  std::vector<Facet> facets_1,
+      facets_2;               // that take part, numbers of each side's nodes; one on the other if they match
+  SideTrace side_1, side_2;   // of each interface point; none on side 2 of a wall
+  Points places;              // 3 x n, m, on the side that carries the points
+  Points normals;             // unit, from side 1 to side 2, area-weighted mean of the facets
+  Vec areas;                  // m^2, integral of the point's function over what is in common
+  std::vector<Facet> facets;  // between the points, by their numbers
+  Vec gaps;                   // m, how far side 2 lies off along the normal; zero where faces match
+  // Faces that do not match: the side at whose nodes the points are (0: they match), how many times larger its facets
+  // are, the largest height (m) of an arc over an edge, and points merged into others.
+  int carrier = 0;
+  double size_ratio = 1.0, sagitta = 0.0;
+  int n_merged = 0;
+
+  int n_points() const { return static_cast<int>(areas.size()); }
+  bool matches() const { return carrier == 0; }
 };
 
+// Points at the nodes of a face by itself.
+Facing facing_of(const PlacedFace& face);
+
 // Matches facets whose nodes coincide (tolerance 1e-6 of the smallest facet edge, found with a grid hash: n log n).
-// Facets without partner are simply outside the interface. Throws InputError when no facet matches, or when unmatched
-// facets of the two faces overlap (their projections intersect on nearly the same plane): names both faces, a point and
-// counts.
-Facing match_faces(const PlacedFace& side_1, const PlacedFace& side_2);
+// Facets without partner are simply outside the interface. Nothing when no facet matches, or when unmatched facets of
+// the two faces overlap (their projections intersect on nearly the same plane). Throws InputError where a face has no
+// facet, two nodes at a place, or where both bodies lie on the same side.
+std::optional<Facing> match_faces(const PlacedFace& side_1, const PlacedFace& side_2);
+
+// Says that they do not meet, and how far they are apart: throws InputError.
+[[noreturn]] void refuse_apart(const PlacedFace& side_1, const PlacedFace& side_2);
 
 }  // namespace dygita

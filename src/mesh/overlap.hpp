@@ -3,12 +3,9 @@
 
 #include <optional>
 
-#include "mesh/mesh.hpp"
+#include "mesh/polygons.hpp"
 
 namespace dygita {
-
-// The corners (3 x n, m) of a facet in space.
-using Polygon = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, most_facet_corners>;
 
 struct Overlap {
   int n_1 = 0, n_2 = 0;          // polygons of each side that lie on one of the other side

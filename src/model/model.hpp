@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "law/law_fwd.hpp"
 #include "material/elastic.hpp"
+#include "mesh/meeting_options.hpp"
 #include "mesh/mesh.hpp"
 #include "model/support.hpp"
 #include "signal/history.hpp"
@@ -50,6 +51,10 @@ struct Region {
 struct Interface : Named {
   Face side_1, side_2;
   LawPtr law;  // its own
+  // Where the meshes do not match.
+  Carrier points = Carrier::coarser;
+  std::optional<double> within;      // m, how far apart the faces may be; else by the size of the assembly
+  bool has_gap_of_geometry = false;  // the initial gap is that of the places, else the law's
 };
 using InterfacePtr = std::shared_ptr<const Interface>;
 

@@ -28,8 +28,8 @@ std::vector<char> tied_surfaces(const StepModel& model, const State& start) {
   std::vector<char> is_tied;
   for (size_t s = 0; s < model.surfaces->size(); ++s) {
     const Interface* interface = (*model.surfaces)[s].interface;
-    is_tied.push_back(interface && interface->law->is_tie() && !start.released[s] &&
-                      !model.loads->is_released(interface, model.step->n_increments() - 1));
+    is_tied.push_back(interface && (*model.surfaces)[s].facing.matches() && interface->law->is_tie() &&
+                      !start.released[s] && !model.loads->is_released(interface, model.step->n_increments() - 1));
   }
   return is_tied;
 }

@@ -14,6 +14,13 @@ namespace {
 constexpr int most_sweeps = 200;
 constexpr double unchanged = 1e-13;  // of the largest force
 
+[[noreturn]] void refuse(const StepModel& model, const Point& point) {
+  const Interface& interface = *(*model.surfaces)[point.members.front().surface].interface;
+  throw InputError(interface.origin, "interface." + interface.law->word() + " '" + interface.name +
+                                         "': solver.explicit takes this law only where the meshes of both faces match; "
+                                         "use solver.latin, or mesh both faces alike");
+}
+
 }  // namespace
 
 InertialLaws::InertialLaws(const StepModel& model, const std::vector<PointRecord>& start, const InternalForce& internal,
@@ -32,6 +39,7 @@ InertialLaws::InertialLaws(const StepModel& model, const std::vector<PointRecord
     const Point& point = (*all_)[i];
     if (!point.law || start[i].is_released || !std::holds_alternative<AtNodesInertia>(point.law->explicit_form()))
       continue;
+    if (model.exchange.ports[point.first_port].trace) refuse(model, point);
     InertialPoint& at = points_.emplace_back();
     at.point = static_cast<int>(i);
     at.side_1 = mover_of(point.first_port);

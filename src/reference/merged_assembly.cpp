@@ -105,8 +105,10 @@ void MergedAssembly::make_rows() {
       if (!point.has_law[d]) continue;
       std::map<int, double> jump;
       const auto add = [&](const Port& port, double sign) {
-        const Node& n = node(port.part, port.node);
-        for (int b = 0; b < n.n; ++b) jump[n.first + b] += sign * n.basis.col(b).dot(point.frame.col(d));
+        port.for_each_node([&](int at, const Mat3& block) {
+          const Node& n = node(port.part, at);
+          for (int b = 0; b < n.n; ++b) jump[n.first + b] += sign * (block * n.basis.col(b)).dot(point.frame.col(d));
+        });
       };
       add(model_->exchange.ports[point.first_port], -1.0);
       if (!point.is_wall) add(model_->exchange.ports[point.first_port_2], 1.0);
@@ -196,6 +198,12 @@ Vec3 MergedAssembly::held_velocity(int part, int i, const std::vector<double>& m
   return velocity;
 }
 
+Vec3 MergedAssembly::held_velocity(const Port& port, const std::vector<double>& motions) const {
+  Vec3 velocity = Vec3::Zero();
+  port.for_each_node([&](int at, const Mat3& block) { velocity += block * held_velocity(port.part, at, motions); });
+  return velocity;
+}
+
 // What the shared unknowns do not say of a tied copy: motions of another copy's support, and the rate that closes a
 // jump between copies (bodies tied while they move apart).
 void MergedAssembly::prescribe(const std::vector<double>& motions, const std::vector<Points>& displacement) {
@@ -245,11 +253,8 @@ void MergedAssembly::begin(const std::vector<double>& motions, const std::vector
     for (int d = 0; d < 3; ++d) {
       if (rows_[i][d] < 0) continue;
       const Port& port_1 = model_->exchange.ports[point.first_port];
-      Vec3 rate = -held_velocity(port_1.part, port_1.node, motions);
-      if (!point.is_wall) {
-        const Port& port_2 = model_->exchange.ports[point.first_port_2];
-        rate += held_velocity(port_2.part, port_2.node, motions);
-      }
+      Vec3 rate = -held_velocity(port_1, motions);
+      if (!point.is_wall) rate += held_velocity(model_->exchange.ports[point.first_port_2], motions);
       held_rate_[rows_[i][d]] = point.frame.col(d).dot(rate);
     }
   }
@@ -300,9 +305,11 @@ std::vector<Vec3> MergedAssembly::port_forces(const std::vector<Vec3>& point_for
       const int end = side == 1 ? point.first_port_2 : point.end_port;
       if (end - first != 1) continue;
       forces[first] = side == 1 ? point_force[i] : Vec3(-point_force[i]);
-      const auto [it, is_new] =
-          of_laws.emplace(std::pair{exchange.ports[first].part, exchange.ports[first].node}, Vec3::Zero());
-      it->second += point.frame * forces[first];
+      const Port& port = exchange.ports[first];
+      port.for_each_node([&](int at, const Mat3& block) {
+        const auto [it, is_new] = of_laws.emplace(std::pair{port.part, at}, Vec3::Zero());
+        it->second += block.transpose() * (point.frame * forces[first]);
+      });
     }
   }
   for (size_t i = 0; i < exchange.points.size(); ++i) {

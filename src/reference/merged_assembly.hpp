@@ -50,6 +50,7 @@ class MergedAssembly {
   void make_compliance(const Vec& reference);
   const Node& node(int part, int i) const { return nodes_[node_of_[part][i]]; }
   Vec3 held_velocity(int part, int i, const std::vector<double>& motions) const;
+  Vec3 held_velocity(const Port& port, const std::vector<double>& motions) const;
   Vec3 residual_force(const Port& port) const;
   void prescribe(const std::vector<double>& motions, const std::vector<Points>& displacement);
 

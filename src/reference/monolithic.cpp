@@ -84,7 +84,7 @@ Vec3 MonolithicRun::side_displacement(const Point& point, int first, int end,
     double sum = 0.0;
     for (int p = first; p < end; ++p) {
       const Port& port = model_.exchange.ports[p];
-      const double u = point.frame.col(d).dot(displacement[port.part].col(port.node));
+      const double u = point.frame.col(d).dot(port.motion(displacement[port.part]));
       if (port.is_held[d]) {
         sum = u * (end - first);
         break;
@@ -128,9 +128,10 @@ void MonolithicRun::finish_increment() {
   for (const Point& point : model_.exchange.points)
     for (int p = point.first_port; p < point.end_port; ++p) {
       const Port& port = model_.exchange.ports[p];
+      if (port.trace) port.trace->spread(port.point, point.frame * port_force_[p], held[port.part]);
       for (int d = 0; d < 3; ++d) {
         if (const int i = model_.unknown(port, d); i >= 0) q[i] = port_force_[p][d];
-        if (port.is_held[d]) held[port.part].col(port.node) += port_force_[p][d] * point.frame.col(d);
+        if (port.is_held[d] && !port.trace) held[port.part].col(port.node) += port_force_[p][d] * point.frame.col(d);
       }
     }
   for (size_t i = 0; i < model_.pieces.size(); ++i) {

@@ -17,16 +17,26 @@ struct Side {
   double stiffness = 0.0, mass = 0.0;  // N/m, kg
 };
 
+// Mass that a force on a point moves: 1/m is the sum of t^2/m over its nodes.
+double mass_of(const SideTrace& trace, int point, const Piece& piece) {
+  double inverse = 0.0;
+  for (int k = 0; k < trace.n_shares(point); ++k) {
+    const SideTrace::Share& share = trace.share(point, k);
+    inverse += share.weight * share.weight / piece.node_masses()[share.node];
+  }
+  return 1.0 / inverse;
+}
+
 // K A^2 / V of the layer of cells behind the nodes of one side of a point (Hallquist's rule), and their mass.
 Side side_of(const StepModel& model, const Point& point, int side) {
   Side sum;
   for (const Member& member : point.members) {
     const Surface& surface = (*model.surfaces)[member.surface];
     const int part = side == 1 ? surface.part_1 : surface.part_2;
-    const int node = (side == 1 ? surface.facing.nodes_1 : surface.facing.nodes_2)[member.point];
+    const SideTrace& trace = side == 1 ? surface.facing.side_1 : surface.facing.side_2;
     const Elastic& material = model.problem->substructures[part]->material;
     const double bulk = material.young / (3 * (1 - 2 * material.poisson));
-    const double area = surface.facing.areas[member.point], mass = model.pieces[part]->node_masses()[node];
+    const double area = surface.facing.areas[member.point], mass = mass_of(trace, member.point, *model.pieces[part]);
     // A node on a face has half of the volume of the cells behind its area.
     sum.stiffness += bulk * area * area / (2 * mass / material.density);
     sum.mass += mass;
@@ -56,13 +66,23 @@ PenaltySprings::PenaltySprings(const StepModel& model, const std::vector<PointRe
     const ExplicitForm form = point.law->explicit_form();
     const auto* springs = std::get_if<const PenaltyForm*>(&form);
     if (!springs) continue;
-    const auto dof = [&](int port) {
-      return internal.first(model.exchange.ports[port].part) + 3 * model.exchange.ports[port].node;
+    const auto nodes_of = [&](int i_port) {
+      const Port& port = model.exchange.ports[i_port];
+      std::vector<MovedNode> nodes;
+      port.for_each_node([&](int node, const Mat3& block) {
+        nodes.push_back({internal.first(port.part) + 3 * node, port.trace ? block : Mat3(Mat3::Identity())});
+      });
+      return nodes;
     };
     Spring spring;
     spring.point = static_cast<int>(i);
-    spring.dof_1 = dof(point.first_port);
-    spring.dof_2 = point.is_wall ? -1 : dof(point.first_port_2);
+    if (!model.exchange.ports[point.first_port].trace) {
+      spring.dof_1 = nodes_of(point.first_port)[0].dof;
+      spring.dof_2 = point.is_wall ? -1 : nodes_of(point.first_port_2)[0].dof;
+    } else {
+      spring.side_1 = nodes_of(point.first_port);
+      spring.side_2 = nodes_of(point.first_port_2);
+    }
     spring.form = *springs;
     spring.frame = point.frame;
     spring.has_gap = point.law->shown().gap;
@@ -94,6 +114,12 @@ double PenaltySprings::release(const StepModel& model, int increment) {
 }
 
 Vec3 PenaltySprings::jump_of(const Spring& spring, const Vec& displacement) const {
+  if (!spring.side_1.empty()) {
+    Vec3 jump = Vec3::Zero();
+    for (const MovedNode& node : spring.side_1) jump -= node.block * displacement.segment<3>(node.dof);
+    for (const MovedNode& node : spring.side_2) jump += node.block * displacement.segment<3>(node.dof);
+    return spring.frame.transpose() * jump;
+  }
   Vec3 jump = -displacement.segment<3>(spring.dof_1);
   if (spring.dof_2 >= 0) jump += displacement.segment<3>(spring.dof_2);
   return spring.frame.transpose() * jump;
@@ -101,6 +127,9 @@ Vec3 PenaltySprings::jump_of(const Spring& spring, const Vec& displacement) cons
 
 void PenaltySprings::put(const Spring& spring, const Vec3& force, Vec& all) {
   const Vec3 f = spring.frame * force;
+  for (const MovedNode& node : spring.side_1) all.segment<3>(node.dof) -= node.block.transpose() * f;
+  for (const MovedNode& node : spring.side_2) all.segment<3>(node.dof) += node.block.transpose() * f;
+  if (!spring.side_1.empty()) return;
   all.segment<3>(spring.dof_1) -= f;
   if (spring.dof_2 >= 0) all.segment<3>(spring.dof_2) += f;
 }

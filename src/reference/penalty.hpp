@@ -33,8 +33,14 @@ class PenaltySprings {
   double bytes() const { return static_cast<double>(springs_.size() * sizeof(Spring)); }
 
  private:
+  // A node that moves with a side, and what it adds to its motion.
+  struct MovedNode {
+    int dof;
+    Mat3 block;
+  };
   struct Spring {
-    int point, dof_1, dof_2;  // dof_2 < 0: a wall
+    int point, dof_1 = -1, dof_2 = -1;      // dof_2 < 0: a wall
+    std::vector<MovedNode> side_1, side_2;  // in their place where faces do not match
     const PenaltyForm* form;
     Mat3 frame;
     SpringPoint now;

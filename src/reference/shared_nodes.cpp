@@ -67,8 +67,8 @@ void SharedNodes::for_each_tie(const StepModel& model, const std::vector<char>& 
   for (size_t s = 0; s < model.surfaces->size(); ++s) {
     const Surface& surface = (*model.surfaces)[s];
     for (int i = 0; is_tied[s] && i < surface.n_points(); ++i)
-      visit(static_cast<int>(s), i, internal.first(surface.part_1) / 3 + surface.facing.nodes_1[i],
-            internal.first(surface.part_2) / 3 + surface.facing.nodes_2[i]);
+      visit(static_cast<int>(s), i, internal.first(surface.part_1) / 3 + surface.facing.side_1.main_node(i),
+            internal.first(surface.part_2) / 3 + surface.facing.side_2.main_node(i));
   }
 }
 

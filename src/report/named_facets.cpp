@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "base/error.hpp"
-#include "mesh/facing.hpp"
+#include "model/meeting.hpp"
 
 namespace dygita {
 
@@ -15,8 +15,6 @@ struct Names {
   int joint = -1;
 };
 using NamesOfPart = std::unordered_map<FacetKey, Names, FacetKeyHash>;
-
-PlacedFace placed(const Face& face) { return {face.part->mesh.get(), face.facets(), face.part->place, face.label()}; }
 
 class Naming {
  public:
@@ -61,15 +59,10 @@ class Naming {
   void add(const Interface& interface) {
     const std::string name = "interface '" + interface.name + "'";
     try {
-      const Facing facing = match_faces(placed(interface.side_1), placed(interface.side_2));
+      const Meeting meeting = meeting_of(problem_, interface);
       result_.joints.push_back({name, true, true});
-      mark(interface.side_1, facing.facets);
-      std::map<int, int> partner;
-      for (size_t i = 0; i < facing.nodes_1.size(); ++i) partner[facing.nodes_1[i]] = facing.nodes_2[i];
-      for (Facet other : facing.facets) {
-        for (int& node : other.nodes()) node = partner.at(node);
-        mark(interface.side_2, {other});
-      }
+      mark(interface.side_1, meeting.facets_1());
+      mark(interface.side_2, meeting.facets_2());
     } catch (const InputError&) {  // the check itself says what is wrong
       result_.joints.push_back({name + ": NOT FOUND", true, false});
       mark(interface.side_1, interface.side_1.facets());

@@ -16,8 +16,8 @@ Points FollowedMotion::relative_displacement(const Instant& instant, int s) cons
   const Points u_2 = surface.part_2 >= 0 ? instant.displacement(surface.part_2) : Points();
   Points relative(3, surface.n_points());
   for (int i = 0; i < surface.n_points(); ++i) {
-    relative.col(i) = -u_1.col(surface.facing.nodes_1[i]);
-    if (surface.part_2 >= 0) relative.col(i) += u_2.col(surface.facing.nodes_2[i]);
+    relative.col(i) = -surface.facing.side_1.at(i, u_1);
+    if (surface.part_2 >= 0) relative.col(i) += surface.facing.side_2.at(i, u_2);
   }
   return relative;
 }

@@ -34,21 +34,17 @@ PartFrame part_frame(const Instant& instant, int part, const std::vector<std::st
 
 InterfaceFrame interface_frame(const Instant& instant, int s, const FollowedMotion& motion) {
   const Surface& surface = (*instant.model.surfaces)[s];
-  const Substructure& body = *instant.model.problem->substructures[surface.part_1];
   const std::vector<LawState>& state = instant.state.surfaces[s].points;
   const Shown shown = surface.declared_law().shown();
   const int n = surface.n_points();
   InterfaceFrame frame;
   frame.name = surface.name();
-  frame.points.resize(3, n);
-  std::map<int, int> point_of;
+  frame.points = surface.facing.places;
+  frame.facets = surface.facing.facets;
   Mat pressure(1, n), gap(1, n), plastic(1, n), status(1, n), residual(1, n), slips(3, n), traction(3, n),
       displacement(3, n);
   const Points u = instant.displacement(surface.part_1);
   for (int i = 0; i < n; ++i) {
-    const int node = surface.facing.nodes_1[i];
-    point_of[node] = i;
-    frame.points.col(i) = body.mesh->nodes.col(node) + body.place;
     const Vec3 normal = surface.facing.normals.col(i);
     const Vec3 t = state[i].force / surface.facing.areas[i];
     pressure(0, i) = -t.dot(normal);
@@ -60,12 +56,7 @@ InterfaceFrame interface_frame(const Instant& instant, int s, const FollowedMoti
     slips.col(i) = motion.slip(instant, s, i);
     status(0, i) = static_cast<double>(state[i].status);
     residual(0, i) = instant.state.surfaces[s].residual[i] / surface.facing.areas[i];
-    displacement.col(i) = u.col(node);
-  }
-  for (const Facet& facet : surface.facing.facets) {
-    Facet local = facet;
-    for (int& node : local.nodes()) node = point_of.at(node);
-    frame.facets.push_back(local);
+    displacement.col(i) = surface.facing.side_1.at(i, u);
   }
   frame.fields = {{"displacement", displacement},
                   {"pressure", pressure},

@@ -42,6 +42,26 @@ Mat3 frame_of(const Vec3& normal) {
   return frame;
 }
 
+// A point between faces that do not match: each direction of its law is a sum over nodes.
+void add_spread_point(const Instant& instant, int s, int i, bool ties_sliding, LinearAssembly& assembly) {
+  const Surface& surface = (*instant.model.surfaces)[s];
+  const Tangent tangent = surface.declared_law().tangent(instant.state.surfaces[s].points[i], ties_sliding);
+  const Mat3 frame = frame_of(surface.facing.normals.col(i));
+  for (int d = 0; d < 3; ++d) {
+    if (!tangent.holds[d] && tangent.damping[d] == 0.0) continue;
+    SpreadSum sum{{}, tangent.holds[d], surface.facing.areas[i] * tangent.damping[d]};
+    for (const auto& [trace, part, sign] : {std::tuple{&surface.facing.side_1, surface.part_1, -1.0},
+                                            std::tuple{&surface.facing.side_2, surface.part_2, 1.0}})
+      for (int k = 0; k < trace->n_shares(i); ++k)
+        sum.nodes.emplace_back(assembly.first_node[part] + trace->share(i, k).node,
+                               sign * (trace->block(i, k).transpose() * frame.col(d)));
+    assembly.sums.push_back(std::move(sum));
+  }
+  const auto n_held = std::count(tangent.holds.begin(), tangent.holds.end(), true);
+  if (surface.declared_law().shown().gap)
+    ++(n_held == 3 ? assembly.n_tied : n_held > 0 ? assembly.n_normal : assembly.n_open);
+}
+
 // Interfaces and walls: what each point does at this instant.
 void add_surfaces(const Instant& instant, bool ties_sliding, LinearAssembly& assembly) {
   const auto& supports = supports_of(*instant.model.problem, *instant.model.step);
@@ -51,8 +71,12 @@ void add_surfaces(const Instant& instant, bool ties_sliding, LinearAssembly& ass
     const Law& law = surface.declared_law();
     const bool is_contact = law.shown().gap;
     for (int i = 0; i < surface.n_points(); ++i) {
-      const int a = assembly.first_node[surface.part_1] + surface.facing.nodes_1[i];
-      const int b = surface.part_2 >= 0 ? assembly.first_node[surface.part_2] + surface.facing.nodes_2[i] : -1;
+      if (!surface.facing.matches()) {
+        add_spread_point(instant, static_cast<int>(s), i, ties_sliding, assembly);
+        continue;
+      }
+      const int a = assembly.first_node[surface.part_1] + surface.facing.side_1.main_node(i);
+      const int b = surface.part_2 >= 0 ? assembly.first_node[surface.part_2] + surface.facing.side_2.main_node(i) : -1;
       const Tangent tangent = law.tangent(instant.state.surfaces[s].points[i], ties_sliding);
       const Mat3 frame = frame_of(surface.facing.normals.col(i));
       const auto n_held = std::count(tangent.holds.begin(), tangent.holds.end(), true);
@@ -165,6 +189,42 @@ SparseMatrix by_axis(const SparseMatrix& nodal) {
   return all;
 }
 
+// Sum of factor(row) row row^T over the sums, on the unknowns.
+template <typename Factor>
+SparseMatrix products_of_sums(const LinearAssembly& assembly, Factor&& factor) {
+  Triplets entries;
+  for (const SpreadSum& sum : assembly.sums) {
+    std::map<int, double> row;
+    for (const auto& [node, coefficient] : sum.nodes)
+      for (int d = 0; d < 3; ++d)
+        for (SparseMatrix::InnerIterator e(assembly.map, 3 * node + d); e; ++e)
+          row[static_cast<int>(e.col())] += coefficient[d] * e.value();
+    const double value = factor(sum, row);
+    for (const auto& [i, a] : row)
+      for (const auto& [j, b] : row)
+        if (value != 0.0) entries.emplace_back(i, j, value * a * b);
+  }
+  SparseMatrix products(assembly.map.cols(), assembly.map.cols());
+  products.setFromTriplets(entries.begin(), entries.end());
+  return products;
+}
+
+void add_sums(LinearAssembly& assembly) {
+  constexpr double stiff = 1e6;
+  if (assembly.sums.empty()) return;
+  const Vec diagonal = assembly.stiffness.diagonal();
+  const SparseMatrix springs = products_of_sums(assembly, [&](const SpreadSum& sum, const std::map<int, double>& row) {
+    double stiffest = 0.0;
+    for (const auto& [i, a] : row) stiffest = std::max(stiffest, diagonal[i]);
+    return sum.is_held ? stiff * stiffest : 0.0;
+  });
+  assembly.stiffness += springs;
+  if (std::none_of(assembly.sums.begin(), assembly.sums.end(), [](const SpreadSum& sum) { return sum.damping > 0.0; }))
+    return;
+  if (assembly.damping.rows() == 0) assembly.damping.resize(assembly.map.cols(), assembly.map.cols());
+  assembly.damping += products_of_sums(assembly, [](const SpreadSum& sum, const auto&) { return sum.damping; });
+}
+
 void add_matrices(const Problem& problem, LinearAssembly& assembly) {
   const int n = static_cast<int>(assembly.map.cols());
   assembly.stiffness.resize(n, n);
@@ -190,6 +250,7 @@ void add_matrices(const Problem& problem, LinearAssembly& assembly) {
     assembly.damping += damping.mass * m + damping.stiffness * k;
   }
   add_dampers(assembly);
+  add_sums(assembly);
   assembly.stiffness.makeCompressed();
   assembly.mass.makeCompressed();
   assembly.damping.makeCompressed();
@@ -221,22 +282,30 @@ std::string free_motion(const LinearAssembly& assembly, const Problem& problem, 
   }
   // Sum of squares of all conditions on the rigid motions, rotations times the size of their body.
   Mat gram = Mat::Zero(6 * n, 6 * n);
-  const auto add = [&](const NodeCondition& condition) {
+  const auto add_sum = [&](const std::vector<std::pair<int, Vec3>>& nodes) {
     std::vector<std::pair<int, Eigen::Matrix<double, 6, 1>>> rows;
-    for (int side = 0; side < 2; ++side) {
-      const int node = condition.node[side];
+    for (const auto& [node, coefficient] : nodes) {
       if (node < 0) continue;
       const int part = static_cast<int>(std::upper_bound(assembly.first_node.begin(), assembly.first_node.end(), node) -
                                         assembly.first_node.begin()) -
                        1;
       const Vec3 x = problem.substructures[part]->mesh->nodes.col(node - assembly.first_node[part]);
       Eigen::Matrix<double, 6, 1> row;
-      row << condition.coefficient[side], (x - centre[part]).cross(condition.coefficient[side]) / size[part];
-      rows.emplace_back(6 * part, row);
+      row << coefficient, (x - centre[part]).cross(coefficient) / size[part];
+      const auto same = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.first == 6 * part; });
+      if (same == rows.end())
+        rows.emplace_back(6 * part, row);
+      else
+        same->second += row;
     }
     for (const auto& [i, a] : rows)
       for (const auto& [j, b] : rows) gram.block<6, 6>(i, j) += a * b.transpose();
   };
+  const auto add = [&](const NodeCondition& condition) {
+    add_sum({{condition.node[0], condition.coefficient[0]}, {condition.node[1], condition.coefficient[1]}});
+  };
+  for (const SpreadSum& sum : assembly.sums)
+    if (sum.is_held) add_sum(sum.nodes);
   for (const NodeCondition& condition : assembly.conditions) add(condition);
   for (const int node : held_nodes)
     for (int d = 0; d < 3; ++d) add({{node, -1}, {Vec3::Unit(d), Vec3::Zero()}});

@@ -21,6 +21,14 @@ struct Damper {
   Mat3 coefficient = Mat3::Zero();  // N s/m
 };
 
+// Where faces do not match: a sum of coefficient . displacement over nodes of both sides, held at zero (by a spring a
+// million times as stiff as the nodes) or damped.
+struct SpreadSum {
+  std::vector<std::pair<int, Vec3>> nodes;  // counted through all substructures
+  bool is_held = false;
+  double damping = 0.0;  // N s/m
+};
+
 struct LinearAssembly {
   SparseMatrix stiffness, mass;       // n x n; N/m, kg
   SparseMatrix damping;               // n x n, N s/m; empty where no material and no interface has any
@@ -29,6 +37,7 @@ struct LinearAssembly {
   std::vector<int> place_of_unknown;  // unknowns of one place are contiguous
   std::vector<NodeCondition> conditions;
   std::vector<Damper> dampers;
+  std::vector<SpreadSum> sums;
   int n_tied = 0, n_normal = 0, n_open = 0;  // contact points
   double mass_of_parts = 0.0;                // kg
 

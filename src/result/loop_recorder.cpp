@@ -66,8 +66,8 @@ double LoopRecorder::displacement(const Instant& instant) {
     const Points u_1 = instant.displacement(surface.part_1);
     const Points u_2 = surface.part_2 >= 0 ? instant.displacement(surface.part_2) : Points();
     for (int i = 0; i < surface.n_points(); ++i) {
-      Vec3 jump = -noted(u_1.col(surface.facing.nodes_1[i]));
-      if (surface.part_2 >= 0) jump += u_2.col(surface.facing.nodes_2[i]);
+      Vec3 jump = -noted(surface.facing.side_1.at(i, u_1));
+      if (surface.part_2 >= 0) jump += surface.facing.side_2.at(i, u_2);
       sum += surface.facing.areas[i] * jump.dot(request_.direction);
       area += surface.facing.areas[i];
     }

@@ -32,30 +32,21 @@ std::string in_mm(const Vec3& place) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", 1e3 * place[0], 1e3 * place[1], 1e3 * place[2]);
 }
 
-// Where the points of side 1 stand.
-Points places_of(const Instant& instant, const Surface& surface) {
-  const Substructure& part = *instant.model.problem->substructures[surface.part_1];
-  Points places(3, surface.n_points());
-  for (int i = 0; i < surface.n_points(); ++i)
-    places.col(i) = part.mesh->nodes.col(surface.facing.nodes_1[i]) + part.place;
-  return places;
-}
-
 double extent(const Points& places, const Vec3& along) {
   const Eigen::RowVectorXd way = along.transpose() * places;
   return way.maxCoeff() - way.minCoeff();
 }
 
-// The longest that a facet around node `node` of side 1 reaches along a direction.
-double cell_along(const Surface& surface, const Mesh& mesh, int node, const Vec3& along) {
+// The longest that a facet around a point reaches along a direction.
+double cell_along(const Facing& facing, int point, const Vec3& along) {
   double longest = 0.0;
-  for (const Facet& facet : surface.facing.facets) {
-    const std::span<const int> nodes = facet.nodes();
-    if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) continue;
+  for (const Facet& facet : facing.facets) {
+    const std::span<const int> points = facet.nodes();
+    if (std::find(points.begin(), points.end(), point) == points.end()) continue;
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const int other : nodes) {
-      low = std::min(low, mesh.nodes.col(other).dot(along));
-      high = std::max(high, mesh.nodes.col(other).dot(along));
+    for (const int other : points) {
+      low = std::min(low, facing.places.col(other).dot(along));
+      high = std::max(high, facing.places.col(other).dot(along));
     }
     longest = std::max(longest, high - low);
   }
@@ -76,18 +67,18 @@ void MotionWatch::prepare(const Instant& instant) {
     const Surface& surface = (*instant.model.surfaces)[s];
     Watched watched{
         static_cast<int>(s), (surface.interface ? "interface '" : "wall '") + surface.name() + "'", {}, 0.0};
-    const Mesh& mesh = *problem.substructures[surface.part_1]->mesh;
-    std::vector<double> shortest(mesh.n_nodes(), std::numeric_limits<double>::infinity()), edges;
+    std::vector<double> shortest(surface.n_points(), std::numeric_limits<double>::infinity()), edges;
     for (const Facet& facet : surface.facing.facets) {
       const std::span<const int> rim = facet_shape(facet.type()).rim, nodes = facet.nodes();
       for (size_t k = 0; k < rim.size(); ++k) {
         const int a = nodes[rim[k]], b = nodes[rim[(k + 1) % rim.size()]];
-        edges.push_back((mesh.nodes.col(a) - mesh.nodes.col(b)).norm());
-        for (const int node : {a, b}) shortest[node] = std::min(shortest[node], edges.back());
+        if (a == b) continue;  // points that have been merged
+        edges.push_back((surface.facing.places.col(a) - surface.facing.places.col(b)).norm());
+        for (const int point : {a, b}) shortest[point] = std::min(shortest[point], edges.back());
       }
     }
     if (edges.empty()) continue;
-    for (const int node : surface.facing.nodes_1) watched.shortest.push_back(shortest[node]);
+    watched.shortest = shortest;
     std::nth_element(edges.begin(), edges.begin() + edges.size() / 2, edges.end());
     watched.cell = edges[edges.size() / 2];
     surfaces_.push_back(std::move(watched));
@@ -138,8 +129,8 @@ void MotionWatch::watch_surface(const Instant& instant, const std::vector<Points
   double furthest = std::max(1.0, watched.slip.most);  // of half the shortest edge: nothing less is looked at closely
   Vec3 way = Vec3::Zero();
   for (int i = 0; i < surface.n_points(); ++i) {
-    Vec3 jump = -displacement[surface.part_1].col(facing.nodes_1[i]);
-    if (surface.part_2 >= 0) jump += displacement[surface.part_2].col(facing.nodes_2[i]);
+    Vec3 jump = -facing.side_1.at(i, displacement[surface.part_1]);
+    if (surface.part_2 >= 0) jump += facing.side_2.at(i, displacement[surface.part_2]);
     const Vec3 normal = facing.normals.col(i);
     const double opened = jump.dot(normal);
     const Vec3 tangential = jump - opened * normal;
@@ -148,18 +139,11 @@ void MotionWatch::watch_surface(const Instant& instant, const std::vector<Points
     const double share = tangential.norm() / (limit::slip_in_cells * watched.shortest[i]);
     if (is_contact && share > furthest) furthest = share, slid = i, way = tangential;
   }
-  const auto place = [&](int i) {
-    const Substructure& part = *instant.model.problem->substructures[surface.part_1];
-    return Vec3(part.mesh->nodes.col(facing.nodes_1[i]) + part.place);
-  };
+  const auto place = [&](int i) { return Vec3(facing.places.col(i)); };
   if (slid >= 0) {
-    const Mesh& mesh = *instant.model.problem->substructures[surface.part_1]->mesh;
-    const double length = way.norm(), cell = cell_along(surface, mesh, facing.nodes_1[slid], way / length);
+    const double length = way.norm(), cell = cell_along(facing, slid, way / length);
     note(instant, length / (limit::slip_in_cells * cell),
-         {.value = length,
-          .length = extent(places_of(instant, surface), way / length),
-          .cell = cell,
-          .place = place(slid)},
+         {.value = length, .length = extent(facing.places, way / length), .cell = cell, .place = place(slid)},
          watched.slip);
   }
   if (is_contact)

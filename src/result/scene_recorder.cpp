@@ -105,17 +105,8 @@ void SceneRecorder::find_joints(const Instant& instant) {
       joint.name = surface.name();
       joint.is_contact = shown.gap;
       joint.has_slip = shown.slip;
-      const Substructure& body = *problem_.substructures[surface.part_1];
-      joint.points.resize(3, surface.n_points());
-      std::map<int, int> point_of;
-      for (int i = 0; i < surface.n_points(); ++i) {
-        point_of[surface.facing.nodes_1[i]] = i;
-        joint.points.col(i) = body.mesh->nodes.col(surface.facing.nodes_1[i]) + body.place;
-      }
-      for (Facet facet : surface.facing.facets) {
-        for (int& node : facet.nodes()) node = point_of.at(node);
-        joint.facets.push_back(facet);
-      }
+      joint.points = surface.facing.places;
+      joint.facets = surface.facing.facets;
     }
   }
   double n_points = 1.0;

@@ -49,4 +49,18 @@ std::string stress_line(const Problem& problem, const RunResult& result) {
                      least->yield / 1e6);
 }
 
+std::string surface_line(const Surface& surface) {
+  const Facing& facing = surface.facing;
+  std::string line = fmt::format("  {} '{}': {} points, {:.4g} mm^2", surface.interface ? "interface" : "wall",
+                                 surface.name(), surface.n_points(), facing.areas.sum() * 1e6);
+  if (!facing.matches()) {
+    const Face& carrier = facing.carrier == 1 ? surface.interface->side_1 : surface.interface->side_2;
+    line += fmt::format("; meshes do not match: points on {}, facets {:.2g} times {}", carrier.label(),
+                        std::max(facing.size_ratio, 1.0 / facing.size_ratio),
+                        facing.size_ratio >= 1.0 ? "larger" : "smaller");
+    if (facing.n_merged > 0) line += fmt::format(", {} merged into neighbours", facing.n_merged);
+  }
+  return line + "\n";
+}
+
 }  // namespace dygita

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "result/result.hpp"
+#include "solution/surfaces.hpp"
 
 namespace dygita {
 
@@ -16,5 +17,8 @@ std::string mass_line(const Problem& problem);
 void warn_of_stresses(const Problem& problem, const RunResult& result);
 // "  smallest margin against yield 0.32, in 'rod' (485 MPa of 640)"; empty where no material has a yield.
 std::string stress_line(const Problem& problem, const RunResult& result);
+
+// An interface or a wall: its points, its area, and on which side its points are where meshes do not match.
+std::string surface_line(const Surface& surface);
 
 }  // namespace dygita

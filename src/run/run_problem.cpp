@@ -185,13 +185,11 @@ std::string check_report(const Problem& problem) {
     text += part_line(*part);
   }
   text += mass_line(problem);
-  for (const Surface& surface : surfaces)
-    text += fmt::format("  {} '{}': {} points, {:.4g} mm^2\n", surface.interface ? "interface" : "wall", surface.name(),
-                        surface.n_points(), surface.facing.areas.sum() * 1e6);
+  for (const Surface& surface : surfaces) text += surface_line(surface);
   long increments = 0;
   double bytes = 0.0;
   const bool is_latin = !problem.monolithic && !problem.explicit_dynamics;
-  const CutPtr cut = is_latin ? make_cut(problem) : no_cut(problem);
+  const CutPtr cut = is_latin ? make_cut(problem, surfaces) : no_cut(problem);
   if (const std::string pieces = list_pieces(problem, cut->counts()); !pieces.empty())
     text += "  cut into pieces: " + pieces + "\n";
   const std::vector<Body> bodies = make_bodies(problem, surfaces, *cut);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "base/error.hpp"
@@ -33,13 +34,17 @@ std::vector<char> nodes_in_contact_alone(const Problem& problem, const std::vect
   if (part->material.damping.stiffness > 0.0) return marked;  // the force at the end of a step would not be symmetric
   std::vector<int> n_surfaces(marked.size(), 0);
   const auto mark = [&](const Surface& surface, char value) {
-    for (const auto& [part_here, nodes] :
-         {std::pair{surface.part_1, &surface.facing.nodes_1}, {surface.part_2, &surface.facing.nodes_2}})
-      if (part_here == i_part)
-        for (const int node : *nodes) {
-          marked[node] = value;
-          ++n_surfaces[node];
-        }
+    for (const auto& [part_here, trace] :
+         {std::pair{surface.part_1, &surface.facing.side_1}, {surface.part_2, &surface.facing.side_2}}) {
+      if (part_here != i_part) continue;
+      std::set<int> nodes;
+      for (int i = 0; i < trace->n_points(); ++i)
+        for (int k = 0; k < trace->n_shares(i); ++k) nodes.insert(trace->share(i, k).node);
+      for (const int node : nodes) {
+        marked[node] = value;
+        ++n_surfaces[node];
+      }
+    }
   };
   for (const Surface& surface : surfaces)
     if (surface.declared_law().allows_massless_nodes()) mark(surface, 1);
@@ -61,17 +66,21 @@ std::vector<char> nodes_in_contact_alone(const Problem& problem, const std::vect
   return marked;
 }
 
-// Both sides of a contact, or none.
+// All nodes of both sides of a point of contact, or none.
 void agree(const std::vector<Surface>& surfaces, std::vector<std::vector<char>>& marked) {
   for (bool has_changed = true; has_changed;) {
     has_changed = false;
     for (const Surface& surface : surfaces) {
       if (surface.part_1 < 0 || surface.part_2 < 0 || !surface.declared_law().allows_massless_nodes()) continue;
       for (int i = 0; i < surface.n_points(); ++i) {
-        char& one = marked[surface.part_1][surface.facing.nodes_1[i]];
-        char& two = marked[surface.part_2][surface.facing.nodes_2[i]];
-        if (one == two) continue;
-        one = two = 0;
+        std::vector<char*> all;
+        const auto collect = [&](const SideTrace& side, std::vector<char>& of_part) {
+          for (int k = 0; k < side.n_shares(i); ++k) all.push_back(&of_part[side.share(i, k).node]);
+        };
+        collect(surface.facing.side_1, marked[surface.part_1]);
+        collect(surface.facing.side_2, marked[surface.part_2]);
+        if (std::all_of(all.begin(), all.end(), [&](const char* one) { return *one == *all.front(); })) continue;
+        for (char* one : all) *one = 0;
         has_changed = true;
       }
     }

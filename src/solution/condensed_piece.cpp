@@ -1,6 +1,9 @@
 #include "solution/condensed_piece.hpp"
 
+#include <numeric>
+
 #include "base/error.hpp"
+#include "solution/row_stiffness.hpp"
 
 namespace dygita {
 
@@ -18,21 +21,14 @@ void together(const std::vector<Vec*>& vectors, Function&& f) {
 
 }  // namespace
 
-Condensation::Condensation(std::unique_ptr<Factor> own, const PieceOperator& op, const Vec& reference) {
-  Mat with_reference = own->interface_schur();
+Condensation::Condensation(std::unique_ptr<Factor> own, const PieceOperator& op) {
+  auto condensed = std::make_shared<Mat>(own->interface_schur());
   own->release_interface();
   factor = std::move(own);
-  schur = std::make_shared<const Mat>(std::move(with_reference));
-  schur = std::make_shared<const Mat>(with_rows(op, -reference));
-  schur_diagonal.resize(op.n_rows());
-  const int n_i = factor->n_interior();
-  for (int i = 0; i < op.n_rows(); ++i) {
-    const Trace& t = op.traces()[i];
-    double diagonal = 0.0;
-    for (int a = 0; a < t.n; ++a)
-      for (int b = 0; b < t.n; ++b) diagonal += t.value[a] * t.value[b] * (*schur)(t.at[a] - n_i, t.at[b] - n_i);
-    schur_diagonal[i] = diagonal / op.setup().rows[i].n_sharing;
-  }
+  take_reference_off(op, factor->n_interior(), *condensed);
+  schur = std::move(condensed);
+  schur_diagonal = stiffness_of_rows(*this, op);
+  for (int i = 0; i < op.n_rows(); ++i) schur_diagonal[i] /= op.setup().rows[i].n_sharing;
 }
 
 Mat Condensation::with_rows(const PieceOperator& op, const Vec& k) const {
@@ -40,7 +36,7 @@ Mat Condensation::with_rows(const PieceOperator& op, const Vec& k) const {
   Mat sum = *schur;
   const int n_i = factor->n_interior();
   for (int i = 0; i < op.n_rows(); ++i) {
-    const Trace& t = op.traces()[i];
+    const Trace t = op.traces()[i];
     for (int a = 0; a < t.n; ++a)
       for (int b = 0; b < t.n; ++b) sum(t.at[a] - n_i, t.at[b] - n_i) += k[i] * t.value[a] * t.value[b];
   }
@@ -48,16 +44,29 @@ Mat Condensation::with_rows(const PieceOperator& op, const Vec& k) const {
 }
 
 Mat on_rows(const Mat& h, const PieceOperator& op, int n_interior) {
-  Mat compliance = Mat::Zero(op.n_rows(), op.n_rows());
-  for (int i = 0; i < op.n_rows(); ++i)
-    for (int j = 0; j < op.n_rows(); ++j) {
-      const Trace &one = op.traces()[i], &other = op.traces()[j];
-      for (int a = 0; a < one.n; ++a)
-        for (int b = 0; b < other.n; ++b) {
-          const int row = one.at[a] - n_interior, column = other.at[b] - n_interior;
-          compliance(i, j) += one.value[a] * other.value[b] * h(std::max(row, column), std::min(row, column));
-        }
+  std::vector<int> all(op.n_rows());
+  std::iota(all.begin(), all.end(), 0);
+  return on_rows(h, op, n_interior, all);
+}
+
+// T H first: a row over many nodes then costs no more than its entries.
+Mat on_rows(const Mat& h, const PieceOperator& op, int n_interior, const std::vector<int>& rows) {
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  Mat compliance = Mat::Zero(n, n);
+  Vec line(h.rows());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Trace one = op.traces()[rows[i]];
+    line.setZero();
+    for (int a = 0; a < one.n; ++a) {
+      const Eigen::Index at = one.at[a] - n_interior, after = h.rows() - at;
+      line.head(at) += one.value[a] * h.row(at).head(at).transpose();
+      line.tail(after) += one.value[a] * h.col(at).tail(after);
     }
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const Trace other = op.traces()[rows[j]];
+      for (int b = 0; b < other.n; ++b) compliance(i, j) += other.value[b] * line[other.at[b] - n_interior];
+    }
+  }
   return compliance;
 }
 
@@ -124,7 +133,8 @@ void CondensedPiece::backward(std::span<Piece* const> equal) {
 
 void CondensedPiece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) {
   const bool for_change = solves_for_change();
-  const std::vector<Trace>& traces = op_.traces();
+  const Traces& traces = op_.traces();
+  const Vec* const held = held_rows();
   if (!is_moved_) {
     const double change = (q - state_.q).cwiseAbs2().cwiseQuotient(k_).sum();
     if (change <= quiet_) {
@@ -138,13 +148,17 @@ void CondensedPiece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec>
   const int n_i = condensation_.factor->n_interior();
   thread_local Vec rhs;
   rhs = b_;
-  for (int i = 0; i < n_rows(); ++i)
-    for (int a = 0; a < traces[i].n; ++a)
-      rhs[traces[i].at[a] - n_i] += traces[i].value[a] * (for_change ? q[i] - state_.q[i] : q[i]);
+  for (int i = 0; i < n_rows(); ++i) {
+    const Trace t = traces[i];
+    const double own = held ? q[i] - k_[i] * (*held)[i] : q[i], data = for_change ? own - state_.q[i] : own;
+    for (int a = 0; a < t.n; ++a) rhs[t.at[a] - n_i] += t.value[a] * data;
+  }
   h_->multiply(rhs, dv_b_);
   for (int i = 0; i < n_rows(); ++i) {
-    velocity[i] = for_change ? traces[i].of(work_.v_old) : 0.0;
-    for (int a = 0; a < traces[i].n; ++a) velocity[i] += traces[i].value[a] * dv_b_[traces[i].at[a] - n_i];
+    const Trace t = traces[i];
+    velocity[i] = for_change ? t.of(work_.v_old) : 0.0;
+    for (int a = 0; a < t.n; ++a) velocity[i] += t.value[a] * dv_b_[t.at[a] - n_i];
+    if (held) velocity[i] += (*held)[i];
   }
 }
 

@@ -12,15 +12,17 @@ struct Condensation {
   std::shared_ptr<const Mat> schur;  // S0, n_interface x n_interface, without the rows' reference stiffness
   Vec schur_diagonal;                // in the rows' directions, shared between their laws
 
-  // op: of the piece that was factorised, its unknowns in the factor's order; reference: of its rows, included in the
-  // factor.
-  Condensation(std::unique_ptr<Factor> own, const PieceOperator& op, const Vec& reference);
+  // op: of the piece that was factorised, its unknowns in the factor's order; the reference stiffness of its rows is
+  // included in the factor.
+  Condensation(std::unique_ptr<Factor> own, const PieceOperator& op);
   // S0 + T^T k T, with T the rows on the interface unknowns.
   Mat with_rows(const PieceOperator& op, const Vec& k) const;
 };
 
 // T H T^T, with T the rows of op on the interface unknowns; H by its lower triangle.
 Mat on_rows(const Mat& h, const PieceOperator& op, int n_interior);
+// The same of some rows only.
+Mat on_rows(const Mat& h, const PieceOperator& op, int n_interior, const std::vector<int>& rows);
 
 class CondensedPiece final : public ImplicitPiece {
  public:

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "mesh/cut_mesh.hpp"
+#include "solution/surfaces.hpp"
 
 namespace dygita {
 
@@ -29,7 +30,23 @@ int pieces_of(const Substructure& part, double all_unknowns, int asked) {
 
 }  // namespace
 
-Cut::Cut(const Problem& problem, const std::vector<int>& n_pieces) {
+namespace {
+
+// Nodes of each side of an interface whose faces do not match.
+std::vector<std::vector<int>> together(const std::vector<Surface>* surfaces, int part) {
+  std::vector<std::vector<int>> sets;
+  for (size_t s = 0; surfaces && s < surfaces->size(); ++s) {
+    const Surface& surface = (*surfaces)[s];
+    if (surface.facing.matches()) continue;
+    if (surface.part_1 == part) sets.push_back(nodes_of(surface.facing.facets_1));
+    if (surface.part_2 == part) sets.push_back(nodes_of(surface.facing.facets_2));
+  }
+  return sets;
+}
+
+}  // namespace
+
+Cut::Cut(const Problem& problem, const std::vector<int>& n_pieces, const std::vector<Surface>* surfaces) {
   const int n = static_cast<int>(problem.substructures.size());
   owner_.resize(n);
   others_.resize(n);
@@ -37,7 +54,7 @@ Cut::Cut(const Problem& problem, const std::vector<int>& n_pieces) {
     first_.push_back(static_cast<int>(pieces_.size()));
     const SubstructurePtr& body = problem.substructures[part];
     std::vector<int> piece_of_cell;
-    if (n_pieces[part] > 1) piece_of_cell = piece_of_cells(*body->mesh, n_pieces[part]);
+    if (n_pieces[part] > 1) piece_of_cell = piece_of_cells(*body->mesh, n_pieces[part], together(surfaces, part));
     if (n_pieces[part] > 1 && *std::max_element(piece_of_cell.begin(), piece_of_cell.end()) > 0)
       add_cut(part, body, piece_of_cell);
     else
@@ -116,7 +133,7 @@ CutPtr no_cut(const Problem& problem) {
   return std::make_shared<const Cut>(problem, std::vector<int>(problem.substructures.size(), 1));
 }
 
-CutPtr make_cut(const Problem& problem) {
+CutPtr make_cut(const Problem& problem, const std::vector<Surface>& surfaces) {
   // Mass that contact nodes give to those behind them would have to cross the cut.
   if (problem.mass().is_moved_from_contact) return no_cut(problem);
   std::vector<int> n_pieces;
@@ -124,7 +141,7 @@ CutPtr make_cut(const Problem& problem) {
   for (const SubstructurePtr& part : problem.substructures) unknowns += 3.0 * part->mesh->n_nodes();
   for (const SubstructurePtr& part : problem.substructures)
     n_pieces.push_back(pieces_of(*part, unknowns, problem.solver.pieces));
-  return std::make_shared<const Cut>(problem, n_pieces);
+  return std::make_shared<const Cut>(problem, n_pieces, &surfaces);
 }
 
 }  // namespace dygita

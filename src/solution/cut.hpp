@@ -9,6 +9,8 @@
 
 namespace dygita {
 
+struct Surface;
+
 // One piece: cells of a substructure, and the nodes they have.
 struct CutPiece {
   int part = -1;           // index of the substructure
@@ -31,7 +33,8 @@ struct Copy {
 
 class Cut {
  public:
-  explicit Cut(const Problem& problem, const std::vector<int>& n_pieces);
+  // surfaces: no point of one whose faces do not match is on two pieces of a side; null: there is none.
+  Cut(const Problem& problem, const std::vector<int>& n_pieces, const std::vector<Surface>* surfaces = nullptr);
 
   int n_pieces() const { return static_cast<int>(pieces_.size()); }
   const CutPiece& piece(int i) const { return pieces_[i]; }
@@ -89,7 +92,8 @@ CutPtr no_cut(const Problem& problem);
 
 // As the problem's solver.latin has it: into a number of pieces, or large substructures only (manual, cutting); by
 // sizes alone, so that the answer does not depend on the machine. A substructure gets fewer pieces than asked for where
-// they would have less than 8 cells each; with massless contact none is cut.
-CutPtr make_cut(const Problem& problem);
+// they would have less than 8 cells each, or more than a quarter of its cells at a face that does not match; with
+// massless contact none is cut.
+CutPtr make_cut(const Problem& problem, const std::vector<Surface>& surfaces);
 
 }  // namespace dygita

@@ -40,6 +40,9 @@ class Groups {
   std::vector<NodeKey> keys_;
 };
 
+// Share of a row at which it counts as held.
+constexpr double least_free = 1e-3;
+
 struct LawCluster {
   int group_1 = -1, group_2 = -1;  // -1: wall
   const Law* law = nullptr;
@@ -60,6 +63,8 @@ class Builder {
     make_groups();
     make_clusters();
     for (const LawCluster& cluster : clusters_) add_law_point(cluster);
+    for (size_t s = 0; s < surfaces_.size(); ++s)
+      if (is_in_force(surfaces_[s]) && !surfaces_[s].facing.matches()) add_spread_points(static_cast<int>(s));
     for (const auto& [group, ports] : members_) {
       // A group under one law is tied by that law's point; otherwise it needs a point of its own.
       if (ports.size() < 2 || n_laws_[group] == 1) continue;
@@ -71,9 +76,13 @@ class Builder {
   }
 
  private:
+  // A wall that is not among this step's supports has let go, a damper carries nothing in a static step.
+  bool is_in_force(const Surface& surface) const { return takes_part(problem_, step_, surface); }
+  bool matches(const Surface& surface) const { return is_in_force(surface) && surface.facing.matches(); }
+
   NodeKey side(const Surface& s, int i, int which) const {
-    const Copy copy =
-        which == 1 ? cut_.owner(s.part_1, s.facing.nodes_1[i]) : cut_.owner(s.part_2, s.facing.nodes_2[i]);
+    const Copy copy = which == 1 ? cut_.owner(s.part_1, s.facing.side_1.main_node(i))
+                                 : cut_.owner(s.part_2, s.facing.side_2.main_node(i));
     return {copy.piece, copy.node};
   }
   int part_of(const NodeKey& key) const { return cut_.piece(key.first).part; }
@@ -81,7 +90,7 @@ class Builder {
 
   void make_groups() {
     for (const Surface& surface : surfaces_)
-      for (int i = 0; i < surface.n_points(); ++i) {
+      for (int i = 0; i < surface.n_points() && matches(surface); ++i) {
         if (!surface.law && surface.part_2 >= 0) groups_.tie(side(surface, i, 1), side(surface, i, 2));
         for (int which = 1; which <= (surface.part_2 >= 0 ? 2 : 1); ++which) {
           const NodeKey owner = side(surface, i, which);
@@ -116,7 +125,7 @@ class Builder {
     std::map<std::tuple<const Law*, int, int>, std::vector<int>> known;
     for (size_t s = 0; s < surfaces_.size(); ++s) {
       const Surface& surface = surfaces_[s];
-      if (!surface.law) continue;
+      if (!surface.law || !matches(surface)) continue;
       for (int i = 0; i < surface.n_points(); ++i) {
         const int group_1 = groups_.of(side(surface, i, 1));
         const int group_2 = surface.part_2 >= 0 ? groups_.of(side(surface, i, 2)) : -1;
@@ -148,8 +157,7 @@ class Builder {
   }
 
   [[noreturn]] void fail_same_group(const Surface& surface, int i) const {
-    const Vec3 x = problem_.substructures[surface.part_1]->mesh->nodes.col(surface.facing.nodes_1[i]) +
-                   problem_.substructures[surface.part_1]->place;
+    const Vec3 x = surface.facing.places.col(i);
     std::string path;
     for (const Surface& other : surfaces_)
       if (!other.law && other.part_2 >= 0) path += (path.empty() ? "'" : ", '") + other.name() + "'";
@@ -157,8 +165,8 @@ class Builder {
         surface.interface->origin,
         fmt::format("interface '{}': its two sides are tied to each other at node {} of '{}' ({:.6g}, {:.6g}, {:.6g}) "
                     "through bonded interfaces ({}): tied nodes cannot move apart there",
-                    surface.name(), surface.facing.nodes_1[i], problem_.substructures[surface.part_1]->name, x[0], x[1],
-                    x[2], path));
+                    surface.name(), surface.facing.side_1.main_node(i), problem_.substructures[surface.part_1]->name,
+                    x[0], x[1], x[2], path));
   }
 
   // Sides of a law at a group: all of it where this is the group's only law, else the substructures that face each
@@ -185,6 +193,115 @@ class Builder {
       if (group >= 0 && n_laws_[group] == 1) point_of_group_[group] = index;
   }
 
+  // Faces that do not match: each point by itself, one port a side.
+  void add_spread_points(int s) {
+    const Surface& surface = surfaces_[s];
+    for (int i = 0; i < surface.n_points(); ++i) {
+      Point point;
+      point.law = surface.law.get();
+      point.area = surface.facing.areas[i];
+      point.members = {{s, i, 1.0}};
+      point.frame = spread_frame(surface, i);
+      point.first_port = static_cast<int>(exchange_.ports.size());
+      point.first_port_2 = point.first_port + 1;
+      point.end_port = point.first_port + 2;
+      exchange_.ports.push_back(spread_port(surface, s, i, 1, point.frame));
+      exchange_.ports.push_back(spread_port(surface, s, i, 2, point.frame));
+      for (int d = 0; d < 3; ++d)
+        point.has_law[d] = point.law->acts_on(d, step_.is_static) && !is_held_along(surface, point, d);
+      number_unknowns(point, false);
+      exchange_.points.push_back(std::move(point));
+    }
+  }
+
+  // Where both sides end on one plane of symmetry, nothing moves along its normal: the side with the points is held,
+  // the other one's row has what of its nodes is off the plane alone, and would be tied to the plane once more.
+  bool is_held_along(const Surface& surface, const Point& point, int d) const {
+    const int carrier = surface.facing.carrier == 1 ? point.first_port : point.first_port_2;
+    if (!exchange_.ports[carrier].is_held[d]) return false;
+    const Port& other = exchange_.ports[carrier == point.first_port ? point.first_port_2 : point.first_port];
+    bool has_held_nodes = false;
+    other.for_each_node([&](int node, const Mat3& block) {
+      const Held* held = conditions_.at(other.part, node);
+      const Vec3 along = block.transpose() * point.frame.col(d);
+      has_held_nodes |= held &&
+                        (held->directions.leftCols(held->n).transpose() * along).norm() > 0.999 * along.norm() &&
+                        !along.isZero();
+    });
+    return has_held_nodes;
+  }
+
+  Port spread_port(const Surface& surface, int s, int i, int which, const Mat3& frame) const {
+    const SideTrace& trace = which == 1 ? surface.facing.side_1 : surface.facing.side_2;
+    Port port;
+    port.part = which == 1 ? surface.part_1 : surface.part_2;
+    port.node = trace.main_node(i);
+    const Copy copy = cut_.owner(port.part, port.node);
+    port.piece = copy.piece;
+    port.piece_node = copy.node;
+    port.trace = &trace;
+    port.point = i;
+    port.side = 2 * s + which - 1;
+    port.area = surface.facing.areas[i];
+    std::array<double, 3> free{}, all{};
+    port.for_each_node([&](int node, const Mat3& block) {
+      CHECK(cut_.owner(port.part, node).piece == port.piece, "a row of a face that does not match lies in one piece");
+      const Held* held = conditions_.at(port.part, node);
+      for (int d = 0; d < 3; ++d) {
+        const Vec3 along = block.transpose() * frame.col(d);
+        all[d] += along.squaredNorm();
+        free[d] += held ? (held->free_basis().transpose() * along).squaredNorm() : along.squaredNorm();
+      }
+    });
+    for (int d = 0; d < 3; ++d) port.is_held[d] = free[d] <= least_free * least_free * all[d];
+    return port;
+  }
+
+  // N, and a tangent along what a support holds of the nodes at the point, so that conditions are per direction there.
+  Mat3 spread_frame(const Surface& surface, int i) const {
+    Vec3 n = surface.facing.normals.col(i), t = Vec3::Zero();
+    const SideTrace& trace = surface.facing.carrier == 1 ? surface.facing.side_1 : surface.facing.side_2;
+    const Held* held =
+        conditions_.at(surface.facing.carrier == 1 ? surface.part_1 : surface.part_2, trace.main_node(i));
+    if (held && (held->n == 1 || held->n == 2)) {
+      const Vec3 axis = held->n == 1 ? Vec3(held->directions.col(0)) : Vec3(held->free_basis().col(0));
+      const double along = axis.dot(n);
+      if (std::abs(along) > 0.99) {
+        n = along > 0.0 ? axis : Vec3(-axis);
+      } else if (std::abs(along) < 0.2) {
+        n = (n - along * axis).normalized();
+        t = axis;
+      }
+    }
+    return frame_of(n, t);
+  }
+
+  // t: a tangent, or zero for any.
+  static Mat3 frame_of(const Vec3& n, Vec3 t) {
+    if (t.isZero()) {
+      int least = 0;
+      n.cwiseAbs().minCoeff(&least);
+      t = Vec3::Unit(least);
+    }
+    Mat3 frame;
+    frame.col(0) = n;
+    frame.col(1) = (t - n.dot(t) * n).normalized();
+    frame.col(2) = n.cross(frame.col(1));
+    return frame;
+  }
+
+  void number_unknowns(Point& point, bool has_group) {
+    for (int d = 0; d < 3; ++d) {
+      if (!has_group && !point.has_law[d]) continue;
+      for (int p = point.first_port; p < point.end_port; ++p) point.is_active[d] |= !exchange_.ports[p].is_held[d];
+      if (!point.is_active[d]) continue;
+      for (int p = point.first_port; p < point.end_port; ++p) {
+        Port& port = exchange_.ports[p];
+        if (!port.is_held[d]) port.unknown[d] = exchange_.n_unknowns[port.piece]++;
+      }
+    }
+  }
+
   void add_point(const Law* law, const std::vector<NodeKey>& ports_1, const std::vector<NodeKey>& ports_2, bool is_wall,
                  const Vec3& normal, double area, const std::vector<Member>& members) {
     Point point;
@@ -200,16 +317,8 @@ class Builder {
     point.end_port = point.first_port + static_cast<int>(keys.size());
     const bool has_group = ports_1.size() > 1 || ports_2.size() > 1;
     for (const NodeKey& key : keys) exchange_.ports.push_back(make_port(key, point.frame));
-    for (int d = 0; d < 3; ++d) {
-      point.has_law[d] = law && law->acts_on(d, step_.is_static);
-      if (!has_group && !point.has_law[d]) continue;
-      for (int p = point.first_port; p < point.end_port; ++p) point.is_active[d] |= !exchange_.ports[p].is_held[d];
-      if (!point.is_active[d]) continue;
-      for (int p = point.first_port; p < point.end_port; ++p) {
-        Port& port = exchange_.ports[p];
-        if (!port.is_held[d]) port.unknown[d] = exchange_.n_unknowns[port.piece]++;
-      }
-    }
+    for (int d = 0; d < 3; ++d) point.has_law[d] = law && law->acts_on(d, step_.is_static);
+    number_unknowns(point, has_group);
     exchange_.points.push_back(std::move(point));
   }
 
@@ -251,16 +360,7 @@ class Builder {
         fail_oblique(members, keys.front(), n, axis);
       }
     }
-    if (t.isZero()) {
-      int least = 0;
-      n.cwiseAbs().minCoeff(&least);
-      t = Vec3::Unit(least);
-    }
-    Mat3 frame;
-    frame.col(0) = n;
-    frame.col(1) = (t - n.dot(t) * n).normalized();
-    frame.col(2) = n.cross(frame.col(1));
-    return frame;
+    return frame_of(n, t);
   }
 
   [[noreturn]] void fail_oblique(const std::vector<Member>& members, const NodeKey& key, const Vec3& n,
@@ -276,7 +376,7 @@ class Builder {
   void add_ties() {
     for (size_t s = 0; s < surfaces_.size(); ++s) {
       const Surface& surface = surfaces_[s];
-      if (surface.law || surface.part_2 < 0) continue;
+      if (surface.law || surface.part_2 < 0 || !matches(surface)) continue;
       for (int i = 0; i < surface.n_points(); ++i) {
         const int index = point_of_group_.at(groups_.of(side(surface, i, 1)));
         const Point& point = exchange_.points[index];
@@ -306,6 +406,11 @@ class Builder {
 };
 
 }  // namespace
+
+void spread(const Cut& cut, const Port& port, const Vec3& force, Points& on_piece) {
+  port.for_each_node(
+      [&](int node, const Mat3& block) { on_piece.col(cut.owner(port.part, node).node) += block.transpose() * force; });
+}
 
 Exchange make_exchange(const Problem& problem, const Step& step, const Cut& cut, const std::vector<Surface>& surfaces,
                        const Conditions& conditions) {

@@ -15,13 +15,27 @@
 namespace dygita {
 
 struct Port {
-  int part = -1, node = -1;                // substructure and its node
+  int part = -1, node = -1;                // substructure and its node; where it moves with several, the main one
   int piece = -1, piece_node = -1;         // the same in the piece; equal where nothing is cut
+  const SideTrace* trace = nullptr;        // where faces do not match: what point `point` of it moves with; else null
+  int point = -1, side = -1;               // side: one number for all ports of a side of such an interface
   bool is_owner = true;                    // of the node's copies the one that forces of surfaces are booked on
   double area = 0.0;                       // m^2, of the facets that meet there
   std::array<int, 3> unknown{-1, -1, -1};  // index in the piece's q of each frame direction; -1: none
   std::array<bool, 3> is_held{};           // the direction belongs to a support or a prescribed motion
+
+  // Its motion, given a field on the substructure (3 x n_nodes).
+  Vec3 motion(const Points& nodal) const { return trace ? trace->at(point, nodal) : Vec3(nodal.col(node)); }
+  // Calls back with each node that it moves with and what that node's velocity adds to its own (3 x 3).
+  template <typename Visit>
+  void for_each_node(Visit&& visit) const {
+    if (!trace) return visit(node, Mat3(Mat3::Identity()));
+    for (int k = 0; k < trace->n_shares(point); ++k) visit(trace->share(point, k).node, trace->block(point, k));
+  }
 };
+
+// Adds a force on a port to those on the nodes of its piece.
+void spread(const Cut& cut, const Port& port, const Vec3& force, Points& on_piece);
 
 // One point of a surface that a law point stands for, and its share of the force.
 struct Member {

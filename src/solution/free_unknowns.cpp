@@ -10,7 +10,8 @@ FreeUnknowns::FreeUnknowns(int n_nodes, const std::vector<InterfaceRow>& rows,
                            const std::unordered_map<int, Held>& held)
     : special_(n_nodes, -1), count_(n_nodes, 3), first_(n_nodes) {
   std::unordered_map<int, std::vector<Vec3>> wanted;
-  for (const InterfaceRow& row : rows) wanted[row.node].push_back(row.direction);
+  for (const InterfaceRow& row : rows)
+    if (row.is_of_one_node()) wanted[row.nodes[0].node].push_back(row.nodes[0].along);
   for (const auto& [node, conditions] : held) wanted[node];
   for (const auto& [node, directions] : wanted) {
     Held basis;
@@ -43,15 +44,33 @@ void FreeUnknowns::put_in_order(const std::vector<int>& order) {
   for (size_t i = 0; i < order.size(); ++i) position_[order[i]] = static_cast<int>(i);
 }
 
-Trace FreeUnknowns::trace(int node, const Vec3& direction) const {
-  Trace trace;
-  for (int j = 0; j < count_[node]; ++j) {
-    const double value = is_plain(node) ? direction[j] : bases_[special_[node]].col(j).dot(direction);
-    if (std::abs(value) < 1e-12) continue;
-    trace.at[trace.n] = at(node, j);
-    trace.value[trace.n++] = value;
+Traces FreeUnknowns::traces(const std::vector<InterfaceRow>& rows) const {
+  Traces traces;
+  for (const InterfaceRow& row : rows) {
+    for (const auto& [node, along] : row.nodes)
+      for (int j = 0; j < count_[node]; ++j) {
+        const double value = is_plain(node) ? along[j] : bases_[special_[node]].col(j).dot(along);
+        if (std::abs(value) >= 1e-12) traces.add(at(node, j), value);
+      }
+    traces.end_row();
   }
-  return trace;
+  return traces;
+}
+
+Traces FreeUnknowns::held_traces(const std::vector<InterfaceRow>& rows) const {
+  Traces traces;
+  for (const InterfaceRow& row : rows) {
+    for (const auto& [node, along] : row.nodes) {
+      if (count_[node] == 3) continue;
+      auto held = std::lower_bound(held_.begin(), held_.end(), node,
+                                   [](const HeldDirection& one, int at) { return one.node < at; });
+      for (; held != held_.end() && held->node == node; ++held)
+        if (const double value = held->direction.dot(along); std::abs(value) >= 1e-12)
+          traces.add(static_cast<int>(held - held_.begin()), value);
+    }
+    traces.end_row();
+  }
+  return traces;
 }
 
 Vec FreeUnknowns::restrict_nodal(const Points& nodal) const {

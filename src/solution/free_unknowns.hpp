@@ -17,11 +17,11 @@ struct HeldDirection {
   std::vector<std::pair<int, double>> motion;  // (index of a motion, factor)
 };
 
-// A direction of a node in terms of free unknowns x: its value is sum value[a] x[at[a]].
+// A row in terms of unknowns x: its value is sum value[a] x[at[a]].
 struct Trace {
-  int n = 0;
-  std::array<int, 3> at{};
-  std::array<double, 3> value{};
+  int n;
+  const int* at;
+  const double* value;
 
   double of(const Vec& x) const {
     double sum = 0.0;
@@ -33,10 +33,29 @@ struct Trace {
   }
 };
 
+// Rows one after the other.
+class Traces {
+ public:
+  int size() const { return static_cast<int>(first_.size()) - 1; }
+  Trace operator[](int i) const {
+    return {first_[i + 1] - first_[i], at_.data() + first_[i], value_.data() + first_[i]};
+  }
+  // An entry of the row that `end_row` will end.
+  void add(int at, double value) {
+    at_.push_back(at);
+    value_.push_back(value);
+  }
+  void end_row() { first_.push_back(static_cast<int>(at_.size())); }
+
+ private:
+  std::vector<int> first_{0}, at_;
+  std::vector<double> value_;
+};
+
 class FreeUnknowns {
  public:
-  // Of a node they are numbered from first(node) on, along the columns of its basis: the rows' own directions where
-  // they are orthonormal, so that a row is one unknown.
+  // Of a node they are numbered from first(node) on, along the columns of its basis: the directions of rows of this
+  // node alone where they are orthonormal, so that such a row is one unknown.
   FreeUnknowns(int n_nodes, const std::vector<InterfaceRow>& rows, const std::unordered_map<int, Held>& held);
 
   int size() const { return static_cast<int>(node_of_unknown_.size()); }
@@ -54,7 +73,9 @@ class FreeUnknowns {
   // Where unknown j of a node stands in such vectors.
   int at(int node, int j) const { return position_[first_[node] + j]; }
   int position(int unknown) const { return position_[unknown]; }
-  Trace trace(int node, const Vec3& direction) const;
+  // The rows on the free unknowns, and on the held directions.
+  Traces traces(const std::vector<InterfaceRow>& rows) const;
+  Traces held_traces(const std::vector<InterfaceRow>& rows) const;
   // Of each free unknown, 3 x size.
   Points directions() const;
 

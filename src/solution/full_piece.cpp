@@ -22,17 +22,21 @@ void FullPiece::prepare(double /*quiet*/) { add_start_force(); }
 // The right-hand side stays as it is for the next q.
 void FullPiece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) {
   const bool for_change = solves_for_change();
-  const std::vector<Trace>& traces = op_.traces();
+  const Traces& traces = op_.traces();
+  const Vec* const held = held_rows();
   const FreeUnknowns& unknowns = op_.unknowns();
   Vec& v = state_.v;
   v = work_.x;
-  for (int i = 0; i < n_rows(); ++i) traces[i].add(for_change ? q[i] - state_.q[i] : q[i], v);
+  for (int i = 0; i < n_rows(); ++i) {
+    const double own = held ? q[i] - k_[i] * (*held)[i] : q[i];
+    traces[i].add(for_change ? own - state_.q[i] : own, v);
+  }
   Vec ordered(v.size());
   for (int i = 0; i < v.size(); ++i) ordered[i] = v[unknowns.position(factor_->order()[i])];
   factor_->solve(ordered);
   for (int i = 0; i < v.size(); ++i) v[unknowns.position(factor_->order()[i])] = ordered[i];
   if (for_change) v += work_.v_old;
-  for (int i = 0; i < n_rows(); ++i) velocity[i] = traces[i].of(v);
+  for (int i = 0; i < n_rows(); ++i) velocity[i] = traces[i].of(v) + (held ? (*held)[i] : 0.0);
 }
 
 Mat FullPiece::row_compliance() const {
@@ -40,7 +44,7 @@ Mat FullPiece::row_compliance() const {
     return on_rows(inverse_spd(condensation_->with_rows(op_, k_), op_.setup().what), op_,
                    condensation_->factor->n_interior());
   constexpr int together = 16;
-  const std::vector<Trace>& traces = op_.traces();
+  const Traces& traces = op_.traces();
   Mat compliance = Mat::Zero(n_rows(), n_rows());
   std::vector<int> place(op_.n_free());
   for (int i = 0; i < op_.n_free(); ++i) place[factor_->order()[i]] = i;

@@ -80,6 +80,7 @@ void ImplicitPiece::begin(const Points& force, const std::vector<double>& motion
   if (op_.has_motions()) {
     state_.held_pull = op_.pull_of_motions(motion_velocity);
     work.x -= state_.held_pull;
+    if (op_.has_held_rows()) work.held_rows = op_.held_at_rows(work.held_v_new);
   }
   prepare(quiet);
 }
@@ -87,7 +88,7 @@ void ImplicitPiece::begin(const Points& force, const std::vector<double>& motion
 void ImplicitPiece::add_start_force() {
   if (!solves_for_change()) return;
   for (int i = 0; i < n_rows(); ++i) {
-    const Trace& trace = op_.traces()[i];
+    const Trace trace = op_.traces()[i];
     trace.add(state_.q[i] - k_[i] * trace.of(state_.v), work_.x);
   }
 }
@@ -107,7 +108,7 @@ void ImplicitPiece::advance_forces(Eigen::Ref<const Vec> q, bool is_moved) {
   PieceState& s = state_;
   s.w = is_moved ? work_.residual : work_.w_old;
   for (int i = 0; i < n_rows() && is_moved; ++i) {
-    const Trace& trace = op_.traces()[i];
+    const Trace trace = op_.traces()[i];
     trace.add(q[i] - k_[i] * trace.of(s.v), s.w);
   }
   if (!scheme.is_static && is_moved) {
@@ -121,12 +122,13 @@ void ImplicitPiece::advance_forces(Eigen::Ref<const Vec> q, bool is_moved) {
     s.p += ((dt * g - c0) / c1) * work_.w_old + ((dt * (1 - g) + c0) / c1) * s.w;
 }
 
-IncrementEnergy ImplicitPiece::finish(Eigen::Ref<const Vec> q, const Points* interface_force) {
+IncrementEnergy ImplicitPiece::finish(Eigen::Ref<const Vec> given, const Points* interface_force) {
   // Increments between products by K: they cost little beside the solves, and what drifts in between is below the
   // tolerance.
   constexpr int n_between = 8;
   const double dt = op_.scheme().dt;
   const bool is_moved = find_velocity();
+  const Vec q = held_rows() ? Vec(given - k_.cwiseProduct(*held_rows())) : Vec(given);  // of the free unknowns' rows
   if (solves_for_change()) state_.q = q;
   state_.held_v = work_.held_v_new;
   advance_forces(q, is_moved);
@@ -147,6 +149,12 @@ IncrementEnergy ImplicitPiece::finish(Eigen::Ref<const Vec> q, const Points* int
     add_work_of_motions(*interface_force, energy.loads);
   }
   return energy;
+}
+
+Vec ImplicitPiece::row_displacements() const {
+  Vec u = op_.at_rows(state_.u);
+  if (op_.has_held_rows()) u += op_.held_at_rows(state_.held_u);
+  return u;
 }
 
 double ImplicitPiece::held_mean_velocity(size_t i) const {

@@ -42,7 +42,7 @@ class ImplicitPiece : public Piece {
   Points displacement() const override { return op_.unknowns().expand(state_.u, state_.held_u); }
   Points velocity() const override { return op_.unknowns().expand(state_.v, state_.held_v); }
   Points acceleration() const override;
-  Vec row_displacements() const override { return op_.at_rows(state_.u); }
+  Vec row_displacements() const override;
   Points reactions(const Points& interface_force) const override;
   Points absorbing_force() const override;
   PieceFigures figures() const override;
@@ -55,6 +55,7 @@ class ImplicitPiece : public Piece {
     Vec v_old, w_old, force_old;
     std::vector<double> held_v_old, held_v_new, held_load;  // held_load: mean external force, N
     Vec change;                                             // K (U1 - U0), N, where there are unknowns without mass
+    Vec held_rows;                                          // m/s, at the rows, of moving supports; empty: none
   };
   // The increment is set up: x is its right-hand side less what interface data bring.
   virtual void prepare(double /*quiet*/) {}
@@ -64,6 +65,8 @@ class ImplicitPiece : public Piece {
   virtual bool solves_for_change() const { return false; }
 
   void add_start_force();  // of the interfaces, to x, where increments are solved for the change
+  // Velocities at the rows that held directions bring at the increment's end; null where there are none.
+  const Vec* held_rows() const { return work_.held_rows.size() > 0 ? &work_.held_rows : nullptr; }
 
   const PieceOperator op_;
   Vec k_, schur_diagonal_;

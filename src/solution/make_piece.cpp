@@ -11,19 +11,12 @@ namespace {
 struct Layout {
   FreeUnknowns unknowns;
   std::vector<char> is_interface, none;  // of the free unknowns
-  Vec reference;                         // of the rows, N/m
 
   explicit Layout(const PieceSetup& setup)
-      : unknowns(setup.n_nodes(), setup.rows, setup.held),
-        is_interface(unknowns.size(), 0),
-        none(unknowns.size(), 0),
-        reference(setup.rows.size()) {
-    for (size_t i = 0; i < setup.rows.size(); ++i) {
-      const InterfaceRow& row = setup.rows[i];
-      reference[static_cast<Eigen::Index>(i)] = row.reference_stiffness;
-      const Trace t = unknowns.trace(row.node, row.direction);
-      for (int j = 0; j < t.n; ++j) is_interface[t.at[j]] = 1;
-    }
+      : unknowns(setup.n_nodes(), setup.rows, setup.held), is_interface(unknowns.size(), 0), none(unknowns.size(), 0) {
+    const Traces traces = unknowns.traces(setup.rows);
+    for (int i = 0; i < traces.size(); ++i)
+      for (int j = 0; j < traces[i].n; ++j) is_interface[traces[i].at[j]] = 1;
   }
   double n_interface() const { return static_cast<double>(std::count(is_interface.begin(), is_interface.end(), 1)); }
 };
@@ -57,7 +50,7 @@ std::unique_ptr<ImplicitPiece> make_piece(const PieceSetup& setup, bool is_plain
   Layout layout(setup);
   FreeUnknowns& unknowns = layout.unknowns;
   if (unknowns.size() == 0) return std::make_unique<ImplicitPiece>(PieceOperator(setup, unknowns));
-  const SparseMatrix matrix = piece_matrix(setup, unknowns, layout.reference);
+  const SparseMatrix matrix = matrix_with_reference(setup, unknowns);
   if (cheaper_in_full(setup, matrix, layout))
     return std::make_unique<FullPiece>(PieceOperator(setup, unknowns), std::nullopt, false);
   std::unique_ptr<Factor> own;
@@ -66,7 +59,7 @@ std::unique_ptr<ImplicitPiece> make_piece(const PieceSetup& setup, bool is_plain
                                    setup.storage_error);
   unknowns.put_in_order(twin ? twin->condensation()->factor->order() : own->order());
   PieceOperator op(setup, std::move(unknowns));
-  Condensation condensation = twin ? *twin->condensation() : Condensation(std::move(own), op, layout.reference);
+  Condensation condensation = twin ? *twin->condensation() : Condensation(std::move(own), op);
   if (is_plain) return std::make_unique<FullPiece>(std::move(op), std::move(condensation), twin != nullptr);
   return std::make_unique<CondensedPiece>(std::move(op), std::move(condensation),
                                           static_cast<const CondensedPiece*>(twin));
@@ -76,7 +69,7 @@ double predicted_bytes(const PieceSetup& setup, bool has_twin) {
   const Layout layout(setup);
   const double vectors = 8.0 * 12.0 * layout.unknowns.size();
   if (layout.unknowns.size() == 0) return vectors;
-  const SparseMatrix matrix = piece_matrix(setup, layout.unknowns, layout.reference);
+  const SparseMatrix matrix = matrix_with_reference(setup, layout.unknowns);
   if (const std::optional<double> full = cheaper_in_full(setup, matrix, layout)) return *full + vectors;
   if (has_twin) return vectors;
   const double n_b = layout.n_interface();

@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "mesh/facing.hpp"
 #include "solution/rigid_motions.hpp"
+#include "solution/row_stiffness.hpp"
 
 namespace dygita {
 
@@ -121,17 +122,17 @@ std::vector<InterfaceRow> rows_of(const StepModel& model, int piece, const std::
         if (port.unknown[d] < 0) continue;
         const double modulus = d == 0 ? body.material.young : body.material.shear_modulus();
         const double stiffness = modulus * port.area / length;
-        rows[port.unknown[d]] = {port.piece_node, point.frame.col(d), needs_reference ? stiffness : 0.0, stiffness,
-                                 1.0};
+        InterfaceRow& row = rows[port.unknown[d]];
+        row = {{}, needs_reference ? stiffness : 0.0, stiffness, 1.0, port.side};
+        port.for_each_node([&](int node, const Mat3& block) {
+          const Vec3 along = block.transpose() * point.frame.col(d);
+          if (!along.isZero(0.0))
+            row.nodes.push_back({port.trace ? model.cut->owner(port.part, node).node : port.piece_node, along});
+        });
       }
     }
   std::unordered_map<int, std::vector<int>> at_node;
-  for (size_t i = 0; i < rows.size(); ++i) at_node[rows[i].node].push_back(static_cast<int>(i));
-  for (auto& [node, members] : at_node)
-    for (const int i : members) {
-      rows[i].n_sharing = 0.0;
-      for (const int j : members) rows[i].n_sharing += std::pow(rows[i].direction.dot(rows[j].direction), 2);
-    }
+  share_nodes(rows);
   return rows;
 }
 

@@ -10,13 +10,22 @@
 
 namespace dygita {
 
-// One unknown q of the exchange on a piece: the velocity of a node in a direction.
-struct InterfaceRow {
+// What a node of a piece adds to a velocity at a row: along . V.
+struct NodeAlong {
   int node;
-  Vec3 direction;
+  Vec3 along;
+};
+
+// One unknown q of the exchange on a piece: a velocity at its interface, that of a node in a direction (a unit vector)
+// or a sum over the nodes of a face that meets another mesh.
+struct InterfaceRow {
+  std::vector<NodeAlong> nodes;
   double reference_stiffness;  // added before factorising an unconstrained piece, taken off its Schur complement (N/m)
   double static_stiffness;     // of the substructure behind the node, E A / L or G A / L (N/m)
-  double n_sharing;            // laws with a q each at this node and direction: sum over its rows of (d . d')^2
+  double n_sharing;            // laws with a q each at these nodes and directions (manual, eq. K8)
+  int side = -1;               // one number for all rows of one side of an interface between two meshes; -1: a node's
+
+  bool is_of_one_node() const { return nodes.size() == 1; }
 };
 
 // Energies of one increment (J): works of the increment, and what is stored at its end.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dygita {
 
@@ -18,11 +19,13 @@ bool same(double a, double b) { return std::abs(a - b) <= 1e-12 * (std::abs(a) +
 bool same(const Vec3& a, const Vec3& b) { return (a - b).norm() < 1e-12; }
 
 bool are_equal(const std::vector<InterfaceRow>& one, const std::vector<InterfaceRow>& other) {
-  return std::equal(one.begin(), one.end(), other.begin(), other.end(),
-                    [](const InterfaceRow& a, const InterfaceRow& b) {
-                      return a.node == b.node && same(a.direction, b.direction) &&
-                             same(a.reference_stiffness, b.reference_stiffness) && same(a.n_sharing, b.n_sharing);
-                    });
+  return std::equal(
+      one.begin(), one.end(), other.begin(), other.end(), [](const InterfaceRow& a, const InterfaceRow& b) {
+        return std::equal(
+                   a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
+                   [](const NodeAlong& x, const NodeAlong& y) { return x.node == y.node && same(x.along, y.along); }) &&
+               same(a.reference_stiffness, b.reference_stiffness) && same(a.n_sharing, b.n_sharing);
+      });
 }
 
 // What moves it is no matter of the matrix.
@@ -57,7 +60,34 @@ bool are_equal(const PieceSetup& a, const PieceSetup& b) {
          are_equal(a.held, b.held);
 }
 
-SparseMatrix piece_matrix(const PieceSetup& setup, const FreeUnknowns& unknowns, const Vec& row_stiffness) {
+namespace {
+
+void add_block(const FreeUnknowns& unknowns, int node, int other, const Mat3& block, SparseMatrix& a) {
+  const Mat3 left = unknowns.basis(node), right = unknowns.basis(other);
+  for (int r = 0; r < unknowns.count(node); ++r)
+    for (int c = 0; c < unknowns.count(other); ++c)
+      a.coeffRef(unknowns.first(node) + r, unknowns.first(other) + c) += left.col(r).dot(block * right.col(c));
+}
+
+// T^T k T of the rows over several nodes.
+SparseMatrix coupling_of_rows(const PieceSetup& setup, const FreeUnknowns& unknowns, const Vec& row_stiffness) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const Traces traces = unknowns.traces(setup.rows);
+  std::vector<int> number(unknowns.size());  // of the unknown at each position
+  for (int i = 0; i < unknowns.size(); ++i) number[unknowns.position(i)] = i;
+  for (int i = 0; i < row_stiffness.size(); ++i) {
+    if (setup.rows[i].is_of_one_node() || row_stiffness[i] == 0.0) continue;
+    const Trace t = traces[i];
+    for (int a = 0; a < t.n; ++a)
+      for (int b = 0; b < t.n; ++b)
+        entries.emplace_back(number[t.at[a]], number[t.at[b]], row_stiffness[i] * t.value[a] * t.value[b]);
+  }
+  SparseMatrix coupling(unknowns.size(), unknowns.size());
+  coupling.setFromTriplets(entries.begin(), entries.end());
+  return coupling;
+}
+
+SparseMatrix matrix_without_rows(const PieceSetup& setup, const FreeUnknowns& unknowns) {
   const SparseMatrix& k = setup.body->matrices->stiffness;
   const Scheme& scheme = setup.scheme;
   const Mass& mass = *setup.body->mass;
@@ -99,18 +129,41 @@ SparseMatrix piece_matrix(const PieceSetup& setup, const FreeUnknowns& unknowns,
     }
   }
   a.makeCompressed();
-  const auto add_block = [&](int node, int other, const Mat3& block) {
-    const Mat3 left = unknowns.basis(node), right = unknowns.basis(other);
-    for (int r = 0; r < unknowns.count(node); ++r)
-      for (int c = 0; c < unknowns.count(other); ++c)
-        a.coeffRef(unknowns.first(node) + r, unknowns.first(other) + c) += left.col(r).dot(block * right.col(c));
-  };
-  for (const auto& [node, impedance] : by_node(setup.absorbing)) add_block(node, node, (1 - scheme.g) * impedance);
-  for (const auto& [node, other, impedance] : setup.absorbing_pairs) add_block(node, other, (1 - scheme.g) * impedance);
-  for (int i = 0; i < row_stiffness.size(); ++i)
-    if (row_stiffness[i] != 0.0)
-      add_block(setup.rows[i].node, setup.rows[i].node,
-                row_stiffness[i] * setup.rows[i].direction * setup.rows[i].direction.transpose());
+  for (const auto& [node, impedance] : by_node(setup.absorbing))
+    add_block(unknowns, node, node, (1 - scheme.g) * impedance, a);
+  for (const auto& [node, other, impedance] : setup.absorbing_pairs)
+    add_block(unknowns, node, other, (1 - scheme.g) * impedance, a);
+  return a;
+}
+
+}  // namespace
+
+SparseMatrix piece_matrix(const PieceSetup& setup, const FreeUnknowns& unknowns, const Vec& row_stiffness) {
+  SparseMatrix a = matrix_without_rows(setup, unknowns);
+  bool is_coupled = false;
+  for (int i = 0; i < row_stiffness.size(); ++i) {
+    if (row_stiffness[i] == 0.0) continue;
+    const InterfaceRow& row = setup.rows[i];
+    if (row.is_of_one_node())
+      add_block(unknowns, row.nodes[0].node, row.nodes[0].node,
+                row_stiffness[i] * row.nodes[0].along * row.nodes[0].along.transpose(), a);
+    else
+      is_coupled = true;
+  }
+  if (is_coupled) a = SparseMatrix(a + coupling_of_rows(setup, unknowns, row_stiffness));
+  return a;
+}
+
+Mat3 reference_spring(const InterfaceRow& row, const NodeAlong& on) {
+  const double size = row.is_of_one_node() ? 1.0 : std::max(on.along.norm(), std::numeric_limits<double>::min());
+  return row.reference_stiffness / size * on.along * on.along.transpose();
+}
+
+SparseMatrix matrix_with_reference(const PieceSetup& setup, const FreeUnknowns& unknowns) {
+  SparseMatrix a = matrix_without_rows(setup, unknowns);
+  for (const InterfaceRow& row : setup.rows)
+    for (const NodeAlong& on : row.nodes)
+      if (row.reference_stiffness != 0.0) add_block(unknowns, on.node, on.node, reference_spring(row, on), a);
   return a;
 }
 
@@ -121,7 +174,9 @@ PieceOperator::PieceOperator(PieceSetup setup, FreeUnknowns unknowns)
       absorbing_(by_node(setup_.absorbing)),
       c0_(setup_.scheme.c0(damping())),
       c1_(setup_.scheme.c1(damping())) {
-  for (const InterfaceRow& row : setup_.rows) traces_.push_back(unknowns_.trace(row.node, row.direction));
+  traces_ = unknowns_.traces(setup_.rows);
+  held_traces_ = unknowns_.held_traces(setup_.rows);
+  for (int i = 0; i < held_traces_.size(); ++i) has_held_rows_ |= held_traces_[i].n > 0;
   make_couplings();
 }
 
@@ -147,6 +202,13 @@ Vec PieceOperator::at_rows(const Vec& x) const {
   Vec values = Vec::Zero(n_rows());
   for (int i = 0; i < n_rows(); ++i) values[i] = traces_[i].of(x);
   return values;
+}
+
+Vec PieceOperator::held_at_rows(const std::vector<double>& held) const {
+  const Vec values = Eigen::Map<const Vec>(held.data(), static_cast<Eigen::Index>(held.size()));
+  Vec at_rows(n_rows());
+  for (int i = 0; i < n_rows(); ++i) at_rows[i] = held_traces_[i].of(values);
+  return at_rows;
 }
 
 Points PieceOperator::elastic_force(const Points& nodal) const {

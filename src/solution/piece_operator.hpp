@@ -35,9 +35,13 @@ struct PieceSetup {
 // Do they have the same matrix, rows and order of unknowns?
 bool are_equal(const PieceSetup& a, const PieceSetup& b);
 
-// (M/dt (1 + ...) + c1 K + absorbing + rows' stiffness (N s/m, one per row)) on the free unknowns, in the order of
-// their numbers.
+// (M/dt (1 + ...) + c1 K + absorbing) on the free unknowns, in the order of their numbers.
+// With T^T k T, k (N s/m) one per row; or with the rows' reference stiffness, as springs on their nodes that couple
+// none with another.
 SparseMatrix piece_matrix(const PieceSetup& setup, const FreeUnknowns& unknowns, const Vec& row_stiffness);
+SparseMatrix matrix_with_reference(const PieceSetup& setup, const FreeUnknowns& unknowns);
+// The latter at one node of a row (3 x 3, N/m).
+Mat3 reference_spring(const InterfaceRow& row, const NodeAlong& on);
 
 class PieceOperator {
  public:
@@ -50,7 +54,10 @@ class PieceOperator {
   const FreeUnknowns& unknowns() const { return unknowns_; }
   const std::vector<HeldDirection>& held() const { return unknowns_.held(); }
   const PieceMass& mass() const { return mass_; }
-  const std::vector<Trace>& traces() const { return traces_; }  // of the rows
+  const Traces& traces() const { return traces_; }  // of the rows, on the free unknowns
+  // Rows with held directions in them: what those add, given their values.
+  bool has_held_rows() const { return has_held_rows_; }
+  Vec held_at_rows(const std::vector<double>& held) const;
   int n_rows() const { return static_cast<int>(setup_.rows.size()); }
   int n_free() const { return unknowns_.size(); }
   bool has_motions() const { return has_motions_; }
@@ -81,10 +88,10 @@ class PieceOperator {
   FreeUnknowns unknowns_;
   PieceMass mass_;
   std::vector<std::pair<int, Mat3>> absorbing_;
-  std::vector<Trace> traces_;
+  Traces traces_, held_traces_;
   // B^T K, B^T M of a unit velocity of each motion; empty where the motion is elsewhere.
   std::vector<Vec> coupling_, mass_coupling_;
-  bool has_motions_ = false;
+  bool has_motions_ = false, has_held_rows_ = false;
   double c0_, c1_;
 };
 

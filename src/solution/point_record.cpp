@@ -11,6 +11,15 @@ Increment increment_of(const Scheme& scheme, double push_out) {
   return {scheme.dt, scheme.g, scheme.is_static, push_out};
 }
 
+namespace {
+
+double first_gap(const Surface& surface, int point) {
+  return surface.interface && surface.interface->has_gap_of_geometry ? surface.facing.gaps[point]
+                                                                     : surface.declared_law().initial().gap;
+}
+
+}  // namespace
+
 PointRecord start_point(const StepModel& model, const Point& point, const State& start) {
   PointRecord record;
   record.trial.area = point.area;
@@ -19,6 +28,7 @@ PointRecord start_point(const StepModel& model, const Point& point, const State&
   for (const Member& member : point.members) {
     const LawState& m = start.surfaces[member.surface].points[member.point];
     law.add(m, member.share, point.frame);
+    record.first_gap += member.share * first_gap((*model.surfaces)[member.surface], member.point);
   }
   record.is_released = start.released[point.members.front().surface] != 0;
   record.shortening_old = record.trial.shortening = start.shortening[point.members.front().surface];
@@ -27,7 +37,7 @@ PointRecord start_point(const StepModel& model, const Point& point, const State&
   for (int p = point.first_port; p < point.end_port; ++p) {
     const Port& port = model.exchange.ports[p];
     const double share = p < point.first_port_2 ? -1.0 / n_1 : 1.0 / n_2;
-    law.rate += share * (point.frame.transpose() * start.velocity[port.part].col(port.node));
+    law.rate += share * (point.frame.transpose() * port.motion(start.velocity[port.part]));
   }
   return record;
 }
@@ -52,7 +62,7 @@ LawState end_of_point(const Point& point, const PointRecord& record, const Incre
 
 double gap_difference(const Point& point, const PointRecord& record) {
   if (!point.law || !point.law->shown().gap) return 0.0;
-  return std::abs(point.law->initial().gap + record.trial.jump[0] - record.law.gap);
+  return std::abs(record.first_gap + record.trial.jump[0] - record.law.gap);
 }
 
 void book_dissipation(const Point& point, const Work& work, State& state) {
@@ -117,9 +127,9 @@ void show_ties(const StepModel& model, const std::vector<PointRecord>& records, 
       for (int p = 0; p < n_ports; ++p) {
         const Port& port = exchange.ports[point.first_port + p];
         if (!port.is_owner) continue;
-        if (port.part == surface.part_1 && port.node == surface.facing.nodes_1[member.point])
+        if (port.part == surface.part_1 && port.node == surface.facing.side_1.main_node(member.point))
           net.col(p) -= member.share * records[i].law.force;
-        if (port.part == surface.part_2 && port.node == surface.facing.nodes_2[member.point])
+        if (port.part == surface.part_2 && port.node == surface.facing.side_2.main_node(member.point))
           net.col(p) += member.share * records[i].law.force;
       }
     }

@@ -15,6 +15,7 @@ struct PointRecord {
   bool is_released = false;
   Vec3 force = Vec3::Zero();    // N, found by the solver
   double shortening_old = 0.0;  // m
+  double first_gap = 0.0;       // m, of the undeformed state
 };
 
 // The record a step starts from, for a point with or without a law.

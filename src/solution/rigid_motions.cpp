@@ -59,7 +59,12 @@ Mat constraint_gram(const Problem& problem, const Exchange& exchange, const Cond
   for (const Point& point : exchange.points) {
     const auto row_of = [&](int p, int d) {
       const Port& port = exchange.ports[p];
-      return frames[port.part].row(position(*problem.substructures[port.part], port.node), point.frame.col(d));
+      RigidMotion sum = RigidMotion::Zero();
+      port.for_each_node([&](int node, const Mat3& block) {
+        sum += frames[port.part].row(position(*problem.substructures[port.part], node),
+                                     block.transpose() * point.frame.col(d));
+      });
+      return sum;
     };
     const auto tie = [&](int p, int other, int d) {
       const RigidMotion a = row_of(p, d);
@@ -112,7 +117,8 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
   scaled = weight.asDiagonal() * gram * weight.asDiagonal();
   const EigenPairs eigen = symmetric_eigen(scaled);
   std::set<std::pair<int, int>> on_interface;
-  for (const Port& port : exchange.ports) on_interface.emplace(port.part, port.node);
+  for (const Port& port : exchange.ports)
+    port.for_each_node([&](int node, const Mat3&) { on_interface.emplace(port.part, node); });
 
   std::vector<Vec> free_motions;
   for (int m = 0; m < 6 * n && eigen.values[m] < 1e-9; ++m)

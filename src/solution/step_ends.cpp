@@ -20,7 +20,7 @@ void place_returning_walls(const StepModel& model, State& state) {
     for (int i = 0; i < surface.n_points(); ++i)
       state.surfaces[s].points[i].gap =
           surface.declared_law().initial().gap -
-          surface.facing.normals.col(i).dot(state.displacement[surface.part_1].col(surface.facing.nodes_1[i]));
+          surface.facing.normals.col(i).dot(surface.facing.side_1.at(i, state.displacement[surface.part_1]));
   }
 }
 

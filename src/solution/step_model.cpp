@@ -20,6 +20,8 @@ State initial_state(const Problem& problem, const std::vector<Surface>& surfaces
   for (const Surface& surface : surfaces) {
     state.surfaces.push_back({std::vector<LawState>(surface.n_points(), surface.declared_law().initial()),
                               std::vector<double>(surface.n_points(), 0.0)});
+    if (surface.interface && surface.interface->has_gap_of_geometry)
+      for (int i = 0; i < surface.n_points(); ++i) state.surfaces.back().points[i].gap = surface.facing.gaps[i];
     state.shortening.push_back(0.0);
     state.released.push_back(0);
   }
@@ -34,10 +36,12 @@ std::vector<double> StepModel::motion_velocities(int increment) const {
 
 double StepModel::held_velocity(const Port& port, const Vec3& direction, const std::vector<double>& motions) const {
   double velocity = 0.0;
-  if (const Held* held = conditions.at(port.part, port.node))
-    for (int j = 0; j < held->n; ++j)
+  port.for_each_node([&](int node, const Mat3& block) {
+    const Held* held = conditions.at(port.part, node);
+    for (int j = 0; held && j < held->n; ++j)
       for (const auto& [motion, factor] : held->motion[j])
-        velocity += held->directions.col(j).dot(direction) * factor * motions[motion];
+        velocity += (block * held->directions.col(j)).dot(direction) * factor * motions[motion];
+  });
   return velocity;
 }
 
@@ -64,8 +68,8 @@ Points interface_force(const std::vector<Surface>& surfaces, const State& state,
     const Surface& surface = surfaces[s];
     for (int i = 0; i < surface.n_points(); ++i) {
       const Vec3& f = state.surfaces[s].points[i].force;
-      if (surface.part_1 == part) force.col(surface.facing.nodes_1[i]) += f;
-      if (surface.part_2 == part) force.col(surface.facing.nodes_2[i]) -= f;
+      if (surface.part_1 == part) surface.facing.side_1.spread(i, f, force);
+      if (surface.part_2 == part) surface.facing.side_2.spread(i, -f, force);
     }
   }
   return force;
@@ -112,10 +116,6 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
   model.step = &step;
   model.surfaces = &surfaces;
   if (!step.is_static) model.scheme = {false, step.dt, 0.5 * (1.0 - problem.numerical_damping())};
-  // A wall that is not among this step's supports has let go, a damper carries nothing in a static step.
-  std::vector<Surface> in_force = surfaces;
-  for (Surface& surface : in_force)
-    if (!takes_part(problem, step, surface)) surface.facing = {};
   model.conditions = make_conditions(problem, step, start);
   model.loads = std::make_unique<Loads>(problem, step, start, inertia_of(*cut, bodies));
   if (step.is_static) {
@@ -124,10 +124,10 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
     for (size_t i = 0; i < problem.substructures.size(); ++i)
       force.push_back(model.external_force(static_cast<int>(i), start));
     // What is free to move, and where it is pinned, is a matter of the substructures.
-    pin_free_motions(problem, step, make_exchange(problem, step, *no_cut(problem), in_force, model.conditions), force,
+    pin_free_motions(problem, step, make_exchange(problem, step, *no_cut(problem), surfaces, model.conditions), force,
                      model.conditions);
   }
-  model.exchange = make_exchange(problem, step, *cut, in_force, model.conditions);
+  model.exchange = make_exchange(problem, step, *cut, surfaces, model.conditions);
   split_loads(model);
   model.offset.assign(1, 0);
   for (const int n : model.exchange.n_unknowns) model.offset.push_back(model.offset.back() + n);

@@ -4,8 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "mesh/facing.hpp"
-#include "model/model.hpp"
+#include "model/meeting.hpp"
 
 namespace dygita {
 
@@ -14,22 +13,20 @@ struct Surface {
   const Interface* interface = nullptr;
   const Support* wall = nullptr;
   int part_1 = -1, part_2 = -1;  // index in problem.substructures; -1: rigid
-  Facing facing;                 // one point a matched node; nodes_2 empty for a wall
-  LawPtr law;                    // of its points; null: a tie in all steps, the sides become a group
+  Facing facing;
+  LawPtr law;  // of its points; null: a tie in all steps, the sides become a group
 
   // The law of the interface or the wall, ties included.
   const Law& declared_law() const { return interface ? *interface->law : *wall->kind->law(); }
   const std::string& name() const { return interface ? interface->name : wall->name; }
-  int n_points() const { return static_cast<int>(facing.nodes_1.size()); }
+  int n_points() const { return facing.n_points(); }
 };
 
 // All interfaces in the problem's order, then every wall support used in a step, one Surface a face of it.
-// Throws InputError when faces do not match or overlap another interface's.
+// Throws InputError when faces do not meet or overlap another interface's.
 std::vector<Surface> make_surfaces(const Problem& problem);
 
 // Whether a surface has a part in a step: walls are supports in it, laws carry forces in steps of its kind.
 bool takes_part(const Problem& problem, const Step& step, const Surface& surface);
-
-PlacedFace placed(const Face& face);
 
 }  // namespace dygita

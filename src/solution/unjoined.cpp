@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <unordered_map>
 
 #include "law/law.hpp"
 #include "mesh/face_nodes.hpp"
@@ -19,16 +18,6 @@ namespace {
 constexpr double reach = 0.05;  // of the smaller part's size
 
 std::string at(const Vec3& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]); }
-
-// Facets of the second side, as the second body numbers its nodes.
-std::vector<Facet> facets_2(const Surface& surface) {
-  std::unordered_map<int, int> partner;
-  for (int i = 0; i < surface.n_points(); ++i) partner[surface.facing.nodes_1[i]] = surface.facing.nodes_2[i];
-  std::vector<Facet> facets = surface.facing.facets;
-  for (Facet& facet : facets)
-    for (int& node : facet.nodes()) node = partner.at(node);
-  return facets;
-}
 
 void join(PlacedBody& body, const std::vector<Facet>& facets) {
   for (const Facet& facet : facets) {
@@ -58,8 +47,8 @@ Box box_of(const Substructure& part, const std::vector<Facet>& facets) {
 // Two faces of one size, of which a part only coincides, are hardly meant to lie a cell or two apart.
 void doubt_shift(const Problem& problem, const Surface& surface) {
   const Face &face_1 = surface.interface->side_1, &face_2 = surface.interface->side_2;
-  const std::vector<Facet>&all_1 = face_1.facets(), &all_2 = face_2.facets(), &matched = surface.facing.facets;
-  if (matched.size() == all_1.size() || matched.size() == all_2.size()) return;
+  const std::vector<Facet>&all_1 = face_1.facets(), &all_2 = face_2.facets(), &matched = surface.facing.facets_1;
+  if (matched.size() == all_1.size() || surface.facing.facets_2.size() == all_2.size()) return;
   const double area_1 = area_of(*face_1.part, all_1), area_2 = area_of(*face_2.part, all_2);
   const Box box_1 = box_of(*face_1.part, all_1), box_2 = box_of(*face_2.part, all_2);
   const double size = box_1.size().norm(), cell = std::sqrt(area_1 / static_cast<double>(all_1.size()));
@@ -127,11 +116,11 @@ std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Su
       PlacedBody body_1 = body_of(problem, i), body_2 = body_of(problem, j);
       for (const Surface& surface : surfaces) {
         if (surface.part_1 == i && surface.part_2 == j) {
-          join(body_1, surface.facing.facets);
-          join(body_2, facets_2(surface));
+          join(body_1, surface.facing.facets_1);
+          join(body_2, surface.facing.facets_2);
         } else if (surface.part_1 == j && surface.part_2 == i) {
-          join(body_2, surface.facing.facets);
-          join(body_1, facets_2(surface));
+          join(body_2, surface.facing.facets_1);
+          join(body_1, surface.facing.facets_2);
         }
       }
       Neighbours neighbours = find_neighbours(body_1, body_2, reach * size);
@@ -185,8 +174,8 @@ void doubt_surfaces(const Problem& problem, const std::vector<Surface>& surfaces
   for (const Surface& surface : surfaces) {
     if (!surface.interface) continue;
     doubt_shift(problem, surface);
-    doubt_held_side(problem, surface, surface.interface->side_1.part, surface.facing.facets);
-    doubt_held_side(problem, surface, surface.interface->side_2.part, facets_2(surface));
+    doubt_held_side(problem, surface, surface.interface->side_1.part, surface.facing.facets_1);
+    doubt_held_side(problem, surface, surface.interface->side_2.part, surface.facing.facets_2);
   }
 }
 

@@ -105,8 +105,8 @@ void LinearAnalysis::merge_nodes() {
   for (const Surface& surface : surfaces) {
     if (surface.wall) refuse(*surface.wall, "walls");
     for (int i = 0; i < surface.n_points(); ++i)
-      parent[root_of(parent, first[surface.part_1] + surface.facing.nodes_1[i])] =
-          root_of(parent, first[surface.part_2] + surface.facing.nodes_2[i]);
+      parent[root_of(parent, first[surface.part_1] + surface.facing.side_1.main_node(i))] =
+          root_of(parent, first[surface.part_2] + surface.facing.side_2.main_node(i));
   }
   std::vector<int> number(first.back(), -1);
   for (size_t part = 0; part + 1 < first.size(); ++part)

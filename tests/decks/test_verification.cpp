@@ -104,6 +104,31 @@ TEST(Patch, a_constant_stress_is_exact_in_every_element_through_bonds_and_contac
       EXPECT_LT(patch.number(std::string(kind) + joint + ", velocity at rest"), 1e-10);
 }
 
+TEST(UnlikePatch, a_constant_stress_is_exact_between_meshes_that_do_not_match) {
+  const PrintedRun patch = run_printing("verification/unlike_patch.lua");
+  EXPECT_EQ(patch.runs.size(), 20u);
+  for (const DeckRun& run : patch.runs) EXPECT_TRUE(run.result->converged);
+  EXPECT_LT(patch.number("largest error of all"), 1e-10);
+}
+
+// What is left is the error of the rings' own meshes: halved facets and cells quarter it.
+TEST(PressFitRings, of_other_meshes_press_as_lame_has_it) {
+  double before = 0.0;
+  for (const int n : {1, 2, 4}) {
+    const PrintedRun fit = run_printing(
+        "verification/press_fit_rings.lua",
+        {{"n_inner", std::to_string(6 * n)}, {"n_outer", std::to_string(10 * n)}, {"n_radial", std::to_string(4 * n)}});
+    EXPECT_TRUE(fit.runs[0].result->converged);
+    const double error = std::abs(fit.number("mean pressure, of Lame's") - 1.0);
+    EXPECT_LT(error, 0.012);
+    if (n > 1) {
+      EXPECT_NEAR(std::log2(before / error), 2.0, 0.4);
+    }
+    EXPECT_NEAR(fit.number("rim moves, of Lame's"), 1.0, 0.005);
+    before = error;
+  }
+}
+
 TEST(BondedIsMonolithic, any_partition_gives_the_uncut_body_at_27_nodes) {
   const PrintedRun cut = run_printing("verification/bonded_is_monolithic.lua");
   for (const DeckRun& run : cut.runs) EXPECT_TRUE(run.result->converged);

@@ -29,11 +29,11 @@ struct BoltedFlanges : testing::TestWithParam<double> {
   static Facing joint(const std::string& body_1, const std::string& face_1, const std::string& body_2,
                       const std::string& face_2) {
     const MeshPtr mesh_1 = body(body_1), mesh_2 = body(body_2);
-    const Facing facing = match_faces({mesh_1.get(), mesh_1->faces.at(face_1), Vec3::Zero(), body_1 + "." + face_1},
-                                      {mesh_2.get(), mesh_2->faces.at(face_2), Vec3::Zero(), body_2 + "." + face_2});
+    const Facing facing = *match_faces({mesh_1.get(), mesh_1->faces.at(face_1), Vec3::Zero(), body_1 + "." + face_1},
+                                       {mesh_2.get(), mesh_2->faces.at(face_2), Vec3::Zero(), body_2 + "." + face_2});
     // The interface is the whole of both faces.
-    EXPECT_EQ(facing.facets.size(), mesh_1->faces.at(face_1).size()) << body_1 << '.' << face_1;
-    EXPECT_EQ(facing.facets.size(), mesh_2->faces.at(face_2).size()) << body_2 << '.' << face_2;
+    EXPECT_EQ(facing.facets_1.size(), mesh_1->faces.at(face_1).size()) << body_1 << '.' << face_1;
+    EXPECT_EQ(facing.facets_2.size(), mesh_2->faces.at(face_2).size()) << body_2 << '.' << face_2;
     for (int i = 0; i < facing.normals.cols(); ++i)
       EXPECT_GT(facing.normals(2, i), 1 - 1e-12) << "the second body lies above the first";
     return facing;

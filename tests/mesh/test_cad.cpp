@@ -40,7 +40,7 @@ void expect_two_blocks(const GmshMeshes& meshes) {
     if (large->faces.count(name))
       common += match_faces({small.get(), facets, Vec3::Zero(), name},
                             {large.get(), large->faces.at(name), Vec3::Zero(), name})
-                    .areas.sum();
+                    ->areas.sum();
   EXPECT_NEAR(common, 1e-4, 1e-13);
 }
 

@@ -243,8 +243,8 @@ Physical Surface("left.outside") = {1};)");
   EXPECT_NEAR(face_nodes(*left, left->faces.at("outside")).areas.sum(), 1.0, 1e-12);
   EXPECT_NEAR(face_nodes(*right, right->faces.at("outside")).areas.sum(), 5.0, 1e-12);
   EXPECT_EQ(right->faces.size(), 2u);
-  const Facing joint = match_faces({left.get(), left->faces.at("joint"), Vec3::Zero(), "left.joint"},
-                                   {right.get(), right->faces.at("joint"), Vec3::Zero(), "right.joint"});
+  const Facing joint = *match_faces({left.get(), left->faces.at("joint"), Vec3::Zero(), "left.joint"},
+                                    {right.get(), right->faces.at("joint"), Vec3::Zero(), "right.joint"});
   EXPECT_NEAR(joint.areas.sum(), 1.0, 1e-12);
   for (int i = 0; i < joint.normals.cols(); ++i) EXPECT_TRUE(joint.normals.col(i).isApprox(Vec3::UnitX(), 1e-9));
 }

@@ -58,7 +58,7 @@ struct Modelled {
   explicit Modelled(Problem of, size_t i_step = 0, bool is_assembled = false)
       : problem(std::move(of)),
         surfaces(make_surfaces(problem)),
-        cut(make_cut(problem)),
+        cut(make_cut(problem, surfaces)),
         bodies(make_bodies(problem, surfaces, *cut)),
         state(initial_state(problem, surfaces)),
         model(is_assembled ? make_assembled_model(problem, *problem.steps[i_step], surfaces, bodies, state)

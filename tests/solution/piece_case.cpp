@@ -1,6 +1,7 @@
 #include "solution/piece_case.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "fem/mass.hpp"
 #include "numerics/dense.hpp"
@@ -75,7 +76,24 @@ void PieceCase::make_rows() {
   const Mat3 frame = Eigen::AngleAxisd(0.4, Vec3(1.0, 2.0, 0.5).normalized()).toRotationMatrix();
   for (const int node : nodes("zmax"))
     for (int d = 0; d < 3; ++d)
-      setup.rows.push_back({node, frame.col(d), setup.scheme.is_static && !is_held ? 1e9 : 0.0, 2e9, 1.0});
+      setup.rows.push_back({{{node, frame.col(d)}}, setup.scheme.is_static && !is_held ? 1e9 : 0.0, 2e9, 1.0});
+  if (has_spread_rows) spread_rows();
+}
+
+// Rows over a few nodes, one of them held where any is (nodes with and without mass do not mix); some of one node.
+void PieceCase::spread_rows() {
+  const std::vector<int> top = nodes("zmax"), bottom = nodes("zmin");
+  for (size_t i = 0; i < setup.rows.size(); ++i) {
+    InterfaceRow& row = setup.rows[i];
+    row.side = 0;
+    if (i % 6 == 0) continue;
+    const Vec3 along = row.nodes[0].along;
+    const auto own = static_cast<size_t>(std::find(top.begin(), top.end(), row.nodes[0].node) - top.begin());
+    row.nodes = {{top[own], 0.8 * along + 0.02 * Vec3(random_vector(3, static_cast<int>(i)))},
+                 {top[(own + 1) % top.size()], 0.3 * along},
+                 {top[(own + 4) % top.size()], -0.1 * along}};
+    if (is_held && !has_massless) row.nodes.push_back({bottom[i % bottom.size()], 0.2 * along});
+  }
 }
 
 DensePiece::DensePiece(const PieceCase& of)
@@ -89,7 +107,8 @@ DensePiece::DensePiece(const PieceCase& of)
                                                                         : 0.0) *
                                        Mat3::Identity();
   for (const auto& [node, impedance] : of.setup.absorbing) z.block<3, 3>(3 * node, 3 * node) = impedance;
-  for (int i = 0; i < of.n_rows(); ++i) rows.block<3, 1>(3 * of.setup.rows[i].node, i) = of.setup.rows[i].direction;
+  for (int i = 0; i < of.n_rows(); ++i)
+    for (const NodeAlong& on : of.setup.rows[i].nodes) rows.block<3, 1>(3 * on.node, i) += on.along;
   end = Vec::Constant(n, 1.0 - scheme.g);
   start = Vec::Constant(n, scheme.g);
   for (int i = 0; i < of.n_nodes(); ++i)
@@ -187,8 +206,11 @@ IncrementEnergy advance(Piece& piece, const Points& force, const Vec& q, const s
   piece.interface_velocity(q, answer);
   piece.backward({&self, 1});
   if (velocity) *velocity = answer;
-  const Points no_force = Points::Zero(3, force.cols());
-  return piece.finish(q, piece.has_motions() ? &no_force : nullptr);
+  Points on_nodes = Points::Zero(3, force.cols());
+  for (int i = 0; i < piece.n_rows(); ++i)
+    for (const NodeAlong& on : piece.rows()[i].nodes)
+      on_nodes.col(on.node) += (q[i] - piece.k()[i] * answer[i]) * on.along;
+  return piece.finish(q, piece.has_motions() ? &on_nodes : nullptr);
 }
 
 }  // namespace dygita

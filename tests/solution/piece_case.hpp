@@ -21,7 +21,8 @@ Points random_points(int n, int seed);
 Vec random_vector(int n, int seed);
 
 // A block of 10 x 10 x 20 mm in 2 x 2 x 2 cells: z = 0 held (all or the normal alone, at rest or moved along x and z by
-// two motions), an interface with a row for each direction of an inclined frame on top.
+// two motions), an interface with a row for each direction of an inclined frame on top, of a node each or spread over
+// several.
 struct PieceCase {
   PieceCase() = default;
   PieceCase(const PieceCase&) = delete;  // the set-up points into it
@@ -31,7 +32,7 @@ struct PieceCase {
   double g = 0.5;
   Damping damping;
   bool is_held = true, holds_normal_alone = false, is_moved = false, is_absorbing = false;
-  bool has_matrix = false, has_massless = false;
+  bool has_matrix = false, has_massless = false, has_spread_rows = false;
 
   std::shared_ptr<Substructure> part;
   Body body;
@@ -53,6 +54,7 @@ struct PieceCase {
   void hold();
 
   void make_rows();
+  void spread_rows();
 };
 
 // The same without factor, recurrence or numbering.

@@ -30,7 +30,7 @@ Problem blocks(int pieces) {
 
 TEST(Cut, gives_every_node_one_owner_and_all_its_copies) {
   const Problem problem = blocks(5);
-  const CutPtr cut = make_cut(problem);
+  const CutPtr cut = make_cut(problem, {});
   EXPECT_EQ(cut->n_pieces(0), 5);
   EXPECT_EQ(cut->n_pieces(1), 1);  // four cells make no two pieces of eight
   EXPECT_EQ(cut->piece(5).body, problem.substructures[1]);
@@ -61,7 +61,7 @@ TEST(Cut, gives_every_node_one_owner_and_all_its_copies) {
 
 TEST(Cut, takes_fields_apart_and_puts_them_together) {
   const Problem problem = blocks(4);
-  const CutPtr cut = make_cut(problem);
+  const CutPtr cut = make_cut(problem, {});
   const Points field = Points::Random(3, problem.substructures[0]->mesh->n_nodes());
   EXPECT_EQ(cut->from_owners(0, [&](int p) { return cut->on_piece(p, field); }), field);
   EXPECT_EQ(cut->summed(0, [&](int p) { return cut->on_owners(p, field); }), field);
@@ -71,7 +71,7 @@ TEST(Cut, the_pieces_stiffness_and_masses_add_up_to_those_of_the_whole) {
   for (const bool is_tuned : {false, true}) {
     Problem problem = blocks(6);
     problem.solver.mass.is_tuned = is_tuned;
-    const CutPtr cut = make_cut(problem);
+    const CutPtr cut = make_cut(problem, {});
     const std::vector<Body> pieces = make_bodies(problem, {}, *cut), whole = make_bodies(problem, {});
     const Mesh& mesh = *problem.substructures[0]->mesh;
     const Points u = Points::Random(3, mesh.n_nodes());
@@ -95,11 +95,11 @@ TEST(Cut, the_pieces_stiffness_and_masses_add_up_to_those_of_the_whole) {
 
 TEST(Cut, small_bodies_and_massless_contact_are_left_whole) {
   Problem problem = blocks(0);
-  EXPECT_EQ(make_cut(problem)->n_pieces(), 2);
+  EXPECT_EQ(make_cut(problem, {})->n_pieces(), 2);
   problem.solver.pieces = 4;
-  EXPECT_EQ(make_cut(problem)->n_pieces(), 5);
+  EXPECT_EQ(make_cut(problem, {})->n_pieces(), 5);
   problem.solver.mass.is_moved_from_contact = true;
-  EXPECT_EQ(make_cut(problem)->n_pieces(), 2);
+  EXPECT_EQ(make_cut(problem, {})->n_pieces(), 2);
 }
 
 TEST(Cut, a_large_body_is_cut_by_itself_whatever_the_number_of_threads) {
@@ -107,7 +107,7 @@ TEST(Cut, a_large_body_is_cut_by_itself_whatever_the_number_of_threads) {
   auto large = std::make_shared<Substructure>(*problem.substructures[0]);
   large->mesh = box_mesh(Vec3::Zero(), Vec3::Ones(), {24, 24, 24});
   problem.substructures[0] = large;
-  EXPECT_GT(make_cut(problem)->n_pieces(0), 1);
+  EXPECT_GT(make_cut(problem, {})->n_pieces(0), 1);
 }
 
 }  // namespace

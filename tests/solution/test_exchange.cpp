@@ -123,8 +123,9 @@ TEST(Exchange, gives_a_node_under_two_laws_a_q_for_each) {
   // The piece shares its Schur complement between them.
   const int inside = of.node_at(0, {0.005, 0.0, 0.01});
   for (const InterfaceRow& row : of.model.pieces[0]->rows()) {
-    if (row.node != corner && row.node != inside) continue;
-    EXPECT_NEAR(row.n_sharing, row.node == corner ? 2.0 : 1.0, 1e-12);
+    const int node = row.nodes[0].node;
+    if (node != corner && node != inside) continue;
+    EXPECT_NEAR(row.n_sharing, node == corner ? 2.0 : 1.0, 1e-12);
   }
 }
 

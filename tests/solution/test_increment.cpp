@@ -11,12 +11,12 @@ namespace {
 constexpr double dt = 0.4e-6;
 
 struct Variant {
-  const char* name;
+  std::string name;
   std::function<void(PieceCase&)> set;
 };
 
-const std::vector<Variant>& variants() {
-  static const std::vector<Variant> all = {
+std::vector<Variant> of_single_nodes() {
+  return {
       {"lumped", [](PieceCase&) {}},
       {"numerical dissipation", [](PieceCase& c) { c.g = 0.4; }},
       {"mass damping", [](PieceCase& c) { c.damping.mass = 2e5; }},
@@ -64,6 +64,18 @@ const std::vector<Variant>& variants() {
          c.is_held = false;
        }},
   };
+}
+
+const std::vector<Variant>& variants() {
+  static const std::vector<Variant> all = [] {
+    std::vector<Variant> list = of_single_nodes();
+    for (const Variant& variant : of_single_nodes())
+      list.push_back({variant.name + ", rows over several nodes", [variant](PieceCase& c) {
+                        variant.set(c);
+                        c.has_spread_rows = true;
+                      }});
+    return list;
+  }();
   return all;
 }
 
@@ -73,6 +85,7 @@ struct Pair {
   std::unique_ptr<ImplicitPiece> piece;
   std::unique_ptr<DensePiece> dense;
   Vec u, v, force, interface;  // nodal
+  Vec on_rows;                 // the interface's force
   Vec k;
 
   explicit Pair(const Variant& variant, bool is_plain = false) {
@@ -89,7 +102,8 @@ struct Pair {
     u -= dense->held * (dense->held.transpose() * u);
     v = is_static ? Vec::Zero(dense->n) : Vec(0.5 * random_vector(dense->n, 2));
     if (!is_static) v += held_velocity - dense->held * (dense->held.transpose() * v);
-    interface = dense->rows * (2e3 * random_vector(of.n_rows(), 4));
+    on_rows = 2e3 * random_vector(of.n_rows(), 4);
+    interface = dense->rows * on_rows;
     force = dense->k * u - interface;
     if (dense->held.cols() > 0) force -= dense->held * (dense->held.transpose() * force);
     piece->set_state(nodal(u), nodal(v), nodal(force), nodal(interface));
@@ -125,12 +139,12 @@ void expect_scheme(const Variant& variant, bool is_plain) {
     if (!dense.scheme.is_static)
       expect_close(flat(pair.piece->acceleration()), (v1 - pair.v) / dense.scheme.dt, 1e-7, "acceleration");
     // What is left of the equation at the supports is their reaction.
-    const Vec left = dense.matrix() * v1 - dense.rest(pair.u, pair.v) - load -
-                     dense.rows * (q - pair.k.cwiseProduct(dense.rows.transpose() * v1));
+    const Vec interface = dense.rows * (q - pair.k.cwiseProduct(dense.rows.transpose() * v1));
+    const Vec left = dense.matrix() * v1 - dense.rest(pair.u, pair.v) - load - interface;
     const Vec drag = dense.z * (dense.scheme.g * pair.v + (1 - dense.scheme.g) * v1);
     if (dense.held.cols() > 0)
-      expect_close(flat(pair.piece->reactions(Points::Zero(3, pair.of.n_nodes()))),
-                   dense.held * (dense.held.transpose() * left), 1e-7, "reactions");
+      expect_close(flat(pair.piece->reactions(nodal(interface))), dense.held * (dense.held.transpose() * left), 1e-7,
+                   "reactions");
     if (pair.of.is_absorbing) expect_close(flat(pair.piece->absorbing_force()), -drag, 1e-8, "non-reflecting force");
     pair.u = u1;
     pair.v = v1;
@@ -157,7 +171,7 @@ TEST(Increment, books_all_its_energy) {
     };
     const IncrementEnergy start = pair.piece->stored_energy();
     EXPECT_NEAR(start.kinetic + start.strain, stored(pair.u, pair.v), 1e-9 * stored(pair.u, pair.v));
-    Vec force_on_rows = dense.rows.transpose() * pair.interface;
+    Vec force_on_rows = pair.on_rows;
     for (int i = 0; i < 4; ++i) {
       const Vec q = pair.data(i);
       const double before = stored(pair.u, pair.v);
@@ -283,7 +297,7 @@ TEST(Increment, of_a_piece_that_is_almost_all_interface_is_solved_in_full) {
   c.setup.held.clear();
   c.setup.rows.clear();
   for (int node = 0; node < c.n_nodes(); ++node)
-    for (int d = 0; d < 3; ++d) c.setup.rows.push_back({node, Vec3::Unit(d), 0.0, 2e9, 1.0});
+    for (int d = 0; d < 3; ++d) c.setup.rows.push_back({{{node, Vec3::Unit(d)}}, 0.0, 2e9, 1.0});
   const auto piece = c.piece();
   EXPECT_TRUE(piece->figures().is_mostly_interface);
   EXPECT_EQ(piece->schur_diagonal().size(), 0);

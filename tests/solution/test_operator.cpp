@@ -17,7 +17,7 @@ void expect_equal(const Mat& found, const Mat& expected, double tolerance) {
 }
 
 std::vector<PieceCase> cases() {
-  std::vector<PieceCase> all(8);
+  std::vector<PieceCase> all(12);
   for (PieceCase& c : all) c.dt = dt;
   all[1].dt = 0.0;                   // static
   all[2].holds_normal_alone = true;  // nodes of whose directions one is held
@@ -28,6 +28,10 @@ std::vector<PieceCase> cases() {
   all[6].g = 0.45;
   all[7].dt = 0.0;  // static, unconstrained: only the rows hold it
   all[7].is_held = false;
+  for (int i = 8; i < 12; ++i) all[i].has_spread_rows = true;
+  all[9].holds_normal_alone = true;
+  all[10].dt = all[11].dt = 0.0;
+  all[11].is_held = false;
   for (PieceCase& c : all) c.make();
   return all;
 }
@@ -40,6 +44,7 @@ TEST(PieceOperator, answers_with_the_inverse_of_the_whole_matrix_at_the_rows) {
 
 TEST(PieceOperator, gives_the_diagonal_of_the_schur_complement_without_reference_stiffness) {
   for (const PieceCase& c : cases()) {
+    if (c.has_spread_rows) continue;
     const DensePiece dense(c);
     // The rows span all directions of their nodes: S0 is the inverse of the compliance, where there is one.
     const Mat a = dense.free.transpose() * dense.matrix() * dense.free, b = dense.free.transpose() * dense.rows;
@@ -49,6 +54,29 @@ TEST(PieceOperator, gives_the_diagonal_of_the_schur_complement_without_reference
     const Mat schur = b.transpose() * a * b - coupling.transpose() * solve_dense(interior, coupling);
     expect_equal(c.piece()->schur_diagonal(), schur.diagonal(), 1e-8);
   }
+}
+
+// The compliance gets a millionth of its diagonal more. Held free of everything, that of the rows alone is infinite.
+TEST(PieceOperator, gives_rows_over_several_nodes_the_stiffness_of_their_side) {
+  for (const PieceCase& c : cases()) {
+    if (!c.has_spread_rows || (c.setup.scheme.is_static && !c.is_held)) continue;
+    const DensePiece dense(c);
+    const Mat a = dense.free.transpose() * dense.matrix() * dense.free, b = dense.free.transpose() * dense.rows;
+    const Mat compliance = b.transpose() * solve_dense(a, b);
+    const Mat stiffness = solve_dense(compliance, Mat::Identity(c.n_rows(), c.n_rows()));
+    expect_equal(c.piece()->schur_diagonal(), stiffness.diagonal(), 1e-3);
+  }
+}
+
+TEST(PieceOperator, gives_rows_over_several_nodes_of_an_unconstrained_piece_their_stiffness_without_reference) {
+  const std::vector<PieceCase> all = cases();
+  const PieceCase& c = all.back();
+  const DensePiece dense(c);
+  // By another reference: what it adds is known exactly where the rows have full rank.
+  const Vec reference = Vec::Constant(c.n_rows(), 3e8);
+  const Mat compliance = dense.compliance(reference);
+  const Mat stiffness = solve_dense(compliance, Mat::Identity(c.n_rows(), c.n_rows()));
+  expect_equal(c.piece()->schur_diagonal(), stiffness.diagonal() - reference, 1e-3);
 }
 
 TEST(PieceOperator, shares_the_schur_diagonal_among_laws_at_a_node) {
@@ -103,9 +131,9 @@ TEST(PieceSetup, is_equal_to_another_only_where_the_matrices_are) {
   c.make();
   PieceSetup other = c.setup;
   EXPECT_TRUE(are_equal(c.setup, other));
-  other.rows[3].direction += Vec3::Constant(1e-15);  // frames of places that differ by a shift
+  other.rows[3].nodes[0].along += Vec3::Constant(1e-15);  // frames of places that differ by a shift
   EXPECT_TRUE(are_equal(c.setup, other));
-  other.rows[3].direction += Vec3::Constant(1e-6);
+  other.rows[3].nodes[0].along += Vec3::Constant(1e-6);
   EXPECT_FALSE(are_equal(c.setup, other));
   other = c.setup;
   other.held.erase(other.held.begin());
@@ -190,8 +218,12 @@ TEST(FreeUnknowns, take_fields_apart_and_put_them_together) {
       held.push_back(direction.direction.dot(field.col(direction.node)));
     EXPECT_LT((unknowns.expand(unknowns.restrict_nodal(field), held) - field).norm(), 1e-14 * field.norm());
     const Vec free = unknowns.restrict_nodal(field);
-    for (const InterfaceRow& row : c.setup.rows)
-      EXPECT_NEAR(unknowns.trace(row.node, row.direction).of(free), row.direction.dot(field.col(row.node)), 1e-14);
+    const Vec at_rows = piece->op().at_rows(free) + piece->op().held_at_rows(held);
+    for (int i = 0; i < c.n_rows(); ++i) {
+      double expected = 0.0;
+      for (const NodeAlong& on : c.setup.rows[i].nodes) expected += on.along.dot(field.col(on.node));
+      EXPECT_NEAR(at_rows[i], expected, 1e-14);
+    }
   }
 }
 

@@ -1,0 +1,59 @@
+#include "mesh/side_trace.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace dygita {
+
+SideTrace::SideTrace(const std::vector<int>& nodes) {
+  for (const int node : nodes) add({{node, 1.0}});
+}
+
+void SideTrace::add(const std::vector<Share>& shares, const Mat3& turn) {
+  shares_.insert(shares_.end(), shares.begin(), shares.end());
+  first_.push_back(static_cast<int>(shares_.size()));
+  turn_of_.push_back(-1);
+  if (turn.isZero(0.0)) return;
+  turn_of_.back() = static_cast<int>(turns_.size());
+  turns_.push_back(turn);
+}
+
+int SideTrace::main_node(int i) const {
+  int best = 0;
+  for (int k = 1; k < n_shares(i); ++k)
+    if (std::abs(share(i, k).weight) > std::abs(share(i, best).weight)) best = k;
+  return share(i, best).node;
+}
+
+Mat3 SideTrace::block(int i, int k) const {
+  const Share& own = share(i, k);
+  Mat3 block = own.weight * Mat3::Identity();
+  if (turn_of_[i] < 0) return block;
+  for (int c = 0; c < 3; ++c) block.col(c) += turns_[turn_of_[i]] * own.arm.cross(Vec3::Unit(c));
+  return block;
+}
+
+Vec3 SideTrace::at(int i, const Points& nodal) const {
+  if (is_of_one_node(i) && share(i, 0).weight == 1.0) return nodal.col(share(i, 0).node);
+  Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
+  for (int k = 0; k < n_shares(i); ++k) {
+    const Share& own = share(i, k);
+    sum += own.weight * nodal.col(own.node);
+    moment += own.arm.cross(nodal.col(own.node));
+  }
+  return turn_of_[i] < 0 ? sum : Vec3(sum + turns_[turn_of_[i]] * moment);
+}
+
+// The transpose of [d]x is - [d]x.
+void SideTrace::spread(int i, const Vec3& force, Points& nodal) const {
+  const Vec3 turned = turn_of_[i] < 0 ? Vec3(Vec3::Zero()) : Vec3(turns_[turn_of_[i]].transpose() * force);
+  for (int k = 0; k < n_shares(i); ++k) {
+    const Share& own = share(i, k);
+    if (own.weight == 1.0 && turn_of_[i] < 0)
+      nodal.col(own.node) += force;
+    else
+      nodal.col(own.node) += own.weight * force - own.arm.cross(turned);
+  }
+}
+
+}  // namespace dygita

@@ -1,0 +1,50 @@
+// How the points of an interface move with the nodes of one of its sides (manual, eq. M1).
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "numerics/types.hpp"
+
+namespace dygita {
+
+// The motion of point i is the sum over nodes l of (t_l 1 + turn_i [d_l]x) V_l: that of one node where faces match,
+// else a mean over nodes near it, with what makes it exact in rigid motions of nodes that are not quite there.
+class SideTrace {
+ public:
+  // A node's share: t, and the arm d (m), zero where the nodes' mean lies at the point.
+  struct Share {
+    int node;
+    double weight;
+    Vec3 arm = Vec3::Zero();
+  };
+
+  SideTrace() = default;
+  // Point i is node nodes[i].
+  explicit SideTrace(const std::vector<int>& nodes);
+
+  // A further point; turn: 3 x 3 (1/m), zero for no arms.
+  void add(const std::vector<Share>& shares, const Mat3& turn = Mat3::Zero());
+
+  int n_points() const { return static_cast<int>(turn_of_.size()); }
+  int n_shares(int i) const { return first_[i + 1] - first_[i]; }
+  const Share& share(int i, int k) const { return shares_[first_[i] + k]; }
+  bool is_of_one_node(int i) const { return n_shares(i) == 1; }
+  // The node that counts most at a point.
+  int main_node(int i) const;
+  // What the velocity of the k-th node adds to that of the point (3 x 3).
+  Mat3 block(int i, int k) const;
+
+  // The motion of a point, given a field (3 x n_nodes).
+  Vec3 at(int i, const Points& nodal) const;
+  // Adds a force on a point to those on the nodes: power is the same for any motion.
+  void spread(int i, const Vec3& force, Points& nodal) const;
+
+ private:
+  std::vector<int> first_{0};
+  std::vector<Share> shares_;
+  std::vector<int> turn_of_;  // of each point, index in turns_; -1: none
+  std::vector<Mat3> turns_;
+};
+
+}  // namespace dygita

@@ -1,0 +1,18 @@
+// How the faces of an interface meet.
+#pragma once
+
+#include "mesh/mortar.hpp"
+#include "model/model.hpp"
+
+namespace dygita {
+
+PlacedFace placed(const Face& face);
+
+// How far apart (m) faces may be that touch, beside what facets of round ones are off: a ten thousandth of the
+// assembly's diagonal.
+double default_within(const Problem& problem);
+
+// Throws InputError naming the interface where its faces do not meet.
+Meeting meeting_of(const Problem& problem, const Interface& interface);
+
+}  // namespace dygita

@@ -1,0 +1,300 @@
+// Points between faces whose meshes do not match: rows, areas, and what they must keep.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "mesh/box.hpp"
+#include "mesh/expect_input_error.hpp"
+#include "mesh/mortar.hpp"
+
+namespace dygita {
+namespace {
+
+PlacedFace face(const Mesh& mesh, const std::string& name, const Vec3& place = Vec3::Zero()) {
+  return {&mesh, mesh.faces.at(name), place, "part." + name};
+}
+
+Facing points_between(const PlacedFace& side_1, const PlacedFace& side_2, const MeetingOptions& options = {}) {
+  const Meeting meeting(side_1, side_2, options);
+  EXPECT_FALSE(meeting.matches());
+  return meeting.facing({});
+}
+
+double pseudo_random(int i) {
+  const double x = std::sin(12.9898 * i + 4.1) * 43758.5453;
+  return 2.0 * (x - std::floor(x)) - 1.0;
+}
+
+// Nodes inside the faces across z moved in their planes, by a share of the cell.
+Mesh distorted(Mesh mesh, double amount, int seed) {
+  const Vec3 low = mesh.nodes.rowwise().minCoeff(), high = mesh.nodes.rowwise().maxCoeff();
+  for (int i = 0; i < mesh.n_nodes(); ++i)
+    for (int d = 0; d < 2; ++d) {
+      const bool is_inside = (mesh.nodes.col(i) - low).head<2>().minCoeff() > 1e-9 &&
+                             (high - mesh.nodes.col(i)).head<2>().minCoeff() > 1e-9;
+      if (is_inside) mesh.nodes(d, i) += amount * pseudo_random(seed + 2 * i + d);
+    }
+  return mesh;
+}
+
+// Each hexahedron of a box as six tetrahedra.
+Mesh in_tetrahedra(const Mesh& box) {
+  constexpr int corners[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+  Mesh mesh;
+  mesh.nodes = box.nodes;
+  CellBlock block{CellType::tet4, {}};
+  for (int i = 0; i < box.blocks[0].n_cells(); ++i)
+    for (const auto& tet : corners)
+      for (const int a : tet) block.nodes.push_back(box.blocks[0].cell(i)[a]);
+  mesh.blocks = {block};
+  const double low = mesh.nodes.row(2).minCoeff(), high = mesh.nodes.row(2).maxCoeff();
+  for (const Facet& facet : boundary_facets(mesh.blocks)) {
+    double sum = 0.0;
+    for (const int node : facet.nodes()) sum += mesh.nodes(2, node) / 3.0;
+    if (std::abs(sum - low) < 1e-9) mesh.faces["zmin"].push_back(facet);
+    if (std::abs(sum - high) < 1e-9) mesh.faces["zmax"].push_back(facet);
+  }
+  return mesh;
+}
+
+Mesh box(int n, double z, double size = 1.0) { return *box_mesh(Vec3(0, 0, z), Vec3(size, size, 0.5), {n, n, 1}); }
+
+// What forces and linear fields ask of the rows of a plane interface.
+void expect_balanced(const Facing& facing, const PlacedFace& side_1, const PlacedFace& side_2, double tolerance) {
+  for (const auto& [trace, side] : {std::pair{&facing.side_1, &side_1}, {&facing.side_2, &side_2}}) {
+    const Points x = side->mesh->nodes.colwise() + side->place;
+    for (int i = 0; i < facing.n_points(); ++i) {
+      double sum = 0.0;
+      for (int k = 0; k < trace->n_shares(i); ++k) sum += trace->share(i, k).weight;
+      EXPECT_NEAR(sum, 1.0, tolerance);
+      EXPECT_LT((trace->at(i, x) - facing.places.col(i)).norm(), tolerance) << i;
+    }
+  }
+}
+
+// A constant pressure on the points is the consistent load of both faces.
+void expect_consistent_loads(const Facing& facing, const SideTrace& trace, const PlacedFace& side, double tolerance) {
+  Points force = Points::Zero(3, side.mesh->n_nodes());
+  for (int i = 0; i < facing.n_points(); ++i) trace.spread(i, facing.areas[i] * Vec3::UnitZ(), force);
+  const FaceNodes expected = face_nodes(*side.mesh, side.facets);
+  for (size_t i = 0; i < expected.nodes.size(); ++i)
+    EXPECT_NEAR(force(2, expected.nodes[i]), expected.weights[static_cast<Eigen::Index>(i)], tolerance);
+}
+
+// By hand: one square on two halves of it.
+TEST(Mortar, of_a_square_on_two_rectangles_has_the_rows_of_the_dual_functions) {
+  const Mesh lower = *box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1), {1, 1, 1});
+  const Mesh upper = *box_mesh(Vec3(0, 0, 1), Vec3(1, 1, 1), {2, 1, 1});
+  const Facing facing = points_between(face(lower, "zmax"), face(upper, "zmin"));
+  EXPECT_EQ(facing.carrier, 1);
+  ASSERT_EQ(facing.n_points(), 4);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_NEAR(facing.areas[i], 0.25, 1e-15);
+    ASSERT_TRUE(facing.side_1.is_of_one_node(i));
+    EXPECT_EQ(facing.side_1.share(i, 0).weight, 1.0);
+    const Vec3 at = lower.nodes.col(facing.side_1.main_node(i));
+    for (int k = 0; k < facing.side_2.n_shares(i); ++k) {
+      const Vec3 x = upper.nodes.col(facing.side_2.share(i, k).node);
+      const double along = std::abs(x[0] - at[0]);
+      EXPECT_NEAR(facing.side_2.share(i, k).weight,
+                  std::abs(x[1] - at[1]) > 0.5 ? 0.0
+                  : along < 0.25               ? 0.75
+                  : along < 0.75               ? 0.5
+                                               : -0.25,
+                  1e-14);
+    }
+  }
+}
+
+TEST(Mortar, keeps_forces_moments_linear_fields_and_constant_pressures_of_distorted_faces) {
+  for (const bool is_lower_tet : {false, true})
+    for (const bool is_upper_tet : {false, true})
+      for (const auto& [n_lower, n_upper] : {std::pair{3, 4}, {4, 3}, {2, 7}}) {
+        SCOPED_TRACE(testing::Message() << n_lower << ' ' << n_upper << is_lower_tet << is_upper_tet);
+        Mesh lower = distorted(box(n_lower, 0.0), 0.15 / n_lower, 1),
+             upper = distorted(box(n_upper, 0.5), 0.15 / n_upper, 99);
+        if (is_lower_tet) lower = in_tetrahedra(lower);
+        if (is_upper_tet) upper = in_tetrahedra(upper);
+        const PlacedFace side_1 = face(lower, "zmax"), side_2 = face(upper, "zmin");
+        for (const Carrier carrier : {Carrier::coarser, Carrier::first, Carrier::second}) {
+          const Facing facing = points_between(side_1, side_2, {0.0, carrier, false});
+          EXPECT_NEAR(facing.areas.sum(), 1.0, 1e-12);
+          expect_balanced(facing, side_1, side_2, 1e-10);
+          expect_consistent_loads(facing, facing.side_1, side_1, 1e-10);
+          expect_consistent_loads(facing, facing.side_2, side_2, 1e-10);
+          EXPECT_TRUE((facing.normals.row(2).array() > 1 - 1e-12).all());
+        }
+      }
+}
+
+// Every type of cells on every other; those of order two keep their nodes in the middle of straight edges, so that
+// their faces are the same places as those of linear ones.
+TEST(Mortar, keeps_forces_moments_linear_fields_and_constant_pressures_between_all_types_of_cells) {
+  for (const CellShape& lower : cell_shapes)
+    for (const CellShape& upper : cell_shapes)
+      for (const int n_upper : {3, 2}) {
+        const int n_lower = 2;
+        SCOPED_TRACE(testing::Message() << lower.name << " on " << upper.name << ' ' << n_upper);
+        const Mesh low = *box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 0.5), {n_lower, n_lower, 1}, lower.type);
+        const Mesh up = *box_mesh(Vec3(0, 0, 0.5), Vec3(1, 1, 0.5), {n_upper, n_upper, 1}, upper.type);
+        const PlacedFace side_1 = face(low, "zmax"), side_2 = face(up, "zmin");
+        MeetingOptions options;
+        options.acts_by_area = true;
+        const Meeting meeting(side_1, side_2, options);
+        const Facing facing = meeting.facing({});
+        EXPECT_NEAR(facing.areas.sum(), 1.0, 1e-12);
+        EXPECT_GT(facing.areas.minCoeff(), 0.0);
+        expect_balanced(facing, side_1, side_2, 1e-10);
+        expect_consistent_loads(facing, facing.side_1, side_1, 1e-10);
+        expect_consistent_loads(facing, facing.side_2, side_2, 1e-10);
+      }
+}
+
+// Weights of a point at a corner and on an edge of one facet of order two against another of its kind.
+TEST(Mortar, of_facets_of_order_two_has_the_points_of_their_sub_facets) {
+  const Mesh lower = *box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1), {1, 1, 1}, CellType::hex20);
+  const Mesh upper = *box_mesh(Vec3(0, 0, 1), Vec3(1, 1, 1), {1, 1, 1}, CellType::hex20);
+  MeetingOptions options;
+  options.acts_by_area = true;
+  const Facing facing = Meeting(face(lower, "zmax"), face(upper, "zmin"), options).facing({});
+  ASSERT_EQ(facing.n_points(), 8);
+  for (int i = 0; i < 8; ++i) {
+    const bool is_corner = facing.areas[i] < 0.1;
+    EXPECT_NEAR(facing.areas[i], is_corner ? 1.0 / 24 : 5.0 / 24, 1e-14);
+    const int own = facing.side_1.main_node(i);
+    for (int k = 0; k < facing.side_1.n_shares(i); ++k) {
+      const auto& share = facing.side_1.share(i, k);
+      if (share.node != own) continue;
+      EXPECT_NEAR(share.weight, is_corner ? 0.8541666667 : 1.16, 1e-9);
+    }
+  }
+}
+
+TEST(Mortar, has_its_points_on_the_coarser_face_else_on_the_better_covered_else_on_the_softer) {
+  const Mesh coarse = box(3, 0.0), fine = box(5, 0.5), wide = box(5, 0.0, 5.0 / 3.0);
+  EXPECT_EQ(points_between(face(coarse, "zmax"), face(fine, "zmin")).carrier, 1);
+  EXPECT_EQ(points_between(face(fine, "zmin"), face(coarse, "zmax")).carrier, 2);
+  EXPECT_NEAR(points_between(face(coarse, "zmax"), face(fine, "zmin")).size_ratio, 5.0 / 3.0, 1e-12);
+  EXPECT_EQ(points_between(face(coarse, "zmax"), face(fine, "zmin"), {0.0, Carrier::second, false}).carrier, 2);
+  // Equal cells, half a cell apart: the upper face is covered altogether.
+  const Mesh upper = *box_mesh(Vec3(0.15, 0.15, 0.5), Vec3(1, 1, 0.5), {3, 3, 1});
+  EXPECT_EQ(points_between(face(wide, "zmax"), face(upper, "zmin")).carrier, 2);
+  EXPECT_EQ(points_between(face(upper, "zmin"), face(wide, "zmax")).carrier, 1);
+  const Mesh same = distorted(box(3, 0.5), 0.02, 7);
+  EXPECT_EQ(points_between(face(coarse, "zmax"), face(same, "zmin")).carrier, 1);
+  EXPECT_EQ(points_between(face(coarse, "zmax"), face(same, "zmin"), {0.0, Carrier::coarser, true}).carrier, 2);
+}
+
+// A quarter of a ring: faces "in" and "out".
+Mesh quarter_ring(int n, double radius_in, double radius_out) {
+  Mesh mesh;
+  mesh.nodes.resize(3, 4 * (n + 1));
+  CellBlock block{CellType::hex8, {}};
+  for (int i = 0; i <= n; ++i) {
+    const double angle = 0.5 * std::numbers::pi * i / n;
+    for (int k = 0; k < 4; ++k) {
+      const double radius = k % 2 == 0 ? radius_in : radius_out;
+      mesh.nodes.col(4 * i + k) << radius * std::cos(angle), radius * std::sin(angle), k / 2;
+    }
+    for (int k = 0; k < 2 && i < n; ++k)
+      for (const int node : {4 * i, 4 * i + 1, 4 * i + 5, 4 * i + 4}) block.nodes.push_back(node + 2 * k);
+  }
+  mesh.blocks = {block};
+  for (const Facet& facet : boundary_facets(mesh.blocks)) {
+    const auto radius = [&](int a) { return mesh.nodes.col(facet.nodes()[static_cast<size_t>(a)]).head<2>().norm(); };
+    for (const auto& [name, r] : {std::pair{"in", radius_in}, {"out", radius_out}})
+      if (std::abs(radius(0) - r) < 1e-9 && std::abs(radius(2) - r) < 1e-9) mesh.faces[name].push_back(facet);
+  }
+  check_mesh(mesh, "ring");
+  return mesh;
+}
+
+// Facets of round faces are a sagitta apart: rigid motions and moments must not see it.
+TEST(Mortar, of_faceted_rings_keeps_rigid_motions_and_moments) {
+  for (const auto& [n_in, n_out] : {std::pair{6, 10}, {4, 20}, {20, 4}}) {
+    SCOPED_TRACE(testing::Message() << n_in << ':' << n_out);
+    const Mesh inner = quarter_ring(n_in, 1, 2), outer = quarter_ring(n_out, 2, 3);
+    const Facing facing = points_between(face(inner, "out"), face(outer, "in"));
+    EXPECT_EQ(facing.carrier, n_in < n_out ? 1 : 2);
+    for (int d = 0; d < 3; ++d) {
+      const auto rotation = [&](const Mesh& mesh) {
+        Points v = mesh.nodes;
+        for (int i = 0; i < v.cols(); ++i) v.col(i) = Vec3::Unit(d).cross(Vec3(mesh.nodes.col(i)));
+        return v;
+      };
+      const Points v_1 = rotation(inner), v_2 = rotation(outer);
+      for (int i = 0; i < facing.n_points(); ++i) {
+        EXPECT_LT((facing.side_1.at(i, v_1) - facing.side_2.at(i, v_2)).norm(), 1e-13);
+        EXPECT_LT((facing.side_1.at(i, v_1) - Vec3::Unit(d).cross(Vec3(facing.places.col(i)))).norm(), 1e-13);
+      }
+    }
+    Points on_1 = Points::Zero(3, inner.n_nodes()), on_2 = Points::Zero(3, outer.n_nodes());
+    for (int i = 0; i < facing.n_points(); ++i) {
+      const Vec3 force(pseudo_random(3 * i), pseudo_random(3 * i + 1), pseudo_random(3 * i + 2));
+      facing.side_1.spread(i, force, on_1);
+      facing.side_2.spread(i, -force, on_2);
+    }
+    Vec3 moment = Vec3::Zero();
+    for (int i = 0; i < inner.n_nodes(); ++i) moment += Vec3(inner.nodes.col(i)).cross(Vec3(on_1.col(i)));
+    for (int i = 0; i < outer.n_nodes(); ++i) moment += Vec3(outer.nodes.col(i)).cross(Vec3(on_2.col(i)));
+    EXPECT_LT((on_1.rowwise().sum() + on_2.rowwise().sum()).norm(), 1e-13);
+    EXPECT_LT(moment.norm(), 1e-13);
+  }
+}
+
+// An edge anywhere in the facets that carry the points: nothing of the pressure is lost, and no row grows.
+TEST(Mortar, of_a_face_whose_edge_cuts_facets_merges_what_is_hardly_covered) {
+  const Mesh table = box(4, 0.0);
+  for (int position = 0; position < 12; ++position) {
+    const double edge = position == 0 ? 0.5 + 1e-5 : position == 11 ? 0.75 - 1e-5 : 0.5 + 0.25 * position / 12.0;
+    const Mesh punch = *box_mesh(Vec3(0, 0, 0.5), Vec3(edge, 1, 0.5), {7, 9, 1});
+    const PlacedFace side_1 = face(table, "zmax"), side_2 = face(punch, "zmin");
+    const Facing facing = points_between(side_1, side_2);
+    EXPECT_EQ(facing.carrier, 1);
+    EXPECT_NEAR(facing.areas.sum(), edge, 1e-12);
+    expect_balanced(facing, side_1, side_2, 1e-10);
+    expect_consistent_loads(facing, facing.side_2, side_2, 1e-12);
+    double largest = 0.0;
+    for (int i = 0; i < facing.n_points(); ++i) {
+      EXPECT_GT(facing.areas[i], 0.5 / 64);
+      for (int k = 0; k < facing.side_2.n_shares(i); ++k)
+        largest = std::max(largest, std::abs(facing.side_2.share(i, k).weight));
+    }
+    EXPECT_LT(largest, 1.25) << edge;
+    for (const Facet& facet : facing.facets)
+      for (const int point : facet.nodes()) EXPECT_TRUE(point >= 0 && point < facing.n_points());
+  }
+}
+
+TEST(Mortar, leaves_points_that_are_taken_away_to_their_neighbours) {
+  const Mesh lower = box(3, 0.0), upper = box(4, 0.5);
+  const PlacedFace side_1 = face(lower, "zmax"), side_2 = face(upper, "zmin");
+  const Meeting meeting(side_1, side_2, {});
+  const Facing facing = meeting.facing([](const Vec3& x) { return x[0] < 1e-9; });
+  EXPECT_EQ(facing.n_points(), 12);
+  EXPECT_EQ(facing.n_merged, 4);
+  EXPECT_NEAR(facing.areas.sum(), 1.0, 1e-12);
+  expect_balanced(facing, side_1, side_2, 1e-12);
+}
+
+TEST(Mortar, of_bodies_on_the_same_side_is_refused) {
+  const Mesh tall = box(2, 0.0), other = box(3, 0.0);
+  expect_input_error([&] { Meeting(face(tall, "zmax"), face(other, "zmax"), {}); }, {"same side", "overlap"});
+}
+
+TEST(Mortar, of_a_hundred_thousand_facets_takes_seconds) {
+  const Mesh lower = *box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 0.01), {316, 316, 1});
+  const Mesh upper = *box_mesh(Vec3(0, 0, 0.01), Vec3(1, 1, 0.01), {400, 400, 1});
+  const auto start = std::chrono::steady_clock::now();
+  const Facing facing = points_between(face(lower, "zmax"), face(upper, "zmin"));
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_EQ(facing.n_points(), 317 * 317);
+  EXPECT_NEAR(facing.areas.sum(), 1.0, 1e-9);
+  RecordProperty("seconds", std::to_string(seconds));
+  EXPECT_LT(seconds, 60.0);
+}
+
+}  // namespace
+}  // namespace dygita
