@@ -1,6 +1,7 @@
 -- Checks one call of the deck against its entry in the schema: nothing is ignored, nothing silently defaulted.
 -- Every message is one line that says what and where, then what is allowed.
 local native = ...
+local placement = native.module "placement"
 local check = {}
 
 local hints = {
@@ -169,6 +170,20 @@ function types.vector(call, argument, value, label)
     check_number(call, argument, value[i], ("%s[%d]"):format(label, i))
   end
   return { value[1], value[2], value[3] }
+end
+
+-- A translation { x, y, z }, or { translate = ..., rotate = { axis, angle, about } }: turned about its place first, then
+-- moved. Answers three numbers, or the twelve of a placement.
+function types.placement(call, argument, value, label)
+  if type(value) ~= "table" or native.kind(value) or #value > 0 or next(value) == nil then
+    return types.vector(call, argument, value, label)
+  end
+  local given = check.arguments(call, argument.fields, value, label .. ".")
+  local moved = placement.translation(given.translate)
+  if not given.rotate then return given.translate end
+  local turned = placement.rotation(given.rotate.axis, given.rotate.angle, given.rotate.about)
+  if not turned then fail(call, ("'%s.rotate.axis' is zero"):format(label), "as in axis = { 0, 0, 1 }") end
+  return placement.shortest(placement.after(moved, turned))
 end
 
 function types.counts(call, argument, value, label)

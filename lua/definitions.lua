@@ -41,6 +41,7 @@ function type_of(a)
   if a.type == "choice" then text = union(a.choices, function(word) return ('"%s"'):format(word) end) end
   if a.type == "choices" then text = grouped(union(a.choices, function(word) return ('"%s"'):format(word) end)) .. "[]" end
   if a.type == "table" then text = inline_table(a.fields) end
+  if a.type == "placement" then text = "dygita.vector|" .. inline_table(a.fields) end
   if a.kinds then
     local one = union(a.kinds, class_of)
     if a.type == "object" then text = one
@@ -97,11 +98,13 @@ local function put_constructor(path, entry)
   put("---@class (exact) %s", arguments_of(path))
   put_fields(entry.arguments)
   put ""
-  put("---@class %s%s %s", made, made:find(":", 1, true) and "," or ":", arguments_of(path))
-  put ""
+  if not entry.expands then
+    put("---@class %s%s %s", made, made:find(":", 1, true) and "," or ":", arguments_of(path))
+    put ""
+  end
   put_doc(entry)
   put("---@param arguments%s %s", needs_argument(entry.arguments) and "" or "?", arguments_of(path))
-  put("---@return %s", class_of(path))
+  put("---@return %s", entry.expands and class_of "substructure" .. "[]" or class_of(path))
   put("function %s(arguments) end\n", path)
 end
 
@@ -116,7 +119,9 @@ local function put_kinds()
   end
   for _, word in ipairs(schema.words) do
     if word.call then own[word.call.makes] = true end
-    for _, entry in ipairs(word) do add(entry.makes) end
+    for _, entry in ipairs(word) do
+      if not entry.expands then add(entry.makes) end
+    end
   end
   for _, entry in ipairs(schema.methods) do
     add(entry.kind)
@@ -135,8 +140,9 @@ local function put_method(entry)
   local a = entry.argument
   if a then
     local parameter = a[1] == "function" and "is_in" or a[1]
-    put("---@param %s %s # %s", parameter, type_of(a), text_of(a))
-    if entry.makes then put("---@return %s", class_of(entry.makes)) end
+    local or_table = entry.arguments and "|" .. arguments_of(entry.kind .. ":" .. entry[1]) or ""
+    put("---@param %s %s # %s", parameter, type_of(a) .. or_table, text_of(a))
+    if entry.makes then put("---@return %s", class_of(entry.makes) .. (entry.is_list and "[]" or "")) end
     put("function %s:%s(%s) end\n", holder, entry[1], parameter)
   else
     put("---@param arguments%s %s", needs_argument(entry.arguments) and "" or "?", arguments_of(entry.kind .. ":" .. entry[1]))

@@ -9,7 +9,7 @@ local function put(format, ...) lines[#lines + 1] = format:format(...) end
 local function number(x) return ("%g"):format(x) end
 
 local function type_of(argument)
-  local names = { vector = "{ x, y, z }", counts = "{ nx, ny, nz }", numbers = "list of numbers", name = "text",
+  local names = { vector = "{ x, y, z }", placement = "{ x, y, z } or table", counts = "{ nx, ny, nz }", numbers = "list of numbers", name = "text",
                   settings = "table of numbers", specification = "file or list of { frequency, level }", value = "number, history or function(t)", integer = "whole number",
                   choice = "text", choices = "list of texts" }
   local text = names[argument.type] or argument.type
@@ -55,7 +55,9 @@ end
 local function entry_of(title, entry)
   put("### %s\n", title)
   put("%s\n", entry.doc)
-  if entry.arguments then table_of(entry.arguments) else table_of { entry.argument } end
+  if entry.argument then table_of { entry.argument } end
+  if entry.argument and entry.arguments then put "In its place a table of:\n" end
+  if entry.arguments then table_of(entry.arguments) end
   if entry.one_of then put("At least one of `%s`.\n", table.concat(entry.one_of, "`, `")) end
   if entry.later then put("Not built yet: `%s`.\n", table.concat(entry.later, "`, `")) end
 end

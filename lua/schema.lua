@@ -92,7 +92,9 @@ words[1] = {
       { "cells", type = "counts", range = { 1, 100000 }, required = true, doc = "number of cells along x, y, z" },
       { "origin", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 },
         doc = "the corner of smallest x, y, z" },
-      { "order", type = "integer", range = { 1, 2 }, default = 1, later_above = 1, doc = "order of the shape functions" },
+      { "order", type = "integer", range = { 1, 2 }, default = 1, doc = "order of the shape functions: 1 makes hex8, 2 hex20" },
+      { "cell", type = "choice", choices = { "hex8", "prism6", "tet4", "hex20", "hex27", "prism15", "prism18", "tet10" },
+        default_doc = "by `order`", doc = "type of the cells: two prisms or six tetrahedra fill a hexahedron" },
     },
   },
   {
@@ -104,8 +106,32 @@ words[1] = {
       { "set", type = "settings", doc = "parameters of the .geo (DefineConstant) given other values" },
       { "unit", type = "number", unit = "m", range = { 1e-9, 1000 }, default = 1,
         doc = "length of one unit of the file: `unit = mm` where it counts in millimetres" },
-      { "order", type = "integer", range = { 1, 2 }, default = 1, later_above = 1, doc = "order of the shape functions" },
+      { "order", type = "integer", range = { 1, 2 }, default = 1,
+        doc = "order of the shape functions; cells of order 2 follow round surfaces" },
+      { "cell", type = "choice", choices = { "hex20", "hex27" }, default_doc = "hex20",
+        doc = "with `order = 2`: hexahedra (and prisms) with nodes on the edges, or also in the middle of facets and cell; "
+          .. "tetrahedra are tet10 either way" },
     },
+  },
+}
+
+words[1][3] = {
+  "step", makes = "assembly",
+  doc = "A CAD assembly, .step or .brep: every solid a mesh of its own, with the names of the file; `assembly:part \"name\"` is one of them.",
+  arguments = {
+    { "file", type = "file", required = true, doc = "path, relative to the deck's folder" },
+    { "order", type = "integer", range = { 1, 2 }, default = 2, doc = "order of the shape functions: 2 makes tet10, 1 tet4" },
+    { "size", type = "number", unit = "m", range = { 1e-7, 100 }, default_doc = "a twentieth of each part's diagonal", doc = "size of the cells" },
+    { "sizes", type = "settings", unit = "m", range = { 1e-7, 100 },
+      doc = "by the names of parts, as `{ [\"M8 bolt\"] = 2*mm, contacts = 1*mm }`: * stands for any text, `contacts` for faces that touch another part" },
+    { "fine", type = "number", unit = "m", range = { 1e-7, 100 },
+      doc = "size at the edges of faces that touch another part, growing by 0.35 a length, or { size = (m), growth = 0.35 }",
+      or_table = {
+        { "at", type = "choice", choices = { "edges" }, default = "edges", doc = "of the faces that touch" },
+        { "size", type = "number", unit = "m", range = { 1e-7, 100 }, required = true, doc = "size there" },
+        { "growth", type = "number", range = { 0.01, 2 }, default = 0.35, doc = "by which it grows with the distance" },
+      } },
+    { "unit", type = "number", unit = "m", range = { 1e-9, 1000 }, default = 0.001, doc = "length of one unit of a .brep; a .step states its own" },
   },
 }
 
@@ -142,12 +168,47 @@ words[3] = {
       name_of "part",
       { "mesh", type = "object", kinds = { "mesh" }, required = true, doc = "its body" },
       { "material", type = "object", kinds = { "material" }, required = true, doc = "what it is made of" },
-      { "place", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 },
-        doc = "translation of the mesh" },
+      { "place", type = "placement", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 },
+        doc = "translation of the mesh, { x, y, z }, or { translate = ..., rotate = { axis, angle, about } }: turned first, then moved",
+        fields = {
+          { "translate", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "translation" },
+          { "rotate", type = "table", doc = "rotation before it", fields = {
+            { "axis", type = "vector", required = true, doc = "direction of the axis; its length does not matter" },
+            { "angle", type = "number", range = { -100, 100 }, required = true, doc = "angle, in radians: `30*deg`" },
+            { "about", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "a point of the axis" },
+          } },
+        } },
       { "velocity", type = "vector", unit = "m/s", range = { -20000, 20000 }, usual = usual_velocity, default = { 0, 0, 0 },
         doc = "velocity at the start of the first dynamic step" },
       { "integration", type = "choice", choices = { "implicit", "automatic", "explicit" }, default_doc = "as the solver has it",
         doc = "of its motion in dynamic steps of solver.latin: explicit needs no factor and takes as many increments in a dt as its cells require" },
+    },
+  },
+}
+
+local function pattern_of(n_doc)
+  return { "of", type = "object", kinds = { "substructure" }, required = true, doc = "the part; the first of the list stands where it does" },
+    { "n", type = "integer", range = { 1, 10000 }, required = true, doc = n_doc }
+end
+local circle_of, circle_n = pattern_of "how many, evenly around"
+local line_of, line_n = pattern_of "how many"
+
+words.pattern = {
+  name = "pattern", doc = "Equal parts, as a list of substructures: one mesh for all.",
+  {
+    "circle", makes = "list of substructures", expands = true, doc = "A part n times around an axis, called `name[1]` ... `name[n]`.",
+    arguments = {
+      circle_of, circle_n,
+      { "axis", type = "vector", required = true, doc = "direction of the axis; its length does not matter" },
+      { "about", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "a point of the axis" },
+      { "angle", type = "number", range = { -7, 7 }, default_doc = "360 deg / n", doc = "from one to the next, in radians" },
+    },
+  },
+  {
+    "line", makes = "list of substructures", expands = true, doc = "A part n times in a row, called `name[1]` ... `name[n]`.",
+    arguments = {
+      line_of, line_n,
+      { "step", type = "vector", unit = "m", range = { -1000, 1000 }, required = true, doc = "from one to the next" },
     },
   },
 }
@@ -618,10 +679,31 @@ local methods = {
     argument = { "name", type = "text", doc = "the volume's name" },
   },
   {
+    kind = "assembly", "part", write = "assembly:part \"name\"", makes = "mesh",
+    doc = "One part of a CAD assembly: by its name, its product or its instance, where that is one part's alone.",
+    argument = { "name", type = "text", doc = "the part's name" },
+  },
+  {
+    kind = "assembly", "parts", write = "assembly:parts \"bolt*\"", makes = "mesh", is_list = true,
+    doc = "The list of all parts whose name, product or instance fits, in the order of the file; * stands for any text.",
+    argument = { "pattern", type = "text", doc = "a name, or a pattern with *" },
+  },
+  {
     kind = "substructure", "face", write = "part:face \"group\"", makes = "face",
     doc = "A named group of facets: xmin ... zmax of a box; of a file the surface group `part.group`, or `group` on the "
       .. "part's boundary.",
     argument = { "group", type = "text", doc = "the group's name" },
+    arguments = {
+      { "normal", type = "vector", doc = "in place of a name, `part:face{ normal = { 0, 0, 1 }, at = 18*mm }`: facets whose outward normal is "
+        .. "this, within two degrees" },
+      { "at", type = "number", unit = "m", range = { -1000, 1000 }, doc = "where along the normal: all nodes of the facet lie in that plane" },
+      { "cylinder", type = "boolean", default = false, doc = "facets on a cylinder" },
+      { "radius", type = "number", unit = "m", range = { 1e-6, 1000 }, doc = "of the cylinder, within two per cent" },
+      { "axis", type = "vector", doc = "of the cylinder, within two degrees" },
+      { "low", type = "vector", unit = "m", range = { -1000, 1000 }, doc = "lowest corner of a box that the facets lie in; with `high`" },
+      { "high", type = "vector", unit = "m", range = { -1000, 1000 }, doc = "highest corner of the box" },
+      { "where", type = "function", doc = "function(x, y, z), in metres, true at every node of the facets" },
+    },
   },
   {
     kind = "substructure", "where", write = "part:where(function(x, y, z) return boolean end)", makes = "region",
@@ -669,5 +751,7 @@ local reading = {
   { "result.mean_iterations", "iterations per increment" },
   { "result.converged", "whether every increment converged" },
 }
+
+words[#words + 1], words.pattern = words.pattern, nil
 
 return { words = words, methods = methods, reading = reading }

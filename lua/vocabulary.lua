@@ -7,6 +7,7 @@ local check = native.module "check"
 local environment = native.module "environment"
 local command_line = native.module "command_line"
 local arithmetic = native.module "arithmetic"
+local placement = native.module "placement"
 
 local function fail(line, text, hint) native.fail(line, text .. (hint and "\n    " .. hint or "")) end
 
@@ -32,6 +33,32 @@ local function constructor(entry)
   end
 end
 
+-- The substructures of a pattern: the given one, renamed, and copies of it in their places.
+local function expanded(entry)
+  return function(...)
+    local line = native.line()
+    local given = check.call(entry, line, ...)
+    local of = native.arguments(given.of)
+    local turn
+    if given.axis then
+      turn = placement.rotation(given.axis, given.angle or 2 * math.pi / given.n, given.about)
+      if not turn then fail(line, entry.path .. ": 'axis' is zero", "as in axis = { 0, 0, 1 }") end
+    else
+      turn = placement.translation(given.step)
+    end
+    local place, parts = placement.of(of.place), {}
+    for i = 1, given.n do
+      local copy = {}
+      for key, value in pairs(of) do copy[key] = value end
+      copy.name, copy.place = ("%s[%d]"):format(of.name, i), placement.shortest(place)
+      copy.of = given.of  -- which is used so
+      parts[i] = native.make("substructure", "substructure", copy, line)
+      place = placement.after(turn, place)
+    end
+    return parts
+  end
+end
+
 local function not_built(path)
   return function() fail(native.line(), ("%s is not built yet in dygita %s"):format(path, native.version)) end
 end
@@ -46,7 +73,7 @@ for _, word in ipairs(schema.words) do
     local members = {}
     for _, entry in ipairs(word) do
       entry.path = name .. "." .. entry[1]
-      members[entry[1]] = constructor(entry)
+      members[entry[1]] = entry.expands and expanded(entry) or constructor(entry)
     end
     for _, later in ipairs(word.later or {}) do members[later] = not_built(name .. "." .. later) end
     words[name] = environment.read_only(members, name)
@@ -62,7 +89,8 @@ for _, entry in ipairs(schema.methods) do
     if entry.kind == "history" and type(self) == "function" then self = native.combine("scaled", self, 1, line) end
     if native.kind(self) ~= entry.kind then fail(line, ("%s is called with a colon: %s"):format(entry[1], entry.write)) end
     local checked
-    if entry.argument then checked = check.plain(entry, line, ...) else checked = check.call(entry, line, ...) end
+    local by_table = entry.arguments and (not entry.argument or type((...)) == "table")
+    if by_table then checked = check.call(entry, line, ...) else checked = check.plain(entry, line, ...) end
     local answer = native.call(entry.path, self, checked, line)
     return answer
   end
@@ -159,7 +187,7 @@ local function undefined(name)
   local line = native.line()
   if environment.refused[name] then
     fail(line, ("'%s' is not there in a deck"):format(name),
-      "a deck reaches no file, system or program; files are read through mesh.gmsh and history.file")
+      "a deck reaches no file, system or program; files are read through mesh.gmsh, mesh.step and history.file")
   end
   if habits[name] then fail(line, ("'%s' is not defined"):format(name), habits[name]) end
   local near_by = native.locals()  -- first: of two names as near, the deck's own

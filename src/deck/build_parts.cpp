@@ -17,11 +17,24 @@ constexpr double bytes_per_cell = 100.0;                   // of a box: coordina
 constexpr double smallest_part = 1e-6, largest_part = 50;  // m, beyond them a unit is probably wrong
 constexpr double locking_poisson = 0.45;
 
+// The type by its name, else by the order.
+CellType cell_of_box(const LuaArguments& a) {
+  const int order = a.integer("order");
+  if (!a.has("cell")) return order == 2 ? CellType::hex20 : CellType::hex8;
+  const std::string name = a.text("cell");
+  const CellShape& cell = *std::find_if(std::begin(cell_shapes), std::end(cell_shapes),
+                                        [&](const CellShape& row) { return row.name == name; });
+  const int own = nodes_per_cell(cell.type) > cell.n_corners ? 2 : 1;
+  if (order > own) throw InputError(fmt::format("'order' = {}, but 'cell' = \"{}\" is of order {}", order, name, own));
+  return cell.type;
+}
+
 Content build_box(const Declaration& d) {
   const auto cells = d.arguments.counts("cells");
   const auto bytes = static_cast<size_t>(bytes_per_cell * cells[0] * cells[1] * cells[2]);
   d.lua.reserve(fmt::format("mesh.box: {} x {} x {} cells", cells[0], cells[1], cells[2]), bytes);
-  const MeshPtr mesh = box_mesh(d.arguments.vector("origin"), d.arguments.vector("size"), cells);
+  const MeshPtr mesh =
+      box_mesh(d.arguments.vector("origin"), d.arguments.vector("size"), cells, cell_of_box(d.arguments));
   d.lua.hold_reserved(mesh, bytes);
   return mesh;
 }
@@ -33,8 +46,37 @@ Content build_gmsh(const Declaration& d) {
   options.set = d.arguments.settings("set");
   if (d.arguments.has("size")) options.size = d.arguments.number("size");
   options.unit = d.arguments.number("unit");
+  options.order = d.arguments.integer("order");
+  options.is_complete = d.arguments.has("cell") && d.arguments.text("cell") == "hex27";
+  if (options.order < 2 && d.arguments.has("cell"))
+    throw InputError("'cell' chooses among cells of order 2: add order = 2");
   const LuaState::Pause pause(d.lua);
   return std::make_shared<const GmshMeshes>(options);
+}
+
+Content build_step(const Declaration& d) {
+  const LuaArguments& a = d.arguments;
+  StepOptions options;
+  options.file = a.file("file");
+  options.order = a.integer("order");
+  if (a.has("size")) options.size = a.number("size");
+  options.sizes = a.settings("sizes");
+  if (const auto all = options.sizes.find("default"); all != options.sizes.end()) {
+    if (options.size) throw InputError("'size' and 'sizes.default' are two words for one thing: give one of them");
+    options.size = all->second;
+    options.sizes.erase("default");
+  }
+  if (a.has("fine")) {
+    if (a.is_number("fine")) {
+      options.fine = StepOptions::Fine{a.number("fine")};
+    } else {
+      const auto fine = a.settings("fine");
+      options.fine = StepOptions::Fine{fine.at("size"), fine.at("growth")};
+    }
+  }
+  options.unit = a.number("unit");
+  const LuaState::Pause pause(d.lua);
+  return std::make_shared<const StepAssembly>(options);
 }
 
 Damping damping_by_ratio(const LuaArguments& a) {
@@ -79,11 +121,29 @@ void doubt_size(const Substructure& part) {
 }
 
 void doubt_locking(const Substructure& part) {
-  if (part.material.poisson <= locking_poisson) return;
-  for (const CellBlock& block : part.mesh->blocks)
-    if (const std::string_view cells = cell_shape(block.type).locks_as; !cells.empty())
+  for (const CellBlock& block : part.mesh->blocks) {
+    const std::string_view cells = cell_shape(block.type).locks_as;
+    if (cells.empty()) continue;
+    if (part.material.poisson <= locking_poisson)
+      warn(fmt::format(
+          "{}substructure '{}': {} are far too stiff in bending, and their stress is poor; order = 2 in the "
+          "mesh makes them tet10",
+          part.origin.prefix(), part.name, cells));
+    else
       warn(fmt::format("{}substructure '{}': {} with a Poisson's ratio of {:g} lock; hexahedra or prisms do not",
                        part.origin.prefix(), part.name, cells, part.material.poisson));
+  }
+}
+
+// A translation, or a rotation row by row and a translation: what turns is a mesh of its own.
+void set_place(const std::vector<double>& place, Substructure& part) {
+  part.place = Eigen::Map<const Vec3>(place.data() + place.size() - 3);
+  if (place.size() == 3) return;
+  const Mat3 rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(place.data());
+  auto turned = std::make_shared<Mesh>(*part.mesh);
+  turned->nodes = rotation * part.mesh->nodes;
+  turned->digest = mesh_digest(*turned);
+  part.mesh = std::move(turned);
 }
 
 Content build_substructure(const Declaration& d) {
@@ -92,7 +152,7 @@ Content build_substructure(const Declaration& d) {
   const auto& material = d.arguments.object("material").as<std::shared_ptr<const Material>>();
   part->material = *material;
   part->yield = material->yield;
-  part->place = d.arguments.vector("place");
+  set_place(d.arguments.numbers("place"), *part);
   part->velocity = d.arguments.vector("velocity");
   if (d.arguments.has("integration")) part->integration = integration_of(d.arguments.text("integration"));
   doubt_size(*part);
@@ -143,6 +203,7 @@ const Builders& part_builders() {
     Builders all = {
         {"mesh.box", build_box},
         {"mesh.gmsh", build_gmsh},
+        {"mesh.step", build_step},
         {"material.elastic", build_elastic},
         {"substructure", build_substructure},
         {"param", build_parameters},

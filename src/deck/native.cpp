@@ -7,6 +7,7 @@
 #include "deck/deck_state.hpp"
 #include "deck/embedded_lua.hpp"
 #include "deck/histories.hpp"
+#include "deck/pick_places.hpp"
 #include "deck/results.hpp"
 
 namespace dygita {
@@ -133,40 +134,27 @@ int make(LuaState& lua, lua_State* L) {
   return 1;
 }
 
-std::string extent(const Points& nodes, const Vec3& place) {
-  std::string text;
-  for (int i = 0; i < 3; ++i) {
-    text += fmt::format("{}{} [{:g}, {:g}]", i ? ", " : "", "xyz"[i], nodes.row(i).minCoeff() + place[i],
-                        nodes.row(i).maxCoeff() + place[i]);
+// assembly:parts: a list of meshes.
+void push_parts(lua_State* L, const StepAssembly& assembly, const std::string& pattern, int id, const Origin& origin) {
+  std::vector<const StepPart*> parts;
+  try {
+    parts = assembly.parts(pattern);
+  } catch (const InputError& error) {
+    throw InputError(origin, error.what());
   }
-  return text + " m";
+  lua_createtable(L, static_cast<int>(parts.size()), 0);
+  for (size_t i = 0; i < parts.size(); ++i) {
+    push_object(L, {"mesh", "assembly:parts", parts[i]->name, id, parts[i]->mesh});
+    lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
+  }
 }
 
-// part:where(function): the predicate at stack index 3.
-Region region_of(const SubstructurePtr& part, lua_State* L, const Origin& origin) {
-  Region region{part, {}};
-  const Points& nodes = part->mesh->nodes;
-  for (int i = 0; i < part->mesh->n_nodes(); ++i) {
-    const Vec3 x = nodes.col(i) + part->place;
-    lua_pushvalue(L, 3);
-    for (int d = 0; d < 3; ++d) lua_pushnumber(L, x[d]);
-    lua_call(L, 3, 1);
-    if (!lua_isboolean(L, -1)) {
-      throw InputError(origin,
-                       fmt::format("substructure '{}': the function of 'where' must answer true or false, got {}\n"
-                                   "    is its 'return' missing?",
-                                   part->name, luaL_typename(L, -1)));
-    }
-    if (lua_toboolean(L, -1)) region.nodes.push_back(i);
-    lua_pop(L, 1);
+MeshPtr part_of(const StepAssembly& assembly, const std::string& name, const Origin& origin) {
+  try {
+    return assembly.part(name).mesh;
+  } catch (const InputError& error) {
+    throw InputError(origin, error.what());
   }
-  if (region.nodes.empty()) {
-    throw InputError(origin,
-                     fmt::format("substructure '{}': 'where' finds none of its {} nodes\n    they span {}; compare "
-                                 "coordinates with near(a, b)",
-                                 part->name, part->mesh->n_nodes(), extent(nodes, part->place)));
-  }
-  return region;
 }
 
 // call(method, object, argument, line).
@@ -181,6 +169,15 @@ int call_method(LuaState& lua, lua_State* L) {
     const std::string name = lua_tostring(L, 3);
     push_object(
         L, {"mesh", method, name, self.id, volume_of(*self.as<std::shared_ptr<const GmshMeshes>>(), name, origin)});
+  } else if (method == "assembly:part") {
+    const std::string name = lua_tostring(L, 3);
+    push_object(
+        L, {"mesh", method, name, self.id, part_of(*self.as<std::shared_ptr<const StepAssembly>>(), name, origin)});
+  } else if (method == "assembly:parts") {
+    push_parts(L, *self.as<std::shared_ptr<const StepAssembly>>(), lua_tostring(L, 3), self.id, origin);
+  } else if (method == "substructure:face" && lua_istable(L, 3)) {
+    const Face face = picked_face(state.folder, self.as<SubstructurePtr>(), L, origin);
+    push_object(L, {"face", method, face.label(), self.id, face});
   } else if (method == "substructure:face") {
     const Face face = face_of(self.as<SubstructurePtr>(), lua_tostring(L, 3), origin);
     push_object(L, {"face", method, face.label(), self.id, face});

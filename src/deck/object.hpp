@@ -9,6 +9,7 @@
 
 #include "material/material.hpp"
 #include "mesh/gmsh_reader.hpp"
+#include "mesh/step_assembly.hpp"
 #include "model/model.hpp"
 #include "result/result.hpp"
 #include "result/series.hpp"
@@ -38,11 +39,11 @@ struct PartData {
 };
 
 using Content =
-    std::variant<std::monostate, MeshPtr, std::shared_ptr<const GmshMeshes>, std::shared_ptr<const Material>,
-                 SubstructurePtr, Face, Region, InterfacePtr, SupportPtr, LoadPtr, std::shared_ptr<const History>,
-                 StepPtr, std::shared_ptr<const LatinSettings>, std::shared_ptr<const MonolithicSettings>,
-                 std::shared_ptr<const ExplicitSettings>, OutputPtr, std::shared_ptr<const Problem>, DeckResultPtr,
-                 OutputData, PartData, std::shared_ptr<const Series>>;
+    std::variant<std::monostate, MeshPtr, std::shared_ptr<const GmshMeshes>, std::shared_ptr<const StepAssembly>,
+                 std::shared_ptr<const Material>, SubstructurePtr, Face, Region, InterfacePtr, SupportPtr, LoadPtr,
+                 std::shared_ptr<const History>, StepPtr, std::shared_ptr<const LatinSettings>,
+                 std::shared_ptr<const MonolithicSettings>, std::shared_ptr<const ExplicitSettings>, OutputPtr,
+                 std::shared_ptr<const Problem>, DeckResultPtr, OutputData, PartData, std::shared_ptr<const Series>>;
 
 struct Object {
   std::string kind;  // "substructure", "face", "series"; the schema's `makes`

@@ -7,7 +7,7 @@ namespace dygita {
 
 struct BodyMatrices {
   SparseMatrix stiffness;  // 3n x 3n, N/m, both triangles, before any support
-  Vec mass;                // n, kg, lumped
+  Vec mass;                // n, kg, lumped, positive
 };
 
 // Assembles by node pattern and 3x3 blocks, no triplets; columns increasing in each row; the same to the bit for any
@@ -24,7 +24,11 @@ Tensors nodal_stress(const Mesh& mesh, const Elastic& material, const Points& di
 // von Mises stress (Pa) of each column.
 Vec von_mises(const Tensors& stress);
 
-// Volume (m^3) of each node: sum of its lumped shares.
+// Volume (m^3) of each node: sum of its lumped shares, positive.
 Vec nodal_volumes(const Mesh& mesh);
+
+// Integral of each node's shape function (m^3), not positive everywhere: times density what a uniform acceleration or a
+// mean velocity has to be weighted by.
+Vec nodal_integrals(const Mesh& mesh);
 
 }  // namespace dygita

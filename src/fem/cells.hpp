@@ -77,20 +77,17 @@ auto ShapedCell<cell_type>::to_nodes() -> const Eigen::Matrix<double, n_recovery
   return matrix;
 }
 
+// Integral of each shape function (m^3): row sums of the consistent mass of density one.
+template <class Cell>
+Eigen::Matrix<double, Cell::n_nodes, 1> shape_integrals(const Nodes<Cell::n_nodes>& x);
+
+// The consistent mass of a cell.
+template <class Cell>
+MassMatrix<Cell::n_nodes> consistent_mass(const Nodes<Cell::n_nodes>& x, double density);
+
 // Volume of each node, as the row lumps; positive where the Jacobian is.
 template <class Cell>
-Eigen::Matrix<double, Cell::n_nodes, 1> node_volumes(const Nodes<Cell::n_nodes>& x) {
-  const auto& shapes = Cell::shapes();
-  Eigen::Matrix<double, Cell::n_nodes, 1> volumes = Eigen::Matrix<double, Cell::n_nodes, 1>::Zero();
-  switch (Cell::row.lumping) {
-    case Lumping::row_sums:
-      for (int i = 0; i < shapes.n_points; ++i) {
-        const double jacobian = (x * shapes.slopes[i]).eval().determinant();
-        volumes += jacobian * shapes.weights[i] * shapes.values.col(i);
-      }
-  }
-  return volumes;
-}
+Eigen::Matrix<double, Cell::n_nodes, 1> node_volumes(const Nodes<Cell::n_nodes>& x);
 
 // Calls `kernel` with the struct of this cell type.
 template <int first = 0, class Kernel>
@@ -122,4 +119,26 @@ inline void check_point_volume(double volume) {
 
 }  // namespace dygita
 
+#include "fem/cell_masses.hpp"
 #include "fem/isoparametric.hpp"
+
+namespace dygita {
+
+// Compiled once (quadratic_cells.cpp): their loops are long, and the compiler takes its time over them.
+#define DYGITA_COMPILED_ONCE(type)                                                                         \
+  extern template struct Cell<CellType::type>;                                                             \
+  extern template struct ShapedCell<CellType::type>;                                                       \
+  extern template Eigen::Matrix<double, Cell<CellType::type>::n, 1> shape_integrals<Cell<CellType::type>>( \
+      const Nodes<Cell<CellType::type>::n>&);                                                              \
+  extern template Eigen::Matrix<double, Cell<CellType::type>::n, 1> node_volumes<Cell<CellType::type>>(    \
+      const Nodes<Cell<CellType::type>::n>&);                                                              \
+  extern template MassMatrix<Cell<CellType::type>::n> consistent_mass<Cell<CellType::type>>(               \
+      const Nodes<Cell<CellType::type>::n>&, double);
+DYGITA_COMPILED_ONCE(tet10)
+DYGITA_COMPILED_ONCE(hex20)
+DYGITA_COMPILED_ONCE(hex27)
+DYGITA_COMPILED_ONCE(prism15)
+DYGITA_COMPILED_ONCE(prism18)
+#undef DYGITA_COMPILED_ONCE
+
+}  // namespace dygita

@@ -39,14 +39,9 @@ CornerStress<Cell<cell_type>::n> Cell<cell_type>::stress(const Nodes<n>& x, cons
 
 template <CellType cell_type>
 MassMatrix<Cell<cell_type>::n> Cell<cell_type>::tuned_mass(const Nodes<n>& x, const Elastic& material, double dt) {
-  const auto& shapes = Cell::mass_shapes();
-  double volume = 0.0;
-  MassMatrix<n> mass = MassMatrix<n>::Zero();
-  for (int i = 0; i < shapes.n_points; ++i) {
-    const double share = (x * shapes.slopes[i]).eval().determinant() * shapes.weights[i];
-    volume += share;
-    mass += material.density * share * shapes.values.col(i) * shapes.values.col(i).transpose();
-  }
+  const MassMatrix<n> mass = consistent_mass<Cell>(x, material.density);
+  if constexpr (Cell::row.inertia == Inertia::consistent) return mass;  // nothing is undone by a share of it
+  const double volume = mass.sum() / material.density;
   return consistent_share(material.p_wave_speed(), dt, std::cbrt(volume * Cell::row.cells_per_brick)) * mass;
 }
 

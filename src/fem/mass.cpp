@@ -16,7 +16,7 @@ struct MassKernel {
 
   const Mesh& mesh;
   const Elastic& material;
-  double dt;
+  double dt;  // 0: lumped where the row says so
   const std::vector<char>& keeps_lumped;
   const NodePattern& pattern;
   double* values;  // of the pattern's entries
@@ -26,8 +26,14 @@ struct MassKernel {
 
   void compute(const int* nodes, int) {
     const Nodes<n> x = gather<n>(mesh.nodes, nodes);
+    if constexpr (Cell::row.inertia == Inertia::consistent) {
+      mass = consistent_mass<Cell>(x, material.density);
+      lumped = mass.rowwise().sum();
+      return;
+    }
     lumped = material.density * node_volumes<Cell>(x);
     mass.setZero();
+    if (dt == 0.0) return;
     if (keeps_lumped.empty() || std::none_of(nodes, nodes + n, [&](int node) { return keeps_lumped[node]; }))
       mass = Cell::tuned_mass(x, material, dt);
   }
@@ -48,9 +54,8 @@ struct MassKernel {
   void finish() {}
 };
 
-}  // namespace
-
-SparseMatrix tuned_mass(const Mesh& mesh, const Elastic& material, double dt, const std::vector<char>& keeps_lumped) {
+SparseMatrix assembled_mass(const Mesh& mesh, const Elastic& material, double dt,
+                            const std::vector<char>& keeps_lumped) {
   const NodePattern pattern = node_pattern(mesh);
   const NodeOwners owners = node_owners(mesh);
   SparseMatrix matrix(mesh.n_nodes(), mesh.n_nodes());
@@ -64,6 +69,22 @@ SparseMatrix tuned_mass(const Mesh& mesh, const Elastic& material, double dt, co
                    MassKernel<decltype(cell)>{mesh, material, dt, keeps_lumped, pattern, matrix.valuePtr(), {}, {}});
     });
   return matrix;
+}
+
+}  // namespace
+
+SparseMatrix tuned_mass(const Mesh& mesh, const Elastic& material, double dt, const std::vector<char>& keeps_lumped) {
+  CHECK(dt > 0.0, "a mass is tuned to steps of some length");
+  return assembled_mass(mesh, material, dt, keeps_lumped);
+}
+
+SparseMatrix consistent_mass(const Mesh& mesh, const Elastic& material) {
+  return assembled_mass(mesh, material, 0.0, {});
+}
+
+bool has_consistent_mass(const Mesh& mesh) {
+  return std::any_of(mesh.blocks.begin(), mesh.blocks.end(),
+                     [](const CellBlock& block) { return cell_shape(block.type).inertia == Inertia::consistent; });
 }
 
 }  // namespace dygita

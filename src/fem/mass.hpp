@@ -1,5 +1,6 @@
-// The mass matrix whose waves keep their speed: between lumped and consistent, chosen so that mesh and time step undo
-// each other's error.
+// Mass matrices: the consistent one, of cells whose lumped mass would not converge as their stiffness does; and the one
+// whose waves keep their speed, between lumped and consistent, chosen so that mesh and time step undo each other's
+// error.
 #pragma once
 
 #include "fem/assembly.hpp"
@@ -10,5 +11,11 @@ namespace dygita {
 // node, or empty): cells with such a node stay lumped. dt: s, of the trapezoidal steps. Manual, eq. S6; the rule is
 // that of B. Yue, M. N. Guddati (J. Acoust. Soc. Am. 118, 2005).
 SparseMatrix tuned_mass(const Mesh& mesh, const Elastic& material, double dt, const std::vector<char>& keeps_lumped);
+
+// n x n, kg: consistent in cells whose row says so, lumped in others.
+SparseMatrix consistent_mass(const Mesh& mesh, const Elastic& material);
+
+// Does the mesh have cells of consistent mass?
+bool has_consistent_mass(const Mesh& mesh);
 
 }  // namespace dygita

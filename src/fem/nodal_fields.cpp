@@ -23,7 +23,7 @@ struct StressKernel {
   void finish() {}
 };
 
-template <class Cell>
+template <class Cell, bool is_lumped>
 struct VolumeKernel {
   static constexpr int n = Cell::n_nodes;
 
@@ -32,10 +32,27 @@ struct VolumeKernel {
 
   Eigen::Matrix<double, n, 1> volumes;
 
-  void compute(const int* nodes, int) { volumes = node_volumes<Cell>(gather<n>(mesh.nodes, nodes)); }
+  void compute(const int* nodes, int) {
+    const Nodes<n> x = gather<n>(mesh.nodes, nodes);
+    if constexpr (is_lumped)
+      volumes = node_volumes<Cell>(x);
+    else
+      volumes = shape_integrals<Cell>(x);
+  }
   void add(const int* nodes, int a) { sum[nodes[a]] += volumes[a]; }
   void finish() {}
 };
+
+template <bool is_lumped>
+Vec summed_volumes(const Mesh& mesh) {
+  const NodeOwners owners = node_owners(mesh);
+  Vec volumes = Vec::Zero(mesh.n_nodes());
+  for (const CellBlock& block : mesh.blocks)
+    with_cell(block.type, [&](auto cell) {
+      sum_at_nodes(block, owners, VolumeKernel<decltype(cell), is_lumped>{mesh, volumes, {}});
+    });
+  return volumes;
+}
 
 }  // namespace
 
@@ -59,14 +76,8 @@ Vec von_mises(const Tensors& stress) {
   return (0.5 * normal + 3 * shear).sqrt().matrix().transpose();
 }
 
-Vec nodal_volumes(const Mesh& mesh) {
-  const NodeOwners owners = node_owners(mesh);
-  Vec volumes = Vec::Zero(mesh.n_nodes());
-  for (const CellBlock& block : mesh.blocks)
-    with_cell(block.type, [&](auto cell) {
-      sum_at_nodes(block, owners, VolumeKernel<decltype(cell)>{mesh, volumes, {}});
-    });
-  return volumes;
-}
+Vec nodal_volumes(const Mesh& mesh) { return summed_volumes<true>(mesh); }
+
+Vec nodal_integrals(const Mesh& mesh) { return summed_volumes<false>(mesh); }
 
 }  // namespace dygita

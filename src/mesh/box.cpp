@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "mesh/raise_order.hpp"
 
 namespace dygita {
 
@@ -56,7 +57,46 @@ void check_box(const Vec3& origin, const Vec3& size, const std::array<int, 3>& c
         fmt::format("box: {} x {} x {} cells are too many: at most about 2.6e8 nodes", cells[0], cells[1], cells[2]));
 }
 
+// The linear cells that fill a hexahedron, by its corners: as many nodes as one cell has for each.
+std::span<const int> cut_hexahedron(int n_corners) {
+  static constexpr int prisms[] = {0, 2, 1, 4, 6, 5, 0, 3, 2, 4, 7, 6};
+  static constexpr int tetrahedra[] = {0, 1, 2, 6, 0, 2, 3, 6, 0, 3, 7, 6, 0, 7, 4, 6, 0, 4, 5, 6, 0, 5, 1, 6};
+  return n_corners == 6 ? std::span<const int>(prisms) : std::span<const int>(tetrahedra);
+}
+
+// Facets on the sides of a box whose hexahedra have been cut: on a side where each corner is on one of `quadrangles`.
+std::vector<Facet> facets_on_side(const std::vector<Facet>& boundary, const std::vector<Facet>& quadrangles) {
+  const std::vector<int> nodes = nodes_of(quadrangles);
+  std::vector<Facet> facets;
+  for (const Facet& facet : boundary)
+    if (std::all_of(facet.corners().begin(), facet.corners().end(),
+                    [&](int node) { return std::binary_search(nodes.begin(), nodes.end(), node); }))
+      facets.push_back(facet);
+  return facets;
+}
+
 }  // namespace
+
+MeshPtr box_mesh(const Vec3& origin, const Vec3& size, const std::array<int, 3>& cells, CellType type) {
+  const CellShape& row = cell_shape(type);
+  MeshPtr mesh = box_mesh(origin, size, cells);
+  const auto linear = std::find_if(std::begin(cell_shapes), std::end(cell_shapes), [&](const CellShape& cell) {
+    return cell.n_corners == row.n_corners && nodes_per_cell(cell.type) == cell.n_corners;
+  });
+  if (linear->type != mesh->blocks[0].type) {
+    auto cut = std::make_shared<Mesh>(*mesh);
+    cut->blocks = {{linear->type, {}}};
+    for (int i = 0; i < mesh->n_cells(); ++i)
+      for (const int a : cut_hexahedron(row.n_corners)) cut->blocks[0].nodes.push_back(mesh->blocks[0].cell(i)[a]);
+    const std::vector<Facet> boundary = boundary_facets(cut->blocks);
+    for (auto& [name, facets] : cut->faces) facets = facets_on_side(boundary, facets);
+    cut->digest = mesh_digest(*cut);
+    mesh = std::move(cut);
+  }
+  if (type == linear->type) return mesh;
+  const bool is_complete = second_order_type(linear->type, SecondOrder::edges_only) != type;
+  return second_order(*mesh, is_complete ? SecondOrder::complete : SecondOrder::edges_only);
+}
 
 MeshPtr box_mesh(const Vec3& origin, const Vec3& size, const std::array<int, 3>& cells) {
   check_box(origin, size, cells);

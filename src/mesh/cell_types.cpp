@@ -36,7 +36,7 @@ constexpr bool is_sound(const FacetShape& facet) {
   const size_t n = facet.shape.nodes.size();
   return fits(facet.shape) && facet.n_corners >= 3 && facet.n_corners <= most_facet_corners &&
          facet.rim.size() >= static_cast<size_t>(facet.n_corners) && facet.rim.size() <= n &&
-         measure(facet.rule) > 0.0 && facet.gmsh_type > 0 && facet.vtk_type > 0;
+         !facet.sub_facets.empty() && measure(facet.rule) > 0.0 && facet.gmsh_type > 0 && facet.vtk_type > 0;
 }
 
 constexpr bool is_sound(const CellShape& cell) {

@@ -5,10 +5,7 @@
 
 namespace dygita {
 
-struct FacetPart {
-  int n;
-  std::array<int, 4> corners;  // the first n of them, by the facet's numbers
-};
+using FacetPart = SubFacet;
 
 struct FacetParts {
   std::span<const FacetPart> parts;
@@ -17,26 +14,9 @@ struct FacetParts {
   bool has_own_multipliers;
 };
 
-namespace reference {
-inline constexpr FacetPart tri3_parts[] = {{3, {0, 1, 2}}}, quad4_parts[] = {{4, {0, 1, 2, 3}}},
-                           tri6_parts[] = {{3, {0, 3, 5}}, {3, {3, 1, 4}}, {3, {5, 4, 2}}, {3, {3, 4, 5}}},
-                           quad8_parts[] = {{3, {0, 4, 7}},
-                                            {3, {4, 1, 5}},
-                                            {3, {5, 2, 6}},
-                                            {3, {7, 6, 3}},
-                                            {4, {4, 5, 6, 7}}},
-                           quad9_parts[] = {{4, {0, 4, 8, 7}}, {4, {4, 1, 5, 8}}, {4, {8, 5, 2, 6}}, {4, {7, 8, 6, 3}}};
-}
-
-// By the numbers of corners and nodes: corners come first, then the middles of the edges in their order, then the
-// centre.
 constexpr FacetParts facet_parts(FacetType type) {
-  const int n_nodes = nodes_per_facet(type);
-  if (facet_shape(type).n_corners == 3)
-    return n_nodes == 3 ? FacetParts{reference::tri3_parts, true} : FacetParts{reference::tri6_parts, false};
-  return n_nodes == 4   ? FacetParts{reference::quad4_parts, true}
-         : n_nodes == 8 ? FacetParts{reference::quad8_parts, false}
-                        : FacetParts{reference::quad9_parts, true};
+  const FacetShape& shape = facet_shape(type);
+  return {shape.sub_facets, !shape.is_shared_by_sub_facets};
 }
 
 }  // namespace dygita

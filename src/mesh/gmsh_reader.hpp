@@ -12,13 +12,16 @@ struct GmshOptions {
   std::map<std::string, double> set;  // overrides DefineConstant parameters of a .geo
   std::optional<double> size;         // target element size (m), for .step and .brep and .geo without sizes
   double unit = 1.0;                  // length of one unit of the file, in metres
+  int order = 1;                      // of the cells that are generated; a .msh has its own
+  bool is_complete = false;           // order two: hex27 and prism18 in place of hex20 and prism15
 };
 
 // All volumes of one file, read or generated once.
 class GmshMeshes {
  public:
-  // Throws InputError: file missing or unreadable (gmsh's own message), unknown parameter in `set` (with the known
-  // ones), no volume group, unsupported cell type (says which are known).
+  // Cells of order two that tangle are straightened, with a warning. Throws InputError: file missing or unreadable
+  // (gmsh's own message), unknown parameter in `set` (with the known ones), no volume group, unsupported cell type
+  // (says which are known).
   explicit GmshMeshes(const GmshOptions& options);
 
   // The body of physical volume `name`; its faces are the surface groups "name.x" (as "x") and every other surface

@@ -51,6 +51,22 @@ double smallest_jacobian(CellType type, const Points& x) {
   return smallest;
 }
 
+std::vector<Mat3> sampled_maps(CellType type, const Points& x) {
+  const SampledSlopes& sampled = sampled_slopes(type);
+  std::vector<Mat3> all;
+  all.reserve(sampled.at_nodes.size() + sampled.at_points.size());
+  for (const Slopes& slopes : sampled.at_nodes) all.emplace_back(x.lazyProduct(slopes));
+  for (const Slopes& slopes : sampled.at_points) all.emplace_back(x.lazyProduct(slopes));
+  return all;
+}
+
+Vec sampled_jacobians(CellType type, const Points& x) {
+  const std::vector<Mat3> maps = sampled_maps(type, x);
+  Vec determinants(static_cast<Eigen::Index>(maps.size()));
+  for (size_t i = 0; i < maps.size(); ++i) determinants[static_cast<Eigen::Index>(i)] = maps[i].determinant();
+  return determinants;
+}
+
 double cell_volume(CellType type, const Points& x) {
   double volume = 0;
   const SampledSlopes& sampled = sampled_slopes(type);

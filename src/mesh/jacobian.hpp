@@ -11,6 +11,10 @@ double jacobian(CellType type, const Points& x, const Vec3& xi);
 // The smallest over the nodes of the reference cell and its quadrature points.
 double smallest_jacobian(CellType type, const Points& x);
 
+// d x / d xi and its determinants at each node of the reference cell, then at each quadrature point.
+std::vector<Mat3> sampled_maps(CellType type, const Points& x);
+Vec sampled_jacobians(CellType type, const Points& x);
+
 // Signed volume (m^3) of the cell with nodes `x` (3 x n, m).
 double cell_volume(CellType type, const Points& x);
 

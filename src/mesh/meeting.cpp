@@ -1,5 +1,7 @@
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "mesh/mortar.hpp"
 #include "mesh/overlap.hpp"
@@ -31,6 +33,9 @@ void refuse_same_side(const PlacedFace& side_1, const PlacedFace& side_2) {
 
 Meeting::Meeting(const PlacedFace& side_1, const PlacedFace& side_2, const MeetingOptions& options)
     : matched_(match_faces(side_1, side_2)) {
+  const auto is_cut = [](const Facet& facet) { return facet_shape(facet.type()).is_shared_by_sub_facets; };
+  if (matched_ && options.acts_by_area && std::any_of(matched_->facets_1.begin(), matched_->facets_1.end(), is_cut))
+    matched_.reset();
   if (matched_) return;
   mortar_.emplace(side_1, side_2, options);
   if (!mortar_->is_empty()) return;

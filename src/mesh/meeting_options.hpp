@@ -10,6 +10,9 @@ struct MeetingOptions {
   double within = 0.0;  // m, how far apart faces may be that touch, beside their sagittas
   Carrier points = Carrier::coarser;
   bool is_second_softer = false;  // decides where neither face is coarser nor covered more completely
+  // The law acts on the area of each point: facets whose nodes have none of their own (tri6, quad8) take the points of
+  // their sub-facets even where they match node for node.
+  bool acts_by_area = false;
 };
 
 }  // namespace dygita

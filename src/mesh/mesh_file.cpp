@@ -56,6 +56,9 @@ void check_lengths(const GmshOptions& options) {
   if (options.size && kind == "msh")
     throw InputError(
         fmt::format("mesh file '{}': 'size' does not act on a .msh, which is meshed already", options.file));
+  if (options.order > 1 && kind == "msh")
+    throw InputError(
+        fmt::format("mesh file '{}': 'order' does not act on a .msh, whose cells have their order", options.file));
   const std::optional<double> stated = kind == "step" ? step_unit(options.file) : std::nullopt;
   if (stated && options.unit != 1 && std::abs(options.unit / *stated - 1) > 1e-9)
     throw InputError(fmt::format("mesh file '{}' states its unit, {:g} m, but 'unit' is {:g} m", options.file, *stated,

@@ -74,7 +74,7 @@ class PartFunctions {
  public:
   PartFunctions(FacetType type, const FacetPart& part) : n_(part.n) {
     const auto corner = [&](int a) {
-      const Place& at = facet_shape(type).shape.nodes[part.corners[a]];
+      const Place& at = facet_shape(type).shape.nodes[part.nodes[a]];
       return Vec2(at[0], at[1]);
     };
     origin_ = corner(0);
@@ -108,7 +108,7 @@ class Integrator {
       const FacetPart& own = shape.parts[part - first];
       const PartFunctions functions(face_.types[facet], own);
       std::vector<int> points;
-      for (int a = 0; a < own.n; ++a) points.push_back(face_.facets[facet][own.corners[a]]);
+      for (int a = 0; a < own.n; ++a) points.push_back(face_.facets[facet][own.nodes[a]]);
       couplings.push_back(of_parts(facet, part, part + 1, &functions, points));
     }
     return couplings;

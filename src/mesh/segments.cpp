@@ -41,7 +41,7 @@ FaceInSpace::FaceInSpace(const PlacedFace& face) : nodes(nodes_of(face.facets)) 
     const std::span<const FacetPart> shapes = facet_parts(facet.type()).parts;
     for (size_t k = 0; k < shapes.size(); ++k) {
       Part part{static_cast<int>(facets.size()) - 1, static_cast<int>(k), Polygon(3, shapes[k].n), {}, {}, 0.0};
-      for (int a = 0; a < shapes[k].n; ++a) part.x.col(a) = x.col(local[shapes[k].corners[a]]);
+      for (int a = 0; a < shapes[k].n; ++a) part.x.col(a) = x.col(local[shapes[k].nodes[a]]);
       const Vec3 area = area_vector(part.x);
       part.area = area.norm();
       part.normal = part.area > 0.0 ? Vec3(area / part.area) : Vec3(Vec3::UnitZ());
@@ -68,8 +68,7 @@ double FaceInSpace::sagitta() const {
   for (size_t p = 0; p < parts.size(); ++p) {
     const FacetPart& shape = facet_parts(types[parts[p].facet]).parts[parts[p].k];
     for (int a = 0; a < shape.n; ++a) {
-      const int i = facets[parts[p].facet][shape.corners[a]],
-                j = facets[parts[p].facet][shape.corners[(a + 1) % shape.n]];
+      const int i = facets[parts[p].facet][shape.nodes[a]], j = facets[parts[p].facet][shape.nodes[(a + 1) % shape.n]];
       const auto [at, is_new] = known.try_emplace(std::minmax(i, j), static_cast<int>(p));
       if (is_new) continue;
       const Part &one = parts[p], &other = parts[at->second];

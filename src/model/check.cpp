@@ -13,6 +13,7 @@ void check_problem(const Problem& problem) {
   check::interfaces(problem);
   check::supports(problem);
   check::steps(problem);
+  check::cells(problem);
   check::loads(problem);
   check::outputs(problem);
   check::histories(problem);
@@ -83,7 +84,9 @@ bool coincide(const FaceOrRegion& a, const FaceOrRegion& b) {
 void place_exists(const Problem& problem, const Origin& origin, const std::string& who, const FaceOrRegion& place) {
   listed(problem, who + " substructure", part_of(place), problem.substructures, "substructures");
   const Substructure& part = part_of(place);
-  if (const Face* face = std::get_if<Face>(&place)) {
+  if (const Face* face = std::get_if<Face>(&place); face && face->picked) {
+    if (face->picked->empty()) fail(problem, origin, who + " face '" + face->label() + "', which has no facet");
+  } else if (face) {
     const auto found = part.mesh->faces.find(face->group);
     if (found == part.mesh->faces.end()) {
       std::vector<std::string> known;

@@ -19,6 +19,9 @@ void supports(const Problem& problem);
 // Steps: one line in the order listed, times and increments, a static step first where there is an interference.
 void steps(const Problem& problem);
 
+// Cells: of order one where a solver's setting wants the mass at the nodes.
+void cells(const Problem& problem);
+
 // Loads of every step: on what they can act, listed, in a step where they mean something, nothing prescribed twice.
 void loads(const Problem& problem);
 

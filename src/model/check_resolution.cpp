@@ -18,7 +18,7 @@ namespace {
 
 constexpr double share = 0.95;            // of a load's energy that must be carried
 constexpr double steps_a_period = 10.0;   // a trapezoidal step then turns a wave by 3 % too little each period
-constexpr double cells_a_wavelength = 5;  // a mesh turns it by 7 %
+constexpr double cells_a_wavelength = 5;  // a mesh turns it by 7 %; as many nodes of cells of order two, by less
 constexpr double most_damping = 0.2;      // of critical
 
 struct Content {
@@ -62,7 +62,14 @@ std::vector<Content> contents(const Problem& problem, const Step& step) {
   return list;
 }
 
-// Mean over a part's cells of their shortest edge, m: the length along the waves where cells are drawn out across them.
+bool is_of_order_two(const Substructure& part) {
+  return std::any_of(part.mesh->blocks.begin(), part.mesh->blocks.end(), [](const CellBlock& block) {
+    return nodes_per_cell(block.type) > cell_shape(block.type).n_corners;
+  });
+}
+
+// Mean over a part's cells of the least distance of two nodes, their shortest edge or half of it, m: the length along
+// the waves where cells are drawn out across them.
 double cell_size(const Substructure& part) {
   const Mesh& mesh = *part.mesh;
   double sum = 0.0;
@@ -134,12 +141,14 @@ void resolution(const Problem& problem) {
       if (cells(i) < cells(worst)) worst = i;
     if (cells(worst) < cells_a_wavelength)
       say(problem, *highest,
-          fmt::format("the cells of substructure '{}', {:.3g} mm along their shortest edge, are {:.2g} to the "
+          fmt::format("the {} of substructure '{}', {:.3g} mm {}, are {:.2g} to the "
                       "wavelength of shear "
                       "waves there, {:.3g} mm: {:.0f} "
                       "are wanted",
-                      problem.substructures[worst]->name, 1e3 * size[worst], cells(worst),
-                      1e3 * cells(worst) * size[worst], cells_a_wavelength));
+                      is_of_order_two(*problem.substructures[worst]) ? "nodes" : "cells",
+                      problem.substructures[worst]->name, 1e3 * size[worst],
+                      is_of_order_two(*problem.substructures[worst]) ? "apart" : "along their shortest edge",
+                      cells(worst), 1e3 * cells(worst) * size[worst], cells_a_wavelength));
   }
 }
 

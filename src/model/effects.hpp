@@ -12,8 +12,9 @@ namespace dygita {
 // Nodes that a load acts on, where they stand in space.
 struct LoadedNodes {
   Points positions;  // 3 x n, m
-  Vec weights;       // of each node: m^2, its part of a face; 1 in a region
-  Points normals;    // outward, unit; zero in a region, which has none
+  Vec weights;       // of each node: m^2, its part of a face (not positive at every node of one of order two); 1 in a
+                     // region
+  Points vectors;    // m^2, weight times outward normal; zero in a region, which has none
 };
 
 // Forces on the nodes of a face or a region.

@@ -1,5 +1,7 @@
 #include "model/meeting.hpp"
 
+#include "law/law.hpp"
+
 namespace dygita {
 
 PlacedFace placed(const Face& face) { return {face.part->mesh.get(), face.facets(), face.part->place, face.label()}; }
@@ -18,7 +20,7 @@ Meeting meeting_of(const Problem& problem, const Interface& interface) {
     return face.part->material.density * face.part->material.p_wave_speed();
   };
   const MeetingOptions options{interface.within.value_or(default_within(problem)), interface.points,
-                               impedance(interface.side_2) < impedance(interface.side_1)};
+                               impedance(interface.side_2) < impedance(interface.side_1), !interface.law->is_tie()};
   try {
     return {placed(interface.side_1), placed(interface.side_2), options};
   } catch (const InputError& error) {

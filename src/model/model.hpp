@@ -35,12 +35,13 @@ struct Substructure : Named {
 };
 using SubstructurePtr = std::shared_ptr<const Substructure>;
 
-// A named group of facets of a substructure's mesh.
+// A named group of facets of a substructure's mesh, or facets of it that were picked by their place.
 struct Face {
   SubstructurePtr part;
-  std::string group;
+  std::string group;                                      // or what they were picked by
+  std::shared_ptr<const std::vector<Facet>> picked = {};  // null: the mesh's group
 
-  const std::vector<Facet>& facets() const { return part->mesh->faces.at(group); }
+  const std::vector<Facet>& facets() const { return picked ? *picked : part->mesh->faces.at(group); }
   std::string label() const { return part->name + "." + group; }
 };
 

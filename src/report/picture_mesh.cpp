@@ -98,7 +98,13 @@ Vec in_front_of_cut(const Substructure& part, const View& view) {
   return ((part.mesh->nodes.colwise() + (part.place - view.cut_at)).transpose() * view.cut).array() + back;
 }
 
-// What of a facet lies behind the cut, in the order of its corners.
+std::vector<int> corners_of(const Facet& facet, const SubFacet& sub) {
+  std::vector<int> corners;
+  for (int a = 0; a < sub.n; ++a) corners.push_back(facet.nodes()[sub.nodes[a]]);
+  return corners;
+}
+
+// What of a polygon of nodes lies behind the cut, in the order of its corners.
 std::vector<int> behind(std::span<const int> corners, const Vec& front, SkinNodes& nodes) {
   std::vector<int> kept;
   for (size_t k = 0; k < corners.size(); ++k) {
@@ -114,9 +120,9 @@ std::vector<int> section(const CellBlock& block, int i_cell, const Vec& front, c
   std::vector<int> corners;
   for (int k = 0; k < facets_per_cell(block.type); ++k) {
     const Facet facet = facet_of_cell(block, i_cell, k);
-    const std::span<const int> around = facet.corners();
-    for (size_t j = 0; j < around.size(); ++j) {
-      const int a = around[j], b = around[(j + 1) % around.size()];
+    const std::span<const int> rim = facet_shape(facet.type()).rim;
+    for (size_t j = 0; j < rim.size(); ++j) {
+      const int a = facet.nodes()[rim[j]], b = facet.nodes()[rim[(j + 1) % rim.size()]];
       if (a > b || (front[a] <= 0.0) == (front[b] <= 0.0)) continue;  // each edge is met once in this order
       corners.push_back(nodes.between(a, b, front[a] / (front[a] - front[b])));
     }
@@ -154,8 +160,9 @@ Skin make_skin(const std::vector<SubstructurePtr>& parts, const View& view, cons
     nodes.begin(part, displacement.empty() ? nullptr : &displacement[p], values.empty() ? nullptr : &values[p], scale);
     const Vec front = view.is_cut ? in_front_of_cut(part, view) : Vec::Constant(part.mesh->n_nodes(), -1.0);
     for (const Facet& facet : boundary_facets(part.mesh->blocks))
-      if (const std::vector<int> kept = behind(facet.corners(), front, nodes); kept.size() >= 3)
-        add_polygon(kept, i_part, skin);
+      for (const SubFacet& sub : facet_shape(facet.type()).sub_facets)
+        if (const std::vector<int> kept = behind(corners_of(facet, sub), front, nodes); kept.size() >= 3)
+          add_polygon(kept, i_part, skin);
     if (!(front.maxCoeff() > 0.0)) continue;
     for (const CellBlock& block : part.mesh->blocks)
       for (int i = 0; i < block.n_cells(); ++i) add_polygon(section(block, i, front, view, nodes), i_part, skin);

@@ -59,16 +59,20 @@ void find_edges(Boundary& b) {
 Boundary boundary_of(const Substructure& part, const FacetLabels* labels) {
   Boundary b;
   const std::vector<Facet> facets = boundary_facets(part.mesh->blocks);
-  for (const Facet& facet : facets) b.nodes.insert(b.nodes.end(), facet.corners().begin(), facet.corners().end());
+  for (const Facet& facet : facets) b.nodes.insert(b.nodes.end(), facet.nodes().begin(), facet.nodes().end());
   std::sort(b.nodes.begin(), b.nodes.end());
   b.nodes.erase(std::unique(b.nodes.begin(), b.nodes.end()), b.nodes.end());
   b.x = part.mesh->nodes(Eigen::all, b.nodes).colwise() + part.place;
   for (const Facet& facet : facets) {
-    std::vector<int>& corners = b.facets.emplace_back();
-    for (const int node : facet.corners())
-      corners.push_back(static_cast<int>(std::lower_bound(b.nodes.begin(), b.nodes.end(), node) - b.nodes.begin()));
     const auto found = labels ? labels->find(facet_key(facet)) : FacetLabels::const_iterator{};
-    b.label.push_back(labels && found != labels->end() ? found->second : 0);
+    for (const SubFacet& sub : facet_shape(facet.type()).sub_facets) {
+      std::vector<int>& corners = b.facets.emplace_back();
+      for (int a = 0; a < sub.n; ++a) {
+        const auto at = std::lower_bound(b.nodes.begin(), b.nodes.end(), facet.nodes()[sub.nodes[a]]);
+        corners.push_back(static_cast<int>(at - b.nodes.begin()));
+      }
+      b.label.push_back(labels && found != labels->end() ? found->second : 0);
+    }
   }
   find_edges(b);
   return b;

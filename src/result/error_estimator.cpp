@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fem/mass.hpp"
 #include "fem/stress_error.hpp"
 
 namespace dygita {
@@ -12,24 +13,31 @@ namespace {
 
 constexpr int n_samples = 5;  // of the stress error, a dynamic step: each costs about a time step
 
-// Energy (J) of the stress error of all substructures, and the strain energy of the same displacements.
-std::pair<double, double> stress_energies(const Instant& instant, const std::vector<Points>* start) {
-  double error = 0.0, strain = 0.0;
+// Energies (J) of the stress error of all substructures, of those of linear cells alone, and the strain energy of the
+// same displacements.
+struct StressEnergies {
+  double error = 0.0, of_linear = 0.0, strain = 0.0;
+};
+
+StressEnergies stress_energies(const Instant& instant, const std::vector<Points>* start) {
+  StressEnergies energies;
   const Cut& cut = *instant.model.cut;
   for (size_t i = 0; i < instant.model.problem->substructures.size(); ++i) {
     const int part = static_cast<int>(i);
     const Substructure& body = *instant.model.problem->substructures[i];
     Points u = instant.displacement(part);
     if (start) u -= (*start)[i];
-    error += stress_error(*body.mesh, body.material, u).energy;
+    const double error = stress_error(*body.mesh, body.material, u).energy;
+    energies.error += error;
+    if (!has_consistent_mass(*body.mesh)) energies.of_linear += error;
     for (int p = cut.first(part); p < cut.first(part) + cut.n_pieces(part); ++p) {
       const Points own = cut.on_piece(p, u);
       const Points force = instant.model.pieces[p]->elastic_force(own);
-      strain +=
+      energies.strain +=
           0.5 * Eigen::Map<const Vec>(own.data(), own.size()).dot(Eigen::Map<const Vec>(force.data(), force.size()));
     }
   }
-  return {error, strain};
+  return energies;
 }
 
 // Masses (kg) and velocities (m/s) of all unknowns, in one order throughout a step.
@@ -158,14 +166,14 @@ void ErrorEstimator::accept_static(const Instant& instant) {
   if (instant.increment + 1 < instant.model.step->n_increments()) return;
   if (const double work = std::max(still_.work, 1e-8 * energies.strain); work > 0.0)
     static_.iteration = std::max({static_.iteration, still_.left / std::sqrt(work), still_.missing / work});
-  const auto [error, of] = stress_energies(instant, nullptr);
-  static_.mesh = std::max(static_.mesh, ratio(error, of));
+  const StressEnergies energies_now = stress_energies(instant, nullptr);
+  static_.mesh = std::max(static_.mesh, ratio(energies_now.error, energies_now.strain));
 }
 
 void ErrorEstimator::sample_stress(const Instant& instant) {
-  const auto [error, strain] = stress_energies(instant, &start_);
+  const auto [error, of_linear, strain] = stress_energies(instant, &start_);
   stress_energy_ = std::max(stress_energy_, error);
-  stress_sum_ += error;
+  stress_sum_ += of_linear;
   strain_sum_ += strain;
   shock_energy_ = std::max(shock_energy_, kinetic_now_ + strain);
   ++n_stress_;
@@ -203,8 +211,8 @@ ErrorEstimator::Estimate ErrorEstimator::dynamic_steps() const {
   // Rayleigh's quotient of the accelerations: blind to rigid motion and to what was stressed before.
   const double frequency2 = (rate_ / static_cast<double>(n_rates_)) / (2.0 * strain_sum_ / n_stress_);
   estimate.mean_frequency = std::sqrt(frequency2) / (2 * std::numbers::pi);
-  // Cells of length h leave (k h)^2 / 12 of the strain energy in the stress error, and turn a wave by w dt (k h)^2 / 24
-  // too little.
+  // Linear cells of length h leave (k h)^2 / 12 of the strain energy in the stress error, and turn a wave by w dt (k
+  // h)^2 / 24 too little. Cells of order two turn it by (k h)^4 / 1440 alone.
   const double turned = frequency2 > 0.0 ? 6.0 * stress_sum_ / strain_sum_ / (frequency2 * dt_ * dt_) : 0.0;
   const double phase = bank_ ? bank_->phase_error(turned) / root : 0.0;
   estimate.mesh = std::hypot(phase, ratio(stress_energy_, energy));

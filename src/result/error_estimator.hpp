@@ -81,7 +81,8 @@ class ErrorEstimator {
   double kinetic_ = 0.0, stored_ = 0.0;  // J, largest so far: kinetic of the relative velocities; kinetic + strain
   double shock_energy_ = 0.0;            // J, largest of the samples: kinetic, and strain of the shock
   double stress_energy_ = 0.0;           // J, largest of the samples
-  double stress_sum_ = 0.0, strain_sum_ = 0.0;  // of the samples: stress error and strain energy of the shock
+  // Of the samples: stress error of the parts of linear cells (eq. Q6), and strain energy of the shock.
+  double stress_sum_ = 0.0, strain_sum_ = 0.0;
   int n_stress_ = 0;
   double total_mass_ = 0.0;  // kg
   double rate_ = 0.0;        // sum of |dV / dt|^2, in the norm of the mass

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "fem/assembly.hpp"
+#include "fem/mass.hpp"
 #include "law/law.hpp"
 #include "numerics/dense.hpp"
 
@@ -166,6 +166,29 @@ void add_dampers(LinearAssembly& assembly) {
   assembly.damping += SparseMatrix(transposed * c_map);
 }
 
+// n x n, kg: as the cells of the body have it in a step.
+SparseMatrix nodal_mass(const Substructure& body, const BodyMatrices& matrices) {
+  if (has_consistent_mass(*body.mesh)) return consistent_mass(*body.mesh, body.material);
+  SparseMatrix lumped(matrices.mass.size(), matrices.mass.size());
+  lumped.reserve(Eigen::VectorXi::Constant(lumped.rows(), 1));
+  for (int i = 0; i < lumped.rows(); ++i) lumped.insert(i, i) = matrices.mass[i];
+  return lumped;
+}
+
+// The same for each of the three directions: 3n x 3n.
+SparseMatrix by_axis(const SparseMatrix& nodal) {
+  Triplets entries;
+  entries.reserve(static_cast<size_t>(3 * nodal.nonZeros()));
+  for (int row = 0; row < nodal.outerSize(); ++row)
+    for (SparseMatrix::InnerIterator entry(nodal, row); entry; ++entry)
+      for (int d = 0; d < 3; ++d)
+        entries.emplace_back(3 * static_cast<int>(entry.row()) + d, 3 * static_cast<int>(entry.col()) + d,
+                             entry.value());
+  SparseMatrix all(3 * nodal.rows(), 3 * nodal.cols());
+  all.setFromTriplets(entries.begin(), entries.end());
+  return all;
+}
+
 // Sum of factor(row) row row^T over the sums, on the unknowns.
 template <typename Factor>
 SparseMatrix products_of_sums(const LinearAssembly& assembly, Factor&& factor) {
@@ -216,10 +239,7 @@ void add_matrices(const Problem& problem, LinearAssembly& assembly) {
     const BodyMatrices& own = it->second;
     const SparseMatrix map = assembly.map.middleRows(3 * assembly.first_node[part], 3 * body.mesh->n_nodes());
     const SparseMatrix transposed = map.transpose();
-    SparseMatrix lumped(map.rows(), map.rows());
-    lumped.reserve(Eigen::VectorXi::Constant(map.rows(), 1));
-    for (int i = 0; i < map.rows(); ++i) lumped.insert(i, i) = own.mass[i / 3];
-    const SparseMatrix k_map = own.stiffness * map, m_map = lumped * map;
+    const SparseMatrix k_map = own.stiffness * map, m_map = by_axis(nodal_mass(body, own)) * map;
     const SparseMatrix k = transposed * k_map, m = transposed * m_map;
     assembly.stiffness += k;
     assembly.mass += m;

@@ -15,7 +15,7 @@ constexpr double most_bytes = 64e6;
 std::vector<int> boundary_nodes(const Mesh& mesh) {
   std::vector<int> nodes;
   for (const Facet& facet : boundary_facets(mesh.blocks))
-    nodes.insert(nodes.end(), facet.corners().begin(), facet.corners().end());
+    nodes.insert(nodes.end(), facet.nodes().begin(), facet.nodes().end());
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;

@@ -11,7 +11,7 @@ WeightedNodes weighted_nodes(const Problem& problem, const FaceOrRegion& place) 
     on.part = index_of(problem.substructures, face->part.get());
     const FaceNodes nodes = face_nodes(*face->part->mesh, face->facets());
     on.nodes = nodes.nodes;
-    on.weights.assign(nodes.areas.data(), nodes.areas.data() + nodes.areas.size());
+    on.weights.assign(nodes.weights.data(), nodes.weights.data() + nodes.weights.size());
   } else {
     const Region& region = std::get<Region>(place);
     on.part = index_of(problem.substructures, region.part.get());

@@ -8,7 +8,8 @@ namespace dygita {
 struct WeightedNodes {
   int part = -1;  // index in problem.substructures
   std::vector<int> nodes;
-  std::vector<double> weights;  // of a face m^2, of a region m^3: not normalised
+  std::vector<double> weights;  // of a face m^2, of a region m^3: not normalised; a face of order two has some of zero
+                                // or below, and their sum is its area
 };
 
 WeightedNodes weighted_nodes(const Problem& problem, const FaceOrRegion& place);

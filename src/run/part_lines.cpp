@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/log.hpp"
+#include "mesh/cell_quality.hpp"
 #include "result/limits.hpp"
 
 namespace dygita {
@@ -10,9 +11,10 @@ namespace dygita {
 std::string part_line(const Substructure& part) {
   const Points& nodes = part.mesh->nodes;
   const Vec3 size = 1e3 * (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff());
-  return fmt::format("  substructure '{}': {} nodes, {} cells, {}, {:.4g} kg, {:.4g} x {:.4g} x {:.4g} mm\n", part.name,
-                     part.mesh->n_nodes(), part.mesh->n_cells(), part.material.name,
-                     part.material.density * volume(*part.mesh), size[0], size[1], size[2]);
+  return fmt::format(
+      "  substructure '{}': {} nodes, {} cells (worst shape {:.2g}), {}, {:.4g} kg, {:.4g} x {:.4g} x {:.4g} mm\n",
+      part.name, part.mesh->n_nodes(), part.mesh->n_cells(), worst_shape(*part.mesh), part.material.name,
+      part.material.density * volume(*part.mesh), size[0], size[1], size[2]);
 }
 
 std::string mass_line(const Problem& problem) {

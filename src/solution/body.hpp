@@ -11,9 +11,16 @@ namespace dygita {
 
 // The mass of a substructure in dynamic steps.
 struct Mass {
-  Vec lumped;                     // kg, of each node
-  SparseMatrix matrix;            // n_nodes x n_nodes, kg, row sums as above; empty: lumped
+  Vec lumped;                     // kg, of each node, positive but where it has been moved
+  SparseMatrix matrix;            // n_nodes x n_nodes, kg, of the same total; empty: lumped
   std::vector<char> is_massless;  // nodes whose mass has been moved inside (manual, eq. S7); empty: none
+  bool is_consistent = false;     // row sums of the matrix are not the lumped masses
+
+  // Forces (N) of an acceleration, both 3 x n_nodes.
+  Points times(const Points& acceleration) const {
+    if (is_consistent) return (matrix * acceleration.transpose()).transpose();
+    return acceleration * lumped.asDiagonal();
+  }
 };
 
 // A substructure's matrices; shared by equal substructures and by all steps.

@@ -88,7 +88,9 @@ void CondensedPiece::set_search_directions(const Vec& k) {
 void CondensedPiece::prepare(double quiet) {
   add_start_force();
   // A support that moves never rests: what its velocity brings would be left out of W.
-  quiet_ = solves_for_change() && !op_.has_motions() ? quiet : 0.0;
+  // Of a consistent mass the lumped one beside it is no bound: soft patterns within a cell move on unseen.
+  const bool may_rest = solves_for_change() && !op_.has_motions() && !op_.setup().body->mass->is_consistent;
+  quiet_ = may_rest ? quiet : 0.0;
   is_forward_due_ = true;
   const bool is_quiet =
       quiet_ > 0.0 && op_.scheme().dt * work_.x.cwiseAbs2().cwiseQuotient(op_.mass().lumped()).sum() <= quiet_;

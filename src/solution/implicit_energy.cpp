@@ -56,7 +56,7 @@ IncrementEnergy ImplicitPiece::dynamic_works(const Vec& v_mean) {
   if (alpha > 0.0) energy.damping += dt * alpha * v_mean.dot(mass.times(v_mean));
   energy.damping += dt * beta * flow;
   if (op_.has_motions() && alpha + beta > 0.0) energy.damping = damped_energy(v_mean);
-  if (!op_.absorbing().empty()) {
+  if (op_.absorbs()) {
     Vec drag = Vec::Zero(s.v.size());
     op_.apply_absorbing(v_mean, 1.0, drag);
     energy.damping += dt * v_mean.dot(drag);

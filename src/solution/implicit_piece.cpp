@@ -211,6 +211,8 @@ Points ImplicitPiece::absorbing_force() const {
   const Points mean =
       interval_.n > 1 ? means().velocity : op_.unknowns().expand(g * work_.v_old + (1 - g) * state_.v, state_.held_v);
   for (const auto& [node, impedance] : op_.absorbing()) force.col(node) = -impedance * mean.col(node);
+  for (const auto& [node, other, impedance] : op_.setup().absorbing_pairs)
+    force.col(node) -= impedance * mean.col(other);
   return force;
 }
 

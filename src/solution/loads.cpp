@@ -29,7 +29,7 @@ NodesUnderLoad nodes_under_load(const FaceOrRegion& on) {
   } else {
     const Face& face = std::get<Face>(on);
     FaceNodes nodes = face_nodes(*face.part->mesh, face.facets());
-    result.loaded = {Points(3, nodes.areas.size()), std::move(nodes.areas), std::move(nodes.normals)};
+    result.loaded = {Points(3, nodes.areas.size()), std::move(nodes.weights), std::move(nodes.vectors)};
     result.nodes = std::move(nodes.nodes);
   }
   const Substructure& part = *std::visit([](const auto& place) { return place.part; }, on);
@@ -38,12 +38,12 @@ NodesUnderLoad nodes_under_load(const FaceOrRegion& on) {
   return result;
 }
 
-Loads::Loads(const Problem& problem, const Step& step, const State& start, const std::vector<const Vec*>& masses)
+Loads::Loads(const Problem& problem, const Step& step, const State& start, const InertiaForce& inertia)
     : problem_(problem), step_(step) {
   for (const LoadPtr& load : step.loads)
     for (const Effect& effect : load->effects())
       std::visit(overloaded{[&](const NodalForces& forces) { add(forces, forces.value, start); },
-                            [&](const BodyForce& force) { add(force, force.value, start, masses); },
+                            [&](const BodyForce& force) { add(force, force.value, start, inertia); },
                             [&](const PrescribedMotion& motion) { note_reached(motion, start); },
                             [&](const Shortening& shortening) { add(shortening, start); },
                             [&](const PreloadForce& preload) {
@@ -52,7 +52,7 @@ Loads::Loads(const Problem& problem, const Step& step, const State& start, const
                             [&](const Release& release) { releases_.emplace_back(release.on.get(), release.at); },
                             Ignored<BaseMotion>()},  // moves with the conditions
                  effect);
-  if (step.is_static) add_vanished(start, masses);
+  if (step.is_static) add_vanished(start, inertia);
 }
 
 void Loads::add(const NodalForces& forces, const TimeValue& value, const State& start) {
@@ -64,13 +64,15 @@ void Loads::add(const NodalForces& forces, const TimeValue& value, const State& 
   patterns_.push_back(std::move(pattern));
 }
 
-void Loads::add(const BodyForce& force, const TimeValue& value, const State& start,
-                const std::vector<const Vec*>& masses) {
-  for (size_t i = 0; i < masses.size(); ++i) {
+void Loads::add(const BodyForce& force, const TimeValue& value, const State& start, const InertiaForce& inertia) {
+  for (size_t i = 0; i < problem_.substructures.size(); ++i) {
     const Substructure& part = *problem_.substructures[i];
     LoadPattern pattern{static_cast<int>(i), {}, {value, value_reached(start, force.name)}, force.name};
-    for (int node = 0; node < masses[i]->size(); ++node)
-      pattern.nodes.emplace_back(node, (*masses[i])[node] * force.unit(part.mesh->nodes.col(node) + part.place));
+    Points acceleration(3, part.mesh->n_nodes());
+    for (int node = 0; node < part.mesh->n_nodes(); ++node)
+      acceleration.col(node) = force.unit(part.mesh->nodes.col(node) + part.place);
+    const Points unit = inertia(static_cast<int>(i), acceleration);
+    for (int node = 0; node < part.mesh->n_nodes(); ++node) pattern.nodes.emplace_back(node, unit.col(node));
     patterns_.push_back(std::move(pattern));
   }
 }
@@ -95,7 +97,7 @@ void Loads::note_reached(const PrescribedMotion& motion, const State& start) {
 }
 
 // A force of the step before that is no longer listed is taken off along the same ramp.
-void Loads::add_vanished(const State& start, const std::vector<const Vec*>& masses) {
+void Loads::add_vanished(const State& start, const InertiaForce& inertia) {
   const int i_step = index_of(problem_.steps, &step_);
   if (i_step <= 0) return;
   const TimeValue nothing{History::constant(0.0), true};
@@ -114,7 +116,7 @@ void Loads::add_vanished(const State& start, const std::vector<const Vec*>& mass
   for (const NodalForces& forces : nodal_forces)
     if (has_vanished(load_key(forces.name, forces.on))) add(forces, nothing, start);
   for (const BodyForce& force : body_forces)
-    if (has_vanished(force.name)) add(force, nothing, start, masses);
+    if (has_vanished(force.name)) add(force, nothing, start, inertia);
 }
 
 void Loads::evaluate(int increment) {

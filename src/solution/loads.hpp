@@ -20,10 +20,13 @@ struct NodesUnderLoad {
 };
 NodesUnderLoad nodes_under_load(const FaceOrRegion& on);
 
+// Mass of a substructure times an acceleration of its nodes (3 x n, m/s^2): N.
+using InertiaForce = std::function<Points(int part, const Points& acceleration)>;
+
 class Loads {
  public:
-  // masses: nodal masses (kg) of each substructure, for gravity.
-  Loads(const Problem& problem, const Step& step, const State& start, const std::vector<const Vec*>& masses);
+  // inertia: for gravity.
+  Loads(const Problem& problem, const Step& step, const State& start, const InertiaForce& inertia);
 
   // Evaluates all loads for an increment: at its end in a static step, mean over it in a dynamic one. One thread only:
   // a history may be a function of the deck.
@@ -47,10 +50,10 @@ class Loads {
 
  private:
   void add(const NodalForces& forces, const TimeValue& value, const State& start);
-  void add(const BodyForce& force, const TimeValue& value, const State& start, const std::vector<const Vec*>& masses);
+  void add(const BodyForce& force, const TimeValue& value, const State& start, const InertiaForce& inertia);
   void add(const Shortening& shortening, const State& start);
   void note_reached(const PrescribedMotion& motion, const State& start);
-  void add_vanished(const State& start, const std::vector<const Vec*>& masses);
+  void add_vanished(const State& start, const InertiaForce& inertia);
 
   const Problem& problem_;
   const Step& step_;

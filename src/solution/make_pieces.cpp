@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "base/error.hpp"
@@ -16,9 +17,34 @@ namespace dygita {
 
 namespace {
 
-// Impedance of absorbing supports at each node (manual, absorbing support).
-std::unordered_map<int, Mat3> absorbing_impedance(const Problem& problem, const Step& step, int part) {
-  std::unordered_map<int, Mat3> impedance;
+// Impedance of absorbing supports (manual, absorbing support): lumped at the nodes of linear facets, consistent on
+// those of order two.
+struct AbsorbingImpedance {
+  std::unordered_map<int, Mat3> of_nodes;
+  std::vector<NodePairImpedance> of_pairs;
+};
+
+// A lumped impedance would scatter waves at the scale of the nodes, where the mass behind it is consistent.
+void add_facet(const Substructure& body, const Facet& facet, AbsorbingImpedance& impedance) {
+  const double z_n = body.material.density * body.material.p_wave_speed();
+  const double z_t = body.material.density * body.material.s_wave_speed();
+  const std::span<const int> nodes = facet.nodes();
+  for (const FacetSample& sample : facet_samples(body.mesh->nodes, facet)) {
+    const double area = sample.area.norm();
+    const Mat3 along = sample.area * sample.area.transpose() / (area * area);
+    const Mat3 z = area * (z_n * along + z_t * (Mat3::Identity() - along));
+    for (size_t a = 0; a < nodes.size(); ++a)
+      for (size_t b = 0; b < nodes.size(); ++b) {
+        const double share = sample.values[static_cast<Eigen::Index>(a)] * sample.values[static_cast<Eigen::Index>(b)];
+        impedance.of_pairs.push_back({nodes[a], nodes[b], share * z});
+      }
+  }
+}
+
+bool is_linear(const Facet& facet) { return facet.nodes().size() == facet.corners().size(); }
+
+AbsorbingImpedance absorbing_impedance(const Problem& problem, const Step& step, int part) {
+  AbsorbingImpedance impedance;
   if (step.is_static) return impedance;
   const Substructure& body = *problem.substructures[part];
   const double z_n = body.material.density * body.material.p_wave_speed();
@@ -28,10 +54,16 @@ std::unordered_map<int, Mat3> absorbing_impedance(const Problem& problem, const 
     for (const FaceOrRegion& on : support->on) {
       const Face& face = std::get<Face>(on);
       if (face.part.get() != &body) continue;
-      const FaceNodes nodes = face_nodes(*body.mesh, face.facets());
+      std::vector<Facet> linear;
+      for (const Facet& facet : face.facets())
+        if (is_linear(facet))
+          linear.push_back(facet);
+        else
+          add_facet(body, facet, impedance);
+      const FaceNodes nodes = face_nodes(*body.mesh, linear);
       for (size_t i = 0; i < nodes.nodes.size(); ++i) {
         const Mat3 along = nodes.normals.col(i) * nodes.normals.col(i).transpose();
-        auto [it, is_new] = impedance.emplace(nodes.nodes[i], Mat3::Zero());
+        auto [it, is_new] = impedance.of_nodes.emplace(nodes.nodes[i], Mat3::Zero());
         it->second += nodes.areas[i] * (z_n * along + z_t * (Mat3::Identity() - along));
       }
     }
@@ -56,6 +88,22 @@ std::unordered_map<int, Mat3> absorbing_of_piece(const Cut& cut, int piece,
   for (const auto& [node, impedance] : of_part)
     if (const Copy owner = cut.owner(cut.piece(piece).part, node); owner.piece == piece)
       own.emplace(owner.node, impedance);
+  return own;
+}
+
+// Of the first piece that has both nodes: that of the facet they are on.
+std::vector<NodePairImpedance> absorbing_pairs_of_piece(const Cut& cut, int piece,
+                                                        const std::vector<NodePairImpedance>& of_part) {
+  const int part = cut.piece(piece).part;
+  if (!cut.is_cut(part)) return of_part;
+  std::vector<NodePairImpedance> own;
+  for (const NodePairImpedance& pair : of_part) {
+    int first = std::numeric_limits<int>::max(), node = -1, other = -1;
+    for (const Copy& a : cut.copies(part, pair.node))
+      for (const Copy& b : cut.copies(part, pair.other))
+        if (a.piece == b.piece && a.piece < first) first = a.piece, node = a.node, other = b.node;
+    if (first == piece) own.push_back({node, other, pair.impedance});
+  }
   return own;
 }
 
@@ -104,7 +152,7 @@ Precision precision_of(const StepModel& model, int part, const Body& body) {
 std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body>& bodies) {
   const int n = model.cut->n_pieces();
   CHECK(static_cast<int>(bodies.size()) == n, "one body a piece");
-  std::vector<std::unordered_map<int, Mat3>> absorbing;
+  std::vector<AbsorbingImpedance> absorbing;
   for (size_t part = 0; part < model.problem->substructures.size(); ++part)
     absorbing.push_back(absorbing_impedance(*model.problem, *model.step, static_cast<int>(part)));
   std::vector<PieceSetup> setups(n);
@@ -114,7 +162,8 @@ std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body
     setup.body = &bodies[i];
     setup.scheme = model.scheme;
     setup.held = held_of_piece(model, i);
-    setup.absorbing = absorbing_of_piece(*model.cut, i, absorbing[part]);
+    setup.absorbing = absorbing_of_piece(*model.cut, i, absorbing[part].of_nodes);
+    setup.absorbing_pairs = absorbing_pairs_of_piece(*model.cut, i, absorbing[part].of_pairs);
     setup.rows = rows_of(model, i, setup.held);
     setup.n_motions = static_cast<int>(model.conditions.motions.size());
     setup.what = (n_cut > 1 ? fmt::format("piece {} of {} of ", i - model.cut->first(part) + 1, n_cut) : "") +

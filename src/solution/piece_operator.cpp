@@ -56,16 +56,17 @@ bool are_equal(const PieceSetup& a, const PieceSetup& b) {
   const Damping &damping_a = a.body->part->material.damping, &damping_b = b.body->part->material.damping;
   return a.body->matrices == b.body->matrices && a.body->mass == b.body->mass && a.precision == b.precision &&
          a.scheme.c1(damping_a) == b.scheme.c1(damping_b) && a.mass_share() == b.mass_share() && a.absorbing.empty() &&
-         b.absorbing.empty() && are_equal(a.rows, b.rows) && are_equal(a.held, b.held);
+         b.absorbing.empty() && a.absorbing_pairs.empty() && b.absorbing_pairs.empty() && are_equal(a.rows, b.rows) &&
+         are_equal(a.held, b.held);
 }
 
 namespace {
 
-void add_block(const FreeUnknowns& unknowns, int node, const Mat3& block, SparseMatrix& a) {
-  const Mat3 basis = unknowns.basis(node);
+void add_block(const FreeUnknowns& unknowns, int node, int other, const Mat3& block, SparseMatrix& a) {
+  const Mat3 left = unknowns.basis(node), right = unknowns.basis(other);
   for (int r = 0; r < unknowns.count(node); ++r)
-    for (int c = 0; c < unknowns.count(node); ++c)
-      a.coeffRef(unknowns.first(node) + r, unknowns.first(node) + c) += basis.col(r).dot(block * basis.col(c));
+    for (int c = 0; c < unknowns.count(other); ++c)
+      a.coeffRef(unknowns.first(node) + r, unknowns.first(other) + c) += left.col(r).dot(block * right.col(c));
 }
 
 // T^T k T of the rows over several nodes.
@@ -129,7 +130,9 @@ SparseMatrix matrix_without_rows(const PieceSetup& setup, const FreeUnknowns& un
   }
   a.makeCompressed();
   for (const auto& [node, impedance] : by_node(setup.absorbing))
-    add_block(unknowns, node, (1 - scheme.g) * impedance, a);
+    add_block(unknowns, node, node, (1 - scheme.g) * impedance, a);
+  for (const auto& [node, other, impedance] : setup.absorbing_pairs)
+    add_block(unknowns, node, other, (1 - scheme.g) * impedance, a);
   return a;
 }
 
@@ -142,7 +145,8 @@ SparseMatrix piece_matrix(const PieceSetup& setup, const FreeUnknowns& unknowns,
     if (row_stiffness[i] == 0.0) continue;
     const InterfaceRow& row = setup.rows[i];
     if (row.is_of_one_node())
-      add_block(unknowns, row.nodes[0].node, row_stiffness[i] * row.nodes[0].along * row.nodes[0].along.transpose(), a);
+      add_block(unknowns, row.nodes[0].node, row.nodes[0].node,
+                row_stiffness[i] * row.nodes[0].along * row.nodes[0].along.transpose(), a);
     else
       is_coupled = true;
   }
@@ -159,7 +163,7 @@ SparseMatrix matrix_with_reference(const PieceSetup& setup, const FreeUnknowns& 
   SparseMatrix a = matrix_without_rows(setup, unknowns);
   for (const InterfaceRow& row : setup.rows)
     for (const NodeAlong& on : row.nodes)
-      if (row.reference_stiffness != 0.0) add_block(unknowns, on.node, reference_spring(row, on), a);
+      if (row.reference_stiffness != 0.0) add_block(unknowns, on.node, on.node, reference_spring(row, on), a);
   return a;
 }
 
@@ -249,13 +253,15 @@ Vec PieceOperator::pull_of_motions(const std::vector<double>& motion_velocity) c
 }
 
 void PieceOperator::apply_absorbing(const Vec& v, double factor, Vec& out) const {
-  for (const auto& [node, impedance] : absorbing_) {
-    const Mat3 basis = unknowns_.basis(node);
+  const auto add = [&](int node, int other, const Mat3& impedance) {
+    const Mat3 left = unknowns_.basis(node), right = unknowns_.basis(other);
     Vec3 nodal = Vec3::Zero();
-    for (int j = 0; j < unknowns_.count(node); ++j) nodal += v[unknowns_.at(node, j)] * basis.col(j);
+    for (int j = 0; j < unknowns_.count(other); ++j) nodal += v[unknowns_.at(other, j)] * right.col(j);
     const Vec3 force = factor * (impedance * nodal);
-    for (int j = 0; j < unknowns_.count(node); ++j) out[unknowns_.at(node, j)] += basis.col(j).dot(force);
-  }
+    for (int j = 0; j < unknowns_.count(node); ++j) out[unknowns_.at(node, j)] += left.col(j).dot(force);
+  };
+  for (const auto& [node, impedance] : absorbing_) add(node, node, impedance);
+  for (const auto& [node, other, impedance] : setup_.absorbing_pairs) add(node, other, impedance);
 }
 
 }  // namespace dygita

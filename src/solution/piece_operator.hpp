@@ -9,13 +9,20 @@
 
 namespace dygita {
 
+// Force on a node by the velocity of another one, or its own (N s/m).
+struct NodePairImpedance {
+  int node, other;
+  Mat3 impedance;
+};
+
 // What a piece is in a step.
 struct PieceSetup {
   const Body* body = nullptr;
   Scheme scheme;
   std::vector<InterfaceRow> rows;
   std::unordered_map<int, Held> held;
-  std::unordered_map<int, Mat3> absorbing;  // impedance of nodes (N s/m), dynamic steps
+  std::unordered_map<int, Mat3> absorbing;         // impedance of nodes (N s/m), dynamic steps
+  std::vector<NodePairImpedance> absorbing_pairs;  // of facets of order two
   int n_motions = 0;
   std::string what;                                   // "substructure 'rod' in step 'shock'", for messages
   Precision precision = Precision::double_precision;  // of what is stored of the factor and of H
@@ -71,6 +78,7 @@ class PieceOperator {
   Vec pull_of_motions(const std::vector<double>& motion_velocity) const;
   // out += factor Z v, at non-reflecting supports.
   void apply_absorbing(const Vec& v, double factor, Vec& out) const;
+  bool absorbs() const { return !setup_.absorbing.empty() || !setup_.absorbing_pairs.empty(); }
   const std::vector<std::pair<int, Mat3>>& absorbing() const { return absorbing_; }  // node, impedance (N s/m), by node
 
  private:

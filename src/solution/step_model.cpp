@@ -93,15 +93,16 @@ Points StepModel::reactions(int part, const State& state) const {
 
 namespace {
 
-// Nodal masses (kg) of each substructure.
-std::vector<Vec> masses_of(const Problem& problem, const Cut& cut, const std::vector<Body>& bodies) {
-  std::vector<Vec> masses;
-  for (const SubstructurePtr& part : problem.substructures) masses.push_back(Vec::Zero(part->mesh->n_nodes()));
-  for (int p = 0; p < cut.n_pieces(); ++p) {
-    const Vec& own = bodies[p].mass->lumped;
-    for (int i = 0; i < own.size(); ++i) masses[cut.piece(p).part][cut.piece(p).node(i)] += own[i];
-  }
-  return masses;
+// Mass times an acceleration of the nodes (3 x n) of a substructure.
+InertiaForce inertia_of(const Cut& cut, const std::vector<Body>& bodies) {
+  return [&](int part, const Points& acceleration) {
+    Points force = Points::Zero(3, acceleration.cols());
+    for (int p = cut.first(part); p < cut.first(part) + cut.n_pieces(part); ++p) {
+      const Points own = bodies[p].mass->times(cut.on_piece(p, acceleration));
+      for (Eigen::Index i = 0; i < own.cols(); ++i) force.col(cut.piece(p).node(static_cast<int>(i))) += own.col(i);
+    }
+    return force;
+  };
 }
 
 void split_loads(StepModel& model) {
@@ -127,14 +128,12 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
   model.surfaces = &surfaces;
   if (!step.is_static) model.scheme = {false, step.dt, 0.5 * (1.0 - problem.numerical_damping())};
   model.conditions = make_conditions(problem, step, start);
-  const std::vector<Vec> mass_values = masses_of(problem, *cut, bodies);
-  std::vector<const Vec*> masses;
-  for (const Vec& mass : mass_values) masses.push_back(&mass);
-  model.loads = std::make_unique<Loads>(problem, step, start, masses);
+  model.loads = std::make_unique<Loads>(problem, step, start, inertia_of(*cut, bodies));
   if (step.is_static) {
     std::vector<Points> force;
     model.loads->evaluate(step.increments - 1);
-    for (size_t i = 0; i < masses.size(); ++i) force.push_back(model.external_force(static_cast<int>(i), start));
+    for (size_t i = 0; i < problem.substructures.size(); ++i)
+      force.push_back(model.external_force(static_cast<int>(i), start));
     // What is free to move, and where it is pinned, is a matter of the substructures.
     pin_free_motions(problem, step, make_exchange(problem, step, *no_cut(problem), surfaces, model.conditions), force,
                      model.conditions);

@@ -50,6 +50,17 @@ class SharedLaws {
   std::deque<LawPtr> known_;
 };
 
+// A law acts point by point with the force on the area of a node: forces that are zero or pull at the corners of a
+// facet under uniform pressure would open it there.
+void check_wall(const Surface& surface) {
+  for (const Facet& facet : surface.facing.facets)
+    if (facet_shape(facet.type()).is_shared_by_sub_facets)
+      throw InputError(surface.wall->origin,
+                       "'" + surface.name() + "' is on facets of " + std::to_string(facet.nodes().size()) +
+                           " nodes, which no wall can take yet\n    mesh the part with order = 1, or with cell = "
+                           "\"hex27\" where it is of hexahedra; an interface.contact with a fixed body takes them");
+}
+
 // Facets named by two interfaces would carry their forces twice. Where meshes do not match, a facet may lie under
 // several bodies, but under each only once.
 void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces) {
@@ -190,6 +201,7 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
       surface.part_1 = index_of(problem.substructures, face.part.get());
       surface.facing = facing_of(placed(face));
       surface.law = laws.of(wall->kind->law());
+      check_wall(surface);
       surfaces.push_back(std::move(surface));
     }
   check_overlaps(problem, surfaces);

@@ -189,13 +189,11 @@ void LinearAnalysis::assemble_free() {
     for (const int node : node_of_[part])
       for (int axis = 0; axis < 3; ++axis)
         if (const int u = unknown_of_[3 * node + axis]; u >= 0) velocity_start_[u] = body.velocity[axis];
-    Vec own(body.mesh->n_nodes());
-    own = body.material.density * nodal_volumes(*body.mesh);
-    forces_->masses.push_back(std::move(own));
+    forces_->masses.push_back(body.material.density * nodal_volumes(*body.mesh));
   }
-  std::vector<const Vec*> masses;
-  for (const Vec& m : forces_->masses) masses.push_back(&m);
-  forces_->loads = std::make_unique<Loads>(problem_, *step_, forces_->start, masses);
+  forces_->loads = std::make_unique<Loads>(problem_, *step_, forces_->start, [&](int part, const Points& acceleration) {
+    return Points(acceleration * forces_->masses[static_cast<size_t>(part)].asDiagonal());
+  });
 }
 
 Vec LinearAnalysis::force(int increment) {

@@ -14,22 +14,15 @@ Elastic material_of(double young, double poisson, double density) {
 }
 
 std::vector<int> split(CellType type, const int* hex) {
-  static const std::map<CellType, std::vector<int>> local = {
-      {CellType::hex8, {0, 1, 2, 3, 4, 5, 6, 7}},
-      {CellType::prism6, {0, 2, 1, 4, 6, 5, 0, 3, 2, 4, 7, 6}},
-      {CellType::tet4, {0, 1, 2, 6, 0, 2, 3, 6, 0, 3, 7, 6, 0, 7, 4, 6, 0, 4, 5, 6, 0, 5, 1, 6}}};
+  static const std::map<CellType, std::vector<int>> local = {{CellType::hex8, {0, 1, 2, 3, 4, 5, 6, 7}},
+                                                             {CellType::prism6, {0, 2, 1, 4, 6, 5, 0, 3, 2, 4, 7, 6}}};
   std::vector<int> nodes;
   for (const int a : local.at(type)) nodes.push_back(hex[a]);
   return nodes;
 }
 
 Mesh box_of(CellType type, const Vec3& size, const std::array<int, 3>& cells) {
-  Mesh mesh = *box_mesh(Vec3::Zero(), size, cells);
-  const CellBlock hexahedra = mesh.blocks[0];
-  mesh.blocks = {{type, {}}};
-  for (int i = 0; i < hexahedra.n_cells(); ++i)
-    for (const int node : split(type, hexahedra.cell(i))) mesh.blocks[0].nodes.push_back(node);
-  return mesh;
+  return *box_mesh(Vec3::Zero(), size, cells, type);
 }
 
 Mesh mixed_box(const Vec3& size, const std::array<int, 3>& cells) {

@@ -20,7 +20,7 @@ inline const std::vector<CellType> cell_types = [] {
 
 Elastic material_of(double young, double poisson, double density = 1.0);
 
-// The cells that fill a hexahedron of nodes `hex`.
+// The hexahedron of nodes `hex`, or the two prisms that fill it.
 std::vector<int> split(CellType type, const int* hex);
 
 // A box of one cell type.

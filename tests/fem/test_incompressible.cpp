@@ -114,7 +114,9 @@ double imprint(CellType type, int n, double poisson) {
   Points forces = Points::Zero(3, mesh.n_nodes());
   const Vec areas = [&] {
     Vec shares = Vec::Zero(mesh.n_nodes());
-    for (const Facet& facet : mesh.faces.at("zmax")) {
+    // By the quadrangles of the grid, whatever it is cut into.
+    const MeshPtr grid = box_mesh(Vec3::Zero(), Vec3::Ones(), {n, n, n});
+    for (const Facet& facet : grid->faces.at("zmax")) {
       Vec3 centre = Vec3::Zero();
       for (const int node : facet.nodes()) centre += mesh.nodes.col(node) / 4;
       if (centre[0] < 0.5 && centre[1] < 0.5)

@@ -43,6 +43,7 @@ Mat full_stiffness(const Mesh& mesh) { return Mat(assemble(mesh, steel).stiffnes
 
 TEST(UniformStrain, rigid_motion_gives_no_force) {
   for (const CellType type : cell_types) {
+    if (cell_shape(type).inertia == Inertia::consistent) continue;  // explicit steps do without them
     const Mesh mesh = distorted(type);
     Mat3 spin;
     spin << 0, -1, 2, 1, 0, -3, -2, 3, 0;
@@ -53,6 +54,7 @@ TEST(UniformStrain, rigid_motion_gives_no_force) {
 
 TEST(UniformStrain, constant_strain_gives_the_forces_of_the_assembled_stiffness_on_distorted_cells) {
   for (const CellType type : cell_types) {
+    if (cell_shape(type).inertia == Inertia::consistent) continue;  // explicit steps do without them
     const Mesh mesh = distorted(type);
     const Points u = linear_field(mesh, some_gradient());
     const Vec full = full_stiffness(mesh) * Eigen::Map<const Vec>(u.data(), u.size());
@@ -127,6 +129,7 @@ TEST(UniformStrain, equal_cells_share_one_geometry_and_give_the_same_forces) {
 
 TEST(UniformStrain, bulk_viscosity_presses_against_a_volume_that_closes_and_dissipates) {
   for (const CellType type : cell_types) {
+    if (cell_shape(type).inertia == Inertia::consistent) continue;  // explicit steps do without them
     const Mesh mesh = distorted(type);
     const double rate = 300.0, dt = 1e-8;  // 1/s, s
     for (const double sign : {-1.0, 1.0}) {

@@ -190,6 +190,56 @@ TEST(CellTypes, name_the_rim_of_a_facet_in_turn) {
   }
 }
 
+// Areas of the nodes of a flat facet, in parts of it.
+TEST(CellTypes, share_a_facet_among_its_nodes_in_positive_parts) {
+  struct Known {
+    FacetType type;
+    double corner, edge, middle;                       // areas
+    double corner_weight, edge_weight, middle_weight;  // integrals of the shape functions
+  };
+  for (const Known& known :
+       {Known{FacetType::tri3, 1.0 / 3, 0, 0, 1.0 / 3, 0, 0}, Known{FacetType::quad4, 0.25, 0, 0, 0.25, 0, 0},
+        Known{FacetType::tri6, 1.0 / 12, 0.25, 0, 0, 1.0 / 3, 0},
+        Known{FacetType::quad8, 1.0 / 24, 5.0 / 24, 0, -1.0 / 12, 1.0 / 3, 0},
+        Known{FacetType::quad9, 1.0 / 36, 1.0 / 9, 4.0 / 9, 1.0 / 36, 1.0 / 9, 4.0 / 9}}) {
+    const FacetShape& facet = facet_shape(known.type);
+    Mesh mesh;
+    mesh.nodes = nodes_of_reference(facet.shape);
+    std::vector<int> numbers;
+    for (int a = 0; a < nodes_per_facet(known.type); ++a) numbers.push_back(a);
+    const FaceNodes nodes = face_nodes(mesh, {Facet(known.type, numbers)});
+    const double area = facet.n_corners == 3 ? 0.5 : 4.0;
+    for (int a = 0; a < nodes_per_facet(known.type); ++a) {
+      const int kind = a < facet.n_corners ? 0 : a < 2 * facet.n_corners ? 1 : 2;
+      EXPECT_NEAR(nodes.areas[a], area * (&known.corner)[kind], 1e-14) << name_of(facet) << ", node " << a;
+      EXPECT_NEAR(nodes.weights[a], area * (&known.corner_weight)[kind], 1e-14) << name_of(facet) << ", node " << a;
+      EXPECT_LT((nodes.normals.col(a) - Vec3::UnitZ()).norm(), 1e-14) << name_of(facet) << ", node " << a;
+      EXPECT_LT((nodes.vectors.col(a) - nodes.weights[a] * Vec3::UnitZ()).norm(), 1e-14) << name_of(facet);
+    }
+  }
+}
+
+TEST(CellTypes, cut_a_facet_into_polygons_that_cover_it) {
+  for (const FacetShape& facet : facet_shapes) {
+    const Points x = nodes_of_reference(facet.shape);
+    std::vector<int> used;
+    double area = 0.0;
+    for (const SubFacet& sub : facet.sub_facets) {
+      used.insert(used.end(), sub.nodes.begin(), sub.nodes.begin() + sub.n);
+      for (int k = 2; k < sub.n; ++k) {
+        const Vec3 a = x.col(sub.nodes[0]), b = x.col(sub.nodes[k - 1]), c = x.col(sub.nodes[k]);
+        const double part = 0.5 * ((b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0]);
+        EXPECT_GT(part, 0.0) << name_of(facet);
+        area += part;
+      }
+    }
+    EXPECT_NEAR(area, facet.n_corners == 3 ? 0.5 : 4.0, 1e-14) << name_of(facet);
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    EXPECT_EQ(static_cast<int>(used.size()), nodes_per_facet(facet.type)) << name_of(facet);
+  }
+}
+
 TEST(CellTypes, fill_a_brick_by_as_many_as_they_say) {
   for (const CellShape& cell : cell_shapes) {
     const Points x = nodes_of_reference(cell.shape);

@@ -8,6 +8,7 @@
 #include "mesh/expect_input_error.hpp"
 #include "mesh/facing.hpp"
 #include "mesh/gmsh_reader.hpp"
+#include "mesh/jacobian.hpp"
 
 namespace dygita {
 namespace {
@@ -141,10 +142,68 @@ TEST_F(GmshReader, refuses_a_file_without_volumes) {
   expect_input_error([&] { read(file); }, {"flat.geo", "no volume"});
 }
 
-TEST_F(GmshReader, refuses_quadratic_cells_and_pyramids_by_name) {
-  const std::string quadratic =
-      write("quadratic.geo", "Mesh.ElementOrder = 2; SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1};");
-  expect_input_error([&] { read(quadratic); }, {"quadratic.geo", "volume1", "order 2, 10 nodes", "hex8, prism6, tet4"});
+// A quarter of a tube of one layer, by cells of each kind; recombined where `recombine` says so.
+std::string quarter_tube(bool recombine) {
+  return std::string(R"(SetFactory("Built-in");
+Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {2, 0, 0}; Point(4) = {0, 1, 0}; Point(5) = {0, 2, 0};
+Line(1) = {2, 3}; Circle(2) = {3, 1, 5}; Line(3) = {5, 4}; Circle(4) = {4, 1, 2};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Transfinite Curve {1, 3} = 3; Transfinite Curve {2, 4} = 5; Transfinite Surface {1};)") +
+         (recombine ? "Recombine Surface {1};\n" : "\n") + "tube[] = Extrude {0, 0, 1} { Surface{1}; Layers{2};" +
+         "Recombine; };\n" +
+         R"(Physical Volume("tube") = {tube[1]}; Physical Surface("tube.inside") = {tube[5]};
+Physical Surface("tube.bottom") = {1};)";
+}
+
+TEST_F(GmshReader, makes_cells_of_order_two_that_follow_round_surfaces) {
+  for (const bool is_complete : {false, true})
+    for (const bool recombine : {false, true}) {
+      GmshOptions options;
+      options.file = write("tube.geo", quarter_tube(recombine));
+      options.order = 2;
+      options.is_complete = is_complete;
+      const MeshPtr tube = GmshMeshes(options).volume("tube");
+      ASSERT_EQ(tube->blocks.size(), 1u);
+      const CellType expected = recombine ? (is_complete ? CellType::hex27 : CellType::hex20)
+                                          : (is_complete ? CellType::prism18 : CellType::prism15);
+      EXPECT_EQ(tube->blocks[0].type, expected);
+      const double exact = 3.0 * M_PI / 4.0;
+      EXPECT_NEAR(volume(*tube), exact, 2e-4 * exact);  // 4 facets a quarter; linear ones leave 2.5 %
+      const FaceNodes inside = face_nodes(*tube, tube->faces.at("inside"));
+      EXPECT_NEAR(inside.weights.sum(), M_PI / 2.0, 2e-4);
+      EXPECT_NEAR(inside.areas.sum(), inside.weights.sum(), 1e-6);
+      EXPECT_GT(inside.areas.minCoeff(), 0.0);
+      for (Eigen::Index i = 0; i < inside.areas.size(); ++i) {
+        const Vec3 x = tube->nodes.col(inside.nodes[static_cast<size_t>(i)]);
+        EXPECT_NEAR(std::hypot(x[0], x[1]), 1.0, 1e-9) << "a node off the surface";
+        EXPECT_GT(inside.normals.col(i).dot(-Vec3(x[0], x[1], 0.0)), 0.98);
+      }
+    }
+}
+
+// Two facets around a full circle on a thin shell: curved cells of that would turn inside out.
+TEST_F(GmshReader, straightens_cells_that_curving_would_tangle_and_says_so) {
+  const std::string file = write("rod.geo", R"(SetFactory("OpenCASCADE");
+Cylinder(1) = {0, 0, 0, 0, 0, 3, 1}; Cylinder(2) = {0, 0, 0, 0, 0, 3, 0.9}; BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Mesh.MeshSizeMin = 0.8; Mesh.MeshSizeMax = 0.8; Physical Volume("shell") = {3};)");
+  GmshOptions options;
+  options.file = file;
+  options.order = 2;
+  take_warnings();
+  const MeshPtr shell = GmshMeshes(options).volume("shell");
+  const std::vector<std::string> warnings = take_warnings();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("curved cells of volume 'shell' were tangled and have straight edges now"),
+            std::string::npos)
+      << warnings[0];
+  for (int i = 0; i < shell->n_cells(); ++i)
+    EXPECT_GT(smallest_jacobian(CellType::tet10, cell_nodes(shell->nodes, shell->blocks[0], i)), 0.0);
+}
+
+TEST_F(GmshReader, refuses_cells_of_order_three_and_pyramids_by_name) {
+  const std::string cubic =
+      write("cubic.geo", "Mesh.ElementOrder = 3; SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1};");
+  expect_input_error([&] { read(cubic); }, {"cubic.geo", "volume1", "order 3", "hex8, prism6, tet4, tet10"});
   const std::string pyramid = write("pyramid.msh", R"($MeshFormat
 2.2 0 8
 $EndMeshFormat

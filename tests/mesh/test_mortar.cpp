@@ -80,7 +80,7 @@ void expect_consistent_loads(const Facing& facing, const SideTrace& trace, const
   for (int i = 0; i < facing.n_points(); ++i) trace.spread(i, facing.areas[i] * Vec3::UnitZ(), force);
   const FaceNodes expected = face_nodes(*side.mesh, side.facets);
   for (size_t i = 0; i < expected.nodes.size(); ++i)
-    EXPECT_NEAR(force(2, expected.nodes[i]), expected.areas[static_cast<Eigen::Index>(i)], tolerance);
+    EXPECT_NEAR(force(2, expected.nodes[i]), expected.weights[static_cast<Eigen::Index>(i)], tolerance);
 }
 
 // By hand: one square on two halves of it.
@@ -127,6 +127,49 @@ TEST(Mortar, keeps_forces_moments_linear_fields_and_constant_pressures_of_distor
           EXPECT_TRUE((facing.normals.row(2).array() > 1 - 1e-12).all());
         }
       }
+}
+
+// Every type of cells on every other; those of order two keep their nodes in the middle of straight edges, so that
+// their faces are the same places as those of linear ones.
+TEST(Mortar, keeps_forces_moments_linear_fields_and_constant_pressures_between_all_types_of_cells) {
+  for (const CellShape& lower : cell_shapes)
+    for (const CellShape& upper : cell_shapes)
+      for (const int n_upper : {3, 2}) {
+        const int n_lower = 2;
+        SCOPED_TRACE(testing::Message() << lower.name << " on " << upper.name << ' ' << n_upper);
+        const Mesh low = *box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 0.5), {n_lower, n_lower, 1}, lower.type);
+        const Mesh up = *box_mesh(Vec3(0, 0, 0.5), Vec3(1, 1, 0.5), {n_upper, n_upper, 1}, upper.type);
+        const PlacedFace side_1 = face(low, "zmax"), side_2 = face(up, "zmin");
+        MeetingOptions options;
+        options.acts_by_area = true;
+        const Meeting meeting(side_1, side_2, options);
+        const Facing facing = meeting.facing({});
+        EXPECT_NEAR(facing.areas.sum(), 1.0, 1e-12);
+        EXPECT_GT(facing.areas.minCoeff(), 0.0);
+        expect_balanced(facing, side_1, side_2, 1e-10);
+        expect_consistent_loads(facing, facing.side_1, side_1, 1e-10);
+        expect_consistent_loads(facing, facing.side_2, side_2, 1e-10);
+      }
+}
+
+// Weights of a point at a corner and on an edge of one facet of order two against another of its kind.
+TEST(Mortar, of_facets_of_order_two_has_the_points_of_their_sub_facets) {
+  const Mesh lower = *box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1), {1, 1, 1}, CellType::hex20);
+  const Mesh upper = *box_mesh(Vec3(0, 0, 1), Vec3(1, 1, 1), {1, 1, 1}, CellType::hex20);
+  MeetingOptions options;
+  options.acts_by_area = true;
+  const Facing facing = Meeting(face(lower, "zmax"), face(upper, "zmin"), options).facing({});
+  ASSERT_EQ(facing.n_points(), 8);
+  for (int i = 0; i < 8; ++i) {
+    const bool is_corner = facing.areas[i] < 0.1;
+    EXPECT_NEAR(facing.areas[i], is_corner ? 1.0 / 24 : 5.0 / 24, 1e-14);
+    const int own = facing.side_1.main_node(i);
+    for (int k = 0; k < facing.side_1.n_shares(i); ++k) {
+      const auto& share = facing.side_1.share(i, k);
+      if (share.node != own) continue;
+      EXPECT_NEAR(share.weight, is_corner ? 0.8541666667 : 1.16, 1e-9);
+    }
+  }
 }
 
 TEST(Mortar,

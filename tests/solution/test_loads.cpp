@@ -33,7 +33,9 @@ class LoadsOfABlock : public ::testing::Test {
 
   Face face(const std::string& group) const { return {block, group}; }
 
-  Loads loads_of(const Step& step) const { return Loads(problem, step, start, {&mass}); }
+  Loads loads_of(const Step& step) const {
+    return Loads(problem, step, start, [&](int, const Points& a) { return Points(a * mass.asDiagonal()); });
+  }
 
   Loads loads_of_first(std::vector<LoadPtr> loads) {
     first->loads = std::move(loads);

@@ -15,8 +15,7 @@ class Pressure final : public Load {
   const char* unit() const override { return "Pa"; }
   std::optional<Complaint> complaint(const Step&) const override { return std::nullopt; }
   std::vector<Effect> effects() const override {
-    return nodal_forces(
-        [](const LoadedNodes& nodes, size_t) -> Points { return -nodes.normals * nodes.weights.asDiagonal(); });
+    return nodal_forces([](const LoadedNodes& nodes, size_t) -> Points { return -nodes.vectors; });
   }
   Settings settings() const override { return {}; }
 };

@@ -70,7 +70,7 @@ class MomentumOutput final : public Output {
     for (size_t i = 0; i < problem.substructures.size(); ++i) {
       const SubstructurePtr& part = problem.substructures[i];
       const bool is_asked = of_.empty() || std::find(of_.begin(), of_.end(), part) != of_.end();
-      if (is_asked) parts.push_back({static_cast<int>(i), part->material.density * nodal_volumes(*part->mesh)});
+      if (is_asked) parts.push_back({static_cast<int>(i), part->material.density * nodal_integrals(*part->mesh)});
     }
     return std::make_unique<MomentumRecorder>(columns(), std::move(parts));
   }

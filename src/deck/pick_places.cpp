@@ -1,0 +1,89 @@
+#include "deck/pick_places.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include "deck/arguments.hpp"
+#include "mesh/pick_facets.hpp"
+
+namespace dygita {
+
+namespace {
+
+std::string extent(const Points& nodes, const Vec3& place) {
+  std::string text;
+  for (int i = 0; i < 3; ++i) {
+    text += fmt::format("{}{} [{:g}, {:g}]", i ? ", " : "", "xyz"[i], nodes.row(i).minCoeff() + place[i],
+                        nodes.row(i).maxCoeff() + place[i]);
+  }
+  return text + " m";
+}
+
+// Does the deck's function at stack index `function` answer true at x?
+bool answers_true(lua_State* L, int function, const Vec3& x, const std::string& part, const Origin& origin) {
+  lua_pushvalue(L, function);
+  for (int d = 0; d < 3; ++d) lua_pushnumber(L, x[d]);
+  lua_call(L, 3, 1);
+  if (!lua_isboolean(L, -1))
+    throw InputError(origin,
+                     fmt::format("substructure '{}': the function of 'where' must answer true or false, got {}\n"
+                                 "    is its 'return' missing?",
+                                 part, luaL_typename(L, -1)));
+  const bool answer = lua_toboolean(L, -1);
+  lua_pop(L, 1);
+  return answer;
+}
+
+}  // namespace
+
+Region region_of(const SubstructurePtr& part, lua_State* L, const Origin& origin) {
+  Region region{part, {}};
+  const Points& nodes = part->mesh->nodes;
+  for (int i = 0; i < part->mesh->n_nodes(); ++i) {
+    const Vec3 x = nodes.col(i) + part->place;
+    if (answers_true(L, 3, x, part->name, origin)) region.nodes.push_back(i);
+  }
+  if (region.nodes.empty()) {
+    throw InputError(origin,
+                     fmt::format("substructure '{}': 'where' finds none of its {} nodes\n    they span {}; compare "
+                                 "coordinates with near(a, b)",
+                                 part->name, part->mesh->n_nodes(), extent(nodes, part->place)));
+  }
+  return region;
+}
+
+Face picked_face(const std::filesystem::path& folder, const SubstructurePtr& part, lua_State* L, const Origin& origin) {
+  const LuaArguments a(L, 3, "substructure:face", origin, folder);
+  FacetPick pick;
+  std::string by;
+  const auto note = [&](const std::string& text) { by += (by.empty() ? "" : ", ") + text; };
+  const auto vector = [](const Vec3& v) { return fmt::format("{:.4g} {:.4g} {:.4g}", v[0], v[1], v[2]); };
+  if (a.has("normal")) note("normal " + vector(*(pick.normal = a.unit_vector("normal"))));
+  if (a.has("at")) note(fmt::format("at {:g} m", *(pick.at = a.number("at"))));
+  if (a.has("radius")) note(fmt::format("radius {:g} m", *(pick.radius = a.number("radius"))));
+  if (a.has("axis")) note("axis " + vector(*(pick.axis = a.unit_vector("axis"))));
+  pick.is_cylinder = a.boolean("cylinder");
+  if (pick.is_cylinder) note("cylinder");
+  if (a.has("low") != a.has("high")) throw InputError(origin, "'low' and 'high' are two corners of a box: give both");
+  if (a.has("low")) {
+    pick.box = {a.vector("low"), a.vector("high")};
+    note("from " + vector(pick.box->first) + " to " + vector(pick.box->second) + " m");
+  }
+  if (pick.at && !pick.normal) throw InputError(origin, "'at' is a place along 'normal', which is missing");
+  if ((pick.radius || pick.axis) && !pick.is_cylinder)
+    throw InputError(origin, "'radius' and 'axis' are those of a cylinder: add cylinder = true");
+  if (a.is_function("where")) {
+    lua_getfield(L, 3, "where");
+    const int function = lua_gettop(L);
+    pick.where = [&, function](const Vec3& x) { return answers_true(L, function, x, part->name, origin); };
+    note("where");
+  }
+  if (by.empty())
+    throw InputError(origin, "part:face{} picks by 'normal', 'cylinder', 'low' and 'high', or 'where': none is given");
+  const auto facets = std::make_shared<const std::vector<Facet>>(pick_facets(*part->mesh, part->place, pick));
+  if (facets->empty())
+    throw InputError(origin, fmt::format("substructure '{}' has no facet on its boundary of {}\n    it spans {}",
+                                         part->name, by, extent(part->mesh->nodes, part->place)));
+  return {part, "(" + by + ")", facets};
+}
+
+}  // namespace dygita

@@ -1,0 +1,134 @@
+// An assembly from CAD: meshes/joint.step, two plates and two equal bolts, in millimetres.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/log.hpp"
+#include "mesh/cell_quality.hpp"
+#include "mesh/expect_input_error.hpp"
+#include "mesh/face_nodes.hpp"
+#include "mesh/pick_facets.hpp"
+#include "mesh/step_assembly.hpp"
+
+namespace dygita {
+namespace {
+
+StepOptions joint() {
+  StepOptions options;
+  options.file = std::string(DYGITA_SOURCE_DIR) + "/meshes/joint.step";
+  options.size = 8e-3;
+  return options;
+}
+
+TEST(StepAssembly, has_every_solid_by_the_names_of_the_file_in_metres) {
+  const StepAssembly assembly(joint());
+  const double hole = M_PI * 4.5 * 4.5, exact = (80.0 * 40.0 - 2.0 * hole) * 10.0 * 1e-9;
+  const StepPart& lower = assembly.part("lower");
+  EXPECT_EQ(lower.product, "plate 10 mm");
+  EXPECT_EQ(lower.mesh->blocks.at(0).type, CellType::tet4);
+  EXPECT_NEAR(volume(*lower.mesh), exact, 2e-3 * exact);
+  EXPECT_EQ(assembly.part("plate 8 mm").name, "upper");
+  const std::vector<const StepPart*> bolts = assembly.parts("M8*");
+  ASSERT_EQ(bolts.size(), 2u);
+  EXPECT_EQ(bolts[0]->name, "bolt1");
+  EXPECT_EQ(bolts[1]->name, "bolt2");
+  EXPECT_EQ(assembly.parts("*").size(), 4u);
+  for (const StepPart* part : assembly.parts("*")) {
+    check_mesh(*part->mesh, part->name);
+    EXPECT_GT(worst_shape(*part->mesh), 0.05) << part->name;
+  }
+  // Solids share no node: what touches is found as an interface.
+  const Points &a = lower.mesh->nodes, &b = assembly.part("upper").mesh->nodes;
+  EXPECT_NEAR(a.row(2).maxCoeff(), 0.010, 1e-9);
+  EXPECT_NEAR(b.row(2).minCoeff(), 0.010, 1e-9);
+}
+
+TEST(StepAssembly, has_curved_cells_whose_volume_is_that_of_the_solids) {
+  StepOptions options = joint();
+  options.order = 2;
+  const StepAssembly assembly(options);
+  const double bolt = M_PI * (16.0 * (26.0 - 6.8) + 42.25 * (5.3 + 6.8)) * 1e-9;
+  for (const StepPart* part : assembly.parts("bolt*")) {
+    EXPECT_EQ(part->mesh->blocks.at(0).type, CellType::tet10);
+    EXPECT_NEAR(volume(*part->mesh), bolt, 1e-3 * bolt);
+  }
+}
+
+TEST(StepAssembly, is_finer_where_the_deck_says_so) {
+  StepOptions options = joint();
+  const auto n_cells = [](const StepOptions& asked, const char* part) {
+    return StepAssembly(asked).part(part).mesh->n_cells();
+  };
+  const int plain_bolt = n_cells(options, "bolt1"), plain_plate = n_cells(options, "upper");
+  options.sizes["M8 bolt"] = 1.5e-3;
+  const StepAssembly finer(options);
+  EXPECT_GT(finer.part("bolt1").mesh->n_cells(), 3 * plain_bolt / 2);
+  EXPECT_NEAR(finer.part("upper").mesh->n_cells(), plain_plate, 0.02 * plain_plate);  // gmsh shakes its points
+  options.sizes = {{"contacts", 4e-3}};
+  EXPECT_GT(n_cells(options, "upper"), 3 * plain_plate / 2);
+  options.sizes.clear();
+  options.fine = StepOptions::Fine{2e-3, 0.5};
+  EXPECT_GT(n_cells(options, "upper"), 3 * plain_plate / 2);
+}
+
+TEST(StepAssembly, refuses_names_that_are_not_there_or_not_one_part_s) {
+  const StepAssembly assembly(joint());
+  expect_input_error([&] { assembly.part("loewr"); }, {"joint.step", "no part 'loewr'", "lower"});
+  expect_input_error([&] { assembly.part("M8 bolt"); }, {"2 parts 'M8 bolt'", "'bolt1' to 'bolt2'", "assembly:parts"});
+  expect_input_error([&] { assembly.parts("nut*"); }, {"no part that 'nut*' fits"});
+  StepOptions options = joint();
+  options.sizes["M6 bolt"] = 1e-3;
+  expect_input_error([&] { StepAssembly{options}; }, {"'sizes' names 'M6 bolt'", "M8 bolt"});
+  options.file = std::string(DYGITA_SOURCE_DIR) + "/meshes/bar.geo";
+  options.sizes.clear();
+  expect_input_error([&] { StepAssembly{options}; }, {"bar.geo", "mesh.step takes .step"});
+}
+
+TEST(Patterns, stand_for_any_text_where_they_have_a_star) {
+  EXPECT_TRUE(fits_pattern("bolt12", "bolt*"));
+  EXPECT_TRUE(fits_pattern("bolt12", "*12"));
+  EXPECT_TRUE(fits_pattern("bolt12", "b*l*2"));
+  EXPECT_TRUE(fits_pattern("bolt", "bolt*"));
+  EXPECT_FALSE(fits_pattern("bolt", "bolt?"));
+  EXPECT_FALSE(fits_pattern("a bolt", "bolt*"));
+}
+
+double area_of(const Mesh& mesh, const std::vector<Facet>& facets) {
+  return facets.empty() ? 0.0 : face_nodes(mesh, facets).weights.sum();
+}
+
+TEST(PickedFacets, are_those_of_a_normal_a_plane_a_cylinder_or_a_box) {
+  StepOptions options = joint();
+  options.order = 2;
+  const StepAssembly assembly(options);
+  const Mesh &bolt = *assembly.part("bolt1").mesh, &plate = *assembly.part("lower").mesh;
+  FacetPick seat;
+  seat.normal = -Vec3::UnitZ();
+  seat.at = -0.018;  // along the normal
+  const double ring = M_PI * (42.25 - 16.0) * 1e-6;
+  EXPECT_NEAR(area_of(bolt, pick_facets(bolt, Vec3::Zero(), seat)), ring, 2e-3 * ring);
+  // At its place: moved by a metre.
+  seat.at = -1.018;
+  EXPECT_NEAR(area_of(bolt, pick_facets(bolt, Vec3::UnitZ(), seat)), ring, 2e-3 * ring);
+  FacetPick shank;
+  shank.is_cylinder = true;
+  shank.radius = 4e-3;
+  const double around = 2.0 * M_PI * 4.0 * (26.0 - 6.8) * 1e-6;
+  EXPECT_NEAR(area_of(bolt, pick_facets(bolt, Vec3::Zero(), shank)), around, 2e-3 * around);
+  shank.axis = Vec3::UnitX();
+  EXPECT_TRUE(pick_facets(bolt, Vec3::Zero(), shank).empty());
+  FacetPick hole;
+  hole.is_cylinder = true;
+  hole.axis = Vec3::UnitZ();
+  const double holes = 2.0 * 2.0 * M_PI * 4.5 * 10.0 * 1e-6;
+  EXPECT_NEAR(area_of(plate, pick_facets(plate, Vec3::Zero(), hole)), holes, 2e-3 * holes);
+  hole.box = {Vec3(0.0, -0.02, 0.0), Vec3(0.04, 0.02, 0.01)};
+  EXPECT_NEAR(area_of(plate, pick_facets(plate, Vec3::Zero(), hole)), 0.5 * holes, 2e-3 * holes);
+  FacetPick left;
+  left.where = [](const Vec3& x) { return x[0] < -0.0399; };
+  EXPECT_NEAR(area_of(plate, pick_facets(plate, Vec3::Zero(), left)), 4e-4, 1e-9);
+}
+
+}  // namespace
+}  // namespace dygita
