@@ -161,7 +161,7 @@ Matching match(const Pair& pair) {
 
   for (const Facet& facet : pair.side_1.facets) {
     const auto found = of_side_2.find(facet_key(facet));
-    if (found == of_side_2.end()) {
+    if (found == of_side_2.end() || found->second.facet->type() != facet.type()) {  // as quad8 on quad9
       result.left_1.push_back(facet);
       continue;
     }
