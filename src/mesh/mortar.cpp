@@ -42,7 +42,7 @@ Census census_of(const FaceInSpace& face, const std::vector<double>& covered) {
     const FaceInSpace::Part& part = face.parts[i];
     const FacetPart& shape = facet_parts(face.types[part.facet]).parts[part.k];
     for (int a = 0; a < shape.n; ++a) {
-      const int node = face.facets[part.facet][shape.corners[a]];
+      const int node = face.facets[part.facet][shape.nodes[a]];
       of_node[node] += covered[i];
       all_of_node[node] += part.area;
     }
