@@ -15,6 +15,7 @@ void check_problem(const Problem& problem) {
   check::steps(problem);
   check::loads(problem);
   check::outputs(problem);
+  check::integration(problem);
   check::histories(problem);
   check::doubts(problem);
   check::resolution(problem);
