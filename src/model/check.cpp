@@ -16,6 +16,7 @@ void check_problem(const Problem& problem) {
   check::cells(problem);
   check::loads(problem);
   check::outputs(problem);
+  check::integration(problem);
   check::histories(problem);
   check::doubts(problem);
   check::resolution(problem);

@@ -28,6 +28,9 @@ void loads(const Problem& problem);
 // Outputs: on what they can be, listed, spectra of a scalar acceleration.
 void outputs(const Problem& problem);
 
+// Substructures that are to be explicit can be.
+void integration(const Problem& problem);
+
 // What is allowed but hardly meant: said with warn().
 void doubts(const Problem& problem);
 
