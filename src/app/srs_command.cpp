@@ -161,7 +161,8 @@ Signal read_signal(const SrsCommand& command) {
       signal.values.erase(signal.values.begin());
     }
   }
-  if (signal.time.size() < 2) throw InputError(fmt::format("{}: fewer than two instants (decimals take a point)", command.signal));
+  if (signal.time.size() < 2)
+    throw InputError(fmt::format("{}: fewer than two instants (decimals take a point)", command.signal));
   return signal;
 }
 

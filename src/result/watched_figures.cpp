@@ -26,8 +26,7 @@ double reduced(const std::vector<double>& values, const std::string& word) {
 
 bool is_spectrum(const Output& output) {
   const Columns columns = output.columns();
-  return columns.size() > 1 && columns.front().unit == "Hz" && !columns[1].unit.empty() &&
-         columns[1].unit != "dB";
+  return columns.size() > 1 && columns.front().unit == "Hz" && !columns[1].unit.empty() && columns[1].unit != "dB";
 }
 
 std::vector<std::string> columns_of(const Output& output) {
