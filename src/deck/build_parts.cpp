@@ -54,7 +54,7 @@ Content build_gmsh(const Declaration& d) {
   return std::make_shared<const GmshMeshes>(options);
 }
 
-Content build_step(const Declaration& d) {
+Content build_step_mesh(const Declaration& d) {
   const LuaArguments& a = d.arguments;
   StepOptions options;
   options.file = a.file("file");
@@ -203,7 +203,7 @@ const Builders& part_builders() {
     Builders all = {
         {"mesh.box", build_box},
         {"mesh.gmsh", build_gmsh},
-        {"mesh.step", build_step},
+        {"mesh.step", build_step_mesh},
         {"material.elastic", build_elastic},
         {"substructure", build_substructure},
         {"param", build_parameters},

@@ -115,8 +115,8 @@ void doubt_moduli(const Problem& problem) {
   std::set<std::string> told;
   for (const SubstructurePtr& part : problem.substructures) {
     const auto& material = part->material;
-    const double speed = std::sqrt(material.young / material.density);
-    if (speed >= slowest || !told.insert(material.name).second) continue;
+    const double speed = std::sqrt(material.young / material.density);  // nan: there is no material
+    if (!(speed < slowest) || !told.insert(material.name).second) continue;
     doubt(problem, part->origin,
           fmt::format(
               "a bar of material '{}' (young {:.4g} GPa, density {:.4g} kg/m^3) carries waves at {:.3g} m/s, as rubber "

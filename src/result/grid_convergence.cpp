@@ -64,7 +64,7 @@ const char* meaning(Tendency tendency) {
     case Tendency::oscillating:
       return "not asymptotic: goes up and down; refine further";
     case Tendency::divergent:
-      return "has no limit in these runs, as stress at a sharp corner has none";
+      return "no limit in these runs: they are too coarse, or it has none, as stress at a sharp corner";
   }
   CHECK(false, "unknown tendency");
   return "";

@@ -133,7 +133,6 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
   check_problem(declared);
   say(fmt::format("problem '{}', case '{}': {} substructures, {} interfaces, {} steps", declared.name,
                   request.case_name, declared.substructures.size(), declared.interfaces.size(), declared.steps.size()));
-  doubt_lumped_inertia(declared);
   std::optional<Replacement> replacement;
   if (!request.replaces.empty()) replacement.emplace(request.replaces);
   const std::filesystem::path directory =

@@ -95,7 +95,7 @@ class ConditionsBuilder {
     if (step_.is_static) return moves;
     if (const auto it = start_.base_velocity.find(&support); it != start_.base_velocity.end()) {
       const double speed = it->second.norm();
-      if (speed > 0.0) moves.emplace_back(it->second / speed, add({[speed](double, double) { return speed; }, speed}));
+      if (speed > 0.0) moves.emplace_back(it->second / speed, add({[speed](int, double) { return speed; }, speed}));
     }
     for (const LoadPtr& load : step_.loads)
       for (const Effect& effect : load->effects())
@@ -104,7 +104,7 @@ class ConditionsBuilder {
                                 const History history = base.acceleration;
                                 moves.emplace_back(
                                     base.direction,
-                                    add({[history](double end, double) { return history.integral(0.0, end); }}));
+                                    add({[history](int i, double dt) { return history.integral(0.0, dt * (i + 1)); }}));
                               },
                               Ignored<NodalForces, BodyForce, PrescribedMotion, Shortening, PreloadForce, Release>()},
                    effect);
@@ -129,13 +129,10 @@ class ConditionsBuilder {
       if (prescribed.is_velocity)
         throw InputError(load.origin, load.path + " has no meaning in static step '" + step_.name +
                                           "': a static step has no time; use load.displacement");
-      return {[value, n](double end, double) {
-        const int i = static_cast<int>(end) - 1;
-        return value.at_static(i, n) - value.at_static(i - 1, n);
-      }};
+      return {[value, n](int i, double) { return value.at_static(i, n) - value.at_static(i - 1, n); }};
     }
     if (prescribed.is_velocity)
-      return {[value](double end, double) { return value.history.value(end); }, value.history.value(0.0)};
+      return {[value](int i, double dt) { return value.history.value(dt * (i + 1)); }, value.history.value(0.0)};
     const double start = value.history.value(0.0);
     if (std::abs(start - value.from) > 1e-9 + 1e-6 * std::abs(start))
       warn(
@@ -145,10 +142,10 @@ class ConditionsBuilder {
                       load.origin.prefix(), load.path, step_.name, start, value.from));
     // U is then the two-point mean of the prescribed displacement and nothing alternates (manual, prescribed
     // displacement).
-    const auto mean = [value](double at, double dt) {
-      return (value.history.value(at + 0.5 * dt) - value.history.value(at - 0.5 * dt)) / dt;
+    const auto mean = [value](double i, double dt) {
+      return (value.history.value(dt * (i + 0.5)) - value.history.value(dt * (i - 0.5))) / dt;
     };
-    return {mean, mean(0.5 * step_.dt, step_.dt)};
+    return {[mean](int i, double dt) { return mean(i + 1.0, dt); }, mean(0.5, step_.dt)};
   }
 
   int add(Motion motion) {

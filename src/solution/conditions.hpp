@@ -12,9 +12,9 @@ namespace dygita {
 
 // A motion common to all nodes of one load or accelerated support: a scalar velocity in time.
 struct Motion {
-  // Velocity at the end of a time step of length dt that ends `end` s after the step began (m/s). In a static step the
-  // displacement of increment `end` - 1, m.
-  std::function<double(double end, double dt)> velocity;
+  // Velocity at the end of increment i, of increments of dt (m/s). In a static step the displacement of the increment,
+  // m.
+  std::function<double(int increment, double dt)> velocity;
   double at_start = 0.0;  // m/s, at the start of a dynamic step, for solvers that divide its increments
 };
 

@@ -33,8 +33,7 @@ State initial_state(const Problem& problem, const std::vector<Surface>& surfaces
 
 std::vector<double> StepModel::motion_velocities(int increment) const {
   std::vector<double> velocities;
-  for (const Motion& motion : conditions.motions)
-    velocities.push_back(motion.velocity((increment + 1) * scheme.dt, scheme.dt));
+  for (const Motion& motion : conditions.motions) velocities.push_back(motion.velocity(increment, scheme.dt));
   return velocities;
 }
 

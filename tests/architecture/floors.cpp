@@ -29,7 +29,7 @@ const std::map<std::string, std::set<std::string>> may_use = {
     {"run",
      {"base", "numerics", "mesh", "signal", "law", "model", "solution", "latin", "reference", "result", "output",
       "report"}},
-    {"deck", {"base", "numerics", "mesh", "signal", "material", "law", "model", "result", "output", "run"}},
+    {"deck", {"base", "numerics", "mesh", "signal", "material", "law", "model", "result", "output", "report", "run"}},
     {"app", {"base", "signal", "output", "report", "deck"}},
 };
 

@@ -85,7 +85,7 @@ local glue = interface.bonded{ name = "glue", between = { low:face "zmax", high:
 local base = support.fixed{ name = "base", on = low:face "zmin" }
 local pull = load.traction{ on = high:face "zmax", z = 1*MPa }
 local hold = step.static{ name = "hold", loads = { pull } }
-local ring = step.dynamic{ name = "ring", after = hold, duration = 4*us, dt = 1*us }
+local ring = step.dynamic{ name = "ring", after = hold, duration = 4*us, dt = 1*us, loads = { pull } }
 local joint = output.joint{ name = "bolt", on = glue }
 )";
 

@@ -95,8 +95,8 @@ TEST(BoltTable, splits_no_loss_of_a_bolt_that_was_hardly_tightened) {
   }
   result.bolts[1].tightened = 100.0;
   const auto json = nlohmann::json::parse(run_record(two_steps(), result, {}, {}, {}));
-  EXPECT_DOUBLE_EQ(json["bolts"][0]["loss_by_yield"].get<double>(), 0.02);
-  EXPECT_DOUBLE_EQ(json["bolts"][0]["loss_before_motion"].get<double>(), 0.02);
+  EXPECT_NEAR(json["bolts"][0]["loss_by_yield"].get<double>(), 0.02, 1e-12);
+  EXPECT_NEAR(json["bolts"][0]["loss_before_motion"].get<double>(), 0.02, 1e-12);
   EXPECT_TRUE(json["bolts"][1]["loss"].is_null());
   EXPECT_FALSE(json["bolts"][1].contains("loss_by_yield"));
   EXPECT_FALSE(json["bolts"][1].contains("loss_before_motion"));
