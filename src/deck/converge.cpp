@@ -192,7 +192,11 @@ class Converge {
       compare(figures, *levels);
     }
     std::string command = "dygita run " + options_.deck.path.string();
-    for (const auto& [name, value] : options_.deck.settings) command += " --set " + name + "=" + value;
+    for (const auto& [name, value] : options_.deck.settings) {
+      const bool is_varied = std::any_of(study_.variations().begin(), study_.variations().end(),
+                                         [&](const Variation& v) { return v.parameter == name; });
+      if (!is_varied) command += " --set " + name + "=" + value;
+    }
     for (size_t i = 0; i < levels->size(); ++i)
       command +=
           fmt::format(" --set {}={:.9g}", study_.variations()[i].parameter, study_.variations()[i].value((*levels)[i]));

@@ -60,7 +60,7 @@ const char* meaning(Tendency tendency) {
     case Tendency::fast:
       return "not asymptotic yet: the coarse runs are off by more than their order tells; refine further";
     case Tendency::slow:
-      return "slow: something singular, as a re-entrant or contact edge; grade the mesh there";
+      return "slow: something singular, as a re-entrant or contact edge (grade the mesh there) or an impact";
     case Tendency::oscillating:
       return "not asymptotic: goes up and down; refine further";
     case Tendency::divergent:
