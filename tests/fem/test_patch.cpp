@@ -65,7 +65,7 @@ TEST(PatchTest, is_passed_by_distorted_tetrahedra) {
 // Every node is moved on its own: edges and facets are curved.
 TEST(PatchTest, is_passed_by_curved_cells_of_order_two) {
   for (const CellType type : {CellType::tet10, CellType::hex20, CellType::hex27, CellType::prism15, CellType::prism18})
-    expect_passed(cell_shape(type).name, box_of(type, size, {2, 2, 2}), 0.3, 0.03);
+    expect_passed(cell_shape(type).name, box_of(type, patch_size, {2, 2, 2}), 0.3, 0.03);
 }
 
 TEST(PatchTest, is_passed_by_hexahedra_and_prisms_together) {
