@@ -128,7 +128,7 @@ TEST_F(Converging, refuses_what_the_deck_does_not_have_before_anything_runs) {
   EXPECT_EQ(refusal({"sise"}, {"bolt.normal.max"}),
             "--vary sise: the deck has no parameter 'sise'\n    did you mean 'size'? known: n, size");
   EXPECT_EQ(refusal({"size"}, {"bolt.norml.max"}).substr(0, 76),
-            "--output bolt.norml.max: output.joint 'bolt' has no column 'norml'\n    did you");
+            "--output bolt.norml.max: output.joint 'bolt' has no column 'norml'\n    did y");
   EXPECT_EQ(refusal({"size"}, {"bold.normal"}),
             "--output bold.normal: problem 'pair' has no output 'bold'\n    did you mean 'bolt'? known: bolt");
   EXPECT_EQ(refusal({"size"}, {"bolt.normal.most"}),
