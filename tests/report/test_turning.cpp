@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "law/law.hpp"
 #include "report/check_picture.hpp"
 #include "report/turning_file.hpp"
 #include "report/view_script.hpp"
@@ -57,6 +58,7 @@ Problem two_boxes(int n, const std::string& face_of_upper = "zmin") {
                            turning_box(n, 0.01, {0, 0, 0.01}, "high </script>")};
   auto grip = std::make_shared<Interface>();
   grip->name = "grip";
+  grip->law = make_law("bonded");
   grip->side_1 = {problem.substructures[0], "zmax"};
   grip->side_2 = {problem.substructures[1], face_of_upper};
   problem.interfaces = {grip};
