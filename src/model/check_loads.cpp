@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/overloaded.hpp"
+#include "law/law.hpp"
 #include "mesh/face_nodes.hpp"
 #include "model/check.hpp"
 #include "model/load.hpp"
@@ -195,6 +196,7 @@ std::string driver_of(const Problem& problem, const Step& step, const Face& face
 // An interface both of whose sides move as told transmits nothing and may stand open or overlap unseen.
 void interfaces_have_a_free_side(const Problem& problem, const Step& step) {
   for (const InterfacePtr& interface : problem.interfaces) {
+    if (!interface->law->takes_part(true)) continue;  // a damper holds nothing: it is made to be driven
     const Vec3 normal = normal_of(interface->side_1);
     int axis = 0;
     normal.cwiseAbs().maxCoeff(&axis);
