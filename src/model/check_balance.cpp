@@ -94,15 +94,21 @@ void doubt_idle_forces(const Problem& problem, const Step& step) {
     }
 }
 
+struct Preload {
+  PreloadForce effect;
+  Origin origin;  // of its load
+};
+using Preloads = std::vector<Preload>;
+
 // Substructures joined by the interfaces that a step does not tighten: the group of each.
 class Groups {
  public:
-  Groups(const Problem& problem, const std::vector<const PreloadForce*>& preloads) : problem_(problem) {
+  Groups(const Problem& problem, const Preloads& preloads) : problem_(problem) {
     group_.resize(problem.substructures.size());
     std::iota(group_.begin(), group_.end(), 0);
     for (const InterfacePtr& interface : problem.interfaces) {
       const bool is_tightened = std::any_of(preloads.begin(), preloads.end(),
-                                            [&](const PreloadForce* preload) { return preload->on == interface; });
+                                            [&](const Preload& preload) { return preload.effect.on == interface; });
       if (!is_tightened) join(of(interface->side_1), of(interface->side_2));
     }
   }
@@ -135,26 +141,27 @@ std::vector<char> are_pushed(const Problem& problem, const Step& step, const Gro
 struct Pull {
   std::string name;  // "'shank' (8 kN)"
   Vec3 force;        // N
+  Origin origin;
 };
 
 // The preloads that pull a group outwards.
-std::vector<Pull> pulls_on(int group, const Groups& groups, const std::vector<const PreloadForce*>& preloads) {
+std::vector<Pull> pulls_on(int group, const Groups& groups, const Preloads& preloads) {
   std::vector<Pull> pulls;
-  for (const PreloadForce* preload : preloads) {
-    const Interface& bolt = *preload->on;
+  for (const auto& [preload, origin] : preloads) {
+    const Interface& bolt = *preload.on;
     const bool first = groups.of(bolt.side_1) == group, second = groups.of(bolt.side_2) == group;
     if (first == second) continue;
     const Face& side = first ? bolt.side_1 : bolt.side_2;
     Vec3 area = Vec3::Zero();
     for (const Facet& facet : side.facets()) area += facet_area_vector(side.part->mesh->nodes, facet);
-    const double force = preload->value.history.value(1.0);
-    pulls.push_back({fmt::format("'{}' ({:.4g} kN)", bolt.name, 1e-3 * force), force * area.normalized()});
+    const double force = preload.value.history.value(1.0);
+    pulls.push_back({fmt::format("'{}' ({:.4g} kN)", bolt.name, 1e-3 * force), force * area.normalized(), origin});
   }
   return pulls;
 }
 
 // A group that only preloads along one line pull at is in equilibrium where their sum is zero, and nowhere else.
-void refuse_unbalanced(const Problem& problem, const Step& step, const std::string& part, const Origin& origin,
+void refuse_unbalanced(const Problem& problem, const Step& step, const std::string& part,
                        const std::vector<Pull>& pulls) {
   Vec3 sum = Vec3::Zero();
   double largest = 0.0;
@@ -166,7 +173,7 @@ void refuse_unbalanced(const Problem& problem, const Step& step, const std::stri
     names += (names.empty() ? "" : ", ") + pull.name;
   }
   if (sum.norm() <= 1e-3 * largest) return;
-  fail(problem, origin,
+  fail(problem, pulls.back().origin,
        fmt::format("step '{}': nothing but the preload of {} acts along its axis on '{}', and {:.4g} kN of it are left "
                    "over: there is no equilibrium",
                    step.name, names, part, 1e-3 * sum.norm()),
@@ -175,12 +182,10 @@ void refuse_unbalanced(const Problem& problem, const Step& step, const std::stri
 }
 
 void check_preloads(const Problem& problem, const Step& step) {
-  std::vector<Effect> effects;
+  Preloads preloads;
   for (const LoadPtr& load : step.loads)
-    for (Effect& effect : load->effects()) effects.push_back(std::move(effect));
-  std::vector<const PreloadForce*> preloads;
-  for (const Effect& effect : effects)
-    if (const auto* preload = std::get_if<PreloadForce>(&effect)) preloads.push_back(preload);
+    for (const Effect& effect : load->effects())
+      if (const auto* preload = std::get_if<PreloadForce>(&effect)) preloads.push_back({*preload, load->origin});
   if (preloads.empty()) return;
   const Groups groups(problem, preloads);
   const std::vector<char> pushed = are_pushed(problem, step, groups);
@@ -189,7 +194,7 @@ void check_preloads(const Problem& problem, const Step& step) {
     const int group = groups.of(*part);
     if (pushed[group] || std::exchange(seen[group], 1)) continue;
     const std::vector<Pull> pulls = pulls_on(group, groups, preloads);
-    if (!pulls.empty()) refuse_unbalanced(problem, step, part->name, preloads.front()->on->origin, pulls);
+    if (!pulls.empty()) refuse_unbalanced(problem, step, part->name, pulls);
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include "decks/deck_prints.hpp"
 
-namespace dygita::test {
+namespace dygita::test::limit_loads_tests {
 namespace {
 
 // A run with what it warned of on the screen.
@@ -95,4 +95,4 @@ TEST(NotConverged, is_not_what_ordinary_bolts_are_at_the_defaults) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::limit_loads_tests

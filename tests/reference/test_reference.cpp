@@ -8,7 +8,7 @@
 #include "reference/monolithic.hpp"
 #include "solution/blocks.hpp"
 
-namespace dygita {
+namespace dygita::reference_tests {
 namespace {
 
 constexpr double reference_dt = 0.4e-6;
@@ -127,4 +127,4 @@ TEST(Explicit, gives_the_force_of_a_weight_to_its_support) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::reference_tests

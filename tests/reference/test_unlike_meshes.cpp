@@ -10,7 +10,7 @@
 #include "reference/monolithic.hpp"
 #include "solution/blocks.hpp"
 
-namespace dygita {
+namespace dygita::unlike_meshes_tests {
 namespace {
 
 constexpr double dt = 0.2e-6, side = 0.01;
@@ -305,4 +305,4 @@ TEST(UnlikeMeshes, explicit_ties_by_stiff_springs) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::unlike_meshes_tests
