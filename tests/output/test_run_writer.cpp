@@ -224,7 +224,7 @@ struct Done {
     add_output(make_history("spread", {}, "displacement"), "displacement", "m");
     add_output(make_output(given_output("energy", "")), "kinetic", "J");
     result.convergence = {{"time", "iterations"}, {"s", ""}, {{1e-6}, {5.0}}, {0}};
-    result.steps = {{"shock", false, 10, 1, 50, 2e-6, 0.25, {}}};
+    result.steps = {{"shock", false, 10, 1, 50, 2e-6, 0.25, {}, {}}};
     result.iterations = 50;
     result.figures.largest_penetration = 1e-9;
     result.figures.mesh_error = std::nan("");
