@@ -11,6 +11,7 @@
 #include "result/recorder.hpp"
 #include "result/spectra.hpp"
 #include "result/spectrum_band.hpp"
+#include "signal/unit.hpp"
 
 namespace dygita {
 
@@ -150,9 +151,24 @@ class SrsOutput final : public Output {
     }
     findings.figures["largest exceedance of the specification of '" + name + "' [dB]"] = worst.decibels;
     findings.figures["frequency of the largest exceedance of '" + name + "' [Hz]"] = worst.frequency;
-    findings.lines.push_back(fmt::format("spectrum '{}': {:.1f} dB {} its specification at {:.4g} Hz{}", name,
-                                         std::abs(worst.decibels), worst.decibels > 0.0 ? "above" : "below",
-                                         worst.frequency, not_judged(table, findings, worst)));
+    const double asked = specification_->level_at(worst.frequency);
+    findings.lines.push_back(
+        fmt::format("spectrum '{}': {:.1f} dB {} its specification at {:.4g} Hz: {:.4g} g, asked {:.4g} g{}{}", name,
+                    std::abs(worst.decibels), worst.decibels > 0.0 ? "above" : "below", worst.frequency,
+                    asked * std::pow(10.0, worst.decibels / 20.0) / standard_gravity, asked / standard_gravity,
+                    not_judged(table, findings, worst), not_covered(table)));
+  }
+
+  // What the specification asks beyond the frequencies of the spectrum. These end at the last line of an octave: less
+  // than a line short is no gap.
+  std::string not_covered(const Table& table) const {
+    const std::vector<double>&f = table.columns.front(), &asked = specification_->frequency;
+    const double line = f.size() > 1 ? f[1] / f[0] : 1.0;
+    std::string text;
+    if (asked.front() * line < f.front()) text += fmt::format(" from {:.4g} to {:.4g} Hz", asked.front(), f.front());
+    if (asked.back() > f.back() * line)
+      text += fmt::format("{} from {:.4g} to {:.4g} Hz", text.empty() ? "" : " and", f.back(), asked.back());
+    return text.empty() ? "" : "; the spectrum has no frequency" + text + ", where the specification goes on";
   }
 
   // Where the spectrum reads worse than in the range that is judged: ", judged from 1667 Hz on; at 500 Hz, ...".
