@@ -79,7 +79,7 @@ class SrsOutput final : public Output {
   std::optional<double> highest_frequency() const override { return srs_.to; }
 
   void conclude(const RunEnd& end, Table& table, Findings& findings) const override {
-    const FrequencyRange judged = record_range(end.problem, end.result.tables.at(of_.get()));
+    const FrequencyRange judged = judged_by(end.problem, end.result.tables.at(of_.get()));
     findings.values = {{"judged_from", judged.from}, {"judged_to", judged.to}};
     const Srs srs = spectrum_of(end.problem, srs_, end.result.tables.at(of_.get()), 1);
     table = {};
@@ -106,18 +106,6 @@ class SrsOutput final : public Output {
   }
 
  private:
-  // Of the history's dynamic rows, one an increment.
-  static FrequencyRange record_range(const Problem& problem, const Table& history) {
-    double record = 0.0, shortest = std::numeric_limits<double>::infinity();
-    for (const int i_step : history.step) {
-      const Step& step = *problem.steps[static_cast<size_t>(i_step)];
-      if (step.is_static) continue;
-      record += step.dt;
-      shortest = std::min(shortest, step.dt);
-    }
-    return reliable_range(record, shortest);
-  }
-
   // Everything, where nobody has concluded it.
   static FrequencyRange judged_range(const Findings& findings) {
     const auto from = findings.values.find("judged_from"), to = findings.values.find("judged_to");
