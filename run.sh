@@ -13,6 +13,7 @@ packages=(
   libmetis-dev            # its ordering
   libopenblas-dev         # its kernels, five to ten times faster than the reference BLAS
   libgmsh-dev             # meshes
+  libseccomp-dev          # what keeps gmsh from doing more than that
   libvtk9-dev             # files for ParaView
   liblua5.4-dev           # decks
   libcli11-dev            # command line
