@@ -160,7 +160,8 @@ std::vector<Pull> pulls_on(int group, const Groups& groups, const Preloads& prel
   return pulls;
 }
 
-// A group that only preloads along one line pull at is in equilibrium where their sum is zero, and nowhere else.
+// A group that only preloads along one line pull at is in equilibrium where their sum is zero, and nowhere else. (Where
+// a single one finds nothing to pull against, its search says so.)
 void refuse_unbalanced(const Problem& problem, const Step& step, const std::string& part,
                        const std::vector<Pull>& pulls) {
   Vec3 sum = Vec3::Zero();
@@ -177,8 +178,7 @@ void refuse_unbalanced(const Problem& problem, const Step& step, const std::stri
        fmt::format("step '{}': nothing but the preload of {} acts along its axis on '{}', and {:.4g} kN of it are left "
                    "over: there is no equilibrium",
                    step.name, names, part, 1e-3 * sum.norm()),
-       pulls.size() > 1 ? "bolts one behind the other carry one force: give them the same, or preload one of them"
-                        : "a bolt pulls against something: is a contact or a support missing?");
+       "bolts one behind the other carry one force: give them the same, or preload one of them");
 }
 
 void check_preloads(const Problem& problem, const Step& step) {
@@ -194,7 +194,7 @@ void check_preloads(const Problem& problem, const Step& step) {
     const int group = groups.of(*part);
     if (pushed[group] || std::exchange(seen[group], 1)) continue;
     const std::vector<Pull> pulls = pulls_on(group, groups, preloads);
-    if (!pulls.empty()) refuse_unbalanced(problem, step, part->name, pulls);
+    if (pulls.size() > 1) refuse_unbalanced(problem, step, part->name, pulls);
   }
 }
 

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-
 #include "mesh/box.hpp"
 #include "mesh/expect_input_error.hpp"
 #include "mesh/mortar.hpp"

@@ -41,20 +41,34 @@ TEST_F(Balance, is_not_asked_of_a_face_that_shares_an_edge_with_a_fixed_one) {
   EXPECT_TRUE(take_warnings().empty());
 }
 
-TEST_F(Balance, refuses_a_preload_that_nothing_bears) {
-  tighten->loads = {load("preload", {InterfacePtr(shank)}, 8e3)};
-  EXPECT_EQ(complaint(), "");  // the mating faces do
-  problem.interfaces = {shank};
-  EXPECT_EQ(
-      complaint(),
-      "deck.lua:40: problem 'bolted': step 'tighten': nothing but the preload of 'shank' (8 kN) acts along its axis "
-      "on 'upper', and 8 kN of it are left over: there is no equilibrium\n"
-      "    a bolt pulls against something: is a contact or a support missing?");
-}
-
-TEST_F(Balance, allows_a_preload_that_a_load_may_bear) {
-  tighten->loads = {load("preload", {InterfacePtr(shank)}, 8e3), load("pressure", {Face{upper, "zmax"}}, -8e3)};
-  problem.interfaces = {shank};
+TEST_F(Balance, refuses_preloads_in_series_that_differ) {
+  auto top = declared<Support>("top", 21);
+  top->kind = make_support("fixed");
+  auto third = declared<Substructure>("third", 3);
+  third->mesh = box_mesh(Vec3(0, 0, 2), Vec3::Ones(), {2, 2, 2});
+  top->on = {Face{third, "zmax"}};
+  auto other = declared<Interface>("other", 12);
+  other->law = shank->law;
+  other->side_1 = Face{upper, "zmax"};
+  other->side_2 = Face{third, "zmin"};
+  problem.substructures.push_back(third);
+  problem.interfaces = {shank, other};
+  problem.supports.push_back(top);
+  shock->loads.clear();
+  const auto preload = [&](double first, double second) {
+    tighten->loads = {load("preload", {InterfacePtr(shank)}, first), load("preload", {InterfacePtr(other)}, second)};
+  };
+  preload(8e3, 8e3);
+  EXPECT_EQ(complaint(), "");
+  preload(8e3, 5e3);
+  EXPECT_NE(
+      complaint().find("nothing but the preload of 'shank' (8 kN), 'other' (5 kN) acts along its axis on 'upper', "
+                       "and 3 kN of it are left over"),
+      std::string::npos);
+  problem.interfaces.push_back(mating);  // which may press the two together
+  EXPECT_EQ(complaint(), "");
+  problem.interfaces.pop_back();
+  tighten->loads.push_back(load("pressure", {Face{upper, "xmax"}}, 1e3));  // acts there too: the run finds out
   EXPECT_EQ(complaint(), "");
 }
 
