@@ -334,13 +334,13 @@ TEST(RunWriter, where_nothing_can_be_written_is_an_input_error) {
   EXPECT_THROW(writer.write_frame(Scene().frame(0.0, 1.0)), InputError);
 }
 
-// As a full disk is met: no file grows beyond a few bytes, and the system says so.
+// As a full disk is met: no file grows beyond a thousand bytes, and the system says so.
 class FullDisk {
  public:
   FullDisk() {
     getrlimit(RLIMIT_FSIZE, &before_);
     handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit small = {100, before_.rlim_max};
+    const rlimit small = {1000, before_.rlim_max};
     setrlimit(RLIMIT_FSIZE, &small);
   }
   ~FullDisk() {
