@@ -208,7 +208,62 @@ GOODMAN = Case(
         Quantity("exponent over the force (3)", "exponent of the loss over the force", "", 0.05, 3.0, "3 to 0.05", plotted=False, fitted=False),
     ], 2, note="m = 20 increments between two turning points: the trapezoid around the loop keeps part of the error, however fine the mesh.")
 
-CASES = [BOUNCING_BAR, TWO_BARS, UNEQUAL_BARS, YIELDING, DAMPER, ROD, PRELOAD, SLIDING, PATCH, BONDED, SPECTRUM, GOODMAN]
+UNLIKE_PATCH = Case(
+    "7b", "unlike_patch", "Patch tests across meshes that do not match", "decks/verification/unlike_patch.lua",
+    "The same between hexahedra, prisms, tetrahedra and a box, each on another: bonded and in closed contact, with and without shear, 20 runs.",
+    "the stress is the same everywhere, displacements are linear.",
+    "tolerance", [(t, {"tolerance": t}) for t in ("1e-7", "1e-9", "1e-11", "1e-13")], [
+        Quantity("largest error of all", "largest error of stress and displacement, 20 runs", "", 1e-10),
+    ], 3, x=[1e-7, 1e-9, 1e-11, 1e-13])
+
+PRESS_FIT = Case(
+    "9a", "press_fit_rings", "Press fit of two rings", "decks/verification/press_fit_rings.lua",
+    "A ring is pressed into another, with 6 n facets a quarter on 10 n where they meet.",
+    "Lame, plane strain.",
+    "n", [(f"{n}", {"n_inner": 6 * n, "n_outer": 10 * n, "n_radial": 4 * n}) for n in (1, 2, 4, 8)], [
+        percent("mean pressure, error of Lame's", "mean pressure", 0.5),
+        percent("oscillation of the pressure", "largest over mean pressure less one", 1),
+        percent("rim, error of Lame's", "displacement of the rim"),
+    ], 1)
+
+HERTZ = Case(
+    "9b", "hertz", "Hertz: a ball on a block", "decks/verification/hertz.lua",
+    "A steel ball is pressed on a block; tetrahedra of order two, the block's 1.3 times as large as the ball's.",
+    "half spaces: radius (3 F R/(4 E*))^(1/3), peak pressure 3 F/(2 pi a^2); radius from the second moment of the normal forces.",
+    "n", of_n(3, 4, 6, 8), [
+        percent("contact radius, error of Hertz's", "contact radius", 0.5),
+        percent("peak pressure, error of Hertz's", "largest pressure", 2),
+    ], 2, note="n cells on the radius a = R/20 of the contact.")
+
+HERTZ_CYLINDER = Case(
+    "9c", "hertz_cylinder", "Hertz: a cylinder on a block", "decks/verification/hertz_cylinder.lua",
+    "A cylinder is pressed on a block in plane strain; linear hexahedra, the block's 1.3 times as large as the cylinder's.",
+    "half spaces: half width sqrt(4 P R/(pi E*)), peak pressure 2 P/(pi a).",
+    "n", of_n(6, 12, 24, 48), [
+        percent("half width, error of Hertz's", "half width", 0.5),
+        percent("peak pressure, error of Hertz's", "largest pressure", 2),
+    ], 1, note="n cells on the half width a = R/20.")
+
+MINDLIN = Case(
+    "9d", "mindlin", "Cattaneo and Mindlin: a ball under shear", "decks/verification/mindlin.lua",
+    "The ball is moved aside under a constant approach: the contact slips from its edge inwards (Q = 0.56 mu P, nu = 0).",
+    "stick radius c = a (1 - Q/(mu P))^(1/3), read from the second moment of the shear; Q and P as computed.",
+    "n", of_n(3, 4, 6, 8), [
+        percent("contact radius, error of Hertz's", "contact radius", 0.5),
+        percent("stick radius, error of Cattaneo's", "stick radius", 1, fitted=False),
+    ], 2, note="The theory is exact for nu = 0 alone: with nu = 0.3 slip is not quite along the shear.")
+
+PIN = Case(
+    "9e", "pin_in_hole", "A loose pin in its hole", "decks/verification/pin_in_hole.lua",
+    "A pin with clearance is pulled against the rim of its hole, E dR/P = 1; n cells a quarter of the hole, 1.3 n of the pin.",
+    "Persson: plane stress, infinite plate, pin loaded at its centre, one material, no friction.",
+    "n", of_n(6, 10, 20, 40), [
+        percent("half angle of contact, error of Persson's", "half angle of contact", 2),
+        percent("peak pressure, error of Persson's", "largest pressure", 2, fitted=False),
+    ], 2, note="The plate is held at 30 radii, the pin is pulled by its middle, 0.15 radii wide.")
+
+CASES = [BOUNCING_BAR, TWO_BARS, UNEQUAL_BARS, YIELDING, DAMPER, ROD, PRELOAD, SLIDING, PATCH, UNLIKE_PATCH, BONDED, PRESS_FIT, HERTZ, HERTZ_CYLINDER, MINDLIN, PIN,
+         SPECTRUM, GOODMAN]
 
 SERIES = {  # of decks/verification/orders.lua: name in its lines -> (name in tables, theory, sizes, what x is)
     "h_hex8": ("h, hexahedra", 2, [40, 80, 160, 320], "n"),
