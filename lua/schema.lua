@@ -616,6 +616,17 @@ words[10] = {
     arguments = { name_of "output", on({ "interface", "support.wall" }, "which") },
   },
   {
+    "footprint", makes = "output",
+    doc = "Where an interface presses. Columns: pressure (largest, Pa), area (that presses, m^2), x, y, z (centre of pressure, m), spread_x, spread_y, "
+      .. "spread_z (root mean square distance of the normal force from there, m), shear_x, shear_y, shear_z (the same of the tangential force).",
+    arguments = {
+      name_of "output",
+      on({ "interface", "support.wall" }, "which"),
+      { "about", type = "vector", unit = "m", range = { -1000, 1000 }, default_doc = "the centre of pressure", doc = "from where the distances are; in a part cut by planes of symmetry, a point of those" },
+      { "direction", type = "vector", default_doc = "the modulus", doc = "of the tangential force; its length does not matter" },
+    },
+  },
+  {
     "loop", makes = "output",
     doc = "A joint condensed: force against displacement along a direction, and what a system model takes of it: cycles with their loss "
       .. "and stiffness, the exponent of the loss, and the curve of first loading with the sliders that have it. Columns: displacement (m), "

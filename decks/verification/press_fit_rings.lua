@@ -26,10 +26,11 @@ local fit = interface.contact{ name = "fit", between = between, gap = -p.interfe
 local symmetry = support.symmetry{ name = "symmetry", on = { inner:face "planes", inner:face "faces", outer:face "planes", outer:face "faces" } }
 local press = step.static{ name = "press", increments = 1 }
 local pressure = output.history{ name = "pressure", on = fit, quantity = "pressure" }
+local footprint = output.footprint{ name = "footprint", on = fit }
 local rim = output.history{ name = "rim", on = outer:where(function(x, y) return near(x, 40*mm) and near(y, 0) end), quantity = "displacement", direction = { 1, 0, 0 } }
 local result = problem{
   name = "press_fit_rings", substructures = { inner, outer }, interfaces = { fit }, supports = { symmetry }, steps = { press },
-  outputs = { pressure, rim, output.joint{ name = "joint", on = fit }, output.vtk{ frames = 1 } },
+  outputs = { pressure, footprint, rim, output.joint{ name = "joint", on = fit }, output.vtk{ frames = 1 } },
 }:run{}
 
 -- Lame, plane strain
@@ -38,4 +39,7 @@ local E_, nu_ = E / (1 - nu^2), nu / (1 - nu)
 local exact = p.interference / b * E_ / ((b^2 + a^2) / (b^2 - a^2) - nu_ + (c^2 + b^2) / (c^2 - b^2) + nu_)
 local moved = 2 * exact * b^2 * c / (E_ * (c^2 - b^2))
 print(("mean pressure, of Lame's: %.5f (%.3f MPa)"):format(result[pressure].last / exact, result[pressure].last / MPa))
+print(("mean pressure, error of Lame's: %+.3f %%; oscillation of the pressure, largest over mean: %.3f %%"):format(
+  100 * (result[pressure].last / exact - 1), 100 * (result[footprint].pressure.last / result[pressure].last - 1)))
+print(("rim, error of Lame's: %+.3f %%"):format(100 * (result[rim].last / moved - 1)))
 print(("rim moves, of Lame's: %.5f (%.4f um); %d iterations"):format(result[rim].last / moved, result[rim].last / um, result.iterations))

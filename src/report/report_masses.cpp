@@ -4,6 +4,7 @@
 
 #include "base/log.hpp"
 #include "report/html.hpp"
+#include "report/part_groups.hpp"
 #include "report/quantities.hpp"
 #include "report/report_parts.hpp"
 #include "report/units.hpp"
@@ -64,8 +65,9 @@ std::string table_of_parts(const Json& parts, const Box& whole) {
   header.insert(header.end(), {"nodes", "cells"});
   if (is_cut) header.push_back("pieces");
   Cells rows;
-  for (const Json& part : parts) {
-    std::vector<Cell> row = {text(part, "name"), text(part, "material")};
+  for (const PartGroup& group : part_groups(parts)) {
+    const Json& part = parts[group.first];
+    std::vector<Cell> row = {group.n > 1 ? group.name + ", each" : group.name, text(part, "material")};
     if (has_body) {
       Box box;
       add(part, box);

@@ -5,6 +5,7 @@
 
 #include "base/log.hpp"
 #include "report/html.hpp"
+#include "report/part_groups.hpp"
 #include "report/report_parts.hpp"
 #include "report/svg_text.hpp"
 #include "report/units.hpp"
@@ -117,7 +118,7 @@ std::string drawn(const std::vector<DrawnFacet>& facets, const std::vector<std::
   return result;
 }
 
-// A number on each part, at the facet nearest to the middle of what is seen of it.
+// A number on each part (one for equal ones), at the facet nearest to the middle of what is seen of it.
 std::string numbers(const std::vector<DrawnFacet>& facets, size_t n_parts) {
   const auto middle = [](const DrawnFacet& facet) {
     std::array<double, 2> sum{0.0, 0.0};
@@ -154,24 +155,29 @@ std::string numbers(const std::vector<DrawnFacet>& facets, size_t n_parts) {
 }
 
 std::string by_part(const Json& picture, const Json& parts) {
-  const std::vector<DrawnFacet> facets = facets_of(picture);
+  std::vector<DrawnFacet> facets = facets_of(picture);
+  const std::vector<PartGroup> groups = part_groups(parts);
+  const std::vector<int> group_of = group_of_parts(parts);
+  for (DrawnFacet& facet : facets)
+    if (facet.part >= 0 && facet.part < static_cast<int>(group_of.size()))
+      facet.part = group_of[static_cast<size_t>(facet.part)];
   std::vector<std::string> colors;
   for (const DrawnFacet& facet : facets)
     colors.push_back(shaded(pale(series_color(facet.part)), 10 * (facet.light / 10)));
   const double width = number(picture, "width"), height = number(picture, "height"), row = 20.0;
-  std::string result = open_svg(width, height + row * (static_cast<double>(parts.size() + 2) / 3),
+  std::string result = open_svg(width, height + row * (static_cast<double>(groups.size() + 2) / 3),
                                 "The assembly, a colour for each part");
   result += "<g transform=\"scale(0.1)\" stroke-width=\"8\" stroke-linejoin=\"round\">\n" + drawn(facets, colors) +
             lines(picture.at("edges"), "stroke=\"#333333\" stroke-width=\"9\"") + "</g>\n" + axes_of(picture, height);
-  if (parts.size() > 1) result += numbers(facets, parts.size());
-  for (size_t i = 0; i < parts.size(); ++i) {
+  if (groups.size() > 1) result += numbers(facets, groups.size());
+  for (size_t i = 0; i < groups.size(); ++i) {
     const double x = 20.0 + (width - 20.0) / 3 * static_cast<double>(i % 3),
                  y = height + row * static_cast<double>(i / 3);
     result += fmt::format(
         "<rect x=\"{}\" y=\"{}\" width=\"14\" height=\"14\" fill=\"{}\"/><text x=\"{}\" y=\"{}\">{}</text>\n",
         coordinate(x), coordinate(y), pale(series_color(static_cast<int>(i))), coordinate(x + 20.0),
         coordinate(y + 12.0),
-        escaped(parts.size() > 1 ? fmt::format("{} {}", i + 1, text(parts[i], "name")) : text(parts[i], "name")));
+        escaped(groups.size() > 1 ? fmt::format("{} {}", i + 1, groups[i].name) : groups[i].name));
   }
   return result + "</svg>\n";
 }

@@ -221,11 +221,13 @@ class Builder {
     }
   }
 
-  // Where both sides end on one plane of symmetry, nothing moves along its normal: the side with the points is held,
-  // the other one's row has what of its nodes is off the plane alone, and would be tied to the plane once more.
+  // Where both sides end on one plane of symmetry, nothing moves along its normal: the side with the points is held
+  // (quadratic faces: the point's own node; its row has small shares of nodes off the plane), the other one's row has
+  // what of its nodes is off the plane alone. Both would be tied to the plane once more, by more rows than nodes move.
   bool is_held_along(const Surface& surface, const Point& point, int d) const {
     const int carrier = surface.facing.carrier == 1 ? point.first_port : point.first_port_2;
-    if (!exchange_.ports[carrier].is_held[d]) return false;
+    if (!exchange_.ports[carrier].is_held[d] && !has_held_node_at(exchange_.ports[carrier], surface, point, d))
+      return false;
     const Port& other = exchange_.ports[carrier == point.first_port ? point.first_port_2 : point.first_port];
     bool has_held_nodes = false;
     other.for_each_node([&](int node, const Mat3& block) {
@@ -236,6 +238,16 @@ class Builder {
                         !along.isZero();
     });
     return has_held_nodes;
+  }
+
+  // Is the node that carries the point held along d, and the point there?
+  bool has_held_node_at(const Port& port, const Surface& surface, const Point& point, int d) const {
+    const Held* held = conditions_.at(port.part, port.node);
+    const Vec3 along = point.frame.col(d);
+    if (!held || (held->directions.leftCols(held->n).transpose() * along).norm() < 0.999) return false;
+    const Substructure& part = *problem_.substructures[port.part];
+    const Vec3 off = surface.facing.places.col(port.point) - part.mesh->nodes.col(port.node) - part.place;
+    return std::abs(off.dot(along)) < 0.01 * std::sqrt(point.area);
   }
 
   Port spread_port(const Surface& surface, int s, int i, int which, const Mat3& frame) const {

@@ -10,8 +10,9 @@ namespace {
 
 // Beyond so many unknowns an inverse costs more than the iterations that it spares.
 constexpr int most_unknowns = 5000;
-// Of a compliance, of its mean diagonal entry: rows that depend on each other have an inverse all the same.
-constexpr double regularisation = 1e-6;
+// Of a compliance, of its diagonal: rows that nearly depend on each other, as where the points are about as many as the
+// nodes of the other side, would be far stiffer than any pattern that the iteration has to find (manual, eq. K6).
+constexpr double regularisation = 0.1;
 
 double along(const Mat& schur, const Trace& t, int n_interior) {
   double diagonal = 0.0;

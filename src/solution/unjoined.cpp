@@ -89,6 +89,21 @@ void doubt_held_side(const Problem& problem, const Surface& surface, const Subst
   }
 }
 
+// What is tied to another part is no longer a face that a third one could come through: the sectors of a ring that
+// slide on those of another are not in the sectors beside these.
+std::vector<PlacedBody> bodies_with_ties(const Problem& problem, const std::vector<Surface>& surfaces) {
+  std::vector<PlacedBody> bodies;
+  for (int i = 0; i < static_cast<int>(problem.substructures.size()); ++i) bodies.push_back(body_of(problem, i));
+  for (const Surface& surface : surfaces) {
+    if (surface.part_2 < 0 || (surface.law && !surface.law->is_tie())) continue;
+    for (const Facet& facet : surface.facing.facets_1)
+      bodies[static_cast<size_t>(surface.part_1)].joined.insert(facet_key(facet));
+    for (const Facet& facet : surface.facing.facets_2)
+      bodies[static_cast<size_t>(surface.part_2)].joined.insert(facet_key(facet));
+  }
+  return bodies;
+}
+
 }  // namespace
 
 std::string face_with(const Substructure& part, const Facet& facet) {
@@ -106,6 +121,7 @@ std::string face_with(const Substructure& part, const Facet& facet) {
 
 std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Surface>& surfaces) {
   const int n = static_cast<int>(problem.substructures.size());
+  const std::vector<PlacedBody> bodies = bodies_with_ties(problem, surfaces);
   std::vector<Box> boxes;
   for (int i = 0; i < n; ++i) boxes.push_back(body_of(problem, i).box());
   std::vector<Unjoined> found;
@@ -113,7 +129,7 @@ std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Su
     for (int j = i + 1; j < n; ++j) {
       const double size = std::min(boxes[i].size().norm(), boxes[j].size().norm());
       if (!boxes[i].grown(reach * size).meets(boxes[j].grown(reach * size))) continue;
-      PlacedBody body_1 = body_of(problem, i), body_2 = body_of(problem, j);
+      PlacedBody body_1 = bodies[static_cast<size_t>(i)], body_2 = bodies[static_cast<size_t>(j)];
       for (const Surface& surface : surfaces) {
         if (surface.part_1 == i && surface.part_2 == j) {
           join(body_1, surface.facing.facets_1);

@@ -93,6 +93,27 @@ TEST(Unjoined, parts_that_an_interface_keeps_apart_are_not_named) {
   EXPECT_TRUE(said_of_check(text, "touch on").empty());
 }
 
+// A row of two tied blocks slides along another: across the seam a block is not in the one beside that below it.
+TEST(Unjoined, parts_that_slide_over_the_seam_of_tied_ones_are_not_named) {
+  EXPECT_TRUE(said_of_run(R"(
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local cube = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 3, 3, 3 } }
+local function block(name, x, z, speed)
+  return substructure{ name = name, mesh = cube, material = steel, place = { x, 0, z }, velocity = { speed, 0, 0 } }
+end
+local a, b, c, d = block("a", 0, 0, 0), block("b", 10*mm, 0, 0), block("c", 0, 10*mm, 10), block("d", 10*mm, 10*mm, 10)
+local floor = support.fixed{ name = "floor", on = { a:face "zmin", b:face "zmin" } }
+problem{ name = "rows", substructures = { a, b, c, d }, supports = { floor },
+  interfaces = { interface.bonded{ name = "lower", between = { a:face "xmax", b:face "xmin" } },
+                 interface.bonded{ name = "upper", between = { c:face "xmax", d:face "xmin" } },
+                 interface.contact{ name = "left", between = { a:face "zmax", c:face "zmin" } },
+                 interface.contact{ name = "right", between = { b:face "zmax", d:face "zmin" } } },
+  steps = { step.dynamic{ name = "slide", duration = 20*us, dt = 1*us } } }:run{}
+)",
+                          "pass")
+                  .empty());
+}
+
 TEST(Unjoined, parts_that_overlap_are_named_with_depth) {
   const std::vector<std::string> overlap = said_of_check(blocks_at("{ 10*mm, 10*mm, 6*mm }", ""), "overlap");
   ASSERT_EQ(overlap.size(), 1u);
