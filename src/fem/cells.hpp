@@ -124,21 +124,23 @@ inline void check_point_volume(double volume) {
 
 namespace dygita {
 
-// Compiled once (quadratic_cells.cpp): their loops are long, and the compiler takes its time over them.
-#define DYGITA_COMPILED_ONCE(type)                                                                         \
-  extern template struct Cell<CellType::type>;                                                             \
-  extern template struct ShapedCell<CellType::type>;                                                       \
-  extern template Eigen::Matrix<double, Cell<CellType::type>::n, 1> shape_integrals<Cell<CellType::type>>( \
-      const Nodes<Cell<CellType::type>::n>&);                                                              \
-  extern template Eigen::Matrix<double, Cell<CellType::type>::n, 1> node_volumes<Cell<CellType::type>>(    \
-      const Nodes<Cell<CellType::type>::n>&);                                                              \
-  extern template MassMatrix<Cell<CellType::type>::n> consistent_mass<Cell<CellType::type>>(               \
+// What a type's kernels are, `words` before each: `template` compiles them, `extern template` leaves that to another
+// source. The loops of cells of order two are long, and the compiler takes its time over them: compiled once.
+#define DYGITA_KERNELS_OF(words, type)                                                           \
+  words struct Cell<CellType::type>;                                                             \
+  words struct ShapedCell<CellType::type>;                                                       \
+  words Eigen::Matrix<double, Cell<CellType::type>::n, 1> shape_integrals<Cell<CellType::type>>( \
+      const Nodes<Cell<CellType::type>::n>&);                                                    \
+  words Eigen::Matrix<double, Cell<CellType::type>::n, 1> node_volumes<Cell<CellType::type>>(    \
+      const Nodes<Cell<CellType::type>::n>&);                                                    \
+  words MassMatrix<Cell<CellType::type>::n> consistent_mass<Cell<CellType::type>>(               \
       const Nodes<Cell<CellType::type>::n>&, double);
-DYGITA_COMPILED_ONCE(tet10)
-DYGITA_COMPILED_ONCE(hex20)
-DYGITA_COMPILED_ONCE(hex27)
-DYGITA_COMPILED_ONCE(prism15)
-DYGITA_COMPILED_ONCE(prism18)
-#undef DYGITA_COMPILED_ONCE
+#define DYGITA_QUADRATIC_KERNELS(words) \
+  DYGITA_KERNELS_OF(words, tet10)       \
+  DYGITA_KERNELS_OF(words, hex20)       \
+  DYGITA_KERNELS_OF(words, hex27)       \
+  DYGITA_KERNELS_OF(words, prism15)     \
+  DYGITA_KERNELS_OF(words, prism18)
+DYGITA_QUADRATIC_KERNELS(extern template)
 
 }  // namespace dygita

@@ -8,40 +8,14 @@
 #include <numeric>
 
 #include "law/law.hpp"
+#include "solution/direct_links.hpp"
+#include "solution/node_groups.hpp"
+#include "solution/point_frames.hpp"
+#include "solution/spread_points.hpp"
 
 namespace dygita {
 
 namespace {
-
-using NodeKey = std::pair<int, int>;  // (piece, node of the piece)
-
-// Union-find over the pieces' copies of a node.
-class Groups {
- public:
-  int add(const NodeKey& key) {
-    const auto [it, is_new] = index_.emplace(key, static_cast<int>(parent_.size()));
-    if (is_new) {
-      parent_.push_back(it->second);
-      keys_.push_back(key);
-    }
-    return it->second;
-  }
-  void tie(const NodeKey& a, const NodeKey& b) { parent_[root(add(a))] = root(add(b)); }
-  int of(const NodeKey& key) { return root(add(key)); }
-  const std::vector<NodeKey>& keys() const { return keys_; }
-
- private:
-  int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  std::map<NodeKey, int> index_;
-  std::vector<int> parent_;
-  std::vector<NodeKey> keys_;
-};
-
-// Share of a row at which it counts as held.
-constexpr double least_free = 1e-3;
 
 struct LawCluster {
   int group_1 = -1, group_2 = -1;  // -1: wall
@@ -68,8 +42,10 @@ class Builder {
     make_groups();
     make_clusters();
     for (const LawCluster& cluster : clusters_) add_law_point(cluster);
+    SpreadPoints spread_points(problem_, step_, cut_, conditions_, exchange_);
     for (size_t s = 0; s < surfaces_.size(); ++s)
-      if (is_in_force(surfaces_[s]) && !surfaces_[s].facing.matches()) add_spread_points(static_cast<int>(s));
+      if (is_in_force(surfaces_[s]) && !surfaces_[s].facing.matches())
+        spread_points.add(surfaces_[s], static_cast<int>(s));
     for (const auto& [group, ports] : members_) {
       // A group under one law is tied by that law's point; otherwise it needs a point of its own.
       if (ports.size() < 2 || n_laws_[group] == 1) continue;
@@ -77,7 +53,7 @@ class Builder {
       point_of_group_[group] = static_cast<int>(exchange_.points.size()) - 1;
     }
     add_ties();
-    if (!explicit_pieces_.empty()) find_direct();
+    if (!explicit_pieces_.empty()) find_direct(explicit_pieces_, exchange_);
     number_unknowns();
     return std::move(exchange_);
   }
@@ -200,122 +176,6 @@ class Builder {
       if (group >= 0 && n_laws_[group] == 1) point_of_group_[group] = index;
   }
 
-  // Faces that do not match: each point by itself, one port a side.
-  void add_spread_points(int s) {
-    const Surface& surface = surfaces_[s];
-    for (int i = 0; i < surface.n_points(); ++i) {
-      Point point;
-      point.law = surface.law.get();
-      point.area = surface.facing.areas[i];
-      point.members = {{s, i, 1.0}};
-      point.frame = spread_frame(surface, i);
-      point.first_port = static_cast<int>(exchange_.ports.size());
-      point.first_port_2 = point.first_port + 1;
-      point.end_port = point.first_port + 2;
-      exchange_.ports.push_back(spread_port(surface, s, i, 1, point.frame));
-      exchange_.ports.push_back(spread_port(surface, s, i, 2, point.frame));
-      for (int d = 0; d < 3; ++d)
-        point.has_law[d] = point.law->acts_on(d, step_.is_static) && !is_held_along(surface, point, d);
-      activate(point, false);
-      exchange_.points.push_back(std::move(point));
-    }
-  }
-
-  // Where both sides end on one plane of symmetry, nothing moves along its normal: the side with the points is held
-  // (quadratic faces: the point's own node; its row has small shares of nodes off the plane), the other one's row has
-  // what of its nodes is off the plane alone. Both would be tied to the plane once more, by more rows than nodes move.
-  bool is_held_along(const Surface& surface, const Point& point, int d) const {
-    const int carrier = surface.facing.carrier == 1 ? point.first_port : point.first_port_2;
-    if (!exchange_.ports[carrier].is_held[d] && !has_held_node_at(exchange_.ports[carrier], surface, point, d))
-      return false;
-    const Port& other = exchange_.ports[carrier == point.first_port ? point.first_port_2 : point.first_port];
-    bool has_held_nodes = false;
-    other.for_each_node([&](int node, const Mat3& block) {
-      const Held* held = conditions_.at(other.part, node);
-      const Vec3 along = block.transpose() * point.frame.col(d);
-      has_held_nodes |= held &&
-                        (held->directions.leftCols(held->n).transpose() * along).norm() > 0.999 * along.norm() &&
-                        !along.isZero();
-    });
-    return has_held_nodes;
-  }
-
-  // Is the node that carries the point held along d, and the point there?
-  bool has_held_node_at(const Port& port, const Surface& surface, const Point& point, int d) const {
-    const Held* held = conditions_.at(port.part, port.node);
-    const Vec3 along = point.frame.col(d);
-    if (!held || (held->directions.leftCols(held->n).transpose() * along).norm() < 0.999) return false;
-    const Substructure& part = *problem_.substructures[port.part];
-    const Vec3 off = surface.facing.places.col(port.point) - part.mesh->nodes.col(port.node) - part.place;
-    return std::abs(off.dot(along)) < 0.01 * std::sqrt(point.area);
-  }
-
-  Port spread_port(const Surface& surface, int s, int i, int which, const Mat3& frame) const {
-    const SideTrace& trace = which == 1 ? surface.facing.side_1 : surface.facing.side_2;
-    Port port;
-    port.part = which == 1 ? surface.part_1 : surface.part_2;
-    port.node = trace.main_node(i);
-    const Copy copy = cut_.owner(port.part, port.node);
-    port.piece = copy.piece;
-    port.piece_node = copy.node;
-    port.trace = &trace;
-    port.point = i;
-    port.side = 2 * s + which - 1;
-    port.area = surface.facing.areas[i];
-    std::array<double, 3> free{}, all{};
-    port.for_each_node([&](int node, const Mat3& block) {
-      CHECK(cut_.owner(port.part, node).piece == port.piece, "a row of a face that does not match lies in one piece");
-      const Held* held = conditions_.at(port.part, node);
-      for (int d = 0; d < 3; ++d) {
-        const Vec3 along = block.transpose() * frame.col(d);
-        all[d] += along.squaredNorm();
-        free[d] += held ? (held->free_basis().transpose() * along).squaredNorm() : along.squaredNorm();
-      }
-    });
-    for (int d = 0; d < 3; ++d) port.is_held[d] = free[d] <= least_free * least_free * all[d];
-    return port;
-  }
-
-  // N, and a tangent along what a support holds of the nodes at the point, so that conditions are per direction there.
-  Mat3 spread_frame(const Surface& surface, int i) const {
-    Vec3 n = surface.facing.normals.col(i), t = Vec3::Zero();
-    const SideTrace& trace = surface.facing.carrier == 1 ? surface.facing.side_1 : surface.facing.side_2;
-    const Held* held =
-        conditions_.at(surface.facing.carrier == 1 ? surface.part_1 : surface.part_2, trace.main_node(i));
-    if (held && (held->n == 1 || held->n == 2)) {
-      const Vec3 axis = held->n == 1 ? Vec3(held->directions.col(0)) : Vec3(held->free_basis().col(0));
-      const double along = axis.dot(n);
-      if (std::abs(along) > 0.99) {
-        n = along > 0.0 ? axis : Vec3(-axis);
-      } else if (std::abs(along) < 0.2) {
-        n = (n - along * axis).normalized();
-        t = axis;
-      }
-    }
-    return frame_of(n, t);
-  }
-
-  // t: a tangent, or zero for any.
-  static Mat3 frame_of(const Vec3& n, Vec3 t) {
-    if (t.isZero()) {
-      int least = 0;
-      n.cwiseAbs().minCoeff(&least);
-      t = Vec3::Unit(least);
-    }
-    Mat3 frame;
-    frame.col(0) = n;
-    frame.col(1) = (t - n.dot(t) * n).normalized();
-    frame.col(2) = n.cross(frame.col(1));
-    return frame;
-  }
-
-  void activate(Point& point, bool has_group) const {
-    for (int d = 0; d < 3; ++d) {
-      if (!has_group && !point.has_law[d]) continue;
-      for (int p = point.first_port; p < point.end_port; ++p) point.is_active[d] |= !exchange_.ports[p].is_held[d];
-    }
-  }
-
   void add_point(const Law* law, const std::vector<NodeKey>& ports_1, const std::vector<NodeKey>& ports_2, bool is_wall,
                  const Vec3& normal, double area, const std::vector<Member>& members) {
     Point point;
@@ -332,35 +192,8 @@ class Builder {
     const bool has_group = ports_1.size() > 1 || ports_2.size() > 1;
     for (const NodeKey& key : keys) exchange_.ports.push_back(make_port(key, point.frame));
     for (int d = 0; d < 3; ++d) point.has_law[d] = law && law->acts_on(d, step_.is_static);
-    activate(point, has_group);
+    activate(exchange_.ports, has_group, point);
     exchange_.points.push_back(std::move(point));
-  }
-
-  // Points linked through nodes of explicit pieces depend on each other within a step: one that meets an implicit piece
-  // has all of them iterated.
-  void find_direct() {
-    Groups linked;
-    std::vector<NodeKey> any(exchange_.points.size(), NodeKey{-1, -1});
-    const auto is_explicit = [&](const Port& port) { return explicit_pieces_[port.piece] != 0; };
-    for (size_t i = 0; i < exchange_.points.size(); ++i) {
-      const Point& point = exchange_.points[i];
-      for (int p = point.first_port; p < point.end_port; ++p) {
-        const Port& port = exchange_.ports[p];
-        if (!is_explicit(port)) continue;
-        const NodeKey key{port.piece, port.piece_node};
-        if (any[i].first < 0) any[i] = key;
-        linked.tie(any[i], key);
-      }
-    }
-    std::map<int, bool> has_implicit;
-    for (size_t i = 0; i < exchange_.points.size(); ++i) {
-      const Point& point = exchange_.points[i];
-      if (any[i].first < 0) continue;
-      bool& found = has_implicit[linked.of(any[i])];
-      for (int p = point.first_port; p < point.end_port; ++p) found |= !is_explicit(exchange_.ports[p]);
-    }
-    for (size_t i = 0; i < exchange_.points.size(); ++i)
-      exchange_.points[i].is_direct = any[i].first >= 0 && !has_implicit.at(linked.of(any[i]));
   }
 
   void number_unknowns() {
@@ -450,7 +283,7 @@ class Builder {
   const Conditions& conditions_;
   const std::vector<char>& explicit_pieces_;
   Exchange exchange_;
-  Groups groups_;
+  NodeGroups groups_;
   std::map<NodeKey, double> area_;
   std::map<int, std::vector<NodeKey>> members_;
   std::map<int, int> n_laws_;

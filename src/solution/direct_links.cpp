@@ -1,0 +1,34 @@
+#include "solution/direct_links.hpp"
+
+#include <map>
+
+#include "solution/node_groups.hpp"
+
+namespace dygita {
+
+void find_direct(const std::vector<char>& explicit_pieces, Exchange& exchange) {
+  NodeGroups linked;
+  std::vector<NodeKey> any(exchange.points.size(), NodeKey{-1, -1});
+  const auto is_explicit = [&](const Port& port) { return explicit_pieces[port.piece] != 0; };
+  for (size_t i = 0; i < exchange.points.size(); ++i) {
+    const Point& point = exchange.points[i];
+    for (int p = point.first_port; p < point.end_port; ++p) {
+      const Port& port = exchange.ports[p];
+      if (!is_explicit(port)) continue;
+      const NodeKey key{port.piece, port.piece_node};
+      if (any[i].first < 0) any[i] = key;
+      linked.tie(any[i], key);
+    }
+  }
+  std::map<int, bool> has_implicit;
+  for (size_t i = 0; i < exchange.points.size(); ++i) {
+    const Point& point = exchange.points[i];
+    if (any[i].first < 0) continue;
+    bool& found = has_implicit[linked.of(any[i])];
+    for (int p = point.first_port; p < point.end_port; ++p) found |= !is_explicit(exchange.ports[p]);
+  }
+  for (size_t i = 0; i < exchange.points.size(); ++i)
+    exchange.points[i].is_direct = any[i].first >= 0 && !has_implicit.at(linked.of(any[i]));
+}
+
+}  // namespace dygita
