@@ -31,6 +31,10 @@ void catch_interrupts() {
 
 bool interrupt_requested() { return interrupt_flag != 0; }
 
+void request_interrupt() { interrupt_flag = 1; }
+
+void withdraw_interrupt() { interrupt_flag = 0; }
+
 Progress::Progress(std::string label, int total)
     : label_(std::move(label)),
       total_(total),

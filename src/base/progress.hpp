@@ -34,5 +34,8 @@ void set_progress_enabled(bool enabled);
 // everything asked for is written up to there. A second signal kills.
 void catch_interrupts();
 bool interrupt_requested();
+// The same from within, and back: for what ends a run that is not the user.
+void request_interrupt();
+void withdraw_interrupt();
 
 }  // namespace dygita

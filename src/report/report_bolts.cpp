@@ -111,8 +111,8 @@ class LossChart {
       for (const auto& [from, to] : placed(loss)) extent.add(to);
     }
     if (!(*extent.high > *extent.low)) extent.high = 1.0;
-    const double margin = 0.04 * (*extent.high - *extent.low);
-    return {*extent.low < 0.0 ? *extent.low - margin : 0.0, *extent.high > 0.0 ? *extent.high + margin : 0.0};
+    const double room = 0.04 * (*extent.high - *extent.low);
+    return {*extent.low < 0.0 ? *extent.low - room : 0.0, *extent.high > 0.0 ? *extent.high + room : 0.0};
   }
 
   std::string bars(const Loss& loss, double y) const {

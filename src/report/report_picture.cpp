@@ -184,11 +184,11 @@ std::string by_part(const Json& picture, const Json& parts) {
 
 std::string by_stress(const Json& picture, const std::string& title) {
   const std::vector<DrawnFacet> facets = facets_of(picture);
-  const int top = top_of_scale(facets);
+  const int highest = top_of_scale(facets);
   const auto color_of_level = [](int level) { return scale_color((level + 0.5) / n_picture_levels); };
   std::vector<std::string> colors;
   for (const DrawnFacet& facet : facets)
-    colors.push_back(color_of_level(std::clamp(n_picture_levels * facet.value / top, 0, n_picture_levels - 1)));
+    colors.push_back(color_of_level(std::clamp(n_picture_levels * facet.value / highest, 0, n_picture_levels - 1)));
   const double width = number(picture, "width"), height = number(picture, "height"),
                largest = number(picture, "largest");
   std::string result = open_svg(width, height + 40.0, title);
@@ -196,17 +196,17 @@ std::string by_stress(const Json& picture, const std::string& title) {
             lines(picture.at("edges"), "stroke=\"#222222\" stroke-width=\"6\" stroke-opacity=\"0.7\"") +
             lines(picture.at("outline"), "stroke=\"#777777\" stroke-width=\"8\" stroke-dasharray=\"40 30\"") +
             "</g>\n" + axes_of(picture, height);
-  const double bar = 22.0 * n_picture_levels, left = 0.5 * (width - bar);
+  const double bar = 22.0 * n_picture_levels, bar_left = 0.5 * (width - bar);
   for (int level = 0; level < n_picture_levels; ++level)
     result += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"22.5\" height=\"12\" fill=\"{}\"/>\n",
-                          coordinate(left + 22.0 * level), coordinate(height), color_of_level(level));
-  const double high = largest * top / 1000.0;
-  result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">0</text>\n", coordinate(left),
+                          coordinate(bar_left + 22.0 * level), coordinate(height), color_of_level(level));
+  const double high = largest * highest / 1000.0;
+  result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">0</text>\n", coordinate(bar_left),
                         coordinate(height + 28.0));
   result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">von Mises stress</text>\n",
                         coordinate(0.5 * width), coordinate(height + 28.0));
-  result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}{}</text>\n", coordinate(left + bar),
-                        coordinate(height + 28.0), top < 990 ? "above " : "", escaped(with_unit(high, "Pa")));
+  result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}{}</text>\n", coordinate(bar_left + bar),
+                        coordinate(height + 28.0), highest < 990 ? "above " : "", escaped(with_unit(high, "Pa")));
   return result + "</svg>\n";
 }
 

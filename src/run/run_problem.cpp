@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/log.hpp"
+#include "base/progress.hpp"
 #include "latin/latin.hpp"
 #include "output/bolt_table.hpp"
 #include "output/replacement.hpp"
@@ -125,6 +126,35 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* 
   return result;
 }
 
+// The first file that cannot be written. A frame ends the run after its increment, and whatever else can be written is:
+// what has been computed is worth more than what would follow.
+class Unwritten {
+ public:
+  void attempt(const std::function<void()>& write) {
+    try {
+      write();
+    } catch (const InputError& error) {
+      if (error_.empty()) error_ = error.what();
+    }
+  }
+  void attempt_frame(RunWriter& writer, const Frame& frame) {
+    if (!error_.empty()) return;
+    attempt([&] { writer.write_frame(frame); });
+    if (!error_.empty()) request_interrupt();
+  }
+  // Throws what went wrong, once everything else is written.
+  void finish(const std::filesystem::path& directory, bool is_replacing) const {
+    if (error_.empty()) return;
+    withdraw_interrupt();
+    throw InputError(error_ + (is_replacing
+                                   ? "\n    the results in " + directory.string() + " are as they were"
+                                   : "\n    what was computed and could be written is in " + directory.string()));
+  }
+
+ private:
+  std::string error_;
+};
+
 }  // namespace
 
 std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunRequest& request) {
@@ -139,7 +169,9 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
       replacement ? request.replaces : request.out / declared.name / request.case_name;
   std::unique_ptr<RunWriter> writer;
   FrameSink sink;
-  if (request.write_files && request.write_frames) sink = [&](const Frame& frame) { writer->write_frame(frame); };
+  Unwritten unwritten;
+  if (request.write_files && request.write_frames)
+    sink = [&](const Frame& frame) { unwritten.attempt_frame(*writer, frame); };
   const std::vector<double> tolerances = pass_tolerances(declared);
   Problem problem = declared;  // with the tolerance of the pass
   std::shared_ptr<RunResult> result, before;
@@ -165,15 +197,19 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
     result->figures.earlier_iterations = static_cast<double>(earlier);
   }
   const bool is_kept = !request.continues || reaches_as_far(state, *request.continues);
-  if (writer && request.write_state && is_kept) keep_state(state, *writer, *result);
+  if (writer && request.write_state && is_kept) unwritten.attempt([&] { keep_state(state, *writer, *result); });
   warn_of_run(problem, *result, writer && request.write_state && is_kept ? directory : std::filesystem::path());
   warn_of_stresses(problem, *result);
   const std::vector<std::string> warnings = take_warnings();
   RunIdentity identity = request.identity;
   identity.threads = omp_get_max_threads();
   identity.case_name = request.case_name;
-  if (writer) write_view(*writer, problem, directory);
-  if (writer) write_run_files(*writer, problem, *result, identity, warnings);
+  if (writer)
+    unwritten.attempt([&] {
+      write_view(*writer, problem, directory);
+      write_run_files(*writer, problem, *result, identity, warnings);
+    });
+  unwritten.finish(directory, replacement.has_value());
   if (replacement && is_kept) replacement->commit();
   if (request.continues) say(continuation_line(*request.continues, *result));
   say_summary(problem, *result, writer && is_kept ? directory : std::filesystem::path(), seconds);

@@ -101,3 +101,16 @@ if(NOT err MATCHES "no program 'no_such_paraview' here: install ParaView")
   message(SEND_ERROR "view without ParaView: ${err}")
 endif()
 file(REMOVE_RECURSE ${out})
+
+# A disk that is full, as the system tells of it: no file may grow beyond 10 kB, and frames do.
+execute_process(COMMAND sh -c "ulimit -f 20; trap '' XFSZ; exec \"$0\" run \"$1\" --set n=4 --quiet --no-state --out \"$2\"" ${DYGITA}
+  ${SOURCE_DIR}/decks/crush.lua ${out} RESULT_VARIABLE code OUTPUT_QUIET ERROR_VARIABLE err)
+if(NOT code EQUAL 2 OR NOT err MATCHES "cannot write '.*vtu': File too large\n *what was computed and could be written is in")
+  message(SEND_ERROR "a full disk: exit code ${code}\n${err}")
+endif()
+file(GLOB tables ${out}/*/*/energy.csv)
+file(GLOB_RECURSE half ${out}/*.tmp)
+if(NOT tables OR half)
+  message(SEND_ERROR "a full disk left tables '${tables}' and half a file '${half}'")
+endif()
+file(REMOVE_RECURSE ${out})
