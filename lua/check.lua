@@ -2,11 +2,13 @@
 -- Every message is one line that says what and where, then what is allowed.
 local native = ...
 local placement = native.module "placement"
+local bolts = native.module "bolts"
 local check = {}
 
 local hints = {
   face = 'a face is part:face "group"',
   region = "a region is part:where(function(x, y, z) return boolean end)",
+  bolt = "a bolt is made of parts and interfaces: bolt.parts, bolt.interfaces, bolt.shank",
   mesh = 'a mesh is mesh.box{ ... } or file:volume "name"',
 }
 
@@ -21,6 +23,7 @@ local function describe(value)
     local is_own_kind = path:sub(1, #kind + 1) == kind .. "."  -- "interface.contact" says more than "interface"
     return article(is_own_kind and path or kind) .. (name ~= "" and " '" .. name .. "'" or "")
   end
+  if bolts.is_bolt(value) then return ("a bolt '%s'"):format(value.name) end
   if type(value) == "number" then return ("the number %g"):format(value) end
   if type(value) == "string" then return ('the text "%s"'):format(value) end
   if type(value) == "boolean" then return tostring(value) end
@@ -86,11 +89,13 @@ local function one_of(kinds, prefix)
 end
 
 local function hint_for(kinds, value)
+  if bolts.is_bolt(value) then return hints.bolt end
   if native.kind(value) == "mesh file" then return 'take one of its volumes: file:volume "name"' end
   return hints[kinds[1]]
 end
 
 local function check_object(call, argument, value, label)
+  if argument.or_bolt and bolts.is_bolt(value) then return value end
   if not fits(value, argument.kinds) then
     wrong_type(call, label, one_of(argument.kinds, true), value, hint_for(argument.kinds, value))
   end
@@ -266,13 +271,64 @@ function types.table(call, argument, value, label)
   return check.arguments(call, argument.fields, value, label .. ".")
 end
 
+-- Two sides of an interface, or a word for all.
+function types.between(call, argument, value, label)
+  if argument.or_word and value == argument.or_word then return value end
+  local wanted = "two faces or parts { one, other }" .. (argument.or_word and (' or "%s"'):format(argument.or_word) or "")
+  if type(value) == "string" and argument.or_word then
+    fail(call, ("'%s' = \"%s\" is unknown"):format(label, value), ('it is { one, other }, or "%s"'):format(argument.or_word))
+  end
+  if type(value) ~= "table" then wrong_type(call, label, wanted, value, hints.face) end
+  local n = check_list(call, value, label, wanted)
+  if n ~= 2 then fail(call, ("'%s' must be %s, got %d of them"):format(label, wanted, n), hints.face) end
+  for i = 1, 2 do check_object(call, argument, value[i], ("%s[%d]"):format(label, i)) end
+  if value[1] == value[2] then
+    fail(call, ("'%s' has %s twice: an interface joins two parts"):format(label, describe(value[1])))
+  end
+  return { value[1], value[2] }
+end
+
+-- Parts, pairs of parts and interfaces.
+function types.except(call, _, value, label)
+  local items, n = {}, check_list(call, value, label, "a list of parts, pairs of parts and interfaces")
+  for i = 1, n do
+    local item, place = value[i], ("%s[%d]"):format(label, i)
+    if type(item) ~= "table" and not native.kind(item) then
+      wrong_type(call, place, "a substructure, a pair of them { one, other }, or an interface", item)
+    elseif native.kind(item) then
+      items[i] = check_object(call, { kinds = { "substructure", "interface" } }, item, place)
+    else
+      items[i] = types.objects(call, { kinds = { "substructure" }, exactly = 2 }, item, place)
+    end
+  end
+  return items
+end
+
+-- A list of `n` items with what is in lists of it in their places.
+local function flattened(call, value, n, label, what)
+  local flat = {}
+  for i = 1, n do
+    local item = value[i]
+    if type(item) == "table" and not native.kind(item) and item[1] ~= nil then
+      local place = ("%s[%d]"):format(label, i)
+      for _, inner in ipairs(flattened(call, item, check_list(call, item, place, what), place, what)) do flat[#flat + 1] = inner end
+    else
+      flat[#flat + 1] = item
+    end
+  end
+  return flat
+end
+
 function types.objects(call, argument, value, label)
   local what = one_of(argument.kinds)
+  if bolts.is_bolt(value) then wrong_type(call, label, one_of(argument.kinds, true), value, hints.bolt) end
   if native.kind(value) and argument.or_single then return { check_object(call, argument, value, label) } end
   if type(value) ~= "table" and argument.or_single then
     wrong_type(call, label, one_of(argument.kinds, true) .. ", or a list", value, hint_for(argument.kinds, value))
   end
-  local n = check_list(call, value, label, ("a list { ... } of %ss"):format(what))
+  local of_what = ("a list { ... } of %ss"):format(what)
+  value = flattened(call, value, check_list(call, value, label, of_what), label, of_what)
+  local n = #value
   if argument.exactly and n ~= argument.exactly then
     fail(call, ("'%s' must be %d %ss, got %d"):format(label, argument.exactly, what, n), hints[argument.kinds[1]])
   end
@@ -316,6 +372,12 @@ local function check_known(call, arguments, given, prefix)
   fail(call, ("unknown argument '%s%s'"):format(prefix, unknown[1]), native.did_you_mean(unknown[1], known))
 end
 
+-- Is what is required elsewhere left out, given what another argument says?
+local function is_excused(argument, given)
+  local unless = argument.required_unless
+  return unless and type(given[unless[1]]) == "string"
+end
+
 -- The checked copy of `given`, defaults filled in.
 function check.arguments(call, arguments, given, prefix)
   check_known(call, arguments, given, prefix)
@@ -325,7 +387,7 @@ function check.arguments(call, arguments, given, prefix)
     local value = given[key]
     if value ~= nil then
       checked[key] = types[argument.type](call, argument, value, prefix .. key)
-    elseif argument.required then
+    elseif argument.required and not is_excused(argument, given) then
       fail(call, ("'%s%s' is missing"):format(prefix, key), of_unit(key, argument.unit) .. ": " .. argument.doc)
     else
       checked[key] = argument.default

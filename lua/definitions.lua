@@ -45,6 +45,7 @@ function type_of(a)
   if a.kinds then
     local one = union(a.kinds, class_of)
     if a.type == "object" then text = one
+    elseif a.type == "except" then text = ("(%s|[%s, %s])[]"):format(one, class_of "substructure", class_of "substructure")
     elseif a.exactly then text = "[" .. (one .. ", "):rep(a.exactly - 1) .. one .. "]"
     else text = grouped(one) .. "[]" end
     if a.or_single then text = one .. "|" .. text end
@@ -56,6 +57,7 @@ function type_of(a)
 end
 
 local function default_of(a)
+  if a.required_unless then return ('required but with "%s"'):format(a.required_unless[2]) end
   if a.required then return "required" end
   if a.default_doc then return "default: " .. a.default_doc end
   local default = a.default
@@ -75,7 +77,7 @@ end
 
 local function put_fields(arguments)
   for _, a in ipairs(arguments) do
-    put("---@field %s%s %s # %s", a[1], a.required and "" or "?", type_of(a), text_of(a))
+    put("---@field %s%s %s # %s", a[1], a.required and not a.required_unless and "" or "?", type_of(a), text_of(a))
     for _, f in ipairs(a.fields or {}) do put("--- `%s.%s`: %s", a[1], f[1], text_of(f)) end
   end
 end
@@ -104,7 +106,7 @@ local function put_constructor(path, entry)
   end
   put_doc(entry)
   put("---@param arguments%s %s", needs_argument(entry.arguments) and "" or "?", arguments_of(path))
-  put("---@return %s", entry.expands and class_of "substructure" .. "[]" or class_of(path))
+  put("---@return %s", entry.expands and class_of "substructure" .. "[]|" .. class_of "list of bolts" or class_of(path))
   put("function %s(arguments) end\n", path)
 end
 
@@ -123,12 +125,17 @@ local function put_kinds()
       if not entry.expands then add(entry.makes) end
     end
   end
+  add "list of bolts"
   for _, entry in ipairs(schema.methods) do
     add(entry.kind)
     if entry.makes then add(entry.makes) end
   end
   for _, kind in ipairs(known) do
-    if kind ~= "result" and kind ~= "history" then put("---@class %s\n", class_of(kind)) end
+    if kind ~= "result" and kind ~= "history" then put("---@class %s", class_of(kind)) end
+    for _, field in ipairs(schema.fields[kind] or {}) do
+      put("---@field %s %s # %s", field[1], (field.kind == "number" or field.kind == "text") and plain[field.kind] or class_of(field.kind) .. (field.is_list and "[]" or ""), field.doc)
+    end
+    if kind ~= "result" and kind ~= "history" then put "" end
   end
 end
 

@@ -17,7 +17,7 @@ local function type_of(argument)
   if argument.type == "numbers" and argument.or_single then return "number or list of numbers" end
   if argument.exactly then text = ("list of %d: %s"):format(argument.exactly, text)
   elseif argument.or_single then text = text .. ", or a list"
-  elseif argument.type == "objects" then text = "list of " .. text end
+  elseif argument.type == "objects" or argument.type == "except" then text = "list of " .. text end
   if argument.or_word then text = ('%s or "%s"'):format(text, argument.or_word) end
   if argument.or_table then text = text .. " or table" end
   return text
@@ -25,6 +25,7 @@ end
 
 local function default_of(argument)
   local default = argument.default
+  if argument.required_unless then return ('required but with "%s"'):format(argument.required_unless[2]) end
   if argument.required then return "required" end
   if argument.default_doc then return argument.default_doc end
   if type(default) == "table" then return #default == 0 and "none" or "{ " .. table.concat(default, ", ") .. " }" end
@@ -80,6 +81,16 @@ for _, entry in ipairs(schema.methods) do entry_of(("`%s`"):format(entry.write),
 put "## param\n"
 put("`param{ mu = 0.2, n = 4 }` declares, once in a deck, the numbers that the command line may override: `--set mu=0.3`, "
   .. "`--set tighten=0.04*mm`. It answers them by their names.\n")
+
+for _, kind in ipairs { "bolt", "list of bolts" } do
+  put("## What a %s answers\n", kind)
+  put "| written | kind | meaning |"
+  put "| --- | --- | --- |"
+  for _, field in ipairs(schema.fields[kind]) do
+    put("| `%s.%s` | %s | %s |", kind == "bolt" and "bolt" or "bolts", field[1], (field.is_list and "list of " or "") .. field.kind, field.doc)
+  end
+  put ""
+end
 
 put "## Reading results\n"
 put "| written | answers |"

@@ -18,21 +18,41 @@
 --   specification         a file, or a list of { frequency, level }
 --   table                 a table of the named `fields`
 --   value                 a number, a history or a function of time
+--   between               two sides, each one of the `kinds`; `or_word`: a word allowed instead
+--   except                a list of parts, pairs of parts and interfaces
 --   object, objects       one of, or a list of, the `kinds`: a kind ("face") or a constructor ("interface.plastic");
---                         of objects `at_least`, `exactly`; `or_single`: one alone needs no list
+--                         of objects `at_least`, `exactly`; `or_single`: one alone needs no list; lists in the list count as their items
+
+local native = ...
 
 local function name_of(what)
   return { "name", type = "name", required = true, doc = "name of the " .. what .. ", for messages and files" }
 end
 
-local function between()
-  return { "between", type = "objects", kinds = { "face" }, exactly = 2, required = true,
-           doc = "the two faces; the first is side 1, on which resultants are counted" }
+local function between(word)
+  return { "between", type = "between", kinds = { "face", "substructure" }, exactly = 2, or_word = word, required = true,
+           doc = "the two faces, or parts, of which the faces that touch are found; the first is side 1, on which resultants are counted"
+             .. (word and (". \"%s\": a list of interfaces, `first/second`, one for each two parts that touch where they have no interface yet"):format(word) or "") }
+end
+
+local all_touching = "all touching"
+
+-- What may be said of all interfaces of an assembly at once.
+local function of_all()
+  return { "of", type = "objects", kinds = { "substructure" }, at_least = 1, default_doc = "all declared before",
+           doc = ("with \"%s\": the parts of the assembly"):format(all_touching) },
+    { "except", type = "except", kinds = { "substructure", "interface" }, default_doc = "none",
+      doc = ("with \"%s\": parts, pairs of parts { a, b } and interfaces whose pairs of parts are left alone"):format(all_touching) }
+end
+local of_parts, except = of_all()
+local function name_unless_all()
+  return { "name", type = "name", required = true, required_unless = { "between", all_touching },
+           doc = ("name of the interface, for messages; with \"%s\" before those of the parts"):format(all_touching) }
 end
 
 -- What may be said where the meshes of two faces do not match.
 local function within()
-  return { "within", type = "number", unit = "m", range = { 0, 0.1 }, default_doc = "a ten thousandth of the assembly's diagonal",
+  return { "within", type = "number", unit = "m", range = { 0, 0.1 }, default_doc = "a ten thousandth of the assembly's diagonal; where faces are found, a hundredth of the facets",
            doc = "how far apart faces may be that touch, beside what the facets of round ones are off" }
 end
 
@@ -131,6 +151,7 @@ words[1][3] = {
         { "size", type = "number", unit = "m", range = { 1e-7, 100 }, required = true, doc = "size there" },
         { "growth", type = "number", range = { 0.01, 2 }, default = 0.35, doc = "by which it grows with the distance" },
       } },
+    { "round", type = "integer", range = { 4, 400 }, default = 16, doc = "cells around a whole turn of a round surface, as in a hole, where `size` alone would be coarser" },
     { "unit", type = "number", unit = "m", range = { 1e-9, 1000 }, default = 0.001, doc = "length of one unit of a .brep; a .step states its own" },
   },
 }
@@ -187,7 +208,8 @@ words[3] = {
 }
 
 local function pattern_of(n_doc)
-  return { "of", type = "object", kinds = { "substructure" }, required = true, doc = "the part; the first of the list stands where it does" },
+  return { "of", type = "object", kinds = { "substructure" }, or_bolt = true, required = true,
+           doc = "the part, or a bolt with all its parts; the first of the list stands where it does" },
     { "n", type = "integer", range = { 1, 10000 }, required = true, doc = n_doc }
 end
 local circle_of, circle_n = pattern_of "how many, evenly around"
@@ -213,16 +235,43 @@ words.pattern = {
   },
 }
 
+local bolts = native.module "bolts"
+words.bolt = {
+  name = "bolt", doc = "Standard bolts, meshed: parts, faces and interfaces at once.",
+  {
+    "hex", makes = "bolt", is_bolt = true,
+    doc = "A hexagon bolt with nut and washers (ISO 4014 and 4017, 4032, 7089), of hexahedra around z. z = 0 is the upper face of what it clamps; the head is "
+      .. "above, the nut at -grip. Its parts are held together by its own interfaces; what it clamps, by the deck's.",
+    arguments = {
+      { "name", type = "name", required = true, doc = "of the bolt: its parts are `name head`, `name nut`, `name washer 1`, `name washer 2`, the shank's interface `name`" },
+      { "size", type = "choice", choices = bolts.sizes, required = true, doc = "of the thread" },
+      { "grip", type = "number", unit = "m", range = { 1e-4, 2 }, required = true, doc = "thickness of what is clamped, without the washers" },
+      { "material", type = "object", kinds = { "material" }, required = true, doc = "of all its parts" },
+      { "place", type = "placement", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "as of a substructure",
+        fields = words[3].call.arguments[4].fields },
+      { "washer", type = "boolean", default = true, doc = "under head and nut" },
+      { "friction", type = "number", range = { 0, 1000 }, usual = friction.usual, default = 0.15, doc = "of the washers against head and nut" },
+      { "shank", type = "choice", choices = { "stress", "nominal" }, default = "stress",
+        doc = "diameter of the shank: of the thread's stress area (ISO 898-1), for bolts threaded over their grip, or nominal" },
+      { "yield", type = "number", unit = "Pa", range = { 1e3, 1e11 }, doc = "the shank's interface is then interface.plastic, else bonded" },
+      { "hardening", type = "number", unit = "Pa/m", range = { 0, 1e17 }, default = 0, doc = "of it" },
+      { "around", type = "integer", range = { 12, 240 }, default = 12, doc = "cells around the shank, a multiple of 12; lengths of cells follow" },
+      { "order", type = "integer", range = { 1, 2 }, default = 1, doc = "of the shape functions: hex8, or hex20 with round edges" },
+      { "integration", type = "choice", choices = { "implicit", "automatic", "explicit" }, default_doc = "as the solver has it", doc = "as of a substructure" },
+    },
+  },
+}
+
 words[4] = {
   name = "interface", doc = "Where two substructures meet: everything nonlinear happens here.",
   {
     "bonded", makes = "interface", tightens = true, doc = "A perfect bond.",
-    arguments = { name_of "interface", between(), within(), points() },
+    arguments = { name_unless_all(), between(all_touching), of_parts, except, within(), points() },
   },
   {
     "contact", makes = "interface", doc = "Unilateral contact with Coulomb friction.",
     arguments = {
-      name_of "interface", between(), friction,
+      name_unless_all(), between(all_touching), of_parts, except, friction,
       { "gap", type = "number", unit = "m", range = { -0.01, 0.01 }, usual = usual_gap, default = 0, or_word = "geometry",
         doc = "initial gap; a negative one is an interference; that of the places, point by point, where the meshes do not match" },
       { "closed", type = "boolean", default = false, doc = "says that the faces touch, whatever lies between their facets: the gap is 0" },
@@ -763,6 +812,29 @@ local reading = {
   { "result.converged", "whether every increment converged" },
 }
 
-words[#words + 1], words.pattern = words.pattern, nil
+for _, name in ipairs { "pattern", "bolt" } do words[#words + 1], words[name] = words[name], nil end
 
-return { words = words, methods = methods, reading = reading }
+-- What the deck reads of what is no single object.
+local fields = {
+  bolt = {
+    { "name", kind = "text", doc = "its name" },
+    { "parts", kind = "substructure", is_list = true, doc = "head, nut and washers: for `substructures`" },
+    { "interfaces", kind = "interface", is_list = true, doc = "the shank's and, with washers, theirs against head and nut: for `interfaces`" },
+    { "shank", kind = "interface", doc = "across the middle of the shank: for load.preload and load.shortening" },
+    { "upper", kind = "face", doc = "what bears on the upper side of what it clamps: the washer's lower face, or the head's" },
+    { "lower", kind = "face", doc = "what bears on the lower side" },
+    { "head", kind = "substructure", doc = "the head with half of the shank" },
+    { "nut", kind = "substructure", doc = "the nut with the other half" },
+    { "washers", kind = "substructure", is_list = true, doc = "under the head, under the nut" },
+    { "top", kind = "face", doc = "the free face of the head" },
+    { "tip", kind = "face", doc = "the free face of the nut, with the end of the shank" },
+    { "diameter", kind = "number", doc = "of the shank (m)" },
+    { "area", kind = "number", doc = "of the shank's section (m^2)" },
+  },
+  ["list of bolts"] = {
+    { "parts", kind = "substructure", is_list = true, doc = "those of all bolts of a pattern; `bolts[1]` is one bolt" },
+    { "interfaces", kind = "interface", is_list = true, doc = "those of all" },
+    { "shanks", kind = "interface", is_list = true, doc = "the shank of each" },
+  },
+}
+return { words = words, methods = methods, reading = reading, fields = fields }

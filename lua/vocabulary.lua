@@ -8,6 +8,8 @@ local environment = native.module "environment"
 local command_line = native.module "command_line"
 local arithmetic = native.module "arithmetic"
 local placement = native.module "placement"
+local interfaces = native.module "interfaces"
+local bolts = native.module "bolts"
 
 local function fail(line, text, hint) native.fail(line, text .. (hint and "\n    " .. hint or "")) end
 
@@ -24,21 +26,38 @@ local function constructor(entry)
   return function(...)
     local line = native.line()
     local arguments = check.call(entry, line, ...)
+    if entry.makes == "interface" then
+      local made = interfaces.declare(entry, arguments, line)
+      return made
+    end
     local other = entry.path == "problem" and command_line.solver(line)
     if other then  -- the deck's own is kept as used
       arguments.solver_of_deck, arguments.solver = arguments.solver, other
     end
     local object = native.make(entry.path, entry.makes, arguments, line)
+    if entry.makes == "substructure" then interfaces.note_part(object) end
     return object
   end
 end
 
--- The substructures of a pattern: the given one, renamed, and copies of it in their places.
+-- A copy of a substructure under another name, in another place.
+local function copied(of, arguments, name, place, line)
+  local copy = {}
+  for key, value in pairs(arguments) do copy[key] = value end
+  copy.name, copy.place = name, placement.shortest(place)
+  copy.of = of  -- which is used so
+  local part = native.make("substructure", "substructure", copy, line)
+  interfaces.note_part(part)
+  return part
+end
+
+-- The substructures, or bolts, of a pattern: the given one, renamed, and copies of it in their places.
 local function expanded(entry)
   return function(...)
     local line = native.line()
     local given = check.call(entry, line, ...)
-    local of = native.arguments(given.of)
+    local is_bolt = bolts.is_bolt(given.of)
+    local of = is_bolt and bolts.given(given.of) or native.arguments(given.of)
     local turn
     if given.axis then
       turn = placement.rotation(given.axis, given.angle or 2 * math.pi / given.n, given.about)
@@ -46,16 +65,15 @@ local function expanded(entry)
     else
       turn = placement.translation(given.step)
     end
-    local place, parts = placement.of(of.place), {}
+    if is_bolt then bolts.forget(given.of) else interfaces.forget_part(given.of) end  -- the copies stand for it
+    local place, copies = placement.of(of.place), {}
     for i = 1, given.n do
-      local copy = {}
-      for key, value in pairs(of) do copy[key] = value end
-      copy.name, copy.place = ("%s[%d]"):format(of.name, i), placement.shortest(place)
-      copy.of = given.of  -- which is used so
-      parts[i] = native.make("substructure", "substructure", copy, line)
+      local name = ("%s[%d]"):format(of.name, i)
+      copies[i] = is_bolt and bolts.copy(given.of, name, place, line) or copied(given.of, of, name, place, line)
       place = placement.after(turn, place)
     end
-    return parts
+    if is_bolt then copies = bolts.list(copies, of.name) end
+    return copies
   end
 end
 
@@ -73,7 +91,7 @@ for _, word in ipairs(schema.words) do
     local members = {}
     for _, entry in ipairs(word) do
       entry.path = name .. "." .. entry[1]
-      members[entry[1]] = entry.expands and expanded(entry) or constructor(entry)
+      members[entry[1]] = entry.expands and expanded(entry) or entry.is_bolt and bolts.constructor(entry, check.call) or constructor(entry)
     end
     for _, later in ipairs(word.later or {}) do members[later] = not_built(name .. "." .. later) end
     words[name] = environment.read_only(members, name)

@@ -32,6 +32,7 @@ BooleanUnion(6) = { Volume{21}; Delete; }{ Volume{31, 41}; Delete; };
 """
 # Of each solid in the order of its number: product, instance.
 NAMES = [("plate 10 mm", "lower"), ("plate 8 mm", "upper"), ("M8 bolt", "bolt1"), ("M8 bolt", "bolt2")]
+ASSEMBLY = "joint"
 
 
 def write_solids(geo, step):
@@ -47,7 +48,7 @@ def write_solids(geo, step):
 
 
 def put_names(text):
-    text = re.sub(r"FILE_NAME\('[^']*','[^']*'", "FILE_NAME('joint.step','2024-01-01T00:00:00'", text)
+    text = re.sub(r"FILE_NAME\('[^']*','[^']*'", "FILE_NAME('%s.step','2024-01-01T00:00:00'" % ASSEMBLY, text)
     for number, (product, instance) in enumerate(NAMES, 1):
         own = r"'Open CASCADE STEP translator [0-9.]+ \d+\.%d'" % number
         text, n = re.subn(r"(PRODUCT\(\s*)%s(\s*,\s*)%s" % (own, own), r"\1'%s'\2'%s'" % (product, product), text)
@@ -57,11 +58,11 @@ def put_names(text):
                           r"\1'%d'\2'%s'" % (number, instance), text)
         if n != 1:
             sys.exit("instance %d is not where it was expected" % number)
-    return re.sub(r"'Open CASCADE STEP translator [0-9.]+ \d+'", "'joint'", text)
+    return re.sub(r"'Open CASCADE STEP translator [0-9.]+ \d+'", "'%s'" % ASSEMBLY, text)
 
 
-def main():
-    target = sys.argv[1] if len(sys.argv) > 1 else os.path.join(os.path.dirname(__file__), "joint.step")
+def main(default):
+    target = sys.argv[1] if len(sys.argv) > 1 else default
     with tempfile.TemporaryDirectory() as folder:
         geo, step = os.path.join(folder, "joint.geo"), os.path.join(folder, "joint.step")
         with open(geo, "w") as file:
@@ -74,4 +75,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    main(os.path.join(os.path.dirname(__file__), "joint.step"))

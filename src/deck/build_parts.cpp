@@ -6,9 +6,11 @@
 #include "deck/build_model.hpp"
 #include "deck/integration.hpp"
 #include "law/law.hpp"
+#include "mesh/bolt.hpp"
 #include "mesh/box.hpp"
 #include "mesh/geo_script.hpp"
 #include "mesh/mesh_limits.hpp"
+#include "model/found_faces.hpp"
 
 namespace dygita {
 
@@ -75,9 +77,20 @@ Content build_step_mesh(const Declaration& d) {
       options.fine = StepOptions::Fine{fine.at("size"), fine.at("growth")};
     }
   }
+  options.cells_a_turn = a.integer("round");
   options.unit = a.number("unit");
   const LuaState::Pause pause(d.lua);
   return std::make_shared<const StepAssembly>(options);
+}
+
+// A part of a bolt, as lua/bolts.lua asks for it.
+Content build_bolt_mesh(const Declaration& d) {
+  const LuaArguments& a = d.arguments;
+  const int around = a.integer("around"), order = a.integer("order");
+  if (a.has("inner"))
+    return washer_mesh({a.number("inner"), a.number("outer"), a.number("low"), a.number("thickness"), around, order});
+  return bolt_end_mesh({a.number("diameter"), a.number("flats"), a.number("height"), a.number("shank"),
+                        a.number("bearing"), a.boolean("above"), around, order});
 }
 
 Damping damping_by_ratio(const LuaArguments& a) {
@@ -161,18 +174,43 @@ Content build_substructure(const Declaration& d) {
   return SubstructurePtr(part);
 }
 
+InterfaceSide side_of(const Object& object) {
+  if (object.kind == "substructure") return {object.as<SubstructurePtr>(), {}};
+  const Face& face = object.as<Face>();
+  return {face.part, face};
+}
+
+// The faces, found where parts are given.
+void set_sides(const Declaration& d, Interface& interface) {
+  const std::vector<const Object*> sides = d.arguments.objects("between");
+  const InterfaceSide one = side_of(*sides[0]), other = side_of(*sides[1]);
+  if (one.face && other.face) {
+    interface.side_1 = *one.face;
+    interface.side_2 = *other.face;
+    return;
+  }
+  const FoundFaces found = find_faces(one, other, interface.within);
+  interface.side_1 = found.side_1;
+  interface.side_2 = found.side_2;
+  interface.within = found.touching.within;
+  say(fmt::format("{} '{}': '{}' and '{}' touch on {}", d.path, interface.name, one.label(), other.label(),
+                  describe(found.touching)));
+}
+
 // The law of a word, from all numbers and truth values of the declaration.
 Content build_interface(const Declaration& d) {
   auto interface = new_named<Interface>(d);
-  const auto faces = d.arguments.list<Face>("between");
-  interface->side_1 = faces[0];
-  interface->side_2 = faces[1];
-  if (faces[0].part == faces[1].part && faces[0].group == faces[1].group) {
-    throw InputError(d.origin,
-                     fmt::format("{} '{}': 'between' has face '{}' twice", d.path, interface->name, faces[0].label()));
-  }
   std::map<std::string, double> of_law = d.arguments.plain_numbers();
   if (of_law.erase("within") > 0) interface->within = d.arguments.number("within");
+  try {
+    set_sides(d, *interface);
+  } catch (const InputError& error) {
+    throw InputError(d.origin, fmt::format("{} '{}': {}", d.path, interface->name, error.what()));
+  }
+  if (interface->side_1.part == interface->side_2.part && interface->side_1.group == interface->side_2.group) {
+    throw InputError(d.origin, fmt::format("{} '{}': 'between' has face '{}' twice", d.path, interface->name,
+                                           interface->side_1.label()));
+  }
   if (d.arguments.has("points"))
     interface->points = d.arguments.text("points") == "first" ? Carrier::first : Carrier::second;
   if (d.arguments.has("gap") && !d.arguments.is_number("gap")) {
@@ -202,11 +240,8 @@ Content build_parameters(const Declaration&) { return std::monostate(); }
 const Builders& part_builders() {
   static const Builders builders = [] {
     Builders all = {
-        {"mesh.box", build_box},
-        {"mesh.gmsh", build_gmsh},
-        {"mesh.step", build_step_mesh},
-        {"material.elastic", build_elastic},
-        {"substructure", build_substructure},
+        {"mesh.box", build_box},        {"mesh.gmsh", build_gmsh},           {"bolt.mesh", build_bolt_mesh},
+        {"mesh.step", build_step_mesh}, {"material.elastic", build_elastic}, {"substructure", build_substructure},
         {"param", build_parameters},
     };
     for (const LawEntry& law : law_table()) all.emplace("interface." + law.word, build_interface);

@@ -6,6 +6,7 @@
 #include "deck/build_model.hpp"
 #include "deck/deck_state.hpp"
 #include "deck/embedded_lua.hpp"
+#include "deck/find_interfaces.hpp"
 #include "deck/histories.hpp"
 #include "deck/pick_places.hpp"
 #include "deck/results.hpp"
@@ -35,9 +36,14 @@ int module(LuaState& state, lua_State* L) {
   const std::string name = luaL_checkstring(L, 1);
   const auto found = embedded_lua().find(name);
   CHECK(found != embedded_lua().end(), "lua/" + name + ".lua is not in the program");
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, "dygita modules");
+  if (lua_getfield(L, -1, name.c_str()) != LUA_TNIL) return 1;
+  lua_pop(L, 1);
   state.load(found->second, "=dygita/" + name + ".lua");
   lua_getfield(L, LUA_REGISTRYINDEX, "native");
   lua_call(L, 1, 1);
+  lua_pushvalue(L, -1);
+  lua_setfield(L, -3, name.c_str());
   return 1;
 }
 
@@ -256,6 +262,9 @@ void push_native(DeckState& state) {
                                        {"value_of", guarded<value_of_history>},
                                        {"extremes", guarded<extremes_of_history>},
                                        {"call", guarded<call_method>},
+                                       {"touching", guarded<touching_pairs>},
+                                       {"sides", guarded<sides_of_interface>},
+                                       {"say", guarded<say_line>},
                                        {"read", guarded<read>},
                                        {"at", guarded<at>},
                                        {"compile", guarded<compile>},

@@ -49,8 +49,9 @@ Json options_of(const GmshOptions& options) {
 }
 
 Json options_of(const StepOptions& options) {
-  Json json = {{"file", options.file},   {"size", json_of(options.size)},   {"unit", options.unit},
-               {"order", options.order}, {"complete", options.is_complete}, {"sizes", options.sizes}};
+  Json json = {{"file", options.file},          {"size", json_of(options.size)},   {"unit", options.unit},
+               {"order", options.order},        {"complete", options.is_complete}, {"sizes", options.sizes},
+               {"a_turn", options.cells_a_turn}};
   if (options.fine) json["fine"] = {options.fine->size, options.fine->growth};
   return json;
 }
@@ -69,6 +70,7 @@ Options common_options(const Json& json) {
 StepOptions step_options(const Json& json) {
   StepOptions options = common_options<StepOptions>(json);
   options.sizes = json.at("sizes").get<std::map<std::string, double>>();
+  options.cells_a_turn = json.at("a_turn");
   if (json.contains("fine")) options.fine = {json["fine"].at(0), json["fine"].at(1)};
   return options;
 }

@@ -12,7 +12,7 @@ namespace dygita {
 
 namespace {
 
-constexpr double least_share = 0.5;      // of a point's function that must be covered
+constexpr double least_share = 0.499;    // of a point's function that must be covered: an edge along nodes covers half
 constexpr double coarser = 1.3;          // of two sizes, to count as different
 constexpr double fewer_points = 0.02;    // of the smaller number, likewise
 constexpr double better_covered = 0.01;  // of two shares, likewise

@@ -12,6 +12,7 @@ namespace dygita {
 namespace {
 
 constexpr size_t most_depths = 400;  // points whose depth is measured
+constexpr int samples_along = 40;    // of a volume in common
 
 // The place on a triangle that is nearest to x, as weights of its corners (Ericson 2005, section 5.1.5).
 Vec3 nearest_weights(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -193,12 +194,26 @@ void find_intrusion(const SurfaceInBox& a, const SurfaceInBox& b, double whole, 
     }
     if (b.facets.empty()) depth = whole;
     if (depth <= allowed) continue;
-    if (!deepest) deepest = Intrusion{0.0, x, {}};
+    if (!deepest) deepest = Intrusion{0.0, x, {}, 0.0};
     deepest->extent.add(x);
     if (depth <= deepest->depth) continue;
     deepest->depth = depth;
     deepest->place = x;
   }
+}
+
+// What two bodies have in common within a box, by points on a regular grid.
+double volume_in_common(const SurfaceInBox& a, const SurfaceInBox& b, const Box& box) {
+  Inside in_a(a), in_b(b);
+  const Vec3 step = box.size() / samples_along;
+  long n = 0;
+  for (int k = 0; k < samples_along; ++k)
+    for (int j = 0; j < samples_along; ++j)
+      for (int i = 0; i < samples_along; ++i) {
+        const Vec3 x = box.low + Vec3(i + 0.5, j + 0.5, k + 0.5).cwiseProduct(step);
+        n += in_a.has(x) && in_b.has(x) ? 1 : 0;
+      }
+  return static_cast<double>(n) * step.prod();
 }
 
 std::vector<NearNode> find_near_nodes(const SurfaceInBox& a, const SurfaceInBox& b, double reach) {
@@ -246,6 +261,10 @@ Neighbours find_neighbours(const PlacedBody& body_1, const PlacedBody& body_2, d
   if (!exact.is_empty() && exact.size().minCoeff() > 1e-6 * std::min(surface_1.mean_size(), surface_2.mean_size())) {
     find_intrusion(surface_1, surface_2, exact.size().minCoeff(), found.intrusion);
     find_intrusion(surface_2, surface_1, exact.size().minCoeff(), found.intrusion);
+    if (found.intrusion)
+      found.intrusion->volume = volume_in_common(
+          surface_1, surface_2,
+          found.intrusion->extent.grown(std::max(surface_1.mean_size(), surface_2.mean_size())).common(exact));
   }
   found.nodes_1 = find_near_nodes(surface_1, surface_2, reach);
   found.nodes_2 = find_near_nodes(surface_2, surface_1, reach);

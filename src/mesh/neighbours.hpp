@@ -30,7 +30,8 @@ struct Touch {
 struct Intrusion {
   double depth;  // m, the deepest point found: how far it is from the surface of the body that it is in
   Vec3 place;
-  Box extent;  // of all points found
+  Box extent;           // of all points found
+  double volume = 0.0;  // m^3, in common, within some percent
 };
 
 // A node and the facet of the other body that it would pass through: its gap grows by normal . (u_node - sum w u).

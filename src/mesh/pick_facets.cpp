@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "mesh/face_nodes.hpp"
+#include "mesh/smooth_patches.hpp"
 
 namespace dygita {
 
 namespace {
 
-const double alike = std::cos(2.0 * M_PI / 180.0), smooth = std::cos(35.0 * M_PI / 180.0);
+const double alike = std::cos(2.0 * M_PI / 180.0);
 constexpr double relative_tolerance = 1e-6, of_radius = 0.02;
 
 struct Boundary {
@@ -25,27 +26,6 @@ Boundary boundary_of(const Mesh& mesh, const Vec3& place) {
   for (const Facet& facet : b.facets) b.normals.push_back(facet_area_vector(b.x, facet).normalized());
   b.tolerance = relative_tolerance * (b.x.rowwise().maxCoeff() - b.x.rowwise().minCoeff()).norm();
   return b;
-}
-
-// Number of the smooth patch of each facet: neighbours over an edge with normals less than 35 degrees apart are in one.
-std::vector<int> smooth_patches(const Boundary& b) {
-  std::map<std::pair<int, int>, std::vector<int>> beside;
-  for (size_t f = 0; f < b.facets.size(); ++f) {
-    const std::span<const int> corners = b.facets[f].corners();
-    for (size_t k = 0; k < corners.size(); ++k)
-      beside[std::minmax(corners[k], corners[(k + 1) % corners.size()])].push_back(static_cast<int>(f));
-  }
-  std::vector<int> patch(b.facets.size());
-  for (size_t f = 0; f < patch.size(); ++f) patch[f] = static_cast<int>(f);
-  const auto root = [&](int f) {
-    while (patch[f] != f) f = patch[f] = patch[patch[f]];
-    return f;
-  };
-  for (const auto& [edge, facets] : beside)
-    if (facets.size() == 2 && b.normals[facets[0]].dot(b.normals[facets[1]]) > smooth)
-      patch[root(facets[0])] = root(facets[1]);
-  for (size_t f = 0; f < patch.size(); ++f) patch[f] = root(static_cast<int>(f));
-  return patch;
 }
 
 struct Cylinder {
@@ -87,7 +67,7 @@ Cylinder cylinder_through(const Boundary& b, const std::vector<int>& facets) {
 }
 
 std::vector<char> on_cylinders(const Boundary& b, const FacetPick& pick) {
-  const std::vector<int> patch = smooth_patches(b);
+  const std::vector<int> patch = smooth_patches(b.facets, b.normals);
   std::map<int, std::vector<int>> members;
   for (size_t f = 0; f < patch.size(); ++f) members[patch[f]].push_back(static_cast<int>(f));
   std::vector<char> fits(patch.size(), 0);

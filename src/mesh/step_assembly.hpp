@@ -18,7 +18,8 @@ struct StepOptions {
     double growth = 0.35;
   };
   std::optional<Fine> fine;
-  double unit = 1e-3;  // m, of a .brep, which states none
+  int cells_a_turn = 16;  // where surfaces are round
+  double unit = 1e-3;     // m, of a .brep, which states none
 };
 
 struct StepPart {

@@ -18,7 +18,6 @@ namespace {
 
 constexpr double relative_within = 1e-4;  // of the assembly's diagonal: faces nearer than that touch
 constexpr double cells_across = 20.0;     // the diagonal of a part whose size nobody says
-constexpr int cells_a_turn = 16;          // where surfaces are round
 
 struct Solid {
   int tag = 0;
@@ -146,7 +145,7 @@ void mesh_solids(const StepOptions& options, const std::vector<Solid>& solids, d
     }
   }
   gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
-  gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", cells_a_turn);
+  gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", options.cells_a_turn);
   gmsh::model::mesh::setSizeCallback([&](int dimension, int tag, double, double, double) {
     const auto found = size_of.find({dimension, tag});
     return found == size_of.end() ? 1e22 : found->second;

@@ -16,9 +16,12 @@ bool is_fit_for_a_file(const std::string& name) {
          });
 }
 
-void has_name(const Problem& problem, const Named& object, const std::string& what) {
+// besides: characters that this kind of name may have, of which no file is called after.
+void has_name(const Problem& problem, const Named& object, const std::string& what, const std::string& besides = "") {
   if (object.name.empty()) fail(problem, object.origin, what + " has no name");
-  if (!is_fit_for_a_file(object.name)) {
+  std::string name = object.name;
+  std::erase_if(name, [&](char c) { return besides.find(c) != std::string::npos; });
+  if (name.empty() || !is_fit_for_a_file(name)) {
     fail(problem, object.origin, what + " '" + object.name + "': a name becomes a file name",
          "allowed: anything without '/', '\\', control characters and a '.' in front");
   }
@@ -26,9 +29,9 @@ void has_name(const Problem& problem, const Named& object, const std::string& wh
 
 template <class T>
 void has_unique_names(const Problem& problem, const std::vector<std::shared_ptr<const T>>& list,
-                      const std::string& what) {
+                      const std::string& what, const std::string& besides = "") {
   for (size_t i = 0; i < list.size(); ++i) {
-    has_name(problem, *list[i], what);
+    has_name(problem, *list[i], what, besides);
     for (size_t j = 0; j < i; ++j) {
       if (list[j] == list[i]) fail(problem, problem.origin, what + " '" + list[i]->name + "' is listed twice");
       if (list[j]->name != list[i]->name) continue;
@@ -77,7 +80,7 @@ void names(const Problem& problem) {
     fail(problem, problem.origin, "'steps' is empty", "at least one step.static or step.dynamic is needed");
   }
   has_unique_names(problem, problem.substructures, "substructure");
-  has_unique_names(problem, problem.interfaces, "interface");
+  has_unique_names(problem, problem.interfaces, "interface", "/");
   has_unique_names(problem, problem.steps, "step");
   for (const StepPtr& step : problem.steps) has_unique_names(problem, supports_of(problem, *step), "support");
   has_unique_names(problem, all_supports(problem), "support");

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <Eigen/Geometry>
+#include <map>
 #include <set>
 
 #include "base/log.hpp"
@@ -97,6 +98,26 @@ std::string what_lets_go(const Problem& problem, const Substructure& part) {
   return "";
 }
 
+// What nothing resists and nothing loads, a line for each part.
+void warn_of_unconstrained(const Problem& problem, const Step& step,
+                           const std::map<int, std::vector<std::string>>& motions) {
+  for (const auto& [part, all] : motions) {
+    const std::string& name = problem.substructures[static_cast<size_t>(part)]->name;
+    if (all.size() >= 6) {
+      warn(
+          fmt::format("static step '{}': substructure '{}' is held by nothing, neither a support nor an interface; "
+                      "nothing loads it, it is left at zero",
+                      step.name, name));
+      continue;
+    }
+    const std::set<std::string> each(all.begin(), all.end());
+    std::string text;
+    for (const std::string& motion : each) text += (text.empty() ? "" : " and ") + motion;
+    warn(fmt::format("static step '{}': {} of substructure '{}' {} unconstrained; nothing loads it, it is left at zero",
+                     step.name, text, name, each.size() == 1 ? "is" : "are"));
+  }
+}
+
 }  // namespace
 
 bool is_floating(const Substructure& part, const std::unordered_map<int, Held>& held) {
@@ -130,6 +151,7 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
   for (const Port& port : exchange.ports)
     port.for_each_node([&](int node, const Mat3&) { on_interface.emplace(port.part, node); });
 
+  std::map<int, std::vector<std::string>> unconstrained;  // by part
   std::vector<Vec> free_motions;
   for (int m = 0; m < 6 * n && eigen.values[m] < 1e-9; ++m)
     free_motions.push_back(weight.cwiseProduct(eigen.vectors.col(m)));
@@ -155,7 +177,7 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
     if (std::abs(work) > 1e-7 * scale && scale > 0.0)
       throw InputError(step.origin, what + " is loaded, but no support and no interface holds it" +
                                         what_lets_go(problem, *problem.substructures[part]));
-    warn(what + " is unconstrained; nothing loads it, it is left at zero");
+    unconstrained[part].push_back(describe(motion.segment<6>(6 * part)));
     const Substructure& body = *problem.substructures[part];
     int best_node = -1, best_axis = 0;
     double best = 0.0;
@@ -182,6 +204,7 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
     free_motions.pop_back();
     for (Vec& other : free_motions) other -= at_pin(other) / at_pin(pinned) * pinned;
   }
+  warn_of_unconstrained(problem, step, unconstrained);
 }
 
 }  // namespace dygita

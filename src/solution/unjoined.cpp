@@ -178,18 +178,33 @@ void doubt_unjoined(const Problem& problem, const std::vector<Unjoined>& unjoine
     if (const auto& intrusion = pair.neighbours.intrusion) {
       const Box& box = intrusion->extent;
       check::doubt(problem, b.origin,
-                   fmt::format("{} overlap, up to {:.3g} mm deep at {}, between {} and {}: check 'place', 'origin' and "
-                               "'unit'",
-                               who, 1e3 * intrusion->depth, at(intrusion->place), at(box.low), at(box.high)));
+                   fmt::format("{} overlap, up to {:.3g} mm deep at {}, in about {:.3g} mm^3 between {} and {}: check "
+                               "'place', 'origin' and 'unit'",
+                               who, 1e3 * intrusion->depth, at(intrusion->place), 1e9 * intrusion->volume, at(box.low),
+                               at(box.high)));
     }
   }
   doubt_touches(problem, unjoined);
+}
+
+// Contact that a few points carry tilts as it will.
+void doubt_points(const Problem& problem, const Surface& surface) {
+  constexpr int few = 4;
+  if (surface.facing.matches() || surface.n_points() >= few) return;
+  const bool is_first = surface.facing.carrier == 1;
+  const Face& carrier = is_first ? surface.interface->side_1 : surface.interface->side_2;
+  check::doubt(problem, surface.interface->origin,
+               fmt::format("{} has {} point{} only, since the facets of {} are large for its {:.4g} mm^2: a finer mesh "
+                           "there",
+                           check::describe(*surface.interface), surface.n_points(), surface.n_points() == 1 ? "" : "s",
+                           carrier.label(), 1e6 * surface.facing.areas.sum()));
 }
 
 void doubt_surfaces(const Problem& problem, const std::vector<Surface>& surfaces) {
   for (const Surface& surface : surfaces) {
     if (!surface.interface) continue;
     doubt_shift(problem, surface);
+    doubt_points(problem, surface);
     doubt_held_side(problem, surface, surface.interface->side_1.part, surface.facing.facets_1);
     doubt_held_side(problem, surface, surface.interface->side_2.part, surface.facing.facets_2);
   }

@@ -94,7 +94,7 @@ TEST(NotConverged, asks_for_as_many_iterations_as_are_enough) {
 
 // The defaults go on as long as iterations help.
 TEST(NotConverged, is_not_what_ordinary_bolts_are_at_the_defaults) {
-  const PrintedRun box = run_printing("electronics_box.lua", {{"duration", "0"}, {"around", "2"}});
+  const PrintedRun box = run_printing("hard/four_bolts.lua");
   const DeckRun& run = box.runs.at(0);
   EXPECT_EQ(run.problem.substructures.size(), 18u);
   EXPECT_EQ(run.problem.interfaces.size(), 21u);

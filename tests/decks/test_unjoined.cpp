@@ -119,6 +119,7 @@ TEST(Unjoined, parts_that_overlap_are_named_with_depth) {
   ASSERT_EQ(overlap.size(), 1u);
   EXPECT_NE(overlap[0].find("substructures 'plate' and 'block' overlap, up to 4 mm deep at ("), std::string::npos)
       << overlap[0];
+  EXPECT_NE(overlap[0].find("in about 1.6e+03 mm^3 between (10"), std::string::npos) << overlap[0];  // 20 x 20 x 4
 }
 
 TEST(Unjoined, faces_of_one_size_a_cell_apart_are_named) {

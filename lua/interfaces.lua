@@ -1,0 +1,106 @@
+-- Interfaces of a deck: one between two faces or parts, or one for each two parts that touch.
+local native = ...
+local interfaces = {}
+
+local all = "all touching"
+local of_all = { "of", "except" }
+local parts, declared = {}, {}  -- in the order of the deck
+
+local function fail(entry, line, text, hint) native.fail(line, entry.path .. ": " .. text .. (hint and "\n    " .. hint or "")) end
+
+function interfaces.note_part(part) parts[#parts + 1] = part end
+function interfaces.note(interface) declared[#declared + 1] = interface end
+
+local function forget(list, object)
+  for i, known in ipairs(list) do
+    if known == object then return table.remove(list, i) end
+  end
+end
+
+-- What others stand for.
+function interfaces.forget_part(part) forget(parts, part) end
+function interfaces.forget(interface) forget(declared, interface) end
+
+local function name_of(object) return (select(3, native.kind(object))) end
+
+-- The answer to "all touching": a list whose interfaces are found by name, too.
+local named = {}
+function named.__index(list, key)
+  if type(key) ~= "string" then return nil end
+  local names = {}
+  for i, interface in ipairs(list) do
+    names[i] = name_of(interface)
+    if names[i] == key or names[i]:match "[^/ ]+/.*" == key then return interface end
+  end
+  native.fail(native.line(), ("no interface '%s' was found\n    %s"):format(key, native.did_you_mean(key, names)))
+end
+named.__metatable = false
+
+-- Parts and pairs of parts that `except` leaves alone, and the pairs that it was used for.
+local function exceptions(given, among)
+  local skipped = { parts = {}, pairs = {} }
+  for _, item in ipairs(given.except or {}) do
+    local kind = native.kind(item)
+    if kind == "substructure" then
+      skipped.parts[item] = true
+    elseif kind == "interface" then
+      local one, other = native.sides(item, among)
+      skipped.pairs[#skipped.pairs + 1] = { one, other }
+    else
+      skipped.pairs[#skipped.pairs + 1] = item
+    end
+  end
+  return function(one, other)
+    if skipped.parts[one] or skipped.parts[other] then return true end
+    for _, pair in ipairs(skipped.pairs) do
+      if pair[1] == one and pair[2] == other or pair[1] == other and pair[2] == one then return true end
+    end
+    return false
+  end
+end
+
+local function declare_all(entry, given, line)
+  local among = given.of or parts
+  if #among < 2 then fail(entry, line, ("\"%s\" finds interfaces among parts, and %d are declared before"):format(all, #among)) end
+  local is_left, left = exceptions(given, among), {}
+  local list, lines = setmetatable({}, named), {}
+  for _, pair in ipairs(native.touching(among, declared, given.within or 0, line)) do
+    local one, other = among[pair[1]], among[pair[2]]
+    local name = name_of(one) .. "/" .. name_of(other)
+    if is_left(one, other) then
+      left[#left + 1] = name
+    else
+      local copy = {}
+      for key, value in pairs(given) do copy[key] = value end
+      copy.name = (given.name and given.name .. " " or "") .. name
+      copy.between, copy.within = { pair.face_1, pair.face_2 }, pair.within
+      copy.of, copy.except = nil, nil
+      list[#list + 1] = native.make(entry.path, "interface", copy, line)
+      lines[#lines + 1] = ("  '%s': %s"):format(copy.name, pair.text)
+    end
+  end
+  if #list == 0 then
+    fail(entry, line, ("no two of %d parts touch where they have no interface yet"):format(#among),
+      "'within' says how far apart faces may be that touch")
+  end
+  native.say(("%s \"%s\": %d pairs of parts touch%s"):format(entry.path, all, #list,
+    #left > 0 and "; left alone: " .. table.concat(left, ", ") or ""))
+  for _, text in ipairs(lines) do native.say(text) end
+  for _, interface in ipairs(list) do interfaces.note(interface) end
+  return list
+end
+
+function interfaces.declare(entry, given, line)
+  if given.between == all then
+    local list = declare_all(entry, given, line)
+    return list
+  end
+  for _, key in ipairs(of_all) do
+    if given[key] then fail(entry, line, ("'%s' goes with between = \"%s\""):format(key, all)) end
+  end
+  local interface = native.make(entry.path, "interface", given, line)
+  interfaces.note(interface)
+  return interface
+end
+
+return interfaces

@@ -1,0 +1,82 @@
+#include "deck/find_interfaces.hpp"
+
+#include "base/log.hpp"
+#include "deck/deck_state.hpp"
+#include "model/found_faces.hpp"
+
+namespace dygita {
+
+namespace {
+
+template <class T>
+std::vector<T> list_at(lua_State* L, int index) {
+  std::vector<T> list;
+  const auto n = static_cast<lua_Integer>(lua_rawlen(L, index));
+  for (lua_Integer i = 1; i <= n; ++i) {
+    lua_rawgeti(L, index, i);
+    list.push_back(the_object_at(L, -1).as<T>());
+    lua_pop(L, 1);
+  }
+  return list;
+}
+
+// A face as if the deck had asked the part at place i of the list for it.
+void push_face(lua_State* L, const Face& face, int parts, int i) {
+  lua_rawgeti(L, parts, i + 1);
+  const int id = the_object_at(L, -1).id;
+  lua_pop(L, 1);
+  push_object(L, {"face", "substructure:face", face.label(), id, face});
+}
+
+}  // namespace
+
+int touching_pairs(LuaState& lua, lua_State* L) {
+  const auto parts = list_at<SubstructurePtr>(L, 1);
+  const auto interfaces = list_at<InterfacePtr>(L, 2);
+  const double within = lua_tonumber(L, 3);
+  std::vector<TouchingPair> pairs;
+  {
+    const LuaState::Pause pause(lua);
+    pairs = all_touching(parts, interfaces, within > 0.0 ? std::optional(within) : std::nullopt);
+  }
+  lua_createtable(L, static_cast<int>(pairs.size()), 0);
+  for (size_t p = 0; p < pairs.size(); ++p) {
+    const TouchingPair& pair = pairs[p];
+    lua_createtable(L, 2, 4);
+    lua_pushinteger(L, pair.part_1 + 1);
+    lua_rawseti(L, -2, 1);
+    lua_pushinteger(L, pair.part_2 + 1);
+    lua_rawseti(L, -2, 2);
+    push_face(L, pair.found.side_1, 1, pair.part_1);
+    lua_setfield(L, -2, "face_1");
+    push_face(L, pair.found.side_2, 1, pair.part_2);
+    lua_setfield(L, -2, "face_2");
+    lua_pushnumber(L, pair.found.touching.within);
+    lua_setfield(L, -2, "within");
+    lua_pushstring(L, describe(pair.found.touching).c_str());
+    lua_setfield(L, -2, "text");
+    lua_rawseti(L, -2, static_cast<lua_Integer>(p) + 1);
+  }
+  return 1;
+}
+
+int sides_of_interface(LuaState&, lua_State* L) {
+  const Interface& interface = *the_object_at(L, 1).as<InterfacePtr>();
+  lua_settop(L, 2);  // interface, list of parts
+  const auto parts = list_at<SubstructurePtr>(L, 2);
+  for (const Face* face : {&interface.side_1, &interface.side_2}) {
+    const auto found = std::find(parts.begin(), parts.end(), face->part);
+    if (found == parts.end())
+      lua_pushnil(L);
+    else
+      lua_rawgeti(L, 2, static_cast<lua_Integer>(found - parts.begin()) + 1);
+  }
+  return 2;
+}
+
+int say_line(LuaState& lua, lua_State* L) {
+  if (!DeckState::of(lua).has_read_hollow) say(to_text(L, 1));
+  return 0;
+}
+
+}  // namespace dygita

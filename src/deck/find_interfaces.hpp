@@ -1,0 +1,18 @@
+// What lua/interfaces.lua asks for: pairs of parts that touch.
+#pragma once
+
+#include "deck/lua_state.hpp"
+
+namespace dygita {
+
+// touching(parts, interfaces, within, line): a list of { i, j, face_1, face_2, within, text } for each two parts of the
+// list that touch beside their interfaces; within (m) 0: by the facets.
+int touching_pairs(LuaState& lua, lua_State* L);
+
+// sides(interface, parts): its two substructures as they are in the list, nil where not.
+int sides_of_interface(LuaState& lua, lua_State* L);
+
+// say(text): a line on standard output, but not of a deck that goes on without values.
+int say_line(LuaState& lua, lua_State* L);
+
+}  // namespace dygita

@@ -1,0 +1,120 @@
+#include "model/found_faces.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include "mesh/neighbours.hpp"
+
+namespace dygita {
+
+namespace {
+
+std::string at(const Vec3& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]); }
+
+Outside outside_of(const InterfaceSide& side) {
+  if (side.face) return {*side.part->mesh, side.part->place, side.face->facets()};
+  return {*side.part->mesh, side.part->place};
+}
+
+Face found_on(const SubstructurePtr& part, std::vector<Facet> facets, const std::vector<Facet>& beside,
+              const std::string& other) {
+  facets.insert(facets.end(), beside.begin(), beside.end());
+  return {part, "(on " + other + ")", std::make_shared<const std::vector<Facet>>(std::move(facets))};
+}
+
+FoundFaces found_between(const InterfaceSide& one, const InterfaceSide& other, Touching touching) {
+  FoundFaces found{found_on(one.part, touching.facets_1, touching.beside_1, other.part->name),
+                   found_on(other.part, touching.facets_2, touching.beside_2, one.part->name),
+                   {}};
+  found.touching = std::move(touching);
+  return found;
+}
+
+// Why two sides of an interface do not touch.
+[[noreturn]] void refuse(const InterfaceSide& one, const InterfaceSide& other, const Outside& outside_1,
+                         const Outside& outside_2, double within) {
+  const std::string who = fmt::format("'{}' and '{}'", one.label(), other.label());
+  const Neighbours neighbours =
+      find_neighbours({one.part->mesh.get(), one.part->place}, {other.part->mesh.get(), other.part->place}, 0.0);
+  if (const auto& intrusion = neighbours.intrusion)
+    throw InputError(fmt::format(
+        "{} do not touch, they overlap: up to {:.3g} mm deep at {}\n    check 'place', 'origin' and 'unit'; an "
+        "interference is a negative 'gap' between faces that coincide",
+        who, 1e3 * intrusion->depth, at(intrusion->place), 1e9 * intrusion->volume));
+  const Separation apart = separation(outside_1, outside_2);
+  const bool is_near = apart.distance <= within;
+  throw InputError(fmt::format(
+      "{} touch nowhere within {:.3g} mm: they are {:.4g} mm apart where they are nearest, from {} to {}\n    {}", who,
+      1e3 * within, 1e3 * apart.distance, at(apart.place_1), at(apart.place_2),
+      is_near ? "they meet at an edge or a point only, or their facets are too coarse to tell: 'within' says how far "
+                "apart faces may be that touch"
+              : "check 'place', 'origin' and 'unit'; 'within' says how far apart faces may be that touch"));
+}
+
+Box box_of(const Substructure& part) { return PlacedBody{part.mesh.get(), part.place}.box(); }
+
+// The facets of a pair of parts that an interface of theirs has.
+void take(const Interface& interface, bool is_swapped, FacetKeys& taken_1, FacetKeys& taken_2) {
+  const Face &face_1 = is_swapped ? interface.side_2 : interface.side_1,
+             &face_2 = is_swapped ? interface.side_1 : interface.side_2;
+  const Touching touching =
+      find_touching(outside_of({face_1.part, face_1}), outside_of({face_2.part, face_2}), interface.within);
+  const bool is_found = !touching.is_empty();
+  for (const Facet& facet : is_found ? touching.facets_1 : face_1.facets()) taken_1.insert(facet_key(facet));
+  for (const Facet& facet : is_found ? touching.facets_2 : face_2.facets()) taken_2.insert(facet_key(facet));
+}
+
+}  // namespace
+
+FoundFaces find_faces(const InterfaceSide& one, const InterfaceSide& other, std::optional<double> within) {
+  if (one.part == other.part)
+    throw InputError(fmt::format("'between' has part '{}' twice: an interface joins two parts", one.part->name));
+  const Outside outside_1 = outside_of(one), outside_2 = outside_of(other);
+  Touching touching = find_touching(outside_1, outside_2, within);
+  if (touching.is_empty()) refuse(one, other, outside_1, outside_2, touching.within);
+  return found_between(one, other, std::move(touching));
+}
+
+std::vector<TouchingPair> all_touching(const std::vector<SubstructurePtr>& parts,
+                                       const std::vector<InterfacePtr>& interfaces, std::optional<double> within) {
+  const int n = static_cast<int>(parts.size());
+  std::vector<Box> boxes;
+  std::vector<std::optional<Outside>> outsides(parts.size());
+  for (const SubstructurePtr& part : parts) boxes.push_back(box_of(*part));
+  const auto outside = [&](int i) -> const Outside& {
+    std::optional<Outside>& known = outsides[static_cast<size_t>(i)];
+    if (!known) known = outside_of({parts[static_cast<size_t>(i)], {}});
+    return *known;
+  };
+  std::vector<TouchingPair> pairs;
+  for (int i = 0; i < n; ++i)
+    for (int j = i + 1; j < n; ++j) {
+      const double smaller = std::min(boxes[i].size().norm(), boxes[j].size().norm());
+      if (!boxes[i].grown(within.value_or(0.0) + 0.05 * smaller).meets(boxes[j])) continue;
+      FacetKeys taken_1, taken_2;
+      for (const InterfacePtr& interface : interfaces) {
+        if (interface->side_1.part == parts[i] && interface->side_2.part == parts[j])
+          take(*interface, false, taken_1, taken_2);
+        if (interface->side_1.part == parts[j] && interface->side_2.part == parts[i])
+          take(*interface, true, taken_1, taken_2);
+      }
+      Touching touching = find_touching(outside(i), outside(j), within, taken_1, taken_2);
+      if (touching.is_empty()) continue;
+      pairs.push_back({i, j, found_between({parts[i], {}}, {parts[j], {}}, std::move(touching))});
+    }
+  return pairs;
+}
+
+std::string describe(const Touching& touching) {
+  const double largest = std::max(std::abs(touching.least_gap), std::abs(touching.most_gap));
+  std::string text = fmt::format("{:.4g} mm^2 on {} surface{}, ", 1e6 * touching.area, touching.n_surfaces,
+                                 touching.n_surfaces == 1 ? "" : "s");
+  text += largest < 1e-3 * touching.within ? "no gap"
+                                           : fmt::format("gaps from {:.2g} to {:.2g} mm between facets",
+                                                         1e3 * touching.least_gap, 1e3 * touching.most_gap);
+  text += fmt::format(" (within {:.2g} mm", 1e3 * touching.within);
+  if (touching.bend > 0.01 * touching.within)
+    text += fmt::format(" of round surfaces, off which facets are up to {:.2g} mm", 1e3 * touching.bend);
+  return text + ")";
+}
+
+}  // namespace dygita

@@ -1,0 +1,38 @@
+// Faces of interfaces that a deck declares between whole parts: those that touch.
+#pragma once
+
+#include "mesh/touching.hpp"
+#include "model/model.hpp"
+
+namespace dygita {
+
+// A part, or one of its faces.
+struct InterfaceSide {
+  SubstructurePtr part;
+  std::optional<Face> face;
+
+  std::string label() const { return face ? face->label() : part->name; }
+};
+
+struct FoundFaces {
+  Face side_1, side_2;
+  Touching touching;
+};
+
+// Those of both sides that touch, within a distance (m) or a hundredth of the facets. Throws InputError where they
+// nowhere do: how far they are apart and where, or that they overlap.
+FoundFaces find_faces(const InterfaceSide& one, const InterfaceSide& other, std::optional<double> within);
+
+struct TouchingPair {
+  int part_1, part_2;  // in the list asked for, part_1 < part_2
+  FoundFaces found;
+};
+
+// Every pair of parts that touch where no interface of theirs has the facets already.
+std::vector<TouchingPair> all_touching(const std::vector<SubstructurePtr>& parts,
+                                       const std::vector<InterfacePtr>& interfaces, std::optional<double> within);
+
+// "1200 mm^2 on 2 surfaces, gaps -0.01 to 0.02 mm between facets, within 0.05 mm".
+std::string describe(const Touching& touching);
+
+}  // namespace dygita

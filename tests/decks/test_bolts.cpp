@@ -1,0 +1,93 @@
+// bolt.hex: standard bolts, their stiffness, and patterns of them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "decks/deck_prints.hpp"
+
+namespace dygita::test {
+
+namespace {
+
+const double pi = std::acos(-1.0);
+
+const std::string steel =
+    "local steel = material.elastic{ name = 'steel', young = 200*GPa, poisson = 0, density = 7800 }\n";
+
+// A bolt alone, its head held and its nut pulled by 10 kN: the shank stretches by F L/(E A), head and nut by the rest.
+TEST(Bolts, the_shank_has_the_stiffness_of_its_section) {
+  const auto stretch = [](const std::string& grip, const std::string& more) {
+    const PrintedRun run = [&] {
+      testing::internal::CaptureStdout();
+      PrintedRun printed;
+      printed.runs = run_text(steel + R"(
+local screw = bolt.hex{ name = "screw", size = "M10", grip = )" +
+                              grip + R"(, washer = false, material = steel)" + more + R"( }
+local base = support.fixed{ name = "base", on = screw.upper }
+local pull = step.static{ name = "pull", loads = { load.force{ on = screw.lower, z = -10*kN } } }
+local a, b = output.history{ name = "a", on = screw.lower, quantity = "displacement", direction = { 0, 0, 1 } }, output.resultant{ name = "b", on = screw.shank }
+problem{ name = "screw", substructures = screw.parts, interfaces = screw.interfaces, supports = { base }, steps = { pull }, outputs = { a, b } }:run{}
+print(("area: %.12g"):format(screw.area))
+)");
+      printed.text = testing::internal::GetCapturedStdout();
+      return printed;
+    }();
+    EXPECT_NEAR(run.runs.at(0).column("b", "normal").back(), 10e3, 1e-2);
+    EXPECT_TRUE(run.runs.at(0).result->converged);
+    return std::pair{-run.runs.at(0).column("a", "displacement").back(), run.number("area")};
+  };
+  for (const std::string more : {"", ", around = 24", ", order = 2", ", shank = 'nominal'"}) {
+    const auto [shorter, area] = stretch("60*mm", more);
+    const double diameter = more.find("nominal") == std::string::npos ? 10e-3 - 0.9382 * 1.5e-3 : 10e-3;
+    EXPECT_NEAR(area, pi / 4.0 * diameter * diameter, 1e-9 * area);
+    const double stiffness = 40e-3 / (stretch("100*mm", more).first - shorter);  // what 40 mm more of shank add
+    EXPECT_NEAR(stiffness * 10e3, 200e9 * area, 1e-3 * 200e9 * area) << more;
+  }
+}
+
+// Two plates from CAD with two clearance holes; bolts put through both by either pattern.
+TEST(Bolts, of_a_pattern_are_named_placed_and_tightened_one_by_one) {
+  const auto run = [](const std::string& pattern) {
+    return run_text(steel + R"(
+local file = mesh.step{ file = ")" +
+                    (std::filesystem::path(DYGITA_SOURCE_DIR) / "meshes" / "joint.step").string() +
+                    R"(", size = 9*mm, round = 8 }
+local lower = substructure{ name = "lower", mesh = file:part "lower", material = steel }
+local upper = substructure{ name = "upper", mesh = file:part "upper", material = steel }
+local screw = bolt.hex{ name = "screw", size = "M8", grip = 18*mm, material = steel, place = { -20*mm, 0, 18*mm } }
+local screws = )" + pattern +
+                    R"(
+local contacts = interface.contact{ between = "all touching", friction = 0.2 }
+assert(#screws == 2 and #screws.parts == 8 and #screws.interfaces == 6 and #contacts == 5)
+local base = support.fixed{ name = "base", on = lower:face{ normal = { -1, 0, 0 }, at = 40*mm } }
+local steps = {}
+for _, i in ipairs{ 1, 2 } do
+  steps[i] = step.static{ name = "tighten " .. i, after = steps[i - 1], loads = { load.preload{ on = screws[i].shank, force = 12*kN } } }
+end
+local outputs = {}
+for i, contact in ipairs(contacts) do outputs[i] = output.resultant{ name = "contact" .. i, on = contact } end
+problem{ name = "joint", substructures = { lower, upper, screws.parts }, interfaces = { contacts, screws.interfaces }, supports = { base },
+         steps = steps, outputs = outputs }:run{}
+)")
+        .at(0);
+  };
+  const DeckRun line = run("pattern.line{ n = 2, step = { 40*mm, 0, 0 }, of = screw }");
+  const DeckRun circle = run("pattern.circle{ n = 2, axis = { 0, 0, 1 }, of = screw }");
+  for (const DeckRun* each : {&line, &circle}) {
+    EXPECT_TRUE(each->result->converged);
+    ASSERT_EQ(each->result->bolts.size(), 2u);
+    EXPECT_EQ(each->result->bolts[0].name, "screw[1]");
+    EXPECT_EQ(each->result->bolts[1].name, "screw[2]");
+    for (const BoltSummary& bolt : each->result->bolts) EXPECT_NEAR(bolt.tightened, 12e3, 1.0);
+    EXPECT_EQ(each->problem.substructures[2]->name, "screw[1] head");
+    // Plates on each other carry what both bolts have left; a washer what its bolt has.
+    const double first = each->result->bolts[0].last, second = each->result->bolts[1].last;
+    EXPECT_EQ(each->problem.interfaces[0]->name, "lower/upper");
+    EXPECT_NEAR(each->column("contact1", "normal").back(), -(first + second), 5.0);
+  }
+  EXPECT_NEAR(line.result->bolts[0].last, circle.result->bolts[0].last, 20.0);
+}
+
+}  // namespace
+
+}  // namespace dygita::test

@@ -1,0 +1,119 @@
+// Interfaces between parts whose touching faces the program finds.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "decks/deck_prints.hpp"
+
+namespace dygita::test {
+
+namespace {
+
+// A plate that is held, a block on it and a lid on that, pressed down by 400 N and sideways by 40 N.
+std::string tower(const std::string& block_cells, const std::string& order, const std::string& lid_place,
+                  const std::string& interfaces) {
+  return R"(
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local function part(name, size, cells, place, order)
+  return substructure{ name = name, material = steel, place = place, mesh = mesh.box{ size = size, cells = cells, order = order } }
+end
+local plate = part("plate", { 40*mm, 40*mm, 10*mm }, { 8, 8, 2 }, { 0, 0, 0 })
+local block = part("block", { 20*mm, 20*mm, 20*mm }, )" +
+         block_cells + ", { 10*mm, 10*mm, 10*mm }, " + order + R"()
+local lid = part("lid", { 20*mm, 20*mm, 5*mm }, { 4, 4, 1 }, )" +
+         lid_place + R"()
+)" + interfaces +
+         R"(
+local base = support.fixed{ name = "base", on = plate:face "zmin" }
+local press = step.static{ name = "press", loads = { load.pressure{ on = lid:face "zmax", history = 1*MPa }, load.traction{ on = lid:face "zmax", x = 0.1*MPa } } }
+problem{ name = "tower", substructures = { plate, { block, lid } }, interfaces = all, supports = { base }, steps = { press },
+         outputs = { output.resultant{ name = "lower", on = all[1] }, output.resultant{ name = "upper", on = all[2] },
+                     output.resultant{ name = "both", on = all }, output.history{ name = "top", on = lid:face "zmax", quantity = "displacement" } } }:run{}
+)";
+}
+
+const std::string on_top = "{ 10*mm, 10*mm, 30*mm }";
+const std::string by_face = R"(
+local all = { interface.contact{ name = "a", between = { plate:face "zmax", block:face "zmin" }, friction = 0.3 },
+              interface.contact{ name = "b", between = { block:face "zmax", lid:face "zmin" }, friction = 0.3 } })";
+const std::string by_part = R"(
+local all = { interface.contact{ name = "a", between = { plate, block }, friction = 0.3 },
+              interface.contact{ name = "b", between = { block:face "zmax", lid }, friction = 0.3 } })";
+const std::string all_at_once = R"(
+local all = interface.contact{ between = "all touching", friction = 0.3 }
+assert(#all == 2 and all["plate/block"] == all[1] and all["block/lid"] == all[2]))";
+
+TEST(FoundInterfaces, give_what_the_named_faces_give) {
+  for (const std::string cells : {"{ 4, 4, 4 }", "{ 7, 7, 5 }"}) {
+    const DeckRun named = run_text(tower(cells, "1", on_top, by_face)).at(0);
+    for (const std::string& found : {by_part, all_at_once}) {
+      const DeckRun run = run_text(tower(cells, "1", on_top, found)).at(0);
+      EXPECT_TRUE(run.result->converged);
+      for (const char* column : {"x", "y", "z"})
+        EXPECT_NEAR(run.column("top", column).back(), named.column("top", column).back(), 1e-13) << cells;
+    }
+  }
+}
+
+TEST(FoundInterfaces, carry_all_of_a_load_with_cells_of_order_two_and_parts_that_are_turned) {
+  const std::string turned = "{ translate = { 20*mm, 6*mm, 30*mm }, rotate = { axis = { 0, 0, 1 }, angle = 45*deg } }";
+  for (const std::string& place : {on_top, turned}) {
+    const DeckRun run = run_text(tower("{ 5, 5, 3 }", "2", place, all_at_once)).at(0);
+    EXPECT_TRUE(run.result->converged);
+    EXPECT_NEAR(run.column("lower", "normal").back(), -400.0, 1e-3);
+    EXPECT_NEAR(run.column("upper", "normal").back(), -400.0, 1e-3);
+    EXPECT_NEAR(run.column("lower", "shear").back(), 40.0, 1e-3);
+    EXPECT_NEAR(run.column("both", "normal").back(), -800.0, 2e-3);
+  }
+}
+
+TEST(FoundInterfaces, leave_alone_pairs_that_have_their_own_or_are_excepted) {
+  const std::string own = R"(
+local glue = interface.bonded{ name = "glue", between = { lid, block } }
+local all = { glue, interface.contact{ between = "all touching", friction = 0.3 }[1] })";
+  const DeckRun run = run_text(tower("{ 7, 7, 5 }", "1", on_top, own)).at(0);
+  ASSERT_EQ(run.problem.interfaces.size(), 2u);
+  EXPECT_EQ(run.problem.interfaces[1]->name, "plate/block");
+  for (const std::string except : {"{ { block, lid } }", "{ glue }", "{ lid }"}) {
+    const std::string excepted =
+        "\nlocal glue = interface.bonded{ name = 'glue', between = { lid, block } }\n"
+        "local found = interface.contact{ name = 'c', between = 'all touching', friction = 0.3, except = " +
+        except + " }\nassert(#found == 1 and found['plate/block'] == found[1])\nlocal all = { found[1], glue }\n";
+    const DeckRun other = run_text(tower("{ 7, 7, 5 }", "1", on_top, excepted)).at(0);
+    ASSERT_EQ(other.problem.interfaces.size(), 2u);
+    EXPECT_EQ(other.problem.interfaces[0]->name, "c plate/block");
+    EXPECT_NEAR(other.column("top", "z").back(), run.column("top", "z").back(), 1e-14);
+  }
+}
+
+// Two plates and two bolts from CAD with clearance holes: five contacts, no other, of parts turned and copied too.
+TEST(FoundInterfaces, of_a_cad_assembly_are_where_its_solids_touch) {
+  const std::string text = R"(
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local file = mesh.step{ file = ")" +
+                           (std::filesystem::path(DYGITA_SOURCE_DIR) / "meshes" / "joint.step").string() +
+                           R"(", size = 6*mm }
+local turn = { rotate = { axis = { 1, 2, 3 }, angle = 40*deg } }
+local function part(name) return substructure{ name = name, mesh = file:part(name), material = steel, place = turn } end
+local lower, upper, bolt1, bolt2 = part "lower", part "upper", part "bolt1", part "bolt2"
+local all = interface.contact{ between = "all touching", friction = 0.2 }
+for _, contact in ipairs(all) do print(contact.name .. ": 1") end
+print(("found: %d"):format(#all))
+)";
+  testing::internal::CaptureStdout();
+  EXPECT_TRUE(run_text(text).empty());
+  const std::string said = testing::internal::GetCapturedStdout();
+  EXPECT_NE(said.find("found: 5"), std::string::npos) << said;
+  for (const std::string pair : {"lower/upper", "lower/bolt1", "lower/bolt2", "upper/bolt1", "upper/bolt2"})
+    EXPECT_NE(said.find("'" + pair + "': "), std::string::npos) << said;
+  const double pi = std::acos(-1.0), hole = pi * 4.5 * 4.5;
+  const auto area = [&](const std::string& pair) {
+    return std::strtod(said.c_str() + said.find("'" + pair + "': ") + pair.size() + 4, nullptr);
+  };
+  EXPECT_NEAR(area("lower/upper"), 80 * 40 - 2 * hole, 0.002 * 80 * 40);
+  EXPECT_NEAR(area("upper/bolt1"), pi * 6.5 * 6.5 - hole, 0.01 * pi * 6.5 * 6.5);
+}
+
+}  // namespace
+
+}  // namespace dygita::test
