@@ -119,8 +119,12 @@ TEST_F(ShakenBar, has_no_band_for_the_motion_of_its_foot) {
   const SpectraRun run = run_spectra(path_, {}, {}, 0.0, 0.0);
   for (const OutputPtr& output : run.problem.outputs) {
     const Findings& findings = run.result->findings_of(*output);
-    if (output->name == "below_srs") EXPECT_EQ(findings.band.n_rows(), 0);
-    if (output->name == "top_srs") EXPECT_GT(findings.band.n_rows(), 0);
+    if (output->name == "below_srs") {
+      EXPECT_EQ(findings.band.n_rows(), 0);
+    }
+    if (output->name == "top_srs") {
+      EXPECT_GT(findings.band.n_rows(), 0);
+    }
   }
 }
 

@@ -93,9 +93,13 @@ TEST(Loop, at_a_loose_tolerance_is_no_better_than_the_run_says) {
       EXPECT_LT(off, estimate) << most << " N, " << tolerance;
       EXPECT_EQ(said.find("error of the program"), std::string::npos) << said;
       EXPECT_EQ(said.find("gain"), std::string::npos) << said;
-      if (estimate > 0.01) EXPECT_NE(said.find("static tolerance"), std::string::npos) << said;
+      if (estimate > 0.01) {
+        EXPECT_NE(said.find("static tolerance"), std::string::npos) << said;
+      }
       // Where no loss is above what is left there is no exponent of it.
-      if (loss_factor.back() < 0.1 * estimate) EXPECT_EQ(line_of(loose).find("loss grows"), std::string::npos);
+      if (loss_factor.back() < 0.1 * estimate) {
+        EXPECT_EQ(line_of(loose).find("loss grows"), std::string::npos);
+      }
     }
   }
 }

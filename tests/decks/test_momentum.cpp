@@ -54,8 +54,8 @@ problem{ name = "flight", substructures = { block },
 
 INSTANTIATE_TEST_SUITE_P(Solvers, Momentum,
                          ::testing::Values("latin{ tolerance = 1e-8 }", "monolithic{}", "explicit{}"),
-                         [](const auto& info) {
-                           return std::string(info.param).substr(0, std::string(info.param).find('{'));
+                         [](const auto& solver) {
+                           return std::string(solver.param).substr(0, std::string(solver.param).find('{'));
                          });
 
 }  // namespace
