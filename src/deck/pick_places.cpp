@@ -2,6 +2,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <set>
+
 #include "deck/arguments.hpp"
 #include "mesh/pick_facets.hpp"
 
@@ -51,6 +53,28 @@ Region region_of(const SubstructurePtr& part, lua_State* L, const Origin& origin
   return region;
 }
 
+namespace {
+
+// Where along a normal there are facets of it: "; along that normal there are some at 0.06 m".
+std::string places_along(const Substructure& part, FacetPick pick) {
+  if (!pick.at) return "";
+  pick.at.reset();
+  std::set<double> places;
+  for (const Facet& facet : pick_facets(*part.mesh, part.place, pick)) {
+    Vec3 middle = Vec3::Zero();
+    for (const int node : facet.corners()) middle += part.mesh->nodes.col(node) + part.place;
+    places.insert(
+        std::stod(fmt::format("{:.6g}", pick.normal->dot(middle) / static_cast<double>(facet.corners().size()))));
+  }
+  constexpr size_t most = 5;
+  if (places.empty() || places.size() > most) return places.empty() ? "; nothing else fits either, whatever 'at'" : "";
+  std::string list;
+  for (const double at : places) list += fmt::format("{}{:g}", list.empty() ? "" : ", ", at);
+  return "; 'at' counts along the normal, and there is something at " + list + " m";
+}
+
+}  // namespace
+
 Face picked_face(const std::filesystem::path& folder, const SubstructurePtr& part, lua_State* L, const Origin& origin) {
   const LuaArguments a(L, 3, "substructure:face", origin, folder);
   FacetPick pick;
@@ -81,8 +105,9 @@ Face picked_face(const std::filesystem::path& folder, const SubstructurePtr& par
     throw InputError(origin, "part:face{} picks by 'normal', 'cylinder', 'low' and 'high', or 'where': none is given");
   const auto facets = std::make_shared<const std::vector<Facet>>(pick_facets(*part->mesh, part->place, pick));
   if (facets->empty())
-    throw InputError(origin, fmt::format("substructure '{}' has no facet on its boundary of {}\n    it spans {}",
-                                         part->name, by, extent(part->mesh->nodes, part->place)));
+    throw InputError(
+        origin, fmt::format("substructure '{}' has no facet on its boundary of {}\n    it spans {}{}", part->name, by,
+                            extent(part->mesh->nodes, part->place), places_along(*part, pick)));
   return {part, "(" + by + ")", facets};
 }
 

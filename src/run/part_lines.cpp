@@ -55,10 +55,12 @@ std::string surface_line(const Surface& surface) {
                                  surface.name(), surface.n_points(), facing.areas.sum() * 1e6);
   if (!facing.matches()) {
     const Face& carrier = facing.carrier == 1 ? surface.interface->side_1 : surface.interface->side_2;
-    line += fmt::format("; meshes do not match: points on {}, facets {:.2g} times {}", carrier.label(),
-                        std::max(facing.size_ratio, 1.0 / facing.size_ratio),
-                        facing.size_ratio >= 1.0 ? "larger" : "smaller");
-    if (facing.n_merged > 0) line += fmt::format(", {} merged into neighbours", facing.n_merged);
+    const double ratio = std::max(facing.size_ratio, 1.0 / facing.size_ratio);
+    line += "; meshes do not match: points on " + carrier.label() +
+            (ratio < 1.05
+                 ? ", facets of one size"
+                 : fmt::format(", facets {:.2g} times {}", ratio, facing.size_ratio >= 1.0 ? "larger" : "smaller"));
+    if (facing.n_merged > 0) line += fmt::format(", {} points merged into neighbours", facing.n_merged);
   }
   return line + "\n";
 }
