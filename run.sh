@@ -13,6 +13,7 @@ packages=(
   libmetis-dev            # its ordering
   libopenblas-dev         # its kernels, five to ten times faster than the reference BLAS
   libgmsh-dev             # meshes
+  libseccomp-dev          # what keeps gmsh from doing more than that
   libvtk9-dev             # files for ParaView
   liblua5.4-dev           # decks
   libcli11-dev            # command line
@@ -31,7 +32,8 @@ usage() {
   cat <<'END'
 ./run.sh                  install what is missing, build, run decks/bolted_flanges.lua, say which files to open
 ./run.sh test [NAME]      install what is missing, build, pass the tests; with NAME only those whose name matches it (ctest -R)
-./run.sh sanitize         build with address and undefined behaviour sanitizers (build/sanitize), pass the unit tests and run small decks
+./run.sh sanitize [decks] build with address and undefined behaviour sanitizers (build/sanitize), pass the unit tests and run small decks;
+                          'decks': these alone, which needs the program alone
 ./run.sh bench [...]      measure speed, rewrite manual/performance.md and its figures: all, or of the parts headline kernels
                           scenes scaling those that are named; --quick: small sizes. Full: 20 minutes on a machine left alone
 ./run.sh report [...]     run all verification, rewrite manual/verification.md and its figures (--quick, --only CASE)
@@ -89,8 +91,9 @@ install_packages() {
   fi
   # A mirror that is down for one list need not stop the rest: what matters is whether the packages install.
   as_root apt-get update || printf 'run.sh: apt-get update failed, trying with the package lists at hand\n' >&2
-  as_root apt-get install -y --no-install-recommends "${missing[@]}" ||
-    fail "apt-get could not install the packages; its own message is above" \
+  # --no-remove: what is installed stays, whatever apt would give up for ours.
+  as_root apt-get install -y --no-install-recommends --no-remove "${missing[@]}" ||
+    fail "apt-get could not install the packages, or not without removing others; its own message is above" \
       "needed: ${missing[*]}" "is there a network, and does the system (Debian 12, Ubuntu 24.04 or later) have them?"
 }
 
@@ -100,7 +103,7 @@ install_test_packages() {
   local package
   for package in "${test_packages[@]}"; do
     [[ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed* ]] || continue
-    if apt-cache show "$package" >/dev/null 2>&1 && as_root apt-get install -y --no-install-recommends "$package"; then continue; fi
+    if apt-cache show "$package" >/dev/null 2>&1 && as_root apt-get install -y --no-install-recommends --no-remove "$package"; then continue; fi
     say "There is no package '$package' here: the tests that need it are skipped"
   done
 }
@@ -136,11 +139,17 @@ run_tests() {
 
 # Decks' tests are left out: they take the sanitizers long, and their parts are all in the unit tests.
 run_sanitized() {
+  local targets=(dygita unit_tests) tests=(-L unit)
+  case "${1:-}" in
+    "") ;;
+    decks) targets=(dygita) tests=(-R '^small_decks_run$') ;;
+    *) fail "'sanitize' takes nothing or 'decks', got: $1" "./run.sh help" ;;
+  esac
   say "Building with sanitizers (build/sanitize)"
-  (cd "$root" && cmake --preset sanitize && cmake --build --preset sanitize --parallel "$(n_jobs)" --target dygita unit_tests) ||
+  (cd "$root" && cmake --preset sanitize && cmake --build --preset sanitize --parallel "$(n_jobs)" --target "${targets[@]}") ||
     fail "the build failed; the first error is above"
   say "Testing with sanitizers"
-  (cd "$root" && ctest --preset sanitize --parallel "$(nproc)" -L unit) ||
+  (cd "$root" && ctest --preset sanitize --parallel "$(nproc)" "${tests[@]}") ||
     fail "tests failed with sanitizers; the last lines above name them"
 }
 
@@ -185,7 +194,7 @@ main() {
     help | -h | --help) usage ;;
     example | test | build | sanitize)
       local taken=0
-      [[ "$command" != test ]] || taken=1 # NAME
+      [[ "$command" != test && "$command" != sanitize ]] || taken=1 # NAME, or 'decks'
       (($# <= taken)) || fail "'$command' takes ${taken/#0/no} argument, got: $*" "./run.sh help"
       install_packages
       [[ "$command" != test ]] || install_test_packages
@@ -194,7 +203,7 @@ main() {
         example) run_example ;;
         test) run_tests "$@" ;;
         build) say "Built: $build/dygita" ;;
-        sanitize) run_sanitized ;;
+        sanitize) run_sanitized "$@" ;;
       esac
       ;;
     report | bench)

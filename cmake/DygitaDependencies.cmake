@@ -22,6 +22,7 @@ dygita_find_library(cholmod cholmod.h cholmod libsuitesparse-dev SUFFIXES suites
 dygita_find_library(suitesparseconfig SuiteSparse_config.h suitesparseconfig libsuitesparse-dev SUFFIXES suitesparse)
 dygita_find_library(metis metis.h metis libmetis-dev)
 dygita_find_library(gmsh gmsh.h gmsh libgmsh-dev)
+dygita_find_library(seccomp seccomp.h seccomp libseccomp-dev)
 # Lua's C++ build only: with the C build a Lua error would skip destructors.
 dygita_find_library(lua lua.hpp lua5.4-c++ liblua5.4-dev SUFFIXES lua5.4)
 dygita_find_library(openblas cblas.h openblas libopenblas-dev

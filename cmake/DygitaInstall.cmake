@@ -22,6 +22,7 @@ add_custom_target(dygita_pages ALL
   DEPENDS ${pages}/dygita.1 ${pages}/dygita.bash ${pages}/_dygita ${pages}/dygita.fish ${pages}/dygita.lua)
 
 install(TARGETS dygita RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS dygita-mesher RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/dygita)
 install(FILES ${pages}/dygita.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${pages}/dygita.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME dygita)
 install(FILES ${pages}/_dygita DESTINATION ${DYGITA_ZSH_COMPLETIONS})
@@ -30,7 +31,7 @@ install(FILES ${pages}/dygita.lua DESTINATION ${CMAKE_INSTALL_DATADIR}/dygita/ed
 
 # Decks find their meshes beside them: ../meshes.
 install(DIRECTORY decks meshes DESTINATION ${CMAKE_INSTALL_DATADIR}/dygita
-  FILES_MATCHING PATTERN *.lua PATTERN *.geo PATTERN *.msh PATTERN *.csv)
+  FILES_MATCHING PATTERN *.lua PATTERN *.geo PATTERN *.msh PATTERN *.step PATTERN *.csv)
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY manual DESTINATION ${CMAKE_INSTALL_DOCDIR}
   FILES_MATCHING PATTERN *.md PATTERN *.svg PATTERN *.png PATTERN *.bib PATTERN *.lua)

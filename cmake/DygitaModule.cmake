@@ -40,7 +40,12 @@ function(dygita_take_precompiled_headers target name)
 endfunction()
 
 function(dygita_target_options target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+  # Files compiled in one batch shadow each other's constants, which is no fault of theirs.
+  set(shadow -Wshadow)
+  if(CMAKE_UNITY_BUILD AND DYGITA_WARNINGS_AS_ERRORS AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    set(shadow -Wshadow=local)
+  endif()
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic ${shadow} -Wnon-virtual-dtor
     -Woverloaded-virtual "$<$<CXX_COMPILER_ID:GNU>:${dygita_gnu_false_alarms}>"
     $<$<BOOL:${DYGITA_WARNINGS_AS_ERRORS}>:-Werror>)
   target_link_libraries(${target} PRIVATE OpenMP::OpenMP_CXX)

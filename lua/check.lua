@@ -242,14 +242,16 @@ function types.value(call, argument, value, label)
   end
   -- The values of a named history are in the unit of what it drives: only here are they plausible or not.
   local arguments = native.arguments(value)
-  for _, key in ipairs { "value", "from", "to", "peak" } do
-    if arguments[key] then check_number(call, argument, arguments[key], label .. "." .. key) end
+  local checked = {}
+  local function check_once(number, name)
+    if not number or checked[number] then return end
+    checked[number] = number == number  -- nan is no key
+    check_number(call, argument, number, label .. name)
   end
+  for _, key in ipairs { "value", "from", "to", "peak" } do check_once(arguments[key], "." .. key) end
   local low, high = native.extremes(value)
-  if low then
-    check_number(call, argument, low, label .. " (smallest value)")
-    check_number(call, argument, high, label .. " (largest value)")
-  end
+  check_once(low, " (smallest value)")
+  check_once(high, " (largest value)")
   return value
 end
 

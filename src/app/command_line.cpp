@@ -9,13 +9,21 @@ namespace dygita {
 
 namespace {
 
-void add_limits(CLI::App& command, double& time_limit, double& memory_limit) {
+void add_limits(CLI::App& command, double& time_limit, double& memory_limit, MeshLimits& meshes) {
   command.add_option("--time-limit", time_limit, "processor time (s) that the deck's own code may take")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command.add_option("--memory-limit", memory_limit, "memory (MB) that the deck's own data may take")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  command.add_option("--mesh-time-limit", meshes.time, "time (s) that reading and meshing one file may take")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      .add_option("--trust-mesh", meshes.trusted,
+                  "a mesh file that you trust: it may run programs and write files, as gmsh itself lets it")
+      ->allow_extra_args(false)
+      ->type_name("FILE");
 }
 
 void add_threads(CLI::App& command, int& threads) {
@@ -37,7 +45,7 @@ void add_deck_options(CLI::App& command, Command& asked) {
                   "solver of every problem in place of the deck's, as monolithic or 'latin{ tolerance = 1e-4 }'")
       ->allow_extra_args(false)
       ->type_name("SOLVER");
-  add_limits(command, asked.deck.time_limit, asked.deck.memory_limit);
+  add_limits(command, asked.deck.time_limit, asked.deck.memory_limit, asked.deck.meshes);
   command.add_flag("--quiet", asked.is_quiet, "no progress lines");
 }
 
@@ -101,7 +109,7 @@ void add_continue_options(CLI::App& command, Command& asked) {
   command.add_option("--until", asked.until, "extend the last dynamic step to this time, as 0.0004 or 0.4*ms")
       ->type_name("TIME");
   add_threads(command, options.threads);
-  add_limits(command, options.time_limit, options.memory_limit);
+  add_limits(command, options.time_limit, options.memory_limit, options.meshes);
   command.add_flag("--no-frames", asked.has_no_frames, "no frames for ParaView");
   command.add_flag("--no-state", asked.has_no_state, "no state file: the run cannot be continued once more");
   command.add_flag("--quiet", asked.is_quiet, "no progress lines");

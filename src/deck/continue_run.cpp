@@ -26,6 +26,7 @@ DeckOutcome continue_run(const ContinueOptions& options) {
   deck.threads = options.threads;
   deck.time_limit = options.time_limit;
   deck.memory_limit = options.memory_limit;
+  deck.meshes = options.meshes;
   deck.write_frames = options.write_frames;
   deck.write_state = options.write_state;
   deck.is_study = false;

@@ -87,6 +87,7 @@ void warn_of_unused(const DeckState& state) {
 
 DeckOutcome execute(const DeckOptions& options, const Engine& engine, bool solves) {
   const std::string text = options.text ? *options.text : text_of(options.path);
+  set_mesh_limits(options.meshes);
   DeckState state(options, engine, solves);
   state.deck_digest = digest_of(text);
   state.deck_text = text;

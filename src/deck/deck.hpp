@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/mesh_limits.hpp"
 #include "run/run_problem.hpp"
 
 namespace dygita {
@@ -27,6 +28,7 @@ struct DeckOptions {
   int threads = 0;
   double time_limit = 60.0;      // s of processor time of the deck's own code
   double memory_limit = 1024.0;  // MB of the deck's own data
+  MeshLimits meshes;
   bool write_files = true;
   bool write_frames = true;  // those of output.vtk
   bool write_state = true;   // what continue_run needs

@@ -5,12 +5,11 @@
 #include "base/log.hpp"
 #include "deck/deck_state.hpp"
 #include "deck/object.hpp"
+#include "signal/unit.hpp"
 
 namespace dygita {
 
 namespace {
-
-constexpr double gravity = 9.80665;
 
 // A function of time of the deck, kept by Lua as long as a history needs it.
 class DeckFunction {
@@ -58,7 +57,7 @@ void push_history(lua_State* L, History history, int id) {
 
 // A record that gives its unit has been read in SI already.
 void doubt_factor(const History& history, double factor, const Origin& origin) {
-  if (history.unit() != "m/s^2" || std::abs(std::abs(factor) / gravity - 1.0) > 0.01) return;
+  if (history.unit() != "m/s^2" || std::abs(std::abs(factor) / standard_gravity - 1.0) > 0.01) return;
   warn(origin.prefix() +
        "the signal's file gives a unit of acceleration, so that its values are m/s^2 already: times g0 they are 9.8 "
        "times as large");

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/progress.hpp"
 
 namespace dygita {
 
@@ -115,7 +116,7 @@ int guarded(lua_State* L) {
   try {
     return function(state, L);
   } catch (const std::exception&) {
-    state.hold(std::current_exception());
+    state.hold(interrupt_requested() ? std::make_exception_ptr(DeckStopped()) : std::current_exception());
   }
   lua_pushliteral(L, "C++ exception");
   return lua_error(L);

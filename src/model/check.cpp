@@ -19,6 +19,7 @@ void check_problem(const Problem& problem) {
   check::integration(problem);
   check::histories(problem);
   check::doubts(problem);
+  check::balance(problem);
   check::resolution(problem);
 }
 

@@ -34,6 +34,10 @@ void integration(const Problem& problem);
 // What is allowed but hardly meant: said with warn().
 void doubts(const Problem& problem);
 
+// Forces on nodes whose motion is prescribed: said with warn(). Throws where preloads leave a substructure without
+// equilibrium.
+void balance(const Problem& problem);
+
 // A time step or a mesh too coarse for what the loads bring and the spectra ask for: said with warn(), with the
 // figures.
 void resolution(const Problem& problem);

@@ -21,11 +21,43 @@ std::string time(double t) {
   return size >= 1e-3 || size == 0.0 ? fmt::format("{:.4g} ms", 1e3 * t) : fmt::format("{:.4g} us", 1e6 * t);
 }
 
+// The history of the same value of the same load in another dynamic step; none: it has none.
+std::optional<History> same_in(const Step& step, const Load& load, size_t i_value) {
+  for (const LoadPtr& other : step.loads) {
+    bool is_same = !step.is_static && other->path == load.path && other->on.size() == load.on.size();
+    for (size_t i = 0; is_same && i < load.on.size(); ++i) is_same = describe(load.on[i]) == describe(other->on[i]);
+    if (is_same && other->values[i_value]) return other->values[i_value]->history;
+  }
+  return {};
+}
+
+// Whether the steps beside it go on with a load where it leaves off, as with :shifted(-duration).
+struct Chain {
+  bool before = false, after = false;
+};
+
+Chain chain_of(const Problem& problem, size_t i_step, const Load& load, size_t i_value) {
+  const History& here = load.values[i_value]->history;
+  const auto profile = here.profile();
+  const double close = profile ? near_zero * profile->largest() : 0.0;
+  Chain chain;
+  if (i_step > 0) {
+    const Step& before = *problem.steps[i_step - 1];
+    const auto other = same_in(before, load, i_value);
+    chain.before = other && std::abs(other->value(before.duration) - here.value(0.0)) <= close;
+  }
+  if (i_step + 1 < problem.steps.size()) {
+    const auto other = same_in(*problem.steps[i_step + 1], load, i_value);
+    chain.after = other && std::abs(other->value(0.0) - here.value(problem.steps[i_step]->duration)) <= close;
+  }
+  return chain;
+}
+
 // A load's value along one axis, in one step.
 class InStep {
  public:
-  InStep(const Problem& problem, const Step& step, const Load& load, const History& history)
-      : problem_(problem), step_(step), load_(load), history_(history), profile_(history.profile()) {}
+  InStep(const Problem& problem, const Step& step, const Load& load, const History& history, const Chain& chain)
+      : problem_(problem), step_(step), load_(load), history_(history), chain_(chain), profile_(history.profile()) {}
 
   void check() const {
     has_its_unit();
@@ -66,19 +98,20 @@ class InStep {
 
   void lasts_in_a_dynamic_step() const {
     const double length = profile_->end - profile_->begin;
-    if (is_pulse() && length < step_.dt * (1.0 - rounding))
+    if (is_pulse() && !chain_.before && length < step_.dt * (1.0 - rounding))
       say(fmt::format("lasts {}, shorter than 'dt' = {}: only its impulse is left of it", time(length),
                       time(step_.dt)));
     if (profile_->is_record) is_whole();
     if (!reaches_its_peak()) return;
     const double left = history_.value(end());
-    if (is_pulse() && profile_->end > end() * (1.0 + rounding) && std::abs(left) > near_zero * profile_->largest())
+    if (is_pulse() && !chain_.after && profile_->end > end() * (1.0 + rounding) &&
+        std::abs(left) > near_zero * profile_->largest())
       say(fmt::format("lasts until {} and is cut off at the end of the step, {}, where it is {:.3g} {}",
                       time(profile_->end), time(end()), left, load_.unit()));
   }
 
   bool reaches_its_peak() const {
-    if (profile_->peak <= end() * (1.0 + rounding)) return true;
+    if (chain_.after || profile_->peak <= end() * (1.0 + rounding)) return true;
     say(fmt::format(
         "reaches its largest value, {:.4g} {}, at {}, after the end of the step at {}: within the step it is "
         "{:.4g} {} at most",
@@ -93,14 +126,14 @@ class InStep {
                  last = history_.value(profile_->end);
     const auto percent = [&](double value) { return 100.0 * std::abs(value) / most; };
     const char* unit = load_.unit();
-    if (profile_->begin < -rounding * end())
+    if (!chain_.before && profile_->begin < -rounding * end())
       say(fmt::format("has a record that begins at {}: what lies before 0 does not act; :shifted({:g}) brings it in",
                       time(profile_->begin), -profile_->begin));
-    else if (std::abs(first) > near_zero * most)
+    else if (!chain_.before && std::abs(first) > near_zero * most)
       say(fmt::format("has a record that begins at {} with {:.4g} {}, {:.2g} % of its largest value, {}",
                       time(profile_->begin), first, unit, percent(first),
                       profile_->begin > rounding * end() ? "which acts from 0 on" : "which acts at once"));
-    if (profile_->end < end() * (1.0 - rounding) && std::abs(last) > near_zero * most)
+    if (!chain_.after && profile_->end < end() * (1.0 - rounding) && std::abs(last) > near_zero * most)
       say(fmt::format(
           "has a record that ends at {} with {:.4g} {}, {:.2g} % of its largest value, which goes on acting "
           "until the end of the step at {}",
@@ -155,16 +188,20 @@ class InStep {
   const Step& step_;
   const Load& load_;
   const History& history_;
+  const Chain chain_;
   const std::optional<Profile> profile_;
 };
 
 }  // namespace
 
 void histories(const Problem& problem) {
-  for (const StepPtr& step : problem.steps)
-    for (const LoadPtr& load : step->loads)
-      for (const std::optional<TimeValue>& value : load->values)
-        if (value && !value->is_number) InStep(problem, *step, *load, value->history).check();
+  for (size_t i = 0; i < problem.steps.size(); ++i)
+    for (const LoadPtr& load : problem.steps[i]->loads)
+      for (size_t k = 0; k < load->values.size(); ++k) {
+        const std::optional<TimeValue>& value = load->values[k];
+        if (!value || value->is_number) continue;
+        InStep(problem, *problem.steps[i], *load, value->history, chain_of(problem, i, *load, k)).check();
+      }
 }
 
 }  // namespace dygita::check

@@ -16,8 +16,12 @@ void write_text(const fs::path& path, const std::string& text) {
   std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
   file << text;
   file.close();
-  if (!file) throw InputError("cannot write '" + path.string() + "': " + std::strerror(errno));
+  const int reason = errno;
   std::error_code error;
+  if (!file) {
+    fs::remove(temporary, error);
+    throw InputError("cannot write '" + path.string() + "': " + std::strerror(reason));
+  }
   fs::rename(temporary, path, error);
   if (error) throw InputError("cannot write '" + path.string() + "': " + error.message());
 }

@@ -5,6 +5,7 @@
 #include "base/log.hpp"
 #include "report/html.hpp"
 #include "report/report_parts.hpp"
+#include "report/spectra.hpp"
 #include "report/svg_plot.hpp"
 #include "report/units.hpp"
 
@@ -12,7 +13,7 @@ namespace dygita {
 
 namespace {
 
-std::string decibels(double value) {
+std::string ratio_text(double value) {
   return std::isfinite(value) ? fmt::format("{}{:.1f} dB", value < 0.0 ? "−" : "+", std::abs(value)) : "nothing enters";
 }
 
@@ -24,10 +25,11 @@ std::string attenuation_part(const RunFolder& run, const Json& output, const Fre
   std::vector<std::string> header = {"band"};
   std::vector<std::vector<std::string>> rows;
   std::string silent;
+  plot.x.from = frequency.front() / 1.2;
+  plot.x.to = 1.2 * frequency.back();
+  const std::string unreliable = shade_unreliable(judged, plot);
+  silent = unreliable.empty() ? "." : unreliable + " (marked * below).";
   for (const double f : frequency) rows.push_back({with_unit(f, "Hz") + (judged.holds(f) ? "" : " *")});
-  if (std::any_of(frequency.begin(), frequency.end(), [&](double f) { return !judged.holds(f); }))
-    silent += " *: unreliable, beyond what the record holds (" + with_unit(judged.from, "Hz") +
-              ", 1/record length, to " + with_unit(judged.to, "Hz") + ").";
   for (size_t i = 1; i + 2 < table.columns.size(); i += 3) {
     const std::vector<double>& ratio = table.columns[i + 2];
     const std::string axis = table.names[i + 2].size() > 6 ? "along " + table.names[i + 2].substr(6) : "";
@@ -41,7 +43,7 @@ std::string attenuation_part(const RunFolder& run, const Json& output, const Fre
     header.insert(header.end(), {"before " + axis, "behind " + axis, "ratio " + axis});
     for (size_t row = 0; row < frequency.size(); ++row)
       rows[row].insert(rows[row].end(), {with_unit(table.columns[i][row], table.units[i]),
-                                         with_unit(table.columns[i + 1][row], table.units[i]), decibels(ratio[row])});
+                                         with_unit(table.columns[i + 1][row], table.units[i]), ratio_text(ratio[row])});
   }
   if (plot.lines.empty()) return "";
   const double rule = -3.0 * number(output, "joints");
@@ -49,7 +51,7 @@ std::string attenuation_part(const RunFolder& run, const Json& output, const Fre
   return html::heading(text(output, "name") + ": from " + text(output, "entering") + " to " + text(output, "leaving")) +
          html::figure(svg(plot),
                       "Ratio of the maximax spectra; the handbooks' rule of thumb, -3 dB per bolted joint, gives " +
-                          decibels(rule) + " here." + silent) +
+                          ratio_text(rule) + " here" + silent) +
          html::table(header, rows, true);
 }
 

@@ -59,20 +59,6 @@ void mark_worst(const Spectrum& s, const FrequencyRange& judged, Plot& plot) {
   }
 }
 
-// Shades what the record does not allow to judge, and says so.
-std::string shade_unreliable(const FrequencyRange& judged, Plot& plot) {
-  std::string caption;
-  if (judged.from > *plot.x.from && *plot.x.from < *plot.x.to) {
-    plot.spans.push_back({*plot.x.from, std::min(judged.from, *plot.x.to), "the record is too short"});
-    caption += "; unreliable, and not judged, below " + with_unit(judged.from, "Hz") + ", 1/record length";
-  }
-  if (judged.to < *plot.x.to) {
-    plot.spans.push_back({std::max(judged.to, *plot.x.from), *plot.x.to, "beyond the sampling"});
-    caption += "; beyond " + with_unit(judged.to, "Hz") + ", half the sampling rate, the record has no content";
-  }
-  return caption;
-}
-
 std::string spectra_figure(const std::vector<Spectrum>& group, const TimeAxis& time) {
   Plot plot{.title = "Shock response spectra of " + group.front().quantity,
             .x = {"frequency", "Hz", true},

@@ -105,6 +105,19 @@ std::vector<Spectrum> spectra_of(const RunFolder& run, const ReportRequest& requ
   return spectra;
 }
 
+std::string shade_unreliable(const FrequencyRange& judged, Plot& plot) {
+  std::string caption;
+  if (judged.from > *plot.x.from && *plot.x.from < *plot.x.to) {
+    plot.spans.push_back({*plot.x.from, std::min(judged.from, *plot.x.to), "the record is too short"});
+    caption += "; unreliable, and not judged, below " + with_unit(judged.from, "Hz") + ", 1/record length";
+  }
+  if (judged.to < *plot.x.to) {
+    plot.spans.push_back({std::max(judged.to, *plot.x.from), *plot.x.to, "beyond the sampling"});
+    caption += "; beyond " + with_unit(judged.to, "Hz") + ", half the sampling rate, the record has no content";
+  }
+  return caption;
+}
+
 std::string decibels(double value) { return fmt::format("{}{:.1f}\u00a0dB", value < 0.0 ? "−" : "+", std::abs(value)); }
 
 std::vector<Excursion> excursions(const Spectrum& spectrum, const FrequencyRange& judged, double limit, int sign) {

@@ -8,6 +8,7 @@
 #include "output/run_folder.hpp"
 #include "report/card.hpp"
 #include "report/report.hpp"
+#include "report/svg_plot.hpp"
 
 namespace dygita {
 
@@ -39,6 +40,10 @@ struct Excursion {
 // Where the spectrum, at the frequencies judged, is above (sign 1) or below (sign -1) its specification by more than
 // `limit` dB; the worst first.
 std::vector<Excursion> excursions(const Spectrum& spectrum, const FrequencyRange& judged, double limit, int sign);
+
+// Shades what the record does not allow to judge in a plot over frequencies that has its limits, and says so: what
+// follows in its caption.
+std::string shade_unreliable(const FrequencyRange& judged, Plot& plot);
 
 struct SpectrumVerdict {
   std::string sentence;

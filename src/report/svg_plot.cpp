@@ -278,7 +278,8 @@ class Chart {
     double taken_to = 0.0;  // of two labels that would meet the second is left out
     for (const PlotSpan& span : plot_.spans) {
       const double half = 0.5 * text_width(span.label);
-      const double x = std::max(0.5 * (x_.pixel(span.from) + x_.pixel(span.to)), frame_.left + half - 20.0);
+      const double middle = 0.5 * (x_.pixel(span.from) + x_.pixel(span.to));
+      const double x = std::min(std::max(middle, frame_.left + half - 20.0), plot_.width - half - 2.0);
       if (x - half < taken_to) continue;
       text_ += text_at(x, frame_.top - 5.0, span.label, "middle", grey, " class=\"tick\"");
       taken_to = x + half + 6.0;

@@ -5,12 +5,11 @@
 #include <vector>
 
 #include "base/log.hpp"
+#include "signal/unit.hpp"
 
 namespace dygita {
 
 namespace {
-
-constexpr double standard_gravity = 9.80665;
 
 // From small to large.
 const std::map<std::string, std::vector<EngineeringUnit>>& known_units() {

@@ -22,6 +22,7 @@ struct LimitJoint {
   Vec3 normal = Vec3::Zero();  // unit, of a flat joint that is closed
   bool is_open = true;
   bool yields = false;
+  bool is_released = false;  // by a load.release
 };
 
 // Is every point that carries something at its limit? Then how it stands.
@@ -115,9 +116,10 @@ std::string line_of(const Instant& instant, const Group& group, const Vec3& pull
   for (const LimitJoint& joint : group.joints) {
     const double own = -factor * joint.force.dot(along);
     hold += own;
-    joints +=
-        fmt::format("{}'{}' {}", joints.empty() ? "" : ", ", joint.surface->name(),
-                    joint.is_open ? "is open" : fmt::format("{} at {:.0f} N", joint.yields ? "yields" : "slides", own));
+    joints += fmt::format("{}'{}' {}", joints.empty() ? "" : ", ", joint.surface->name(),
+                          joint.is_released ? "is released"
+                          : joint.is_open   ? "is open"
+                                            : fmt::format("{} at {:.0f} N", joint.yields ? "yields" : "slides", own));
   }
   const bool is_open =
       std::all_of(group.joints.begin(), group.joints.end(), [](const LimitJoint& joint) { return joint.is_open; });
@@ -138,8 +140,10 @@ std::vector<std::string> overloaded_joints(const Instant& instant) {
   std::vector<LimitJoint> limits;
   for (size_t s = 0; s < instant.model.surfaces->size(); ++s) {
     const Surface& surface = (*instant.model.surfaces)[s];
-    if (instant.state.released[s] || !takes_part(problem, *instant.model.step, surface)) continue;
-    if (const auto joint = at_limit(surface, instant.state.surfaces[s]))
+    if (!takes_part(problem, *instant.model.step, surface)) continue;
+    if (instant.state.released[s])
+      limits.push_back({.surface = &surface, .is_released = true});
+    else if (const auto joint = at_limit(surface, instant.state.surfaces[s]))
       limits.push_back(*joint);
     else
       groups.join(surface.part_1, surface.part_2 < 0 ? ground : surface.part_2);

@@ -48,6 +48,17 @@ Srs spectrum_of(const Problem& problem, const SrsSettings& settings, const Table
   return shock_response_spectrum(evenly(time, value, dt), dt, settings);
 }
 
+FrequencyRange judged_by(const Problem& problem, const Table& history) {
+  double record = 0.0, shortest = std::numeric_limits<double>::infinity();
+  for (const int i_step : history.step) {  // of each row, one an increment
+    const Step& step = *problem.steps[static_cast<size_t>(i_step)];
+    if (step.is_static) continue;
+    record += step.dt;
+    shortest = std::min(shortest, step.dt);
+  }
+  return reliable_range(record, shortest);
+}
+
 std::vector<double> evenly(const std::vector<double>& time, const std::vector<double>& value, double dt) {
   std::vector<double> signal;
   size_t i = 0;

@@ -23,6 +23,9 @@ void check_spectrum(const Problem& problem, const Output& output);
 // there is no such row.
 Srs spectrum_of(const Problem& problem, const SrsSettings& settings, const Table& history, size_t column);
 
+// Frequencies that the dynamic rows of a history allow to judge: from 1/record length to half the sampling rate.
+FrequencyRange judged_by(const Problem& problem, const Table& history);
+
 // Linear between instants (s, increasing), every dt from the first to the last: what a spectrum takes.
 std::vector<double> evenly(const std::vector<double>& time, const std::vector<double>& value, double dt);
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "mesh/mesh_limits.hpp"
 #include "run/run_problem.hpp"
 
 namespace dygita {
@@ -17,6 +18,7 @@ struct ContinueOptions {
   std::optional<double> until;  // s, of the run's time
   int threads = 0;
   double time_limit = 60.0, memory_limit = 1024.0;  // of the deck, as in DeckOptions
+  MeshLimits meshes;
   bool write_frames = true, write_state = true;
 };
 

@@ -15,15 +15,15 @@ namespace dygita {
 
 namespace {
 
-constexpr std::string_view separators = " \t\r,;";
+constexpr std::string_view between_numbers = " \t\r,;";
 
 std::vector<std::string_view> fields_of(std::string_view line) {
   std::vector<std::string_view> fields;
-  size_t begin = line.find_first_not_of(separators);
+  size_t begin = line.find_first_not_of(between_numbers);
   while (begin != std::string_view::npos) {
-    const size_t end = std::min(line.find_first_of(separators, begin), line.size());
+    const size_t end = std::min(line.find_first_of(between_numbers, begin), line.size());
     fields.push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(separators, end);
+    begin = line.find_first_not_of(between_numbers, end);
   }
   return fields;
 }

@@ -11,7 +11,7 @@ namespace dygita {
 
 namespace {
 
-constexpr double gravity = 9.80665, inch = 0.0254, pound = 4.4482216152605;
+constexpr double inch = 0.0254, pound = 4.4482216152605;
 
 struct KnownUnit {
   const char* text;  // without blanks, asterisks and middle dots
@@ -33,10 +33,10 @@ constexpr KnownUnit known[] = {{"s", 1, "s"},
                                {"MHz", 1e6, "Hz"},
                                {"m/s^2", 1, "m/s^2"},
                                {"mm/s^2", 1e-3, "m/s^2"},
-                               {"g", gravity, "m/s^2"},
-                               {"gn", gravity, "m/s^2"},
-                               {"g0", gravity, "m/s^2"},
-                               {"G", gravity, "m/s^2"},
+                               {"g", standard_gravity, "m/s^2"},
+                               {"gn", standard_gravity, "m/s^2"},
+                               {"g0", standard_gravity, "m/s^2"},
+                               {"G", standard_gravity, "m/s^2"},
                                {"ms^-2", 1, "m/s^2"},
                                {"in/s^2", inch, "m/s^2"},
                                {"m/s", 1, "m/s"},

@@ -9,6 +9,8 @@
 
 namespace dygita {
 
+inline constexpr double standard_gravity = 9.80665;  // m/s^2
+
 struct Unit {
   double factor = 1.0;  // of one of it, in SI
   std::string si;       // "m/s^2"; empty: without dimension

@@ -35,13 +35,13 @@ double factor_bytes(const PieceSetup& setup, const SparseMatrix& matrix, const L
 // Bytes that an iteration reads in each form, the two condensed substitutions of a time step spread over the usual
 // number of iterations. Gives the bytes of the factor in full where that is less, else nothing.
 std::optional<double> cheaper_in_full(const PieceSetup& setup, const SparseMatrix& matrix, const Layout& layout) {
-  constexpr double iterations = 6.0;
+  constexpr double solves = 6.0;
   const double n_b = layout.n_interface(), n = layout.unknowns.size();
   if (n_b < 0.3 * n || n_b < 300) return {};  // never seen to pay; saves the second ordering
   const double full = factor_bytes(setup, matrix, layout, layout.none);
   const double interior = n_b < n ? factor_bytes(setup, matrix, layout, layout.is_interface) : 0.0;
-  const double products = iterations * bytes_of_operator_entry(setup) * 0.5 * n_b * n_b;
-  return iterations * 2.0 * full < 2.0 * interior + products ? std::optional(full) : std::nullopt;
+  const double products = solves * bytes_of_operator_entry(setup) * 0.5 * n_b * n_b;
+  return solves * 2.0 * full < 2.0 * interior + products ? std::optional(full) : std::nullopt;
 }
 
 }  // namespace

@@ -65,8 +65,8 @@ void take_reference_off(const PieceOperator& op, int n_interior, Mat& schur) {
       const Mat3 spring = reference_spring(row, on), basis = unknowns.basis(on.node);
       for (int r = 0; r < unknowns.count(on.node); ++r)
         for (int c = 0; c < unknowns.count(on.node); ++c) {
-          const int row = unknowns.at(on.node, r) - n_interior, column = unknowns.at(on.node, c) - n_interior;
-          if (row >= 0 && column >= 0) schur(row, column) -= basis.col(r).dot(spring * basis.col(c));
+          const int at = unknowns.at(on.node, r) - n_interior, column = unknowns.at(on.node, c) - n_interior;
+          if (at >= 0 && column >= 0) schur(at, column) -= basis.col(r).dot(spring * basis.col(c));
         }
     }
 }

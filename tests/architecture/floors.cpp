@@ -15,6 +15,7 @@ const std::map<std::string, std::set<std::string>> may_use = {
     {"base", {}},
     {"numerics", {"base"}},
     {"mesh", {"base", "numerics"}},
+    {"mesher", {"base", "numerics", "mesh"}},
     {"signal", {"base", "numerics"}},
     {"material", {"base", "numerics"}},
     {"fem", {"base", "numerics", "mesh", "material"}},
@@ -37,7 +38,8 @@ const std::map<std::string, std::set<std::string>> may_use = {
 const std::regex everybody("^((unsupported/)?Eigen/|spdlog/|omp\\.h$)");
 const std::vector<std::pair<std::string, std::regex>> owners = {
     {"numerics", std::regex("^(cholmod|SuiteSparse|metis|cblas|lapack|openblas)[A-Za-z_]*\\.h$")},
-    {"mesh", std::regex("^gmsh")},
+    {"mesh", std::regex("^nlohmann/")},
+    {"mesher", std::regex("^(gmsh|seccomp\\.h$)")},
     {"output", std::regex("^(vtk|nlohmann/)")},
     {"report", std::regex("^nlohmann/")},
     {"deck", std::regex("^(lua|lualib|lauxlib)\\.(h|hpp)$")},
@@ -45,7 +47,8 @@ const std::vector<std::pair<std::string, std::regex>> owners = {
 };
 
 // The standard library's and the operating system's.
-const std::regex system_header("^[a-z_0-9]+$|^(stdlib|signal|fcntl|unistd|sys/[a-z]+|[a-z]mmintrin)\\.h$");
+const std::regex system_header(
+    "^[a-z_0-9]+$|^(stdlib|signal|fcntl|poll|sched|spawn|unistd|linux/[a-z]+|sys/[a-z]+|[a-z]mmintrin)\\.h$");
 
 bool is_owned_by(const std::string& module, const std::string& header) {
   return std::any_of(owners.begin(), owners.end(), [&](const auto& owner) {

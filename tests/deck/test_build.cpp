@@ -12,7 +12,7 @@
 #include "result/recorder.hpp"
 #include "result/result.hpp"
 
-namespace dygita::test {
+namespace dygita::test::build_tests {
 
 namespace {
 
@@ -246,4 +246,4 @@ assert(tostring(steel) == "material 'steel'")
 
 }  // namespace
 
-}  // namespace dygita::test
+}  // namespace dygita::test::build_tests

@@ -6,7 +6,7 @@
 #include "deck/converge.hpp"
 #include "deck/fake_engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::converge_tests {
 namespace {
 
 // bolt.normal = 5 + 0.1 size^2 + 0.02 / n N, in 1 / size^3 s; `spoil` may add to it.
@@ -155,4 +155,4 @@ TEST(ConvergeOptions, are_read_as_people_write_them) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::converge_tests

@@ -10,7 +10,7 @@
 
 #include "deck/deck.hpp"
 
-namespace dygita {
+namespace dygita::definitions_tests {
 namespace {
 
 struct Closing {
@@ -101,4 +101,4 @@ TEST(Definitions, name_no_class_that_is_not_defined) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::definitions_tests

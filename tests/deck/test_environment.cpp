@@ -6,7 +6,7 @@
 #include "deck/fake_engine.hpp"
 #include "model/load.hpp"
 
-namespace dygita::test {
+namespace dygita::test::environment_tests {
 
 namespace {
 
@@ -153,4 +153,4 @@ TEST(Recursion, without_end_is_an_error_of_the_deck) {
 
 }  // namespace
 
-}  // namespace dygita::test
+}  // namespace dygita::test::environment_tests

@@ -6,7 +6,7 @@
 #include "deck/fake_engine.hpp"
 #include "model/load.hpp"
 
-namespace dygita::test {
+namespace dygita::test::functions_tests {
 
 namespace {
 
@@ -102,4 +102,4 @@ TEST(DeckFunction, survives_collection_while_a_load_needs_it) {
 
 }  // namespace
 
-}  // namespace dygita::test
+}  // namespace dygita::test::functions_tests

@@ -4,7 +4,7 @@
 #include "deck/fake_engine.hpp"
 #include "mesh/geo_script.hpp"
 
-namespace dygita::test {
+namespace dygita::test::geo_script_tests {
 
 namespace {
 
@@ -69,4 +69,4 @@ TEST(GeoScript, cannot_hide_in_another_kind_of_file) {
 
 }  // namespace
 
-}  // namespace dygita::test
+}  // namespace dygita::test::geo_script_tests

@@ -5,7 +5,7 @@
 #include "deck/fake_engine.hpp"
 #include "model/load.hpp"
 
-namespace dygita::test {
+namespace dygita::test::histories_tests {
 
 namespace {
 
@@ -154,4 +154,4 @@ TEST(Refused, deck_is_not_said_to_be_computed) {
 
 }  // namespace
 
-}  // namespace dygita::test
+}  // namespace dygita::test::histories_tests

@@ -4,7 +4,7 @@
 #include "deck/fake_engine.hpp"
 #include "model/load.hpp"
 
-namespace dygita::test {
+namespace dygita::test::lines_tests {
 
 namespace {
 
@@ -58,4 +58,4 @@ TEST(Lines, go_with_the_objects) {
 
 }  // namespace
 
-}  // namespace dygita::test
+}  // namespace dygita::test::lines_tests

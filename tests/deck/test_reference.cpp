@@ -7,7 +7,7 @@
 #include "deck/deck.hpp"
 #include "model/load.hpp"
 
-namespace dygita {
+namespace dygita::reference_tests {
 namespace {
 
 TEST(Reference, of_the_manual_is_the_printed_one) {
@@ -28,4 +28,4 @@ TEST(Reference, has_every_load_that_has_a_file_and_no_other) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::reference_tests

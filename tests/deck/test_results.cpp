@@ -3,7 +3,7 @@
 
 #include "deck/fake_engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::results_tests {
 
 namespace {
 
@@ -166,4 +166,4 @@ TEST(Results, do_not_change) {
 
 }  // namespace
 
-}  // namespace dygita::test
+}  // namespace dygita::test::results_tests

@@ -4,7 +4,7 @@
 #include "base/log.hpp"
 #include "deck/fake_engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::runs_tests {
 
 namespace {
 
@@ -172,4 +172,4 @@ TEST(ContractDecks, declare_without_error) {
 
 }  // namespace
 
-}  // namespace dygita::test
+}  // namespace dygita::test::runs_tests

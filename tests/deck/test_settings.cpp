@@ -3,7 +3,7 @@
 
 #include "deck/fake_engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::settings_tests {
 
 namespace {
 
@@ -57,4 +57,4 @@ TEST(Settings, reach_the_run_record) {
 
 }  // namespace
 
-}  // namespace dygita::test
+}  // namespace dygita::test::settings_tests

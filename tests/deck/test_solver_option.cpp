@@ -3,7 +3,7 @@
 
 #include "deck/fake_engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::solver_option_tests {
 
 namespace {
 
@@ -68,4 +68,4 @@ TEST(SolverOption, that_is_no_call_of_a_solver_is_refused) {
 
 }  // namespace
 
-}  // namespace dygita::test
+}  // namespace dygita::test::solver_option_tests

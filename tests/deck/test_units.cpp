@@ -2,7 +2,7 @@
 
 #include "deck/fake_engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::units_tests {
 
 namespace {
 
@@ -32,4 +32,4 @@ TEST(Near, forgives_round_off_and_nothing_more) {
 
 }  // namespace
 
-}  // namespace dygita::test
+}  // namespace dygita::test::units_tests

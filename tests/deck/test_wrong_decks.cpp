@@ -7,7 +7,7 @@
 
 #include "deck/fake_engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::wrong_decks_tests {
 
 namespace {
 
@@ -77,4 +77,4 @@ TEST(WrongDecks, cover_every_constructor) {
 
 }  // namespace
 
-}  // namespace dygita::test
+}  // namespace dygita::test::wrong_decks_tests

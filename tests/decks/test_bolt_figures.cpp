@@ -4,7 +4,7 @@
 #include "decks/engine.hpp"
 #include "output/bolt_table.hpp"
 
-namespace dygita::test {
+namespace dygita::test::bolt_figures_tests {
 namespace {
 
 // A rod of 100 mm^2 under a cover, tightened to a force and pulled.
@@ -66,4 +66,4 @@ TEST(BoltFigures, have_no_loss_where_a_bolt_was_loosened) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::bolt_figures_tests

@@ -6,7 +6,7 @@
 #include "decks/deck_prints.hpp"
 #include "mesh/cell_types.hpp"
 
-namespace dygita::test {
+namespace dygita::test::cells_tests {
 namespace {
 
 bool is_of_order_two(const CellShape& cell) { return nodes_per_cell(cell.type) > cell.n_corners; }
@@ -238,4 +238,4 @@ problem{ name = "posts", substructures = parts, supports = { ground }, steps = {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::cells_tests

@@ -5,7 +5,7 @@
 
 #include "decks/engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::chains_tests {
 namespace {
 
 const std::string bars = R"(
@@ -92,4 +92,4 @@ problem{ name = "p", substructures = { b }, supports = { wall, hand }, steps = {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::chains_tests

@@ -15,7 +15,7 @@
 #include "numerics/lowest_modes.hpp"
 #include "result/craig_bampton.hpp"
 
-namespace dygita::test {
+namespace dygita::test::condensed_tests {
 namespace {
 
 TEST(Goodman, loses_what_his_solution_says) {
@@ -309,4 +309,4 @@ TEST(Superelement, is_not_made_and_says_why_where_a_part_is_held_by_nothing) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::condensed_tests

@@ -9,7 +9,7 @@
 #include "output/csv.hpp"
 #include "output/run_record.hpp"
 
-namespace dygita::test {
+namespace dygita::test::continue_tests {
 namespace {
 
 namespace fs = std::filesystem;
@@ -285,4 +285,4 @@ TEST_F(Continue, says_what_is_wrong_and_leaves_the_old_results) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::continue_tests

@@ -5,7 +5,7 @@
 
 #include "decks/engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::contract_decks_tests {
 namespace {
 
 // In every deck the balance closes, and the numerical energy gain is next to nothing.
@@ -84,4 +84,4 @@ TEST(BoltedFlanges, tightens_and_shocks_at_two_mesh_sizes) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::contract_decks_tests

@@ -4,7 +4,7 @@
 #include "deck/converge.hpp"
 #include "engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::converge_tests {
 namespace {
 
 // A cantilever under a shear traction at its end.
@@ -48,4 +48,4 @@ TEST(Convergence, of_a_cantilever_tells_how_far_a_finer_mesh_is) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::converge_tests

@@ -5,7 +5,7 @@
 
 #include "decks/engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::cutting_tests {
 namespace {
 
 // A 6 x 6 x 8 block on a rigid wall with friction, hit obliquely on top; cut into nx x ny x nz bonded bricks.
@@ -138,4 +138,4 @@ TEST(Threads, any_number_of_threads_gives_the_same_bits) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::cutting_tests

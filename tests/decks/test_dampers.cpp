@@ -9,7 +9,7 @@
 #include "decks/deck_prints.hpp"
 #include "result/superelement.hpp"
 
-namespace dygita::test {
+namespace dygita::test::dampers_tests {
 namespace {
 
 class EverySolver : public ::testing::TestWithParam<const char*> {};
@@ -166,4 +166,4 @@ problem{ name = "hung", substructures = { low, high }, interfaces = { damper }, 
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::dampers_tests

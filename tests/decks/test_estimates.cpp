@@ -5,7 +5,7 @@
 #include "decks/spectra.hpp"
 #include "result/limits.hpp"
 
-namespace dygita::test {
+namespace dygita::test::estimates_tests {
 namespace {
 
 class Pulse : public testing::Test {
@@ -185,4 +185,4 @@ TEST(Warnings, name_a_tolerance_too_loose_and_one_that_would_do) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::estimates_tests

@@ -6,7 +6,7 @@
 #include "base/error.hpp"
 #include "decks/deck_prints.hpp"
 
-namespace dygita::test {
+namespace dygita::test::explicit_tests {
 namespace {
 
 const std::string full = "explicit{ integration = \"full\", bulk_viscosity = false, penalty = ";
@@ -315,4 +315,4 @@ TEST(Explicit, check_tells_the_substeps_that_the_run_takes) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::explicit_tests

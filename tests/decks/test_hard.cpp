@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "decks/deck_prints.hpp"
 
-namespace dygita::test {
+namespace dygita::test::hard_tests {
 namespace {
 
 constexpr double energy_goal = 0.1;  // % of the largest
@@ -198,4 +198,4 @@ TEST(StaticYield, creates_no_energy_in_one_increment) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::hard_tests

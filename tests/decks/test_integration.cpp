@@ -6,7 +6,7 @@
 #include "base/error.hpp"
 #include "decks/deck_prints.hpp"
 
-namespace dygita::test {
+namespace dygita::test::integration_tests {
 namespace {
 
 // A stack in a corner of two rough walls: rubbing, tied and yielding planes, a side that lets waves out, a driven top.
@@ -164,4 +164,4 @@ TEST(Integration, what_cannot_be_explicit_says_why) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::integration_tests

@@ -4,7 +4,7 @@
 
 #include "decks/engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::iterations_tests {
 namespace {
 
 DeckRun brick_block(const Settings& settings, const std::string& solver = "", int threads = 0) {
@@ -91,4 +91,4 @@ TEST(Iterations, any_number_of_threads_gives_the_same_bits) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::iterations_tests

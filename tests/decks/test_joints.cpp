@@ -5,7 +5,7 @@
 
 #include "decks/engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::joints_tests {
 namespace {
 
 // A rod in a sleeve, one-dimensional by layout (nu = 0, frictionless): heads join them at both ends.
@@ -321,4 +321,4 @@ problem{ name = "floating", substructures = { block }, supports = { floor }, ste
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::joints_tests

@@ -5,7 +5,7 @@
 
 #include "decks/deck_prints.hpp"
 
-namespace dygita::test {
+namespace dygita::test::limit_loads_tests {
 namespace {
 
 // A run with what it warned of on the screen.
@@ -56,6 +56,16 @@ TEST(LimitLoad, a_part_that_is_pulled_off_is_named) {
             {"static step 'pull', increment 2: 'strap' comes off as a whole: 4000 N pull along (", "'mating' is open"});
 }
 
+TEST(LimitLoad, a_part_whose_only_joint_is_released_is_named) {
+  std::string text = strap;
+  const std::string joint = "load.force{ on = strap:face \"xmax\", x = p.pull }";
+  text.replace(text.find(joint), joint.size(), "load.release{ on = mating, at = 0.4 }");
+  const Said released = said_by(text, {{"lift", "20*MPa"}});
+  EXPECT_FALSE(released.run.result->converged);
+  expect_in(released.warnings,
+            {"'strap' comes off as a whole: 4000 N pull along (0.00, 0.00, 1.00)", "('mating' is released)"});
+}
+
 TEST(LimitLoad, a_joint_that_holds_is_not_complained_of) {
   const Said holds = said_by(strap, {{"pull", "900"}});
   EXPECT_TRUE(holds.run.result->converged);
@@ -95,4 +105,4 @@ TEST(NotConverged, is_not_what_ordinary_bolts_are_at_the_defaults) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::limit_loads_tests

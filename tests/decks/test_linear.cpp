@@ -7,7 +7,7 @@
 #include "decks/effectivity.hpp"
 #include "reference/monolithic.hpp"
 
-namespace dygita::test {
+namespace dygita::test::linear_tests {
 namespace {
 
 // Four parts that meet in an edge, two materials, a symmetry support, traction and gravity; on a fixed base, or thrown.
@@ -85,4 +85,4 @@ problem{ name = "one", substructures = { a }, supports = { )" +
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::linear_tests

@@ -3,7 +3,7 @@
 
 #include "decks/engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::loops_tests {
 namespace {
 
 // A strap clamped on a base, pulled to and fro at two amplitudes, then shocked.
@@ -124,4 +124,4 @@ problem{ name = "sticks", substructures = { low, high }, interfaces = { touch },
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::loops_tests

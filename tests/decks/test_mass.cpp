@@ -3,7 +3,7 @@
 
 #include "decks/deck_prints.hpp"
 
-namespace dygita::test {
+namespace dygita::test::mass_tests {
 namespace {
 
 // A block on a shaken base, another on it in contact, a wall above it; solver as asked.
@@ -70,4 +70,4 @@ TEST(MasslessContact, is_the_same_in_windows_of_several_steps_and_with_full_solv
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::mass_tests

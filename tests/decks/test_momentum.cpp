@@ -3,7 +3,7 @@
 
 #include "decks/engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::momentum_tests {
 namespace {
 
 // A pushed block (1 N s by the end of the push) meets a heavier one at rest; nothing holds either.
@@ -59,4 +59,4 @@ INSTANTIATE_TEST_SUITE_P(Solvers, Momentum,
                          });
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::momentum_tests

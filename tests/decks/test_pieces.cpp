@@ -5,7 +5,7 @@
 
 #include "decks/deck_prints.hpp"
 
-namespace dygita::test {
+namespace dygita::test::pieces_tests {
 namespace {
 
 // Largest difference of any column of any output, relative to the largest value of its table's columns of the same
@@ -254,4 +254,4 @@ TEST(Pieces, cost_few_iterations_however_many_they_are) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::pieces_tests

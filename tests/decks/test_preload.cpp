@@ -6,7 +6,7 @@
 
 #include "decks/deck_prints.hpp"
 
-namespace dygita::test {
+namespace dygita::test::preload_tests {
 namespace {
 
 constexpr double tolerance = 1e-9;  // static, of LATIN
@@ -321,4 +321,4 @@ TEST(Preload, keeps_its_energy_balance) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::preload_tests

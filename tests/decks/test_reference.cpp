@@ -5,7 +5,7 @@
 
 #include "decks/engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::reference_tests {
 namespace {
 
 constexpr double reference_tolerance = 1e-8;  // of LATIN
@@ -242,4 +242,4 @@ problem{ name = "pulled", substructures = { block }, supports = { wall }, steps 
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::reference_tests

@@ -6,7 +6,7 @@
 #include "decks/engine.hpp"
 #include "report/svg_checks.hpp"
 
-namespace dygita::test {
+namespace dygita::test::report_runs_tests {
 namespace {
 
 namespace fs = std::filesystem;
@@ -220,4 +220,4 @@ TEST(ReportRuns, stays_small_on_a_large_mesh) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::report_runs_tests

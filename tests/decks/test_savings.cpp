@@ -4,7 +4,7 @@
 
 #include "decks/engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::savings_tests {
 namespace {
 
 // A plate on a clamped side carries n equal posts in frictional contact, each pressed and hit in its own way.
@@ -178,4 +178,4 @@ TEST(InterfaceFields, beyond_the_budget_come_back_from_a_file) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::savings_tests

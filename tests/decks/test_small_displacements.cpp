@@ -3,7 +3,7 @@
 
 #include "decks/engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::small_displacements_tests {
 namespace {
 
 std::string all(const DeckRun& run) {
@@ -110,4 +110,4 @@ problem{ name = "released", substructures = { low, high }, interfaces = { weld }
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::small_displacements_tests

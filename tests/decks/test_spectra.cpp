@@ -6,7 +6,7 @@
 #include "decks/spectra.hpp"
 #include "result/spectrum_band.hpp"
 
-namespace dygita::test {
+namespace dygita::test::spectra_tests {
 namespace {
 
 // The crush with spectra above and below the contact.
@@ -95,4 +95,4 @@ TEST(Passes, are_none_where_no_spectrum_is_asked_for) {
   EXPECT_FALSE(run.figures().contains("passes over the run"));
 }
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::spectra_tests

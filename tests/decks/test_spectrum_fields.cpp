@@ -5,7 +5,7 @@
 
 #include "decks/deck_prints.hpp"
 
-namespace dygita::test {
+namespace dygita::test::spectrum_fields_tests {
 namespace {
 
 const std::string two_blocks = R"(
@@ -121,4 +121,4 @@ TEST(SpectrumThroughJoint, passes_what_presses_the_joint_and_takes_from_what_she
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::spectrum_fields_tests

@@ -11,7 +11,7 @@
 #include "report/study_files.hpp"
 #include "result/case_summary.hpp"
 
-namespace dygita::test {
+namespace dygita::test::studies_tests {
 namespace {
 
 // Of each case of a study by name; the runs that check a case cold follow it and are left out.
@@ -163,4 +163,4 @@ TEST(CaseSummary, finds_what_differs_most) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::studies_tests

@@ -6,7 +6,7 @@
 #include "decks/engine.hpp"
 #include "result/superelement.hpp"
 
-namespace dygita::test {
+namespace dygita::test::superelement_faces_tests {
 namespace {
 
 // A block on two planes of symmetry.
@@ -100,4 +100,4 @@ problem{ name = "rod", substructures = { rod }, supports = {}, steps = { step.st
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::superelement_faces_tests

@@ -5,7 +5,7 @@
 
 #include "decks/engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::torque_tests {
 namespace {
 
 const std::string two_bars = R"(
@@ -55,4 +55,4 @@ TEST(Torque, moves_the_bar_alike_in_every_solver) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::torque_tests

@@ -7,7 +7,7 @@
 #include "base/log.hpp"
 #include "decks/engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::unjoined_tests {
 
 namespace {
 
@@ -197,4 +197,4 @@ problem{ name = "bar", substructures = { bar }, supports = { base }, steps = { h
 
 }  // namespace
 
-}  // namespace dygita::test
+}  // namespace dygita::test::unjoined_tests

@@ -6,7 +6,7 @@
 
 #include "decks/deck_prints.hpp"
 
-namespace dygita::test {
+namespace dygita::test::verification_tests {
 namespace {
 
 TEST(BouncingBar, is_where_the_exact_one_is_through_two_impacts) {
@@ -159,4 +159,4 @@ TEST(Spectrum, of_a_half_sine_is_the_textbook_s) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::verification_tests

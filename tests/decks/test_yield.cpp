@@ -5,7 +5,7 @@
 
 #include "decks/engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::yield_tests {
 namespace {
 
 // A rod of 100 mm along x that does not contract sideways, held at xmin.
@@ -122,4 +122,4 @@ TEST(BoltLoss, is_none_by_yielding_where_the_bolt_stays_elastic) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::yield_tests

@@ -41,23 +41,23 @@ Problem hit_cubes(LawPtr law, double dt, IntegrationChoice lower, IntegrationCho
   return problem;
 }
 
-Recorder solved(const Problem& problem) {
-  Recorder recorder;
+Watcher solved(const Problem& problem) {
+  Watcher recorder;
   const SolverFigures figures = solve(problem, recorder);
   EXPECT_EQ(figures.steps.at(0).not_converged, 0);
   return recorder;
 }
 
-double imbalance(const Recorder& recorder) {
+double imbalance(const Watcher& recorder) {
   double worst = 0.0, size = 0.0;
-  for (const Recorder::Row& row : recorder.rows) {
+  for (const Watcher::Row& row : recorder.rows) {
     worst = std::max(worst, std::abs(row.energies.balance()));
     size = std::max(size, row.energies.loads);
   }
   return worst / size;
 }
 
-double last_difference(const Recorder& one, const Recorder& other) {
+double last_difference(const Watcher& one, const Watcher& other) {
   double apart = 0.0, size = 0.0;
   for (size_t part = 0; part < one.rows.back().displacement.size(); ++part) {
     const Points &a = one.rows.back().displacement[part], &b = other.rows.back().displacement[part];
@@ -69,12 +69,12 @@ double last_difference(const Recorder& one, const Recorder& other) {
 
 TEST(ExplicitPieces, alone_and_mixed_converge_to_what_implicit_ones_give) {
   for (const LawPtr& law : {contact(0.3), bonded(), plastic(3e7, 1e10)}) {
-    const Recorder finest = solved(hit_cubes(law, 1e-8, implicitly, implicitly));
+    const Watcher finest = solved(hit_cubes(law, 1e-8, implicitly, implicitly));
     for (const auto& [lower, upper] :
          {std::pair{explicitly, explicitly}, {implicitly, explicitly}, {explicitly, implicitly}}) {
       double before = 1.0;
       for (const double dt : {2e-7, 1e-7, 5e-8}) {
-        const Recorder run = solved(hit_cubes(law, dt, lower, upper));
+        const Watcher run = solved(hit_cubes(law, dt, lower, upper));
         const double error = last_difference(run, finest);
         std::cout << law->word() << " dt " << dt << ": " << 100 * error << " %, imbalance " << imbalance(run)
                   << ", iterations " << run.rows.back().iterations << "\n";
@@ -93,12 +93,12 @@ TEST(ExplicitPieces, forces_and_reactions_are_means_over_the_time_step_of_the_de
     const Problem problem = hit_cubes(contact(0.3), 2e-6, lower, upper);
     const int n = Modelled(problem).model.n_substeps();
     ASSERT_GT(n, 2);
-    const Recorder coarse = solved(problem), fine = solved(hit_cubes(contact(0.3), 2e-6 / n, lower, upper));
+    const Watcher coarse = solved(problem), fine = solved(hit_cubes(contact(0.3), 2e-6 / n, lower, upper));
     ASSERT_EQ(fine.rows.size(), n * coarse.rows.size());
     const double exact = lower == upper ? 1e-9 : 1e-6;
     for (size_t i = 0; i < coarse.rows.size(); ++i) {
-      const Recorder::Row& row = coarse.rows[i];
-      const Recorder::Row& last = fine.rows[(i + 1) * n - 1];
+      const Watcher::Row& row = coarse.rows[i];
+      const Watcher::Row& last = fine.rows[(i + 1) * n - 1];
       Points reactions = Points::Zero(3, row.reactions[0].cols());
       for (size_t p = 0; p < row.surfaces[0].points.size(); ++p) {
         Vec3 mean = Vec3::Zero();
@@ -157,7 +157,7 @@ TEST(ExplicitPieces, are_stable_there_with_friction_ties_and_supports) {
     Modelled modelled(any);
     double limit = 1.0;
     for (const Integration::Part& part : modelled.model.integration.parts) limit = std::min(limit, part.longest);
-    const Recorder run = solved(hit_cubes(law, limit, explicitly, explicitly, 4000));
+    const Watcher run = solved(hit_cubes(law, limit, explicitly, explicitly, 4000));
     EXPECT_EQ(run.rows.back().iterations, 1);
     EXPECT_LT(imbalance(run), 1e-11);
     EXPECT_LT(run.rows.back().energies.kinetic + run.rows.back().energies.strain, run.rows.back().energies.loads);
@@ -185,10 +185,10 @@ Problem corner(IntegrationChoice choice, double dt, int pieces = 1, int n = 3) {
 }
 
 TEST(ExplicitPieces, take_turns_where_points_share_nodes) {
-  const Recorder finest = solved(corner(implicitly, 1e-8));
+  const Watcher finest = solved(corner(implicitly, 1e-8));
   double before = 1.0;
   for (const double dt : {2e-7, 1e-7, 5e-8}) {
-    const Recorder run = solved(corner(explicitly, dt));
+    const Watcher run = solved(corner(explicitly, dt));
     const double error = last_difference(run, finest);
     std::cout << "dt " << dt << ": " << 100 * error << " %, imbalance " << imbalance(run) << "\n";
     EXPECT_LT(error, 0.5 * before);
@@ -200,7 +200,7 @@ TEST(ExplicitPieces, take_turns_where_points_share_nodes) {
 }
 
 TEST(ExplicitPieces, that_are_cut_are_the_uncut_ones) {
-  const Recorder whole = solved(corner(explicitly, 1e-7)), cut = solved(corner(explicitly, 1e-7, 3));
+  const Watcher whole = solved(corner(explicitly, 1e-7)), cut = solved(corner(explicitly, 1e-7, 3));
   EXPECT_LT(displacement_difference(cut, whole), 1e-9);
   EXPECT_LT(velocity_difference(cut, whole), 1e-9);
   EXPECT_LT(imbalance(cut), 1e-11);
@@ -209,9 +209,9 @@ TEST(ExplicitPieces, that_are_cut_are_the_uncut_ones) {
 TEST(ExplicitPieces, give_the_same_bits_on_any_number_of_threads) {
   const int before = omp_get_max_threads();
   omp_set_num_threads(1);
-  const Recorder one = solved(corner(explicitly, 2e-7, 2, 12));
+  const Watcher one = solved(corner(explicitly, 2e-7, 2, 12));
   omp_set_num_threads(3);
-  const Recorder three = solved(corner(explicitly, 2e-7, 2, 12));
+  const Watcher three = solved(corner(explicitly, 2e-7, 2, 12));
   omp_set_num_threads(before);
   EXPECT_EQ(displacement_difference(one, three), 0.0);
   EXPECT_EQ(one.rows.back().energies.friction, three.rows.back().energies.friction);
@@ -228,7 +228,7 @@ TEST(ExplicitPieces, rest_where_a_static_step_has_left_them_in_balance) {
     press->loads = {number("pressure", {Face{upper, "zmax"}}, 3e7)};
     auto rest = dynamic_step("rest", 50, 1e-7, {number("pressure", {Face{upper, "zmax"}}, 3e7)}, press);
     problem.steps = {press, rest};
-    const Recorder run = solved(problem);
+    const Watcher run = solved(problem);
     EXPECT_LT((run.rows.back().displacement[1] - run.rows.front().displacement[1]).norm(),
               1e-7 * run.rows.front().displacement[1].norm());
     EXPECT_GT(run.rows.front().displacement[1].norm(), 1e-7);
@@ -246,7 +246,7 @@ TEST(ExplicitPieces, follow_a_moving_support_and_book_its_work) {
     problem.supports.erase(problem.supports.begin());
     return solved(problem);
   };
-  const Recorder finest = shaken(implicitly, 1e-8), run = shaken(explicitly, 5e-8);
+  const Watcher finest = shaken(implicitly, 1e-8), run = shaken(explicitly, 5e-8);
   EXPECT_LT(last_difference(run, finest), 0.01);
   EXPECT_LT(imbalance(run), 1e-11);
   EXPECT_GT(run.rows.back().energies.loads, 0.0);

@@ -166,9 +166,9 @@ TEST(CoarseCorrection, is_empty_where_nothing_is_tied) {
   EXPECT_TRUE(CoarseCorrection(of.model, k).is_empty());
 }
 
-Recorder run(Problem problem, int window) {
+Watcher run(Problem problem, int window) {
   problem.solver.window = window;
-  Recorder recorder;
+  Watcher recorder;
   solve(problem, recorder);
   return recorder;
 }
@@ -184,11 +184,11 @@ TEST(Window, of_several_time_steps_is_the_same_as_one_by_one) {
                                          {load("pressure", {top}, History::constant(50e6)),
                                           load("traction", {top}, History::half_sine(60e6, 3e-6), 0)},
                                          press)};
-    const Recorder single = run(problem, 1);
+    const Watcher single = run(problem, 1);
     EXPECT_GT(single.rows.back().energies.friction, 0.0);
     for (const int window : {4, 5}) {
-      const Recorder several = run(problem, window);
-      for (const Recorder::Row& row : several.rows) EXPECT_TRUE(row.converged) << window;
+      const Watcher several = run(problem, window);
+      for (const Watcher::Row& row : several.rows) EXPECT_TRUE(row.converged) << window;
       EXPECT_LT(displacement_difference(several, single), 1e-8) << window;
       EXPECT_LT(velocity_difference(several, single), 1e-7) << window;
       const Energies &one = several.rows.back().energies, &other = single.rows.back().energies;
@@ -203,7 +203,7 @@ TEST(Latin, from_its_own_fields_has_nothing_to_do) {
   Problem problem = two_cubes(contact(0.2), {});
   problem.steps = {
       dynamic_step("strike", 10, direction_dt, {load("pressure", {top_of(problem)}, History::half_sine(60e6, 3e-6))})};
-  Recorder first, again;
+  Watcher first, again;
   const SolverFigures kept = solve(problem, first);
   problem.solver.tolerance = 1e-9;
   const SolverFigures figures = solve(problem, again, kept.interface_fields.get());
@@ -217,7 +217,7 @@ TEST(Latin, solved_in_full_is_the_same) {
   Problem problem = two_cubes(contact(0.2), {});
   problem.steps = {
       dynamic_step("strike", 10, direction_dt, {load("pressure", {top_of(problem)}, History::half_sine(60e6, 3e-6))})};
-  Recorder condensed, full;
+  Watcher condensed, full;
   solve(problem, condensed);
   problem.solver.plain = true;
   solve(problem, full);
@@ -242,7 +242,7 @@ TEST(Latin, damps_each_of_two_equal_blocks_by_its_own_material) {
     ASSERT_EQ(of.bodies[0].matrices, of.bodies[1].matrices);
     EXPECT_FALSE(of.model.pieces[1]->shares_operator());
   }
-  Recorder flight;
+  Watcher flight;
   solve(problem, flight);
   for (const int part : {0, 1}) {
     const double half = 0.5 * direction_dt * damping[part];

@@ -57,6 +57,30 @@ TEST_F(Histories, that_are_cut_off_by_the_end_of_the_step_are_named) {
   EXPECT_EQ(doubt_of(History::step(5.0, 1e-3)), "jumps at 1 ms, after the end of the step at 200 us");
 }
 
+TEST_F(Histories, that_the_next_step_goes_on_with_are_not_cut_off) {
+  const History pulse = History::half_sine(5.0, 600e-6);  // largest at 300 us, the step ends at 200 us
+  push_with(pulse);
+  auto later = std::make_shared<Step>(*shock);
+  later->name = "later";
+  later->after = shock;
+  later->duration = 500e-6;
+  const auto warnings_of_both = [&](const History& continued) {
+    push_with(continued);
+    later->loads = shock->loads;
+    push_with(pulse);
+    problem.steps = {tighten, shock, later};
+    take_warnings();
+    EXPECT_EQ(complaint(), "");
+    size_t n = 0;
+    for (const std::string& warning : take_warnings())
+      n += warning.find("reaches its largest value") != std::string::npos ||
+           warning.find("cut off") != std::string::npos;
+    return n;
+  };
+  EXPECT_EQ(warnings_of_both(pulse.shifted(-200e-6)), 0U);
+  EXPECT_EQ(warnings_of_both(pulse), 2U);  // begins anew: its peak is lost in one, its end in the other
+}
+
 TEST_F(Histories, that_a_time_step_swallows_are_named) {
   EXPECT_EQ(doubt_of(History::half_sine(5.0, 0.5e-6)),
             "lasts 0.5 us, shorter than 'dt' = 1 us: only its impulse is left of it");

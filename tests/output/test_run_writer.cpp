@@ -1,5 +1,6 @@
 // The output directory of a run: frames read back with VTK's own reader, tables, record, a second run over the first.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
@@ -224,7 +226,7 @@ struct Done {
     add_output(make_history("spread", {}, "displacement"), "displacement", "m");
     add_output(make_output(given_output("energy", "")), "kinetic", "J");
     result.convergence = {{"time", "iterations"}, {"s", ""}, {{1e-6}, {5.0}}, {0}};
-    result.steps = {{"shock", false, 10, 1, 50, 2e-6, 0.25, {}}};
+    result.steps = {{"shock", false, 10, 1, 50, 2e-6, 0.25, {}, {}}};
     result.iterations = 50;
     result.figures.largest_penetration = 1e-9;
     result.figures.mesh_error = std::nan("");
@@ -330,6 +332,44 @@ TEST(RunWriter, where_nothing_can_be_written_is_an_input_error) {
   RunWriter writer(scratch.path() / "out", "crush");
   put(scratch.path() / "out" / "frames", "in the way");
   EXPECT_THROW(writer.write_frame(Scene().frame(0.0, 1.0)), InputError);
+}
+
+// As a full disk is met: no file grows beyond a thousand bytes, and the system says so.
+class FullDisk {
+ public:
+  FullDisk() {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small = {1000, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = nullptr;
+};
+
+TEST(RunWriter, that_meets_a_full_disk_says_so_and_leaves_no_part_of_a_frame) {
+  const Scratch scratch;
+  RunWriter writer(scratch.path(), "crush");
+  std::string said;
+  {
+    const FullDisk full;
+    try {
+      writer.write_frame(Scene().frame(0.0, 1.0));
+    } catch (const InputError& error) {
+      said = error.what();
+    }
+  }
+  EXPECT_NE(said.find("_00000.vtu': File too large"), std::string::npos) << said;
+  for (const auto& entry : fs::recursive_directory_iterator(scratch.path()))
+    EXPECT_FALSE(entry.path().extension() == ".vtu" || entry.path().extension() == ".tmp") << entry.path();
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "reference/interface_newton.hpp"
 #include "solution/blocks.hpp"
 
-namespace dygita {
+namespace dygita::parts_tests {
 namespace {
 
 constexpr double parts_dt = 0.4e-6;
@@ -295,4 +295,4 @@ TEST(PenaltySprings, of_a_plastic_interface_yield) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::parts_tests

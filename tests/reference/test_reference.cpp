@@ -8,29 +8,29 @@
 #include "reference/monolithic.hpp"
 #include "solution/blocks.hpp"
 
-namespace dygita {
+namespace dygita::reference_tests {
 namespace {
 
 constexpr double reference_dt = 0.4e-6;
 
-Recorder run_latin(Problem problem) {
+Watcher run_latin(Problem problem) {
   problem.monolithic.reset();
   problem.explicit_dynamics.reset();
-  Recorder recorder;
+  Watcher recorder;
   solve(problem, recorder);
   return recorder;
 }
-Recorder run_monolithic(Problem problem) {
+Watcher run_monolithic(Problem problem) {
   problem.monolithic = MonolithicSettings{};
   problem.monolithic->tolerance = 1e-12;
-  Recorder recorder;
+  Watcher recorder;
   solve_monolithic(problem, recorder);
   return recorder;
 }
-Recorder run_explicit(Problem problem) {
+Watcher run_explicit(Problem problem) {
   problem.explicit_dynamics = ExplicitSettings{};
   problem.explicit_dynamics->one_point = problem.explicit_dynamics->bulk_viscosity = false;
-  Recorder recorder;
+  Watcher recorder;
   solve_explicit(problem, recorder);
   return recorder;
 }
@@ -48,9 +48,9 @@ std::vector<StepPtr> press_and_strike(const Problem& of, int n) {
 void expect_that_both_agree(LawPtr law, bool slides) {
   Problem problem = two_cubes(std::move(law), {});
   problem.steps = press_and_strike(problem, 30);
-  const Recorder latin = run_latin(problem), whole = run_monolithic(problem);
+  const Watcher latin = run_latin(problem), whole = run_monolithic(problem);
   ASSERT_EQ(whole.rows.size(), 32U);
-  for (const Recorder::Row& row : latin.rows) EXPECT_TRUE(row.converged);
+  for (const Watcher::Row& row : latin.rows) EXPECT_TRUE(row.converged);
   EXPECT_LT(displacement_difference(latin, whole), 1e-7);
   EXPECT_LT(velocity_difference(latin, whole), 1e-6);
   const Energies &one = latin.rows.back().energies, &other = whole.rows.back().energies;
@@ -71,9 +71,9 @@ TEST(Monolithic, keeps_the_energy_of_a_free_flight) {
   Problem problem = two_cubes(contact(0.0, 1e-3), {});
   std::const_pointer_cast<Substructure>(problem.substructures[1])->velocity = {1.0, -2.0, 3.0};
   problem.steps = {dynamic_step("fly", 20, reference_dt, {})};
-  const Recorder flight = run_monolithic(problem);
+  const Watcher flight = run_monolithic(problem);
   const double mass = 7800.0 * 1e-6, kinetic = 0.5 * mass * 14.0;
-  for (const Recorder::Row& row : flight.rows) {
+  for (const Watcher::Row& row : flight.rows) {
     EXPECT_NEAR(row.energies.kinetic, kinetic, 1e-12 * kinetic);
     EXPECT_LT(row.energies.strain, 1e-12 * kinetic);
   }
@@ -88,7 +88,7 @@ TEST(Explicit, goes_to_the_monolithic_solution_as_the_time_step_goes_to_zero) {
     Problem problem = two_cubes(bonded(), {});
     problem.steps = {dynamic_step("strike", n, 0.24e-6 / (1 << halvings),
                                   {load("pressure", {top_of(problem)}, History::half_sine(100e6, 4e-6))})};
-    const Recorder explicit_run = run_explicit(problem), whole = run_monolithic(problem);
+    const Watcher explicit_run = run_explicit(problem), whole = run_monolithic(problem);
     const Points &one = explicit_run.rows.back().displacement[1], &other = whole.rows.back().displacement[1];
     const double apart = (one - other).norm() / other.norm();
     EXPECT_LT(apart, 0.05);
@@ -105,9 +105,9 @@ TEST(Explicit, in_balance_of_a_static_step_stays_there) {
   const StepPtr press = static_step("press", 1, {number("pressure", {top}, 50e6)});
   problem.steps = {press,
                    dynamic_step("hold", 20, reference_dt, {load("pressure", {top}, History::constant(50e6))}, press)};
-  const Recorder held = run_explicit(problem);
+  const Watcher held = run_explicit(problem);
   const Points start = held.rows.front().displacement[1];
-  for (const Recorder::Row& row : held.rows) EXPECT_LT((row.displacement[1] - start).norm(), 1e-9 * start.norm());
+  for (const Watcher::Row& row : held.rows) EXPECT_LT((row.displacement[1] - start).norm(), 1e-9 * start.norm());
 }
 
 TEST(Explicit, gives_the_force_of_a_weight_to_its_support) {
@@ -116,8 +116,8 @@ TEST(Explicit, gives_the_force_of_a_weight_to_its_support) {
   problem.steps = {rest,
                    dynamic_step("hold", 5, reference_dt, {load("gravity", {}, History::constant(-9.81), 2)}, rest)};
   const double weight = 2 * 7800.0 * 1e-6 * 9.81;
-  const Recorder held = run_explicit(problem);
-  for (const Recorder::Row& row : held.rows) {
+  const Watcher held = run_explicit(problem);
+  for (const Watcher::Row& row : held.rows) {
     EXPECT_NEAR(row.reactions[0].row(2).sum(), weight, 1e-6 * weight);
     // A tie carries the upper half.
     double between = 0.0;
@@ -127,4 +127,4 @@ TEST(Explicit, gives_the_force_of_a_weight_to_its_support) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::reference_tests

@@ -10,31 +10,31 @@
 #include "reference/monolithic.hpp"
 #include "solution/blocks.hpp"
 
-namespace dygita {
+namespace dygita::unlike_meshes_tests {
 namespace {
 
 constexpr double dt = 0.2e-6, side = 0.01;
 
-Recorder run_latin(Problem problem, double tolerance = 1e-10) {
+Watcher run_latin(Problem problem, double tolerance = 1e-10) {
   problem.solver.tolerance = problem.solver.static_tolerance = tolerance;
   problem.solver.max_iterations = 1000;
-  Recorder recorder;
+  Watcher recorder;
   solve(problem, recorder);
-  for (const Recorder::Row& row : recorder.rows) EXPECT_TRUE(row.converged);
+  for (const Watcher::Row& row : recorder.rows) EXPECT_TRUE(row.converged);
   return recorder;
 }
-Recorder run_monolithic(Problem problem) {
+Watcher run_monolithic(Problem problem) {
   problem.monolithic = MonolithicSettings{};
   problem.monolithic->tolerance = 1e-13;
-  Recorder recorder;
+  Watcher recorder;
   solve_monolithic(problem, recorder);
   return recorder;
 }
-Recorder run_explicit(Problem problem, double penalty) {
+Watcher run_explicit(Problem problem, double penalty) {
   problem.explicit_dynamics = ExplicitSettings{};
   problem.explicit_dynamics->penalty = penalty;
   problem.explicit_dynamics->one_point = problem.explicit_dynamics->bulk_viscosity = false;
-  Recorder recorder;
+  Watcher recorder;
   solve_explicit(problem, recorder);
   return recorder;
 }
@@ -84,7 +84,7 @@ Problem pressed(const Pair& cells, LawPtr law) {
   return problem;
 }
 
-double patch_error(const Problem& problem, const Recorder& run) {
+double patch_error(const Problem& problem, const Watcher& run) {
   const Elastic& m = problem.substructures[0]->material;
   const Vec3 stress(-30e6, -20e6, -50e6);
   double worst = 0.0, size = 0.0;
@@ -120,7 +120,7 @@ TEST(UnlikeMeshes, at_rest_stay_at_rest) {
     const std::shared_ptr<const Step> press = problem.steps[0];
     std::vector<LoadPtr> loads = press->loads;
     problem.steps.push_back(dynamic_step("rest", 20, dt, loads, press));
-    for (const Recorder& run : {run_latin(problem, 1e-12), run_monolithic(problem)}) {
+    for (const Watcher& run : {run_latin(problem, 1e-12), run_monolithic(problem)}) {
       EXPECT_LT(patch_error(problem, run), 1e-9);
       const std::vector<LawState>& points = run.rows.back().surfaces[0].points;
       double force = 0.0;
@@ -143,7 +143,7 @@ void expect_that_both_agree(LawPtr law, const Pair& cells) {
   Problem problem = stack(cells, std::move(law));
   problem.supports = {support("fixed", {face_of(problem, 0, "zmin")})};
   problem.steps = press_and_strike(problem, 15);
-  const Recorder latin = run_latin(problem), whole = run_monolithic(problem);
+  const Watcher latin = run_latin(problem), whole = run_monolithic(problem);
   EXPECT_LT(displacement_difference(latin, whole), 1e-6);
   EXPECT_LT(velocity_difference(latin, whole), 1e-5);
   const Energies &one = latin.rows.back().energies, &other = whole.rows.back().energies;
@@ -167,10 +167,10 @@ TEST(UnlikeMeshes, on_a_moving_support_are_the_same_in_latin_and_as_a_whole) {
       "shake", 30, dt,
       {load("velocity", {face_of(problem, 0, "xmin"), face_of(problem, 1, "xmin")}, History::half_sine(5.0, 4e-6), 0)});
   problem.steps = {shake};
-  const Recorder latin = run_latin(problem), whole = run_monolithic(problem);
+  const Watcher latin = run_latin(problem), whole = run_monolithic(problem);
   EXPECT_LT(displacement_difference(latin, whole), 1e-7);
   EXPECT_LT(velocity_difference(latin, whole), 1e-6);
-  for (const Recorder* run : {&latin, &whole}) {
+  for (const Watcher* run : {&latin, &whole}) {
     const Energies& e = run->rows.back().energies;
     EXPECT_GT(e.loads, 0.0);
     EXPECT_NEAR(e.balance(), 0.0, 1e-9 * e.loads);
@@ -182,11 +182,11 @@ TEST(UnlikeMeshes, cut_into_pieces_are_those_in_one) {
   problem.supports = {support("fixed", {face_of(problem, 0, "zmin")})};
   problem.steps = press_and_strike(problem, 5);
   problem.solver.pieces = 1;
-  const Recorder whole = run_latin(problem);
+  const Watcher whole = run_latin(problem);
   problem.solver.pieces = 4;
   const std::vector<Surface> surfaces = make_surfaces(problem);
   EXPECT_GT(make_cut(problem, surfaces)->n_pieces(1), 1);
-  const Recorder cut = run_latin(problem);
+  const Watcher cut = run_latin(problem);
   EXPECT_LT(displacement_difference(cut, whole), 1e-6);
 }
 
@@ -202,12 +202,12 @@ Impact impact(const Pair& cells, double ratio = 1.0) {
   upper->material.young /= ratio;
   problem.steps = {dynamic_step("hit", 40, 0.5e-6, {})};
   problem.solver.tolerance = 1e-6;
-  Recorder run;
+  Watcher run;
   solve(problem, run);
   Impact found;
   const double start = 0.5 * 7800.0 * 1e-6 * 105.0;
   double count = 0.0;
-  for (const Recorder::Row& row : run.rows) {
+  for (const Watcher::Row& row : run.rows) {
     EXPECT_TRUE(row.converged);
     const Energies& e = row.energies;
     found.highest = std::max(found.highest, (e.kinetic + e.strain + e.friction) / start);
@@ -259,7 +259,7 @@ TEST(UnlikeMeshes, of_three_blocks_tied_along_a_line_need_no_more_iterations) {
     problem.steps = {static_step("press", 1,
                                  {number("pressure", {face(left, "zmax"), face(right, "zmax")}, 50e6),
                                   number("traction", {face(left, "zmax"), face(right, "zmax")}, 30e6, 0)})};
-    const Recorder run = run_latin(problem, 1e-8);
+    const Watcher run = run_latin(problem, 1e-8);
     return run.rows.back().iterations;
   };
   const int unlike = iterations({4, 5, 6});
@@ -274,7 +274,7 @@ TEST(UnlikeMeshes, explicit_comes_as_near_to_the_monolithic_solution_as_matching
     problem.supports = {support("fixed", {face_of(problem, 0, "zmin")})};
     problem.steps = {dynamic_step("strike", 96, 0.06e-6,
                                   {load("pressure", {face_of(problem, 1, "zmax")}, History::half_sine(100e6, 8e-6))})};
-    const Recorder explicit_run = run_explicit(problem, penalty), whole = run_monolithic(problem);
+    const Watcher explicit_run = run_explicit(problem, penalty), whole = run_monolithic(problem);
     const Points &one = explicit_run.rows.back().displacement[1], &other = whole.rows.back().displacement[1];
     return (one - other).norm() / other.norm();
   };
@@ -291,7 +291,7 @@ TEST(UnlikeMeshes, explicit_ties_by_stiff_springs) {
   problem.supports = {support("fixed", {face_of(problem, 0, "zmin")})};
   problem.steps = {dynamic_step("strike", 96, 0.06e-6,
                                 {load("pressure", {face_of(problem, 1, "zmax")}, History::half_sine(100e6, 8e-6))})};
-  const Recorder whole = run_monolithic(problem);
+  const Watcher whole = run_monolithic(problem);
   double before = 1.0;
   for (const double penalty : {1.0, 10.0, 100.0}) {
     const Points one = run_explicit(problem, penalty).rows.back().displacement[1],
@@ -305,4 +305,4 @@ TEST(UnlikeMeshes, explicit_ties_by_stiff_springs) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::unlike_meshes_tests

@@ -5,7 +5,7 @@
 #include "result/limits.hpp"
 #include "result/recorded_figures.hpp"
 
-namespace dygita {
+namespace dygita::figures_tests {
 namespace {
 
 TEST(Figures, are_recorded_by_label_where_the_run_has_them) {
@@ -35,4 +35,4 @@ TEST(Limits, of_what_a_penalty_holds_and_of_its_error_are_one) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::figures_tests

@@ -5,7 +5,7 @@
 
 #include "result/grid_convergence.hpp"
 
-namespace dygita {
+namespace dygita::grid_convergence_tests {
 namespace {
 
 GridConvergence of(const std::vector<double>& sizes, double (*value)(double)) {
@@ -82,4 +82,4 @@ TEST(GridConvergence, knows_nothing_of_runs_that_gave_nothing) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::grid_convergence_tests

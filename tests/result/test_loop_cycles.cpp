@@ -6,7 +6,7 @@
 
 #include "result/loop_cycles.hpp"
 
-namespace dygita {
+namespace dygita::loop_cycles_tests {
 namespace {
 
 Table loop_of(const std::vector<double>& x, const std::vector<double>& f) {
@@ -159,4 +159,4 @@ TEST(Exponent, is_that_of_a_power_and_nan_of_too_little) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::loop_cycles_tests

@@ -6,7 +6,7 @@
 #include "model/support.hpp"
 #include "result/lumped_inertia.hpp"
 
-namespace dygita {
+namespace dygita::lumped_inertia_tests {
 namespace {
 
 TEST(LumpedInertia, of_a_bar_follows_its_cells_across) {
@@ -59,4 +59,4 @@ TEST(LumpedInertia, is_not_doubted_where_masses_are_tuned_nothing_moves_or_symme
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::lumped_inertia_tests

@@ -2,7 +2,7 @@
 #include "model/assembly.hpp"
 #include "result/given_output.hpp"
 
-namespace dygita {
+namespace dygita::outputs_tests {
 
 class Outputs : public Assembly {
  protected:
@@ -180,4 +180,4 @@ TEST(OutputTable, has_every_output_under_its_word) {
   EXPECT_EQ(output_entry("vacuum"), nullptr);
 }
 
-}  // namespace dygita
+}  // namespace dygita::outputs_tests

@@ -5,7 +5,7 @@
 
 #include "result/skin_recorder.hpp"
 
-namespace dygita {
+namespace dygita::skin_recorder_tests {
 namespace {
 
 int sum(const std::vector<int>& values) { return std::accumulate(values.begin(), values.end(), 0); }
@@ -30,4 +30,4 @@ TEST(SharedOut, passes_over_steps_evenly_where_there_are_too_many_and_never_over
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::skin_recorder_tests

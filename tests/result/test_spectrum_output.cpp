@@ -8,7 +8,7 @@
 #include "result/given_output.hpp"
 #include "result/recorder.hpp"
 
-namespace dygita {
+namespace dygita::spectrum_output_tests {
 namespace {
 
 // A ringing of 1 kHz recorded for 20 ms, and its spectrum about it, held against 10 m/s^2.
@@ -140,4 +140,4 @@ TEST_F(SpectrumOutput, is_not_judged_where_its_record_is_too_short) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::spectrum_output_tests

@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "result/state_file.hpp"
 
-namespace dygita {
+namespace dygita::state_file_tests {
 namespace {
 
 namespace fs = std::filesystem;
@@ -132,4 +132,4 @@ TEST_F(StateFile, that_cannot_be_written_leaves_nothing) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::state_file_tests

@@ -3,7 +3,7 @@
 
 #include "result/superelement_files.hpp"
 
-namespace dygita {
+namespace dygita::superelement_files_tests {
 namespace {
 
 TEST(MatrixMarket, has_the_lower_triangle_by_columns) {
@@ -41,4 +41,4 @@ TEST(SuperelementFiles, are_matrices_and_a_page_that_names_their_rows) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::superelement_files_tests

@@ -52,7 +52,7 @@ struct Example {
     touch->side_2 = {problem.substructures[1], "bottom"};
     problem.interfaces = {touch};
     problem.steps = {step("tighten", true), step("shock", false)};
-    result.steps = {{"tighten", true, 2, 0, 30, 5e-9, 0.1, {}}, {"shock", false, 3, 0, 12, 8e-7, 0.2, {}}};
+    result.steps = {{"tighten", true, 2, 0, 30, 5e-9, 0.1, {}, {}}, {"shock", false, 3, 0, 12, 8e-7, 0.2, {}, {}}};
     const std::vector<int> rows = {0, 0, 1, 1, 1};
     const std::vector<double> time = {0, 0, 1e-6, 2e-6, 3e-6};
     const OutputPtr history = add(make_history("above", {}, "acceleration"),

@@ -13,7 +13,7 @@ int Modelled::node_at(int part, const Vec3& place) const {
   return 0;
 }
 
-void Recorder::accept(const Instant& instant) {
+void Watcher::accept(const Instant& instant) {
   Row row{instant.time(),   {}, {}, {}, instant.state.surfaces, instant.state.energies, instant.iterations,
           instant.converged};
   for (int part = 0; part < static_cast<int>(instant.model.problem->substructures.size()); ++part) {
@@ -98,14 +98,14 @@ std::shared_ptr<Step> dynamic_step(const std::string& name, int n, double dt, st
   return step;
 }
 
-double displacement_difference(const Recorder& one, const Recorder& other) {
+double displacement_difference(const Watcher& one, const Watcher& other) {
   return difference(
-      one, other, [](const Recorder::Row& row) -> const auto& { return row.displacement; });
+      one, other, [](const Watcher::Row& row) -> const auto& { return row.displacement; });
 }
 
-double velocity_difference(const Recorder& one, const Recorder& other) {
+double velocity_difference(const Watcher& one, const Watcher& other) {
   return difference(
-      one, other, [](const Recorder::Row& row) -> const auto& { return row.velocity; });
+      one, other, [](const Watcher::Row& row) -> const auto& { return row.velocity; });
 }
 
 Problem two_cubes(LawPtr law, std::vector<StepPtr> steps, int n) {

@@ -70,8 +70,8 @@ struct Modelled {
   int node_at(int part, const Vec3& place) const;
 };
 
-// Everything that a solver shows.
-struct Recorder : Observer {
+// Keeps everything that a solver shows.
+struct Watcher : Observer {
   struct Row {
     double time = 0.0;
     std::vector<Points> displacement, velocity, reactions;
@@ -88,7 +88,7 @@ struct Recorder : Observer {
 
 // Largest difference of a nodal field between two runs, of the largest value of the second.
 template <class Field>
-double difference(const Recorder& one, const Recorder& other, Field&& field) {
+double difference(const Watcher& one, const Watcher& other, Field&& field) {
   EXPECT_EQ(one.rows.size(), other.rows.size());
   double apart = 0.0, size = 0.0;
   for (size_t i = 0; i < std::min(one.rows.size(), other.rows.size()); ++i)
@@ -99,8 +99,8 @@ double difference(const Recorder& one, const Recorder& other, Field&& field) {
   EXPECT_GT(size, 0.0);
   return apart / size;
 }
-double displacement_difference(const Recorder& one, const Recorder& other);
-double velocity_difference(const Recorder& one, const Recorder& other);
+double displacement_difference(const Watcher& one, const Watcher& other);
+double velocity_difference(const Watcher& one, const Watcher& other);
 
 // Two cubes, one on the other with a law between them, the lower one fixed below; in `steps`.
 Problem two_cubes(LawPtr law, std::vector<StepPtr> steps, int n = 2);

@@ -5,7 +5,7 @@
 #include "solution/cut.hpp"
 #include "solution/step_model.hpp"
 
-namespace dygita {
+namespace dygita::cut_tests {
 namespace {
 
 Problem blocks(int pieces) {
@@ -111,4 +111,4 @@ TEST(Cut, a_large_body_is_cut_by_itself_whatever_the_number_of_threads) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::cut_tests

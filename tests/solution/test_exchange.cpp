@@ -9,7 +9,7 @@
 #include "base/parallel.hpp"
 #include "solution/blocks.hpp"
 
-namespace dygita {
+namespace dygita::exchange_tests {
 namespace {
 
 constexpr double exchange_dt = 0.5e-6;
@@ -293,4 +293,4 @@ TEST(StepModel, tells_which_substructure_cannot_be_factorised) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::exchange_tests

@@ -5,7 +5,7 @@
 
 #include "solution/piece_case.hpp"
 
-namespace dygita {
+namespace dygita::increment_tests {
 namespace {
 
 constexpr double increment_dt = 0.4e-6;
@@ -313,4 +313,4 @@ TEST(Increment, of_a_piece_that_is_almost_all_interface_is_solved_in_full) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::increment_tests

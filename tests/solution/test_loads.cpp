@@ -6,7 +6,7 @@
 #include "model/assembly.hpp"
 #include "solution/loads.hpp"
 
-namespace dygita {
+namespace dygita::loads_tests {
 
 namespace {
 
@@ -186,4 +186,4 @@ TEST_F(LoadsOfABlock, of_displacement_leave_what_they_reached_to_the_next_step) 
 
 }  // namespace
 
-}  // namespace dygita
+}  // namespace dygita::loads_tests

@@ -5,7 +5,7 @@
 #include "numerics/dense.hpp"
 #include "solution/piece_case.hpp"
 
-namespace dygita {
+namespace dygita::operator_tests {
 namespace {
 
 constexpr double operator_dt = 0.4e-6;
@@ -228,4 +228,4 @@ TEST(FreeUnknowns, take_fields_apart_and_put_them_together) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::operator_tests

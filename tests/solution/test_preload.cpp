@@ -6,7 +6,7 @@
 
 #include "solution/preload.hpp"
 
-namespace dygita {
+namespace dygita::preload_tests {
 namespace {
 
 struct Counted {
@@ -67,4 +67,4 @@ TEST(FindShortening, goes_no_further_than_it_may) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::preload_tests

@@ -3,7 +3,7 @@
 
 #include "solution/piece_case.hpp"
 
-namespace dygita {
+namespace dygita::state_tests {
 namespace {
 
 constexpr double state_dt = 0.4e-6;
@@ -124,4 +124,4 @@ TEST(PieceState, in_balance_stays_where_it_is) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::state_tests

@@ -5,7 +5,7 @@
 #include "base/progress.hpp"
 #include "solution/blocks.hpp"
 
-namespace dygita {
+namespace dygita::step_tests {
 namespace {
 
 constexpr double step_dt = 0.5e-6;
@@ -198,4 +198,4 @@ TEST(StepSize, is_predicted_without_a_factor) {
 }
 
 }  // namespace
-}  // namespace dygita
+}  // namespace dygita::step_tests

@@ -126,7 +126,8 @@ class AttenuationOutput final : public Output {
         const double in = table.columns[i][b], out = table.columns[i + 1][b];
         table.columns[i + 2].push_back(in > nothing * strongest[b] ? 20.0 * std::log10(out / in) : not_a_number);
       }
-    if (table.n_rows() > 0) findings.lines = {summary(table)};
+    if (table.n_rows() > 0)
+      findings.lines = {summary(table, judged_by(end.problem, end.result.tables.at(entering_.get())))};
   }
 
  private:
@@ -137,16 +138,23 @@ class AttenuationOutput final : public Output {
                                              : std::vector<std::string>{"_x", "_y", "_z"};
   }
 
-  // Mean ratio of each axis over the bands, the lowest and the highest, beside the rule of thumb (-3 dB a bolted
-  // joint).
-  std::string summary(const Table& table) const {
+  // Mean ratio of each axis over the bands that the record allows to judge, the lowest and the highest, beside the rule
+  // of thumb (-3 dB a bolted joint).
+  std::string summary(const Table& table, const FrequencyRange& judged) const {
+    const std::vector<double>& centres = table.columns[0];
+    const auto n_judged = std::count_if(centres.begin(), centres.end(), [&](double f) { return judged.holds(f); });
+    if (n_judged == 0)
+      return fmt::format(
+          "attenuation '{}': no band lies between {:.4g} Hz, 1/record length, and {:.4g} Hz, half the "
+          "sampling rate",
+          name, judged.from, judged.to);
     std::string text;
     for (const std::string& axis : axes()) {
       const std::vector<double>& ratio = table.column("ratio" + axis);
       double sum = 0.0, n = 0.0, lowest = 0.0, highest = 0.0, lowest_at = 0.0, highest_at = 0.0;
       for (size_t i = 0; i < ratio.size(); ++i) {
-        if (!std::isfinite(ratio[i])) continue;
-        const double at = table.columns[0][i] / 1e3;
+        if (!std::isfinite(ratio[i]) || !judged.holds(centres[i])) continue;
+        const double at = centres[i] / 1e3;
         if (n == 0.0 || ratio[i] < lowest) lowest = ratio[i], lowest_at = at;
         if (n == 0.0 || ratio[i] > highest) highest = ratio[i], highest_at = at;
         sum += ratio[i];
@@ -159,8 +167,12 @@ class AttenuationOutput final : public Output {
                                      lowest_at, highest, highest_at);
     }
     return fmt::format(
-        "attenuation '{}', mean of {} bands (lowest, highest): {}; rule of thumb for {} bolted joint{}: {:+.0f} dB",
-        name, table.n_rows(), text, n_joints_, n_joints_ == 1 ? "" : "s", -3.0 * n_joints_);
+        "attenuation '{}', mean of {} bands{} (lowest, highest): {}; rule of thumb for {} bolted joint{}: {:+.0f} dB",
+        name, n_judged,
+        n_judged < static_cast<long>(centres.size())
+            ? fmt::format(", those from {:.4g} to {:.4g} Hz that the record holds", judged.from, judged.to)
+            : "",
+        text, n_joints_, n_joints_ == 1 ? "" : "s", -3.0 * n_joints_);
   }
 
   OutputPtr entering_, leaving_;  // histories

@@ -11,6 +11,7 @@
 #include "result/recorder.hpp"
 #include "result/spectra.hpp"
 #include "result/spectrum_band.hpp"
+#include "signal/unit.hpp"
 
 namespace dygita {
 
@@ -78,7 +79,7 @@ class SrsOutput final : public Output {
   std::optional<double> highest_frequency() const override { return srs_.to; }
 
   void conclude(const RunEnd& end, Table& table, Findings& findings) const override {
-    const FrequencyRange judged = record_range(end.problem, end.result.tables.at(of_.get()));
+    const FrequencyRange judged = judged_by(end.problem, end.result.tables.at(of_.get()));
     findings.values = {{"judged_from", judged.from}, {"judged_to", judged.to}};
     const Srs srs = spectrum_of(end.problem, srs_, end.result.tables.at(of_.get()), 1);
     table = {};
@@ -105,18 +106,6 @@ class SrsOutput final : public Output {
   }
 
  private:
-  // Of the history's dynamic rows, one an increment.
-  static FrequencyRange record_range(const Problem& problem, const Table& history) {
-    double record = 0.0, shortest = std::numeric_limits<double>::infinity();
-    for (const int i_step : history.step) {
-      const Step& step = *problem.steps[static_cast<size_t>(i_step)];
-      if (step.is_static) continue;
-      record += step.dt;
-      shortest = std::min(shortest, step.dt);
-    }
-    return reliable_range(record, shortest);
-  }
-
   // Everything, where nobody has concluded it.
   static FrequencyRange judged_range(const Findings& findings) {
     const auto from = findings.values.find("judged_from"), to = findings.values.find("judged_to");
@@ -150,9 +139,24 @@ class SrsOutput final : public Output {
     }
     findings.figures["largest exceedance of the specification of '" + name + "' [dB]"] = worst.decibels;
     findings.figures["frequency of the largest exceedance of '" + name + "' [Hz]"] = worst.frequency;
-    findings.lines.push_back(fmt::format("spectrum '{}': {:.1f} dB {} its specification at {:.4g} Hz{}", name,
-                                         std::abs(worst.decibels), worst.decibels > 0.0 ? "above" : "below",
-                                         worst.frequency, not_judged(table, findings, worst)));
+    const double asked = specification_->level_at(worst.frequency);
+    findings.lines.push_back(
+        fmt::format("spectrum '{}': {:.1f} dB {} its specification at {:.4g} Hz: {:.4g} g, asked {:.4g} g{}{}", name,
+                    std::abs(worst.decibels), worst.decibels > 0.0 ? "above" : "below", worst.frequency,
+                    asked * std::pow(10.0, worst.decibels / 20.0) / standard_gravity, asked / standard_gravity,
+                    not_judged(table, findings, worst), not_covered(table)));
+  }
+
+  // What the specification asks beyond the frequencies of the spectrum. These end at the last line of an octave: less
+  // than a line short is no gap.
+  std::string not_covered(const Table& table) const {
+    const std::vector<double>&f = table.columns.front(), &asked = specification_->frequency;
+    const double line = f.size() > 1 ? f[1] / f[0] : 1.0;
+    std::string text;
+    if (asked.front() * line < f.front()) text += fmt::format(" from {:.4g} to {:.4g} Hz", asked.front(), f.front());
+    if (asked.back() > f.back() * line)
+      text += fmt::format("{} from {:.4g} to {:.4g} Hz", text.empty() ? "" : " and", f.back(), asked.back());
+    return text.empty() ? "" : "; the spectrum has no frequency" + text + ", where the specification goes on";
   }
 
   // Where the spectrum reads worse than in the range that is judged: ", judged from 1667 Hz on; at 500 Hz, ...".

@@ -1,4 +1,4 @@
-#include "mesh/gmsh_session.hpp"
+#include "mesher/gmsh_session.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -10,11 +10,6 @@
 namespace dygita {
 
 namespace {
-
-std::mutex& only_session() {
-  static std::mutex only;
-  return only;
-}
 
 // What gmsh says of a type of elements.
 struct GmshType {
@@ -53,7 +48,7 @@ std::vector<int> gmsh_numbers(const CellShape& cell) {
 
 }  // namespace
 
-GmshSession::GmshSession(std::string file) : lock_(only_session()), file_(std::move(file)) {
+GmshSession::GmshSession(std::string file) : file_(std::move(file)) {
   gmsh::initialize(0, nullptr, false);
   const std::pair<const char*, double> numbers[] = {
       {"General.Terminal", 0},

@@ -1,10 +1,9 @@
-// gmsh's process-wide state from initialize to finalize. Included by sources of this module that name gmsh.
+// gmsh's process-wide state from initialize to finalize. Included by sources that name gmsh.
 #pragma once
 
 #include <gmsh.h>
 
 #include <functional>
-#include <mutex>
 #include <string>
 
 #include "mesh/tagged_model.hpp"
@@ -13,7 +12,7 @@ namespace dygita {
 
 using GmshEntities = gmsh::vectorpair;  // (dimension, tag)
 
-// One at a time; initialize resets gmsh's options.
+// One at a time.
 class GmshSession {
  public:
   explicit GmshSession(std::string file);
@@ -25,7 +24,6 @@ class GmshSession {
   void run(const std::function<void()>& work) const;
 
  private:
-  std::lock_guard<std::mutex> lock_;
   std::string file_;
 };
 

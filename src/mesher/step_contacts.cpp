@@ -1,4 +1,4 @@
-#include "mesh/step_contacts.hpp"
+#include "mesher/step_contacts.hpp"
 
 #include <gmsh.h>
 

@@ -1,0 +1,13 @@
+// The mesher as a process of its own: started, watched, ended.
+#pragma once
+
+#include "mesh/mesh_limits.hpp"
+#include "mesh/mesher_task.hpp"
+
+namespace dygita {
+
+// Hands the task to the mesher and waits; says its warnings. Throws InputError: what the mesher says of the file, a
+// mesher that crashes, takes too long or is not installed; that the user interrupted it.
+MesherAnswer ask_mesher(MesherTask task, const std::string& file);
+
+}  // namespace dygita

@@ -1,0 +1,46 @@
+// What the mesher, a program of its own, is asked, and what it answers: bytes through pipes.
+//
+// Files from strangers make gmsh run programs, write files, hang and crash. It therefore runs apart, without the right
+// to do either, and nothing it answers is believed before it is checked.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "mesh/gmsh_reader.hpp"
+#include "mesh/step_assembly.hpp"
+#include "mesh/tagged_model.hpp"
+
+namespace dygita {
+
+struct MesherTask {
+  std::variant<GmshOptions, StepOptions> options;
+  std::string path;           // what gmsh opens: the file, or a script that includes it
+  double memory_limit = 0.0;  // bytes; 0: none
+  bool is_trusted = false;    // by the user: may do whatever the user may
+};
+
+// Names of a solid as the file has them.
+struct SolidNames {
+  std::string name, product, instance;
+};
+
+struct MesherAnswer {
+  std::string error;                  // not empty: there is nothing else
+  std::vector<std::string> warnings;  // said to the user
+  TaggedModel model;
+  std::vector<SolidNames> solids;                    // of an assembly, one for each volume of the model
+  std::vector<std::vector<TaggedSurface>> surfaces;  // of each of them, called after it: "bolt1.head"
+};
+
+std::string to_bytes(const MesherTask& task);
+std::string to_bytes(const MesherAnswer& answer);
+
+// Throws std::exception where the bytes are no task.
+MesherTask task_of(const std::string& bytes);
+// Throws InputError where the bytes are no answer, or its mesh no mesh: a cell of a type that is not in the table,
+// nodes that are not there or not finite. `file` for messages.
+MesherAnswer answer_of(const std::string& bytes, const std::string& file);
+
+}  // namespace dygita

@@ -1,0 +1,11 @@
+// What the mesher may not do.
+#pragma once
+
+namespace dygita {
+
+// From now on, for good: no program is started, no socket opened, no file written, no more memory taken than `memory`
+// (bytes; 0: any), no core left behind; the process ends with the one that started it. By seccomp, and by Landlock
+// where the kernel has it. Throws InputError where the kernel refuses seccomp.
+void confine(double memory);
+
+}  // namespace dygita
