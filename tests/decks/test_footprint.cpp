@@ -5,7 +5,7 @@
 
 #include "decks/engine.hpp"
 
-namespace dygita::test {
+namespace dygita::test::footprint_tests {
 namespace {
 
 const std::string block_on_a_wall = R"(
@@ -55,4 +55,4 @@ TEST(Footprint, of_what_does_not_touch_is_nowhere) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::footprint_tests

@@ -6,7 +6,7 @@
 
 #include "decks/deck_prints.hpp"
 
-namespace dygita::test {
+namespace dygita::test::round_contacts_tests {
 namespace {
 
 PrintedRun converged(const std::string& deck, const Settings& settings) {
@@ -76,4 +76,4 @@ TEST(FlangesApart, tied_and_graded_at_the_edges_come_within_a_percent_of_the_lim
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::round_contacts_tests

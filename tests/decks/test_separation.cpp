@@ -5,7 +5,7 @@
 
 #include "decks/deck_prints.hpp"
 
-namespace dygita::test {
+namespace dygita::test::separation_tests {
 namespace {
 
 TEST(SeparationRing, of_one_sector_is_tightened_shaken_and_loses_little_preload) {
@@ -42,4 +42,4 @@ TEST(SeparationRing, that_is_loaded_evenly_moves_as_its_sector) {
 }
 
 }  // namespace
-}  // namespace dygita::test
+}  // namespace dygita::test::separation_tests

@@ -2,7 +2,7 @@
 
 #include "report/part_groups.hpp"
 
-namespace dygita {
+namespace dygita::part_groups_tests {
 
 namespace {
 
@@ -32,4 +32,4 @@ TEST(PartGroups, leave_apart_what_is_called_otherwise_or_meshed_otherwise) {
 
 }  // namespace
 
-}  // namespace dygita
+}  // namespace dygita::part_groups_tests
