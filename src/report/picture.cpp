@@ -194,7 +194,8 @@ Picture make_picture(const std::vector<SubstructurePtr>& parts, const View& view
   std::vector<int> order;
   std::vector<double> depth(skin.facets.size());
   for (int f = 0; f < static_cast<int>(skin.facets.size()); ++f) {
-    if (!seen[f]) continue;
+    // A body is closed: what looks away is seen through a crack of the buffer only, and would be drawn whole.
+    if (!seen[f] || view.axes.row(2).dot(skin.normal(f)) < 0.0) continue;
     order.push_back(f);
     const SkinFacet& facet = skin.facets[f];
     for (int k = 0; k < facet.n_corners; ++k) depth[f] += p(2, facet.corners[k]) / facet.n_corners;

@@ -171,8 +171,25 @@ Skin make_skin(const std::vector<SubstructurePtr>& parts, const View& view, cons
   return skin;
 }
 
+std::vector<int> sides_of(const Points& normals) {
+  constexpr double least = 0.3;  // of a component, to count
+  std::vector<int> sides;
+  for (Eigen::Index i = 0; i < normals.cols(); ++i) {
+    const Vec3 n = normals.col(i).normalized();
+    int side = 0;
+    for (int d = 0; d < 3; ++d) side = 3 * side + (n[d] > least ? 2 : n[d] < -least ? 0 : 1);
+    sides.push_back(side);
+  }
+  return sides;
+}
+
 Skin merged(const Skin& skin, double size) {
-  std::map<std::tuple<int, long, long, long>, int> cube;
+  std::map<std::tuple<int, int, long, long, long>, int> cube;
+  Points normals = Points::Zero(3, skin.reference.cols());
+  for (size_t f = 0; f < skin.facets.size(); ++f)
+    for (int k = 0; k < skin.facets[f].n_corners; ++k)
+      normals.col(skin.facets[f].corners[k]) += skin.normal(static_cast<int>(f));
+  const std::vector<int> side = sides_of(normals);
   std::vector<int> to(static_cast<size_t>(skin.reference.cols()), -1), count;
   std::vector<Vec3> position, reference;
   std::vector<double> value;
@@ -183,7 +200,8 @@ Skin merged(const Skin& skin, double size) {
       const int node = skin.facets[f].corners[k];
       if (to[node] < 0) {
         const Vec3 place = skin.reference.col(node) / size;
-        const auto key = std::tuple(skin.part[f], std::lround(place[0]), std::lround(place[1]), std::lround(place[2]));
+        const auto key = std::tuple(skin.part[f], side[static_cast<size_t>(node)], std::lround(place[0]),
+                                    std::lround(place[1]), std::lround(place[2]));
         const auto [at, is_new] = cube.try_emplace(key, static_cast<int>(position.size()));
         to[node] = at->second;
         if (is_new) {

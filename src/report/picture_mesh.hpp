@@ -29,8 +29,12 @@ struct Skin {
 Skin make_skin(const std::vector<SubstructurePtr>& parts, const View& view, const std::vector<Points>& displacement,
                const std::vector<Vec>& values, double scale);
 
-// Nodes of a part that lie in one cube of edge `size` (m, undeformed) become one, with the largest of their values;
-// facets that lose their area are left out.
+// To where the surface looks at nodes, as one of 27 directions, given normals (3 x n): what tells the two sides of a
+// thin wall apart when nodes are merged.
+std::vector<int> sides_of(const Points& normals);
+
+// Nodes of a part that lie in one cube of edge `size` (m, undeformed) and look to one side become one, with the largest
+// of their values; facets that lose their area are left out.
 Skin merged(const Skin& skin, double size);
 
 // Pairs of nodes: edges of one facet only, or between facets whose normals are more than 35 degrees apart; with a facet

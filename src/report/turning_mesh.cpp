@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "report/picture_mesh.hpp"
 
 namespace dygita {
 
@@ -24,6 +25,7 @@ struct Boundary {
   std::vector<int> label;
   std::vector<std::array<int, 2>> edges;
   std::vector<int> rank;  // of each node: 0 inside a face, 1 on an edge, 2 at a corner
+  std::vector<int> side;  // of each node: to where its surface looks
   double area = 0.0;      // m^2
 };
 
@@ -45,6 +47,10 @@ void find_edges(Boundary& b) {
     for (size_t k = 0; k < facet.size(); ++k)
       beside[std::minmax(facet[k], facet[(k + 1) % facet.size()])].push_back(static_cast<int>(f));
   }
+  Points of_node = Points::Zero(3, b.x.cols());
+  for (size_t f = 0; f < b.facets.size(); ++f)
+    for (const int node : b.facets[f]) of_node.col(node) += normal(b, b.facets[f]);
+  b.side = sides_of(of_node);
   std::vector<int> n_edges(b.nodes.size(), 0);
   for (const auto& [nodes, facets] : beside) {
     const bool is_smooth = facets.size() == 2 && normals[facets[0]].dot(normals[facets[1]]) > sharp_cosine;
@@ -98,12 +104,12 @@ std::vector<int> quotas(const std::vector<Boundary>& parts, int most) {
   return quota;
 }
 
-// For each node the number of the cube of edge `size` it lies in, and how many cubes there are.
+// For each node the number of the cube of edge `size` it lies in, with those of its side, and how many there are.
 int in_cubes(const Boundary& b, double size, std::vector<int>& cube) {
-  std::map<std::tuple<long, long, long>, int> known;
+  std::map<std::tuple<int, long, long, long>, int> known;
   for (size_t i = 0; i < b.nodes.size(); ++i) {
     const Vec3 x = b.x.col(static_cast<Eigen::Index>(i)) / size;
-    const auto key = std::tuple(std::lround(x[0]), std::lround(x[1]), std::lround(x[2]));
+    const auto key = std::tuple(b.side[i], std::lround(x[0]), std::lround(x[1]), std::lround(x[2]));
     cube[i] = known.try_emplace(key, static_cast<int>(known.size())).first->second;
   }
   return static_cast<int>(known.size());

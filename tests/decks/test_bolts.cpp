@@ -88,6 +88,22 @@ problem{ name = "joint", substructures = { lower, upper, screws.parts }, interfa
   EXPECT_NEAR(line.result->bolts[0].last, circle.result->bolts[0].last, 20.0);
 }
 
+// A box from CAD on its bracket: every contact found, every bolt at its force, and the shock begun.
+TEST(Bolts, hold_a_box_of_electronics_from_cad) {
+  const PrintedRun box = run_printing("electronics_box.lua", {{"size", "12*mm"}, {"duration", "0.1*ms"}},
+                                      "latin{ static_tolerance = 1e-6 }");
+  const DeckRun& run = box.runs.at(0);
+  EXPECT_EQ(run.problem.substructures.size(), 19u);
+  EXPECT_EQ(run.problem.interfaces.size(), 22u);  // glue, feet, 8 washers on what they clamp, 3 in each bolt
+  EXPECT_TRUE(run.result->converged);
+  ASSERT_EQ(run.result->bolts.size(), 4u);
+  for (const BoltSummary& bolt : run.result->bolts) EXPECT_NEAR(bolt.tightened, 8000.0, 5.0) << bolt.name;
+  EXPECT_TRUE(is_finite(run));
+  // In 0.1 ms the half-sine has given the base the integral of its acceleration.
+  const double velocity = 1500 * 9.80665 * 0.5e-3 / M_PI * (1.0 - std::cos(M_PI * 0.1 / 0.5));
+  EXPECT_NEAR(run.column("base", "velocity").back(), velocity, 0.03 * velocity);
+}
+
 }  // namespace
 
 }  // namespace dygita::test

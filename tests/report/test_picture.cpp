@@ -176,6 +176,22 @@ TEST(Picture, stays_small_on_a_fine_mesh) {
   EXPECT_EQ(picture.n_facets, 6 * 1600);
 }
 
+// A plate much thinner than what is merged: its sides stay apart, so that none shows through the other.
+TEST(Picture, keeps_both_sides_of_a_thin_wall) {
+  const std::vector<SubstructurePtr> plate = {box(40, 0.1, Vec3::Zero(), 0.02)};  // 100 x 100 x 2 mm
+  const Skin fine = make_skin(plate, view_of(plate), {}, {}, 0.0), coarse = merged(fine, 0.01);
+  EXPECT_LT(coarse.facets.size(), fine.facets.size() / 8);
+  for (size_t f = 0; f < coarse.facets.size(); ++f) {
+    const Vec3 normal = coarse.normal(static_cast<int>(f));
+    if (std::abs(normal[2]) < 0.9 * normal.norm()) continue;
+    for (int k = 0; k < coarse.facets[f].n_corners; ++k) {
+      const Vec3 x = coarse.position.col(coarse.facets[f].corners[k]);
+      if (x.head<2>().minCoeff() < 0.01 || x.head<2>().maxCoeff() > 0.09) continue;  // the rim looks to its own side
+      EXPECT_NEAR(x[2], normal[2] > 0.0 ? 0.002 : 0.0, 1e-12);
+    }
+  }
+}
+
 TEST(Picture, draws_what_is_not_a_number_where_it_was) {
   const std::vector<SubstructurePtr> parts = {box(2, 0.01)};
   Points u = Points::Zero(3, 27);
