@@ -105,9 +105,9 @@ void warn_of_unconstrained(const Problem& problem, const Step& step,
     const std::string& name = problem.substructures[static_cast<size_t>(part)]->name;
     if (all.size() >= 6) {
       warn(
-          fmt::format("static step '{}': substructure '{}' is held by nothing, neither a support nor an interface; "
+          fmt::format("static step '{}': substructure '{}' is unconstrained, no support and no interface holds it{}; "
                       "nothing loads it, it is left at zero",
-                      step.name, name));
+                      step.name, name, what_lets_go(problem, *problem.substructures[static_cast<size_t>(part)])));
       continue;
     }
     const std::set<std::string> each(all.begin(), all.end());
