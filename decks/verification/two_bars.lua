@@ -55,7 +55,7 @@ local function say(what, value, unit) print(("%-58s %.4g %s"):format(what .. ":"
 say("stress over the contact but 5 % at each end, rms error", 100 * math.sqrt(sum / n), "%")
 say("the same, max error", 100 * largest, "%")
 say("spells of contact", count, "")
-say("release, steps late", last - release / dt, "")
+say("release, time steps late", last - release / dt, "")
 say("release, us late", (last * dt - release) / us, "us")
 say("strain energy at L / c, of all", 100 * result[energy].strain:at(L / c) / kinetic, "%")
 say("energy exchanged with the scheme at the end, of all", 100 * result[energy].scheme.last / kinetic, "%")

@@ -90,6 +90,6 @@ local function say(what, value, unit) print(("%-58s %.4g %s"):format(what .. ":"
 say("exact first stress by characteristics", exact[1] / MPa, "MPa")
 say("stress on the plateaus, rms error of the first", -100 * math.sqrt(sum / n) / first, "%")
 say("exact release", release / us, "us")
-say("release, steps late", last - release / dt, "")
+say("release, time steps late", last - release / dt, "")
 say("release, part of T late", (last * dt - release) / T, "")
 say("momentum of the right bar at the end, error", 100 * (result[drift].last * 3125 * L2 / impulse - 1), "%")

@@ -17,7 +17,7 @@ namespace dygita {
 namespace {
 
 constexpr double bytes_per_cell = 100.0;                   // of a box: coordinates, connectivity, facets
-constexpr double smallest_part = 1e-6, largest_part = 50;  // m, beyond them a unit is probably wrong
+constexpr double smallest_part = 1e-6, largest_part = 5;  // m, beyond them a unit is probably wrong
 constexpr double locking_poisson = 0.45;
 
 // The type by its name, else by the order.
@@ -180,6 +180,11 @@ InterfaceSide side_of(const Object& object) {
   return {face.part, face};
 }
 
+const char* cure_of_gap(bool knows_gaps) {
+  return knows_gaps ? "gap = \"geometry\" keeps what lies between them, closed = true says that it is meant"
+                    : "'place' and 'origin' bring them together";
+}
+
 // The faces, found where parts are given.
 void set_sides(const Declaration& d, Interface& interface) {
   const std::vector<const Object*> sides = d.arguments.objects("between");
@@ -195,6 +200,11 @@ void set_sides(const Declaration& d, Interface& interface) {
   interface.within = found.touching.within;
   say(fmt::format("{} '{}': '{}' and '{}' touch on {}", d.path, interface.name, one.label(), other.label(),
                   describe(found.touching)));
+  const bool has_gap = d.arguments.has("gap") && (!d.arguments.is_number("gap") || d.arguments.number("gap") != 0.0);
+  const bool is_closed = d.arguments.has("closed") && d.arguments.boolean("closed");
+  if (const std::string doubt = doubt_of_gap(found.touching); !doubt.empty() && !has_gap && !is_closed)
+    warn(fmt::format("{}{} '{}': '{}' and '{}' {}; {}", d.origin.prefix(), d.path, interface.name, one.label(),
+                     other.label(), doubt, cure_of_gap(d.arguments.has("gap"))));
 }
 
 // The law of a word, from all numbers and truth values of the declaration.

@@ -2,6 +2,7 @@
 
 #include "base/log.hpp"
 #include "deck/deck_state.hpp"
+#include "deck/object.hpp"
 #include "model/found_faces.hpp"
 
 namespace dygita {
@@ -42,7 +43,7 @@ int touching_pairs(LuaState& lua, lua_State* L) {
   lua_createtable(L, static_cast<int>(pairs.size()), 0);
   for (size_t p = 0; p < pairs.size(); ++p) {
     const TouchingPair& pair = pairs[p];
-    lua_createtable(L, 2, 4);
+    lua_createtable(L, 2, 5);
     lua_pushinteger(L, pair.part_1 + 1);
     lua_rawseti(L, -2, 1);
     lua_pushinteger(L, pair.part_2 + 1);
@@ -55,6 +56,8 @@ int touching_pairs(LuaState& lua, lua_State* L) {
     lua_setfield(L, -2, "within");
     lua_pushstring(L, describe(pair.found.touching).c_str());
     lua_setfield(L, -2, "text");
+    lua_pushstring(L, doubt_of_gap(pair.found.touching).c_str());
+    lua_setfield(L, -2, "doubt");
     lua_rawseti(L, -2, static_cast<lua_Integer>(p) + 1);
   }
   return 1;

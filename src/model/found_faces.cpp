@@ -117,4 +117,12 @@ std::string describe(const Touching& touching) {
   return text + ")";
 }
 
+std::string doubt_of_gap(const Touching& touching) {
+  const bool is_apart = std::abs(touching.most_gap) >= std::abs(touching.least_gap);
+  const double largest = std::abs(is_apart ? touching.most_gap : touching.least_gap);
+  if (largest - 2.0 * touching.bend <= 0.05 * touching.within) return "";
+  return fmt::format("{} {:.2g} mm, which counts as nothing: the interface starts closed",
+                     is_apart ? "are apart by up to" : "pass into each other by up to", 1e3 * largest);
+}
+
 }  // namespace dygita

@@ -48,7 +48,7 @@ TEST(TwoBars, turn_their_motion_into_strain_and_part) {
   EXPECT_LT(bars.number("rms error"), 0.1);
   EXPECT_LT(bars.number("the same, max error"), 1.0);
   EXPECT_EQ(bars.number("spells of contact"), 1.0);
-  EXPECT_LE(std::abs(bars.number("release, steps late")), 2.0);
+  EXPECT_LE(std::abs(bars.number("release, time steps late")), 2.0);
   EXPECT_NEAR(bars.number("strain energy at L / c"), 100.0, 0.5);
   EXPECT_LT(std::abs(bars.number("energy exchanged with the scheme")), 0.1);
 }
