@@ -16,7 +16,7 @@ namespace dygita {
 
 namespace {
 
-constexpr double bytes_per_cell = 100.0;                   // of a box: coordinates, connectivity, facets
+constexpr double bytes_per_cell = 100.0;                  // of a box: coordinates, connectivity, facets
 constexpr double smallest_part = 1e-6, largest_part = 5;  // m, beyond them a unit is probably wrong
 constexpr double locking_poisson = 0.45;
 
