@@ -2,9 +2,12 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include "base/error.hpp"
+#include "base/log.hpp"
 #include "base/names.hpp"
 #include "mesh/box_grid.hpp"
 #include "mesh/mesh_file.hpp"
@@ -183,6 +186,24 @@ std::vector<TaggedSurface> surfaces_of(const Solid& solid) {
   return surfaces;
 }
 
+// How often a STEP file names an entity.
+size_t count_in_file(const std::string& file, const std::string& entity) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(stream)), {});
+  size_t n = 0;
+  for (size_t at = text.find(entity); at != std::string::npos; at = text.find(entity, at + 1)) ++n;
+  return n;
+}
+
+// A spoiled file loses solids without a word of OpenCASCADE's.
+void doubt_losses(const std::string& file, size_t n_solids) {
+  if (kind_of_file(file) != "step") return;
+  const size_t n = count_in_file(file, "MANIFOLD_SOLID_BREP(") + count_in_file(file, "BREP_WITH_VOIDS(");
+  if (n > n_solids)
+    warn(fmt::format("{}: it holds {} solids, and {} could be read: is it whole? export it once more", file, n,
+                     n_solids));
+}
+
 void open(const StepOptions& options) {
   std::string build;
   gmsh::option::getString("General.BuildOptions", build);
@@ -204,6 +225,7 @@ MesherAnswer read_assembly(const StepOptions& options) {
   MesherAnswer answer;
   session.run([&] {
     const std::vector<Solid> solids = read_solids(options, unit);
+    doubt_losses(options.file, solids.size());
     mesh_solids(options, solids, unit);
     answer.model = tagged(options, solids, unit);
     for (const Solid& solid : solids) {

@@ -55,6 +55,27 @@ TEST(StepAssembly, has_curved_cells_whose_volume_is_that_of_the_solids) {
   }
 }
 
+// One face of the first plate is gone: OpenCASCADE leaves the plate out and says nothing.
+TEST(StepAssembly, of_a_spoiled_file_says_that_solids_are_missing) {
+  std::ifstream whole(joint().file);
+  const auto spoiled = std::filesystem::temp_directory_path() / "dygita_spoiled.step";
+  std::ofstream cut(spoiled);
+  int n = 0;
+  for (std::string line; std::getline(whole, line);)
+    if (++n < 200 || n > 230) cut << line << '\n';
+  cut.close();
+  StepOptions options = joint();
+  options.file = spoiled.string();
+  take_warnings();
+  const StepAssembly assembly(options);
+  EXPECT_EQ(assembly.parts("*").size(), 3u);
+  const std::vector<std::string> warnings = take_warnings();
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(warnings.front().find("it holds 4 solids, and 3 could be read: is it whole?"), std::string::npos)
+      << warnings.front();
+  std::filesystem::remove(spoiled);
+}
+
 TEST(StepAssembly, is_finer_where_the_deck_says_so) {
   StepOptions options = joint();
   const auto n_cells = [](const StepOptions& asked, const char* part) {
