@@ -22,6 +22,9 @@ If (body <= 2)
   Box(1) = {0, 0, (body - 1)*thickness, half_width, half_width, thickness};
   Cylinder(2) = {0, 0, (body - 1)*thickness, 0, 0, thickness, hole_radius, Pi/2};
   BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; }
+  // The circle on which nut or head ends: what is held or pulled begins there.
+  Circle(1000) = {0, 0, (body - 1)*2*thickness, head_radius, 0, Pi/2};
+  BooleanFragments{ Volume{1}; Delete; }{ Curve{1000}; Delete; }
 EndIf
 If (body == 3)
   Cylinder(1) = {0, 0, 0, 0, 0, 2*thickness, rod_radius, Pi/2};

@@ -9,7 +9,7 @@ from measure import PHASES, median, write_rows
 from page import table
 from runs import read_table
 
-DECK = "decks/bolted_flanges.lua"
+DECK = "decks/bench/even_flanges.lua"
 TOLERANCES = ["1e-3", "1e-4", "1e-5", "1e-6"]
 REFERENCE = "latin{ tolerance = 1e-9, static_tolerance = 1e-10 }"
 ALLOWED = 0.001      # of the largest value: what a tolerance may cost

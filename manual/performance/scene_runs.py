@@ -4,7 +4,7 @@ import figures
 from measure import PHASES, write_rows
 from page import table
 
-FLANGES, BLOCKS = "decks/bolted_flanges.lua", "decks/bench/blocks.lua"
+FLANGES, BLOCKS = "decks/bench/even_flanges.lua", "decks/bench/blocks.lua"
 MOST_BYTES = 20 * 2**30
 COLOURS = ["#cfd8dc", "#90a4ae", "#0b5394", "#c75b12", "#2e7d32", "#8e24aa", "#00a0c6", "#6d4c41", "#ad1457"]
 

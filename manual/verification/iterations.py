@@ -1,4 +1,4 @@
-"""Iterations per step of decks/verification/iterations.lua and of bolted_flanges.lua, as the tables of the manual.
+"""Iterations per step of decks/verification/iterations.lua and of bench/even_flanges.lua, as the tables of the manual.
 
 python3 manual/verification/iterations.py build/dygita [--flanges]        about ten seconds; the flanges at 2 and 1.5 mm take a minute
 """
@@ -66,7 +66,7 @@ def main():
                 [[f"CFL {cfl}"] + [block(program, 8, f"latin{{ anderson = {m} }}", cfl=cfl) for m in depths] for cfl in (1, 5, 10)])
 
     sizes = ("4*mm", "2*mm", "1.5*mm") if arguments.flanges else ("4*mm",)
-    print_table(["bolted flanges"] + list(sizes), [["tighten, shock"] + [iterations(program, "bolted_flanges.lua", {"size": s}) for s in sizes]])
+    print_table(["bolted flanges"] + list(sizes), [["tighten, shock"] + [iterations(program, "bench/even_flanges.lua", {"size": s}) for s in sizes]])
 
 
 if __name__ == "__main__":

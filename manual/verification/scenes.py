@@ -116,7 +116,7 @@ SCENES = [
           "nothing to gain from separating them, and the explicit solver needs no solve. The reference has the contact and the lumped masses of latin "
           "and monolithic: errors of these do not show.",
           [{"n": 20, "dt": "0.06*us"}, {"n": 16, "dt": "0.075*us"}], [{"n": 12, "dt": "0.1*us"}, {"n": 8, "dt": "0.15*us"}]),
-    Scene("bolted_flanges", "Bolted flanges", "decks/bolted_flanges.lua",
+    Scene("bolted_flanges", "Bolted flanges", "decks/bench/even_flanges.lua",
           [(f"{size}", {"size": f"{size}*mm", "dt": f"{dt}*us"}) for size, dt in ((5, 1.25), (4, 1), (3, 0.8), (2.5, 0.625), (2, 0.5))],
           [(f"{dt}", {"dt": f"{dt}*us"}) for dt in (4, 2, 1, 0.5, 0.25)], {},
           bolted_flanges, ("bolt force", "spectrum above the joint, from 5 kHz"), False,

@@ -65,6 +65,6 @@ int main(int, char** argv) {
   study_bar("impact", impact);
   study_bar("yielding", yielding);
   study_tolerance("crush", deck("crush.lua"));
-  study_tolerance("bolted flanges", deck("bolted_flanges.lua"));
+  study_tolerance("bolted flanges", deck("bench/even_flanges.lua"));
   return 0;
 }

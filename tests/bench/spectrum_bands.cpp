@@ -119,7 +119,7 @@ int main(int, char** argv) {
   study_tolerance(crush);
   study(crush, "dt", "time_step", {{"0.6*us", "0.075*us"}, {"0.3*us", "0.0375*us"}});
   study(crush, "n", "mesh", {{"2", "8"}, {"4", "8"}});
-  const Scene flanges{"bolted flanges", deck("bolted_flanges.lua"), {}, 0.0, 0.0};
+  const Scene flanges{"bolted flanges", deck("bench/even_flanges.lua"), {}, 0.0, 0.0};
   study_tolerance(flanges);
   study(flanges, "dt", "time_step", {{"1*us", "0.125*us"}, {"0.5*us", "0.0625*us"}});
   study(flanges, "size", "mesh", {{"4*mm", "2.5*mm"}, {"3*mm", "2.5*mm"}});

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 // The bolted flanges on coarse cells: prestress, friction, a bolt that yields; with cases = 1 another case is computed
 // first.
 std::string bolted_flanges() {
-  std::ifstream file(deck("bolted_flanges.lua"));
+  std::ifstream file(deck("bench/even_flanges.lua"));
   std::string text{std::istreambuf_iterator<char>(file), {}};
   const auto replace = [&](const std::string& what, const std::string& by) {
     const size_t at = text.find(what);
@@ -25,7 +25,7 @@ std::string bolted_flanges() {
     text.replace(at, what.size(), by);
   };
   replace("param{ mu", "param{ cases = 0, mu");
-  replace("../meshes/", std::string(DYGITA_SOURCE_DIR) + "/meshes/");
+  replace("../../meshes/", std::string(DYGITA_SOURCE_DIR) + "/meshes/");
   replace("local result = bolted(p.mu):run{}",
           "local first = p.cases == 1 and bolted(0.1):run{ case = 'first' } or nil\n"
           "if first then print(first[bolt].normal.last) end\n"

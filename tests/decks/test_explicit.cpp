@@ -120,8 +120,8 @@ TEST(Explicit, one_point_and_full_integration_agree_as_the_mesh_is_refined) {
 
 TEST(Explicit, bolted_flanges_lose_their_bolt_force_as_with_latin) {
   const Settings coarse = {{"size", "6*mm"}};
-  const DeckRun latin = run_file(deck("bolted_flanges.lua"), coarse).at(0);
-  const DeckRun run = run_file(deck("bolted_flanges.lua"), coarse, 0, full + "10 }").at(0);
+  const DeckRun latin = run_file(deck("bench/even_flanges.lua"), coarse).at(0);
+  const DeckRun run = run_file(deck("bench/even_flanges.lua"), coarse, 0, full + "10 }").at(0);
   EXPECT_NEAR(run.column("bolt", "normal").front(), latin.column("bolt", "normal").front(), 1e-3);  // N, tightened
   EXPECT_LT(rms_difference(latin, run, "bolt", "normal"), 0.04);
   EXPECT_LT(rms_difference(latin, run, "bolt", "plastic_opening"), 0.01);

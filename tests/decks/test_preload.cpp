@@ -283,8 +283,11 @@ TEST(BoltByHand, is_stiffer_than_the_hand_formula_says) {
   const BoltSummary& bolt = flanges.runs.at(0).result->bolts.at(0);
   EXPECT_TRUE(flanges.runs.at(0).result->converged);
   EXPECT_NEAR(bolt.last, 30e3, 1e-3);
-  EXPECT_NEAR(bolt.shortening, 58.72e-6, 0.01e-6);
-  EXPECT_NEAR(flanges.number("shortening found"), bolt.shortening * 1e6, 0.01);
+  EXPECT_NEAR(bolt.shortening, 60.90e-6, 0.01e-6);
+  // Some points at the rim yield, so that the faces are a little less apart; not where nothing yields.
+  EXPECT_NEAR(flanges.number("shortening found"), bolt.shortening * 1e6 - 0.05, 0.01);
+  const PrintedRun elastic = run_printing("verification/bolt_by_hand.lua", {{"yield", "2000*MPa"}});
+  EXPECT_NEAR(elastic.number("shortening found"), elastic.runs.at(0).result->bolts.at(0).shortening * 1e6, 0.01);
   ASSERT_TRUE(bolt.formula && bolt.hand);
   EXPECT_NEAR(bolt.formula->shortening, 68.81e-6, 0.01e-6);
   EXPECT_NEAR(*bolt.hand, 30e3 * bolt.shortening / bolt.formula->shortening, 1e-3);

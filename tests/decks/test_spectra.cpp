@@ -34,7 +34,7 @@ TEST(SpectrumBand, holds_what_the_time_step_leaves) {
 
 TEST(SpectrumBand, warns_where_little_is_known_and_only_there) {
   testing::internal::CaptureStderr();
-  run_file(deck("bolted_flanges.lua"), {{"duration", "50*us"}});
+  run_file(deck("bench/even_flanges.lua"), {{"duration", "50*us"}});
   const std::string said = testing::internal::GetCapturedStderr();
   EXPECT_NE(said.find("spectrum 'srs_below' is uncertain by about"), std::string::npos) << said;
   EXPECT_EQ(said.find("spectrum 'srs_above' is uncertain by about"), std::string::npos) << said;

@@ -1,8 +1,10 @@
-// The mesh of the deck bolted_flanges, at two sizes.
+// The mesh of the deck bolted_flanges, graded to its edges and with cells of one size.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "mesh/facing.hpp"
 #include "mesh/gmsh_reader.hpp"
@@ -14,14 +16,21 @@ namespace {
 const double pi = std::acos(-1.0);
 constexpr double rod_radius = 6e-3, hole_radius = 6.75e-3, head_radius = 9.5e-3, width = 50e-3, thickness = 14e-3;
 
-struct BoltedFlanges : testing::TestWithParam<double> {
+struct Cells {
+  double size;
+  bool graded;
+  auto operator<=>(const Cells&) const = default;
+};
+void PrintTo(const Cells& cells, std::ostream* out) { *out << cells.size << (cells.graded ? " graded" : " even"); }
+
+struct BoltedFlanges : testing::TestWithParam<Cells> {
   // Read once for each size: every test looks at the same meshes.
   static const GmshMeshes& meshes() {
-    static std::map<double, GmshMeshes> read;
-    const double size = GetParam();
+    static std::map<Cells, GmshMeshes> read;
+    const auto [size, graded] = GetParam();
+    const std::map<std::string, double> set = {{"size", size}, {"graded", graded}};
     return read
-        .try_emplace(size,
-                     GmshOptions{DYGITA_SOURCE_DIR "/meshes/bolted_flanges.geo", {{"size", size}}, std::nullopt, 1.0})
+        .try_emplace(GetParam(), GmshOptions{DYGITA_SOURCE_DIR "/meshes/bolted_flanges.geo", set, std::nullopt, 1.0})
         .first->second;
   }
   static MeshPtr body(const std::string& name) { return meshes().volume(name); }
@@ -39,10 +48,17 @@ struct BoltedFlanges : testing::TestWithParam<double> {
     return facing;
   }
 
-  // Area of the regular polygon whose corners lie on a circle: what the facets cover of the disk.
+  // Area of the regular polygon that stands for a disk: corners on the circle, or the circle's area where graded.
   static double polygon_area(double radius) {
-    const int n = 4 * std::max(2, static_cast<int>(std::lround(16e-3 / GetParam())));
-    return n / 2.0 * radius * radius * std::sin(2 * pi / n);
+    return GetParam().graded ? pi * radius * radius : share_of_disk() * pi * radius * radius;
+  }
+  // How far the polygon's corners are from the axis.
+  static double corner_radius(double radius) {
+    return GetParam().graded ? radius / std::sqrt(share_of_disk()) : radius;
+  }
+  static double share_of_disk() {
+    const int n = 4 * std::max(2, static_cast<int>(std::lround(16e-3 / GetParam().size)));
+    return n / (2.0 * pi) * std::sin(2 * pi / n);
   }
 };
 
@@ -77,8 +93,8 @@ TEST_P(BoltedFlanges, have_five_bodies_of_good_hexahedra) {
   RecordProperty("worst_aspect_ratio", std::to_string(worst_aspect));
   RecordProperty("worst_jacobian_ratio", std::to_string(worst_shape));
   std::printf("size %g mm: %d degrees of freedom, worst aspect ratio %.2f, worst corner Jacobian ratio %.2f\n",
-              1e3 * GetParam(), 3 * n_nodes, worst_aspect, worst_shape);
-  EXPECT_LT(worst_aspect, 6);
+              1e3 * GetParam().size, 3 * n_nodes, worst_aspect, worst_shape);
+  EXPECT_LT(worst_aspect, GetParam().graded ? 50 : 6);
   EXPECT_GT(worst_shape, 0.2);
 }
 
@@ -102,14 +118,15 @@ TEST_P(BoltedFlanges, meet_on_faces_of_the_areas_drawn) {
   EXPECT_NEAR(joint("nut", "lower", "lower", "nut").areas.sum(), head - hole, 1e-13);
   EXPECT_NEAR(joint("rod", "head_end", "head", "rod_end").areas.sum(), rod, 1e-13);
   EXPECT_NEAR(joint("nut", "rod_end", "rod", "nut_end").areas.sum(), rod, 1e-13);
-  EXPECT_NEAR(rod / (pi * rod_radius * rod_radius), 1, 0.03);
+  EXPECT_NEAR(rod / (pi * rod_radius * rod_radius), 1, GetParam().graded ? 1e-12 : 0.03);
 }
 
 TEST_P(BoltedFlanges, leave_the_rod_clear_of_the_flanges) {
   const MeshPtr rod = body("rod"), lower = body("lower"), upper = body("upper");
-  EXPECT_NEAR(std::sqrt(rod->nodes.topRows<2>().colwise().squaredNorm().maxCoeff()), rod_radius, 1e-12);
+  EXPECT_NEAR(std::sqrt(rod->nodes.topRows<2>().colwise().squaredNorm().maxCoeff()), corner_radius(rod_radius), 1e-12);
   for (const MeshPtr& flange : {lower, upper})
-    EXPECT_NEAR(std::sqrt(flange->nodes.topRows<2>().colwise().squaredNorm().minCoeff()), hole_radius, 1e-12);
+    EXPECT_NEAR(std::sqrt(flange->nodes.topRows<2>().colwise().squaredNorm().minCoeff()), corner_radius(hole_radius),
+                1e-12);
 }
 
 TEST_P(BoltedFlanges, have_the_volumes_drawn_and_a_held_bottom_and_pulled_top) {
@@ -130,14 +147,37 @@ TEST_P(BoltedFlanges, have_the_volumes_drawn_and_a_held_bottom_and_pulled_top) {
   EXPECT_LT(side.normals.row(2).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(AtSize, BoltedFlanges, testing::Values(4e-3, 2e-3),
-                         [](const auto& each) { return std::to_string(std::lround(1e3 * each.param)) + "mm"; });
+INSTANTIATE_TEST_SUITE_P(AtSize, BoltedFlanges,
+                         testing::Values(Cells{4e-3, true}, Cells{8e-3, true}, Cells{4e-3, false}, Cells{2e-3, false}),
+                         [](const auto& each) {
+                           return (each.param.graded ? "graded" : "even") +
+                                  std::to_string(std::lround(1e3 * each.param.size)) + "mm";
+                         });
 
-TEST(BoltedFlangesByDefault, are_meshed_at_4_mm_with_about_6500_degrees_of_freedom) {
-  const GmshMeshes meshes({DYGITA_SOURCE_DIR "/meshes/bolted_flanges.geo", {}, std::nullopt, 1.0});
+int degrees_of_freedom(const std::map<std::string, double>& set) {
+  const GmshMeshes meshes({DYGITA_SOURCE_DIR "/meshes/bolted_flanges.geo", set, std::nullopt, 1.0});
   int n_nodes = 0;
   for (const std::string& name : meshes.volume_names()) n_nodes += meshes.volume(name)->n_nodes();
-  EXPECT_EQ(3 * n_nodes, 6618);
+  return 3 * n_nodes;
+}
+
+TEST(BoltedFlangesByDefault, are_graded_and_have_some_37000_degrees_of_freedom_and_6600_of_one_size) {
+  EXPECT_EQ(degrees_of_freedom({}), 36891);
+  EXPECT_EQ(degrees_of_freedom({{"graded", 0}}), 6618);
+}
+
+// Layers of z = 0 and r = 9.5 mm on: the first has the size asked for, each next one is larger.
+TEST(BoltedFlangesGraded, have_cells_of_the_size_asked_for_at_the_edges) {
+  const GmshMeshes meshes(
+      {DYGITA_SOURCE_DIR "/meshes/bolted_flanges.geo", {{"edge", 0.5e-3}, {"growth", 2}}, std::nullopt, 1.0});
+  std::set<long> layers;
+  const MeshPtr rod = meshes.volume("rod");
+  for (int i = 0; i < rod->n_nodes(); ++i) layers.insert(std::lround(rod->nodes(2, i) * 1e7));
+  const std::vector<long> z(layers.begin(), layers.end());
+  ASSERT_GT(z.size(), 5u);
+  EXPECT_NEAR(z[1] - z[0], 5000, 1000);
+  EXPECT_NEAR(static_cast<double>(z[2] - z[1]) / static_cast<double>(z[1] - z[0]), 2, 0.01);
+  EXPECT_EQ(z[z.size() - 1] - z[z.size() - 2], z[1] - z[0]);
 }
 
 }  // namespace
