@@ -13,7 +13,7 @@
 --            out/condensed_joint/base/ends_cycles.csv            amplitude, stiffness, loss, local exponent of each cycle
 --            out/condensed_joint/base/ends_backbone.csv          first loading, and the sliders of an Iwan model that has it
 -- Expect     the joint slides gradually, from its two ends inwards: the loss grows with the force amplitude to the power 3.13 (Goodman's
---            exponent for thin parts under an even pressure is 3, and his loss is 1/3 F^3/(E A q): 13.6 mJ of 14.0 mJ at 960 N). At small
+--            exponent for thin parts under an even pressure is 3, and his loss is 1/3 F^3/(E A q): 13.6 mJ of 14.0 mJ at 960 N; mesh error 0.1 %, by n = 160, layers = 4). At small
 --            forces the parts' thickness holds the ends: the exponent between the first two cycles is 3.49 at --set least=0.05. Measured
 --            beams with bolted lap joints have local exponents from 2.2 to 3.1: no comparison of figures, their pressure is not even
 -- Read next  condensed_flanges.lua
