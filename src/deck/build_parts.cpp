@@ -79,6 +79,9 @@ Content build_step_mesh(const Declaration& d) {
   }
   options.cells_a_turn = a.integer("round");
   options.unit = a.number("unit");
+  const std::string cells = a.text("cells");
+  if (cells != "tetrahedra")
+    options.sweep = cells == "hexahedra" ? StepOptions::Sweep::all : StepOptions::Sweep::where_possible;
   const LuaState::Pause pause(d.lua);
   return std::make_shared<const StepAssembly>(options);
 }

@@ -49,9 +49,9 @@ Json options_of(const GmshOptions& options) {
 }
 
 Json options_of(const StepOptions& options) {
-  Json json = {{"file", options.file},          {"size", json_of(options.size)},   {"unit", options.unit},
-               {"order", options.order},        {"complete", options.is_complete}, {"sizes", options.sizes},
-               {"a_turn", options.cells_a_turn}};
+  Json json = {{"file", options.file},           {"size", json_of(options.size)},   {"unit", options.unit},
+               {"order", options.order},         {"complete", options.is_complete}, {"sizes", options.sizes},
+               {"a_turn", options.cells_a_turn}, {"sweep", options.sweep}};
   if (options.fine) json["fine"] = {options.fine->size, options.fine->growth};
   return json;
 }
@@ -71,6 +71,7 @@ StepOptions step_options(const Json& json) {
   StepOptions options = common_options<StepOptions>(json);
   options.sizes = json.at("sizes").get<std::map<std::string, double>>();
   options.cells_a_turn = json.at("a_turn");
+  options.sweep = json.at("sweep");
   if (json.contains("fine")) options.fine = {json["fine"].at(0), json["fine"].at(1)};
   return options;
 }

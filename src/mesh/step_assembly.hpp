@@ -19,7 +19,10 @@ struct StepOptions {
   };
   std::optional<Fine> fine;
   int cells_a_turn = 16;  // where surfaces are round
-  double unit = 1e-3;     // m, of a .brep, which states none
+  // Hexahedra in solids that are a flat face moved along its normal: in none, in those that are, or in all.
+  enum class Sweep { none, where_possible, all };
+  Sweep sweep = Sweep::none;
+  double unit = 1e-3;  // m, of a .brep, which states none
 };
 
 struct StepPart {
@@ -32,7 +35,7 @@ class StepAssembly {
  public:
   // Reads and meshes; says what it found. Faces of a part are called as in the file, others surface1, surface2, ... in
   // the order of the part's. Throws InputError: file missing or unreadable, gmsh without OpenCASCADE's documents (names
-  // would be empty), no solid, a name in `sizes` that no part has.
+  // would be empty), no solid, a name in `sizes` that no part has, a part that is to have hexahedra and cannot.
   explicit StepAssembly(const StepOptions& options);
 
   // The part of that name, product or instance. Throws InputError where there is none (with the closest) or more than

@@ -14,6 +14,7 @@
 #include "mesher/gmsh_session.hpp"
 #include "mesher/read.hpp"
 #include "mesher/step_contacts.hpp"
+#include "mesher/sweep.hpp"
 
 namespace dygita {
 
@@ -26,7 +27,8 @@ struct Solid {
   int tag = 0;
   SolidNames part;
   std::vector<int> surfaces;
-  double size = 0.0;  // of the model's unit
+  std::vector<std::string> surface_names;  // of the file, by surface
+  double size = 0.0;                       // of the model's unit
 };
 
 // "Shapes/joint/bolt3/M10 bolt": the product last, the instance before it.
@@ -85,7 +87,10 @@ std::vector<Solid> read_solids(const StepOptions& options, double unit) {
     read_names(solid);
     GmshEntities boundary;
     gmsh::model::getBoundary({{3, tag}}, boundary, false, false);
-    for (const auto& surface : boundary) solid.surfaces.push_back(surface.second);
+    for (const auto& [dimension, surface] : boundary) {
+      solid.surfaces.push_back(surface);
+      gmsh::model::getEntityName(dimension, surface, solid.surface_names.emplace_back());
+    }
     solid.size = options.size ? *options.size / unit : box_of(3, tag).size().norm() / cells_across;
   }
   if (solids.empty())
@@ -104,6 +109,23 @@ std::vector<Solid> read_solids(const StepOptions& options, double unit) {
                                    did_you_mean(pattern, known_names(solids))));
   }
   return solids;
+}
+
+// Hexahedra where solids are a face moved along its normal.
+void sweep_solids(const StepOptions& options, std::vector<Solid>& solids) {
+  if (options.sweep == StepOptions::Sweep::none) return;
+  for (Solid& solid : solids) {
+    if (auto swept = sweep_solid(solid.tag, solid.surfaces, solid.size)) {
+      solid.tag = swept->tag;
+      solid.surfaces = swept->surfaces;
+    } else if (options.sweep == StepOptions::Sweep::all) {
+      throw InputError(
+          fmt::format("{}: part '{}' cannot have hexahedra: it is no flat face moved along its normal, as a plate or a "
+                      "washer is\n    cells = \"hexahedra where possible\" gives it tetrahedra",
+                      options.file, solid.part.name));
+    }
+  }
+  gmsh::option::setNumber("Mesh.RecombinationAlgorithm", 3);  // quadrilaterals alone
 }
 
 // Small at the edges of contacts, growing with the distance from them.
@@ -174,8 +196,7 @@ TaggedModel tagged(const StepOptions& options, const std::vector<Solid>& solids,
 std::vector<TaggedSurface> surfaces_of(const Solid& solid) {
   std::vector<TaggedSurface> surfaces;
   for (size_t i = 0; i < solid.surfaces.size(); ++i) {
-    std::string name;
-    gmsh::model::getEntityName(2, solid.surfaces[i], name);
+    std::string name = solid.surface_names[i];
     name = name.substr(name.find_last_of('/') + 1);
     if (name.empty()) name = fmt::format("surface{}", i + 1);
     const std::string full = solid.part.name + "." + name;
@@ -224,8 +245,9 @@ MesherAnswer read_assembly(const StepOptions& options) {
   session.run([&] { open(options); });
   MesherAnswer answer;
   session.run([&] {
-    const std::vector<Solid> solids = read_solids(options, unit);
+    std::vector<Solid> solids = read_solids(options, unit);
     doubt_losses(options.file, solids.size());
+    sweep_solids(options, solids);
     mesh_solids(options, solids, unit);
     answer.model = tagged(options, solids, unit);
     for (const Solid& solid : solids) {

@@ -114,6 +114,34 @@ print(("found: %d"):format(#all))
   EXPECT_NEAR(area("upper/bolt1"), pi * 6.5 * 6.5 - hole, 0.01 * pi * 6.5 * 6.5);
 }
 
+// Two plates on each other, held by their sides, pressed: cells of any kind give the same way down.
+TEST(FoundInterfaces, of_plates_from_cad_are_the_same_with_hexahedra) {
+  const auto sinks = [](const std::string& cells) {
+    const DeckRun run =
+        run_text(R"(
+local joint = mesh.step{ file = ")" +
+                 std::string(DYGITA_SOURCE_DIR) + R"(/meshes/joint.step", size = 6*mm, cells = ")" + cells + R"(" }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local lower = substructure{ name = "lower", mesh = joint:part "lower", material = steel }
+local upper = substructure{ name = "upper", mesh = joint:part "upper", material = steel }
+local top = output.history{ name = "top", on = upper:face{ normal = { 0, 0, 1 }, at = 18*mm }, quantity = "displacement", direction = { 0, 0, 1 } }
+problem{ name = "plates", substructures = { lower, upper },
+  interfaces = { interface.contact{ name = "mating", between = { lower, upper }, friction = 0.2 } },
+  supports = { support.fixed{ name = "ends", on = { lower:face{ normal = { 1, 0, 0 }, at = 40*mm }, lower:face{ normal = { -1, 0, 0 }, at = 40*mm } } } },
+  steps = { step.static{ name = "press", loads = { load.pressure{ on = upper:face{ normal = { 0, 0, 1 }, at = 18*mm }, history = 10*MPa } } } },
+  outputs = { top } }:run{}
+)")
+            .at(0);
+    EXPECT_TRUE(run.result->converged);
+    return run.column("top", "displacement").back();
+  };
+  const double tetrahedra = sinks("tetrahedra"), hexahedra = sinks("hexahedra where possible");
+  std::cout << "top goes down by " << 1e6 * tetrahedra << " um (tetrahedra), " << 1e6 * hexahedra
+            << " um (hexahedra)\n";
+  EXPECT_LT(tetrahedra, 0.0);
+  EXPECT_NEAR(hexahedra, tetrahedra, 0.01 * std::abs(tetrahedra));
+}
+
 TEST(FoundInterfaces, between_parts_that_are_a_little_apart_say_that_the_gap_is_left_out) {
   const auto said_of = [](const std::string& interfaces, const std::string& place) {
     testing::internal::CaptureStderr();

@@ -93,6 +93,49 @@ TEST(StepAssembly, is_finer_where_the_deck_says_so) {
   EXPECT_GT(n_cells(options, "upper"), 3 * plain_plate / 2);
 }
 
+Vec3 centre(const Mesh& mesh, const FaceNodes& face) {
+  Vec3 sum = Vec3::Zero();
+  for (size_t i = 0; i < face.nodes.size(); ++i)
+    sum += face.weights[static_cast<Eigen::Index>(i)] * mesh.nodes.col(face.nodes[i]);
+  return sum / face.weights.sum();
+}
+
+// Surfaces keep their order: surface7 is the same face, whatever the cells.
+TEST(StepAssembly, has_hexahedra_where_solids_are_a_face_moved_along_its_normal) {
+  StepOptions options = joint();
+  options.size = 4e-3;
+  const StepAssembly tetrahedra(options);
+  options.sweep = StepOptions::Sweep::where_possible;
+  for (const int order : {1, 2}) {
+    options.order = order;
+    const StepAssembly assembly(options);
+    for (const char* name : {"lower", "upper"}) {
+      const Mesh &swept = *assembly.part(name).mesh, &other = *tetrahedra.part(name).mesh;
+      ASSERT_EQ(swept.blocks.size(), 1u);
+      EXPECT_EQ(swept.blocks[0].type, order == 1 ? CellType::hex8 : CellType::hex20);
+      check_mesh(swept, name);
+      EXPECT_GT(worst_shape(swept), 0.2);
+      EXPECT_NEAR(volume(swept), volume(other), 2e-3 * volume(other));
+      ASSERT_EQ(swept.faces.size(), other.faces.size());
+      for (const auto& [face, facets] : other.faces) {
+        const FaceNodes exact = face_nodes(other, facets), found = face_nodes(swept, swept.faces.at(face));
+        const double area = exact.weights.sum();
+        EXPECT_NEAR(found.weights.sum(), area, 0.01 * area) << name << '.' << face;
+        EXPECT_LT((centre(swept, found) - centre(other, exact)).norm(), 2e-4) << name << '.' << face;
+        EXPECT_LT((found.vectors.rowwise().sum() - exact.vectors.rowwise().sum()).norm(), 2e-3 * area);
+      }
+    }
+    EXPECT_EQ(assembly.part("bolt1").mesh->blocks.at(0).type, order == 1 ? CellType::tet4 : CellType::tet10);
+  }
+}
+
+TEST(StepAssembly, refuses_hexahedra_in_a_solid_of_several_thicknesses) {
+  StepOptions options = joint();
+  options.sweep = StepOptions::Sweep::all;
+  expect_input_error([&] { StepAssembly{options}; },
+                     {"part 'bolt1' cannot have hexahedra", "no flat face moved along its normal", "where possible"});
+}
+
 TEST(StepAssembly, refuses_names_that_are_not_there_or_not_one_part_s) {
   const StepAssembly assembly(joint());
   expect_input_error([&] { assembly.part("loewr"); }, {"joint.step", "no part 'loewr'", "lower"});
