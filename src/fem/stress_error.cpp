@@ -1,6 +1,7 @@
 #include "fem/stress_error.hpp"
 
 #include "fem/cell_loop.hpp"
+#include "fem/patch_recovery.hpp"
 
 namespace dygita {
 
@@ -23,6 +24,27 @@ double cell_energy(const Elastic& material, const Nodes<Cell::n_nodes>& x, const
   return energy;
 }
 
+template <int n>
+CornerStress<n> gather_stress(const Tensors& values, const int* nodes) {
+  CornerStress<n> gathered;
+  for (int a = 0; a < n; ++a) gathered.col(a) = values.col(nodes[a]);
+  return gathered;
+}
+
+// 1/2 of the integral of (s* - s) : C^-1 : (s* - s) over a cell, s* interpolated from its nodes, s of the displacement.
+template <class Cell>
+double energy_against(const Elastic& material, const Nodes<Cell::n_nodes>& x, const Nodes<Cell::n_nodes>& displacement,
+                      const CornerStress<Cell::n_nodes>& smooth) {
+  const auto& shapes = Cell::mass_shapes();
+  double energy = 0.0;
+  for (int i = 0; i < shapes.n_points; ++i) {
+    const auto point = point_in_cell(shapes, x, i);
+    energy += point.volume * energy_density(material, smooth * shapes.values.col(i) -
+                                                          stress_of_gradient(material, displacement * point.gradient));
+  }
+  return energy;
+}
+
 // The stress of every cell at its nodes, column by column in the order of the block's nodes.
 template <class Cell>
 Tensors cell_stresses(const Mesh& mesh, const CellBlock& block, const Elastic& material, const Points& displacement) {
@@ -39,6 +61,7 @@ Tensors cell_stresses(const Mesh& mesh, const CellBlock& block, const Elastic& m
 }  // namespace
 
 StressError stress_error(const Mesh& mesh, const Elastic& material, const Points& displacement) {
+  const bool of_order_two = is_of_order_two(mesh);
   std::vector<Tensors> of_cells;
   Tensors smooth = Tensors::Zero(6, mesh.n_nodes());
   Vec n_cells = Vec::Zero(mesh.n_nodes());
@@ -52,6 +75,7 @@ StressError stress_error(const Mesh& mesh, const Elastic& material, const Points
     }
   }
   smooth *= n_cells.cwiseInverse().asDiagonal();
+  if (of_order_two) smooth = recovered_stress(mesh, material, displacement);
 
   StressError error{0.0, Vec::Zero(mesh.n_nodes())};
   for (size_t b = 0; b < mesh.blocks.size(); ++b)
@@ -63,7 +87,10 @@ StressError stress_error(const Mesh& mesh, const Elastic& material, const Points
       const auto compute = [&](int i) {
         auto difference = of_cells[b].middleCols<n>(n * i);
         for (int a = 0; a < n; ++a) difference.col(a) = smooth.col(block.cell(i)[a]) - difference.col(a);
-        energy[i] = cell_energy<Cell>(material, gather<n>(mesh.nodes, block.cell(i)), difference);
+        const auto x = gather<n>(mesh.nodes, block.cell(i));
+        energy[i] = of_order_two ? energy_against<Cell>(material, x, gather<n>(displacement, block.cell(i)),
+                                                        gather_stress<n>(smooth, block.cell(i)))
+                                 : cell_energy<Cell>(material, x, difference);
       };
       parallel_for(block.n_cells(), compute, Schedule::evenly);
       error.energy += energy.sum();

@@ -10,8 +10,9 @@ struct StressError {
   Vec at_nodes;         // Pa, largest von Mises stress of s* - s among the cells at each node
 };
 
-// s is the stress of the cells, s* that of nodal_stress (Pa), interpolated; displacement: 3 x n_nodes, m. O. C.
-// Zienkiewicz, J. Z. Zhu (Int. J. Numer. Methods Eng. 24, 1987); manual, eq. Q5.
+// s is the stress of the cells, s* that of nodal_stress (Pa), interpolated, or where all cells are of order two that of
+// recovered_stress; displacement: 3 x n_nodes, m. O. C. Zienkiewicz, J. Z. Zhu (Int. J. Numer. Methods Eng. 24, 1987);
+// manual, eq. Q5.
 StressError stress_error(const Mesh& mesh, const Elastic& material, const Points& displacement);
 
 }  // namespace dygita
