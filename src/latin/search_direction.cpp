@@ -20,6 +20,7 @@ NodeAreas node_areas(const StepModel& model) {
     if (surface.facing.matches()) continue;
     for (const int which : {0, 1}) {
       const int part = which == 0 ? surface.part_1 : surface.part_2;
+      if (part < 0) continue;
       const FaceNodes nodes = face_nodes(*model.problem->substructures[part]->mesh,
                                          which == 0 ? surface.facing.facets_1 : surface.facing.facets_2);
       for (size_t i = 0; i < nodes.nodes.size(); ++i)

@@ -41,6 +41,10 @@ class Mortar {
   const FaceInSpace& other() const { return is_second_ ? face_1_ : face_2_; }
 };
 
+// The points of a face on something rigid that fits it, side 2: those of its sub-facets, where forces of a pressure
+// push at every point. For facets of order two without a middle node.
+Facing facing_on_rigid(const PlacedFace& face);
+
 // What two faces have in common, matched node for node or not.
 class Meeting {
  public:

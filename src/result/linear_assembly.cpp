@@ -52,7 +52,7 @@ void add_spread_point(const Instant& instant, int s, int i, bool ties_sliding, L
     SpreadSum sum{{}, tangent.holds[d], surface.facing.areas[i] * tangent.damping[d]};
     for (const auto& [trace, part, sign] : {std::tuple{&surface.facing.side_1, surface.part_1, -1.0},
                                             std::tuple{&surface.facing.side_2, surface.part_2, 1.0}})
-      for (int k = 0; k < trace->n_shares(i); ++k)
+      for (int k = 0; part >= 0 && k < trace->n_shares(i); ++k)
         sum.nodes.emplace_back(assembly.first_node[part] + trace->share(i, k).node,
                                sign * (trace->block(i, k).transpose() * frame.col(d)));
     assembly.sums.push_back(std::move(sum));

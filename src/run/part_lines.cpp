@@ -53,7 +53,7 @@ std::string surface_line(const Surface& surface) {
   const Facing& facing = surface.facing;
   std::string line = fmt::format("  {} '{}': {} points, {:.4g} mm^2", surface.interface ? "interface" : "wall",
                                  surface.name(), surface.n_points(), facing.areas.sum() * 1e6);
-  if (!facing.matches()) {
+  if (surface.interface && !facing.matches()) {
     const Face& carrier = facing.carrier == 1 ? surface.interface->side_1 : surface.interface->side_2;
     const double ratio = std::max(facing.size_ratio, 1.0 / facing.size_ratio);
     line += "; meshes do not match: points on " + carrier.label() +

@@ -26,11 +26,13 @@ void SpreadPoints::add_point(const Surface& surface, int s, int i) {
   point.members = {{s, i, 1.0}};
   point.frame = frame(surface, i);
   point.first_port = static_cast<int>(exchange_.ports.size());
+  point.is_wall = surface.part_2 < 0;
   point.first_port_2 = point.first_port + 1;
-  point.end_port = point.first_port + 2;
-  for (const int side : {2 * s, 2 * s + 1}) exchange_.ports.push_back(port(surface, side, i, point.frame));
+  point.end_port = point.first_port_2 + (point.is_wall ? 0 : 1);
+  exchange_.ports.push_back(port(surface, 2 * s, i, point.frame));
+  if (!point.is_wall) exchange_.ports.push_back(port(surface, 2 * s + 1, i, point.frame));
   for (int d = 0; d < 3; ++d)
-    point.has_law[d] = point.law->acts_on(d, step_.is_static) && !is_held_along(surface, point, d);
+    point.has_law[d] = point.law->acts_on(d, step_.is_static) && (point.is_wall || !is_held_along(surface, point, d));
   activate(exchange_.ports, false, point);
   exchange_.points.push_back(std::move(point));
 }

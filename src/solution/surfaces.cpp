@@ -7,6 +7,7 @@
 #include <map>
 
 #include "law/law.hpp"
+#include "mesh/mortar.hpp"
 #include "solution/preload.hpp"
 
 namespace dygita {
@@ -50,15 +51,15 @@ class SharedLaws {
   std::deque<LawPtr> known_;
 };
 
-// A law acts point by point with the force on the area of a node: forces that are zero or pull at the corners of a
-// facet under uniform pressure would open it there.
-void check_wall(const Surface& surface) {
-  for (const Facet& facet : surface.facing.facets)
-    if (facet_shape(facet.type()).is_shared_by_sub_facets)
-      throw InputError(surface.wall->origin,
-                       "'" + surface.name() + "' is on facets of " + std::to_string(facet.nodes().size()) +
-                           " nodes, which no wall can take yet\n    mesh the part with order = 1, or with cell = "
-                           "\"hex27\" where it is of hexahedra; an interface.contact with a fixed body takes them");
+// A law acts point by point with the force on the area of a node. On facets of order two without a middle node forces
+// at corners are zero or pull under uniform pressure, and would open it there: such faces have the points of
+// sub-facets.
+Facing facing_of_wall(const Face& face) {
+  const std::vector<Facet>& facets = face.facets();
+  const bool has_shared = std::any_of(facets.begin(), facets.end(), [](const Facet& facet) {
+    return facet_shape(facet.type()).is_shared_by_sub_facets;
+  });
+  return has_shared ? facing_on_rigid(placed(face)) : facing_of(placed(face));
 }
 
 // Facets named by two interfaces would carry their forces twice. Where meshes do not match, a facet may lie under
@@ -199,9 +200,8 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
       Surface surface;
       surface.wall = wall;
       surface.part_1 = index_of(problem.substructures, face.part.get());
-      surface.facing = facing_of(placed(face));
+      surface.facing = facing_of_wall(face);
       surface.law = laws.of(wall->kind->law());
-      check_wall(surface);
       surfaces.push_back(std::move(surface));
     }
   check_overlaps(problem, surfaces);

@@ -190,7 +190,7 @@ void doubt_unjoined(const Problem& problem, const std::vector<Unjoined>& unjoine
 // Contact that a few points carry tilts as it will.
 void doubt_points(const Problem& problem, const Surface& surface) {
   constexpr int few = 4;
-  if (surface.facing.matches() || surface.n_points() >= few) return;
+  if (!surface.interface || surface.facing.matches() || surface.n_points() >= few) return;
   const bool is_first = surface.facing.carrier == 1;
   const Face& carrier = is_first ? surface.interface->side_1 : surface.interface->side_2;
   check::doubt(problem, surface.interface->origin,

@@ -54,6 +54,51 @@ TEST(Cells, under_uniform_pressure_are_uniformly_pressed) {
   });
 }
 
+// No point of a wall opens under a uniform pressure, in either solver.
+TEST(Cells, of_order_two_stand_on_a_wall_with_all_their_face) {
+  const std::string on_wall =
+      replaced(replaced(replaced(column, "support.symmetry{ name = \"foot\"", "support.wall{ name = \"foot\""),
+                        "output.resultant{ name = \"ground\"", "output.joint{ name = \"ground\""),
+               "steps = { press }", "steps = { press }, solver = SOLVER");
+  for (const std::string solver : {"solver.latin{ static_tolerance = 1e-10 }", "solver.monolithic{}"})
+    for_each_cell(
+        replaced(on_wall, "SOLVER", solver),
+        [](const CellShape&, const DeckRun& run) {
+          EXPECT_TRUE(run.result->converged);
+          EXPECT_NEAR(run.column("top", "z").back(), -1e-5, 1e-5 * 1e-7);
+          EXPECT_NEAR(run.column("ground", "normal").back(), -32e3, 32e3 * 1e-7);
+          EXPECT_EQ(run.column("ground", "open_area").back(), 0.0);
+          EXPECT_NEAR(run.column("ground", "slip_area").back() + run.column("ground", "stick_area").back(), 320e-6,
+                      1e-12);
+        },
+        true);
+}
+
+// Thrown at a wall, a bar turns round: the wall gives it twice its momentum less what the impact dissipates.
+TEST(Cells, of_order_two_bounce_off_a_wall_as_linear_ones_do) {
+  const std::string thrown = R"(
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0, density = 8000 }
+local bar = substructure{ name = "bar", material = steel, velocity = { 0, 0, -1 }, mesh = mesh.box{ size = { 10*mm, 10*mm, 50*mm }, cells = { 1, 1, 20 }, cell = CELL } }
+local wall = support.wall{ name = "wall", on = bar:face "zmin" }
+problem{ name = "thrown", substructures = { bar }, supports = { wall }, steps = { step.dynamic{ name = "flight", duration = 40*us, dt = 0.2*us } },
+         outputs = { output.joint{ name = "hit", on = wall } } }:run{}
+)";
+  for_each_cell(
+      thrown,
+      [](const CellShape&, const DeckRun& run) {
+        EXPECT_TRUE(run.result->converged);
+        // rho c v A = 4 kN from the first instant until the wave is back, 2 L / c = 20 us.
+        const std::vector<double>& force = run.column("hit", "normal");
+        double sum = 0.0;
+        for (const double f : force) sum += f * 0.2e-6;
+        EXPECT_NEAR(force[force.size() / 4], -4000.0, 0.03 * 4000.0);
+        EXPECT_NEAR(sum, -2 * 8000 * 5e-6, 0.04 * 0.08);
+        EXPECT_EQ(force.back(), 0.0);
+        EXPECT_LT(run.figure("energy created by the scheme [%]"), 0.1);
+      },
+      true);
+}
+
 TEST(Cells, weigh_what_their_volume_does) {
   const std::string heavy =
       replaced(column, "load.pressure{ on = upper:face \"zmax\", history = 100*MPa }", "load.gravity{ z = -1000*g0 }");
