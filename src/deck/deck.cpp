@@ -121,6 +121,7 @@ RunRequest request_of(const DeckState& state, const Problem& problem, const std:
   request.write_state = state.options.write_state;
   request.identity.deck_path = state.options.path.string();
   request.identity.deck_digest = state.deck_digest;
+  request.checkpoint_every = state.options.checkpoint_every;
   request.deck_text = state.deck_text;
   request.settings = state.options.settings;
   request.identity.parameters = state.parameters;
