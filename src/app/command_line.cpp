@@ -60,6 +60,14 @@ void add_deck_options(CLI::App& command, Command& asked) {
 
 void add_run_options(CLI::App& command, Command& asked) {
   add_deck_options(command, asked);
+  CLI::Option* repeats =
+      command
+          .add_option("--repeat", asked.repeats,
+                      "a run.json: deck, parameters and solver are those of its run, deck and meshes must be the same, "
+                      "tables are compared")
+          ->type_name("FILE.json");
+  command.get_option("DECK")->required(false);
+  for (const char* option : {"--set", "--solver"}) repeats->excludes(command.get_option(option));
   command.add_option("--out", asked.deck.out, "folder of the results, out/<problem>/<case>")
       ->capture_default_str()
       ->type_name("DIR");

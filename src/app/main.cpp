@@ -8,6 +8,7 @@
 #include "app/command_line.hpp"
 #include "base/names.hpp"
 #include "base/progress.hpp"
+#include "deck/repeat_run.hpp"
 
 namespace {
 
@@ -49,9 +50,11 @@ int run_or_check(Command& asked, bool solves) {
   asked.deck.checkpoint_every = parse_interval("--checkpoint-every", asked.checkpoint_every);
   set_progress_enabled(!asked.is_quiet);
   catch_interrupts();
+  const char* when_stopped = "stopped; the results so far are written";
+  if (!asked.repeats.empty()) return exit_code(repeat_run(asked.deck, asked.repeats), when_stopped);
+  if (asked.deck.path.empty()) throw InputError("dygita run: which deck? dygita run DECK.lua, or --repeat run.json");
   const Engine engine{run_problem, CheckWithPicture(asked.picture)};
-  return exit_code(solves ? run_deck(asked.deck, engine) : check_deck(asked.deck, engine),
-                   "stopped; the results so far are written");
+  return exit_code(solves ? run_deck(asked.deck, engine) : check_deck(asked.deck, engine), when_stopped);
 }
 
 int converge_deck(Command& asked) {

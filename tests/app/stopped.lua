@@ -1,5 +1,6 @@
 -- A stack that is tightened to a force and struck, small enough to be stopped a hundred times: a clamp of three tied
--- blocks, a block under it by friction, a bolt between them that yields.
+-- blocks, a block under it by friction, a bolt beside it that yields. The clamp tilts until it stands on its edge: no joint
+-- to build, but one whose preload has to be searched for.
 local p = param{ window = 1, explicit = 0, passes = 0, preload = 1, us = 60, broken = 0, tolerance = 1e-6 }
 
 local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
