@@ -114,6 +114,7 @@ class StepRun {
   void note_missed(const Missed& missed);
   bool has_flown_off() const;
   void check_finite(const Outcome& outcome, int increment) const;
+  std::string place_of_divergence() const;
   std::string describe_progress() const;
   Instant instant(int increment, int iterations, double eta) const;
 

@@ -84,6 +84,27 @@ def an_error_in_the_middle():
     check("Stopped by an error" in (run / "report.html").read_text(), "the report hides the error")
 
 
+def numbers_that_overflow():
+    """Named by where they arise; what was computed before is kept."""
+    deck = FOLDER / "overflow.lua"
+    deck.write_text("""
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local function block(name, z) return substructure{ name = name, material = steel,
+  mesh = mesh.box{ origin = { 0, 0, z }, size = { 10*mm, 10*mm, 10*mm }, cells = { 2, 2, 2 } } } end
+local low, high = block("low", 0), block("high", 10*mm)
+local seam = interface.contact{ name = "seam", between = { low:face "zmax", high:face "zmin" }, friction = 0.2 }
+problem{ name = "overflow", substructures = { low, high }, interfaces = { seam }, supports = { support.fixed{ name = "floor", on = low:face "zmin" } },
+  steps = { step.dynamic{ name = "push", duration = 20*us, dt = 1*us, loads = {
+    load.pressure{ on = high:face "zmax", history = function(t) return t > 4*us and 1e160 or 1e6 end } } } },
+  outputs = { output.energy{} } }:run{}
+""")
+    output = dygita("run", deck, "--quiet", "--out", FOLDER / "overflow", expected=3,
+                    says="the iteration has diverged at substructure 'high', interface 'seam'")
+    check("step 'push', increment 6 (t = 5e-06 s)" in output, output)
+    rows = (FOLDER / "overflow" / "overflow" / "base" / "energy.csv").read_text().splitlines()
+    check(len(rows) == 7 and not any("nan" in row or "inf" in row for row in rows), f"{len(rows)} rows before an overflow")
+
+
 def interrupted():
     for number in (signal.SIGINT, signal.SIGTERM):
         run, output = stopped_run(f"interrupted_{number}", number, "--set", "us=2000")
@@ -186,7 +207,7 @@ def a_time_limit_of_the_clock():
     check(time.monotonic() - start < 2.0, "the time limit does not count elapsed time")
 
 
-for fault in (who_holds_the_folder, an_error_in_the_middle, interrupted, a_spoiled_checkpoint, a_load_that_changed,
+for fault in (who_holds_the_folder, an_error_in_the_middle, numbers_that_overflow, interrupted, a_spoiled_checkpoint, a_load_that_changed,
               a_state_without_a_record, a_folder_that_is_removed, decks_that_take_long, a_time_limit_of_the_clock):
     fault()
 shutil.rmtree(FOLDER)
