@@ -7,14 +7,20 @@ local largest_effort = 1e9  -- elementary comparisons in one search
 local raw = {}
 for name, f in pairs(string) do raw[name] = f end
 
--- Bounds the effort of a search: each repetition in a pattern may try every place of the text.
+-- Bounds the effort of a search: each repetition in a pattern may try every place of the text. Lua takes numbers for
+-- texts here. What many searches cost together is watched after each that is not short.
+local watched_effort = 1e5
+
 local function check_effort(text, pattern)
+  if type(text) == "number" then text = tostring(text) end
+  if type(pattern) == "number" then pattern = tostring(pattern) end
   if type(text) ~= "string" or type(pattern) ~= "string" then return end
   local repeats = 1
   for _ in raw.gmatch((raw.gsub(pattern, "%%[^bf%d]", "")), "[*+%-?%%]") do repeats = repeats + 1 end
   if (#text + 1) ^ repeats > largest_effort and repeats > 1 or #text * #pattern > largest_effort then
     error("the pattern has too many repetitions for a text of " .. #text .. " characters", 3)
   end
+  if (#text + 1) ^ repeats > watched_effort or #text * #pattern > watched_effort then native.check_time() end
 end
 
 local safe_string = {}

@@ -10,7 +10,7 @@ namespace dygita {
 namespace {
 
 void add_limits(CLI::App& command, double& time_limit, double& memory_limit, MeshLimits& meshes) {
-  command.add_option("--time-limit", time_limit, "processor time (s) that the deck's own code may take")
+  command.add_option("--time-limit", time_limit, "time (s) that the deck's own code may take")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command.add_option("--memory-limit", memory_limit, "memory (MB) that the deck's own data may take")
@@ -24,6 +24,15 @@ void add_limits(CLI::App& command, double& time_limit, double& memory_limit, Mes
                   "a mesh file that you trust: it may run programs and write files, as gmsh itself lets it")
       ->allow_extra_args(false)
       ->type_name("FILE");
+}
+
+void add_checkpoints(CLI::App& command, std::string& every) {
+  command
+      .add_option("--checkpoint-every", every,
+                  "bring what was computed to the disk so often, as 30s, 5min or 1h; 0: never, a run that is killed "
+                  "cannot be continued")
+      ->capture_default_str()
+      ->type_name("TIME");
 }
 
 void add_threads(CLI::App& command, int& threads) {
@@ -51,12 +60,21 @@ void add_deck_options(CLI::App& command, Command& asked) {
 
 void add_run_options(CLI::App& command, Command& asked) {
   add_deck_options(command, asked);
+  CLI::Option* repeats =
+      command
+          .add_option("--repeat", asked.repeats,
+                      "a run.json: deck, parameters and solver are those of its run, deck and meshes must be the same, "
+                      "tables are compared")
+          ->type_name("FILE.json");
+  command.get_option("DECK")->required(false);
+  for (const char* option : {"--set", "--solver"}) repeats->excludes(command.get_option(option));
   command.add_option("--out", asked.deck.out, "folder of the results, out/<problem>/<case>")
       ->capture_default_str()
       ->type_name("DIR");
   add_threads(command, asked.deck.threads);
   command.add_flag("--no-frames", asked.has_no_frames, "no frames for ParaView; tables and run.json are written");
   command.add_flag("--no-state", asked.has_no_state, "no state file: the run cannot be continued later");
+  add_checkpoints(command, asked.checkpoint_every);
 }
 
 void add_check_options(CLI::App& command, Command& asked) {
@@ -112,6 +130,7 @@ void add_continue_options(CLI::App& command, Command& asked) {
   add_limits(command, options.time_limit, options.memory_limit, options.meshes);
   command.add_flag("--no-frames", asked.has_no_frames, "no frames for ParaView");
   command.add_flag("--no-state", asked.has_no_state, "no state file: the run cannot be continued once more");
+  add_checkpoints(command, asked.checkpoint_every);
   command.add_flag("--quiet", asked.is_quiet, "no progress lines");
 }
 
@@ -223,8 +242,10 @@ void declare_commands(CLI::App& app, Command& asked) {
   app.require_subcommand(1);
   app.set_version_flag("--version", "dygita " + version(), "print the version");
   add_run_options(*app.add_subcommand("run", "compute a deck"), asked);
-  add_continue_options(*app.add_subcommand("continue", "continue a run: to a tighter tolerance, or further in time"),
-                       asked);
+  add_continue_options(
+      *app.add_subcommand("continue",
+                          "continue a run: where it was stopped or killed, to a tighter tolerance, or further in time"),
+      asked);
   add_check_options(*app.add_subcommand("check", "declare and check a deck, say what it would compute, solve nothing"),
                     asked);
   add_converge_options(

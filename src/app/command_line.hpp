@@ -34,7 +34,7 @@ struct Command {
   ContinueOptions going_on;
   std::vector<std::string> vary, outputs;
   std::string aim, budget;
-  std::string until, picture;
+  std::string until, picture, repeats, checkpoint_every = "3min";
   bool is_quiet = false, has_no_frames = false, has_no_state = false, is_for_editors = false;
 };
 

@@ -8,14 +8,22 @@
 #include "app/command_line.hpp"
 #include "base/names.hpp"
 #include "base/progress.hpp"
+#include "deck/repeat_run.hpp"
 
 namespace {
 
 using namespace dygita;
 
+// A name of a million characters says no more than its beginning.
+std::string shortened(const std::string& message) {
+  constexpr size_t longest = 20000, shown = 2000;
+  if (message.size() <= longest) return message;
+  return message.substr(0, shown) + " ... " + message.substr(message.size() - shown);
+}
+
 int say_error(const char* message, int code) {
   std::fflush(stdout);
-  std::fprintf(stderr, "%s\n", message);
+  std::fprintf(stderr, "%s\n", printable(shortened(message)).c_str());
   return code;
 }
 
@@ -29,6 +37,7 @@ int go_on(Command& asked) {
   if (!asked.until.empty()) asked.going_on.until = parse_quantity("--until", asked.until);
   asked.going_on.write_frames = !asked.has_no_frames;
   asked.going_on.write_state = !asked.has_no_state;
+  asked.going_on.checkpoint_every = parse_interval("--checkpoint-every", asked.checkpoint_every);
   set_progress_enabled(!asked.is_quiet);
   catch_interrupts();
   return exit_code(continue_run(asked.going_on), "stopped");
@@ -38,11 +47,14 @@ int run_or_check(Command& asked, bool solves) {
   for (const std::string& text : asked.settings) asked.deck.settings.push_back(parse_setting(text));
   asked.deck.write_frames = !asked.has_no_frames;
   asked.deck.write_state = !asked.has_no_state;
+  asked.deck.checkpoint_every = parse_interval("--checkpoint-every", asked.checkpoint_every);
   set_progress_enabled(!asked.is_quiet);
   catch_interrupts();
+  const char* when_stopped = "stopped; the results so far are written";
+  if (!asked.repeats.empty()) return exit_code(repeat_run(asked.deck, asked.repeats), when_stopped);
+  if (asked.deck.path.empty()) throw InputError("dygita run: which deck? dygita run DECK.lua, or --repeat run.json");
   const Engine engine{run_problem, CheckWithPicture(asked.picture)};
-  return exit_code(solves ? run_deck(asked.deck, engine) : check_deck(asked.deck, engine),
-                   "stopped; the results so far are written");
+  return exit_code(solves ? run_deck(asked.deck, engine) : check_deck(asked.deck, engine), when_stopped);
 }
 
 int converge_deck(Command& asked) {

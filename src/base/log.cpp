@@ -5,6 +5,8 @@
 #include <mutex>
 #include <utility>
 
+#include "base/names.hpp"
+
 namespace dygita {
 
 namespace {
@@ -14,7 +16,7 @@ std::vector<std::string> kept_warnings;
 
 void say(const std::string& line) {
   const std::scoped_lock lock(log_mutex);
-  std::fputs((line + "\n").c_str(), stdout);
+  std::fputs((printable(line) + "\n").c_str(), stdout);
   std::fflush(stdout);
 }
 
@@ -22,7 +24,7 @@ void warn(const std::string& message) {
   const std::scoped_lock lock(log_mutex);
   if (std::find(kept_warnings.begin(), kept_warnings.end(), message) != kept_warnings.end()) return;
   kept_warnings.push_back(message);
-  std::fputs(("warning: " + message + "\n").c_str(), stderr);
+  std::fputs(("warning: " + printable(message) + "\n").c_str(), stderr);
 }
 
 std::vector<std::string> take_warnings() {

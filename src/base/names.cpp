@@ -31,7 +31,8 @@ std::string in_lower_case(std::string text) {
 }  // namespace
 
 std::string closest_name(const std::string& name, const std::vector<std::string>& known) {
-  if (name.empty()) return "";
+  constexpr size_t longest = 200;
+  if (name.empty() || name.size() > longest) return "";
   for (const std::string& candidate : known)
     if (in_lower_case(candidate) == in_lower_case(name)) return candidate;
   std::string best;
@@ -54,6 +55,28 @@ std::string did_you_mean(const std::string& name, std::vector<std::string> known
   text += "known: ";
   for (size_t i = 0; i < known.size(); ++i) text += (i ? ", " : "") + known[i];
   return known.empty() ? text + "none" : text;
+}
+
+std::string printable(const std::string& text) {
+  std::string shown;
+  const auto escape = [&](unsigned char byte) {
+    constexpr const char* digits = "0123456789abcdef";
+    shown += {'\\', 'x', digits[byte >> 4], digits[byte & 15]};
+  };
+  for (size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : '\0');
+    if (byte == 0xc2 && next >= 0x80 && next < 0xa0) {  // U+0080 to U+009F, which terminals obey as well
+      escape(byte);
+      escape(next);
+      ++i;
+    } else if ((byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7f) {
+      escape(byte);
+    } else {
+      shown += text[i];
+    }
+  }
+  return shown;
 }
 
 std::string file_name_of(const std::string& name) {

@@ -29,6 +29,7 @@ DeckOutcome continue_run(const ContinueOptions& options) {
   deck.meshes = options.meshes;
   deck.write_frames = options.write_frames;
   deck.write_state = options.write_state;
+  deck.checkpoint_every = options.checkpoint_every;
   deck.is_study = false;
   DeckOutcome outcome = run_deck(
       deck, {[&](const Problem& problem, const RunRequest& request) { return continuation.run(problem, request); },

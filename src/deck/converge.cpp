@@ -274,6 +274,10 @@ double parse_duration(const std::string& what, const std::string& text) {
   return number * unit->second;
 }
 
+double parse_interval(const std::string& what, const std::string& text) {
+  return text == "0" ? 0.0 : parse_duration(what, text);
+}
+
 ConvergeOutcome converge(const ConvergeOptions& options, const Engine& engine) {
   return Converge(options, engine).run();
 }

@@ -29,6 +29,8 @@ Variation parse_variation(const std::string& text);
 // "1%" and "0.01" as 0.01, below 1; "90s", "10min", "2h" and "90" in s. `what` names the option. Throws InputError.
 double parse_share(const std::string& what, const std::string& text);
 double parse_duration(const std::string& what, const std::string& text);
+// The same, and 0 for never.
+double parse_interval(const std::string& what, const std::string& text);
 
 // Checks the deck, runs it with each variation refined twice, then further those that matter until the aim is met, and
 // the cheapest setting that is predicted to meet it. Says a table; writes <out>/<deck>_converge/converge.csv and .svg.

@@ -10,6 +10,7 @@
 #include "deck/deck_text.hpp"
 #include "deck/results.hpp"
 #include "deck/syntax_hint.hpp"
+#include "mesh/mesher_process.hpp"
 #include "numerics/factor.hpp"
 #include "numerics/panel_choice.hpp"
 #include "result/hollow_result.hpp"
@@ -88,6 +89,7 @@ void warn_of_unused(const DeckState& state) {
 DeckOutcome execute(const DeckOptions& options, const Engine& engine, bool solves) {
   const std::string text = options.text ? *options.text : text_of(options.path);
   set_mesh_limits(options.meshes);
+  set_mesh_folder(options.path.parent_path().string());
   DeckState state(options, engine, solves);
   state.deck_digest = digest_of(text);
   state.deck_text = text;
@@ -121,6 +123,7 @@ RunRequest request_of(const DeckState& state, const Problem& problem, const std:
   request.write_state = state.options.write_state;
   request.identity.deck_path = state.options.path.string();
   request.identity.deck_digest = state.deck_digest;
+  request.checkpoint_every = state.options.checkpoint_every;
   request.deck_text = state.deck_text;
   request.settings = state.options.settings;
   request.identity.parameters = state.parameters;

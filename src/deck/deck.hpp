@@ -30,10 +30,11 @@ struct DeckOptions {
   double memory_limit = 1024.0;  // MB of the deck's own data
   MeshLimits meshes;
   bool write_files = true;
-  bool write_frames = true;  // those of output.vtk
-  bool write_state = true;   // what continue_run needs
-  bool is_study = true;      // the table of several cases, and cases checked cold; not while one of them is continued
-  std::string solver;  // --solver: an expression that takes the place of every problem's solver; empty: the deck's
+  bool write_frames = true;         // those of output.vtk
+  bool write_state = true;          // what continue_run needs
+  double checkpoint_every = 180.0;  // s between two times that a run is brought to the disk; 0: never
+  bool is_study = true;  // the table of several cases, and cases checked cold; not while one of them is continued
+  std::string solver;    // --solver: an expression that takes the place of every problem's solver; empty: the deck's
 };
 
 struct DeckOutcome {

@@ -2,6 +2,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -15,12 +17,6 @@ namespace {
 
 constexpr int hook_period = 1000;                // instructions
 constexpr size_t large_block = size_t{1} << 20;  // bytes
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // Gives messages without a place (assert, error with level 0) the deck's line.
 int add_place(lua_State* L) {
@@ -49,12 +45,19 @@ std::string to_text(lua_State* L, int index) {
   return copy;
 }
 
+LuaState::Times LuaState::now() {
+  timespec own{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &own);
+  return {static_cast<double>(own.tv_sec) + 1e-9 * static_cast<double>(own.tv_nsec),
+          std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count()};
+}
+
 LuaState::LuaState(std::string deck_name, const LuaLimits& limits)
     : deck_name_(std::move(deck_name)), source_("@" + deck_name_), limits_(limits) {
   L_ = lua_newstate(allocate, this);
   if (!L_) throw InputError("not enough memory for Lua itself (--memory-limit)");
   *static_cast<LuaState**>(lua_getextraspace(L_)) = this;
-  section_start_ = processor_seconds();
+  section_start_ = now();
   lua_pushcfunction(L_, open_libraries);
   call(0, 0);
   watch();
@@ -97,7 +100,8 @@ void LuaState::hook(lua_State* L, lua_Debug* event) {
     lua_getinfo(L, "Sl", &caller);
     if (state.is_deck(caller) && caller.currentline > 0) state.last_line_ = caller.currentline;
   } else if (event->event == LUA_HOOKCOUNT) {
-    if (interrupt_requested()) {
+    // A load asked for while the engine computes answers: the engine stops by itself, and writes what it has.
+    if (interrupt_requested() && !state.is_paused_) {
       state.hold(std::make_exception_ptr(DeckStopped()));
     } else if (state.is_out_of_time()) {
       state.hold(std::make_exception_ptr(state.out_of_time()));
@@ -121,9 +125,16 @@ int LuaState::line(lua_State* L) const {
   return last_line_;
 }
 
-double LuaState::seconds_in_deck() const { return spent_ + processor_seconds() - section_start_; }
+LuaState::Times LuaState::time_in_deck() const { return spent_ + (now() - section_start_); }
 
-bool LuaState::is_out_of_time() const { return seconds_in_deck() > limits_.seconds; }
+bool LuaState::is_out_of_time() const {
+  const Times times = time_in_deck();
+  return std::max(times.processor, times.elapsed) > limits_.seconds;
+}
+
+void LuaState::check_time() const {
+  if (is_out_of_time()) throw out_of_time();
+}
 
 InputError LuaState::out_of_time() const {
   return {origin(last_line_),
@@ -180,13 +191,13 @@ void LuaState::reserve(const std::string& what, size_t bytes) {
 }
 
 LuaState::Pause::Pause(LuaState& state) : state_(state) {
-  state_.spent_ += processor_seconds() - state_.section_start_;
+  state_.spent_ = state_.time_in_deck();
   state_.is_paused_ = true;
   lua_sethook(state_.L_, hook, LUA_MASKCOUNT, hook_period);
 }
 
 LuaState::Pause::~Pause() {
-  state_.section_start_ = processor_seconds();
+  state_.section_start_ = now();
   state_.is_paused_ = false;
   state_.watch();
 }
@@ -194,11 +205,10 @@ LuaState::Pause::~Pause() {
 // The deck's clock while the engine asks one of its functions; a function may ask a history, and so another one.
 struct LuaState::FunctionClock {
   explicit FunctionClock(LuaState& state) : state_(state) {
-    if (state_.function_depth_++ == 0 && state_.is_paused_) state_.section_start_ = processor_seconds();
+    if (state_.function_depth_++ == 0 && state_.is_paused_) state_.section_start_ = now();
   }
   ~FunctionClock() {
-    if (--state_.function_depth_ == 0 && state_.is_paused_)
-      state_.spent_ += processor_seconds() - state_.section_start_;
+    if (--state_.function_depth_ == 0 && state_.is_paused_) state_.spent_ = state_.time_in_deck();
   }
   FunctionClock(const FunctionClock&) = delete;
   FunctionClock& operator=(const FunctionClock&) = delete;

@@ -18,7 +18,7 @@
 namespace dygita {
 
 struct LuaLimits {
-  double seconds = 60.0;       // of processor time in the deck's own code
+  double seconds = 60.0;       // in the deck's own code, of the processor or of the clock on the wall
   size_t bytes = 1024u << 20;  // of Lua's memory
 };
 
@@ -78,6 +78,9 @@ class LuaState {
   // Throws InputError (with file:line) on a Lua error or a value that is not a finite number.
   double value_of_function(int reference, int declared_at, double t);
 
+  // Throws InputError where the deck has used up its time: after a call that can be long by itself.
+  void check_time() const;
+
   // Keeps the exception while Lua unwinds to `call`.
   void hold(std::exception_ptr exception) { held_ = std::move(exception); }
 
@@ -85,6 +88,13 @@ class LuaState {
   std::shared_ptr<const bool> alive() const { return alive_; }
 
  private:
+  // s of the processor, and elapsed: a busy machine gives a deck little of the first.
+  struct Times {
+    double processor = 0.0, elapsed = 0.0;
+    Times operator+(const Times& o) const { return {processor + o.processor, elapsed + o.elapsed}; }
+    Times operator-(const Times& o) const { return {processor - o.processor, elapsed - o.elapsed}; }
+  };
+  static Times now();
   struct FunctionClock;
   size_t outside_bytes();
   static void* allocate(void* self, void* block, size_t old_size, size_t new_size);
@@ -93,14 +103,14 @@ class LuaState {
   [[noreturn]] void raise(int status);
   InputError out_of_time() const;
   bool is_out_of_time() const;
-  double seconds_in_deck() const;
+  Times time_in_deck() const;
   bool is_deck(const lua_Debug& frame) const;
 
   std::string deck_name_, source_;
   LuaLimits limits_;
   lua_State* L_ = nullptr;
   size_t used_bytes_ = 0;
-  double spent_ = 0.0, section_start_ = 0.0;  // s
+  Times spent_, section_start_;
   int last_line_ = 0, function_depth_ = 0;
   bool is_paused_ = false;
   std::vector<std::pair<std::weak_ptr<const void>, size_t>> outside_;

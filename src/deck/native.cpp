@@ -80,6 +80,12 @@ int did_you_mean_names(LuaState&, lua_State* L) {
 
 int closest(LuaState&, lua_State* L) { return push_text(L, closest_name(lua_tostring(L, 1), names_at(L, 2))); }
 
+// A search has been long: is there time left?
+int check_time(LuaState& lua, lua_State*) {
+  lua.check_time();
+  return 0;
+}
+
 int print(LuaState& lua, lua_State* L) {
   std::string text;
   for (int i = 1; i <= lua_gettop(L); ++i) text += (i > 1 ? "\t" : "") + to_text(L, i);
@@ -252,6 +258,7 @@ void push_native(DeckState& state) {
                                        {"did_you_mean", guarded<did_you_mean_names>},
                                        {"closest_name", guarded<closest>},
                                        {"print", guarded<print>},
+                                       {"check_time", guarded<check_time>},
                                        {"kind", guarded<kind>},
                                        {"arguments", guarded<arguments>},
                                        {"note_parameter", guarded<note_parameter>},

@@ -6,14 +6,22 @@ namespace dygita {
 
 Anderson::Anderson(int depth, int n_problems, double relaxation, Vec weight)
     : depth_(depth),
+      n_problems_(depth > 0 ? n_problems : 0),
       relaxation_(relaxation),
       weight_(std::move(weight)),
       recent_(depth, weight_.size()),
-      past_(depth > 0 ? n_problems : 0, weight_.size()) {}
+      past_(n_problems_, weight_.size()) {}
 
 void Anderson::begin() {
   recent_.clear();
   has_before_ = false;
+}
+
+void Anderson::hear(const Vec& q, const Vec& image) {
+  if (depth_ == 0) return;
+  q_first_ = q;
+  residual_first_ = (image - q).cwiseProduct(weight_);
+  has_before_ = true;
 }
 
 void Anderson::advance(Vec& q, const Vec& image) {

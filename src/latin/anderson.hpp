@@ -14,14 +14,18 @@ class Anderson {
 
   // Another fixed-point problem begins: the same derivative or nearly, other data.
   void begin();
+  // Takes the first iterate of a problem whose end is known, in place of `advance`: the next one is predicted as if it
+  // had been iterated.
+  void hear(const Vec& q, const Vec& image);
   // Replaces q by the next iterate, from image = G(q). The history is cleared where the residual exceeds twice the
   // best.
   void advance(Vec& q, const Vec& image);
+  int n_problems() const { return n_problems_; }
   // The problem ends with q. If it is solved, what it changed helps to predict the next; if not, nothing past does.
   void end(const Vec& q, const Vec& image, bool is_solved);
 
  private:
-  int depth_;
+  int depth_, n_problems_;
   double relaxation_;
   Vec weight_;
   Differences recent_, past_;

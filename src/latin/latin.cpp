@@ -29,12 +29,14 @@ IndicatorSums StepRun::local_stage(const Vec& velocity, const Vec& q, Vec& image
 void StepRun::coarse_correction(Vec& q, Vec& velocity) {
   if (coarse_.is_empty()) return;
   const Stopwatch watch(books_.seconds.interface);
+  if (files_.trail) at_.uncorrected = q;
   coarse_.correct(q, velocity);
 }
 
 // Both stages in turn, until the goal is reached.
 void StepRun::iterate(int increment, const Goal& goal, Best& best) {
   anderson_.begin();
+  at_.uncorrected.resize(0);
   best.outcome = {};
   Persistence persistence(goal.limit);
   for (int i = 0;; ++i) {
@@ -86,10 +88,8 @@ void StepRun::finish_increment(const Vec& q) {
   });
 }
 
-// One time step: forward once, iterate on the interfaces alone, backward once.
-void StepRun::solve_increment(int increment) {
-  begin_increment(increment, true);
-  const Goal goal = goal_of(predict(increment, at_.q));
+// Iterates, and leaves pieces and laws with the answer: the last one, or the best where none is good enough.
+StepRun::Best StepRun::answer(int increment, const Goal& goal) {
   Best best{at_.q, {}};
   BoltStart bolts;
   if (local_.has_preloads()) bolts = {at_.q, local_.preload_figures().shortening};
@@ -102,10 +102,20 @@ void StepRun::solve_increment(int increment) {
     if (best.iterations > 1 && !coarse_.is_empty()) linear_stage(at_.q, at_.velocity);
   } else {  // not there: the best there was is what is shown
     at_.q = best.q;
+    at_.uncorrected.resize(0);
     linear_stage(at_.q, at_.velocity);
     at_.sums = local_stage(at_.velocity, at_.q, at_.image);
   }
   indicator_.accept(best.outcome);
+  if (files_.trail) leave(best, is_solved);
+  return best;
+}
+
+// One time step: forward once, iterate on the interfaces alone, backward once.
+void StepRun::solve_increment(int increment) {
+  begin_increment(increment, true);
+  const Goal goal = goal_of(predict(increment, at_.q));
+  const Best best = leads(1) ? follow() : answer(increment, goal);
   finish_increment(at_.q);
   if (best.outcome.eta > settings_.tolerance) note_missed(best.missed);
   accept_increment(increment, best.iterations, best.outcome.eta);

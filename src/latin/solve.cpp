@@ -7,6 +7,7 @@
 #include "latin/step_run.hpp"
 #include "numerics/factor.hpp"
 #include "solution/step_ends.hpp"
+#include "solution/stopped_run.hpp"
 
 namespace dygita {
 
@@ -25,7 +26,7 @@ void tell_run(const std::shared_ptr<const InterfaceFields>& kept, SolverFigures&
 
 }  // namespace
 
-SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceFields* start_from) {
+SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceFields* start_from, Trail* trail) {
   using clock = std::chrono::steady_clock;
   auto start = clock::now();
   const auto lap = [&] {
@@ -48,16 +49,17 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
     start_step(model, state);
     const Vec k = search_directions(model, problem.solver.search_direction, settings.window);
     fix_search_directions(model, k);
-    StepRun run(settings, model, k, {state, observer, start_from, *kept});
+    StepRun run(settings, model, k, {state, observer, start_from, *kept, trail});
     figures.seconds["factor"] += lap();
-    run.run();
-    end_step(model, state);
+    figures.stopped_by = run_as_far_as_it_goes(run, figures);
+    if (!figures.stopped_by) end_step(model, state);
     figures.steps.push_back(run.figures());
     figures.steps.back().seconds = lap();
     run.add_to(figures);
+    if (figures.stopped_by) break;
   }
   tell_run(kept, figures);
-  figures.interrupted = interrupt_requested();
+  figures.interrupted = figures.stopped_by || interrupt_requested();
   return figures;
 }
 

@@ -78,10 +78,23 @@ void StepRun::accept_interval(int increment, int iterations, double eta, double 
   State& state = files_.state;
   Energies& energies = state.energies;
   book_increment(books_.energy, energies);
-  if (!std::isfinite(energies.kinetic + energies.strain + energies.loads))
+  if (!std::isfinite(energies.kinetic + energies.strain + energies.loads)) {
+    const auto spoiled = std::find_if(books_.energy.begin(), books_.energy.end(), [](const IncrementEnergy& e) {
+      return !std::isfinite(e.kinetic + e.strain + e.loads);
+    });
+    const std::string part =
+        spoiled == books_.energy.end()
+            ? "the assembly"
+            : "substructure '" +
+                  model_.problem
+                      ->substructures[model_.cut->piece(static_cast<int>(spoiled - books_.energy.begin())).part]
+                      ->name +
+                  "'";
     throw NumericalError(fmt::format(
-        "step '{}', increment {} (t = {:.6g} s): the energies are not finite; likely cause: a load out of proportion",
-        model_.step->name, increment + 1, state.time));
+        "step '{}', increment {} (t = {:.6g} s): the energies of {} are not finite; likely cause: a load out "
+        "of proportion",
+        model_.step->name, increment + 1, state.time, part));
+  }
   if (has_flown_off()) eta = std::numeric_limits<double>::infinity();
   indicator_.raise_floor(energies.kinetic + energies.strain + std::abs(energies.loads), model_.scheme.dt);
   StepFigures& figures = books_.figures;
@@ -118,9 +131,32 @@ bool StepRun::has_flown_off() const {
 void StepRun::check_finite(const Outcome& outcome, int increment) const {
   if (std::isfinite(outcome.eta)) return;
   throw NumericalError(
-      fmt::format("step '{}', increment {} (t = {:.6g} s): the iteration has diverged; likely cause: a "
+      fmt::format("step '{}', increment {} (t = {:.6g} s): the iteration has diverged{}; likely cause: a load, "
                   "search direction, stiffness or density out of proportion, or a time step far too large",
-                  model_.step->name, increment + 1, files_.state.time));
+                  model_.step->name, increment + 1, files_.state.time, place_of_divergence()));
+}
+
+// " at substructure 'rod', interface 'thread'": where a velocity is not a number, or else is largest.
+std::string StepRun::place_of_divergence() const {
+  const Exchange& exchange = model_.exchange;
+  const Port* worst = nullptr;
+  const Point* at = nullptr;
+  double largest = -1.0;
+  for (const Point& point : exchange.points)
+    for (int p = point.first_port; p < point.end_port && std::isfinite(largest); ++p)
+      for (int d = 0; d < 3; ++d) {
+        const int i = model_.unknown(exchange.ports[p], d);
+        const double size = i < 0 || i >= at_.velocity.size() ? -1.0 : std::abs(at_.velocity[i]);
+        if (size <= largest) continue;
+        largest = std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
+        worst = &exchange.ports[p];
+        at = &point;
+      }
+  if (!worst) return "";
+  std::string place = fmt::format(" at substructure '{}'", model_.problem->substructures[worst->part]->name);
+  if (!at->members.empty())
+    place += fmt::format(", interface '{}'", (*model_.surfaces)[at->members.front().surface].name());
+  return place;
 }
 
 std::string StepRun::describe_progress() const {

@@ -13,6 +13,7 @@
 #include "latin/local_stage.hpp"
 #include "latin/step_settings.hpp"
 #include "latin/warm_start.hpp"
+#include "solution/trail.hpp"
 
 namespace dygita {
 
@@ -22,6 +23,7 @@ struct Iterate {
   Vec velocity;        // V, its answer, m/s
   Vec image;           // F_hat + k W_hat of what the local stage answers to both, N
   IndicatorSums sums;  // the distance between both answers
+  Vec uncorrected{};   // q before the last coarse correction; empty: there was none. Only where a trail is left
 };
 
 // What a run reads and writes besides its own step.
@@ -30,6 +32,7 @@ struct RunFiles {
   Observer& observer;
   const InterfaceFields* start_from;  // of another case, or null
   InterfaceFields& kept;
+  Trail* trail;  // null: none
 };
 
 class StepRun {
@@ -68,11 +71,21 @@ class StepRun {
   void begin_increment(int increment, bool starts_window);
   void finish_increment(const Vec& q);
   void solve_increment(int increment);
+  Best answer(int increment, const Goal& goal);
+
+  // The trail (follow.cpp): an increment gone over again, up to where its interiors are finished; what an increment
+  // leaves for that.
+  bool leads(long n) const { return files_.trail && files_.trail->leads(n); }
+  Best follow();
+  void leave(const Best& best, bool is_solved);
+  void leave_window(const std::vector<Vec>& q, int iterations, double eta, const std::optional<Missed>& missed);
+  void replay_window(int first, int last);
+  TrailEntry take_entry();
 
   // Steps with explicit pieces (substeps.cpp): the time step of the deck in one or several increments.
   void solve_interval(int increment);
   void begin_substep(int increment, int substep);
-  Best solve_substep(int increment, int substep);
+  Best solve_substep(int increment, int substep, bool is_led);
   void finish_substep(int substep);
   void add_forces();
   void show_mean_forces();
@@ -101,6 +114,7 @@ class StepRun {
   void note_missed(const Missed& missed);
   bool has_flown_off() const;
   void check_finite(const Outcome& outcome, int increment) const;
+  std::string place_of_divergence() const;
   std::string describe_progress() const;
   Instant instant(int increment, int iterations, double eta) const;
 

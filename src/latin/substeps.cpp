@@ -26,20 +26,13 @@ void StepRun::begin_substep(int increment, int substep) {
   direct_.solve(motions);
 }
 
-StepRun::Best StepRun::solve_substep(int increment, int substep) {
+StepRun::Best StepRun::solve_substep(int increment, int substep, bool is_led) {
   begin_substep(increment, substep);
   Best best{at_.q, {0.0}};
   best.iterations = 1;
   if (model_.n_q() > 0) {
-    best = {at_.q, {}};
     const Goal goal = goal_of(predict(substep, at_.q));
-    iterate(increment, goal, best);
-    const bool is_solved = best.outcome.eta <= goal.tolerance;
-    anderson_.end(at_.q, at_.image, is_solved);
-    if (!is_solved) at_.q = best.q;
-    if (!is_solved || (best.iterations > 1 && !coarse_.is_empty())) linear_stage(at_.q, at_.velocity);
-    if (!is_solved) at_.sums = local_stage(at_.velocity, at_.q, at_.image);
-    indicator_.accept(best.outcome);
+    best = is_led ? follow() : answer(increment, goal);
   }
   finish_substep(substep);
   return best;
@@ -103,8 +96,9 @@ void StepRun::solve_interval(int increment) {
   const double start = files_.state.time;
   int iterations = 0;
   double eta = 0.0, interface_energy = 0.0;
+  const bool is_led = model_.n_q() > 0 && leads(n);
   for (int i = 0; i < n; ++i) {
-    const Best best = solve_substep(increment, increment * n + i);
+    const Best best = solve_substep(increment, increment * n + i, is_led);
     iterations += best.iterations;
     if (best.outcome.eta > settings_.tolerance) note_missed(best.missed);
     eta = std::max(eta, best.outcome.eta);

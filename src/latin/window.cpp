@@ -38,6 +38,7 @@ Outcome StepRun::sweep(int first, const std::vector<Vec>& q, std::vector<Vec>& i
 
 void StepRun::solve_window(int first, int last) {
   const int n_steps = last - first;
+  if (leads(n_steps)) return replay_window(first, last);
   const Eigen::Index n_q = at_.q.size();
   const Start start = remember();
   std::vector<Vec> q(n_steps, at_.q), image(n_steps);
@@ -53,7 +54,10 @@ void StepRun::solve_window(int first, int last) {
     const Outcome worst = sweep(first, q, image);
     go_back(start);
     if (worst.eta <= goal.tolerance || persistence.ends(n, worst.eta)) {
-      if (worst.eta > settings_.tolerance) note_missed(persistence.missed(first, settings_.tolerance));
+      std::optional<Missed> missed;
+      if (worst.eta > settings_.tolerance) missed = persistence.missed(first, settings_.tolerance);
+      if (missed) note_missed(*missed);
+      if (files_.trail) leave_window(q, n, worst.eta, missed);
       for (int i = 0; i < n_steps; ++i) replay(first + i, q[i], i == 0, n, worst.eta);
       return;
     }

@@ -29,6 +29,21 @@ MeshLimits& limits() {
   return all;
 }
 
+std::string& deck_folder() {
+  static std::string folder;
+  return folder;
+}
+
+// What a file may have gmsh read: what lies beside it or beside the deck, and the script that gives it its parameters.
+std::vector<std::string> readable_for(const std::string& file, const std::string& path) {
+  std::vector<std::string> readable = {path};
+  std::error_code error;
+  if (const fs::path folder = fs::canonical(file, error).parent_path(); !error) readable.push_back(folder.string());
+  if (const fs::path folder = fs::canonical(deck_folder().empty() ? "." : deck_folder(), error); !error)
+    readable.push_back(folder.string());
+  return readable;
+}
+
 // Beside this program where it was built, in libexec where it is installed.
 std::string mesher_program() {
   std::error_code ignored;
@@ -164,6 +179,8 @@ InputError crash(const std::string& file, int status, const std::string& errors)
 
 }  // namespace
 
+void set_mesh_folder(const std::string& folder) { deck_folder() = folder; }
+
 void set_mesh_limits(const MeshLimits& given) { limits() = given; }
 
 bool is_trusted_mesh(const std::string& file) {
@@ -176,6 +193,7 @@ MesherAnswer ask_mesher(MesherTask task, const std::string& file) {
   using Clock = std::chrono::steady_clock;
   task.memory_limit = memory_of_machine();
   task.is_trusted = is_trusted_mesh(file);
+  task.readable = readable_for(file, task.path);
   Process mesher(mesher_program());
   const auto start = Clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };

@@ -6,6 +6,9 @@
 
 namespace dygita {
 
+// The deck's folder, which mesh files may include others from, besides their own.
+void set_mesh_folder(const std::string& folder);
+
 // Hands the task to the mesher and waits; says its warnings. Throws InputError: what the mesher says of the file, a
 // mesher that crashes, takes too long or is not installed; that the user interrupted it.
 MesherAnswer ask_mesher(MesherTask task, const std::string& file);

@@ -186,7 +186,8 @@ std::string to_bytes(const MesherTask& task) {
   json.update({{"is_step", std::holds_alternative<StepOptions>(task.options)},
                {"path", task.path},
                {"memory_limit", task.memory_limit},
-               {"is_trusted", task.is_trusted}});
+               {"is_trusted", task.is_trusted},
+               {"readable", task.readable}});
   return bytes_of(json);
 }
 
@@ -200,6 +201,7 @@ MesherTask task_of(const std::string& bytes) {
   task.path = json.at("path");
   task.memory_limit = json.at("memory_limit");
   task.is_trusted = json.at("is_trusted");
+  task.readable = json.at("readable").get<std::vector<std::string>>();
   return task;
 }
 

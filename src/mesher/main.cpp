@@ -19,7 +19,7 @@ namespace {
 MesherAnswer answer_to(const MesherTask& task) {
   MesherAnswer answer;
   try {
-    if (!task.is_trusted) confine(task.memory_limit);
+    if (!task.is_trusted) confine(task.memory_limit, task.readable);
     answer = std::visit(overloaded{[&](const GmshOptions& options) { return read_file(options, task.path); },
                                    [&](const StepOptions& options) { return read_assembly(options); }},
                         task.options);

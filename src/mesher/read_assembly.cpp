@@ -11,6 +11,7 @@
 #include "base/names.hpp"
 #include "mesh/box_grid.hpp"
 #include "mesh/mesh_file.hpp"
+#include "mesher/estimate.hpp"
 #include "mesher/gmsh_session.hpp"
 #include "mesher/read.hpp"
 #include "mesher/step_contacts.hpp"
@@ -248,6 +249,11 @@ MesherAnswer read_assembly(const StepOptions& options) {
     std::vector<Solid> solids = read_solids(options, unit);
     doubt_losses(options.file, solids.size());
     sweep_solids(options, solids);
+    const auto size_of = [&](int volume) {
+      const auto solid = std::find_if(solids.begin(), solids.end(), [&](const Solid& s) { return s.tag == volume; });
+      return solid == solids.end() ? 0.0 : solid->size;
+    };
+    refuse_hopeless(options.file, size_of, unit);
     mesh_solids(options, solids, unit);
     answer.model = tagged(options, solids, unit);
     for (const Solid& solid : solids) {

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "mesh/mesh_file.hpp"
+#include "mesher/estimate.hpp"
 #include "mesher/gmsh_session.hpp"
 #include "mesher/read.hpp"
 
@@ -40,6 +41,9 @@ void load(const GmshOptions& options, const std::string& path, const GmshSession
   if (kind == "msh") return;
   session.run([&] {
     if (kind == "step" || kind == "brep") join_touching_bodies();
+    if (options.size)
+      refuse_hopeless(
+          options.file, [&](int) { return *options.size / unit; }, unit);
     gmsh::option::setNumber("Mesh.SecondOrderIncomplete", options.is_complete ? 0 : 1);
     gmsh::model::mesh::generate(3);
     if (options.order > 1) gmsh::model::mesh::setOrder(options.order);

@@ -8,6 +8,7 @@
 #include <sys/ioctl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -16,6 +17,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/log.hpp"
 
 namespace dygita {
 
@@ -96,29 +98,53 @@ void filter_calls() {
   filter.load();
 }
 
-// What the kernel knows of is handled and nothing of it allowed; reading is not among it.
-void restrict_files() {
+// What libraries look at while they work: their own files, the processors, random numbers. Of /proc nothing of any
+// process.
+constexpr const char* of_the_system[] = {"/usr",          "/lib",          "/lib64",      "/etc/ld.so.cache",
+                                         "/dev/null",     "/dev/urandom",  "/dev/random", "/sys/devices/system/cpu",
+                                         "/proc/cpuinfo", "/proc/meminfo", "/proc/stat"};
+
+void let_read(int set, const char* path) {
+  const int opened = ::open(path, O_PATH | O_CLOEXEC);
+  if (opened < 0) return;
+  struct stat found {};
+  landlock_path_beneath_attr rule = {};
+  rule.parent_fd = opened;
+  rule.allowed_access = LANDLOCK_ACCESS_FS_READ_FILE;
+  if (fstat(opened, &found) == 0 && S_ISDIR(found.st_mode)) rule.allowed_access |= LANDLOCK_ACCESS_FS_READ_DIR;
+  syscall(SYS_landlock_add_rule, set, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
+  close(opened);
+}
+
+// What the kernel knows of is handled, and nothing of it allowed but reading some.
+void restrict_files(const std::vector<std::string>& readable) {
   const long version = syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
-  if (version < 1) return;  // an old kernel: the filter has to do
+  if (version < 1) {  // an old kernel: the filter has to do
+    warn("this system's kernel has no Landlock: a mesh file can have gmsh read any file that you can read");
+    return;
+  }
   landlock_ruleset_attr rules = {};
   rules.handled_access_fs = LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR |
                             LANDLOCK_ACCESS_FS_REMOVE_FILE | LANDLOCK_ACCESS_FS_MAKE_CHAR |
                             LANDLOCK_ACCESS_FS_MAKE_DIR | LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_MAKE_SOCK |
-                            LANDLOCK_ACCESS_FS_MAKE_FIFO | LANDLOCK_ACCESS_FS_MAKE_BLOCK | LANDLOCK_ACCESS_FS_MAKE_SYM;
+                            LANDLOCK_ACCESS_FS_MAKE_FIFO | LANDLOCK_ACCESS_FS_MAKE_BLOCK | LANDLOCK_ACCESS_FS_MAKE_SYM |
+                            LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
   const long set = syscall(SYS_landlock_create_ruleset, &rules, sizeof rules, 0);
   if (set < 0) return;
+  for (const char* path : of_the_system) let_read(static_cast<int>(set), path);
+  for (const std::string& path : readable) let_read(static_cast<int>(set), path.c_str());
   syscall(SYS_landlock_restrict_self, set, 0);
   close(static_cast<int>(set));
 }
 
 }  // namespace
 
-void confine(double memory) {
+void confine(double memory, const std::vector<std::string>& readable) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   limit(RLIMIT_CORE, 0);
   limit_memory(memory);
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-  restrict_files();
+  restrict_files(readable);
   filter_calls();
 }
 

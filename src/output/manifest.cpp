@@ -59,6 +59,8 @@ Manifest::Manifest(fs::path directory) : directory_(std::move(directory)) {
 
 void Manifest::add(const fs::path& relative) {
   if (std::find(files_.rbegin(), files_.rend(), relative) != files_.rend()) return;
+  if (std::error_code error; !fs::exists(directory_ / file_name, error))
+    throw InputError("'" + directory_.string() + "' was removed or emptied while the run wrote there");
   errno = 0;
   std::ofstream list(directory_ / file_name, std::ios::app | std::ios::binary);
   list << relative.generic_string() << '\n';

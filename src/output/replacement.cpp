@@ -56,7 +56,7 @@ Replacement::~Replacement() {
   fs::remove_all(work_, error);
 }
 
-void Replacement::commit() {
+void Replacement::commit(const std::string& dropped) {
   if (!exchange(directory_, work_))
     throw InputError("cannot put the new results in the place of '" + directory_.string() +
                      "': " + std::strerror(errno));
@@ -64,6 +64,7 @@ void Replacement::commit() {
   { const Manifest removes_what_it_lists(work_); }
   std::error_code error;
   fs::remove(work_ / Manifest::file_name, error);
+  if (!dropped.empty()) fs::remove(work_ / dropped, error);
   if (carry_over(work_, directory_)) fs::remove_all(work_, error);
 }
 

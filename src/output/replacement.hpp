@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace dygita {
 
@@ -18,8 +19,8 @@ class Replacement {
   const std::filesystem::path& work() const { return work_; }
 
   // The new results take the place of the old ones in one move; files there that no run of ours wrote stay. Throws
-  // InputError with the system's reason; then the old ones are still there.
-  void commit();
+  // InputError with the system's reason; then the old ones are still there. The old one of `dropped` does not stay.
+  void commit(const std::string& dropped = "");
 
  private:
   std::filesystem::path directory_, work_;

@@ -161,6 +161,20 @@ Json bolts(const RunResult& result) {
 
 const char* program_version() { return DYGITA_VERSION; }
 
+namespace {
+
+std::string what(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    return "not enough memory on this machine";
+  } catch (const std::exception& known) {
+    return known.what();
+  }
+}
+
+}  // namespace
+
 const char* verdict(const RunResult& result) {
   return result.interrupted ? "interrupted" : result.converged ? "converged" : "not converged";
 }
@@ -180,7 +194,7 @@ std::optional<RecordedRun> read_run_record(const std::filesystem::path& director
 
 std::string run_record(const Problem& problem, const RunResult& result, const RunIdentity& identity,
                        const std::vector<std::string>& warnings, const std::vector<std::string>& files) {
-  const Json json = {
+  Json json = {
       {"program", {{"name", "dygita"}, {"version", program_version()}}},
       {"problem", problem.name},
       {"case", identity.case_name},
@@ -204,6 +218,7 @@ std::string run_record(const Problem& problem, const RunResult& result, const Ru
       {"libraries", libraries(identity)},
       {"files", files},
   };
+  if (result.stopped_by) json["stopped_by"] = what(result.stopped_by);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

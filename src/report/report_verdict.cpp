@@ -52,10 +52,11 @@ std::string verdict_text(const Json& record) {
     const double of_step = number(step, "asked_increments");
     asked += std::isfinite(of_step) ? of_step : number(step, "increments");
   }
+  const std::string stopped_by = text(record, "stopped_by");
   if (verdict == "interrupted")
-    return fmt::format(
-               "Interrupted by the user: {} of {} increments were computed. Tables, figures and estimates end there.",
-               increments, asked) +
+    return (stopped_by.empty() ? "Interrupted by the user: " : "Stopped by an error (" + stopped_by + "): ") +
+           fmt::format("{} of {} increments were computed. Tables, figures and estimates end there.", increments,
+                       asked) +
            (steps_that_missed(record).empty() ? "" : " Not converged: " + steps_that_missed(record) + ".");
   if (verdict == "converged")
     return fmt::format("Converged: {} reached {}.",

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <any>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
@@ -126,8 +127,9 @@ struct RunResult {
   std::vector<std::string> warnings;                        // of who watched the run
   std::vector<int> overloaded_steps;                        // static steps in which something slides or comes off
   bool converged = true;
-  bool interrupted = false;
-  long iterations = 0;  // all increments of all steps
+  bool interrupted = false;       // by the user, or by
+  std::exception_ptr stopped_by;  // an error; null: none
+  long iterations = 0;            // all increments of all steps
   double mean_iterations = 0.0;
   long n_dofs = 0, n_interface_unknowns = 0;
   std::vector<int> pieces;                // into which each substructure was cut; empty: the solver cuts none

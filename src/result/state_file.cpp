@@ -2,13 +2,13 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <bit>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 
 #include "base/error.hpp"
 #include "base/fnv1a.hpp"
+#include "result/state_coder.hpp"
 
 namespace dygita {
 
@@ -18,63 +18,6 @@ constexpr char magic[] = "DYGITAST";  // 8 bytes
 constexpr std::uint32_t format_version = 1, byte_order = 0x01020304;
 constexpr std::int64_t start_of_header = 24;  // magic, version, byte order, length of the header
 
-// The header's items, in the order of `visit` below: one description for both directions.
-class Encoder {
- public:
-  void operator()(const std::string& text) {
-    (*this)(static_cast<std::uint64_t>(text.size()));
-    bytes += text;
-  }
-  void operator()(std::uint64_t number) { bytes.append(reinterpret_cast<const char*>(&number), 8); }
-  void operator()(double number) { (*this)(std::bit_cast<std::uint64_t>(number)); }
-  std::string bytes;
-};
-
-class Decoder {
- public:
-  explicit Decoder(std::string bytes) : bytes_(std::move(bytes)) {}
-  void operator()(std::string& text) {
-    std::uint64_t size = 0;
-    (*this)(size);
-    const char* at = take(size);
-    text.assign(at, size);
-  }
-  void operator()(std::uint64_t& number) { std::memcpy(&number, take(8), 8); }
-  void operator()(double& number) { std::memcpy(&number, take(8), 8); }
-
- private:
-  const char* take(std::uint64_t size) {
-    if (size > bytes_.size() - at_) throw InputError("its header is truncated");
-    at_ += size;
-    return bytes_.data() + (at_ - size);
-  }
-  std::string bytes_;
-  size_t at_ = 0;
-};
-
-template <class Coder, class Number>
-void number(Coder& code, Number& value) {
-  if constexpr (std::is_const_v<Number>) {
-    code(static_cast<std::uint64_t>(value));
-  } else {
-    std::uint64_t wide = 0;
-    code(wide);
-    value = static_cast<Number>(wide);
-  }
-}
-
-template <class Coder, class List, class Item>
-void list(Coder& code, List& items, Item&& item) {
-  std::uint64_t n = items.size();
-  code(n);
-  if constexpr (!std::is_const_v<List>) {
-    items.clear();
-    for (std::uint64_t i = 0; i < n; ++i) item(items.emplace_back());
-  } else {
-    for (const auto& value : items) item(value);
-  }
-}
-
 using Sizes = std::vector<std::vector<Eigen::Index>>;
 
 template <class Coder, class State, class SizesOf>
@@ -82,19 +25,19 @@ void visit(Coder& code, State& state, SizesOf& sizes) {
   const auto pair = [&](auto& p) { code(p.first), code(p.second); };
   code(state.program), code(state.problem), code(state.case_name);
   code(state.deck_path), code(state.deck_text), code(state.solver);
-  list(code, state.settings, pair);
-  list(code, state.mesh_digests, pair);
-  list(code, state.loads, [&](auto& value) { code(value); });
-  list(code, state.steps, [&](auto& step) {
-    code(step.name), number(code, step.is_static), number(code, step.increments);
+  code_list(code, state.settings, pair);
+  code_list(code, state.mesh_digests, pair);
+  code_list(code, state.loads, [&](auto& value) { code(value); });
+  code_list(code, state.steps, [&](auto& step) {
+    code(step.name), code_number(code, step.is_static), code_number(code, step.increments);
     code(step.duration), code(step.worst_indicator);
   });
-  list(code, state.efforts, [&](auto& effort) {
-    code(effort.tolerance), code(effort.static_tolerance), number(code, effort.more_iterations);
-    number(code, effort.iterations), code(effort.seconds);
+  code_list(code, state.efforts, [&](auto& effort) {
+    code(effort.tolerance), code(effort.static_tolerance), code_number(code, effort.more_iterations);
+    code_number(code, effort.iterations), code(effort.seconds);
   });
-  number(code, state.converged), number(code, state.interrupted);
-  list(code, sizes, [&](auto& step) { list(code, step, [&](auto& size) { number(code, size); }); });
+  code_number(code, state.converged), code_number(code, state.interrupted);
+  code_list(code, sizes, [&](auto& step) { code_list(code, step, [&](auto& size) { code_number(code, size); }); });
 }
 
 struct Close {
@@ -196,6 +139,21 @@ RunState read_all(File file) {
 }
 
 }  // namespace
+
+std::string identity_bytes(const RunState& state) {
+  Encoder header;
+  const Sizes none;
+  visit(header, state, none);
+  return header.bytes;
+}
+
+RunState state_of_identity(std::string bytes) {
+  RunState state;
+  Sizes sizes;
+  Decoder decoder(std::move(bytes));
+  visit(decoder, state, sizes);
+  return state;
+}
 
 long RunState::n_increments() const {
   long n = 0;

@@ -44,6 +44,10 @@ struct RunState {
   long n_increments() const;  // kept
 };
 
+// All of a state but its fields, as bytes and back. Throws InputError where they are damaged.
+std::string identity_bytes(const RunState& state);
+RunState state_of_identity(std::string bytes);
+
 // Writes a state whole or not at all (to <path>.tmp, then renamed), one increment after the other. Throws InputError
 // with the system's reason, and where the fields cannot be read back.
 void write_state(const std::filesystem::path& path, const RunState& state);

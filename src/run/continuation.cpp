@@ -68,28 +68,40 @@ void check_problem_is_same(const Problem& problem, const RunState& state) {
       throw InputError(fmt::format("the mesh of substructure '{}' ({}) has changed since the run: run the deck again",
                                    part->name, part->mesh->source));
   }
-  const std::vector<double> loads = load_samples(problem, state.steps);
-  double size = 0.0, difference = 0.0;
-  for (size_t i = 0; i < std::min(loads.size(), state.loads.size()); ++i) {
-    size = std::max(size, std::abs(state.loads[i]));
-    difference = std::max(difference, std::abs(loads[i] - state.loads[i]));
-  }
-  if (loads.size() != state.loads.size() || difference > 1e-6 * size)
+  if (const std::string which = changed_load(problem, state); !which.empty())
     throw InputError(
-        "the loads have changed since the run (a file that the deck reads, or the results of another case): run the "
-        "deck "
-        "again");
+        fmt::format("the loads {} have changed since the run (a file that the deck reads, or the results of another "
+                    "case): run the deck "
+                    "again",
+                    which));
 }
 
 }  // namespace
 
-Continuation::Continuation(const ContinueOptions& options)
-    : options_(options), state_(std::make_shared<const RunState>(state_in(options.run))) {}
+Continuation::Continuation(const ContinueOptions& options) : options_(options) {
+  std::error_code ignored;
+  if (fs::is_directory(options.run, ignored)) lock_ = std::make_shared<RunLock>(fs::canonical(options.run));
+  const fs::path checkpoint = options.run / checkpoint_file_name;
+  const bool asks = options.tolerance || options.more_iterations > 0 || options.until;
+  const bool is_unfinished = fs::exists(checkpoint, ignored);
+  if (is_unfinished && asks && !(has_record() && fs::exists(options.run / state_file_name, ignored)))
+    throw InputError(
+        fmt::format("'{0}': the run has not come to its end: `dygita continue {0}` takes it there, and then further",
+                    options.run.string()));
+  if (is_unfinished && !asks) {
+    checkpoint_ = std::make_shared<CheckpointFile>(checkpoint, options.checkpoint_every);
+    state_ = std::make_shared<const RunState>(checkpoint_->identity().state);
+  } else {
+    state_ = std::make_shared<const RunState>(state_in(options.run));
+  }
+}
+
+bool Continuation::has_record() const { return read_run_record(options_.run).has_value(); }
 
 std::string Continuation::idle() const {
   const RunState& state = *state_;
-  const bool is_whole = !state.interrupted;
-  if (options_.until || options_.more_iterations > 0 || !is_whole) return "";
+  const bool is_whole = !state.interrupted && has_record();
+  if (resumes() || options_.until || options_.more_iterations > 0 || !is_whole) return "";
   if (!options_.tolerance) {
     if (!state.converged) return "";
     throw InputError(
@@ -118,11 +130,35 @@ void Continuation::check_until() const {
 std::shared_ptr<const RunResult> Continuation::run(const Problem& problem, const RunRequest& request) {
   if (problem.name != state_->problem || request.case_name != state_->case_name)
     return result_of_other(problem, request);
+  if (resumes()) return resume(problem, request);
   RunRequest going_on = request;
   going_on.continues = state_;
   going_on.replaces = options_.run;
   going_on.start_from = nullptr;
+  going_on.lock = lock_;
   auto result = run_problem(changed(problem), going_on);
+  is_done_ = true;
+  return result;
+}
+
+// The same run once more: over what is known, and on.
+std::shared_ptr<const RunResult> Continuation::resume(const Problem& problem, const RunRequest& request) {
+  check_problem_is_same(problem, *state_);
+  RunRequest going_on = request;
+  going_on.replaces = options_.run;
+  going_on.is_in_place = !has_record();
+  going_on.checkpoint = checkpoint_;
+  going_on.lock = lock_;
+  const CheckpointIdentity& identity = checkpoint_->identity();
+  if (!identity.has_start) going_on.start_from = nullptr;
+  if (identity.has_start && (!request.start_from || !request.start_from->interface_fields))
+    throw InputError("the run started from another case's fields, which are gone: run the deck again");
+  if (identity.kernels != request.identity.kernels || identity.state.program != program_version())
+    warn("the run was begun on another processor or by another version of the program: its last digits may differ");
+  say(problem.monolithic || problem.explicit_dynamics
+          ? "  this solver keeps nothing to go on from: the run starts again"
+          : fmt::format("  {} increments are gone over again", checkpoint_->n_left()));
+  auto result = run_problem(problem, going_on);
   is_done_ = true;
   return result;
 }
@@ -187,6 +223,8 @@ std::shared_ptr<const RunResult> Continuation::result_of_other(const Problem& pr
     const fs::path file = folder / (file_name_of(output->name) + ".csv");
     if (!output->columns().empty() && fs::exists(file)) result->tables[output.get()] = read_csv(file, steps);
   }
+  if (resumes() && recorded->converged && fs::exists(folder / state_file_name))
+    result->interface_fields = read_state(folder / state_file_name).fields;
   say(fmt::format("problem '{}', case '{}': read from {}", problem.name, request.case_name, folder.string()));
   return result;
 }

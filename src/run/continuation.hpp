@@ -1,4 +1,5 @@
-// Continuing a run from what it left: to a tighter tolerance, or further in time (manual, "Continuing a run").
+// Continuing a run from what it left: where it was stopped or killed, to a tighter tolerance, or further in time
+// (manual, "Continuing a run").
 #pragma once
 
 #include <filesystem>
@@ -20,6 +21,7 @@ struct ContinueOptions {
   double time_limit = 60.0, memory_limit = 1024.0;  // of the deck, as in DeckOptions
   MeshLimits meshes;
   bool write_frames = true, write_state = true;
+  double checkpoint_every = 180.0;  // s; 0: none
 };
 
 // Takes the place of run_problem while the deck of the run runs once more: the case continued goes on from its state,
@@ -30,6 +32,8 @@ class Continuation {
   explicit Continuation(const ContinueOptions& options);
 
   const RunState& state() const { return *state_; }
+  // The run was stopped or killed, and is to go on as it was asked for.
+  bool resumes() const { return checkpoint_ != nullptr; }
   // What there is not to do, or nothing where there is something. Throws InputError where nothing was asked for.
   std::string idle() const;
   // Throws InputError where --until is no later time.
@@ -43,9 +47,13 @@ class Continuation {
  private:
   Problem changed(Problem problem) const;
   StepPtr extended(const Step& step, double duration) const;
+  std::shared_ptr<const RunResult> resume(const Problem& problem, const RunRequest& request);
+  bool has_record() const;
   std::shared_ptr<const RunResult> result_of_other(const Problem& problem, const RunRequest& request);
 
   ContinueOptions options_;
+  std::shared_ptr<RunLock> lock_;
+  std::shared_ptr<CheckpointFile> checkpoint_;  // null: the state file is gone on from
   std::shared_ptr<const RunState> state_;
   bool is_done_ = false, ends_early_ = false;
 };

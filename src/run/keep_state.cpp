@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <chrono>
+#include <cmath>
 
 #include "base/log.hpp"
 #include "model/load.hpp"
@@ -56,9 +57,26 @@ std::vector<double> load_samples(const Problem& problem, const std::vector<State
   return samples;
 }
 
-RunState state_of(const Problem& problem, const RunRequest& request, const RunResult& result) {
+std::string changed_load(const Problem& problem, const RunState& state) {
+  const std::vector<double> now = load_samples(problem, state.steps), &then = state.loads;
+  if (now.size() != then.size()) return "of its steps";
+  size_t at = 0;
+  for (size_t i_step = 0; i_step < problem.steps.size() && i_step < state.steps.size(); ++i_step)
+    for (const LoadPtr& load : problem.steps[i_step]->loads)
+      for (const auto& value : load->values) {
+        if (!value) continue;
+        double size = 0.0, difference = 0.0;
+        for (int i = 0; i <= n_load_samples; ++i, ++at) {
+          size = std::max(size, std::abs(then[at]));
+          difference = std::max(difference, std::abs(now[at] - then[at]));
+        }
+        if (!(difference <= 1e-6 * size)) return fmt::format("of step '{}'", problem.steps[i_step]->name);
+      }
+  return "";
+}
+
+RunState identity_of_run(const Problem& problem, const RunRequest& request) {
   RunState state;
-  if (!result.interface_fields) return state;
   const RunIdentity& identity = request.identity;
   std::error_code ignored;
   state.program = program_version();
@@ -71,11 +89,17 @@ RunState state_of(const Problem& problem, const RunRequest& request, const RunRe
   state.mesh_digests = identity.mesh_digests;
   for (size_t i = 0; i < problem.steps.size(); ++i) {
     const Step& step = *problem.steps[i];
-    const double worst = i < result.steps.size() ? result.steps[i].worst_indicator : 0.0;
-    state.steps.push_back(
-        {step.name, step.is_static, step.n_increments(), step.is_static ? 0.0 : step.duration, worst});
+    state.steps.push_back({step.name, step.is_static, step.n_increments(), step.is_static ? 0.0 : step.duration, 0.0});
   }
   state.loads = load_samples(problem, state.steps);
+  return state;
+}
+
+RunState state_of(const Problem& problem, const RunRequest& request, const RunResult& result) {
+  if (!result.interface_fields) return {};
+  RunState state = identity_of_run(problem, request);
+  for (size_t i = 0; i < state.steps.size() && i < result.steps.size(); ++i)
+    state.steps[i].worst_indicator = result.steps[i].worst_indicator;
   if (request.continues) state.efforts = request.continues->efforts;
   state.efforts.push_back({problem.solver.tolerance, problem.solver.static_tolerance, problem.solver.more_iterations,
                            result.iterations, result.seconds.at("all")});

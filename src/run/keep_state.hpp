@@ -12,6 +12,12 @@ const InterfaceFields* start_of(const RunRequest& request);
 // differ, so do files that the deck reads.
 std::vector<double> load_samples(const Problem& problem, const std::vector<StateStep>& steps);
 
+// "of step 'shock'", whose loads are not those of the state; empty: all are. Each load is compared with itself.
+std::string changed_load(const Problem& problem, const RunState& state);
+
+// What tells the run from others: deck, settings, meshes, loads, steps; nothing of what it comes to.
+RunState identity_of_run(const Problem& problem, const RunRequest& request);
+
 // The state that a run ends with; no fields where the solver keeps none.
 RunState state_of(const Problem& problem, const RunRequest& request, const RunResult& result);
 

@@ -17,6 +17,14 @@ std::string part_line(const Substructure& part) {
       part.material.density * volume(*part.mesh), size[0], size[1], size[2]);
 }
 
+std::string list_pieces(const Problem& problem, const std::vector<int>& pieces) {
+  std::string list;
+  for (size_t i = 0; i < pieces.size(); ++i)
+    if (pieces[i] > 1)
+      list += fmt::format("{}'{}' {}", list.empty() ? "" : ", ", problem.substructures[i]->name, pieces[i]);
+  return list;
+}
+
 std::string mass_line(const Problem& problem) {
   double mass = 0.0;
   for (const SubstructurePtr& part : problem.substructures) mass += part->material.density * volume(*part->mesh);

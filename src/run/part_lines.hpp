@@ -10,6 +10,8 @@ namespace dygita {
 
 // "  substructure 'rod': 120 nodes, 80 cells, steel, 0.0123 kg, 8 x 8 x 60 mm\n".
 std::string part_line(const Substructure& part);
+// "'flange' 4, 'plate' 16": the substructures that are cut; pieces: of each.
+std::string list_pieces(const Problem& problem, const std::vector<int>& pieces);
 // "  1.23 kg in all\n".
 std::string mass_line(const Problem& problem);
 

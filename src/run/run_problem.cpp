@@ -19,6 +19,7 @@
 #include "result/lumped_inertia.hpp"
 #include "result/penetration_watch.hpp"
 #include "result/scene_recorder.hpp"
+#include "run/checkpoints.hpp"
 #include "run/keep_state.hpp"
 #include "run/part_lines.hpp"
 #include "run/passes.hpp"
@@ -29,15 +30,6 @@
 namespace dygita {
 
 namespace {
-
-// "'flange' 4, 'plate' 16": the substructures that were cut.
-std::string list_pieces(const Problem& problem, const std::vector<int>& pieces) {
-  std::string list;
-  for (size_t i = 0; i < pieces.size(); ++i)
-    if (pieces[i] > 1)
-      list += fmt::format("{}'{}' {}", list.empty() ? "" : ", ", problem.substructures[i]->name, pieces[i]);
-  return list;
-}
 
 std::string list_names(const std::vector<std::string>& names) {
   std::string list;
@@ -58,6 +50,7 @@ void summarise(const Problem& problem, const SolverFigures& figures, RunResult& 
   }
   result.mean_iterations = increments ? static_cast<double>(result.iterations) / increments : 0.0;
   result.interrupted = figures.interrupted;
+  result.stopped_by = figures.stopped_by;
   result.n_dofs = figures.n_dofs;
   result.n_interface_unknowns = figures.n_interface_unknowns;
   result.seconds = figures.seconds;
@@ -108,7 +101,7 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
 
 // Solves all steps once; tables and figures; scenes for the report where `keeps_scenes`.
 std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* start_from, const FrameSink& sink,
-                                 bool keeps_scenes) {
+                                 bool keeps_scenes, Trail* trail) {
   Collector collector(problem, sink);
   SceneRecorder scenes(problem);
   PenetrationWatch watch(problem);
@@ -117,7 +110,7 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* 
   auto result = std::make_shared<RunResult>();
   const SolverFigures figures = problem.explicit_dynamics ? solve_explicit(problem, observers)
                                 : problem.monolithic      ? solve_monolithic(problem, observers)
-                                                          : solve(problem, observers, start_from);
+                                                          : solve(problem, observers, start_from, trail);
   result->interface_fields = figures.interface_fields;
   summarise(problem, figures, *result);
   collector.finish(*result);
@@ -155,6 +148,107 @@ class Unwritten {
   std::string error_;
 };
 
+// Where a run's files go, and what goes on with it should it be stopped.
+struct RunSite {
+  RunSite(const Problem& problem, const RunRequest& request)
+      : directory(request.replaces.empty() ? request.out / problem.name / request.case_name : request.replaces),
+        lock(request.lock || !request.write_files ? request.lock : std::make_shared<RunLock>(directory)) {
+    if (!request.replaces.empty() && !request.is_in_place) replacement.emplace(request.replaces);
+    work = replacement ? replacement->work() : directory;
+  }
+
+  std::filesystem::path directory, work;
+  std::shared_ptr<RunLock> lock;
+  std::optional<Replacement> replacement;
+  std::shared_ptr<CheckpointFile> checkpoint;
+  std::unique_ptr<RunWriter> writer;  // null: nothing is written
+  Unwritten unwritten;
+  bool is_kept = true;  // false: what is in the folder reaches further
+};
+
+// A new writer takes away the frames of the pass before; the first of several is never the last.
+void open_files(const Problem& declared, const RunRequest& request, bool is_first_pass, RunSite& site) {
+  site.writer.reset();
+  if (!request.write_files) return;
+  if (is_first_pass && !request.checkpoint && !site.replacement) remove_checkpoint(site.work);
+  site.writer = std::make_unique<RunWriter>(site.work, declared.name);
+  if (is_first_pass) site.checkpoint = checkpoint_of(declared, request, site.work);
+}
+
+// All passes over the steps; what is written meanwhile are frames.
+std::shared_ptr<RunResult> compute(const Problem& declared, const RunRequest& request, Problem& problem,
+                                   RunSite& site) {
+  FrameSink sink;
+  if (request.write_files && request.write_frames)
+    sink = [&](const Frame& frame) { site.unwritten.attempt_frame(*site.writer, frame); };
+  const std::vector<double> tolerances = pass_tolerances(declared);
+  std::shared_ptr<RunResult> result, before;
+  for (size_t pass = 0; pass < tolerances.size(); ++pass) {
+    problem.solver.tolerance = tolerances[pass];
+    open_files(declared, request, pass == 0, site);
+    result = sweep(problem, before ? before->interface_fields.get() : start_of(request),
+                   pass > 0 || tolerances.size() == 1 ? sink : nullptr, site.writer != nullptr, site.checkpoint.get());
+    if (before) add_pass(*before, *result);
+    if (result->interrupted || (before && have_settled(problem, *before, *result))) break;
+    before = result;
+  }
+  return result;
+}
+
+// State, tables, pictures, report and, last of all, the record.
+void write_results(const Problem& problem, const RunRequest& request, RunSite& site, RunResult& result) {
+  const RunState state =
+      (site.writer && request.write_state) || request.continues ? state_of(problem, request, result) : RunState{};
+  if (request.continues) {
+    long earlier = 0;
+    for (const Effort& effort : request.continues->efforts) earlier += effort.iterations;
+    result.figures.earlier_iterations = static_cast<double>(earlier);
+    site.is_kept = reaches_as_far(state, *request.continues);
+  } else if (site.replacement && site.checkpoint) {
+    site.is_kept = site.checkpoint->n_left() == 0;
+  }
+  const bool keeps_state = site.writer && request.write_state && site.is_kept;
+  if (keeps_state) site.unwritten.attempt([&] { keep_state(state, *site.writer, result); });
+  warn_of_run(problem, result, keeps_state ? site.directory : std::filesystem::path());
+  warn_of_stresses(problem, result);
+  const std::vector<std::string> warnings = take_warnings();
+  RunIdentity identity = request.identity;
+  identity.threads = omp_get_max_threads();
+  identity.case_name = request.case_name;
+  if (!site.writer) return;
+  site.unwritten.attempt([&] {
+    write_view(*site.writer, problem, site.directory);
+    write_run_files(*site.writer, problem, result, identity, warnings);
+  });
+}
+
+// The new results take their place; a run that has come to its end needs no checkpoint, another keeps its own.
+void settle(const RunRequest& request, const RunResult& result, RunSite& site) {
+  if (site.checkpoint && result.interrupted) site.checkpoint->sync();
+  site.unwritten.finish(site.directory, site.replacement.has_value());
+  if (site.replacement && site.is_kept) {
+    if (request.continues) remove_checkpoint(site.work);
+    if (request.checkpoint && result.interrupted) share_checkpoint(site.directory, site.work);
+    site.replacement->commit(checkpoint_file_name);
+  } else if (!site.replacement && site.checkpoint && !result.interrupted) {
+    remove_checkpoint(site.directory);
+  }
+}
+
+// What the user is to know of a run that did not come to its end. Throws the error that ended it.
+void tell_stop(const RunResult& result, const RunSite& site) {
+  const std::string folder = site.directory.string();
+  if (!site.is_kept) say(fmt::format("  stopped before it reached what '{}' holds already: that is as it was", folder));
+  if (result.stopped_by) {
+    withdraw_interrupt();
+    rethrow(result.stopped_by, !site.writer    ? ""
+                               : !site.is_kept ? "\n    the results in " + folder + " are as they were"
+                                               : "\n    what was computed before is in " + folder);
+  }
+  if (result.interrupted && site.checkpoint)
+    say(fmt::format("  stopped; this goes on with it:\n    dygita continue {}", shell_word(folder)));
+}
+
 }  // namespace
 
 std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunRequest& request) {
@@ -163,110 +257,17 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
   check_problem(declared);
   say(fmt::format("problem '{}', case '{}': {} substructures, {} interfaces, {} steps", declared.name,
                   request.case_name, declared.substructures.size(), declared.interfaces.size(), declared.steps.size()));
-  std::optional<Replacement> replacement;
-  if (!request.replaces.empty()) replacement.emplace(request.replaces);
-  const std::filesystem::path directory =
-      replacement ? request.replaces : request.out / declared.name / request.case_name;
-  std::unique_ptr<RunWriter> writer;
-  FrameSink sink;
-  Unwritten unwritten;
-  if (request.write_files && request.write_frames)
-    sink = [&](const Frame& frame) { unwritten.attempt_frame(*writer, frame); };
-  const std::vector<double> tolerances = pass_tolerances(declared);
+  RunSite site(declared, request);
   Problem problem = declared;  // with the tolerance of the pass
-  std::shared_ptr<RunResult> result, before;
-  for (size_t pass = 0; pass < tolerances.size(); ++pass) {
-    problem.solver.tolerance = tolerances[pass];
-    // A new writer takes away the frames of the pass before; the first of several is never the last.
-    writer.reset();
-    if (request.write_files)
-      writer = std::make_unique<RunWriter>(replacement ? replacement->work() : directory, problem.name);
-    result = sweep(problem, before ? before->interface_fields.get() : start_of(request),
-                   pass > 0 || tolerances.size() == 1 ? sink : nullptr, writer != nullptr);
-    if (before) add_pass(*before, *result);
-    if (result->interrupted || (before && have_settled(problem, *before, *result))) break;
-    before = result;
-  }
+  const std::shared_ptr<RunResult> result = compute(declared, request, problem, site);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result->seconds["all"] = seconds;
-  const RunState state =
-      (writer && request.write_state) || request.continues ? state_of(problem, request, *result) : RunState{};
-  if (request.continues) {
-    long earlier = 0;
-    for (const Effort& effort : request.continues->efforts) earlier += effort.iterations;
-    result->figures.earlier_iterations = static_cast<double>(earlier);
-  }
-  const bool is_kept = !request.continues || reaches_as_far(state, *request.continues);
-  if (writer && request.write_state && is_kept) unwritten.attempt([&] { keep_state(state, *writer, *result); });
-  warn_of_run(problem, *result, writer && request.write_state && is_kept ? directory : std::filesystem::path());
-  warn_of_stresses(problem, *result);
-  const std::vector<std::string> warnings = take_warnings();
-  RunIdentity identity = request.identity;
-  identity.threads = omp_get_max_threads();
-  identity.case_name = request.case_name;
-  if (writer)
-    unwritten.attempt([&] {
-      write_view(*writer, problem, directory);
-      write_run_files(*writer, problem, *result, identity, warnings);
-    });
-  unwritten.finish(directory, replacement.has_value());
-  if (replacement && is_kept) replacement->commit();
+  write_results(problem, request, site, *result);
+  settle(request, *result, site);
   if (request.continues) say(continuation_line(*request.continues, *result));
-  say_summary(problem, *result, writer && is_kept ? directory : std::filesystem::path(), seconds);
-  if (!is_kept)
-    say(fmt::format("  stopped before it reached what '{}' holds already: that is as it was", directory.string()));
+  say_summary(problem, *result, site.writer && site.is_kept ? site.directory : std::filesystem::path(), seconds);
+  tell_stop(*result, site);
   return result;
-}
-
-std::string check_report(const Problem& problem) {
-  check_problem(problem);
-  const std::vector<Surface> surfaces = make_surfaces(problem);
-  doubt_neighbours(problem, surfaces);
-  doubt_lumped_inertia(problem);
-  State state = initial_state(problem, surfaces);
-  long n_dofs = 0;
-  std::string text = fmt::format("problem '{}'\n", problem.name);
-  for (const SubstructurePtr& part : problem.substructures) {
-    check_mesh(*part->mesh, part->name);
-    n_dofs += 3L * part->mesh->n_nodes();
-    text += part_line(*part);
-  }
-  text += mass_line(problem);
-  for (const Surface& surface : surfaces) text += surface_line(surface);
-  long increments = 0;
-  double bytes = 0.0;
-  const bool is_latin = !problem.monolithic && !problem.explicit_dynamics;
-  const CutPtr cut = is_latin ? make_cut(problem, surfaces) : no_cut(problem);
-  if (const std::string pieces = list_pieces(problem, cut->counts()); !pieces.empty())
-    text += "  cut into pieces: " + pieces + "\n";
-  const std::vector<Body> bodies = make_bodies(problem, surfaces, *cut);
-  for (const StepPtr& step : problem.steps) {
-    if (problem.explicit_dynamics && !step->is_static) {
-      const ExplicitSize size = predict_explicit(problem, *step, surfaces, bodies, state);
-      text += fmt::format(
-          "  dynamic step '{}': {} increments of {:.4g} us in {} substeps each (critical time step {:.4g} us), {:.4g} "
-          "MB\n",
-          step->name, step->n_increments(), step->dt * 1e6, size.n_substeps, size.critical * 1e6, size.bytes / 1e6);
-      increments += step->n_increments();
-      bytes = std::max(bytes, size.bytes);
-      continue;
-    }
-    const StepSize size = predict_step(problem, *step, surfaces, bodies, state, cut);
-    text += fmt::format("  {} step '{}': {} increments{}, {} interface unknowns, {:.4g} MB\n",
-                        step->is_static ? "static" : "dynamic", step->name, step->n_increments(),
-                        step->is_static ? "" : fmt::format(" of {:.4g} us", step->dt * 1e6), size.n_unknowns,
-                        size.bytes / 1e6);
-    if (const std::string how = describe(size.integration, problem, *step); !how.empty()) text += "    " + how + "\n";
-    increments += step->n_increments();
-    bytes = std::max(bytes, size.bytes);
-  }
-  double matrices = 0.0;
-  for (const Body& body : bodies) matrices += 12.0 * static_cast<double>(body.matrices->stiffness.nonZeros());
-  return text + fmt::format(
-                    "  {} degrees of freedom, {} increments in all, {:.4g} MB for factors and interface operators, "
-                    "{:.4g} MB for "
-                    "matrices; nothing was solved\n",
-                    n_dofs, increments, bytes / 1e6, matrices / 1e6);
 }
 
 }  // namespace dygita

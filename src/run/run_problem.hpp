@@ -6,7 +6,9 @@
 #include <string>
 
 #include "model/model.hpp"
+#include "output/run_lock.hpp"
 #include "output/run_writer.hpp"
+#include "result/checkpoint_file.hpp"
 #include "result/result.hpp"
 #include "result/state_file.hpp"
 
@@ -25,6 +27,12 @@ struct RunRequest {
   // results are complete, or at least reach as far as the old ones did.
   std::shared_ptr<const RunState> continues;
   std::filesystem::path replaces;
+  // The same run goes on where it was stopped or killed: over what its checkpoint has, in the folder `replaces`; in
+  // place where no run has come to an end there.
+  std::shared_ptr<CheckpointFile> checkpoint;
+  bool is_in_place = false;
+  std::shared_ptr<RunLock> lock;    // held by who asks; null: the run takes its own
+  double checkpoint_every = 180.0;  // s; 0: none
   RunIdentity identity;
   std::shared_ptr<const RunResult> start_from;  // an earlier case: the iteration starts from its interface fields
 };

@@ -131,6 +131,13 @@ void CondensedPiece::backward(std::span<Piece* const> equal) {
   if (!vectors.empty()) together(vectors, [&](auto& x) { condensation_.factor->backward(x); });
 }
 
+void CondensedPiece::wake() {
+  if (is_moved_) return;
+  is_moved_ = true;
+  Piece* const self = this;
+  forward({&self, 1});
+}
+
 void CondensedPiece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) {
   const bool for_change = solves_for_change();
   const Traces& traces = op_.traces();
@@ -141,9 +148,7 @@ void CondensedPiece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec>
       for (int i = 0; i < n_rows(); ++i) velocity[i] = traces[i].of(work_.v_old);
       return;
     }
-    is_moved_ = true;
-    Piece* const self = this;
-    forward({&self, 1});
+    wake();
   }
   const int n_i = condensation_.factor->n_interior();
   thread_local Vec rhs;

@@ -36,6 +36,8 @@ class CondensedPiece final : public ImplicitPiece {
   const void* shared_key() const override { return condensation_.factor.get(); }
   void forward(std::span<Piece* const> equal) override;
   void backward(std::span<Piece* const> equal) override;
+  bool is_moved() const override { return is_moved_; }
+  void wake() override;
   void interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) override;
   PieceFigures figures() const override;
 

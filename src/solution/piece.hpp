@@ -105,6 +105,10 @@ class Piece {
   // Forward and backward solves of pieces with one key, this the first of them.
   virtual void forward(std::span<Piece* const> /*equal*/) {}
   virtual void backward(std::span<Piece* const> /*equal*/) {}
+  // Has the increment at hand been solved for, or does the piece rest, since nothing has changed by more than `quiet`?
+  // Wakes it, as interface data that ask for more than that would.
+  virtual bool is_moved() const { return true; }
+  virtual void wake() {}
   // Velocities at the rows for interface data q.
   virtual void interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) = 0;
   // After the backward solve, for the q last given: advances the state. interface_force: on held directions of moving

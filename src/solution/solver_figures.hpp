@@ -1,6 +1,7 @@
 // What a solver tells of a run.
 #pragma once
 
+#include <exception>
 #include <map>
 #include <memory>
 #include <optional>
@@ -45,7 +46,8 @@ struct OwnFigures {
 struct SolverFigures {
   std::vector<StepFigures> steps;
   std::shared_ptr<const InterfaceFields> interface_fields;  // null: the solver keeps none
-  bool interrupted = false;
+  bool interrupted = false;                                 // by the user, or by
+  std::exception_ptr stopped_by;                            // an error; null: none
   std::vector<int> pieces;  // into which each substructure was cut; empty: the solver cuts none
   long n_dofs = 0, n_interface_unknowns = 0;
   long n_solved = 0, n_spared = 0;        // substitutions, and those spared because nothing had changed

@@ -60,6 +60,35 @@ TEST_F(Mesher, reads_what_a_harmless_script_includes) {
 }
 
 // Each writes or runs something where gmsh may; the file `taken` must not come into being.
+TEST_F(Mesher, reads_nothing_but_its_own_folder_and_the_decks) {
+  const std::string secret = file("secret.geo", "Error(\"the secret is read\");\n" + cube);
+  fs::create_directories(at("apart"));
+  const std::string curious = file("apart/curious.geo", "Merge \"" + secret + "\";\n");
+  const std::string refused = complaint(curious);
+  EXPECT_NE(refused, "");
+  EXPECT_EQ(refused.find("the secret is read"), std::string::npos) << refused;
+  set_mesh_folder(at("").string());  // a deck beside it
+  EXPECT_NE(complaint(curious).find("the secret is read"), std::string::npos) << complaint(curious);
+  set_mesh_folder("");
+}
+
+TEST_F(Mesher, refuses_more_cells_than_any_machine_meshes_before_it_begins) {
+  const auto start = std::chrono::steady_clock::now();
+  GmshOptions options;
+  options.file = file("cube.geo", cube);
+  options.size = 1e-4;
+  std::string message;
+  try {
+    const GmshMeshes meshes(options);
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  EXPECT_NE(message.find("cells of 0.1 mm in a part 1.732 m across would be about 8e+12"), std::string::npos)
+      << message;
+  EXPECT_NE(message.find("was a unit forgotten or written twice"), std::string::npos) << message;
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+}
+
 TEST_F(Mesher, starts_no_program_and_writes_no_file) {
   const std::string taken = at("taken").string();
   const std::vector<std::pair<std::string, std::string>> attacks = {

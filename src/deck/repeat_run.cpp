@@ -1,0 +1,30 @@
+#include "deck/repeat_run.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include "base/log.hpp"
+#include "run/repetition.hpp"
+
+namespace dygita {
+
+DeckOutcome repeat_run(DeckOptions options, const std::filesystem::path& record) {
+  Repetition repetition(record);
+  if (options.path.empty()) options.path = repetition.deck();
+  options.settings = repetition.settings();
+  options.solver = repetition.solver();
+  std::error_code ignored;
+  if (!std::filesystem::exists(options.path, ignored))
+    throw InputError(
+        fmt::format("the deck of the record, '{}', is not there\n    dygita run DECK --repeat {} says where it is, or "
+                    "start from the "
+                    "folder of that run",
+                    options.path.string(), record.string()));
+  DeckOutcome outcome = run_deck(
+      options, {[&](const Problem& problem, const RunRequest& request) { return repetition.run(problem, request); },
+                check_report});
+  if (!repetition.is_done() && !outcome.interrupted)
+    throw InputError(fmt::format("the deck does not run {} any more", repetition.label()));
+  return outcome;
+}
+
+}  // namespace dygita

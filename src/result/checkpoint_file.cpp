@@ -1,0 +1,233 @@
+#include "result/checkpoint_file.hpp"
+
+#include <spdlog/fmt/fmt.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "base/error.hpp"
+#include "base/fnv1a.hpp"
+#include "base/log.hpp"
+#include "result/state_coder.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr char magic[] = "DYGITACP";  // 8 bytes
+constexpr std::uint32_t format_version = 1, byte_order = 0x01020304;
+constexpr size_t buffer_bytes = size_t{1} << 20;
+constexpr std::uint64_t largest_record = std::uint64_t{1} << 40;
+
+std::uint64_t checksum(std::uint64_t before, const std::string& bytes) {
+  Checksum sum;
+  sum.add(&before, sizeof before);
+  sum.add(bytes.data(), bytes.size());
+  return sum.value();
+}
+
+template <class Coder>
+void code_vector(Coder& code, Vec& vector) {
+  std::uint64_t n = static_cast<std::uint64_t>(vector.size());
+  code(n);
+  if constexpr (std::is_same_v<Coder, Decoder>) {
+    if (n > code.room_for(8)) throw InputError("an entry is truncated");
+    vector.resize(static_cast<Eigen::Index>(n));
+  }
+  for (Eigen::Index i = 0; i < vector.size(); ++i) code(vector[i]);
+}
+
+template <class Coder>
+void code_missed(Coder& code, Missed& missed) {
+  code_number(code, missed.increment), code_number(code, missed.iterations);
+  code(missed.indicator), code(missed.tolerance), code_number(code, missed.is_falling);
+  bool has_halving = missed.halving.has_value();
+  double halving = missed.halving.value_or(0.0);
+  code_number(code, has_halving), code(halving);
+  if (has_halving) missed.halving = halving;
+}
+
+template <class Coder>
+void code_entry(Coder& code, TrailEntry& entry) {
+  code_vector(code, entry.q), code_vector(code, entry.uncorrected), code_vector(code, entry.shortening);
+  std::string moved(entry.moved.begin(), entry.moved.end());
+  code(moved);
+  entry.moved.assign(moved.begin(), moved.end());
+  code(entry.eta), code(entry.size), code(entry.force_size);
+  code_number(code, entry.iterations), code_number(code, entry.is_solved);
+  bool is_missed = entry.missed.has_value();
+  code_number(code, is_missed);
+  if (!is_missed) return;
+  if (!entry.missed) entry.missed.emplace();
+  code_missed(code, *entry.missed);
+}
+
+template <class Coder>
+void code_identity(Coder& code, CheckpointIdentity& identity, std::string& state) {
+  code(state), code(identity.kernels), code(identity.purpose), code_number(code, identity.has_start);
+}
+
+bool put(std::FILE* file, const void* data, size_t bytes) { return std::fwrite(data, 1, bytes, file) == bytes; }
+
+bool put_record(std::FILE* file, const std::string& payload, std::uint64_t sum) {
+  const std::uint64_t length = payload.size();
+  return put(file, &length, 8) && put(file, payload.data(), payload.size()) && put(file, &sum, 8);
+}
+
+}  // namespace
+
+CheckpointFile::CheckpointFile(std::filesystem::path path, const CheckpointIdentity& identity, double every)
+    : path_(std::move(path)),
+      buffer_(new char[buffer_bytes]),
+      identity_(identity),
+      every_(every),
+      flushed_(Clock::now()),
+      synced_(flushed_),
+      is_leaving_(true) {
+  const std::string temporary = path_.string() + ".tmp";
+  errno = 0;
+  file_.reset(std::fopen(temporary.c_str(), "w+b"));
+  Encoder header;
+  std::string state = identity_bytes(identity.state);
+  code_identity(header, identity_, state);
+  sum_ = checksum(0, header.bytes);
+  if (file_) std::setvbuf(file_.get(), buffer_.get(), _IOFBF, buffer_bytes);
+  if (!file_ || !put(file_.get(), magic, 8) || !put(file_.get(), &format_version, 4) ||
+      !put(file_.get(), &byte_order, 4) || !put_record(file_.get(), header.bytes, sum_) ||
+      std::fflush(file_.get()) != 0 || std::rename(temporary.c_str(), path_.c_str()) != 0)
+    throw InputError(fmt::format("cannot write '{}': {}", path_.string(), std::strerror(errno)));
+}
+
+CheckpointFile::CheckpointFile(std::filesystem::path path, double every)
+    : path_(std::move(path)),
+      buffer_(new char[buffer_bytes]),
+      every_(every),
+      flushed_(Clock::now()),
+      synced_(flushed_) {
+  file_.reset(std::fopen(path_.c_str(), "r+b"));
+  if (!file_) throw InputError(fmt::format("cannot read '{}': {}", path_.string(), std::strerror(errno)));
+  std::setvbuf(file_.get(), buffer_.get(), _IOFBF, buffer_bytes);
+  try {
+    read_header();
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("'{}' cannot be used: {}\n    run the deck again", path_.string(), error.what()));
+  }
+  scan();
+}
+
+CheckpointFile::~CheckpointFile() {
+  if (is_leaving_ && !has_failed_) std::fflush(file_.get());
+}
+
+void CheckpointFile::read_header() {
+  char found[8];
+  std::uint32_t version = 0, order = 0;
+  const auto get = [&](void* data, size_t bytes) {
+    if (std::fread(data, 1, bytes, file_.get()) != bytes) throw InputError("it is truncated");
+  };
+  get(found, 8), get(&version, 4), get(&order, 4);
+  if (std::memcmp(found, magic, 8) != 0) throw InputError("it is not a checkpoint of dygita");
+  if (order != byte_order) throw InputError("it comes from a machine with another byte order");
+  if (version != format_version)
+    throw InputError(
+        fmt::format("it has version {} of the format, this program reads version {}", version, format_version));
+  std::string header, state;
+  std::uint64_t sum = 0;
+  if (!read_entry(header, sum)) throw InputError("its header is truncated or damaged");
+  sum_ = sum;
+  at_ = ftello(file_.get());
+  Decoder decoder(std::move(header));
+  code_identity(decoder, identity_, state);
+  identity_.state = state_of_identity(std::move(state));
+}
+
+// A record that is whole and follows what came before it.
+bool CheckpointFile::read_entry(std::string& payload, std::uint64_t& sum) {
+  std::uint64_t length = 0;
+  const std::int64_t begin = ftello(file_.get());
+  if (std::fread(&length, 8, 1, file_.get()) != 1 || length > largest_record) return false;
+  fseeko(file_.get(), 0, SEEK_END);
+  const auto rest = static_cast<std::uint64_t>(ftello(file_.get()) - begin - 8);
+  fseeko(file_.get(), begin + 8, SEEK_SET);
+  if (rest < length + 8) return false;
+  payload.resize(length);
+  return std::fread(payload.data(), 1, length, file_.get()) == length && std::fread(&sum, 8, 1, file_.get()) == 1 &&
+         sum == checksum(sum_, payload);
+}
+
+void CheckpointFile::scan() {
+  const std::int64_t begin = at_;
+  const std::uint64_t first = sum_;
+  std::string payload;
+  for (std::uint64_t sum = 0; read_entry(payload, sum); ++n_left_) sum_ = sum;
+  at_ = begin;
+  sum_ = first;
+}
+
+bool CheckpointFile::leads(long n) {
+  if (is_leaving_) return false;
+  if (n <= n_left_) return true;
+  n_left_ = 0;
+  is_leaving_ = true;
+  std::fflush(file_.get());
+  if (ftruncate(fileno(file_.get()), at_) != 0 || fseeko(file_.get(), at_, SEEK_SET) != 0) fail("cut");
+  return false;
+}
+
+TrailEntry CheckpointFile::take() {
+  TrailEntry entry;
+  std::string payload;
+  std::uint64_t sum = 0;
+  if (fseeko(file_.get(), at_, SEEK_SET) != 0 || !read_entry(payload, sum))
+    throw InputError(fmt::format("'{}' has changed while the run went over it", path_.string()));
+  sum_ = sum;
+  at_ = ftello(file_.get());
+  --n_left_;
+  Decoder decoder(std::move(payload));
+  code_entry(decoder, entry);
+  return entry;
+}
+
+void CheckpointFile::leave(const TrailEntry& entry) {
+  if (!is_leaving_) leads(1);
+  if (has_failed_) return;
+  Encoder encoder;
+  TrailEntry coded = entry;
+  code_entry(encoder, coded);
+  sum_ = checksum(sum_, encoder.bytes);
+  errno = 0;
+  if (!put_record(file_.get(), encoder.bytes, sum_)) return fail("written");
+  const auto now = Clock::now();
+  if (now - flushed_ >= std::chrono::seconds(1)) {
+    flushed_ = now;
+    if (std::fflush(file_.get()) != 0) return fail("written");
+  }
+  if (std::chrono::duration<double>(now - synced_).count() >= every_) sync();
+}
+
+void CheckpointFile::sync() {
+  if (has_failed_) return;
+  synced_ = flushed_ = Clock::now();
+  if (std::fflush(file_.get()) != 0 || fdatasync(fileno(file_.get())) != 0) fail("written");
+}
+
+// The results are not touched: the run goes on without.
+void CheckpointFile::fail(const char* what) {
+  const int reason = errno;
+  has_failed_ = true;
+  warn(fmt::format(
+      "the checkpoint '{}' cannot be {}: {}\n    the run goes on; if it is stopped, it continues from what was kept "
+      "until here",
+      path_.string(), what, std::strerror(reason)));
+}
+
+void CheckpointFile::note_difference() {
+  if (has_differed_) return;
+  has_differed_ = true;
+  warn(
+      "the increments that were computed before give other last digits now (another processor, another library or "
+      "version of the program): the results are as good, but not bit for bit those of a run that was never stopped");
+}
+
+}  // namespace dygita

@@ -1,0 +1,68 @@
+// The checkpoint of a run that has not come to its end: what `dygita continue` goes over again after the run was
+// stopped or killed (manual, "The checkpoint").
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "result/state_file.hpp"
+#include "solution/trail.hpp"
+
+namespace dygita {
+
+inline constexpr const char* checkpoint_file_name = "checkpoint.dygita";
+
+// Whose checkpoint it is.
+struct CheckpointIdentity {
+  RunState state;          // without fields
+  std::string kernels;     // "avx512", "avx2" or "generic"
+  std::string purpose;     // what a continued run was asked for; empty: a run of the deck
+  bool has_start = false;  // the iteration started from another case's fields
+};
+
+// Entries are appended, each with a checksum that goes on from the one before; what a crash has cut off is dropped when
+// the file is read. Entries reach the system within a second, and the disk every so often.
+class CheckpointFile final : public Trail {
+ public:
+  // Begins a new one in the place of whatever is there. every: s between two times that it is brought to the disk.
+  // Throws InputError with the system's reason.
+  CheckpointFile(std::filesystem::path path, const CheckpointIdentity& identity, double every);
+  // Goes on with one. Throws InputError: none, another version or machine, damaged before its first entry.
+  CheckpointFile(std::filesystem::path path, double every);
+  ~CheckpointFile() override;
+
+  const CheckpointIdentity& identity() const { return identity_; }
+  bool leads(long n) override;
+  long n_left() const override { return n_left_; }
+  TrailEntry take() override;
+  void leave(const TrailEntry& entry) override;
+  void note_difference() override;
+  // Brings everything to the disk.
+  void sync();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  void read_header();
+  void scan();
+  bool read_entry(std::string& payload, std::uint64_t& sum);
+  void fail(const char* what);
+
+  std::filesystem::path path_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::unique_ptr<char[]> buffer_;
+  CheckpointIdentity identity_;
+  long n_left_ = 0;        // entries to be taken
+  std::int64_t at_ = 0;    // where the next one is taken or left, bytes
+  std::uint64_t sum_ = 0;  // of the entry before it
+  double every_;
+  Clock::time_point flushed_, synced_;
+  bool is_leaving_ = false, has_failed_ = false, has_differed_ = false;
+};
+
+}  // namespace dygita

@@ -1,0 +1,67 @@
+// What a run would compute, without computing it.
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+#include "model/check.hpp"
+#include "reference/explicit.hpp"
+#include "result/lumped_inertia.hpp"
+#include "run/part_lines.hpp"
+#include "run/run_problem.hpp"
+#include "solution/step_model.hpp"
+#include "solution/unjoined.hpp"
+
+namespace dygita {
+
+std::string check_report(const Problem& problem) {
+  check_problem(problem);
+  const std::vector<Surface> surfaces = make_surfaces(problem);
+  doubt_neighbours(problem, surfaces);
+  doubt_lumped_inertia(problem);
+  State state = initial_state(problem, surfaces);
+  long n_dofs = 0;
+  std::string text = fmt::format("problem '{}'\n", problem.name);
+  for (const SubstructurePtr& part : problem.substructures) {
+    check_mesh(*part->mesh, part->name);
+    n_dofs += 3L * part->mesh->n_nodes();
+    text += part_line(*part);
+  }
+  text += mass_line(problem);
+  for (const Surface& surface : surfaces) text += surface_line(surface);
+  long increments = 0;
+  double bytes = 0.0;
+  const bool is_latin = !problem.monolithic && !problem.explicit_dynamics;
+  const CutPtr cut = is_latin ? make_cut(problem, surfaces) : no_cut(problem);
+  if (const std::string pieces = list_pieces(problem, cut->counts()); !pieces.empty())
+    text += "  cut into pieces: " + pieces + "\n";
+  const std::vector<Body> bodies = make_bodies(problem, surfaces, *cut);
+  for (const StepPtr& step : problem.steps) {
+    if (problem.explicit_dynamics && !step->is_static) {
+      const ExplicitSize size = predict_explicit(problem, *step, surfaces, bodies, state);
+      text += fmt::format(
+          "  dynamic step '{}': {} increments of {:.4g} us in {} substeps each (critical time step {:.4g} us), {:.4g} "
+          "MB\n",
+          step->name, step->n_increments(), step->dt * 1e6, size.n_substeps, size.critical * 1e6, size.bytes / 1e6);
+      increments += step->n_increments();
+      bytes = std::max(bytes, size.bytes);
+      continue;
+    }
+    const StepSize size = predict_step(problem, *step, surfaces, bodies, state, cut);
+    text += fmt::format("  {} step '{}': {} increments{}, {} interface unknowns, {:.4g} MB\n",
+                        step->is_static ? "static" : "dynamic", step->name, step->n_increments(),
+                        step->is_static ? "" : fmt::format(" of {:.4g} us", step->dt * 1e6), size.n_unknowns,
+                        size.bytes / 1e6);
+    if (const std::string how = describe(size.integration, problem, *step); !how.empty()) text += "    " + how + "\n";
+    increments += step->n_increments();
+    bytes = std::max(bytes, size.bytes);
+  }
+  double matrices = 0.0;
+  for (const Body& body : bodies) matrices += 12.0 * static_cast<double>(body.matrices->stiffness.nonZeros());
+  return text + fmt::format(
+                    "  {} degrees of freedom, {} increments in all, {:.4g} MB for factors and interface operators, "
+                    "{:.4g} MB for "
+                    "matrices; nothing was solved\n",
+                    n_dofs, increments, bytes / 1e6, matrices / 1e6);
+}
+
+}  // namespace dygita

@@ -1,0 +1,107 @@
+#include "run/checkpoints.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <new>
+
+#include "base/log.hpp"
+#include "run/keep_state.hpp"
+
+namespace dygita {
+
+namespace {
+
+// A run that continues another to a tolerance or in time is told apart from any that was asked for something else.
+std::string purpose_of(const Problem& problem, const RunRequest& request) {
+  if (!request.continues) return "";
+  const RunState& from = *request.continues;
+  long iterations = 0;
+  for (const Effort& effort : from.efforts) iterations += effort.iterations;
+  return fmt::format("tolerance {} {}, {} iterations, end {}, from {} increments of {} iterations in {} efforts",
+                     problem.solver.tolerance, problem.solver.static_tolerance, problem.solver.more_iterations,
+                     problem.steps.back()->duration, from.n_increments(), iterations, from.efforts.size());
+}
+
+CheckpointIdentity identity_of(const Problem& problem, const RunRequest& request) {
+  RunState state = identity_of_run(problem, request);
+  state.interrupted = true;
+  return {std::move(state), request.identity.kernels, purpose_of(problem, request),
+          request.start_from && request.start_from->converged && request.start_from->interface_fields};
+}
+
+// What an attempt at the same has left, that was killed.
+std::shared_ptr<CheckpointFile> left_in(const std::filesystem::path& path, const CheckpointIdentity& wanted,
+                                        double every) {
+  std::error_code ignored;
+  if (wanted.purpose.empty() || !std::filesystem::exists(path, ignored)) return nullptr;
+  try {
+    auto left = std::make_shared<CheckpointFile>(path, every);
+    const CheckpointIdentity& found = left->identity();
+    if (found.purpose == wanted.purpose && found.kernels == wanted.kernels &&
+        identity_bytes(found.state) == identity_bytes(wanted.state))
+      return left;
+  } catch (const InputError&) {  // a new one takes its place
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::shared_ptr<CheckpointFile> checkpoint_of(const Problem& problem, const RunRequest& request,
+                                              const std::filesystem::path& folder) {
+  if (request.checkpoint) return request.checkpoint;
+  const std::filesystem::path path = folder / checkpoint_file_name;
+  std::error_code ignored;
+  if (!request.write_files || !request.write_state || request.checkpoint_every <= 0.0) return nullptr;
+  const CheckpointIdentity identity = identity_of(problem, request);
+  if (auto left = left_in(path, identity, request.checkpoint_every)) {
+    say(fmt::format("  an earlier attempt was stopped: {} increments are known", left->n_left()));
+    return left;
+  }
+  try {
+    return std::make_shared<CheckpointFile>(path, identity, request.checkpoint_every);
+  } catch (const InputError& error) {
+    warn(fmt::format("{}\n    the run goes on, and cannot be continued if it is killed", error.what()));
+    return nullptr;
+  }
+}
+
+void remove_checkpoint(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  std::filesystem::remove(folder / checkpoint_file_name, ignored);
+}
+
+void share_checkpoint(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::error_code error;
+  std::filesystem::remove(to / checkpoint_file_name, error);
+  std::filesystem::create_hard_link(from / checkpoint_file_name, to / checkpoint_file_name, error);
+  if (error) std::filesystem::copy_file(from / checkpoint_file_name, to / checkpoint_file_name, error);
+  if (error) warn("the checkpoint cannot be kept: " + error.message());
+}
+
+std::string shell_word(const std::string& text) {
+  const bool is_plain = std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) || std::strchr("/._-+,=@%", c) != nullptr;
+  });
+  if (is_plain && !text.empty()) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+void rethrow(const std::exception_ptr& error, const std::string& line) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const InputError& input) {
+    throw InputError(input.what() + line);
+  } catch (const NumericalError& numerical) {
+    throw NumericalError(numerical.what() + line);
+  } catch (const std::bad_alloc&) {
+    throw NumericalError("not enough memory on this machine; dygita check tells what a problem needs" + line);
+  }
+}
+
+}  // namespace dygita

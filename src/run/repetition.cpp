@@ -1,0 +1,104 @@
+#include "run/repetition.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "base/fnv1a.hpp"
+#include "base/log.hpp"
+#include "output/run_folder.hpp"
+
+namespace dygita {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string digest_of_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  Fnv1a digest;
+  digest.add(text);
+  return digest.hexadecimal();
+}
+
+std::map<std::string, std::string> tables_in(const fs::path& folder) {
+  std::map<std::string, std::string> tables;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".csv") tables[entry.path().filename().string()] = digest_of_file(entry.path());
+  return tables;
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+}  // namespace
+
+Repetition::Repetition(const fs::path& record)
+    : folder_(fs::is_directory(record)       ? record
+              : record.parent_path().empty() ? "."
+                                             : record.parent_path()) {
+  if (!fs::is_directory(record) && !fs::exists(record))
+    throw InputError(fmt::format("--repeat {}: there is no such record", record.string()));
+  const RunFolder run(folder_, "");
+  const Json& json = run.record();
+  try {
+    problem_ = json.at("problem");
+    case_ = json.at("case");
+    deck_ = fs::path(json.at("deck").at("path").get<std::string>());
+    deck_digest_ = json.at("deck").at("digest");
+    kernels_ = json.at("kernels");
+    version_ = json.at("program").at("version");
+    solver_ = text(json.at("solver"), "command_line");
+    for (const auto& [name, value] : json.at("parameters").items())
+      settings_.emplace_back(name, fmt::format("{}", value.get<double>()));
+    for (const Json& part : json.at("substructures")) meshes_[part.at("name")] = part.at("digest");
+  } catch (const Json::exception&) {
+    throw InputError(fmt::format("--repeat {}: the record lacks what tells how the run was made", record.string()));
+  }
+  tables_ = tables_in(folder_);
+}
+
+std::string Repetition::label() const { return fmt::format("problem '{}', case '{}'", problem_, case_); }
+
+void Repetition::check_same(const RunRequest& request) const {
+  if (request.identity.deck_digest != deck_digest_)
+    throw InputError(fmt::format("deck '{}' has changed since the run of '{}': --repeat computes the same again",
+                                 request.identity.deck_path, folder_.string()));
+  for (const auto& [name, digest] : request.identity.mesh_digests)
+    if (const auto known = meshes_.find(name); known == meshes_.end() || known->second != digest)
+      throw InputError(
+          fmt::format("the mesh of substructure '{}' has changed since the run of '{}'", name, folder_.string()));
+  if (request.identity.kernels != kernels_ || program_version() != version_)
+    warn(fmt::format("the run was made by version {} with kernels for {}: the last digits may differ", version_,
+                     kernels_));
+}
+
+void Repetition::compare_tables(const fs::path& folder) const {
+  const std::map<std::string, std::string> now = tables_in(folder);
+  std::vector<std::string> other;
+  for (const auto& [name, digest] : tables_)
+    if (const auto found = now.find(name); found == now.end() || found->second != digest) other.push_back(name);
+  if (other.empty())
+    say(fmt::format("  repeated: deck, parameters and meshes are the same, and all {} tables, bit for bit",
+                    tables_.size()));
+  else
+    warn(fmt::format("deck, parameters and meshes are those of '{}', and these tables differ: {}", folder_.string(),
+                     list_of(other)));
+}
+
+std::shared_ptr<const RunResult> Repetition::run(const Problem& problem, const RunRequest& request) {
+  if (problem.name != problem_ || request.case_name != case_) return run_problem(problem, request);
+  check_same(request);
+  auto result = run_problem(problem, request);
+  is_done_ = true;
+  if (!result->interrupted) compare_tables(request.out / problem.name / request.case_name);
+  return result;
+}
+
+}  // namespace dygita

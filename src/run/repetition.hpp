@@ -1,0 +1,41 @@
+// A run once more as its record tells it (manual, "The same run again").
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "run/run_problem.hpp"
+
+namespace dygita {
+
+// Takes the place of run_problem while the deck of a record runs: compares deck and meshes with those of the record
+// before, and tables after.
+class Repetition {
+ public:
+  // record: a run.json, or the folder it lies in. Throws InputError: none, or damaged.
+  explicit Repetition(const std::filesystem::path& record);
+
+  const std::filesystem::path& deck() const { return deck_; }
+  const std::string& solver() const { return solver_; }  // --solver; empty: the deck's own
+  // The parameters of the record, as --set takes them.
+  const std::vector<std::pair<std::string, std::string>>& settings() const { return settings_; }
+
+  // Throws InputError: deck or meshes have changed; and what run_problem throws.
+  std::shared_ptr<const RunResult> run(const Problem& problem, const RunRequest& request);
+  bool is_done() const { return is_done_; }
+  // "problem 'crush', case 'base'".
+  std::string label() const;
+
+ private:
+  void check_same(const RunRequest& request) const;
+  void compare_tables(const std::filesystem::path& folder) const;
+
+  std::filesystem::path folder_, deck_;
+  std::string problem_, case_, deck_digest_, solver_, kernels_, version_;
+  std::vector<std::pair<std::string, std::string>> settings_;
+  std::map<std::string, std::string> meshes_, tables_;  // digests, by substructure and by file
+  bool is_done_ = false;
+};
+
+}  // namespace dygita

@@ -1,0 +1,215 @@
+"""What nights bring to a run, besides being killed: each fault stops it with a clear message, keeps what was computed
+and leaves no file that looks whole and is not.
+
+faults.py PROGRAM FOLDER_OF_THE_DECK
+"""
+
+import fcntl
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+PROGRAM, DECK = sys.argv[1], pathlib.Path(sys.argv[2]) / "stopped.lua"
+FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="dygita_faults_"))
+failures = []
+
+
+def dygita(*words, expected, says=""):
+    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=120, check=False)
+    output = done.stdout + done.stderr
+    if done.returncode != expected or says not in output:
+        failures.append(f"dygita {' '.join(map(str, words))}: exit {done.returncode}, expected {expected} and '{says}'\n{output}")
+    return output
+
+
+def check(condition, what):
+    if not condition:
+        failures.append(what)
+
+
+def deck_command(out, *more):
+    return ["run", DECK, "--quiet", "--threads", "1", "--out", out, *more]
+
+
+def frames_of(run):
+    return sum(1 for _ in run.rglob("*.vtu"))
+
+
+def stopped_run(name, number, *more):
+    """A run that is sent a signal after some of its frames; its folder."""
+    out = FOLDER / name
+    process = subprocess.Popen([PROGRAM, *map(str, deck_command(out, *more))], stdout=subprocess.PIPE, text=True,
+                               stderr=subprocess.STDOUT)
+    while process.poll() is None and frames_of(out) < 60:
+        time.sleep(0.002)
+    process.send_signal(number)
+    output = process.communicate()[0]
+    return out / "stopped" / "base", output
+
+
+def who_holds_the_folder():
+    run = FOLDER / "held" / "stopped" / "base"
+    run.parent.mkdir(parents=True)
+    lock = run.parent / ".base.lock"
+    with open(lock, "w") as held:
+        fcntl.flock(held, fcntl.LOCK_EX)
+        held.write(f"{os.getpid()} elsewhere 2026-01-31 23:59:59\n")
+        held.flush()
+        dygita(*deck_command(FOLDER / "held"), expected=2,
+               says=f"is being written by process {os.getpid()} on elsewhere, since 2026-01-31 23:59:59")
+        check(not run.exists(), "a run that was refused has made its folder")
+    dygita(*deck_command(FOLDER / "held"), expected=0)  # its holder has died
+    check(not lock.exists(), "the lock is left")
+    with open(lock, "w") as held:
+        fcntl.flock(held, fcntl.LOCK_EX)
+        dygita("continue", run, "--iterations", "1", expected=2, says="is being written by another process")
+    lock.unlink()
+
+
+def an_error_in_the_middle():
+    out = FOLDER / "broken"
+    output = dygita(*deck_command(out, "--set", "broken=1"), expected=2, says="no record at 20 us")
+    run = out / "stopped" / "base"
+    check(f"what was computed before is in {run}" in output, output)
+    record = json.loads((run / "run.json").read_text())
+    check(record["verdict"] == "interrupted" and "no record at 20 us" in record["stopped_by"], "the record hides the error")
+    rows = (run / "joint.csv").read_text().splitlines()
+    check(len(rows) == 24, f"{len(rows)} rows of a table whose run computed 4 + 19 increments")
+    check("Stopped by an error" in (run / "report.html").read_text(), "the report hides the error")
+
+
+def numbers_that_overflow():
+    """Named by where they arise; what was computed before is kept."""
+    deck = FOLDER / "overflow.lua"
+    deck.write_text("""
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local function block(name, z) return substructure{ name = name, material = steel,
+  mesh = mesh.box{ origin = { 0, 0, z }, size = { 10*mm, 10*mm, 10*mm }, cells = { 2, 2, 2 } } } end
+local low, high = block("low", 0), block("high", 10*mm)
+local seam = interface.contact{ name = "seam", between = { low:face "zmax", high:face "zmin" }, friction = 0.2 }
+problem{ name = "overflow", substructures = { low, high }, interfaces = { seam }, supports = { support.fixed{ name = "floor", on = low:face "zmin" } },
+  steps = { step.dynamic{ name = "push", duration = 20*us, dt = 1*us, loads = {
+    load.pressure{ on = high:face "zmax", history = function(t) return t > 4*us and 1e160 or 1e6 end } } } },
+  outputs = { output.energy{} } }:run{}
+""")
+    output = dygita("run", deck, "--quiet", "--out", FOLDER / "overflow", expected=3,
+                    says="the iteration has diverged at substructure 'high', interface 'seam'")
+    check("step 'push', increment 6 (t = 5e-06 s)" in output, output)
+    rows = (FOLDER / "overflow" / "overflow" / "base" / "energy.csv").read_text().splitlines()
+    check(len(rows) == 7 and not any("nan" in row or "inf" in row for row in rows), f"{len(rows)} rows before an overflow")
+
+
+def interrupted():
+    for number in (signal.SIGINT, signal.SIGTERM):
+        run, output = stopped_run(f"interrupted_{number}", number, "--set", "us=2000")
+        check(f"dygita continue {run}" in output, f"{number}: the command that goes on is not said\n{output}")
+        for name in ("run.json", "joint.csv", "checkpoint.dygita", "report.html"):
+            check((run / name).exists(), f"{number}: no {name}")
+
+
+def a_spoiled_checkpoint():
+    run, _ = stopped_run("spoiled", signal.SIGKILL, "--set", "us=2000")
+    checkpoint = run / "checkpoint.dygita"
+    whole = checkpoint.read_bytes()
+    before = sorted(p for p in run.rglob("*"))
+    for data, says in ((whole[:100], "its header is truncated or damaged"), (b"", "it is truncated"),
+                       (b"solid ascii" * 99, "it is not a checkpoint of dygita"),
+                       (whole[:40] + b"?" + whole[41:], "its header is truncated or damaged"),
+                       (whole[:8] + b"\x07" + whole[9:], "version 7 of the format")):
+        checkpoint.write_bytes(data)
+        dygita("continue", run, "--quiet", expected=2, says=says)
+    check(before == sorted(p for p in run.rglob("*")), "a checkpoint that was refused has cost other files")
+    checkpoint.write_bytes(whole)
+    dygita("continue", run, "--tolerance", "1e-9", expected=2, says="the run has not come to its end")
+
+
+def a_load_that_changed():
+    """Each load is compared with itself: a small one beside a large one."""
+    folder = FOLDER / "changed"
+    folder.mkdir()
+    (folder / "small.csv").write_text("time [s],force [N]\n0,0\n1e-6,1\n1e-4,1\n")
+    deck = folder / "changed.lua"
+    deck.write_text("""
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local b = substructure{ name = "b", material = steel, mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 2, 2, 2 } } }
+problem{ name = "changed", substructures = { b }, supports = { support.fixed{ name = "f", on = b:face "zmin" } },
+  steps = { step.dynamic{ name = "s", duration = 20*us, dt = 1*us, loads = {
+    load.pressure{ on = b:face "zmax", history = history.half_sine{ peak = 100*MPa, duration = 10*us } },
+    load.force{ on = b:face "xmax", x = history.file{ file = "small.csv" } } } } },
+  outputs = { output.energy{} } }:run{}
+""")
+    dygita("run", deck, "--quiet", "--out", folder / "out", expected=0)
+    (folder / "small.csv").write_text("time [s],force [N]\n0,0\n1e-6,10\n1e-4,10\n")
+    dygita("continue", folder / "out" / "changed" / "base", "--iterations", "1", "--quiet", expected=2,
+           says="the loads of step 's' have changed since the run")
+
+
+def a_state_without_a_record():
+    out = FOLDER / "no_record"
+    dygita(*deck_command(out, "--checkpoint-every", "0"), expected=0)
+    run = out / "stopped" / "base"
+    for name in ("run.json", "joint.csv", "report.html"):
+        (run / name).unlink()
+    dygita("continue", run, "--quiet", expected=0, says="results in")
+    for name in ("run.json", "joint.csv", "report.html"):
+        check((run / name).exists(), f"continued without {name}")
+
+
+def a_folder_that_is_removed():
+    out = FOLDER / "removed"
+    process = subprocess.Popen([PROGRAM, *map(str, deck_command(out, "--set", "us=2000"))], stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, text=True)
+    while process.poll() is None and frames_of(out) < 60:
+        time.sleep(0.002)
+    out.rename(FOLDER / "elsewhere")
+    output = process.communicate()[0]
+    check(process.returncode == 2, f"a run whose folder was moved away: exit {process.returncode}\n{output}")
+    check("was removed or emptied while the run wrote there" in output, output)
+    check(not (out / "stopped" / "base" / "run.json").exists(), "a folder without its first frames has a record")
+
+
+def decks_that_take_long():
+    folder = FOLDER / "decks"
+    folder.mkdir()
+    for name, text, expected, says in (
+            ("number", "print(string.find(1234567890123456789, ('.-'):rep(30) .. 'x'))", 2, "too many repetitions"),
+            ("number_as_pattern", "print(('12'):rep(9):find(12))", 0, "1\t2"),
+            ("searches", "local s = ('a'):rep(30000) for i = 1, 1e6 do s:find('a-b') end", 2, "and was stopped"),
+            ("long_name", "material.elastic{ [('a'):rep(20000000)] = 1 }", 2, "known: damping"),
+            ("escapes", "print('a\\27[2J\\7\\194\\155b\\tc')", 0, "a\\x1b[2J\\x07\\xc2\\x9bb\tc"),
+            ("escapes_in_an_error", "error('a\\27[2Jb')", 2, "a\\x1b[2Jb")):
+        (folder / f"{name}.lua").write_text(text)
+        start = time.monotonic()
+        output = dygita("run", folder / f"{name}.lua", "--time-limit", "1", expected=expected, says=says)
+        check(len(output) < 100000, f"{name}: a message of {len(output)} characters")
+        check(time.monotonic() - start < 20.0, f"{name}: took {time.monotonic() - start:.1f} s")
+
+
+def a_time_limit_of_the_clock():
+    """A deck that gets little of the processor ends too: it is stopped, and goes on after its limit has passed."""
+    deck = FOLDER / "endless.lua"
+    deck.write_text("while true do end")
+    process = subprocess.Popen([PROGRAM, "run", str(deck), "--time-limit", "3"], stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, text=True)
+    time.sleep(0.3)
+    process.send_signal(signal.SIGSTOP)
+    time.sleep(3.0)
+    process.send_signal(signal.SIGCONT)
+    start = time.monotonic()
+    output = process.communicate(timeout=60)[0]
+    check(process.returncode == 2 and "has computed for 3 s" in output, output)
+    check(time.monotonic() - start < 2.0, "the time limit does not count elapsed time")
+
+
+for fault in (who_holds_the_folder, an_error_in_the_middle, numbers_that_overflow, interrupted, a_spoiled_checkpoint, a_load_that_changed,
+              a_state_without_a_record, a_folder_that_is_removed, decks_that_take_long, a_time_limit_of_the_clock):
+    fault()
+shutil.rmtree(FOLDER)
+print("\n".join(failures) or "every fault was met")
+sys.exit(1 if failures else 0)

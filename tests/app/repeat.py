@@ -1,0 +1,48 @@
+"""dygita run --repeat: the same bits from the record alone, with another number of threads; and what it refuses.
+
+repeat.py PROGRAM FOLDER_OF_THE_DECK
+"""
+
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2]) / "stopped.lua"
+FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="dygita_repeat_"))
+failures = []
+
+
+def dygita(*words, expected, says=""):
+    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=120, check=False)
+    if done.returncode != expected or says not in done.stdout + done.stderr:
+        failures.append(f"dygita {' '.join(map(str, words))}: exit {done.returncode}, expected {expected} and '{says}'\n"
+                        f"{done.stdout}{done.stderr}")
+
+
+deck = FOLDER / "deck.lua"
+shutil.copy(SOURCE, deck)
+run = FOLDER / "first" / "stopped" / "base"
+dygita("run", deck, "--set", "us=40", "--solver", "latin{ tolerance = 1e-5 }", "--threads", 1, "--quiet", "--out", FOLDER / "first",
+       expected=0)
+for threads in (1, 2, 3):
+    dygita("run", "--repeat", run / "run.json", "--threads", threads, "--quiet", "--out", FOLDER / f"again_{threads}", expected=0,
+           says="deck, parameters and meshes are the same, and all 8 tables, bit for bit")
+table = run / "joint.csv"
+whole = table.read_text()
+table.write_text(whole.replace("1", "2", 1))
+dygita("run", "--repeat", run, "--quiet", "--out", FOLDER / "other", expected=0, says="these tables differ: joint.csv")
+dygita("run", expected=2, says="which deck?")
+dygita("run", "--repeat", FOLDER / "none.json", expected=2, says="there is no such record")
+dygita("run", "--repeat", run, "--set", "us=20", expected=2, says="--set")
+moved = FOLDER / "moved.lua"
+deck.rename(moved)
+dygita("run", "--repeat", run, expected=2, says="is not there")
+table.write_text(whole)
+dygita("run", moved, "--repeat", run, "--quiet", "--out", FOLDER / "moved", expected=0, says="repeated:")
+moved.write_text(moved.read_text() + "\n-- another\n")
+dygita("run", moved, "--repeat", run, "--quiet", "--out", FOLDER / "changed", expected=2, says="has changed since the run")
+shutil.rmtree(FOLDER)
+print("\n".join(failures) or "the same bits, and nothing else passes for them")
+sys.exit(1 if failures else 0)
