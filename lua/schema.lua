@@ -542,6 +542,9 @@ words[9] = {
       { "spectra", type = "number", range = { 1e-4, 20 }, default_doc = "one run at `tolerance`",
         doc = "dB: the run is computed in passes, from a tolerance of 1e-3 on ten times tighter each, until no output.srs moves by as much or "
           .. "`tolerance` is reached" },
+      { "static_steps", type = "choice", choices = { "automatic", "assembled", "iterated" }, default = "automatic",
+        doc = "assembled: all parts in one system, factorised anew as contact changes; a few tens of iterations however parts hang on each other. "
+          .. "iterated: part by part, as in dynamic steps. automatic: assembled where there are 10 parts or more, in steps of at most 5 increments" },
       { "plain", type = "boolean", default = false, doc = "iterates with full solves, to check the condensed ones" },
     },
   },

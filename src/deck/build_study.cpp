@@ -66,6 +66,10 @@ Content build_latin(const Declaration& d) {
                     settings->pieces));
   settings->spectra = a.number_or("spectra", settings->spectra);
   settings->history_memory = 1e6 * a.number("history_memory");
+  const std::string statics = a.text("static_steps");
+  settings->static_steps = statics == "assembled"  ? StaticSteps::assembled
+                           : statics == "iterated" ? StaticSteps::iterated
+                                                   : StaticSteps::automatic;
   settings->plain = a.boolean("plain");
   return std::shared_ptr<const LatinSettings>(settings);
 }

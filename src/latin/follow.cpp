@@ -58,6 +58,14 @@ StepRun::Best StepRun::follow() {
   return best;
 }
 
+// Few increments, and each the same again.
+StepRun::Best StepRun::follow_assembled(int increment, const Goal& goal) {
+  const TrailEntry entry = take_entry();
+  const Best best = answer(increment, goal, true);
+  if ((at_.q.array() != entry.q.array()).any()) files_.trail->note_difference();
+  return best;
+}
+
 void StepRun::leave_window(const std::vector<Vec>& q, int iterations, double eta, const std::optional<Missed>& missed) {
   for (const Vec& of_step : q) {
     TrailEntry entry;

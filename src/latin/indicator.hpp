@@ -21,7 +21,9 @@ class Indicator {
  public:
   // largest_motion: sum k L^2 of a static step over the size L of the assembly, what a velocity size can be in earnest;
   // 0: dynamic.
-  explicit Indicator(double largest_motion) : largest_motion_(largest_motion) {}
+  // force_share: of the forces' own agreement, in the indicator.
+  explicit Indicator(double largest_motion, double force_share = 1e-2)
+      : largest_motion_(largest_motion), force_share_(force_share) {}
   // energy: kinetic + strain + |work of loads| seen so far, J.
   void raise_floor(double energy, double dt) { floor_ = std::max(floor_, 1e-12 * energy / dt); }
   Outcome measure(const IndicatorSums& sums) const {
@@ -31,7 +33,7 @@ class Indicator {
     if (largest_motion_ > 0.0) {
       const double forces = std::max(
           {largest_force_, sums.force_size, 1e-16 * std::min(sums.velocity_size, largest_motion_), floor_, tiny});
-      eta = std::max(eta, 1e-2 * std::sqrt(sums.force_distance / forces));
+      eta = std::max(eta, force_share_ * std::sqrt(sums.force_distance / forces));
     }
     return {eta, size, sums.force_size};
   }
@@ -43,7 +45,7 @@ class Indicator {
   }
 
  private:
-  double largest_motion_;
+  double largest_motion_, force_share_;
   double largest_ = 0.0, largest_force_ = 0.0, floor_ = 0.0;
 };
 

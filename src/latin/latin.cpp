@@ -13,6 +13,7 @@ namespace dygita {
 // Linear stage: velocities at the interfaces for data q, every piece by itself.
 void StepRun::linear_stage(const Vec& q, Vec& velocity) {
   const Stopwatch watch(books_.seconds.interface);
+  if (assembled_) return assembled_->linear_stage(q, velocity);
   for_each_piece([&](Piece& piece, int i) {
     piece.interface_velocity(q.segment(model_.offset[i], piece.n_rows()),
                              velocity.segment(model_.offset[i], piece.n_rows()));
@@ -35,6 +36,7 @@ void StepRun::coarse_correction(Vec& q, Vec& velocity) {
 
 // Both stages in turn, until the goal is reached.
 void StepRun::iterate(int increment, const Goal& goal, Best& best) {
+  if (assembled_) return iterate_assembled(increment, goal, best);
   anderson_.begin();
   at_.uncorrected.resize(0);
   best.outcome = {};
@@ -61,6 +63,40 @@ void StepRun::iterate(int increment, const Goal& goal, Best& best) {
   }
 }
 
+// The same where all pieces are in one system: V and F are in balance after every iteration but the first.
+void StepRun::iterate_assembled(int increment, const Goal& goal, Best& best) {
+  best.outcome = {};
+  if (at_.velocity.size() != at_.q.size()) at_.velocity = Vec::Zero(at_.q.size());
+  assembled_->begin();
+  bool is_balanced = is_answered_;  // V is the answer to q
+  is_answered_ = false;
+  if (at_.q.size() == 0) {
+    assembled_->linear_stage(at_.q, at_.velocity);
+    is_balanced = true;
+  }
+  Persistence persistence(goal.limit);
+  for (int i = 0;; ++i) {
+    at_.sums = local_stage(at_.velocity, at_.q, at_.image);
+    Outcome outcome = indicator_.measure(at_.sums);
+    ++best.iterations;
+    check_finite(outcome, increment);
+    outcome.eta = std::max(outcome.eta, is_balanced ? assembled_->imbalance() : 1.0);
+    is_balanced = true;
+    if (outcome.eta < best.outcome.eta) {
+      best.outcome = outcome;
+      best.q = at_.q;
+    }
+    const bool is_lost =
+        goal.furthest > 0.0 && at_.velocity.size() > 0 && !(at_.velocity.cwiseAbs().maxCoeff() <= goal.furthest);
+    if (outcome.eta <= goal.tolerance || is_lost || persistence.ends(i + 1, best.outcome.eta)) {
+      best.missed = persistence.missed(increment, settings_.tolerance);
+      return;
+    }
+    const Stopwatch watch(books_.seconds.interface);
+    assembled_->advance(outcome, at_.velocity, at_.q);
+  }
+}
+
 // Right-hand sides of an increment, and all that it changes on the interfaces before any iteration.
 void StepRun::begin_increment(int increment, bool starts_window) {
   const Stopwatch watch(books_.seconds.forward);
@@ -77,6 +113,7 @@ void StepRun::begin_increment(int increment, bool starts_window) {
 // Interiors of an increment for data q.
 void StepRun::finish_increment(const Vec& q) {
   const Stopwatch watch(books_.seconds.backward);
+  if (assembled_) assembled_->finish(at_.velocity, q);
   for_each_group([&](const std::vector<Piece*>& group, const std::vector<int>& members) {
     group.front()->backward(group);
     for (const int i : members) {
@@ -89,7 +126,7 @@ void StepRun::finish_increment(const Vec& q) {
 }
 
 // Iterates, and leaves pieces and laws with the answer: the last one, or the best where none is good enough.
-StepRun::Best StepRun::answer(int increment, const Goal& goal) {
+StepRun::Best StepRun::answer(int increment, const Goal& goal, bool goes_over_again) {
   Best best{at_.q, {}};
   BoltStart bolts;
   if (local_.has_preloads()) bolts = {at_.q, local_.preload_figures().shortening};
@@ -107,15 +144,20 @@ StepRun::Best StepRun::answer(int increment, const Goal& goal) {
     at_.sums = local_stage(at_.velocity, at_.q, at_.image);
   }
   indicator_.accept(best.outcome);
-  if (files_.trail) leave(best, is_solved);
+  if (files_.trail && !goes_over_again) leave(best, is_solved);
   return best;
 }
 
 // One time step: forward once, iterate on the interfaces alone, backward once.
 void StepRun::solve_increment(int increment) {
   begin_increment(increment, true);
-  const Goal goal = goal_of(predict(increment, at_.q));
-  const Best best = leads(1) ? follow() : answer(increment, goal);
+  const bool has_start = (!assembled_ || files_.start_from) && predict(increment, at_.q);
+  if (assembled_ && has_start) {
+    linear_stage(at_.q, at_.velocity);
+    is_answered_ = true;
+  }
+  const Goal goal = goal_of(has_start);
+  const Best best = !leads(1) ? answer(increment, goal) : assembled_ ? follow_assembled(increment, goal) : follow();
   finish_increment(at_.q);
   if (best.outcome.eta > settings_.tolerance) note_missed(best.missed);
   accept_increment(increment, best.iterations, best.outcome.eta);

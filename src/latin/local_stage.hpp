@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solution/preload.hpp"
+#include "solution/tangents.hpp"
 
 namespace dygita {
 
@@ -49,6 +50,13 @@ class LocalStage {
   PreloadFigures preload_figures() const;  // of the last `run`
   // Force of the laws on held directions of a piece's nodes (3 x n_nodes, N).
   Points held_force(int piece) const;
+  // Normal trials (m/s) of the last `run`, one a point; and those that limit tangential forces from now on, empty: each
+  // point's own.
+  std::vector<double> normal_trials() const;
+  void limit_friction(std::vector<double> trials) { limits_ = std::move(trials); }
+  // How the forces of the last `run` answer to the velocities (manual, eq. U1-U3). sticks: what touches does not slide,
+  // as where nothing is known yet. least: velocity (m/s; static m) below which differences tell nothing.
+  Tangents tangents(bool sticks, double least, const TangentBounds& bounds) const;
 
  private:
   struct PortState {
@@ -56,6 +64,12 @@ class LocalStage {
     Vec3 w_old = Vec3::Zero(), w = Vec3::Zero();   // W_hat at the start and now, m/s
     Vec3 f_old = Vec3::Zero(), f = Vec3::Zero();   // F_hat of the last increment and now, N
     Vec3 residual = Vec3::Zero();                  // F - F_hat, N
+  };
+  // An unknown of a point: its share of the mean velocity of its side (0 where that is held), the side's sign in the
+  // jump.
+  struct PortRow {
+    int unknown, direction;
+    double share, sign;
   };
   struct Side {
     Vec3 r = Vec3::Zero(), inverse_k = Vec3::Zero();
@@ -69,6 +83,11 @@ class LocalStage {
   // Finds the shortening of a preloaded interface for the fields at hand, or takes the one prescribed.
   void shorten(int i_preload, const Vec& velocity, const Vec& q);
   IndicatorSums run_point(size_t i_point, const Vec& velocity, const Vec& q, Vec& image);
+  Vec3 law_force(size_t i_point, const Trial& trial) const;
+  std::vector<PortRow> port_rows(const Point& point) const;
+  PointTangent point_tangent(const Point& point, const Mat3& of_law, double tie) const;
+  PreloadTangent preload_tangent(const Preload& preload, const std::vector<Mat3>& of_law) const;
+  Mat3 law_tangent(size_t i_point, bool sticks, double least, const TangentBounds& bounds) const;
   Vec3 mean_displacement(int first, int end) const;
   double work_on_pieces(const Point& point) const;
   void show_residuals(State& state) const;
@@ -85,7 +104,8 @@ class LocalStage {
   std::vector<PortState> ports_;
   std::vector<PointRecord> points_;
   std::vector<Preload> preloads_;
-  Vec prescribed_;  // shortenings of the preloads; empty: found
+  std::vector<double> limits_;  // normal trials that limit tangential forces; empty: each point's own
+  Vec prescribed_;              // shortenings of the preloads; empty: found
   Increment increment_;
   int i_increment_ = 0;
   double gap_difference_ = 0.0;

@@ -64,7 +64,10 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
       }
       if (model.scheme.is_static) {
         // A body that only this unknown could hold has no stiffness of its own there.
-        direction = has_schur ? std::max(schur, 1e-3 * row.reference_stiffness) : row.static_stiffness;
+        const double modulus = d == 0 ? material.young : material.shear_modulus();
+        direction = has_schur            ? std::max(schur, 1e-3 * row.reference_stiffness)
+                    : model.is_assembled ? 0.3 * modulus * std::sqrt(port.area)  // of cells under the point alone
+                                         : row.static_stiffness;
         continue;
       }
       const double mass = mass_at(model, port, areas);

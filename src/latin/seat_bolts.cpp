@@ -45,6 +45,7 @@ Vec StepRun::search_shortenings(int increment, double tolerance, double precisio
 
 void StepRun::seat_bolts(int increment, const BoltStart& start, Best& best) {
   at_.q = start.q;
+  if (assembled_) at_.velocity.setZero();
   const PreloadFigures figures = local_.preload_figures();
   Vec d = start.shortening;
   Best roughly;

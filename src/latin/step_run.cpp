@@ -23,7 +23,9 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
       warm_start_(files.start_from, settings.i_step, weight_),
       anderson_(settings.of_increment.depth, settings.of_increment.n_problems, settings.of_increment.relaxation,
                 weight_),
-      indicator_(model.scheme.is_static ? k.sum() * settings.assembly_size * settings.assembly_size : 0.0) {
+      indicator_(model.scheme.is_static ? k.sum() * settings.assembly_size * settings.assembly_size : 0.0,
+                 settings.is_assembled ? 1e-1 : 1e-2) {
+  if (settings.is_assembled) assembled_.emplace(model, local_, k, settings.assembly_size);
   books_.energy.resize(model.pieces.size());
   long n_explicit = 0;
   for (const auto& piece : model.pieces) {
@@ -183,6 +185,7 @@ void StepRun::add_to(SolverFigures& figures) const {
     figures.n_in_full += of_piece.is_mostly_interface;
     figures.n_equal += piece->shares_operator();
   }
+  if (assembled_) bytes += assembled_->bytes();
   figures.factor_bytes = std::max(figures.factor_bytes, bytes);
   figures.n_interface_unknowns = model_.n_q();
   figures.gap_difference = std::max({figures.gap_difference, local_.gap_difference(), direct_.gap_difference()});

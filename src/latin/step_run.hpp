@@ -12,6 +12,7 @@
 #include "latin/latin.hpp"
 #include "latin/local_stage.hpp"
 #include "latin/step_settings.hpp"
+#include "latin/tangent_iteration.hpp"
 #include "latin/warm_start.hpp"
 #include "solution/trail.hpp"
 
@@ -68,15 +69,18 @@ class StepRun {
   IndicatorSums local_stage(const Vec& velocity, const Vec& q, Vec& image);
   void coarse_correction(Vec& q, Vec& velocity);
   void iterate(int increment, const Goal& goal, Best& best);
+  // The same with all pieces in one system.
+  void iterate_assembled(int increment, const Goal& goal, Best& best);
   void begin_increment(int increment, bool starts_window);
   void finish_increment(const Vec& q);
   void solve_increment(int increment);
-  Best answer(int increment, const Goal& goal);
+  Best answer(int increment, const Goal& goal, bool goes_over_again = false);
 
   // The trail (follow.cpp): an increment gone over again, up to where its interiors are finished; what an increment
   // leaves for that.
   bool leads(long n) const { return files_.trail && files_.trail->leads(n); }
   Best follow();
+  Best follow_assembled(int increment, const Goal& goal);
   void leave(const Best& best, bool is_solved);
   void leave_window(const std::vector<Vec>& q, int iterations, double eta, const std::optional<Missed>& missed);
   void replay_window(int first, int last);
@@ -163,6 +167,8 @@ class StepRun {
   Vec weight_;  // 1/sqrt(k): of the components of q in norms
   CoarseCorrection coarse_;
   LocalStage local_;
+  std::optional<TangentIteration> assembled_;  // static steps with all pieces in one system
+  bool is_answered_ = false;                   // the velocities at hand are the linear stage's answer to q
   DirectPoints direct_;
   std::vector<ExplicitPiece*> explicit_;  // null: implicit
   int piece_threads_ = 0;                 // in loops over pieces; 1: they are too small to share

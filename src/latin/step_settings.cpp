@@ -34,14 +34,16 @@ StepSettings step_settings(const Problem& problem, const StepModel& model, bool 
   settings.i_step = index_of(problem.steps, model.step);
   settings.tolerance = is_static ? asked.static_tolerance : asked.tolerance;
   settings.limit = asked.max_iterations > 0 ? IterationLimit{asked.max_iterations, asked.max_iterations}
+                   : model.is_assembled     ? IterationLimit{100, 400}
                    : is_static              ? IterationLimit{400, 5000}
                                             : IterationLimit{200, 2000};
   settings.more_iterations = has_start ? asked.more_iterations : 0;
   settings.round_off = is_single(model) ? 1e-8 : 1e-13;
   settings.window = is_static || model.has_explicit() ? 1 : asked.window == 0 ? n : std::min(asked.window, n);
   settings.assembly_size = assembly_size(problem);
-  settings.has_correction =
-      model.n_q() > 0 && settings.window == 1 && asked.anderson != 0 && needs_coarse_correction(model);
+  settings.is_assembled = is_static && model.is_assembled;
+  settings.has_correction = model.n_q() > 0 && !settings.is_assembled && settings.window == 1 && asked.anderson != 0 &&
+                            needs_coarse_correction(model);
   const auto relaxation = [&](double usual) { return asked.relaxation > 0.0 ? asked.relaxation : usual; };
   const auto depth = [&](int usual) { return asked.anderson >= 0 ? asked.anderson : usual; };
   settings.of_increment = {depth(is_static ? 40 : 10), is_static ? 0 : 20, relaxation(is_static ? 0.8 : 0.95)};

@@ -16,6 +16,7 @@ struct StepSettings {
   int window = 1;               // time steps; 1 in a static step
   double assembly_size = 0.0;   // m
   bool has_correction = false;  // coarse
+  bool is_assembled = false;    // static, all pieces in one system
   struct Acceleration {
     int depth, n_problems;  // see Anderson
     double relaxation;

@@ -16,10 +16,10 @@ namespace dygita {
 
 struct MesherTask {
   std::variant<GmshOptions, StepOptions> options;
-  std::string path;                   // what gmsh opens: the file, or a script that includes it
-  double memory_limit = 0.0;          // bytes; 0: none
-  bool is_trusted = false;            // by the user: may do whatever the user may
-  std::vector<std::string> readable;  // folders and files that may be read besides the system's own
+  std::string path;                     // what gmsh opens: the file, or a script that includes it
+  double memory_limit = 0.0;            // bytes; 0: none
+  bool is_trusted = false;              // by the user: may do whatever the user may
+  std::vector<std::string> readable{};  // folders and files that may be read besides the system's own
 };
 
 // Names of a solid as the file has them.

@@ -97,6 +97,9 @@ struct MassSettings {
   bool is_moved_from_contact = false;  // nodes in contact have none
 };
 
+// How static steps are solved: all parts in one system, part by part, or whichever is likely to cost less.
+enum class StaticSteps { automatic, assembled, iterated };
+
 // solver.latin; negative or zero means "the default of the manual's table".
 struct LatinSettings {
   double tolerance = 1e-6;
@@ -117,6 +120,7 @@ struct LatinSettings {
   double spectra = 0.0;  // dB: passes at tighter tolerances until spectra move by less; 0: one run at `tolerance`
   int more_iterations =
       0;  // dygita continue: of an increment that has a start, at most, down to round-off; 0: as tolerance asks
+  StaticSteps static_steps = StaticSteps::automatic;
   bool plain = false;  // iterate with full solves instead of the condensed interface (the plain path)
 };
 

@@ -50,8 +50,10 @@ std::string cure_of_stall(const Problem& problem, const StepSummary& step, const
   const bool has_friction =
       std::any_of(problem.interfaces.begin(), problem.interfaces.end(),
                   [](const InterfacePtr& i) { return i->law->shown().gap && i->law->shown().slip; });
-  return text + fmt::format("take more increments{}",
-                            has_friction ? ", or see what friction alone has to hold (output.joint)" : "");
+  return text + fmt::format(
+                    "take more increments, or fix how they are solved (solver.latin{{ static_steps = "
+                    "\"assembled\" }} or \"iterated\"){}",
+                    has_friction ? ", or see what friction alone has to hold (output.joint)" : "");
 }
 
 void warn_of_missed(const Problem& problem, const RunResult& result, const std::filesystem::path& kept) {

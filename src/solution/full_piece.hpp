@@ -40,6 +40,8 @@ class AssembledPiece final : public ImplicitPiece {
   // Matrix and right-hand side of the increment on the free unknowns, and the velocities found.
   SparseMatrix matrix() const { return op_.matrix(Vec::Zero(n_rows())); }
   const Vec& right_hand_side() const { return work_.x; }
+  // Velocities at the rows that moving supports bring; null: none.
+  const Vec* moved_rows() const { return held_rows(); }
   void set_velocity(const Vec& free) { state_.v = free; }
 };
 

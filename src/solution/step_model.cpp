@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "law/law.hpp"
+#include "solution/assembled_system.hpp"
 #include "solution/make_pieces.hpp"
 #include "solution/rigid_motions.hpp"
 
@@ -148,12 +149,29 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
   return model;
 }
 
+// Assembled increments cost ten factors or more each, iterated steps dense operators at their start and next to nothing
+// an increment, unless many parts hang on each other by contact alone. Forces and ties of the former agree to twelve
+// digits at best.
+bool is_assembled(const Problem& problem, const Step& step) {
+  constexpr int few_increments = 5;
+  constexpr size_t many_parts = 10;
+  constexpr long most_unknowns_in_one = 600000;
+  const LatinSettings& asked = problem.solver;
+  if (!step.is_static || asked.plain) return false;
+  if (asked.static_steps != StaticSteps::automatic) return asked.static_steps == StaticSteps::assembled;
+  long n = 0;
+  for (const SubstructurePtr& part : problem.substructures) n += 3L * part->mesh->n_nodes();
+  return problem.substructures.size() >= many_parts && step.increments <= few_increments && n <= most_unknowns_in_one &&
+         asked.static_tolerance >= 1e-12;
+}
+
 }  // namespace
 
 StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                           const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
   StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true);
-  model.pieces = make_pieces(model, bodies);
+  model.is_assembled = is_assembled(problem, step);
+  model.pieces = model.is_assembled ? make_assembled_pieces(model, bodies) : make_pieces(model, bodies);
   model.equal = group_equal(model.pieces);
   return model;
 }
@@ -168,7 +186,11 @@ StepModel make_assembled_model(const Problem& problem, const Step& step, const s
 
 StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                       const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
-  const StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true);
+  StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true);
+  if (is_assembled(problem, step)) {
+    model.pieces = make_assembled_pieces(model, bodies);
+    return {AssembledSystem(model).bytes(), model.n_q(), model.integration};
+  }
   return {predicted_bytes(model, bodies), model.n_q(), model.integration};
 }
 

@@ -29,6 +29,7 @@ struct StepModel {
   std::vector<std::unique_ptr<Piece>> pieces;
   std::vector<std::vector<int>> equal;  // pieces that share a factor and are solved together, at most 16 in a group
   Integration integration;              // of the pieces
+  bool is_assembled = false;            // the pieces are not factorised one by one
   std::vector<int> offset;              // of each piece in the assembled q; the last entry is its length
 
   int n_q() const { return offset.back(); }
@@ -61,7 +62,7 @@ struct StepModel {
 };
 
 // Builds and factorises; pieces side by side on the threads at hand. bodies: of the pieces. Throws InputError,
-// NumericalError.
+// NumericalError. In static steps that the solver assembles the pieces are not factorised.
 StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                           const std::vector<Body>& bodies, const State& start, const CutPtr& cut);
 // Builds only, for a solver that factorises the substructures together: one piece each.

@@ -27,7 +27,7 @@ local set = step.static{ name = "set", loads = press }
 local hit = step.dynamic{ name = "hit", after = set, duration = 6*us, dt = 0.1*us,
   loads = { load.traction{ on = parts[2]:face "zmax", z = history.half_sine{ peak = -80*MPa, duration = 2*us }, x = 1*MPa } } }
 problem{ name = "posts", substructures = parts, interfaces = joints, supports = { base }, steps = { set, hit }, outputs = outputs,
-  solver = solver.latin{ tolerance = p.tolerance, static_tolerance = 1e-10, plain = p.plain == 1, precision = p.single == 1 and "single" or "double", history_memory = p.history } }:run{}
+  solver = solver.latin{ tolerance = p.tolerance, static_tolerance = 1e-10, plain = p.plain == 1, static_steps = "iterated", precision = p.single == 1 and "single" or "double", history_memory = p.history } }:run{}
 )";
 
 constexpr const char* n_shared = "substructures that share another's factor, over all steps";

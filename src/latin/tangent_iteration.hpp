@@ -1,0 +1,49 @@
+// Static steps with all pieces in one system: the linear stage takes the tangents of the laws as its search directions,
+// and so knows what holds a part on the other side of its interfaces. An increment is then a few tens of iterations at
+// most, however many parts hang on each other by contact alone (manual, eq. U1-U5).
+#pragma once
+
+#include "latin/indicator.hpp"
+#include "solution/assembled_system.hpp"
+
+namespace dygita {
+
+// Newton's method on the interfaces, damped, with the limits of friction a step behind: what is solved in between is
+// convex.
+class TangentIteration {
+ public:
+  // k: search directions, length n_q. The step's pieces are assembled ones. size: of the assembly, m.
+  TangentIteration(const StepModel& model, LocalStage& local, const Vec& k, double size);
+
+  // The usual linear stage: velocities for data q, F = q - k V.
+  void linear_stage(const Vec& q, Vec& velocity);
+  // Forgets the increment before.
+  void begin();
+  // One iteration: from fields to those closer to a solution, in balance on return; the local stage's last `run` was of
+  // these. outcome: their indicator.
+  void advance(const Outcome& outcome, Vec& velocity, Vec& q);
+  // What the last linear stage missed of the balance, of the largest force; below the indicator's tolerance it counts
+  // for nothing.
+  double imbalance() const { return system_.imbalance(); }
+  // Gives the pieces the velocities of fields in balance.
+  void finish(const Vec& velocity, const Vec& q);
+  double bytes() const { return system_.bytes(); }
+
+ private:
+  double distance(const Vec& velocity, const Vec& q);
+  double limit_friction(const Vec& velocity, const Vec& q);
+  int take_tangents(bool is_first);
+  double search(double before, const Vec& velocity, const Vec& q, const Vec& to_velocity, const Vec& to_q);
+  void choose_softest(double share, int n_changed, double eta);
+
+  LocalStage* local_;
+  AssembledSystem system_;
+  Vec k_, image_;
+  double least_;
+  int n_ = 0;
+  double softest_, factorised_softest_ = 0.0;
+  std::vector<double> limits_;  // normal trials that limit friction; empty: none yet
+  Tangents tangents_;           // of the factor
+};
+
+}  // namespace dygita

@@ -1,0 +1,36 @@
+// The local stage as the linear one sees it: how the forces of the laws answer to the velocities (manual, eq. U1-U3).
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "numerics/types.hpp"
+
+namespace dygita {
+
+// Between what slopes of a law are kept, in its search directions: ties are that much stiffer, open points that much
+// softer. Neither moves the solution, since a tangent only multiplies the distance of the two stages.
+struct TangentBounds {
+  double stiffest = 1e3, softest = 1e-3;
+};
+
+// Of one point of the exchange: F = F_hat - matrix (V - W_hat) on its unknowns in the assembled q, port by port (N s/m;
+// static N/m). Symmetric, positive semidefinite.
+struct PointTangent {
+  std::vector<int> unknowns;
+  Mat matrix;
+};
+
+// A preload's shortening gives way so that the sum of its normal forces stays: the tangents less
+// column column^T / stiffness.
+struct PreloadTangent {
+  std::vector<std::pair<int, double>> column;  // unknown in the assembled q, N s/m
+  double stiffness = 0.0;
+};
+
+struct Tangents {
+  std::vector<PointTangent> points;  // as in the exchange; of all of them
+  std::vector<PreloadTangent> preloads;
+};
+
+}  // namespace dygita

@@ -1,0 +1,79 @@
+// Static steps with all parts in one system, beside the same steps part by part.
+#include <gtest/gtest.h>
+
+#include "decks/engine.hpp"
+
+namespace dygita::test::assembled_tests {
+namespace {
+
+// Two clamps on one foot, meshes that do not match, friction: bolts tightened one after the other, then one head is
+// pushed aside.
+const std::string clamps = R"(
+local p = param{ assembled = 1, bolts = 2, push = 2*MPa, yield = 1*GPa }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local soft = material.elastic{ name = "soft", young = 70*GPa, poisson = 0.3, density = 2700 }
+local function part(name, metal, at, size, cells)
+  return substructure{ name = name, material = metal, mesh = mesh.box{ origin = at, size = size, cells = cells } }
+end
+local foot = part("foot", steel, { 0, 0, -2*mm }, { p.bolts * 10*mm, 4*mm, 2*mm }, { p.bolts * 5, 3, 2 })
+local parts, joints, shanks, heads = { foot }, {}, {}, {}
+local function join(i) joints[#joints + 1] = i return i end
+for i = 1, p.bolts do
+  local x = (i - 1) * 10*mm
+  local left = part("left" .. i, soft, { x, 0, 0 }, { 3*mm, 4*mm, 8*mm }, { 2, 2, 4 })
+  local right = part("right" .. i, soft, { x + 5*mm, 0, 0 }, { 3*mm, 4*mm, 8*mm }, { 2, 3, 4 })
+  local rod = part("rod" .. i, steel, { x + 3*mm, 1*mm, 0 }, { 2*mm, 2*mm, 8*mm }, { 2, 2, 4 })
+  local head = part("head" .. i, steel, { x, 0, 8*mm }, { 8*mm, 4*mm, 2*mm }, { 8, 4, 2 })
+  heads[i] = head
+  for _, one in ipairs{ left, right, rod, head } do parts[#parts + 1] = one end
+  for _, sleeve in ipairs{ left, right } do
+    join(interface.contact{ name = sleeve.name .. "_top", between = { sleeve:face "zmax", head:face "zmin" }, friction = 0.2 })
+    join(interface.contact{ name = sleeve.name .. "_foot", between = { sleeve:face "zmin", foot:face "zmax" }, friction = 0.2 })
+  end
+  join(interface.bonded{ name = "thread" .. i, between = { rod:face "zmin", foot:face "zmax" } })
+  shanks[i] = join(interface.plastic{ name = "shank" .. i, between = { rod:face "zmax", head:face "zmin" }, yield = p.yield, hardening = 50*MPa/mm })
+end
+local steps, outputs, last = {}, { output.energy{} }, nil
+for i = 1, p.bolts do
+  last = step.static{ name = "tighten " .. i, after = last, loads = { load.preload{ on = shanks[i], force = 400 } } }
+  steps[#steps + 1] = last
+end
+steps[#steps + 1] = step.static{ name = "push", after = last, increments = 3, loads = { load.traction{ on = heads[1]:face "xmax", x = -p.push } } }
+for _, joint in ipairs(joints) do outputs[#outputs + 1] = output.joint{ name = "at_" .. joint.name, on = joint } end
+outputs[#outputs + 1] = output.history{ name = "head", on = heads[1]:face "zmax", quantity = "displacement" }
+problem{ name = "clamps", substructures = parts, interfaces = joints, supports = { support.fixed{ name = "base", on = foot:face "zmin" } },
+  steps = steps, outputs = outputs,
+  solver = solver.latin{ static_tolerance = 1e-10, static_steps = p.assembled == 1 and "assembled" or "iterated" } }:run{}
+)";
+
+void expect_same(const DeckRun& one, const DeckRun& other, double near) {
+  EXPECT_TRUE(one.result->converged);
+  EXPECT_TRUE(other.result->converged);
+  for (const char* axis : {"x", "z"}) EXPECT_LT(difference(one.column("head", axis), other.column("head", axis)), near);
+  for (const char* joint : {"at_left1_top", "at_right1_foot", "at_shank1", "at_right2_top", "at_thread2"})
+    EXPECT_LT(difference(one.column(joint, "normal"), other.column(joint, "normal")), near) << joint;
+}
+
+TEST(AssembledStatics, of_loose_and_tight_clamps_are_those_part_by_part_in_far_fewer_iterations) {
+  const DeckRun together = run_text(clamps).at(0), apart = run_text(clamps, {{"assembled", "0"}}).at(0);
+  expect_same(together, apart, 1e-5);
+  EXPECT_LT(together.result->mean_iterations, 40.0);
+  EXPECT_LT(together.result->mean_iterations, 0.5 * apart.result->mean_iterations);
+  // The bolt has its force when its turn comes.
+  EXPECT_NEAR(together.column("at_shank1", "normal").at(0), 400.0, 1e-4);
+}
+
+TEST(AssembledStatics, follow_a_shank_that_yields) {
+  const Settings yields = {{"yield", "70e6"}};
+  const DeckRun together = run_text(clamps, yields).at(0);
+  expect_same(together, run_text(clamps, {{"yield", "70e6"}, {"assembled", "0"}}).at(0), 1e-5);
+}
+
+TEST(AssembledStatics, have_the_same_bits_for_any_number_of_threads) {
+  const DeckRun one = run_text(clamps, {}, 1).at(0), two = run_text(clamps, {}, 2).at(0);
+  EXPECT_EQ(one.column("head", "x"), two.column("head", "x"));
+  EXPECT_EQ(one.column("at_shank2", "normal"), two.column("at_shank2", "normal"));
+}
+
+}  // namespace
+}  // namespace dygita::test::assembled_tests
