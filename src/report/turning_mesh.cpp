@@ -115,11 +115,14 @@ int in_cubes(const Boundary& b, double size, std::vector<int>& cube) {
   return static_cast<int>(known.size());
 }
 
+// One cube around everything still tells the sides of the part apart, however few nodes it was to have.
 std::vector<int> clusters(const Boundary& b, int quota, int& n) {
+  const double largest = 4.0 * (b.x.rowwise().maxCoeff() - b.x.rowwise().minCoeff()).norm();
   std::vector<int> cube(b.nodes.size());
   std::iota(cube.begin(), cube.end(), 0);
   n = static_cast<int>(cube.size());
-  for (double size = std::sqrt(b.area / std::max(quota, 1)); n > quota; size *= 1.15) n = in_cubes(b, size, cube);
+  for (double size = std::sqrt(b.area / std::max(quota, 1)); n > quota && size < largest; size *= 1.15)
+    n = in_cubes(b, size, cube);
   return cube;
 }
 

@@ -116,6 +116,12 @@ TEST(TurningMesh, keeps_corners_and_volume_of_a_fine_one) {
   EXPECT_NEAR(volume(mesh), 1e-6 + 8e-9, 1e-9);
 }
 
+TEST(TurningMesh, of_more_parts_than_nodes_ends_with_what_tells_their_sides_apart) {
+  const TurningMesh mesh = make_turning_mesh(std::vector<SubstructurePtr>(40, turning_box(4, 0.01)), {}, 80);
+  EXPECT_LE(mesh.nodes.cols(), 40 * 26);
+  EXPECT_GE(mesh.nodes.cols(), 40 * 8);
+}
+
 TEST(MotionFile, stays_small_whatever_the_mesh_and_the_number_of_frames) {
   const Problem problem = two_boxes(40);
   const std::string text = motion_text(problem, motion_of(problem, 20));
