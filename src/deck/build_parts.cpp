@@ -159,6 +159,8 @@ void set_place(const std::vector<double>& place, Substructure& part) {
   const Mat3 rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(place.data());
   auto turned = std::make_shared<Mesh>(*part.mesh);
   turned->nodes = rotation * part.mesh->nodes;
+  turned->shape = part.mesh->shape_digest();
+  turned->turn = rotation * part.mesh->turn;
   turned->digest = mesh_digest(*turned);
   part.mesh = std::move(turned);
 }

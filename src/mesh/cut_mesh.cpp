@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "base/error.hpp"
+#include "base/fnv1a.hpp"
 #include "mesh/face_nodes.hpp"
 #include "numerics/partition.hpp"
 
@@ -158,6 +159,14 @@ bool is_whole(const std::vector<int>& vertex, const std::vector<int>& piece) {
   return false;
 }
 
+// Of the same nodes of equal meshes: cells go with them.
+std::string shape_of_piece(const Mesh& whole, const std::vector<int>& nodes) {
+  Fnv1a digest;
+  digest.add(whole.shape_digest());
+  digest.add(nodes.data(), nodes.size() * sizeof(int));
+  return digest.hexadecimal();
+}
+
 }  // namespace
 
 std::vector<int> piece_of_cells(const Mesh& mesh, int n_pieces, const std::vector<std::vector<int>>& together) {
@@ -235,6 +244,8 @@ std::vector<MeshPiece> cut_mesh(const Mesh& mesh, const std::vector<int>& piece_
     for (CellBlock& block : own->blocks)
       for (int& node : block.nodes) node = local[node];
     own->digest = mesh_digest(*own);
+    own->shape = shape_of_piece(mesh, piece.nodes);
+    own->turn = mesh.turn;
     piece.mesh = std::move(own);
     pieces.push_back(std::move(piece));
   }

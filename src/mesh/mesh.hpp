@@ -43,7 +43,11 @@ struct Mesh {
   std::map<std::string, std::vector<Facet>> faces;  // every named face of this body
   std::string source;                               // "box" or the file's path, for messages and the run record
   std::string digest;                               // changes when the nodes, cells or faces change
+  std::string shape;  // of a copy, x = turn x0 + t: the digest of what x0 are the nodes of; empty: it is none
+  Mat3 turn = Mat3::Identity();
 
+  // Equal for meshes that are one mesh, turned and moved.
+  const std::string& shape_digest() const { return shape.empty() ? digest : shape; }
   int n_nodes() const { return static_cast<int>(nodes.cols()); }
   int n_cells() const;
 };

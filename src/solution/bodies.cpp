@@ -143,14 +143,16 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
   double dt = 0.0;
   for (const StepPtr& step : problem.steps)
     if (!step->is_static) dt = dt == 0.0 ? step->dt : std::min(dt, step->dt);
-  std::map<std::tuple<std::string, double, double, double>, Body> known;
+  using Key = std::tuple<std::string, double, double, double>;
+  std::map<Key, std::shared_ptr<const BodyMatrices>> known;
+  std::map<Key, std::shared_ptr<const Mass>> known_mass;  // a mass has no directions: turned copies have the same
   std::vector<Body> bodies;
   for (const CutPiece& piece : cut.pieces()) {
     const SubstructurePtr& part = piece.body;
     const Elastic& m = part->material;
-    Body& body = known[{part->mesh->digest, m.young, m.poisson, m.density}];
-    if (!body.matrices) body.matrices = std::make_shared<const BodyMatrices>(assemble(*part->mesh, m));
-    bodies.push_back({part.get(), body.matrices, nullptr});
+    std::shared_ptr<const BodyMatrices>& matrices = known[{part->mesh->digest, m.young, m.poisson, m.density}];
+    if (!matrices) matrices = std::make_shared<const BodyMatrices>(assemble(*part->mesh, m));
+    bodies.push_back({part.get(), matrices, nullptr});
   }
   std::vector<std::vector<char>> marked(bodies.size());
   if (problem.mass().is_moved_from_contact && dt > 0.0) {
@@ -164,9 +166,9 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
     const Mesh& mesh = *bodies[i].part->mesh;
     const Elastic& m = bodies[i].part->material;
     const bool has_massless = std::find(marked[i].begin(), marked[i].end(), 1) != marked[i].end();
-    Body& equal = known[{mesh.digest, m.young, m.poisson, m.density}];
-    if (!has_massless && equal.mass) {
-      bodies[i].mass = equal.mass;
+    std::shared_ptr<const Mass>& equal = known_mass[{mesh.shape_digest(), m.young, m.poisson, m.density}];
+    if (!has_massless && equal) {
+      bodies[i].mass = equal;
       continue;
     }
     Mass mass{bodies[i].matrices->mass, {}, {}};
@@ -182,7 +184,7 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
       mass.is_massless = marked[i];
     }
     bodies[i].mass = std::make_shared<const Mass>(std::move(mass));
-    if (!has_massless) equal.mass = bodies[i].mass;
+    if (!has_massless) equal = bodies[i].mass;
   }
   return bodies;
 }

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "solution/equal_pieces.hpp"
 #include "solution/row_stiffness.hpp"
 
 namespace dygita {
@@ -27,6 +28,11 @@ Condensation::Condensation(std::unique_ptr<Factor> own, const PieceOperator& op)
   factor = std::move(own);
   take_reference_off(op, factor->n_interior(), *condensed);
   schur = std::move(condensed);
+  set_diagonal(op);
+}
+
+void Condensation::set_diagonal(const PieceOperator& op) {
+  CHECK(schur, "the Schur complement has been given away for H");
   schur_diagonal = stiffness_of_rows(*this, op);
   for (int i = 0; i < op.n_rows(); ++i) schur_diagonal[i] /= op.setup().rows[i].n_sharing;
 }
@@ -78,7 +84,7 @@ CondensedPiece::CondensedPiece(PieceOperator op, Condensation condensation, cons
 void CondensedPiece::set_search_directions(const Vec& k) {
   ImplicitPiece::set_search_directions(k);
   const PieceSetup& setup = op_.setup();
-  h_ = twin_ && twin_->h_ && (twin_->k_.array() == k.array()).all()
+  h_ = twin_ && twin_->h_ && have_equal_springs(twin_->op_, twin_->k_, op_, k)
            ? twin_->h_
            : std::make_shared<const SymmetricOperator>(inverse_spd(condensation_.with_rows(op_, k), setup.what),
                                                        setup.precision, setup.storage_error / 16);

@@ -10,11 +10,13 @@ namespace dygita {
 struct Condensation {
   std::shared_ptr<const Factor> factor;
   std::shared_ptr<const Mat> schur;  // S0, n_interface x n_interface, without the rows' reference stiffness
-  Vec schur_diagonal;                // in the rows' directions, shared between their laws
+  Vec schur_diagonal;                // in the directions of a piece's rows, shared between their laws
 
   // op: of the piece that was factorised, its unknowns in the factor's order; the reference stiffness of its rows is
   // included in the factor.
   Condensation(std::unique_ptr<Factor> own, const PieceOperator& op);
+  // The stiffness of the rows of op, an equal piece's; the Schur complement is still there.
+  void set_diagonal(const PieceOperator& op);
   // S0 + T^T k T, with T the rows on the interface unknowns.
   Mat with_rows(const PieceOperator& op, const Vec& k) const;
 };

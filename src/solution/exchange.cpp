@@ -34,7 +34,8 @@ class Builder {
         cut_(cut),
         surfaces_(surfaces),
         conditions_(conditions),
-        explicit_pieces_(explicit_pieces) {
+        explicit_pieces_(explicit_pieces),
+        axes_(problem) {
     exchange_.n_unknowns.assign(cut.n_pieces(), 0);
   }
 
@@ -42,7 +43,7 @@ class Builder {
     make_groups();
     make_clusters();
     for (const LawCluster& cluster : clusters_) add_law_point(cluster);
-    SpreadPoints spread_points(problem_, step_, cut_, conditions_, exchange_);
+    SpreadPoints spread_points(problem_, step_, cut_, conditions_, axes_, exchange_);
     for (size_t s = 0; s < surfaces_.size(); ++s)
       if (is_in_force(surfaces_[s]) && !surfaces_[s].facing.matches())
         spread_points.add(surfaces_[s], static_cast<int>(s));
@@ -231,7 +232,8 @@ class Builder {
       if (!held || held->n == 0 || held->n == 3) continue;
       axes.push_back(held->n == 1 ? Vec3(held->directions.col(0)) : Vec3(held->free_basis().col(0)));
     }
-    Vec3 n = normal;
+    const std::optional<Mat3> own_axes = axes_of(keys);
+    Vec3 n = needs_normal || !own_axes ? normal : Vec3(own_axes->col(2));
     if (!needs_normal && !axes.empty()) n = axes.front();
     Vec3 t = Vec3::Zero();
     for (const Vec3& axis : axes) {
@@ -245,7 +247,14 @@ class Builder {
         fail_oblique(members, keys.front(), n, axis);
       }
     }
-    return frame_of(n, t);
+    return frame_of(n, t, own_axes);
+  }
+
+  std::optional<Mat3> axes_of(const std::vector<NodeKey>& keys) const {
+    std::vector<int> parts;
+    for (const NodeKey& key : keys) parts.push_back(part_of(key));
+    const Substructure& part = *problem_.substructures[parts.front()];
+    return axes_.at(parts, part.mesh->nodes.col(node_of(keys.front())) + part.place);
   }
 
   [[noreturn]] void fail_oblique(const std::vector<Member>& members, const NodeKey& key, const Vec3& n,
@@ -282,6 +291,7 @@ class Builder {
   const std::vector<Surface>& surfaces_;
   const Conditions& conditions_;
   const std::vector<char>& explicit_pieces_;
+  const FrameAxes axes_;
   Exchange exchange_;
   NodeGroups groups_;
   std::map<NodeKey, double> area_;

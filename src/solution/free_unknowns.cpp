@@ -17,7 +17,6 @@ FreeUnknowns::FreeUnknowns(int n_nodes, const std::vector<InterfaceRow>& rows,
     Held basis;
     if (const auto it = held.find(node); it != held.end()) basis = it->second;
     const int n_held = basis.n, n_free = 3 - n_held;
-    for (int j = 0; j < n_held; ++j) held_.push_back({node, basis.directions.col(j), basis.motion[j]});
     for (const Vec3& d : directions)
       if (basis.n < 3 && (basis.directions.leftCols(basis.n).transpose() * d).norm() < 1e-9)
         basis.directions.col(basis.n++) = d;
@@ -34,10 +33,25 @@ FreeUnknowns::FreeUnknowns(int n_nodes, const std::vector<InterfaceRow>& rows,
     first_[node] = static_cast<int>(node_of_unknown_.size());
     node_of_unknown_.insert(node_of_unknown_.end(), count_[node], node);
   }
-  // They came out in hash order: reproducible sums need node order.
-  std::stable_sort(held_.begin(), held_.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
+  set_held(held);
   position_.resize(node_of_unknown_.size());
   std::iota(position_.begin(), position_.end(), 0);
+}
+
+FreeUnknowns::FreeUnknowns(const FreeUnknowns& equal, const Mat3& turn, const std::unordered_map<int, Held>& held)
+    : FreeUnknowns(equal) {
+  is_turned_ = !turn.isIdentity(0.0);
+  axes_ = turn * equal.axes_;
+  for (Mat3& basis : bases_) basis = turn * basis;
+  set_held(held);
+}
+
+void FreeUnknowns::set_held(const std::unordered_map<int, Held>& held) {
+  held_.clear();
+  for (const auto& [node, own] : held)
+    for (int j = 0; j < own.n; ++j) held_.push_back({node, own.directions.col(j), own.motion[j]});
+  // They came out in hash order: reproducible sums need node order.
+  std::stable_sort(held_.begin(), held_.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
 }
 
 void FreeUnknowns::put_in_order(const std::vector<int>& order) {
@@ -49,12 +63,20 @@ Traces FreeUnknowns::traces(const std::vector<InterfaceRow>& rows) const {
   for (const InterfaceRow& row : rows) {
     for (const auto& [node, along] : row.nodes)
       for (int j = 0; j < count_[node]; ++j) {
-        const double value = is_plain(node) ? along[j] : bases_[special_[node]].col(j).dot(along);
-        if (std::abs(value) >= 1e-12) traces.add(at(node, j), value);
+        const double value = is_plain(node) ? along[j] : axes(node).col(j).dot(along);
+        if (std::abs(value) >= (is_turned_ ? 1e-11 : 1e-12)) traces.add(at(node, j), value);
       }
     traces.end_row();
   }
   return traces;
+}
+
+std::vector<char> FreeUnknowns::at_rows(const std::vector<InterfaceRow>& rows) const {
+  std::vector<char> is_at_rows(size(), 0);
+  const Traces all = traces(rows);
+  for (int i = 0; i < all.size(); ++i)
+    for (int j = 0; j < all[i].n; ++j) is_at_rows[all[i].at[j]] = 1;
+  return is_at_rows;
 }
 
 Traces FreeUnknowns::held_traces(const std::vector<InterfaceRow>& rows) const {
@@ -77,7 +99,7 @@ Vec FreeUnknowns::restrict_nodal(const Points& nodal) const {
   Vec free(size());
   for (int node = 0; node < n_nodes(); ++node)
     for (int j = 0; j < count_[node]; ++j)
-      free[at(node, j)] = is_plain(node) ? nodal(j, node) : bases_[special_[node]].col(j).dot(nodal.col(node));
+      free[at(node, j)] = is_plain(node) ? nodal(j, node) : axes(node).col(j).dot(nodal.col(node));
   return free;
 }
 
@@ -98,7 +120,7 @@ Points FreeUnknowns::expand(const Vec& free, const std::vector<double>& held) co
       continue;
     }
     Vec3 value = Vec3::Zero();
-    for (int j = 0; j < count_[node]; ++j) value += free[at(node, j)] * bases_[special_[node]].col(j);
+    for (int j = 0; j < count_[node]; ++j) value += free[at(node, j)] * axes(node).col(j);
     nodal.col(node) = value;
   }
   for (size_t i = 0; i < held_.size(); ++i) nodal.col(held_[i].node) += held[i] * held_[i].direction;

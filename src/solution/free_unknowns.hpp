@@ -57,14 +57,19 @@ class FreeUnknowns {
   // Of a node they are numbered from first(node) on, along the columns of its basis: the directions of rows of this
   // node alone where they are orthonormal, so that such a row is one unknown.
   FreeUnknowns(int n_nodes, const std::vector<InterfaceRow>& rows, const std::unordered_map<int, Held>& held);
+  // Those of a turned copy of the piece that `equal` belongs to, along the turned directions and in the same order, so
+  // that matrices have the same entries (manual, equal substructures). held: of the copy, the turned ones.
+  FreeUnknowns(const FreeUnknowns& equal, const Mat3& turn, const std::unordered_map<int, Held>& held);
 
   int size() const { return static_cast<int>(node_of_unknown_.size()); }
   int n_nodes() const { return static_cast<int>(count_.size()); }
   int first(int node) const { return first_[node]; }
   int count(int node) const { return count_[node]; }
-  Mat3 basis(int node) const { return is_plain(node) ? Mat3(Mat3::Identity()) : bases_[special_[node]]; }
+  Mat3 basis(int node) const { return axes(node); }
   // Are the node's unknowns its x, y and z?
-  bool is_plain(int node) const { return special_[node] < 0; }
+  bool is_plain(int node) const { return !is_turned_ && special_[node] < 0; }
+  // Do the two have their unknowns along the same axes?
+  bool share_axes(int node, int other) const { return special_[node] < 0 && special_[other] < 0; }
   const std::vector<int>& node_of_unknown() const { return node_of_unknown_; }
   const std::vector<HeldDirection>& held() const { return held_; }  // by node
 
@@ -76,6 +81,8 @@ class FreeUnknowns {
   // The rows on the free unknowns, and on the held directions.
   Traces traces(const std::vector<InterfaceRow>& rows) const;
   Traces held_traces(const std::vector<InterfaceRow>& rows) const;
+  // Is each of them in some row: on the interface?
+  std::vector<char> at_rows(const std::vector<InterfaceRow>& rows) const;
   // Of each free unknown, 3 x size.
   Points directions() const;
 
@@ -84,7 +91,12 @@ class FreeUnknowns {
   Points expand(const Vec& free, const std::vector<double>& held) const;
 
  private:
-  std::vector<int> special_, count_, first_, node_of_unknown_;  // special: index in bases_, -1 for x, y and z
+  const Mat3& axes(int node) const { return special_[node] < 0 ? axes_ : bases_[special_[node]]; }
+  void set_held(const std::unordered_map<int, Held>& held);
+
+  bool is_turned_ = false;
+  Mat3 axes_ = Mat3::Identity();
+  std::vector<int> special_, count_, first_, node_of_unknown_;  // special: index in bases_, -1 for axes_
   std::vector<Mat3> bases_;
   std::vector<int> position_;
   std::vector<HeldDirection> held_;

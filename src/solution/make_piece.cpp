@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solution/equal_pieces.hpp"
+
 namespace dygita {
 
 namespace {
@@ -13,11 +15,9 @@ struct Layout {
   std::vector<char> is_interface, none;  // of the free unknowns
 
   explicit Layout(const PieceSetup& setup)
-      : unknowns(setup.n_nodes(), setup.rows, setup.held), is_interface(unknowns.size(), 0), none(unknowns.size(), 0) {
-    const Traces traces = unknowns.traces(setup.rows);
-    for (int i = 0; i < traces.size(); ++i)
-      for (int j = 0; j < traces[i].n; ++j) is_interface[traces[i].at[j]] = 1;
-  }
+      : unknowns(setup.n_nodes(), setup.rows, setup.held),
+        is_interface(unknowns.at_rows(setup.rows)),
+        none(unknowns.size(), 0) {}
   double n_interface() const { return static_cast<double>(std::count(is_interface.begin(), is_interface.end(), 1)); }
 };
 
@@ -44,25 +44,33 @@ std::optional<double> cheaper_in_full(const PieceSetup& setup, const SparseMatri
   return solves * 2.0 * full < 2.0 * interior + products ? std::optional(full) : std::nullopt;
 }
 
+// With the operator of another.
+std::unique_ptr<ImplicitPiece> make_equal(const PieceSetup& setup, bool is_plain, const Twin& twin) {
+  PieceOperator op(setup, FreeUnknowns(twin.piece->op().unknowns(), twin.turn, setup.held));
+  Condensation condensation = *twin.piece->condensation();
+  if (!have_equal_rows(twin.piece->op(), op)) condensation.set_diagonal(op);
+  if (is_plain) return std::make_unique<FullPiece>(std::move(op), std::move(condensation), true);
+  return std::make_unique<CondensedPiece>(std::move(op), std::move(condensation),
+                                          static_cast<const CondensedPiece*>(twin.piece));
+}
+
 }  // namespace
 
-std::unique_ptr<ImplicitPiece> make_piece(const PieceSetup& setup, bool is_plain, const ImplicitPiece* twin) {
+std::unique_ptr<ImplicitPiece> make_piece(const PieceSetup& setup, bool is_plain, const Twin& twin) {
+  if (twin.piece && twin.piece->condensation()) return make_equal(setup, is_plain, twin);
   Layout layout(setup);
   FreeUnknowns& unknowns = layout.unknowns;
   if (unknowns.size() == 0) return std::make_unique<ImplicitPiece>(PieceOperator(setup, unknowns));
   const SparseMatrix matrix = matrix_with_reference(setup, unknowns);
   if (cheaper_in_full(setup, matrix, layout))
     return std::make_unique<FullPiece>(PieceOperator(setup, unknowns), std::nullopt, false);
-  std::unique_ptr<Factor> own;
-  if (!twin)
-    own = std::make_unique<Factor>(matrix, unknowns.node_of_unknown(), layout.is_interface, setup.what, setup.precision,
-                                   setup.storage_error);
-  unknowns.put_in_order(twin ? twin->condensation()->factor->order() : own->order());
+  auto own = std::make_unique<Factor>(matrix, unknowns.node_of_unknown(), layout.is_interface, setup.what,
+                                      setup.precision, setup.storage_error);
+  unknowns.put_in_order(own->order());
   PieceOperator op(setup, std::move(unknowns));
-  Condensation condensation = twin ? *twin->condensation() : Condensation(std::move(own), op);
-  if (is_plain) return std::make_unique<FullPiece>(std::move(op), std::move(condensation), twin != nullptr);
-  return std::make_unique<CondensedPiece>(std::move(op), std::move(condensation),
-                                          static_cast<const CondensedPiece*>(twin));
+  Condensation condensation(std::move(own), op);
+  if (is_plain) return std::make_unique<FullPiece>(std::move(op), std::move(condensation), false);
+  return std::make_unique<CondensedPiece>(std::move(op), std::move(condensation), nullptr);
 }
 
 double predicted_bytes(const PieceSetup& setup, bool has_twin) {

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "mesh/facing.hpp"
+#include "solution/equal_pieces.hpp"
 #include "solution/explicit_piece.hpp"
 #include "solution/rigid_motions.hpp"
 #include "solution/row_stiffness.hpp"
@@ -175,20 +176,31 @@ std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body
   return setups;
 }
 
-// The first piece that each is equal to, explicit ones by their stiffness alone; -1 where there is none before it.
-std::vector<int> twins_of(const StepModel& model, const std::vector<PieceSetup>& setups) {
-  std::map<const BodyMatrices*, std::vector<int>> known;
-  std::vector<int> twins(setups.size(), -1);
+// The first piece that another is equal to, and how the other is turned to it; none before it: -1.
+struct EqualTo {
+  int piece = -1;
+  Mat3 turn = Mat3::Identity();
+};
+
+// Explicit ones are equal by their stiffness alone, as it is.
+std::vector<EqualTo> twins_of(const StepModel& model, const std::vector<PieceSetup>& setups) {
+  std::map<const BodyMatrices*, int> known_explicit;
+  std::map<const Mass*, std::vector<std::pair<int, FreeUnknowns>>> known;
+  std::vector<EqualTo> twins(setups.size());
   for (int i = 0; i < static_cast<int>(setups.size()); ++i) {
-    std::vector<int>& before = known[setups[i].body->matrices.get()];
-    const auto twin = std::find_if(before.begin(), before.end(), [&](int j) {
-      const bool is_explicit = model.integration.is_explicit_piece(i);
-      return model.integration.is_explicit_piece(j) == is_explicit && (is_explicit || are_equal(setups[j], setups[i]));
-    });
-    if (twin != before.end())
-      twins[i] = *twin;
-    else
-      before.push_back(i);
+    const PieceSetup& setup = setups[i];
+    if (model.integration.is_explicit_piece(i)) {
+      const auto [at, is_new] = known_explicit.try_emplace(setup.body->matrices.get(), i);
+      if (!is_new) twins[i].piece = at->second;
+      continue;
+    }
+    auto& before = known[setup.body->mass.get()];
+    for (const auto& [first, unknowns] : before)
+      if (const auto turn = turn_between(setups[first], unknowns, setup)) {
+        twins[i] = {first, *turn};
+        break;
+      }
+    if (twins[i].piece < 0) before.emplace_back(i, FreeUnknowns(setup.n_nodes(), setup.rows, setup.held));
   }
   return twins;
 }
@@ -197,19 +209,20 @@ std::vector<int> twins_of(const StepModel& model, const std::vector<PieceSetup>&
 
 Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies) {
   const std::vector<PieceSetup> setups = setups_of(model, bodies);
-  const std::vector<int> twins = twins_of(model, setups);
+  const std::vector<EqualTo> twins = twins_of(model, setups);
   const int n = static_cast<int>(setups.size());
   std::vector<std::unique_ptr<ImplicitPiece>> built(n);
   std::vector<std::shared_ptr<const ExplicitOperator>> operators(n);
   prepare_thread();
   for (const bool has_twin : {false, true})
     parallel_for(n, [&](int i) {
-      if ((twins[i] >= 0) != has_twin) return;
+      if ((twins[i].piece >= 0) != has_twin) return;
       if (model.integration.is_explicit_piece(i))
-        operators[i] = has_twin ? operators[twins[i]]
+        operators[i] = has_twin ? operators[twins[i].piece]
                                 : std::make_shared<const ExplicitOperator>(setups[i].body->matrices->stiffness);
       else
-        built[i] = make_piece(setups[i], model.problem->solver.plain, has_twin ? built[twins[i]].get() : nullptr);
+        built[i] = make_piece(setups[i], model.problem->solver.plain,
+                              has_twin ? Twin{built[twins[i].piece].get(), twins[i].turn} : Twin());
     });
   Pieces pieces(std::make_move_iterator(built.begin()), std::make_move_iterator(built.end()));
   for (int i = 0; i < n; ++i)
@@ -250,11 +263,11 @@ std::vector<std::vector<int>> group_equal(const Pieces& pieces) {
 
 double predicted_bytes(const StepModel& model, const std::vector<Body>& bodies) {
   const std::vector<PieceSetup> setups = setups_of(model, bodies);
-  const std::vector<int> twins = twins_of(model, setups);
+  const std::vector<EqualTo> twins = twins_of(model, setups);
   std::vector<double> bytes(setups.size());
   parallel_for(static_cast<int>(setups.size()), [&](int i) {
-    bytes[i] = model.integration.is_explicit_piece(i) ? explicit_bytes(setups[i], twins[i] >= 0)
-                                                      : predicted_bytes(setups[i], twins[i] >= 0);
+    bytes[i] = model.integration.is_explicit_piece(i) ? explicit_bytes(setups[i], twins[i].piece >= 0)
+                                                      : predicted_bytes(setups[i], twins[i].piece >= 0);
   });
   double sum = 0.0;
   for (const double own : bytes) sum += own;

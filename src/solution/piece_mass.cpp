@@ -11,12 +11,12 @@ PieceMass::PieceMass(const Body& body, const Scheme& scheme, const FreeUnknowns&
   if (mass_->matrix.size() > 0) make_matrix(unknowns);
 }
 
-// Rows of B^T M B: a node whose axes are the global ones has one entry a neighbour and direction, others a block.
+// Rows of B^T M B: nodes with the same axes have one entry a neighbour and direction, others a block.
 void PieceMass::make_matrix(const FreeUnknowns& unknowns) {
   const SparseMatrix& nodal = mass_->matrix;
   const int n = unknowns.size();
   const int* starts = nodal.outerIndexPtr();
-  const auto are_plain = [&](int a, int b) { return unknowns.is_plain(a) && unknowns.is_plain(b); };
+  const auto are_plain = [&](int a, int b) { return unknowns.share_axes(a, b); };
   std::vector<int> count(n, 0);
   for (int a = 0; a < nodal.rows(); ++a)
     for (int e = starts[a]; e < starts[a + 1]; ++e) {

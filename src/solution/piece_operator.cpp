@@ -14,50 +14,10 @@ std::vector<std::pair<int, Mat3>> by_node(const std::unordered_map<int, Mat3>& i
   return sorted;
 }
 
-// Frames of places that differ by a shift agree but for rounding.
-bool same(double a, double b) { return std::abs(a - b) <= 1e-12 * (std::abs(a) + std::abs(b)); }
-bool same(const Vec3& a, const Vec3& b) { return (a - b).norm() < 1e-12; }
-
-bool are_equal(const std::vector<InterfaceRow>& one, const std::vector<InterfaceRow>& other) {
-  return std::equal(
-      one.begin(), one.end(), other.begin(), other.end(), [](const InterfaceRow& a, const InterfaceRow& b) {
-        return std::equal(
-                   a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
-                   [](const NodeAlong& x, const NodeAlong& y) { return x.node == y.node && same(x.along, y.along); }) &&
-               same(a.reference_stiffness, b.reference_stiffness) && same(a.n_sharing, b.n_sharing);
-      });
-}
-
-// What moves it is no matter of the matrix.
-bool are_equal(const std::unordered_map<int, Held>& one, const std::unordered_map<int, Held>& other) {
-  size_t n_one = 0, n_other = 0;
-  for (const auto& [node, held] : one) n_one += held.n;
-  for (const auto& [node, held] : other) n_other += held.n;
-  if (n_one != n_other) return false;
-  for (const auto& [node, held] : one) {
-    const auto it = other.find(node);
-    for (int i = 0; i < held.n; ++i) {
-      bool is_found = false;
-      for (int j = 0; it != other.end() && j < it->second.n; ++j)
-        is_found |= same(it->second.directions.col(j), held.directions.col(i));
-      if (!is_found) return false;
-    }
-  }
-  return true;
-}
-
 }  // namespace
 
 double PieceSetup::mass_share() const {
   return scheme.inverse_dt() + (1 - scheme.g) * scheme.alpha(body->part->material.damping);
-}
-
-bool are_equal(const PieceSetup& a, const PieceSetup& b) {
-  const Damping &damping_a = a.body->part->material.damping, &damping_b = b.body->part->material.damping;
-  return a.body->matrices == b.body->matrices && a.body->mass == b.body->mass && a.precision == b.precision &&
-         a.scheme.c1(damping_a) == b.scheme.c1(damping_b) && a.mass_share() == b.mass_share() && a.absorbing.empty() &&
-         b.absorbing.empty() && a.absorbing_pairs.empty() && b.absorbing_pairs.empty() && are_equal(a.rows, b.rows) &&
-         are_equal(a.held, b.held);
 }
 
 namespace {

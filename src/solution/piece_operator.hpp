@@ -32,9 +32,6 @@ struct PieceSetup {
   double mass_share() const;  // of M V1 in the equation of an increment, 1/s
 };
 
-// Do they have the same matrix, rows and order of unknowns?
-bool are_equal(const PieceSetup& a, const PieceSetup& b);
-
 // (M/dt (1 + ...) + c1 K + absorbing) on the free unknowns, in the order of their numbers.
 // With T^T k T, k (N s/m) one per row; or with the rows' reference stiffness, as springs on their nodes that couple
 // none with another.

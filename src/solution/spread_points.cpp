@@ -4,7 +4,6 @@
 
 #include "base/error.hpp"
 #include "law/law.hpp"
-#include "solution/point_frames.hpp"
 
 namespace dygita {
 
@@ -107,7 +106,9 @@ Mat3 SpreadPoints::frame(const Surface& surface, int i) const {
       t = axis;
     }
   }
-  return frame_of(n, t);
+  std::vector<int> parts{surface.part_1};
+  if (surface.part_2 >= 0) parts.push_back(surface.part_2);
+  return frame_of(n, t, axes_.at(parts, surface.facing.places.col(i)));
 }
 
 }  // namespace dygita

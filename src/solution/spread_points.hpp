@@ -1,7 +1,7 @@
 // Points between faces whose meshes do not match: each by itself, one port a side, which moves with several nodes.
 #pragma once
 
-#include "solution/exchange.hpp"
+#include "solution/point_frames.hpp"
 
 namespace dygita {
 
@@ -9,8 +9,8 @@ class SpreadPoints {
  public:
   // All outlive this object; points and ports are added to the exchange.
   SpreadPoints(const Problem& problem, const Step& step, const Cut& cut, const Conditions& conditions,
-               Exchange& exchange)
-      : problem_(problem), step_(step), cut_(cut), conditions_(conditions), exchange_(exchange) {}
+               const FrameAxes& axes, Exchange& exchange)
+      : problem_(problem), step_(step), cut_(cut), conditions_(conditions), axes_(axes), exchange_(exchange) {}
 
   // Those of a surface, the s-th of all.
   void add(const Surface& surface, int s);
@@ -26,6 +26,7 @@ class SpreadPoints {
   const Step& step_;
   const Cut& cut_;
   const Conditions& conditions_;
+  const FrameAxes& axes_;
   Exchange& exchange_;
 };
 

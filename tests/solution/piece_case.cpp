@@ -25,13 +25,26 @@ void PieceCase::make() {
   make_rows();
 }
 
+void PieceCase::turn(const Mat3& by) {
+  auto mesh = std::make_shared<Mesh>(*part->mesh);
+  mesh->nodes = by * mesh->nodes;
+  mesh->shape = mesh->shape_digest();
+  mesh->turn = by * mesh->turn;
+  part->mesh = mesh;
+  body.matrices = std::make_shared<const BodyMatrices>(assemble(*mesh, part->material));
+  for (auto& [node, held] : setup.held) held.directions = by * held.directions;
+  for (auto& [node, impedance] : setup.absorbing) impedance = by * impedance * by.transpose();
+  for (InterfaceRow& row : setup.rows)
+    for (NodeAlong& on : row.nodes) on.along = by * on.along;
+}
+
 Vec PieceCase::directions() const {
   const double scale = setup.scheme.is_static ? 1e9 : 200e9 * 0.01 * dt + 7800.0 * 1e-7 / dt;
   return scale * (2.0 + random_vector(n_rows(), 3).array()).matrix();
 }
 
 std::unique_ptr<ImplicitPiece> PieceCase::piece(bool is_plain) const {
-  std::unique_ptr<ImplicitPiece> made = make_piece(setup, is_plain, nullptr);
+  std::unique_ptr<ImplicitPiece> made = make_piece(setup, is_plain, {});
   made->set_search_directions(directions());
   return made;
 }

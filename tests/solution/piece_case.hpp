@@ -39,6 +39,8 @@ struct PieceCase {
   PieceSetup setup;
 
   void make();
+  // Everything that has been made, about the origin; the mass stays.
+  void turn(const Mat3& by);
 
   std::vector<int> nodes(const char* face) const { return nodes_of(part->mesh->faces.at(face)); }
   int n_nodes() const { return part->mesh->n_nodes(); }

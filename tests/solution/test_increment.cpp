@@ -243,7 +243,7 @@ TEST(Increment, of_equal_pieces_together_is_that_of_each) {
   std::vector<std::unique_ptr<ImplicitPiece>> together;
   std::vector<Piece*> group;
   for (int i = 0; i < n; ++i) {
-    together.push_back(make_piece(c.setup, false, i > 0 ? together.front().get() : nullptr));
+    together.push_back(make_piece(c.setup, false, {i > 0 ? together.front().get() : nullptr}));
     group.push_back(together.back().get());
   }
   for (const auto& piece : together) piece->set_search_directions(c.directions());

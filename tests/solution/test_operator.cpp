@@ -103,7 +103,7 @@ TEST(PieceOperator, serves_an_equal_piece_too) {
     c.dt = operator_dt;
     c.make();
     const auto first = c.piece(is_plain);
-    const auto second = make_piece(c.setup, is_plain, first.get());
+    const auto second = make_piece(c.setup, is_plain, {first.get()});
     second->set_search_directions(c.directions());
     EXPECT_FALSE(first->shares_operator());
     EXPECT_TRUE(second->shares_operator());
@@ -120,57 +120,12 @@ TEST(PieceOperator, of_other_search_directions_is_its_own_but_for_the_factor) {
   PieceCase c;
   c.dt = operator_dt;
   c.make();
-  const auto first = make_piece(c.setup, false, nullptr), second = make_piece(c.setup, false, first.get());
+  const auto first = make_piece(c.setup, false, {}), second = make_piece(c.setup, false, {first.get()});
   EXPECT_THROW(second->set_search_directions(Vec::Ones(1)), ContractError);
   first->set_search_directions(c.directions());
   second->set_search_directions(2.0 * c.directions());
   expect_equal(first->row_compliance(), DensePiece(c).compliance(c.directions()), 1e-8);
   expect_equal(second->row_compliance(), DensePiece(c).compliance(2.0 * c.directions()), 1e-8);
-}
-
-TEST(PieceSetup, is_equal_to_another_only_where_the_matrices_are) {
-  PieceCase c;
-  c.dt = operator_dt;
-  c.make();
-  PieceSetup other = c.setup;
-  EXPECT_TRUE(are_equal(c.setup, other));
-  other.rows[3].nodes[0].along += Vec3::Constant(1e-15);  // frames of places that differ by a shift
-  EXPECT_TRUE(are_equal(c.setup, other));
-  other.rows[3].nodes[0].along += Vec3::Constant(1e-6);
-  EXPECT_FALSE(are_equal(c.setup, other));
-  other = c.setup;
-  other.held.erase(other.held.begin());
-  EXPECT_FALSE(are_equal(c.setup, other));
-  EXPECT_FALSE(are_equal(other, c.setup));
-  other = c.setup;
-  other.held.begin()->second.motion[0] = {{0, 1.0}};  // what moves it is not in the matrix
-  EXPECT_TRUE(are_equal(c.setup, other));
-  other = c.setup;
-  other.absorbing[0] = Mat3::Identity();
-  EXPECT_FALSE(are_equal(c.setup, other));
-  other = c.setup;
-  other.precision = Precision::single_precision;
-  EXPECT_FALSE(are_equal(c.setup, other));
-}
-
-// Equal meshes of one material share their matrices; damping comes in with the step.
-TEST(PieceSetup, is_not_equal_to_one_that_is_damped_otherwise) {
-  for (const Damping damping : {Damping{2e3, 0.0}, Damping{0.0, 3e-8}}) {
-    PieceCase c;
-    c.dt = operator_dt;
-    c.make();
-    Substructure damped = *c.part;
-    damped.material.damping = damping;
-    Body body = c.body;
-    body.part = &damped;
-    PieceSetup other = c.setup;
-    other.body = &body;
-    EXPECT_FALSE(are_equal(c.setup, other));
-    other.scheme = {};  // a static step knows no damping
-    PieceSetup still = c.setup;
-    still.scheme = {};
-    EXPECT_TRUE(are_equal(still, other));
-  }
 }
 
 TEST(PieceOperator, predicts_the_bytes_of_its_factor) {
@@ -188,7 +143,7 @@ TEST(PieceOperator, of_a_piece_that_is_held_everywhere_has_nothing_to_find) {
   c.make();
   c.setup.rows.clear();
   for (int node = 0; node < c.n_nodes(); ++node) c.setup.held[node] = Held{3, Mat3::Identity(), {}, {}};
-  const auto piece = make_piece(c.setup, false, nullptr);
+  const auto piece = make_piece(c.setup, false, {});
   piece->set_search_directions(Vec());
   const Points still = Points::Zero(3, c.n_nodes());
   piece->set_state(still, still, still, still);
@@ -204,7 +159,7 @@ TEST(PieceOperator, that_cannot_be_factorised_is_named) {
   negative.stiffness *= -1.0;
   c.body.matrices = std::make_shared<const BodyMatrices>(negative);
   try {
-    make_piece(c.setup, false, nullptr);
+    make_piece(c.setup, false, {});
     FAIL() << "a negative definite matrix was factorised";
   } catch (const NumericalError& error) {
     EXPECT_NE(std::string(error.what()).find("substructure 'block' in step 'test'"), std::string::npos) << error.what();
