@@ -158,6 +158,12 @@ function types.choices(call, argument, value, label)
   return value
 end
 
+function types.texts(call, argument, value, label)
+  if argument.or_single and type(value) == "string" then value = { value } end
+  for i = 1, check_list(call, value, label, "a list of names") do types.text(call, nil, value[i], ("%s[%d]"):format(label, i)) end
+  return value
+end
+
 function types.text(call, _, value, label)
   if type(value) ~= "string" then wrong_type(call, label, "text", value) end
   if value == "" then fail(call, ("'%s' is empty"):format(label)) end

@@ -24,7 +24,7 @@ local function grouped(type_text) return type_text:find("|", 1, true) and "(" ..
 
 local plain = {
   number = "number", integer = "integer", boolean = "boolean", name = "string", text = "string", file = "string",
-  vector = "dygita.vector", counts = "dygita.counts", numbers = "number[]", settings = "table<string, number>",
+  vector = "dygita.vector", counts = "dygita.counts", numbers = "number[]", texts = "string|string[]", settings = "table<string, number>",
   specification = "string|number[][]", value = "dygita.value", ["function"] = "fun(x: number, y: number, z: number): boolean?",
 }
 

@@ -141,6 +141,7 @@ words[1][3] = {
   arguments = {
     { "file", type = "file", required = true, doc = "path, relative to the deck's folder" },
     { "order", type = "integer", range = { 1, 2 }, default = 2, doc = "order of the shape functions: 2 makes tet10, 1 tet4" },
+    { "parts", type = "texts", or_single = true, default_doc = "all", doc = "names of the parts to mesh, * stands for any text" },
     { "cells", type = "choice", choices = { "tetrahedra", "hexahedra", "hexahedra where possible" }, default = "tetrahedra",
       doc = "hexahedra (hex8 or hex20, prisms where need be) are for solids that are a flat face moved along its normal, as plates and washers: an error where one is not, or where possible" },
     { "size", type = "number", unit = "m", range = { 1e-7, 100 }, default_doc = "a twentieth of each part's diagonal", doc = "size of the cells" },

@@ -25,7 +25,8 @@
 // The shanks and heads are boxes of the deck, six times the same, shifted.
 
 DefineConstant[ gasket = {0.003, Min 0.0005, Max 0.02, Name "Parameters/Gasket thickness [m]"},
-                plate = {0.015, Min 0.002, Max 0.05, Name "Parameters/Cover thickness [m]"} ];
+                plate = {0.015, Min 0.002, Max 0.05, Name "Parameters/Cover thickness [m]"},
+                fine = {1, Min 1, Max 8, Name "Parameters/Cells for one in each direction"} ];
 
 mm = 0.001;
 
@@ -52,7 +53,7 @@ Macro Body
     For i In {0:nx - 1}
       c = newc;
       Line(c) = {points[j*(nx + 1) + i], points[j*(nx + 1) + i + 1]};
-      Transfinite Curve {c} = n_x[i] + 1;
+      Transfinite Curve {c} = fine*n_x[i] + 1;
       along_x[] += c;
     EndFor
   EndFor
@@ -60,7 +61,7 @@ Macro Body
     For i In {0:nx}
       c = newc;
       Line(c) = {points[j*(nx + 1) + i], points[(j + 1)*(nx + 1) + i]};
-      Transfinite Curve {c} = n_y[j] + 1;
+      Transfinite Curve {c} = fine*n_y[j] + 1;
       along_y[] += c;
     EndFor
   EndFor
@@ -79,7 +80,7 @@ Macro Body
   EndFor
   Transfinite Surface {section[]};
   Recombine Surface {section[]};
-  raised[] = Extrude {0, 0, height} { Surface{section[]}; Layers{n_layers}; Recombine; };
+  raised[] = Extrude {0, 0, height} { Surface{section[]}; Layers{fine*n_layers}; Recombine; };
   tops[] = {};
   bodies[] = {};
   For i In {0:#section[] - 1}

@@ -79,6 +79,7 @@ Content build_step_mesh(const Declaration& d) {
   }
   options.cells_a_turn = a.integer("round");
   options.unit = a.number("unit");
+  if (a.has("parts")) options.parts = a.texts("parts");
   const std::string cells = a.text("cells");
   if (cells != "tetrahedra")
     options.sweep = cells == "hexahedra" ? StepOptions::Sweep::all : StepOptions::Sweep::where_possible;
@@ -157,12 +158,7 @@ void set_place(const std::vector<double>& place, Substructure& part) {
   part.place = Eigen::Map<const Vec3>(place.data() + place.size() - 3);
   if (place.size() == 3) return;
   const Mat3 rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(place.data());
-  auto turned = std::make_shared<Mesh>(*part.mesh);
-  turned->nodes = rotation * part.mesh->nodes;
-  turned->shape = part.mesh->shape_digest();
-  turned->turn = rotation * part.mesh->turn;
-  turned->digest = mesh_digest(*turned);
-  part.mesh = std::move(turned);
+  part.mesh = turned_mesh(*part.mesh, rotation, Vec3::Zero());
 }
 
 Content build_substructure(const Declaration& d) {

@@ -83,6 +83,14 @@ void warn_of_unused(const DeckState& state) {
     if (state.parameters_read.count(name)) continue;
     warn(fmt::format("{}parameter '{}' is declared and never used", state.parameters_origin.prefix(), name));
   }
+  for (const auto& [assembly, taken] : state.parts_taken) {
+    std::string left;
+    for (const StepPart& part : assembly->parts())
+      if (!taken.contains(part.name)) left += (left.empty() ? "'" : ", '") + part.name + "'";
+    if (!left.empty())
+      warn(fmt::format("{}: meshed and never taken: {}; parts = {{ ... }} in mesh.step meshes those that it names",
+                       assembly->file(), left));
+  }
   if (state.outcome.n_runs == 0) warn(state.deck_name() + " runs no problem: nothing was computed");
 }
 

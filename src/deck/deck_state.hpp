@@ -1,12 +1,14 @@
 // The Lua state of a deck with all that its callbacks need.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 
 #include "deck/deck.hpp"
 #include "deck/lua_state.hpp"
 #include "deck/register.hpp"
+#include "mesh/step_assembly.hpp"
 #include "run/study.hpp"
 
 namespace dygita {
@@ -27,6 +29,7 @@ struct DeckState : LuaState {
   DeckOutcome outcome;
   Study study;
   std::set<std::string> parameters_read, signals_told;
+  std::map<std::shared_ptr<const StepAssembly>, std::set<std::string>> parts_taken;  // by the deck, names
   Origin parameters_origin;
   bool has_parameters = false;   // param{} was called
   bool has_read_hollow = false;  // the deck has read a value that was not computed

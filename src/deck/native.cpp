@@ -147,23 +147,28 @@ int make(LuaState& lua, lua_State* L) {
 }
 
 // assembly:parts: a list of meshes.
-void push_parts(lua_State* L, const StepAssembly& assembly, const std::string& pattern, int id, const Origin& origin) {
+void push_parts(DeckState& state, lua_State* L, const Object& self, const std::string& pattern, const Origin& origin) {
+  const auto& assembly = self.as<std::shared_ptr<const StepAssembly>>();
   std::vector<const StepPart*> parts;
   try {
-    parts = assembly.parts(pattern);
+    parts = assembly->parts(pattern);
   } catch (const InputError& error) {
     throw InputError(origin, error.what());
   }
   lua_createtable(L, static_cast<int>(parts.size()), 0);
   for (size_t i = 0; i < parts.size(); ++i) {
-    push_object(L, {"mesh", "assembly:parts", parts[i]->name, id, parts[i]->mesh});
+    state.parts_taken[assembly].insert(parts[i]->name);
+    push_object(L, {"mesh", "assembly:parts", parts[i]->name, self.id, parts[i]->mesh});
     lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
   }
 }
 
-MeshPtr part_of(const StepAssembly& assembly, const std::string& name, const Origin& origin) {
+MeshPtr part_of(DeckState& state, const Object& self, const std::string& name, const Origin& origin) {
+  const auto& assembly = self.as<std::shared_ptr<const StepAssembly>>();
   try {
-    return assembly.part(name).mesh;
+    const StepPart& part = assembly->part(name);
+    state.parts_taken[assembly].insert(part.name);
+    return part.mesh;
   } catch (const InputError& error) {
     throw InputError(origin, error.what());
   }
@@ -183,10 +188,9 @@ int call_method(LuaState& lua, lua_State* L) {
         L, {"mesh", method, name, self.id, volume_of(*self.as<std::shared_ptr<const GmshMeshes>>(), name, origin)});
   } else if (method == "assembly:part") {
     const std::string name = lua_tostring(L, 3);
-    push_object(
-        L, {"mesh", method, name, self.id, part_of(*self.as<std::shared_ptr<const StepAssembly>>(), name, origin)});
+    push_object(L, {"mesh", method, name, self.id, part_of(state, self, name, origin)});
   } else if (method == "assembly:parts") {
-    push_parts(L, *self.as<std::shared_ptr<const StepAssembly>>(), lua_tostring(L, 3), self.id, origin);
+    push_parts(state, L, self, lua_tostring(L, 3), origin);
   } else if (method == "substructure:face" && lua_istable(L, 3)) {
     const Face face = picked_face(state.folder, self.as<SubstructurePtr>(), L, origin);
     push_object(L, {"face", method, face.label(), self.id, face});

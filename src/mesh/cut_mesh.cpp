@@ -246,6 +246,7 @@ std::vector<MeshPiece> cut_mesh(const Mesh& mesh, const std::vector<int>& piece_
     own->digest = mesh_digest(*own);
     own->shape = shape_of_piece(mesh, piece.nodes);
     own->turn = mesh.turn;
+    own->shift = mesh.shift;
     piece.mesh = std::move(own);
     pieces.push_back(std::move(piece));
   }

@@ -121,6 +121,16 @@ void check_mesh(const Mesh& mesh, const std::string& name) {
   for (const CellBlock& block : mesh.blocks) check_block(mesh.nodes, block, name);
 }
 
+MeshPtr turned_mesh(const Mesh& mesh, const Mat3& turn, const Vec3& shift) {
+  auto turned = std::make_shared<Mesh>(mesh);
+  turned->nodes = (turn * mesh.nodes).colwise() + shift;
+  turned->shape = mesh.shape_digest();
+  turned->turn = turn * mesh.turn;
+  turned->shift = turn * mesh.shift + shift;
+  turned->digest = mesh_digest(*turned);
+  return turned;
+}
+
 std::string mesh_digest(const Mesh& mesh) {
   constexpr size_t least_in_digest = 4;  // nodes of a facet: state files hold digests made so
   Fnv1a digest;

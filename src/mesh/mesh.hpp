@@ -43,8 +43,10 @@ struct Mesh {
   std::map<std::string, std::vector<Facet>> faces;  // every named face of this body
   std::string source;                               // "box" or the file's path, for messages and the run record
   std::string digest;                               // changes when the nodes, cells or faces change
-  std::string shape;  // of a copy, x = turn x0 + t: the digest of what x0 are the nodes of; empty: it is none
+  // Of a copy, x = turn x0 + shift: the digest of the mesh whose nodes are x0; empty: it is none.
+  std::string shape;
   Mat3 turn = Mat3::Identity();
+  Vec3 shift = Vec3::Zero();  // m
 
   // Equal for meshes that are one mesh, turned and moved.
   const std::string& shape_digest() const { return shape.empty() ? digest : shape; }
@@ -81,6 +83,9 @@ std::vector<int> nodes_of(const std::vector<Facet>& facets);
 // Throws InputError naming the cell, its type, place and volume if a Jacobian is not positive at a corner or
 // Gauss point, if a node belongs to no cell, or if there is no cell.
 void check_mesh(const Mesh& mesh, const std::string& name);
+
+// The mesh turned (a rotation about the origin), then moved (m): a copy of what it is a copy of.
+MeshPtr turned_mesh(const Mesh& mesh, const Mat3& turn, const Vec3& shift);
 
 // Digest (FNV-1a 64, in hexadecimal) of nodes, cells and faces.
 std::string mesh_digest(const Mesh& mesh);

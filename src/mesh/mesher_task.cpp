@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <Eigen/LU>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -51,7 +52,7 @@ Json options_of(const GmshOptions& options) {
 Json options_of(const StepOptions& options) {
   Json json = {{"file", options.file},           {"size", json_of(options.size)},   {"unit", options.unit},
                {"order", options.order},         {"complete", options.is_complete}, {"sizes", options.sizes},
-               {"a_turn", options.cells_a_turn}, {"sweep", options.sweep}};
+               {"a_turn", options.cells_a_turn}, {"sweep", options.sweep},          {"parts", options.parts}};
   if (options.fine) json["fine"] = {options.fine->size, options.fine->growth};
   return json;
 }
@@ -72,6 +73,7 @@ StepOptions step_options(const Json& json) {
   options.sizes = json.at("sizes").get<std::map<std::string, double>>();
   options.cells_a_turn = json.at("a_turn");
   options.sweep = json.at("sweep");
+  options.parts = json.at("parts").get<std::vector<std::string>>();
   if (json.contains("fine")) options.fine = {json["fine"].at(0), json["fine"].at(1)};
   return options;
 }
@@ -163,6 +165,28 @@ TaggedModel model_of(const Json& json) {
   return model;
 }
 
+Json json_of(const std::optional<SolidCopy>& copy) {
+  if (!copy) return Json();
+  std::vector<double> numbers(copy->turn.data(), copy->turn.data() + 9);
+  numbers.insert(numbers.end(), copy->shift.data(), copy->shift.data() + 3);
+  return {{"of", copy->of}, {"place", packed(numbers)}};
+}
+
+// before: those of the solids before it.
+std::optional<SolidCopy> copy_of(const Json& json, const std::vector<std::optional<SolidCopy>>& before) {
+  if (json.is_null()) return {};
+  SolidCopy copy;
+  copy.of = json.at("of");
+  const std::vector<double> numbers = unpacked<double>(json.at("place"));
+  if (copy.of < 0 || copy.of >= static_cast<int>(before.size()) || before[copy.of] || numbers.size() != 12)
+    throw InputError("a copy of nothing");
+  copy.turn = Eigen::Map<const Mat3>(numbers.data());
+  copy.shift = Eigen::Map<const Vec3>(numbers.data() + 9);
+  if (!copy.shift.allFinite() || !copy.turn.isUnitary(1e-9) || copy.turn.determinant() < 0.0)
+    throw InputError("a copy that is not turned and moved");
+  return copy;
+}
+
 MesherAnswer read_answer(const std::string& bytes) {
   const Json json = Json::from_cbor(bytes);
   MesherAnswer answer;
@@ -173,6 +197,7 @@ MesherAnswer read_answer(const std::string& bytes) {
   for (const Json& solid : json.at("solids")) {
     answer.solids.push_back({solid.at("name"), solid.at("product"), solid.at("instance")});
     answer.surfaces.push_back(surfaces_of(solid.at("surfaces")));
+    answer.copies.push_back(copy_of(solid.at("copy"), answer.copies));
   }
   if (!answer.solids.empty() && answer.solids.size() != answer.model.volumes.size())
     throw InputError("solids without cells");
@@ -215,7 +240,8 @@ std::string to_bytes(const MesherAnswer& answer) {
     json["solids"].push_back({{"name", solid.name},
                               {"product", solid.product},
                               {"instance", solid.instance},
-                              {"surfaces", json_of(answer.surfaces[i])}});
+                              {"surfaces", json_of(answer.surfaces[i])},
+                              {"copy", json_of(answer.copies[i])}});
   }
   return bytes_of(json);
 }

@@ -22,9 +22,11 @@ struct MesherTask {
   std::vector<std::string> readable{};  // folders and files that may be read besides the system's own
 };
 
-// Names of a solid as the file has them.
-struct SolidNames {
-  std::string name, product, instance;
+// A solid that is another one, turned and moved: x = turn x0 + shift, m.
+struct SolidCopy {
+  int of = -1;  // index of the other, which is before it and no copy
+  Mat3 turn = Mat3::Identity();
+  Vec3 shift = Vec3::Zero();
 };
 
 struct MesherAnswer {
@@ -32,6 +34,7 @@ struct MesherAnswer {
   std::vector<std::string> warnings;  // said to the user
   TaggedModel model;
   std::vector<SolidNames> solids;                    // of an assembly, one for each volume of the model
+  std::vector<std::optional<SolidCopy>> copies;      // of each of them; a copy has neither cells nor facets
   std::vector<std::vector<TaggedSurface>> surfaces;  // of each of them, called after it: "bolt1.head"
 };
 

@@ -18,11 +18,6 @@ namespace dygita {
 
 namespace {
 
-bool fits(const StepPart& part, const std::string& pattern) {
-  return fits_pattern(part.name, pattern) || fits_pattern(part.product, pattern) ||
-         fits_pattern(part.instance, pattern);
-}
-
 std::vector<std::string> known_names(const std::vector<StepPart>& parts) {
   std::set<std::string> names;
   for (const StepPart& part : parts)
@@ -41,9 +36,11 @@ std::string line_of(const StepPart& part) {
   std::string cells;
   for (const CellBlock& block : mesh.blocks)
     cells += fmt::format("{}{} {}", cells.empty() ? "" : " and ", block.n_cells(), cell_shape(block.type).name);
-  return fmt::format("  '{}'{}: {}, {:.4g} cm^3, {}, worst shape {:.2g}", part.name,
+  return fmt::format("  '{}'{}: {}, {:.4g} cm^3, {}", part.name,
                      part.product.empty() || part.product == part.name ? "" : " (" + part.product + ")",
-                     extent(mesh.nodes), 1e6 * volume(mesh), cells, worst_shape(mesh));
+                     extent(mesh.nodes), 1e6 * volume(mesh),
+                     part.copy_of.empty() ? fmt::format("{}, worst shape {:.2g}", cells, worst_shape(mesh))
+                                          : fmt::format("the mesh of '{}'", part.copy_of));
 }
 
 void say_parts(const std::string& file, const std::vector<StepPart>& parts) {
@@ -62,14 +59,24 @@ std::vector<StepPart> build_parts(MesherAnswer& all) {
   for (size_t i = 0; i < all.solids.size(); ++i) {
     TaggedModel one{
         all.model.file, std::move(all.model.nodes), {std::move(all.model.volumes[i])}, std::move(all.surfaces[i])};
-    const SolidNames& names = all.solids[i];
-    parts.push_back({names.name, names.product, names.instance, build_mesh(one, one.volumes[0])});
+    StepPart& part = parts.emplace_back(StepPart{all.solids[i], {}, {}});
+    if (const auto& copy = all.copies[i]) {
+      const StepPart& first = parts[copy->of];
+      part.copy_of = first.name;
+      part.mesh = turned_mesh(*first.mesh, copy->turn, copy->shift);
+    } else {
+      part.mesh = build_mesh(one, one.volumes[0]);
+    }
     all.model.nodes = std::move(one.nodes);
   }
   return parts;
 }
 
 }  // namespace
+
+bool SolidNames::fit(const std::string& pattern) const {
+  return fits_pattern(name, pattern) || fits_pattern(product, pattern) || fits_pattern(instance, pattern);
+}
 
 bool fits_pattern(const std::string& text, const std::string& pattern) {
   const size_t star = pattern.find('*');
@@ -114,7 +121,7 @@ const StepPart& StepAssembly::part(const std::string& name) const {
 std::vector<const StepPart*> StepAssembly::parts(const std::string& pattern) const {
   std::vector<const StepPart*> found;
   for (const StepPart& part : parts_)
-    if (fits(part, pattern)) found.push_back(&part);
+    if (part.fit(pattern)) found.push_back(&part);
   if (found.empty())
     throw InputError(fmt::format("'{}' has no part that '{}' fits\n    {}", file_, pattern,
                                  did_you_mean(pattern, known_names(parts_))));

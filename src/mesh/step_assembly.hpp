@@ -22,13 +22,22 @@ struct StepOptions {
   // Hexahedra in solids that are a flat face moved along its normal: in none, in those that are, or in all.
   enum class Sweep { none, where_possible, all };
   Sweep sweep = Sweep::none;
-  double unit = 1e-3;  // m, of a .brep, which states none
+  double unit = 1e-3;              // m, of a .brep, which states none
+  std::vector<std::string> parts;  // names, or patterns with *, of those to mesh; empty: all
 };
 
-struct StepPart {
+// Names of a solid.
+struct SolidNames {
   std::string name;               // unique: the instance's where products repeat
   std::string product, instance;  // as the file has them, may be empty
+
+  // Does one of them fit a pattern whose * stands for any text?
+  bool fit(const std::string& pattern) const;
+};
+
+struct StepPart : SolidNames {
   MeshPtr mesh;
+  std::string copy_of;  // the part whose mesh it has, turned and moved; empty: its own
 };
 
 class StepAssembly {
@@ -41,6 +50,8 @@ class StepAssembly {
   // The part of that name, product or instance. Throws InputError where there is none (with the closest) or more than
   // one.
   const StepPart& part(const std::string& name) const;
+  const std::string& file() const { return file_; }
+  const std::vector<StepPart>& parts() const { return parts_; }
   // Those whose name, product or instance fits a pattern with *, in the order of the file. Throws where there is none.
   std::vector<const StepPart*> parts(const std::string& pattern) const;
 

@@ -4,118 +4,25 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <set>
 
 #include "base/error.hpp"
 #include "base/log.hpp"
-#include "base/names.hpp"
-#include "mesh/box_grid.hpp"
 #include "mesh/mesh_file.hpp"
 #include "mesher/estimate.hpp"
 #include "mesher/gmsh_session.hpp"
 #include "mesher/read.hpp"
-#include "mesher/step_contacts.hpp"
+#include "mesher/step_solids.hpp"
 #include "mesher/sweep.hpp"
 
 namespace dygita {
 
 namespace {
 
-constexpr double relative_within = 1e-4;  // of the assembly's diagonal: faces nearer than that touch
-constexpr double cells_across = 20.0;     // the diagonal of a part whose size nobody says
-
-struct Solid {
-  int tag = 0;
-  SolidNames part;
-  std::vector<int> surfaces;
-  std::vector<std::string> surface_names;  // of the file, by surface
-  double size = 0.0;                       // of the model's unit
-};
-
-// "Shapes/joint/bolt3/M10 bolt": the product last, the instance before it.
-void read_names(Solid& solid) {
-  std::string path;
-  gmsh::model::getEntityName(3, solid.tag, path);
-  std::vector<std::string> levels(1);
-  for (const char c : path) c == '/' ? levels.emplace_back() : levels.back() += c;
-  solid.part.product = levels.back();
-  if (levels.size() > 2) solid.part.instance = levels[levels.size() - 2];
-}
-
-// Unique names: the product's; where that repeats the instance's; where that repeats or is missing, with the number.
-void name_parts(std::vector<Solid>& solids) {
-  const auto count = [&](const auto& member, const std::string& name) {
-    return std::count_if(solids.begin(), solids.end(), [&](const Solid& s) { return member(s.part) == name; });
-  };
-  const auto product = [](const SolidNames& part) { return part.product; };
-  const auto instance = [](const SolidNames& part) { return part.instance; };
-  for (size_t i = 0; i < solids.size(); ++i) {
-    SolidNames& part = solids[i].part;
-    if (!part.instance.empty() && count(instance, part.instance) == 1)
-      part.name = part.instance;
-    else if (!part.product.empty() && count(product, part.product) == 1)
-      part.name = part.product;
-    else
-      part.name = fmt::format("{}{}", part.product.empty() ? "volume" : part.product + " ", i + 1);
-  }
-}
-
-bool fits(const SolidNames& part, const std::string& pattern) {
-  return fits_pattern(part.name, pattern) || fits_pattern(part.product, pattern) ||
-         fits_pattern(part.instance, pattern);
-}
-
-std::vector<std::string> known_names(const std::vector<Solid>& solids) {
-  std::set<std::string> names;
-  for (const Solid& solid : solids)
-    for (const std::string& name : {solid.part.name, solid.part.product})
-      if (!name.empty()) names.insert(name);
-  return {names.begin(), names.end()};
-}
-
-Box box_of(int dimension, int tag) {
-  Box box;
-  gmsh::model::getBoundingBox(dimension, tag, box.low[0], box.low[1], box.low[2], box.high[0], box.high[1],
-                              box.high[2]);
-  return box;
-}
-
-std::vector<Solid> read_solids(const StepOptions& options, double unit) {
-  std::vector<Solid> solids;
-  for (const int tag : gmsh_tags(3)) {
-    Solid& solid = solids.emplace_back();
-    solid.tag = tag;
-    read_names(solid);
-    GmshEntities boundary;
-    gmsh::model::getBoundary({{3, tag}}, boundary, false, false);
-    for (const auto& [dimension, surface] : boundary) {
-      solid.surfaces.push_back(surface);
-      gmsh::model::getEntityName(dimension, surface, solid.surface_names.emplace_back());
-    }
-    solid.size = options.size ? *options.size / unit : box_of(3, tag).size().norm() / cells_across;
-  }
-  if (solids.empty())
-    throw InputError(fmt::format("{}: no solid in it; surfaces alone cannot be meshed", options.file));
-  name_parts(solids);
-  for (const auto& [pattern, size] : options.sizes) {
-    if (pattern == "contacts") continue;
-    bool is_used = false;
-    for (Solid& solid : solids)
-      if (fits(solid.part, pattern)) {
-        solid.size = size / unit;
-        is_used = true;
-      }
-    if (!is_used)
-      throw InputError(fmt::format("{}: 'sizes' names '{}', which no part is called\n    {}", options.file, pattern,
-                                   did_you_mean(pattern, known_names(solids))));
-  }
-  return solids;
-}
-
 // Hexahedra where solids are a face moved along its normal.
 void sweep_solids(const StepOptions& options, std::vector<Solid>& solids) {
   if (options.sweep == StepOptions::Sweep::none) return;
   for (Solid& solid : solids) {
+    if (solid.copy) continue;
     if (auto swept = sweep_solid(solid.tag, solid.surfaces, solid.size)) {
       solid.tag = swept->tag;
       solid.surfaces = swept->surfaces;
@@ -140,15 +47,19 @@ void grade(const std::vector<int>& curves, const StepOptions::Fine& fine, double
   gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);  // inside, the field says it
 }
 
+// gmsh meshes these alone.
+void show_meshed(const std::vector<Solid>& solids) {
+  GmshEntities all;
+  gmsh::model::getEntities(all);
+  gmsh::model::setVisibility(all, 0);
+  for (const Solid& solid : solids)
+    if (!solid.copy) gmsh::model::setVisibility({{3, solid.tag}}, 1, true);
+  gmsh::option::setNumber("Mesh.MeshOnlyVisible", 1);
+}
+
 void mesh_solids(const StepOptions& options, const std::vector<Solid>& solids, double unit) {
-  std::map<int, std::vector<int>> surfaces_of;
   std::map<std::pair<int, int>, double> size_of;  // of entities, by dimension and tag
-  Box whole;
   for (const Solid& solid : solids) {
-    const Box box = box_of(3, solid.tag);
-    whole.add(box.low);
-    whole.add(box.high);
-    surfaces_of[solid.tag] = solid.surfaces;
     GmshEntities all = {{3, solid.tag}}, boundary;
     gmsh::model::getBoundary(all, boundary, false, false, true);  // down to the points
     all.insert(all.end(), boundary.begin(), boundary.end());
@@ -162,8 +73,8 @@ void mesh_solids(const StepOptions& options, const std::vector<Solid>& solids, d
     for (const auto& entity : all) size_of[entity] = solid.size;
   }
   const auto on_contacts = options.sizes.find("contacts");
-  if (options.fine || on_contacts != options.sizes.end()) {
-    const StepContacts contacts = step_contacts(surfaces_of, relative_within * whole.size().norm());
+  if (is_finer_at_contacts(options)) {
+    const StepContacts contacts = contacts_of(solids);
     if (options.fine && !contacts.curves.empty()) grade(contacts.curves, *options.fine, unit);
     if (on_contacts != options.sizes.end()) {
       for (const int tag : contacts.surfaces) size_of[{2, tag}] = on_contacts->second / unit;
@@ -177,6 +88,7 @@ void mesh_solids(const StepOptions& options, const std::vector<Solid>& solids, d
     return found == size_of.end() ? 1e22 : found->second;
   });
   gmsh::option::setNumber("Mesh.SecondOrderIncomplete", options.is_complete ? 0 : 1);
+  show_meshed(solids);
   gmsh::model::mesh::generate(3);
   gmsh::model::mesh::removeSizeCallback();
   if (options.order > 1) gmsh::model::mesh::setOrder(options.order);
@@ -187,7 +99,7 @@ TaggedModel tagged(const StepOptions& options, const std::vector<Solid>& solids,
   model.file = options.file;
   for (const Solid& solid : solids) {
     TaggedVolume& volume = model.volumes.emplace_back(TaggedVolume{solid.part.name, {}});
-    read_gmsh_cells(solid.tag, options.file, volume.name, volume.cells);
+    if (!solid.copy) read_gmsh_cells(solid.tag, options.file, volume.name, volume.cells);
   }
   read_gmsh_nodes(unit, model.nodes);
   return model;
@@ -203,7 +115,7 @@ std::vector<TaggedSurface> surfaces_of(const Solid& solid) {
     const std::string full = solid.part.name + "." + name;
     auto known = std::find_if(surfaces.begin(), surfaces.end(), [&](const auto& s) { return s.name == full; });
     if (known == surfaces.end()) known = surfaces.insert(surfaces.end(), TaggedSurface{full, {}});
-    read_gmsh_facets(solid.surfaces[i], known->facets);
+    if (!solid.copy) read_gmsh_facets(solid.surfaces[i], known->facets);
   }
   return surfaces;
 }
@@ -244,20 +156,21 @@ MesherAnswer read_assembly(const StepOptions& options) {
   const double unit = kind_of_file(options.file) == "step" ? 1e-3 : options.unit;
   const GmshSession session(options.file);
   session.run([&] { open(options); });
+  session.run([&] { doubt_losses(options.file, gmsh_tags(3).size()); });
   MesherAnswer answer;
   session.run([&] {
     std::vector<Solid> solids = read_solids(options, unit);
-    doubt_losses(options.file, solids.size());
     sweep_solids(options, solids);
     const auto size_of = [&](int volume) {
       const auto solid = std::find_if(solids.begin(), solids.end(), [&](const Solid& s) { return s.tag == volume; });
-      return solid == solids.end() ? 0.0 : solid->size;
+      return solid == solids.end() || solid->copy ? 0.0 : solid->size;
     };
     refuse_hopeless(options.file, size_of, unit);
     mesh_solids(options, solids, unit);
     answer.model = tagged(options, solids, unit);
     for (const Solid& solid : solids) {
       answer.solids.push_back(solid.part);
+      answer.copies.push_back(solid.copy);
       answer.surfaces.push_back(surfaces_of(solid));
     }
   });

@@ -35,7 +35,7 @@ std::optional<Mat3> FrameAxes::at(const std::vector<int>& parts, const Vec3& pla
   for (const int i : parts) {
     if (!turns_[i]) continue;
     const Substructure& part = *problem_.substructures[i];
-    const Vec3 own = part.mesh->turn.transpose() * (place - part.place);
+    const Vec3 own = part.mesh->turn.transpose() * (place - part.place - part.mesh->shift);
     if (axes && !comes_first(own, first)) continue;
     axes = &part.mesh->turn;
     first = own;

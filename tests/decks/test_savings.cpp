@@ -60,7 +60,7 @@ for i = 1, n do
   bases[i] = seats[i]:face "zmin"
   ends[i] = posts[i]:face "xmax"
   loads[i] = load.pressure{ on = posts[i]:face "zmax", history = (10 + 3 * i)*MPa }
-  hits[i] = load.pressure{ on = posts[i]:face "zmax", history = (10 + 3 * i)*MPa }
+  hits[i] = load.pressure{ on = posts[i]:face "zmax", history = function(t) return (10 + 3 * i)*MPa * (1 + 0.4 * i * math.sin(math.pi * math.min(t / (2*us), 1))) end }
   outputs[#outputs + 1] = output.history{ name = "top" .. i, on = posts[i]:face "zmax", quantity = "velocity" }
 end
 hits[#hits + 1] = load.traction{ on = posts[2]:face "ymax", z = history.half_sine{ peak = -40*MPa, duration = 2*us }, x = 3*MPa }
@@ -98,7 +98,7 @@ TEST(EqualSubstructures, at_any_angle_share_a_factor_and_are_solved_as_if_each_h
   EXPECT_EQ(own.figure(n_shared), 0);
   EXPECT_LT(shared.figure("memory of factors and interface operators [MB]"),
             0.4 * own.figure("memory of factors and interface operators [MB]"));
-  for (const char* top : {"top1", "top2", "top4"})
+  for (const char* top : {"top2", "top3", "top4"})
     for (const char* axis : {"x", "y", "z"}) {
       EXPECT_LT(difference(own.column(top, axis), shared.column(top, axis)), 1e-6) << top << axis;
       EXPECT_LT(difference(plain.column(top, axis), shared.column(top, axis)), 1e-6) << top << axis;

@@ -1,6 +1,7 @@
 // An assembly from CAD: meshes/joint.step, two plates and two equal bolts, in millimetres.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <fstream>
 
@@ -134,6 +135,82 @@ TEST(StepAssembly, refuses_hexahedra_in_a_solid_of_several_thicknesses) {
   options.sweep = StepOptions::Sweep::all;
   expect_input_error([&] { StepAssembly{options}; },
                      {"part 'bolt1' cannot have hexahedra", "no flat face moved along its normal", "where possible"});
+}
+
+StepOptions brackets() {
+  StepOptions options;
+  options.file = std::string(DYGITA_SOURCE_DIR) + "/meshes/brackets.step";
+  options.size = 5e-3;
+  return options;
+}
+
+// Of a vertex of the file: at (0, 0, 28), (40, 20, 0) and (4, 16, 28) mm of the bracket as it was drawn.
+double distance_to_nearest(const Mesh& mesh, const Vec3& place) {
+  return (mesh.nodes.colwise() - place).colwise().norm().minCoeff();
+}
+
+TEST(StepAssembly, meshes_a_solid_once_that_stands_in_several_places_at_any_angle) {
+  const StepAssembly assembly(brackets());
+  const StepPart &first = assembly.part("first"), &turned = assembly.part("turned"),
+                 &quarter = assembly.part("quarter");
+  EXPECT_EQ(first.copy_of, "");
+  EXPECT_EQ(turned.copy_of, "first");
+  EXPECT_EQ(quarter.copy_of, "first");
+  const Mat3 turn = Eigen::AngleAxisd(40.0 * M_PI / 180.0, Vec3(1.0, 2.0, 2.0).normalized()).toRotationMatrix();
+  const Vec3 shift(0.010, 0.060, -0.015);
+  EXPECT_LT((turned.mesh->turn - turn).norm(), 1e-9);
+  EXPECT_LT((turned.mesh->shift - shift).norm(), 1e-10);
+  EXPECT_EQ(turned.mesh->shape_digest(), first.mesh->shape_digest());
+  EXPECT_NE(turned.mesh->digest, first.mesh->digest);
+  EXPECT_EQ(turned.mesh->n_cells(), first.mesh->n_cells());
+  EXPECT_LT((turned.mesh->nodes - ((turn * first.mesh->nodes).colwise() + shift)).cwiseAbs().maxCoeff(), 1e-10);
+  for (const Vec3& corner : {Vec3(0.0, 0.0, 0.028), Vec3(0.040, 0.020, 0.0), Vec3(0.004, 0.016, 0.028)}) {
+    EXPECT_LT(distance_to_nearest(*first.mesh, corner), 1e-9);
+    EXPECT_LT(distance_to_nearest(*turned.mesh, turn * corner + shift), 1e-9);
+    EXPECT_LT(distance_to_nearest(*quarter.mesh, Vec3(-0.030 - corner[1], corner[0], corner[2])), 1e-9);
+  }
+  check_mesh(*turned.mesh, "turned");
+  ASSERT_EQ(turned.mesh->faces.size(), first.mesh->faces.size());
+  const FaceNodes one = face_nodes(*first.mesh, first.mesh->faces.at("surface1")),
+                  other = face_nodes(*turned.mesh, turned.mesh->faces.at("surface1"));
+  EXPECT_EQ(one.nodes, other.nodes);
+  EXPECT_LT((turn * one.normals - other.normals).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(StepAssembly, takes_no_mirror_image_and_no_other_hole_for_a_copy) {
+  const StepAssembly assembly(brackets());
+  EXPECT_EQ(assembly.part("mirrored").copy_of, "");
+  EXPECT_EQ(assembly.part("wider").copy_of, "");
+}
+
+TEST(StepAssembly, meshes_copies_by_themselves_where_the_deck_wants_other_cells_there) {
+  StepOptions options = brackets();
+  options.sizes = {{"turned", 3e-3}};
+  const StepAssembly assembly(options);
+  EXPECT_EQ(assembly.part("turned").copy_of, "");
+  EXPECT_GT(assembly.part("turned").mesh->n_cells(), 1.5 * assembly.part("first").mesh->n_cells());
+  EXPECT_EQ(assembly.part("quarter").copy_of, "first");
+}
+
+// The bolts touch both plates on faces that correspond.
+TEST(StepAssembly, meshes_copies_once_where_their_contacts_correspond) {
+  StepOptions options = joint();
+  options.sizes = {{"contacts", 2e-3}};
+  EXPECT_EQ(StepAssembly(options).part("bolt2").copy_of, "bolt1");
+  options.sweep = StepOptions::Sweep::where_possible;
+  EXPECT_EQ(StepAssembly(options).part("bolt2").copy_of, "bolt1");
+}
+
+TEST(StepAssembly, meshes_those_alone_that_are_asked_for) {
+  StepOptions options = joint();
+  options.parts = {"lower", "bolt*"};
+  const StepAssembly assembly(options);
+  ASSERT_EQ(assembly.parts().size(), 3u);
+  const StepAssembly all(joint());
+  EXPECT_EQ(assembly.part("lower").mesh->n_cells(), all.part("lower").mesh->n_cells());
+  expect_input_error([&] { assembly.part("upper"); }, {"no part 'upper'"});
+  options.parts = {"lowr"};
+  expect_input_error([&] { StepAssembly{options}; }, {"'parts' names 'lowr'", "lower"});
 }
 
 TEST(StepAssembly, refuses_names_that_are_not_there_or_not_one_part_s) {
