@@ -55,7 +55,7 @@ bool have_equal_sizes(const Landmarks& a, const Landmarks& b) {
          ((a.areas - b.areas).array().abs() <= equal_areas * a.areas.array()).all();
 }
 
-// W. Kabsch, Acta Cryst. A32 (1976): the rotation that brings one set of places closest to another.
+// W. Kabsch, Acta Crystallographica 32 (1976): the rotation that brings one set of places closest to another.
 std::optional<SolidCopy> copy_of(const Landmarks& a, const Landmarks& b) {
   if (!have_equal_sizes(a, b) || !(a.size > 0.0)) return {};
   const Vec3 middle_a = a.places.rowwise().mean(), middle_b = b.places.rowwise().mean();

@@ -33,10 +33,11 @@ class Runner {
   }
 
   SolverFigures run() {
+    MonolithicSteps steps(problem_, {}, surfaces_, bodies_);
     for (const StepPtr& step : problem_.steps) {
       if (interrupt_requested()) break;
       if (step->is_static) {
-        run_monolithic_step(problem_, *step, {}, surfaces_, bodies_, state_, observer_, figures_);
+        steps.run(*step, state_, observer_, figures_);
         memory_ = {};
       } else {
         run_step(*step);

@@ -22,15 +22,48 @@ SparseMatrix sparse(int n_rows, int n_columns, const Triplets& entries) {
   return matrix;
 }
 
+// To the last bit.
+bool are_equal(const SparseMatrix& a, const SparseMatrix& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
+         std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1, b.outerIndexPtr()) &&
+         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr()) &&
+         std::equal(a.valuePtr(), a.valuePtr() + a.nonZeros(), b.valuePtr());
+}
+
+// H = (S + G^T R G)^-1 and W = G H G^T, with S the Schur complement of the assembly without the reference.
+void make_compliance(const Vec& reference, const std::string& what, AssemblyFactor& made) {
+  const SparseMatrix& rows = made.g_of_unknowns;
+  const Factor& factor = *made.factor;
+  const int n_rows = static_cast<int>(rows.rows()), n_interior = factor.n_interior(), n = factor.n_interface();
+  made.softening = Vec::Zero(n_rows);
+  Triplets entries;
+  for (int i = 0; i < n_rows; ++i)
+    for (SparseMatrix::InnerIterator entry(rows, i); entry; ++entry) {
+      entries.emplace_back(i, made.position[entry.col()] - n_interior, entry.value());
+      made.softening[i] += 0.5 * entry.value() * entry.value() * reference[entry.col()];
+    }
+  made.g = sparse(n_rows, n, entries);
+  if (n == 0) return;
+  Mat schur = factor.interface_schur();
+  for (int i = 0; i < n; ++i) schur(i, i) -= reference[factor.order()[n_interior + i]];
+  for (int i = 0; i < n_rows; ++i)
+    for (SparseMatrix::InnerIterator r(made.g, i); r; ++r)
+      for (SparseMatrix::InnerIterator c(made.g, i); c; ++c)
+        schur(r.col(), c.col()) += made.softening[i] * r.value() * c.value();
+  made.inverse = inverse_spd(std::move(schur), what);
+  made.inverse.triangularView<Eigen::StrictlyUpper>() = made.inverse.transpose();
+  const Mat half = made.g * made.inverse;
+  made.compliance = (made.g * Mat(half.transpose())).transpose();
+}
+
 }  // namespace
 
-MergedAssembly::MergedAssembly(const StepModel& model) : model_(&model) {
+MergedAssembly::MergedAssembly(const StepModel& model, std::shared_ptr<const AssemblyFactor> before) : model_(&model) {
   for (size_t i = 0; i < model.pieces.size(); ++i) pieces_.push_back(&assembled_piece(model, static_cast<int>(i)));
   make_groups();
   number_unknowns();
   make_maps();
-  make_rows();
-  factorise();
+  made_ = factorise(make_rows(), before);
 }
 
 // A node of its own for every node of every substructure, but one for all copies that are tied.
@@ -96,7 +129,7 @@ void MergedAssembly::make_maps() {
 }
 
 // The law rows and G on the global unknowns: side 2 less side 1, along the directions of the point's frame.
-void MergedAssembly::make_rows() {
+SparseMatrix MergedAssembly::make_rows() {
   Triplets entries;
   int n_rows = 0;
   for (const Point& point : model_->exchange.points) {
@@ -125,57 +158,44 @@ void MergedAssembly::make_rows() {
             "step '{}': solver.monolithic keeps dense matrices of the unknowns under contact, plastic, shortened and "
             "released interfaces: {} of them, at most {} are allowed; use solver.latin, or a coarser mesh there",
             model_->step->name, n_rows, most_rows));
-  g_ = sparse(n_rows, n_, entries);
   held_rate_ = free_rate_ = Vec::Zero(n_rows);
+  return sparse(n_rows, n_, entries);
 }
 
-void MergedAssembly::factorise() {
+SparseMatrix MergedAssembly::whole_matrix() const {
   SparseMatrix a(n_, n_);
   for (size_t part = 0; part < matrix_.size(); ++part) {
     const SparseMatrix transposed = map_[part].transpose();
     const SparseMatrix merged = matrix_[part] * map_[part];
     a += SparseMatrix(transposed * merged);
   }
+  return a;
+}
+
+std::shared_ptr<const AssemblyFactor> MergedAssembly::factorise(
+    SparseMatrix rows, const std::shared_ptr<const AssemblyFactor>& before) const {
+  auto made = std::make_shared<AssemblyFactor>();
+  made->matrix = whole_matrix();
+  made->g_of_unknowns = std::move(rows);
+  if (before && are_equal(before->matrix, made->matrix) && are_equal(before->g_of_unknowns, made->g_of_unknowns))
+    return before;
   std::vector<char> is_interface(n_, 0);
-  for (int i = 0; i < g_.outerSize(); ++i)
-    for (SparseMatrix::InnerIterator entry(g_, i); entry; ++entry) is_interface[entry.col()] = 1;
+  for (int i = 0; i < made->g_of_unknowns.outerSize(); ++i)
+    for (SparseMatrix::InnerIterator entry(made->g_of_unknowns, i); entry; ++entry) is_interface[entry.col()] = 1;
   Vec reference = Vec::Zero(n_);
+  SparseMatrix held = made->matrix;
   for (int i = 0; i < n_; ++i)
     if (is_interface[i] && model_->scheme.is_static) {
-      double& diagonal = a.coeffRef(i, i);
+      double& diagonal = held.coeffRef(i, i);
       reference[i] = reference_share * diagonal;
       diagonal += reference[i];
     }
-  factor_ =
-      std::make_unique<Factor>(a, node_of_unknown_, is_interface, "the assembly in step '" + model_->step->name + "'");
-  position_.resize(n_);
-  for (int i = 0; i < n_; ++i) position_[factor_->order()[i]] = i;
-  n_interface_ = factor_->n_interface();
-  make_compliance(reference);
-}
-
-// H = (S + G^T R G)^-1 and W = G H G^T, with S the Schur complement of the assembly without the reference.
-void MergedAssembly::make_compliance(const Vec& reference) {
-  const int n_rows = static_cast<int>(g_.rows()), n_interior = factor_->n_interior();
-  softening_ = Vec::Zero(n_rows);
-  Triplets entries;
-  for (int i = 0; i < n_rows; ++i)
-    for (SparseMatrix::InnerIterator entry(g_, i); entry; ++entry) {
-      entries.emplace_back(i, position_[entry.col()] - n_interior, entry.value());
-      softening_[i] += 0.5 * entry.value() * entry.value() * reference[entry.col()];
-    }
-  g_ = sparse(n_rows, n_interface_, entries);
-  if (n_interface_ == 0) return;
-  Mat schur = factor_->interface_schur();
-  for (int i = 0; i < n_interface_; ++i) schur(i, i) -= reference[factor_->order()[n_interior + i]];
-  for (int i = 0; i < n_rows; ++i)
-    for (SparseMatrix::InnerIterator r(g_, i); r; ++r)
-      for (SparseMatrix::InnerIterator c(g_, i); c; ++c)
-        schur(r.col(), c.col()) += softening_[i] * r.value() * c.value();
-  inverse_ = inverse_spd(std::move(schur), "the assembly in step '" + model_->step->name + "'");
-  inverse_.triangularView<Eigen::StrictlyUpper>() = inverse_.transpose();
-  const Mat half = g_ * inverse_;
-  compliance_ = (g_ * Mat(half.transpose())).transpose();
+  const std::string what = "the assembly in step '" + model_->step->name + "'";
+  made->factor = std::make_unique<Factor>(held, node_of_unknown_, is_interface, what);
+  made->position.resize(n_);
+  for (int i = 0; i < n_; ++i) made->position[made->factor->order()[i]] = i;
+  make_compliance(reference, what, *made);
+  return made;
 }
 
 // What supports and prescribed motions give a node.
@@ -246,8 +266,8 @@ void MergedAssembly::begin(const std::vector<double>& motions, const std::vector
     sum += map_[part].transpose() * rhs;
   }
   rhs_.resize(n_);
-  for (int i = 0; i < n_; ++i) rhs_[position_[i]] = sum[i];
-  factor_->forward(rhs_);
+  for (int i = 0; i < n_; ++i) rhs_[made_->position[i]] = sum[i];
+  made_->factor->forward(rhs_);
   for (size_t i = 0; i < rows_.size(); ++i) {
     const Point& point = model_->exchange.points[i];
     for (int d = 0; d < 3; ++d) {
@@ -259,22 +279,23 @@ void MergedAssembly::begin(const std::vector<double>& motions, const std::vector
     }
   }
   free_rate_ = held_rate_;
-  if (n_interface_ == 0) return;
-  Vec velocity(n_interface_);
-  multiply_symmetric(inverse_, rhs_.tail(n_interface_), velocity);
-  free_rate_ += g_ * velocity;
+  const int n_interface = made_->factor->n_interface();
+  if (n_interface == 0) return;
+  Vec velocity(n_interface);
+  multiply_symmetric(made_->inverse, rhs_.tail(n_interface), velocity);
+  free_rate_ += made_->g * velocity;
 }
 
 void MergedAssembly::finish(const Vec& reduced_force) {
-  if (n_interface_ > 0) {
-    const Vec rhs = rhs_.tail(n_interface_) - g_.transpose() * reduced_force;
-    Vec velocity(n_interface_);
-    multiply_symmetric(inverse_, rhs, velocity);
-    rhs_.tail(n_interface_) = velocity;
+  if (const int n_interface = made_->factor->n_interface(); n_interface > 0) {
+    const Vec rhs = rhs_.tail(n_interface) - made_->g.transpose() * reduced_force;
+    Vec velocity(n_interface);
+    multiply_symmetric(made_->inverse, rhs, velocity);
+    rhs_.tail(n_interface) = velocity;
   }
-  factor_->backward(rhs_);
+  made_->factor->backward(rhs_);
   Vec z(n_);
-  for (int i = 0; i < n_; ++i) z[i] = rhs_[position_[i]];
+  for (int i = 0; i < n_; ++i) z[i] = rhs_[made_->position[i]];
   for (size_t part = 0; part < map_.size(); ++part) {
     velocity_[part] = map_[part] * z + prescribed_[part];
     pieces_[part]->set_velocity(velocity_[part]);
@@ -342,7 +363,7 @@ std::vector<Vec3> MergedAssembly::port_forces(const std::vector<Vec3>& point_for
 }
 
 double MergedAssembly::bytes() const {
-  return factor_->bytes() + 8.0 * static_cast<double>(inverse_.size() + compliance_.size());
+  return made_->factor->bytes() + 8.0 * static_cast<double>(made_->inverse.size() + made_->compliance.size());
 }
 
 }  // namespace dygita

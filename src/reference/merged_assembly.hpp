@@ -6,20 +6,34 @@
 
 namespace dygita {
 
+// What follows from the matrix of the assembly and the law rows alone; steps that have both the same share it.
+struct AssemblyFactor {
+  SparseMatrix matrix, g_of_unknowns;  // A; G on the global unknowns
+  std::unique_ptr<Factor> factor;
+  std::vector<int> position;  // of the unknowns in the factor's order
+  SparseMatrix g;             // G on the interface, n_rows x n_interface in the factor's order
+  Mat inverse;                // (S + G^T R G)^-1 on the interface
+  Mat compliance;             // W
+  Vec softening;              // R
+};
+
 class MergedAssembly {
  public:
-  // Assembles, factorises and forms the compliance of the law rows. Throws InputError, NumericalError.
-  explicit MergedAssembly(const StepModel& model);
+  // Assembles, factorises and forms the compliance of the law rows, unless those of the step before still hold; before:
+  // theirs, or null. Throws InputError, NumericalError.
+  explicit MergedAssembly(const StepModel& model, std::shared_ptr<const AssemblyFactor> before = nullptr);
+
+  const std::shared_ptr<const AssemblyFactor>& factor() const { return made_; }
 
   // A law row is one direction of one point with a law; -1 where nothing can move there.
   int row(size_t i_point, int direction) const { return rows_[i_point][direction]; }
   int n_rows() const { return static_cast<int>(held_rate_.size()); }
   int n_unknowns() const { return n_; }
   // W: rates at the law rows for unit forces there, (n_rows x n_rows) m/(N s); see `softening`.
-  const Mat& compliance() const { return compliance_; }
+  const Mat& compliance() const { return made_->compliance; }
   // R: stiffness of the springs across the law rows that W includes, so that bodies held by laws alone have a W (zero
   // in dynamics).
-  const Vec& softening() const { return softening_; }
+  const Vec& softening() const { return made_->softening; }
 
   // Right-hand side of an increment, after `begin` of all pieces: forward solve.
   // displacement: of every substructure's nodes, m.
@@ -45,9 +59,10 @@ class MergedAssembly {
   void make_groups();
   void number_unknowns();
   void make_maps();
-  void make_rows();
-  void factorise();
-  void make_compliance(const Vec& reference);
+  SparseMatrix make_rows();
+  std::shared_ptr<const AssemblyFactor> factorise(SparseMatrix rows,
+                                                  const std::shared_ptr<const AssemblyFactor>& before) const;
+  SparseMatrix whole_matrix() const;
   const Node& node(int part, int i) const { return nodes_[node_of_[part][i]]; }
   Vec3 held_velocity(int part, int i, const std::vector<double>& motions) const;
   Vec3 held_velocity(const Port& port, const std::vector<double>& motions) const;
@@ -62,14 +77,10 @@ class MergedAssembly {
   std::vector<SparseMatrix> matrix_, map_;  // of each piece: matrix, and its free unknowns from the global ones
   std::vector<Vec> prescribed_;             // velocities of each piece's free unknowns that z does not give
   std::vector<std::array<int, 3>> rows_;
-  int n_ = 0, n_interface_ = 0;
-  std::unique_ptr<Factor> factor_;
-  std::vector<int> position_;
-  Mat inverse_;                // (S + G^T R G)^-1 on the interface, lower triangle
-  SparseMatrix g_;             // G: rates at the law rows, n_rows x n_interface in the factor's order
+  int n_ = 0;
+  std::shared_ptr<const AssemblyFactor> made_;
   std::vector<Vec> velocity_;  // of each piece's free unknowns
-  Mat compliance_;
-  Vec softening_, held_rate_, free_rate_, rhs_;
+  Vec held_rate_, free_rate_, rhs_;
 };
 
 }  // namespace dygita

@@ -18,14 +18,15 @@ namespace {
 
 class MonolithicRun {
  public:
+  // before: the factor of the step before, or null.
   MonolithicRun(const Problem& problem, const MonolithicSettings& settings, StepModel& model, State& state,
-                Observer& observer)
+                Observer& observer, const std::shared_ptr<const AssemblyFactor>& before)
       : model_(model),
         state_(state),
         observer_(observer),
         i_step_(index_of(problem.steps, model.step)),
         increment_(increment_of(model.scheme, 0.0)),
-        assembly_(model),
+        assembly_(model, before),
         newton_(model, assembly_, settings) {
     start_step(model, state);
     for (const Point& point : model.exchange.points) records_.push_back(start_point(model, point, state));
@@ -37,6 +38,7 @@ class MonolithicRun {
   void run();
   void add_to(SolverFigures& figures) const;
   const StepFigures& figures() const { return figures_; }
+  const std::shared_ptr<const AssemblyFactor>& factor() const { return assembly_.factor(); }
 
  private:
   void solve_increment(int increment);
@@ -205,12 +207,11 @@ void MonolithicRun::add_to(SolverFigures& figures) const {
 
 }  // namespace
 
-void run_monolithic_step(const Problem& problem, const Step& step, const MonolithicSettings& settings,
-                         const std::vector<Surface>& surfaces, const std::vector<Body>& bodies, State& state,
-                         Observer& observer, SolverFigures& figures) {
+void MonolithicSteps::run(const Step& step, State& state, Observer& observer, SolverFigures& figures) {
   auto start = Clock::now();
-  StepModel model = make_assembled_model(problem, step, surfaces, bodies, state);
-  MonolithicRun run(problem, settings, model, state, observer);
+  StepModel model = make_assembled_model(problem_, step, surfaces_, bodies_, state);
+  MonolithicRun run(problem_, settings_, model, state, observer, factor_);
+  factor_ = run.factor();
   figures.seconds["factor"] += seconds_since(start);
   start = Clock::now();
   run.run();
@@ -229,9 +230,10 @@ SolverFigures solve_monolithic(const Problem& problem, Observer& observer) {
   const std::vector<Body> bodies = make_bodies(problem, surfaces);
   State state = initial_state(problem, surfaces);
   figures.seconds["assemble"] = seconds_since(start);
+  MonolithicSteps steps(problem, *problem.monolithic, surfaces, bodies);
   for (const StepPtr& step : problem.steps) {
     if (interrupt_requested()) break;
-    run_monolithic_step(problem, *step, *problem.monolithic, surfaces, bodies, state, observer, figures);
+    steps.run(*step, state, observer, figures);
   }
   figures.interrupted = interrupt_requested();
   return figures;

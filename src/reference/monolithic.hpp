@@ -2,6 +2,8 @@
 // and none of its iteration (manual, "The monolithic reference"). For checks of LATIN and comparisons of speed.
 #pragma once
 
+#include <memory>
+
 #include "solution/observer.hpp"
 #include "solution/solver_figures.hpp"
 
@@ -12,9 +14,25 @@ namespace dygita {
 // a result.
 SolverFigures solve_monolithic(const Problem& problem, Observer& observer);
 
-// One step of it from `state`, which is then what the step leaves; adds to `figures`.
-void run_monolithic_step(const Problem& problem, const Step& step, const MonolithicSettings& settings,
-                         const std::vector<Surface>& surfaces, const std::vector<Body>& bodies, State& state,
-                         Observer& observer, SolverFigures& figures);
+struct AssemblyFactor;
+
+// Its steps, one after the other; where the matrix is that of the step before so is the factor.
+class MonolithicSteps {
+ public:
+  // All outlive this object.
+  MonolithicSteps(const Problem& problem, const MonolithicSettings& settings, const std::vector<Surface>& surfaces,
+                  const std::vector<Body>& bodies)
+      : problem_(problem), settings_(settings), surfaces_(surfaces), bodies_(bodies) {}
+
+  // From `state`, which is then what the step leaves; adds to `figures`.
+  void run(const Step& step, State& state, Observer& observer, SolverFigures& figures);
+
+ private:
+  const Problem& problem_;
+  const MonolithicSettings settings_;
+  const std::vector<Surface>& surfaces_;
+  const std::vector<Body>& bodies_;
+  std::shared_ptr<const AssemblyFactor> factor_;
+};
 
 }  // namespace dygita

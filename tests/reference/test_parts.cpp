@@ -100,6 +100,18 @@ TEST(MergedAssembly, moves_as_the_dense_system_under_loads_and_forces_at_the_law
             1e-9 * expected.norm());
 }
 
+TEST(MergedAssembly, takes_the_factor_of_the_step_before_where_its_matrices_are_the_same) {
+  const Modelled of(struck(contact(0.3)), 0, true), same(struck(contact(0.3)), 0, true);
+  const MergedAssembly first(of.model), second(same.model, first.factor());
+  EXPECT_EQ(first.factor(), second.factor());
+  Problem slower = struck(contact(0.3));
+  slower.steps = {dynamic_step("strike", 4, 2.0 * parts_dt, {})};
+  const Modelled other(std::move(slower), 0, true);
+  EXPECT_NE(MergedAssembly(other.model, first.factor()).factor(), first.factor());
+  const Modelled without_friction(struck(contact(0.0)), 0, true);  // other rows
+  EXPECT_NE(MergedAssembly(without_friction.model, first.factor()).factor(), first.factor());
+}
+
 TEST(MergedAssembly, gives_tied_copies_one_motion_and_their_forces_to_the_ties) {
   Modelled of(struck(bonded()), 0, true);
   MergedAssembly assembly(of.model);
