@@ -6,6 +6,11 @@ option(DYGITA_SANITIZE "Stop at memory errors, leaks and undefined behaviour" OF
 # Without the checks of each dereferenced pointer: the address sanitizer stops there too, and a quarter of the compile time is theirs.
 set(dygita_sanitizers -fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,vptr -fno-sanitize-recover=undefined
   -fno-omit-frame-pointer)
+# For libFuzzer, which is clang's: with the sanitizers, and every branch counted.
+option(DYGITA_FUZZ "Build the programs of tests/fuzz with libFuzzer (clang)" OFF)
+if(DYGITA_FUZZ)
+  list(APPEND dygita_sanitizers -fsanitize=fuzzer-no-link)
+endif()
 
 # g++ 12 sees overruns in Eigen's vectorised small products and in std::string that are not there (its bugs 105329, 106247).
 set(dygita_gnu_false_alarms -Wno-uninitialized -Wno-maybe-uninitialized -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow
