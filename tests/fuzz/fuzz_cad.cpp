@@ -1,6 +1,7 @@
 // What the program itself reads of a .geo or .step before the mesher does: parameters, included files, the unit.
 #include "fuzz/target.hpp"
 #include "mesh/file_text.hpp"
+#include "mesh/geo_script.hpp"
 #include "mesh/mesh_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
@@ -20,6 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
       if (!options.set.empty()) const ParameterFile with(file, options.set);
     });
     attempt([&] { step_unit(file); });
+    attempt([&] { check_script(file); });
   }
   return 0;
 }
