@@ -14,7 +14,6 @@ packages=(
   libopenblas-dev         # its kernels, five to ten times faster than the reference BLAS
   libgmsh-dev             # meshes
   libseccomp-dev          # what keeps gmsh from doing more than that
-  libvtk9-dev             # files for ParaView
   liblua5.4-dev           # decks
   libcli11-dev            # command line
   libspdlog-dev           # messages
@@ -22,10 +21,16 @@ packages=(
   libgtest-dev            # tests
   libbenchmark-dev        # timings
 )
+# Files for ParaView. Where it is not installed, its headers are unpacked into build/vtk, and its libraries (see vtk_library) are
+# installed: it needs python3-vtk9, which excludes ParaView's python3-paraview, so that apt would take one of both away.
+vtk_package=libvtk9-dev
+vtk_root="$root/build/vtk"
 test_packages=(
   clang-format-14         # are the sources formatted as agreed
+  python3                 # runs are killed and continued by scripts
   chromium                # a report is opened in it; 350 MB
 )
+fuzz_packages=(clang libclang-rt-dev libomp-dev llvm)    # of ./run.sh fuzz and ./run.sh sanitize threads
 report_packages=(python3 python3-numpy python3-matplotlib)  # of ./run.sh report and ./run.sh bench
 
 usage() {
@@ -33,11 +38,13 @@ usage() {
 ./run.sh                  install what is missing, build, run decks/bolted_flanges.lua, say which files to open
 ./run.sh test [NAME]      install what is missing, build, pass the tests; with NAME only those whose name matches it (ctest -R)
 ./run.sh sanitize [decks] build with address and undefined behaviour sanitizers (build/sanitize), pass the unit tests and run small decks;
-                          'decks': these alone, which needs the program alone
+                          'decks': these and a minute of the fuzzers, which needs the program and them alone
+./run.sh fuzz [NAME [MINUTES]]  tests/fuzz with libFuzzer under sanitizers (clang): NAME or 'all', a minute each; finds are in build/fuzz/found
 ./run.sh bench [...]      measure speed, rewrite manual/performance.md and its figures: all, or of the parts headline kernels
                           scenes scaling those that are named; --quick: small sizes. Full: 20 minutes on a machine left alone
 ./run.sh report [...]     run all verification, rewrite manual/verification.md and its figures (--quick, --only CASE)
 ./run.sh build            install what is missing, build
+./run.sh install          install what is missing, no more; no package is ever removed
 ./run.sh run DECK [...]   build if needed, then: dygita run DECK [...]    (--set NAME=VALUE, --out DIR, --threads N)
 ./run.sh help             this
 
@@ -55,11 +62,32 @@ fail() {
   exit 1
 }
 
+is_installed() { [[ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" == installed* ]]; }
+
 missing_packages() {
   local package
   for package in "${packages[@]}"; do
-    [[ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" == installed* ]] || echo "$package"
+    is_installed "$package" || echo "$package"
   done
+}
+
+# Is VTK installed for development, or are its headers unpacked here and the libraries of that version there?
+has_vtk() {
+  is_installed "$vtk_package" && return
+  local headers
+  headers="$(compgen -G "$vtk_root/usr/include/vtk-9.*")" || return
+  compgen -G "/usr/lib/*/libvtkIOXML-${headers##*vtk-}.so.*" >/dev/null
+}
+
+# The package of VTK's libraries, which has the version in its name: libvtk9.1, libvtk9.1t64.
+vtk_library() { apt-cache depends "$vtk_package" | sed -nE 's/^ *Depends: (libvtk9\.[0-9]+(t64)?)$/\1/p'; }
+
+unpack_vtk() {
+  say "Unpacking VTK's headers into build/vtk"
+  rm -rf "$vtk_root"
+  mkdir -p "$vtk_root"
+  (cd "$vtk_root" && apt-get download "$vtk_package" && dpkg -x "$vtk_package"_*.deb . && rm "$vtk_package"_*.deb) ||
+    fail "apt-get could not fetch $vtk_package; its own message is above"
 }
 
 as_root() {
@@ -74,27 +102,31 @@ install_packages() {
   [[ "${DYGITA_NO_INSTALL:-0}" != 1 ]] || return 0
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     fail "this is not Debian or Ubuntu: there is no apt-get" \
-      "install what these packages are called on your system, then DYGITA_NO_INSTALL=1 $0:" "${packages[*]}"
+      "install what these packages are called on your system, then DYGITA_NO_INSTALL=1 $0:" "${packages[*]} $vtk_package"
   fi
   local missing
   mapfile -t missing < <(missing_packages)
-  if ((${#missing[@]} == 0)); then
+  local needs_vtk=0
+  has_vtk || needs_vtk=1
+  if ((${#missing[@]} + needs_vtk == 0)); then
     say "Every package that is needed is installed"
     return 0
   fi
 
-  say "Installing ${#missing[@]} packages (VTK and what it depends on is by far the largest, some minutes):"
-  printf '    %s\n' "${missing[@]}"
   if ((EUID != 0)) && ! command -v sudo >/dev/null; then
     fail "installing needs root and there is no sudo: as root run" \
-      "apt-get update && apt-get install --no-install-recommends ${missing[*]}"
+      "apt-get update && apt-get install --no-install-recommends ${missing[*]} $( ((needs_vtk == 0)) || vtk_library)"
   fi
   # A mirror that is down for one list need not stop the rest: what matters is whether the packages install.
   as_root apt-get update || printf 'run.sh: apt-get update failed, trying with the package lists at hand\n' >&2
+  if ((needs_vtk)); then mapfile -t -O "${#missing[@]}" missing < <(vtk_library); fi
+  say "Installing ${#missing[@]} packages (VTK and what it depends on is by far the largest, some minutes):"
+  printf '    %s\n' "${missing[@]}"
   # --no-remove: what is installed stays, whatever apt would give up for ours.
   as_root apt-get install -y --no-install-recommends --no-remove "${missing[@]}" ||
     fail "apt-get could not install the packages, or not without removing others; its own message is above" \
       "needed: ${missing[*]}" "is there a network, and does the system (Debian 12, Ubuntu 24.04 or later) have them?"
+  ((needs_vtk == 0)) || unpack_vtk
 }
 
 # What only some tests need: they are skipped where it is not to be had.
@@ -102,7 +134,7 @@ install_test_packages() {
   [[ "${DYGITA_NO_INSTALL:-0}" != 1 ]] || return 0
   local package
   for package in "${test_packages[@]}"; do
-    [[ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed* ]] || continue
+    is_installed "$package" && continue
     if apt-cache show "$package" >/dev/null 2>&1 && as_root apt-get install -y --no-install-recommends --no-remove "$package"; then continue; fi
     say "There is no package '$package' here: the tests that need it are skipped"
   done
@@ -142,7 +174,7 @@ run_sanitized() {
   local targets=(dygita unit_tests) tests=(-L unit)
   case "${1:-}" in
     "") ;;
-    decks) targets=(dygita) tests=(-R '^small_decks_run$') ;;
+    decks) targets=(dygita fuzzers) tests=(-R '^(small_decks_run|fuzz_.*)$') ;;
     *) fail "'sanitize' takes nothing or 'decks', got: $1" "./run.sh help" ;;
   esac
   say "Building with sanitizers (build/sanitize)"
@@ -151,6 +183,26 @@ run_sanitized() {
   say "Testing with sanitizers"
   (cd "$root" && ctest --preset sanitize --parallel "$(nproc)" "${tests[@]}") ||
     fail "tests failed with sanitizers; the last lines above name them"
+}
+
+# What leads further stays in build/fuzz/corpus for the next time; tests/fuzz/corpus has what is kept for good.
+run_fuzz() {
+  local asked="${1:-all}" seconds=$((60 * ${2:-1})) known=() failed=() name
+  mapfile -t known < <(cd "$root/tests/fuzz/corpus" && printf '%s\n' * run | sort)
+  [[ "$asked" == all || " ${known[*]} " == *" $asked "* ]] || fail "no fuzzer '$asked'; known: ${known[*]}"
+  say "Building the fuzzers (build/fuzz)"
+  (cd "$root" && cmake --preset fuzz && cmake --build --preset fuzz --parallel "$(n_jobs)") || fail "the build failed; the first error is above"
+  [[ "$asked" == all ]] || known=("$asked")
+  for name in "${known[@]}"; do
+    local corpus="$root/build/fuzz/corpus/$name" found="$root/build/fuzz/found/$name" kept="$root/tests/fuzz/corpus/${name/#run/deck}"
+    mkdir -p "$corpus" "$found"
+    say "Fuzzing '$name' for $((seconds / 60)) minutes"
+    (cd "$found" && ASAN_OPTIONS=alloc_dealloc_mismatch=0 UBSAN_OPTIONS=print_stacktrace=1 OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 \
+      LSAN_OPTIONS="suppressions=$root/cmake/leaks.supp:print_suppressions=0" "$root/build/fuzz/tests/fuzz/fuzz_$name" \
+      -close_fd_mask=1 -timeout=100 -rss_limit_mb=2500 -malloc_limit_mb=1500 -max_len=20000 -print_final_stats=1 \
+      "-max_total_time=$seconds" "-artifact_prefix=$found/" "$corpus" "$kept") || failed+=("$name")
+  done
+  ((${#failed[@]} == 0)) || fail "found by: ${failed[*]}" "the inputs are in build/fuzz/found/NAME, the reports above"
 }
 
 run_bench() {
@@ -192,6 +244,7 @@ main() {
   (($# == 0)) || shift
   case "$command" in
     help | -h | --help) usage ;;
+    install) install_packages ;;
     example | test | build | sanitize)
       local taken=0
       [[ "$command" != test && "$command" != sanitize ]] || taken=1 # NAME, or 'decks'
@@ -205,6 +258,12 @@ main() {
         build) say "Built: $build/dygita" ;;
         sanitize) run_sanitized "$@" ;;
       esac
+      ;;
+    fuzz)
+      (($# <= 2)) && [[ "${2:-1}" =~ ^[0-9]+$ ]] || fail "'fuzz' takes a name and minutes, got: $*" "./run.sh help"
+      packages+=("${fuzz_packages[@]}")
+      install_packages
+      run_fuzz "$@"
       ;;
     report | bench)
       packages+=("${report_packages[@]}")
@@ -220,7 +279,7 @@ main() {
       say "Running $1"
       exec "$build/dygita" run "$@"
       ;;
-    *) fail "unknown command '$command'; known: bench, build, help, report, run, sanitize, test" "./run.sh help" ;;
+    *) fail "unknown command '$command'; known: bench, build, fuzz, help, install, report, run, sanitize, test" "./run.sh help" ;;
   esac
 }
 

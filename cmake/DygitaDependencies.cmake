@@ -6,7 +6,7 @@ find_package(spdlog REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(nlohmann_json REQUIRED)
-find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel IOXML)
+include(DygitaVtk)
 
 function(dygita_find_library name header library package)
   cmake_parse_arguments(arg "" "" "SUFFIXES" ${ARGN})
@@ -27,7 +27,3 @@ dygita_find_library(seccomp seccomp.h seccomp libseccomp-dev)
 dygita_find_library(lua lua.hpp lua5.4-c++ liblua5.4-dev SUFFIXES lua5.4)
 dygita_find_library(openblas cblas.h openblas libopenblas-dev
   SUFFIXES openblas-pthread openblas ${CMAKE_LIBRARY_ARCHITECTURE}/openblas-pthread x86_64-linux-gnu/openblas-pthread)
-
-add_library(dygita_vtk INTERFACE)
-target_link_libraries(dygita_vtk INTERFACE VTK::CommonCore VTK::CommonDataModel VTK::IOXML)
-add_library(dygita::vtk ALIAS dygita_vtk)

@@ -6,6 +6,13 @@ option(DYGITA_SANITIZE "Stop at memory errors, leaks and undefined behaviour" OF
 # Without the checks of each dereferenced pointer: the address sanitizer stops there too, and a quarter of the compile time is theirs.
 set(dygita_sanitizers -fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,vptr -fno-sanitize-recover=undefined
   -fno-omit-frame-pointer)
+# The OpenMP of clang tells the sanitizer of threads what its barriers order (Archer); that of g++ does not.
+option(DYGITA_SANITIZE_THREADS "Stop at data races (clang)" OFF)
+# For libFuzzer, which is clang's: with the sanitizers, and every branch counted.
+option(DYGITA_FUZZ "Build the programs of tests/fuzz with libFuzzer (clang)" OFF)
+if(DYGITA_FUZZ)
+  list(APPEND dygita_sanitizers -fsanitize=fuzzer-no-link)
+endif()
 
 # g++ 12 sees overruns in Eigen's vectorised small products and in std::string that are not there (its bugs 105329, 106247).
 set(dygita_gnu_false_alarms -Wno-uninitialized -Wno-maybe-uninitialized -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow
@@ -55,6 +62,10 @@ function(dygita_target_options target)
   if(DYGITA_SANITIZE)
     target_compile_options(${target} PRIVATE ${dygita_sanitizers})
     target_link_options(${target} PRIVATE ${dygita_sanitizers})
+  endif()
+  if(DYGITA_SANITIZE_THREADS)
+    target_compile_options(${target} PRIVATE -fsanitize=thread -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=thread)
   endif()
 endfunction()
 

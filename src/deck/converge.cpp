@@ -194,7 +194,7 @@ class Converge {
     std::string command = "dygita run " + options_.deck.path.string();
     for (const auto& [name, value] : options_.deck.settings) {
       const bool is_varied = std::any_of(study_.variations().begin(), study_.variations().end(),
-                                         [&](const Variation& v) { return v.parameter == name; });
+                                         [&, &of = name](const Variation& v) { return v.parameter == of; });
       if (!is_varied) command += " --set " + name + "=" + value;
     }
     for (size_t i = 0; i < levels->size(); ++i)

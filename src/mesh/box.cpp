@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "mesh/mesh_limits.hpp"
 #include "mesh/raise_order.hpp"
 
 namespace dygita {
@@ -40,6 +41,17 @@ std::vector<Facet> side_facets(const Grid& grid, int axis, bool is_max) {
         facets.push_back({FacetType::quad4, {node(0, 0), node(0, 1), node(1, 1), node(1, 0)}});
     }
   return facets;
+}
+
+// While it is made, of a hexahedron, of one of order two or cut in prisms, of one cut in tetrahedra: measured.
+constexpr double bytes_of_hexahedron = 60.0, bytes_of_cut = 1200.0, bytes_of_tetrahedra = 3000.0;
+
+// The system lends more memory than there is, and ends the program when it is used.
+void check_memory(const std::array<int, 3>& cells, double bytes_of_cell) {
+  const double bytes = bytes_of_cell * cells[0] * cells[1] * cells[2], limit = box_memory_limit();
+  if (limit <= 0.0 || bytes <= limit) return;
+  throw InputError(fmt::format("box: {} x {} x {} cells take about {:.2g} GB and this machine has {:.2g} GB", cells[0],
+                               cells[1], cells[2], 1e-9 * bytes, 1e-9 * limit));
 }
 
 void check_box(const Vec3& origin, const Vec3& size, const std::array<int, 3>& cells) {
@@ -79,6 +91,7 @@ std::vector<Facet> facets_on_side(const std::vector<Facet>& boundary, const std:
 
 MeshPtr box_mesh(const Vec3& origin, const Vec3& size, const std::array<int, 3>& cells, CellType type) {
   const CellShape& row = cell_shape(type);
+  if (type != CellType::hex8) check_memory(cells, row.n_corners == 4 ? bytes_of_tetrahedra : bytes_of_cut);
   MeshPtr mesh = box_mesh(origin, size, cells);
   const auto linear = std::find_if(std::begin(cell_shapes), std::end(cell_shapes), [&](const CellShape& cell) {
     return cell.n_corners == row.n_corners && nodes_per_cell(cell.type) == cell.n_corners;
@@ -100,6 +113,7 @@ MeshPtr box_mesh(const Vec3& origin, const Vec3& size, const std::array<int, 3>&
 
 MeshPtr box_mesh(const Vec3& origin, const Vec3& size, const std::array<int, 3>& cells) {
   check_box(origin, size, cells);
+  check_memory(cells, bytes_of_hexahedron);
   const Grid grid{cells};
   auto mesh = std::make_shared<Mesh>();
   mesh->source = "box";

@@ -10,7 +10,10 @@ namespace dygita {
 
 namespace {
 
+// Of a file that has an end: "" of a device or a pipe.
 std::string text_of(const std::string& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return "";
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }

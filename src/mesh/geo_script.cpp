@@ -81,19 +81,23 @@ bool is_refused(const std::string& word) {
   return refused_words.count(word) > 0 || word.rfind("Solver.", 0) == 0 || is_session_option(word);
 }
 
-void check_file(const std::filesystem::path& file, int depth);
+// Those that have been checked, with all that they merge: one that is merged a hundred times is read once.
+using Checked = std::set<std::filesystem::path>;
 
-void check_merged(const std::filesystem::path& file, const std::vector<Token>& tokens, size_t i, int depth) {
+void check_file(const std::filesystem::path& file, int depth, Checked& checked);
+
+void check_merged(const std::filesystem::path& file, const std::vector<Token>& tokens, size_t i, int depth,
+                  Checked& checked) {
   size_t next = i + 1;
   while (next < tokens.size() && (tokens[next].text == "(" || tokens[next].text == "[")) ++next;
   const std::string name = next < tokens.size() ? tokens[next].text : "";
   if (name.size() < 2 || name.front() != '"') {
     refuse(file, tokens[i].line, fmt::format("'{}' must be followed by a file's name in quotes", tokens[i].text));
   }
-  check_file(file.parent_path() / name.substr(1, name.size() - 2), depth + 1);
+  check_file(file.parent_path() / name.substr(1, name.size() - 2), depth + 1, checked);
 }
 
-void check_geo(const std::filesystem::path& file, int depth) {
+void check_geo(const std::filesystem::path& file, int depth, Checked& checked) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
@@ -101,7 +105,7 @@ void check_geo(const std::filesystem::path& file, int depth) {
   for (size_t i = 0; i < tokens.size(); ++i) {
     const std::string& word = tokens[i].text;
     if (is_refused(word)) refuse(file, tokens[i].line, fmt::format("'{}' is refused", word));
-    if (reading_words.count(word)) check_merged(file, tokens, i, depth);
+    if (reading_words.count(word)) check_merged(file, tokens, i, depth, checked);
     if (!printing_words.count(word)) continue;
     for (size_t j = i + 1; j < tokens.size() && tokens[j].text != ";"; ++j) {
       if (tokens[j].text == ">") refuse(file, tokens[i].line, fmt::format("'{}' into a file is refused", word));
@@ -109,11 +113,13 @@ void check_geo(const std::filesystem::path& file, int depth) {
   }
 }
 
-void check_file(const std::filesystem::path& file, int depth) {
+void check_file(const std::filesystem::path& file, int depth, Checked& checked) {
   if (depth > deepest_merge) throw InputError(fmt::format("{}: files merge each other too deeply", file.string()));
   if (!std::filesystem::is_regular_file(file)) {
     throw InputError(fmt::format("{}: no such file, and a mesh file merges it", file.string()));
   }
+  const std::filesystem::path known = std::filesystem::canonical(file);
+  if (checked.contains(known)) return;
   const std::filesystem::path options = file.string() + ".opt";
   if (std::filesystem::exists(options)) {
     throw InputError(
@@ -126,11 +132,15 @@ void check_file(const std::filesystem::path& file, int depth) {
     }
     return;
   }
-  if (cad_extensions.count(extension) == 0) check_geo(file, depth);
+  if (cad_extensions.count(extension) == 0) check_geo(file, depth, checked);
+  checked.insert(known);
 }
 
 }  // namespace
 
-void check_script(const std::string& path) { check_file(path, 0); }
+void check_script(const std::string& path) {
+  Checked checked;
+  check_file(path, 0, checked);
+}
 
 }  // namespace dygita

@@ -1,4 +1,4 @@
-// What the user allows the mesher.
+// What the user allows the mesher, and what the machine allows meshes of boxes.
 #pragma once
 
 #include <string>
@@ -8,11 +8,13 @@ namespace dygita {
 
 struct MeshLimits {
   double time = 1800.0;              // s, elapsed, for each file
+  double box_memory = 0.0;           // bytes, for each box; 0: all that the machine has
   std::vector<std::string> trusted;  // files that may run programs and write files
 };
 
 // For all meshes from now on.
 void set_mesh_limits(const MeshLimits& limits);
 bool is_trusted_mesh(const std::string& file);
+double box_memory_limit();  // bytes; 0: not known
 
 }  // namespace dygita

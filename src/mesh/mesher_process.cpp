@@ -183,6 +183,8 @@ void set_mesh_folder(const std::string& folder) { deck_folder() = folder; }
 
 void set_mesh_limits(const MeshLimits& given) { limits() = given; }
 
+double box_memory_limit() { return limits().box_memory > 0.0 ? limits().box_memory : memory_of_machine(); }
+
 bool is_trusted_mesh(const std::string& file) {
   std::error_code ignored;
   return std::any_of(limits().trusted.begin(), limits().trusted.end(),

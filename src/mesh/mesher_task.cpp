@@ -187,8 +187,36 @@ std::optional<SolidCopy> copy_of(const Json& json, const std::vector<std::option
   return copy;
 }
 
+// Lists within lists are read by recursion: bytes that are no answer could go deeper than the stack.
+class Depth final : public nlohmann::json_sax<Json> {
+ public:
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(size_t) override { return ++depth_ < deepest; }
+  bool key(string_t&) override { return true; }
+  bool end_object() override { return --depth_ >= 0; }
+  bool start_array(size_t) override { return ++depth_ < deepest; }
+  bool end_array() override { return --depth_ >= 0; }
+  bool parse_error(size_t, const std::string&, const Json::exception&) override { return false; }
+
+ private:
+  static constexpr int deepest = 20;
+  int depth_ = 0;
+};
+
+Json parsed(const std::string& bytes) {
+  Depth depth;
+  if (!Json::sax_parse(bytes, &depth, Json::input_format_t::cbor)) throw InputError("bytes that are no answer");
+  return Json::from_cbor(bytes);
+}
+
 MesherAnswer read_answer(const std::string& bytes) {
-  const Json json = Json::from_cbor(bytes);
+  const Json json = parsed(bytes);
   MesherAnswer answer;
   answer.error = json.at("error");
   answer.warnings = json.at("warnings").get<std::vector<std::string>>();

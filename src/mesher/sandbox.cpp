@@ -28,6 +28,12 @@ void limit(__rlimit_resource resource, rlim_t value) {
   setrlimit(resource, &both);
 }
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__ 1  // as g++ says it
+#endif
+#endif
+
 void limit_memory(double bytes) {
 #ifdef __SANITIZE_ADDRESS__
   (void)bytes;  // its shadow takes terabytes of addresses

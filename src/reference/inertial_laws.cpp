@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
 
 #include "law/law.hpp"
 
@@ -143,7 +142,7 @@ void InertialLaws::add_force(const Kick& kick, const SharedNodes& shared, const 
 }
 
 void InertialLaws::remove_force(Vec& internal) {
-  for (const auto& [dof, force] : std::views::reverse(replaced_)) internal.segment<3>(dof) = force;
+  for (auto it = replaced_.rbegin(); it != replaced_.rend(); ++it) internal.segment<3>(it->first) = it->second;
   replaced_.clear();
 }
 

@@ -111,7 +111,8 @@ RunState read_all(File file) {
     throw InputError(
         fmt::format("it has version {} of the format, this program reads version {}", version, format_version));
   fseeko(file.get(), 0, SEEK_END);
-  if (static_cast<std::uint64_t>(ftello(file.get())) < start_of_header + length || length > (std::uint64_t{1} << 40))
+  const std::int64_t file_length = ftello(file.get());
+  if (length > (std::uint64_t{1} << 40) || file_length < start_of_header + static_cast<std::int64_t>(length))
     throw InputError("it is truncated");
   fseeko(file.get(), start_of_header, SEEK_SET);
   std::string header(length, '\0');
@@ -129,6 +130,7 @@ RunState read_all(File file) {
   std::int64_t at = begin;
   for (size_t s = 0; s < sizes.size(); ++s) {
     for (const Eigen::Index size : sizes[s]) {
+      if (size < 0 || size > (file_length - at) / 8) throw InputError("it has the wrong length");
       places[s].push_back({at, size});
       at += 8 * static_cast<std::int64_t>(size);
     }

@@ -24,7 +24,13 @@ RunState state_in(const fs::path& run) {
   std::error_code ignored;
   if (!fs::is_directory(run, ignored))
     throw InputError(fmt::format("no folder '{}'\n    a run's folder is out/<problem>/<case>", run.string()));
-  if (fs::exists(run / state_file_name, ignored)) return read_state(run / state_file_name);
+  if (fs::exists(run / state_file_name, ignored)) {
+    RunState state = read_state(run / state_file_name);
+    if (state.steps.empty() || state.efforts.empty())
+      throw InputError(fmt::format("'{}' tells no step of a run: it is damaged\n    run the deck again",
+                                   (run / state_file_name).string()));
+    return state;
+  }
   const auto recorded = read_run_record(run);
   if (!recorded)
     throw InputError(

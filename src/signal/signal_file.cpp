@@ -36,12 +36,13 @@ std::optional<double> number(std::string_view field) {
   return value;
 }
 
-double finite_number(const Origin& origin, std::string_view field) {
+// In SI, where `factor` is one of its unit.
+double finite_number(const Origin& origin, std::string_view field, double factor) {
   const std::optional<double> value = number(field);
-  if (!value || !std::isfinite(*value)) {
-    throw InputError(origin, fmt::format("'{}' is not a finite number", field));
-  }
-  return *value;
+  if (!value || !std::isfinite(factor * *value))
+    throw InputError(
+        origin, fmt::format("'{}' is not a finite number{}", field, value && std::isfinite(*value) ? " in SI" : ""));
+  return factor * *value;
 }
 
 }  // namespace
@@ -68,8 +69,8 @@ SampledSignal read_signal(const std::string& path) {
       throw InputError(origin, fmt::format("{} {} where two are expected: time (s) and value; decimals take a point",
                                            fields.size(), fields.size() == 1 ? "number" : "columns"));
     }
-    const double time = columns.factor(0) * finite_number(origin, fields[0]);
-    const double value = columns.factor(1) * finite_number(origin, fields[1]);
+    const double time = finite_number(origin, fields[0], columns.factor(0));
+    const double value = finite_number(origin, fields[1], columns.factor(1));
     if (!signal.times.empty() && time <= signal.times.back()) {
       throw InputError(
           origin, fmt::format("time {} s does not come after {} s: times must increase", time, signal.times.back()));

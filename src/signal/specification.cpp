@@ -54,10 +54,12 @@ void check_specification(const Specification& s, const std::vector<std::string>&
   CHECK(s.frequency.size() == s.level.size() && where.size() == s.level.size(),
         "a level and a place for each frequency");
   for (size_t i = 0; i < s.frequency.size(); ++i) {
-    if (!(s.frequency[i] > 0.0))
-      throw InputError(fmt::format("{}: the frequency {:g} Hz is not above zero", where[i], s.frequency[i]));
-    if (!(s.level[i] > 0.0))
-      throw InputError(fmt::format("{}: the level {:g} is not above zero", where[i], s.level[i]));
+    if (!(s.frequency[i] > 0.0) || !std::isfinite(s.frequency[i]))
+      throw InputError(fmt::format("{}: the frequency {:g} Hz is not above zero{}", where[i], s.frequency[i],
+                                   s.frequency[i] > 0.0 ? " and finite" : ""));
+    if (!(s.level[i] > 0.0) || !std::isfinite(s.level[i]))
+      throw InputError(fmt::format("{}: the level {:g} is not above zero{}", where[i], s.level[i],
+                                   s.level[i] > 0.0 ? " and finite" : ""));
     if (i > 0 && !(s.frequency[i] > s.frequency[i - 1]))
       throw InputError(fmt::format("{}: the frequency {:g} Hz comes after {:g} Hz: frequencies must increase", where[i],
                                    s.frequency[i], s.frequency[i - 1]));

@@ -1,6 +1,8 @@
 // A .geo file may describe a mesh and do nothing else.
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "deck/fake_engine.hpp"
 #include "mesh/geo_script.hpp"
 
@@ -43,6 +45,20 @@ TEST(GeoScript, that_does_more_is_refused_with_its_line) {
         << word << ": " << message;
   }
   EXPECT_EQ(refusal("Printf(\"x\") > \"file\";").find("part.geo:1: 'Printf' into a file is refused"), 0u);
+}
+
+TEST(GeoScript, that_merges_files_which_merge_others_many_times_reads_each_once) {
+  const Folder folder;
+  for (int i = 0; i < 12; ++i) {
+    std::string text;
+    const std::string next = "part" + std::to_string(i + 1) + ".geo";
+    for (int k = 0; k < 20; ++k) text += "Merge \"" + next + "\";\nMerge \"./" + next + "\";\n";
+    folder.write("part" + std::to_string(i) + ".geo", text);
+  }
+  folder.write("part12.geo", "Point(1) = {0, 0, 0};\n");
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_NO_THROW(check_script((folder.path() / "part0.geo").string()));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));  // 40^12 without
 }
 
 TEST(GeoScript, is_followed_into_the_files_it_reads) {

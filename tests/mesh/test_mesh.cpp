@@ -6,6 +6,7 @@
 #include "mesh/expect_input_error.hpp"
 #include "mesh/facing.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/mesh_limits.hpp"
 
 namespace dygita {
 namespace {
@@ -90,6 +91,21 @@ TEST(Box, refuses_sizes_and_counts_that_are_not_positive) {
   expect_input_error([] { box_mesh({0, 0, 0}, {1, 0, 1}, {1, 1, 1}); }, {"size along y", "positive", "0 m"});
   expect_input_error([] { box_mesh({0, 0, 0}, {1, 1, -2}, {1, 1, 1}); }, {"size along z", "-2 m"});
   expect_input_error([] { box_mesh({0, 0, 0}, {1, 1, 1}, {0, 1, 1}); }, {"cells along x", "at least 1"});
+}
+
+TEST(Box, that_takes_more_memory_than_there_is_is_refused_before_it_is_made) {
+  set_mesh_limits({.box_memory = 1e6, .trusted = {}});
+  const Vec3 zero = Vec3::Zero(), one = Vec3::Ones();
+  std::string message;
+  try {
+    box_mesh(zero, one, {100, 100, 100});
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  EXPECT_EQ(message, "box: 100 x 100 x 100 cells take about 0.06 GB and this machine has 0.001 GB");
+  EXPECT_THROW(box_mesh(zero, one, {10, 10, 10}, CellType::tet10), InputError);
+  EXPECT_NO_THROW(box_mesh(zero, one, {20, 20, 20}));
+  set_mesh_limits({});
 }
 
 TEST(Mesh, has_outward_facets_of_the_right_area_on_every_cell_type) {

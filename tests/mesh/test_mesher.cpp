@@ -172,6 +172,7 @@ TEST_F(Mesher, answers_nothing_that_is_believed_unchecked) {
   const std::string whole = to_bytes(answer);
   EXPECT_THROW(answer_of(whole.substr(0, whole.size() / 2), "a.msh"), InputError);
   EXPECT_THROW(answer_of("", "a.msh"), InputError);
+  EXPECT_THROW(answer_of(std::string(100000, '\x81'), "a.msh"), InputError);  // lists within lists
 }
 
 }  // namespace

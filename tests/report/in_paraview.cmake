@@ -2,7 +2,7 @@
 # cmake -DDYGITA=program -DSOURCE_DIR=folder -DPVPYTHON=program -DXVFB=program -P in_paraview.cmake
 
 if(NOT PVPYTHON OR NOT EXISTS "${PVPYTHON}")
-  message("SKIPPED: no pvpython here (Debian: apt-get install python3-paraview, which Debian 12 has not beside libvtk9-dev)")
+  message("SKIPPED: no pvpython here (Debian: apt-get install paraview python3-paraview)")
   return()
 endif()
 find_program(XAUTH xauth)

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "base/error.hpp"
+#include "base/fnv1a.hpp"
 #include "result/state_file.hpp"
 
 namespace dygita::state_file_tests {
@@ -109,6 +111,24 @@ TEST_F(StateFile, that_has_lost_or_changed_a_byte_is_refused) {
   }
   put(good + "x");
   EXPECT_NE(refusal(), "");
+}
+
+// Fields that would be longer than the file, in one whose checksums are right.
+TEST_F(StateFile, with_fields_beyond_its_end_is_refused) {
+  write_state(path_, some_state(1e9));
+  const std::string good = bytes();
+  std::uint64_t length = 0;
+  std::memcpy(&length, good.data() + 16, 8);
+  for (const std::uint64_t size : {std::uint64_t{1} << 60, ~std::uint64_t{0}, std::uint64_t{1000}}) {
+    std::string bad = good;
+    std::memcpy(bad.data() + 24 + length - 8, &size, 8);
+    Checksum sum;
+    sum.add(bad.data() + 24, length);
+    const std::uint64_t value = sum.value();
+    std::memcpy(bad.data() + 24 + length, &value, 8);
+    put(bad);
+    EXPECT_EQ(refusal(), "'" + path_.string() + "' cannot be used: it has the wrong length\n    run the deck again");
+  }
 }
 
 TEST_F(StateFile, of_another_version_or_program_says_so) {

@@ -236,6 +236,7 @@ TEST_F(HistoryFile, that_is_wrong_is_named_with_its_line) {
   EXPECT_EQ(message("t v\n0 1\n1 x\n"), ":3: 'x' is not a finite number");
   EXPECT_EQ(message("t v\nagain titles\n"), ":2: 'again' is not a finite number");
   EXPECT_EQ(message("0 1\n1 nan\n"), ":2: 'nan' is not a finite number");
+  EXPECT_EQ(message("t [ms], a [kN]\n0,1\n1,1e306\n"), ":3: '1e306' is not a finite number in SI");
   EXPECT_EQ(message("0,5 1,5 3\n"), ":1: 5 columns where two are expected: time (s) and value; decimals take a point");
   EXPECT_EQ(message("7\n"), ":1: 1 number where two are expected: time (s) and value; decimals take a point");
   EXPECT_NE(message("time value\n").find("has no points"), std::string::npos);

@@ -103,6 +103,7 @@ TEST_F(SpecificationFile, says_where_it_is_wrong) {
       fault("f (Hz),level (dB)\n100,200\n").starts_with(":1: 'dB' is not a unit that is known, in the title 'level'"));
   EXPECT_EQ(fault("100,2oo\n1000,200\n"), ":1: '100,2oo' is not a frequency (Hz) and a level");
   EXPECT_EQ(fault("f,l\n100,200,3\n"), ":2: '100,200,3' is not a frequency (Hz) and a level");
+  EXPECT_EQ(fault("f (Hz),level (g)\n100,200\n1000,1e308\n"), ":3: the level inf is not above zero and finite");
   EXPECT_THROW(read_specification("nowhere.csv"), InputError);
 }
 
