@@ -26,6 +26,7 @@ constexpr double uneven_sampling = 0.01;  // of the mean step
 struct Signal {
   std::vector<double> time, values;
   std::string unit;
+  int n_rows = 0, n_missed = -1;       // rows, and those whose increment has not converged; -1: the file does not tell
   bool starts_in_static_step = false;  // time stood still at its first instant, or another step follows it
 };
 
@@ -98,12 +99,20 @@ std::string value_unit(const std::string& title, const Origin& origin) {
 void say_choice(const SrsCommand& command, const std::vector<std::string>& header, size_t column) {
   std::vector<std::string> others;
   for (size_t i = 1; i < header.size(); ++i)
-    if (i != column && name_in(header[i]) != "step") others.push_back(name_in(header[i]));
+    if (i != column && name_in(header[i]) != "step" && name_in(header[i]) != "converged")
+      others.push_back(name_in(header[i]));
   if (!command.column.empty() || others.empty()) return;
   std::string list;
   for (const std::string& name : others) list += (list.empty() ? "" : ", ") + name;
   warn(fmt::format("{}: the spectrum is of column '{}'; --column takes another: {}", command.signal,
                    name_in(header[column]), list));
+}
+
+// A table of a run tells of each row whether its increment has converged.
+void note_convergence(const std::vector<std::string>& header, const std::vector<std::string>& cells, Signal& signal) {
+  ++signal.n_rows;
+  if (header.empty() || header.back() != "converged" || cells.size() != header.size()) return;
+  signal.n_missed = std::max(signal.n_missed, 0) + (cells.back() == "0" ? 1 : 0);
 }
 
 Signal read_signal(const SrsCommand& command) {
@@ -135,6 +144,7 @@ Signal read_signal(const SrsCommand& command) {
       throw InputError(
           fmt::format("{}:{}: time {:g} s comes after {:g} s", command.signal, n, *time, signal.time.back()));
     }
+    note_convergence(header, cells, signal);
     const bool has_steps = std::find(header.begin(), header.end(), "step") != header.end();
     if (!signal.time.empty() && *time == signal.time.back() && !has_steps)
       throw InputError(fmt::format("{}:{}: time {:g} s comes twice", command.signal, n, *time));
@@ -219,10 +229,14 @@ void write_srs(const SrsCommand& command) {
   const double dt = make_even(signal, command.signal);
   const Srs srs = shock_response_spectrum(signal.values, dt, settings);
   const std::string unit = srs_unit(settings.quantity, signal.unit);
-  const Table table{{"frequency", "maximax", "positive", "negative", "primary", "residual"},
-                    {"Hz", unit, unit, unit, unit, unit},
-                    {srs.frequency, srs.maximax, srs.positive, srs.negative, srs.primary, srs.residual},
-                    {}};
+  Table table{{"frequency", "maximax", "positive", "negative", "primary", "residual"},
+              {"Hz", unit, unit, unit, unit, unit},
+              {srs.frequency, srs.maximax, srs.positive, srs.negative, srs.primary, srs.residual},
+              {}};
+  if (signal.n_missed >= 0) table.mark(signal.n_missed == 0);
+  if (signal.n_missed > 0)
+    warn(fmt::format("{}: {} of {} rows come from increments that have NOT CONVERGED, and the spectrum rests on them",
+                     command.signal, signal.n_missed, signal.n_rows));
   std::FILE* file = command.out.empty() ? stdout : std::fopen(command.out.c_str(), "w");
   if (!file) throw InputError(fmt::format("cannot write '{}'", command.out));
   const bool is_written = std::fputs(csv_text(table, {}).c_str(), file) >= 0;

@@ -27,10 +27,11 @@ DeckOutcome continue_run(const ContinueOptions& options) {
   deck.time_limit = options.time_limit;
   deck.memory_limit = options.memory_limit;
   deck.meshes = options.meshes;
-  deck.write_frames = options.write_frames;
+  deck.write_frames = options.write_frames && continuation.has_frames();
   deck.write_state = options.write_state;
   deck.checkpoint_every = options.checkpoint_every;
-  deck.is_study = false;
+  deck.out = continuation.out();
+  deck.is_study = continuation.resumes();  // its table, where the run was to make one
   DeckOutcome outcome = run_deck(
       deck, {[&](const Problem& problem, const RunRequest& request) { return continuation.run(problem, request); },
              check_report});
@@ -41,6 +42,7 @@ DeckOutcome continue_run(const ContinueOptions& options) {
     say("the deck has further cases that have not been computed: it ends here");
     outcome.interrupted = false;
   }
+  if (continuation.resumes()) return outcome;
   std::erase_if(outcome.not_converged, [&](const std::string& label) {
     return label != fmt::format("problem '{}', case '{}'", state.problem, state.case_name);
   });

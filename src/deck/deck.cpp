@@ -138,6 +138,8 @@ RunRequest request_of(const DeckState& state, const Problem& problem, const std:
   request.identity.solver = state.options.solver;
   request.identity.threads = state.options.threads;
   request.identity.kernels = panel_kernels().name;
+  request.identity.has_frames = request.write_frames;
+  request.identity.has_state = request.write_state;
   for (const SubstructurePtr& part : problem.substructures) {
     request.identity.mesh_digests.emplace_back(part->name, part->mesh->digest);
   }

@@ -12,6 +12,8 @@ DeckOutcome repeat_run(DeckOptions options, const std::filesystem::path& record)
   if (options.path.empty()) options.path = repetition.deck();
   options.settings = repetition.settings();
   options.solver = repetition.solver();
+  options.write_frames = options.write_frames && repetition.has_frames();
+  options.write_state = options.write_state && repetition.has_state();
   std::error_code ignored;
   if (!std::filesystem::exists(options.path, ignored))
     throw InputError(

@@ -153,6 +153,10 @@ bool push_finding(lua_State* L, const OutputData& data, const std::string& key) 
 }
 
 int read_output(lua_State* L, const OutputData& data, const Origin& origin) {
+  if (lua_type(L, 2) == LUA_TSTRING && key_text(L) == "converged" && data.table->has_column("converged")) {
+    push_series(L, series_of(data, "converged"));
+    return 1;
+  }
   const std::vector<std::string> columns = value_columns(data);
   if (columns.size() == 1 && (row_asked(L) || key_text(L) != columns[0])) {
     return read_series(L, series_of(data, columns[0]), origin);
@@ -172,6 +176,7 @@ int read_output(lua_State* L, const OutputData& data, const Origin& origin) {
   if (is_vector(data) && key == "max") return push_value(L, *summary_of(modulus_of(data), key, origin));
   std::vector<std::string> known = data.table->names;
   if (is_vector(data)) known.push_back("max");
+  if (data.table->has_column("converged")) known.push_back("converged");
   for (const auto& [part, table] : findings_beside(data).parts) known.push_back(part);
   for (const auto& [value, number] : findings_beside(data).values) known.push_back(value);
   unknown(origin, label_of(data), key, std::move(known));

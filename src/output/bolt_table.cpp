@@ -59,7 +59,7 @@ std::string bolts_csv(const Problem& problem, const RunResult& result) {
   for (const std::string& step : steps) text += "," + quoted("after " + step + " [N]");
   text +=
       ",lowest [N],highest [N],last [N],loss [1],shortening [m],plastic_opening [m],hand [N],hand_shortening "
-      "[m],load_factor [1],loss_by_yield [1],swing [N]\n";
+      "[m],load_factor [1],loss_by_yield [1],swing [N],converged\n";
   for (const BoltSummary& bolt : result.bolts) {
     text += quoted(bolt.name) + "," + number(bolt.area) + "," + number(bolt.target);
     for (size_t i = 0; i < steps.size(); ++i)
@@ -71,8 +71,7 @@ std::string bolts_csv(const Problem& problem, const RunResult& result) {
     text += "," + number(bolt.hand);
     text += bolt.formula ? "," + number(bolt.formula->shortening) + "," + number(bolt.formula->resilience.load_factor())
                          : ",,";
-    text += "," + number(bolt.loss_by_yield()) + "," + number(bolt.swing);
-    text += "\n";
+    text += "," + number(bolt.loss_by_yield()) + "," + number(bolt.swing) + (result.converged ? ",1\n" : ",0\n");
   }
   return text;
 }

@@ -24,6 +24,7 @@ void check(const Table& table, size_t n_steps) {
   CHECK(table.names.size() == n_columns && table.units.size() == n_columns, "a name and a unit for each column");
   for (const std::vector<double>& column : table.columns) CHECK(column.size() == n_rows, "columns of one length");
   CHECK(table.step.empty() || table.step.size() == n_rows, "a step for each row or none");
+  CHECK(table.converged.empty() || table.converged.size() == n_rows, "a mark for each row or none");
   for (const int step : table.step) CHECK(step >= 0 && static_cast<size_t>(step) < n_steps, "a step of the problem");
 }
 
@@ -60,6 +61,7 @@ Table parse_csv(std::istream& stream, const std::vector<std::string>& step_names
     table.names.push_back(has_unit ? header[i].substr(0, open) : header[i]);
     table.units.push_back(has_unit ? header[i].substr(open + 2, header[i].size() - open - 3) : "");
   }
+  const bool is_marked = table.names.back() == "converged";
   table.columns.resize(table.names.size());
   for (int n = 2; std::getline(stream, line); ++n) {
     std::vector<std::string> cells = cells_of(line);
@@ -76,6 +78,10 @@ Table parse_csv(std::istream& stream, const std::vector<std::string>& step_names
       table.columns[i].push_back(std::strtod(cells[i].c_str(), &end));
       if (cells[i].empty() || *end != '\0') throw InputError(fmt::format("line {}: '{}' is no number", n, cells[i]));
     }
+  }
+  if (is_marked) {
+    table.converged = std::move(table.columns.back());
+    table.names.pop_back(), table.units.pop_back(), table.columns.pop_back();
   }
   return table;
 }
@@ -100,7 +106,7 @@ std::string csv_text(const Table& table, const std::vector<std::string>& step_na
                    quoted(unit.empty() ? table.names[i] : table.names[i] + " [" + unit + "]"));
     if (i == 0 && !table.step.empty()) text += ",step";
   }
-  text += '\n';
+  text += table.converged.empty() ? "\n" : ",converged\n";
   std::vector<std::string> steps;
   for (const std::string& name : step_names) steps.push_back(quoted(name));
   for (size_t row = 0; row < static_cast<size_t>(table.n_rows()); ++row) {
@@ -109,7 +115,7 @@ std::string csv_text(const Table& table, const std::vector<std::string>& step_na
       fmt::format_to(out, "{:.9g}", table.columns[i][row] + 0.0);  // + 0: no "-0"
       if (i == 0 && !table.step.empty()) text += ',' + steps[static_cast<size_t>(table.step[row])];
     }
-    text += '\n';
+    text += table.converged.empty() ? "\n" : table.converged[row] != 0.0 ? ",1\n" : ",0\n";
   }
   return text;
 }

@@ -26,6 +26,7 @@ double exceeded_by_few(std::vector<double>& values) {
 
 FrameSummary summary_of(const Frame& frame) {
   FrameSummary summary{frame.label_time, frame.step};
+  summary.missed = frame.missed;
   std::vector<double> von_mises, pressure;
   for (const PartFrame& part : frame.parts) {
     for (Eigen::Index i = 0; i < part.displacement.cols(); ++i)

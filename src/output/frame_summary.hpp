@@ -15,6 +15,7 @@ struct FrameSummary {
   // for.
   double von_mises = 0.0, pressure = 0.0;
   bool has_interfaces = false;
+  int missed = 0;  // increments up to there that have not converged
 };
 
 // Values that are not finite are passed over.

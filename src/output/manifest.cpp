@@ -58,7 +58,7 @@ Manifest::Manifest(fs::path directory) : directory_(std::move(directory)) {
 }
 
 void Manifest::add(const fs::path& relative) {
-  if (std::find(files_.rbegin(), files_.rend(), relative) != files_.rend()) return;
+  if (!known_.insert(relative.generic_string()).second) return;
   if (std::error_code error; !fs::exists(directory_ / file_name, error))
     throw InputError("'" + directory_.string() + "' was removed or emptied while the run wrote there");
   errno = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ class Manifest {
  private:
   std::filesystem::path directory_;
   std::vector<std::filesystem::path> files_;
+  std::set<std::string> known_;  // the same
 };
 
 }  // namespace dygita

@@ -1,5 +1,7 @@
 #include "output/record_parts.hpp"
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "base/names.hpp"
 #include "law/law.hpp"
@@ -108,6 +110,8 @@ Json outputs_record(const Problem& problem, const RunResult& result) {
     const auto table = result.tables.find(output.get());
     if (table == result.tables.end()) continue;
     Json json = {{"name", output->name}, {"kind", output->word}, {"file", file_name_of(output->name) + ".csv"}};
+    const std::vector<double>& converged = table->second.converged;
+    json["converged"] = std::find(converged.begin(), converged.end(), 0.0) == converged.end();
     json.update(json_of(output->record(table->second, result.findings_of(*output))));
     list.push_back(json);
   }

@@ -78,8 +78,7 @@ Table RunFolder::table(const std::string& file, const std::vector<std::string>& 
     }
     const Table& table = read_.at(file);
     for (const std::string& name : columns)
-      if (std::find(table.names.begin(), table.names.end(), name) == table.names.end())
-        throw InputError("has no column '" + name + "'");
+      if (!table.has_column(name)) throw InputError("has no column '" + name + "'");
     return table;
   } catch (const InputError& error) {
     const std::string fault = file + " " + error.what() + ": it is left out";

@@ -184,9 +184,9 @@ std::optional<RecordedRun> read_run_record(const std::filesystem::path& director
   const Json json = Json::parse(file, nullptr, false);
   if (!file || json.is_discarded()) return std::nullopt;
   try {
-    return RecordedRun{json.at("program").at("version"), json.at("solver").at("name"),
+    return RecordedRun{json.at("program").at("version"),  json.at("solver").at("name"),
                        json.at("verdict") == "converged", json.at("iterations").at("all"),
-                       json.at("iterations").at("mean")};
+                       json.at("iterations").at("mean"),  json.at("seconds").at("all")};
   } catch (const Json::exception&) {
     return std::nullopt;
   }
@@ -202,6 +202,7 @@ std::string run_record(const Problem& problem, const RunResult& result, const Ru
       {"warnings", warnings},
       {"deck", {{"path", identity.deck_path}, {"digest", identity.deck_digest}}},
       {"parameters", object(identity.parameters)},
+      {"options", {{"frames", identity.has_frames}, {"state", identity.has_state}}},
       {"solver", solver(problem, identity)},
       {"substructures", substructures(problem, result, identity)},
       {"interfaces", interfaces_record(problem)},

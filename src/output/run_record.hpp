@@ -19,6 +19,7 @@ struct RecordedRun {
   bool converged = true;
   long iterations = 0;
   double mean_iterations = 0.0;
+  double seconds = 0.0;
 };
 std::optional<RecordedRun> read_run_record(const std::filesystem::path& directory);
 

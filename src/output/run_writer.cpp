@@ -1,5 +1,6 @@
 #include "output/run_writer.hpp"
 
+#include <chrono>
 #include <set>
 
 #include "base/error.hpp"
@@ -34,6 +35,8 @@ struct RunWriter::Index {
   Manifest manifest;
   Collection parts, interfaces;
   std::vector<FrameSummary> frames;
+  size_t n_listed = 0;
+  std::chrono::steady_clock::time_point listed;
 };
 
 RunWriter::RunWriter(fs::path directory, std::string problem_name)
@@ -46,7 +49,12 @@ RunWriter::RunWriter(fs::path directory, std::string problem_name)
   index_ = std::make_unique<Index>(directory_);
 }
 
-RunWriter::~RunWriter() = default;
+RunWriter::~RunWriter() {
+  try {
+    write_lists();
+  } catch (const InputError&) {  // whoever wrote last was told
+  }
+}
 
 void RunWriter::write_frame(const Frame& frame) {
   CHECK(index_->frames.empty() || frame.label_time > index_->frames.back().label_time,
@@ -70,14 +78,25 @@ void RunWriter::write_frame(const Frame& frame) {
     write_interfaces(frame, listed(file));
     index_->interfaces.add(frame.label_time, 0, "interfaces", file);
   }
+  index_->frames.push_back(summary_of(frame));
+  // A list grows with the frames: rewritten for each of thousands it would take longer than they do.
+  const size_t n = index_->frames.size(), n_new = n - index_->n_listed;
+  if (20 * n_new >= index_->n_listed || std::chrono::steady_clock::now() - index_->listed > std::chrono::seconds(1))
+    write_lists();
+}
+
+void RunWriter::write_lists() {
+  if (index_->n_listed == index_->frames.size()) return;
   if (!index_->parts.is_empty()) write(file_name_of(problem_name_) + ".pvd", index_->parts.text());
   if (!index_->interfaces.is_empty()) write(interfaces_file, index_->interfaces.text());
-  index_->frames.push_back(summary_of(frame));
+  index_->n_listed = index_->frames.size();
+  index_->listed = std::chrono::steady_clock::now();
 }
 
 const std::vector<FrameSummary>& RunWriter::frames() const { return index_->frames; }
 
 void RunWriter::write_tables(const Problem& problem, const RunResult& result) {
+  write_lists();
   const std::vector<std::string> steps = step_names(problem);
   std::set<std::string> written;
   for (const OutputPtr& output : problem.outputs) {  // in the deck's order

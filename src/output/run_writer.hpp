@@ -25,6 +25,7 @@ struct RunIdentity {
   std::vector<std::pair<std::string, std::string>>
       libraries;  // name, version, beside those that output itself can name
   std::string case_name = "base";
+  bool has_frames = true, has_state = true;  // else --no-frames, --no-state
 };
 
 // "0.1.0"
@@ -39,7 +40,8 @@ class RunWriter {
   ~RunWriter();
 
   // <problem>.pvd with one .vtu a substructure and interfaces.pvd with one .vtu of all interfaces, both in frames/. The
-  // .pvd are rewritten after each frame, so that an interrupted run can be opened. Inline binary, zlib: Debian's
+  // .pvd are rewritten after each frame, of many after some of them and every second, so that a run in progress and an
+  // interrupted one can be opened. Inline binary, zlib: Debian's
   // ParaView cannot read appended data. `label_time` must increase (else ContractError). Throws InputError when it
   // cannot write.
   void write_frame(const Frame& frame);
@@ -61,6 +63,7 @@ class RunWriter {
 
  private:
   struct Index;  // the frames written so far
+  void write_lists();
   void write_field(const std::string& name, const std::vector<Frame>& frames);
 
   std::filesystem::path directory_;

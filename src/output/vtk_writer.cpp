@@ -96,6 +96,13 @@ void add_instant(vtkUnstructuredGrid* grid, const Frame& frame) {
   time->InsertNextValue(frame.time);
   grid->GetFieldData()->AddArray(time);
   add_text(grid, "step", {frame.step});
+  for (const auto& [name, value] :
+       {std::pair{"converged", frame.converged ? 1 : 0}, {"increments_not_converged", frame.missed}}) {
+    vtkNew<vtkIntArray> array;
+    array->SetName(name);
+    array->InsertNextValue(value);
+    grid->GetFieldData()->AddArray(array);
+  }
 }
 
 // By way of a text: VTK 9.1 ends in a segmentation fault where a disk is full, and leaves half a file behind.

@@ -19,6 +19,7 @@ h3 { font-size: 16px; margin: 22px 0 4px; }
 p { margin: 6px 0; max-width: 900px; }
 .under { color: #555; margin: 0 0 16px; }
 .verdict { border-left: 8px solid; padding: 8px 14px; margin: 10px 0; font-size: 16px; }
+.missed { color: #b34700; font-weight: bold; }
 .good { border-color: #009e73; background: #eef8f4; }
 .bad { border-color: #d55e00; background: #fdf1ea; }
 .cards { display: flex; flex-wrap: wrap; gap: 10px; margin: 12px 0; }

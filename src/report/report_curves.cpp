@@ -113,7 +113,7 @@ std::string history_figure(const Json& output, const Table& table, const TimeAxi
   std::string quantity = quantity_of(output);
   std::replace(quantity.begin(), quantity.end(), '_', ' ');
   Plot plot{.title = title_of(output), .x = time.axis(), .y = {quantity, table.units.at(1)}};
-  plot.spans = time.spans();
+  time.shade(plot);
   plot.width = 530;
   plot.height = 270;
   const std::vector<double> places = time.places(table);

@@ -126,7 +126,7 @@ std::string loop(const Table& t, const std::string& title, const char* x, const 
 
 std::string works(const Table& t, const TimeAxis& time) {
   Plot plot = small_plot("Work of the joint", time.axis(), {"energy dissipated", "J"});
-  plot.spans = time.spans();
+  time.shade(plot);
   const std::vector<double> places = time.places(t);
   for (const char* work : {"friction_work", "plastic_work"})
     if (largest(t.column(work)) > 0.0)
@@ -146,13 +146,13 @@ std::string joint_part(const RunFolder& run, const Json& output, const TimeAxis&
   const bool yields = kind.yields;
   const std::vector<double> places = time.places(t);
   Plot area = small_plot("Area by state", time.axis(), {"area", "m^2"});
-  area.spans = time.spans();
+  time.shade(area);
   area.stacked = {{yields ? "elastic" : "sticking", places, t.column("stick_area"), stick_color},
                   {yields ? "yielding" : "sliding", places, t.column("slip_area"), slip_color},
                   {"open", places, t.column("open_area"), open_color}};
   if (yields && largest(t.column("open_area")) == 0.0) area.stacked.pop_back();
   Plot force = small_plot("Force through the joint", time.axis(), {"force", "N"});
-  force.spans = time.spans();
+  time.shade(force);
   for (const char* name : {"normal", "shear"})
     if (force.lines.empty() || largest(t.column(name)) > noise * largest(t.column("normal")))
       force.lines.push_back({name, places, t.column(name), {}, false, t.n_rows() < 30});

@@ -132,11 +132,16 @@ std::string maps_of_joint(const Json& joint) {
       "aria-label=\"{2}\" "
       "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\" fill=\"#222222\">\n<title>{2}</title>\n",
       coordinate(width), coordinate(height), escaped("Maps of " + text(joint, "name")));
+  bool has_missed = false;
   for (size_t i = 0; i < instants.size(); ++i) {
     const double x = left + column * static_cast<double>(i) + 0.5 * map_space;
     const bool is_static = instants[i].value("static", false);
     drawing += words(x, 14.0, text(instants[i], "step"), "middle") +
-               words(x, 30.0, is_static ? "(static)" : with_unit(number(instants[i], "time"), "s"), "middle");
+               words(x, 30.0,
+                     (is_static ? "(static)" : with_unit(number(instants[i], "time"), "s")) +
+                         (instants[i].value("missed", 0) > 0 ? " *" : ""),
+                     "middle");
+    has_missed |= instants[i].value("missed", 0) > 0;
   }
   for (size_t r = 0; r < rows.size(); ++r) {
     const double y = top + row_height * static_cast<double>(r), high = largest(joint, rows[r].key);
@@ -161,6 +166,7 @@ std::string maps_of_joint(const Json& joint) {
     caption += ", " + axes[0].get<std::string>() + " to the right, " + axes[1].get<std::string>() + " up";
   caption += fmt::format(", {} by {}.", with_unit(joint.at("size").at(0).get<double>(), "m"),
                          with_unit(joint["size"].at(1).get<double>(), "m"));
+  if (has_missed) caption += " *: after increments that have NOT CONVERGED.";
   return html::figure(drawing, caption);
 }
 

@@ -24,12 +24,20 @@ int row_of_largest(const std::vector<double>& values) {
   return best;
 }
 
+// What a row rests on: an increment that has not converged, or one after such.
+std::string unconverged(const Table& table, int row) {
+  const auto at = table.converged.begin() + (table.converged.empty() ? 0 : row);
+  if (table.converged.empty() || std::find(table.converged.begin(), at + 1, 0.0) == at + 1) return "";
+  return *at == 0.0 ? "; NOT CONVERGED" : "; after increments NOT CONVERGED";
+}
+
 // "shock, 46 µs"; a static step has no time.
 std::string instant(const RunFolder& run, const Table& table, int row) {
   const Json& step = run.record().at("steps").at(static_cast<size_t>(table.step[static_cast<size_t>(row)]));
   const std::string name = text(step, "name");
-  return text(step, "kind") == "static" ? name + " (static)"
-                                        : name + ", " + with_unit(table.columns[0][static_cast<size_t>(row)], "s");
+  return (text(step, "kind") == "static" ? name + " (static)"
+                                         : name + ", " + with_unit(table.columns[0][static_cast<size_t>(row)], "s")) +
+         unconverged(table, row);
 }
 
 struct NamedColumn {
@@ -79,9 +87,10 @@ void add_spectra(const RunFolder& run, const TimeAxis& time, const ReportRequest
       if (!time.judged().holds(spectrum.frequency()[i])) level[i] = std::nan("");
     const int row = row_of_largest(level);
     if (row < 0) continue;
-    rows.push_back({spectrum.name, "spectrum of " + spectrum.of,
-                    with_unit(level[static_cast<size_t>(row)], spectrum.table.units.at(1)),
-                    with_unit(spectrum.frequency()[static_cast<size_t>(row)], "Hz")});
+    rows.push_back(
+        {spectrum.name, "spectrum of " + spectrum.of,
+         with_unit(level[static_cast<size_t>(row)], spectrum.table.units.at(1)),
+         with_unit(spectrum.frequency()[static_cast<size_t>(row)], "Hz") + unconverged(spectrum.table, row)});
   }
 }
 

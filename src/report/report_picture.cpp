@@ -207,6 +207,11 @@ std::string by_stress(const Json& picture, const std::string& title) {
                         coordinate(0.5 * width), coordinate(height + 28.0));
   result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}{}</text>\n", coordinate(bar_left + bar),
                         coordinate(height + 28.0), highest < 990 ? "above " : "", escaped(with_unit(high, "Pa")));
+  if (picture.value("missed", 0) > 0)
+    result += fmt::format(
+        "<text x=\"{}\" y=\"16\" text-anchor=\"end\" font-weight=\"bold\" fill=\"#d55e00\">NOT CONVERGED"
+        "</text>\n",
+        coordinate(width - 6.0));
   return result + "</svg>\n";
 }
 
@@ -228,6 +233,8 @@ std::string caption_of(const Json& picture) {
              : scale == 1.0 ? "drawn as they are"
                             : "drawn " + plain_number(scale, 6) + " times as large";
   caption += "; von Mises stress up to " + with_unit(number(picture, "largest"), "Pa") + ".";
+  if (const int missed = picture.value("missed", 0); missed > 0)
+    caption += fmt::format(" NOT CONVERGED: {} increment{} up to here.", missed, missed == 1 ? "" : "s");
   if (picture.value("cut", false)) caption += " Cut " + cut_of(picture) + ".";
   return caption + (scale > 0.0 ? " Dashed: undeformed." : "");
 }

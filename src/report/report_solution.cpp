@@ -24,7 +24,7 @@ double largest_of(const std::vector<double>& values) {
 
 std::string energy_figure(const Table& t, const TimeAxis& time) {
   Plot plot{.title = "Where the energy is", .x = time.axis(), .y = {"energy", "J"}};
-  plot.spans = time.spans();
+  time.shade(plot);
   plot.width = 820;
   plot.height = 340;
   const std::vector<double> places = time.places(t);

@@ -68,6 +68,13 @@ std::string verdict_text(const Json& record) {
       steps_that_missed(record), tolerance.empty() ? "" : " of " + tolerance);
 }
 
+// Of a run that has not converged a margin, or a specification that is met, is no good news.
+void doubt(Card& card, const Json& record) {
+  if (steps_that_missed(record).empty()) return;
+  if (card.grade == Grade::fine) card.grade = Grade::fair;
+  card.note += "; NOT CONVERGED";
+}
+
 // The smallest margin against yield.
 void add_margin(const RunFolder& run, std::vector<Card>& cards) {
   const Json* least = nullptr;
@@ -83,6 +90,7 @@ void add_margin(const RunFolder& run, std::vector<Card>& cards) {
                    std::isfinite(value) ? plain_number(100.0 * value, 3) + "\u00a0%" : "not a number",
                    "in '" + text(*least, "name") + "', yield / von Mises − 1",
                    value >= limit::yield_margin ? Grade::fine : Grade::poor});
+  doubt(cards.back(), run.record());
 }
 
 // A figure, if the run has it: fine up to `good`, poor beyond `limit`.
@@ -152,8 +160,10 @@ std::string verdict_section(const RunFolder& run, const ReportRequest& request) 
   for (const Spectrum& spectrum : spectra_of(run, request)) {
     if (!spectrum.specification) continue;
     SpectrumVerdict found = verdict_of(spectrum, TimeAxis(record.at("steps")).judged());
+    doubt(found.card, record);
     cards.push_back(std::move(found.card));
-    findings.push_back(std::move(found.sentence));
+    findings.push_back(std::move(found.sentence) +
+                       (steps_that_missed(record).empty() ? "" : " The run has NOT CONVERGED."));
   }
   if (!cards.empty()) {
     body += "<div class=\"cards\">\n";

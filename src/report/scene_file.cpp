@@ -83,6 +83,7 @@ Json stress_picture(const Problem& problem, const View& view, const AssemblyScen
   json["step"] = scene.step;
   json["static"] = scene.is_static;
   json["time"] = scene.time;
+  json["missed"] = scene.missed;
   json["scale"] = scale;
   const double moved = largest(scene.displacement);
   json["largest_displacement"] = std::isfinite(moved) ? Json(moved) : Json();
@@ -133,7 +134,7 @@ Json joint(const JointScenes& joint) {
   }
   json["cells"] = std::move(cells);
   for (const JointScene& scene : joint.instants) {
-    Json instant = {{"step", scene.step}, {"static", scene.is_static}, {"time", scene.time}};
+    Json instant = {{"step", scene.step}, {"static", scene.is_static}, {"time", scene.time}, {"missed", scene.missed}};
     Json states = Json::array();
     for (const std::vector<int>& points : map.points) states.push_back(state_of_cell(scene.status, points));
     instant["state"] = std::move(states);

@@ -93,6 +93,11 @@ class Chart {
       put("<rect class=\"span\"{} x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#f0ede4\"/>\n", named(span.label),
           coordinate(x_.pixel(span.from)), coordinate(frame_.top),
           coordinate(std::max(1.0, x_.pixel(span.to) - x_.pixel(span.from))), coordinate(frame_.bottom - frame_.top));
+    for (const PlotSpan& span : plot_.missed)
+      put("<rect class=\"missed\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#d55e00\" "
+          "fill-opacity=\"0.22\"/>\n",
+          coordinate(x_.pixel(span.from)), coordinate(frame_.top),
+          coordinate(std::max(1.0, x_.pixel(span.to) - x_.pixel(span.from))), coordinate(frame_.bottom - frame_.top));
   }
 
   void draw_grid() {

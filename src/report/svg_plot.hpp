@@ -62,6 +62,7 @@ struct Plot {
   std::vector<PlotLine> stacked = {};  // areas on top of each other, the first at the bottom; one x for all
   std::vector<PlotBand> bands = {};
   std::vector<PlotSpan> spans = {};
+  std::vector<PlotSpan> missed = {};  // what has not converged: shaded red
   std::vector<PlotLevel> levels = {};
   std::vector<PlotMark> marks = {};
   int width = 720, height = 300;  // px

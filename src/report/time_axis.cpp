@@ -62,6 +62,30 @@ std::vector<double> TimeAxis::places(const Table& table) const {
   return places;
 }
 
+void TimeAxis::note_missed(const Table& convergence) {
+  if (!convergence.has_column("converged") || ranges_.empty()) return;
+  const std::vector<double>& converged = convergence.column("converged");
+  const double all = ranges_.back().start + ranges_.back().width - ranges_.front().start;
+  std::vector<int> seen(ranges_.size(), 0);
+  for (size_t i = 0; i < converged.size(); ++i) {
+    const Range& range = ranges_[convergence.step[i]];
+    const int k = seen[convergence.step[i]]++;
+    if (converged[i] != 0.0) continue;
+    const double unit = range.width / std::max(1, range.increments);
+    const PlotSpan span{range.start + k * unit, range.start + (k + 1) * unit, ""};
+    const bool is_next = !missed_.empty() && span.from < missed_.back().to + 1e-3 * all;  // what no reader tells apart
+    if (is_next)
+      missed_.back().to = span.to;
+    else
+      missed_.push_back(span);
+  }
+}
+
+void TimeAxis::shade(Plot& plot) const {
+  plot.spans = spans_;
+  plot.missed = missed_;
+}
+
 PlotAxis TimeAxis::axis() const {
   if (dynamic_ == 0.0) return increments();
   PlotAxis axis{"time", "s"};

@@ -18,7 +18,10 @@ class TimeAxis {
   std::vector<double> places(const Table& table) const;
   // The same axis for charts of one value per increment: increments of all steps one after the other.
   PlotAxis axis() const;
-  const std::vector<PlotSpan>& spans() const { return spans_; }
+  // The increments of convergence.csv that have not converged: shaded by what follows.
+  void note_missed(const Table& convergence);
+  // Static steps and what has not converged.
+  void shade(Plot& plot) const;
   double record() const { return dynamic_; }  // s, of the dynamic steps
   // Frequencies that a spectrum of the run can be judged at.
   FrequencyRange judged() const { return reliable_range(dynamic_, dt_); }
@@ -33,7 +36,7 @@ class TimeAxis {
     double time;          // s, at the start, of the run
   };
   std::vector<Range> ranges_;
-  std::vector<PlotSpan> spans_;
+  std::vector<PlotSpan> spans_, missed_;
   double dynamic_ = 0.0, dt_ = 0.0;  // s; the smallest dt
 };
 

@@ -103,9 +103,8 @@ Json frame_of(const SkinFrame& frame, const TurningMesh& mesh) {
   const double unit = quantised(u, places), top = *std::max_element(stress.begin(), stress.end());
   std::vector<uint8_t> levels;
   for (const double s : stress) levels.push_back(static_cast<uint8_t>(top > 0.0 ? std::lround(255.0 * s / top) : 0));
-  return {{"step", frame.step}, {"static", frame.is_static}, {"time", frame.time},
-          {"unit", unit},       {"u", base64(places)},       {"top", top},
-          {"s", base64(levels)}};
+  return {{"step", frame.step}, {"static", frame.is_static}, {"time", frame.time}, {"missed", frame.missed},
+          {"unit", unit},       {"u", base64(places)},       {"top", top},         {"s", base64(levels)}};
 }
 
 double largest_displacement(const SkinMotion& motion) {

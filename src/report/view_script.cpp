@@ -83,7 +83,10 @@ std::string view_script(const Problem& problem, const std::vector<FrameSummary>&
   put("INTERFACES_FILE", has_interfaces ? "\"interfaces.pvd\"" : "None");
   put("FOLDER", text(std::filesystem::absolute(folder).string()));
   put("WARP", fmt::format("{}", scale));
-  put("TITLE", text(scale == 1.0 ? problem.name : fmt::format("{}, displacements x {:g}", problem.name, scale)));
+  const int missed = frames.back().missed;
+  put("TITLE",
+      text(problem.name + (scale == 1.0 ? "" : fmt::format(", displacements x {:g}", scale)) +
+           (missed > 0 ? fmt::format("\nNOT CONVERGED: {} increment{}", missed, missed == 1 ? "" : "s") : "")));
   put("TIME", fmt::format("{}", shown(problem, frames).label_time));
   put("FIELD", von_mises > 0.0 ? "\"von_mises\"" : "\"displacement\"");
   put("FIELD_TITLE", von_mises > 0.0 ? "\"von Mises stress (Pa)\"" : "\"displacement (m)\"");

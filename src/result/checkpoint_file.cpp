@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/fnv1a.hpp"
@@ -65,7 +66,10 @@ void code_entry(Coder& code, TrailEntry& entry) {
 
 template <class Coder>
 void code_identity(Coder& code, CheckpointIdentity& identity, std::string& state) {
-  code(state), code(identity.kernels), code(identity.purpose), code_number(code, identity.has_start);
+  int flags = (identity.has_start ? 1 : 0) + (identity.has_frames ? 0 : 2);
+  code(state), code(identity.kernels), code(identity.purpose), code_number(code, flags);
+  identity.has_start = (flags & 1) != 0;
+  identity.has_frames = (flags & 2) == 0;
 }
 
 bool put(std::FILE* file, const void* data, size_t bytes) { return std::fwrite(data, 1, bytes, file) == bytes; }
@@ -198,10 +202,12 @@ void CheckpointFile::leave(const TrailEntry& entry) {
   sum_ = checksum(sum_, encoder.bytes);
   errno = 0;
   if (!put_record(file_.get(), encoder.bytes, sum_)) return fail("written");
+  if (room_ < 0.0) foresee(static_cast<std::int64_t>(encoder.bytes.size()) + 16);
   const auto now = Clock::now();
   if (now - flushed_ >= std::chrono::seconds(1)) {
     flushed_ = now;
     if (std::fflush(file_.get()) != 0) return fail("written");
+    keep_within_room();
   }
   if (std::chrono::duration<double>(now - synced_).count() >= every_) sync();
 }
@@ -210,6 +216,29 @@ void CheckpointFile::sync() {
   if (has_failed_) return;
   synced_ = flushed_ = Clock::now();
   if (std::fflush(file_.get()) != 0 || fdatasync(fileno(file_.get())) != 0) fail("written");
+}
+
+void CheckpointFile::foresee(std::int64_t bytes_of_entry) {
+  std::error_code error;
+  const std::filesystem::space_info space = std::filesystem::space(path_.parent_path(), error);
+  room_ = error ? std::numeric_limits<double>::infinity()
+                : static_cast<double>(ftello(file_.get())) + 0.5 * static_cast<double>(space.available);
+  const double all = static_cast<double>(expected_) * static_cast<double>(bytes_of_entry);
+  if (all <= room_) return;
+  warn(fmt::format(
+      "the checkpoint '{}' comes to about {:.3g} GB, and {:.3g} GB are free: it is kept up to half of those, and a run "
+      "stopped after that goes on from there; --checkpoint-every 0 keeps none, --no-state neither it nor the state, "
+      "which takes as much",
+      path_.string(), all / 1e9, static_cast<double>(space.available) / 1e9));
+}
+
+void CheckpointFile::keep_within_room() {
+  if (static_cast<double>(ftello(file_.get())) <= room_) return;
+  has_failed_ = true;
+  warn(fmt::format(
+      "the checkpoint '{}' has taken half of the space that was free and grows no further, so that the results find "
+      "room\n    the run goes on; if it is stopped, it continues from what was kept until here",
+      path_.string()));
 }
 
 // The results are not touched: the run goes on without.

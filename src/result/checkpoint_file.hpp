@@ -21,6 +21,7 @@ struct CheckpointIdentity {
   std::string kernels;     // "avx512", "avx2" or "generic"
   std::string purpose;     // what a continued run was asked for; empty: a run of the deck
   bool has_start = false;  // the iteration started from another case's fields
+  bool has_frames = true;  // else --no-frames
 };
 
 // Entries are appended, each with a checksum that goes on from the one before; what a crash has cut off is dropped when
@@ -42,6 +43,9 @@ class CheckpointFile final : public Trail {
   void note_difference() override;
   // Brings everything to the disk.
   void sync();
+  // So many entries are to come in all: says in advance what they need and cannot have. What is kept stays below half
+  // of the space that is free now, so that the results find room.
+  void expect(long entries) { expected_ = entries; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -52,12 +56,16 @@ class CheckpointFile final : public Trail {
   void scan();
   bool read_entry(std::string& payload, std::uint64_t& sum);
   void fail(const char* what);
+  void foresee(std::int64_t bytes_of_entry);
+  void keep_within_room();
 
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, Close> file_;
   std::unique_ptr<char[]> buffer_;
   CheckpointIdentity identity_;
   long n_left_ = 0;        // entries to be taken
+  long expected_ = 0;      // in all; 0: nobody told
+  double room_ = -1.0;     // bytes that it may have; below zero: not known yet
   std::int64_t at_ = 0;    // where the next one is taken or left, bytes
   std::uint64_t sum_ = 0;  // of the entry before it
   double every_;

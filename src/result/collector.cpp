@@ -39,6 +39,8 @@ void Collector::accept(const Instant& instant) {
                         instant.converged ? 1.0 : 0.0};
   for (int i = 0; i < 4; ++i) convergence_.columns[i].push_back(row[i]);
   convergence_.step.push_back(instant.i_step);
+  missed_ += !instant.converged;
+  if (!instant.is_static()) missed_in_motion_ = missed_;
   if (instant.is_static() && !instant.converged && !is_overloaded(instant.i_step)) note_overload(instant);
   watch(instant);
 }
@@ -105,8 +107,17 @@ void Collector::finish_outputs(RunResult& result) {
     if (!output->columns().empty()) result.tables[output] = std::move(table);
   }
   const RunEnd end{problem_, result, errors_.dynamic_steps(), errors_.static_steps()};
-  for (const OutputPtr& output : problem_.outputs)
-    if (!output->columns().empty()) output->conclude(end, result.tables[output.get()], result.findings[output.get()]);
+  for (const OutputPtr& output : problem_.outputs) {
+    if (output->columns().empty()) continue;
+    Table& table = result.tables[output.get()];
+    Findings& findings = result.findings[output.get()];
+    output->conclude(end, table, findings);
+    // Spectra and what is made of them rest on the motion and all before it, the rest of a table on its rows.
+    table.mark(missed_in_motion_ == 0);
+    const bool has_converged = std::find(table.converged.begin(), table.converged.end(), 0.0) == table.converged.end();
+    findings.band.mark(has_converged);
+    for (auto& [name, part] : findings.parts) part.mark(has_converged);
+  }
 }
 
 void Collector::finish(RunResult& result) {

@@ -40,6 +40,7 @@ class Collector : public Observer {
   const Problem& problem_;
   std::vector<std::pair<const Output*, std::unique_ptr<Recorder>>> recorders_;
   Table convergence_;
+  int missed_ = 0, missed_in_motion_ = 0;  // increments that have not converged, of all; up to the end of the motion
   std::vector<std::string> warnings_;
   std::vector<int> overloaded_;  // steps
   Extremes extremes_;

@@ -32,6 +32,8 @@ struct Frame {
   double time = 0.0;        // s, of the whole run; static increments stand still, see `label_time`
   double label_time = 0.0;  // strictly increasing over the frames of a run: what the .pvd carries
   std::string step;
+  bool converged = true;  // the increment that ends there
+  int missed = 0;         // increments up to there, of all steps, that have not converged
   std::vector<PartFrame> parts;
   std::vector<InterfaceFrame> interfaces;
 };

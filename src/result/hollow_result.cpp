@@ -17,6 +17,7 @@ std::shared_ptr<const RunResult> hollow_result(const Problem& problem) {
     for (std::vector<double>& column : table.columns) column.assign(problem.steps.size(), not_known);
     if (table.names.front() == "time")
       for (size_t i = 0; i < problem.steps.size(); ++i) table.step.push_back(static_cast<int>(i));
+    table.converged.assign(problem.steps.size(), 1.0);
     output->hollow(table, result->findings[output.get()]);
     result->tables[output.get()] = std::move(table);
   }

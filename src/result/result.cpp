@@ -19,8 +19,17 @@ std::optional<double> BoltSummary::loss() const {
   return 1.0 - last / tightened;
 }
 
+bool Table::has_column(const std::string& name) const {
+  return std::find(names.begin(), names.end(), name) != names.end() || (name == "converged" && !converged.empty());
+}
+
+void Table::mark(bool has_converged) {
+  if (!has_column("converged")) converged.assign(static_cast<size_t>(n_rows()), has_converged ? 1.0 : 0.0);
+}
+
 const std::vector<double>& Table::column(const std::string& name) const {
   const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end() && has_column(name)) return converged;
   CHECK(found != names.end(), "no column '" + name + "': " + did_you_mean(name, names));
   return columns.at(static_cast<size_t>(found - names.begin()));
 }

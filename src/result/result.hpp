@@ -24,9 +24,13 @@ struct Table {
   std::vector<std::string> units;            // "s", "N", "" where none
   std::vector<std::vector<double>> columns;  // one vector a name, equal lengths
   std::vector<int> step;                     // problem's step index of each row; empty for spectra
+  // 1 or 0, of each row: have all increments that it is made of converged? Empty: nobody tells.
+  std::vector<double> converged = {};
 
   int n_rows() const { return columns.empty() ? 0 : static_cast<int>(columns.front().size()); }
+  bool has_column(const std::string& name) const;                    // `converged` too
   const std::vector<double>& column(const std::string& name) const;  // CHECKs that it exists
+  void mark(bool has_converged);                                     // all rows, where they do not tell themselves
 };
 
 // With these columns, and no row.

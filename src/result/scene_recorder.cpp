@@ -71,6 +71,7 @@ std::vector<JointScene> choose(std::vector<JointScene> sampled) {
 }  // namespace
 
 void SceneRecorder::accept(const Instant& instant) {
+  missed_ += !instant.converged;
   if (!has_joints_) find_joints(instant);
   motion_.accept(instant);
   const bool is_last = instant.increment + 1 == instant.model.step->n_increments();
@@ -86,6 +87,7 @@ void SceneRecorder::accept(const Instant& instant) {
 void SceneRecorder::keep_assembly(const Instant& instant, AssemblyScene& scene) const {
   scene.step = instant.model.step->name;
   scene.is_static = instant.is_static();
+  scene.missed = missed_;
   scene.time = instant.time();
   scene.displacement.resize(problem_.substructures.size());
   for (size_t i = 0; i < scene.displacement.size(); ++i)
@@ -122,6 +124,7 @@ void SceneRecorder::keep_joints(const Instant& instant) {
     JointScene& scene = joints_[j].instants.emplace_back();
     scene.step = instant.model.step->name;
     scene.is_static = instant.is_static();
+    scene.missed = missed_;
     scene.time = instant.time();
     for (int i = 0; i < surface.n_points(); ++i) {
       const LawState& p = points[i];

@@ -30,6 +30,7 @@ class SceneRecorder : public Observer {
   AssemblyScene tightened_, shocked_;  // without displacements: not met yet
   double strain_energy_ = -1.0;        // J, of shocked_
   bool has_joints_ = false;
+  int missed_ = 0;                   // increments so far that have not converged
   int samples_of_joints_ = 0;        // a step
   std::vector<int> surfaces_;        // of joints_
   std::vector<JointScenes> joints_;  // with all instants sampled

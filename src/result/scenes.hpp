@@ -16,6 +16,7 @@ struct AssemblyScene {
   double time = 0.0;                 // s, of the run
   std::vector<Points> displacement;  // m, 3 x n_nodes, one per substructure
   std::vector<Vec> von_mises;        // Pa, one per substructure
+  int missed = 0;                    // increments up to here, of all steps, that have not converged
 };
 
 struct JointScene {
@@ -26,6 +27,7 @@ struct JointScene {
   std::vector<float> pressure;         // Pa, compression positive
   std::vector<float> slip;             // m, modulus
   std::vector<float> plastic_opening;  // m
+  int missed = 0;                      // increments up to here, of all steps, that have not converged
 };
 
 // An interface or wall that an output has mapped that opens (contact) or yields (plastic).

@@ -13,6 +13,7 @@ struct SkinFrame {
   double time = 0.0;                // s, of the run
   std::vector<float> displacement;  // m, x y z of each node of SkinMotion::nodes, part after part
   std::vector<float> von_mises;     // Pa, of the same
+  int missed = 0;                   // increments up to here, of all steps, that have not converged
 };
 
 struct SkinMotion {

@@ -97,15 +97,16 @@ void SkinRecorder::fill(SkinFrame& frame, const Displacement& of_part) const {
 
 void SkinRecorder::accept(const Instant& instant) {
   if (layers_.empty()) prepare();
+  missed_ += !instant.converged;
   const int n = instant.model.step->n_increments(), samples = std::min(n, samples_[instant.i_step]);
   if (samples == 0 || !is_kept(instant.increment, n, samples)) return;
   SkinFrame& frame = motion_.frames.emplace_back(
-      SkinFrame{instant.model.step->name, instant.i_step, instant.is_static(), instant.time(), {}, {}});
+      SkinFrame{instant.model.step->name, instant.i_step, instant.is_static(), instant.time(), {}, {}, missed_});
   fill(frame, [&](int part) { return instant.displacement(part); });
 }
 
 void SkinRecorder::add(const AssemblyScene& scene) {
-  SkinFrame frame{scene.step, 0, scene.is_static, scene.time, {}, {}};
+  SkinFrame frame{scene.step, 0, scene.is_static, scene.time, {}, {}, scene.missed};
   for (size_t i = 0; i < problem_.steps.size(); ++i)
     if (problem_.steps[i]->name == scene.step) frame.i_step = static_cast<int>(i);
   const auto place = [](const SkinFrame& a, const SkinFrame& b) {

@@ -35,6 +35,7 @@ class SkinRecorder {
   SkinMotion motion_;
   std::vector<Layer> layers_;
   std::vector<int> samples_;  // frames of each step
+  int missed_ = 0;            // increments so far that have not converged
 };
 
 // How many frames each step gets of `n_frames`: static steps their last increment, dynamic ones what remains; where

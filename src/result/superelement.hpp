@@ -42,7 +42,7 @@ struct Superelement {
   double mass_of_parts = 0.0;    // kg
   int n_unknowns = 0;            // of the assembly
   std::string step;
-  bool is_converged = true;                  // the step's last increment
+  int missed = 0;                            // increments up to there, of all steps, that have not converged
   int n_tied = 0, n_normal = 0, n_open = 0;  // contact points: tied, tied along their normal, open
   int n_damped = 0;                          // points of interfaces that are in the damping matrix
 };

@@ -34,9 +34,10 @@ std::string introduction(const std::string& problem, const std::string& name, co
       "# Superelement `{}` of problem `{}`\n\n"
       "The linear assembly about its state at the end of step `{}`, reduced to {} rows: {} interface coordinates and "
       "{} modes "
-      "(Craig and Bampton, 1968), {} of which stand for all that are left out, from {} unknowns.{}\n\n",
+      "(Craig and Bampton, 1968), {} of which stand for all that are left out, from {} unknowns.\n\n",
       name, problem, element.step, element.rows.size(), element.rows.size() - n_modes, n_modes, element.n_residual,
-      element.n_unknowns, element.is_converged ? "" : " THE STEP DID NOT CONVERGE.");
+      element.n_unknowns);
+  if (element.missed > 0) text += "**" + unconverged_text(element) + ".**\n\n";
   text += fmt::format(
       "**To be used up to {:.4g} Hz**, half of the frequency up to which modes with the interface held are kept.\n\n",
       element.valid_to);
@@ -76,6 +77,11 @@ std::string file_list(const std::string& name, const Superelement& element) {
 }
 
 }  // namespace
+
+std::string unconverged_text(const Superelement& element) {
+  return fmt::format("NOT CONVERGED: {} increment{} up to the end of step '{}' missed the tolerance", element.missed,
+                     element.missed == 1 ? "" : "s", element.step);
+}
 
 std::string matrix_market_text(const Mat& symmetric, const std::string& comment) {
   CHECK(symmetric.rows() == symmetric.cols(), "a square matrix");
@@ -125,8 +131,9 @@ std::vector<std::pair<std::string, std::string>> superelement_files(const std::s
   const auto add = [&](const char* what, const char* unit, const Mat& matrix) {
     files.emplace_back(
         std::string("_") + what + ".mtx",
-        matrix_market_text(matrix, fmt::format("{} ({}) of superelement '{}' after step '{}': see {}.md", what, unit,
-                                               request.name, element.step, file_name_of(request.name))));
+        matrix_market_text(matrix, fmt::format("{} ({}) of superelement '{}' after step '{}': see {}.md{}", what, unit,
+                                               request.name, element.step, file_name_of(request.name),
+                                               element.missed > 0 ? "\n% " + unconverged_text(element) : "")));
   };
   add("mass", "kg", element.mass);
   add("stiffness", "N/m", element.stiffness);

@@ -13,6 +13,9 @@ namespace dygita {
 // Source: Boisvert, Pozo, Remington, The Matrix Market exchange formats, NISTIR 5935 (1996).
 std::string matrix_market_text(const Mat& symmetric, const std::string& comment);
 
+// "NOT CONVERGED: 3 increments up to the end of step 'tighten' missed the tolerance".
+std::string unconverged_text(const Superelement& element);
+
 // Names (after the output's) and contents: _mass.mtx, _stiffness.mtx, _damping.mtx where there is any, and .md.
 std::vector<std::pair<std::string, std::string>> superelement_files(const std::string& problem,
                                                                     const SuperelementRequest& request,

@@ -9,10 +9,18 @@
 
 #include "base/log.hpp"
 #include "run/keep_state.hpp"
+#include "run/passes.hpp"
 
 namespace dygita {
 
 namespace {
+
+// Increments of all steps and passes, of which each leaves an entry.
+long expected_entries(const Problem& problem) {
+  long n = 0;
+  for (const StepPtr& step : problem.steps) n += step->n_increments();
+  return n * static_cast<long>(pass_tolerances(problem).size());
+}
 
 // A run that continues another to a tolerance or in time is told apart from any that was asked for something else.
 std::string purpose_of(const Problem& problem, const RunRequest& request) {
@@ -29,7 +37,8 @@ CheckpointIdentity identity_of(const Problem& problem, const RunRequest& request
   RunState state = identity_of_run(problem, request);
   state.interrupted = true;
   return {std::move(state), request.identity.kernels, purpose_of(problem, request),
-          request.start_from && request.start_from->converged && request.start_from->interface_fields};
+          request.start_from && request.start_from->converged && request.start_from->interface_fields,
+          request.write_frames};
 }
 
 // What an attempt at the same has left, that was killed.
@@ -62,7 +71,9 @@ std::shared_ptr<CheckpointFile> checkpoint_of(const Problem& problem, const RunR
     return left;
   }
   try {
-    return std::make_shared<CheckpointFile>(path, identity, request.checkpoint_every);
+    auto checkpoint = std::make_shared<CheckpointFile>(path, identity, request.checkpoint_every);
+    checkpoint->expect(expected_entries(problem));
+    return checkpoint;
   } catch (const InputError& error) {
     warn(fmt::format("{}\n    the run goes on, and cannot be continued if it is killed", error.what()));
     return nullptr;

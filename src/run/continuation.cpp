@@ -45,6 +45,31 @@ RunState state_in(const fs::path& run) {
                         run.string(), recorded->solver));
 }
 
+// The folder of a problem stands for the case of it that was stopped or killed.
+fs::path unfinished_case(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored) || fs::exists(folder / checkpoint_file_name, ignored) ||
+      fs::exists(folder / state_file_name, ignored) || fs::exists(folder / "run.json", ignored))
+    return folder;
+  std::vector<fs::path> unfinished, cases;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    if (fs::exists(entry.path() / checkpoint_file_name, ignored)) unfinished.push_back(entry.path());
+    if (fs::exists(entry.path() / "run.json", ignored)) cases.push_back(entry.path());
+  }
+  if (unfinished.size() == 1) return unfinished.front();
+  std::sort(unfinished.begin(), unfinished.end());
+  std::sort(cases.begin(), cases.end());
+  std::string list;
+  for (const fs::path& one : unfinished.empty() ? cases : unfinished) list += "\n      " + one.string();
+  if (list.empty()) return folder;
+  throw InputError(
+      unfinished.empty()
+          ? fmt::format("every case in '{}' has come to its end\n    name the folder of one to refine it, or "
+                        "run the deck again for cases that are not there:{}",
+                        folder.string(), list)
+          : fmt::format("several cases in '{}' were stopped: continue one of{}", folder.string(), list));
+}
+
 // The end of the run as it was asked for, s.
 double end_of(const RunState& state) {
   double end = 0.0;
@@ -84,7 +109,9 @@ void check_problem_is_same(const Problem& problem, const RunState& state) {
 
 }  // namespace
 
-Continuation::Continuation(const ContinueOptions& options) : options_(options) {
+Continuation::Continuation(const ContinueOptions& asked) : options_(asked) {
+  options_.run = unfinished_case(asked.run);
+  const ContinueOptions& options = options_;
   std::error_code ignored;
   if (fs::is_directory(options.run, ignored)) lock_ = std::make_shared<RunLock>(fs::canonical(options.run));
   const fs::path checkpoint = options.run / checkpoint_file_name;
@@ -101,6 +128,8 @@ Continuation::Continuation(const ContinueOptions& options) : options_(options) {
     state_ = std::make_shared<const RunState>(state_in(options.run));
   }
 }
+
+fs::path Continuation::out() const { return fs::canonical(options_.run).parent_path().parent_path(); }
 
 bool Continuation::has_record() const { return read_run_record(options_.run).has_value(); }
 
@@ -134,6 +163,7 @@ void Continuation::check_until() const {
 }
 
 std::shared_ptr<const RunResult> Continuation::run(const Problem& problem, const RunRequest& request) {
+  if (!request.write_files) return run_problem(problem, request);  // a case checked without its start
   if (problem.name != state_->problem || request.case_name != state_->case_name)
     return result_of_other(problem, request);
   if (resumes()) return resume(problem, request);
@@ -207,8 +237,9 @@ StepPtr Continuation::extended(const Step& step, double duration) const {
 
 // Tables of a case that is not the one continued, as its folder has them.
 std::shared_ptr<const RunResult> Continuation::result_of_other(const Problem& problem, const RunRequest& request) {
-  const fs::path folder = fs::canonical(options_.run).parent_path().parent_path() / problem.name / request.case_name;
+  const fs::path folder = out() / problem.name / request.case_name;
   const auto recorded = read_run_record(folder);
+  if (!recorded && resumes()) return run_problem(problem, request);  // what the run would have come to
   if (!recorded) {
     if (!is_done_)
       throw InputError(fmt::format(
@@ -223,6 +254,7 @@ std::shared_ptr<const RunResult> Continuation::result_of_other(const Problem& pr
   result->converged = recorded->converged;
   result->iterations = recorded->iterations;
   result->mean_iterations = recorded->mean_iterations;
+  result->seconds["all"] = recorded->seconds;
   std::vector<std::string> steps;
   for (const StepPtr& step : problem.steps) steps.push_back(step->name);
   for (const OutputPtr& output : problem.outputs) {

@@ -13,7 +13,7 @@
 namespace dygita {
 
 struct ContinueOptions {
-  std::filesystem::path run;  // out/<problem>/<case>
+  std::filesystem::path run;  // out/<problem>/<case>; out/<problem>: the case of it that is unfinished
   std::optional<double> tolerance;
   int more_iterations = 0;      // at each increment; 0: as the tolerance asks
   std::optional<double> until;  // s, of the run's time
@@ -25,7 +25,7 @@ struct ContinueOptions {
 };
 
 // Takes the place of run_problem while the deck of the run runs once more: the case continued goes on from its state,
-// other cases are read from their folders.
+// other cases are read from their folders, and computed where a run that was stopped had not come to them.
 class Continuation {
  public:
   // Reads the state of the run. Throws InputError (no run, no state, damaged).
@@ -41,6 +41,9 @@ class Continuation {
 
   // Throws InputError (another problem, mesh or loads changed, results of another case missing) and NumericalError.
   std::shared_ptr<const RunResult> run(const Problem& problem, const RunRequest& request);
+  // The folder out/ of the run.
+  std::filesystem::path out() const;
+  bool has_frames() const { return !checkpoint_ || checkpoint_->identity().has_frames; }
   bool is_done() const { return is_done_; }
   bool ends_early() const { return ends_early_; }
 

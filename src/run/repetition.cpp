@@ -55,6 +55,10 @@ Repetition::Repetition(const fs::path& record)
     kernels_ = json.at("kernels");
     version_ = json.at("program").at("version");
     solver_ = text(json.at("solver"), "command_line");
+    if (const auto options = json.find("options"); options != json.end()) {  // earlier versions have none
+      has_frames_ = options->value("frames", true);
+      has_state_ = options->value("state", true);
+    }
     for (const auto& [name, value] : json.at("parameters").items())
       settings_.emplace_back(name, fmt::format("{}", value.get<double>()));
     for (const Json& part : json.at("substructures")) meshes_[part.at("name")] = part.at("digest");

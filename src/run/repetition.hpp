@@ -21,6 +21,10 @@ class Repetition {
   // The parameters of the record, as --set takes them.
   const std::vector<std::pair<std::string, std::string>>& settings() const { return settings_; }
 
+  // Those of its files that the run was told to leave out are left out again.
+  bool has_frames() const { return has_frames_; }
+  bool has_state() const { return has_state_; }
+
   // Throws InputError: deck or meshes have changed; and what run_problem throws.
   std::shared_ptr<const RunResult> run(const Problem& problem, const RunRequest& request);
   bool is_done() const { return is_done_; }
@@ -35,7 +39,7 @@ class Repetition {
   std::string problem_, case_, deck_digest_, solver_, kernels_, version_;
   std::vector<std::pair<std::string, std::string>> settings_;
   std::map<std::string, std::string> meshes_, tables_;  // digests, by substructure and by file
-  bool is_done_ = false;
+  bool has_frames_ = true, has_state_ = true, is_done_ = false;
 };
 
 }  // namespace dygita

@@ -8,7 +8,7 @@
 
 #include "base/log.hpp"
 #include "law/law.hpp"
-#include "numerics/dense.hpp"
+#include "numerics/pairs_below.hpp"
 
 namespace dygita {
 
@@ -47,16 +47,23 @@ std::string describe(const RigidMotion& motion) {
   return names[largest];
 }
 
+// Blocks of 6 x 6, of each body and of each two that a constraint joins.
+using Blocks = std::map<std::pair<int, int>, Eigen::Matrix<double, 6, 6>>;
+
 // Sum of squares of all constraints on the rigid motions of all substructures: 6 n x 6 n.
-Mat constraint_gram(const Problem& problem, const Exchange& exchange, const Conditions& conditions,
-                    const std::vector<Frame6>& frames) {
+Blocks constraint_gram(const Problem& problem, const Exchange& exchange, const Conditions& conditions,
+                       const std::vector<Frame6>& frames) {
   const int n = static_cast<int>(frames.size());
-  Mat gram = Mat::Zero(6 * n, 6 * n);
+  Blocks gram;
+  const auto block = [&gram](int i, int j) -> Eigen::Matrix<double, 6, 6>& {
+    return gram.try_emplace({i, j}, Eigen::Matrix<double, 6, 6>::Zero()).first->second;
+  };
+  for (int part = 0; part < n; ++part) block(part, part);
   for (int part = 0; part < n; ++part)
     for (const auto& [node, held] : conditions.held[part])
       for (int j = 0; j < held.n; ++j) {
         const RigidMotion r = frames[part].row(position(*problem.substructures[part], node), held.directions.col(j));
-        gram.block<6, 6>(6 * part, 6 * part) += r * r.transpose();
+        block(part, part) += r * r.transpose();
       }
   for (const Point& point : exchange.points) {
     const auto row_of = [&](int p, int d) {
@@ -70,14 +77,14 @@ Mat constraint_gram(const Problem& problem, const Exchange& exchange, const Cond
     };
     const auto tie = [&](int p, int other, int d) {
       const RigidMotion a = row_of(p, d);
-      const int i = 6 * exchange.ports[p].part;
-      gram.block<6, 6>(i, i) += a * a.transpose();
+      const int i = exchange.ports[p].part;
+      block(i, i) += a * a.transpose();
       if (other < 0) return;
       const RigidMotion b = row_of(other, d);
-      const int j = 6 * exchange.ports[other].part;
-      gram.block<6, 6>(j, j) += b * b.transpose();
-      gram.block<6, 6>(i, j) -= a * b.transpose();
-      gram.block<6, 6>(j, i) -= b * a.transpose();
+      const int j = exchange.ports[other].part;
+      block(j, j) += b * b.transpose();
+      block(i, j) -= a * b.transpose();
+      block(j, i) -= b * a.transpose();
     };
     for (int d = 0; d < 3; ++d) {
       for (int p = point.first_port + 1; p < point.first_port_2; ++p) tie(p, point.first_port, d);
@@ -87,6 +94,20 @@ Mat constraint_gram(const Problem& problem, const Exchange& exchange, const Cond
     }
   }
   return gram;
+}
+
+SparseMatrix scaled(const Blocks& gram, const Vec& weight) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& [at, block] : gram)
+    for (int a = 0; a < 6; ++a)
+      for (int b = 0; b < 6; ++b) {
+        const int i = 6 * at.first + a, j = 6 * at.second + b;
+        entries.emplace_back(i, j, weight[i] * block(a, b) * weight[j]);
+      }
+  const auto size = static_cast<int>(weight.size());
+  SparseMatrix matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
 }
 
 // Interfaces of a part that carry nothing in a static step: "; interface 'gasket' does not in a static step".
@@ -139,21 +160,19 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
   const int n = static_cast<int>(problem.substructures.size());
   std::vector<Frame6> frames;
   for (const SubstructurePtr& part : problem.substructures) frames.push_back(frame_of(*part));
-  const Mat gram = constraint_gram(problem, exchange, conditions, frames);
+  const Blocks gram = constraint_gram(problem, exchange, conditions, frames);
   // Each body's scale: how often it is constrained; a motion nothing resists has a vanishing eigenvalue.
-  Mat scaled = gram;
   Vec weight(6 * n);
   for (int i = 0; i < n; ++i)
-    weight.segment<6>(6 * i).setConstant(1.0 / std::sqrt(std::max(1.0, gram.block<6, 6>(6 * i, 6 * i).trace())));
-  scaled = weight.asDiagonal() * gram * weight.asDiagonal();
-  const EigenPairs eigen = symmetric_eigen(scaled);
+    weight.segment<6>(6 * i).setConstant(1.0 / std::sqrt(std::max(1.0, gram.at({i, i}).trace())));
+  const EigenPairs eigen = pairs_below(scaled(gram, weight), 1e-9);
   std::set<std::pair<int, int>> on_interface;
   for (const Port& port : exchange.ports)
     port.for_each_node([&](int node, const Mat3&) { on_interface.emplace(port.part, node); });
 
   std::map<int, std::vector<std::string>> unconstrained;  // by part
   std::vector<Vec> free_motions;
-  for (int m = 0; m < 6 * n && eigen.values[m] < 1e-9; ++m)
+  for (Eigen::Index m = 0; m < eigen.values.size(); ++m)
     free_motions.push_back(weight.cwiseProduct(eigen.vectors.col(m)));
   while (!free_motions.empty()) {
     // The part that moves most, and where it moves most away from interfaces and supports.

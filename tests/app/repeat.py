@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2]) / "stopped.lua"
 FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="dygita_repeat_"))
@@ -43,6 +44,22 @@ table.write_text(whole)
 dygita("run", moved, "--repeat", run, "--quiet", "--out", FOLDER / "moved", expected=0, says="repeated:")
 moved.write_text(moved.read_text() + "\n-- another\n")
 dygita("run", moved, "--repeat", run, "--quiet", "--out", FOLDER / "changed", expected=2, says="has changed since the run")
+# What the run was told to leave out is left out again, also where it is killed and goes on.
+bare = FOLDER / "bare" / "stopped" / "base"
+dygita("run", moved, "--set", "us=40", "--no-frames", "--no-state", "--quiet", "--out", FOLDER / "bare", expected=0)
+dygita("run", "--repeat", bare, "--quiet", "--out", FOLDER / "bare again", expected=0, says="repeated:")
+names = [sorted(str(p.relative_to(run)) for p in run.rglob("*")) for run in (bare, FOLDER / "bare again" / "stopped" / "base")]
+if names[0] != names[1] or any("vtu" in name or "state" in name for name in names[1]):
+    failures.append(f"--no-frames --no-state, repeated: {names}")
+process = subprocess.Popen([PROGRAM, "run", str(moved), "--set", "us=3000", "--no-frames", "--quiet", "--out", str(FOLDER / "killed")])
+killed = FOLDER / "killed" / "stopped" / "base"
+while process.poll() is None and not ((killed / "checkpoint.dygita").exists() and (killed / "checkpoint.dygita").stat().st_size > 100000):
+    time.sleep(0.01)
+process.kill()
+process.wait()
+dygita("continue", killed, "--quiet", expected=0)
+if list(killed.rglob("*.vtu")) or not (killed / "joint.csv").exists():
+    failures.append("a run without frames was killed and has gone on with frames")
 shutil.rmtree(FOLDER)
 print("\n".join(failures) or "the same bits, and nothing else passes for them")
 sys.exit(1 if failures else 0)

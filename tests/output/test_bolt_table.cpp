@@ -49,9 +49,12 @@ TEST(BoltTable, is_a_csv_with_a_row_a_bolt_and_a_column_a_static_step) {
   EXPECT_EQ(
       bolts_csv(two_steps(), two_bolts()),
       "bolt,area [m^2],target [N],\"after tighten, first [N]\",lowest [N],highest [N],last [N],loss [1],shortening [m],"
-      "plastic_opening [m],hand [N],hand_shortening [m],load_factor [1],loss_by_yield [1],swing [N]\n"
-      "one,8.1e-05,25000,25000,20000,30000,22000,0.12,5e-05,0,12500,0.0001,0.75,,0\n"
-      "the other,8.1e-05,,25000,20000,30000,25000,0,5e-05,0,,,,,0\n");
+      "plastic_opening [m],hand [N],hand_shortening [m],load_factor [1],loss_by_yield [1],swing [N],converged\n"
+      "one,8.1e-05,25000,25000,20000,30000,22000,0.12,5e-05,0,12500,0.0001,0.75,,0,1\n"
+      "the other,8.1e-05,,25000,20000,30000,25000,0,5e-05,0,,,,,0,1\n");
+  RunResult missed = two_bolts();
+  missed.converged = false;
+  EXPECT_NE(bolts_csv(two_steps(), missed).find(",0.75,,0,0\n"), std::string::npos);
 }
 
 TEST(BoltTable, is_read_by_people) {
@@ -100,7 +103,7 @@ TEST(BoltTable, splits_no_loss_of_a_bolt_that_was_hardly_tightened) {
   EXPECT_TRUE(json["bolts"][1]["loss"].is_null());
   EXPECT_FALSE(json["bolts"][1].contains("loss_by_yield"));
   EXPECT_FALSE(json["bolts"][1].contains("loss_before_motion"));
-  EXPECT_NE(bolts_csv(two_steps(), result).find("the other,8.1e-05,,25000,20000,30000,25000,,5e-05,0,,,,,0\n"),
+  EXPECT_NE(bolts_csv(two_steps(), result).find("the other,8.1e-05,,25000,20000,30000,25000,,5e-05,0,,,,,0,1\n"),
             std::string::npos);
 }
 

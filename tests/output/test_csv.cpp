@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "base/error.hpp"
 #include "output/csv.hpp"
@@ -29,6 +30,36 @@ TEST(Csv, of_a_spectrum_has_no_step) {
   table.units = {"Hz", "m/s^2"};
   table.columns = {{100.0}, {9.80665}};
   EXPECT_EQ(csv_text(table, {}), "frequency [Hz],maximax [m/s^2]\n100,9.80665\n");
+}
+
+TEST(Csv, marks_rows_that_have_not_converged_in_its_last_column) {
+  Table table;
+  table.names = {"time", "normal"};
+  table.units = {"s", "N"};
+  table.columns = {{0.0, 1e-6}, {1.0, 2.0}};
+  table.step = {0, 0};
+  table.converged = {1.0, 0.0};
+  const std::string text = csv_text(table, {"push"});
+  EXPECT_EQ(text, "time [s],step,normal [N],converged\n0,push,1,1\n1e-06,push,2,0\n");
+  std::istringstream stream(text);
+  const Table read = parse_csv(stream, {"push"});
+  EXPECT_EQ(read.names, table.names);
+  EXPECT_EQ(read.converged, table.converged);
+  EXPECT_EQ(read.column("converged"), table.converged);
+  table.converged.pop_back();
+  EXPECT_THROW(csv_text(table, {"push"}), ContractError);
+}
+
+TEST(Table, is_marked_where_its_rows_do_not_tell_themselves) {
+  Table table;
+  table.names = {"frequency"};
+  table.units = {"Hz"};
+  table.columns = {{1.0, 2.0}};
+  EXPECT_FALSE(table.has_column("converged"));
+  table.mark(false);
+  EXPECT_EQ(table.column("converged"), (std::vector<double>{0.0, 0.0}));
+  table.mark(true);
+  EXPECT_EQ(table.converged, (std::vector<double>{0.0, 0.0}));
 }
 
 TEST(Csv, quotes_texts_that_would_break_a_line) {

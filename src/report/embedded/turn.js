@@ -270,6 +270,7 @@ function setUp(figure) {
     }
     const f = model.frames[state.frame];
     if (f) instant.textContent = f.step + (f.static ? " (static)" : ", " + withUnit(f.time, "s"));
+    if (f && f.missed) instant.textContent += " – NOT CONVERGED: " + f.missed + (f.missed === 1 ? " increment" : " increments") + " so far";
   }
 
   // By what it is coloured; when.

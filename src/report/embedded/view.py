@@ -57,7 +57,7 @@ def set_up(view, width):
 
 def label(view, text, place):
     """A line of text in a corner of a view."""
-    words = Text(registrationName=text.split(",")[0], Text=text)
+    words = Text(registrationName=text.split(",")[0].split("\n")[0], Text=text)
     display = Show(words, view)
     display.WindowLocation = place
     display.Color = [0.1, 0.1, 0.1]

@@ -184,6 +184,7 @@ class LoopOutput final : public Output {
   static void cut(Table& table, int n) {
     for (std::vector<double>& column : table.columns) column.resize(n);
     table.step.resize(n);
+    table.converged.resize(n);
   }
 
   void steps_follow(const Problem& problem) const {

@@ -50,7 +50,9 @@ class FieldRecorder : public Recorder {
   }
 
   void accept(const Instant& instant) override {
+    missed_so_far_ += !instant.converged;
     if (instant.is_static()) return;
+    missed_ = missed_so_far_;
     const double dt = instant.interval();
     dt_ = dt_ == 0.0 ? dt : std::min(dt, dt_);
     time_.push_back(instant.time() - 0.5 * dt);
@@ -72,6 +74,7 @@ class FieldRecorder : public Recorder {
   void finish(Table& table, Findings& findings) override {
     findings.frames = frames();
     table = table_of(findings.frames);
+    table.mark(missed_ == 0);
   }
 
  private:
@@ -119,6 +122,8 @@ class FieldRecorder : public Recorder {
           frames.emplace_back();
           frames.back().time = frames.back().label_time = f;
           frames.back().step = request_.name;
+          frames.back().converged = missed_ == 0;
+          frames.back().missed = missed_;
         }
       }
       for (size_t f = 0; f < frames.size(); ++f) {
@@ -155,6 +160,7 @@ class FieldRecorder : public Recorder {
   std::vector<double> time_;                 // s, middle of each increment
   std::vector<std::vector<float>> signals_;  // of each instant: nodes of all areas x directions, m/s^2
   double dt_ = 0.0;                          // s, smallest
+  int missed_so_far_ = 0, missed_ = 0;       // increments that have not converged; those that the signals rest on
 };
 
 class SrsFieldOutput final : public Output {

@@ -21,7 +21,8 @@ std::string line_of(const std::string& name, const Superelement& element) {
        n < std::min<int>(8, static_cast<int>(element.frequencies.size())) && element.frequencies[n] <= element.valid_to;
        ++n)
     line += fmt::format(" {:.5g}", element.frequencies[n]);
-  return line + (n == 0 ? " above that" : n < 8 ? " Hz, the others above that" : " ... Hz");
+  line += n == 0 ? " above that" : n < 8 ? " Hz, the others above that" : " ... Hz";
+  return line + (element.missed > 0 ? "; " + unconverged_text(element) : "");
 }
 
 class SuperelementRecorder : public TableRecorder {
@@ -32,12 +33,13 @@ class SuperelementRecorder : public TableRecorder {
 
   // What is wrong with it does not stop a run that has other outputs: it is said, and nothing is written.
   void accept(const Instant& instant) override {
+    missed_ += !instant.converged;
     if (instant.i_step != i_step_ || instant.increment + 1 != instant.model.step->n_increments()) return;
     try {
       auto element =
           std::make_shared<Superelement>(condense(linearise(instant, request_.ties_sliding), problem_, request_));
       element->step = instant.model.step->name;
-      element->is_converged = instant.converged;
+      element->missed = missed_;
       element_ = std::move(element);
     } catch (const InputError& error) {
       warn(error.what());
@@ -58,12 +60,14 @@ class SuperelementRecorder : public TableRecorder {
     findings.lines = {element_ ? line_of(request_.name, *element_)
                                : fmt::format("superelement '{}': NOT MADE", request_.name)};
     TableRecorder::finish(table, findings);
+    if (element_) table.mark(element_->missed == 0);
   }
 
  private:
   const Problem& problem_;
   const SuperelementRequest& request_;
   const int i_step_;
+  int missed_ = 0;  // increments so far that have not converged
   SuperelementPtr element_;
 };
 

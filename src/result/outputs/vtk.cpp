@@ -27,6 +27,7 @@ class FrameRecorder : public Recorder {
 
   void accept(const Instant& instant) override {
     motion_.accept(instant);
+    missed_ += !instant.converged;
     const int n = instant.model.step->n_increments(), i = instant.increment + 1;
     const long frames = std::min(request_.frames, n);
     // The step's last increment always.
@@ -39,6 +40,8 @@ class FrameRecorder : public Recorder {
   void give(const Instant& instant) {
     Frame frame = make_frame(instant, request_.fields, motion_);
     frame.label_time = label_time(instant);
+    frame.converged = instant.converged;
+    frame.missed = missed_;
     sink_(frame);
   }
 
@@ -65,6 +68,7 @@ class FrameRecorder : public Recorder {
   const Problem& problem_;
   const FrameRequest& request_;
   FrameSink sink_;
+  int missed_ = 0;  // increments so far that have not converged
   FollowedMotion motion_;
 };
 

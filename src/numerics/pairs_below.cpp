@@ -1,0 +1,60 @@
+#include "numerics/pairs_below.hpp"
+
+#include <Eigen/QR>
+#include <Eigen/SparseCholesky>
+#include <cmath>
+
+namespace dygita {
+
+namespace {
+
+constexpr Eigen::Index small = 600;  // dense takes a tenth of a second
+
+using ColumnMatrix = Eigen::SparseMatrix<double>;
+using Ldlt = Eigen::SimplicialLDLT<ColumnMatrix>;
+
+EigenPairs dense_pairs(const SparseMatrix& a, double limit) {
+  const EigenPairs all = symmetric_eigen(Mat(a));
+  Eigen::Index n = 0;
+  while (n < all.values.size() && all.values[n] < limit) ++n;
+  return {all.values.head(n), all.vectors.leftCols(n)};
+}
+
+ColumnMatrix shifted(const SparseMatrix& a, double shift) {
+  ColumnMatrix identity(a.rows(), a.rows());
+  identity.setIdentity();
+  return ColumnMatrix(a) + shift * identity;
+}
+
+// The same each time, and along no axis.
+Mat start(Eigen::Index size, Eigen::Index n) {
+  Mat x(size, n);
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = 0; i < size; ++i)
+      x(i, j) = std::cos(static_cast<double>((i + 1) * (j + 2)) + 0.5 * static_cast<double>(j));
+  return x;
+}
+
+}  // namespace
+
+EigenPairs pairs_below(const SparseMatrix& a, double limit) {
+  const Eigen::Index size = a.rows();
+  if (size <= small) return dense_pairs(a, limit);
+  const Ldlt below(shifted(a, -limit));
+  if (below.info() != Eigen::Success) return dense_pairs(a, limit);
+  const Eigen::Index n = (below.vectorD().array() < 0.0).count();
+  if (n == 0) return {Vec(), Mat(size, 0)};
+  const Ldlt above(shifted(a, limit));
+  if (above.info() != Eigen::Success || 2 * n > size) return dense_pairs(a, limit);
+  Mat x = start(size, n);
+  for (int sweep = 0; sweep < 6; ++sweep) {
+    const Mat y = above.solve(x);
+    x = Eigen::HouseholderQR<Mat>(y).householderQ() * Mat::Identity(size, n);
+  }
+  const Mat ax = ColumnMatrix(a) * x;
+  const EigenPairs small_pairs = symmetric_eigen(x.transpose() * ax);
+  if (small_pairs.values[n - 1] >= limit) return dense_pairs(a, limit);
+  return {small_pairs.values, x * small_pairs.vectors};
+}
+
+}  // namespace dygita
