@@ -225,7 +225,7 @@ MesherAnswer read_answer(const std::string& bytes) {
   for (const Json& solid : json.at("solids")) {
     answer.solids.push_back({solid.at("name"), solid.at("product"), solid.at("instance")});
     answer.surfaces.push_back(surfaces_of(solid.at("surfaces")));
-    answer.copies.push_back(copy_of(solid.at("copy"), answer.copies));
+    answer.copies.push_back(copy_of(solid.value("copy", Json()), answer.copies));
   }
   if (!answer.solids.empty() && answer.solids.size() != answer.model.volumes.size())
     throw InputError("solids without cells");

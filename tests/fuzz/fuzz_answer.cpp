@@ -1,4 +1,7 @@
 // What comes back through the pipe from the mesher, and the bodies that are made of it: nothing of it is believed.
+#include <Eigen/LU>
+#include <cmath>
+
 #include "fuzz/target.hpp"
 #include "mesh/cell_quality.hpp"
 #include "mesh/mesher_task.hpp"
@@ -22,6 +25,11 @@ void build_all(MesherAnswer& answer) {
   for (const Straightened& one : straighten(answer.model)) text_of(one, "input");
   for (const TaggedVolume& volume : answer.model.volumes) build(answer.model, volume);
   for (size_t i = 0; i < answer.solids.size(); ++i) {
+    if (const auto& copy = answer.copies.at(i)) {
+      demand(!answer.copies.at(copy->of) && std::abs(copy->turn.determinant() - 1.0) < 1e-6,
+             "a copy is of a solid before it, turned");
+      continue;
+    }
     TaggedModel one{"input", answer.model.nodes, {answer.model.volumes.at(i)}, answer.surfaces.at(i)};
     build(one, one.volumes[0]);
   }
