@@ -63,9 +63,10 @@ local function declare_all(entry, given, line)
   local among = given.of or parts
   if #among < 2 then fail(entry, line, ("\"%s\" finds interfaces among parts, and %d are declared before"):format(all, #among)) end
   local is_left, left = exceptions(given, among), {}
-  local list, lines = setmetatable({}, named), {}
+  local list, lines, joined = setmetatable({}, named), {}, {}
   for _, pair in ipairs(native.touching(among, declared, given.within or 0, line)) do
     local one, other = among[pair[1]], among[pair[2]]
+    joined[one], joined[other] = true, true
     local name = name_of(one) .. "/" .. name_of(other)
     if is_left(one, other) then
       left[#left + 1] = name
@@ -84,9 +85,19 @@ local function declare_all(entry, given, line)
       end
     end
   end
+  if not given.of then
+    for _, interface in ipairs(declared) do
+      for _, part in ipairs{ native.sides(interface, among) } do joined[part] = true end
+    end
+    for _, part in ipairs(among) do
+      if not joined[part] and not is_left(part, part) then
+        native.warn(line, ("%s \"%s\": '%s' touches no other part, and no interface holds it"):format(entry.path, all, name_of(part)))
+      end
+    end
+  end
   if #list == 0 then
     fail(entry, line, ("no two of %d parts touch where they have no interface yet"):format(#among),
-      "'within' says how far apart faces may be that touch")
+      "'within' says how far apart faces may be that touch; parts that overlap touch nowhere: dygita check tells them")
   end
   native.say(("%s \"%s\": %d pairs of parts touch%s"):format(entry.path, all, #list,
     #left > 0 and "; left alone: " .. table.concat(left, ", ") or ""))

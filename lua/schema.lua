@@ -198,7 +198,7 @@ words[3] = {
           { "translate", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "translation" },
           { "rotate", type = "table", doc = "rotation before it", fields = {
             { "axis", type = "vector", required = true, doc = "direction of the axis; its length does not matter" },
-            { "angle", type = "number", range = { -100, 100 }, required = true, doc = "angle, in radians: `30*deg`" },
+            { "angle", type = "number", range = { -7, 7 }, required = true, doc = "angle, in radians: `30*deg`" },
             { "about", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "a point of the axis" },
           } },
         } },

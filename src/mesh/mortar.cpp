@@ -185,10 +185,15 @@ std::vector<int> Mortar::targets(const std::vector<Raw>& raw,
     is_taken[i] = is_taken_away && !raw[i].opposite.empty() && is_taken_away(carrier().x.col(i));
     is_whole[i] = !is_taken[i] && raw[i].area >= least_share * raw[i].full && raw[i].area > 0.0;
   }
+  // Areas that are alike but for rounding are equal, wherever the faces stand: in steps of about a millionth of the
+  // largest, whose bounds no simple ratio of areas falls on.
+  double largest = 0.0;
+  for (const Raw& one : raw) largest = std::max(largest, one.area);
+  const auto size_of = [&](int i) { return largest > 0.0 ? std::floor(723606.79775 * raw[i].area / largest) : 0.0; };
   // The better of two: whole ones first, then the larger; the lower number last, so that none goes in a circle.
   const auto is_better = [&](int a, int b) {
-    return std::tuple(is_whole[a], !is_taken[a], raw[a].area, -a) >
-           std::tuple(is_whole[b], !is_taken[b], raw[b].area, -b);
+    return std::tuple(is_whole[a], !is_taken[a], size_of(a), -a) >
+           std::tuple(is_whole[b], !is_taken[b], size_of(b), -b);
   };
   std::vector<int> best(n, -1);
   for (const Coupling& coupling : couplings_)

@@ -50,7 +50,14 @@ void say_parts(const std::string& file, const std::vector<StepPart>& parts) {
     corners.col(2 * static_cast<Eigen::Index>(i) + 1) = parts[i].mesh->nodes.rowwise().maxCoeff();
   }
   say(fmt::format("{}: {} parts, {} in all", file, parts.size(), extent(corners)));
-  for (const StepPart& part : parts) say(line_of(part));
+  for (const StepPart& part : parts) {
+    say(line_of(part));
+    if (const double worst = worst_shape(*part.mesh); part.copy_of.empty() && worst < 0.0)
+      warn(
+          fmt::format("{}: part '{}' has cells that are tangled at a corner (worst shape {:.2g}, below 0): give it a "
+                      "smaller size or more cells around its holes ('round'), or tetrahedra",
+                      file, part.name, worst));
+  }
 }
 
 // Whole, one part after the other, with the nodes moved from one to the next.

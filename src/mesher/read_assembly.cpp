@@ -75,6 +75,9 @@ void mesh_solids(const StepOptions& options, const std::vector<Solid>& solids, d
   const auto on_contacts = options.sizes.find("contacts");
   if (is_finer_at_contacts(options)) {
     const StepContacts contacts = contacts_of(solids);
+    if (contacts.surfaces.empty())
+      warn(fmt::format("{}: no faces of its parts touch: {} makes nothing finer", options.file,
+                       options.fine ? "'fine'" : "'sizes.contacts'"));
     if (options.fine && !contacts.curves.empty()) grade(contacts.curves, *options.fine, unit);
     if (on_contacts != options.sizes.end()) {
       for (const int tag : contacts.surfaces) size_of[{2, tag}] = on_contacts->second / unit;

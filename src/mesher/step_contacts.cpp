@@ -55,12 +55,21 @@ CadSurface cad_surface(int tag, double within) {
   return surface;
 }
 
+// Boxes grown by `within`: of faces that lie side by side these have no more than an edge in common.
+bool have_area_in_common(const Box& a, const Box& b, double within) {
+  return (a.common(b).size().array() > 4.0 * within).count() >= 2;
+}
+
 bool touch(const CadSurface& a, const CadSurface& b, double within) {
   if (!a.box.meets(b.box)) return false;
-  if (a.is_plane && b.is_plane) return a.normal.dot(b.normal) < -0.999 && std::abs(a.normal.dot(b.at - a.at)) <= within;
+  // Which side of a surface its normal is on is not known (a mirrored solid has them reversed): coplanar faces that
+  // have an area in common are of solids on either side.
+  if (a.is_plane && b.is_plane)
+    return std::abs(a.normal.dot(b.normal)) > 0.999 && std::abs(a.normal.dot(b.at - a.at)) <= within &&
+           have_area_in_common(a.box, b.box, within);
   if (!a.is_cylinder || !b.is_cylinder || std::abs(a.radius - b.radius) > within) return false;
   if (std::abs(a.axis.dot(b.axis)) < 0.999) return false;
-  // Which side of a surface its normal is on is not known: the axis is through one of two points.
+  // The axis is through one of two points.
   for (const Vec3& c : a.centres)
     for (const Vec3& d : b.centres)
       if (a.axis.cross(d - c).norm() <= within) return true;

@@ -125,10 +125,11 @@ std::string line_of(const Instant& instant, const Group& group, const Vec3& pull
       std::all_of(group.joints.begin(), group.joints.end(), [](const LimitJoint& joint) { return joint.is_open; });
   return fmt::format(
       "static step '{}', increment {}: {} {} as a whole: {:.0f} N pull along ({:.2f}, {:.2f}, {:.2f}), and joints hold "
-      "about {:.0f} N of it ({}); there is no equilibrium: less load, more preload or friction, a stop, or a dynamic "
+      "about {:.0f} N of it ({}); there is no equilibrium{}: less load, more preload or friction, a stop, or a dynamic "
       "step",
       instant.model.step->name, instant.increment + 1, names_of(instant, group), is_open ? "comes off" : "slides",
-      pull.dot(along), along[0], along[1], along[2], hold, joints);
+      pull.dot(along), along[0], along[1], along[2], hold, joints,
+      is_open ? " unless a gap closes first, which static_steps = \"assembled\" in solver.latin finds" : "");
 }
 
 }  // namespace

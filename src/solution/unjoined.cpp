@@ -104,6 +104,37 @@ std::vector<PlacedBody> bodies_with_ties(const Problem& problem, const std::vect
   return bodies;
 }
 
+// Has each of some nodes of a part one of the other's at its place?
+bool have_equal_places(const Substructure& a, const Substructure& b, double within) {
+  constexpr int most = 64;
+  if (a.mesh->n_nodes() != b.mesh->n_nodes()) return false;
+  const int step = 1 + a.mesh->n_nodes() / most;
+  for (int i = 0; i < a.mesh->n_nodes(); i += step) {
+    const Vec3 place = a.mesh->nodes.col(i) + a.place - b.place;
+    if ((b.mesh->nodes.colwise() - place).colwise().squaredNorm().minCoeff() > within * within) return false;
+  }
+  return true;
+}
+
+// No face of one is inside the other then: nothing else would see them overlap.
+void doubt_same_place(const Problem& problem) {
+  constexpr double same = 1e-6;  // of the size
+  std::vector<Box> boxes;
+  for (int i = 0; i < static_cast<int>(problem.substructures.size()); ++i) boxes.push_back(body_of(problem, i).box());
+  for (size_t i = 0; i < boxes.size(); ++i)
+    for (size_t j = 0; j < i; ++j) {
+      const double within = same * boxes[i].size().norm();
+      if ((boxes[i].low - boxes[j].low).norm() > within || (boxes[i].high - boxes[j].high).norm() > within) continue;
+      const Substructure &a = *problem.substructures[j], &b = *problem.substructures[i];
+      if (have_equal_places(a, b, within))
+        check::doubt(
+            problem, b.origin,
+            fmt::format("substructures '{}' and '{}' overlap: they stand in the same place, from {} to {}: check "
+                        "'place', or 'n' and 'angle' of a pattern",
+                        a.name, b.name, at(boxes[i].low), at(boxes[i].high)));
+    }
+}
+
 }  // namespace
 
 std::string face_with(const Substructure& part, const Facet& facet) {
@@ -213,6 +244,7 @@ void doubt_surfaces(const Problem& problem, const std::vector<Surface>& surfaces
 }  // namespace
 
 std::vector<Unjoined> doubt_neighbours(const Problem& problem, const std::vector<Surface>& surfaces) {
+  doubt_same_place(problem);
   doubt_surfaces(problem, surfaces);
   std::vector<Unjoined> pairs = find_unjoined(problem, surfaces);
   doubt_unjoined(problem, pairs);

@@ -104,6 +104,37 @@ TEST(Bolts, hold_a_box_of_electronics_from_cad) {
   EXPECT_NEAR(run.column("base", "velocity").back(), velocity, 0.03 * velocity);
 }
 
+// Plates and a bolt with washers, turned as a whole: twelve points of each washer have equal areas, and which of them
+// take in their neighbours may not depend on rounding.
+TEST(Bolts, tightened_are_the_same_however_the_scene_stands_in_space) {
+  const std::string plates = R"(
+local p = param{ turn = 0 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local place = { translate = { 0, 0, 0 }, rotate = { axis = { 1, 2, 3 }, angle = p.turn } }
+local function plate(name, z, height, layers)
+  return substructure{ name = name, material = steel, place = place,
+    mesh = mesh.box{ size = { 30*mm, 24*mm, height }, cells = { 9, 7, layers }, origin = { -13*mm, -11*mm, z } } }
+end
+local lower, upper = plate("lower", -22*mm, 12*mm, 2), plate("upper", -10*mm, 10*mm, 2)
+local screw = bolt.hex{ name = "bolt", size = "M6", grip = 22*mm, washer = true, material = steel, friction = 0.15, place = place }
+local top = interface.contact{ name = "top", between = { upper, screw.washers[1] }, friction = 0.15, points = "second" }
+local below = interface.contact{ name = "below", between = { lower, screw.washers[2] }, friction = 0.15, points = "second" }
+local mating = interface.contact{ name = "mating", between = { lower, upper }, friction = 0.15 }
+local outputs = { output.energy{} }
+for i, on in ipairs{ top, below, mating, screw.interfaces[2], screw.interfaces[3] } do outputs[i + 1] = output.joint{ name = "joint" .. i, on = on } end
+problem{ name = "turned", substructures = { lower, upper, screw.parts }, interfaces = { top, below, mating, screw.interfaces }, outputs = outputs,
+  supports = { support.fixed{ name = "ground", on = lower:face "xmin" } },
+  steps = { step.static{ name = "tighten", loads = { load.preload{ on = screw.shank, force = 3*kN } } } },
+  solver = solver.latin{ static_tolerance = 1e-10, static_steps = "assembled" } }:run{}
+)";
+  const DeckRun still = run_text(plates).at(0), turned = run_text(plates, {{"turn", "0.7"}}).at(0);
+  for (const char* joint : {"joint1", "joint2", "joint3", "joint4", "joint5"})
+    for (const char* column : {"normal", "slip", "friction_work"}) {
+      const double value = still.column(joint, column).back();
+      EXPECT_NEAR(turned.column(joint, column).back(), value, 1e-6 * std::abs(value)) << joint << "." << column;
+    }
+}
+
 }  // namespace
 
 }  // namespace dygita::test

@@ -122,6 +122,25 @@ TEST(Unjoined, parts_that_overlap_are_named_with_depth) {
   EXPECT_NE(overlap[0].find("in about 1.6e+03 mm^3 between (10"), std::string::npos) << overlap[0];  // 20 x 20 x 4
 }
 
+// A pattern whose angle brings its last copies back onto the first ones: no face of one is inside the other.
+TEST(Unjoined, parts_in_the_same_place_are_named) {
+  const auto ring = [](const std::string& angle) {
+    return R"(
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local one = substructure{ name = "p", material = steel, place = { 30*mm, 0, 0 }, mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 2, 2, 2 } } }
+local all, on = pattern.circle{ n = 5, angle = )" +
+           angle + R"(, axis = { 0, 0, 1 }, of = one }, {}
+for i = 1, 5 do on[i] = all[i]:face "zmin" end
+problem{ name = "ring", substructures = { all }, supports = { support.fixed{ name = "floor", on = on } }, outputs = { output.energy{} },
+  steps = { step.static{ name = "s", loads = { load.gravity{ z = -9.81 } } } } }:run{}
+)";
+  };
+  const std::vector<std::string> overlap = said_of_check(ring("90*deg"), "stand in the same place");
+  ASSERT_EQ(overlap.size(), 1u);
+  EXPECT_NE(overlap[0].find("substructures 'p[1]' and 'p[5]' overlap"), std::string::npos) << overlap[0];
+  EXPECT_TRUE(said_of_check(ring("72*deg"), "same place").empty());
+}
+
 TEST(Unjoined, faces_of_one_size_a_cell_apart_are_named) {
   const std::string contact =
       "interfaces = { interface.contact{ name = 'seat', between = { plate:face 'zmax', block:face 'zmin' } } }";

@@ -201,6 +201,18 @@ TEST(StepAssembly, meshes_copies_once_where_their_contacts_correspond) {
   EXPECT_EQ(StepAssembly(options).part("bolt2").copy_of, "bolt1");
 }
 
+// A mirrored solid has its normals reversed: contacts are found all the same. The plate of "joint" and its bolts, too.
+TEST(StepAssembly, finds_contacts_whichever_way_normals_are) {
+  StepOptions options;
+  options.file = std::string(DYGITA_SOURCE_DIR) + "/meshes/mirrored.step";
+  options.size = 8e-3;
+  const auto cells = [&](const char* part) { return StepAssembly(options).part(part).mesh->n_cells(); };
+  const int plate = cells("plate"), bracket = cells("mirrored");
+  options.sizes = {{"contacts", 2e-3}};
+  EXPECT_GT(cells("plate"), 1.3 * plate);
+  EXPECT_GT(cells("mirrored"), 1.3 * bracket);
+}
+
 TEST(StepAssembly, meshes_those_alone_that_are_asked_for) {
   StepOptions options = joint();
   options.parts = {"lower", "bolt*"};
