@@ -38,6 +38,7 @@ usage() {
 ./run.sh                  install what is missing, build, run decks/bolted_flanges.lua, say which files to open
 ./run.sh test [NAME]      install what is missing, build, pass the tests; with NAME only those whose name matches it (ctest -R)
 ./run.sh sanitize [decks] build with address and undefined behaviour sanitizers (build/sanitize), pass the unit tests and run small decks;
+                          'threads': small decks on three threads under the sanitizer of threads (clang, build/threads)
                           'decks': these and a minute of the fuzzers, which needs the program and them alone
 ./run.sh fuzz [NAME [MINUTES]]  tests/fuzz with libFuzzer under sanitizers (clang): NAME or 'all', a minute each; finds are in build/fuzz/found
 ./run.sh bench [...]      measure speed, rewrite manual/performance.md and its figures: all, or of the parts headline kernels
@@ -171,17 +172,18 @@ run_tests() {
 
 # Decks' tests are left out: they take the sanitizers long, and their parts are all in the unit tests.
 run_sanitized() {
-  local targets=(dygita unit_tests) tests=(-L unit)
+  local preset=sanitize targets=(dygita unit_tests) tests=(-L unit)
   case "${1:-}" in
     "") ;;
+    threads) preset=threads targets=(dygita test_base) tests=(-R '^(ParallelFor.*|small_decks_run_with_threads)$') ;;
     decks) targets=(dygita fuzzers) tests=(-R '^(small_decks_run|fuzz_.*)$') ;;
-    *) fail "'sanitize' takes nothing or 'decks', got: $1" "./run.sh help" ;;
+    *) fail "'sanitize' takes nothing, 'decks' or 'threads', got: $1" "./run.sh help" ;;
   esac
-  say "Building with sanitizers (build/sanitize)"
-  (cd "$root" && cmake --preset sanitize && cmake --build --preset sanitize --parallel "$(n_jobs)" --target "${targets[@]}") ||
+  say "Building with sanitizers (build/$preset)"
+  (cd "$root" && cmake --preset "$preset" && cmake --build --preset "$preset" --parallel "$(n_jobs)" --target "${targets[@]}") ||
     fail "the build failed; the first error is above"
   say "Testing with sanitizers"
-  (cd "$root" && ctest --preset sanitize --parallel "$(nproc)" "${tests[@]}") ||
+  (cd "$root" && ctest --preset "$preset" --parallel "$(nproc)" "${tests[@]}") ||
     fail "tests failed with sanitizers; the last lines above name them"
 }
 
@@ -249,6 +251,7 @@ main() {
       local taken=0
       [[ "$command" != test && "$command" != sanitize ]] || taken=1 # NAME, or 'decks'
       (($# <= taken)) || fail "'$command' takes ${taken/#0/no} argument, got: $*" "./run.sh help"
+      [[ "$command $*" != "sanitize threads" ]] || packages+=("${fuzz_packages[@]}")
       install_packages
       [[ "$command" != test ]] || install_test_packages
       [[ "$command" == sanitize ]] || build_engine

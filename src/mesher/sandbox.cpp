@@ -28,15 +28,17 @@ void limit(__rlimit_resource resource, rlim_t value) {
   setrlimit(resource, &both);
 }
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define __SANITIZE_ADDRESS__ 1  // as g++ says it
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define DYGITA_HAS_SHADOW
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define DYGITA_HAS_SHADOW
 #endif
 #endif
 
 void limit_memory(double bytes) {
-#ifdef __SANITIZE_ADDRESS__
-  (void)bytes;  // its shadow takes terabytes of addresses
+#ifdef DYGITA_HAS_SHADOW
+  (void)bytes;  // the sanitizer's shadow takes terabytes of addresses
 #else
   if (bytes > 0.0) limit(RLIMIT_AS, static_cast<rlim_t>(bytes));
 #endif

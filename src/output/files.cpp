@@ -12,12 +12,13 @@ namespace fs = std::filesystem;
 
 void write_text(const fs::path& path, const std::string& text) {
   const fs::path temporary = path.string() + ".tmp";
+  std::error_code error;
+  fs::remove(temporary, error);  // a link there would lead to a file of somebody's
   errno = 0;
   std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
   file << text;
   file.close();
   const int reason = errno;
-  std::error_code error;
   if (!file) {
     fs::remove(temporary, error);
     throw InputError("cannot write '" + path.string() + "': " + std::strerror(reason));

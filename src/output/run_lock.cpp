@@ -84,7 +84,9 @@ RunLock::RunLock(const std::filesystem::path& folder) {
   make_directory(parent);
   path_ = parent / ("." + folder.filename().string() + ".lock");
   for (Attempt found = Attempt::again; found != Attempt::held;) {
-    descriptor_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    descriptor_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
+    if (descriptor_ < 0 && errno == ELOOP)
+      throw InputError(fmt::format("'{}' is a link, and not a lock of dygita: remove it", path_.string()));
     if (descriptor_ < 0) throw InputError(fmt::format("cannot write '{}': {}", path_.string(), std::strerror(errno)));
     found = attempt(descriptor_, path_);
     if (found == Attempt::by_another) {

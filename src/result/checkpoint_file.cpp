@@ -90,6 +90,8 @@ CheckpointFile::CheckpointFile(std::filesystem::path path, const CheckpointIdent
       synced_(flushed_),
       is_leaving_(true) {
   const std::string temporary = path_.string() + ".tmp";
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);  // a link there would lead to a file of somebody's
   errno = 0;
   file_.reset(std::fopen(temporary.c_str(), "w+b"));
   Encoder header;

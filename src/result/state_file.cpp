@@ -166,6 +166,7 @@ long RunState::n_increments() const {
 void write_state(const std::filesystem::path& path, const RunState& state) {
   const std::string temporary = path.string() + ".tmp";
   std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);  // a link there would lead to a file of somebody's
   errno = 0;
   const auto fail = [&](const std::string& reason) {
     std::filesystem::remove(temporary, ignored);

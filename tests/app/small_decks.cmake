@@ -1,5 +1,5 @@
 # Small cases of the decks run to their end with every solver, for a build with sanitizers: whatever these find ends the
-# program with another exit code. cmake -DDYGITA=program -DSOURCE_DIR=folder -P small_decks.cmake
+# program with another exit code. cmake -DDYGITA=program -DSOURCE_DIR=folder [-DTHREADS=n] -P small_decks.cmake
 
 set(out ${CMAKE_CURRENT_BINARY_DIR}/small_decks_out)
 file(REMOVE_RECURSE ${out})
@@ -22,6 +22,9 @@ function(run deck)
       list(APPEND arguments ${argument})
     endif()
   endforeach()
+  if(THREADS AND NOT "--threads" IN_LIST arguments)
+    list(APPEND arguments --threads ${THREADS})
+  endif()
   dygita(run ${SOURCE_DIR}/decks/${deck}.lua --quiet --out ${out} ${arguments})
 endfunction()
 

@@ -145,6 +145,17 @@ TEST_F(StateFile, of_another_version_or_program_says_so) {
             "'" + path_.string() + "' cannot be used: it is not a state file of dygita\n    run the deck again");
 }
 
+TEST_F(StateFile, is_not_written_through_a_link_that_lies_in_its_way) {
+  const fs::path others = path_.string() + "_others", temporary = path_.string() + ".tmp";
+  std::ofstream(others) << "precious";
+  fs::create_symlink(others, temporary);
+  write_state(path_, some_state(1e9));
+  EXPECT_EQ(refusal(), "");
+  EXPECT_FALSE(fs::is_symlink(path_));
+  EXPECT_EQ(fs::file_size(others), 8u);
+  fs::remove(others);
+}
+
 TEST_F(StateFile, that_cannot_be_written_leaves_nothing) {
   const fs::path nowhere = path_.string() + "_folder/state.dygita";
   EXPECT_THROW(write_state(nowhere, some_state(1e9)), InputError);

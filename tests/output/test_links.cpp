@@ -1,0 +1,44 @@
+// Links in a folder that came from somebody else: nothing is written through them.
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "output/files.hpp"
+#include "output/run_lock.hpp"
+#include "scratch.hpp"
+
+namespace dygita {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Links, in_the_way_of_a_file_are_not_followed) {
+  const Scratch scratch;
+  const fs::path others = scratch.path() / "others";
+  put(others, "precious");
+  for (const char* link : {"table.csv", "table.csv.tmp"}) {
+    fs::create_symlink(others, scratch.path() / link);
+    write_text(scratch.path() / "table.csv", "1,2\n");
+    EXPECT_EQ(text_of(others), "precious") << link;
+    EXPECT_FALSE(fs::is_symlink(scratch.path() / "table.csv")) << link;
+    EXPECT_EQ(text_of(scratch.path() / "table.csv"), "1,2\n") << link;
+    fs::remove(scratch.path() / "table.csv");
+  }
+}
+
+TEST(Links, in_the_place_of_a_lock_are_refused) {
+  const Scratch scratch;
+  const fs::path others = scratch.path() / "others", lock = scratch.path() / ".base.lock";
+  put(others, "precious");
+  fs::create_symlink(others, lock);
+  std::string message;
+  try {
+    const RunLock held(scratch.path() / "base");
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  EXPECT_EQ(message, "'" + lock.string() + "' is a link, and not a lock of dygita: remove it");
+  EXPECT_EQ(text_of(others), "precious");
+}
+
+}  // namespace
+}  // namespace dygita
