@@ -19,7 +19,7 @@ namespace dygita::fuzz {
 
 namespace {
 
-constexpr double time_limit = 20.0;  // s
+constexpr double time_limit = 100.0;  // s, of a machine that is busy
 
 const char* kind_of(const std::string& text) {
   if (text.starts_with("$")) return "input.msh";
@@ -59,6 +59,14 @@ void read_all(const std::string& file) {
   });
 }
 
+// A mesher that is not there refuses everything.
+bool reads_a_cube(const Scratch& scratch) {
+  scratch.write("cube.geo", "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1};\n");
+  GmshOptions options;
+  options.file = (scratch.folder() / "cube.geo").string();
+  return GmshMeshes(options).volume("volume1")->n_cells() > 0;
+}
+
 // The home of the process lies where a file that comes or goes is seen.
 const Scratch& home() {
   static const Scratch scratch;
@@ -66,9 +74,9 @@ const Scratch& home() {
     const std::string outer = scratch.folder().parent_path().string();
     setenv("HOME", outer.c_str(), 1);
     set_mesh_limits({.time = time_limit, .trusted = {}});
-    return chdir(outer.c_str()) == 0;
+    return chdir(outer.c_str()) == 0 && reads_a_cube(scratch);
   }();
-  demand(is_there, "a folder to work in");
+  demand(is_there, "a folder to work in, and a mesher");
   return scratch;
 }
 
