@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/log.hpp"
+#include "solution/finite_energies.hpp"
 #include "solution/step_ends.hpp"
 
 namespace dygita {
@@ -80,23 +81,7 @@ void StepRun::accept_interval(int increment, int iterations, double eta, double 
   State& state = files_.state;
   Energies& energies = state.energies;
   book_increment(books_.energy, energies);
-  if (!std::isfinite(energies.kinetic + energies.strain + energies.loads)) {
-    const auto spoiled = std::find_if(books_.energy.begin(), books_.energy.end(), [](const IncrementEnergy& e) {
-      return !std::isfinite(e.kinetic + e.strain + e.loads);
-    });
-    const std::string part =
-        spoiled == books_.energy.end()
-            ? "the assembly"
-            : "substructure '" +
-                  model_.problem
-                      ->substructures[model_.cut->piece(static_cast<int>(spoiled - books_.energy.begin())).part]
-                      ->name +
-                  "'";
-    throw NumericalError(fmt::format(
-        "step '{}', increment {} (t = {:.6g} s): the energies of {} are not finite; likely cause: a load out "
-        "of proportion",
-        model_.step->name, increment + 1, state.time, part));
-  }
+  check_energies(model_, state, books_.energy, increment);
   if (has_flown_off()) eta = std::numeric_limits<double>::infinity();
   indicator_.raise_floor(energies.kinetic + energies.strain + std::abs(energies.loads), model_.scheme.dt);
   StepFigures& figures = books_.figures;

@@ -10,6 +10,7 @@
 #include "reference/explicit_run.hpp"
 #include "reference/monolithic.hpp"
 #include "solution/step_ends.hpp"
+#include "solution/stopped_run.hpp"
 
 namespace dygita {
 
@@ -35,7 +36,7 @@ class Runner {
   SolverFigures run() {
     MonolithicSteps steps(problem_, {}, surfaces_, bodies_);
     for (const StepPtr& step : problem_.steps) {
-      if (interrupt_requested()) break;
+      if (interrupt_requested() || figures_.stopped_by) break;
       if (step->is_static) {
         steps.run(*step, state_, observer_, figures_);
         memory_ = {};
@@ -43,7 +44,7 @@ class Runner {
         run_step(*step);
       }
     }
-    figures_.interrupted = interrupt_requested();
+    figures_.interrupted = figures_.stopped_by || interrupt_requested();
     return std::move(figures_);
   }
 
@@ -73,9 +74,11 @@ void Runner::run_step(const Step& step) {
   note(step, run);
   figures_.seconds["set up"] += seconds_since(start);
   start = Clock::now();
-  run.run();
-  run.finish(memory_);
-  end_step(model, state_);
+  figures_.stopped_by = run_as_far_as_it_goes(run, figures_);
+  if (!figures_.stopped_by) {
+    run.finish(memory_);
+    end_step(model, state_);
+  }
   figures_.steps.push_back(run.figures());
   figures_.steps.back().seconds = seconds_since(start);
   figures_.seconds["substeps and output"] += seconds_since(start);

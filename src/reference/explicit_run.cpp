@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/progress.hpp"
 #include "law/law.hpp"
+#include "solution/finite_energies.hpp"
 
 namespace dygita {
 
@@ -218,6 +219,11 @@ void ExplicitRun::book_energies() {
 
 void ExplicitRun::check_stability(int increment) const {
   const Energies& e = state_.energies;
+  if (!std::isfinite(e.balance())) {
+    std::vector<IncrementEnergy> parts(model_.problem->substructures.size());
+    for (size_t i = 0; i < parts.size(); ++i) parts[i].kinetic = velocity(static_cast<int>(i)).squaredNorm();
+    check_energies(model_, state_, parts, increment);
+  }
   const double created = -e.balance(), limit = unstable * (supplied_ + std::abs(e.loads));
   if (std::isfinite(created) && (created <= limit || created <= 1e-9 * e.kinetic)) return;
   throw NumericalError(fmt::format(

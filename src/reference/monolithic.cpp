@@ -10,7 +10,9 @@
 #include "reference/interface_newton.hpp"
 #include "reference/merged_assembly.hpp"
 #include "reference/preload_newton.hpp"
+#include "solution/finite_energies.hpp"
 #include "solution/step_ends.hpp"
+#include "solution/stopped_run.hpp"
 
 namespace dygita {
 
@@ -44,7 +46,7 @@ class MonolithicRun {
   void solve_increment(int increment);
   void begin_increment(int increment);
   void finish_increment();
-  void accept_increment(const InterfaceNewton::Outcome& outcome);
+  void accept_increment(int increment, const InterfaceNewton::Outcome& outcome);
   Vec3 side_displacement(const Point& point, int first, int end, const std::vector<Points>& displacement) const;
   Instant instant(int increment, const InterfaceNewton::Outcome& outcome) const {
     return {model_,
@@ -139,7 +141,7 @@ void MonolithicRun::finish_increment() {
   }
 }
 
-void MonolithicRun::accept_increment(const InterfaceNewton::Outcome& outcome) {
+void MonolithicRun::accept_increment(int increment, const InterfaceNewton::Outcome& outcome) {
   for (size_t i = 0; i < records_.size(); ++i) {
     const Point& point = model_.exchange.points[i];
     if (!point.law) continue;
@@ -156,6 +158,7 @@ void MonolithicRun::accept_increment(const InterfaceNewton::Outcome& outcome) {
   book_increment(energy_, energies);
   newton_.raise_floor(energies.kinetic + energies.strain + std::abs(energies.loads), model_.scheme.dt);
   if (!increment_.is_static) state_.time += increment_.dt;
+  check_energies(model_, state_, energy_, increment);
   ++figures_.increments;
   figures_.iterations += outcome.iterations;
   figures_.worst_indicator = std::max(figures_.worst_indicator, outcome.residual);
@@ -174,7 +177,7 @@ void MonolithicRun::solve_increment(int increment) {
   lap(seconds_.newton);
   finish_increment();
   lap(seconds_.backward);
-  accept_increment(outcome);
+  accept_increment(increment, outcome);
   lap(seconds_.accept);
   observer_.accept(instant(increment, outcome));
   lap(seconds_.output);
@@ -214,8 +217,8 @@ void MonolithicSteps::run(const Step& step, State& state, Observer& observer, So
   factor_ = run.factor();
   figures.seconds["factor"] += seconds_since(start);
   start = Clock::now();
-  run.run();
-  end_step(model, state);
+  figures.stopped_by = run_as_far_as_it_goes(run, figures);
+  if (!figures.stopped_by) end_step(model, state);
   figures.steps.push_back(run.figures());
   figures.steps.back().seconds = seconds_since(start);
   run.add_to(figures);
@@ -232,10 +235,10 @@ SolverFigures solve_monolithic(const Problem& problem, Observer& observer) {
   figures.seconds["assemble"] = seconds_since(start);
   MonolithicSteps steps(problem, *problem.monolithic, surfaces, bodies);
   for (const StepPtr& step : problem.steps) {
-    if (interrupt_requested()) break;
+    if (interrupt_requested() || figures.stopped_by) break;
     steps.run(*step, state, observer, figures);
   }
-  figures.interrupted = interrupt_requested();
+  figures.interrupted = figures.stopped_by || interrupt_requested();
   return figures;
 }
 

@@ -204,12 +204,14 @@ void CheckpointFile::leave(const TrailEntry& entry) {
   sum_ = checksum(sum_, encoder.bytes);
   errno = 0;
   if (!put_record(file_.get(), encoder.bytes, sum_)) return fail("written");
-  if (room_ < 0.0) foresee(static_cast<std::int64_t>(encoder.bytes.size()) + 16);
+  const auto bytes = static_cast<std::int64_t>(encoder.bytes.size()) + 16;
+  if (!has_foreseen_) foresee(bytes);
+  room_ -= static_cast<double>(bytes);
+  if (room_ < 0.0) return stop_growing();
   const auto now = Clock::now();
   if (now - flushed_ >= std::chrono::seconds(1)) {
     flushed_ = now;
     if (std::fflush(file_.get()) != 0) return fail("written");
-    keep_within_room();
   }
   if (std::chrono::duration<double>(now - synced_).count() >= every_) sync();
 }
@@ -223,8 +225,8 @@ void CheckpointFile::sync() {
 void CheckpointFile::foresee(std::int64_t bytes_of_entry) {
   std::error_code error;
   const std::filesystem::space_info space = std::filesystem::space(path_.parent_path(), error);
-  room_ = error ? std::numeric_limits<double>::infinity()
-                : static_cast<double>(ftello(file_.get())) + 0.5 * static_cast<double>(space.available);
+  room_ = error ? std::numeric_limits<double>::infinity() : 0.5 * static_cast<double>(space.available);
+  has_foreseen_ = true;
   const double all = static_cast<double>(expected_) * static_cast<double>(bytes_of_entry);
   if (all <= room_) return;
   warn(fmt::format(
@@ -234,8 +236,8 @@ void CheckpointFile::foresee(std::int64_t bytes_of_entry) {
       path_.string(), all / 1e9, static_cast<double>(space.available) / 1e9));
 }
 
-void CheckpointFile::keep_within_room() {
-  if (static_cast<double>(ftello(file_.get())) <= room_) return;
+void CheckpointFile::stop_growing() {
+  std::fflush(file_.get());
   has_failed_ = true;
   warn(fmt::format(
       "the checkpoint '{}' has taken half of the space that was free and grows no further, so that the results find "
@@ -247,10 +249,15 @@ void CheckpointFile::keep_within_room() {
 void CheckpointFile::fail(const char* what) {
   const int reason = errno;
   has_failed_ = true;
+  // What the disk has left belongs to the results.
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path_, error);
+  const bool is_cut = reason == ENOSPC && !error && ftruncate(fileno(file_.get()), static_cast<off_t>(size / 2)) == 0;
   warn(fmt::format(
-      "the checkpoint '{}' cannot be {}: {}\n    the run goes on; if it is stopped, it continues from what was kept "
-      "until here",
-      path_.string(), what, std::strerror(reason)));
+      "the checkpoint '{}' cannot be {}: {}{}\n    the run goes on; if it is stopped, it continues from what was kept "
+      "until {}",
+      path_.string(), what, std::strerror(reason), is_cut ? "; half of it is given back to the results" : "",
+      is_cut ? "there" : "here"));
 }
 
 void CheckpointFile::note_difference() {

@@ -38,6 +38,7 @@ class CheckpointFile final : public Trail {
   const CheckpointIdentity& identity() const { return identity_; }
   bool leads(long n) override;
   long n_left() const override { return n_left_; }
+  bool has_entries() const { return n_left_ > 0 || has_foreseen_; }
   TrailEntry take() override;
   void leave(const TrailEntry& entry) override;
   void note_difference() override;
@@ -57,15 +58,16 @@ class CheckpointFile final : public Trail {
   bool read_entry(std::string& payload, std::uint64_t& sum);
   void fail(const char* what);
   void foresee(std::int64_t bytes_of_entry);
-  void keep_within_room();
+  void stop_growing();
 
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, Close> file_;
   std::unique_ptr<char[]> buffer_;
   CheckpointIdentity identity_;
-  long n_left_ = 0;        // entries to be taken
-  long expected_ = 0;      // in all; 0: nobody told
-  double room_ = -1.0;     // bytes that it may have; below zero: not known yet
+  long n_left_ = 0;    // entries to be taken
+  long expected_ = 0;  // in all; 0: nobody told
+  double room_ = 0.0;  // bytes that it may still take, once that is foreseen
+  bool has_foreseen_ = false;
   std::int64_t at_ = 0;    // where the next one is taken or left, bytes
   std::uint64_t sum_ = 0;  // of the entry before it
   double every_;

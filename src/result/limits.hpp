@@ -8,6 +8,7 @@
 namespace dygita::limit {
 
 inline constexpr double energy_imbalance = 0.5;       // %, of the largest energy
+inline constexpr double strain_at_rest = 1e-11;       // 2 Pa in steel: with less, all over, nothing has happened
 inline constexpr double energy_gain = 0.5;            // %
 inline constexpr double numerical_dissipation = 5.0;  // %
 inline constexpr double penalty_energy = 5.0;         // %, that the springs of a penalty hold
@@ -22,6 +23,7 @@ inline constexpr double slip_in_cells = 0.5;          // of a contact cell, alon
 inline constexpr double passing_in_cells = 0.01;      // of a cell, of released sides into each other
 inline constexpr double specification = 0.0;          // dB above it: exceeded
 inline constexpr double yield_margin = 0.0;           // yield / von Mises - 1, below it the material would yield
+inline constexpr double bolt_stress = 1.2e9;          // Pa, on its area: yield of the strongest class, 12.9, and more
 inline constexpr double bolt_shortening = 0.01;       // m, the longest that load.shortening takes
 
 // What the springs hold (%) and the error in energy norm (%) that goes with it.

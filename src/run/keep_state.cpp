@@ -115,11 +115,31 @@ bool reaches_as_far(const RunState& state, const RunState& before) {
   return true;
 }
 
+namespace {
+
+// The state must not take the room of the results, which come after it.
+void check_room(const RunState& state, const std::filesystem::path& folder, const RunResult& result) {
+  double bytes = 0.0, results = 4e6;  // report and pictures
+  for (size_t i = 0; i < state.fields->n_steps(); ++i)
+    bytes +=
+        8.0 * static_cast<double>(state.fields->n_increments(i)) * static_cast<double>(result.n_interface_unknowns);
+  for (const auto& [output, table] : result.tables)
+    results += 16.0 * static_cast<double>(table.n_rows()) * static_cast<double>(table.columns.size() + 2);
+  std::error_code error;
+  const std::filesystem::space_info space = std::filesystem::space(folder, error);
+  if (!error && static_cast<double>(space.available) < bytes + results)
+    throw InputError(fmt::format("no room for {} ({:.3g} MB; {:.3g} MB are free): it goes to the results",
+                                 state_file_name, bytes / 1e6, static_cast<double>(space.available) / 1e6));
+}
+
+}  // namespace
+
 void keep_state(const RunState& state, RunWriter& writer, RunResult& result) {
   if (!state.fields) return;
   const auto start = std::chrono::steady_clock::now();
   try {
     const std::filesystem::path path = writer.path_of(state_file_name);
+    check_room(state, writer.directory(), result);
     write_state(path, state);
     result.figures.state_file = static_cast<double>(std::filesystem::file_size(path)) / 1e6;
   } catch (const InputError& error) {

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <new>
 #include <optional>
 
 #include "base/log.hpp"
+#include "base/memory.hpp"
 #include "base/progress.hpp"
 #include "latin/latin.hpp"
 #include "output/bolt_table.hpp"
@@ -99,6 +101,9 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
   if (!directory.empty()) say(fmt::format("  {:.2f} s in all; results in {}", seconds, directory.string()));
 }
 
+// Set aside while a run computes; what each thread takes in BLAS, where OpenBLAS waits for ever if it cannot have it.
+constexpr std::size_t memory_for_results = std::size_t{64} << 20, memory_of_thread = std::size_t{136} << 20;
+
 // Solves all steps once; tables and figures; scenes for the report where `keeps_scenes`.
 std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* start_from, const FrameSink& sink,
                                  bool keeps_scenes, Trail* trail) {
@@ -108,9 +113,12 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* 
   Observers observers({&collector, &watch});
   if (keeps_scenes) observers.add(scenes);
   auto result = std::make_shared<RunResult>();
+  require_memory(memory_for_results + static_cast<std::size_t>(omp_get_max_threads()) * memory_of_thread);
+  MemoryReserve reserve(memory_for_results);
   const SolverFigures figures = problem.explicit_dynamics ? solve_explicit(problem, observers)
                                 : problem.monolithic      ? solve_monolithic(problem, observers)
                                                           : solve(problem, observers, start_from, trail);
+  reserve.release();
   result->interface_fields = figures.interface_fields;
   summarise(problem, figures, *result);
   collector.finish(*result);
@@ -249,6 +257,18 @@ void tell_stop(const RunResult& result, const RunSite& site) {
     say(fmt::format("  stopped; this goes on with it:\n    dygita continue {}", shell_word(folder)));
 }
 
+// Not even the results found room: what the checkpoint has is not lost.
+[[noreturn]] void tell_lack_of_memory(RunSite& site) {
+  std::string text = "not enough memory on this machine; dygita check tells what a problem needs";
+  if (site.checkpoint && site.checkpoint->has_entries()) {
+    site.checkpoint->sync();
+    text += fmt::format(
+        "\n    what was computed is kept; where there is more memory this goes on with it: dygita continue {}",
+        shell_word(site.directory.string()));
+  }
+  throw NumericalError(text);
+}
+
 }  // namespace
 
 std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunRequest& request) {
@@ -259,10 +279,15 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
                   request.case_name, declared.substructures.size(), declared.interfaces.size(), declared.steps.size()));
   RunSite site(declared, request);
   Problem problem = declared;  // with the tolerance of the pass
-  const std::shared_ptr<RunResult> result = compute(declared, request, problem, site);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  result->seconds["all"] = seconds;
-  write_results(problem, request, site, *result);
+  std::shared_ptr<RunResult> result;
+  double seconds = 0.0;
+  try {
+    result = compute(declared, request, problem, site);
+    result->seconds["all"] = seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    write_results(problem, request, site, *result);
+  } catch (const std::bad_alloc&) {
+    tell_lack_of_memory(site);
+  }
   settle(request, *result, site);
   if (request.continues) say(continuation_line(*request.continues, *result));
   say_summary(problem, *result, site.writer && site.is_kept ? site.directory : std::filesystem::path(), seconds);

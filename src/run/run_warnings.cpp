@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/log.hpp"
 #include "law/law.hpp"
@@ -149,8 +150,29 @@ void warn_of_errors(const Problem& problem, const RunResult& result) {
                       e, text));
 }
 
+// Of the parts on both sides of a bolt's interface the least that is known.
+std::optional<double> least_yield(const Problem& problem, const std::string& bolt) {
+  std::optional<double> least;
+  for (const InterfacePtr& interface : problem.interfaces)
+    if (interface->name == bolt)
+      for (const SubstructurePtr& part : {interface->side_1.part, interface->side_2.part})
+        if (const auto& yield = part->yield; yield && (!least || *yield < *least)) least = *yield;
+  return least;
+}
+
+void warn_of_overtightened(const Problem& problem, const BoltSummary& bolt) {
+  const std::optional<double> yield = least_yield(problem, bolt.name);
+  const double stress = bolt.area > 0.0 ? bolt.tightened / bolt.area : 0.0;
+  if (stress > yield.value_or(limit::bolt_stress))
+    warn(fmt::format("bolt '{}' is tightened to {:.4g} N, {:.4g} MPa on its {:.4g} mm^2, and {}", bolt.name,
+                     bolt.tightened, stress / 1e6, bolt.area * 1e6,
+                     yield ? fmt::format("its parts yield at {:.4g} MPa", *yield / 1e6)
+                           : fmt::format("no bolt bears more than {:.4g} MPa", limit::bolt_stress / 1e6)));
+}
+
 // A shortening that a preload has found has no range of its own.
-void warn_of_bolts(const RunResult& result) {
+void warn_of_bolts(const Problem& problem, const RunResult& result) {
+  for (const BoltSummary& bolt : result.bolts) warn_of_overtightened(problem, bolt);
   for (const BoltSummary& bolt : result.bolts)
     if (std::abs(bolt.shortening) > limit::bolt_shortening)
       warn(fmt::format(
@@ -173,7 +195,7 @@ void warn_of_run(const Problem& problem, const RunResult& result, const std::fil
   warn_of_errors(problem, result);
   for (const OutputPtr& output : problem.outputs)
     for (const std::string& warning : result.findings_of(*output).warnings) warn(warning);
-  warn_of_bolts(result);
+  warn_of_bolts(problem, result);
 }
 
 }  // namespace dygita

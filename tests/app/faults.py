@@ -8,6 +8,7 @@ import fcntl
 import json
 import os
 import pathlib
+import resource
 import shutil
 import signal
 import subprocess
@@ -103,6 +104,112 @@ problem{ name = "overflow", substructures = { low, high }, interfaces = { seam }
     check("step 'push', increment 6 (t = 5e-06 s)" in output, output)
     rows = (FOLDER / "overflow" / "overflow" / "base" / "energy.csv").read_text().splitlines()
     check(len(rows) == 7 and not any("nan" in row or "inf" in row for row in rows), f"{len(rows)} rows before an overflow")
+
+
+def energies_that_overflow():
+    """In every solver and both kinds of step, where no iteration meets them first; the last good increment is kept."""
+    deck = FOLDER / "energies.lua"
+    deck.write_text("""
+local p = param{ static = 0 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local b = substructure{ name = "alone", material = steel, mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 2, 2, 2 } } }
+local function loads(from) return { load.pressure{ on = b:face "zmax", history = function(t) return t > from and 1e170 or 1e6 end } } end
+local first = step.static{ name = "first", increments = 2, loads = { load.pressure{ on = b:face "zmax", history = 1*MPa } } }
+problem{ name = "energies", substructures = { b }, supports = { support.fixed{ name = "floor", on = b:face "zmin" } },
+  steps = p.static == 1 and { first, step.static{ name = "push", after = first, loads = loads(-1) } }
+    or { step.dynamic{ name = "push", duration = 20*us, dt = 1*us, loads = loads(4*us) } },
+  outputs = { output.energy{}, output.vtk{ frames = 20 } } }:run{}
+""")
+    for solver in ("latin", "monolithic", "explicit"):
+        for static, increment, rows, frames in ((0, 5, 6, 5), (1, 1, 4, 3)):
+            out = FOLDER / "energies" / f"{solver} {static}"
+            dygita("run", deck, "--quiet", "--set", f"static={static}", "--solver", solver, "--out", out, expected=3,
+                   says=f"step 'push', increment {increment} (t = ")
+            output = dygita("run", deck, "--quiet", "--set", f"static={static}", "--solver", solver, "--out", out, expected=3,
+                            says="the energies of substructure 'alone' are not finite")
+            run = out / "energies" / "base"
+            check(f"what was computed before is in {run}" in output, output)
+            table = (run / "energy.csv").read_text().splitlines()
+            check(len(table) == rows and not any("nan" in row or "inf" in row for row in table), f"{solver}: {table}")
+            check(frames_of(run) == frames, f"{solver}, static {static}: {frames_of(run)} frames")
+            check(json.loads((run / "run.json").read_text())["verdict"] == "interrupted", f"{solver}: the record hides it")
+
+
+def little_memory():
+    """The run ends with its tables. The limit: what a short run of the same takes, and a little more."""
+    deck = FOLDER / "long.lua"
+    deck.write_text("""
+local p = param{ n = 1000 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local function block(name, z) return substructure{ name = name, material = steel,
+  mesh = mesh.box{ origin = { 0, 0, z }, size = { 10*mm, 10*mm, 10*mm }, cells = { 1, 1, 1 } } } end
+local low, high = block("low", 0), block("high", 10*mm)
+local seam = interface.contact{ name = "seam", between = { low:face "zmax", high:face "zmin" }, friction = 0.2 }
+problem{ name = "long", substructures = { low, high }, interfaces = { seam }, supports = { support.fixed{ name = "floor", on = low:face "zmin" } },
+  steps = { step.dynamic{ name = "push", duration = p.n*us, dt = 1*us, loads = { load.pressure{ on = high:face "zmax", history = 5*MPa } } } },
+  outputs = { output.energy{}, output.vtk{ frames = 1000 }, output.joint{ name = "joint", on = seam } } }:run{}
+""")
+    words = [PROGRAM, "run", str(deck), "--quiet", "--threads", "1", "--out", str(FOLDER / "long")]
+    process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    most = 0
+    while process.poll() is None:
+        try:
+            most = max(most, int(pathlib.Path(f"/proc/{process.pid}/status").read_text().split("VmPeak:")[1].split()[0]))
+        except (OSError, IndexError):
+            pass
+        time.sleep(0.001)
+    if process.returncode != 0 or most > 4e6:  # kB; a build with sanitizers asks for terabytes of addresses
+        print(f"little memory: not tried, exit {process.returncode}, {most} kB")
+        return
+    limit = 1024 * most + (25 << 20)
+    done = subprocess.run([*words, "--set", "n=1000000"], capture_output=True, text=True, check=False,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+    output = done.stdout + done.stderr
+    check(done.returncode == 3 and "not enough memory" in output, f"little memory: exit {done.returncode}\n{output[-1000:]}")
+    run = FOLDER / "long" / "long" / "base"
+    check(f"what was computed before is in {run}" in output, output[-1000:])
+    check(len((run / "energy.csv").read_text().splitlines()) > 5000, "the table of a run that met its end by memory")
+    check(json.loads((run / "run.json").read_text())["stopped_by"].startswith("not enough memory"), "the record hides it")
+    check((run / "checkpoint.dygita").exists() and not list(run.rglob("*.tmp")), "no checkpoint, or half a file")
+
+
+def a_disk_that_the_checkpoint_fills():
+    """A file may grow to 1.5 MB here: the checkpoint meets that first, and the run goes on to its results."""
+    out = FOLDER / "full"
+
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1500000, 1500000))
+
+    words = ["--set", "us=1000", "--no-frames"]
+    whole = FOLDER / "whole"
+    dygita(*deck_command(whole, *words), expected=0)
+    done = subprocess.run([PROGRAM, *map(str, deck_command(out, *words))], capture_output=True, text=True, preexec_fn=limit, check=False)
+    output = done.stdout + done.stderr
+    check("checkpoint.dygita' cannot be written: File too large" in output and "the run goes on" in output, output)
+    check("state.dygita': File too large" in output and done.returncode == 0, f"exit {done.returncode}\n{output}")
+    for name in ("joint.csv", "energy.csv", "srs.csv", "run.json", "report.html"):
+        kept = out / "stopped" / "base" / name
+        check(kept.exists(), f"a full disk: no {name}")
+        if name.endswith(".csv") and kept.exists():
+            check(kept.read_bytes() == (whole / "stopped" / "base" / name).read_bytes(), f"a full disk: another {name}")
+    check(not list(out.rglob("*.tmp")), "half a file is left")
+
+
+def a_small_disk():
+    """The checkpoint says in advance that it does not fit, and leaves half of the room to the results."""
+    script = 'mount -t tmpfs -o size=6000k none "$0" && exec "$@"'
+    out = FOLDER / "small"
+    out.mkdir()
+    words = [PROGRAM, *map(str, deck_command(out, "--set", "us=1000", "--no-frames"))]
+    inside = ["unshare", "-r", "-m", "sh", "-c", script, str(out)]
+    if not shutil.which("unshare") or subprocess.run([*inside, "true"], capture_output=True, check=False).returncode != 0:
+        print("a small disk: not tried, no file system may be mounted here")
+        return
+    done = subprocess.run([*inside, *words], capture_output=True, text=True, check=False)
+    output = done.stdout + done.stderr
+    check("checkpoint.dygita' comes to about" in output and "are free: it is kept up to half of those" in output, output)
+    check("grows no further, so that the results find room" in output and done.returncode == 0, output)
 
 
 def interrupted():
@@ -207,7 +314,8 @@ def a_time_limit_of_the_clock():
     check(time.monotonic() - start < 2.0, "the time limit does not count elapsed time")
 
 
-for fault in (who_holds_the_folder, an_error_in_the_middle, numbers_that_overflow, interrupted, a_spoiled_checkpoint, a_load_that_changed,
+for fault in (who_holds_the_folder, an_error_in_the_middle, numbers_that_overflow, energies_that_overflow, little_memory,
+              a_disk_that_the_checkpoint_fills, a_small_disk, interrupted, a_spoiled_checkpoint, a_load_that_changed,
               a_state_without_a_record, a_folder_that_is_removed, decks_that_take_long, a_time_limit_of_the_clock):
     fault()
 shutil.rmtree(FOLDER)

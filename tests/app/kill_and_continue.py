@@ -1,7 +1,7 @@
 """Kills a run at random instants, continues it, and compares every table and frame with those of a run that was let
 be, byte by byte.
 
-kill_and_continue.py PROGRAM DECK [--set NAME=VALUE]... [--kills N] [--seed N] [--signals KILL,INT,TERM] [--cut N]
+kill_and_continue.py PROGRAM DECK [--set NAME=VALUE]... [--kills N] [--seed N] [--signals KILL,INT,TERM] [--cut N] [--refine TOLERANCE]
 
 --cut N: instead of killing, N times the checkpoint of an interrupted run is cut off at a random byte, or spoiled there,
 as a crash of the machine while it is written would.
@@ -37,7 +37,7 @@ class Kills:
         self.asked = asked
         self.random = random.Random(asked.seed)
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="dygita_kills_"))
-        self.failures = []
+        self.failures, self.refined = [], None
         self.kinds = {"before anything": 0, "without a record": 0, "with a record": 0, "after the end": 0}
 
     def command(self, out):
@@ -81,6 +81,22 @@ class Kills:
         if left:
             self.failures.append(f"{what}: left {left}")
 
+    def refine(self, run):
+        """What was killed and has gone on is refined as a run that was let be is: to the same bits."""
+        if not self.asked.refine or self.refined is not None and self.random.random() < 0.5:
+            return
+        copies = []
+        for source in (self.folder / "reference" / self.path, run):
+            copies.append(self.folder / f"refined_{len(copies)}" / self.path)
+            shutil.copytree(source, copies[-1])
+            self.let_be([*self.going_on(copies[-1]), "--tolerance", self.asked.refine])
+        different = differences(copies[1], contents(copies[0]))
+        if different:
+            self.failures.append(f"--tolerance after a kill: {len(different)} files differ: {', '.join(different[:5])}")
+        for copy in ("refined_0", "refined_1"):
+            shutil.rmtree(self.folder / copy)
+        self.refined = True
+
     def kill_once(self, index):
         out = self.folder / f"kill_{index}"
         run = out / self.path
@@ -103,6 +119,7 @@ class Kills:
             self.let_be(self.going_on(run))
         elif not (run / "run.json").exists():
             self.let_be(self.command(out))
+        self.refine(run)
         self.compare(run, f"{name} after {', '.join(f'{t:.3f}' for t in instants)} s")
         shutil.rmtree(out)
 
@@ -159,6 +176,7 @@ def main():
     parser.add_argument("--cut", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--signals", default="KILL")
+    parser.add_argument("--refine", default="", help="--tolerance of a continuation after some of the kills")
     return Kills(parser.parse_args()).run()
 
 

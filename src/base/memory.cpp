@@ -1,0 +1,26 @@
+#include "base/memory.hpp"
+
+#include <sys/mman.h>
+
+#include <new>
+
+namespace dygita {
+
+MemoryReserve::MemoryReserve(std::size_t bytes)
+    : at_(mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0)),
+      bytes_(bytes) {
+  if (at_ == MAP_FAILED) at_ = nullptr;
+}
+
+void MemoryReserve::release() {
+  if (at_) munmap(at_, bytes_);
+  at_ = nullptr;
+}
+
+void require_memory(std::size_t bytes) {
+  void* const at = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (at == MAP_FAILED) throw std::bad_alloc();
+  munmap(at, bytes);
+}
+
+}  // namespace dygita

@@ -1,0 +1,26 @@
+// Where memory runs out: kept back for what is to be written then, and asked for before a library that would not ask.
+#pragma once
+
+#include <cstddef>
+
+namespace dygita {
+
+// Address space set aside and not touched: it takes no memory until it is given back, and what fails for want of memory
+// before leaves room for the results.
+class MemoryReserve {
+ public:
+  explicit MemoryReserve(std::size_t bytes);  // none where there is none
+  ~MemoryReserve() { release(); }
+  MemoryReserve(const MemoryReserve&) = delete;
+  MemoryReserve& operator=(const MemoryReserve&) = delete;
+  void release();
+
+ private:
+  void* at_;
+  std::size_t bytes_;
+};
+
+// Throws std::bad_alloc where so many bytes cannot be had now.
+void require_memory(std::size_t bytes);
+
+}  // namespace dygita
