@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes mirrored.step: a plate with the mirror image of an angle on it, whose faces have reversed normals, in millimetres.
+"""Writes mirrored.step: a plate with the mirror image of an angle on it, whose flat faces are splines in the file, in millimetres.
 
     python3 meshes/make_mirrored_step.py [mirrored.step]
 """

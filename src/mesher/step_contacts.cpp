@@ -24,6 +24,25 @@ struct CadSurface {
   Vec3 centres[2];  // of a cylinder: on its axis is one of them
 };
 
+Vec3 value_at(int tag, double u, double v) {
+  std::vector<double> x;
+  gmsh::model::getValue(2, tag, {u, v}, x);
+  return {x[0], x[1], x[2]};
+}
+
+// A plane that the file does not call one: solids that were mirrored have splines for faces.
+bool is_flat(int tag, const std::vector<double>& low, const std::vector<double>& high, double within) {
+  std::vector<double> n;
+  gmsh::model::getNormal(tag, {0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])}, n);
+  const Vec3 normal(n[0], n[1], n[2]), first = value_at(tag, low[0], low[1]);
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const Vec3 x = value_at(tag, low[0] + i * (high[0] - low[0]) / 3, low[1] + j * (high[1] - low[1]) / 3);
+      if (std::abs(normal.dot(x - first)) > 0.1 * within) return false;
+    }
+  return true;
+}
+
 CadSurface cad_surface(int tag, double within) {
   CadSurface surface;
   surface.tag = tag;
@@ -34,9 +53,10 @@ CadSurface cad_surface(int tag, double within) {
   Box& box = surface.box;
   gmsh::model::getBoundingBox(2, tag, box.low[0], box.low[1], box.low[2], box.high[0], box.high[1], box.high[2]);
   box = box.grown(within);
-  if (!surface.is_plane && !surface.is_cylinder) return surface;
   std::vector<double> low, high, x, n;
   gmsh::model::getParametrizationBounds(2, tag, low, high);
+  if (!surface.is_plane && !surface.is_cylinder) surface.is_plane = is_flat(tag, low, high, within);
+  if (!surface.is_plane && !surface.is_cylinder) return surface;
   const std::vector<double> middle = {0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])};
   gmsh::model::getValue(2, tag, middle, x);
   gmsh::model::getNormal(tag, middle, n);
@@ -62,8 +82,8 @@ bool have_area_in_common(const Box& a, const Box& b, double within) {
 
 bool touch(const CadSurface& a, const CadSurface& b, double within) {
   if (!a.box.meets(b.box)) return false;
-  // Which side of a surface its normal is on is not known (a mirrored solid has them reversed): coplanar faces that
-  // have an area in common are of solids on either side.
+  // Which side of a surface its normal is on is not known: coplanar faces that have an area in common are of solids on
+  // either side.
   if (a.is_plane && b.is_plane)
     return std::abs(a.normal.dot(b.normal)) > 0.999 && std::abs(a.normal.dot(b.at - a.at)) <= within &&
            have_area_in_common(a.box, b.box, within);

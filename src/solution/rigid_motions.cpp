@@ -69,9 +69,9 @@ Blocks constraint_gram(const Problem& problem, const Exchange& exchange, const C
     const auto row_of = [&](int p, int d) {
       const Port& port = exchange.ports[p];
       RigidMotion sum = RigidMotion::Zero();
-      port.for_each_node([&](int node, const Mat3& block) {
+      port.for_each_node([&](int node, const Mat3& share) {
         sum += frames[port.part].row(position(*problem.substructures[port.part], node),
-                                     block.transpose() * point.frame.col(d));
+                                     share.transpose() * point.frame.col(d));
       });
       return sum;
     };

@@ -201,8 +201,8 @@ TEST(StepAssembly, meshes_copies_once_where_their_contacts_correspond) {
   EXPECT_EQ(StepAssembly(options).part("bolt2").copy_of, "bolt1");
 }
 
-// A mirrored solid has its normals reversed: contacts are found all the same. The plate of "joint" and its bolts, too.
-TEST(StepAssembly, finds_contacts_whichever_way_normals_are) {
+// A mirrored solid has splines for its flat faces.
+TEST(StepAssembly, finds_contacts_of_flat_faces_that_the_file_calls_splines) {
   StepOptions options;
   options.file = std::string(DYGITA_SOURCE_DIR) + "/meshes/mirrored.step";
   options.size = 8e-3;
