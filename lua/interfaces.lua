@@ -85,6 +85,10 @@ local function declare_all(entry, given, line)
       end
     end
   end
+  if #list == 0 then
+    fail(entry, line, ("no two of %d parts touch where they have no interface yet"):format(#among),
+      "'within' says how far apart faces may be that touch; parts that overlap touch nowhere: dygita check tells them")
+  end
   if not given.of then
     for _, interface in ipairs(declared) do
       for _, part in ipairs{ native.sides(interface, among) } do joined[part] = true end
@@ -94,10 +98,6 @@ local function declare_all(entry, given, line)
         native.warn(line, ("%s \"%s\": '%s' touches no other part, and no interface holds it"):format(entry.path, all, name_of(part)))
       end
     end
-  end
-  if #list == 0 then
-    fail(entry, line, ("no two of %d parts touch where they have no interface yet"):format(#among),
-      "'within' says how far apart faces may be that touch; parts that overlap touch nowhere: dygita check tells them")
   end
   native.say(("%s \"%s\": %d pairs of parts touch%s"):format(entry.path, all, #list,
     #left > 0 and "; left alone: " .. table.concat(left, ", ") or ""))
