@@ -176,7 +176,7 @@ run_sanitized() {
   case "${1:-}" in
     "") ;;
     threads) preset=threads targets=(dygita test_base) tests=(-R '^(ParallelFor.*|small_decks_run_with_threads)$') ;;
-    decks) targets=(dygita fuzzers) tests=(-R '^(small_decks_run|fuzz_.*)$') ;;
+    decks) targets=(dygita fuzzers) tests=(-R '^(small_decks_run|fuzz_(table|state|folder|answer|cad|deck)_.*)$') ;;
     *) fail "'sanitize' takes nothing, 'decks' or 'threads', got: $1" "./run.sh help" ;;
   esac
   say "Building with sanitizers (build/$preset)"
