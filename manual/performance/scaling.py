@@ -8,6 +8,9 @@ from scene_runs import BLOCKS, FLANGES
 BRICKS = {4: (2, 1, 2), 8: (2, 2, 2), 16: (4, 2, 2), 32: (4, 4, 2), 64: (4, 4, 4)}
 
 
+IMPLICIT = 'latin{ integration = "implicit" }'     # explicit pieces are not iterated
+
+
 def bricks(n):
     return dict(zip(("bx", "by", "bz"), BRICKS[n]))
 
@@ -17,12 +20,12 @@ def asked(machine, quick):
     cells = 12 if quick else 20
     base = {"cells": cells, "steps": 20 if quick else 40}
     counts = (4, 8, 64) if quick else tuple(BRICKS)
-    found = [("CFL", 8, cfl, BLOCKS, base | bricks(8) | {"cfl": cfl}, None) for cfl in ((1, 10) if quick else (0.5, 1, 2, 5, 10))]
-    found += [("pieces", n, 1, BLOCKS, base | bricks(n), None) for n in counts]
-    found += [("pieces, CFL 10", n, 10, BLOCKS, base | bricks(n) | {"cfl": 10}, None) for n in ((8, 64) if quick else counts)]
-    found += [("static", n, 1, BLOCKS, base | bricks(n) | {"press": 1, "steps": 2}, None) for n in ((64,) if quick else (8, 64))]
+    found = [("CFL", 8, cfl, BLOCKS, base | bricks(8) | {"cfl": cfl}, IMPLICIT) for cfl in ((1, 10) if quick else (0.5, 1, 2, 5, 10))]
+    found += [("pieces", n, 1, BLOCKS, base | bricks(n), IMPLICIT) for n in counts]
+    found += [("pieces, CFL 10", n, 10, BLOCKS, base | bricks(n) | {"cfl": 10}, IMPLICIT) for n in ((8, 64) if quick else counts)]
+    found += [("static", n, 1, BLOCKS, base | bricks(n) | {"press": 1, "steps": 2}, IMPLICIT) for n in ((64,) if quick else (8, 64))]
     if machine.cuts:
-        found += [("flanges, cut", n, "", FLANGES, {"size": "3*mm" if quick else "1.4*mm", "duration": "50*us"}, f"latin{{ pieces = {n} }}")
+        found += [("flanges, cut", n, "", FLANGES, {"size": "3*mm" if quick else "1.4*mm", "duration": "50*us"}, f'latin{{ integration = "implicit", pieces = {n} }}')
                   for n in ((8,) if quick else (8, 16, 32, 64))]
     return found
 

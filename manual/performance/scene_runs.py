@@ -16,7 +16,7 @@ def asked(machine, quick):
     if quick:
         return [("bolted flanges", FLANGES, {"size": "4*mm"}, None, t, 60) for t in machine.threads] + [
             ("blocks, 8", BLOCKS, {"cells": 12, "steps": 20} | few, None, t, 60) for t in machine.threads]
-    cut = "latin{ pieces = 8 }" if machine.cuts else None
+    cut = 'latin{ integration = "implicit", pieces = 8 }' if machine.cuts else None
     found = []
     for size, duration in (("4*mm", "200*us"), ("2.12*mm", "200*us"), ("1.4*mm", "40*us")):
         found += [("bolted flanges", FLANGES, {"size": size, "duration": duration}, None, t, 300) for t in machine.threads]

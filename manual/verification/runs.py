@@ -103,7 +103,9 @@ class Program:
         """{name in the report: expression for --solver} of what this program has, the default first."""
         known = {"latin": "latin"} if self.takes_solver else {"latin": None}
         if self.takes_solver and "`massless_contact`" in self.schema:
-            known["latin tuned"] = 'latin{ mass = "tuned", massless_contact = true }'
+            known["latin implicit"] = 'latin{ integration = "implicit" }'
+            known["latin implicit tuned"] = 'latin{ integration = "implicit", mass = "tuned", massless_contact = true }'
+            known["latin explicit lumped"] = 'latin{ integration = "explicit", mass = "lumped" }'
         if self.has_solver("monolithic"):
             known["monolithic"] = "monolithic"
         if self.has_solver("explicit"):

@@ -11,7 +11,7 @@ from scenes import SCENES, TOLERANCES, WINDOWS
 ESTIMATES = [f"error estimate, {what} [%]" for what in ("iteration", "time step", "mesh")]   # figures of run.json
 LEVELS = [0.10, 0.03, 0.01, 0.003]
 LINES = {"mesh": "-", "dt": "--", "tolerance": ":", "window": "-.", "safety": "--", "penalty": ":"}
-COLOUR = {"latin": "#0b5394", "latin tuned": "#00a0c6", "monolithic": "#c75b12", "explicit one_point": "#2e7d32", "explicit full": "#8e24aa"}
+COLOUR = {"latin": "#0b5394", "latin implicit": "#5b8fd6", "latin implicit tuned": "#00a0c6", "latin explicit lumped": "#6a6a00", "monolithic": "#c75b12", "explicit one_point": "#2e7d32", "explicit full": "#8e24aa"}
 
 
 @dataclass
@@ -39,11 +39,11 @@ def curves(scene, solvers, quick):
         return values[1:-1] if quick else values
 
     found = [(name, "mesh", [(v, s, option) for v, s in every(scene.mesh)]) for name, option in solvers.items()]
-    found += [(name, "dt", [(v, s, solvers[name]) for v, s in every(scene.dt)]) for name in ("latin", "latin tuned", "monolithic")
+    found += [(name, "dt", [(v, s, solvers[name]) for v, s in every(scene.dt)]) for name in ("latin", "latin implicit", "latin implicit tuned", "monolithic")
               if name in solvers]
-    if solvers["latin"]:
-        found += [("latin", "tolerance", [(t, scene.base, f"latin{{ tolerance = {t} }}") for t in every(TOLERANCES)]),
-                  ("latin", "window", [(w, scene.base, f"latin{{ window = {w} }}") for w in WINDOWS])]
+    if "latin implicit" in solvers:
+        found += [("latin implicit", knob, [(v, scene.base, f'latin{{ integration = "implicit", {knob} = {v} }}') for v in values])
+                  for knob, values in (("tolerance", every(TOLERANCES)), ("window", WINDOWS))]
     if "explicit one_point" in solvers:
         found += [("explicit one_point", "safety", [(v, scene.base, f"explicit{{ penalty = 1, safety = {v} }}") for v in ("0.9", "0.45", "0.2")]),
                   ("explicit one_point", "penalty", [(v, scene.base, f"explicit{{ penalty = {v} }}") for v in ("0.01", "0.1", "1", "10")])]
