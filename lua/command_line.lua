@@ -59,7 +59,7 @@ local function solver(line)
     native.refuse(("%s: no solver '%s'\n    %s"):format(place, name, native.did_you_mean(name, names_of(solvers))))
   end
   if not rest:find "[^ ]" then rest = "{}" end
-  local table_of = rest:find "^ ?{" and rest:find "} ?$" and not rest:find "[^%w%s%.%+%-%*/%^%(%)_=,\"{}]"
+  local table_of = rest:find "^ ?{" and rest:find "} ?$" and not rest:find "[^%w%s%.%+%-%*/%^%(%)_=,\"'{}]"
     and compile(rest, place, "--solver")
   if not table_of then
     native.refuse(("%s is not a solver as a deck writes it, as in --solver '%s{ %s = %s }'"):format(place, name,

@@ -34,7 +34,7 @@ for i = 1, p.cases do
   local mu = p.first + p.by * (i - 1)
   local touch = interface.contact{ name = "touch", between = { specimen:face "zmax", punch:face "zmin" }, friction = mu }
   last = problem{ name = "study_crush", substructures = { specimen, punch }, interfaces = { touch }, supports = { wall, symmetry },
-    steps = { shot }, outputs = { output.joint{ name = "touch", on = touch }, output.energy{} },
+    steps = { shot }, solver = solver.latin{ integration = "implicit" }, outputs = { output.joint{ name = "touch", on = touch }, output.energy{} },
   }:run{ case = ("mu_%.3f"):format(mu), at = { mu = mu }, start_from = p.cold == 0 and last or nil, check_cold = i == p.cases }
   iterations = iterations + last.iterations
 end

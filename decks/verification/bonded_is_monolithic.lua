@@ -66,7 +66,7 @@ local function block(nx, ny, nz)
   end end end
   local result = problem{
     name = "bonded_is_monolithic", substructures = parts, interfaces = ties, supports = { base }, steps = { lean, hit },
-    solver = solver.latin{ tolerance = p.tolerance, static_tolerance = p.tolerance, max_iterations = p.iterations }, outputs = outputs,
+    solver = solver.latin{ integration = "implicit", tolerance = p.tolerance, static_tolerance = p.tolerance, max_iterations = p.iterations }, outputs = outputs,
   }:run{ case = ("%dx%dx%d"):format(nx, ny, nz) }
   local values = {}
   for i, probe in ipairs(probes) do values[i] = { quantity = probe.quantity, data = result[probe.probe] } end

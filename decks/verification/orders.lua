@@ -46,7 +46,7 @@ local function distance(name, kind, n, steps, damping)
   end
   local result = problem{
     name = "orders", substructures = { bar }, steps = { pull }, outputs = sections,
-    solver = solver.latin{ numerical_damping = damping },
+    solver = solver.latin{ integration = "implicit", numerical_damping = damping },
   }:run{ case = name }
   local off, scale = 0, 0
   for k = 1, 20 do

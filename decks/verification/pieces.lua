@@ -31,7 +31,7 @@ local foot = output.joint{ name = "foot", on = wall }
 
 local function run(pieces)
   return problem{ name = "pieces", substructures = { cube }, supports = { wall }, steps = { hit },
-    solver = solver.latin{ tolerance = p.tolerance, pieces = pieces, max_iterations = 1000 }, outputs = { top, foot } }:run{ case = pieces .. "_pieces" }
+    solver = solver.latin{ integration = "implicit", tolerance = p.tolerance, pieces = pieces, max_iterations = 1000 }, outputs = { top, foot } }:run{ case = pieces .. "_pieces" }
 end
 
 local function difference(a, b)

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "fem/shape.hpp"
+#include "fem/wave_tuning.hpp"
 #include "material/elastic.hpp"
 
 namespace dygita {
@@ -47,8 +48,8 @@ struct Cell : ShapedCell<cell_type> {
   static constexpr int n = ShapedCell<cell_type>::n_nodes;
   static Stiffness<n> stiffness(const Nodes<n>& x, const Elastic& material);
   static CornerStress<n> stress(const Nodes<n>& x, const Elastic& material, const Nodes<n>& displacement);
-  // Between lumped and consistent, for steps of dt (s); of its diagonal nothing is read (manual, eq. S6).
-  static MassMatrix<n> tuned_mass(const Nodes<n>& x, const Elastic& material, double dt);
+  // Between lumped and consistent; of its diagonal nothing is read (manual, eq. S6).
+  static MassMatrix<n> tuned_mass(const Nodes<n>& x, const Elastic& material, const WaveTuning& tuning);
 };
 
 // Trilinear hexahedron with 12 enhanced strain modes condensed in the cell: the 9 of Taylor, Beresford and Wilson
@@ -59,7 +60,7 @@ template <>
 struct Cell<CellType::hex8> : ShapedCell<CellType::hex8> {
   static Stiffness<8> stiffness(const Nodes<8>& x, const Elastic& material);
   static CornerStress<8> stress(const Nodes<8>& x, const Elastic& material, const Nodes<8>& displacement);
-  static MassMatrix<8> tuned_mass(const Nodes<8>& x, const Elastic& material, double dt);
+  static MassMatrix<8> tuned_mass(const Nodes<8>& x, const Elastic& material, const WaveTuning& tuning);
 };
 using Hex8 = Cell<CellType::hex8>;
 
@@ -96,12 +97,6 @@ decltype(auto) with_cell(CellType type, Kernel&& kernel) {
     if (static_cast<int>(type) != first) return with_cell<first + 1>(type, std::forward<Kernel>(kernel));
   }
   return kernel(Cell<static_cast<CellType>(first)>{});
-}
-
-// Share of the consistent mass along a length h: linear cells with lumped mass turn a wave by (k h)^2 / 24 too little
-// and those with consistent mass by as much too much; a trapezoidal step turns it by (w dt)^2 / 12 too little.
-inline double consistent_share(double speed, double dt, double h) {
-  return std::min(1.0, 0.5 + std::pow(speed * dt / h, 2));
 }
 
 // Stress (Pa) of a displacement gradient d u_p / d x_q.

@@ -202,13 +202,12 @@ CornerStress<8> Hex8::stress(const Nodes<8>& x, const Elastic& material, const N
 }
 
 // Integrals of rho N_a N_b by two points a direction, at +-s: s = 1 is lumped, s^2 = 1/3 consistent.
-MassMatrix<8> Hex8::tuned_mass(const Nodes<8>& x, const Elastic& material, double dt) {
+MassMatrix<8> Hex8::tuned_mass(const Nodes<8>& x, const Elastic& material, const WaveTuning& tuning) {
   const auto& table = shapes();
   Mat3 jacobian = Mat3::Zero();
   for (int i = 0; i < 8; ++i) jacobian += x * table.slopes[i] / 8.0;  // at the centre
   Vec3 s;
-  for (int d = 0; d < 3; ++d)
-    s[d] = std::sqrt(1.0 - 2.0 / 3.0 * consistent_share(material.p_wave_speed(), dt, 2.0 * jacobian.col(d).norm()));
+  for (int d = 0; d < 3; ++d) s[d] = std::sqrt(1.0 - 2.0 / 3.0 * tuning.share(2.0 * jacobian.col(d).norm()));
   MassMatrix<8> mass = MassMatrix<8>::Zero();
   for (int i = 0; i < 8; ++i) {
     const Vec3 corner = table.points.col(i).cwiseSign();

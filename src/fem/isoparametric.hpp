@@ -38,11 +38,12 @@ CornerStress<Cell<cell_type>::n> Cell<cell_type>::stress(const Nodes<n>& x, cons
 }
 
 template <CellType cell_type>
-MassMatrix<Cell<cell_type>::n> Cell<cell_type>::tuned_mass(const Nodes<n>& x, const Elastic& material, double dt) {
+MassMatrix<Cell<cell_type>::n> Cell<cell_type>::tuned_mass(const Nodes<n>& x, const Elastic& material,
+                                                           const WaveTuning& tuning) {
   const MassMatrix<n> mass = consistent_mass<Cell>(x, material.density);
   if constexpr (Cell::row.inertia == Inertia::consistent) return mass;  // nothing is undone by a share of it
   const double volume = mass.sum() / material.density;
-  return consistent_share(material.p_wave_speed(), dt, std::cbrt(volume * Cell::row.cells_per_brick)) * mass;
+  return tuning.share(std::cbrt(volume * Cell::row.cells_per_brick)) * mass;
 }
 
 }  // namespace dygita

@@ -16,7 +16,7 @@ struct MassKernel {
 
   const Mesh& mesh;
   const Elastic& material;
-  double dt;  // 0: lumped where the row says so
+  const WaveTuning* tuning;  // none: lumped where the row says so
   const std::vector<char>& keeps_lumped;
   const NodePattern& pattern;
   double* values;  // of the pattern's entries
@@ -33,9 +33,9 @@ struct MassKernel {
     }
     lumped = material.density * node_volumes<Cell>(x);
     mass.setZero();
-    if (dt == 0.0) return;
+    if (!tuning) return;
     if (keeps_lumped.empty() || std::none_of(nodes, nodes + n, [&](int node) { return keeps_lumped[node]; }))
-      mass = Cell::tuned_mass(x, material, dt);
+      mass = Cell::tuned_mass(x, material, *tuning);
   }
   void add(const int* nodes, int a) {
     const int first = pattern.starts[nodes[a]], end = pattern.starts[nodes[a] + 1];
@@ -54,7 +54,7 @@ struct MassKernel {
   void finish() {}
 };
 
-SparseMatrix assembled_mass(const Mesh& mesh, const Elastic& material, double dt,
+SparseMatrix assembled_mass(const Mesh& mesh, const Elastic& material, const WaveTuning* tuning,
                             const std::vector<char>& keeps_lumped) {
   const NodePattern pattern = node_pattern(mesh);
   const NodeOwners owners = node_owners(mesh);
@@ -65,21 +65,23 @@ SparseMatrix assembled_mass(const Mesh& mesh, const Elastic& material, double dt
   std::fill_n(matrix.valuePtr(), matrix.nonZeros(), 0.0);
   for (const CellBlock& block : mesh.blocks)
     with_cell(block.type, [&](auto cell) {
-      sum_at_nodes(block, owners,
-                   MassKernel<decltype(cell)>{mesh, material, dt, keeps_lumped, pattern, matrix.valuePtr(), {}, {}});
+      sum_at_nodes(
+          block, owners,
+          MassKernel<decltype(cell)>{mesh, material, tuning, keeps_lumped, pattern, matrix.valuePtr(), {}, {}});
     });
   return matrix;
 }
 
 }  // namespace
 
-SparseMatrix tuned_mass(const Mesh& mesh, const Elastic& material, double dt, const std::vector<char>& keeps_lumped) {
-  CHECK(dt > 0.0, "a mass is tuned to steps of some length");
-  return assembled_mass(mesh, material, dt, keeps_lumped);
+SparseMatrix tuned_mass(const Mesh& mesh, const Elastic& material, const WaveTuning& tuning,
+                        const std::vector<char>& keeps_lumped) {
+  CHECK(tuning.dt > 0.0, "a mass is tuned to steps of some length");
+  return assembled_mass(mesh, material, &tuning, keeps_lumped);
 }
 
 SparseMatrix consistent_mass(const Mesh& mesh, const Elastic& material) {
-  return assembled_mass(mesh, material, 0.0, {});
+  return assembled_mass(mesh, material, nullptr, {});
 }
 
 bool has_consistent_mass(const Mesh& mesh) {

@@ -7,7 +7,6 @@ namespace {
 
 std::string why_not(const Problem& problem, const Substructure& part) {
   if (problem.numerical_damping() != 0.0) return "'numerical_damping' belongs to the implicit scheme";
-  if (problem.mass().is_tuned) return "mass = \"tuned\" couples the nodes";
   if (problem.mass().is_moved_from_contact) return "'massless_contact' leaves nodes without mass";
   if (part.material.damping.stiffness > 0.0) return "its material has stiffness damping";
   return "";

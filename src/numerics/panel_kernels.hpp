@@ -47,6 +47,8 @@ struct PanelKernels {
   void (*multiply_single)(const panel::View&, const float* x, double* y);
   // y += K x, four numbers a node, of which the last of x is zero and of y is left alone
   void (*add_edge_product)(const EdgeView&, const double* x, double* y);
+  // y += C x, the same with one number an edge for a block, of which the differences of both nodes' x are taken
+  void (*add_scalar_edge_product)(const EdgeView&, const double* x, double* y);
 };
 
 }  // namespace dygita

@@ -116,8 +116,10 @@ Json steps(const Problem& problem, const RunResult& result) {
       if (!problem.steps[i]->is_static)
         json.update({{"dt", problem.steps[i]->dt}, {"duration", problem.steps[i]->duration}});
       if (!step.explicit_parts.empty())
-        json["explicit"] = {
-            {"substructures", step.explicit_parts}, {"substeps", step.substeps}, {"stable_step", step.stable_step}};
+        json["explicit"] = {{"substructures", step.explicit_parts},
+                            {"substeps", step.substeps},
+                            {"stable_step", step.stable_step},
+                            {"mass", problem.mass().is_tuned ? "tuned" : "lumped"}};
       json["loads"] = loads(*problem.steps[i]);
     }
     list.push_back(json);

@@ -145,7 +145,7 @@ void ErrorEstimator::begin_step(const Instant& start) {
   carried_.emplace(start);
   velocity_.resize(mass_.size());
   velocity_old_.resize(0);
-  bank_.emplace(mass_, start.model.problem->mass().is_tuned);
+  bank_.emplace(mass_, start.model.is_tuned());
   dt_ = start.interval();
   total_mass_ = 0.0;
   for (const auto& piece : start.model.pieces) total_mass_ += piece->node_masses().sum();

@@ -72,8 +72,8 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
                     step.name, step.increments, step.increments ? double(step.iterations) / step.increments : 0.0,
                     problem.explicit_dynamics && !step.is_static ? "substeps" : "iterations", step.seconds);
     if (!step.explicit_parts.empty())
-      line += fmt::format("; explicit: {}, {} substep{} of each dt", list_names(step.explicit_parts), step.substeps,
-                          step.substeps == 1 ? "" : "s");
+      line += fmt::format("; explicit{}: {}, {} substep{} of each dt", problem.mass().is_tuned ? ", tuned mass" : "",
+                          list_names(step.explicit_parts), step.substeps, step.substeps == 1 ? "" : "s");
     if (step.increments_not_converged > 0)
       line += fmt::format("; {} NOT CONVERGED (worst indicator {:.1e})", step.increments_not_converged,
                           step.worst_indicator);

@@ -173,7 +173,7 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
     }
     Mass mass{bodies[i].matrices->mass, {}, {}};
     if (problem.mass().is_tuned && dt > 0.0)
-      mass.matrix = tuned_mass(mesh, m, dt, has_massless ? marked[i] : std::vector<char>());
+      mass.matrix = tuned_mass(mesh, m, {m.p_wave_speed(), dt, false}, has_massless ? marked[i] : std::vector<char>());
     if (has_consistent_mass(mesh)) {
       CHECK(!has_massless && !problem.mass().is_tuned, "refused by check_problem");
       mass.matrix = consistent_mass(mesh, m);

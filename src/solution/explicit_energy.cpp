@@ -49,6 +49,7 @@ void ExplicitPiece::set_state(const Points& displacement, const Points& velocity
   std::transform(d_.begin(), d_.end(), before.begin(), [](double d) { return -d; });
   y_ = base_;
   op_->stiffness.add_product(before.data(), y_.data());
+  start_momentum();
   has_forces_ = false;
   begin_interval();
 }
@@ -65,6 +66,46 @@ void ExplicitPiece::restore(const PieceState& state) {
   const Points v = state.v.reshaped(3, n);
   put(v, v_);
   put(Points(state.u.reshaped(3, n)) - nodal(start_) + 0.5 * setup_.scheme.dt * v, d_);
+  start_momentum();
+}
+
+// Momenta M z of velocities V, where (M + C) z = M V on free directions: by conjugate gradients, preconditioned by M.
+// Those of a translation are M V to begin with.
+void ExplicitPiece::start_momentum() {
+  if (!is_tuned()) return;
+  constexpr int most_products = 200;
+  const Eigen::Index n = static_cast<Eigen::Index>(inverse_.size());
+  const Vec mass = unknown_masses_;
+  const auto rest = [&](Points& x) {
+    for (const Special& s : specials_)
+      if (s.has_held) x.col(s.node) = (s.free * (s.free.transpose() * x.col(s.node))).eval();
+  };
+  std::vector<double> from(4 * inverse_.size(), 0.0), to;
+  const auto times_c = [&](const Vec& x) {
+    put(x.reshaped(3, n), from);
+    to.assign(from.size(), 0.0);
+    op_->tuning.add_product(from.data(), to.data());
+    Points y = nodal(to);
+    rest(y);
+    return Vec(y.reshaped());
+  };
+  Points v = nodal(v_);
+  rest(v);
+  Vec z = v.reshaped(), residual = -times_c(z), along = residual.cwiseQuotient(mass);
+  double size = residual.dot(along);
+  const double enough = 1e-30 * z.cwiseProduct(mass).dot(z);
+  for (int i = 0; i < most_products && size > enough; ++i) {
+    const Vec image = mass.cwiseProduct(along) + times_c(along);
+    const double step = size / along.dot(image);
+    z += step * along;
+    residual -= step * image;
+    const Vec next = residual.cwiseQuotient(mass);
+    const double next_size = residual.dot(next);
+    along = next + next_size / size * along;
+    size = next_size;
+  }
+  put(mass.cwiseProduct(z).reshaped(3, n), p_);
+  p_old_ = p_;
 }
 
 // E3: of the middles before and after U, from the product that the step has made.
@@ -73,12 +114,14 @@ IncrementEnergy ExplicitPiece::stored_energy() const {
   const Vec& mass = node_masses();
   double kinetic = 0.0, strain = 0.0;
   for (size_t i = 0; i < inverse_.size(); ++i) {
-    double v2 = 0.0;
+    double v2 = 0.0, pv = 0.0;
     for (size_t c = 4 * i; c < 4 * i + 3; ++c) {
       v2 += v_[c] * v_[c];
       strain += start_force_[c] * (2.0 * d_[c] - dt * v_[c]) + (y_[c] - base_[c]) * d_[c];
     }
-    kinetic += mass[static_cast<Eigen::Index>(i)] * v2;
+    if (has_momentum(i))
+      for (size_t c = 4 * i; c < 4 * i + 3; ++c) pv += p_[c] * v_[c];
+    kinetic += has_momentum(i) ? pv : mass[static_cast<Eigen::Index>(i)] * v2;
   }
   IncrementEnergy energy;
   energy.kinetic = 0.5 * kinetic;
@@ -92,7 +135,10 @@ double ExplicitPiece::damping_work() {
   double sum = 0.0;
   for (size_t i = 0; i < inverse_.size(); ++i) {
     double v2 = 0.0;
-    for (size_t c = 4 * i; c < 4 * i + 3; ++c) v2 += (v_old_[c] + v_[c]) * (v_old_[c] + v_[c]);
+    if (has_momentum(i))
+      for (size_t c = 4 * i; c < 4 * i + 3; ++c) sum += (v_old_[c] + v_[c]) * (p_old_[c] + p_[c]);
+    else
+      for (size_t c = 4 * i; c < 4 * i + 3; ++c) v2 += (v_old_[c] + v_[c]) * (v_old_[c] + v_[c]);
     sum += mass[static_cast<Eigen::Index>(i)] * v2;
   }
   return 0.25 * dt * alpha * sum;
@@ -103,7 +149,7 @@ void ExplicitPiece::book_special(Special& s, IncrementEnergy& energy) {
   const double dt = setup_.scheme.dt;
   const double mass = node_masses()[s.node], alpha = setup_.scheme.alpha(setup_.body->part->material.damping);
   const Vec3 v = velocity_of(s.node), mean = 0.5 * (s.v_old + v);
-  const Vec3 pull = Eigen::Map<const Vec3>(y_.data() + 4 * static_cast<size_t>(s.node));
+  const Vec3 pull = pull_on(s.node);
   s.pull += dt * pull;
   s.moved += dt * mean;
   if (s.absorbs) {
@@ -181,12 +227,14 @@ Points ExplicitPiece::absorbing_force() const {
 
 double explicit_bytes(const PieceSetup& setup, bool shares) {
   const double n = setup.n_nodes(), blocks = setup.body->matrices->stiffness.nonZeros() / 9.0;
-  return 8.0 * 29.0 * n + (shares ? 0.0 : 4.0 * n + 40.0 * 0.5 * (blocks - n));
+  const double tuning = setup.tuned_speed > 0.0 ? 1.0 : 0.0;
+  return 8.0 * (29.0 + 16.0 * tuning) * n + (shares ? 0.0 : 4.0 * n + (40.0 + 8.0 * tuning) * 0.5 * (blocks - n));
 }
 
 PieceFigures ExplicitPiece::figures() const {
   PieceFigures figures;
-  figures.bytes = op_->stiffness.bytes() + 8.0 * (29.0 + (v_old_.empty() ? 0.0 : 4.0)) * inverse_.size();
+  figures.bytes = op_->stiffness.bytes() + (is_tuned() ? op_->tuning.bytes() : 0.0) +
+                  8.0 * (29.0 + (v_old_.empty() ? 0.0 : 4.0) + (is_tuned() ? 16.0 : 0.0)) * inverse_.size();
   return figures;
 }
 

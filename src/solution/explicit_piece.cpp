@@ -7,6 +7,12 @@
 
 namespace dygita {
 
+ExplicitOperator::ExplicitOperator(const PieceSetup& setup) : stiffness(setup.body->matrices->stiffness) {
+  const Substructure& part = *setup.body->part;
+  if (setup.tuned_speed > 0.0)
+    tuning = MassEdges(*part.mesh, part.material, {setup.tuned_speed, setup.scheme.dt, true}, setup.keeps_lumped);
+}
+
 ExplicitPiece::ExplicitPiece(PieceSetup setup, std::shared_ptr<const ExplicitOperator> op)
     : setup_(std::move(setup)), op_(std::move(op)), k_(Vec::Zero(n_rows())) {
   CHECK(!setup_.scheme.is_static && why_not_explicit(*setup_.body, 1.0 - 2.0 * setup_.scheme.g).empty(),
@@ -20,6 +26,8 @@ ExplicitPiece::ExplicitPiece(PieceSetup setup, std::shared_ptr<const ExplicitOpe
   for (std::vector<double>* field : {&d_, &v_, &y_, &base_, &start_force_, &start_, &v_interval_})
     field->assign(4 * n, 0.0);
   if (alpha > 0.0) v_old_.assign(4 * n, 0.0);
+  if (is_tuned())
+    for (std::vector<double>* field : {&free_pull_, &coupled_, &p_, &p_old_}) field->assign(4 * n, 0.0);
   make_specials();
 }
 
@@ -150,20 +158,27 @@ void ExplicitPiece::advance(const std::vector<double>& motion_velocity) {
   std::copy(base_.begin(), base_.end(), y_.begin());
   op_->stiffness.add_product(d_.data(), y_.data());
   const size_t n = inverse_.size();
+  if (is_tuned()) couple_masses();
   const double *const y = y_.data(), *const inverse = inverse_.data();
   double *const v = v_.data(), *const d = d_.data();
-  for (size_t i = 0; i < n; ++i) {
-    const double w = inverse[i];
+  const auto move = [&](auto&& pull) {
+    for (size_t i = 0; i < n; ++i) {
+      const double w = inverse[i];
 #pragma omp simd
-    for (size_t c = 4 * i; c < 4 * i + 4; ++c) {
-      v[c] = keep * v[c] - w * y[c];
-      d[c] += dt * v[c];
+      for (size_t c = 4 * i; c < 4 * i + 4; ++c) {
+        v[c] = keep * v[c] - w * pull(c);
+        d[c] += dt * v[c];
+      }
     }
-  }
+  };
+  if (is_tuned())
+    move([y, more = coupled_.data()](size_t c) { return y[c] + more[c]; });
+  else
+    move([y](size_t c) { return y[c]; });
   const double mass_factor = keep_ * setup_.mass_share();
   for (Special& s : specials_) {
     const Vec3 own = s.free * (s.free.transpose() * s.v_old);
-    s.rhs = mass_factor * node_masses()[s.node] * own - Eigen::Map<const Vec3>(y + 4 * static_cast<size_t>(s.node));
+    s.rhs = mass_factor * node_masses()[s.node] * own - pull_on(s.node);
     if (s.absorbs) s.rhs -= 0.5 * s.impedance * own;
     s.held_velocity.setZero();
     s.held_force.setZero();
@@ -171,6 +186,29 @@ void ExplicitPiece::advance(const std::vector<double>& motion_velocity) {
       for (const auto& [motion, factor] : motions) s.held_velocity += factor * motion_velocity[motion] * direction;
     set_velocity(s.node, s.compliance * s.rhs + s.held_velocity);
   }
+}
+
+// The inverse of a tuned mass is M^-1 + M^-1 C M^-1 (manual, eq. S13): what its second part makes of K X - f.
+void ExplicitPiece::couple_masses() {
+  const double share = setup_.mass_share(), keep = keep_;
+  if (!v_old_.empty()) p_old_ = p_;
+  const double *const y = y_.data(), *const inverse = inverse_.data();
+  double *const a = free_pull_.data(), *const p = p_.data();
+  for (size_t i = 0; i < inverse_.size(); ++i) {
+    const double w = share * inverse[i];
+#pragma omp simd
+    for (size_t c = 4 * i; c < 4 * i + 4; ++c) {
+      a[c] = w * y[c];
+      p[c] = keep * p[c] - y[c] / share;
+    }
+  }
+  for (const Special& s : specials_) {
+    if (!s.has_held) continue;
+    Eigen::Map<Vec3> own(a + 4 * static_cast<size_t>(s.node));
+    own = (s.free * (s.free.transpose() * own)).eval();
+  }
+  std::fill(coupled_.begin(), coupled_.end(), 0.0);
+  op_->tuning.add_product(a, coupled_.data());
 }
 
 void ExplicitPiece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) {

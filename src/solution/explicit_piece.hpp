@@ -3,15 +3,17 @@
 #pragma once
 
 #include "fem/edge_blocks.hpp"
+#include "fem/mass_edges.hpp"
 #include "solution/loads.hpp"
 #include "solution/piece_operator.hpp"
 
 namespace dygita {
 
-// Its stiffness and inverse masses, shared by equal bodies.
+// Its stiffness, and what tunes its mass: shared by equal bodies.
 struct ExplicitOperator {
   EdgeBlocks stiffness;
-  explicit ExplicitOperator(const SparseMatrix& k) : stiffness(k) {}
+  MassEdges tuning;  // empty: the mass is lumped
+  explicit ExplicitOperator(const PieceSetup& setup);
 };
 
 // Memory (bytes) that it will hold; shares: its stiffness is another's.
@@ -103,6 +105,15 @@ class ExplicitPiece final : public Piece {
   void make_compliance(Special& special);
   Special& special_at(int node) { return specials_[index_.at(node)]; }
   void advance(const std::vector<double>& motion_velocity);
+  void couple_masses();
+  void start_momentum();
+  bool is_tuned() const { return !op_->tuning.empty(); }
+  // Nodes whose cells are lumped have mass times velocity; laws push them after the momenta are made.
+  bool has_momentum(size_t node) const { return is_tuned() && !setup_.keeps_lumped[node]; }
+  Vec3 pull_on(int node) const {  // K X - f, and what a tuned mass adds
+    const Vec3 pull = Eigen::Map<const Vec3>(y_.data() + 4 * static_cast<size_t>(node));
+    return is_tuned() ? Vec3(pull + Eigen::Map<const Vec3>(coupled_.data() + 4 * static_cast<size_t>(node))) : pull;
+  }
   void update_loads(const std::vector<double>& values);
   double damping_work();
   void book_special(Special& special, IncrementEnergy& energy);
@@ -120,7 +131,9 @@ class ExplicitPiece final : public Piece {
   // Four numbers a node: D and V; K X - f; K U - f at the step's start with the loads at hand, and without; U at the
   // step's start; V at the start of the deck's time step.
   std::vector<double> d_, v_, y_, base_, start_force_, start_, v_interval_;
-  std::vector<double> v_old_;                   // with mass damping only
+  std::vector<double> v_old_;  // with mass damping only
+  // With a tuned mass only: M^-1 (K X - f) on free directions, C times that, momenta and those before.
+  std::vector<double> free_pull_, coupled_, p_, p_old_;
   double start_strain_ = 0.0, interval_ = 0.0;  // J, at U of the step's start; s, since the deck's time step began
 
   // Loaded nodes.

@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 
+#include "fem/mass_edges.hpp"
 #include "numerics/dense.hpp"
 #include "solution/integration.hpp"
 
@@ -14,42 +15,128 @@ namespace {
 constexpr int most_products = 80;
 constexpr double close_enough = 0.01;  // of the eigenvalue: half of that of the step
 
-}  // namespace
+using HeldNodes = std::unordered_map<int, Held>;
 
-// Lanczos in the mass's inner product, residual added.
-double longest_explicit_step(const Body& body, const std::unordered_map<int, Held>& held) {
-  const SparseMatrix& k = body.matrices->stiffness;
-  const Vec mass = body.mass->lumped.replicate(1, 3).transpose().reshaped();
-  const auto rest = [&](Vec& x) {
-    for (const auto& [node, h] : held)
+// Fields of three numbers a node in those of four.
+void put(const Vec& x, std::vector<double>& padded) {
+  Eigen::Map<Points, 0, Eigen::OuterStride<4>>(padded.data(), 3, x.size() / 3) = x.reshaped(3, x.size() / 3);
+}
+
+// K and the inverse of the mass, M^-1 + M^-1 C M^-1 (manual, eq. S13), on the free directions.
+class FreeBody {
+ public:
+  FreeBody(const Body& body, const HeldNodes& held, const MassEdges& edges)
+      : body_(body),
+        held_(held),
+        edges_(edges),
+        mass_(body.mass->lumped.replicate(1, 3).transpose().reshaped()),
+        from_(edges.empty() ? 0 : 4 * body.mass->lumped.size(), 0.0),
+        to_(from_) {}
+
+  const Vec& mass() const { return mass_; }
+  void rest(Vec& x) const {
+    for (const auto& [node, h] : held_)
       for (int j = 0; j < h.n; ++j)
         x.segment<3>(3 * node) -= h.directions.col(j).dot(x.segment<3>(3 * node)) * h.directions.col(j);
-  };
-  const auto inner = [&](const Vec& a, const Vec& b) { return a.cwiseProduct(mass).dot(b); };
+  }
+  Vec force(const Vec& x) const {
+    Vec y = body_.matrices->stiffness * x;
+    rest(y);
+    return y;
+  }
+  Vec answer(const Vec& force) {
+    Vec x = force.cwiseQuotient(mass_);
+    if (edges_.empty()) return x;
+    put(x, from_);
+    std::fill(to_.begin(), to_.end(), 0.0);
+    edges_.add_product(from_.data(), to_.data());
+    const Eigen::Index n = x.size() / 3;
+    Vec more = Eigen::Map<const Points, 0, Eigen::OuterStride<4>>(to_.data(), 3, n).reshaped();
+    rest(more);
+    return x + more.cwiseQuotient(mass_);
+  }
+
+ private:
+  const Body& body_;
+  const HeldNodes& held_;
+  const MassEdges& edges_;
+  Vec mass_;
+  std::vector<double> from_, to_;
+};
+
+// Lanczos on forces, in the inner product of the inverse mass, residual added.
+double longest_step(FreeBody&& body) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  Vec q(mass.size()), before = Vec::Zero(mass.size()), next;
+  Vec q(body.mass().size()), before = Vec::Zero(q.size()), next;
   for (double& value : q) value = uniform(random);
-  rest(q);
-  const double norm = std::sqrt(inner(q, q));
+  body.rest(q);
+  q = q.cwiseProduct(body.mass());
+  Vec answer = body.answer(q);
+  const double norm = std::sqrt(answer.dot(q));
   if (norm == 0.0) return std::numeric_limits<double>::infinity();
   q /= norm;
+  answer /= norm;
   std::vector<double> alpha, beta;
   for (int i = 0; i < most_products; ++i) {
-    next = (k * q).cwiseQuotient(mass);
-    rest(next);
+    next = body.force(answer);
     if (i > 0) next -= beta.back() * before;
-    alpha.push_back(inner(next, q));
+    alpha.push_back(next.dot(answer));
     next -= alpha.back() * q;
-    beta.push_back(std::sqrt(inner(next, next)));
+    answer = body.answer(next);
+    beta.push_back(std::sqrt(std::max(0.0, answer.dot(next))));
     const EigenPairs pairs = tridiagonal_eigen(alpha, beta);
     const double value = pairs.values[i], residual = beta.back() * std::abs(pairs.vectors(i, i));
     if (residual <= close_enough * value || i + 1 == most_products)
       return value + residual > 0.0 ? 2.0 / std::sqrt(value + residual) : std::numeric_limits<double>::infinity();
     before.swap(q);
     q = next / beta.back();
+    answer /= beta.back();
   }
   return 0.0;
+}
+
+// Where supports leave one direction alone and the body is long in it, no other waves travel than those along it.
+bool is_confined(const Body& body, const HeldNodes& held) {
+  const Points& nodes = body.part->mesh->nodes;
+  if (static_cast<Eigen::Index>(held.size()) < nodes.cols()) return false;
+  Vec3 along = Vec3::Zero();
+  for (const auto& [node, h] : held) {
+    if (h.n == 3) continue;
+    if (h.n != 2) return false;
+    const Vec3 own = h.directions.col(0).cross(h.directions.col(1));
+    if (along.isZero(0.0)) along = own;
+    if (own.cross(along).norm() > 1e-6) return false;
+  }
+  if (along.isZero(0.0)) return false;
+  const Vec ahead = nodes.transpose() * along;
+  const Points across = nodes - along * ahead.transpose();
+  const Vec3 width = across.rowwise().maxCoeff() - across.rowwise().minCoeff();
+  return ahead.maxCoeff() - ahead.minCoeff() > 4.0 * width.maxCoeff();
+}
+
+}  // namespace
+
+double tuned_wave_speed(const Body& body, const HeldNodes& held) {
+  const Elastic& material = body.part->material;
+  return is_confined(body, held) ? material.p_wave_speed() : material.s_wave_speed();
+}
+
+double longest_explicit_step(const Body& body, const HeldNodes& held) {
+  const MassEdges none;
+  return longest_step(FreeBody(body, held, none));
+}
+
+// The mass is tuned to the step that it allows: in a few rounds, each of which moves it by a tenth of the one before.
+double longest_tuned_step(const Body& body, const HeldNodes& held) {
+  constexpr int rounds = 3;
+  double longest = longest_explicit_step(body, held);
+  const double speed = tuned_wave_speed(body, held);
+  for (int i = 0; i < rounds && std::isfinite(longest); ++i) {
+    const MassEdges edges(*body.part->mesh, body.part->material, {speed, longest, true}, {});
+    longest = longest_step(FreeBody(body, held, edges));
+  }
+  return longest;
 }
 
 }  // namespace dygita

@@ -150,6 +150,18 @@ Precision precision_of(const StepModel& model, int part, const Body& body) {
                                                                          : Precision::double_precision;
 }
 
+// Laws, non-reflecting supports and moving ones act on nodes that have a mass of their own.
+void tune_explicitly(const StepModel& model, int piece, PieceSetup& setup) {
+  setup.tuned_speed = tuned_wave_speed(*setup.body, setup.held);
+  setup.keeps_lumped.assign(static_cast<size_t>(setup.n_nodes()), 0);
+  for (const Port& port : model.exchange.ports)
+    if (port.piece == piece) setup.keeps_lumped[static_cast<size_t>(port.piece_node)] = 1;
+  for (const auto& [node, impedance] : setup.absorbing) setup.keeps_lumped[static_cast<size_t>(node)] = 1;
+  for (const auto& [node, held] : setup.held)
+    for (int j = 0; j < held.n; ++j)
+      if (!held.motion[static_cast<size_t>(j)].empty()) setup.keeps_lumped[static_cast<size_t>(node)] = 1;
+}
+
 std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body>& bodies) {
   const int n = model.cut->n_pieces();
   CHECK(static_cast<int>(bodies.size()) == n, "one body a piece");
@@ -169,6 +181,7 @@ std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body
     setup.n_motions = static_cast<int>(model.conditions.motions.size());
     setup.what = (n_cut > 1 ? fmt::format("piece {} of {} of ", i - model.cut->first(part) + 1, n_cut) : "") +
                  "substructure '" + bodies[i].part->name + "' in step '" + model.step->name + "'";
+    if (model.integration.is_explicit_piece(i) && model.problem->mass().is_tuned) tune_explicitly(model, i, setup);
     setup.precision = precision_of(model, part, bodies[i]);
     // Far below what the tolerance leaves of a step; what is stored of an entry follows.
     setup.storage_error = std::clamp(model.problem->solver.tolerance / 64.0, 0x1p-27, 0x1p-21);
@@ -182,15 +195,16 @@ struct EqualTo {
   Mat3 turn = Mat3::Identity();
 };
 
-// Explicit ones are equal by their stiffness alone, as it is.
+// Explicit ones are equal by their stiffness as it is, and by what tunes their mass.
 std::vector<EqualTo> twins_of(const StepModel& model, const std::vector<PieceSetup>& setups) {
-  std::map<const BodyMatrices*, int> known_explicit;
+  std::map<std::tuple<const BodyMatrices*, double, std::vector<char>>, int> known_explicit;
   std::map<const Mass*, std::vector<std::pair<int, FreeUnknowns>>> known;
   std::vector<EqualTo> twins(setups.size());
   for (int i = 0; i < static_cast<int>(setups.size()); ++i) {
     const PieceSetup& setup = setups[i];
     if (model.integration.is_explicit_piece(i)) {
-      const auto [at, is_new] = known_explicit.try_emplace(setup.body->matrices.get(), i);
+      const auto [at, is_new] =
+          known_explicit.try_emplace({setup.body->matrices.get(), setup.tuned_speed, setup.keeps_lumped}, i);
       if (!is_new) twins[i].piece = at->second;
       continue;
     }
@@ -218,8 +232,7 @@ Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies) {
     parallel_for(n, [&](int i) {
       if ((twins[i].piece >= 0) != has_twin) return;
       if (model.integration.is_explicit_piece(i))
-        operators[i] = has_twin ? operators[twins[i].piece]
-                                : std::make_shared<const ExplicitOperator>(setups[i].body->matrices->stiffness);
+        operators[i] = has_twin ? operators[twins[i].piece] : std::make_shared<const ExplicitOperator>(setups[i]);
       else
         built[i] = make_piece(setups[i], model.problem->solver.plain,
                               has_twin ? Twin{built[twins[i].piece].get(), twins[i].turn} : Twin());

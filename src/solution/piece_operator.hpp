@@ -27,6 +27,8 @@ struct PieceSetup {
   std::string what;                                   // "substructure 'rod' in step 'shock'", for messages
   Precision precision = Precision::double_precision;  // of what is stored of the factor and of H
   double storage_error = 0x1p-26;                     // in single precision, of entries of the factor; H: a sixteenth
+  double tuned_speed = 0.0;        // m/s, of the waves that an explicit piece's mass is tuned to; 0: lumped
+  std::vector<char> keeps_lumped;  // then: nodes whose cells stay lumped
 
   int n_nodes() const { return body->part->mesh->n_nodes(); }
   double mass_share() const;  // of M V1 in the equation of an increment, 1/s

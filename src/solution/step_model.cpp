@@ -38,12 +38,9 @@ std::vector<double> StepModel::motion_velocities(int increment) const {
   return velocities;
 }
 
-double StepModel::phase_factor() const {
-  const bool is_all_explicit =
-      has_explicit() &&
-      std::find(integration.is_explicit.begin(), integration.is_explicit.end(), 0) == integration.is_explicit.end();
-  return (is_all_explicit ? 0.5 : 1.0) / std::pow(n_substeps(), 2);
-}
+double StepModel::phase_factor() const { return 1.0 / std::pow(n_substeps(), 2); }
+
+bool StepModel::is_tuned() const { return !has_explicit() && problem->mass().is_tuned; }
 
 double StepModel::held_velocity(const Port& port, const Vec3& direction, const std::vector<double>& motions) const {
   double velocity = 0.0;

@@ -38,7 +38,10 @@ struct StepModel {
   bool has_explicit() const { return integration.has_explicit(); }
   // Index in the assembled q of a port's direction; -1 where it has none.
   int unknown(const Port& port, int d) const { return port.unknown[d] < 0 ? -1 : offset[port.piece] + port.unknown[d]; }
-  // By how much the time scheme turns a motion, of what trapezoidal steps of the deck's dt would (manual, eq. Q2).
+  // Is the mass of all cells tuned to the time scheme? That of explicit ones is not where laws act.
+  bool is_tuned() const;
+  // By how much the time scheme turns a motion, of what trapezoidal steps of the deck's dt would (manual, eq. Q2):
+  // explicit increments turn it half as much, but contact in them adds its own.
   double phase_factor() const;
   // Velocities of all motions at the end of an increment.
   std::vector<double> motion_velocities(int increment) const;

@@ -97,7 +97,7 @@ local seam = interface.contact{ name = "seam", between = { low:face "zmax", high
 problem{ name = "overflow", substructures = { low, high }, interfaces = { seam }, supports = { support.fixed{ name = "floor", on = low:face "zmin" } },
   steps = { step.dynamic{ name = "push", duration = 20*us, dt = 1*us, loads = {
     load.pressure{ on = high:face "zmax", history = function(t) return t > 4*us and 1e160 or 1e6 end } } } },
-  outputs = { output.energy{} } }:run{}
+  solver = solver.latin{ integration = "implicit" }, outputs = { output.energy{} } }:run{}
 """)
     output = dygita("run", deck, "--quiet", "--out", FOLDER / "overflow", expected=3,
                     says="the iteration has diverged at substructure 'high', interface 'seam'")
@@ -147,7 +147,7 @@ local low, high = block("low", 0), block("high", 10*mm)
 local seam = interface.contact{ name = "seam", between = { low:face "zmax", high:face "zmin" }, friction = 0.2 }
 problem{ name = "long", substructures = { low, high }, interfaces = { seam }, supports = { support.fixed{ name = "floor", on = low:face "zmin" } },
   steps = { step.dynamic{ name = "push", duration = p.n*us, dt = 1*us, loads = { load.pressure{ on = high:face "zmax", history = 5*MPa } } } },
-  outputs = { output.energy{}, output.vtk{ frames = 1000 }, output.joint{ name = "joint", on = seam } } }:run{}
+  solver = solver.latin{ integration = "implicit" }, outputs = { output.energy{}, output.vtk{ frames = 1000 }, output.joint{ name = "joint", on = seam } } }:run{}
 """)
     words = [PROGRAM, "run", str(deck), "--quiet", "--threads", "1", "--out", str(FOLDER / "long")]
     process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

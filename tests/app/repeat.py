@@ -25,7 +25,7 @@ def dygita(*words, expected, says=""):
 deck = FOLDER / "deck.lua"
 shutil.copy(SOURCE, deck)
 run = FOLDER / "first" / "stopped" / "base"
-dygita("run", deck, "--set", "us=40", "--solver", "latin{ tolerance = 1e-5 }", "--threads", 1, "--quiet", "--out", FOLDER / "first",
+dygita("run", deck, "--set", "us=40", "--solver", "latin{ integration = 'implicit', tolerance = 1e-5 }", "--threads", 1, "--quiet", "--out", FOLDER / "first",
        expected=0)
 for threads in (1, 2, 3):
     dygita("run", "--repeat", run / "run.json", "--threads", threads, "--quiet", "--out", FOLDER / f"again_{threads}", expected=0,

@@ -39,7 +39,7 @@ problem{
   interfaces = { shank, under, over, over2, tie1, tie2, thread },
   supports = { support.fixed{ name = "floor", on = foot:face "zmin" } },
   steps = { tighten, strike },
-  solver = solver.latin{ window = p.window > 1 and math.tointeger(p.window) or nil, spectra = p.passes == 1 and 0.01 or nil, tolerance = p.tolerance },
+  solver = solver.latin{ integration = "implicit", window = p.window > 1 and math.tointeger(p.window) or nil, spectra = p.passes == 1 and 0.01 or nil, tolerance = p.tolerance },
   outputs = { above, output.srs{ name = "srs", of = above, q_factor = 10, from = 5*kHz, to = 100*kHz },
     output.joint{ name = "joint", on = under }, output.joint{ name = "bolt", on = shank }, output.energy{},
     output.vtk{ frames = 20, fields = { "displacement", "stress" } } },

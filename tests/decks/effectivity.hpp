@@ -52,6 +52,7 @@ inline EstimatedRun run_estimated(const std::filesystem::path& path, const Setti
   set_progress_enabled(false);
   EstimatedRun done;
   const Engine engine{[&](Problem problem, const RunRequest&) {
+                        problem.solver.integration = IntegrationChoice::implicitly;
                         if (tolerance > 0.0) problem.solver.tolerance = tolerance;
                         problem.solver.mass.is_tuned = is_tuned;
                         Recorder recorder(problem);

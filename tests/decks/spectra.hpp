@@ -38,7 +38,10 @@ inline SpectraRun run_spectra(const std::filesystem::path& path, const Settings&
   SpectraRun done;
   const Engine engine{
       [&](Problem problem, const RunRequest&) {
-        if (tolerance > 0.0) problem.solver.tolerance = tolerance;
+        if (tolerance > 0.0) {
+          problem.solver.tolerance = tolerance;
+          problem.solver.integration = IntegrationChoice::implicitly;  // explicit ones are not iterated
+        }
         for (const Place& place : places) {
           std::vector<Target> on;
           for (const SubstructurePtr& part : problem.substructures)

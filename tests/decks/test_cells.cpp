@@ -60,7 +60,8 @@ TEST(Cells, of_order_two_stand_on_a_wall_with_all_their_face) {
       replaced(replaced(replaced(column, "support.symmetry{ name = \"foot\"", "support.wall{ name = \"foot\""),
                         "output.resultant{ name = \"ground\"", "output.joint{ name = \"ground\""),
                "steps = { press }", "steps = { press }, solver = SOLVER");
-  for (const std::string solver : {"solver.latin{ static_tolerance = 1e-10 }", "solver.monolithic{}"})
+  for (const std::string solver :
+       {"solver.latin{ integration = 'implicit', static_tolerance = 1e-10 }", "solver.monolithic{}"})
     for_each_cell(
         replaced(on_wall, "SOLVER", solver),
         [](const CellShape&, const DeckRun& run) {
@@ -131,8 +132,8 @@ std::string bar_with(const std::string& end, const std::string& solver) {
 }
 
 TEST(Cells, let_waves_leave_by_an_absorbing_support) {
-  const std::string deck =
-      bar_with("local open = support.absorbing{ name = \"open\", on = bar:face \"zmin\" }", "solver.latin{}");
+  const std::string deck = bar_with("local open = support.absorbing{ name = \"open\", on = bar:face \"zmin\" }",
+                                    "solver.latin{ integration = 'implicit' }");
   for_each_cell(deck, [](const CellShape& cell, const DeckRun& run) {
     const std::vector<double>&kinetic = run.column("energy", "kinetic"), &strain = run.column("energy", "strain");
     double most = 0.0;
@@ -150,9 +151,9 @@ TEST(Cells, let_waves_leave_by_an_absorbing_support) {
 }
 
 TEST(Cells, gain_the_momentum_that_a_push_gives_them) {
-  const std::string deck =
-      replaced(bar_with("local open = support.symmetry{ name = \"open\", on = bar:face \"xmin\" }", "solver.latin{}"),
-               "on = { bar:face \"xmin\", ", "on = { ");
+  const std::string deck = replaced(bar_with("local open = support.symmetry{ name = \"open\", on = bar:face \"xmin\" }",
+                                             "solver.latin{ integration = 'implicit' }"),
+                                    "on = { bar:face \"xmin\", ", "on = { ");
   for_each_cell(deck, [](const CellShape&, const DeckRun& run) {
     const double impulse = 2.0 / M_PI * 10e6 * 25e-6 * 16e-6;
     EXPECT_NEAR(run.column("momentum", "z").back(), -impulse, 1e-3 * impulse);
@@ -162,10 +163,11 @@ TEST(Cells, gain_the_momentum_that_a_push_gives_them) {
 TEST(Cells, move_alike_in_latin_cut_or_not_and_in_the_monolithic_solver) {
   const std::string end = "local open = support.fixed{ name = \"open\", on = bar:face \"zmin\" }";
   for_each_cell(
-      bar_with(end, "solver.latin{ tolerance = 1e-9 }"),
+      bar_with(end, "solver.latin{ integration = 'implicit', tolerance = 1e-9 }"),
       [&](const CellShape& cell, const DeckRun& latin) {
         const std::string name = std::string("\"") + cell.name + "\"";
-        for (const char* solver : {"solver.monolithic{}", "solver.latin{ tolerance = 1e-9, pieces = 3 }"}) {
+        for (const char* solver :
+             {"solver.monolithic{}", "solver.latin{ integration = 'implicit', tolerance = 1e-9, pieces = 3 }"}) {
           const DeckRun other = run_text(replaced(bar_with(end, solver), "CELL", name)).at(0);
           EXPECT_LT(difference(other.column("tip", "z"), latin.column("tip", "z")), 1e-6) << solver;
           EXPECT_LT(difference(other.column("end", "z"), latin.column("end", "z")), 1e-6) << solver;

@@ -108,8 +108,10 @@ class Continue : public testing::Test {
 
 TEST_F(Continue, to_a_tighter_tolerance_gives_what_that_tolerance_gives_and_takes_fewer_iterations) {
   for (const char* more : {"", ", pieces = 2", ", precision = \"single\"", ", window = 5", ", mass = \"tuned\""}) {
-    const std::string loose = std::string("latin{ tolerance = 1e-3") + more + " }",
-                      tight = std::string("latin{ tolerance = 1e-7, static_tolerance = 1e-9") + more + " }";
+    const std::string loose = std::string("latin{ integration = 'implicit', tolerance = 1e-3") + more + " }",
+                      tight =
+                          std::string("latin{ integration = 'implicit', tolerance = 1e-7, static_tolerance = 1e-9") +
+                          more + " }";
     const fs::path run_at_once = run("at_once", tight), going_on = run("going_on", loose);
     const long before = iterations(going_on), fresh = iterations(run_at_once);
     const double difference_before = largest_difference(run_at_once, going_on);
@@ -130,8 +132,9 @@ TEST_F(Continue, to_a_tighter_tolerance_gives_what_that_tolerance_gives_and_take
 }
 
 TEST_F(Continue, with_more_iterations_comes_as_near_as_they_lead_and_ends_at_round_off) {
-  const fs::path exact = run("exact", "latin{ tolerance = 1e-11, static_tolerance = 1e-12, max_iterations = 2000 }");
-  const fs::path few = run("few", "latin{ tolerance = 1e-2 }");
+  const fs::path exact = run(
+      "exact", "latin{ integration = 'implicit', tolerance = 1e-11, static_tolerance = 1e-12, max_iterations = 2000 }");
+  const fs::path few = run("few", "latin{ integration = 'implicit', tolerance = 1e-2 }");
   const double before = largest_difference(exact, few);
   ContinueOptions options = options_for(few);
   options.more_iterations = 3;
@@ -148,7 +151,8 @@ TEST_F(Continue, with_more_iterations_comes_as_near_as_they_lead_and_ends_at_rou
 }
 
 TEST_F(Continue, until_later_gives_what_the_longer_run_gives_and_repeats_with_one_iteration_each) {
-  for (const char* solver : {"latin{}", "latin{ pieces = 2 }", "latin{ window = 5 }"}) {
+  for (const char* solver : {"latin{ integration = 'implicit' }", "latin{ integration = 'implicit', pieces = 2 }",
+                             "latin{ integration = 'implicit', window = 5 }"}) {
     const fs::path longer = run("longer", solver, {{"duration", "100*us"}}), going_on = run("going_on", solver);
     const long fresh = iterations(longer), before = iterations(going_on);
     ContinueOptions options = options_for(going_on);
@@ -164,15 +168,18 @@ TEST_F(Continue, until_later_gives_what_the_longer_run_gives_and_repeats_with_on
     continue_run(options);
     EXPECT_EQ(columns(going_on).at("above.time").size(), columns(longer).at("above.time").size());
     EXPECT_LT(
-        largest_difference(run("tight", "latin{ tolerance = 1e-9, static_tolerance = 1e-11, max_iterations = 1000 }",
-                               {{"duration", "100*us"}}),
-                           going_on),
+        largest_difference(
+            run("tight",
+                "latin{ integration = 'implicit', tolerance = 1e-9, static_tolerance = 1e-11, max_iterations = 1000 }",
+                {{"duration", "100*us"}}),
+            going_on),
         2e-4);
   }
 }
 
 TEST_F(Continue, finishes_what_was_interrupted) {
-  const fs::path whole = run("whole", "latin{}"), part = run("part", "latin{}");
+  const fs::path whole = run("whole", "latin{ integration = 'implicit' }"),
+                 part = run("part", "latin{ integration = 'implicit' }");
   // As a run leaves it that was stopped in its tenth increment.
   RunState state = read_state(part / state_file_name);
   auto fields = std::make_shared<InterfaceFields>(1e9);
@@ -194,17 +201,20 @@ TEST_F(Continue, finishes_what_was_interrupted) {
 }
 
 TEST_F(Continue, streams_fields_beyond_the_memory_for_them) {
-  const fs::path in_memory = run("in_memory", "latin{}"), in_file = run("in_file", "latin{ history_memory = 0 }");
+  const fs::path in_memory = run("in_memory", "latin{ integration = 'implicit' }"),
+                 in_file = run("in_file", "latin{ integration = 'implicit', history_memory = 0 }");
   EXPECT_EQ(fs::file_size(in_memory / state_file_name),
             fs::file_size(in_file / state_file_name) - std::string(" history_memory = 0 ").size());
   ContinueOptions options = options_for(in_file);
   options.tolerance = 1e-8;
   continue_run(options);
-  EXPECT_LT(largest_difference(run("tight", "latin{ tolerance = 1e-8, static_tolerance = 1e-10 }"), in_file), 1e-6);
+  EXPECT_LT(largest_difference(
+                run("tight", "latin{ integration = 'implicit', tolerance = 1e-8, static_tolerance = 1e-10 }"), in_file),
+            1e-6);
 }
 
 TEST_F(Continue, goes_on_with_the_text_that_the_run_kept) {
-  const fs::path kept = run("kept", "latin{ tolerance = 1e-4 }");
+  const fs::path kept = run("kept", "latin{ integration = 'implicit', tolerance = 1e-4 }");
   put("flanges.lua", "error 'another deck'");
   put("notes.txt", "");
   ContinueOptions options = options_for(kept);
@@ -215,11 +225,11 @@ TEST_F(Continue, goes_on_with_the_text_that_the_run_kept) {
                 "has changed since the run or is gone: the run continues with the text that it kept"),
             std::string::npos);
   put("flanges.lua", bolted_flanges());
-  EXPECT_LT(largest_difference(run("again", "latin{ tolerance = 1e-6 }"), kept), 1e-4);
+  EXPECT_LT(largest_difference(run("again", "latin{ integration = 'implicit', tolerance = 1e-6 }"), kept), 1e-4);
 }
 
 TEST_F(Continue, reads_other_cases_of_the_deck_from_their_folders) {
-  const fs::path base = run("cases", "latin{ tolerance = 1e-4 }", {{"cases", "1"}});
+  const fs::path base = run("cases", "latin{ integration = 'implicit', tolerance = 1e-4 }", {{"cases", "1"}});
   ContinueOptions options = options_for(base);
   options.tolerance = 1e-6;
   testing::internal::CaptureStdout();
@@ -241,7 +251,7 @@ TEST_F(Continue, says_what_is_wrong_and_leaves_the_old_results) {
   EXPECT_NE(refusal(options).find("no folder '"), std::string::npos) << refusal(options);
   options.run = folder_;
   EXPECT_NE(refusal(options).find("is not the folder of a run"), std::string::npos) << refusal(options);
-  options.run = run("none", "latin{}", {}, false);
+  options.run = run("none", "latin{ integration = 'implicit' }", {}, false);
   EXPECT_FALSE(fs::exists(options.run / state_file_name));
   EXPECT_NE(refusal(options).find("the run was told --no-state"), std::string::npos) << refusal(options);
   options.run = run("other", "monolithic{}");
@@ -249,7 +259,7 @@ TEST_F(Continue, says_what_is_wrong_and_leaves_the_old_results) {
             std::string::npos)
       << refusal(options);
 
-  options.run = run("good", "latin{ precision = \"single\" }", {});
+  options.run = run("good", "latin{ integration = 'implicit', precision = \"single\" }", {});
   const std::string tip = text_of(options.run / "above.csv"), record = text_of(options.run / "run.json");
   EXPECT_NE(record.find(state_file_name), std::string::npos);
   options.tolerance = 1e-8;

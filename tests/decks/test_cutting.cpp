@@ -43,7 +43,7 @@ local corner = output.history{ name = "corner", quantity = "velocity",
   on = faces[key(n[1], n[2], n[3])]:where(function(x, y, z) return near(x, 6*mm) and near(y, 6*mm) and near(z, 8*mm) end) }
 local foot = output.joint{ name = "foot", on = wall }
 problem{ name = "block", substructures = bricks, interfaces = ties, supports = { wall }, steps = { hit },
-  solver = solver.latin{ tolerance = p.tolerance, window = p.window == 0 and "whole" or p.window, plain = p.plain == 1, max_iterations = 2000 },
+  solver = solver.latin{ integration = 'implicit', tolerance = p.tolerance, window = p.window == 0 and "whole" or p.window, plain = p.plain == 1, max_iterations = 2000 },
   outputs = { corner, foot, output.energy{} } }:run{}
 )";
 
@@ -88,9 +88,11 @@ TEST(Window, any_window_gives_the_answer_of_any_other) {
 TEST(Window, the_whole_interval_gives_the_yielding_beam_too) {
   std::ifstream file(deck("plastic_beam.lua"));
   std::string text((std::istreambuf_iterator<char>(file)), {});
-  text.replace(text.find("steps = { pull },"), 17,
-               "steps = { pull }, solver = solver.latin{ window = 'whole', tolerance = 1e-5 },");
-  const DeckRun whole = run_text(text).at(0), steps = run_file(deck("plastic_beam.lua")).at(0);
+  text.replace(
+      text.find("steps = { pull },"), 17,
+      "steps = { pull }, solver = solver.latin{ integration = 'implicit', window = 'whole', tolerance = 1e-5 },");
+  const DeckRun whole = run_text(text).at(0),
+                steps = run_file(deck("plastic_beam.lua"), {}, 0, "latin{ integration = 'implicit' }").at(0);
   EXPECT_TRUE(whole.result->converged);
   EXPECT_LT(difference(steps.column("through", "normal"), whole.column("through", "normal")), 1e-4);
   EXPECT_LT(difference(steps.column("yielding", "plastic_opening"), whole.column("yielding", "plastic_opening")), 1e-4);

@@ -162,7 +162,7 @@ local touch = interface.contact{ name = "touch", between = { a:face "zmax", b:fa
 local hit = step.dynamic{ name = "hit", duration = 30*us, dt = p.dt, loads = {
   load.pressure{ on = b:face "zmax", history = history.half_sine{ peak = 100*MPa, duration = p.pulse } } } }
 problem{ name = "bar", substructures = { a, b }, interfaces = { touch }, steps = { hit },
-         solver = solver.latin{ tolerance = p.tolerance } }:run{}
+         solver = solver.latin{ integration = 'implicit', tolerance = p.tolerance } }:run{}
 )",
            settings, 1);
   return testing::internal::GetCapturedStderr();

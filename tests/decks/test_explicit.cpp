@@ -9,6 +9,8 @@
 namespace dygita::test::explicit_tests {
 namespace {
 
+const std::string implicit = "latin{ integration = 'implicit' }";  // what LATIN iterates
+
 const std::string full = "explicit{ integration = \"full\", bulk_viscosity = false, penalty = ";
 
 double drift(const DeckRun& run) { return run.figure("energy imbalance [%]"); }
@@ -57,7 +59,7 @@ TEST(Explicit, a_yielding_interface_lets_its_yield_stress_through) {
 }
 
 TEST(Explicit, the_plastic_beam_transmits_its_yield_stress_and_opens_as_with_latin) {
-  const DeckRun latin = run_file(deck("plastic_beam.lua")).at(0);
+  const DeckRun latin = run_file(deck("plastic_beam.lua"), {}, 0, implicit).at(0);
   const DeckRun run = run_file(deck("plastic_beam.lua"), {}, 0, "explicit").at(0);
   EXPECT_NEAR(largest(run.column("through", "normal")), 120e6 * 25e-6, 1e-9 * 3000);
   const double exact = largest(latin.column("yielding", "plastic_opening"));
@@ -89,7 +91,7 @@ problem{ name = "crush", substructures = { specimen, punch }, interfaces = { tou
 
 TEST(Explicit, crush_with_friction_converges_to_what_latin_converges_to) {
   const Settings fine = {{"n", "4"}, {"dt", "0.03*us"}};
-  const DeckRun latin = run_text(crush, fine).at(0);
+  const DeckRun latin = run_text(crush, fine, 0, implicit).at(0);
   double before = 1.0;
   for (const std::string penalty : {"0.1", "3", "100"}) {
     const DeckRun run = run_text(crush, fine, 0, full + penalty + ", safety = 0.3 }").at(0);
@@ -120,7 +122,7 @@ TEST(Explicit, one_point_and_full_integration_agree_as_the_mesh_is_refined) {
 
 TEST(Explicit, bolted_flanges_lose_their_bolt_force_as_with_latin) {
   const Settings coarse = {{"size", "6*mm"}};
-  const DeckRun latin = run_file(deck("bench/even_flanges.lua"), coarse).at(0);
+  const DeckRun latin = run_file(deck("bench/even_flanges.lua"), coarse, 0, implicit).at(0);
   const DeckRun run = run_file(deck("bench/even_flanges.lua"), coarse, 0, full + "10 }").at(0);
   EXPECT_NEAR(run.column("bolt", "normal").front(), latin.column("bolt", "normal").front(), 1e-3);  // N, tightened
   EXPECT_LT(rms_difference(latin, run, "bolt", "normal"), 0.04);
@@ -230,7 +232,7 @@ TEST(Explicit, stiffness_damping_that_lags_behind_is_stable_at_the_step_it_asks_
   EXPECT_GT(damped.figure("explicit substeps per step"), 1.5 * free.figure("explicit substeps per step"));
   EXPECT_LT(drift(damped), 1.0);
   const Settings fine = {{"dt", "0.1*us"}};
-  const DeckRun latin = run_text(bar_deck("2e3", "1e-7"), fine).at(0);
+  const DeckRun latin = run_text(bar_deck("2e3", "1e-7"), fine, 0, implicit).at(0);
   const DeckRun same = run_text(bar_deck("2e3", "1e-7"), fine, 0, full + "1 }").at(0);
   EXPECT_LT(rms_difference(latin, same, "tip", "x"), 0.05);
   const double damping = latin.column("energy", "damping").back();
@@ -274,7 +276,7 @@ problem{ name = "parting", substructures = { block, still }, interfaces = { glue
 )");
   std::string text = released;
   text.replace(text.find(", velocity = { 3, -2, 5 }"), 25, "");
-  const DeckRun latin = run_text(text).at(0);
+  const DeckRun latin = run_text(text, {}, 0, implicit).at(0);
   const DeckRun run = run_text(text, {}, 0, full + "10 }").at(0);
   EXPECT_EQ(run.column("tie", "normal").back(), 0.0);
   EXPECT_LT(rms_difference(latin, run, "end", "z"), 0.1);
@@ -292,7 +294,8 @@ problem{ name = "shaken", substructures = { block }, supports = { base }, steps 
     output.energy{} } }:run{}
 )");
   text.replace(text.find(", velocity = { 3, -2, 5 }"), 25, "");
-  const DeckRun latin = run_text(text).at(0), run = run_text(text, {}, 0, full + "1, safety = 0.2 }").at(0);
+  const DeckRun latin = run_text(text, {}, 0, implicit).at(0),
+                run = run_text(text, {}, 0, full + "1, safety = 0.2 }").at(0);
   EXPECT_LT(rms_difference(latin, run, "held", "z"), 0.02);
   EXPECT_LT(rms_difference(latin, run, "top", "x"), 0.02);
   EXPECT_LT(rms_difference(latin, run, "energy", "loads"), 0.02);

@@ -35,7 +35,7 @@ problem{ name = "stack", substructures = { lower, upper }, interfaces = { touch 
 double imbalance(const DeckRun& run) { return run.figure("energy imbalance [%]"); }
 
 TEST(TunedMassInARun, is_the_same_in_latin_and_in_the_monolithic_solver_under_a_moving_base) {
-  const DeckRun latin = stack("latin{ mass = \"tuned\", tolerance = 1e-9 }"),
+  const DeckRun latin = stack("latin{ integration = 'implicit', mass = \"tuned\", tolerance = 1e-9 }"),
                 whole = stack("monolithic{ mass = \"tuned\" }");
   EXPECT_TRUE(latin.result->converged);
   EXPECT_LT(difference(whole.column("push", "normal"), latin.column("push", "normal")), 1e-6);
@@ -44,27 +44,31 @@ TEST(TunedMassInARun, is_the_same_in_latin_and_in_the_monolithic_solver_under_a_
   EXPECT_LT(imbalance(latin), 1e-3);
   EXPECT_LT(imbalance(whole), 1e-3);
   // It is another mass than the lumped one.
-  EXPECT_GT(difference(stack("latin{}").column("top", "z"), latin.column("top", "z")), 1e-3);
+  EXPECT_GT(difference(stack("latin{ integration = 'implicit' }").column("top", "z"), latin.column("top", "z")), 1e-3);
 }
 
 TEST(TunedMassInARun, is_the_same_with_full_solves) {
-  const DeckRun condensed = stack("latin{ mass = \"tuned\", tolerance = 1e-9 }");
-  const DeckRun plain = stack("latin{ mass = \"tuned\", tolerance = 1e-9, plain = true }");
+  const DeckRun condensed = stack("latin{ integration = 'implicit', mass = \"tuned\", tolerance = 1e-9 }");
+  const DeckRun plain = stack("latin{ integration = 'implicit', mass = \"tuned\", tolerance = 1e-9, plain = true }");
   EXPECT_LT(difference(plain.column("push", "normal"), condensed.column("push", "normal")), 1e-6);
 }
 
 TEST(MasslessContact, closes_the_energy_balance_and_converges_to_what_other_nodes_say) {
-  const DeckRun massless = stack("latin{ massless_contact = true }");
+  const DeckRun massless = stack("latin{ integration = 'implicit', massless_contact = true }");
   EXPECT_TRUE(massless.result->converged);
   EXPECT_LT(imbalance(massless), 1e-3);
-  EXPECT_LT(difference(stack("latin{}").column("top", "z"), massless.column("top", "z")), 0.3);
+  EXPECT_LT(difference(stack("latin{ integration = 'implicit' }").column("top", "z"), massless.column("top", "z")),
+            0.3);
 }
 
 TEST(MasslessContact, is_the_same_in_windows_of_several_steps_and_with_full_solves) {
-  const DeckRun one = stack("latin{ massless_contact = true, mass = \"tuned\", tolerance = 1e-9 }");
-  const DeckRun plain = stack("latin{ massless_contact = true, mass = \"tuned\", tolerance = 1e-9, plain = true }");
-  const DeckRun windows =
-      stack("latin{ massless_contact = true, mass = \"tuned\", tolerance = 1e-9, window = 5, max_iterations = 2000 }");
+  const DeckRun one =
+      stack("latin{ integration = 'implicit', massless_contact = true, mass = \"tuned\", tolerance = 1e-9 }");
+  const DeckRun plain = stack(
+      "latin{ integration = 'implicit', massless_contact = true, mass = \"tuned\", tolerance = 1e-9, plain = true }");
+  const DeckRun windows = stack(
+      "latin{ integration = 'implicit', massless_contact = true, mass = \"tuned\", tolerance = 1e-9, window = 5, "
+      "max_iterations = 2000 }");
   EXPECT_LT(difference(one.column("push", "normal"), plain.column("push", "normal")), 1e-6);
   EXPECT_LT(difference(one.column("push", "normal"), windows.column("push", "normal")), 1e-4);
 }

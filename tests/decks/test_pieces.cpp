@@ -62,7 +62,7 @@ local shock = step.dynamic{ name = "shock", after = tighten, duration = 6*us, dt
   load.base_acceleration{ on = ground, direction = { 1, 0, 2 }, history = history.half_sine{ peak = 2e6, duration = 4*us } } } }
 problem{ name = "clamped", substructures = { base, plate, nut, head }, interfaces = { contact, thread, seat, shank },
   supports = { ground, slide }, steps = { tighten, shock },
-  solver = solver.latin{ tolerance = 1e-9, static_tolerance = 1e-10, max_iterations = 3000, pieces = p.pieces, mass = p.tuned == 1 and "tuned" or "lumped" },
+  solver = solver.latin{ integration = 'implicit', tolerance = 1e-9, static_tolerance = 1e-10, max_iterations = 3000, pieces = p.pieces, mass = p.tuned == 1 and "tuned" or "lumped" },
   outputs = { output.history{ name = "moves", on = plate:face "zmax", quantity = "displacement" },
     output.history{ name = "accelerates", on = plate:face "ymax", quantity = "acceleration" },
     output.history{ name = "corner", quantity = "velocity", on = plate:where(function(x, y, z) return near(x, 0) and near(y, 6*mm) and near(z, 7*mm) end) },
@@ -128,7 +128,7 @@ local lean = step.static{ name = "lean", increments = 2, loads = { load.displace
 local go = step.dynamic{ name = "go", after = lean, duration = 5*us, dt = 0.2*us, loads = {
   load.velocity{ on = end_, y = history.ramp{ from = 0, to = 2, duration = 2*us } }, load.pressure{ on = block:face "ymin", history = 10*MPa } } }
 problem{ name = "led", substructures = { block, ball }, interfaces = { hit }, supports = { floor, out }, steps = { lean, go },
-  solver = solver.latin{ tolerance = 1e-9, static_tolerance = 1e-10, max_iterations = 3000, pieces = p.pieces, window = p.window, plain = p.plain == 1 },
+  solver = solver.latin{ integration = 'implicit', tolerance = 1e-9, static_tolerance = 1e-10, max_iterations = 3000, pieces = p.pieces, window = p.window, plain = p.plain == 1 },
   outputs = { output.history{ name = "moves", on = block:face "zmax", quantity = "displacement" },
     output.history{ name = "speeds", on = ball:face "zmax", quantity = "velocity" }, output.joint{ name = "foot", on = floor },
     output.joint{ name = "touch", on = hit }, output.resultant{ name = "soil", on = out }, output.energy{} } }:run{}
@@ -167,7 +167,7 @@ local lean = step.static{ name = "lean", loads = { load.traction{ on = bar:face 
 local strike = step.dynamic{ name = "strike", after = lean, duration = 20*us, dt = 0.4*us, loads = {
   load.traction{ on = bar:face "zmax", z = history.haversine{ peak = -50*MPa, duration = 6*us } } } }
 problem{ name = "bar", substructures = { bar }, supports = { base }, steps = { lean, strike },
-  solver = solver.latin{ tolerance = 1e-9, static_tolerance = 1e-10, max_iterations = 3000, pieces = p.pieces },
+  solver = solver.latin{ integration = 'implicit', tolerance = 1e-9, static_tolerance = 1e-10, max_iterations = 3000, pieces = p.pieces },
   outputs = { output.history{ name = "tip", on = bar:face "zmax", quantity = "displacement" }, output.history{ name = "side", on = bar:face "xmin",
     quantity = "stress" }, output.resultant{ name = "foot", on = base }, output.energy{} } }:run{}
 )";
@@ -197,7 +197,7 @@ local hit = step.dynamic{ name = "hit", after = twist, duration = 4*us, dt = 0.2
 local hold = step.static{ name = "hold", after = hit, loads = { load.traction{ on = block:face "ymax", y = 3*MPa } }, supports = { base, clamp } }
 local shake = step.dynamic{ name = "shake", after = hold, duration = 4*us, dt = 0.2*us, supports = { clamp } }
 problem{ name = "chain", substructures = { block }, supports = { base, clamp }, steps = { press, twist, hit, hold, shake },
-  solver = solver.latin{ tolerance = 1e-10, static_tolerance = 1e-11, max_iterations = 5000, pieces = p.pieces },
+  solver = solver.latin{ integration = 'implicit', tolerance = 1e-10, static_tolerance = 1e-11, max_iterations = 5000, pieces = p.pieces },
   outputs = { output.history{ name = "moves", on = top, quantity = "displacement" }, output.resultant{ name = "foot", on = base },
     output.resultant{ name = "side", on = clamp }, output.energy{} } }:run{}
 )";
@@ -230,7 +230,7 @@ local touch = interface.contact{ name = "touch", between = { large:face "zmax", 
 local hit = step.dynamic{ name = "hit", duration = 3*us, dt = 0.3*us, loads = {
   load.traction{ on = small:face "zmax", x = 20*MPa, z = history.half_sine{ peak = -100*MPa, duration = 2*us } } } }
 problem{ name = "large", substructures = { large, small }, interfaces = { touch }, steps = { hit },
-  solver = p.auto == 1 and solver.latin{ tolerance = 1e-8 } or solver.latin{ tolerance = 1e-8, pieces = 1 },
+  solver = p.auto == 1 and solver.latin{ integration = 'implicit', tolerance = 1e-8 } or solver.latin{ integration = 'implicit', tolerance = 1e-8, pieces = 1 },
   outputs = { output.history{ name = "top", on = small:face "zmax", quantity = "velocity" }, output.joint{ name = "joint", on = touch }, output.energy{} } }:run{}
 )";
   const DeckRun cut = run_text(text).at(0), whole = run_text(text, {{"auto", "0"}}).at(0);

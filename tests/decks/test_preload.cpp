@@ -17,7 +17,7 @@ const std::string bolt_deck = R"(
 local p = param{ force = 400, second = -1, by = 0, by_second = 0, yield = 1e9, hardening = 5e13, gap = 0, monolithic = 0, explicit = 0, pieces = 1,
   plain = 0, increments = 2, shock = 1, twice = 0 }
 local pick = p.monolithic == 1 and solver.monolithic{} or p.explicit == 1 and solver.explicit{}
-  or solver.latin{ static_tolerance = 1e-9, tolerance = 1e-8, max_iterations = 4000, pieces = p.pieces, plain = p.plain == 1 }
+  or solver.latin{ integration = 'implicit', static_tolerance = 1e-9, tolerance = 1e-8, max_iterations = 4000, pieces = p.pieces, plain = p.plain == 1 }
 local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
 local function box(name, x, w, z, h, cells)
   return substructure{ name = name, material = steel, mesh = mesh.box{ origin = { x, 0, z }, size = { w, 2*mm, h }, cells = cells } }
@@ -211,7 +211,7 @@ local first = step.static{ name = "first", increments = 4, loads = { load.preloa
 local second = step.static{ name = "second", after = first, increments = 2,
   loads = { load.preload{ on = joint, force = 3*kN }, load.pressure{ on = low:face "xmin", history = 0 } } }
 problem{ name = "bar", substructures = { low, high }, interfaces = { joint }, supports = { ends }, steps = { first, second },
-  solver = solver.latin{ static_tolerance = 1e-10 }, outputs = { output.joint{ name = "force", on = joint } } }:run{}
+  solver = solver.latin{ integration = 'implicit', static_tolerance = 1e-10 }, outputs = { output.joint{ name = "force", on = joint } } }:run{}
 )")
                           .at(0);
   const std::vector<double> expected{500, 2000, 4500, 8000, 5500, 3000};

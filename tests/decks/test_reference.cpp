@@ -15,7 +15,7 @@ constexpr double agreement = 10 * reference_tolerance;
 const std::string choice = R"(
 local p = param{ monolithic = 0, tolerance = 1e-8, cut = 1, damping = 0 }
 local pick = p.monolithic == 1 and solver.monolithic{ numerical_damping = p.damping }
-  or solver.latin{ tolerance = p.tolerance, static_tolerance = p.tolerance, max_iterations = 2000, numerical_damping = p.damping }
+  or solver.latin{ integration = 'implicit', tolerance = p.tolerance, static_tolerance = p.tolerance, max_iterations = 2000, numerical_damping = p.damping }
 local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
 )";
 

@@ -27,7 +27,7 @@ local set = step.static{ name = "set", loads = press }
 local hit = step.dynamic{ name = "hit", after = set, duration = 6*us, dt = 0.1*us,
   loads = { load.traction{ on = parts[2]:face "zmax", z = history.half_sine{ peak = -80*MPa, duration = 2*us }, x = 1*MPa } } }
 problem{ name = "posts", substructures = parts, interfaces = joints, supports = { base }, steps = { set, hit }, outputs = outputs,
-  solver = solver.latin{ tolerance = p.tolerance, static_tolerance = 1e-10, plain = p.plain == 1, static_steps = "iterated", precision = p.single == 1 and "single" or "double", history_memory = p.history } }:run{}
+  solver = solver.latin{ integration = 'implicit', tolerance = p.tolerance, static_tolerance = 1e-10, plain = p.plain == 1, static_steps = "iterated", precision = p.single == 1 and "single" or "double", history_memory = p.history } }:run{}
 )";
 
 // Sectors of a ring, each with a foot in frictional contact with a plate and tied to the next sector, all copies of one
@@ -68,7 +68,7 @@ local set = step.static{ name = "set", loads = loads }
 local hit = step.dynamic{ name = "hit", after = set, duration = 6*us, dt = 0.1*us, loads = hits }
 problem{ name = "turned", substructures = parts, interfaces = joints, steps = { set, hit }, outputs = outputs,
   supports = { support.fixed{ name = "base", on = bases }, support.absorbing{ name = "ends", on = ends } },
-  solver = solver.latin{ tolerance = 1e-9, static_tolerance = 1e-10, plain = p.plain == 1, static_steps = "iterated", precision = "double" } }:run{}
+  solver = solver.latin{ integration = 'implicit', tolerance = 1e-9, static_tolerance = 1e-10, plain = p.plain == 1, static_steps = "iterated", precision = "double" } }:run{}
 )";
 
 constexpr const char* n_shared = "substructures that share another's factor, over all steps";
@@ -130,7 +130,7 @@ local knock = step.dynamic{ name = "knock", duration = 400*us, dt = 0.1*us,
   loads = { load.traction{ on = bar:face "zmax", z = history.half_sine{ peak = 50*MPa, duration = 3*us } } } }
 local tip = output.history{ name = "tip", on = bar:face "zmin", quantity = "displacement" }
 problem{ name = "flight", substructures = { bar }, steps = { knock }, outputs = { tip, output.energy{} },
-  solver = solver.latin{ precision = p.single == 1 and "single" or "double" } }:run{}
+  solver = solver.latin{ integration = 'implicit', precision = p.single == 1 and "single" or "double" } }:run{}
 )";
   const DeckRun a = run_text(flight).at(0), b = run_text(flight, {{"single", "1"}}).at(0);
   for (const char* axis : {"x", "z"}) EXPECT_LT(difference(a.column("tip", axis), b.column("tip", axis)), 1e-5) << axis;
@@ -155,7 +155,7 @@ local cube = substructure{ name = "cube", material = steel, mesh = mesh.box{ siz
 local wall = support.wall{ name = "wall", on = cube:face "zmin" }
 local hit = step.dynamic{ name = "hit", duration = 1*us, dt = 0.25*us, loads = { load.traction{ on = cube:face "zmax", z = -50*MPa } } }
 problem{ name = "block", substructures = { cube }, supports = { wall }, steps = { hit }, outputs = { output.energy{} },
-  solver = solver.latin{ precision = p.single == 1 and "single" or "double", tolerance = p.tolerance, pieces = p.pieces } }:run{}
+  solver = solver.latin{ integration = 'implicit', precision = p.single == 1 and "single" or "double", tolerance = p.tolerance, pieces = p.pieces } }:run{}
 )";
   for (const Settings& settings : {Settings{}, Settings{{"pieces", "4"}}, Settings{{"single", "1"}},
                                    Settings{{"single", "1"}, {"tolerance", "1e-4"}}}) {
@@ -178,7 +178,7 @@ local knock = step.dynamic{ name = "knock", duration = 6*us, dt = 0.1*us,
   loads = { load.traction{ on = bars[1]:face "zmin", z = history.half_sine{ peak = 50*MPa, duration = 2*us } } } }
 local tip = output.history{ name = "tip", on = bars[6]:face "zmax", quantity = "velocity", direction = { 0, 0, 1 } }
 problem{ name = "chain", substructures = bars, interfaces = ties, steps = { knock }, outputs = { tip, output.energy{} },
-  solver = solver.latin{ plain = p.plain == 1 } }:run{}
+  solver = solver.latin{ integration = 'implicit', plain = p.plain == 1 } }:run{}
 )";
   const DeckRun quiet = run_text(chain).at(0), plain = run_text(chain, {{"plain", "1"}}).at(0);
   EXPECT_LT(difference(plain.column("tip", "velocity"), quiet.column("tip", "velocity")), 1e-5);
@@ -207,7 +207,7 @@ local press = step.static{ name = "press", loads = { load.traction{ on = up:face
 local hit = step.dynamic{ name = "hit", after = press, duration = 5*us, dt = 0.2*us, loads = { load.traction{ on = up:face "zmax", z = history.half_sine{ peak = -100*MPa, duration = 3*us }, x = 10*MPa } } }
 local top = output.history{ name = "top", on = up:face "zmax", quantity = "velocity" }
 problem{ name = "washer", substructures = { low, washer, up }, interfaces = { a, b }, supports = { base }, steps = { press, hit }, outputs = { top, output.energy{} },
-  solver = solver.latin{ plain = p.plain == 1, tolerance = 1e-8, static_tolerance = 1e-10 } }:run{}
+  solver = solver.latin{ integration = 'implicit', plain = p.plain == 1, tolerance = 1e-8, static_tolerance = 1e-10 } }:run{}
 )";
   for (const char* tie : {"0", "1"}) {
     const DeckRun run = run_text(washer, {{"tie", tie}}).at(0),

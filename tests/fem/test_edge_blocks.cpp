@@ -4,6 +4,7 @@
 #include <random>
 
 #include "fem/edge_blocks.hpp"
+#include "fem/mass_edges.hpp"
 #include "fem/meshes.hpp"
 #include "numerics/panel_choice.hpp"
 
@@ -32,6 +33,32 @@ TEST_P(Edges, multiply_as_the_matrix_does_within_what_single_precision_stores) {
   EXPECT_LT(worst, 1e-7 * plain.cwiseAbs().maxCoeff());
   EXPECT_GT(worst, 0.0);
   for (int i = 0; i < n; ++i) EXPECT_EQ(y[4 * i + 3], 0.0);
+}
+
+TEST_P(Edges, of_masses_are_what_a_tuned_one_lacks_of_the_lumped) {
+  const Mesh mesh = distorted_mixed_box();
+  const Elastic material = material_of(2.1e11, 0.3, 7800.0);
+  const WaveTuning tuning{material.s_wave_speed(), 1e-5, true};
+  const MassEdges edges(mesh, material, tuning, {});
+  const SparseMatrix mass = tuned_mass(mesh, material, tuning, {});
+  const Vec lumped = assemble(mesh, material).mass;
+  const int n = mesh.n_nodes();
+  std::vector<double> x(4 * n, 0.0), y(4 * n, 0.0);
+  for (int i = 0; i < n; ++i)
+    for (int c = 0; c < 3; ++c) x[4 * i + c] = 0.7 + 0.1 * c;
+  edges.add_product(x.data(), y.data());
+  for (const double f : y) EXPECT_EQ(f, 0.0);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Points of_nodes(3, n);
+  for (int i = 0; i < n; ++i)
+    for (int c = 0; c < 3; ++c) x[4 * i + c] = of_nodes(c, i) = uniform(random);
+  edges.add_product(x.data(), y.data());
+  const Points plain = of_nodes * lumped.asDiagonal() - (mass * of_nodes.transpose()).transpose();
+  double worst = 0.0;
+  for (int i = 0; i < n; ++i)
+    for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(y[4 * i + c] - plain(c, i)));
+  EXPECT_LT(worst, 1e-7 * plain.cwiseAbs().maxCoeff());
 }
 
 TEST_P(Edges, leave_a_translation_without_force_and_the_whole_without_a_resultant) {

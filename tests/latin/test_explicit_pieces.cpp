@@ -120,14 +120,17 @@ TEST(ExplicitPieces, forces_and_reactions_are_means_over_the_time_step_of_the_de
 }
 
 // A free cube with random velocities, at a part of its longest stable step.
-double growth(double part_of_longest) {
+double growth(double part_of_longest, bool is_tuned = false) {
   const Problem problem = hit_cubes(contact(0.0), 1e-7, explicitly, explicitly);
   Modelled modelled(problem);
   PieceSetup setup;
   setup.body = &modelled.bodies[0];
-  setup.scheme = {false, part_of_longest * longest_explicit_step(modelled.bodies[0], {}), 0.5};
+  const auto longest = is_tuned ? longest_tuned_step : longest_explicit_step;
+  setup.scheme = {false, part_of_longest * longest(modelled.bodies[0], {}), 0.5};
+  if (is_tuned) setup.tuned_speed = tuned_wave_speed(modelled.bodies[0], {});
+  setup.keeps_lumped.assign(static_cast<size_t>(setup.n_nodes()), 0);
   setup.what = "cube";
-  ExplicitPiece piece(setup, std::make_shared<const ExplicitOperator>(modelled.bodies[0].matrices->stiffness));
+  ExplicitPiece piece(setup, std::make_shared<const ExplicitOperator>(setup));
   const int n = setup.n_nodes();
   Points zero = Points::Zero(3, n), v(3, n);
   std::mt19937 random(5);
@@ -148,6 +151,12 @@ TEST(ExplicitPieces, are_stable_up_to_the_longest_step_and_not_beyond) {
   EXPECT_NEAR(growth(0.5), 1.0, 1e-11);
   EXPECT_NEAR(growth(0.98), 1.0, 1e-10);
   EXPECT_FALSE(growth(1.01) < 1e3);
+}
+
+TEST(ExplicitPieces, with_tuned_mass_too) {
+  EXPECT_NEAR(growth(0.5, true), 1.0, 1e-11);
+  EXPECT_NEAR(growth(0.98, true), 1.0, 1e-10);
+  EXPECT_FALSE(growth(1.01, true) < 1e3);
 }
 
 // At the limit itself: ties, friction, walls and non-reflecting supports do not shorten it.

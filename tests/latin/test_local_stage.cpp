@@ -272,6 +272,7 @@ TEST(LocalStage, of_a_preload_finds_the_shortening_of_its_force) {
 // A wall: side 2 rests, and all the search direction is the block's.
 TEST(LocalStage, at_a_wall_stops_the_block) {
   Problem problem;
+  problem.solver.integration = IntegrationChoice::implicitly;
   const BlockPtr alone = cube("alone", 0, 0, 0, 1);
   problem.substructures = {alone};
   problem.supports = {support("wall", {face(alone, "zmin")}, {{"friction", 0.0}, {"gap", 0.0}})};

@@ -66,6 +66,7 @@ TEST(SearchDirections, of_a_dynamic_step_stand_between_the_schur_complement_and_
 TEST(StepSettings, follow_the_table_and_what_the_deck_says) {
   Problem problem = two_cubes(bonded(), {static_step("press", 1, {}), dynamic_step("shock", 30, direction_dt, {})});
   problem.solver = {};
+  problem.solver.integration = IntegrationChoice::implicitly;
   {
     const Modelled of(problem, 0);
     const StepSettings settings = step_settings(of.problem, of.model, false);

@@ -18,6 +18,7 @@ constexpr double dt = 0.2e-6, side = 0.01;
 Watcher run_latin(Problem problem, double tolerance = 1e-10) {
   problem.solver.tolerance = problem.solver.static_tolerance = tolerance;
   problem.solver.max_iterations = 1000;
+  problem.solver.integration = IntegrationChoice::implicitly;
   Watcher recorder;
   solve(problem, recorder);
   for (const Watcher::Row& row : recorder.rows) EXPECT_TRUE(row.converged);
@@ -201,6 +202,7 @@ Impact impact(const Pair& cells, double ratio = 1.0) {
   upper->velocity = {2.0, 1.0, -10.0};
   upper->material.young /= ratio;
   problem.steps = {dynamic_step("hit", 40, 0.5e-6, {})};
+  problem.solver.integration = IntegrationChoice::implicitly;
   problem.solver.tolerance = 1e-6;
   Watcher run;
   solve(problem, run);

@@ -11,7 +11,7 @@ local shock = step.dynamic{ name = "shock", after = press, duration = 40*us, dt 
   load.pressure{ on = high:face "zmax", history = 20*MPa },
   load.traction{ on = high:face "zmax", z = history.half_sine{ peak = 80*MPa, duration = 20*us } } } }
 local a = output.history{ name = "top", on = high:face "zmax", quantity = "acceleration", direction = { 0, 0, 1 } }
-problem{ name = "page", substructures = { low, high }, interfaces = { touch }, supports = { base, guide }, steps = { press, shock },
+problem{ name = "page", substructures = { low, high }, interfaces = { touch }, supports = { base, guide }, steps = { press, shock }, solver = solver.latin{ integration = "implicit" },
   outputs = { a, output.joint{ name = "grip", on = touch }, output.energy{}, output.vtk{ frames = 4 }, output.resultant{ name = "foot", on = base },
     output.history{ name = "motion", on = high:face "zmax", quantity = "displacement" },
     output.srs{ name = "srs_top", of = a, from = 1*kHz, to = 100*kHz, specification = { {1*kHz, 100*g0}, {10*kHz, 4000*g0}, {100*kHz, 4000*g0} } } },

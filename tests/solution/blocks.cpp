@@ -118,6 +118,7 @@ Problem two_cubes(LawPtr law, std::vector<StepPtr> steps, int n) {
   problem.steps = std::move(steps);
   problem.solver.tolerance = problem.solver.static_tolerance = 1e-11;
   problem.solver.max_iterations = 2000;
+  problem.solver.integration = IntegrationChoice::implicitly;
   set_progress_enabled(false);
   return problem;
 }

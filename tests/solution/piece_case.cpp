@@ -54,7 +54,8 @@ void PieceCase::make_mass() {
   if (has_massless) mass.is_massless.assign(n_nodes(), 0);
   if (has_massless)
     for (const int node : nodes("zmax")) mass.is_massless[node] = 1;
-  if (has_matrix) mass.matrix = tuned_mass(*part->mesh, part->material, dt, mass.is_massless);
+  if (has_matrix)
+    mass.matrix = tuned_mass(*part->mesh, part->material, {part->material.p_wave_speed(), dt}, mass.is_massless);
   for (int node = 0; has_massless && node < n_nodes(); ++node)
     if (mass.is_massless[node]) {
       mass.lumped[node] = 0.0;

@@ -110,6 +110,7 @@ TEST(Exchange, gives_a_node_under_two_laws_a_q_for_each) {
   problem.interfaces = {interface("ab", face(a, "xmax"), face(b, "xmin"), contact(0.2)),
                         interface("ac", face(a, "zmax"), face(c, "zmin"), contact(0.2))};
   problem.steps = {dynamic_step("test", 1, exchange_dt, {})};
+  problem.solver.integration = IntegrationChoice::implicitly;
   const Modelled of(problem);
   expect_sound(of);
   EXPECT_EQ(of.model.exchange.points.size(), 18U);
@@ -245,6 +246,7 @@ TEST(Exchange, refuses_a_law_between_sides_that_are_tied) {
 // Pieces of one shape and material have one factor between them.
 TEST(StepModel, shares_the_operators_of_equal_pieces) {
   Problem problem;
+  problem.solver.integration = IntegrationChoice::implicitly;
   const MeshPtr mesh = cube("any", 0, 0, 0)->mesh;
   for (int i = 0; i < 4; ++i) {
     const BlockPtr part = cube("cube " + std::to_string(i), 0, 0, 0);
@@ -271,6 +273,7 @@ TEST(StepModel, shares_the_operators_of_equal_pieces) {
 // The error of one factorisation among many, on threads, reaches the caller with the name of its substructure.
 TEST(StepModel, tells_which_substructure_cannot_be_factorised) {
   Problem problem;
+  problem.solver.integration = IntegrationChoice::implicitly;
   for (int i = 0; i < 4; ++i) problem.substructures.push_back(cube("cube " + std::to_string(i), 3 * i, 0, 0));
   const_cast<Substructure&>(*problem.substructures[2]).material.young = 1e11;  // matrices of its own
   problem.steps = {dynamic_step("test", 1, exchange_dt, {})};

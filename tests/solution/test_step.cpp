@@ -12,6 +12,7 @@ constexpr double step_dt = 0.5e-6;
 
 Problem one_cube(std::vector<StepPtr> steps) {
   Problem problem;
+  problem.solver.integration = IntegrationChoice::implicitly;
   problem.substructures = {cube("cube", 0, 0, 0)};
   problem.steps = std::move(steps);
   set_progress_enabled(false);

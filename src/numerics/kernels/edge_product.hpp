@@ -43,6 +43,21 @@ void add_edge_product(const EdgeView& edges, const double* x, double* y) {
     own[2] += sum_of_three(t2);
   }
 }
+
+void add_scalar_edge_product(const EdgeView& edges, const double* x, double* y) {
+  for (int a = 0; a < edges.n_nodes; ++a) {
+    const __m256d xa = _mm256_loadu_pd(x + 4 * (std::size_t)a);
+    __m256d sum = _mm256_setzero_pd();
+    for (int e = edges.starts[a]; e < edges.starts[a + 1]; ++e) {
+      const std::size_t b = 4 * (std::size_t)edges.others[e];
+      const __m256d force = _mm256_mul_pd(_mm256_set1_pd(edges.blocks[e]), _mm256_sub_pd(xa, _mm256_loadu_pd(x + b)));
+      sum = _mm256_add_pd(sum, force);
+      _mm256_storeu_pd(y + b, _mm256_sub_pd(_mm256_loadu_pd(y + b), force));
+    }
+    double* const own = y + 4 * (std::size_t)a;
+    _mm256_storeu_pd(own, _mm256_add_pd(_mm256_loadu_pd(own), sum));
+  }
+}
 #else
 void add_edge_product(const EdgeView& edges, const double* x, double* y) {
   const float* k = edges.blocks;
@@ -63,6 +78,21 @@ void add_edge_product(const EdgeView& edges, const double* x, double* y) {
     own[0] += t0;
     own[1] += t1;
     own[2] += t2;
+  }
+}
+
+void add_scalar_edge_product(const EdgeView& edges, const double* x, double* y) {
+  for (int a = 0; a < edges.n_nodes; ++a) {
+    const double* const xa = x + 4 * (std::size_t)a;
+    double* const own = y + 4 * (std::size_t)a;
+    for (int e = edges.starts[a]; e < edges.starts[a + 1]; ++e) {
+      const std::size_t b = 4 * (std::size_t)edges.others[e];
+      for (int c = 0; c < 3; ++c) {
+        const double force = (double)edges.blocks[e] * (xa[c] - x[b + c]);
+        own[c] += force;
+        y[b + c] -= force;
+      }
+    }
   }
 }
 #endif
