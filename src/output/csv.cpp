@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/plain_file.hpp"
 
 namespace dygita {
 
@@ -87,8 +88,9 @@ Table parse_csv(std::istream& stream, const std::vector<std::string>& step_names
 }
 
 Table read_csv(const std::filesystem::path& path, const std::vector<std::string>& step_names) {
-  std::ifstream file(path);
   try {
+    if (is_no_file(path)) throw InputError("is no file");
+    std::ifstream file(path);
     if (!file) throw InputError("is missing");
     return parse_csv(file, step_names);
   } catch (const InputError& error) {
