@@ -62,7 +62,7 @@ Table parse_csv(std::istream& stream, const std::vector<std::string>& step_names
     table.names.push_back(has_unit ? header[i].substr(0, open) : header[i]);
     table.units.push_back(has_unit ? header[i].substr(open + 2, header[i].size() - open - 3) : "");
   }
-  const bool is_marked = table.names.back() == "converged";
+  const bool is_marked = table.names.size() > 1 && table.names.back() == "converged";
   table.columns.resize(table.names.size());
   for (int n = 2; std::getline(stream, line); ++n) {
     std::vector<std::string> cells = cells_of(line);
