@@ -201,7 +201,7 @@ run_fuzz() {
     say "Fuzzing '$name' for $((seconds / 60)) minutes"
     (cd "$found" && ASAN_OPTIONS=alloc_dealloc_mismatch=0 UBSAN_OPTIONS=print_stacktrace=1 OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 \
       LSAN_OPTIONS="suppressions=$root/cmake/leaks.supp:print_suppressions=0" "$root/build/fuzz/tests/fuzz_$name" \
-      -close_fd_mask=1 -timeout=100 -rss_limit_mb=2500 -malloc_limit_mb=1500 -max_len=20000 -print_final_stats=1 \
+      -close_fd_mask=1 -print_funcs=0 -timeout=100 -rss_limit_mb=2500 -malloc_limit_mb=1500 -max_len=20000 -print_final_stats=1 \
       "-max_total_time=$seconds" "-artifact_prefix=$found/" "$corpus" "$kept") || failed+=("$name")
   done
   ((${#failed[@]} == 0)) || fail "found by: ${failed[*]}" "the inputs are in build/fuzz/found/NAME, the reports above"

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/plain_file.hpp"
 #include "report/view_script.hpp"
 
 namespace dygita {
@@ -21,6 +22,7 @@ namespace {
 // view.py of the run.
 fs::path script_of(const fs::path& folder) {
   const fs::path script = folder / view_file;
+  require_file(script);
   if (fs::exists(script)) return fs::absolute(script);
   if (!fs::is_directory(folder)) throw InputError("no folder '" + folder.string() + "'");
   if (!fs::exists(folder / "run.json"))

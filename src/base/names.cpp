@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <numeric>
+#include <optional>
 
 namespace dygita {
 
@@ -28,6 +30,36 @@ std::string in_lower_case(std::string text) {
   return text;
 }
 
+// "M", 7 of "M7"; nothing where it does not end with a number.
+std::optional<std::pair<std::string, long>> numbered(const std::string& name) {
+  constexpr size_t most_digits = 9;
+  const size_t last = name.find_last_not_of("0123456789"), digits = last == std::string::npos ? 0 : last + 1;
+  if (digits == 0 || digits == name.size() || name.size() - digits > most_digits) return {};
+  return std::pair{in_lower_case(name.substr(0, digits)), std::stol(name.substr(digits))};
+}
+
+// Of names that differ by their number, those with the next lower and the next higher one: a 7 is no misspelt 3.
+std::vector<std::string> neighbours_in_number(const std::string& name, const std::vector<std::string>& known) {
+  const auto own = numbered(name);
+  std::map<long, std::string> series;
+  for (const std::string& candidate : known)
+    if (const auto other = numbered(candidate); own && other && own->first == other->first)
+      series[other->second] = candidate;
+  if (series.empty() || series.contains(own->second)) return {};
+  const auto above = series.upper_bound(own->second);
+  std::vector<std::string> neighbours;
+  if (above != series.begin()) neighbours.push_back(std::prev(above)->second);
+  if (above != series.end()) neighbours.push_back(above->second);
+  return neighbours;
+}
+
+std::string suggestion(const std::string& name, const std::vector<std::string>& known) {
+  const std::vector<std::string> neighbours = neighbours_in_number(name, known);
+  if (neighbours.size() == 2) return "did you mean '" + neighbours[0] + "' or '" + neighbours[1] + "'? ";
+  const std::string best = neighbours.empty() ? closest_name(name, known) : neighbours.front();
+  return best.empty() ? "" : "did you mean '" + best + "'? ";
+}
+
 }  // namespace
 
 std::string closest_name(const std::string& name, const std::vector<std::string>& known) {
@@ -49,10 +81,7 @@ std::string closest_name(const std::string& name, const std::vector<std::string>
 
 std::string did_you_mean(const std::string& name, std::vector<std::string> known) {
   std::sort(known.begin(), known.end());
-  std::string text;
-  const std::string best = closest_name(name, known);
-  if (!best.empty()) text = "did you mean '" + best + "'? ";
-  text += "known: ";
+  std::string text = suggestion(name, known) + "known: ";
   for (size_t i = 0; i < known.size(); ++i) text += (i ? ", " : "") + known[i];
   return known.empty() ? text + "none" : text;
 }

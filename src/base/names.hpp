@@ -10,7 +10,8 @@ namespace dygita {
 // name is longer than any is.
 std::string closest_name(const std::string& name, const std::vector<std::string>& known);
 
-// "did you mean 'young'? known: damping, density, name" with the known names sorted.
+// "did you mean 'young'? known: damping, density, name" with the known names sorted; of names that differ by a number
+// at their end both neighbours: "did you mean 'M6' or 'M8'?".
 std::string did_you_mean(const std::string& name, std::vector<std::string> known);
 
 // The text as it can be printed: control characters but line ends and tabs as \xNN, so that no text moves a cursor.

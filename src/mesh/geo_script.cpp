@@ -115,13 +115,13 @@ void check_geo(const std::filesystem::path& file, int depth, Checked& checked) {
 
 void check_file(const std::filesystem::path& file, int depth, Checked& checked) {
   if (depth > deepest_merge) throw InputError(fmt::format("{}: files merge each other too deeply", file.string()));
-  if (!std::filesystem::is_regular_file(file)) {
+  std::error_code error;
+  const std::filesystem::path known = std::filesystem::canonical(file, error);
+  if (error || !std::filesystem::is_regular_file(known, error))
     throw InputError(fmt::format("{}: no such file, and a mesh file merges it", file.string()));
-  }
-  const std::filesystem::path known = std::filesystem::canonical(file);
   if (checked.contains(known)) return;
   const std::filesystem::path options = file.string() + ".opt";
-  if (std::filesystem::exists(options)) {
+  if (std::filesystem::exists(options, error)) {
     throw InputError(
         fmt::format("{} lies beside the mesh file and gmsh would run it: rename or remove it", options.string()));
   }

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <linux/landlock.h>
+#include <omp.h>
 #include <sched.h>
 #include <seccomp.h>
 #include <signal.h>
@@ -148,6 +149,7 @@ void restrict_files(const std::vector<std::string>& readable) {
 }  // namespace
 
 void confine(double memory, const std::vector<std::string>& readable) {
+  omp_get_max_threads();  // clang's runtime writes shared memory where it is first used
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   limit(RLIMIT_CORE, 0);
   limit_memory(memory);

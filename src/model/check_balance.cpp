@@ -160,8 +160,17 @@ std::vector<Pull> pulls_on(int group, const Groups& groups, const Preloads& prel
   return pulls;
 }
 
-// A group that only preloads along one line pull at is in equilibrium where their sum is zero, and nowhere else. (Where
-// a single one finds nothing to pull against, its search says so.)
+// What a bolt clamps must be held against it: by another interface, a support or a load.
+void refuse_alone(const Problem& problem, const Step& step, const std::string& part, const Pull& pull) {
+  if (pull.force.norm() == 0.0) return;
+  fail(problem, pull.origin,
+       fmt::format("step '{}': load.preload of {} pulls '{}' against nothing: no other interface, "
+                   "support or load holds it",
+                   step.name, pull.name, part),
+       "let it bear on what it clamps, by an interface of its other faces, or hold it by a support");
+}
+
+// A group that only preloads along one line pull at is in equilibrium where their sum is zero, and nowhere else.
 void refuse_unbalanced(const Problem& problem, const Step& step, const std::string& part,
                        const std::vector<Pull>& pulls) {
   Vec3 sum = Vec3::Zero();
@@ -194,6 +203,7 @@ void check_preloads(const Problem& problem, const Step& step) {
     const int group = groups.of(*part);
     if (pushed[group] || std::exchange(seen[group], 1)) continue;
     const std::vector<Pull> pulls = pulls_on(group, groups, preloads);
+    if (pulls.size() == 1) refuse_alone(problem, step, part->name, pulls.front());
     if (pulls.size() > 1) refuse_unbalanced(problem, step, part->name, pulls);
   }
 }

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/plain_file.hpp"
 
 namespace dygita {
 
@@ -61,7 +62,7 @@ Table parse_csv(std::istream& stream, const std::vector<std::string>& step_names
     table.names.push_back(has_unit ? header[i].substr(0, open) : header[i]);
     table.units.push_back(has_unit ? header[i].substr(open + 2, header[i].size() - open - 3) : "");
   }
-  const bool is_marked = table.names.back() == "converged";
+  const bool is_marked = table.names.size() > 1 && table.names.back() == "converged";
   table.columns.resize(table.names.size());
   for (int n = 2; std::getline(stream, line); ++n) {
     std::vector<std::string> cells = cells_of(line);
@@ -87,8 +88,9 @@ Table parse_csv(std::istream& stream, const std::vector<std::string>& step_names
 }
 
 Table read_csv(const std::filesystem::path& path, const std::vector<std::string>& step_names) {
-  std::ifstream file(path);
   try {
+    if (is_no_file(path)) throw InputError("is no file");
+    std::ifstream file(path);
     if (!file) throw InputError("is missing");
     return parse_csv(file, step_names);
   } catch (const InputError& error) {

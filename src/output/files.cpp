@@ -34,4 +34,14 @@ void make_directory(const fs::path& path) {
   if (error) throw InputError("cannot make the output directory '" + path.string() + "': " + error.message());
 }
 
+void refuse_links(const fs::path& home, const fs::path& relative) {
+  fs::path path = home;
+  for (const fs::path& part : relative) {
+    path /= part;
+    std::error_code ignored;
+    if (fs::is_symlink(fs::symlink_status(path, ignored)))
+      throw InputError("'" + path.string() + "' is a link, and files would be written where it leads: remove it");
+  }
+}
+
 }  // namespace dygita

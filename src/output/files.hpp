@@ -17,4 +17,8 @@ void write_text(const std::filesystem::path& path, const std::string& text);
 // Throws InputError with the system's reason.
 void make_directory(const std::filesystem::path& path);
 
+// Throws InputError where a folder of `relative`, or its last member, is a link: what is written there would go
+// elsewhere.
+void refuse_links(const std::filesystem::path& home, const std::filesystem::path& relative);
+
 }  // namespace dygita

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/plain_file.hpp"
 #include "output/files.hpp"
 
 namespace dygita {
@@ -36,6 +37,7 @@ void remove_file(const fs::path& path) {
 }
 
 void remove_listed(const fs::path& directory) {
+  if (is_no_file(directory / Manifest::file_name)) return;
   std::ifstream list(directory / Manifest::file_name);
   std::set<fs::path, std::greater<>> parents;  // deepest first
   for (std::string line; std::getline(list, line);) {

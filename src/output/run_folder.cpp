@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/plain_file.hpp"
 #include "output/csv.hpp"
 #include "output/files.hpp"
 #include "output/record_parts.hpp"
@@ -19,12 +20,21 @@ namespace fs = std::filesystem;
 namespace {
 
 std::optional<std::string> text_of(const fs::path& path) {
+  require_file(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) return std::nullopt;
   return std::string{std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace
+
+int whole_number(const Json& value) {
+  constexpr double most = 1e9;
+  const double number = value.is_number() ? value.get<double>() : 2 * most;
+  if (!(std::abs(number) <= most) || number != std::floor(number))
+    throw InputError("a file of the run holds " + value.dump() + " where a whole number is expected: it is damaged");
+  return static_cast<int>(number);
+}
 
 double number(const Json& object, const char* key) {
   const auto found = object.find(key);
@@ -70,6 +80,7 @@ RunFolder::RunFolder(fs::path folder, const std::string& record_text) : folder_(
 Table RunFolder::table(const std::string& file, const std::vector<std::string>& columns) const {
   try {
     if (read_.find(file) == read_.end()) {
+      if (is_no_file(folder_ / file)) throw InputError("is no file");
       std::ifstream stream(folder_ / file);
       if (!stream) throw InputError("is missing");
       std::vector<std::string> steps;

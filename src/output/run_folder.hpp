@@ -43,6 +43,9 @@ class RunFolder {
   mutable std::map<std::string, Table> read_;  // several sections ask for the same table
 };
 
+// Throws InputError where it is no whole number, or beyond a thousand million: no file of ours has such a one.
+int whole_number(const Json& value);
+
 // Of an object's member: nan where it is missing or null; "" likewise.
 double number(const Json& object, const char* key);
 std::string text(const Json& object, const char* key);

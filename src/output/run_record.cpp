@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/log.hpp"
+#include "base/plain_file.hpp"
 #include "model/load.hpp"
 #include "numerics/factor.hpp"
 #include "output/record_parts.hpp"
@@ -182,6 +183,7 @@ const char* verdict(const RunResult& result) {
 }
 
 std::optional<RecordedRun> read_run_record(const std::filesystem::path& directory) {
+  require_file(directory / "run.json");
   std::ifstream file(directory / "run.json");
   const Json json = Json::parse(file, nullptr, false);
   if (!file || json.is_discarded()) return std::nullopt;

@@ -20,6 +20,7 @@ namespace {
 
 constexpr const char* interfaces_file = "interfaces.pvd";
 constexpr const char* frames_folder = "frames";
+constexpr const char* interface_frames = "frames/interfaces";
 
 std::vector<std::string> step_names(const Problem& problem) {
   std::vector<std::string> names;
@@ -46,6 +47,7 @@ RunWriter::RunWriter(fs::path directory, std::string problem_name)
                      " is that of the interface fields");
   }
   make_directory(directory_);
+  refuse_links(directory_, interface_frames);  // before anything is computed
   index_ = std::make_unique<Index>(directory_);
 }
 
@@ -59,7 +61,8 @@ RunWriter::~RunWriter() {
 void RunWriter::write_frame(const Frame& frame) {
   CHECK(index_->frames.empty() || frame.label_time > index_->frames.back().label_time,
         "frames come in the order of their label_time");
-  make_directory(directory_ / frames_folder / "interfaces");
+  refuse_links(directory_, interface_frames);
+  make_directory(directory_ / interface_frames);
   const std::string number = fmt::format("_{:05}.vtu", index_->frames.size());
   const auto listed = [this](const fs::path& file) {
     index_->manifest.add(file);
@@ -74,7 +77,7 @@ void RunWriter::write_frame(const Frame& frame) {
     index_->parts.add(frame.label_time, i_part++, part.part->name, file);
   }
   if (!frame.interfaces.empty()) {
-    const fs::path file = fs::path(frames_folder) / "interfaces" / ("interfaces" + number);
+    const fs::path file = fs::path(interface_frames) / ("interfaces" + number);
     write_interfaces(frame, listed(file));
     index_->interfaces.add(frame.label_time, 0, "interfaces", file);
   }
@@ -141,6 +144,7 @@ void RunWriter::write_record(const Problem& problem, const RunResult& result, co
 // A .pvd of its own, whose time is what the frames are labelled with.
 void RunWriter::write_field(const std::string& name, const std::vector<Frame>& frames) {
   const fs::path folder = fs::path(frames_folder) / name;
+  refuse_links(directory_, folder);
   make_directory(directory_ / folder);
   Collection collection;
   for (size_t i = 0; i < frames.size(); ++i) {

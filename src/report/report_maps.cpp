@@ -94,16 +94,17 @@ std::string value_scale(double x, double y, double high, const char* unit) {
   return result + words(x + 18.0, y + 10.0, with_unit(high, unit)) + words(x + 18.0, y + 6.0 * n_levels, "0");
 }
 
+int level_of(double share) { return share > 0.0 ? static_cast<int>(std::min(n_levels * share, n_levels - 1.0)) : 0; }
+
 std::vector<std::string> colors_of(const Json& values, double high, bool is_state) {
   std::vector<std::string> colors;
   for (const Json& value : values) {
     if (is_state)
-      colors.emplace_back(state_color(value.get<int>()));
+      colors.emplace_back(state_color(whole_number(value)));
     else if (!value.is_number())
       colors.emplace_back("#ff00ff");
     else
-      colors.push_back(scale_color(
-          (std::clamp(static_cast<int>(n_levels * value.get<double>() / high), 0, n_levels - 1) + 0.5) / n_levels));
+      colors.push_back(scale_color((level_of(value.get<double>() / high) + 0.5) / n_levels));
   }
   return colors;
 }
@@ -139,9 +140,9 @@ std::string maps_of_joint(const Json& joint) {
     drawing += words(x, 14.0, text(instants[i], "step"), "middle") +
                words(x, 30.0,
                      (is_static ? "(static)" : with_unit(number(instants[i], "time"), "s")) +
-                         (instants[i].value("missed", 0) > 0 ? " *" : ""),
+                         (number(instants[i], "missed") > 0 ? " *" : ""),
                      "middle");
-    has_missed |= instants[i].value("missed", 0) > 0;
+    has_missed |= number(instants[i], "missed") > 0;
   }
   for (size_t r = 0; r < rows.size(); ++r) {
     const double y = top + row_height * static_cast<double>(r), high = largest(joint, rows[r].key);

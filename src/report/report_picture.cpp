@@ -27,16 +27,16 @@ std::vector<DrawnFacet> facets_of(const Json& picture) {
   std::vector<DrawnFacet> facets;
   const Json& list = picture.at("facets");
   for (size_t i = 0; i + 4 <= list.size();) {
-    const size_t n = list[i + 3].get<size_t>();
+    const auto n = static_cast<size_t>(whole_number(list[i + 3]));
     if (n < 3 || n > 4 || i + 4 + 2 * n > list.size()) break;
-    facets.push_back({list[i].get<int>(), list[i + 1].get<int>(), list[i + 2].get<int>(), &list, i + 4, n});
+    facets.push_back({whole_number(list[i]), whole_number(list[i + 1]), whole_number(list[i + 2]), &list, i + 4, n});
     i += 4 + 2 * n;
   }
   return facets;
 }
 
 std::string path_of(const DrawnFacet& facet) {
-  const auto at = [&](size_t k) { return (*facet.list)[facet.first + k].get<int>(); };
+  const auto at = [&](size_t k) { return whole_number((*facet.list)[facet.first + k]); };
   std::string path = fmt::format("M{} {}l", at(0), at(1));
   for (size_t k = 1; k < facet.n; ++k)
     path += fmt::format("{}{} {}", k > 1 ? " " : "", at(2 * k) - at(2 * k - 2), at(2 * k + 1) - at(2 * k - 1));
@@ -65,7 +65,8 @@ std::string pale(const std::string& color) {
 std::string lines(const Json& edges, const char* style) {
   std::string path;
   for (const Json& e : edges)
-    path += fmt::format("M{} {}L{} {}", e.at(0).get<int>(), e.at(1).get<int>(), e.at(2).get<int>(), e.at(3).get<int>());
+    path += fmt::format("M{} {}L{} {}", whole_number(e.at(0)), whole_number(e.at(1)), whole_number(e.at(2)),
+                        whole_number(e.at(3)));
   return path.empty() ? "" : fmt::format("<path d=\"{}\" fill=\"none\" {}/>\n", path, style);
 }
 
@@ -207,7 +208,7 @@ std::string by_stress(const Json& picture, const std::string& title) {
                         coordinate(0.5 * width), coordinate(height + 28.0));
   result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}{}</text>\n", coordinate(bar_left + bar),
                         coordinate(height + 28.0), highest < 990 ? "above " : "", escaped(with_unit(high, "Pa")));
-  if (picture.value("missed", 0) > 0)
+  if (number(picture, "missed") > 0)
     result += fmt::format(
         "<text x=\"{}\" y=\"16\" text-anchor=\"end\" font-weight=\"bold\" fill=\"#d55e00\">NOT CONVERGED"
         "</text>\n",
@@ -233,8 +234,8 @@ std::string caption_of(const Json& picture) {
              : scale == 1.0 ? "drawn as they are"
                             : "drawn " + plain_number(scale, 6) + " times as large";
   caption += "; von Mises stress up to " + with_unit(number(picture, "largest"), "Pa") + ".";
-  if (const int missed = picture.value("missed", 0); missed > 0)
-    caption += fmt::format(" NOT CONVERGED: {} increment{} up to here.", missed, missed == 1 ? "" : "s");
+  if (const double missed = number(picture, "missed"); missed > 0)
+    caption += fmt::format(" NOT CONVERGED: {:.0f} increment{} up to here.", missed, missed == 1 ? "" : "s");
   if (picture.value("cut", false)) caption += " Cut " + cut_of(picture) + ".";
   return caption + (scale > 0.0 ? " Dashed: undeformed." : "");
 }

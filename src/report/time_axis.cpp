@@ -13,7 +13,7 @@ bool is_static_step(const Json& step) { return text(step, "kind") == "static"; }
 
 int increments_of(const Json& step) {
   const double n = number(step, "increments");
-  return std::isfinite(n) ? static_cast<int>(n) : 0;
+  return std::isfinite(n) ? whole_number(step.at("increments")) : 0;
 }
 
 }  // namespace

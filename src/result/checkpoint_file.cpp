@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/fnv1a.hpp"
 #include "base/log.hpp"
+#include "base/plain_file.hpp"
 #include "result/state_coder.hpp"
 
 namespace dygita {
@@ -111,6 +112,9 @@ CheckpointFile::CheckpointFile(std::filesystem::path path, double every)
       every_(every),
       flushed_(Clock::now()),
       synced_(flushed_) {
+  require_file(path_);
+  if (std::filesystem::is_symlink(path_))  // to be written to, as the run goes on
+    throw InputError(fmt::format("'{}' is a link, and not a checkpoint of dygita", path_.string()));
   file_.reset(std::fopen(path_.c_str(), "r+b"));
   if (!file_) throw InputError(fmt::format("cannot read '{}': {}", path_.string(), std::strerror(errno)));
   std::setvbuf(file_.get(), buffer_.get(), _IOFBF, buffer_bytes);

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/fnv1a.hpp"
+#include "base/plain_file.hpp"
 #include "result/state_coder.hpp"
 
 namespace dygita {
@@ -190,6 +191,7 @@ void write_state(const std::filesystem::path& path, const RunState& state) {
 }
 
 RunState read_state(const std::filesystem::path& path) {
+  require_file(path);
   File file(std::fopen(path.c_str(), "rb"));
   if (!file) throw InputError(fmt::format("cannot read '{}': {}", path.string(), std::strerror(errno)));
   try {

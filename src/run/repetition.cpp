@@ -27,7 +27,8 @@ std::map<std::string, std::string> tables_in(const fs::path& folder) {
   std::map<std::string, std::string> tables;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
-    if (entry.path().extension() == ".csv") tables[entry.path().filename().string()] = digest_of_file(entry.path());
+    if (entry.path().extension() == ".csv" && entry.is_regular_file(error))
+      tables[entry.path().filename().string()] = digest_of_file(entry.path());
   return tables;
 }
 

@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/log.hpp"
+#include "base/plain_file.hpp"
 #include "signal/unit.hpp"
 
 namespace dygita {
@@ -70,6 +72,7 @@ void check_specification(const Specification& s, const std::vector<std::string>&
 }
 
 Specification read_specification(const std::string& path) {
+  require_file(path);
   std::ifstream file(path);
   if (!file) throw InputError(fmt::format("no file '{}'", path));
   Specification s;
@@ -96,6 +99,11 @@ Specification read_specification(const std::string& path) {
     where.push_back(fmt::format("{}:{}", path, n));
   }
   s.unit = columns.text(1);
+  if (s.unit.empty())
+    warn(
+        fmt::format("{} gives no unit: its levels are taken as m/s^2\n    its first line may say otherwise: "
+                    "frequency [Hz], level [g]",
+                    path));
   try {
     check_specification(s, where);
   } catch (const InputError& error) {

@@ -281,6 +281,33 @@ def a_folder_that_is_removed():
     check(not (out / "stopped" / "base" / "run.json").exists(), "a folder without its first frames has a record")
 
 
+def pipes_in_the_place_of_files():
+    """Whoever reads a pipe that nobody writes waits for ever: it is refused, or left out, as a device is."""
+    dygita(*deck_command(FOLDER / "pipes"), expected=0)
+    whole = FOLDER / "pipes" / "stopped" / "base"
+    stopped, _ = stopped_run("pipes_stopped", signal.SIGKILL, "--set", "us=2000")
+    refused = "a pipe, a device or a folder where a file is expected"
+    again = deck_command(FOLDER / "again", "--repeat", whole / "run.json")
+    for file, command, expected, says in (
+            (whole / "run.json", ("report", whole), 2, refused), (whole / "scenes.json", ("report", whole), 2, refused),
+            (whole / "above.csv", ("report", whole), 0, ""),
+            (whole / "view.py", ("view", whole, "--paraview", "true"), 2, refused),
+            (whole / "run.json", again, 2, refused), (whole / "joint.csv", again, 0, "all 7 tables"),
+            (whole / "run.json", ("continue", whole, "--iterations", "1"), 2, refused),
+            (whole / "state.dygita", ("continue", whole, "--iterations", "1"), 2, refused),
+            (whole / ".dygita-files", ("continue", whole, "--iterations", "1", "--quiet"), 0, ""),
+            (stopped / "checkpoint.dygita", ("continue", stopped, "--quiet"), 2, refused)):
+        kept = file.read_bytes()
+        file.unlink()
+        os.mkfifo(file)
+        try:
+            dygita(*command, expected=expected, says=says)
+        except subprocess.TimeoutExpired:
+            failures.append(f"{file.name} is a pipe: dygita {command[0]} waits for it")
+        file.unlink()
+        file.write_bytes(kept)
+
+
 def decks_that_take_long():
     folder = FOLDER / "decks"
     folder.mkdir()
@@ -316,7 +343,7 @@ def a_time_limit_of_the_clock():
 
 for fault in (who_holds_the_folder, an_error_in_the_middle, numbers_that_overflow, energies_that_overflow, little_memory,
               a_disk_that_the_checkpoint_fills, a_small_disk, interrupted, a_spoiled_checkpoint, a_load_that_changed,
-              a_state_without_a_record, a_folder_that_is_removed, decks_that_take_long, a_time_limit_of_the_clock):
+              a_state_without_a_record, a_folder_that_is_removed, pipes_in_the_place_of_files, decks_that_take_long, a_time_limit_of_the_clock):
     fault()
 shutil.rmtree(FOLDER)
 print("\n".join(failures) or "every fault was met")

@@ -1,6 +1,7 @@
 # Small cases of the decks run to their end with every solver, for a build with sanitizers: whatever these find ends the
 # program with another exit code. cmake -DDYGITA=program -DSOURCE_DIR=folder [-DTHREADS=n] -P small_decks.cmake
 
+cmake_minimum_required(VERSION 3.25)
 set(out ${CMAKE_CURRENT_BINARY_DIR}/small_decks_out)
 file(REMOVE_RECURSE ${out})
 

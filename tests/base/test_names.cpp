@@ -29,6 +29,17 @@ TEST(DidYouMean, proposes_the_closest_and_lists_the_known_in_order) {
             "did you mean 'young'? known: density, poisson, young");
 }
 
+TEST(DidYouMean, proposes_the_neighbours_of_a_number) {
+  const std::vector<std::string> sizes = {"M3", "M6", "M8", "M10", "washer"};
+  EXPECT_TRUE(did_you_mean("M7", sizes).starts_with("did you mean 'M6' or 'M8'? known: "));
+  EXPECT_TRUE(did_you_mean("m9", sizes).starts_with("did you mean 'M8' or 'M10'? "));
+  EXPECT_TRUE(did_you_mean("M1", sizes).starts_with("did you mean 'M3'? "));
+  EXPECT_TRUE(did_you_mean("M64", sizes).starts_with("did you mean 'M10'? "));
+  EXPECT_TRUE(did_you_mean("m8", sizes).starts_with("did you mean 'M8'? "));
+  EXPECT_TRUE(did_you_mean("wascher7", sizes).starts_with("did you mean 'washer'? "));
+  EXPECT_TRUE(did_you_mean("7", sizes).starts_with("known: "));
+}
+
 TEST(DidYouMean, only_lists_when_none_is_near) {
   EXPECT_EQ(did_you_mean("friction", {"young", "density"}), "known: density, young");
 }

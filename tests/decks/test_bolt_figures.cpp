@@ -56,6 +56,34 @@ TEST(BoltFigures, have_the_loss_of_a_bolt_that_holds_more_than_its_load) {
   EXPECT_LT(std::abs(*bolt.loss()), 0.1);
 }
 
+std::string said_of(const std::string& deck, const std::string& force) {
+  testing::internal::CaptureStderr();
+  run_text(deck, {{"force", force}});
+  return testing::internal::GetCapturedStderr();
+}
+
+TEST(BoltFigures, say_what_no_bolt_bears) {
+  const std::string beyond = "bolt 'bolt' is tightened to 1.25e+05 N, 1250 MPa on its 100 mm^2, and ";
+  EXPECT_EQ(said_of(rod, "115000").find("is tightened to"), std::string::npos);
+  const std::string said = said_of(rod, "125000");
+  EXPECT_NE(said.find(beyond + "no bolt bears more than 1200 MPa"), std::string::npos) << said;
+}
+
+TEST(BoltFigures, say_what_the_parts_of_a_bolt_do_not_bear) {
+  std::string weak = rod;
+  const std::string of_head = "name = \"head\", material = steel";
+  weak.replace(weak.find(of_head), of_head.size(), "name = \"head\", material = weak");
+  weak =
+      "local weak = material.elastic{ name = 'weak', young = 200*GPa, poisson = 0, density = 8000, yield = 640*MPa "
+      "}\n" +
+      weak;
+  EXPECT_EQ(said_of(weak, "63000").find("is tightened to"), std::string::npos);
+  const std::string said = said_of(weak, "65000");
+  EXPECT_NE(said.find("bolt 'bolt' is tightened to 6.5e+04 N, 650 MPa on its 100 mm^2, and its parts yield at 640 MPa"),
+            std::string::npos)
+      << said;
+}
+
 TEST(BoltFigures, have_no_loss_where_a_bolt_was_loosened) {
   BoltSummary bolt;
   EXPECT_FALSE(bolt.loss().has_value());

@@ -171,7 +171,8 @@ TEST(Preload, beyond_a_yield_without_hardening_is_refused_with_the_largest_force
   }
 }
 
-// Two cubes one upon the other: nothing holds the upper one against a force between them.
+// Two cubes one upon the other: nothing holds the upper one against a force between them, also where another load acts
+// on it. (Where none does, the check refuses it: tests/wrong_decks.)
 TEST(Preload, that_nothing_takes_is_told_with_the_largest_force) {
   for (const char* solver : {"latin", "monolithic"}) {
     try {
@@ -182,7 +183,7 @@ local low = substructure{ name = "low", mesh = cube, material = steel }
 local high = substructure{ name = "high", mesh = cube, material = steel, place = { 0, 0, 10*mm } }
 local glue = interface.bonded{ name = "glue", between = { low:face "zmax", high:face "zmin" } }
 local base = support.fixed{ name = "base", on = low:face "zmin" }
-local tighten = step.static{ name = "tighten", loads = { load.preload{ on = glue, force = 10*kN } } }
+local tighten = step.static{ name = "tighten", loads = { load.preload{ on = glue, force = 10*kN }, load.force{ on = high:face "xmax", x = 1 } } }
 problem{ name = "nothing", substructures = { low, high }, interfaces = { glue }, supports = { base }, steps = { tighten } }:run{}
 )",
                {}, 1, solver);

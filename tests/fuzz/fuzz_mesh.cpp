@@ -19,7 +19,9 @@ namespace dygita::fuzz {
 
 namespace {
 
-constexpr double time_limit = 100.0;  // s, of a machine that is busy
+constexpr double time_limit = 5.0;    // s: scripts without an end are many
+constexpr double latest = 60.0;       // s, until it is stopped, on a machine that is busy
+constexpr double size_in_cad = 5e-3;  // m: few cells, since it is not gmsh's meshing that is to be tried
 
 const char* kind_of(const std::string& text) {
   if (text.starts_with("$")) return "input.msh";
@@ -38,22 +40,25 @@ void try_to_read(const std::function<void()>& read) {
       throw;
     }
   });
-  demand(seconds_since(start) < time_limit + 60.0, "the mesher is stopped in time");  // of a machine that is busy
+  demand(seconds_since(start) < latest, "the mesher is stopped in time");
   demand(waitpid(-1, nullptr, WNOHANG) == -1 && errno == ECHILD, "no process is left");
 }
 
 void read_all(const std::string& file) {
+  const bool is_cad = file.ends_with(".step") || file.ends_with(".brep");
   try_to_read([&] {
     GmshOptions options;
     options.file = file;
+    if (is_cad) options.size = size_in_cad;
     const GmshMeshes meshes(options);
     for (const std::string& name : meshes.volume_names())
       demand(meshes.volume(name)->nodes.allFinite(), "a mesh is finite");
   });
-  if (!file.ends_with(".step") && !file.ends_with(".brep")) return;
+  if (!is_cad) return;
   try_to_read([&] {
     StepOptions options;
     options.file = file;
+    options.size = size_in_cad;
     options.order = 1;
     const StepAssembly assembly(options);
   });
@@ -73,8 +78,9 @@ const Scratch& home() {
   static const bool is_there = [] {
     const std::string outer = scratch.folder().parent_path().string();
     setenv("HOME", outer.c_str(), 1);
+    const bool reads = chdir(outer.c_str()) == 0 && reads_a_cube(scratch);
     set_mesh_limits({.time = time_limit, .trusted = {}});
-    return chdir(outer.c_str()) == 0 && reads_a_cube(scratch);
+    return reads;
   }();
   demand(is_there, "a folder to work in, and a mesher");
   return scratch;

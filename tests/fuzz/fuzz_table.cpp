@@ -46,6 +46,7 @@ void read_as_table(const std::string& text) {
   Table table;
   std::istringstream stream(text);
   if (!attempt([&] { table = parse_csv(stream, steps); })) return;
+  if (table.has_column("step")) return;  // beside that of the rows' steps: no table of ours
   std::istringstream again(csv_text(table, steps));
   const Table same = parse_csv(again, steps);
   demand(same.columns.size() == table.columns.size() && same.n_rows() == table.n_rows() && same.step == table.step,

@@ -91,6 +91,14 @@ TEST(FileName, keeps_what_a_problem_may_be_called_and_disarms_the_rest) {
   EXPECT_EQ(file_name_of(""), "unnamed");
 }
 
+TEST(Csv, takes_marks_without_values_for_a_column) {
+  std::istringstream stream("converged,step\n0,push\n1,push\n");
+  const Table read = parse_csv(stream, {"push"});
+  EXPECT_TRUE(read.converged.empty());
+  EXPECT_EQ(read.n_rows(), 2);
+  EXPECT_EQ(read.column("converged"), (std::vector<double>{0.0, 1.0}));
+}
+
 TEST(Table, answers_a_column_by_name_and_names_the_known_ones) {
   Table table;
   table.names = {"time", "normal"};

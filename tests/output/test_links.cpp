@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "output/files.hpp"
 #include "output/run_lock.hpp"
+#include "output/run_writer.hpp"
 #include "scratch.hpp"
 
 namespace dygita {
@@ -38,6 +39,25 @@ TEST(Links, in_the_place_of_a_lock_are_refused) {
   }
   EXPECT_EQ(message, "'" + lock.string() + "' is a link, and not a lock of dygita: remove it");
   EXPECT_EQ(text_of(others), "precious");
+}
+
+TEST(Links, in_the_place_of_the_folders_of_frames_are_refused_before_a_run) {
+  for (const char* link : {"frames", "frames/interfaces"}) {
+    const Scratch scratch;
+    const fs::path run = scratch.path() / "base", others = scratch.path() / "others";
+    fs::create_directories(run / fs::path(link).parent_path());
+    fs::create_directories(others);
+    fs::create_directory_symlink(others, run / link);
+    std::string message;
+    try {
+      const RunWriter writer(run, "rod");
+    } catch (const InputError& error) {
+      message = error.what();
+    }
+    EXPECT_EQ(message,
+              "'" + (run / link).string() + "' is a link, and files would be written where it leads: remove it");
+    EXPECT_TRUE(fs::is_empty(others)) << link;
+  }
 }
 
 }  // namespace

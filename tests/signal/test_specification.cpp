@@ -91,6 +91,19 @@ TEST_F(SpecificationFile, takes_commas_semicolons_blanks_and_a_header_with_a_uni
   EXPECT_NEAR(read("frequency (kHz),level (m/s2)\n0.1,20\n1,500\n").frequency[0], 100.0, 1e-12);
 }
 
+TEST_F(SpecificationFile, without_a_unit_is_warned_of) {
+  take_warnings();
+  read("frequency [Hz], level [m/s^2]\n100,20\n1000,500\n");
+  read("# frequency [Hz], level [g]\n100,20\n1000,500\n");
+  EXPECT_TRUE(take_warnings().empty());
+  for (const char* text : {"100,20\n1000,500\n", "frequency [kHz],level\n1,20\n10,500\n"}) {
+    EXPECT_EQ(read(text).level[0], 20.0);
+    const std::vector<std::string> warnings = take_warnings();
+    ASSERT_EQ(warnings.size(), 1u) << text;
+    EXPECT_NE(warnings[0].find("gives no unit: its levels are taken as m/s^2"), std::string::npos) << warnings[0];
+  }
+}
+
 TEST_F(SpecificationFile, says_where_it_is_wrong) {
   EXPECT_EQ(fault("100,200\n"), ": a specification has at least two points (frequency, level), got 1");
   EXPECT_EQ(fault("100,200\n90,200\n"), ":2: the frequency 90 Hz comes after 100 Hz: frequencies must increase");

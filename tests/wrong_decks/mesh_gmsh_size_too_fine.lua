@@ -1,0 +1,1 @@
+local file = mesh.gmsh{ file = "block.geo", size = 4*um }
