@@ -28,8 +28,18 @@ TEST(SpectrumBand, holds_what_the_tolerance_leaves) {
 }
 
 TEST(SpectrumBand, holds_what_the_time_step_leaves) {
-  const SpectraRun coarse = crush({{"dt", "0.6*us"}}), fine = crush({{"dt", "0.075*us"}});
+  const SpectraRun coarse = crush({{"dt", "0.6*us"}}, 1e-6), fine = crush({{"dt", "0.075*us"}}, 1e-6);
   for (size_t i = 0; i < 2; ++i) expect_band(band_worth(coarse.spectra[i], fine.spectra[i], "time_step"), 0.7, 50.0);
+}
+
+// As wide on average as what it stands for, but narrower at more frequencies than where the increments are implicit.
+TEST(SpectrumBand, of_explicit_increments_is_as_wide_on_average_as_what_the_time_step_leaves) {
+  const SpectraRun coarse = crush({{"dt", "0.6*us"}}), fine = crush({{"dt", "0.075*us"}});
+  for (size_t i = 0; i < 2; ++i) {
+    const BandWorth worth = band_worth(coarse.spectra[i], fine.spectra[i], "time_step");
+    expect_band(worth, 0.55, 50.0);
+    EXPECT_GT(worth.band, worth.truth);
+  }
 }
 
 TEST(SpectrumBand, warns_where_little_is_known_and_only_there) {
