@@ -11,6 +11,7 @@
 
 #include "base/log.hpp"
 #include "base/memory.hpp"
+#include "base/name_list.hpp"
 #include "base/progress.hpp"
 #include "latin/latin.hpp"
 #include "output/bolt_table.hpp"
@@ -32,12 +33,6 @@
 namespace dygita {
 
 namespace {
-
-std::string list_names(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "'" : ", '") + name + "'";
-  return list;
-}
 
 void summarise(const Problem& problem, const SolverFigures& figures, RunResult& result) {
   int increments = 0;
@@ -73,7 +68,7 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
                     problem.explicit_dynamics && !step.is_static ? "substeps" : "iterations", step.seconds);
     if (!step.explicit_parts.empty())
       line += fmt::format("; explicit{}: {}, {} substep{} of each dt", problem.mass().is_tuned ? ", tuned mass" : "",
-                          list_names(step.explicit_parts), step.substeps, step.substeps == 1 ? "" : "s");
+                          list_of_names(step.explicit_parts), step.substeps, step.substeps == 1 ? "" : "s");
     if (step.increments_not_converged > 0)
       line += fmt::format("; {} NOT CONVERGED (worst indicator {:.1e})", step.increments_not_converged,
                           step.worst_indicator);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "base/name_list.hpp"
 #include "base/parallel.hpp"
 #include "model/model.hpp"
 
@@ -209,26 +210,50 @@ Integration choose_integration(const Problem& problem, const Step& step, const s
   return chosen;
 }
 
+namespace {
+
+// Substructures by the reason that keeps them implicit; none: they may be explicit.
+using ByReason = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+void add_to(ByReason& groups, std::string reason, const std::string& name) {
+  if (reason.starts_with("interface '")) reason = "an interface joins it to a mesh that does not match";
+  const auto it = std::find_if(groups.begin(), groups.end(), [&](const auto& group) { return group.first == reason; });
+  if (it == groups.end())
+    groups.push_back({reason, {name}});
+  else
+    it->second.push_back(name);
+}
+
+}  // namespace
+
 std::string describe(const Integration& integration, const Problem& problem, const Step& step) {
   if (integration.parts.empty()) return "";
-  std::string is_explicit, is_implicit;
+  std::vector<std::string> is_explicit;
+  ByReason is_implicit;
   double shortest = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < integration.parts.size(); ++i) {
     const Integration::Part& part = integration.parts[i];
-    std::string& list = part.is_explicit ? is_explicit : is_implicit;
-    list += (list.empty() ? "'" : ", '") + problem.substructures[i]->name + "'";
-    if (!part.why_not.empty()) list += " (" + part.why_not + ")";
-    if (part.is_explicit) shortest = std::min(shortest, part.longest);
+    const std::string& name = problem.substructures[i]->name;
+    if (part.is_explicit) {
+      is_explicit.push_back(name);
+      shortest = std::min(shortest, part.longest);
+    } else {
+      add_to(is_implicit, part.why_not, name);
+    }
   }
   std::string text;
   if (!is_explicit.empty())
     text = fmt::format(
         "explicit: {}; {}{} increment{} of {:.4g} us in each dt (stable to {:.4g} us), an estimated {:.2g} "
         "of the cost of implicit ones",
-        is_explicit, problem.mass().is_tuned ? "tuned mass, " : "", integration.n_substeps,
+        list_of_names(is_explicit), problem.mass().is_tuned ? "tuned mass, " : "", integration.n_substeps,
         integration.n_substeps == 1 ? "" : "s", 1e6 * step.dt / integration.n_substeps, 1e6 * shortest,
         integration.cost);
-  if (!is_implicit.empty()) text += (text.empty() ? "implicit: " : "; implicit: ") + is_implicit;
+  for (size_t i = 0; i < is_implicit.size(); ++i) {
+    const auto& [reason, names] = is_implicit[i];
+    text += (text.empty() ? "implicit: " : i == 0 ? "; implicit: " : ", ") + list_of_names(names);
+    if (!reason.empty()) text += " (" + reason + ")";
+  }
   return text;
 }
 
