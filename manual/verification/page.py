@@ -77,7 +77,9 @@ def speed_section(done, kept):
     options = dict.fromkeys((r.solver, r.option) for _, rows, _ in done for r in rows if r.knob == "mesh")
     parts.append("Solvers: " + "; ".join(f"*{name}*: `{option}`" for name, option in options if option) + ".")
     if kept:
-        parts.append("The runs of this section are of an earlier command, those of all others of the last one.")
+        knows = any(r.solver == "latin implicit" for _, rows, _ in done for r in rows)
+        parts.append("The runs of this section are of an earlier command, those of all others of the last one"
+                     + ("." if knows else "; in them `latin` integrated implicitly throughout."))
     for scene, rows, told in done:
         parts += [f"### {scene.title}", f"`{scene.deck}`. {told}", picture(f"speed_{scene.name}", scene.title),
                   f"{speed.against_latin(rows)} {scene.why}"]
