@@ -54,7 +54,9 @@ Sizes sizes_of(const InterfaceFields& fields) {
 }
 
 bool write_all(std::FILE* file, const RunState& state) {
-  const auto put = [&](const void* data, size_t bytes) { return std::fwrite(data, 1, bytes, file) == bytes; };
+  const auto put = [&](const void* data, size_t bytes) {
+    return bytes == 0 || std::fwrite(data, 1, bytes, file) == bytes;
+  };
   const auto put_sum = [&](const Checksum& sum) {
     const std::uint64_t value = sum.value();
     return put(&value, 8);

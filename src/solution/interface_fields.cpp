@@ -68,7 +68,7 @@ bool InterfaceFields::read(size_t i_step, size_t increment, Eigen::Index size, V
   if (i_step >= steps_.size() || increment >= steps_[i_step].size()) return false;
   const Kept& kept = steps_[i_step][increment];
   if (kept.size != size) return false;
-  if (kept.at < 0) {
+  if (kept.at < 0 || size == 0) {
     q = kept.q;
     return true;
   }
