@@ -20,6 +20,9 @@ void DirectPoints::begin_interval(int increment) {
 }
 
 void DirectPoints::add_held_force(const OwnPoint& p, const OwnPort& port) {
+  for (int i = port.first_share; i < port.end_share; ++i)
+    if (shares_[i].has_held) port.piece->add_held_force(shares_[i].node, shares_[i].block.transpose() * port.force);
+  if (port.is_spread()) return;
   const Port& of = model_->exchange.ports[port.index];
   for (int d = 0; d < 3; ++d)
     if (of.is_held[d]) port.piece->add_held_force(port.node, port.force[d] * p.point->frame.col(d));
@@ -29,8 +32,8 @@ void DirectPoints::add_held_force(const OwnPoint& p, const OwnPort& port) {
 void DirectPoints::end_point(OwnPoint& p) {
   for (int i = p.side_1.first; i < p.side_2.end; ++i) {
     OwnPort& port = ports_[i];
-    const Vec3 v = port.piece->velocity_of(port.node);
-    p.on_pieces += 0.5 * increment_.dt * port.force.dot(p.point->frame.transpose() * (port.v_old + v));
+    const Vec3 v = velocity(p, port);
+    p.on_pieces += 0.5 * increment_.dt * port.force.dot(port.v_old + v);
     port.v_old = v;
     if (port.is_moved) add_held_force(p, port);
     port.impulse += increment_.dt * port.force;
@@ -70,14 +73,21 @@ void DirectPoints::show(State& state) {
   show_ties(*model_, records, port_force, state, true);
 }
 
+Vec3 DirectPoints::end_displacement(const OwnPoint& p, const OwnPort& port) const {
+  if (!port.is_spread()) return p.point->frame.transpose() * port.piece->displacement_of(port.node);
+  Vec3 u = Vec3::Zero();
+  for (int i = port.first_share; i < port.end_share; ++i)
+    u += shares_[i].block * port.piece->displacement_of(shares_[i].node);
+  return u;
+}
+
 double DirectPoints::difference_of_gaps(const OwnPoint& p) const {
   if (!p.keeps_gap) return 0.0;
   std::array<double, 2> mean{};
   for (const int which : {0, 1}) {
     const Side& side = which == 0 ? p.side_1 : p.side_2;
     for (int i = side.first; i < side.end; ++i)
-      mean[which] +=
-          p.point->frame.col(0).dot(ports_[i].piece->displacement_of(ports_[i].node)) / (side.end - side.first);
+      mean[which] += end_displacement(p, ports_[i])[0] / (side.end - side.first);
   }
   return std::abs(p.first_gap + mean[1] - mean[0] - p.record.law.gap);
 }

@@ -15,6 +15,9 @@ namespace {
 constexpr int most_rounds = 20000;
 constexpr int chunk = 256;  // points a thread takes at a time
 
+// Of what a point would change, in a round: laws with friction that share a node may go round in circles otherwise.
+double share_of(int round) { return round < 400 ? 1.0 : round < 3000 ? 0.5 : 0.2; }
+
 }  // namespace
 
 DirectPoints::DirectPoints(const StepModel& model, const State& start)
@@ -38,31 +41,20 @@ void DirectPoints::add_point(const StepModel& model, int index, const State& sta
   p.side_1.end = p.side_2.first = first + point.first_port_2;
   p.side_2.end = first + point.end_port;
   for (int i = point.first_port; i < point.end_port; ++i) {
-    const Port& port = model.exchange.ports[i];
-    OwnPort own;
-    own.piece = dynamic_cast<ExplicitPiece*>(model.pieces[port.piece].get());
-    CHECK(own.piece, "a direct point has explicit pieces alone");
-    own.node = port.piece_node;
-    own.index = i;
-    own.v_old = own.piece->velocity_of(own.node);
-    const Mat3 answer = point.frame.transpose() * own.piece->node_compliance(own.node) * point.frame;
-    const double size = answer.diagonal().maxCoeff();
-    const Vec3 across = (answer - Mat3(answer.diagonal().asDiagonal())).cwiseAbs().rowwise().sum();
-    own.is_plain = across.maxCoeff() <= 1e-9 * size;
-    for (int d = 0; d < 3; ++d) {
-      if (port.is_held[d]) continue;
-      // Where directions answer together, what bounds the answer: any positive value has the same solution.
-      own.inverse[d] = answer(d, d) + (own.is_plain ? 0.0 : across[d]);
-    }
-    own.has_held = port.is_held[0] || port.is_held[1] || port.is_held[2];
-    own.is_moved = own.has_held && own.piece->has_motions();
-    ports_.push_back(own);
+    ports_.push_back(make_port(model, point, i));
+    ports_.back().v_old = velocity(p, ports_.back());
   }
   const bool has_group = point.first_port_2 - point.first_port > 1 || point.end_port - point.first_port_2 > 1;
   p.keeps_gap = point.law && point.law->shown().gap;
   if (p.keeps_gap) p.first_gap = point.law->initial().gap;
   p.needs_place = has_group || (point.law && !p.keeps_gap);
   points_.push_back(std::move(p));
+}
+
+template <typename Visit>
+void DirectPoints::for_each_node(const OwnPort& port, Visit&& visit) const {
+  if (!port.is_spread()) visit(port.node);
+  for (int i = port.first_share; i < port.end_share; ++i) visit(shares_[i].node);
 }
 
 // Points that share a node, or whose nodes answer along several axes at once, take turns until they agree.
@@ -77,11 +69,13 @@ void DirectPoints::find_clusters() {
   std::vector<char> is_shared(points_.size(), 0);
   for (int i = 0; i < static_cast<int>(points_.size()); ++i)
     for (int p = points_[i].side_1.first; p < points_[i].side_2.end; ++p) {
-      const auto [it, is_new] = first_at.emplace(std::pair{ports_[p].piece, ports_[p].node}, i);
       if (!ports_[p].is_plain) is_shared[i] = 1;
-      if (is_new) continue;
-      is_shared[i] = is_shared[it->second] = 1;
-      root[find(i)] = find(it->second);
+      for_each_node(ports_[p], [&](int node) {
+        const auto [it, is_new] = first_at.emplace(std::pair{ports_[p].piece, node}, i);
+        if (is_new || it->second == i) return;
+        is_shared[i] = is_shared[it->second] = 1;
+        root[find(i)] = find(it->second);
+      });
     }
   std::map<int, std::vector<int>> members;
   for (int i = 0; i < static_cast<int>(points_.size()); ++i)
@@ -102,7 +96,7 @@ void DirectPoints::begin_places(OwnPoint& p) {
     std::array<const OwnPort*, 3> held{};
     for (int i = side.first; i < side.end; ++i) {
       OwnPort& port = ports_[i];
-      port.offset = p.point->frame.transpose() * port.piece->start_displacement_of(port.node, port.v_old);
+      port.offset = start_displacement(p, port);
       mean[which] += port.offset / (side.end - side.first);
       for (int d = 0; d < 3; ++d)
         if (port.has_held && model_->exchange.ports[port.index].is_held[d]) held[d] = &port;
@@ -119,83 +113,14 @@ void DirectPoints::begin_places(OwnPoint& p) {
 void DirectPoints::begin_point(OwnPoint& p, const std::vector<double>& motions) {
   for (int i = p.side_1.first; i < p.side_2.end; ++i) {
     OwnPort& port = ports_[i];
+    port.last = port.force;
     port.force.setZero();
-    if (!port.is_moved) continue;
+    if (!port.is_moved || port.is_spread()) continue;
     const Port& of = model_->exchange.ports[port.index];
     for (int d = 0; d < 3; ++d)
       if (of.is_held[d]) port.held_velocity[d] = model_->held_velocity(of, p.point->frame.col(d), motions);
   }
   if (p.needs_place) begin_places(p);
-}
-
-// r and 1/k of one side (manual, eq. G1), with k the nodes' own: r is the velocity without this law's force.
-void DirectPoints::gather(const OwnPoint& p, Side& side) {
-  if (side.end - side.first == 1) {
-    OwnPort& port = ports_[side.first];
-    port.free = p.point->frame.transpose() * port.piece->velocity_of(port.node) - port.inverse.cwiseProduct(port.force);
-    side.r = port.free;
-    side.inverse_k = port.inverse;
-    for (int d = 0; d < 3 && port.has_held; ++d)
-      if (port.inverse[d] == 0.0) side.r[d] = port.held_velocity[d];
-    return;
-  }
-  side.r.setZero();
-  side.inverse_k.setZero();
-  Vec3 k_sum = Vec3::Zero(), kr_sum = Vec3::Zero();
-  std::array<bool, 3> is_held{};
-  for (int i = side.first; i < side.end; ++i) {
-    OwnPort& port = ports_[i];
-    port.free = p.point->frame.transpose() * port.piece->velocity_of(port.node) - port.inverse.cwiseProduct(port.force);
-    for (int d = 0; d < 3; ++d) {
-      if (!p.point->is_active[d]) continue;
-      if (port.inverse[d] == 0.0) {
-        is_held[d] = true;
-        side.r[d] = port.held_velocity[d];
-      } else if (!is_held[d]) {
-        k_sum[d] += 1.0 / port.inverse[d];
-        kr_sum[d] += (port.free[d] + port.offset[d]) / port.inverse[d];
-      }
-    }
-  }
-  for (int d = 0; d < 3; ++d) {
-    if (is_held[d] || k_sum[d] == 0.0) continue;
-    side.r[d] = kr_sum[d] / k_sum[d];
-    side.inverse_k[d] = 1.0 / k_sum[d];
-  }
-}
-
-// A node's velocity with another force of this law on it.
-void DirectPoints::push(const OwnPoint& p, OwnPort& port, const Vec3& force) {
-  const Vec3 change = force - port.force;
-  port.force = force;
-  if (change.isZero(0.0)) return;
-  const Vec3 moved = port.is_plain ? Vec3(p.point->frame * port.inverse.cwiseProduct(change))
-                                   : Vec3(port.piece->node_compliance(port.node) * (p.point->frame * change));
-  port.piece->set_velocity(port.node, port.piece->velocity_of(port.node) + moved);
-}
-
-// Velocities and forces of a side's nodes (manual, eq. G2-G3).
-void DirectPoints::scatter(const OwnPoint& p, const Side& side, const Vec3& force) {
-  if (side.end - side.first == 1) return push(p, ports_[side.first], force);
-  Vec3 balance = force;
-  std::array<int, 3> held_port{-1, -1, -1};
-  for (int i = side.first; i < side.end; ++i) {
-    OwnPort& port = ports_[i];
-    Vec3 f = Vec3::Zero();
-    for (int d = 0; d < 3; ++d) {
-      if (!p.point->is_active[d]) continue;
-      if (port.inverse[d] == 0.0) {
-        held_port[d] = i;
-        continue;
-      }
-      const double w = side.r[d] + side.inverse_k[d] * force[d] - port.offset[d];
-      f[d] = (w - port.free[d]) / port.inverse[d];
-      balance[d] -= f[d];
-    }
-    push(p, port, f);
-  }
-  for (int d = 0; d < 3; ++d)
-    if (held_port[d] >= 0) ports_[held_port[d]].force[d] = balance[d];
 }
 
 void DirectPoints::find_force(OwnPoint& p) {
@@ -223,7 +148,7 @@ void DirectPoints::solve_alone(OwnPoint& p, const std::vector<double>& motions) 
 
 // One round: each point against the velocities that the others have left. The largest change of a force, and the
 // largest force.
-std::pair<double, double> DirectPoints::take_turns(const std::vector<int>& members, Turns& turns) {
+std::pair<double, double> DirectPoints::take_turns(const std::vector<int>& members, double share, Turns& turns) {
   double change = 0.0, size = 0.0;
   size_t at = 0;
   for (const int i : members) {
@@ -235,6 +160,7 @@ std::pair<double, double> DirectPoints::take_turns(const std::vector<int>& membe
       turns.change[at] = ports_[j].force - turns.change[at];
       change = std::max(change, turns.change[at].cwiseAbs().maxCoeff());
       size = std::max(size, ports_[j].force.cwiseAbs().maxCoeff());
+      if (share < 1.0) push(p, ports_[j], ports_[j].force - (1.0 - share) * turns.change[at]);
     }
   }
   return {change, size};
@@ -255,19 +181,29 @@ void DirectPoints::leap(const std::vector<int>& members, const Turns& turns, con
       push(points_[i], ports_[j], ports_[j].force + ratio / (1.0 - ratio) * turns.change[at]);
 }
 
+// Between meshes that do not match forces are as many as the points, and change little from one increment to the next.
+// Where laws with friction share a node they are not, and zero is where all can stick.
+void DirectPoints::start_from_last(OwnPoint& p) {
+  for (int i = p.side_1.first; i < p.side_2.end; ++i) push(p, ports_[i], ports_[i].last);
+}
+
 // Block Gauss-Seidel.
 void DirectPoints::solve_cluster(const std::vector<int>& members, const std::vector<double>& motions) {
   constexpr int rounds_between_leaps = 6;
   for (const int i : members) begin_point(points_[i], motions);
+  const auto is_spread = [&](int i) { return ports_[points_[i].side_1.first].is_spread(); };
+  if (std::any_of(members.begin(), members.end(), is_spread))
+    for (const int i : members) start_from_last(points_[i]);
   Swept& swept = swept_[&members - clusters_.data()];
   Turns &turns = swept.turns, &before = swept.before;
   for (swept.sweeps = 1; swept.sweeps <= most_rounds; ++swept.sweeps) {
     std::swap(turns, before);
     turns.change.clear();
-    const auto [change, size] = take_turns(members, turns);
+    const double share = share_of(swept.sweeps);
+    const auto [change, size] = take_turns(members, share, turns);
     swept.change = size > 0.0 ? change / std::max(size, 1e-6 * largest_force_) : 0.0;
     if (swept.change <= close_enough_) break;
-    if (swept.sweeps % rounds_between_leaps == 0) leap(members, turns, before);
+    if (share == 1.0 && swept.sweeps % rounds_between_leaps == 0) leap(members, turns, before);
   }
   // Rates are those of the velocities found.
   for (const int i : members) {
@@ -288,9 +224,10 @@ void DirectPoints::solve(const std::vector<double>& motions) {
         for (int i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) solve_alone(points_[alone_[i]], motions);
       },
       Schedule::evenly, n_chunks > 4 ? 0 : 1);
-  const int n_clusters = static_cast<int>(clusters_.size());
+  const size_t n_shared = points_.size() - alone_.size();
   parallel_for(
-      n_clusters, [&](int c) { solve_cluster(clusters_[c], motions); }, Schedule::evenly, n_clusters > 32 ? 0 : 1);
+      static_cast<int>(clusters_.size()), [&](int c) { solve_cluster(clusters_[c], motions); }, Schedule::as_free,
+      n_shared > 4 * chunk ? 0 : 1);
   for (size_t c = 0; c < clusters_.size(); ++c) {
     n_sweeps_ += swept_[c].sweeps;
     most_sweeps_ = std::max(most_sweeps_, swept_[c].sweeps);

@@ -35,17 +35,28 @@ class DirectPoints {
   struct Turns {
     std::vector<Vec3> change;  // N, of the ports' forces in a round, one after the other
   };
+  // Where faces do not match: one of the nodes that a port moves with.
+  struct Share {
+    int node = 0;  // of the piece
+    bool has_held = false;
+    Mat3 block = Mat3::Zero();   // its velocity times this is what it adds to the port's, in the frame
+    Mat3 answer = Mat3::Zero();  // s/kg, its velocity for a force on the port
+  };
   struct OwnPort {
     ExplicitPiece* piece = nullptr;
-    int node = 0, index = 0;                            // of the piece; of the port in the exchange
-    bool is_plain = true;                               // a force along an axis of the frame moves the node along it
-    bool has_held = false, is_moved = false;            // directions that a support holds; one that moves does
-    Vec3 inverse = Vec3::Zero();                        // 1/k along the frame's axes, s/kg; 0 where held
-    Vec3 held_velocity = Vec3::Zero();                  // m/s, in the frame
-    Vec3 v_old = Vec3::Zero();                          // m/s, global
-    Vec3 free = Vec3::Zero();                           // m/s, in the frame, without this law's force
-    Vec3 force = Vec3::Zero(), impulse = Vec3::Zero();  // N, in the frame; N s, so far in the time step
-    Vec3 offset = Vec3::Zero();                         // m/s, closes the jump inside the group
+    int node = 0, index = 0;                         // of the piece; of the port in the exchange
+    int first_share = 0, end_share = 0;              // none: it moves with its node
+    bool is_plain = true;                            // a force along an axis of the frame moves it along that axis
+    bool has_held = false, is_moved = false;         // directions that a support holds; one that moves does
+    Vec3 inverse = Vec3::Zero();                     // 1/k along the frame's axes, s/kg; 0 where held
+    Vec3 held_velocity = Vec3::Zero();               // m/s, in the frame
+    Vec3 v_old = Vec3::Zero();                       // m/s, in the frame
+    Vec3 free = Vec3::Zero();                        // m/s, in the frame, without this law's force
+    Vec3 force = Vec3::Zero(), last = Vec3::Zero();  // N, in the frame; of the increment before
+    Vec3 impulse = Vec3::Zero();                     // N s, so far in the time step
+    Vec3 offset = Vec3::Zero();                      // m/s, closes the jump inside the group
+
+    bool is_spread() const { return first_share < end_share; }
   };
   struct Side {
     int first = 0, end = 0;
@@ -65,7 +76,14 @@ class DirectPoints {
   };
 
   void add_point(const StepModel& model, int index, const State& start);
+  OwnPort make_port(const StepModel& model, const Point& point, int index);
+  Mat3 spread_port(const StepModel& model, const Point& point, const Port& port, OwnPort& own);
   void find_clusters();
+  template <typename Visit>
+  void for_each_node(const OwnPort& port, Visit&& visit) const;
+  Vec3 velocity(const OwnPoint& p, const OwnPort& port) const;            // m/s, in the frame
+  Vec3 start_displacement(const OwnPoint& p, const OwnPort& port) const;  // m, in the frame
+  Vec3 end_displacement(const OwnPoint& p, const OwnPort& port) const;
   void begin_point(OwnPoint& p, const std::vector<double>& motions);
   void begin_places(OwnPoint& p);
   void gather(const OwnPoint& p, Side& side);
@@ -76,14 +94,16 @@ class DirectPoints {
   void add_held_force(const OwnPoint& p, const OwnPort& port);
   double difference_of_gaps(const OwnPoint& p) const;
   void solve_alone(OwnPoint& p, const std::vector<double>& motions);
-  std::pair<double, double> take_turns(const std::vector<int>& members, Turns& turns);
+  std::pair<double, double> take_turns(const std::vector<int>& members, double share, Turns& turns);
   void leap(const std::vector<int>& members, const Turns& turns, const Turns& before);
+  void start_from_last(OwnPoint& p);
   void solve_cluster(const std::vector<int>& members, const std::vector<double>& motions);
 
   const StepModel* model_;
   Increment increment_;
   double close_enough_;  // of the largest force, between rounds over points that share nodes
   std::vector<OwnPort> ports_;
+  std::vector<Share> shares_;
   std::vector<OwnPoint> points_;
   std::vector<int> alone_;
   std::vector<std::vector<int>> clusters_;

@@ -5,10 +5,9 @@ namespace dygita::check {
 
 namespace {
 
-std::string why_not(const Problem& problem, const Substructure& part) {
+std::string why_not(const Problem& problem) {
   if (problem.numerical_damping() != 0.0) return "'numerical_damping' belongs to the implicit scheme";
   if (problem.mass().is_moved_from_contact) return "'massless_contact' leaves nodes without mass";
-  if (part.material.damping.stiffness > 0.0) return "its material has stiffness damping";
   return "";
 }
 
@@ -18,7 +17,7 @@ void integration(const Problem& problem) {
   if (problem.monolithic || problem.explicit_dynamics || !has_dynamic_step(problem)) return;
   for (const SubstructurePtr& part : problem.substructures) {
     if (part->integration != IntegrationChoice::explicitly) continue;
-    if (const std::string reason = why_not(problem, *part); !reason.empty())
+    if (const std::string reason = why_not(problem); !reason.empty())
       fail(problem, part->origin, "substructure '" + part->name + "' cannot be explicit: " + reason);
   }
 }

@@ -6,7 +6,7 @@
 
 namespace dygita {
 
-void find_direct(const std::vector<char>& explicit_pieces, Exchange& exchange) {
+void find_direct(const Cut& cut, const std::vector<char>& explicit_pieces, Exchange& exchange) {
   NodeGroups linked;
   std::vector<NodeKey> any(exchange.points.size(), NodeKey{-1, -1});
   const auto is_explicit = [&](const Port& port) { return explicit_pieces[port.piece] != 0; };
@@ -15,9 +15,11 @@ void find_direct(const std::vector<char>& explicit_pieces, Exchange& exchange) {
     for (int p = point.first_port; p < point.end_port; ++p) {
       const Port& port = exchange.ports[p];
       if (!is_explicit(port)) continue;
-      const NodeKey key{port.piece, port.piece_node};
-      if (any[i].first < 0) any[i] = key;
-      linked.tie(any[i], key);
+      for (const int node : piece_nodes(cut, port)) {
+        const NodeKey key{port.piece, node};
+        if (any[i].first < 0) any[i] = key;
+        linked.tie(any[i], key);
+      }
     }
   }
   std::map<int, bool> has_implicit;

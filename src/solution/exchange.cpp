@@ -54,7 +54,7 @@ class Builder {
       point_of_group_[group] = static_cast<int>(exchange_.points.size()) - 1;
     }
     add_ties();
-    if (!explicit_pieces_.empty()) find_direct(explicit_pieces_, exchange_);
+    if (!explicit_pieces_.empty()) find_direct(cut_, explicit_pieces_, exchange_);
     number_unknowns();
     return std::move(exchange_);
   }
@@ -302,6 +302,13 @@ class Builder {
 };
 
 }  // namespace
+
+std::vector<int> piece_nodes(const Cut& cut, const Port& port) {
+  if (!port.trace) return {port.piece_node};
+  std::vector<int> nodes;
+  port.for_each_node([&](int node, const Mat3& /*block*/) { nodes.push_back(cut.owner(port.part, node).node); });
+  return nodes;
+}
 
 void spread(const Cut& cut, const Port& port, const Vec3& force, Points& on_piece) {
   port.for_each_node(

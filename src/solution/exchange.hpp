@@ -34,6 +34,9 @@ struct Port {
   }
 };
 
+// The nodes of its piece that a port moves with.
+std::vector<int> piece_nodes(const Cut& cut, const Port& port);
+
 // Adds a force on a port to those on the nodes of its piece.
 void spread(const Cut& cut, const Port& port, const Vec3& force, Points& on_piece);
 

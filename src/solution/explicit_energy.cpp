@@ -44,14 +44,20 @@ void ExplicitPiece::set_state(const Points& displacement, const Points& velocity
   put(v, v_);
   put(0.5 * dt * v, d_);
   start_strain_ = 0.5 * displacement.cwiseProduct(elastic).sum();
-  // What a step before this would have left: K X for the X half a step before U.
-  std::vector<double> before(d_.size());
-  std::transform(d_.begin(), d_.end(), before.begin(), [](double d) { return -d; });
-  y_ = base_;
-  op_->stiffness.add_product(before.data(), y_.data());
+  look_back();
   start_momentum();
   has_forces_ = false;
   begin_interval();
+}
+
+// What an increment before this would have left: K X for the X half an increment before U.
+void ExplicitPiece::look_back() {
+  const double dt = setup_.scheme.dt;
+  std::vector<double> before(d_.size());
+  for (size_t c = 0; c < d_.size(); ++c) before[c] = d_[c] - dt * v_[c];
+  y_ = base_;
+  op_->stiffness.add_product(before.data(), y_.data());
+  for (size_t c = 0; c < elastic_.size(); ++c) elastic_[c] = y_[c] - base_[c];
 }
 
 const PieceState& ExplicitPiece::state() const {
@@ -66,6 +72,7 @@ void ExplicitPiece::restore(const PieceState& state) {
   const Points v = state.v.reshaped(3, n);
   put(v, v_);
   put(Points(state.u.reshaped(3, n)) - nodal(start_) + 0.5 * setup_.scheme.dt * v, d_);
+  if (has_stiffness_damping()) look_back();
   start_momentum();
 }
 
@@ -112,12 +119,13 @@ void ExplicitPiece::start_momentum() {
 IncrementEnergy ExplicitPiece::stored_energy() const {
   const double dt = setup_.scheme.dt;
   const Vec& mass = node_masses();
+  const bool is_damped = has_stiffness_damping();
   double kinetic = 0.0, strain = 0.0;
   for (size_t i = 0; i < inverse_.size(); ++i) {
     double v2 = 0.0, pv = 0.0;
     for (size_t c = 4 * i; c < 4 * i + 3; ++c) {
       v2 += v_[c] * v_[c];
-      strain += start_force_[c] * (2.0 * d_[c] - dt * v_[c]) + (y_[c] - base_[c]) * d_[c];
+      strain += start_force_[c] * (2.0 * d_[c] - dt * v_[c]) + (is_damped ? elastic_[c] : y_[c] - base_[c]) * d_[c];
     }
     if (has_momentum(i))
       for (size_t c = 4 * i; c < 4 * i + 3; ++c) pv += p_[c] * v_[c];
@@ -130,18 +138,20 @@ IncrementEnergy ExplicitPiece::stored_energy() const {
 }
 
 double ExplicitPiece::damping_work() {
-  const double dt = setup_.scheme.dt, alpha = setup_.body->part->material.damping.mass;
+  const Damping& damping = setup_.body->part->material.damping;
+  const double dt = setup_.scheme.dt, alpha = setup_.scheme.alpha(damping);
   const Vec& mass = node_masses();
-  double sum = 0.0;
-  for (size_t i = 0; i < inverse_.size(); ++i) {
+  double by_mass = 0.0, by_stiffness = 0.0;
+  for (size_t i = 0; i < inverse_.size() && alpha > 0.0; ++i) {
     double v2 = 0.0;
     if (has_momentum(i))
-      for (size_t c = 4 * i; c < 4 * i + 3; ++c) sum += (v_old_[c] + v_[c]) * (p_old_[c] + p_[c]);
+      for (size_t c = 4 * i; c < 4 * i + 3; ++c) by_mass += (v_old_[c] + v_[c]) * (p_old_[c] + p_[c]);
     else
       for (size_t c = 4 * i; c < 4 * i + 3; ++c) v2 += (v_old_[c] + v_[c]) * (v_old_[c] + v_[c]);
-    sum += mass[static_cast<Eigen::Index>(i)] * v2;
+    by_mass += mass[static_cast<Eigen::Index>(i)] * v2;
   }
-  return 0.25 * dt * alpha * sum;
+  for (size_t c = 0; c < damping_force_.size(); ++c) by_stiffness += (v_old_[c] + v_[c]) * damping_force_[c];
+  return dt * (0.25 * alpha * by_mass + 0.5 * by_stiffness);
 }
 
 // What non-reflecting supports take and moving ones give, and the sums that means over the deck's time step need.
@@ -233,8 +243,10 @@ double explicit_bytes(const PieceSetup& setup, bool shares) {
 
 PieceFigures ExplicitPiece::figures() const {
   PieceFigures figures;
-  figures.bytes = op_->stiffness.bytes() + (is_tuned() ? op_->tuning.bytes() : 0.0) +
-                  8.0 * (29.0 + (v_old_.empty() ? 0.0 : 4.0) + (is_tuned() ? 16.0 : 0.0)) * inverse_.size();
+  figures.bytes =
+      op_->stiffness.bytes() + (is_tuned() ? op_->tuning.bytes() : 0.0) +
+      8.0 * (29.0 + (is_damped() ? 4.0 : 0.0) + (has_stiffness_damping() ? 8.0 : 0.0) + (is_tuned() ? 16.0 : 0.0)) *
+          inverse_.size();
   return figures;
 }
 

@@ -25,7 +25,10 @@ ExplicitPiece::ExplicitPiece(PieceSetup setup, std::shared_ptr<const ExplicitOpe
   unknown_masses_ = mass.replicate(1, 3).transpose().reshaped();
   for (std::vector<double>* field : {&d_, &v_, &y_, &base_, &start_force_, &start_, &v_interval_})
     field->assign(4 * n, 0.0);
-  if (alpha > 0.0) v_old_.assign(4 * n, 0.0);
+  const double beta = setup_.scheme.beta(setup_.body->part->material.damping);
+  if (alpha > 0.0 || beta > 0.0) v_old_.assign(4 * n, 0.0);
+  if (beta > 0.0)
+    for (std::vector<double>* field : {&elastic_, &damping_force_}) field->assign(4 * n, 0.0);
   if (is_tuned())
     for (std::vector<double>* field : {&free_pull_, &coupled_, &p_, &p_old_}) field->assign(4 * n, 0.0);
   make_specials();
@@ -154,9 +157,10 @@ void ExplicitPiece::advance(const std::vector<double>& motion_velocity) {
   const double dt = setup_.scheme.dt, keep = keep_;
   for (size_t i = 0; i < loaded_.size(); ++i) loaded_v_old_[i] = velocity_of(loaded_[i]);
   for (Special& s : specials_) s.v_old = velocity_of(s.node);
-  if (!v_old_.empty()) v_old_ = v_;
+  if (is_damped()) v_old_ = v_;
   std::copy(base_.begin(), base_.end(), y_.begin());
   op_->stiffness.add_product(d_.data(), y_.data());
+  if (has_stiffness_damping()) add_stiffness_damping();
   const size_t n = inverse_.size();
   if (is_tuned()) couple_masses();
   const double *const y = y_.data(), *const inverse = inverse_.data();
@@ -188,10 +192,24 @@ void ExplicitPiece::advance(const std::vector<double>& motion_velocity) {
   }
 }
 
+// beta K V0: V0 is what X has moved by since the product before, so that K V0 needs none of its own (manual, eq. S14).
+void ExplicitPiece::add_stiffness_damping() {
+  const double factor = setup_.scheme.beta(setup_.body->part->material.damping) / setup_.scheme.dt;
+  double *const y = y_.data(), *const elastic = elastic_.data(), *const damping = damping_force_.data();
+  const double* const base = base_.data();
+#pragma omp simd
+  for (size_t c = 0; c < y_.size(); ++c) {
+    const double now = y[c] - base[c];
+    damping[c] = factor * (now - elastic[c]);
+    elastic[c] = now;
+    y[c] += damping[c];
+  }
+}
+
 // The inverse of a tuned mass is M^-1 + M^-1 C M^-1 (manual, eq. S13): what its second part makes of K X - f.
 void ExplicitPiece::couple_masses() {
   const double share = setup_.mass_share(), keep = keep_;
-  if (!v_old_.empty()) p_old_ = p_;
+  if (is_damped()) p_old_ = p_;
   const double *const y = y_.data(), *const inverse = inverse_.data();
   double *const a = free_pull_.data(), *const p = p_.data();
   for (size_t i = 0; i < inverse_.size(); ++i) {
@@ -235,7 +253,7 @@ IncrementEnergy ExplicitPiece::finish(Eigen::Ref<const Vec> q, const Points* int
   }
   for (size_t i = 0; i < loaded_.size(); ++i)
     energy.loads += 0.5 * dt * load_[i].dot(loaded_v_old_[i] + velocity_of(loaded_[i]));
-  if (!v_old_.empty()) energy.damping += damping_work();
+  if (is_damped()) energy.damping += damping_work();
   interval_ += dt;
   return energy;
 }

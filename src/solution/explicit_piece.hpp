@@ -82,6 +82,10 @@ class ExplicitPiece final : public Piece {
       v_[at + c] = velocity[static_cast<int>(c)];
     }
   }
+  bool has_held(int node) const {
+    const auto it = index_.find(node);
+    return it != index_.end() && specials_[it->second].has_held;
+  }
   // Force (N) of laws on held directions of a node, in the increment at hand.
   void add_held_force(int node, const Vec3& force) { special_at(node).held_force += force; }
 
@@ -106,16 +110,20 @@ class ExplicitPiece final : public Piece {
   Special& special_at(int node) { return specials_[index_.at(node)]; }
   void advance(const std::vector<double>& motion_velocity);
   void couple_masses();
+  void look_back();
   void start_momentum();
   bool is_tuned() const { return !op_->tuning.empty(); }
   // Nodes whose cells are lumped have mass times velocity; laws push them after the momenta are made.
   bool has_momentum(size_t node) const { return is_tuned() && !setup_.keeps_lumped[node]; }
-  Vec3 pull_on(int node) const {  // K X - f, and what a tuned mass adds
+  Vec3 pull_on(int node) const {  // K X - f + beta K V0, and what a tuned mass adds
     const Vec3 pull = Eigen::Map<const Vec3>(y_.data() + 4 * static_cast<size_t>(node));
     return is_tuned() ? Vec3(pull + Eigen::Map<const Vec3>(coupled_.data() + 4 * static_cast<size_t>(node))) : pull;
   }
   void update_loads(const std::vector<double>& values);
+  void add_stiffness_damping();
   double damping_work();
+  bool is_damped() const { return !v_old_.empty(); }
+  bool has_stiffness_damping() const { return !elastic_.empty(); }
   void book_special(Special& special, IncrementEnergy& energy);
   double at_row(int i, const Vec3& nodal) const { return setup_.rows[i].nodes[0].along.dot(nodal); }
 
@@ -128,10 +136,12 @@ class ExplicitPiece final : public Piece {
   std::vector<Special> specials_;
   std::unordered_map<int, size_t> index_;  // of a node in them
 
-  // Four numbers a node: D and V; K X - f; K U - f at the step's start with the loads at hand, and without; U at the
-  // step's start; V at the start of the deck's time step.
+  // Four numbers a node: D and V; K X - f, and beta K V0; K U - f at the step's start with the loads at hand, and
+  // without; U at the step's start; V at the start of the deck's time step.
   std::vector<double> d_, v_, y_, base_, start_force_, start_, v_interval_;
-  std::vector<double> v_old_;  // with mass damping only
+  std::vector<double> v_old_;  // with damping only
+  // With stiffness damping only: K (X - U_start) of the increment at hand, beta K V0.
+  std::vector<double> elastic_, damping_force_;
   // With a tuned mass only: M^-1 (K X - f) on free directions, C times that, momenta and those before.
   std::vector<double> free_pull_, coupled_, p_, p_old_;
   double start_strain_ = 0.0, interval_ = 0.0;  // J, at U of the step's start; s, since the deck's time step began

@@ -10,6 +10,7 @@
 #include "base/name_list.hpp"
 #include "base/parallel.hpp"
 #include "model/model.hpp"
+#include "solution/alike_parts.hpp"
 
 namespace dygita {
 
@@ -20,18 +21,23 @@ constexpr double safety = 0.98;
 // in an explicit increment, more where its mass is tuned, and of a point; entries of a factor are so many n^1.5; a
 // solve and a product by H read so much an entry (in single precision, packed, they are bound by unpacking); the rest
 // of an iteration, of an interface unknown; making the factor, of n^2, and H, of n^3.
-constexpr double explicit_unknown = 244.0, tuned_unknown = 80.0, explicit_point = 1100.0, fill = 1.4;
+constexpr double explicit_unknown = 244.0, tuned_unknown = 80.0, damped_unknown = 60.0, explicit_point = 1100.0,
+                 fill = 1.4;
+constexpr double spread_point = 10000.0;  // between meshes that do not match: some eight rounds
 constexpr double single_factor = 9.0, double_factor = 12.0, single_h = 4.0, double_h = 12.0, iterations = 7.0;
 constexpr double rest_of_iteration = 1000.0, factorising = 16.0, condensing = 0.5;
 
 struct Size {
   double unknowns = 0.0, interface_unknowns = 0.0;
+  double spread_points = 0.0;  // between meshes that do not match; half of each interface's
+  bool is_damped = false;      // by stiffness
 };
 
 // Of a whole substructure: what an increment reads.
 double explicit_cost(const Size& size, bool is_tuned) {
-  return (explicit_unknown + (is_tuned ? tuned_unknown : 0.0)) * size.unknowns +
-         explicit_point * size.interface_unknowns / 6.0;
+  return (explicit_unknown + (is_tuned ? tuned_unknown : 0.0) + (size.is_damped ? damped_unknown : 0.0)) *
+             size.unknowns +
+         explicit_point * size.interface_unknowns / 6.0 + spread_point * size.spread_points;
 }
 // n_increments: of the step, which the factor is made for.
 double implicit_cost(const Size& size, double tolerance, int n_increments) {
@@ -44,6 +50,7 @@ double implicit_cost(const Size& size, double tolerance, int n_increments) {
 
 std::vector<Size> sizes_of(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces) {
   std::vector<std::set<int>> nodes(problem.substructures.size());
+  std::vector<double> spread(nodes.size(), 0.0);
   for (const Surface& s : surfaces) {
     if (!takes_part(problem, step, s)) continue;
     const auto take = [](const SideTrace& side, std::set<int>& of) {
@@ -52,10 +59,14 @@ std::vector<Size> sizes_of(const Problem& problem, const Step& step, const std::
     };
     take(s.facing.side_1, nodes[s.part_1]);
     if (s.part_2 >= 0) take(s.facing.side_2, nodes[s.part_2]);
+    if (s.facing.matches()) continue;
+    spread[s.part_1] += 0.5 * s.n_points();
+    if (s.part_2 >= 0) spread[s.part_2] += 0.5 * s.n_points();
   }
   std::vector<Size> sizes;
   for (size_t i = 0; i < nodes.size(); ++i)
-    sizes.push_back({3.0 * problem.substructures[i]->mesh->n_nodes(), 3.0 * static_cast<double>(nodes[i].size())});
+    sizes.push_back({3.0 * problem.substructures[i]->mesh->n_nodes(), 3.0 * static_cast<double>(nodes[i].size()),
+                     spread[i], problem.substructures[i]->material.damping.stiffness > 0.0});
   return sizes;
 }
 
@@ -75,22 +86,34 @@ IntegrationChoice asked_of(const Problem& problem, const Substructure& part) {
 
 class Chooser {
  public:
-  Chooser(const Problem& problem, const Step& step, std::vector<Integration::Part> parts, std::vector<Size> sizes)
-      : problem_(problem), step_(step), parts_(std::move(parts)), sizes_(std::move(sizes)) {}
+  Chooser(const Problem& problem, const Step& step, std::vector<Integration::Part> parts, std::vector<Size> sizes,
+          const AlikeParts& alike)
+      : problem_(problem), step_(step), parts_(std::move(parts)), sizes_(std::move(sizes)) {
+    for (size_t i = 0; i < parts_.size(); ++i) {
+      must_.push_back(may_be(i) && is_asked(i));
+      stable_.push_back(parts_[i].longest);
+    }
+    for (size_t i = 0; i < parts_.size(); ++i)
+      for (size_t j = 0; j < parts_.size(); ++j) {
+        if (!alike.are_bound(i, j)) continue;
+        must_[i] |= may_be(j) && is_asked(j);
+        stable_[i] = std::min(stable_[i], parts_[j].longest);
+      }
+  }
 
   // The set of explicit substructures that costs least, of those that a longest step separates.
   Integration best() const {
     std::vector<double> limits{std::numeric_limits<double>::infinity()};
     for (size_t i = 0; i < parts_.size(); ++i)
-      if (may_be(i) && !must_be(i)) limits.push_back(parts_[i].longest);
+      if (may_be(i) && !must_[i]) limits.push_back(stable_[i]);
     std::sort(limits.begin(), limits.end());
     Integration best;
     double least = std::numeric_limits<double>::infinity();
     for (const double limit : limits) {
       std::vector<char> set;
-      for (size_t i = 0; i < parts_.size(); ++i) set.push_back(must_be(i) || (may_be(i) && parts_[i].longest >= limit));
+      for (size_t i = 0; i < parts_.size(); ++i) set.push_back(must_[i] || (may_be(i) && stable_[i] >= limit));
       if (limit == limits.back())  // the parts without a limit are no reason to begin with
-        for (size_t i = 0; i < parts_.size(); ++i) set[i] = must_be(i);
+        set = must_;
       const double cost = cost_of(set);
       if (cost >= least) continue;
       least = cost;
@@ -103,8 +126,8 @@ class Chooser {
   }
 
  private:
-  bool must_be(size_t i) const {
-    return parts_[i].why_not.empty() && asked_of(problem_, *problem_.substructures[i]) == IntegrationChoice::explicitly;
+  bool is_asked(size_t i) const {
+    return asked_of(problem_, *problem_.substructures[i]) == IntegrationChoice::explicitly;
   }
   bool may_be(size_t i) const {
     return parts_[i].why_not.empty() && asked_of(problem_, *problem_.substructures[i]) != IntegrationChoice::implicitly;
@@ -124,11 +147,7 @@ class Chooser {
                            implicit_cost(sizes_[i], problem_.solver.tolerance, substeps(set) * step_.n_increments());
       is_mixed |= set[i] != set[0];
     }
-    const bool has_must = [&] {
-      for (size_t i = 0; i < set.size(); ++i)
-        if (must_be(i)) return true;
-      return false;
-    }();
+    const bool has_must = std::find(must_.begin(), must_.end(), 1) != must_.end();
     // A window of several steps is iterated: not with increments inside them.
     if (is_mixed && problem_.solver.window != 1 && !has_must) return std::numeric_limits<double>::infinity();
     return cost;
@@ -138,7 +157,24 @@ class Chooser {
   const Step& step_;
   std::vector<Integration::Part> parts_;
   std::vector<Size> sizes_;
+  std::vector<char> must_;      // the deck asks for it, of a substructure or of one that it is bound to
+  std::vector<double> stable_;  // s, longest stable increment of those it is bound to
 };
+
+// Where one of those bound together is implicit, all are.
+void bind_to_implicit(const Problem& problem, const AlikeParts& alike, std::vector<Integration::Part>& parts) {
+  std::vector<char> is_implicit;
+  for (size_t i = 0; i < parts.size(); ++i)
+    is_implicit.push_back(!parts[i].why_not.empty() ||
+                          asked_of(problem, *problem.substructures[i]) == IntegrationChoice::implicitly);
+  for (size_t i = 0; i < parts.size(); ++i)
+    for (size_t j = 0; j < parts.size() && parts[i].why_not.empty(); ++j)
+      if (alike.are_bound(i, j) && is_implicit[j] && !is_implicit[i])
+        parts[i].why_not =
+            fmt::format("interface '{}', between meshes that do not match, binds it to '{}', which is implicit{}",
+                        alike.interfaces[i], problem.substructures[j]->name,
+                        parts[j].why_not.empty() ? "" : ": " + parts[j].why_not);
+}
 
 void refuse(const Problem& problem, const std::vector<Integration::Part>& parts) {
   for (size_t i = 0; i < parts.size(); ++i) {
@@ -166,7 +202,6 @@ std::string why_not_explicit(const Body& body, double numerical_damping) {
   if (numerical_damping != 0.0) return "'numerical_damping' belongs to the implicit scheme";
   if (body.mass->is_consistent) return "it has cells of order two, whose mass couples the nodes";
   if (!body.mass->is_massless.empty()) return "'massless_contact' leaves nodes without mass";
-  if (body.part->material.damping.stiffness > 0.0) return "its material has stiffness damping";
   if (body.mass->lumped.minCoeff() <= 0.0) return "it has a node without mass";
   return "";
 }
@@ -184,12 +219,8 @@ Integration choose_integration(const Problem& problem, const Step& step, const s
     std::string& why_not = parts[cut.piece(static_cast<int>(p)).part].why_not;
     if (why_not.empty()) why_not = why_not_explicit(bodies[p], problem.numerical_damping());
   }
-  for (const Surface& s : surfaces) {
-    if (s.facing.matches() || !takes_part(problem, step, s)) continue;
-    for (const int part : {s.part_1, s.part_2})
-      if (part >= 0 && parts[part].why_not.empty())
-        parts[part].why_not = "interface '" + s.name() + "' joins it to a mesh that does not match";
-  }
+  const AlikeParts alike = find_alike(problem, step, surfaces);
+  bind_to_implicit(problem, alike, parts);
   refuse(problem, parts);
   parallel_for(static_cast<int>(bodies.size()), [&](int p) {
     const int part = cut.piece(p).part;
@@ -202,7 +233,7 @@ Integration choose_integration(const Problem& problem, const Step& step, const s
     parts[i].longest =
         *std::min_element(longest.begin() + first, longest.begin() + first + cut.n_pieces(static_cast<int>(i)));
   }
-  Integration chosen = Chooser(problem, step, parts, sizes_of(problem, step, surfaces)).best();
+  Integration chosen = Chooser(problem, step, parts, sizes_of(problem, step, surfaces), alike).best();
   refuse_mixed_window(problem, chosen);
   for (const CutPiece& piece : cut.pieces()) chosen.is_explicit.push_back(chosen.parts[piece.part].is_explicit);
   if (std::find(chosen.is_explicit.begin(), chosen.is_explicit.end(), 1) == chosen.is_explicit.end())
@@ -216,7 +247,8 @@ namespace {
 using ByReason = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
 void add_to(ByReason& groups, std::string reason, const std::string& name) {
-  if (reason.starts_with("interface '")) reason = "an interface joins it to a mesh that does not match";
+  if (reason.starts_with("interface '"))
+    reason = "interfaces between meshes that do not match bind it to implicit ones";
   const auto it = std::find_if(groups.begin(), groups.end(), [&](const auto& group) { return group.first == reason; });
   if (it == groups.end())
     groups.push_back({reason, {name}});

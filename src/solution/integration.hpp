@@ -32,7 +32,7 @@ struct Integration {
 Integration choose_integration(const Problem& problem, const Step& step, const std::vector<Body>& bodies,
                                const Cut& cut, const Conditions& conditions, const std::vector<Surface>& surfaces);
 
-// Why a body cannot be integrated explicitly: "its material has stiffness damping"; empty: it can.
+// Why a body cannot be integrated explicitly: "it has a node without mass"; empty: it can.
 std::string why_not_explicit(const Body& body, double numerical_damping);
 
 // Longest stable increment (s) of a body by itself, from its highest frequency by Lanczos' iteration: within a percent,
@@ -44,8 +44,8 @@ double longest_tuned_step(const Body& body, const std::unordered_map<int, Held>&
 // supports leave a bar no motion but along it, compression.
 double tuned_wave_speed(const Body& body, const std::unordered_map<int, Held>& held);
 
-// "explicit: 'a', 'b' (12 increments of 0.08 us in each dt, stable to 0.09 us); implicit: 'c' (its material has
-// stiffness damping)"; empty: all are implicit and none was to be anything else.
+// "explicit: 'a', 'b' (12 increments of 0.08 us in each dt, stable to 0.09 us); implicit: 'c' (it has cells of order
+// two, whose mass couples the nodes)"; empty: all are implicit and none was to be anything else.
 std::string describe(const Integration& integration, const Problem& problem, const Step& step);
 
 }  // namespace dygita

@@ -64,6 +64,12 @@ class FreeBody {
   std::vector<double> from_, to_;
 };
 
+// With stiffness damping taken at the velocity of the increment's start (manual, eq. S14).
+double damped(double longest, const Body& body) {
+  const double beta = body.part->material.damping.stiffness;
+  return std::isfinite(longest) ? std::sqrt(beta * beta + longest * longest) - beta : longest;
+}
+
 // Lanczos on forces, in the inner product of the inverse mass, residual added.
 double longest_step(FreeBody&& body) {
   std::mt19937 random(1);
@@ -124,7 +130,7 @@ double tuned_wave_speed(const Body& body, const HeldNodes& held) {
 
 double longest_explicit_step(const Body& body, const HeldNodes& held) {
   const MassEdges none;
-  return longest_step(FreeBody(body, held, none));
+  return damped(longest_step(FreeBody(body, held, none)), body);
 }
 
 // The mass is tuned to the step that it allows: in a few rounds, each of which moves it by a tenth of the one before.
@@ -134,7 +140,7 @@ double longest_tuned_step(const Body& body, const HeldNodes& held) {
   const double speed = tuned_wave_speed(body, held);
   for (int i = 0; i < rounds && std::isfinite(longest); ++i) {
     const MassEdges edges(*body.part->mesh, body.part->material, {speed, longest, true}, {});
-    longest = longest_step(FreeBody(body, held, edges));
+    longest = damped(longest_step(FreeBody(body, held, edges)), body);
   }
   return longest;
 }

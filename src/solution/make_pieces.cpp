@@ -155,7 +155,8 @@ void tune_explicitly(const StepModel& model, int piece, PieceSetup& setup) {
   setup.tuned_speed = tuned_wave_speed(*setup.body, setup.held);
   setup.keeps_lumped.assign(static_cast<size_t>(setup.n_nodes()), 0);
   for (const Port& port : model.exchange.ports)
-    if (port.piece == piece) setup.keeps_lumped[static_cast<size_t>(port.piece_node)] = 1;
+    if (port.piece == piece)
+      for (const int node : piece_nodes(*model.cut, port)) setup.keeps_lumped[static_cast<size_t>(node)] = 1;
   for (const auto& [node, impedance] : setup.absorbing) setup.keeps_lumped[static_cast<size_t>(node)] = 1;
   for (const auto& [node, held] : setup.held)
     for (int j = 0; j < held.n; ++j)

@@ -12,8 +12,8 @@ namespace {
 // A stack in a corner of two rough walls: rubbing, tied and yielding planes, a side that lets waves out, a driven top.
 const std::string stack = R"(
 local p = param{ dt = 0.05, low = 0, middle = 0, high = 0, mu = 0.3, pieces = 1, n = 3,
-                 alpha = 0, duration = 6, driven = 0, press = 0, tuned = 0, parts = 1 }
-local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800, damping = p.alpha > 0 and { mass = p.alpha } or nil }
+                 alpha = 0, beta = 0, duration = 6, driven = 0, press = 0, tuned = 0, parts = 1 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800, damping = (p.alpha > 0 or p.beta > 0) and { mass = p.alpha, stiffness = p.beta } or nil }
 local soft = material.elastic{ name = "soft", young = 70*GPa, poisson = 0.3, density = 2700 }
 local function box(name, z, of, how) return substructure{ name = name, material = of, integration = how == 1 and "explicit" or "implicit",
   mesh = mesh.box{ origin = { 0, 0, z }, size = { 6*mm, 6*mm, 4*mm }, cells = { p.n, p.n, p.n } } } end
@@ -78,8 +78,9 @@ TEST(Integration, explicit_implicit_and_mixed_become_the_same_as_dt_goes_to_zero
 }
 
 TEST(Integration, explicit_pieces_close_the_balance_to_rounding_and_friction_feeds_in_nothing) {
-  for (const Settings& more : {Settings{}, Settings{{"alpha", "2e4"}}, Settings{{"driven", "1"}},
-                               Settings{{"dt", "0.4"}}, Settings{{"press", "1"}, {"mu", "0"}}}) {
+  for (const Settings& more :
+       {Settings{}, Settings{{"alpha", "2e4"}}, Settings{{"beta", "1e-8"}}, Settings{{"driven", "1"}},
+        Settings{{"dt", "0.4"}}, Settings{{"press", "1"}, {"mu", "0"}}}) {
     const DeckRun run = run_text(stack, with(all_explicit, more)).at(0);
     EXPECT_TRUE(run.result->converged);
     std::cout << "imbalance " << imbalance(run) << ", fed in " << run.figure("energy created by the scheme [%]")
@@ -90,8 +91,9 @@ TEST(Integration, explicit_pieces_close_the_balance_to_rounding_and_friction_fee
 
 TEST(Integration, tuned_masses_close_the_balance_too) {
   for (const Settings& more :
-       {Settings{}, Settings{{"alpha", "2e4"}}, Settings{{"driven", "1"}}, Settings{{"dt", "0.4"}},
-        Settings{{"press", "1"}, {"mu", "0"}}, Settings{{"pieces", "3"}}}) {
+       {Settings{}, Settings{{"alpha", "2e4"}}, Settings{{"alpha", "2e4"}, {"beta", "1e-8"}, {"dt", "0.4"}},
+        Settings{{"driven", "1"}}, Settings{{"dt", "0.4"}}, Settings{{"press", "1"}, {"mu", "0"}},
+        Settings{{"pieces", "3"}}}) {
     const DeckRun run = run_text(stack, with(with(all_explicit, {{"tuned", "1"}, {"mu", "0"}}), more)).at(0);
     EXPECT_TRUE(run.result->converged);
     std::cout << "imbalance " << imbalance(run) << ", fed in " << run.figure("energy created by the scheme [%]")
@@ -133,6 +135,34 @@ TEST(Integration, tuned_masses_halve_the_error_of_a_pulse) {
             << " % with tuned ones\n";
   EXPECT_LT(tuned, 0.6 * lumped);
   EXPECT_LT(tuned, 0.03);
+}
+
+// Damped, a step that goes on starts with the force that the velocities then have.
+TEST(Integration, stiffness_damping_becomes_that_of_implicit_substructures_as_dt_goes_to_zero) {
+  const Settings damped = {{"beta", "2e-8"}, {"alpha", "1e4"}, {"driven", "1"}};
+  const DeckRun finest = run_text(stack, with(damped, {{"dt", "0.00625"}})).at(0);
+  const DeckRun undamped = run_text(stack, with(all_explicit, {{"dt", "0.025"}, {"driven", "1"}})).at(0);
+  const auto error = [&](const DeckRun& run) {
+    return std::abs(run.column("energy", "damping").back() / finest.column("energy", "damping").back() - 1.0);
+  };
+  EXPECT_GT(error(undamped), 0.1);
+  for (const Settings& how : {mixed, all_explicit}) {
+    double before = 1.0;
+    for (const char* dt : {"0.1", "0.05", "0.025"}) {
+      const DeckRun run = run_text(stack, with(with(how, damped), {{"dt", dt}})).at(0);
+      std::cout << "  " << how.size() << " explicit, dt " << dt << " us: damping off by " << 100 * error(run)
+                << " %, imbalance " << imbalance(run) << "\n";
+      EXPECT_LT(error(run), before);
+      EXPECT_LT(imbalance(run), how.size() == 3 ? 1e-12 : 1e-8);
+      before = error(run);
+    }
+    EXPECT_LT(before, 0.01);
+  }
+  const Settings long_enough = with(with(all_explicit, damped), {{"driven", "0"}, {"duration", "10"}});
+  const DeckRun whole = run_text(stack, long_enough).at(0);
+  const DeckRun parts = run_text(stack, with(long_enough, {{"parts", "2"}})).at(0);
+  EXPECT_NEAR(parts.column("energy", "damping").back(), whole.column("energy", "damping").back(),
+              1e-6 * whole.column("energy", "damping").back());
 }
 
 TEST(Integration, a_mixed_pair_conserves_as_the_implicit_one_does) {

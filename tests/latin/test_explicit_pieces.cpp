@@ -120,8 +120,15 @@ TEST(ExplicitPieces, forces_and_reactions_are_means_over_the_time_step_of_the_de
 }
 
 // A free cube with random velocities, at a part of its longest stable step.
-double growth(double part_of_longest, bool is_tuned = false) {
-  const Problem problem = hit_cubes(contact(0.0), 1e-7, explicitly, explicitly);
+double growth(double part_of_longest, bool is_tuned = false, double beta = 0.0) {
+  Problem problem = hit_cubes(contact(0.0), 1e-7, explicitly, explicitly);
+  auto part = std::make_shared<Substructure>(*problem.substructures[0]);
+  part->material.damping.stiffness = beta;
+  problem.substructures[0] = part;
+  problem.supports.erase(problem.supports.begin());
+  auto between = std::make_shared<Interface>(*problem.interfaces[0]);
+  between->side_1.part = part;
+  problem.interfaces = {between};
   Modelled modelled(problem);
   PieceSetup setup;
   setup.body = &modelled.bodies[0];
@@ -157,6 +164,17 @@ TEST(ExplicitPieces, with_tuned_mass_too) {
   EXPECT_NEAR(growth(0.5, true), 1.0, 1e-11);
   EXPECT_NEAR(growth(0.98, true), 1.0, 1e-10);
   EXPECT_FALSE(growth(1.01, true) < 1e3);
+}
+
+// What stiffness damping takes is never negative in all, and its limit is its own (manual, eq. S14).
+TEST(ExplicitPieces, with_stiffness_damping_too) {
+  for (const double beta : {1e-9, 1e-8, 1e-7}) {
+    for (const bool is_tuned : {false, true}) {
+      EXPECT_LT(growth(0.5, is_tuned, beta), 0.5) << beta;
+      EXPECT_LT(growth(0.98, is_tuned, beta), 0.5) << beta;
+      EXPECT_FALSE(growth(1.01, is_tuned, beta) < 1e3) << beta;
+    }
+  }
 }
 
 // At the limit itself: ties, friction, walls and non-reflecting supports do not shorten it.
