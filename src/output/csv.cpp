@@ -29,6 +29,12 @@ void check(const Table& table, size_t n_steps) {
   for (const int step : table.step) CHECK(step >= 0 && static_cast<size_t>(step) < n_steps, "a step of the problem");
 }
 
+void check_names(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  const auto twice = std::adjacent_find(names.begin(), names.end());
+  if (twice != names.end()) throw InputError(fmt::format("line 1: two columns are called '{}'", *twice));
+}
+
 // The cells of a line; quotation marks taken off.
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
@@ -62,6 +68,7 @@ Table parse_csv(std::istream& stream, const std::vector<std::string>& step_names
     table.names.push_back(has_unit ? header[i].substr(0, open) : header[i]);
     table.units.push_back(has_unit ? header[i].substr(open + 2, header[i].size() - open - 3) : "");
   }
+  check_names(table.names);
   const bool is_marked = table.names.size() > 1 && table.names.back() == "converged";
   table.columns.resize(table.names.size());
   for (int n = 2; std::getline(stream, line); ++n) {

@@ -99,6 +99,16 @@ TEST(Csv, takes_marks_without_values_for_a_column) {
   EXPECT_EQ(read.column("converged"), (std::vector<double>{0.0, 1.0}));
 }
 
+TEST(Csv, refuses_two_columns_of_one_name) {
+  std::istringstream stream("time [s],converged,converged\n");
+  try {
+    parse_csv(stream, {"push"});
+    FAIL() << "which of the two is meant?";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "line 1: two columns are called 'converged'");
+  }
+}
+
 TEST(Table, answers_a_column_by_name_and_names_the_known_ones) {
   Table table;
   table.names = {"time", "normal"};
