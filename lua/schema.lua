@@ -555,7 +555,7 @@ words[9] = {
       .. "unknowns of contact, plastic and shortened interfaces, for which there is a limit.",
     arguments = {
       { "tolerance", type = "number", range = { 1e-14, 0.1 }, default = 1e-10, doc = "relative residual at which an increment stops" },
-      { "max_iterations", type = "integer", range = { 1, 1000000 }, default = 50, doc = "of one increment" },
+      { "max_iterations", type = "integer", range = { 1, 1000000 }, default = 50, doc = "of one increment; a static one is approached by up to twice as many before" },
       { "numerical_damping", type = "number", range = { 0, 1 }, default = 0, doc = "of the time scheme; 0: none" },
       { "mass", type = "choice", choices = { "tuned", "lumped" }, default = "lumped",
         doc = "of the cells: tuned to dt so that waves keep their speed, or all at the nodes" },

@@ -166,18 +166,6 @@ void LocalStage::set_trial(const Point& point, const Side& side_1, const Side& s
   }
 }
 
-// With the normal trial held where it was, tangential forces are those of a given limit.
-Vec3 LocalStage::law_force(size_t i_point, const Trial& trial) const {
-  const Point& point = model_->exchange.points[i_point];
-  const PointRecord& record = points_[i_point];
-  Vec3 force = point.law->force(trial, increment_at(point), record.law);
-  if (limits_.empty()) return force;
-  Trial limited = trial;
-  limited.s[0] = limits_[i_point];
-  force.tail<2>() = point.law->force(limited, increment_at(point), record.law).tail<2>();
-  return force;
-}
-
 std::vector<double> LocalStage::normal_trials() const {
   std::vector<double> trials;
   for (const PointRecord& record : points_) trials.push_back(record.trial.s[0]);
@@ -193,7 +181,8 @@ IndicatorSums LocalStage::run_point(size_t i_point, const Vec& velocity, const V
   state.force.setZero();
   if (point.law) {
     set_trial(point, side_1, side_2, state);
-    if (!state.is_released) state.force = law_force(i_point, state.trial);
+    if (!state.is_released)
+      state.force = limited_force(*point.law, state.trial, increment_at(point), state.law, limit_at(i_point));
   }
   IndicatorSums sums;
   scatter(point.first_port, point.first_port_2, side_1, state.force, velocity, q, image, sums);

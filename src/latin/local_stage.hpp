@@ -1,6 +1,7 @@
 // The local stage: at each interface point, the law; nothing global.
 #pragma once
 
+#include "law/law_slope.hpp"
 #include "solution/preload.hpp"
 #include "solution/tangents.hpp"
 
@@ -83,7 +84,7 @@ class LocalStage {
   // Finds the shortening of a preloaded interface for the fields at hand, or takes the one prescribed.
   void shorten(int i_preload, const Vec& velocity, const Vec& q);
   IndicatorSums run_point(size_t i_point, const Vec& velocity, const Vec& q, Vec& image);
-  Vec3 law_force(size_t i_point, const Trial& trial) const;
+  const double* limit_at(size_t i_point) const { return limits_.empty() ? nullptr : &limits_[i_point]; }
   std::vector<PortRow> port_rows(const Point& point) const;
   PointTangent point_tangent(const Point& point, const Mat3& of_law, double tie) const;
   PreloadTangent preload_tangent(const Preload& preload, const std::vector<Mat3>& of_law) const;

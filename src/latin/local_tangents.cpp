@@ -1,68 +1,14 @@
 // The tangents of the local stage (manual, eq. U1-U3).
-#include <Eigen/Eigenvalues>
-#include <algorithm>
-#include <cmath>
-
 #include "latin/local_stage.hpp"
-#include "law/law.hpp"
+#include "law/law_slope.hpp"
 
 namespace dygita {
-
-namespace {
-
-// d force / d s by differences. Where the law has a kink the stiffer side counts: what just touches is closed.
-template <class Force>
-Mat3 slope_of(const Force& law_force, const Trial& trial, double least) {
-  const Vec3 force = law_force(trial);
-  const double reach =
-      std::max({trial.s.cwiseAbs().maxCoeff(), trial.y.cwiseProduct(force).cwiseAbs().maxCoeff(), least});
-  const double h = 1e-6 * reach;
-  Mat3 slope = Mat3::Zero();
-  for (int d = 0; d < 3; ++d) {
-    if (trial.y[d] <= 0.0) continue;
-    Trial moved = trial;
-    moved.s[d] = trial.s[d] + h;
-    const Vec3 up = (law_force(moved) - force) / h;
-    moved.s[d] = trial.s[d] - h;
-    const Vec3 down = (force - law_force(moved)) / h;
-    slope.col(d) = up.norm() > down.norm() ? up : down;
-  }
-  return slope;
-}
-
-// From d force / d s at fixed F + s/y to d force / d rate, its eigenvalues between the bounds. sticks: what carries a
-// normal force holds the tangents too.
-Mat3 stiffness_of(const Mat3& slope, const Vec3& y, bool sticks, const TangentBounds& bounds) {
-  const Vec3 root = y.cwiseMax(0.0).cwiseSqrt();
-  Mat3 scaled = root.asDiagonal() * slope * root.asDiagonal();
-  scaled = (0.5 * (scaled + scaled.transpose())).eval();
-  if (sticks && scaled(0, 0) > 0.5)
-    for (const int d : {1, 2}) {
-      scaled.row(d).setZero();
-      scaled.col(d).setZero();
-      scaled(d, d) = y[d] > 0.0 ? 1.0 : 0.0;
-    }
-  const Eigen::SelfAdjointEigenSolver<Mat3> modes(scaled);
-  Vec3 stiffness;
-  for (int i = 0; i < 3; ++i) {
-    const double g = modes.eigenvalues()[i];
-    stiffness[i] =
-        g >= bounds.stiffest / (1.0 + bounds.stiffest) ? bounds.stiffest : std::max(bounds.softest, g / (1.0 - g));
-  }
-  Vec3 inverse_root = Vec3::Zero();
-  for (int d = 0; d < 3; ++d)
-    if (root[d] > 0.0) inverse_root[d] = 1.0 / root[d];
-  const Mat3 half = inverse_root.asDiagonal() * modes.eigenvectors();
-  return half * stiffness.asDiagonal() * half.transpose();
-}
-
-}  // namespace
 
 Mat3 LocalStage::law_tangent(size_t i_point, bool sticks, double least, const TangentBounds& bounds) const {
   const Point& point = model_->exchange.points[i_point];
   const PointRecord& record = points_[i_point];
   if (!point.law || record.is_released) return Mat3::Zero();
-  const Mat3 slope = slope_of([&](const Trial& trial) { return law_force(i_point, trial); }, record.trial, least);
+  const Mat3 slope = slope_of(*point.law, record.trial, increment_at(point), record.law, limit_at(i_point), least);
   return stiffness_of(slope, record.trial.y, sticks, bounds);
 }
 

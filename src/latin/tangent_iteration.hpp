@@ -5,6 +5,7 @@
 
 #include "latin/indicator.hpp"
 #include "solution/assembled_system.hpp"
+#include "solution/tangent_steps.hpp"
 
 namespace dygita {
 
@@ -30,20 +31,16 @@ class TangentIteration {
   double bytes() const { return system_.bytes(); }
 
  private:
-  double distance(const Vec& velocity, const Vec& q);
-  double limit_friction(const Vec& velocity, const Vec& q);
-  int take_tangents(bool is_first);
-  double search(double before, const Vec& velocity, const Vec& q, const Vec& to_velocity, const Vec& to_q);
-  void choose_softest(double share, int n_changed, double eta);
+  double distance(const Vec& velocity, const Vec& q, const std::vector<double>& limits);
+  int take_tangents();
 
   LocalStage* local_;
   AssembledSystem system_;
   Vec k_, image_;
   double least_;
-  int n_ = 0;
-  double softest_, factorised_softest_ = 0.0;
-  std::vector<double> limits_;  // normal trials that limit friction; empty: none yet
-  Tangents tangents_;           // of the factor
+  double factorised_softest_ = 0.0;
+  TangentSteps steps_;
+  Tangents tangents_;  // of the factor
 };
 
 }  // namespace dygita

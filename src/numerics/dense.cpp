@@ -4,6 +4,14 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
+#include "base/error.hpp"
+
+extern "C" {
+void dgetrf_(const int* m, const int* n, double* a, const int* lda, int* pivots, int* info);
+void dgetrs_(const char* trans, const int* n, const int* n_rhs, const double* a, const int* lda, const int* pivots,
+             double* b, const int* ldb, int* info);
+}
+
 namespace dygita {
 
 EigenPairs symmetric_eigen(const Mat& a) {
@@ -25,6 +33,22 @@ EigenPairs tridiagonal_eigen(const std::vector<double>& diagonal, const std::vec
 }
 
 Mat solve_dense(const Mat& a, const Mat& b) { return a.fullPivLu().solve(b); }
+
+LuFactor::LuFactor(Mat a) : lu_(std::move(a)), pivots_(static_cast<size_t>(lu_.rows())) {
+  const int n = static_cast<int>(lu_.rows());
+  if (n == 0) return;
+  int info = 0;
+  dgetrf_(&n, &n, lu_.data(), &n, pivots_.data(), &info);
+  CHECK(info >= 0, "a dense matrix that LAPACK takes");
+}
+
+Vec LuFactor::solved(Vec b, char which) const {
+  const int n = static_cast<int>(lu_.rows()), one = 1;
+  if (n == 0) return b;
+  int info = 0;
+  dgetrs_(&which, &n, &one, lu_.data(), &n, pivots_.data(), b.data(), &n, &info);
+  return b;
+}
 
 QrFactors full_qr(const Mat& a) {
   const Eigen::HouseholderQR<Mat> qr(a);

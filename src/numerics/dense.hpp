@@ -24,6 +24,21 @@ EigenPairs tridiagonal_eigen(const std::vector<double>& diagonal, const std::vec
 // X of A X = B, by elimination with full pivoting; A square and regular, B with as many rows.
 Mat solve_dense(const Mat& a, const Mat& b);
 
+// P A = L U of a square matrix, by LAPACK. Where it is singular, solutions are not finite.
+class LuFactor {
+ public:
+  LuFactor() = default;
+  explicit LuFactor(Mat a);
+  Vec solve(Vec b) const { return solved(std::move(b), 'N'); }
+  Vec solve_transposed(Vec b) const { return solved(std::move(b), 'T'); }
+
+ private:
+  Vec solved(Vec b, char which) const;
+
+  Mat lu_;
+  std::vector<int> pivots_;
+};
+
 // A = Q R, A of m rows and n <= m columns: Q m x m, R n x n.
 struct QrFactors {
   Mat q, r;

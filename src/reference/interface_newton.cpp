@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "law/law.hpp"
+#include "law/law_slope.hpp"
 
 namespace dygita {
 
@@ -22,88 +22,22 @@ constexpr double regularisation = 1e-8;
 
 }  // namespace
 
-InterfaceNewton::InterfaceNewton(const StepModel& model, const MergedAssembly& assembly,
-                                 const MonolithicSettings& settings)
-    : model_(&model),
-      assembly_(&assembly),
-      settings_(settings),
-      y_(assembly.compliance().diagonal()),
-      f_(Vec::Zero(assembly.n_rows())) {
-  // Any positive Y gives the same solution; one for both tangents keeps the friction disc round.
-  for (size_t i = 0; i < model.exchange.points.size(); ++i) {
-    const int t1 = assembly.row(i, 1), t2 = assembly.row(i, 2);
-    if (t1 >= 0 && t2 >= 0) y_[t1] = y_[t2] = 0.5 * (y_[t1] + y_[t2]);
-  }
-  for (const SubstructurePtr& part : model.problem->substructures) {
-    const Points& nodes = part->mesh->nodes;
-    extent_ += (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).norm();
-  }
-}
+InterfaceNewton::InterfaceNewton(InterfaceRows& rows, const MonolithicSettings& settings)
+    : rows_(&rows), assembly_(&rows.assembly()), settings_(settings), f_(Vec::Zero(rows.assembly().n_rows())) {}
 
-Vec InterfaceNewton::force_of(const Vec& f, const Vec& rate) const {
-  return f + assembly_->softening().cwiseProduct(rate - assembly_->held_rate());
-}
-
-Trial InterfaceNewton::trial_of(size_t i_point, const Vec& rate, const Vec& force, const PointRecord& record) const {
-  Trial trial = record.trial;
-  trial.s.setZero();
-  trial.y.setZero();
-  for (int d = 0; d < 3; ++d)
-    if (const int i = assembly_->row(i_point, d); i >= 0) {
-      trial.y[d] = y_[i];
-      trial.s[d] = rate[i] + y_[i] * force[i];
-    }
-  return trial;
-}
-
-InterfaceNewton::Residual InterfaceNewton::evaluate(const Vec& f, const std::vector<PointRecord>& records,
-                                                    const Increment& increment) const {
-  const Vec rate = rate_of(f), force = force_of(f, rate);
-  Residual r;
-  r.phi = force;
-  for (size_t p = 0; p < records.size(); ++p) {
-    const Point& point = model_->exchange.points[p];
-    if (!point.law || records[p].is_released) continue;
-    const Vec3 asked = point.law->force(trial_of(p, rate, force, records[p]), increment, records[p].law);
+void InterfaceNewton::start(const std::vector<PointRecord>& records) {
+  for (size_t p = 0; p < records.size(); ++p)
     for (int d = 0; d < 3; ++d)
-      if (const int i = assembly_->row(p, d); i >= 0) r.phi[i] -= asked[d];
-  }
-  r.distance = (r.phi.array().square() * y_.array()).sum();
-  r.size = 0.5 * (force.array().square() * y_.array() + rate.array().square() / y_.array()).sum();
-  if (!std::isfinite(r.distance))
-    throw NumericalError(fmt::format(
-        "step '{}': the interface forces have diverged; likely cause: bodies left unconstrained once contacts "
-        "open, or a time step far too large",
-        model_->step->name));
-  return r;
-}
-
-double InterfaceNewton::relative(const Residual& r) const {
-  return std::sqrt(r.distance / std::max({largest_, r.size, floor_, std::numeric_limits<double>::min()}));
-}
-
-// d law / d s by differences of the law itself: exact where it is piecewise linear.
-Mat3 InterfaceNewton::law_tangent(size_t i_point, const Trial& trial, const PointRecord& record,
-                                  const Increment& increment) const {
-  Mat3 tangent = Mat3::Zero();
-  if (record.is_released) return tangent;
-  const Law& law = *model_->exchange.points[i_point].law;
-  const Vec3 force = law.force(trial, increment, record.law);
-  const double h = 1e-7 * std::max(trial.s.cwiseAbs().maxCoeff(), 1e-9);
-  for (int d = 0; d < 3; ++d) {
-    if (assembly_->row(i_point, d) < 0) continue;
-    Trial moved = trial;
-    moved.s[d] += h;
-    tangent.col(d) = (law.force(moved, increment, record.law) - force) / (moved.s[d] - trial.s[d]);
-  }
-  return tangent;
+      if (const int i = assembly_->row(p, d); i >= 0) f_[i] = records[p].law.force[d];
 }
 
 // J = F' - D s', with rate' = -W, F' = 1 - R W and s' = rate' + Y F'. Rows of points without force and tangent say f =
 // 0 and are left out where R is zero.
-void InterfaceNewton::factorise(const Vec& f, const std::vector<PointRecord>& records, const Increment& increment) {
-  const Vec rate = rate_of(f), force = force_of(f, rate), &r = assembly_->softening();
+void InterfaceNewton::factorise(const Fields& fields, const std::vector<PointRecord>& records,
+                                const Increment& increment) {
+  const Vec &r = assembly_->softening(), &y = rows_->y();
   const Mat& w = assembly_->compliance();
+  const double least = 1e-9 * rows_->extent() / increment.dt;
   const int n = assembly_->n_rows();
   std::vector<Mat3> tangents(records.size(), Mat3::Zero());
   std::vector<std::pair<int, int>> place(n);  // point and direction of a row
@@ -112,7 +46,10 @@ void InterfaceNewton::factorise(const Vec& f, const std::vector<PointRecord>& re
   for (size_t p = 0; p < records.size(); ++p) {
     const std::array rows{assembly_->row(p, 0), assembly_->row(p, 1), assembly_->row(p, 2)};
     if (std::max({rows[0], rows[1], rows[2]}) < 0) continue;
-    tangents[p] = law_tangent(p, trial_of(p, rate, force, records[p]), records[p], increment);
+    const Point& point = rows_->model().exchange.points[p];
+    if (point.law && !records[p].is_released)
+      tangents[p] = slope_of(*point.law, rows_->trial_of(p, fields.rate, fields.force, records[p]), increment,
+                             records[p].law, nullptr, least);
     for (int d = 0; d < 3; ++d) {
       if (rows[d] < 0) continue;
       place[rows[d]] = {static_cast<int>(p), d};
@@ -137,7 +74,7 @@ void InterfaceNewton::factorise(const Vec& f, const std::vector<PointRecord>& re
       const int k = assembly_->row(p, e);
       if (k < 0 || tangents[p](d, e) == 0.0) continue;
       derivative_of_force(k);
-      row -= tangents[p](d, e) * (y_[k] * force_row - w.col(k).transpose());
+      row -= tangents[p](d, e) * (y[k] * force_row - w.col(k).transpose());
     }
     for (int c = 0; c < n; ++c) j(a, c) = row[order[c]];
   }
@@ -145,7 +82,7 @@ void InterfaceNewton::factorise(const Vec& f, const std::vector<PointRecord>& re
   Mat square = j.leftCols(n_active);
   // Laws in a loop share forces in more than one way, which makes J singular; the residual has no part there.
   square.diagonal().array() += regularisation;
-  lu_.compute(square);
+  lu_ = LuFactor(std::move(square));
   has_factor_ = true;
 }
 
@@ -163,9 +100,9 @@ Vec InterfaceNewton::direction(const Vec& phi) const {
 // Point by point, the others held: slow, but it cannot cycle as Newton's method can where contacts open and close.
 void InterfaceNewton::sweep(Vec& f, const std::vector<PointRecord>& records, const Increment& increment) const {
   const Mat& w = assembly_->compliance();
-  Vec rate = rate_of(f);
+  Vec rate = assembly_->free_rate() - w * f;
   for (size_t p = 0; p < records.size(); ++p) {
-    const Point& point = model_->exchange.points[p];
+    const Point& point = rows_->model().exchange.points[p];
     if (!point.law) continue;
     Trial trial = records[p].trial;
     trial.s.setZero();
@@ -191,58 +128,47 @@ void InterfaceNewton::sweep(Vec& f, const std::vector<PointRecord>& records, con
 }
 
 InterfaceNewton::Outcome InterfaceNewton::solve(std::vector<PointRecord>& records, const Increment& increment) {
-  for (size_t p = 0; p < records.size(); ++p)
-    for (int d = 0; d < 3; ++d)
-      if (const int i = assembly_->row(p, d); i >= 0) f_[i] = records[p].law.force[d];
-  Residual residual = evaluate(f_, records, increment);
+  const auto fields_of = [&](Vec f) {
+    Fields fields = rows_->fields(std::move(f), records, increment);
+    if (std::isfinite(fields.distance)) return fields;
+    throw NumericalError(fmt::format(
+        "step '{}': the interface forces have diverged; likely cause: bodies left unconstrained once contacts "
+        "open, or a time step far too large",
+        rows_->model().step->name));
+  };
+  Fields now = fields_of(f_);
   Outcome outcome;
-  Vec best = f_;
-  double best_distance = residual.distance;
+  Fields best = now;
   int in_vain = 0;
-  while (relative(residual) > settings_.tolerance && outcome.iterations < settings_.max_iterations) {
+  while (rows_->relative(now) > settings_.tolerance && outcome.iterations < settings_.max_iterations) {
     ++outcome.iterations;
     const bool is_fresh = !has_factor_;
-    if (is_fresh) factorise(f_, records, increment);
-    const Vec f_new = f_ + direction(residual.phi);
-    Residual next = evaluate(f_new, records, increment);
-    const double ratio = std::sqrt(next.distance / residual.distance);
+    if (is_fresh) factorise(now, records, increment);
+    Fields next = fields_of(now.f + direction(now.phi()));
+    const double ratio = std::sqrt(next.distance / now.distance);
     if (ratio > fast_enough) has_factor_ = false;
     if (!is_fresh && ratio >= 1.0) continue;  // the old tangent misleads
     if (ratio >= 1.0) ++in_vain;
-    if (ratio < too_bad) {
-      f_ = f_new;
-      residual = std::move(next);
-    } else {
+    if (ratio < too_bad)
+      now = std::move(next);
+    else
       in_vain = most_in_vain;
-    }
     if (in_vain >= most_in_vain) {
       in_vain = 0;
-      f_ = best;
-      for (int i = 0; i < n_sweeps; ++i) sweep(f_, records, increment);
-      residual = evaluate(f_, records, increment);
+      Vec f = best.f;
+      for (int i = 0; i < n_sweeps; ++i) sweep(f, records, increment);
+      now = fields_of(std::move(f));
     }
-    if (residual.distance < best_distance) {
-      best = f_;
-      best_distance = residual.distance;
-    }
+    if (now.distance < best.distance) best = now;
   }
-  if (residual.distance > best_distance) {  // not converged: the best there was is what is shown
-    f_ = best;
-    residual = evaluate(f_, records, increment);
-  }
-  outcome.residual = relative(residual);
-  outcome.distance = residual.distance;
+  if (now.distance > best.distance) now = best;  // not converged: the best there was is what is shown
+  outcome.residual = rows_->relative(now);
+  outcome.distance = now.distance;
   outcome.converged = outcome.residual <= settings_.tolerance;
-  largest_ = std::max(largest_, residual.size);
-  const Vec rate = rate_of(f_), force = force_of(f_, rate);
-  outcome.is_apart = increment.is_static && rate.size() > 0 && rate.cwiseAbs().maxCoeff() > extent_;
-  for (size_t p = 0; p < records.size(); ++p) {
-    PointRecord& record = records[p];
-    record.trial = trial_of(p, rate, force, record);
-    record.force.setZero();
-    const Point& point = model_->exchange.points[p];
-    if (point.law && !record.is_released) record.force = point.law->force(record.trial, increment, record.law);
-  }
+  rows_->note_size(now.size);
+  outcome.is_apart = increment.is_static && now.rate.size() > 0 && now.rate.cwiseAbs().maxCoeff() > rows_->extent();
+  rows_->keep(now, records, increment);
+  f_ = std::move(now.f);
   return outcome;
 }
 
@@ -251,7 +177,7 @@ void InterfaceNewton::check_together(const Outcome& outcome) const {
   throw NumericalError(
       fmt::format("step '{}': sides of an interface move apart by more than the assembly's size; likely cause: a body "
                   "that was held by contact alone has come off, so that there is no equilibrium",
-                  model_->step->name));
+                  rows_->model().step->name));
 }
 
 }  // namespace dygita

@@ -29,10 +29,11 @@ class MonolithicRun {
         i_step_(index_of(problem.steps, model.step)),
         increment_(increment_of(model.scheme, 0.0)),
         assembly_(model, before),
-        newton_(model, assembly_, settings) {
+        rows_(model, assembly_),
+        newton_(rows_, settings) {
     start_step(model, state);
     for (const Point& point : model.exchange.points) records_.push_back(start_point(model, point, state));
-    preload_ = std::make_unique<PreloadNewton>(model, assembly_, records_, std::max(10 * settings.tolerance, 1e-12));
+    preload_ = std::make_unique<PreloadNewton>(rows_, records_, std::max(10 * settings.tolerance, 1e-12));
     energy_.resize(model.pieces.size());
     observer_.begin_step(instant(-1, {}));
   }
@@ -65,6 +66,7 @@ class MonolithicRun {
   int i_step_;
   Increment increment_;
   MergedAssembly assembly_;
+  InterfaceRows rows_;
   InterfaceNewton newton_;
   std::unique_ptr<PreloadNewton> preload_;
   std::vector<PointRecord> records_;
@@ -156,7 +158,7 @@ void MonolithicRun::accept_increment(int increment, const InterfaceNewton::Outco
   show_ties(model_, records_, port_force_, state_);
   Energies& energies = state_.energies;
   book_increment(energy_, energies);
-  newton_.raise_floor(energies.kinetic + energies.strain + std::abs(energies.loads), model_.scheme.dt);
+  rows_.raise_floor(energies.kinetic + energies.strain + std::abs(energies.loads), model_.scheme.dt);
   if (!increment_.is_static) state_.time += increment_.dt;
   check_energies(model_, state_, energy_, increment);
   ++figures_.increments;

@@ -4,17 +4,23 @@
 
 namespace dygita {
 
-PreloadNewton::PreloadNewton(const StepModel& model, const MergedAssembly& assembly,
-                             const std::vector<PointRecord>& records, double tolerance)
-    : model_(&model),
-      preloads_(make_preloads(model, records)),
-      stiffest_(Vec::Zero(preloads_.size())),
+namespace {
+
+constexpr double near_enough = 1e-7;  // relative: from there on Newton's own slopes are right
+
+}  // namespace
+
+PreloadNewton::PreloadNewton(const InterfaceRows& rows, const std::vector<PointRecord>& records, double tolerance)
+    : model_(&rows.model()),
+      preloads_(make_preloads(rows.model(), records)),
+      approach_(rows, preloads_),
+      stiffest_(Vec::Zero(static_cast<Eigen::Index>(preloads_.size()))),
+      extent_(rows.extent()),
       tolerance_(tolerance) {
   for (size_t i = 0; i < preloads_.size(); ++i)
     for (const int p : preloads_[i].points)
-      if (const int row = assembly.row(p, 0); row >= 0) stiffest_[i] += 1.0 / assembly.compliance()(row, row);
-  for (const SubstructurePtr& part : model.problem->substructures)
-    extent_ += (part->mesh->nodes.rowwise().maxCoeff() - part->mesh->nodes.rowwise().minCoeff()).norm();
+      if (const int row = rows.assembly().row(p, 0); row >= 0)
+        stiffest_[i] += 1.0 / rows.assembly().compliance()(row, row);
 }
 
 // Forces through the preloaded interfaces for shortenings d: the whole increment solved.
@@ -53,14 +59,20 @@ Mat PreloadNewton::slopes(const Vec& d, const Vec& force) {
 
 InterfaceNewton::Outcome PreloadNewton::solve(InterfaceNewton& newton, std::vector<PointRecord>& records,
                                               const Increment& increment, int i_increment) {
+  newton.start(records);
+  n_iterations_ = 0;
+  if (increment.is_static)
+    n_iterations_ =
+        approach_.approach(newton.reduced_force(), records, increment, i_increment,
+                           std::max(near_enough, newton.settings().tolerance), 2 * newton.settings().max_iterations);
   if (preloads_.empty()) {
-    const InterfaceNewton::Outcome outcome = newton.solve(records, increment);
+    InterfaceNewton::Outcome outcome = newton.solve(records, increment);
     newton.check_together(outcome);
+    outcome.iterations += n_iterations_;
     return outcome;
   }
   records_ = &records;
   solve_ = [&] { return newton.solve(records, increment); };
-  n_iterations_ = 0;
   const int n = static_cast<int>(preloads_.size());
   Vec d(n);
   target_.resize(n);

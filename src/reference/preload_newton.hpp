@@ -3,15 +3,14 @@
 #pragma once
 
 #include "reference/interface_newton.hpp"
-#include "solution/preload.hpp"
+#include "reference/static_approach.hpp"
 
 namespace dygita {
 
 class PreloadNewton {
  public:
-  // records: of all points, as the step starts; tolerance: of the forces, relative.
-  PreloadNewton(const StepModel& model, const MergedAssembly& assembly, const std::vector<PointRecord>& records,
-                double tolerance);
+  // rows outlives this object. records: of all points, as the step starts; tolerance: of the forces, relative.
+  PreloadNewton(const InterfaceRows& rows, const std::vector<PointRecord>& records, double tolerance);
 
   // Solves the increment; without preloads, just the interfaces. The records' shortenings are those found.
   InterfaceNewton::Outcome solve(InterfaceNewton& newton, std::vector<PointRecord>& records, const Increment& increment,
@@ -24,8 +23,9 @@ class PreloadNewton {
 
   const StepModel* model_;
   std::vector<Preload> preloads_;
-  Vec stiffest_;         // N/m, of each preload
-  double extent_ = 0.0;  // m, of all substructures
+  StaticApproach approach_;
+  Vec stiffest_;   // N/m, of each preload
+  double extent_;  // m, of all substructures
   double tolerance_;
   // Of the increment at hand.
   Vec target_;

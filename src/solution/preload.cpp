@@ -63,6 +63,29 @@ double find_shortening(const std::function<double(double)>& force, double target
   return best;
 }
 
+void shorten(const StepModel& model, const Preload& preload, double target, const Increment& increment,
+             std::vector<PointRecord>& records) {
+  double slope = 0.0, size = 0.0;
+  for (const int i : preload.points)
+    if (const double y = records[i].trial.y[0]; y > 0.0) slope += 1.0 / (increment.dt * y);
+  const auto force = [&](double d) {
+    double sum = 0.0;
+    size = 0.0;
+    for (const int i : preload.points) {
+      PointRecord& record = records[i];
+      record.trial.shortening = d;
+      const double f = model.exchange.points[i].law->force(record.trial, increment, record.law)[0];
+      sum += f;
+      size += std::abs(f);
+    }
+    return sum;
+  };
+  const double start = records[preload.points.front()].trial.shortening;
+  force(start);
+  const double d = find_shortening(force, target, start, slope, std::abs(target) + size);
+  for (const int i : preload.points) records[i].trial.shortening = d;
+}
+
 void check_reached(const Step& step, int increment, const std::vector<const Interface*>& interfaces, const Vec& force,
                    const Vec& target) {
   for (size_t i = 0; i < interfaces.size(); ++i) {

@@ -27,6 +27,11 @@ std::vector<Preload> make_preloads(const StepModel& model, const std::vector<Poi
 double find_shortening(const std::function<double(double)>& force, double target, double start, double slope,
                        double scale, double precision = 1e-14, double furthest = 1e3);
 
+// Gives a preload's points the shortening at which their normal forces add up to target (N), for their trials (s, y) as
+// they stand: no more than a scalar equation.
+void shorten(const StepModel& model, const Preload& preload, double target, const Increment& increment,
+             std::vector<PointRecord>& records);
+
 // Throws NumericalError where forces (N) found for shortenings within the assembly's size are not even half of those
 // asked for.
 void check_reached(const Step& step, int increment, const std::vector<const Interface*>& interfaces, const Vec& force,

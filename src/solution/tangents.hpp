@@ -8,12 +8,6 @@
 
 namespace dygita {
 
-// Between what slopes of a law are kept, in its search directions: ties are that much stiffer, open points that much
-// softer. Neither moves the solution, since a tangent only multiplies the distance of the two stages.
-struct TangentBounds {
-  double stiffest = 1e3, softest = 1e-3;
-};
-
 // Of one point of the exchange: F = F_hat - matrix (V - W_hat) on its unknowns in the assembled q, port by port (N s/m;
 // static N/m). Symmetric, positive semidefinite.
 struct PointTangent {

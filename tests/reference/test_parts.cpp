@@ -138,13 +138,15 @@ TEST(InterfaceNewton, solves_contact_with_friction) {
   MergedAssembly assembly(of.model);
   MonolithicSettings settings;
   settings.tolerance = 1e-13;
-  InterfaceNewton newton(of.model, assembly, settings);
+  InterfaceRows rows(of.model, assembly);
+  InterfaceNewton newton(rows, settings);
   begin(of, assembly);
   std::vector<PointRecord> records;
   for (const Point& point : of.model.exchange.points) {
     records.push_back(start_point(of.model, point, of.state));
     begin_point(of.model, point, Vec3::Zero(), 0, records.back());
   }
+  newton.start(records);
   const InterfaceNewton::Outcome outcome = newton.solve(records, increment_of(of.model.scheme, 0.0));
   EXPECT_TRUE(outcome.converged);
   EXPECT_LE(outcome.residual, 1e-13);

@@ -1,0 +1,43 @@
+// Brings a static increment near its solution, however many parts hang on each other by contact alone, preloads
+// included (manual, eq. R8-R9).
+#pragma once
+
+#include "numerics/dense.hpp"
+#include "reference/interface_rows.hpp"
+#include "solution/preload.hpp"
+#include "solution/tangent_steps.hpp"
+
+namespace dygita {
+
+// Newton's method with the laws' slopes between bounds, damped, friction limited a step behind: what is solved in
+// between is convex.
+class StaticApproach {
+ public:
+  // All outlive this object.
+  StaticApproach(const InterfaceRows& rows, const std::vector<Preload>& preloads)
+      : rows_(&rows), preloads_(&preloads) {}
+
+  // From reduced forces f to those closer to a solution: to `near`, relative, or as near as `most` iterations come.
+  // Gives the records the shortenings that go with them. Returns the number of iterations.
+  int approach(Vec& f, std::vector<PointRecord>& records, const Increment& increment, int i_increment, double near,
+               int most);
+
+ private:
+  using Fields = InterfaceRows::Fields;
+  Fields fields(const Vec& f, std::vector<PointRecord>& records, const std::vector<double>& limits);
+  int take_slopes(const Fields& now, const std::vector<PointRecord>& records);
+  void factorise();
+  Vec solve(const Fields& now) const;
+  Vec times_slopes(const Vec& x) const;
+
+  const InterfaceRows* rows_;
+  const std::vector<Preload>* preloads_;
+  Increment increment_;
+  int i_increment_ = 0;
+  TangentSteps steps_;
+  std::vector<Mat3> slopes_;       // M of each point, N/m
+  double factorised_softest_ = 0;  // of the factor
+  LuFactor transposed_;
+};
+
+}  // namespace dygita

@@ -1,0 +1,36 @@
+// How Newton's method on the interfaces of a static step proceeds, whatever its unknowns are: friction limited a step
+// behind, steps cut, loose parts held until it is known what they rest on (manual, eq. U2 and below U5).
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace dygita {
+
+class TangentSteps {
+ public:
+  // Distance (any unit) of the fields at hand from a solution, where friction is limited by these normal trials, one a
+  // point; empty: each point's own.
+  using Distance = std::function<double(const std::vector<double>& limits)>;
+
+  // Forgets the increment before.
+  void begin();
+  bool is_first() const { return n_ == 0; }
+  // Distance at the start of an iteration, with the limits that it shall have. trials: normal trials of the fields, as
+  // of the last distance.
+  double begin_step(const Distance& distance, const std::function<std::vector<double>()>& trials);
+  const std::vector<double>& limits() const { return limits_; }
+  // Least stiffness of what is open or slides, for TangentBounds.
+  double softest() const { return softest_; }
+  // How far to go: the first half, quarter, ... that lessens the distance; else the best of them. distance: that far.
+  double end_step(double before, const std::function<double(double share)>& distance, int n_changed, double eta);
+
+ private:
+  void choose_softest(double share, int n_changed, double eta);
+
+  int n_ = 0;
+  double softest_ = 0.0;
+  std::vector<double> limits_;  // empty: none yet
+};
+
+}  // namespace dygita
