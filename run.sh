@@ -20,6 +20,7 @@ packages=(
   nlohmann-json3-dev      # run record
   libgtest-dev            # tests
   libbenchmark-dev        # timings
+  libopenmpi-dev openmpi-bin  # runs on several ranks; without it they are not built
 )
 # Files for ParaView. Where it is not installed, its headers are unpacked into build/vtk, and its libraries (see vtk_library) are
 # installed: it needs python3-vtk9, which excludes ParaView's python3-paraview, so that apt would take one of both away.

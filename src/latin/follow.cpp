@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "latin/step_run.hpp"
+#include "solution/all_pieces.hpp"
 
 namespace dygita {
 
@@ -19,7 +20,9 @@ void StepRun::leave(const Best& best, bool is_solved) {
   entry.q = at_.q;
   entry.uncorrected = at_.uncorrected;
   if (local_.has_preloads()) entry.shortening = local_.preload_figures().shortening;
-  for (const auto& piece : model_.pieces) entry.moved.push_back(piece->is_moved());
+  for (const double moved :
+       of_all_pieces(*model_.cut, 1, [&](int i, double*to) { *to = model_.pieces[i]->is_moved(); }))
+    entry.moved.push_back(moved != 0.0);
   entry.eta = best.outcome.eta;
   entry.size = best.outcome.size;
   entry.force_size = best.outcome.force_size;

@@ -18,6 +18,7 @@ void StepRun::linear_stage(const Vec& q, Vec& velocity) {
     piece.interface_velocity(q.segment(model_.offset[i], piece.n_rows()),
                              velocity.segment(model_.offset[i], piece.n_rows()));
   });
+  model_.unknowns.complete(velocity.data());
 }
 
 // Local stage: the law at every interface point; image = F_hat + k W_hat.
@@ -168,7 +169,7 @@ void StepRun::run() {
   files_.kept.begin_step();
   files_.observer.begin_step(instant(-1, 0, 0.0));
   Progress progress(model_.step->name, n);
-  for (int i = 0; i < n && !interrupt_requested(); i += settings_.window) {
+  for (int i = 0; i < n && !ranks::any(interrupt_requested()); i += settings_.window) {
     const int last = std::min(i + settings_.window, n);
     if (model_.has_explicit())
       solve_interval(i);

@@ -1,11 +1,16 @@
 // The steps of a problem one after the other, each from the state that the last one left.
+#include <spdlog/fmt/fmt.h>
+
 #include <chrono>
 #include <utility>
 
+#include "base/log.hpp"
 #include "base/progress.hpp"
 #include "latin/search_direction.hpp"
+#include "latin/shared_trail.hpp"
 #include "latin/step_run.hpp"
 #include "numerics/factor.hpp"
+#include "solution/rank_observer.hpp"
 #include "solution/step_ends.hpp"
 #include "solution/stopped_run.hpp"
 
@@ -24,15 +29,38 @@ void tell_run(const std::shared_ptr<const InterfaceFields>& kept, SolverFigures&
   figures.own.shared_factors = figures.n_equal;
 }
 
+// Collective. What each rank had, sent, and waited.
+void tell_ranks(const Cut& cut, const ranks::Traffic& before, SolverFigures& figures) {
+  if (ranks::is_alone()) return;
+  const ranks::Traffic own = ranks::traffic();
+  figures.seconds["waiting for other ranks"] += own.seconds_waited - before.seconds_waited;
+  for (int rank = 0; rank < ranks::count(); ++rank) {
+    const bool is_own = rank == ranks::me();
+    const std::vector<double> told =
+        ranks::sums(is_own ? std::vector{own.messages - before.messages, own.bytes - before.bytes,
+                                         own.seconds_waited - before.seconds_waited}
+                           : std::vector{0.0, 0.0, 0.0});
+    long n_pieces = 0, unknowns = 0;
+    for (const CutPiece& piece : cut.pieces())
+      if (piece.rank == rank) ++n_pieces, unknowns += 3L * piece.body->mesh->n_nodes();
+    say(fmt::format("  rank {}: {} piece{}, {} unknowns; sent {:.0f} messages, {:.4g} MB; waited {:.2f} s", rank,
+                    n_pieces, n_pieces == 1 ? "" : "s", unknowns, told[0], 1e-6 * told[1], told[2]));
+  }
+}
+
 }  // namespace
 
-SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceFields* start_from, Trail* trail) {
+SolverFigures solve(const Problem& problem, Observer& watching, const InterfaceFields* start_from, Trail* kept_trail) {
   using clock = std::chrono::steady_clock;
   auto start = clock::now();
   const auto lap = [&] {
     return std::chrono::duration<double>(clock::now() - std::exchange(start, clock::now())).count();
   };
   prepare_thread();
+  RankObserver observer(watching);
+  SharedTrail shared_trail(kept_trail);
+  Trail* const trail = ranks::is_alone() ? kept_trail : ranks::any(kept_trail) ? &shared_trail : nullptr;
+  const ranks::Traffic traffic_before = ranks::traffic();
   const std::vector<Surface> surfaces = make_surfaces(problem);
   const CutPtr cut = make_cut(problem, surfaces);
   const std::vector<Body> bodies = make_bodies(problem, surfaces, *cut);
@@ -42,9 +70,9 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
   figures.pieces = cut->counts();
   figures.seconds["assemble"] = lap();
   for (const StepPtr& step : problem.steps) {
-    if (interrupt_requested()) break;
+    if (ranks::any(interrupt_requested())) break;
     StepModel model = make_step_model(problem, *step, surfaces, bodies, state, cut);
-    if (interrupt_requested()) break;  // the factorisation may have taken long
+    if (ranks::any(interrupt_requested())) break;  // the factorisation may have taken long
     const StepSettings settings = step_settings(problem, model, start_from != nullptr);
     start_step(model, state);
     const Vec k = search_directions(model, problem.solver.search_direction, settings.window);
@@ -59,7 +87,8 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
     if (figures.stopped_by) break;
   }
   tell_run(kept, figures);
-  figures.interrupted = figures.stopped_by || interrupt_requested();
+  tell_ranks(*cut, traffic_before, figures);
+  figures.interrupted = figures.stopped_by || ranks::any(interrupt_requested());
   return figures;
 }
 

@@ -117,17 +117,18 @@ class StepRun {
   void accept_interval(int increment, int iterations, double eta, double interface_energy);
   void note_missed(const Missed& missed);
   bool has_flown_off() const;
+  void complete_energies();
   void check_finite(const Outcome& outcome, int increment) const;
   std::string place_of_divergence() const;
   std::string describe_progress() const;
   Instant instant(int increment, int iterations, double eta) const;
 
-  // f on every piece; on every group of pieces that are solved together.
+  // f on every piece that is here; on every group of pieces that are solved together.
   template <class Function>
   void for_each_piece(Function&& f) {
     parallel_for(
-        static_cast<int>(model_.pieces.size()), [&](int i) { f(*model_.pieces[i], i); }, Schedule::as_free,
-        piece_threads_);
+        static_cast<int>(model_.here.size()), [&](int at) { f(*model_.pieces[model_.here[at]], model_.here[at]); },
+        Schedule::as_free, piece_threads_);
   }
   template <class Function>
   void for_each_group(Function&& f) {
