@@ -50,7 +50,7 @@ int go_on(Command& asked) {
   asked.going_on.write_frames = !asked.has_no_frames;
   asked.going_on.write_state = !asked.has_no_state;
   asked.going_on.checkpoint_every = parse_interval("--checkpoint-every", asked.checkpoint_every);
-  set_progress_enabled(!asked.is_quiet);
+  if (ranks::is_first()) set_progress_enabled(!asked.is_quiet);
   catch_interrupts();
   return exit_code(continue_run(asked.going_on), "stopped");
 }
@@ -100,9 +100,10 @@ void check_command(const CLI::App& app, int argc, char** argv) {
 void join_ranks(int argc, char** argv) {
   ranks::start([](const std::string& message) { say_error(message); });
   if (ranks::is_alone()) return;
-  if (argc < 2 || std::string_view(argv[1]) != "run")
-    throw InputError(fmt::format("dygita {}: not on several MPI ranks\n    dygita run is what mpirun starts",
-                                 argc < 2 ? "" : argv[1]));
+  const std::string_view command = argc < 2 ? "" : argv[1];
+  if (command != "run" && command != "continue")
+    throw InputError(fmt::format(
+        "dygita {}: not on several MPI ranks\n    dygita run and continue are what mpirun starts", command));
   if (ranks::is_first()) return;
   be_silent();
   set_progress_enabled(false);

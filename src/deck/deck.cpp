@@ -170,6 +170,7 @@ void check_cold(DeckState& state, const DeckResult& warm, StudyCase& one) {
   const LuaState::Pause pause(state);
   RunRequest request = request_of(state, *warm.problem, one.name);
   request.write_files = request.write_frames = false;
+  request.is_trial = true;
   say(fmt::format("problem '{}', case '{}' once more, without 'start_from':", warm.problem->name, one.name));
   const auto cold = state.engine.run(*warm.problem, request);
   if (cold->interrupted) return;

@@ -28,12 +28,14 @@ void StepRun::leave(const Best& best, bool is_solved) {
   entry.force_size = best.outcome.force_size;
   entry.iterations = best.iterations;
   entry.is_solved = is_solved;
+  entry.is_assembled = assembled_.has_value();
   if (best.outcome.eta > settings_.tolerance) entry.missed = best.missed;
   files_.trail->leave(entry);
 }
 
-StepRun::Best StepRun::follow() {
+StepRun::Best StepRun::follow(int increment, const Goal& goal) {
   const TrailEntry entry = take_entry();
+  if (assembled_ || entry.is_assembled) return go_over_again(entry, increment, goal);
   Best best{entry.q, {entry.eta, entry.size, entry.force_size}, entry.iterations, entry.missed.value_or(Missed{})};
   anderson_.begin();
   // The first iterates of the last increments are remembered when the trail ends.
@@ -61,9 +63,9 @@ StepRun::Best StepRun::follow() {
   return best;
 }
 
-// Few increments, and each the same again.
-StepRun::Best StepRun::follow_assembled(int increment, const Goal& goal) {
-  const TrailEntry entry = take_entry();
+// With all pieces in one system: few increments, and each the same again. Where one side iterated them, several ranks
+// having no such system, they are so to the tolerance.
+StepRun::Best StepRun::go_over_again(const TrailEntry& entry, int increment, const Goal& goal) {
   const Best best = answer(increment, goal, true);
   if ((at_.q.array() != entry.q.array()).any()) files_.trail->note_difference();
   return best;

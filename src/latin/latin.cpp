@@ -158,7 +158,7 @@ void StepRun::solve_increment(int increment) {
     is_answered_ = true;
   }
   const Goal goal = goal_of(has_start);
-  const Best best = !leads(1) ? answer(increment, goal) : assembled_ ? follow_assembled(increment, goal) : follow();
+  const Best best = leads(1) ? follow(increment, goal) : answer(increment, goal);
   finish_increment(at_.q);
   if (best.outcome.eta > settings_.tolerance) note_missed(best.missed);
   accept_increment(increment, best.iterations, best.outcome.eta);

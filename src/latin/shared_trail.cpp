@@ -13,8 +13,12 @@ void put(std::vector<double>& to, const Vec& values) {
 }
 
 std::vector<double> numbers_of(const TrailEntry& entry) {
-  std::vector<double> numbers{entry.eta, entry.size, entry.force_size, static_cast<double>(entry.iterations),
-                              entry.is_solved ? 1.0 : 0.0};
+  std::vector<double> numbers{entry.eta,
+                              entry.size,
+                              entry.force_size,
+                              static_cast<double>(entry.iterations),
+                              entry.is_solved ? 1.0 : 0.0,
+                              entry.is_assembled ? 1.0 : 0.0};
   put(numbers, entry.q);
   put(numbers, entry.uncorrected);
   put(numbers, entry.shortening);
@@ -45,6 +49,7 @@ TrailEntry entry_of(const std::vector<double>& numbers) {
   entry.force_size = *at++;
   entry.iterations = static_cast<int>(*at++);
   entry.is_solved = *at++ != 0.0;
+  entry.is_assembled = *at++ != 0.0;
   entry.q = vector();
   entry.uncorrected = vector();
   entry.shortening = vector();

@@ -1,13 +1,11 @@
 // The steps of a problem one after the other, each from the state that the last one left.
-#include <spdlog/fmt/fmt.h>
-
 #include <chrono>
 #include <utility>
 
-#include "base/log.hpp"
 #include "base/progress.hpp"
 #include "latin/search_direction.hpp"
 #include "latin/shared_trail.hpp"
+#include "latin/sharing.hpp"
 #include "latin/step_run.hpp"
 #include "numerics/factor.hpp"
 #include "solution/rank_observer.hpp"
@@ -27,25 +25,6 @@ void tell_run(const std::shared_ptr<const InterfaceFields>& kept, SolverFigures&
   figures.own.substitutions_spared = static_cast<double>(figures.n_spared);
   figures.own.pieces_in_full = figures.n_in_full;
   figures.own.shared_factors = figures.n_equal;
-}
-
-// Collective. What each rank had, sent, and waited.
-void tell_ranks(const Cut& cut, const ranks::Traffic& before, SolverFigures& figures) {
-  if (ranks::is_alone()) return;
-  const ranks::Traffic own = ranks::traffic();
-  figures.seconds["waiting for other ranks"] += own.seconds_waited - before.seconds_waited;
-  for (int rank = 0; rank < ranks::count(); ++rank) {
-    const bool is_own = rank == ranks::me();
-    const std::vector<double> told =
-        ranks::sums(is_own ? std::vector{own.messages - before.messages, own.bytes - before.bytes,
-                                         own.seconds_waited - before.seconds_waited}
-                           : std::vector{0.0, 0.0, 0.0});
-    long n_pieces = 0, unknowns = 0;
-    for (const CutPiece& piece : cut.pieces())
-      if (piece.rank == rank) ++n_pieces, unknowns += 3L * piece.body->mesh->n_nodes();
-    say(fmt::format("  rank {}: {} piece{}, {} unknowns; sent {:.0f} messages, {:.4g} MB; waited {:.2f} s", rank,
-                    n_pieces, n_pieces == 1 ? "" : "s", unknowns, told[0], 1e-6 * told[1], told[2]));
-  }
 }
 
 }  // namespace
@@ -87,7 +66,7 @@ SolverFigures solve(const Problem& problem, Observer& watching, const InterfaceF
     if (figures.stopped_by) break;
   }
   tell_run(kept, figures);
-  tell_ranks(*cut, traffic_before, figures);
+  tell_ranks(surfaces, *cut, traffic_before, figures);
   figures.interrupted = figures.stopped_by || ranks::any(interrupt_requested());
   return figures;
 }

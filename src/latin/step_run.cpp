@@ -29,6 +29,7 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
                  settings.is_assembled ? 1e-1 : 1e-2) {
   if (settings.is_assembled) assembled_.emplace(model, local_, k, settings.assembly_size);
   books_.energy.resize(model.pieces.size());
+  if (!ranks::is_alone()) books_.piece_seconds.resize(model.pieces.size());
   long n_explicit = 0;
   for (const auto& piece : model.pieces) {
     explicit_.push_back(dynamic_cast<ExplicitPiece*>(piece.get()));
@@ -197,6 +198,8 @@ void StepRun::add_to(SolverFigures& figures) const {
   figures.n_equal += static_cast<int>(sums[equal]);
   figures.n_interface_unknowns = model_.n_q();
   figures.gap_difference = std::max({figures.gap_difference, local_.gap_difference(), direct_.gap_difference()});
+  figures.sharing.pieces.resize(books_.piece_seconds.size());
+  for (size_t i = 0; i < books_.piece_seconds.size(); ++i) figures.sharing.pieces[i].seconds += books_.piece_seconds[i];
   const Seconds& seconds = books_.seconds;
   figures.seconds["forward"] += seconds.forward;
   figures.seconds["interface operator"] += seconds.interface;

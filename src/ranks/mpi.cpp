@@ -53,9 +53,9 @@ void wait(MPI_Request request) {
   so_far.seconds_waited += std::chrono::duration<double>(clock::now() - start).count();
 }
 
-void note_sent(double n_messages, double n_bytes) {
-  so_far.messages += n_messages;
-  so_far.bytes += n_bytes;
+void note_sent(Receivers to, double n_messages, double n_bytes) {
+  so_far.messages[to] += n_messages;
+  so_far.bytes[to] += n_bytes;
 }
 
 int as_count(size_t n) {
@@ -69,7 +69,7 @@ void broadcast(Values& values, MPI_Datatype type) {
   MPI_Request request;
   MPI_Ibcast(values.data(), as_count(values.size()), type, 0, MPI_COMM_WORLD, &request);
   wait(request);
-  if (own_rank == 0) note_sent(n_ranks - 1, (n_ranks - 1.0) * values.size() * sizeof(values[0]));
+  if (own_rank == 0) note_sent(everybody, n_ranks - 1, (n_ranks - 1.0) * values.size() * sizeof(values[0]));
 }
 
 template <class Values>
@@ -86,7 +86,7 @@ void send(const double* values, size_t n, int rank, Tag tag) {
   MPI_Request request;
   MPI_Isend(values, as_count(n), MPI_DOUBLE, rank, tag, MPI_COMM_WORLD, &request);
   wait(request);
-  note_sent(1, 8.0 * n);
+  note_sent(asker, 1, 8.0 * n);
 }
 
 std::vector<double> receive(int rank, Tag tag) {
@@ -159,7 +159,7 @@ std::vector<std::string> gathered(const std::string& bytes) {
                &request);
   wait(request);
   if (own_rank != 0) {
-    note_sent(1, size);
+    note_sent(everybody, 1, size);
     return {};
   }
   std::vector<std::string> texts;
@@ -174,7 +174,7 @@ double largest(double value) {
   MPI_Request request;
   MPI_Iallreduce(&value, &of_all, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD, &request);
   wait(request);
-  note_sent(1, 8);
+  note_sent(everybody, 1, 8);
   return of_all;
 }
 
@@ -186,7 +186,7 @@ std::vector<double> sums(const std::vector<double>& values) {
   MPI_Request request;
   MPI_Iallreduce(values.data(), of_all.data(), as_count(values.size()), MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD, &request);
   wait(request);
-  note_sent(1, 8.0 * values.size());
+  note_sent(everybody, 1, 8.0 * values.size());
   return of_all;
 }
 
@@ -214,7 +214,7 @@ void Segments::complete(double* values) const {
   MPI_Iallgatherv(own_.data(), as_count(own_.size()), MPI_DOUBLE, all_.data(), counts_.data(), starts_.data(),
                   MPI_DOUBLE, MPI_COMM_WORLD, &request);
   wait(request);
-  note_sent(n_ranks - 1, 8.0 * (n_ranks - 1) * own_.size());
+  note_sent(everybody, n_ranks - 1, 8.0 * (n_ranks - 1) * own_.size());
   for (size_t r = 0; r < of_rank_.size(); ++r) {
     if (r == me_here) continue;
     const double* from = all_.data() + starts_[r];
@@ -258,7 +258,7 @@ void Neighbours::exchange(double* values) const {
     for (const int i : peer.sends) to = std::copy_n(place(i), width_, to);
     MPI_Isend(peer.out.data(), as_count(peer.out.size()), MPI_DOUBLE, peer.rank, passed, MPI_COMM_WORLD,
               &requests.emplace_back());
-    note_sent(1, 8.0 * peer.out.size());
+    note_sent(neighbours, 1, 8.0 * peer.out.size());
   }
   for (MPI_Request& request : requests) wait(request);
   for (const Peer& peer : peers_) {

@@ -5,6 +5,7 @@
 // `start`, except `ask`.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <span>
 #include <string>
@@ -67,8 +68,10 @@ void answer_until_released(const Answer& answer);
 void release_all();
 
 // What this rank has sent so far, and how long it has waited for others.
+enum Receivers { neighbours, everybody, asker, n_receivers };  // asker: rank 0, or whom it asks
 struct Traffic {
-  double messages = 0.0, bytes = 0.0, seconds_waited = 0.0;
+  std::array<double, n_receivers> messages{}, bytes{};
+  double seconds_waited = 0.0;
 };
 Traffic traffic();
 

@@ -53,6 +53,7 @@ void summarise(const Problem& problem, const SolverFigures& figures, RunResult& 
   result.n_interface_unknowns = figures.n_interface_unknowns;
   result.seconds = figures.seconds;
   result.pieces = figures.pieces;
+  result.sharing = figures.sharing;
   static_cast<OwnFigures&>(result.figures) = figures.own;
   result.figures.factor_memory = figures.factor_bytes / 1e6;
   result.figures.gap_difference = figures.gap_difference;
@@ -274,7 +275,7 @@ void tell_stop(const RunResult& result, const RunSite& site) {
 std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunRequest& request) {
   const auto start = std::chrono::steady_clock::now();
   if (request.threads > 0) omp_set_num_threads(request.threads);
-  check_ranks(declared, request);
+  check_ranks(declared);
   check_problem(declared);
   say(fmt::format("problem '{}', case '{}': {} substructures, {} interfaces, {} steps", declared.name,
                   request.case_name, declared.substructures.size(), declared.interfaces.size(), declared.steps.size()));

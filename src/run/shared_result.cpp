@@ -124,7 +124,7 @@ void collect_warnings() {
   }
 }
 
-void check_ranks(const Problem& problem, const RunRequest& request) {
+void check_ranks(const Problem& problem) {
   if (ranks::is_alone()) return;
   const auto refuse = [&](const std::string& what) {
     throw InputError(problem.origin, "problem '" + problem.name + "': " + what + "\n    start dygita without mpirun");
@@ -136,7 +136,6 @@ void check_ranks(const Problem& problem, const RunRequest& request) {
     refuse("'static_steps = \"assembled\"' is one system of all substructures, which MPI ranks do not share");
   if (problem.mass().is_moved_from_contact)
     refuse("'massless_contact' looks at both sides of a joint at once, which MPI ranks do not have");
-  if (request.continues || request.checkpoint) refuse("a run is not continued by several MPI ranks");
 }
 
 std::shared_ptr<RunResult> assist(const Problem& problem, const InterfaceFields* start_from) {

@@ -6,7 +6,7 @@
 namespace dygita {
 
 // What several ranks cannot do is refused, not done by each of them. Throws InputError.
-void check_ranks(const Problem& problem, const RunRequest& request);
+void check_ranks(const Problem& problem);
 
 // On the other ranks what rank 0 does in a pass over the steps: the part of it that is theirs. start_from: as in
 // `solve`.

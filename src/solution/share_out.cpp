@@ -24,25 +24,6 @@ double cost_of(const Problem& problem, const CutPiece& piece) {
 
 using Weights = std::map<std::pair<int, int>, int>;
 
-// Points that two pieces share, first < second.
-Weights shared_points(const std::vector<Surface>& surfaces, const Cut& cut, size_t n_parts) {
-  Weights weights;
-  const auto link = [&](int a, int b) {
-    if (a != b) ++weights[std::minmax(a, b)];
-  };
-  for (const Surface& s : surfaces)
-    for (int i = 0; i < s.n_points() && s.part_2 >= 0; ++i)
-      link(cut.owner(s.part_1, s.facing.side_1.main_node(i)).piece,
-           cut.owner(s.part_2, s.facing.side_2.main_node(i)).piece);
-  for (int p = 0; p < cut.n_pieces(); ++p) {
-    const CutPiece& piece = cut.piece(p);
-    for (size_t i = 0; i < piece.nodes.size(); ++i)
-      if (piece.cut_areas[static_cast<Eigen::Index>(i)] > 0.0) link(cut.owner(piece.part, piece.nodes[i]).piece, p);
-  }
-  CHECK(n_parts > 0, "a problem without substructures");
-  return weights;
-}
-
 double heaviest(const std::vector<int>& rank_of, const std::vector<double>& costs, int n_ranks) {
   std::vector<double> sums(static_cast<size_t>(n_ranks), 0.0);
   for (size_t i = 0; i < costs.size(); ++i) sums[static_cast<size_t>(rank_of[i])] += costs[i];
@@ -93,6 +74,23 @@ std::vector<double> costs_of(const Problem& problem, const Cut& cut) {
 
 }  // namespace
 
+std::map<std::pair<int, int>, int> shared_points(const std::vector<Surface>& surfaces, const Cut& cut) {
+  Weights weights;
+  const auto link = [&](int a, int b) {
+    if (a != b) ++weights[std::minmax(a, b)];
+  };
+  for (const Surface& s : surfaces)
+    for (int i = 0; i < s.n_points() && s.part_2 >= 0; ++i)
+      link(cut.owner(s.part_1, s.facing.side_1.main_node(i)).piece,
+           cut.owner(s.part_2, s.facing.side_2.main_node(i)).piece);
+  for (int p = 0; p < cut.n_pieces(); ++p) {
+    const CutPiece& piece = cut.piece(p);
+    for (size_t i = 0; i < piece.nodes.size(); ++i)
+      if (piece.cut_areas[static_cast<Eigen::Index>(i)] > 0.0) link(cut.owner(piece.part, piece.nodes[i]).piece, p);
+  }
+  return weights;
+}
+
 void share_out(const Problem& problem, const std::vector<Surface>& surfaces, Cut& cut) {
   constexpr double bearable = 1.15;  // heavier than the most even by no more: what is exchanged counts as much
   const int n_ranks = ranks::count();
@@ -105,16 +103,9 @@ void share_out(const Problem& problem, const std::vector<Surface>& surfaces, Cut
                                  (n_ranks + cut.n_pieces() - 1) / cut.n_pieces()));
   const std::vector<double> costs = costs_of(problem, cut);
   const std::vector<int> even = by_weight_alone(costs, n_ranks);
-  const std::vector<int> near = by_graph(shared_points(surfaces, cut, problem.substructures.size()), costs, n_ranks);
+  const std::vector<int> near = by_graph(shared_points(surfaces, cut), costs, n_ranks);
   const bool is_near_bearable = heaviest(near, costs, n_ranks) <= bearable * heaviest(even, costs, n_ranks);
   for (int i = 0; i < cut.n_pieces(); ++i) cut.give(i, (is_near_bearable ? near : even)[static_cast<size_t>(i)]);
-}
-
-double imbalance_of(const Problem& problem, const Cut& cut) {
-  std::vector<double> sums(static_cast<size_t>(ranks::count()), 0.0);
-  for (const CutPiece& piece : cut.pieces()) sums[static_cast<size_t>(piece.rank)] += cost_of(problem, piece);
-  return *std::max_element(sums.begin(), sums.end()) * static_cast<double>(sums.size()) /
-         std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 }  // namespace dygita

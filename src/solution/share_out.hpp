@@ -1,6 +1,8 @@
 // Which rank has which piece of the cut: about the same work each, and few interface points between them.
 #pragma once
 
+#include <map>
+
 #include "solution/cut.hpp"
 #include "solution/surfaces.hpp"
 
@@ -10,7 +12,7 @@ namespace dygita {
 // same on all ranks. Throws InputError where there are fewer pieces than ranks.
 void share_out(const Problem& problem, const std::vector<Surface>& surfaces, Cut& cut);
 
-// Heaviest rank over the mean, of the estimates.
-double imbalance_of(const Problem& problem, const Cut& cut);
+// Points that two pieces share, the first of which has the lower number.
+std::map<std::pair<int, int>, int> shared_points(const std::vector<Surface>& surfaces, const Cut& cut);
 
 }  // namespace dygita

@@ -24,8 +24,12 @@ FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="dygita_ranks_"))
 failures = []
 
 
+def under_mpi(ranks):
+    return [asked.mpirun, "--allow-run-as-root", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
+
+
 def dygita(ranks, *words, expected, says=(), never=()):
-    start = [asked.mpirun, "--allow-run-as-root", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
+    start = under_mpi(ranks)
     environment = {**os.environ, "OMP_NUM_THREADS": "1"}
     done = subprocess.run([*start, asked.program, *map(str, words)], capture_output=True, text=True, timeout=280, check=False, env=environment)
     said = done.stdout + done.stderr
@@ -42,20 +46,20 @@ def contents(run):
             if p.is_file() and p.name not in told_apart}
 
 
+def same(name, alone, shared):
+    alone, shared = contents(alone), contents(shared)
+    differ = [file for file in {**alone, **shared} if alone.get(file) != shared.get(file)]
+    if differ or len(alone) < 3:
+        failures.append(f"{name}: other bits than those of one process: {sorted(differ)}, of {sorted(alone)}")
+
+
 def compare(name, deck, problem, *words, cases=("base",), most=1000, also=()):
-    runs = {}
     several = sorted({*(ranks for ranks in asked.ranks if ranks <= most), *also})
     for ranks in [1, *several]:
         out = FOLDER / f"{name}_{ranks}"
         dygita(ranks, "run", deck, "--quiet", "--threads", 1, "--out", out, *words, expected=0)
-        runs[ranks] = [contents(out / problem / case) for case in cases]
-    for ranks in several:
-        for alone, shared in zip(runs[1], runs[ranks]):
-            if len(alone) < 3:
-                failures.append(f"{name}: one process has written {sorted(alone)} only")
-            differ = [file for file in {**alone, **shared} if alone.get(file) != shared.get(file)]
-            if differ:
-                failures.append(f"{name}: {ranks} ranks give other bits than one process: {sorted(differ)}")
+        for case in cases if ranks > 1 else ():
+            same(f"{name} on {ranks} ranks", FOLDER / f"{name}_1" / problem / case, out / problem / case)
 
 
 stopped = asked.folder / "stopped.lua"
@@ -78,33 +82,48 @@ def ranks_of(pid):
     return sorted(int(line.split()[0]) for line in listed if line and not line.split()[1].startswith("Z"))
 
 
-def kill_one():
-    """A rank that dies ends the run; one process goes on with what was computed, to the bits of a run that was never stopped."""
-    words = ["run", stopped, "--set", "us=3000", "--no-frames", "--quiet", "--threads", "1", "--out"]
-    dygita(1, *words, FOLDER / "whole", expected=0)
-    out = FOLDER / "killed"
-    process = subprocess.Popen([asked.mpirun, "--allow-run-as-root", "--oversubscribe", "-n", "2", asked.program, *map(str, [*words, out])],
+def go_on(name, killed, then):
+    """A rank that dies ends the run; any number of ranks go on with what was computed, to the bits of a run that was never stopped."""
+    words = ["run", stopped, "--set", "us=300", "--checkpoint-every", "0.02s", "--no-frames", "--quiet", "--threads", "1", "--out"]
+    if not (FOLDER / "whole").exists():
+        dygita(1, *words, FOLDER / "whole", expected=0)
+    out = FOLDER / name
+    process = subprocess.Popen([*under_mpi(killed), asked.program, *map(str, [*words, out])],
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
     run = out / "stopped" / "base"
     begun = time.monotonic()
-    while not ((run / "checkpoint.dygita").exists() and (run / "checkpoint.dygita").stat().st_size > 200000):
+    while not ((run / "checkpoint.dygita").exists() and (run / "checkpoint.dygita").stat().st_size > 500000):
         if process.poll() is not None or time.monotonic() > begun + 100:
-            failures.append("the run under mpirun has left no checkpoint to kill it by")
+            failures.append(f"{name}: the run has left no checkpoint to kill it by")
             process.kill()
             return
         time.sleep(0.01)
-    os.kill(ranks_of(process.pid)[-1], signal.SIGKILL)
+    os.kill(ranks_of(process.pid)[-1] if killed > 1 else process.pid, signal.SIGKILL)
     said = process.communicate(timeout=100)[1]
-    if process.returncode == 0 or "signal 9" not in said:
-        failures.append(f"a rank was killed: mpirun exits with {process.returncode}\n{said}")
-    dygita(1, "continue", run, "--no-frames", "--quiet", "--threads", "1", expected=0)
-    alone, continued = contents(FOLDER / "whole" / "stopped" / "base"), contents(run)
-    differ = [file for file in {**alone, **continued} if alone.get(file) != continued.get(file)]
-    if differ:
-        failures.append(f"a rank was killed, and one process goes on to other bits: {sorted(differ)}")
+    if process.returncode == 0 or (killed > 1 and "signal 9" not in said):
+        failures.append(f"{name}: a rank was killed: mpirun exits with {process.returncode}\n{said}")
+    said = dygita(then, "continue", run, "--no-frames", "--threads", "1", expected=0, says=["increments are gone over again"])
+    if "other last digits" in said:
+        failures.append(f"{name}: the increments gone over differ\n{said}")
+    same(name, FOLDER / "whole" / "stopped" / "base", run)
 
 
-kill_one()
+def go_further(name, *words):
+    """A run that has come to its end, to a tighter tolerance or further in time: all ranks start from its fields."""
+    runs = {}
+    for ranks in 1, 2:
+        runs[ranks] = FOLDER / f"{name}_{ranks}" / "stopped" / "base"
+        dygita(1, "run", stopped, "--quiet", "--threads", 1, "--out", FOLDER / f"{name}_{ranks}", expected=0)
+        dygita(ranks, "continue", runs[ranks], *words, "--quiet", "--threads", 1, expected=0)
+    same(name, runs[1], runs[2])
+
+
+go_on("two_then_one", 2, 1)
+go_on("two_then_three", 2, 3)
+go_on("one_then_two", 1, 2)
+go_further("further", "--until", "80*us")
+go_further("tighter", "--tolerance", "1e-8")
+dygita(2, "continue", FOLDER / "none", expected=2, says=["no folder"])
 dygita(7, "run", stopped, "--quiet", "--out", FOLDER / "many", expected=2, says=["7 MPI ranks for 6 substructures"])
 dygita(2, "run", stopped, "--quiet", "--solver", "monolithic", "--out", FOLDER / "one", expected=2, says=["solver.monolithic is one system"])
 dygita(2, "run", stopped, "--quiet", "--solver", "latin{ static_steps = 'assembled' }", "--out", FOLDER / "one", expected=2,
