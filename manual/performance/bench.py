@@ -14,12 +14,13 @@ sys.path[:0] = [str(HERE), str(HERE.parent / "verification")]
 
 import headline  # noqa: E402
 import kernels  # noqa: E402
+import ranks  # noqa: E402
 import scaling  # noqa: E402
 import scene_runs  # noqa: E402
 from measure import Machine, processor, read_rows  # noqa: E402
 from page import table  # noqa: E402
 
-PARTS = {"headline": headline, "kernels": kernels, "scenes": scene_runs, "scaling": scaling}
+PARTS = {"headline": headline, "kernels": kernels, "scenes": scene_runs, "scaling": scaling, "ranks": ranks}
 
 
 def arguments():

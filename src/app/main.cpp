@@ -6,9 +6,11 @@
 
 #include "app/check_command.hpp"
 #include "app/command_line.hpp"
+#include "base/log.hpp"
 #include "base/names.hpp"
 #include "base/progress.hpp"
 #include "deck/repeat_run.hpp"
+#include "ranks/ranks.hpp"
 
 namespace {
 
@@ -21,10 +23,20 @@ std::string shortened(const std::string& message) {
   return message.substr(0, shown) + " ... " + message.substr(message.size() - shown);
 }
 
-int say_error(const char* message, int code) {
+void say_error(const std::string& message) {
   std::fflush(stdout);
   std::fprintf(stderr, "%s\n", printable(shortened(message)).c_str());
+}
+
+int say_error(const char* message, int code) {
+  if (ranks::is_first()) say_error(message);
   return code;
+}
+
+// An error of one rank ends all.
+int fail(const char* message, int code) {
+  if (!ranks::is_alone()) ranks::stop_all(message, code);
+  return say_error(message, code);
 }
 
 int exit_code(const DeckOutcome& outcome, const char* when_stopped) {
@@ -38,7 +50,7 @@ int go_on(Command& asked) {
   asked.going_on.write_frames = !asked.has_no_frames;
   asked.going_on.write_state = !asked.has_no_state;
   asked.going_on.checkpoint_every = parse_interval("--checkpoint-every", asked.checkpoint_every);
-  set_progress_enabled(!asked.is_quiet);
+  if (ranks::is_first()) set_progress_enabled(!asked.is_quiet);
   catch_interrupts();
   return exit_code(continue_run(asked.going_on), "stopped");
 }
@@ -48,9 +60,12 @@ int run_or_check(Command& asked, bool solves) {
   asked.deck.write_frames = !asked.has_no_frames;
   asked.deck.write_state = !asked.has_no_state;
   asked.deck.checkpoint_every = parse_interval("--checkpoint-every", asked.checkpoint_every);
-  set_progress_enabled(!asked.is_quiet);
+  if (ranks::is_first()) set_progress_enabled(!asked.is_quiet);
   catch_interrupts();
   const char* when_stopped = "stopped; the results so far are written";
+  if (!ranks::is_alone() && !asked.repeats.empty())
+    throw InputError("dygita run --repeat: not on several MPI ranks\n    start it without mpirun");
+  if (!ranks::is_first()) asked.deck.write_files = false;
   if (!asked.repeats.empty()) return exit_code(repeat_run(asked.deck, asked.repeats), when_stopped);
   if (asked.deck.path.empty()) throw InputError("dygita run: which deck? dygita run DECK.lua, or --repeat run.json");
   const Engine engine{run_problem, CheckWithPicture(asked.picture)};
@@ -81,6 +96,19 @@ void check_command(const CLI::App& app, int argc, char** argv) {
   throw InputError(std::string("no command '") + argv[1] + "'\n    " + did_you_mean(argv[1], known));
 }
 
+// Under mpirun: who speaks, and what several ranks do together.
+void join_ranks(int argc, char** argv) {
+  ranks::start([](const std::string& message) { say_error(message); });
+  if (ranks::is_alone()) return;
+  const std::string_view command = argc < 2 ? "" : argv[1];
+  if (command != "run" && command != "continue")
+    throw InputError(fmt::format(
+        "dygita {}: not on several MPI ranks\n    dygita run and continue are what mpirun starts", command));
+  if (ranks::is_first()) return;
+  be_silent();
+  set_progress_enabled(false);
+}
+
 int command_line(int argc, char** argv) {
   CLI::App app;
   Command asked;
@@ -108,14 +136,17 @@ int command_line(int argc, char** argv) {
 int main(int argc, char** argv) {
   prepare_process(argv);
   try {
-    return command_line(argc, argv);
+    join_ranks(argc, argv);
+    const int code = command_line(argc, argv);
+    ranks::finish();
+    return code;
   } catch (const InputError& error) {
-    return say_error(error.what(), wrong_input);
+    return fail(error.what(), wrong_input);
   } catch (const NumericalError& error) {
-    return say_error(error.what(), failed);
+    return fail(error.what(), failed);
   } catch (const std::bad_alloc&) {
-    return say_error("not enough memory on this machine; dygita check tells what a problem needs", failed);
+    return fail("not enough memory on this machine; dygita check tells what a problem needs", failed);
   } catch (const std::exception& error) {
-    return say_error(error.what(), broken);
+    return fail(error.what(), broken);
   }
 }

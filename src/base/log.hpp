@@ -14,6 +14,9 @@ void say(const std::string& line);
 // A warning, on standard error and kept until `take_warnings`; said once even if repeated.
 void warn(const std::string& message);
 
+// From now on nothing is printed; warnings are kept as before.
+void be_silent();
+
 // The warnings since the last call, oldest first; clears them.
 std::vector<std::string> take_warnings();
 

@@ -4,6 +4,7 @@
 
 #include "base/log.hpp"
 #include "deck/deck_text.hpp"
+#include "ranks/ranks.hpp"
 
 namespace dygita {
 
@@ -27,6 +28,7 @@ DeckOutcome continue_run(const ContinueOptions& options) {
   deck.time_limit = options.time_limit;
   deck.memory_limit = options.memory_limit;
   deck.meshes = options.meshes;
+  deck.write_files = ranks::is_first();
   deck.write_frames = options.write_frames && continuation.has_frames();
   deck.write_state = options.write_state;
   deck.checkpoint_every = options.checkpoint_every;

@@ -13,6 +13,7 @@
 #include "mesh/mesher_process.hpp"
 #include "numerics/factor.hpp"
 #include "numerics/panel_choice.hpp"
+#include "ranks/ranks.hpp"
 #include "result/hollow_result.hpp"
 
 namespace dygita {
@@ -95,7 +96,9 @@ void warn_of_unused(const DeckState& state) {
 }
 
 DeckOutcome execute(const DeckOptions& options, const Engine& engine, bool solves) {
-  const std::string text = options.text ? *options.text : text_of(options.path);
+  // All ranks run the same text.
+  const std::string text =
+      ranks::shared(options.text || !ranks::is_first() ? options.text.value_or("") : text_of(options.path));
   set_mesh_limits(options.meshes);
   set_mesh_folder(options.path.parent_path().string());
   DeckState state(options, engine, solves);
@@ -167,6 +170,7 @@ void check_cold(DeckState& state, const DeckResult& warm, StudyCase& one) {
   const LuaState::Pause pause(state);
   RunRequest request = request_of(state, *warm.problem, one.name);
   request.write_files = request.write_frames = false;
+  request.is_trial = true;
   say(fmt::format("problem '{}', case '{}' once more, without 'start_from':", warm.problem->name, one.name));
   const auto cold = state.engine.run(*warm.problem, request);
   if (cold->interrupted) return;

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/parallel.hpp"
+#include "solution/all_pieces.hpp"
 
 namespace dygita {
 
@@ -134,7 +135,12 @@ CoarseCorrection::CoarseCorrection(const StepModel& model, const Vec& k) {
   pieces_.resize(n);
   make_shapes(model, k, sides);
   std::vector<Mat> share(n);
-  parallel_for(n, [&](int i) { share[i] = respond(*model.pieces[i], model.offset[i], pieces_[i]); });
+  parallel_for(static_cast<int>(model.here.size()), [&](int at) {
+    const int i = model.here[at];
+    share[i] = respond(*model.pieces[i], model.offset[i], pieces_[i]);
+  });
+  complete_shares(model, share);
+  unknowns_ = model.unknowns;
   Mat stiffness = Mat::Zero(6 * n, 6 * n);
   for (int i = 0; i < n; ++i)
     for (int c = 0; c < share[i].cols(); ++c)
@@ -146,6 +152,25 @@ CoarseCorrection::CoarseCorrection(const StepModel& model, const Vec& k) {
   factor_.compute(stiffness);
   if (factor_.info() != Eigen::Success) pieces_.clear();  // the iteration goes without
   amount_.resize(6 * n);
+}
+
+// Those of pieces elsewhere; how many coarse motions reach each is known everywhere.
+void CoarseCorrection::complete_shares(const StepModel& model, std::vector<Mat>& share) const {
+  if (ranks::is_alone()) return;
+  std::vector<int> sizes;
+  Eigen::Index n = 0;
+  for (size_t i = 0; i < share.size(); ++i) {
+    const auto c = static_cast<Eigen::Index>(pieces_[i].tied.empty() ? 0 : pieces_[i].motions.size());
+    if (!model.cut->is_here(static_cast<int>(i))) share[i].resize(c, c);
+    sizes.push_back(static_cast<int>(c * c));
+    n += c * c;
+  }
+  Vec all(n);
+  n = 0;
+  for (const Mat& own : share) all.segment(n, own.size()) = own.reshaped(), n += own.size();
+  segments_of(*model.cut, sizes).complete(all.data());
+  n = 0;
+  for (Mat& own : share) own.reshaped() = all.segment(n, own.size()), n += own.size();
 }
 
 void CoarseCorrection::correct(Vec& q, Vec& velocity) {
@@ -163,12 +188,14 @@ void CoarseCorrection::correct(Vec& q, Vec& velocity) {
     for (size_t r = 0; r < unknowns.size(); ++r) to[unknowns[r]] += local.change[r];
   };
   for (Local& local : pieces_) {
-    if (local.tied.empty()) continue;
+    if (local.data.size() == 0) continue;  // not tied, or elsewhere
     for (size_t c = 0; c < local.motions.size(); ++c) local.amount[c] = amount_[local.motions[c]];
     add(local, local.data, local.tied, q);
     add(local, local.shape, local.tied, velocity);
     add(local, local.answer, local.rest, velocity);
   }
+  unknowns_.complete(q.data());
+  unknowns_.complete(velocity.data());
 }
 
 }  // namespace dygita

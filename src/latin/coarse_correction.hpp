@@ -43,7 +43,10 @@ class CoarseCorrection {
   // Data and answers of a piece; returns its share of the coarse stiffness (c x c).
   static Mat respond(const Piece& piece, int offset, Local& local);
 
+  void complete_shares(const StepModel& model, std::vector<Mat>& share) const;
+
   std::vector<Local> pieces_;
+  ranks::Segments unknowns_;
   Eigen::LLT<Mat> factor_;
   Vec amount_;
 };

@@ -20,6 +20,7 @@ void DirectPoints::begin_interval(int increment) {
 }
 
 void DirectPoints::add_held_force(const OwnPoint& p, const OwnPort& port) {
+  if (!port.piece) return;
   for (int i = port.first_share; i < port.end_share; ++i)
     if (shares_[i].has_held) port.piece->add_held_force(shares_[i].node, shares_[i].block.transpose() * port.force);
   if (port.is_spread()) return;
@@ -52,6 +53,7 @@ void DirectPoints::end_point(OwnPoint& p) {
 
 void DirectPoints::show(State& state) {
   if (points_.empty()) return;
+  complete_points();
   std::vector<PointRecord> records(model_->exchange.points.size());
   std::vector<Vec3> port_force(model_->exchange.ports.size(), Vec3::Zero());
   for (OwnPoint& p : points_) {
@@ -62,7 +64,7 @@ void DirectPoints::show(State& state) {
     if (p.point->law) {
       book_dissipation(*p.point, p.work, state);
       show_point(*p.point, shown, state);
-      gap_difference_ = std::max(gap_difference_, difference_of_gaps(p));
+      gap_difference_ = std::max(gap_difference_, p.gap_difference);
     }
     state.energies.loads += p.work.given;
     state.energies.scheme += p.work.given - p.on_pieces - p.work.dissipated();
@@ -74,10 +76,10 @@ void DirectPoints::show(State& state) {
 }
 
 Vec3 DirectPoints::end_displacement(const OwnPoint& p, const OwnPort& port) const {
-  if (!port.is_spread()) return p.point->frame.transpose() * port.piece->displacement_of(port.node);
+  if (!port.is_spread()) return p.point->frame.transpose() * port.nodes->displacement_of(port.node);
   Vec3 u = Vec3::Zero();
   for (int i = port.first_share; i < port.end_share; ++i)
-    u += shares_[i].block * port.piece->displacement_of(shares_[i].node);
+    u += shares_[i].block * port.nodes->displacement_of(shares_[i].node);
   return u;
 }
 

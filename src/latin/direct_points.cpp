@@ -24,9 +24,13 @@ DirectPoints::DirectPoints(const StepModel& model, const State& start)
     : model_(&model),
       increment_(increment_of(model.scheme, model.problem->solver.push_out)),
       close_enough_(std::clamp(0.1 * model.problem->solver.tolerance, 1e-13, 1e-10)) {
+  find_motions(model);
+  complete_starts();
   for (size_t i = 0; i < model.exchange.points.size(); ++i)
     if (model.exchange.points[i].is_direct) add_point(model, static_cast<int>(i), start);
   find_clusters();
+  has_clusters_ = !clusters_.empty();
+  if (!ranks::is_alone()) find_near();
 }
 
 void DirectPoints::add_point(const StepModel& model, int index, const State& start) {
@@ -34,6 +38,7 @@ void DirectPoints::add_point(const StepModel& model, int index, const State& sta
   OwnPoint p;
   p.point = &point;
   p.index = index;
+  p.owner = model.cut->piece(model.exchange.ports[point.first_port].piece).rank;
   p.record = start_point(model, point, start);
   p.record.trial.shortening = p.record.shortening_old;
   const int first = static_cast<int>(ports_.size()) - point.first_port;
@@ -51,12 +56,6 @@ void DirectPoints::add_point(const StepModel& model, int index, const State& sta
   points_.push_back(std::move(p));
 }
 
-template <typename Visit>
-void DirectPoints::for_each_node(const OwnPort& port, Visit&& visit) const {
-  if (!port.is_spread()) visit(port.node);
-  for (int i = port.first_share; i < port.end_share; ++i) visit(shares_[i].node);
-}
-
 // Points that share a node, or whose nodes answer along several axes at once, take turns until they agree.
 void DirectPoints::find_clusters() {
   std::vector<int> root(points_.size());
@@ -65,13 +64,13 @@ void DirectPoints::find_clusters() {
     while (root[i] != i) i = root[i] = root[root[i]];
     return i;
   };
-  std::map<std::pair<const ExplicitPiece*, int>, int> first_at;
+  std::map<std::pair<const ExplicitNodes*, int>, int> first_at;
   std::vector<char> is_shared(points_.size(), 0);
   for (int i = 0; i < static_cast<int>(points_.size()); ++i)
     for (int p = points_[i].side_1.first; p < points_[i].side_2.end; ++p) {
       if (!ports_[p].is_plain) is_shared[i] = 1;
       for_each_node(ports_[p], [&](int node) {
-        const auto [it, is_new] = first_at.emplace(std::pair{ports_[p].piece, node}, i);
+        const auto [it, is_new] = first_at.emplace(std::pair<const ExplicitNodes*, int>(ports_[p].nodes, node), i);
         if (is_new || it->second == i) return;
         is_shared[i] = is_shared[it->second] = 1;
         root[find(i)] = find(it->second);
@@ -217,6 +216,7 @@ void DirectPoints::solve_cluster(const std::vector<int>& members, const std::vec
 }
 
 void DirectPoints::solve(const std::vector<double>& motions) {
+  complete_motions();
   const int n = static_cast<int>(alone_.size()), n_chunks = (n + chunk - 1) / chunk;
   parallel_for(
       n_chunks,
@@ -235,6 +235,8 @@ void DirectPoints::solve(const std::vector<double>& motions) {
     for (const int i : clusters_[c])
       largest_force_ = std::max(largest_force_, points_[i].record.force.cwiseAbs().maxCoeff());
   }
+  // Rounds over points that share nodes end by it, everywhere.
+  if (has_clusters_) largest_force_ = ranks::largest(largest_force_);
   interval_ += increment_.dt;
 }
 

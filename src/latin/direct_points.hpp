@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "ranks/neighbours.hpp"
+#include "solution/distant_piece.hpp"
 #include "solution/explicit_piece.hpp"
 #include "solution/point_record.hpp"
 
@@ -24,7 +26,7 @@ class DirectPoints {
 
   // Largest part of a force, relative to the largest, that points sharing nodes have left to each other since this was
   // last asked.
-  double take_change() { return std::exchange(largest_change_, 0.0); }
+  double take_change() { return ranks::largest(std::exchange(largest_change_, 0.0)); }
   // Rounds over points that share nodes, of all increments, and of the worst.
   long n_sweeps() const { return n_sweeps_; }
   int most_sweeps() const { return most_sweeps_; }
@@ -37,14 +39,15 @@ class DirectPoints {
   };
   // Where faces do not match: one of the nodes that a port moves with.
   struct Share {
-    int node = 0;  // of the piece
+    int node = 0;  // of the port's nodes
     bool has_held = false;
     Mat3 block = Mat3::Zero();   // its velocity times this is what it adds to the port's, in the frame
     Mat3 answer = Mat3::Zero();  // s/kg, its velocity for a force on the port
   };
   struct OwnPort {
-    ExplicitPiece* piece = nullptr;
-    int node = 0, index = 0;                         // of the piece; of the port in the exchange
+    ExplicitNodes* nodes = nullptr;
+    ExplicitPiece* piece = nullptr;                  // null: on another rank
+    int node = 0, index = 0;                         // of the nodes; of the port in the exchange
     int first_share = 0, end_share = 0;              // none: it moves with its node
     bool is_plain = true;                            // a force along an axis of the frame moves it along that axis
     bool has_held = false, is_moved = false;         // directions that a support holds; one that moves does
@@ -72,15 +75,29 @@ class DirectPoints {
     bool needs_place = false;  // it needs displacements: its law holds the jump, or a side is a group
     Vec3 impulse = Vec3::Zero();
     Work work;
-    double on_pieces = 0.0;
+    double on_pieces = 0.0, gap_difference = 0.0;
+    int owner = 0;  // rank that books it
   };
 
+  struct Motions {
+    int piece, index;  // index: among the nodes
+    ExplicitNodes* nodes = nullptr;
+    bool is_here = false;
+  };
+  void find_motions(const StepModel& model);
+  void find_near();
+  void complete_motions();
+  void complete_starts();
+  void complete_points();
   void add_point(const StepModel& model, int index, const State& start);
   OwnPort make_port(const StepModel& model, const Point& point, int index);
   Mat3 spread_port(const StepModel& model, const Point& point, const Port& port, OwnPort& own);
   void find_clusters();
   template <typename Visit>
-  void for_each_node(const OwnPort& port, Visit&& visit) const;
+  void for_each_node(const OwnPort& port, Visit&& visit) const {
+    if (!port.is_spread()) visit(port.node);
+    for (int i = port.first_share; i < port.end_share; ++i) visit(shares_[i].node);
+  }
   Vec3 velocity(const OwnPoint& p, const OwnPort& port) const;            // m/s, in the frame
   Vec3 start_displacement(const OwnPoint& p, const OwnPort& port) const;  // m, in the frame
   Vec3 end_displacement(const OwnPoint& p, const OwnPort& port) const;
@@ -102,6 +119,12 @@ class DirectPoints {
   const StepModel* model_;
   Increment increment_;
   double close_enough_;  // of the largest force, between rounds over points that share nodes
+  // Nodes of all explicit pieces, told by those who have them; where there are several ranks.
+  std::vector<Motions> motions_;
+  ranks::Segments of_starts_, of_points_;
+  ranks::Neighbours of_motions_;
+  std::vector<double> told_;
+  bool has_clusters_ = false;  // anywhere
   std::vector<OwnPort> ports_;
   std::vector<Share> shares_;
   std::vector<OwnPoint> points_;

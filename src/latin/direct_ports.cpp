@@ -7,12 +7,14 @@ namespace dygita {
 DirectPoints::OwnPort DirectPoints::make_port(const StepModel& model, const Point& point, int index) {
   const Port& port = model.exchange.ports[index];
   OwnPort own;
-  own.piece = dynamic_cast<ExplicitPiece*>(model.pieces[port.piece].get());
-  CHECK(own.piece, "a direct point has explicit pieces alone");
-  own.node = port.piece_node;
+  Piece* const piece = model.pieces[port.piece].get();
+  own.piece = dynamic_cast<ExplicitPiece*>(piece);
+  own.nodes = dynamic_cast<ExplicitNodes*>(piece);
+  CHECK(own.nodes, "a direct point has explicit pieces alone");
+  own.node = own.nodes->index_of(port.piece_node);
   own.index = index;
   const Mat3 answer = port.trace ? spread_port(model, point, port, own)
-                                 : Mat3(point.frame.transpose() * own.piece->node_compliance(own.node) * point.frame);
+                                 : Mat3(point.frame.transpose() * own.nodes->node_compliance(own.node) * point.frame);
   const double size = answer.diagonal().maxCoeff();
   const Vec3 across = (answer - Mat3(answer.diagonal().asDiagonal())).cwiseAbs().rowwise().sum();
   own.is_plain = across.maxCoeff() <= 1e-9 * size;
@@ -23,7 +25,7 @@ DirectPoints::OwnPort DirectPoints::make_port(const StepModel& model, const Poin
   }
   // The velocities of nodes have what supports give them: a port that moves with several needs no more.
   own.has_held = !port.trace && (port.is_held[0] || port.is_held[1] || port.is_held[2]);
-  own.is_moved = own.piece->has_motions() && (own.has_held || own.is_spread());
+  own.is_moved = piece->has_motions() && (own.has_held || own.is_spread());
   return own;
 }
 
@@ -33,9 +35,9 @@ Mat3 DirectPoints::spread_port(const StepModel& model, const Point& point, const
   own.first_share = static_cast<int>(shares_.size());
   port.for_each_node([&](int node, const Mat3& block) {
     Share share;
-    share.node = model.cut->owner(port.part, node).node;
-    const Mat3 compliance = own.piece->node_compliance(share.node);
-    share.has_held = own.piece->has_held(share.node);
+    share.node = own.nodes->index_of(model.cut->owner(port.part, node).node);
+    const Mat3 compliance = own.nodes->node_compliance(share.node);
+    share.has_held = own.piece && own.piece->has_held(share.node);
     share.block = point.frame.transpose() * block;
     share.answer = compliance * share.block.transpose();
     answer += share.block * share.answer;
@@ -46,19 +48,19 @@ Mat3 DirectPoints::spread_port(const StepModel& model, const Point& point, const
 }
 
 Vec3 DirectPoints::velocity(const OwnPoint& p, const OwnPort& port) const {
-  if (!port.is_spread()) return p.point->frame.transpose() * port.piece->velocity_of(port.node);
+  if (!port.is_spread()) return p.point->frame.transpose() * port.nodes->velocity_of(port.node);
   Vec3 v = Vec3::Zero();
   for (int i = port.first_share; i < port.end_share; ++i)
-    v += shares_[i].block * port.piece->velocity_of(shares_[i].node);
+    v += shares_[i].block * port.nodes->velocity_of(shares_[i].node);
   return v;
 }
 
 Vec3 DirectPoints::start_displacement(const OwnPoint& p, const OwnPort& port) const {
   Vec3 u = -0.5 * increment_.dt * port.v_old;
   if (!port.is_spread())
-    return u + p.point->frame.transpose() * port.piece->start_displacement_of(port.node, Vec3::Zero());
+    return u + p.point->frame.transpose() * port.nodes->start_displacement_of(port.node, Vec3::Zero());
   for (int i = port.first_share; i < port.end_share; ++i)
-    u += shares_[i].block * port.piece->start_displacement_of(shares_[i].node, Vec3::Zero());
+    u += shares_[i].block * port.nodes->start_displacement_of(shares_[i].node, Vec3::Zero());
   return u;
 }
 
@@ -105,12 +107,12 @@ void DirectPoints::push(const OwnPoint& p, OwnPort& port, const Vec3& force) {
   if (change.isZero(0.0)) return;
   if (port.is_spread()) {
     for (int i = port.first_share; i < port.end_share; ++i)
-      port.piece->set_velocity(shares_[i].node, port.piece->velocity_of(shares_[i].node) + shares_[i].answer * change);
+      port.nodes->set_velocity(shares_[i].node, port.nodes->velocity_of(shares_[i].node) + shares_[i].answer * change);
     return;
   }
   const Vec3 moved = port.is_plain ? Vec3(p.point->frame * port.inverse.cwiseProduct(change))
-                                   : Vec3(port.piece->node_compliance(port.node) * (p.point->frame * change));
-  port.piece->set_velocity(port.node, port.piece->velocity_of(port.node) + moved);
+                                   : Vec3(port.nodes->node_compliance(port.node) * (p.point->frame * change));
+  port.nodes->set_velocity(port.node, port.nodes->velocity_of(port.node) + moved);
 }
 
 // Velocities and forces of a side's nodes (manual, eq. G2-G3).

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "latin/step_run.hpp"
+#include "solution/all_pieces.hpp"
 
 namespace dygita {
 
@@ -19,18 +20,22 @@ void StepRun::leave(const Best& best, bool is_solved) {
   entry.q = at_.q;
   entry.uncorrected = at_.uncorrected;
   if (local_.has_preloads()) entry.shortening = local_.preload_figures().shortening;
-  for (const auto& piece : model_.pieces) entry.moved.push_back(piece->is_moved());
+  for (const double moved :
+       of_all_pieces(*model_.cut, 1, [&](int i, double*to) { *to = model_.pieces[i]->is_moved(); }))
+    entry.moved.push_back(moved != 0.0);
   entry.eta = best.outcome.eta;
   entry.size = best.outcome.size;
   entry.force_size = best.outcome.force_size;
   entry.iterations = best.iterations;
   entry.is_solved = is_solved;
+  entry.is_assembled = assembled_.has_value();
   if (best.outcome.eta > settings_.tolerance) entry.missed = best.missed;
   files_.trail->leave(entry);
 }
 
-StepRun::Best StepRun::follow() {
+StepRun::Best StepRun::follow(int increment, const Goal& goal) {
   const TrailEntry entry = take_entry();
+  if (assembled_ || entry.is_assembled) return go_over_again(entry, increment, goal);
   Best best{entry.q, {entry.eta, entry.size, entry.force_size}, entry.iterations, entry.missed.value_or(Missed{})};
   anderson_.begin();
   // The first iterates of the last increments are remembered when the trail ends.
@@ -58,9 +63,9 @@ StepRun::Best StepRun::follow() {
   return best;
 }
 
-// Few increments, and each the same again.
-StepRun::Best StepRun::follow_assembled(int increment, const Goal& goal) {
-  const TrailEntry entry = take_entry();
+// With all pieces in one system: few increments, and each the same again. Where one side iterated them, several ranks
+// having no such system, they are so to the tolerance.
+StepRun::Best StepRun::go_over_again(const TrailEntry& entry, int increment, const Goal& goal) {
   const Best best = answer(increment, goal, true);
   if ((at_.q.array() != entry.q.array()).any()) files_.trail->note_difference();
   return best;

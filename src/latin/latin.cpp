@@ -18,6 +18,7 @@ void StepRun::linear_stage(const Vec& q, Vec& velocity) {
     piece.interface_velocity(q.segment(model_.offset[i], piece.n_rows()),
                              velocity.segment(model_.offset[i], piece.n_rows()));
   });
+  model_.unknowns.complete(velocity.data());
 }
 
 // Local stage: the law at every interface point; image = F_hat + k W_hat.
@@ -157,7 +158,7 @@ void StepRun::solve_increment(int increment) {
     is_answered_ = true;
   }
   const Goal goal = goal_of(has_start);
-  const Best best = !leads(1) ? answer(increment, goal) : assembled_ ? follow_assembled(increment, goal) : follow();
+  const Best best = leads(1) ? follow(increment, goal) : answer(increment, goal);
   finish_increment(at_.q);
   if (best.outcome.eta > settings_.tolerance) note_missed(best.missed);
   accept_increment(increment, best.iterations, best.outcome.eta);
@@ -168,7 +169,7 @@ void StepRun::run() {
   files_.kept.begin_step();
   files_.observer.begin_step(instant(-1, 0, 0.0));
   Progress progress(model_.step->name, n);
-  for (int i = 0; i < n && !interrupt_requested(); i += settings_.window) {
+  for (int i = 0; i < n && !ranks::any(interrupt_requested()); i += settings_.window) {
     const int last = std::min(i + settings_.window, n);
     if (model_.has_explicit())
       solve_interval(i);

@@ -73,9 +73,12 @@ Vec3 LocalStage::mean_displacement(int first, int end) const {
 void LocalStage::begin(int increment, const std::vector<double>& motions, bool starts_window) {
   const Exchange& exchange = model_->exchange;
   i_increment_ = increment;
-  std::vector<Vec> displacement(model_->pieces.size());
-  for (size_t i = 0; i < displacement.size() && starts_window; ++i)
-    displacement[i] = model_->pieces[i]->row_displacements();
+  Vec displacement(starts_window ? model_->n_q() : 0);
+  for (size_t i = 0; i < model_->here.size() && starts_window; ++i) {
+    const Piece& piece = *model_->pieces[model_->here[i]];
+    displacement.segment(model_->offset[model_->here[i]], piece.n_rows()) = piece.row_displacements();
+  }
+  if (starts_window) model_->unknowns.complete(displacement.data());
   for (size_t i = 0; i < exchange.points.size(); ++i) {
     const Point& point = exchange.points[i];
     if (point.is_direct) continue;
@@ -85,7 +88,7 @@ void LocalStage::begin(int increment, const std::vector<double>& motions, bool s
       state.w_old = model_->scheme.is_static ? Vec3(Vec3::Zero()) : state.w;
       state.f_old = state.f;
       for (int d = 0; d < 3; ++d) {
-        if (port.unknown[d] >= 0 && starts_window) state.u[d] = displacement[port.piece][port.unknown[d]];
+        if (port.unknown[d] >= 0 && starts_window) state.u[d] = displacement[model_->unknown(port, d)];
         if (port.is_held[d]) state.w[d] = model_->held_velocity(port, point.frame.col(d), motions);
       }
     }

@@ -50,6 +50,7 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
   Vec k = Vec::Zero(model.n_q());
   const NodeAreas areas = node_areas(model);
   for (const Port& port : model.exchange.ports) {
+    if (!model.cut->is_here(port.piece)) continue;
     const Piece& piece = *model.pieces[port.piece];
     const Elastic& material = model.cut->piece(port.piece).body->material;
     const bool has_schur = piece.schur_diagonal().size() > 0;
@@ -81,12 +82,14 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
       direction = has_schur ? std::pow(schur, 0.75) * std::pow(k_step, 0.25) : k_step;
     }
   }
+  model.unknowns.complete(k.data());
   return multiplier * k;
 }
 
 void fix_search_directions(StepModel& model, const Vec& k) {
   for (const bool shares : {false, true})  // those whose operators others share come first
-    parallel_for(static_cast<int>(model.pieces.size()), [&](int i) {
+    parallel_for(static_cast<int>(model.here.size()), [&](int at) {
+      const int i = model.here[at];
       Piece& piece = *model.pieces[i];
       if (piece.shares_operator() == shares) piece.set_search_directions(k.segment(model.offset[i], piece.n_rows()));
     });

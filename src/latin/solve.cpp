@@ -4,8 +4,11 @@
 
 #include "base/progress.hpp"
 #include "latin/search_direction.hpp"
+#include "latin/shared_trail.hpp"
+#include "latin/sharing.hpp"
 #include "latin/step_run.hpp"
 #include "numerics/factor.hpp"
+#include "solution/rank_observer.hpp"
 #include "solution/step_ends.hpp"
 #include "solution/stopped_run.hpp"
 
@@ -26,13 +29,17 @@ void tell_run(const std::shared_ptr<const InterfaceFields>& kept, SolverFigures&
 
 }  // namespace
 
-SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceFields* start_from, Trail* trail) {
+SolverFigures solve(const Problem& problem, Observer& watching, const InterfaceFields* start_from, Trail* kept_trail) {
   using clock = std::chrono::steady_clock;
   auto start = clock::now();
   const auto lap = [&] {
     return std::chrono::duration<double>(clock::now() - std::exchange(start, clock::now())).count();
   };
   prepare_thread();
+  RankObserver observer(watching);
+  SharedTrail shared_trail(kept_trail);
+  Trail* const trail = ranks::is_alone() ? kept_trail : ranks::any(kept_trail) ? &shared_trail : nullptr;
+  const ranks::Traffic traffic_before = ranks::traffic();
   const std::vector<Surface> surfaces = make_surfaces(problem);
   const CutPtr cut = make_cut(problem, surfaces);
   const std::vector<Body> bodies = make_bodies(problem, surfaces, *cut);
@@ -42,9 +49,9 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
   figures.pieces = cut->counts();
   figures.seconds["assemble"] = lap();
   for (const StepPtr& step : problem.steps) {
-    if (interrupt_requested()) break;
+    if (ranks::any(interrupt_requested())) break;
     StepModel model = make_step_model(problem, *step, surfaces, bodies, state, cut);
-    if (interrupt_requested()) break;  // the factorisation may have taken long
+    if (ranks::any(interrupt_requested())) break;  // the factorisation may have taken long
     const StepSettings settings = step_settings(problem, model, start_from != nullptr);
     start_step(model, state);
     const Vec k = search_directions(model, problem.solver.search_direction, settings.window);
@@ -59,7 +66,8 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
     if (figures.stopped_by) break;
   }
   tell_run(kept, figures);
-  figures.interrupted = figures.stopped_by || interrupt_requested();
+  tell_ranks(surfaces, *cut, traffic_before, figures);
+  figures.interrupted = figures.stopped_by || ranks::any(interrupt_requested());
   return figures;
 }
 

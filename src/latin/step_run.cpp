@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/log.hpp"
+#include "solution/all_pieces.hpp"
 #include "solution/finite_energies.hpp"
 #include "solution/step_ends.hpp"
 
@@ -28,6 +29,7 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
                  settings.is_assembled ? 1e-1 : 1e-2) {
   if (settings.is_assembled) assembled_.emplace(model, local_, k, settings.assembly_size);
   books_.energy.resize(model.pieces.size());
+  if (!ranks::is_alone()) books_.piece_seconds.resize(model.pieces.size());
   long n_explicit = 0;
   for (const auto& piece : model.pieces) {
     explicit_.push_back(dynamic_cast<ExplicitPiece*>(piece.get()));
@@ -80,6 +82,7 @@ void StepRun::accept_increment(int increment, int iterations, double eta) {
 void StepRun::accept_interval(int increment, int iterations, double eta, double interface_energy) {
   State& state = files_.state;
   Energies& energies = state.energies;
+  complete_energies();
   book_increment(books_.energy, energies);
   check_energies(model_, state, books_.energy, increment);
   if (has_flown_off()) eta = std::numeric_limits<double>::infinity();
@@ -93,6 +96,21 @@ void StepRun::accept_interval(int increment, int iterations, double eta, double 
   Instant shown = instant(increment, iterations, eta);
   shown.interface_energy = interface_energy;
   files_.observer.accept(shown);
+}
+
+// Those of pieces elsewhere.
+void StepRun::complete_energies() {
+  if (ranks::is_alone()) return;
+  constexpr int n = 5;
+  const std::vector<double> all = of_all_pieces(*model_.cut, n, [&](int i, double* to) {
+    const IncrementEnergy& e = books_.energy[i];
+    const double own[n] = {e.loads, e.damping, e.scheme, e.kinetic, e.strain};
+    std::copy_n(own, n, to);
+  });
+  for (size_t i = 0; i < books_.energy.size(); ++i) {
+    const double* e = all.data() + n * i;
+    books_.energy[i] = {e[0], e[1], e[2], e[3], e[4]};
+  }
 }
 
 // Those first and last tell enough of a step that misses everywhere.
@@ -161,19 +179,27 @@ Instant StepRun::instant(int increment, int iterations, double eta) const {
 void StepRun::add_to(SolverFigures& figures) const {
   figures.n_dofs = 0;
   for (const SubstructurePtr& part : model_.problem->substructures) figures.n_dofs += 3 * part->mesh->n_nodes();
-  double bytes = 0.0;
+  enum { bytes, solved, spared, in_full, equal };
+  std::vector<double> sums(5, 0.0);
   for (const auto& piece : model_.pieces) {
     const PieceFigures of_piece = piece->figures();
-    bytes += of_piece.bytes;
-    figures.n_solved += of_piece.n_solved;
-    figures.n_spared += of_piece.n_spared;
-    figures.n_in_full += of_piece.is_mostly_interface;
-    figures.n_equal += piece->shares_operator();
+    sums[bytes] += of_piece.bytes;
+    sums[solved] += static_cast<double>(of_piece.n_solved);
+    sums[spared] += static_cast<double>(of_piece.n_spared);
+    sums[in_full] += of_piece.is_mostly_interface;
+    sums[equal] += piece->shares_operator();
   }
-  if (assembled_) bytes += assembled_->bytes();
-  figures.factor_bytes = std::max(figures.factor_bytes, bytes);
+  if (assembled_) sums[bytes] += assembled_->bytes();
+  sums = ranks::sums(sums);
+  figures.factor_bytes = std::max(figures.factor_bytes, sums[bytes]);
+  figures.n_solved += static_cast<long>(sums[solved]);
+  figures.n_spared += static_cast<long>(sums[spared]);
+  figures.n_in_full += static_cast<int>(sums[in_full]);
+  figures.n_equal += static_cast<int>(sums[equal]);
   figures.n_interface_unknowns = model_.n_q();
   figures.gap_difference = std::max({figures.gap_difference, local_.gap_difference(), direct_.gap_difference()});
+  figures.sharing.pieces.resize(books_.piece_seconds.size());
+  for (size_t i = 0; i < books_.piece_seconds.size(); ++i) figures.sharing.pieces[i].seconds += books_.piece_seconds[i];
   const Seconds& seconds = books_.seconds;
   figures.seconds["forward"] += seconds.forward;
   figures.seconds["interface operator"] += seconds.interface;

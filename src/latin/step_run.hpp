@@ -11,6 +11,7 @@
 #include "latin/indicator.hpp"
 #include "latin/latin.hpp"
 #include "latin/local_stage.hpp"
+#include "latin/piece_clock.hpp"
 #include "latin/step_settings.hpp"
 #include "latin/tangent_iteration.hpp"
 #include "latin/warm_start.hpp"
@@ -79,8 +80,8 @@ class StepRun {
   // The trail (follow.cpp): an increment gone over again, up to where its interiors are finished; what an increment
   // leaves for that.
   bool leads(long n) const { return files_.trail && files_.trail->leads(n); }
-  Best follow();
-  Best follow_assembled(int increment, const Goal& goal);
+  Best follow(int increment, const Goal& goal);
+  Best go_over_again(const TrailEntry& entry, int increment, const Goal& goal);
   void leave(const Best& best, bool is_solved);
   void leave_window(const std::vector<Vec>& q, int iterations, double eta, const std::optional<Missed>& missed);
   void replay_window(int first, int last);
@@ -117,23 +118,29 @@ class StepRun {
   void accept_interval(int increment, int iterations, double eta, double interface_energy);
   void note_missed(const Missed& missed);
   bool has_flown_off() const;
+  void complete_energies();
   void check_finite(const Outcome& outcome, int increment) const;
   std::string place_of_divergence() const;
   std::string describe_progress() const;
   Instant instant(int increment, int iterations, double eta) const;
 
-  // f on every piece; on every group of pieces that are solved together.
+  // f on every piece that is here; on every group of pieces that are solved together.
   template <class Function>
   void for_each_piece(Function&& f) {
     parallel_for(
-        static_cast<int>(model_.pieces.size()), [&](int i) { f(*model_.pieces[i], i); }, Schedule::as_free,
-        piece_threads_);
+        static_cast<int>(model_.here.size()),
+        [&](int at) {
+          const PieceClock clock(books_.piece_seconds, {model_.here[at]});
+          f(*model_.pieces[model_.here[at]], model_.here[at]);
+        },
+        Schedule::as_free, piece_threads_);
   }
   template <class Function>
   void for_each_group(Function&& f) {
     parallel_for(static_cast<int>(model_.equal.size()), [&](int i) {
       std::vector<Piece*> group;
       for (const int member : model_.equal[i]) group.push_back(model_.pieces[member].get());
+      const PieceClock clock(books_.piece_seconds, model_.equal[i]);
       f(group, model_.equal[i]);
     });
   }
@@ -147,6 +154,7 @@ class StepRun {
     std::vector<std::vector<Vec3>> force;  // N, of the surfaces' points, summed over the substeps of a time step
     StepFigures figures;
     Seconds seconds;
+    std::vector<double> piece_seconds;  // of a processor; empty: one process, whose phases tell enough
   };
   class Stopwatch {
    public:

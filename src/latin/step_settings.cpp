@@ -20,8 +20,8 @@ double assembly_size(const Problem& problem) {
 }
 
 bool is_single(const StepModel& model) {
-  return std::any_of(model.pieces.begin(), model.pieces.end(),
-                     [](const auto& piece) { return piece->figures().is_in_single_precision; });
+  return ranks::any(std::any_of(model.pieces.begin(), model.pieces.end(),
+                                [](const auto& piece) { return piece->figures().is_in_single_precision; }));
 }
 
 }  // namespace

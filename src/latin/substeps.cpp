@@ -32,7 +32,7 @@ StepRun::Best StepRun::solve_substep(int increment, int substep, bool is_led) {
   best.iterations = 1;
   if (model_.n_q() > 0) {
     const Goal goal = goal_of(predict(substep, at_.q));
-    best = is_led ? follow() : answer(increment, goal);
+    best = is_led ? follow(increment, goal) : answer(increment, goal);
   }
   finish_substep(substep);
   return best;

@@ -7,12 +7,12 @@ namespace dygita {
 
 StepRun::Start StepRun::remember() const {
   Start start{{}, local_};
-  for (const auto& piece : model_.pieces) start.pieces.push_back(piece->state());
+  for (const int i : model_.here) start.pieces.push_back(model_.pieces[i]->state());
   return start;
 }
 
 void StepRun::go_back(const Start& start) {
-  for (size_t i = 0; i < start.pieces.size(); ++i) model_.pieces[i]->restore(start.pieces[i]);
+  for (size_t i = 0; i < start.pieces.size(); ++i) model_.pieces[model_.here[i]]->restore(start.pieces[i]);
   local_ = start.local;
 }
 

@@ -9,6 +9,7 @@ namespace dygita {
 // Neighbours of vertex i: neighbours[starts[i]] .. neighbours[starts[i + 1] - 1]; each edge is listed at both its ends.
 struct Graph {
   std::vector<int> starts{0}, neighbours;
+  std::vector<int> edge_weights;  // of each of the neighbours; empty: all are equal
 
   int n_vertices() const { return static_cast<int>(starts.size()) - 1; }
 };

@@ -100,6 +100,27 @@ Json loads(const Step& step) {
   return list;
 }
 
+// Who had what among several ranks, and who shares points with whom: what a model of larger machines replays.
+Json sharing(const Sharing& shared) {
+  Json of_each = Json::array(), pieces = Json::array();
+  const auto kinds = [](const std::array<double, 3>& of) {
+    return Json{{"neighbours", of[0]}, {"all", of[1]}, {"results", of[2]}};
+  };
+  for (const RankFigures& rank : shared.ranks)
+    of_each.push_back({{"pieces", rank.pieces},
+                       {"unknowns", rank.unknowns},
+                       {"messages", kinds(rank.messages)},
+                       {"bytes", kinds(rank.bytes)},
+                       {"seconds_waited", rank.seconds_waited}});
+  for (const SharedPiece& piece : shared.pieces)
+    pieces.push_back({{"substructure", piece.part},
+                      {"rank", piece.rank},
+                      {"unknowns", piece.unknowns},
+                      {"seconds", piece.seconds},
+                      {"neighbours", piece.neighbours}});
+  return {{"of_each", of_each}, {"pieces", pieces}};
+}
+
 Json steps(const Problem& problem, const RunResult& result) {
   Json list = Json::array();
   for (size_t i = 0; i < result.steps.size(); ++i) {
@@ -223,6 +244,7 @@ std::string run_record(const Problem& problem, const RunResult& result, const Ru
       {"libraries", libraries(identity)},
       {"files", files},
   };
+  if (!result.sharing.ranks.empty()) json["ranks"] = sharing(result.sharing);
   if (result.stopped_by) json["stopped_by"] = what(result.stopped_by);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

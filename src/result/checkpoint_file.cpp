@@ -57,7 +57,10 @@ void code_entry(Coder& code, TrailEntry& entry) {
   code(moved);
   entry.moved.assign(moved.begin(), moved.end());
   code(entry.eta), code(entry.size), code(entry.force_size);
-  code_number(code, entry.iterations), code_number(code, entry.is_solved);
+  int flags = (entry.is_solved ? 1 : 0) + (entry.is_assembled ? 2 : 0);
+  code_number(code, entry.iterations), code_number(code, flags);
+  entry.is_solved = (flags & 1) != 0;
+  entry.is_assembled = (flags & 2) != 0;
   bool is_missed = entry.missed.has_value();
   code_number(code, is_missed);
   if (!is_missed) return;
@@ -82,6 +85,23 @@ bool put_record(std::FILE* file, const std::string& payload, std::uint64_t sum) 
 
 }  // namespace
 
+std::string bytes_of(const CheckpointIdentity& identity) {
+  Encoder encoder;
+  CheckpointIdentity coded = identity;
+  std::string state = identity_bytes(identity.state);
+  code_identity(encoder, coded, state);
+  return encoder.bytes;
+}
+
+CheckpointIdentity checkpoint_identity_of(std::string bytes) {
+  CheckpointIdentity identity;
+  std::string state;
+  Decoder decoder(std::move(bytes));
+  code_identity(decoder, identity, state);
+  identity.state = state_of_identity(std::move(state));
+  return identity;
+}
+
 CheckpointFile::CheckpointFile(std::filesystem::path path, const CheckpointIdentity& identity, double every)
     : path_(std::move(path)),
       buffer_(new char[buffer_bytes]),
@@ -95,14 +115,12 @@ CheckpointFile::CheckpointFile(std::filesystem::path path, const CheckpointIdent
   std::filesystem::remove(temporary, ignored);  // a link there would lead to a file of somebody's
   errno = 0;
   file_.reset(std::fopen(temporary.c_str(), "w+b"));
-  Encoder header;
-  std::string state = identity_bytes(identity.state);
-  code_identity(header, identity_, state);
-  sum_ = checksum(0, header.bytes);
+  const std::string header = bytes_of(identity);
+  sum_ = checksum(0, header);
   if (file_) std::setvbuf(file_.get(), buffer_.get(), _IOFBF, buffer_bytes);
   if (!file_ || !put(file_.get(), magic, 8) || !put(file_.get(), &format_version, 4) ||
-      !put(file_.get(), &byte_order, 4) || !put_record(file_.get(), header.bytes, sum_) ||
-      std::fflush(file_.get()) != 0 || std::rename(temporary.c_str(), path_.c_str()) != 0)
+      !put(file_.get(), &byte_order, 4) || !put_record(file_.get(), header, sum_) || std::fflush(file_.get()) != 0 ||
+      std::rename(temporary.c_str(), path_.c_str()) != 0)
     throw InputError(fmt::format("cannot write '{}': {}", path_.string(), std::strerror(errno)));
 }
 
@@ -142,14 +160,12 @@ void CheckpointFile::read_header() {
   if (version != format_version)
     throw InputError(
         fmt::format("it has version {} of the format, this program reads version {}", version, format_version));
-  std::string header, state;
+  std::string header;
   std::uint64_t sum = 0;
   if (!read_entry(header, sum)) throw InputError("its header is truncated or damaged");
   sum_ = sum;
   at_ = ftello(file_.get());
-  Decoder decoder(std::move(header));
-  code_identity(decoder, identity_, state);
-  identity_.state = state_of_identity(std::move(state));
+  identity_ = checkpoint_identity_of(std::move(header));
 }
 
 // A record that is whole and follows what came before it.

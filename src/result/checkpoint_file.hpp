@@ -24,6 +24,10 @@ struct CheckpointIdentity {
   bool has_frames = true;  // else --no-frames
 };
 
+// As bytes, and back. Throws InputError (damaged).
+std::string bytes_of(const CheckpointIdentity& identity);
+CheckpointIdentity checkpoint_identity_of(std::string bytes);
+
 // Entries are appended, each with a checksum that goes on from the one before; what a crash has cut off is dropped when
 // the file is read. Entries reach the system within a second, and the disk every so often.
 class CheckpointFile final : public Trail {

@@ -137,6 +137,7 @@ struct RunResult {
   double mean_iterations = 0.0;
   long n_dofs = 0, n_interface_unknowns = 0;
   std::vector<int> pieces;                // into which each substructure was cut; empty: the solver cuts none
+  Sharing sharing;                        // among ranks
   std::map<std::string, double> seconds;  // "assemble", "factor", "forward", "iterate", "backward", "output", ...
   Figures figures;
   std::shared_ptr<const Scenes> scenes;  // what the report draws; null: nobody recorded it

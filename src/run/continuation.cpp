@@ -11,6 +11,7 @@
 #include "base/names.hpp"
 #include "output/csv.hpp"
 #include "output/run_record.hpp"
+#include "ranks/ranks.hpp"
 #include "result/hollow_result.hpp"
 #include "run/keep_state.hpp"
 
@@ -110,20 +111,27 @@ void check_problem_is_same(const Problem& problem, const RunState& state) {
 }  // namespace
 
 Continuation::Continuation(const ContinueOptions& asked) : options_(asked) {
-  options_.run = unfinished_case(asked.run);
+  if (ranks::is_first()) open();
+  if (!ranks::is_alone()) share();
+}
+
+void Continuation::open() {
+  options_.run = unfinished_case(options_.run);
   const ContinueOptions& options = options_;
   std::error_code ignored;
   if (fs::is_directory(options.run, ignored)) lock_ = std::make_shared<RunLock>(fs::canonical(options.run));
   const fs::path checkpoint = options.run / checkpoint_file_name;
   const bool asks = options.tolerance || options.more_iterations > 0 || options.until;
   const bool is_unfinished = fs::exists(checkpoint, ignored);
-  if (is_unfinished && asks && !(has_record() && fs::exists(options.run / state_file_name, ignored)))
+  has_record_ = read_run_record(options.run).has_value();
+  if (is_unfinished && asks && !(has_record_ && fs::exists(options.run / state_file_name, ignored)))
     throw InputError(
         fmt::format("'{0}': the run has not come to its end: `dygita continue {0}` takes it there, and then further",
                     options.run.string()));
   if (is_unfinished && !asks) {
     checkpoint_ = std::make_shared<CheckpointFile>(checkpoint, options.checkpoint_every);
-    state_ = std::make_shared<const RunState>(checkpoint_->identity().state);
+    resumed_ = checkpoint_->identity();
+    state_ = std::make_shared<const RunState>(resumed_->state);
   } else {
     state_ = std::make_shared<const RunState>(state_in(options.run));
   }
@@ -131,11 +139,28 @@ Continuation::Continuation(const ContinueOptions& asked) : options_(asked) {
 
 fs::path Continuation::out() const { return fs::canonical(options_.run).parent_path().parent_path(); }
 
-bool Continuation::has_record() const { return read_run_record(options_.run).has_value(); }
+// Rank 0 alone has the checkpoint, which it appends to; a state is read by all.
+void Continuation::share() {
+  options_.run = ranks::shared(options_.run.string());
+  has_record_ = ranks::any(has_record_);
+  if (ranks::any(resumes())) {
+    resumed_ = checkpoint_identity_of(ranks::shared(resumed_ ? bytes_of(*resumed_) : std::string()));
+    state_ = std::make_shared<const RunState>(resumed_->state);
+  } else if (!ranks::is_first()) {
+    state_ = std::make_shared<const RunState>(state_in(options_.run));
+  }
+}
+
+// Rank 0 alone writes.
+void Continuation::take_folder(RunRequest& request) const {
+  if (!ranks::is_first()) return;
+  request.replaces = options_.run;
+  request.lock = lock_;
+}
 
 std::string Continuation::idle() const {
   const RunState& state = *state_;
-  const bool is_whole = !state.interrupted && has_record();
+  const bool is_whole = !state.interrupted && has_record_;
   if (resumes() || options_.until || options_.more_iterations > 0 || !is_whole) return "";
   if (!options_.tolerance) {
     if (!state.converged) return "";
@@ -163,15 +188,14 @@ void Continuation::check_until() const {
 }
 
 std::shared_ptr<const RunResult> Continuation::run(const Problem& problem, const RunRequest& request) {
-  if (!request.write_files) return run_problem(problem, request);  // a case checked without its start
+  if (request.is_trial) return run_problem(problem, request);
   if (problem.name != state_->problem || request.case_name != state_->case_name)
     return result_of_other(problem, request);
   if (resumes()) return resume(problem, request);
   RunRequest going_on = request;
   going_on.continues = state_;
-  going_on.replaces = options_.run;
   going_on.start_from = nullptr;
-  going_on.lock = lock_;
+  take_folder(going_on);
   auto result = run_problem(changed(problem), going_on);
   is_done_ = true;
   return result;
@@ -181,11 +205,10 @@ std::shared_ptr<const RunResult> Continuation::run(const Problem& problem, const
 std::shared_ptr<const RunResult> Continuation::resume(const Problem& problem, const RunRequest& request) {
   check_problem_is_same(problem, *state_);
   RunRequest going_on = request;
-  going_on.replaces = options_.run;
-  going_on.is_in_place = !has_record();
+  take_folder(going_on);
+  going_on.is_in_place = !has_record_;
   going_on.checkpoint = checkpoint_;
-  going_on.lock = lock_;
-  const CheckpointIdentity& identity = checkpoint_->identity();
+  const CheckpointIdentity& identity = *resumed_;
   if (!identity.has_start) going_on.start_from = nullptr;
   if (identity.has_start && (!request.start_from || !request.start_from->interface_fields))
     throw InputError("the run started from another case's fields, which are gone: run the deck again");
@@ -193,7 +216,7 @@ std::shared_ptr<const RunResult> Continuation::resume(const Problem& problem, co
     warn("the run was begun on another processor or by another version of the program: its last digits may differ");
   say(problem.monolithic || problem.explicit_dynamics
           ? "  this solver keeps nothing to go on from: the run starts again"
-          : fmt::format("  {} increments are gone over again", checkpoint_->n_left()));
+          : fmt::format("  {} increments are gone over again", checkpoint_ ? checkpoint_->n_left() : 0));
   auto result = run_problem(problem, going_on);
   is_done_ = true;
   return result;

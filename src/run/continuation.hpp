@@ -28,12 +28,12 @@ struct ContinueOptions {
 // other cases are read from their folders, and computed where a run that was stopped had not come to them.
 class Continuation {
  public:
-  // Reads the state of the run. Throws InputError (no run, no state, damaged).
+  // Reads the state of the run; collective. Throws InputError (no run, no state, damaged).
   explicit Continuation(const ContinueOptions& options);
 
   const RunState& state() const { return *state_; }
   // The run was stopped or killed, and is to go on as it was asked for.
-  bool resumes() const { return checkpoint_ != nullptr; }
+  bool resumes() const { return resumed_.has_value(); }
   // What there is not to do, or nothing where there is something. Throws InputError where nothing was asked for.
   std::string idle() const;
   // Throws InputError where --until is no later time.
@@ -43,7 +43,7 @@ class Continuation {
   std::shared_ptr<const RunResult> run(const Problem& problem, const RunRequest& request);
   // The folder out/ of the run.
   std::filesystem::path out() const;
-  bool has_frames() const { return !checkpoint_ || checkpoint_->identity().has_frames; }
+  bool has_frames() const { return !resumed_ || resumed_->has_frames; }
   bool is_done() const { return is_done_; }
   bool ends_early() const { return ends_early_; }
 
@@ -51,12 +51,16 @@ class Continuation {
   Problem changed(Problem problem) const;
   StepPtr extended(const Step& step, double duration) const;
   std::shared_ptr<const RunResult> resume(const Problem& problem, const RunRequest& request);
-  bool has_record() const;
+  void open();
+  void share();
+  void take_folder(RunRequest& request) const;
   std::shared_ptr<const RunResult> result_of_other(const Problem& problem, const RunRequest& request);
 
   ContinueOptions options_;
   std::shared_ptr<RunLock> lock_;
-  std::shared_ptr<CheckpointFile> checkpoint_;  // null: the state file is gone on from
+  std::shared_ptr<CheckpointFile> checkpoint_;  // rank 0's
+  std::optional<CheckpointIdentity> resumed_;   // null: the state file is gone on from
+  bool has_record_ = false;
   std::shared_ptr<const RunState> state_;
   bool is_done_ = false, ends_early_ = false;
 };

@@ -28,6 +28,7 @@
 #include "run/passes.hpp"
 #include "run/run_files.hpp"
 #include "run/run_warnings.hpp"
+#include "run/shared_result.hpp"
 #include "solution/step_model.hpp"
 
 namespace dygita {
@@ -52,6 +53,7 @@ void summarise(const Problem& problem, const SolverFigures& figures, RunResult& 
   result.n_interface_unknowns = figures.n_interface_unknowns;
   result.seconds = figures.seconds;
   result.pieces = figures.pieces;
+  result.sharing = figures.sharing;
   static_cast<OwnFigures&>(result.figures) = figures.own;
   result.figures.factor_memory = figures.factor_bytes / 1e6;
   result.figures.gap_difference = figures.gap_difference;
@@ -110,6 +112,7 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* 
   auto result = std::make_shared<RunResult>();
   require_memory(memory_for_results + static_cast<std::size_t>(omp_get_max_threads()) * memory_of_thread);
   MemoryReserve reserve(memory_for_results);
+  if (!ranks::is_first()) return assist(problem, start_from);
   const SolverFigures figures = problem.explicit_dynamics ? solve_explicit(problem, observers)
                                 : problem.monolithic      ? solve_monolithic(problem, observers)
                                                           : solve(problem, observers, start_from, trail);
@@ -191,6 +194,7 @@ std::shared_ptr<RunResult> compute(const Problem& declared, const RunRequest& re
     open_files(declared, request, pass == 0, site);
     result = sweep(problem, before ? before->interface_fields.get() : start_of(request),
                    pass > 0 || tolerances.size() == 1 ? sink : nullptr, site.writer != nullptr, site.checkpoint.get());
+    share_result(problem, *result);
     if (before) add_pass(*before, *result);
     if (result->interrupted || (before && have_settled(problem, *before, *result))) break;
     before = result;
@@ -210,6 +214,8 @@ void write_results(const Problem& problem, const RunRequest& request, RunSite& s
   } else if (site.replacement && site.checkpoint) {
     site.is_kept = site.checkpoint->n_left() == 0;
   }
+  collect_warnings();
+  if (!ranks::is_first()) return;
   const bool keeps_state = site.writer && request.write_state && site.is_kept;
   if (keeps_state) site.unwritten.attempt([&] { keep_state(state, *site.writer, result); });
   warn_of_run(problem, result, keeps_state ? site.directory : std::filesystem::path());
@@ -269,6 +275,7 @@ void tell_stop(const RunResult& result, const RunSite& site) {
 std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunRequest& request) {
   const auto start = std::chrono::steady_clock::now();
   if (request.threads > 0) omp_set_num_threads(request.threads);
+  check_ranks(declared);
   check_problem(declared);
   say(fmt::format("problem '{}', case '{}': {} substructures, {} interfaces, {} steps", declared.name,
                   request.case_name, declared.substructures.size(), declared.interfaces.size(), declared.steps.size()));
@@ -283,6 +290,7 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
   } catch (const std::bad_alloc&) {
     tell_lack_of_memory(site);
   }
+  if (!ranks::is_first()) return result;
   settle(request, *result, site);
   if (request.continues) say(continuation_line(*request.continues, *result));
   say_summary(problem, *result, site.writer && site.is_kept ? site.directory : std::filesystem::path(), seconds);

@@ -20,6 +20,7 @@ struct RunRequest {
   int threads = 0;  // 0: as many as the machine has
   bool write_files = true;
   bool write_frames = true;  // those of output.vtk
+  bool is_trial = false;     // to compare with: a case once more, from scratch
   bool write_state = true;   // what a later continuation needs, where the solver keeps it: beside the fields
   std::string deck_text;     // the deck's,
   std::vector<std::pair<std::string, std::string>> settings;  // and --set, as written

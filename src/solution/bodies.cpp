@@ -10,6 +10,7 @@
 #include "fem/mass.hpp"
 #include "law/law.hpp"
 #include "model/load.hpp"
+#include "solution/all_pieces.hpp"
 
 namespace dygita {
 
@@ -132,6 +133,19 @@ void move_inside(const Mesh& mesh, const SparseMatrix& stiffness, const std::vec
   }
 }
 
+// As assembled, wherever that is.
+std::vector<Vec> lumped_masses(const std::vector<Body>& bodies, const Cut& cut) {
+  std::vector<Vec> masses;
+  if (ranks::is_alone()) {
+    for (const Body& body : bodies) masses.push_back(body.matrices->mass);
+    return masses;
+  }
+  const std::vector<Points> fields =
+      fields_of_all_pieces(cut, [&](int i) { return Points(bodies[i].matrices->mass.transpose().replicate(3, 1)); });
+  for (const Points& field : fields) masses.push_back(field.row(0).transpose());
+  return masses;
+}
+
 }  // namespace
 
 std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>& surfaces) {
@@ -150,6 +164,10 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
   for (const CutPiece& piece : cut.pieces()) {
     const SubstructurePtr& part = piece.body;
     const Elastic& m = part->material;
+    if (piece.rank != ranks::me()) {
+      bodies.push_back({part.get(), nullptr, nullptr});
+      continue;
+    }
     std::shared_ptr<const BodyMatrices>& matrices = known[{part->mesh->digest, m.young, m.poisson, m.density}];
     if (!matrices) matrices = std::make_shared<const BodyMatrices>(assemble(*part->mesh, m));
     bodies.push_back({part.get(), matrices, nullptr});
@@ -162,6 +180,7 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
     agree(surfaces, marked);
     keep_where_there_is_no_inside(problem, bodies, surfaces, marked);
   }
+  const std::vector<Vec> lumped = lumped_masses(bodies, cut);
   for (size_t i = 0; i < bodies.size(); ++i) {
     const Mesh& mesh = *bodies[i].part->mesh;
     const Elastic& m = bodies[i].part->material;
@@ -171,7 +190,7 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
       bodies[i].mass = equal;
       continue;
     }
-    Mass mass{bodies[i].matrices->mass, {}, {}};
+    Mass mass{lumped[i], {}, {}};
     if (problem.mass().is_tuned && dt > 0.0)
       mass.matrix = tuned_mass(mesh, m, {m.p_wave_speed(), dt, false}, has_massless ? marked[i] : std::vector<char>());
     if (has_consistent_mass(mesh)) {

@@ -8,7 +8,7 @@
 namespace dygita {
 
 // Matrices of every piece of the cut, with the mass that the problem's solver asks for; equal mesh and material share
-// one.
+// one. Of pieces that another rank has, the mass alone.
 std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>& surfaces, const Cut& cut);
 // The same of every substructure in one piece.
 std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>& surfaces);

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "mesh/cut_mesh.hpp"
+#include "solution/share_out.hpp"
 #include "solution/surfaces.hpp"
 
 namespace dygita {
@@ -141,7 +142,9 @@ CutPtr make_cut(const Problem& problem, const std::vector<Surface>& surfaces) {
   for (const SubstructurePtr& part : problem.substructures) unknowns += 3.0 * part->mesh->n_nodes();
   for (const SubstructurePtr& part : problem.substructures)
     n_pieces.push_back(pieces_of(*part, unknowns, problem.solver.pieces));
-  return std::make_shared<const Cut>(problem, n_pieces, &surfaces);
+  auto cut = std::make_shared<Cut>(problem, n_pieces, &surfaces);
+  share_out(problem, surfaces, *cut);
+  return cut;
 }
 
 }  // namespace dygita

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/model.hpp"
+#include "ranks/ranks.hpp"
 
 namespace dygita {
 
@@ -19,6 +20,7 @@ struct CutPiece {
   std::vector<char>
       is_owner;   // of each node of the piece: this copy carries what belongs to the node once; empty: not cut
   Vec cut_areas;  // m^2, of each node of the piece: its share of the cut, positive on it; empty: not cut
+  int rank = 0;   // which has it (share_out.hpp)
 
   bool is_whole() const { return nodes.empty(); }
   int node(int i) const { return is_whole() ? i : nodes[i]; }
@@ -39,6 +41,8 @@ class Cut {
   int n_pieces() const { return static_cast<int>(pieces_.size()); }
   const CutPiece& piece(int i) const { return pieces_[i]; }
   const std::vector<CutPiece>& pieces() const { return pieces_; }
+  bool is_here(int i) const { return pieces_[i].rank == ranks::me(); }
+  void give(int i, int rank) { pieces_[i].rank = rank; }
   // Pieces of a substructure: first, and their number.
   int first(int part) const { return first_[part]; }
   int n_pieces(int part) const { return first_[part + 1] - first_[part]; }
@@ -93,7 +97,7 @@ CutPtr no_cut(const Problem& problem);
 // As the problem's solver.latin has it: into a number of pieces, or large substructures only (manual, cutting); by
 // sizes alone, so that the answer does not depend on the machine. A substructure gets fewer pieces than asked for where
 // they would have less than 8 cells each, or more than a quarter of its cells at a face that does not match; with
-// massless contact none is cut.
+// massless contact none is cut. Several ranks share the pieces out (share_out.hpp).
 CutPtr make_cut(const Problem& problem, const std::vector<Surface>& surfaces);
 
 }  // namespace dygita

@@ -1,5 +1,6 @@
 #include "solution/direct_links.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "solution/node_groups.hpp"
@@ -31,6 +32,17 @@ void find_direct(const Cut& cut, const std::vector<char>& explicit_pieces, Excha
   }
   for (size_t i = 0; i < exchange.points.size(); ++i)
     exchange.points[i].is_direct = any[i].first >= 0 && !has_implicit.at(linked.of(any[i]));
+}
+
+std::vector<int> direct_nodes(const Cut& cut, const Exchange& exchange, int piece) {
+  std::vector<int> nodes;
+  for (const Point& point : exchange.points)
+    for (int p = point.first_port; p < point.end_port && point.is_direct; ++p)
+      if (exchange.ports[p].piece == piece)
+        for (const int node : piece_nodes(cut, exchange.ports[p])) nodes.push_back(node);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
 }
 
 }  // namespace dygita

@@ -9,4 +9,7 @@ namespace dygita {
 // has all of them iterated.
 void find_direct(const Cut& cut, const std::vector<char>& explicit_pieces, Exchange& exchange);
 
+// Nodes of a piece that points in closed form act on, increasing.
+std::vector<int> direct_nodes(const Cut& cut, const Exchange& exchange, int piece);
+
 }  // namespace dygita

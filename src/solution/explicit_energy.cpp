@@ -181,18 +181,6 @@ void ExplicitPiece::begin_interval() {
   }
 }
 
-Vec3 ExplicitPiece::start_displacement_of(int node, const Vec3& start_velocity) const {
-  const size_t at = 4 * static_cast<size_t>(node);
-  return Eigen::Map<const Vec3>(start_.data() + at) + Eigen::Map<const Vec3>(d_.data() + at) -
-         setup_.scheme.dt * (0.5 * start_velocity + velocity_of(node));
-}
-
-Vec3 ExplicitPiece::displacement_of(int node) const {
-  const size_t at = 4 * static_cast<size_t>(node);
-  return Eigen::Map<const Vec3>(start_.data() + at) + Eigen::Map<const Vec3>(d_.data() + at) -
-         0.5 * setup_.scheme.dt * velocity_of(node);
-}
-
 Points ExplicitPiece::displacement() const { return nodal(start_) + nodal(d_) - 0.5 * setup_.scheme.dt * nodal(v_); }
 
 Points ExplicitPiece::velocity() const { return nodal(v_); }

@@ -19,7 +19,7 @@ ExplicitPiece::ExplicitPiece(PieceSetup setup, std::shared_ptr<const ExplicitOpe
         setup_.what + " cannot be explicit");
   const Vec& mass = node_masses();
   const size_t n = static_cast<size_t>(mass.size());
-  const double alpha = setup_.scheme.alpha(setup_.body->part->material.damping), dt = setup_.scheme.dt;
+  const double alpha = setup_.scheme.alpha(setup_.body->part->material.damping), dt = dt_ = setup_.scheme.dt;
   keep_ = (1.0 / dt - 0.5 * alpha) / (1.0 / dt + 0.5 * alpha);
   for (const double m : mass) inverse_.push_back(1.0 / (setup_.mass_share() * m));
   unknown_masses_ = mass.replicate(1, 3).transpose().reshaped();

@@ -4,6 +4,7 @@
 
 #include "fem/edge_blocks.hpp"
 #include "fem/mass_edges.hpp"
+#include "solution/explicit_nodes.hpp"
 #include "solution/loads.hpp"
 #include "solution/piece_operator.hpp"
 
@@ -21,7 +22,7 @@ double explicit_bytes(const PieceSetup& setup, bool shares);
 
 // Fields have four numbers a node, the fourth being zero. Displacements are counted from the step's start, and held
 // half a step ahead of the velocities: D = U - U_start + dt/2 V.
-class ExplicitPiece final : public Piece {
+class ExplicitPiece final : public Piece, public ExplicitNodes {
  public:
   ExplicitPiece(PieceSetup setup, std::shared_ptr<const ExplicitOperator> op);
 
@@ -68,20 +69,8 @@ class ExplicitPiece final : public Piece {
   // As the other `begin`, for values of all patterns of the step.
   void begin(const std::vector<double>& load_values, const std::vector<double>& motion_velocity);
 
-  // Nodes between `begin` and `finish`, for laws that are solved in closed form. Velocity (m/s) without further forces,
-  // and then with them; displacement at the increment's start for its velocity then (m); what a force (N) on the node
-  // adds to its velocity, zero along held directions.
-  Vec3 velocity_of(int node) const { return Eigen::Map<const Vec3>(v_.data() + 4 * static_cast<size_t>(node)); }
-  Vec3 start_displacement_of(int node, const Vec3& start_velocity) const;
-  Vec3 displacement_of(int node) const;  // at the increment's end, m
-  Mat3 node_compliance(int node) const;
-  void set_velocity(int node, const Vec3& velocity) {
-    const size_t at = 4 * static_cast<size_t>(node);
-    for (size_t c = 0; c < 3; ++c) {
-      d_[at + c] += setup_.scheme.dt * (velocity[static_cast<int>(c)] - v_[at + c]);
-      v_[at + c] = velocity[static_cast<int>(c)];
-    }
-  }
+  int index_of(int node) const override { return node; }
+  Mat3 node_compliance(int node) const override;
   bool has_held(int node) const {
     const auto it = index_.find(node);
     return it != index_.end() && specials_[it->second].has_held;
@@ -136,9 +125,9 @@ class ExplicitPiece final : public Piece {
   std::vector<Special> specials_;
   std::unordered_map<int, size_t> index_;  // of a node in them
 
-  // Four numbers a node: D and V; K X - f, and beta K V0; K U - f at the step's start with the loads at hand, and
-  // without; U at the step's start; V at the start of the deck's time step.
-  std::vector<double> d_, v_, y_, base_, start_force_, start_, v_interval_;
+  // As the nodes' D and V: K X - f, and beta K V0; K U - f at the step's start with the loads at hand, and without; V
+  // at the start of the deck's time step.
+  std::vector<double> y_, base_, start_force_, v_interval_;
   std::vector<double> v_old_;  // with damping only
   // With stiffness damping only: K (X - U_start) of the increment at hand, beta K V0.
   std::vector<double> elastic_, damping_force_;

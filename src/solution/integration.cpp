@@ -11,6 +11,7 @@
 #include "base/parallel.hpp"
 #include "model/model.hpp"
 #include "solution/alike_parts.hpp"
+#include "solution/all_pieces.hpp"
 
 namespace dygita {
 
@@ -224,10 +225,12 @@ Integration choose_integration(const Problem& problem, const Step& step, const s
   refuse(problem, parts);
   parallel_for(static_cast<int>(bodies.size()), [&](int p) {
     const int part = cut.piece(p).part;
+    if (!cut.is_here(p)) return;
     if (parts[part].why_not.empty() && asked_of(problem, *problem.substructures[part]) != IntegrationChoice::implicitly)
       longest[p] = safety * (problem.mass().is_tuned ? longest_tuned_step : longest_explicit_step)(
                                 bodies[p], held_of(cut, p, conditions));
   });
+  longest = of_all_pieces(cut, 1, [&](int p, double* to) { *to = longest[p]; });
   for (size_t i = 0; i < n; ++i) {
     const int first = cut.first(static_cast<int>(i));
     parts[i].longest =

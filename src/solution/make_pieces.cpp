@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "mesh/facing.hpp"
+#include "solution/distant_piece.hpp"
 #include "solution/equal_pieces.hpp"
 #include "solution/explicit_piece.hpp"
 #include "solution/rigid_motions.hpp"
@@ -170,7 +171,7 @@ std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body
   for (size_t part = 0; part < model.problem->substructures.size(); ++part)
     absorbing.push_back(absorbing_impedance(*model.problem, *model.step, static_cast<int>(part)));
   std::vector<PieceSetup> setups(n);
-  for (int i = 0; i < n; ++i) {
+  for (const int i : model.here) {
     const int part = model.cut->piece(i).part, n_cut = model.cut->n_pieces(part);
     PieceSetup& setup = setups[i];
     setup.body = &bodies[i];
@@ -201,7 +202,7 @@ std::vector<EqualTo> twins_of(const StepModel& model, const std::vector<PieceSet
   std::map<std::tuple<const BodyMatrices*, double, std::vector<char>>, int> known_explicit;
   std::map<const Mass*, std::vector<std::pair<int, FreeUnknowns>>> known;
   std::vector<EqualTo> twins(setups.size());
-  for (int i = 0; i < static_cast<int>(setups.size()); ++i) {
+  for (const int i : model.here) {
     const PieceSetup& setup = setups[i];
     if (model.integration.is_explicit_piece(i)) {
       const auto [at, is_new] =
@@ -230,7 +231,8 @@ Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies) {
   std::vector<std::shared_ptr<const ExplicitOperator>> operators(n);
   prepare_thread();
   for (const bool has_twin : {false, true})
-    parallel_for(n, [&](int i) {
+    parallel_for(static_cast<int>(model.here.size()), [&](int at) {
+      const int i = model.here[at];
       if ((twins[i].piece >= 0) != has_twin) return;
       if (model.integration.is_explicit_piece(i))
         operators[i] = has_twin ? operators[twins[i].piece] : std::make_shared<const ExplicitOperator>(setups[i]);
@@ -241,6 +243,7 @@ Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies) {
   Pieces pieces(std::make_move_iterator(built.begin()), std::make_move_iterator(built.end()));
   for (int i = 0; i < n; ++i)
     if (operators[i]) pieces[i] = std::make_unique<ExplicitPiece>(setups[i], operators[i]);
+  add_distant(model, bodies, pieces);
   return pieces;
 }
 
@@ -263,6 +266,7 @@ std::vector<std::vector<int>> group_equal(const Pieces& pieces) {
   std::vector<std::vector<int>> groups;
   std::map<const void*, size_t> open;
   for (size_t i = 0; i < pieces.size(); ++i) {
+    if (dynamic_cast<const DistantPiece*>(pieces[i].get())) continue;
     const void* key = pieces[i]->shared_key();
     const auto it = key ? open.find(key) : open.end();
     if (it != open.end() && groups[it->second].size() < 16) {

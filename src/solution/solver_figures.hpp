@@ -1,11 +1,13 @@
 // What a solver tells of a run.
 #pragma once
 
+#include <array>
 #include <exception>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solution/interface_fields.hpp"
@@ -43,6 +45,25 @@ struct OwnFigures {
   std::optional<double> critical_step;                        // s
 };
 
+// What was shared out to several ranks (manual/parallel.md).
+struct RankFigures {
+  int pieces = 0;
+  long unknowns = 0;
+  // To neighbours, to all, for results of rank 0; over the run.
+  std::array<double, 3> messages{}, bytes{};
+  double seconds_waited = 0.0;
+};
+struct SharedPiece {
+  int part = 0, rank = 0;  // its substructure; who has it
+  long unknowns = 0;
+  double seconds = 0.0;                         // of a processor, that it took over all steps
+  std::vector<std::pair<int, int>> neighbours;  // other pieces, and how many points it has with each
+};
+struct Sharing {
+  std::vector<RankFigures> ranks;  // empty: one process
+  std::vector<SharedPiece> pieces;
+};
+
 struct SolverFigures {
   std::vector<StepFigures> steps;
   std::shared_ptr<const InterfaceFields> interface_fields;  // null: the solver keeps none
@@ -50,12 +71,13 @@ struct SolverFigures {
   std::exception_ptr stopped_by;                            // an error; null: none
   std::vector<int> pieces;  // into which each substructure was cut; empty: the solver cuts none
   long n_dofs = 0, n_interface_unknowns = 0;
-  long n_solved = 0, n_spared = 0;        // substitutions, and those spared because nothing had changed
-  int n_in_full = 0;                      // pieces solved in full at each iteration, summed over the steps
-  int n_equal = 0;                        // pieces that use another one's factor, summed over the steps
-  double factor_bytes = 0.0;              // factors and interface operators of the largest step
-  double gap_difference = 0.0;            // m, largest between the laws' gaps and the displacements'
-  OwnFigures own;                         // for the run record
+  long n_solved = 0, n_spared = 0;  // substitutions, and those spared because nothing had changed
+  int n_in_full = 0;                // pieces solved in full at each iteration, summed over the steps
+  int n_equal = 0;                  // pieces that use another one's factor, summed over the steps
+  double factor_bytes = 0.0;        // factors and interface operators of the largest step
+  double gap_difference = 0.0;      // m, largest between the laws' gaps and the displacements'
+  OwnFigures own;                   // for the run record
+  Sharing sharing;
   std::map<std::string, double> seconds;  // by phase: set up, linear, iterate, output
 };
 

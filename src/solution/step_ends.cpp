@@ -2,6 +2,7 @@
 
 #include "base/overloaded.hpp"
 #include "law/law.hpp"
+#include "solution/all_pieces.hpp"
 #include "solution/explicit_piece.hpp"
 
 namespace dygita {
@@ -27,7 +28,8 @@ void place_returning_walls(const StepModel& model, State& state) {
 
 // The pieces of a substructure start from its fields. Forces across a cut are not part of the state: each piece is in
 // balance by itself, and what the substructure as a whole has too much at a node is its owner's.
-void set_pieces(StepModel& model, int part, const State& state) {
+// elastic: K u of all pieces of substructures that are cut.
+void set_pieces(StepModel& model, int part, const State& state, const std::vector<Points>& elastic) {
   const Cut& cut = *model.cut;
   const Points interfaces = interface_force(*model.surfaces, state, part);
   if (!cut.is_cut(part)) {
@@ -35,15 +37,22 @@ void set_pieces(StepModel& model, int part, const State& state) {
                                              interfaces);
     return;
   }
-  const auto elastic_force = [&](int piece) {
-    return model.pieces[piece]->elastic_force(cut.on_piece(piece, state.displacement[part]));
-  };
-  const Points imbalance = cut.summed(part, elastic_force) - state.force[part] - interfaces;
+  const Points imbalance = cut.summed(part, [&](int piece) { return elastic[piece]; }) - state.force[part] - interfaces;
   for (int p = cut.first(part); p < cut.first(part) + cut.n_pieces(part); ++p) {
+    if (!cut.is_here(p)) continue;
     const Points force = cut.on_owners(p, state.force[part]);
     model.pieces[p]->set_state(cut.on_piece(p, state.displacement[part]), cut.on_piece(p, state.velocity[part]), force,
-                               elastic_force(p) - force - cut.on_owners(p, imbalance));
+                               elastic[p] - force - cut.on_owners(p, imbalance));
   }
+}
+
+std::vector<Points> elastic_forces(const StepModel& model, const State& state) {
+  const Cut& cut = *model.cut;
+  return fields_of_all_pieces(cut, [&](int piece) {
+    const int part = cut.piece(piece).part;
+    return cut.is_cut(part) ? model.pieces[piece]->elastic_force(cut.on_piece(piece, state.displacement[part]))
+                            : Points(Points::Zero(3, cut.piece(piece).body->mesh->n_nodes()));
+  });
 }
 
 // Explicit pieces keep the loads that are theirs: a field of forces in each increment would cost what a product does.
@@ -82,18 +91,26 @@ void start_step(StepModel& model, State& state) {
     Points& velocity = state.velocity[i];
     if (is_static) velocity.setZero();
     if (first_dynamic) velocity.colwise() += model.problem->substructures[i]->velocity;
-    set_pieces(model, static_cast<int>(i), state);
-    velocity = model.cut->from_owners(static_cast<int>(i), [&](int piece) { return model.pieces[piece]->velocity(); });
   }
+  const std::vector<Points> elastic = elastic_forces(model, state);
+  for (size_t i = 0; i < state.velocity.size(); ++i) set_pieces(model, static_cast<int>(i), state, elastic);
+  const std::vector<Points> velocities =
+      fields_of_all_pieces(*model.cut, [&](int piece) { return model.pieces[piece]->velocity(); });
+  for (size_t i = 0; i < state.velocity.size(); ++i)
+    state.velocity[i] = model.cut->from_owners(static_cast<int>(i), [&](int piece) { return velocities[piece]; });
   give_loads(model, state);
   place_returning_walls(model, state);
   Energies& energies = state.energies;
   const double before = energies.kinetic + energies.strain;
   energies.kinetic = energies.strain = 0.0;
-  for (const auto& piece : model.pieces) {
-    const IncrementEnergy now = piece->stored_energy();
-    energies.kinetic += now.kinetic;
-    energies.strain += now.strain;
+  const std::vector<double> stored = of_all_pieces(*model.cut, 2, [&](int i, double* to) {
+    const IncrementEnergy now = model.pieces[i]->stored_energy();
+    to[0] = now.kinetic;
+    to[1] = now.strain;
+  });
+  for (size_t i = 0; i < stored.size(); i += 2) {
+    energies.kinetic += stored[i];
+    energies.strain += stored[i + 1];
   }
   const double jump = energies.kinetic + energies.strain - before;
   (first_dynamic ? energies.start : energies.scheme) += first_dynamic ? jump : -jump;
@@ -101,17 +118,24 @@ void start_step(StepModel& model, State& state) {
 }
 
 void end_step(const StepModel& model, State& state) {
+  const Cut& cut = *model.cut;
+  const std::vector<Points> displacements =
+      fields_of_all_pieces(cut, [&](int piece) { return model.pieces[piece]->displacement(); });
+  const std::vector<Points> velocities =
+      fields_of_all_pieces(cut, [&](int piece) { return model.pieces[piece]->velocity(); });
+  const std::vector<Points> all_reactions =
+      model.scheme.is_static ? fields_of_all_pieces(cut, [&](int piece) { return model.reactions_of(piece, state); })
+                             : std::vector<Points>();
   for (size_t i = 0; i < state.displacement.size(); ++i) {
     const int part = static_cast<int>(i);
-    state.displacement[i] =
-        model.cut->from_owners(part, [&](int piece) { return model.pieces[piece]->displacement(); });
-    state.velocity[i] = model.cut->from_owners(part, [&](int piece) { return model.pieces[piece]->velocity(); });
+    state.displacement[i] = cut.from_owners(part, [&](int piece) { return displacements[piece]; });
+    state.velocity[i] = cut.from_owners(part, [&](int piece) { return velocities[piece]; });
     if (model.scheme.is_static) state.velocity[i].setZero();
     state.force[i] = model.external_force(part, state);
     if (!model.scheme.is_static) continue;
     // What an absorbing support held in the static step it keeps holding while waves pass through it.
     state.anchor[i].setZero();
-    const Points reactions = model.reactions(part, state);
+    const Points reactions = cut.summed(part, [&](int piece) { return all_reactions[piece]; });
     for (const auto& [node, held] : model.conditions.held[i])
       if (held.n > 0 && held.support[0] && held.support[0]->kind->absorbs())
         state.anchor[i].col(node) = reactions.col(node);

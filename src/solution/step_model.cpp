@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/log.hpp"
 #include "law/law.hpp"
+#include "solution/all_pieces.hpp"
 #include "solution/assembled_system.hpp"
 #include "solution/make_pieces.hpp"
 #include "solution/rigid_motions.hpp"
@@ -83,6 +85,11 @@ Points interface_force(const std::vector<Surface>& surfaces, const State& state,
   return force;
 }
 
+Points StepModel::reactions_of(int piece, const State& state) const {
+  const Points interfaces = interface_force(*surfaces, state, cut->piece(piece).part);
+  return pieces[piece]->reactions(cut->on_owners(piece, interfaces));
+}
+
 Points StepModel::reactions(int part, const State& state) const {
   const Points interfaces = interface_force(*surfaces, state, part);
   return cut->summed(part, [&](int piece) { return pieces[piece]->reactions(cut->on_owners(piece, interfaces)); });
@@ -143,6 +150,9 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
   split_loads(model);
   model.offset.assign(1, 0);
   for (const int n : model.exchange.n_unknowns) model.offset.push_back(model.offset.back() + n);
+  for (int i = 0; i < cut->n_pieces(); ++i)
+    if (cut->is_here(i)) model.here.push_back(i);
+  model.unknowns = segments_of(*cut, model.exchange.n_unknowns);
   return model;
 }
 
@@ -162,12 +172,23 @@ bool is_assembled(const Problem& problem, const Step& step) {
          asked.static_tolerance >= 1e-12;
 }
 
+// None of several ranks could hold such a system: they iterate, and say so.
+bool is_for_one_rank(const Step& step) {
+  if (ranks::is_alone()) return true;
+  warn(
+      fmt::format("static step '{}' is iterated substructure by substructure, as several MPI ranks do; one process "
+                  "takes all in one "
+                  "system, which needs fewer iterations: the forces of both agree to 'static_tolerance'",
+                  step.name));
+  return false;
+}
+
 }  // namespace
 
 StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                           const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
   StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true);
-  model.is_assembled = is_assembled(problem, step);
+  model.is_assembled = is_assembled(problem, step) && is_for_one_rank(step);
   model.pieces = model.is_assembled ? make_assembled_pieces(model, bodies) : make_pieces(model, bodies);
   model.equal = group_equal(model.pieces);
   return model;

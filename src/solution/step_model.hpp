@@ -27,6 +27,8 @@ struct StepModel {
   Exchange exchange;
   std::unique_ptr<Loads> loads;
   std::vector<std::unique_ptr<Piece>> pieces;
+  std::vector<int> here;                // pieces that this rank has; the others are solved elsewhere
+  ranks::Segments unknowns;             // of all pieces, of which each rank knows its own
   std::vector<std::vector<int>> equal;  // pieces that share a factor and are solved together, at most 16 in a group
   Integration integration;              // of the pieces
   bool is_assembled = false;            // the pieces are not factorised one by one
@@ -55,6 +57,9 @@ struct StepModel {
 
   // Force (N, 3 x n_nodes) of supports and prescribed motions on a substructure in the last increment.
   Points reactions(int part, const State& state) const;
+
+  // The same of a piece.
+  Points reactions_of(int piece, const State& state) const;
 
   // Nodes of a load pattern that a piece of a cut substructure owns; the other pieces need none.
   struct PieceLoad {

@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "base/error.hpp"
+#include "ranks/ranks.hpp"
 #include "solution/solver_figures.hpp"
 
 namespace dygita {
@@ -17,6 +18,7 @@ std::exception_ptr run_as_far_as_it_goes(Run& run, const SolverFigures& before) 
   } catch (const ContractError&) {
     throw;
   } catch (...) {
+    if (!ranks::is_alone()) throw;  // the others do not know of it
     bool has_computed = run.figures().increments > 0;
     for (const StepFigures& step : before.steps) has_computed |= step.increments > 0;
     if (!has_computed) throw;

@@ -19,6 +19,7 @@ struct TrailEntry {
   double eta = 0.0, size = 0.0, force_size = 0.0;  // the outcome
   int iterations = 0;
   bool is_solved = true;
+  bool is_assembled = false;  // of a static step with all pieces in one system
   std::optional<Missed> missed;
 };
 

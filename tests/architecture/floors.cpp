@@ -13,6 +13,7 @@ namespace {
 // Everything below a module that is named for it; itself is understood.
 const std::map<std::string, std::set<std::string>> may_use = {
     {"base", {}},
+    {"ranks", {"base"}},
     {"numerics", {"base"}},
     {"mesh", {"base", "numerics"}},
     {"mesher", {"base", "numerics", "mesh"}},
@@ -21,22 +22,24 @@ const std::map<std::string, std::set<std::string>> may_use = {
     {"fem", {"base", "numerics", "mesh", "material"}},
     {"law", {"base", "numerics", "signal", "material"}},
     {"model", {"base", "numerics", "mesh", "signal", "material", "law"}},
-    {"solution", {"base", "numerics", "mesh", "signal", "material", "fem", "law", "model"}},
-    {"latin", {"base", "numerics", "mesh", "signal", "material", "fem", "law", "model", "solution"}},
+    {"solution", {"base", "ranks", "numerics", "mesh", "signal", "material", "fem", "law", "model"}},
+    {"latin", {"base", "ranks", "numerics", "mesh", "signal", "material", "fem", "law", "model", "solution"}},
     {"reference", {"base", "numerics", "mesh", "signal", "material", "fem", "law", "model", "solution"}},
-    {"result", {"base", "numerics", "mesh", "signal", "material", "fem", "law", "model", "solution"}},
+    {"result", {"base", "ranks", "numerics", "mesh", "signal", "material", "fem", "law", "model", "solution"}},
     {"output", {"base", "numerics", "mesh", "law", "model", "result"}},
     {"report", {"base", "signal", "mesh", "model", "result", "output"}},
     {"run",
-     {"base", "numerics", "mesh", "signal", "law", "model", "solution", "latin", "reference", "result", "output",
-      "report"}},
-    {"deck", {"base", "numerics", "mesh", "signal", "material", "law", "model", "result", "output", "report", "run"}},
-    {"app", {"base", "signal", "output", "report", "deck"}},
+     {"base", "ranks", "numerics", "mesh", "signal", "law", "model", "solution", "latin", "reference", "result",
+      "output", "report"}},
+    {"deck",
+     {"base", "ranks", "numerics", "mesh", "signal", "material", "law", "model", "result", "output", "report", "run"}},
+    {"app", {"base", "ranks", "signal", "output", "report", "deck"}},
 };
 
 // Third-party headers that everybody may include; the others belong to one module.
 const std::regex everybody("^((unsupported/)?Eigen/|spdlog/|omp\\.h$)");
 const std::vector<std::pair<std::string, std::regex>> owners = {
+    {"ranks", std::regex("^mpi\\.h$")},
     {"numerics", std::regex("^(cholmod|SuiteSparse|metis|cblas|lapack|openblas)[A-Za-z_]*\\.h$")},
     {"mesh", std::regex("^nlohmann/")},
     {"mesher", std::regex("^(gmsh|seccomp\\.h$)")},

@@ -1,0 +1,134 @@
+"""What ranks cost beyond the machine at hand: replays the exchange pattern of a run (`ranks` in run.json) with costs and a network that are stated.
+
+A pattern is pieces with unknowns, seconds of a processor an increment, and the points they share. A larger ring has the same bodies, each refined and cut into
+cubes; pieces go to ranks in their order, evenly by cost. A time step of the deck then takes, on the rank that takes longest,
+
+    increments x (pieces + own points + messages to neighbours + sums over all) + what every rank does of all + what passes to all + what rank 0 does alone
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+MOTION = 48     # bytes of a node's motion
+MESH = 64                                   # bytes of mesh and mass a node: coordinates, a cell's nodes, a mass
+
+
+@dataclass(frozen=True)
+class Network:
+    """Latency (s) of a message and bytes a second; processors that the ranks share (0: one each)."""
+
+    latency: float = 2e-6
+    bandwidth: float = 10e9
+    cores: int = 0
+
+    def to_one(self, messages, size):
+        return messages * self.latency + size / self.bandwidth
+
+    def to_all(self, calls, size, ranks):
+        return calls * math.ceil(math.log2(ranks)) * self.latency + size * (ranks - 1) / ranks / self.bandwidth if ranks > 1 else 0.0
+
+
+@dataclass(frozen=True)
+class Costs:
+    """Seconds of one processor; `sums` and `questions`: collective calls of an increment, and questions of rank 0 a piece and time step."""
+
+    unknown: float = 0.0            # of a piece, an increment (or iteration)
+    point: float = 0.0              # of the interface work, an increment (or iteration) and point
+    booked: float = 0.0             # laws and energies, a time step of the deck and point: on every rank
+    shown: float = 0.0              # outputs and error estimates, a time step of the deck and unknown: on rank 0
+    fields: float = 0.0             # numbers an unknown that rank 0 asks for in a time step
+    questions: float = 0.0
+    sums: float = 1.0
+    increments: float = 1.0         # of a time step of the deck: iterations where the pieces are implicit
+    gathered: float = 0.0           # bytes a point that pass to all: in a time step of the deck, or an iteration where the pieces are implicit
+
+
+@dataclass(frozen=True)
+class Pattern:
+    unknowns: tuple
+    links: tuple                    # (piece, piece, points), the first the lower
+
+    @staticmethod
+    def of(record):
+        pieces = record["ranks"]["pieces"]
+        return Pattern(tuple(p["unknowns"] for p in pieces), tuple((i, j, n) for i, p in enumerate(pieces) for j, n in p["neighbours"] if j > i))
+
+    def total(self):
+        return sum(self.unknowns)
+
+    def points(self):
+        return sum(n for _, _, n in self.links)
+
+    def refined(self, total, least):
+        """The same bodies with `total` unknowns, cut into `least` pieces or more of about the same size."""
+        scale = total / self.total()
+        largest = total / least
+        grids, first, unknowns, links = [], [0], [], []
+        for n in self.unknowns:
+            cuts = max(1, math.ceil(scale * n / largest))
+            a = max(1, round(cuts ** (1 / 3)))
+            b = max(1, round(math.sqrt(cuts / a)))
+            grids.append((a, b, math.ceil(cuts / (a * b))))
+            first.append(first[-1] + math.prod(grids[-1]))
+        for i, ((a, b, c), n) in enumerate(zip(grids, self.unknowns)):
+            size = scale * n / (a * b * c)
+            face = (size / 3) ** (2 / 3)
+            unknowns += [size] * (a * b * c)
+            for at in range(a * b * c):
+                x, y, z = at // (b * c), at // c % b, at % c
+                links += [(first[i] + at, first[i] + at + step, face) for has, step in ((x + 1 < a, b * c), (y + 1 < b, c), (z + 1 < c, 1)) if has]
+        for i, j, n in self.links:
+            here, there = first[i + 1] - first[i], first[j + 1] - first[j]
+            pairs = max(round(here ** (2 / 3)), round(there ** (2 / 3)))
+            links += [(first[i] + k * here // pairs, first[j] + k * there // pairs, n * scale ** (2 / 3) / pairs) for k in range(pairs)]
+        return Pattern(tuple(unknowns), tuple(links))
+
+
+def shared_out(pattern, ranks, owners=None):
+    """Of every rank: unknowns, points, peers, bytes to neighbours in an increment. owners: as a run had them; else in order, by size."""
+    if owners is None:
+        share, sum_before, owners = pattern.total() / ranks, 0.0, []
+        for n in pattern.unknowns:
+            owners.append(min(ranks - 1, int((sum_before + 0.5 * n) / share)))
+            sum_before += n
+    unknowns, points, sent = [0.0] * ranks, [0.0] * ranks, [{} for _ in range(ranks)]
+    for owner, n in zip(owners, pattern.unknowns):
+        unknowns[owner] += n
+    for i, j, n in pattern.links:
+        a, b = owners[i], owners[j]
+        points[a] += n
+        if a == b:
+            continue
+        points[b] += n
+        for here, there in ((a, b), (b, a)):
+            sent[here][there] = sent[here].get(there, 0.0) + MOTION * n
+    return unknowns, points, [len(s) for s in sent], [sum(s.values()) for s in sent]
+
+
+def step(pattern, ranks, costs, network, how="explicit", owners=None, outputs="rank 0", booking="all"):
+    """Seconds of a time step of the deck by what takes them, and bytes that all ranks send. outputs: on "rank 0" or "shared" out; booking: to "all" or "neighbours"."""
+    unknowns, points, peers, sent = shared_out(pattern, ranks, owners)
+    n, n_points, pieces = pattern.total(), pattern.points(), len(pattern.unknowns)
+    times, inc = {}, costs.increments
+    everywhere = how == "implicit"
+    work = [inc * (costs.unknown * u + costs.point * (0.0 if everywhere else p)) for u, p in zip(unknowns, points)]
+    replicated = inc * costs.point * n_points if everywhere else 0.0
+    alone = [costs.booked * (n_points if booking == "all" else p) + replicated for p in points]
+    times["pieces and points"] = max(work) + replicated
+    times["booked by all"] = max(alone) - replicated
+    to_neighbours = 0 if everywhere or ranks == 1 else inc * sum(sent)
+    times["neighbours"] = 0.0 if not to_neighbours else inc * max(network.to_one(2 * p, s) for p, s in zip(peers, sent))
+    gathered = costs.gathered * n_points * (inc if everywhere else booking == "all")
+    times["to all"] = network.to_all(inc * costs.sums + 4, gathered, ranks)
+    asked = 8 * costs.fields * (n - unknowns[0]) if ranks > 1 and outputs == "rank 0" else 0.0
+    questions = costs.questions * pieces * (1 - 1 / ranks) if asked else 0.0
+    times["outputs"] = costs.shown * (n if outputs == "rank 0" else max(unknowns)) + network.to_one(2 * questions, asked)
+    total = sum(times.values())
+    if network.cores:   # ranks that share processors
+        total = max(total, (sum(work) + sum(alone) + costs.shown * n) / min(network.cores, ranks))
+    return times | {"all": total, "bytes": to_neighbours + gathered * (ranks - 1) + asked}
+
+
+def with_increments(costs, scale):
+    """Cells smaller by scale^(1/3) in the same time step of the deck: as many more increments."""
+    return replace(costs, increments=costs.increments * scale ** (1 / 3))

@@ -1,0 +1,23 @@
+// The trail of several ranks: rank 0 keeps it, all go over it.
+#pragma once
+
+#include "solution/trail.hpp"
+
+namespace dygita {
+
+// Collective, but for `leave` and `note_difference`.
+class SharedTrail final : public Trail {
+ public:
+  // kept: rank 0's; null on the others.
+  explicit SharedTrail(Trail* kept) : kept_(kept) {}
+  bool leads(long n) override;
+  long n_left() const override;
+  TrailEntry take() override;
+  void leave(const TrailEntry& entry) override;
+  void note_difference() override;
+
+ private:
+  Trail* kept_;
+};
+
+}  // namespace dygita

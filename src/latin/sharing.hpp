@@ -1,0 +1,16 @@
+// What a run of several ranks tells of itself.
+#pragma once
+
+#include "ranks/ranks.hpp"
+#include "solution/cut.hpp"
+#include "solution/solver_figures.hpp"
+#include "solution/surfaces.hpp"
+
+namespace dygita {
+
+// Collective. What each rank had, sent and waited since `before`, to say and in the figures, whose pieces have their
+// seconds where they are on this rank. Nothing where a process is alone.
+void tell_ranks(const std::vector<Surface>& surfaces, const Cut& cut, const ranks::Traffic& before,
+                SolverFigures& figures);
+
+}  // namespace dygita

@@ -1,0 +1,27 @@
+// Values that pass between ranks that share interface points: each is sent to those who read it, and to nobody else.
+#pragma once
+
+#include <vector>
+
+namespace dygita::ranks {
+
+class Neighbours {
+ public:
+  Neighbours() = default;
+  // Of values in one order on all ranks, `width` numbers each. owner: who has the value; readers: who wants it.
+  Neighbours(const std::vector<int>& owner, const std::vector<std::vector<int>>& readers, int width);
+  // values: a rank has filled those that it owns, and gets those that it reads.
+  void exchange(double* values) const;
+  bool is_empty() const { return peers_.empty(); }
+
+ private:
+  struct Peer {
+    int rank;
+    std::vector<int> sends, receives;  // values
+    std::vector<double> out, in;
+  };
+  int width_ = 0;
+  mutable std::vector<Peer> peers_;
+};
+
+}  // namespace dygita::ranks

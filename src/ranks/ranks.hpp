@@ -1,0 +1,78 @@
+// Several processes that run the same deck side by side (manual/parallel.md), called ranks 0, 1, ...; one process is
+// rank 0 of one. The only module that names MPI; built without it there is one rank.
+//
+// All functions but `stop_all` are collective: every rank calls them in the same order, from the thread that called
+// `start`, except `ask`.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dygita::ranks {
+
+// Joins the other ranks where mpirun or srun has started the process; else it stays alone, and MPI is not touched.
+// say: how rank 0 tells the error that ends all. Throws InputError where it was started so and the program was built
+// without MPI.
+using Say = void (*)(const std::string&);
+void start(Say say);
+// Waits for the others and leaves. Not after an error: that is what stop_all is for.
+void finish();
+
+int count();
+int me();
+inline bool is_first() { return me() == 0; }
+inline bool is_alone() { return count() == 1; }
+
+// Ends all ranks with an exit code and one message: rank 0 says it, whoever has failed. Called by a rank alone, where
+// there are several.
+[[noreturn]] void stop_all(const std::string& message, int code);
+
+// Rank 0's bytes, on all.
+std::string shared(std::string bytes);
+std::vector<double> shared(std::vector<double> values);
+// Every rank's bytes, on rank 0 in their order; empty on the others.
+std::vector<std::string> gathered(const std::string& bytes);
+double largest(double value);
+bool any(bool is_so);
+// To round-off: for figures.
+std::vector<double> sums(const std::vector<double>& values);
+
+// Values that belong to pieces, each piece on one rank: `complete` gives every rank those of the others.
+class Segments {
+ public:
+  Segments() = default;
+  // owner: rank of each piece; offset: where its values begin, one entry more than pieces.
+  Segments(const std::vector<int>& owner, const std::vector<int>& offset);
+  // values: of all pieces, of which a rank has filled those of its own.
+  void complete(double* values) const;
+
+ private:
+  struct Run {
+    int at, n;
+  };
+  std::vector<std::vector<Run>> of_rank_;
+  std::vector<int> counts_, starts_;
+  mutable std::vector<double> own_, all_;
+};
+
+// Rank 0 asks others for what they alone have, while they `answer_until_released`. Any thread of rank 0 may ask.
+struct Question {
+  int what = 0, piece = 0;
+};
+std::vector<double> ask(int rank, const Question& question, std::span<const double> with);
+using Answer = std::function<std::vector<double>(const Question&, std::span<const double>)>;
+void answer_until_released(const Answer& answer);
+void release_all();
+
+// What this rank has sent so far, and how long it has waited for others.
+enum Receivers { neighbours, everybody, asker, n_receivers };  // asker: rank 0, or whom it asks
+struct Traffic {
+  std::array<double, n_receivers> messages{}, bytes{};
+  double seconds_waited = 0.0;
+};
+Traffic traffic();
+
+}  // namespace dygita::ranks

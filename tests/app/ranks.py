@@ -1,0 +1,138 @@
+"""dygita under mpirun: every table and every frame has the bits of one process; errors are said once; what ranks cannot share is refused.
+
+ranks.py PROGRAM MPIRUN FOLDER_OF_THE_DECKS [--ranks N]
+"""
+
+import argparse
+import hashlib
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+asked = argparse.ArgumentParser()
+asked.add_argument("program")
+asked.add_argument("mpirun")
+asked.add_argument("folder", type=pathlib.Path)
+asked.add_argument("--ranks", type=int, nargs="*", default=[2])
+asked = asked.parse_args()
+FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="dygita_ranks_"))
+failures = []
+
+
+def under_mpi(ranks):
+    return [asked.mpirun, "--allow-run-as-root", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
+
+
+def dygita(ranks, *words, expected, says=(), never=()):
+    start = under_mpi(ranks)
+    environment = {**os.environ, "OMP_NUM_THREADS": "1"}
+    done = subprocess.run([*start, asked.program, *map(str, words)], capture_output=True, text=True, timeout=280, check=False, env=environment)
+    said = done.stdout + done.stderr
+    wrong = [text for text in says if said.count(text) != 1] + [f"not: {text}" for text in never if text in said]
+    if done.returncode != expected or wrong:
+        failures.append(f"{ranks} ranks: dygita {' '.join(map(str, words))}: exit {done.returncode}, expected {expected}; {wrong}\n{said}")
+    return said
+
+
+def contents(run):
+    # The state has seconds in its header, records and pages tell times.
+    told_apart = {"run.json", "report.html", "state.dygita", "view.py"}
+    return {str(p.relative_to(run)): hashlib.sha256(p.read_bytes()).hexdigest() for p in sorted(run.rglob("*"))
+            if p.is_file() and p.name not in told_apart}
+
+
+def same(name, alone, shared):
+    alone, shared = contents(alone), contents(shared)
+    differ = [file for file in {**alone, **shared} if alone.get(file) != shared.get(file)]
+    if differ or len(alone) < 3:
+        failures.append(f"{name}: other bits than those of one process: {sorted(differ)}, of {sorted(alone)}")
+
+
+def compare(name, deck, problem, *words, cases=("base",), most=1000, also=()):
+    several = sorted({*(ranks for ranks in asked.ranks if ranks <= most), *also})
+    for ranks in [1, *several]:
+        out = FOLDER / f"{name}_{ranks}"
+        dygita(ranks, "run", deck, "--quiet", "--threads", 1, "--out", out, *words, expected=0)
+        for case in cases if ranks > 1 else ():
+            same(f"{name} on {ranks} ranks", FOLDER / f"{name}_1" / problem / case, out / problem / case)
+
+
+stopped = asked.folder / "stopped.lua"
+compare("implicit", stopped, "stopped")
+compare("windows", stopped, "stopped", "--set", "window=4")
+compare("explicit", stopped, "stopped", "--set", "explicit=1")
+compare("all_explicit", stopped, "stopped", "--solver", "latin{ integration = 'explicit' }")
+compare("passes", stopped, "stopped", "--set", "passes=1")
+unlike = asked.folder / "ranks_unlike.lua"
+compare("unlike", unlike, "unlike", most=4, also=[2, 3])
+compare("damped", unlike, "unlike", "--set", "beta=2e-8", "--set", "driven=1", most=4, also=[2, 3])
+compare("tuned", unlike, "unlike", "--set", "beta=1e-8", "--set", "tuned=1", most=4)
+compare("pieces", asked.folder / "ranks.lua", "ranks")
+compare("study", asked.folder / "study.lua", "study", cases=("mu 0.1", "mu 0.2", "mu 0.3"), most=2)
+
+
+def ranks_of(pid):
+    """Processes that mpirun has started, in their order."""
+    listed = subprocess.run(["ps", "-o", "pid=,stat=", "--ppid", str(pid)], capture_output=True, text=True, check=False).stdout.split("\n")
+    return sorted(int(line.split()[0]) for line in listed if line and not line.split()[1].startswith("Z"))
+
+
+def go_on(name, killed, then):
+    """A rank that dies ends the run; any number of ranks go on with what was computed, to the bits of a run that was never stopped."""
+    words = ["run", stopped, "--set", "us=300", "--checkpoint-every", "0.02s", "--no-frames", "--quiet", "--threads", "1", "--out"]
+    if not (FOLDER / "whole").exists():
+        dygita(1, *words, FOLDER / "whole", expected=0)
+    out = FOLDER / name
+    process = subprocess.Popen([*under_mpi(killed), asked.program, *map(str, [*words, out])],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
+    run = out / "stopped" / "base"
+    begun = time.monotonic()
+    while not ((run / "checkpoint.dygita").exists() and (run / "checkpoint.dygita").stat().st_size > 500000):
+        if process.poll() is not None or time.monotonic() > begun + 100:
+            failures.append(f"{name}: the run has left no checkpoint to kill it by")
+            process.kill()
+            return
+        time.sleep(0.01)
+    os.kill(ranks_of(process.pid)[-1] if killed > 1 else process.pid, signal.SIGKILL)
+    said = process.communicate(timeout=100)[1]
+    if process.returncode == 0 or (killed > 1 and "signal 9" not in said):
+        failures.append(f"{name}: a rank was killed: mpirun exits with {process.returncode}\n{said}")
+    said = dygita(then, "continue", run, "--no-frames", "--threads", "1", expected=0, says=["increments are gone over again"])
+    if "other last digits" in said:
+        failures.append(f"{name}: the increments gone over differ\n{said}")
+    same(name, FOLDER / "whole" / "stopped" / "base", run)
+
+
+def go_further(name, *words):
+    """A run that has come to its end, to a tighter tolerance or further in time: all ranks start from its fields."""
+    runs = {}
+    for ranks in 1, 2:
+        runs[ranks] = FOLDER / f"{name}_{ranks}" / "stopped" / "base"
+        dygita(1, "run", stopped, "--quiet", "--threads", 1, "--out", FOLDER / f"{name}_{ranks}", expected=0)
+        dygita(ranks, "continue", runs[ranks], *words, "--quiet", "--threads", 1, expected=0)
+    same(name, runs[1], runs[2])
+
+
+go_on("two_then_one", 2, 1)
+go_on("two_then_three", 2, 3)
+go_on("one_then_two", 1, 2)
+go_further("further", "--until", "80*us")
+go_further("tighter", "--tolerance", "1e-8")
+dygita(2, "continue", FOLDER / "none", expected=2, says=["no folder"])
+dygita(7, "run", stopped, "--quiet", "--out", FOLDER / "many", expected=2, says=["7 MPI ranks for 6 substructures"])
+dygita(2, "run", stopped, "--quiet", "--solver", "monolithic", "--out", FOLDER / "one", expected=2, says=["solver.monolithic is one system"])
+dygita(2, "run", stopped, "--quiet", "--solver", "latin{ static_steps = 'assembled' }", "--out", FOLDER / "one", expected=2,
+       says=["is one system of all substructures"])
+dygita(2, "check", stopped, expected=2, says=["dygita check: not on several MPI ranks"])
+dygita(2, "run", stopped, "--set", "usage=1", "--quiet", "--out", FOLDER / "none", expected=2, says=["usage"])
+dygita(2, "run", FOLDER / "none.lua", expected=2, says=["no deck"])
+# A history that fails in the middle of a run fails on all ranks, and is told once.
+dygita(2, "run", stopped, "--set", "broken=1", "--quiet", "--out", FOLDER / "broken", expected=2, says=["no record at 20 us"])
+shutil.rmtree(FOLDER)
+print("\n".join(failures) or "the same bits on several ranks")
+sys.exit(1 if failures else 0)
