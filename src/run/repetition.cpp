@@ -32,6 +32,17 @@ std::map<std::string, std::string> tables_in(const fs::path& folder) {
   return tables;
 }
 
+// A table that is not there cannot be compared: that is not the same as one that is equal.
+void require_tables(const Json& record, const fs::path& folder) {
+  for (const std::string name : record.at("files")) {
+    const fs::path path = folder / name;
+    std::error_code error;
+    if (path.extension() == ".csv" && !fs::is_regular_file(path, error))
+      throw InputError(fmt::format("--repeat {}: its table '{}' is {}: there is nothing to compare with",
+                                   folder.string(), name, fs::exists(path, error) ? "not a file" : "not there"));
+  }
+}
+
 std::string list_of(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
@@ -63,6 +74,7 @@ Repetition::Repetition(const fs::path& record)
     for (const auto& [name, value] : json.at("parameters").items())
       settings_.emplace_back(name, fmt::format("{}", value.get<double>()));
     for (const Json& part : json.at("substructures")) meshes_[part.at("name")] = part.at("digest");
+    require_tables(json, folder_);
   } catch (const Json::exception&) {
     throw InputError(fmt::format("--repeat {}: the record lacks what tells how the run was made", record.string()));
   }

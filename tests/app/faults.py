@@ -292,7 +292,7 @@ def pipes_in_the_place_of_files():
             (whole / "run.json", ("report", whole), 2, refused), (whole / "scenes.json", ("report", whole), 2, refused),
             (whole / "above.csv", ("report", whole), 0, ""),
             (whole / "view.py", ("view", whole, "--paraview", "true"), 2, refused),
-            (whole / "run.json", again, 2, refused), (whole / "joint.csv", again, 0, "all 7 tables"),
+            (whole / "run.json", again, 2, refused), (whole / "joint.csv", again, 2, "there is nothing to compare with"),
             (whole / "run.json", ("continue", whole, "--iterations", "1"), 2, refused),
             (whole / "state.dygita", ("continue", whole, "--iterations", "1"), 2, refused),
             (whole / ".dygita-files", ("continue", whole, "--iterations", "1", "--quiet"), 0, ""),

@@ -3,6 +3,7 @@
 repeat.py PROGRAM FOLDER_OF_THE_DECK
 """
 
+import os
 import pathlib
 import shutil
 import subprocess
@@ -40,6 +41,11 @@ dygita("run", "--repeat", run, "--set", "us=20", expected=2, says="--set")
 moved = FOLDER / "moved.lua"
 deck.rename(moved)
 dygita("run", "--repeat", run, expected=2, says="is not there")
+table.unlink()
+dygita("run", moved, "--repeat", run, "--quiet", "--out", FOLDER / "lost", expected=2, says="its table 'joint.csv' is not there: there is nothing to compare with")
+os.mkfifo(table)
+dygita("run", moved, "--repeat", run, "--quiet", "--out", FOLDER / "lost", expected=2, says="its table 'joint.csv' is not a file: there is nothing to compare with")
+table.unlink()
 table.write_text(whole)
 dygita("run", moved, "--repeat", run, "--quiet", "--out", FOLDER / "moved", expected=0, says="repeated:")
 moved.write_text(moved.read_text() + "\n-- another\n")
