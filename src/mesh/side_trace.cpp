@@ -1,6 +1,7 @@
 #include "mesh/side_trace.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace dygita {
@@ -31,6 +32,17 @@ Mat3 SideTrace::block(int i, int k) const {
   if (turn_of_[i] < 0) return block;
   for (int c = 0; c < 3; ++c) block.col(c) += turns_[turn_of_[i]] * own.arm.cross(Vec3::Unit(c));
   return block;
+}
+
+std::pair<SideTrace, std::vector<int>> SideTrace::on_its_nodes() const {
+  std::vector<int> nodes;
+  for (const Share& share : shares_) nodes.push_back(share.node);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  SideTrace own = *this;
+  for (Share& share : own.shares_)
+    share.node = static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), share.node) - nodes.begin());
+  return {std::move(own), std::move(nodes)};
 }
 
 Vec3 SideTrace::at(int i, const Points& nodal) const {

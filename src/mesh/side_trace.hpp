@@ -35,6 +35,9 @@ class SideTrace {
   // What the velocity of the k-th node adds to that of the point (3 x 3).
   Mat3 block(int i, int k) const;
 
+  // The nodes that carry the points, increasing, and the same trace on a field at them alone.
+  std::pair<SideTrace, std::vector<int>> on_its_nodes() const;
+
   // The motion of a point, given a field (3 x n_nodes).
   Vec3 at(int i, const Points& nodal) const;
   // Adds a force on a point to those on the nodes: power is the same for any motion.

@@ -10,27 +10,19 @@ Followed followed(const Surface& surface) { return surface.declared_law().shown(
 
 }  // namespace
 
-Points FollowedMotion::relative_displacement(const Instant& instant, int s) const {
-  const Surface& surface = (*instant.model.surfaces)[s];
-  const Points u_1 = instant.displacement(surface.part_1);
-  const Points u_2 = surface.part_2 >= 0 ? instant.displacement(surface.part_2) : Points();
-  Points relative(3, surface.n_points());
-  for (int i = 0; i < surface.n_points(); ++i) {
-    relative.col(i) = -surface.facing.side_1.at(i, u_1);
-    if (surface.part_2 >= 0) relative.col(i) += surface.facing.side_2.at(i, u_2);
-  }
-  return relative;
-}
-
 void FollowedMotion::begin_step(const Instant& instant) {
   const size_t n = instant.model.surfaces->size();
+  sides_.resize(n);
   before_.resize(n);
   moved_.resize(n);
   for (size_t s = 0; s < n; ++s) {
     const Surface& surface = (*instant.model.surfaces)[s];
     if (followed(surface) == Followed::nothing) continue;
-    before_[s] = relative_displacement(instant, static_cast<int>(s));
-    if (moved_[s].size() == 0) moved_[s] = Points::Zero(3, surface.n_points());
+    if (moved_[s].size() == 0) {
+      sides_[s] = MovedSides(surface);
+      moved_[s] = Points::Zero(3, surface.n_points());
+    }
+    before_[s] = sides_[s].jump(instant);
   }
 }
 
@@ -39,7 +31,7 @@ void FollowedMotion::accept(const Instant& instant) {
     const Surface& surface = (*instant.model.surfaces)[s];
     if (moved_[s].size() == 0) continue;
     const bool is_slip = followed(surface) == Followed::slip_while_closed;
-    const Points now = relative_displacement(instant, static_cast<int>(s));
+    const Points now = sides_[s].jump(instant);
     for (int i = 0; i < surface.n_points(); ++i) {
       if (is_slip && instant.state.surfaces[s].points[i].status == PointState::open) continue;
       const Vec3 n = surface.facing.normals.col(i), moved = now.col(i) - before_[s].col(i);

@@ -1,7 +1,7 @@
 // Openings and slips that laws do not remember, from the displacements of the two sides.
 #pragma once
 
-#include "solution/observer.hpp"
+#include "result/moved_side.hpp"
 
 namespace dygita {
 
@@ -16,7 +16,7 @@ class FollowedMotion {
   Vec3 slip(const Instant& instant, int surface, int point) const;
 
  private:
-  Points relative_displacement(const Instant& instant, int surface) const;
+  std::vector<MovedSides> sides_;       // of each surface; of nothing where nothing is followed
   std::vector<Points> before_, moved_;  // moved_: empty where nothing is followed
 };
 

@@ -56,18 +56,20 @@ double LoopRecorder::displacement(const Instant& instant) {
     return u;
   };
   if (!between_.empty()) {
-    Vec3 moved = noted(mean_over(between_.back(), instant.displacement(between_.back().part)));
-    if (between_.size() > 1) moved -= noted(mean_over(between_.front(), instant.displacement(between_.front().part)));
+    const auto mean = [&](const WeightedNodes& on) {
+      return noted(mean_over(on, instant.displacement(on.part, on.nodes)));
+    };
+    Vec3 moved = mean(between_.back());
+    if (between_.size() > 1) moved -= mean(between_.front());
     return moved.dot(request_.direction);
   }
   double sum = 0.0, area = 0.0;
   for (const int s : surfaces_of(instant, request_.on)) {
     const Surface& surface = (*instant.model.surfaces)[s];
-    const Points u_1 = instant.displacement(surface.part_1);
-    const Points u_2 = surface.part_2 >= 0 ? instant.displacement(surface.part_2) : Points();
+    const MovedSides& sides = sides_.try_emplace(s, surface).first->second;
+    const Points u_1 = sides.first.displacement(instant), u_2 = sides.second.displacement(instant);
     for (int i = 0; i < surface.n_points(); ++i) {
-      Vec3 jump = -noted(surface.facing.side_1.at(i, u_1));
-      if (surface.part_2 >= 0) jump += surface.facing.side_2.at(i, u_2);
+      const Vec3 jump = u_2.col(i) - noted(u_1.col(i));
       sum += surface.facing.areas[i] * jump.dot(request_.direction);
       area += surface.facing.areas[i];
     }

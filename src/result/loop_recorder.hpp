@@ -1,6 +1,9 @@
 // Watches force and displacement of a joint for output.loop.
 #pragma once
 
+#include <map>
+
+#include "result/moved_side.hpp"
 #include "result/recorder.hpp"
 #include "result/weighted_nodes.hpp"
 
@@ -41,6 +44,7 @@ class LoopRecorder : public TableRecorder {
   const Problem& problem_;
   const LoopRequest& request_;
   std::vector<WeightedNodes> between_;
+  std::map<int, MovedSides> sides_;  // of the surfaces it is on
   LoopTrace trace_;
   double before_ = 0.0;
 };

@@ -31,22 +31,38 @@ void PenetrationWatch::begin_step(const Instant& start) {
   pairs_ = doubt_neighbours(problem_, *start.model.surfaces);
   std::erase_if(pairs_, [](const Unjoined& pair) { return !pair.neighbours.are_near(); });
   deepest_.resize(pairs_.size());
+  displacement_.resize(problem_.substructures.size());
+  for (const Unjoined& pair : pairs_) {
+    need(pair.neighbours.nodes_1, pair.part_1, pair.part_2);
+    need(pair.neighbours.nodes_2, pair.part_2, pair.part_1);
+  }
+  for (auto& [part, nodes] : needed_) {
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    displacement_[static_cast<size_t>(part)].resize(3,
+                                                    problem_.substructures[static_cast<size_t>(part)]->mesh->n_nodes());
+  }
+}
+
+void PenetrationWatch::need(const std::vector<NearNode>& nodes, int part, int other) {
+  for (const NearNode& near : nodes) {
+    needed_[part].push_back(near.node);
+    needed_[other].insert(needed_[other].end(), near.facet.nodes().begin(), near.facet.nodes().end());
+  }
 }
 
 void PenetrationWatch::accept(const Instant& instant) {
   if (pairs_.empty() || !is_looked_at(instant)) return;
-  std::vector<Points> displacement(problem_.substructures.size());
-  for (const Unjoined& pair : pairs_)
-    for (const int part : {pair.part_1, pair.part_2})
-      if (auto& u = displacement[static_cast<size_t>(part)]; u.cols() == 0) u = instant.displacement(part);
-  for (size_t p = 0; p < pairs_.size(); ++p) look(instant, p, displacement);
+  for (const auto& [part, nodes] : needed_)
+    displacement_[static_cast<size_t>(part)](Eigen::all, nodes) = instant.displacement(part, nodes);
+  for (size_t p = 0; p < pairs_.size(); ++p) look(instant, p);
 }
 
-void PenetrationWatch::look(const Instant& instant, size_t pair, const std::vector<Points>& displacement) {
+void PenetrationWatch::look(const Instant& instant, size_t pair) {
   const Unjoined& of = pairs_[pair];
   Deepest& deepest = deepest_[pair];
   const auto look_at = [&](const std::vector<NearNode>& nodes, int part, int other) {
-    const Points &u = displacement[static_cast<size_t>(part)], &v = displacement[static_cast<size_t>(other)];
+    const Points &u = displacement_[static_cast<size_t>(part)], &v = displacement_[static_cast<size_t>(other)];
     for (const NearNode& near : nodes) {
       Vec3 apart = u.col(near.node);
       for (size_t a = 0; a < near.facet.nodes().size(); ++a) apart -= near.weights[a] * v.col(near.facet.nodes()[a]);

@@ -2,6 +2,7 @@
 // bounding boxes are near; without such pairs the watch costs nothing.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -28,14 +29,17 @@ class PenetrationWatch : public Observer {
     const Step* step = nullptr;
     double time = 0.0;  // s
   };
-  void look(const Instant& instant, size_t pair, const std::vector<Points>& displacement);
+  void need(const std::vector<NearNode>& nodes, int part, int other);
+  void look(const Instant& instant, size_t pair);
   const std::string& name_of(int part) const;
   std::string text_of(size_t pair) const;
 
   const Problem& problem_;
   bool has_begun_ = false;
   std::vector<Unjoined> pairs_;
-  std::vector<Deepest> deepest_;  // of each pair
+  std::vector<Deepest> deepest_;            // of each pair
+  std::map<int, std::vector<int>> needed_;  // nodes of a part
+  std::vector<Points> displacement_;        // of each part, filled at those nodes alone
 };
 
 }  // namespace dygita

@@ -26,7 +26,7 @@ Vec3 mean_over(const WeightedNodes& on, const Points& field) {
   Vec3 sum = Vec3::Zero();
   double total = 0.0;
   for (size_t i = 0; i < on.nodes.size(); ++i) {
-    sum += on.weights[i] * field.col(on.nodes[i]);
+    sum += on.weights[i] * field.col(static_cast<Eigen::Index>(i));
     total += on.weights[i];
   }
   return sum / total;

@@ -14,7 +14,7 @@ struct WeightedNodes {
 
 WeightedNodes weighted_nodes(const Problem& problem, const FaceOrRegion& place);
 
-// Mean of a nodal field (3 x n_nodes of the part) over them.
+// Mean over them of a field at them, 3 x nodes.
 Vec3 mean_over(const WeightedNodes& on, const Points& field);
 
 }  // namespace dygita

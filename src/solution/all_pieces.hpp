@@ -14,7 +14,8 @@ std::vector<double> of_all_pieces(const Cut& cut, int n, Fill&& fill) {
   std::vector<double> values(static_cast<size_t>(n) * static_cast<size_t>(cut.n_pieces()), 0.0);
   for (int i = 0; i < cut.n_pieces(); ++i)
     if (cut.is_here(i)) fill(i, values.data() + static_cast<size_t>(n) * static_cast<size_t>(i));
-  segments_of(cut, std::vector<int>(static_cast<size_t>(cut.n_pieces()), n)).complete(values.data());
+  if (!ranks::is_alone())
+    segments_of(cut, std::vector<int>(static_cast<size_t>(cut.n_pieces()), n)).complete(values.data());
   return values;
 }
 

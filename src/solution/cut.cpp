@@ -114,6 +114,17 @@ std::vector<Copy> Cut::copies(int part, int node) const {
   return copies;
 }
 
+std::map<int, Cut::OnOwner> Cut::on_owners(int part, const std::vector<int>& nodes) const {
+  std::map<int, OnOwner> on;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const Copy copy = owner(part, nodes[i]);
+    OnOwner& piece = on[copy.piece];
+    piece.nodes.push_back(copy.node);
+    piece.at.push_back(static_cast<int>(i));
+  }
+  return on;
+}
+
 Points Cut::on_piece(int piece, const Points& nodal) const {
   const CutPiece& p = pieces_[piece];
   if (p.is_whole()) return nodal;

@@ -2,6 +2,7 @@
 // of whole substructures.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -52,6 +53,12 @@ class Cut {
   std::vector<Copy> copies(int part, int node) const;
   Copy owner(int part, int node) const { return is_cut(part) ? owner_[part][node] : Copy{first_[part], node, 1.0}; }
 
+  // Some nodes of a substructure on the pieces that own them: their numbers there, and their places among all.
+  struct OnOwner {
+    std::vector<int> nodes, at;
+  };
+  std::map<int, OnOwner> on_owners(int part, const std::vector<int>& nodes) const;
+
   // Values (3 x n) at the piece's nodes of a field on its substructure: at every copy, or zero at those that are no
   // owners.
   Points on_piece(int piece, const Points& nodal) const;
@@ -67,6 +74,15 @@ class Cut {
       for (Eigen::Index i = 0; i < own.cols(); ++i)
         if (pieces_[p].is_owner[i]) nodal.col(pieces_[p].nodes[i]) = own.col(i);
     }
+    return nodal;
+  }
+  // The same at some nodes alone, in their order. of_piece(i, nodes): 3 x nodes, of piece i.
+  template <class OfPiece>
+  Points from_owners(int part, const std::vector<int>& nodes, OfPiece&& of_piece) const {
+    if (!is_cut(part)) return of_piece(first_[part], nodes);
+    Points nodal(3, static_cast<Eigen::Index>(nodes.size()));
+    for (const auto& [piece, on_piece] : on_owners(part, nodes))
+      nodal(Eigen::all, on_piece.at) = of_piece(piece, on_piece.nodes);
     return nodal;
   }
   template <class OfPiece>

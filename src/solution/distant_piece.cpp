@@ -19,6 +19,9 @@ Points as_points(std::span<const double> values) {
   return Eigen::Map<const Points>(values.data(), 3, static_cast<Eigen::Index>(values.size() / 3));
 }
 
+// Numbers of nodes, which pass as all else does.
+std::vector<int> as_nodes(std::span<const double> values) { return {values.begin(), values.end()}; }
+
 Vec as_vec(const std::vector<double>& values) {
   return Eigen::Map<const Vec>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
@@ -34,6 +37,10 @@ std::vector<double> DistantPiece::ask(What what, std::span<const double> with) c
 }
 
 Points DistantPiece::ask_nodal(What what, std::span<const double> with) const { return as_points(ask(what, with)); }
+
+Points DistantPiece::ask_at(What what, const std::vector<int>& nodes) const {
+  return nodes.empty() ? Points(3, 0) : ask_nodal(what, std::vector<double>(nodes.begin(), nodes.end()));
+}
 
 const Vec& DistantPiece::unknown_masses() const {
   if (unknown_masses_.size() == 0) unknown_masses_ = as_vec(ask(masses));
@@ -67,11 +74,11 @@ Points DistantPiece::absorbing_force() const { return ask_nodal(absorbed); }
 std::vector<double> answer_for(const Piece& piece, int what, std::span<const double> with) {
   switch (what) {
     case DistantPiece::u:
-      return as_vector(piece.displacement());
+      return as_vector(with.empty() ? piece.displacement() : piece.displacement(as_nodes(with)));
     case DistantPiece::v:
-      return as_vector(piece.velocity());
+      return as_vector(with.empty() ? piece.velocity() : piece.velocity(as_nodes(with)));
     case DistantPiece::a:
-      return as_vector(piece.acceleration());
+      return as_vector(with.empty() ? piece.acceleration() : piece.acceleration(as_nodes(with)));
     case DistantPiece::force_of_u:
       return as_vector(piece.elastic_force(as_points(with)));
     case DistantPiece::held:

@@ -41,6 +41,9 @@ class DistantPiece : public Piece {
   Points displacement() const override;
   Points velocity() const override;
   Points acceleration() const override;
+  Points displacement(const std::vector<int>& nodes) const override { return ask_at(u, nodes); }
+  Points velocity(const std::vector<int>& nodes) const override { return ask_at(v, nodes); }
+  Points acceleration(const std::vector<int>& nodes) const override { return ask_at(a, nodes); }
   Vec row_displacements() const override { return {}; }
   Points reactions(const Points& interface_force) const override;
   Points absorbing_force() const override;
@@ -50,6 +53,8 @@ class DistantPiece : public Piece {
   enum What { u, v, a, force_of_u, held, absorbed, state_v, masses, directions };
   friend std::vector<double> answer_for(const Piece& piece, int what, std::span<const double> with);
   std::vector<double> ask(What what, std::span<const double> with = {}) const;
+  // At some nodes alone.
+  Points ask_at(What what, const std::vector<int>& nodes) const;
   Points ask_nodal(What what, std::span<const double> with = {}) const;
 
   int piece_, rank_;

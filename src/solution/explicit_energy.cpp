@@ -13,6 +13,14 @@ Points nodal(const std::vector<double>& field) {
                                                             static_cast<Eigen::Index>(field.size() / 4));
 }
 
+// The same of some nodes alone.
+Points nodal(const std::vector<double>& field, const std::vector<int>& nodes) {
+  Points some(3, static_cast<Eigen::Index>(nodes.size()));
+  for (size_t i = 0; i < nodes.size(); ++i)
+    std::copy_n(&field[4 * static_cast<size_t>(nodes[i])], 3, some.col(static_cast<Eigen::Index>(i)).data());
+  return some;
+}
+
 void put(const Points& values, std::vector<double>& field) {
   Eigen::Map<Points, 0, Eigen::OuterStride<4>>(field.data(), 3, values.cols()) = values;
 }
@@ -188,6 +196,17 @@ Points ExplicitPiece::velocity() const { return nodal(v_); }
 Points ExplicitPiece::acceleration() const {
   if (interval_ == 0.0) return Points::Zero(3, static_cast<Eigen::Index>(inverse_.size()));
   return (nodal(v_) - nodal(v_interval_)) / interval_;
+}
+
+Points ExplicitPiece::displacement(const std::vector<int>& nodes) const {
+  return nodal(start_, nodes) + nodal(d_, nodes) - 0.5 * setup_.scheme.dt * nodal(v_, nodes);
+}
+
+Points ExplicitPiece::velocity(const std::vector<int>& nodes) const { return nodal(v_, nodes); }
+
+Points ExplicitPiece::acceleration(const std::vector<int>& nodes) const {
+  if (interval_ == 0.0) return Points::Zero(3, static_cast<Eigen::Index>(nodes.size()));
+  return (nodal(v_, nodes) - nodal(v_interval_, nodes)) / interval_;
 }
 
 // Of the increment's start: it has begun when the laws ask.

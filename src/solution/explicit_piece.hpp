@@ -54,6 +54,9 @@ class ExplicitPiece final : public Piece, public ExplicitNodes {
   Points displacement() const override;
   Points velocity() const override;
   Points acceleration() const override;
+  Points displacement(const std::vector<int>& nodes) const override;
+  Points velocity(const std::vector<int>& nodes) const override;
+  Points acceleration(const std::vector<int>& nodes) const override;
   Vec row_displacements() const override;
   Points reactions(const Points& interface_force) const override;
   Points absorbing_force() const override;

@@ -83,10 +83,7 @@ Traces FreeUnknowns::held_traces(const std::vector<InterfaceRow>& rows) const {
   Traces traces;
   for (const InterfaceRow& row : rows) {
     for (const auto& [node, along] : row.nodes) {
-      if (count_[node] == 3) continue;
-      auto held = std::lower_bound(held_.begin(), held_.end(), node,
-                                   [](const HeldDirection& one, int at) { return one.node < at; });
-      for (; held != held_.end() && held->node == node; ++held)
+      for (auto held = first_held(node); held != held_.end() && held->node == node; ++held)
         if (const double value = held->direction.dot(along); std::abs(value) >= 1e-12)
           traces.add(static_cast<int>(held - held_.begin()), value);
     }
@@ -125,6 +122,30 @@ Points FreeUnknowns::expand(const Vec& free, const std::vector<double>& held) co
   }
   for (size_t i = 0; i < held_.size(); ++i) nodal.col(held_[i].node) += held[i] * held_[i].direction;
   return nodal;
+}
+
+Points FreeUnknowns::expand(const Vec& free, const std::vector<double>& held, const std::vector<int>& nodes) const {
+  Points nodal(3, static_cast<Eigen::Index>(nodes.size()));
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const int node = nodes[i];
+    Vec3 value = Vec3::Zero();
+    for (int j = 0; j < count_[node]; ++j) {
+      if (is_plain(node))
+        value[j] = free[at(node, j)];
+      else
+        value += free[at(node, j)] * axes(node).col(j);
+    }
+    for (auto own = first_held(node); own != held_.end() && own->node == node; ++own)
+      value += held[static_cast<size_t>(own - held_.begin())] * own->direction;
+    nodal.col(static_cast<Eigen::Index>(i)) = value;
+  }
+  return nodal;
+}
+
+std::vector<HeldDirection>::const_iterator FreeUnknowns::first_held(int node) const {
+  if (count_[node] == 3) return held_.end();
+  return std::lower_bound(held_.begin(), held_.end(), node,
+                          [](const HeldDirection& one, int at) { return one.node < at; });
 }
 
 }  // namespace dygita

@@ -86,11 +86,15 @@ class FreeUnknowns {
   // Of each free unknown, 3 x size.
   Points directions() const;
 
-  // Nodal field (3 x n_nodes) to the free unknowns, and back with values of the held directions.
+  // Nodal field (3 x n_nodes) to the free unknowns, and back with values of the held directions; back at some nodes
+  // alone, 3 x nodes.
   Vec restrict_nodal(const Points& nodal) const;
   Points expand(const Vec& free, const std::vector<double>& held) const;
+  Points expand(const Vec& free, const std::vector<double>& held, const std::vector<int>& nodes) const;
 
  private:
+  // Where the held directions of a node begin; the end of them where it has none.
+  std::vector<HeldDirection>::const_iterator first_held(int node) const;
   const Mat3& axes(int node) const { return special_[node] < 0 ? axes_ : bases_[special_[node]]; }
   void set_held(const std::unordered_map<int, Held>& held);
 

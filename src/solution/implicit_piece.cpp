@@ -195,13 +195,29 @@ void ImplicitPiece::advance_massless() {
 }
 
 Points ImplicitPiece::acceleration() const {
-  const Scheme& scheme = op_.scheme();
-  const bool has_past = work_.v_old.size() == state_.v.size() && work_.held_v_old.size() == state_.held_v.size();
-  if (scheme.is_static || !has_past) return Points::Zero(3, op_.unknowns().n_nodes());
+  if (!has_past()) return Points::Zero(3, op_.unknowns().n_nodes());
   if (interval_.n > 1) return means().acceleration;
+  return op_.unknowns().expand((state_.v - work_.v_old) / op_.scheme().dt, held_acceleration());
+}
+
+Points ImplicitPiece::acceleration(const std::vector<int>& nodes) const {
+  if (!has_past()) return Points::Zero(3, static_cast<Eigen::Index>(nodes.size()));
+  if (interval_.n > 1) return means().acceleration(Eigen::all, nodes);
+  const FreeUnknowns& unknowns = op_.unknowns();
+  const double dt = op_.scheme().dt;
+  return (unknowns.expand(state_.v, state_.held_v, nodes) - unknowns.expand(work_.v_old, work_.held_v_old, nodes)) / dt;
+}
+
+// Are there velocities of the increment's start to hold its end against?
+bool ImplicitPiece::has_past() const {
+  return !op_.scheme().is_static && work_.v_old.size() == state_.v.size() &&
+         work_.held_v_old.size() == state_.held_v.size();
+}
+
+std::vector<double> ImplicitPiece::held_acceleration() const {
   std::vector<double> held(state_.held_v.size());
-  for (size_t i = 0; i < held.size(); ++i) held[i] = (state_.held_v[i] - work_.held_v_old[i]) / scheme.dt;
-  return op_.unknowns().expand((state_.v - work_.v_old) / scheme.dt, held);
+  for (size_t i = 0; i < held.size(); ++i) held[i] = (state_.held_v[i] - work_.held_v_old[i]) / op_.scheme().dt;
+  return held;
 }
 
 Points ImplicitPiece::absorbing_force() const {

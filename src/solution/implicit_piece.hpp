@@ -43,6 +43,13 @@ class ImplicitPiece : public Piece {
   Points displacement() const override { return op_.unknowns().expand(state_.u, state_.held_u); }
   Points velocity() const override { return op_.unknowns().expand(state_.v, state_.held_v); }
   Points acceleration() const override;
+  Points displacement(const std::vector<int>& nodes) const override {
+    return op_.unknowns().expand(state_.u, state_.held_u, nodes);
+  }
+  Points velocity(const std::vector<int>& nodes) const override {
+    return op_.unknowns().expand(state_.v, state_.held_v, nodes);
+  }
+  Points acceleration(const std::vector<int>& nodes) const override;
   Vec row_displacements() const override;
   Points reactions(const Points& interface_force) const override;
   Points absorbing_force() const override;
@@ -79,6 +86,8 @@ class ImplicitPiece : public Piece {
   void advance_massless();
   void advance_forces(Eigen::Ref<const Vec> q, bool is_moved);
   void resynchronise();
+  bool has_past() const;
+  std::vector<double> held_acceleration() const;  // m/s^2, mean over the last increment
   Vec mean_velocity() const;  // of the last increment: g V0 + (1 - g) V1, and V1 where there is no mass
   // What reactions follow from, mean over an increment or over several: the displacement that K multiplies in S1 and
   // the external force, the acceleration and the velocity; 3 x n_nodes each.

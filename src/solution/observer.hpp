@@ -45,6 +45,28 @@ struct Instant {
     if (fields) return fields->acceleration(part);
     return model.cut->from_owners(part, [&](int piece) { return model.pieces[piece]->acceleration(); });
   }
+  // Of a piece: its own copies, 3 x its nodes.
+  Points piece_displacement(int piece) const {
+    return fields ? model.cut->on_piece(piece, fields->displacement(model.cut->piece(piece).part))
+                  : model.pieces[piece]->displacement();
+  }
+  // The same at some nodes alone, 3 x nodes, in their order.
+  Points displacement(int part, const std::vector<int>& nodes) const {
+    if (fields) return fields->displacement(part)(Eigen::all, nodes);
+    return model.cut->from_owners(
+        part, nodes, [&](int piece, const std::vector<int>& of) { return model.pieces[piece]->displacement(of); });
+  }
+  Points velocity(int part, const std::vector<int>& nodes) const {
+    if (is_static()) return Points::Zero(3, static_cast<Eigen::Index>(nodes.size()));
+    if (fields) return fields->velocity(part)(Eigen::all, nodes);
+    return model.cut->from_owners(
+        part, nodes, [&](int piece, const std::vector<int>& of) { return model.pieces[piece]->velocity(of); });
+  }
+  Points acceleration(int part, const std::vector<int>& nodes) const {
+    if (fields) return fields->acceleration(part)(Eigen::all, nodes);
+    return model.cut->from_owners(
+        part, nodes, [&](int piece, const std::vector<int>& of) { return model.pieces[piece]->acceleration(of); });
+  }
   // Force (N) on nodes of a substructure from whatever holds or moves them, mean over the increment.
   Points reactions(int part) const {
     if (fields) return fields->reactions(part);
@@ -62,6 +84,22 @@ class Observer {
   virtual ~Observer() = default;
   virtual void begin_step(const Instant& start) = 0;
   virtual void accept(const Instant& instant) = 0;
+};
+
+// Tells several observers, in order.
+class Observers : public Observer {
+ public:
+  explicit Observers(std::vector<Observer*> observers) : observers_(std::move(observers)) {}
+  void add(Observer& observer) { observers_.push_back(&observer); }
+  void begin_step(const Instant& start) override {
+    for (Observer* observer : observers_) observer->begin_step(start);
+  }
+  void accept(const Instant& instant) override {
+    for (Observer* observer : observers_) observer->accept(instant);
+  }
+
+ private:
+  std::vector<Observer*> observers_;
 };
 
 }  // namespace dygita

@@ -119,6 +119,10 @@ class Piece {
   virtual Points displacement() const = 0;
   virtual Points velocity() const = 0;
   virtual Points acceleration() const = 0;
+  // The same at some nodes alone, in their order.
+  virtual Points displacement(const std::vector<int>& nodes) const { return displacement()(Eigen::all, nodes); }
+  virtual Points velocity(const std::vector<int>& nodes) const { return velocity()(Eigen::all, nodes); }
+  virtual Points acceleration(const std::vector<int>& nodes) const { return acceleration()(Eigen::all, nodes); }
   virtual Vec row_displacements() const = 0;
   // Force (N) of supports and prescribed motions on the piece in the last increment, and of non-reflecting supports.
   virtual Points reactions(const Points& interface_force) const = 0;

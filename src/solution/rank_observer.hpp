@@ -1,4 +1,4 @@
-// Results are made on rank 0 alone, which asks the other ranks for the fields of their pieces while it watches.
+// Most results are made on rank 0 alone, which asks the other ranks for the fields of their pieces while it watches.
 #pragma once
 
 #include "solution/observer.hpp"
@@ -15,13 +15,6 @@ class RankObserver : public Observer {
 
  private:
   Observer& observer_;
-};
-
-// Watches nothing.
-class IdleObserver : public Observer {
- public:
-  void begin_step(const Instant& /*start*/) override {}
-  void accept(const Instant& /*instant*/) override {}
 };
 
 }  // namespace dygita

@@ -226,6 +226,37 @@ TEST(ExplicitPieces, take_turns_where_points_share_nodes) {
   EXPECT_LT(before, 0.01);
 }
 
+// Some nodes, in an order of their own, against the whole fields.
+struct SomeNodes : Observer {
+  double apart = 0.0, size = 0.0;
+
+  void begin_step(const Instant&) override {}
+  void accept(const Instant& instant) override {
+    for (int part = 0; part < static_cast<int>(instant.model.problem->substructures.size()); ++part) {
+      std::vector<int> nodes;
+      for (int node = instant.displacement(part).cols() - 1; node >= 0; node -= 2) nodes.push_back(node);
+      compare(instant.displacement(part, nodes), instant.displacement(part), nodes);
+      compare(instant.velocity(part, nodes), instant.velocity(part), nodes);
+      compare(instant.acceleration(part, nodes), instant.acceleration(part), nodes);
+    }
+  }
+  void compare(const Points& some, const Points& whole, const std::vector<int>& nodes) {
+    const double largest = whole.cwiseAbs().maxCoeff();
+    apart = std::max(apart, (some - whole(Eigen::all, nodes)).cwiseAbs().maxCoeff() / (largest > 0.0 ? largest : 1.0));
+    size = std::max(size, largest);
+  }
+};
+
+TEST(FieldsOfAPiece, at_some_nodes_are_those_of_all) {
+  for (const IntegrationChoice choice : {implicitly, explicitly})
+    for (const int pieces : {1, 3}) {
+      SomeNodes watcher;
+      solve(corner(choice, 1e-7, pieces), watcher);
+      EXPECT_GT(watcher.size, 0.0);
+      EXPECT_LT(watcher.apart, 1e-12);
+    }
+}
+
 TEST(ExplicitPieces, that_are_cut_are_the_uncut_ones) {
   const Watcher whole = solved(corner(explicitly, 1e-7)), cut = solved(corner(explicitly, 1e-7, 3));
   EXPECT_LT(displacement_difference(cut, whole), 1e-9);

@@ -76,10 +76,10 @@ class HistoryRecorder : public TableRecorder {
     if (quantity == Quantity::stress || quantity == Quantity::von_mises) return stresses(instant);
     Vec3 mean = Vec3::Zero();
     for (const WeightedNodes& group : groups_) {
-      const Points field = quantity == Quantity::displacement ? instant.displacement(group.part)
-                           : quantity == Quantity::velocity   ? instant.velocity(group.part)
-                                                              : instant.acceleration(group.part);
-      for (size_t i = 0; i < group.nodes.size(); ++i) mean += group.weights[i] * field.col(group.nodes[i]);
+      const Points field = quantity == Quantity::displacement ? instant.displacement(group.part, group.nodes)
+                           : quantity == Quantity::velocity   ? instant.velocity(group.part, group.nodes)
+                                                              : instant.acceleration(group.part, group.nodes);
+      mean += field * Eigen::Map<const Vec>(group.weights.data(), field.cols());
     }
     if (request_.direction) return {mean.dot(*request_.direction)};
     return {mean[0], mean[1], mean[2]};

@@ -58,9 +58,9 @@ class FieldRecorder : public Recorder {
     time_.push_back(instant.time() - 0.5 * dt);
     std::vector<float> row;
     for (const Area& area : areas_) {
-      const Points acceleration = instant.acceleration(area.part);
-      for (const int node : area.nodes) {
-        const Vec3 a = acceleration.col(node);
+      const Points acceleration = instant.acceleration(area.part, area.nodes);
+      for (Eigen::Index i = 0; i < acceleration.cols(); ++i) {
+        const Vec3 a = acceleration.col(i);
         if (request_.direction) {
           row.push_back(static_cast<float>(a.dot(*request_.direction)));
         } else {
