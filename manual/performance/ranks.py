@@ -14,6 +14,7 @@ from ranks_model import MESH, Costs, Network, Pattern, step, with_increments
 RING = "decks/bench/ring.lua"
 SCENES = {"explicit": ("latin{ integration = 'explicit' }", 24), "implicit": ("latin{ integration = 'implicit' }", 24)}
 LATENCY, BANDWIDTH = 2e-6, 10e9
+SHOWN = 70       # instants of a run at which outputs want whole bodies: stress errors, scenes, the turning picture (stress beyond yield: 200 a step more)
 
 
 def difference(folder, other):
@@ -75,7 +76,7 @@ def costs_of(alone, share, two, pattern, how):
     return Costs(unknown=pieces / n / inc / pattern.total(), point=(seconds["local stage"] + seconds["acceleration"]) / n / inc / pattern.points(),
                  booked=seconds["laws and energies"] / n / pattern.points(), shown=seconds["output"] / n / pattern.total(), fields=asked,
                  questions=here["messages"]["results"] / n / shared["pieces"], sums=max(1.0, here["messages"]["all"] / n - 4) / inc, increments=inc,
-                 gathered=gathered / inc if how == "implicit" else gathered)
+                 brought=min(1.0, SHOWN / n), gathered=gathered / inc if how == "implicit" else gathered)
 
 
 def predict_here(records, share, how, cores):
@@ -90,16 +91,16 @@ def predict_here(records, share, how, cores):
 
 
 def predict_ring(pattern, costs, quick):
-    """Rows of larger rings on a network: as the program is, with outputs shared out, and with points booked with neighbours alone as well."""
+    """Rows of larger rings on a network: as the program is, with outputs made piece by piece, and with points booked with neighbours alone as well."""
     rows = []
     counts = [8, 64, 512, 4096] if quick else [8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096]
-    forms = {"as it is": {}, "outputs shared out": {"outputs": "shared"}, "and booked with neighbours": {"outputs": "shared", "booking": "neighbours"}}
+    forms = {"as it is": {}, "outputs piece by piece": {"outputs": "pieces"}, "and booked with neighbours": {"outputs": "pieces", "booking": "neighbours"}}
     cases = [("strong", size, ranks) for size in (1e7, 1e8, 1e9) for ranks in counts] + [("weak", 1e9 / 4096 * ranks, ranks) for ranks in counts]
     network = Network(LATENCY, BANDWIDTH)
     for scaling, size, ranks in cases:
         refined = pattern.refined(size, 4 * ranks)
         own = with_increments(costs, size / pattern.total())
-        one = step(refined, 1, own, network, outputs="shared", booking="neighbours")["all"]
+        one = step(refined, 1, own, network, outputs="pieces", booking="neighbours")["all"]
         for form, asked in forms.items():
             times = step(refined, ranks, own, network, **asked)
             bound = max((k for k in times if k not in ("all", "bytes")), key=times.get)
@@ -117,7 +118,7 @@ def measure(machine, folder, quick):
         return
     cores = os.cpu_count() or 1
     for how, (solver, bolts) in SCENES.items():
-        settings = {"bolts": 6 if quick else bolts, "steps": 4 if quick else 10}
+        settings = {"bolts": 6 if quick else bolts, "steps": 4 if quick else 100}
         records, folders, shares = {}, {}, {}
         for ranks in (1, 2, 4):
             machine.say(f"Ranks: {how}, {ranks}")
@@ -152,7 +153,7 @@ def figure(rows, folder):
     model = read_rows(folder / "ranks_model.csv")
     picture, axes = figures.plt.subplots(1, 2, figsize=(7.4, 3.0))
     picture.subplots_adjust(wspace=0.3)
-    forms = ["as it is", "outputs shared out", "and booked with neighbours"]
+    forms = ["as it is", "outputs piece by piece", "and booked with neighbours"]
     for size, colour in zip((1e7, 1e8, 1e9), figures.COLOURS):
         for form, line in zip(forms, (":", "--", "-")):
             mine = [r for r in model if r["scaling"] == "strong" and r["unknowns"] == size and r["form"] == form]

@@ -3,7 +3,9 @@
 A pattern is pieces with unknowns, seconds of a processor an increment, and the points they share. A larger ring has the same bodies, each refined and cut into
 cubes; pieces go to ranks in their order, evenly by cost. A time step of the deck then takes, on the rank that takes longest,
 
-    increments x (pieces + own points + messages to neighbours + sums over all) + what every rank does of all + what passes to all + what rank 0 does alone
+    increments x (pieces + own points + messages to neighbours + sums over all) + what every rank does of all + what passes to all + outputs
+
+Outputs of a body are made by the rank that has most of it, which is brought the fields that other ranks have of it.
 """
 
 import math
@@ -35,9 +37,10 @@ class Costs:
     unknown: float = 0.0            # of a piece, an increment (or iteration)
     point: float = 0.0              # of the interface work, an increment (or iteration) and point
     booked: float = 0.0             # laws and energies, a time step of the deck and point: on every rank
-    shown: float = 0.0              # outputs and error estimates, a time step of the deck and unknown: on rank 0
-    fields: float = 0.0             # numbers an unknown that rank 0 asks for in a time step
+    shown: float = 0.0              # outputs and error estimates, a time step of the deck and unknown
+    fields: float = 0.0             # numbers an unknown elsewhere that rank 0 is sent in a time step
     questions: float = 0.0
+    brought: float = 0.0            # numbers an unknown that the rank which makes a body's outputs is brought of pieces elsewhere in a time step
     sums: float = 1.0
     increments: float = 1.0         # of a time step of the deck: iterations where the pieces are implicit
     gathered: float = 0.0           # bytes a point that pass to all: in a time step of the deck, or an iteration where the pieces are implicit
@@ -47,11 +50,14 @@ class Costs:
 class Pattern:
     unknowns: tuple
     links: tuple                    # (piece, piece, points), the first the lower
+    bodies: tuple                   # body of each piece
 
     @staticmethod
     def of(record):
         pieces = record["ranks"]["pieces"]
-        return Pattern(tuple(p["unknowns"] for p in pieces), tuple((i, j, n) for i, p in enumerate(pieces) for j, n in p["neighbours"] if j > i))
+        bodies = {name: i for i, name in enumerate(dict.fromkeys(p["substructure"] for p in pieces))}
+        return Pattern(tuple(p["unknowns"] for p in pieces), tuple((i, j, n) for i, p in enumerate(pieces) for j, n in p["neighbours"] if j > i),
+                       tuple(bodies[p["substructure"]] for p in pieces))
 
     def total(self):
         return sum(self.unknowns)
@@ -63,7 +69,7 @@ class Pattern:
         """The same bodies with `total` unknowns, cut into `least` pieces or more of about the same size."""
         scale = total / self.total()
         largest = total / least
-        grids, first, unknowns, links = [], [0], [], []
+        grids, first, unknowns, links, bodies = [], [0], [], [], []
         for n in self.unknowns:
             cuts = max(1, math.ceil(scale * n / largest))
             a = max(1, round(cuts ** (1 / 3)))
@@ -74,6 +80,7 @@ class Pattern:
             size = scale * n / (a * b * c)
             face = (size / 3) ** (2 / 3)
             unknowns += [size] * (a * b * c)
+            bodies += [self.bodies[i]] * (a * b * c)
             for at in range(a * b * c):
                 x, y, z = at // (b * c), at // c % b, at % c
                 links += [(first[i] + at, first[i] + at + step, face) for has, step in ((x + 1 < a, b * c), (y + 1 < b, c), (z + 1 < c, 1)) if has]
@@ -81,16 +88,34 @@ class Pattern:
             here, there = first[i + 1] - first[i], first[j + 1] - first[j]
             pairs = max(round(here ** (2 / 3)), round(there ** (2 / 3)))
             links += [(first[i] + k * here // pairs, first[j] + k * there // pairs, n * scale ** (2 / 3) / pairs) for k in range(pairs)]
-        return Pattern(tuple(unknowns), tuple(links))
+        return Pattern(tuple(unknowns), tuple(links), tuple(bodies))
 
 
-def shared_out(pattern, ranks, owners=None):
-    """Of every rank: unknowns, points, peers, bytes to neighbours in an increment. owners: as a run had them; else in order, by size."""
-    if owners is None:
-        share, sum_before, owners = pattern.total() / ranks, 0.0, []
-        for n in pattern.unknowns:
-            owners.append(min(ranks - 1, int((sum_before + 0.5 * n) / share)))
-            sum_before += n
+def owners_of(pattern, ranks):
+    """Rank of each piece: in their order, by size."""
+    share, sum_before, owners = pattern.total() / ranks, 0.0, []
+    for n in pattern.unknowns:
+        owners.append(min(ranks - 1, int((sum_before + 0.5 * n) / share)))
+        sum_before += n
+    return owners
+
+
+def watched(pattern, owners, ranks):
+    """Of every rank: unknowns of the bodies that it has most of, and those of them that others have."""
+    of_body = {}
+    for body, owner, n in zip(pattern.bodies, owners, pattern.unknowns):
+        on = of_body.setdefault(body, {})
+        on[owner] = on.get(owner, 0.0) + n
+    all_of, elsewhere = [0.0] * ranks, [0.0] * ranks
+    for on in of_body.values():
+        most = max(on, key=on.get)
+        all_of[most] += sum(on.values())
+        elsewhere[most] += sum(on.values()) - on[most]
+    return all_of, elsewhere
+
+
+def shared_out(pattern, ranks, owners):
+    """Of every rank: unknowns, points, peers, bytes to neighbours in an increment."""
     unknowns, points, sent = [0.0] * ranks, [0.0] * ranks, [{} for _ in range(ranks)]
     for owner, n in zip(owners, pattern.unknowns):
         unknowns[owner] += n
@@ -105,8 +130,10 @@ def shared_out(pattern, ranks, owners=None):
     return unknowns, points, [len(s) for s in sent], [sum(s.values()) for s in sent]
 
 
-def step(pattern, ranks, costs, network, how="explicit", owners=None, outputs="rank 0", booking="all"):
-    """Seconds of a time step of the deck by what takes them, and bytes that all ranks send. outputs: on "rank 0" or "shared" out; booking: to "all" or "neighbours"."""
+def step(pattern, ranks, costs, network, how="explicit", owners=None, outputs="bodies", booking="all"):
+    """Seconds of a time step of the deck by what takes them, and bytes that all ranks send. owners: as a run had them, else in order, by size; outputs: of "bodies" or of
+    "pieces"; booking: to "all" or "neighbours"."""
+    owners = owners or owners_of(pattern, ranks)
     unknowns, points, peers, sent = shared_out(pattern, ranks, owners)
     n, n_points, pieces = pattern.total(), pattern.points(), len(pattern.unknowns)
     times, inc = {}, costs.increments
@@ -119,14 +146,15 @@ def step(pattern, ranks, costs, network, how="explicit", owners=None, outputs="r
     to_neighbours = 0 if everywhere or ranks == 1 else inc * sum(sent)
     times["neighbours"] = 0.0 if not to_neighbours else inc * max(network.to_one(2 * p, s) for p, s in zip(peers, sent))
     gathered = costs.gathered * n_points * (inc if everywhere else booking == "all")
-    times["to all"] = network.to_all(inc * costs.sums + 4, gathered, ranks)
-    asked = 8 * costs.fields * (n - unknowns[0]) if ranks > 1 and outputs == "rank 0" else 0.0
-    questions = costs.questions * pieces * (1 - 1 / ranks) if asked else 0.0
-    times["outputs"] = costs.shown * (n if outputs == "rank 0" else max(unknowns)) + network.to_one(2 * questions, asked)
+    times["to all"] = network.to_all(inc * costs.sums + 5, gathered, ranks)
+    asked = 8 * costs.fields * (n - unknowns[0])
+    questions = costs.questions * pieces * (1 - 1 / ranks)
+    shown, brought = watched(pattern, owners, ranks) if outputs == "bodies" else (unknowns, [0.0] * ranks)
+    times["outputs"] = max(costs.shown * own + network.to_one(0, 8 * costs.brought * more) for own, more in zip(shown, brought)) + network.to_one(2 * questions, asked)
     total = sum(times.values())
     if network.cores:   # ranks that share processors
         total = max(total, (sum(work) + sum(alone) + costs.shown * n) / min(network.cores, ranks))
-    return times | {"all": total, "bytes": to_neighbours + gathered * (ranks - 1) + asked}
+    return times | {"all": total, "bytes": to_neighbours + gathered * (ranks - 1) + asked + 8 * costs.brought * sum(brought)}
 
 
 def with_increments(costs, scale):

@@ -8,7 +8,6 @@
 #include "latin/sharing.hpp"
 #include "latin/step_run.hpp"
 #include "numerics/factor.hpp"
-#include "solution/rank_observer.hpp"
 #include "solution/step_ends.hpp"
 #include "solution/stopped_run.hpp"
 
@@ -29,14 +28,13 @@ void tell_run(const std::shared_ptr<const InterfaceFields>& kept, SolverFigures&
 
 }  // namespace
 
-SolverFigures solve(const Problem& problem, Observer& watching, const InterfaceFields* start_from, Trail* kept_trail) {
+SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceFields* start_from, Trail* kept_trail) {
   using clock = std::chrono::steady_clock;
   auto start = clock::now();
   const auto lap = [&] {
     return std::chrono::duration<double>(clock::now() - std::exchange(start, clock::now())).count();
   };
   prepare_thread();
-  RankObserver observer(watching);
   SharedTrail shared_trail(kept_trail);
   Trail* const trail = ranks::is_alone() ? kept_trail : ranks::any(kept_trail) ? &shared_trail : nullptr;
   const ranks::Traffic traffic_before = ranks::traffic();

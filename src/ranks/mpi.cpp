@@ -16,7 +16,7 @@ namespace dygita::ranks {
 
 namespace {
 
-enum Tag { failed = 1, asked, answered, passed };
+enum Tag { failed = 1, asked, answered, passed, brought };
 
 int n_ranks = 1, own_rank = 0;
 Traffic so_far;
@@ -166,6 +166,12 @@ std::vector<std::string> gathered(const std::string& bytes) {
   for (size_t i = 0; i < sizes.size(); ++i)
     texts.push_back(all.substr(static_cast<size_t>(starts[i]), static_cast<size_t>(sizes[i])));
   return texts;
+}
+
+std::vector<double> to_first(int owner, std::vector<double> values) {
+  if (owner == 0) return values;
+  if (own_rank == owner) send(values.data(), values.size(), 0, brought);
+  return own_rank == 0 ? receive(owner, brought) : values;
 }
 
 double largest(double value) {

@@ -12,8 +12,8 @@ namespace dygita {
 
 Collector::~Collector() = default;
 
-Collector::Collector(const Problem& problem, const FrameSink& sink)
-    : problem_(problem), bolts_(problem), stresses_(problem) {
+Collector::Collector(const Problem& problem, PartWatch& parts, const FrameSink& sink)
+    : problem_(problem), parts_(parts), bolts_(problem) {
   for (const OutputPtr& output : problem.outputs)
     if (auto recorder = output->recorder(problem, sink)) recorders_.emplace_back(output.get(), std::move(recorder));
   convergence_.names = {"time", "iterations", "indicator", "converged"};
@@ -23,17 +23,12 @@ Collector::Collector(const Problem& problem, const FrameSink& sink)
 
 void Collector::begin_step(const Instant& start) {
   for (auto& [output, recorder] : recorders_) recorder->begin_step(start);
-  errors_.begin_step(start);
   bolts_.begin_step(start);
-  motion_.begin_step(start);
   extremes_.before_springs = start.state.energies.scheme;
 }
 
 void Collector::accept(const Instant& instant) {
-  errors_.accept(instant);
   bolts_.accept(instant);
-  motion_.accept(instant);
-  stresses_.accept(instant);
   for (auto& [output, recorder] : recorders_) recorder->accept(instant);
   const double row[] = {instant.time(), static_cast<double>(instant.iterations), instant.indicator,
                         instant.converged ? 1.0 : 0.0};
@@ -114,7 +109,7 @@ void Collector::finish_outputs(RunResult& result) {
     recorder->finish(table, result.findings[output]);
     if (!output->columns().empty()) result.tables[output] = std::move(table);
   }
-  const RunEnd end{problem_, result, errors_.dynamic_steps(), errors_.static_steps()};
+  const RunEnd end{problem_, result, parts_.errors().dynamic_steps(), parts_.errors().static_steps()};
   for (const OutputPtr& output : problem_.outputs) {
     if (output->columns().empty()) continue;
     Table& table = result.tables[output.get()];
@@ -134,8 +129,9 @@ void Collector::finish(RunResult& result) {
   result.bolts = bolts_.take();
   result.warnings = std::move(warnings_);
   result.overloaded_steps = std::move(overloaded_);
-  motion_.finish(result);
-  result.stresses = stresses_.take();
+  parts_.motion().finish(result);
+  parts_.turned().finish(problem_, result);
+  result.stresses = parts_.stresses().take();
   for (const PartStress& stress : result.stresses) {
     std::optional<double>& least = result.figures.yield_margin;
     if (!least || std::isnan(stress.margin()) || stress.margin() < *least) least = stress.margin();
@@ -147,7 +143,7 @@ void Collector::finish(RunResult& result) {
   result.figures.numerical_dissipation = percent * extremes_.scheme_loss;
   result.figures.energy_gain = percent * extremes_.scheme_gain;
   result.figures.largest_penetration = extremes_.penetration;
-  add_error_figures(errors_, problem_, result);
+  add_error_figures(parts_.errors(), problem_, result);
   // What the springs of a penalty hold is what the sides overlap: its interfaces' constitutive-relation error.
   if (problem_.explicit_dynamics) result.figures.penalty_error = limit::penalty_error_of(percent * extremes_.springs);
 }

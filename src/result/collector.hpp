@@ -5,10 +5,8 @@
 
 #include "model/output.hpp"
 #include "result/bolt_recorder.hpp"
-#include "result/error_estimator.hpp"
-#include "result/motion_watch.hpp"
+#include "result/part_watch.hpp"
 #include "result/result.hpp"
-#include "result/stress_recorder.hpp"
 #include "solution/observer.hpp"
 
 namespace dygita {
@@ -22,8 +20,9 @@ struct Extremes {
 
 class Collector : public Observer {
  public:
-  // Frames of the run go to the sink, which may be empty.
-  Collector(const Problem& problem, const FrameSink& sink);
+  // Frames of the run go to the sink, which may be empty. parts: watches the same run, each increment before it is told
+  // here, and has settled before this finishes.
+  Collector(const Problem& problem, PartWatch& parts, const FrameSink& sink);
   ~Collector() override;
 
   void begin_step(const Instant& start) override;
@@ -44,10 +43,8 @@ class Collector : public Observer {
   std::vector<std::string> warnings_;
   std::vector<int> overloaded_;  // steps
   Extremes extremes_;
-  ErrorEstimator errors_;
+  PartWatch& parts_;
   BoltRecorder bolts_;
-  MotionWatch motion_;
-  StressRecorder stresses_;
 };
 
 }  // namespace dygita

@@ -1,9 +1,11 @@
 #include "result/error_estimator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "base/parallel.hpp"
 #include "fem/mass.hpp"
 #include "fem/stress_error.hpp"
 
@@ -13,97 +15,63 @@ namespace {
 
 constexpr int n_samples = 5;  // of the stress error, a dynamic step: each costs about a time step
 
-// Energies (J) of the stress error of all substructures, of those of linear cells alone, and the strain energy of the
-// same displacements.
-struct StressEnergies {
-  double error = 0.0, of_linear = 0.0, strain = 0.0;
-};
-
-StressEnergies stress_energies(const Instant& instant, const std::vector<Points>* start) {
-  StressEnergies energies;
-  const Cut& cut = *instant.model.cut;
-  for (size_t i = 0; i < instant.model.problem->substructures.size(); ++i) {
-    const int part = static_cast<int>(i);
-    const Substructure& body = *instant.model.problem->substructures[i];
-    Points u = instant.displacement(part);
-    if (start) u -= (*start)[i];
-    const double error = stress_error(*body.mesh, body.material, u).energy;
-    energies.error += error;
-    if (!has_consistent_mass(*body.mesh)) energies.of_linear += error;
-    for (int p = cut.first(part); p < cut.first(part) + cut.n_pieces(part); ++p) {
-      const Points own = cut.on_piece(p, u);
-      const Points force = instant.model.pieces[p]->elastic_force(own);
-      energies.strain +=
-          0.5 * Eigen::Map<const Vec>(own.data(), own.size()).dot(Eigen::Map<const Vec>(force.data(), force.size()));
-    }
-  }
-  return energies;
+// Masses (kg) and directions of the unknowns of a piece, as velocities have them.
+Vec masses_of(const Instant& instant, int piece) {
+  const Piece& of = *instant.model.pieces[static_cast<size_t>(piece)];
+  return instant.fields ? Vec(of.node_masses().replicate(1, 3).transpose().reshaped()) : of.unknown_masses();
 }
 
-// Masses (kg) and velocities (m/s) of all unknowns, in one order throughout a step.
-Vec all_masses(const Instant& instant) {
-  std::vector<Vec> parts;
-  for (const auto& piece : instant.model.pieces)
-    parts.push_back(instant.fields ? Vec(piece->node_masses().replicate(1, 3).transpose().reshaped())
-                                   : piece->unknown_masses());
-  Vec all(0);
-  for (const Vec& part : parts) {
-    all.conservativeResize(all.size() + part.size());
-    all.tail(part.size()) = part;
-  }
-  return all;
+Points directions_of(const Instant& instant, int piece) {
+  const Piece& of = *instant.model.pieces[static_cast<size_t>(piece)];
+  return instant.fields ? Points(Mat3::Identity().replicate(1, of.node_masses().size())) : of.unknown_directions();
 }
 
-Points all_directions(const Instant& instant) {
-  std::vector<Points> parts;
-  Eigen::Index n = 0;
-  for (const auto& piece : instant.model.pieces) {
-    parts.push_back(instant.fields ? Points(Mat3::Identity().replicate(1, piece->node_masses().size()))
-                                   : piece->unknown_directions());
-    n += parts.back().cols();
-  }
-  Points all(3, n);
-  n = 0;
-  for (const Points& part : parts) {
-    all.middleCols(n, part.cols()) = part;
-    n += part.cols();
-  }
-  return all;
+Vec velocity_of(const Instant& instant, int piece) {
+  return instant.fields ? Vec(instant.velocity(piece).reshaped())
+                        : instant.model.pieces[static_cast<size_t>(piece)]->state().v;
 }
 
 double ratio(double energy, double of) { return of > 0.0 ? std::sqrt(std::max(0.0, energy) / of) : 0.0; }
 
 }  // namespace
 
-void OctaveBank::add(size_t i_octave, const Vec& velocity) {
-  if (i_octave == octaves_.size()) octaves_.emplace_back();
-  Octave& octave = octaves_[i_octave];
-  std::vector<Vec>& last = octave.last;
-  if (last.size() == 3) {
-    // The third difference passes what turns by a right angle a sample, the middle of the octave, with the factor
-    // 2^(3/2).
-    constexpr double quarter = std::numbers::pi / 2, gain = 2.0 * std::numbers::sqrt2;
-    double sum = 0.0;
-    for (Eigen::Index i = 0; i < velocity.size(); ++i) {
-      const double difference = velocity[i] - last[2][i] - 3.0 * (last[0][i] - last[1][i]);
-      sum += mass_[i] * difference * difference;
+int OctaveSamples::add(const Vec& mass, const Vec& velocity, double* content2) {
+  Vec sample = velocity;
+  int n = 0;
+  for (size_t i = 0;; ++i) {
+    if (i == octaves_.size()) octaves_.emplace_back();
+    Octave& octave = octaves_[i];
+    std::vector<Vec>& last = octave.last;
+    if (last.size() == 3) {
+      // The third difference passes what turns by a right angle a sample, the middle of the octave, with the factor
+      // 2^(3/2), the square root of 8.
+      double sum = 0.0;
+      for (Eigen::Index k = 0; k < sample.size(); ++k) {
+        const double difference = sample[k] - last[2][k] - 3.0 * (last[0][k] - last[1][k]);
+        sum += mass[k] * difference * difference;
+      }
+      content2[n++] = sum / 8.0;
     }
-    const double content = std::sqrt(sum) / gain, steps = std::exp2(i_octave);
-    octave.content = std::max(octave.content, content);
+    // Every other sample, smoothed, goes to the octave below.
+    const bool goes_on = octave.n_samples++ % 2 == 1 && last.size() >= 2 && i + 1 < most_octaves;
+    Vec smooth;
+    if (goes_on) smooth = 0.25 * (sample + 2.0 * last[0] + last[1]);
+    if (last.size() == 3) last.pop_back();
+    last.insert(last.begin(), std::move(sample));
+    if (!goes_on) return n;
+    sample = std::move(smooth);
+  }
+}
+
+void OctaveBank::add(std::span<const double> content2) {
+  if (octaves_.size() < content2.size()) octaves_.resize(content2.size());
+  for (size_t i = 0; i < content2.size(); ++i) {
+    constexpr double quarter = std::numbers::pi / 2;
+    const double content = std::sqrt(content2[i]), steps = std::exp2(i);
+    octaves_[i].content = std::max(octaves_[i].content, content);
     const double turned = is_tuned_ ? std::pow(quarter / steps, 5) / 80.0 : std::pow(quarter / steps, 3) / 12.0;
-    octave.phase += steps * turned * content;
+    octaves_[i].phase += steps * turned * content;
   }
-  // Every other sample, smoothed, goes to the octave below.
-  if (octave.n_samples++ % 2 == 1 && last.size() >= 2) {
-    const Vec smooth = 0.25 * (velocity + 2.0 * last[0] + last[1]);
-    Vec mine = velocity;
-    last.insert(last.begin(), std::move(mine));
-    if (last.size() > 3) last.pop_back();
-    add(i_octave + 1, smooth);  // may move the octaves: nothing of this one is used after it
-    return;
-  }
-  last.insert(last.begin(), velocity);
-  if (last.size() > 3) last.pop_back();
 }
 
 double OctaveBank::phase_error(double factor) const {
@@ -115,21 +83,77 @@ double OctaveBank::phase_error(double factor) const {
 
 // Relative to the assembly's motion as a whole, which bends no cell and turns no phase (eq. Q0).
 void ErrorEstimator::take_velocities(const Instant& instant) {
-  Eigen::Index n = 0;
-  for (size_t i = 0; i < instant.model.pieces.size(); ++i) {
-    if (instant.fields) {
-      const Points velocity = instant.velocity(static_cast<int>(i));
-      velocity_.segment(n, velocity.size()) = velocity.reshaped();
-      n += velocity.size();
-      continue;
-    }
-    const Vec& velocity = instant.model.pieces[i]->state().v;
-    velocity_.segment(n, velocity.size()) = velocity;
-    n += velocity.size();
+  const Cut& cut = *instant.model.cut;
+  for (PieceMotion& own : pieces_) {
+    own.old = std::move(own.velocity);
+    own.velocity = velocity_of(instant, own.piece);
   }
-  const Vec3 carried = carried_->at(instant, [&] { return Vec3(directions_ * mass_.cwiseProduct(velocity_)); });
-  if (!carried.isZero(0.0)) velocity_.noalias() -= directions_.transpose() * carried;
-  kinetic_now_ = 0.5 * velocity_.dot(mass_.cwiseProduct(velocity_));
+  size_t next = 0;  // of pieces_, whose order is that of the cut
+  const Vec3 carried = carried_->at(instant, [&] {
+    const std::vector<double> momenta = of_all_pieces(cut, 3, [&](int, double* to) {
+      const PieceMotion& own = pieces_[next++];
+      Eigen::Map<Vec3>(to).noalias() = own.directions * own.mass.cwiseProduct(own.velocity);
+    });
+    Vec3 sum = Vec3::Zero();
+    for (size_t i = 0; i < momenta.size(); i += 3) sum += Eigen::Map<const Vec3>(&momenta[i]);
+    return sum;
+  });
+  constexpr int width = OctaveSamples::most_octaves + 2;
+  std::vector<std::array<double, width>> own_sums(pieces_.size());
+  std::vector<int> n_octaves(pieces_.size());
+  const auto take = [&](int i) {
+    PieceMotion& own = pieces_[static_cast<size_t>(i)];
+    double* sums = own_sums[static_cast<size_t>(i)].data();
+    if (!carried.isZero(0.0)) own.velocity.noalias() -= own.directions.transpose() * carried;
+    sums[0] = own.velocity.dot(own.mass.cwiseProduct(own.velocity));
+    sums[1] = 0.0;
+    for (Eigen::Index k = 0; k < own.old.size(); ++k)
+      sums[1] += own.mass[k] * std::pow((own.velocity[k] - own.old[k]) / dt_, 2);
+    n_octaves[static_cast<size_t>(i)] = own.octaves.add(own.mass, own.velocity, sums + 2);
+  };
+  Eigen::Index n_unknowns = 0;
+  for (const PieceMotion& own : pieces_) n_unknowns += own.velocity.size();
+  const int threads_for_few = 1;
+  parallel_for(static_cast<int>(pieces_.size()), take, Schedule::as_free, n_unknowns < 20000 ? threads_for_few : 0);
+  const int n = 2 + n_octaves.front();
+  next = 0;
+  const std::vector<double> all =
+      of_all_pieces(cut, n, [&](int, double* to) { std::copy_n(own_sums[next++].data(), n, to); });
+  std::vector<double> sums(static_cast<size_t>(n), 0.0);
+  for (size_t i = 0; i < all.size(); ++i) sums[i % sums.size()] += all[i];
+  kinetic_now_ = 0.5 * sums[0];
+  rate_ += sums[1];
+  n_rates_ += has_old_;
+  has_old_ = true;
+  bank_->add(std::span(sums).subspan(2));
+}
+
+ErrorEstimator::StressEnergies ErrorEstimator::stress_energies(const Instant& instant) {
+  const Cut& cut = *instant.model.cut;
+  const Problem& problem = *instant.model.problem;
+  const size_t n_parts = problem.substructures.size();
+  if (!parts_) parts_.emplace(cut, all_nodes(problem));
+  parts_->take(instant);
+  const std::vector<double> errors = of_all_parts(cut, std::vector<int>(n_parts, 1), [&](int part, double* to) {
+    const Substructure& body = *problem.substructures[static_cast<size_t>(part)];
+    Points u = parts_->displacement(part);
+    if (!start_.empty()) u -= start_[static_cast<size_t>(part)];
+    *to = stress_error(*body.mesh, body.material, u).energy;
+  });
+  size_t next = 0;
+  const std::vector<double> strains = of_all_pieces(cut, 1, [&](int piece, double* to) {
+    Points u = instant.piece_displacement(piece);
+    if (!start_.empty()) u -= pieces_[next++].start;
+    const Points force = instant.model.pieces[static_cast<size_t>(piece)]->elastic_force(u);
+    *to = 0.5 * u.reshaped().dot(force.reshaped());
+  });
+  StressEnergies energies;
+  for (size_t part = 0; part < n_parts; ++part) {
+    energies.error += errors[part];
+    if (!has_consistent_mass(*problem.substructures[part]->mesh)) energies.of_linear += errors[part];
+  }
+  for (const double strain : strains) energies.strain += strain;
+  return energies;
 }
 
 void ErrorEstimator::begin_step(const Instant& start) {
@@ -138,20 +162,23 @@ void ErrorEstimator::begin_step(const Instant& start) {
     before_ = so_far.time_step * std::sqrt(energy());
     bank_.reset();
   }
+  pieces_.clear();
+  start_.clear();
   still_ = {start.state.energies.loads, start.state.energies.balance()};
   if (start.is_static()) return;
-  mass_ = all_masses(start);
-  directions_ = all_directions(start);
+  for (int i = 0; i < start.model.cut->n_pieces(); ++i)
+    if (start.model.cut->is_here(i))
+      pieces_.push_back({i, masses_of(start, i), directions_of(start, i), {}, {}, start.piece_displacement(i), {}});
   carried_.emplace(start);
-  velocity_.resize(mass_.size());
-  velocity_old_.resize(0);
-  bank_.emplace(mass_, start.model.is_tuned());
+  has_old_ = false;
+  bank_.emplace(start.model.is_tuned());
   dt_ = start.interval();
   total_mass_ = 0.0;
   for (const auto& piece : start.model.pieces) total_mass_ += piece->node_masses().sum();
-  start_.clear();
+  if (!parts_) parts_.emplace(*start.model.cut, all_nodes(*start.model.problem));
+  parts_->take(start);
   for (size_t i = 0; i < start.model.problem->substructures.size(); ++i)
-    start_.push_back(start.displacement(static_cast<int>(i)));
+    start_.push_back(parts_->displacement(static_cast<int>(i)));
 }
 
 // What increments leave adds up along a static path: friction keeps it. It is held against the work that the step's own
@@ -166,12 +193,12 @@ void ErrorEstimator::accept_static(const Instant& instant) {
   if (instant.increment + 1 < instant.model.step->n_increments()) return;
   if (const double work = std::max(still_.work, 1e-8 * energies.strain); work > 0.0)
     static_.iteration = std::max({static_.iteration, still_.left / std::sqrt(work), still_.missing / work});
-  const StressEnergies energies_now = stress_energies(instant, nullptr);
+  const StressEnergies energies_now = stress_energies(instant);
   static_.mesh = std::max(static_.mesh, ratio(energies_now.error, energies_now.strain));
 }
 
 void ErrorEstimator::sample_stress(const Instant& instant) {
-  const auto [error, of_linear, strain] = stress_energies(instant, &start_);
+  const auto [error, of_linear, strain] = stress_energies(instant);
   stress_energy_ = std::max(stress_energy_, error);
   stress_sum_ += of_linear;
   strain_sum_ += strain;
@@ -188,13 +215,6 @@ void ErrorEstimator::accept(const Instant& instant) {
   take_velocities(instant);
   kinetic_ = std::max(kinetic_, kinetic_now_);
   stored_ = std::max(stored_, energies.kinetic + energies.strain);
-  if (velocity_old_.size() > 0) {
-    for (Eigen::Index i = 0; i < velocity_.size(); ++i)
-      rate_ += mass_[i] * std::pow((velocity_[i] - velocity_old_[i]) / dt_, 2);
-    ++n_rates_;
-  }
-  bank_->add(velocity_);
-  velocity_old_ = velocity_;
   const long all = instant.model.step->n_increments(), i = instant.increment + 1;
   if ((i * n_samples) / all != ((i - 1) * n_samples) / all) sample_stress(instant);
 }

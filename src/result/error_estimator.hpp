@@ -5,41 +5,56 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "result/carried_motion.hpp"
+#include "result/watched_nodes.hpp"
 
 namespace dygita {
 
-// Content of the velocities by octave of frequency, and the phase error that the time scheme gives each (eq. Q2-Q4): a
-// trapezoidal step turns a motion of angular frequency w by (w dt)^3 / 12 too little, until it has nothing in common
-// with the exact one.
-class OctaveBank {
+// The velocities of a piece by octave of frequency (eq. Q2): what each sample has in the middle of an octave.
+class OctaveSamples {
  public:
-  // mass: kg, weight of each unknown. is_tuned: the cells' mass undoes the phase error to the next order, (w dt)^5
-  // / 80.
-  OctaveBank(Vec mass, bool is_tuned) : mass_(std::move(mass)), is_tuned_(is_tuned) {}
-
-  void add(const Vec& velocity) { add(0, velocity); }
-  // Norm (sqrt of J) of the accumulated phase error; `factor` multiplies the phases.
-  double phase_error(double factor = 1.0) const;
+  // Samples the velocities. Writes the square of the content of each octave that it completes, from octave 0 on, and
+  // says how many these are: the same for pieces that have been given as many samples. mass: kg, weights.
+  int add(const Vec& mass, const Vec& velocity, double* content2);
+  static constexpr int most_octaves = 32;
 
  private:
   struct Octave {
     std::vector<Vec> last;  // up to three samples, the latest first
     long n_samples = 0;
+  };
+  std::vector<Octave> octaves_;
+};
+
+// Content of the velocities of the assembly by octave of frequency, and the phase error that the time scheme gives each
+// (eq. Q2-Q4): a trapezoidal step turns a motion of angular frequency w by (w dt)^3 / 12 too little, until it has
+// nothing in common with the exact one.
+class OctaveBank {
+ public:
+  // is_tuned: the cells' mass undoes the phase error to the next order, (w dt)^5 / 80.
+  explicit OctaveBank(bool is_tuned) : is_tuned_(is_tuned) {}
+
+  // Squares of the contents of the first octaves in a sample.
+  void add(std::span<const double> content2);
+  // Norm (sqrt of J) of the accumulated phase error; `factor` multiplies the phases.
+  double phase_error(double factor = 1.0) const;
+
+ private:
+  struct Octave {
     double content = 0.0;  // largest norm so far
     double phase = 0.0;    // sum of content x phase error of a sample
   };
-  void add(size_t i_octave, const Vec& velocity);
-  double norm2(const Vec& v) const { return v.dot(mass_.cwiseProduct(v)); }
-
-  Vec mass_;
   bool is_tuned_;
   std::vector<Octave> octaves_;
 };
 
+// Every rank has the velocities of its own pieces, and the stress error of the parts that it watches; the estimates are
+// the same on all. Sums are taken piece by piece and part by part, in their order.
 class ErrorEstimator {
  public:
+  // Both are collective.
   void begin_step(const Instant& start);
   void accept(const Instant& instant);
 
@@ -53,9 +68,25 @@ class ErrorEstimator {
   Estimate dynamic_steps() const;
 
  private:
+  // Energies (J) of the stress error of all substructures, of those of linear cells alone, and the strain energy of the
+  // same displacements.
+  struct StressEnergies {
+    double error = 0.0, of_linear = 0.0, strain = 0.0;
+  };
+  // What a piece that is here has of a dynamic step.
+  struct PieceMotion {
+    int piece;
+    Vec mass;           // kg, of its unknowns
+    Points directions;  // 3 x n, of the same
+    Vec velocity, old;  // m/s, of the same; relative (Q0)
+    Points start;       // m, displacements at the start of the step
+    OctaveSamples octaves;
+  };
+
   void accept_static(const Instant& instant);
   void take_velocities(const Instant& instant);
   void sample_stress(const Instant& instant);
+  StressEnergies stress_energies(const Instant& instant);
 
   // Of the shock, J, relative to which errors are: twice the kinetic energy, as of a wave; of a slow motion, what is
   // stored in it; at rest, next to nothing of what was there before.
@@ -72,11 +103,12 @@ class ErrorEstimator {
   StaticStep still_;
   std::optional<OctaveBank> bank_;           // of the step
   double before_ = 0.0, before_mesh_ = 0.0;  // phase errors (norms, sqrt of J) of the dynamic steps before
-  Vec velocity_, velocity_old_, mass_;       // of all substructures' free unknowns, in their order; relative (Q0)
-  Points directions_;                        // 3 x n, of the same
+  std::vector<PieceMotion> pieces_;          // that are here, in a dynamic step
   std::optional<CarriedMotion> carried_;     // of the step
   double dt_ = 0.0, phase_factor_ = 1.0;
-  std::vector<Points> start_;            // displacements at the start of the dynamic steps: what they add is the shock
+  std::optional<WatchedNodes> parts_;    // all nodes
+  std::vector<Points> start_;            // displacements at the start of the dynamic step, of the parts watched here:
+                                         // what it adds is the shock; empty in static ones
   double kinetic_now_ = 0.0;             // J, of the relative velocities
   double kinetic_ = 0.0, stored_ = 0.0;  // J, largest so far: kinetic of the relative velocities; kinetic + strain
   double shock_energy_ = 0.0;            // J, largest of the samples: kinetic, and strain of the shock
@@ -87,6 +119,7 @@ class ErrorEstimator {
   double total_mass_ = 0.0;  // kg
   double rate_ = 0.0;        // sum of |dV / dt|^2, in the norm of the mass
   long n_rates_ = 0;
+  bool has_old_ = false;  // of the step: velocities of an increment before
 };
 
 }  // namespace dygita

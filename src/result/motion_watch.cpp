@@ -5,32 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
-#include "fem/cell_rotation.hpp"
 #include "law/law.hpp"
 #include "result/limits.hpp"
 
 namespace dygita {
 
 namespace {
-
-constexpr int samples = 50;  // a step
-
-bool is_sampled(const Instant& instant) {
-  const long n = instant.model.step->n_increments(), i = instant.increment + 1, k = std::min<long>(n, samples);
-  return (i * k) / n != ((i - 1) * k) / n;
-}
-
-std::string when(const Instant& instant) {
-  const std::string& step = instant.model.step->name;
-  if (instant.is_static()) return fmt::format("increment {} of static step '{}'", instant.increment + 1, step);
-  return fmt::format("t = {:.4g} ms in step '{}'", 1e3 * instant.time(), step);
-}
-
-std::string in_mm(const Vec3& place) {
-  return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", 1e3 * place[0], 1e3 * place[1], 1e3 * place[2]);
-}
 
 double extent(const Points& places, const Vec3& along) {
   const Eigen::RowVectorXd way = along.transpose() * places;
@@ -55,18 +36,29 @@ double cell_along(const Facing& facing, int point, const Vec3& along) {
 
 }  // namespace
 
+bool shows_motion(const Instant& instant) {
+  constexpr int samples = 50;                                   // a step
+  if (instant.is_static() && !instant.converged) return false;  // no equilibrium: no motion
+  const long n = instant.model.step->n_increments(), i = instant.increment + 1, k = std::min<long>(n, samples);
+  return (i * k) / n != ((i - 1) * k) / n;
+}
+
+std::string time_of(const Instant& instant) {
+  const std::string& step = instant.model.step->name;
+  if (instant.is_static()) return fmt::format("increment {} of static step '{}'", instant.increment + 1, step);
+  return fmt::format("t = {:.4g} ms in step '{}'", 1e3 * instant.time(), step);
+}
+
+std::string in_mm(const Vec3& place) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", 1e3 * place[0], 1e3 * place[1], 1e3 * place[2]);
+}
+
 void MotionWatch::prepare(const Instant& instant) {
   is_ready_ = true;
-  const Problem& problem = *instant.model.problem;
-  for (const SubstructurePtr& part : problem.substructures) {
-    parts_.push_back(part->name);
-    smallest_cell_.push_back(smallest_cell(*part->mesh));
-  }
-  rotation_.resize(parts_.size());
   for (size_t s = 0; s < instant.model.surfaces->size(); ++s) {
     const Surface& surface = (*instant.model.surfaces)[s];
     Watched watched{
-        static_cast<int>(s), (surface.interface ? "interface '" : "wall '") + surface.name() + "'", {}, 0.0};
+        static_cast<int>(s), (surface.interface ? "interface '" : "wall '") + surface.name() + "'", {}, 0.0, {}};
     std::vector<double> shortest(surface.n_points(), std::numeric_limits<double>::infinity()), edges;
     for (const Facet& facet : surface.facing.facets) {
       const std::span<const int> rim = facet_shape(facet.type()).rim, nodes = facet.nodes();
@@ -79,6 +71,7 @@ void MotionWatch::prepare(const Instant& instant) {
     }
     if (edges.empty()) continue;
     watched.shortest = shortest;
+    watched.sides = MovedSides(surface);
     std::nth_element(edges.begin(), edges.begin() + edges.size() / 2, edges.end());
     watched.cell = edges[edges.size() / 2];
     surfaces_.push_back(std::move(watched));
@@ -92,46 +85,39 @@ void MotionWatch::begin_step(const Instant& start) {
 void MotionWatch::note(const Instant& instant, double share, Finding found, Finding& finding) {
   if (!(share > finding.most)) return;
   found.most = share;
-  found.at = when(instant);
+  found.at = time_of(instant);
   found.first = finding.first.empty() && share > 1.0 ? found.at : finding.first;
   finding = std::move(found);
 }
 
 void MotionWatch::accept(const Instant& instant) {
-  if (!is_sampled(instant) || (instant.is_static() && !instant.converged)) return;  // no equilibrium: no motion
-  std::vector<Points> displacement;
-  for (size_t i = 0; i < parts_.size(); ++i) {
-    displacement.push_back(instant.displacement(static_cast<int>(i)));
-    watch_part(instant, static_cast<int>(i), displacement.back());
+  if (!shows_motion(instant)) return;
+  std::vector<Watched*> looked_at;
+  std::vector<const MovedSides*> sides;
+  for (Watched& watched : surfaces_) {
+    if (!has_jump(instant, watched)) continue;
+    looked_at.push_back(&watched);
+    sides.push_back(&watched.sides);
   }
-  for (Watched& watched : surfaces_) watch_surface(instant, displacement, watched);
+  const std::vector<Points> jumps = jumps_of(sides, instant);
+  for (size_t i = 0; i < looked_at.size(); ++i) watch_surface(instant, jumps[i], *looked_at[i]);
 }
 
-// Cells turn no more than displacements differ over the smallest of them.
-void MotionWatch::watch_part(const Instant& instant, int part, const Points& displacement) {
-  const Vec3 range = displacement.rowwise().maxCoeff() - displacement.rowwise().minCoeff();
-  Finding& worst = rotation_[part];
-  const double allowed = limit::rotation * std::numbers::pi / 180.0;
-  if (range.norm() < std::max(1.0, worst.most) * std::tan(allowed) * smallest_cell_[part]) return;
-  const Substructure& body = *instant.model.problem->substructures[part];
-  const CellRotation turned = largest_rotation(*body.mesh, displacement);
-  note(instant, turned.angle / allowed, {.value = turned.angle, .place = turned.place + body.place}, worst);
+bool MotionWatch::has_jump(const Instant& instant, const Watched& watched) {
+  const Surface& surface = (*instant.model.surfaces)[watched.surface];
+  return surface.declared_law().shown().gap || instant.state.released[watched.surface];
 }
 
-void MotionWatch::watch_surface(const Instant& instant, const std::vector<Points>& displacement,
-                                Watched& watched) const {
+void MotionWatch::watch_surface(const Instant& instant, const Points& jumps, Watched& watched) {
   const Surface& surface = (*instant.model.surfaces)[watched.surface];
   const bool is_contact = surface.declared_law().shown().gap, is_released = instant.state.released[watched.surface];
-  if (!is_contact && !is_released) return;
   const Facing& facing = surface.facing;
   double least = std::numeric_limits<double>::infinity(), deepest = 0.0;
   int slid = -1, at_least = 0, at_deepest = 0;
   double furthest = std::max(1.0, watched.slip.most);  // of half the shortest edge: nothing less is looked at closely
   Vec3 way = Vec3::Zero();
   for (int i = 0; i < surface.n_points(); ++i) {
-    Vec3 jump = -facing.side_1.at(i, displacement[surface.part_1]);
-    if (surface.part_2 >= 0) jump += facing.side_2.at(i, displacement[surface.part_2]);
-    const Vec3 normal = facing.normals.col(i);
+    const Vec3 jump = jumps.col(i), normal = facing.normals.col(i);
     const double opened = jump.dot(normal);
     const Vec3 tangential = jump - opened * normal;
     if (opened < least) least = opened, at_least = i;
@@ -156,7 +142,7 @@ void MotionWatch::watch_surface(const Instant& instant, const std::vector<Points
 
 void MotionWatch::finish(RunResult& result) const {
   const auto since = [](const Finding& f) { return f.first == f.at ? "" : "; too much since " + f.first; };
-  double slip = 0.0, turned = 0.0;
+  double slip = 0.0;
   for (const Watched& w : surfaces_) {
     slip = std::max(slip, limit::slip_in_cells * w.slip.most);
     if (w.slip.most > 1.0)
@@ -179,17 +165,7 @@ void MotionWatch::finish(RunResult& result) const {
                       "apart after load.release",
                       w.name, 1e3 * w.passing.value, in_mm(w.passing.place), w.passing.at, since(w.passing)));
   }
-  for (size_t i = 0; i < rotation_.size(); ++i) {
-    const Finding& r = rotation_[i];
-    turned = std::max(turned, r.value * 180.0 / std::numbers::pi);
-    if (r.most > 1.0)
-      result.warnings.push_back(
-          fmt::format("substructure '{}' turns by {:.3g} degrees at {}, {}{}: displacements are taken as small, which "
-                      "holds to about {:g} degrees",
-                      parts_[i], r.value * 180.0 / std::numbers::pi, in_mm(r.place), r.at, since(r), limit::rotation));
-  }
   if (slip > limit::slip_in_cells) result.figures.largest_slip = slip;
-  if (turned > limit::rotation) result.figures.largest_rotation = turned;
 }
 
 }  // namespace dygita

@@ -72,6 +72,10 @@ std::vector<JointScene> choose(std::vector<JointScene> sampled) {
 
 void SceneRecorder::accept(const Instant& instant) {
   missed_ += !instant.converged;
+  if (!cut_) {
+    cut_ = instant.model.cut;
+    nodes_ = WatchedNodes(*cut_, all_nodes(problem_));
+  }
   if (!has_joints_) find_joints(instant);
   motion_.accept(instant);
   const bool is_last = instant.increment + 1 == instant.model.step->n_increments();
@@ -84,14 +88,15 @@ void SceneRecorder::accept(const Instant& instant) {
   if (!joints_.empty() && is_sampled(instant, samples_of_joints_)) keep_joints(instant);
 }
 
-void SceneRecorder::keep_assembly(const Instant& instant, AssemblyScene& scene) const {
+void SceneRecorder::keep_assembly(const Instant& instant, AssemblyScene& scene) {
   scene.step = instant.model.step->name;
   scene.is_static = instant.is_static();
   scene.missed = missed_;
   scene.time = instant.time();
   scene.displacement.resize(problem_.substructures.size());
+  nodes_.take(instant);
   for (size_t i = 0; i < scene.displacement.size(); ++i)
-    scene.displacement[i] = instant.displacement(static_cast<int>(i));
+    scene.displacement[i] = nodes_.displacement(static_cast<int>(i));
 }
 
 void SceneRecorder::find_joints(const Instant& instant) {
@@ -137,15 +142,27 @@ void SceneRecorder::keep_joints(const Instant& instant) {
   }
 }
 
+void SceneRecorder::gather(AssemblyScene& scene) const {
+  for (size_t i = 0; i < problem_.substructures.size(); ++i) {
+    const Substructure& part = *problem_.substructures[i];
+    const int watcher = watcher_of(*cut_, static_cast<int>(i));
+    Points& u = scene.displacement[i];
+    Vec& stress = scene.von_mises.emplace_back();
+    if (watcher == ranks::me()) stress = von_mises(nodal_stress(*part.mesh, part.material, u));
+    if (watcher == 0) continue;
+    const std::vector<double> moved = ranks::to_first(watcher, {u.data(), u.data() + u.size()}),
+                              loaded = ranks::to_first(watcher, {stress.begin(), stress.end()});
+    u = Eigen::Map<const Points>(moved.data(), 3, static_cast<Eigen::Index>(moved.size() / 3));
+    stress = Eigen::Map<const Vec>(loaded.data(), static_cast<Eigen::Index>(loaded.size()));
+  }
+}
+
 void SceneRecorder::finish(RunResult& result) {
   auto scenes = std::make_shared<Scenes>();
   for (AssemblyScene* scene : {&tightened_, &shocked_}) {
     if (scene->displacement.empty()) continue;
-    for (size_t i = 0; i < problem_.substructures.size(); ++i) {
-      const Substructure& part = *problem_.substructures[i];
-      scene->von_mises.push_back(von_mises(nodal_stress(*part.mesh, part.material, scene->displacement[i])));
-    }
     motion_.add(*scene);
+    gather(*scene);
     scenes->assembly.push_back(std::move(*scene));
   }
   scenes->motion = motion_.take();

@@ -16,40 +16,28 @@ class SceneRecorder : public Observer {
   explicit SceneRecorder(const Problem& problem) : problem_(problem), motion_(problem) {}
 
   void begin_step(const Instant&) override {}
+  // Both are collective: of each part by the rank that watches it (watched_nodes.hpp).
   void accept(const Instant& instant) override;
-  // Puts the scenes into the result; stresses are computed here.
+  // Puts the scenes into the result, on rank 0; stresses are computed here.
   void finish(RunResult& result);
 
  private:
   void find_joints(const Instant& instant);
-  void keep_assembly(const Instant& instant, AssemblyScene& scene) const;
+  void keep_assembly(const Instant& instant, AssemblyScene& scene);
+  void gather(AssemblyScene& scene) const;
   void keep_joints(const Instant& instant);
 
   const Problem& problem_;
   SkinRecorder motion_;
-  AssemblyScene tightened_, shocked_;  // without displacements: not met yet
+  CutPtr cut_;
+  WatchedNodes nodes_;                 // all
+  AssemblyScene tightened_, shocked_;  // of the parts that are watched here; without displacements: not met yet
   double strain_energy_ = -1.0;        // J, of shocked_
   bool has_joints_ = false;
   int missed_ = 0;                   // increments so far that have not converged
   int samples_of_joints_ = 0;        // a step
   std::vector<int> surfaces_;        // of joints_
   std::vector<JointScenes> joints_;  // with all instants sampled
-};
-
-// Tells several observers, in order.
-class Observers : public Observer {
- public:
-  explicit Observers(std::vector<Observer*> observers) : observers_(std::move(observers)) {}
-  void add(Observer& observer) { observers_.push_back(&observer); }
-  void begin_step(const Instant& start) override {
-    for (Observer* observer : observers_) observer->begin_step(start);
-  }
-  void accept(const Instant& instant) override {
-    for (Observer* observer : observers_) observer->accept(instant);
-  }
-
- private:
-  std::vector<Observer*> observers_;
 };
 
 }  // namespace dygita

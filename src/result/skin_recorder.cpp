@@ -42,13 +42,20 @@ std::vector<int> shared_out(const std::vector<bool>& is_static, int n_frames) {
   return samples;
 }
 
-void SkinRecorder::prepare() {
+void SkinRecorder::prepare(const Instant& instant) {
+  cut_ = instant.model.cut;
   double n_nodes = 1.0;
-  for (const SubstructurePtr& part : problem_.substructures) {
-    motion_.nodes.push_back(boundary_nodes(*part->mesh));
-    layers_.push_back(layer_of(*part->mesh, motion_.nodes.back()));
+  std::vector<std::vector<int>> of_layers;
+  for (size_t i = 0; i < problem_.substructures.size(); ++i) {
+    const Mesh& mesh = *problem_.substructures[i]->mesh;
+    const int part = static_cast<int>(i);
+    motion_.nodes.push_back(boundary_nodes(mesh));
+    const bool is_needed = is_watched_here(*cut_, part) || !is_on_one_rank(*cut_, part);
+    layers_.push_back(is_needed ? layer_of(mesh, motion_.nodes.back()) : Layer{});
+    of_layers.push_back(layers_.back().node_of);
     n_nodes += static_cast<double>(motion_.nodes.back().size());
   }
+  nodes_ = WatchedNodes(*cut_, std::move(of_layers));
   const double affordable = std::floor(most_bytes / (4.0 * sizeof(float) * n_nodes));
   std::vector<bool> is_static;
   for (const StepPtr& step : problem_.steps) is_static.push_back(step->is_static);
@@ -82,27 +89,31 @@ SkinRecorder::Layer SkinRecorder::layer_of(const Mesh& mesh, const std::vector<i
   return layer;
 }
 
-template <class Displacement>
-void SkinRecorder::fill(SkinFrame& frame, const Displacement& of_part) const {
-  for (size_t p = 0; p < layers_.size(); ++p) {
-    const Layer& layer = layers_[p];
-    const Points all = of_part(static_cast<int>(p)), u = all(Eigen::all, layer.node_of);
-    const Vec stress = von_mises(nodal_stress(layer.mesh, problem_.substructures[p]->material, u));
-    for (const int node : layer.boundary) {
-      for (int d = 0; d < 3; ++d) frame.displacement.push_back(static_cast<float>(u(d, node)));
-      frame.von_mises.push_back(static_cast<float>(stress[node]));
-    }
+// displacement: of the layer's nodes.
+SkinRecorder::PartFrame SkinRecorder::drawn(int part, const Points& displacement) const {
+  const Layer& layer = layers_[static_cast<size_t>(part)];
+  const Elastic& material = problem_.substructures[static_cast<size_t>(part)]->material;
+  const Vec stress = von_mises(nodal_stress(layer.mesh, material, displacement));
+  PartFrame frame;
+  for (const int node : layer.boundary) {
+    for (int d = 0; d < 3; ++d) frame.displacement.push_back(static_cast<float>(displacement(d, node)));
+    frame.von_mises.push_back(static_cast<float>(stress[node]));
   }
+  return frame;
 }
 
 void SkinRecorder::accept(const Instant& instant) {
-  if (layers_.empty()) prepare();
+  if (!cut_) prepare(instant);
   missed_ += !instant.converged;
   const int n = instant.model.step->n_increments(), samples = std::min(n, samples_[instant.i_step]);
   if (samples == 0 || !is_kept(instant.increment, n, samples)) return;
-  SkinFrame& frame = motion_.frames.emplace_back(
-      SkinFrame{instant.model.step->name, instant.i_step, instant.is_static(), instant.time(), {}, {}, missed_});
-  fill(frame, [&](int part) { return instant.displacement(part); });
+  motion_.frames.push_back(
+      {instant.model.step->name, instant.i_step, instant.is_static(), instant.time(), {}, {}, missed_});
+  nodes_.take(instant);
+  std::vector<PartFrame>& frame = drawn_.emplace_back(layers_.size());
+  for (size_t i = 0; i < frame.size(); ++i)
+    if (const int part = static_cast<int>(i); is_watched_here(*cut_, part))
+      frame[i] = drawn(part, nodes_.displacement(part));
 }
 
 void SkinRecorder::add(const AssemblyScene& scene) {
@@ -118,8 +129,27 @@ void SkinRecorder::add(const AssemblyScene& scene) {
     const SkinFrame& before = *std::prev(at);
     if (before.i_step == frame.i_step && (frame.is_static || before.time == frame.time)) return;
   }
-  fill(frame, [&](int part) { return scene.displacement[part]; });
+  std::vector<PartFrame> parts(layers_.size());
+  for (size_t i = 0; i < parts.size(); ++i)
+    if (is_watched_here(*cut_, static_cast<int>(i)))
+      parts[i] = drawn(static_cast<int>(i), scene.displacement[i](Eigen::all, layers_[i].node_of));
+  drawn_.insert(drawn_.begin() + (at - motion_.frames.begin()), std::move(parts));
   motion_.frames.insert(at, std::move(frame));
+}
+
+SkinMotion SkinRecorder::take() {
+  const auto append = [](const std::vector<double>& values, std::vector<float>& to) {
+    to.insert(to.end(), values.begin(), values.end());
+  };
+  for (size_t k = 0; k < drawn_.size(); ++k)
+    for (size_t i = 0; i < layers_.size(); ++i) {
+      const PartFrame& own = drawn_[k][i];
+      const int watcher = watcher_of(*cut_, static_cast<int>(i));
+      append(ranks::to_first(watcher, {own.displacement.begin(), own.displacement.end()}),
+             motion_.frames[k].displacement);
+      append(ranks::to_first(watcher, {own.von_mises.begin(), own.von_mises.end()}), motion_.frames[k].von_mises);
+    }
+  return std::move(motion_);
 }
 
 }  // namespace dygita

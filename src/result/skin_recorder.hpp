@@ -6,7 +6,7 @@
 
 #include "result/scenes.hpp"
 #include "result/skin_motion.hpp"
-#include "solution/observer.hpp"
+#include "result/watched_nodes.hpp"
 
 namespace dygita {
 
@@ -14,10 +14,13 @@ class SkinRecorder {
  public:
   explicit SkinRecorder(const Problem& problem) : problem_(problem) {}
 
+  // All of these are collective: parts are drawn where they are watched (watched_nodes.hpp).
   void accept(const Instant& instant);
-  // Whole fields that others kept join in, each at its instant unless there is a frame already.
+  // Whole fields that others kept of the parts watched here join in, each at its instant unless there is a frame
+  // already.
   void add(const AssemblyScene& scene);
-  SkinMotion take() { return std::move(motion_); }
+  // On rank 0 the frames of all parts.
+  SkinMotion take();
 
  private:
   // A part's boundary nodes and the cells around them, as a mesh of its own.
@@ -26,16 +29,22 @@ class SkinRecorder {
     std::vector<int> node_of;   // of the part, for each node of `mesh`
     std::vector<int> boundary;  // nodes of `mesh`, in the order of SkinMotion::nodes
   };
-  void prepare();
+  // Of the parts that are watched here.
+  struct PartFrame {
+    std::vector<float> displacement, von_mises;  // as SkinFrame
+  };
+  void prepare(const Instant& instant);
   static Layer layer_of(const Mesh& mesh, const std::vector<int>& boundary);
-  template <class Displacement>
-  void fill(SkinFrame& frame, const Displacement& of_part) const;
+  PartFrame drawn(int part, const Points& displacement) const;
 
   const Problem& problem_;
-  SkinMotion motion_;
-  std::vector<Layer> layers_;
-  std::vector<int> samples_;  // frames of each step
-  int missed_ = 0;            // increments so far that have not converged
+  CutPtr cut_;
+  SkinMotion motion_;                          // frames without fields, which are in drawn_
+  std::vector<std::vector<PartFrame>> drawn_;  // of each frame, of each part
+  std::vector<Layer> layers_;                  // of parts that are watched here or are on several ranks
+  WatchedNodes nodes_;                         // of the layers
+  std::vector<int> samples_;                   // frames of each step
+  int missed_ = 0;                             // increments so far that have not converged
 };
 
 // How many frames each step gets of `n_frames`: static steps their last increment, dynamic ones what remains; where

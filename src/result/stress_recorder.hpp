@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "result/result.hpp"
-#include "solution/observer.hpp"
+#include "result/watched_nodes.hpp"
 
 namespace dygita {
 
@@ -18,8 +18,10 @@ inline constexpr int most_hot_nodes = 64;    // of a substructure, followed in b
 class StressRecorder {
  public:
   explicit StressRecorder(const Problem& problem);
+  // These are collective: each part is watched by one rank (watched_nodes.hpp).
   void accept(const Instant& instant);
-  // In the order of the substructures.
+  void settle();
+  // In the order of the substructures; of all once it has settled.
   std::vector<PartStress> take();
 
  private:
@@ -27,19 +29,26 @@ class StressRecorder {
   struct Watched {
     PartStress peak;
     Vec volumes;  // m^3, of nodes
-    Vec largest;  // Pa, of each node so far
+    Vec largest;  // Pa, of each node so far; these are here where the part is watched here
     Mesh around;
-    std::vector<int> node;  // of the body, for each of `around`
+    std::vector<int> node;  // of the body, for each of `around`, increasing
     std::vector<int> hot;   // nodes of `around`
   };
 
+  void prepare(const Instant& instant);
   void look_at_all(const Instant& instant, Watched& watched);
   void look_at_hot(const Instant& instant, Watched& watched);
-  static void follow(const Mesh& mesh, Watched& watched);
+  void follow();
+  static std::vector<int> most_stressed(const Watched& watched);
+  static void surround(const Mesh& mesh, const std::vector<int>& hot, Watched& watched);
   void meet(const Instant& instant, double stress, int node, Watched& watched) const;
+  const Mesh& mesh_of(const Watched& watched) const { return *problem_.substructures[watched.peak.part]->mesh; }
 
   const Problem& problem_;
   std::vector<Watched> watched_;
+  CutPtr cut_;
+  WatchedNodes all_, hot_;
+  bool has_hot_ = false;
 };
 
 }  // namespace dygita

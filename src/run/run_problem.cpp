@@ -20,6 +20,7 @@
 #include "reference/monolithic.hpp"
 #include "result/collector.hpp"
 #include "result/lumped_inertia.hpp"
+#include "result/part_watch.hpp"
 #include "result/penetration_watch.hpp"
 #include "result/scene_recorder.hpp"
 #include "run/checkpoints.hpp"
@@ -29,6 +30,7 @@
 #include "run/run_files.hpp"
 #include "run/run_warnings.hpp"
 #include "run/shared_result.hpp"
+#include "solution/rank_observer.hpp"
 #include "solution/step_model.hpp"
 
 namespace dygita {
@@ -101,27 +103,32 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
 // Set aside while a run computes; what each thread takes in BLAS, where OpenBLAS waits for ever if it cannot have it.
 constexpr std::size_t memory_for_results = std::size_t{64} << 20, memory_of_thread = std::size_t{136} << 20;
 
-// Solves all steps once; tables and figures; scenes for the report where `keeps_scenes`.
+// Solves all steps once; tables and figures; scenes for the report where `keeps_scenes`. Of several ranks the first has
+// them.
 std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* start_from, const FrameSink& sink,
                                  bool keeps_scenes, Trail* trail) {
-  Collector collector(problem, sink);
+  PartWatch parts(problem);
+  Collector collector(problem, parts, sink);
   SceneRecorder scenes(problem);
   PenetrationWatch watch(problem);
-  Observers observers({&collector, &watch});
+  Observers here({&collector, &watch});
+  RankObserver first(here);
+  Observers observers({&parts, &first});
   if (keeps_scenes) observers.add(scenes);
   auto result = std::make_shared<RunResult>();
   require_memory(memory_for_results + static_cast<std::size_t>(omp_get_max_threads()) * memory_of_thread);
   MemoryReserve reserve(memory_for_results);
-  if (!ranks::is_first()) return assist(problem, start_from);
   const SolverFigures figures = problem.explicit_dynamics ? solve_explicit(problem, observers)
                                 : problem.monolithic      ? solve_monolithic(problem, observers)
                                                           : solve(problem, observers, start_from, trail);
   reserve.release();
+  parts.settle();
   result->interface_fields = figures.interface_fields;
+  if (keeps_scenes) scenes.finish(*result);
+  if (!ranks::is_first()) return result;
   summarise(problem, figures, *result);
   collector.finish(*result);
   watch.finish();
-  if (keeps_scenes) scenes.finish(*result);
   return result;
 }
 
@@ -193,7 +200,8 @@ std::shared_ptr<RunResult> compute(const Problem& declared, const RunRequest& re
     problem.solver.tolerance = tolerances[pass];
     open_files(declared, request, pass == 0, site);
     result = sweep(problem, before ? before->interface_fields.get() : start_of(request),
-                   pass > 0 || tolerances.size() == 1 ? sink : nullptr, site.writer != nullptr, site.checkpoint.get());
+                   pass > 0 || tolerances.size() == 1 ? sink : nullptr, ranks::any(site.writer != nullptr),
+                   site.checkpoint.get());
     share_result(problem, *result);
     if (before) add_pass(*before, *result);
     if (result->interrupted || (before && have_settled(problem, *before, *result))) break;

@@ -5,9 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
-#include "latin/latin.hpp"
 #include "ranks/ranks.hpp"
-#include "solution/rank_observer.hpp"
 
 namespace dygita {
 
@@ -136,13 +134,6 @@ void check_ranks(const Problem& problem) {
     refuse("'static_steps = \"assembled\"' is one system of all substructures, which MPI ranks do not share");
   if (problem.mass().is_moved_from_contact)
     refuse("'massless_contact' looks at both sides of a joint at once, which MPI ranks do not have");
-}
-
-std::shared_ptr<RunResult> assist(const Problem& problem, const InterfaceFields* start_from) {
-  IdleObserver idle;
-  auto result = std::make_shared<RunResult>();
-  result->interface_fields = solve(problem, idle, start_from, nullptr).interface_fields;
-  return result;
 }
 
 }  // namespace dygita

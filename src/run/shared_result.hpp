@@ -8,10 +8,6 @@ namespace dygita {
 // What several ranks cannot do is refused, not done by each of them. Throws InputError.
 void check_ranks(const Problem& problem);
 
-// On the other ranks what rank 0 does in a pass over the steps: the part of it that is theirs. start_from: as in
-// `solve`.
-std::shared_ptr<RunResult> assist(const Problem& problem, const InterfaceFields* start_from);
-
 // Collective. Gives the other ranks what a deck reads of rank 0's result: tables, what outputs tell beside them, peaks
 // of stress, iterations and whether they have converged.
 void share_result(const Problem& problem, RunResult& result);

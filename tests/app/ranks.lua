@@ -1,6 +1,6 @@
 -- Fifteen blocks on a ring: bolted flanges in small, each tied to the next or on it by friction, a pulse on one of them.
 -- Several ranks share the blocks out, some of them cut.
-local p = param{ parts = 15, us = 60, cut = 0 }
+local p = param{ parts = 15, us = 60, cut = 0, peak = 30*MPa }
 local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800, yield = 900*MPa }
 local blocks, joints, watched = {}, {}, nil
 for i = 1, p.parts do
@@ -19,7 +19,7 @@ end
 local press = step.static{ name = "press", increments = 2, loads = { load.pressure{ on = blocks[p.parts]:face "xmax", history = 20*MPa } } }
 local shock = step.dynamic{ name = "shock", after = press, duration = p.us * us, dt = 0.5*us, loads = {
   load.pressure{ on = blocks[p.parts]:face "xmax", history = 20*MPa },
-  load.traction{ on = blocks[1]:face "zmax", z = history.half_sine{ peak = 30*MPa, duration = 20*us } } } }
+  load.traction{ on = blocks[1]:face "zmax", z = history.half_sine{ peak = p.peak, duration = 20*us } } } }
 local far = output.history{ name = "far", on = blocks[p.parts]:face "zmax", quantity = "acceleration", direction = { 0, 0, 1 } }
 local result = problem{ name = "ranks", substructures = blocks, interfaces = joints,
   supports = { support.fixed{ name = "end", on = blocks[1]:face "xmin" } }, steps = { press, shock },

@@ -23,9 +23,13 @@ struct Fields {
 
 class Recorder : public Observer {
  public:
-  explicit Recorder(const Problem& problem) : collector(problem, nullptr) {}
-  void begin_step(const Instant& start) override { collector.begin_step(start); }
+  explicit Recorder(const Problem& problem) : parts(problem), collector(problem, parts, nullptr) {}
+  void begin_step(const Instant& start) override {
+    parts.begin_step(start);
+    collector.begin_step(start);
+  }
   void accept(const Instant& instant) override {
+    parts.accept(instant);
     collector.accept(instant);
     const long n = instant.model.step->n_increments(), i = instant.increment + 1;
     if (i * n_instants % n != 0) return;
@@ -37,6 +41,7 @@ class Recorder : public Observer {
     fields.displacement.push_back(std::move(u));
     fields.velocity.push_back(std::move(v));
   }
+  PartWatch parts;
   Collector collector;
   Fields fields;
 };
@@ -58,6 +63,7 @@ inline EstimatedRun run_estimated(const std::filesystem::path& path, const Setti
                         Recorder recorder(problem);
                         solve(problem, recorder);
                         auto result = std::make_shared<RunResult>();
+                        recorder.parts.settle();
                         recorder.collector.finish(*result);
                         done = {problem, result->figures, std::move(recorder.fields)};
                         return std::shared_ptr<const RunResult>(result);

@@ -53,10 +53,13 @@ inline SpectraRun run_spectra(const std::filesystem::path& path, const Settings&
           const OutputPtr srs = make_output(arguments);
           problem.outputs.insert(problem.outputs.end(), {history, srs});
         }
-        Collector collector(problem, nullptr);
+        PartWatch parts(problem);
+        Collector collector(problem, parts, nullptr);
+        Observers observers({&parts, &collector});
         const auto start = std::chrono::steady_clock::now();
-        const SolverFigures figures = solve(problem, collector, start_from);
+        const SolverFigures figures = solve(problem, observers, start_from);
         auto result = std::make_shared<RunResult>();
+        parts.settle();
         collector.finish(*result);
         result->seconds["all"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         result->interface_fields = figures.interface_fields;
