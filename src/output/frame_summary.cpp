@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 namespace dygita {
@@ -15,28 +16,33 @@ void gather(const std::vector<NamedField>& fields, const char* name, std::vector
         if (std::isfinite(field.values(0, i))) values.push_back(field.values(0, i));
 }
 
-double exceeded_by_few(std::vector<double>& values) {
+}  // namespace
+
+double exceeded_by(size_t n, std::vector<double>& values) {
   if (values.empty()) return 0.0;
-  const auto place = values.begin() + static_cast<long>(values.size() - 1 - (values.size() - 1) / 200);
-  std::nth_element(values.begin(), place, values.end());
+  const auto place = values.begin() + static_cast<long>(n);
+  std::nth_element(values.begin(), place, values.end(), std::greater<>());
   return *place;
 }
 
-}  // namespace
+std::vector<double> stresses_of(const Frame& frame) {
+  std::vector<double> von_mises;
+  for (const PartFrame& part : frame.parts) gather(part.fields, "von_mises", von_mises);
+  return von_mises;
+}
 
 FrameSummary summary_of(const Frame& frame) {
   FrameSummary summary{frame.label_time, frame.step};
   summary.missed = frame.missed;
-  std::vector<double> von_mises, pressure;
+  std::vector<double> von_mises = stresses_of(frame), pressure;
   for (const PartFrame& part : frame.parts) {
     for (Eigen::Index i = 0; i < part.displacement.cols(); ++i)
       if (const double u = part.displacement.col(i).norm(); std::isfinite(u))
         summary.displacement = std::max(summary.displacement, u);
-    gather(part.fields, "von_mises", von_mises);
   }
   for (const InterfaceFrame& interface : frame.interfaces) gather(interface.fields, "pressure", pressure);
-  summary.von_mises = exceeded_by_few(von_mises);
-  summary.pressure = exceeded_by_few(pressure);
+  summary.von_mises = exceeded_by(n_exceeding(von_mises.size()), von_mises);
+  summary.pressure = exceeded_by(n_exceeding(pressure.size()), pressure);
   summary.has_interfaces = !frame.interfaces.empty();
   return summary;
 }

@@ -18,7 +18,13 @@ struct FrameSummary {
   int missed = 0;  // increments up to there that have not converged
 };
 
-// Values that are not finite are passed over.
+// Of the parts that have fields. Values that are not finite are passed over.
 FrameSummary summary_of(const Frame& frame);
+
+// The von Mises stresses (Pa) of these parts.
+std::vector<double> stresses_of(const Frame& frame);
+// How many of n values exceed what one in two hundred exceeds, and that value among the largest of them.
+inline size_t n_exceeding(size_t n) { return n == 0 ? 0 : (n - 1) / 200; }
+double exceeded_by(size_t n, std::vector<double>& values);
 
 }  // namespace dygita

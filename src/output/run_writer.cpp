@@ -22,6 +22,12 @@ constexpr const char* interfaces_file = "interfaces.pvd";
 constexpr const char* frames_folder = "frames";
 constexpr const char* interface_frames = "frames/interfaces";
 
+std::string number_of(size_t frame) { return fmt::format("_{:05}.vtu", frame); }
+
+fs::path part_file(const PartFrame& part, size_t frame) {
+  return fs::path(frames_folder) / (file_name_of(part.part->name) + number_of(frame));
+}
+
 std::vector<std::string> step_names(const Problem& problem) {
   std::vector<std::string> names;
   for (const StepPtr& step : problem.steps) names.push_back(step->name);
@@ -58,30 +64,38 @@ RunWriter::~RunWriter() {
   }
 }
 
+void write_parts(const Frame& frame, size_t i, const fs::path& directory) {
+  refuse_links(directory, interface_frames);
+  make_directory(directory / interface_frames);
+  for (const PartFrame& part : frame.parts)
+    if (part.displacement.cols() > 0) write_part(part, frame, directory / part_file(part, i));
+}
+
 void RunWriter::write_frame(const Frame& frame) {
+  begin_frame(frame);
+  end_frame(frame, summary_of(frame));
+}
+
+void RunWriter::begin_frame(const Frame& frame) {
   CHECK(index_->frames.empty() || frame.label_time > index_->frames.back().label_time,
         "frames come in the order of their label_time");
-  refuse_links(directory_, interface_frames);
-  make_directory(directory_ / interface_frames);
-  const std::string number = fmt::format("_{:05}.vtu", index_->frames.size());
-  const auto listed = [this](const fs::path& file) {
-    index_->manifest.add(file);
-    return directory_ / file;
-  };
+  for (const PartFrame& part : frame.parts) index_->manifest.add(part_file(part, index_->frames.size()));
+  write_parts(frame, index_->frames.size(), directory_);
+}
 
-  // The frame's files first, then the lists that name them: a list never names what is not there.
-  int i_part = 0;
-  for (const PartFrame& part : frame.parts) {
-    const fs::path file = fs::path(frames_folder) / (file_name_of(part.part->name) + number);
-    write_part(part, frame, listed(file));
-    index_->parts.add(frame.label_time, i_part++, part.part->name, file);
-  }
+// The frame's files first, then the lists that name them: a list never names what is not there.
+void RunWriter::end_frame(const Frame& frame, const FrameSummary& summary) {
+  const size_t i = index_->frames.size();
   if (!frame.interfaces.empty()) {
-    const fs::path file = fs::path(interface_frames) / ("interfaces" + number);
-    write_interfaces(frame, listed(file));
+    const fs::path file = fs::path(interface_frames) / ("interfaces" + number_of(i));
+    index_->manifest.add(file);
+    write_interfaces(frame, directory_ / file);
     index_->interfaces.add(frame.label_time, 0, "interfaces", file);
   }
-  index_->frames.push_back(summary_of(frame));
+  int i_part = 0;
+  for (const PartFrame& part : frame.parts)
+    index_->parts.add(frame.label_time, i_part++, part.part->name, part_file(part, i));
+  index_->frames.push_back(summary);
   // A list grows with the frames: rewritten for each of thousands it would take longer than they do.
   const size_t n = index_->frames.size(), n_new = n - index_->n_listed;
   if (20 * n_new >= index_->n_listed || std::chrono::steady_clock::now() - index_->listed > std::chrono::seconds(1))

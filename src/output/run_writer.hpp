@@ -31,6 +31,9 @@ struct RunIdentity {
 // "0.1.0"
 const char* program_version();
 
+// Those parts of the i-th frame that have fields, into a run's directory. Throws InputError when it cannot write.
+void write_parts(const Frame& frame, size_t i, const std::filesystem::path& directory);
+
 class RunWriter {
  public:
   // Creates `directory` (out/<problem>/<case>); removes the files of a former run of ours in it (those that its hidden
@@ -45,6 +48,10 @@ class RunWriter {
   // ParaView cannot read appended data. `label_time` must increase (else ContractError). Throws InputError when it
   // cannot write.
   void write_frame(const Frame& frame);
+  // The same in two halves, where other processes write the parts that have no fields here (write_parts, below) between
+  // them and all are in the summary.
+  void begin_frame(const Frame& frame);
+  void end_frame(const Frame& frame, const FrameSummary& summary);
 
   // <output name>.csv for each table, energy.csv, convergence.csv, bolts.csv. Throws InputError when it cannot write.
   void write_tables(const Problem& problem, const RunResult& result);

@@ -2,7 +2,6 @@
 #include "result/frames.hpp"
 
 #include <algorithm>
-#include <map>
 
 #include "fem/assembly.hpp"
 #include "fem/stress_error.hpp"
@@ -11,26 +10,6 @@
 namespace dygita {
 
 namespace {
-
-PartFrame part_frame(const Instant& instant, int part, const std::vector<std::string>& fields) {
-  const Substructure& body = *instant.model.problem->substructures[part];
-  PartFrame frame;
-  frame.part = &body;
-  frame.displacement = instant.displacement(part);
-  const auto wants = [&](const char* name) { return std::find(fields.begin(), fields.end(), name) != fields.end(); };
-  Tensors stress;
-  if (wants("stress") || wants("von_mises")) stress = nodal_stress(*body.mesh, body.material, frame.displacement);
-  for (const std::string& name : fields) {
-    if (name == "displacement") frame.fields.push_back({name, frame.displacement});
-    if (name == "velocity") frame.fields.push_back({name, instant.velocity(part)});
-    if (name == "acceleration") frame.fields.push_back({name, instant.acceleration(part)});
-    if (name == "stress") frame.fields.push_back({name, stress});
-    if (name == "stress_error")
-      frame.fields.push_back({name, stress_error(*body.mesh, body.material, frame.displacement).at_nodes.transpose()});
-    if (name == "von_mises") frame.fields.push_back({name, von_mises(stress).transpose()});
-  }
-  return frame;
-}
 
 InterfaceFrame interface_frame(const Instant& instant, int s, const FollowedMotion& motion) {
   const Surface& surface = (*instant.model.surfaces)[s];
@@ -43,7 +22,7 @@ InterfaceFrame interface_frame(const Instant& instant, int s, const FollowedMoti
   frame.facets = surface.facing.facets;
   Mat pressure(1, n), gap(1, n), plastic(1, n), status(1, n), residual(1, n), slips(3, n), traction(3, n),
       displacement(3, n);
-  const Points u = instant.displacement(surface.part_1);
+  const Points u = MovedSide(surface, 1).displacement(instant);
   for (int i = 0; i < n; ++i) {
     const Vec3 normal = surface.facing.normals.col(i);
     const Vec3 t = state[i].force / surface.facing.areas[i];
@@ -56,7 +35,7 @@ InterfaceFrame interface_frame(const Instant& instant, int s, const FollowedMoti
     slips.col(i) = motion.slip(instant, s, i);
     status(0, i) = static_cast<double>(state[i].status);
     residual(0, i) = instant.state.surfaces[s].residual[i] / surface.facing.areas[i];
-    displacement.col(i) = surface.facing.side_1.at(i, u);
+    displacement.col(i) = u.col(i);
   }
   frame.fields = {{"displacement", displacement},
                   {"pressure", pressure},
@@ -75,11 +54,32 @@ Frame make_frame(const Instant& instant, const std::vector<std::string>& fields,
   Frame frame;
   frame.time = instant.time();
   frame.step = instant.model.step->name;
-  for (size_t i = 0; i < instant.model.problem->substructures.size(); ++i)
-    frame.parts.push_back(part_frame(instant, static_cast<int>(i), fields));
+  for (const SubstructurePtr& part : instant.model.problem->substructures) {
+    PartFrame& of_part = frame.parts.emplace_back();
+    of_part.part = part.get();
+    for (const std::string& name : fields) of_part.fields.push_back({name, {}});
+  }
   for (size_t s = 0; s < instant.model.surfaces->size(); ++s)
     frame.interfaces.push_back(interface_frame(instant, static_cast<int>(s), motion));
   return frame;
+}
+
+void fill_part(PartFrame& frame, const Points& velocity, const Points& acceleration) {
+  const Mesh& mesh = *frame.part->mesh;
+  const Elastic& material = frame.part->material;
+  const auto wants = [&](const char* name) {
+    return std::any_of(frame.fields.begin(), frame.fields.end(), [&](const NamedField& f) { return f.name == name; });
+  };
+  Tensors stress;
+  if (wants("stress") || wants("von_mises")) stress = nodal_stress(mesh, material, frame.displacement);
+  for (auto& [name, values] : frame.fields) {
+    if (name == "displacement") values = frame.displacement;
+    if (name == "velocity") values = velocity;
+    if (name == "acceleration") values = acceleration;
+    if (name == "stress") values = stress;
+    if (name == "stress_error") values = stress_error(mesh, material, frame.displacement).at_nodes.transpose();
+    if (name == "von_mises") values = von_mises(stress).transpose();
+  }
 }
 
 }  // namespace dygita

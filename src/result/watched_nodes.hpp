@@ -34,6 +34,8 @@ std::vector<double> of_all_parts(const Cut& cut, const std::vector<int>& n_of, F
   return values;
 }
 
+enum class NodalField { displacement, velocity, acceleration };
+
 class WatchedNodes {
  public:
   WatchedNodes() = default;
@@ -41,9 +43,10 @@ class WatchedNodes {
   // others matter where they are watched alone.
   WatchedNodes(const Cut& cut, std::vector<std::vector<int>> nodes);
   // Collective.
-  void take(const Instant& instant);
-  // Of a part that is watched here, as last taken: m, 3 x nodes.
-  const Points& displacement(int part) const { return displacement_[static_cast<size_t>(part)]; }
+  void take(const Instant& instant, NodalField field = NodalField::displacement);
+  // Of a part that is watched here, as last taken: 3 x nodes, m; or what else was taken.
+  const Points& displacement(int part) const { return field(part); }
+  const Points& field(int part) const { return taken_[static_cast<size_t>(part)]; }
 
  private:
   // Of a part on several ranks.
@@ -55,7 +58,7 @@ class WatchedNodes {
   std::vector<Split> split_;
   std::vector<double> passing_;  // three numbers for each node of the split parts
   ranks::Neighbours exchange_;
-  std::vector<Points> displacement_;
+  std::vector<Points> taken_;
 };
 
 }  // namespace dygita

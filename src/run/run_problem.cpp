@@ -20,10 +20,12 @@
 #include "reference/monolithic.hpp"
 #include "result/collector.hpp"
 #include "result/lumped_inertia.hpp"
+#include "result/part_frames.hpp"
 #include "result/part_watch.hpp"
 #include "result/penetration_watch.hpp"
 #include "result/scene_recorder.hpp"
 #include "run/checkpoints.hpp"
+#include "run/frame_files.hpp"
 #include "run/keep_state.hpp"
 #include "run/part_lines.hpp"
 #include "run/passes.hpp"
@@ -105,15 +107,17 @@ constexpr std::size_t memory_for_results = std::size_t{64} << 20, memory_of_thre
 
 // Solves all steps once; tables and figures; scenes for the report where `keeps_scenes`. Of several ranks the first has
 // them.
-std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* start_from, const FrameSink& sink,
+std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* start_from, FrameFiles* files,
                                  bool keeps_scenes, Trail* trail) {
   PartWatch parts(problem);
-  Collector collector(problem, parts, sink);
+  PartFrames frames(problem, [&](const Frame& frame) { files->write(frame); });
+  Collector collector(problem, parts, files ? FrameSink([&](const Frame& frame) { frames.begin(frame); }) : nullptr);
   SceneRecorder scenes(problem);
   PenetrationWatch watch(problem);
   Observers here({&collector, &watch});
   RankObserver first(here);
   Observers observers({&parts, &first});
+  if (files) observers.add(frames);
   if (keeps_scenes) observers.add(scenes);
   auto result = std::make_shared<RunResult>();
   require_memory(memory_for_results + static_cast<std::size_t>(omp_get_max_threads()) * memory_of_thread);
@@ -131,35 +135,6 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* 
   watch.finish();
   return result;
 }
-
-// The first file that cannot be written. A frame ends the run after its increment, and whatever else can be written is:
-// what has been computed is worth more than what would follow.
-class Unwritten {
- public:
-  void attempt(const std::function<void()>& write) {
-    try {
-      write();
-    } catch (const InputError& error) {
-      if (error_.empty()) error_ = error.what();
-    }
-  }
-  void attempt_frame(RunWriter& writer, const Frame& frame) {
-    if (!error_.empty()) return;
-    attempt([&] { writer.write_frame(frame); });
-    if (!error_.empty()) request_interrupt();
-  }
-  // Throws what went wrong, once everything else is written.
-  void finish(const std::filesystem::path& directory, bool is_replacing) const {
-    if (error_.empty()) return;
-    withdraw_interrupt();
-    throw InputError(error_ + (is_replacing
-                                   ? "\n    the results in " + directory.string() + " are as they were"
-                                   : "\n    what was computed and could be written is in " + directory.string()));
-  }
-
- private:
-  std::string error_;
-};
 
 // Where a run's files go, and what goes on with it should it be stopped.
 struct RunSite {
@@ -191,17 +166,16 @@ void open_files(const Problem& declared, const RunRequest& request, bool is_firs
 // All passes over the steps; what is written meanwhile are frames.
 std::shared_ptr<RunResult> compute(const Problem& declared, const RunRequest& request, Problem& problem,
                                    RunSite& site) {
-  FrameSink sink;
-  if (request.write_files && request.write_frames)
-    sink = [&](const Frame& frame) { site.unwritten.attempt_frame(*site.writer, frame); };
+  const bool has_frames = ranks::any(request.write_files && request.write_frames);
   const std::vector<double> tolerances = pass_tolerances(declared);
   std::shared_ptr<RunResult> result, before;
   for (size_t pass = 0; pass < tolerances.size(); ++pass) {
     problem.solver.tolerance = tolerances[pass];
     open_files(declared, request, pass == 0, site);
-    result = sweep(problem, before ? before->interface_fields.get() : start_of(request),
-                   pass > 0 || tolerances.size() == 1 ? sink : nullptr, ranks::any(site.writer != nullptr),
-                   site.checkpoint.get());
+    std::optional<FrameFiles> files;
+    if (has_frames && (pass > 0 || tolerances.size() == 1)) files.emplace(site.writer.get(), site.unwritten);
+    result = sweep(problem, before ? before->interface_fields.get() : start_of(request), files ? &*files : nullptr,
+                   ranks::any(site.writer != nullptr), site.checkpoint.get());
     share_result(problem, *result);
     if (before) add_pass(*before, *result);
     if (result->interrupted || (before && have_settled(problem, *before, *result))) break;

@@ -146,6 +146,15 @@ dygita(2, "run", stopped, "--set", "usage=1", "--quiet", "--out", FOLDER / "none
 dygita(2, "run", FOLDER / "none.lua", expected=2, says=["no deck"])
 # A history that fails in the middle of a run fails on all ranks, and is told once.
 dygita(2, "run", stopped, "--set", "broken=1", "--quiet", "--out", FOLDER / "broken", expected=2, says=["no record at 20 us"])
+# Each rank writes the frames of its own parts; one that cannot ends the run, which keeps the rest.
+run = FOLDER / "barred" / "ranks" / "base"
+(run / "frames" / "block 15_00002.vtu" / "in the way").mkdir(parents=True)
+(run / "frames" / "block 1_00002.vtu" / "in the way").mkdir(parents=True)
+dygita(2, "run", asked.folder / "ranks.lua", "--quiet", "--out", FOLDER / "barred", expected=2,
+       says=["_00002.vtu': ", "what was computed and could be written is in"])
+listed = (run / "ranks.pvd").read_text()
+if "_00001.vtu" not in listed or "_00002.vtu" in listed or not (run / "energy.csv").exists():
+    failures.append(f"a frame that cannot be written: {sorted(p.name for p in run.iterdir())}\n{listed}")
 shutil.rmtree(FOLDER)
 print("\n".join(failures) or "the same bits on several ranks")
 sys.exit(1 if failures else 0)
