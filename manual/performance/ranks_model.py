@@ -32,7 +32,7 @@ class Network:
 
 @dataclass(frozen=True)
 class Costs:
-    """Seconds of one processor; `sums` and `questions`: collective calls of an increment, and questions of rank 0 a piece and time step."""
+    """Seconds of one processor; `sums` and `questions`: collective calls of an increment, and messages to rank 0 a body and time step."""
 
     unknown: float = 0.0            # of a piece, an increment (or iteration)
     point: float = 0.0              # of the interface work, an increment (or iteration) and point
@@ -148,7 +148,7 @@ def step(pattern, ranks, costs, network, how="explicit", owners=None, outputs="b
     gathered = costs.gathered * n_points * (inc if everywhere else booking == "all")
     times["to all"] = network.to_all(inc * costs.sums + 5, gathered, ranks)
     asked = 8 * costs.fields * (n - unknowns[0])
-    questions = costs.questions * pieces * (1 - 1 / ranks)
+    questions = costs.questions * len(set(pattern.bodies)) * (1 - 1 / ranks)
     shown, brought = watched(pattern, owners, ranks) if outputs == "bodies" else (unknowns, [0.0] * ranks)
     times["outputs"] = max(costs.shown * own + network.to_one(0, 8 * costs.brought * more) for own, more in zip(shown, brought)) + network.to_one(2 * questions, asked)
     total = sum(times.values())

@@ -42,6 +42,7 @@ int fail(const char* message, int code) {
 int exit_code(const DeckOutcome& outcome, const char* when_stopped) {
   if (outcome.interrupted) return say_error(when_stopped, stopped);
   for (const std::string& name : outcome.not_converged) say_error(("not converged: " + name).c_str(), not_converged);
+  if (!outcome.differing.empty()) return say_error(outcome.differing.c_str(), not_converged);
   return outcome.not_converged.empty() ? done : not_converged;
 }
 

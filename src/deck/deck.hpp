@@ -41,6 +41,7 @@ struct DeckOutcome {
   int n_runs = 0;
   std::vector<std::string> not_converged;                  // "problem 'crush', case 'base'"
   bool interrupted = false;                                // by the user; what was computed is written
+  std::string differing;                                   // why a repeated run is not the one of the record
   std::vector<std::pair<std::string, double>> parameters;  // of param{}, --set included
 };
 

@@ -102,8 +102,8 @@ void check_problem_is_same(const Problem& problem, const RunState& state) {
   }
   if (const std::string which = changed_load(problem, state); !which.empty())
     throw InputError(
-        fmt::format("the loads {} have changed since the run (a file that the deck reads, or the results of another "
-                    "case): run the deck "
+        fmt::format("the loads {} have changed since the run (a file that the deck reads, the results of another "
+                    "case, or a function of the deck that answers otherwise when asked again): run the deck "
                     "again",
                     which));
 }

@@ -134,7 +134,7 @@ void check_room(const RunState& state, const std::filesystem::path& folder, cons
 
 }  // namespace
 
-void keep_state(const RunState& state, RunWriter& writer, RunResult& result) {
+void keep_state(const RunState& state, RunWriter& writer, bool has_checkpoint, RunResult& result) {
   if (!state.fields) return;
   const auto start = std::chrono::steady_clock::now();
   try {
@@ -143,7 +143,9 @@ void keep_state(const RunState& state, RunWriter& writer, RunResult& result) {
     write_state(path, state);
     result.figures.state_file = static_cast<double>(std::filesystem::file_size(path)) / 1e6;
   } catch (const InputError& error) {
-    warn(fmt::format("{}\n    this run cannot be continued later; its results are not touched", error.what()));
+    warn(fmt::format(
+        "{}\n    {}; its results are not touched", error.what(),
+        has_checkpoint ? "what continues this run is its checkpoint" : "this run cannot be continued later"));
   }
   result.seconds["state file"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -24,8 +24,9 @@ RunState state_of(const Problem& problem, const RunRequest& request, const RunRe
 // Are as many increments of every step known as before?
 bool reaches_as_far(const RunState& state, const RunState& before);
 
-// Writes the state file; where that fails the run goes on, with a warning.
-void keep_state(const RunState& state, RunWriter& writer, RunResult& result);
+// Writes the state file; where that fails the run goes on, with a warning. has_checkpoint: it can be continued all the
+// same.
+void keep_state(const RunState& state, RunWriter& writer, bool has_checkpoint, RunResult& result);
 
 // "  continued: 812 iterations more; ..."
 std::string continuation_line(const RunState& before, const RunResult& result);

@@ -37,12 +37,14 @@ void warn_of_stresses(const Problem& problem, const RunResult& result) {
     if (std::isnan(peak.von_mises))
       warn(fmt::format("the stress of substructure '{}' is not a number: its margin against yield is not known",
                        part.name));
+    const double share = 100.0 * peak.above;
     if (peak.margin() < limit::yield_margin)
       warn(fmt::format(
-          "substructure '{}' reaches {:.4g} MPa (von Mises), above the yield of {:.4g} MPa of '{}': up to {:.2g} % of "
+          "substructure '{}' reaches {:.4g} MPa (von Mises), above the yield of {:.4g} MPa of '{}': up to {} % of "
           "its volume at once. The material stays elastic there; at an edge or a corner the peak grows with a finer "
           "mesh",
-          part.name, peak.von_mises / 1e6, peak.yield / 1e6, part.material.name, 100.0 * peak.above));
+          part.name, peak.von_mises / 1e6, peak.yield / 1e6, part.material.name,
+          share > 9.95 ? fmt::format("{:.0f}", share) : fmt::format("{:.2g}", share)));
   }
 }
 

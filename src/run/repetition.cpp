@@ -55,6 +55,9 @@ Repetition::Repetition(const fs::path& record)
     : folder_(fs::is_directory(record)       ? record
               : record.parent_path().empty() ? "."
                                              : record.parent_path()) {
+  if (!fs::is_directory(record) && fs::exists(record) && record.filename() != "run.json")
+    throw InputError(
+        fmt::format("--repeat {}: a run's folder, or the run.json in it, is what can be repeated", record.string()));
   if (!fs::is_directory(record) && !fs::exists(record))
     throw InputError(fmt::format("--repeat {}: there is no such record", record.string()));
   const RunFolder run(folder_, "");
@@ -96,17 +99,15 @@ void Repetition::check_same(const RunRequest& request) const {
                      kernels_));
 }
 
-void Repetition::compare_tables(const fs::path& folder) const {
+void Repetition::compare_tables(const fs::path& folder) {
   const std::map<std::string, std::string> now = tables_in(folder);
   std::vector<std::string> other;
   for (const auto& [name, digest] : tables_)
     if (const auto found = now.find(name); found == now.end() || found->second != digest) other.push_back(name);
+  differing_ = list_of(other);
   if (other.empty())
     say(fmt::format("  repeated: deck, parameters and meshes are the same, and all {} tables, bit for bit",
                     tables_.size()));
-  else
-    warn(fmt::format("deck, parameters and meshes are those of '{}', and these tables differ: {}", folder_.string(),
-                     list_of(other)));
 }
 
 std::shared_ptr<const RunResult> Repetition::run(const Problem& problem, const RunRequest& request) {

@@ -28,14 +28,17 @@ class Repetition {
   // Throws InputError: deck or meshes have changed; and what run_problem throws.
   std::shared_ptr<const RunResult> run(const Problem& problem, const RunRequest& request);
   bool is_done() const { return is_done_; }
+  // Tables that differ from those of the record, "a.csv, b.csv".
+  const std::string& differing() const { return differing_; }
   // "problem 'crush', case 'base'".
   std::string label() const;
 
  private:
   void check_same(const RunRequest& request) const;
-  void compare_tables(const std::filesystem::path& folder) const;
+  void compare_tables(const std::filesystem::path& folder);
 
   std::filesystem::path folder_, deck_;
+  std::string differing_;
   std::string problem_, case_, deck_digest_, solver_, kernels_, version_;
   std::vector<std::pair<std::string, std::string>> settings_;
   std::map<std::string, std::string> meshes_, tables_;  // digests, by substructure and by file

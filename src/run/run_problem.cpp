@@ -152,6 +152,11 @@ struct RunSite {
   std::unique_ptr<RunWriter> writer;  // null: nothing is written
   Unwritten unwritten;
   bool is_kept = true;  // false: what is in the folder reaches further
+
+  // Does its checkpoint stay, to go on from?
+  bool can_go_on(const RunResult& result) const {
+    return checkpoint && checkpoint->has_entries() && (result.interrupted || !unwritten.is_empty());
+  }
 };
 
 // A new writer takes away the frames of the pass before; the first of several is never the last.
@@ -199,7 +204,7 @@ void write_results(const Problem& problem, const RunRequest& request, RunSite& s
   collect_warnings();
   if (!ranks::is_first()) return;
   const bool keeps_state = site.writer && request.write_state && site.is_kept;
-  if (keeps_state) site.unwritten.attempt([&] { keep_state(state, *site.writer, result); });
+  if (keeps_state) site.unwritten.attempt([&] { keep_state(state, *site.writer, site.can_go_on(result), result); });
   warn_of_run(problem, result, keeps_state ? site.directory : std::filesystem::path());
   warn_of_stresses(problem, result);
   const std::vector<std::string> warnings = take_warnings();
@@ -216,7 +221,11 @@ void write_results(const Problem& problem, const RunRequest& request, RunSite& s
 // The new results take their place; a run that has come to its end needs no checkpoint, another keeps its own.
 void settle(const RunRequest& request, const RunResult& result, RunSite& site) {
   if (site.checkpoint && result.interrupted) site.checkpoint->sync();
-  site.unwritten.finish(site.directory, site.replacement.has_value());
+  site.unwritten.finish(site.directory, site.replacement.has_value(),
+                        site.can_go_on(result)
+                            ? fmt::format("\n    where there is room this goes on with it: dygita continue {}",
+                                          shell_word(site.directory.string()))
+                            : "");
   if (site.replacement && site.is_kept) {
     if (request.continues) remove_checkpoint(site.work);
     if (request.checkpoint && result.interrupted) share_checkpoint(site.directory, site.work);

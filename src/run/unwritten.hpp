@@ -26,13 +26,14 @@ class Unwritten {
     if (!error_.empty()) request_interrupt();
   }
   bool is_empty() const { return error_.empty(); }
-  // Throws what went wrong, once everything else is written.
-  void finish(const std::filesystem::path& directory, bool is_replacing) const {
+  // Throws what went wrong, once everything else is written; remedy: a line of its own, or nothing.
+  void finish(const std::filesystem::path& directory, bool is_replacing, const std::string& remedy) const {
     if (error_.empty()) return;
     withdraw_interrupt();
-    throw InputError(error_ + (is_replacing
-                                   ? "\n    the results in " + directory.string() + " are as they were"
-                                   : "\n    what was computed and could be written is in " + directory.string()));
+    throw InputError(error_ +
+                     (is_replacing ? "\n    the results in " + directory.string() + " are as they were"
+                                   : "\n    what was computed and could be written is in " + directory.string()) +
+                     remedy);
   }
 
  private:

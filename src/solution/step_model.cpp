@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include "base/log.hpp"
 #include "law/law.hpp"
@@ -183,6 +185,26 @@ bool is_for_one_rank(const Step& step) {
   return false;
 }
 
+// One process solves equal pieces together, whose last digits depend on how many there are.
+void tell_equal_apart(const StepModel& model) {
+  if (ranks::is_alone()) return;
+  std::map<std::tuple<std::string, double, double, double>, int> first;
+  for (int i = 0; i < model.cut->n_pieces(); ++i) {
+    if (model.integration.is_explicit_piece(i)) continue;
+    const CutPiece& piece = model.cut->piece(i);
+    const Elastic& m = piece.body->material;
+    const auto [equal, is_new] =
+        first.try_emplace({piece.body->mesh->shape_digest(), m.young, m.poisson, m.density}, i);
+    if (is_new || model.cut->piece(equal->second).rank == piece.rank) continue;
+    const auto name = [&](int p) { return model.problem->substructures[model.cut->piece(p).part]->name; };
+    warn(
+        fmt::format("equal substructures are on several MPI ranks, '{}' and '{}' among them: one process solves them "
+                    "together, and the last digits of both differ; iterated increments agree to the tolerance",
+                    name(equal->second), name(i)));
+    return;
+  }
+}
+
 }  // namespace
 
 StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
@@ -191,6 +213,7 @@ StepModel make_step_model(const Problem& problem, const Step& step, const std::v
   model.is_assembled = is_assembled(problem, step) && is_for_one_rank(step);
   model.pieces = model.is_assembled ? make_assembled_pieces(model, bodies) : make_pieces(model, bodies);
   model.equal = group_equal(model.pieces);
+  tell_equal_apart(model);
   return model;
 }
 

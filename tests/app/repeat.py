@@ -34,8 +34,10 @@ for threads in (1, 2, 3):
 table = run / "joint.csv"
 whole = table.read_text()
 table.write_text(whole.replace("1", "2", 1))
-dygita("run", "--repeat", run, "--quiet", "--out", FOLDER / "other", expected=0, says="these tables differ: joint.csv")
+dygita("run", "--repeat", run, "--quiet", "--out", FOLDER / "other", expected=1, says="these tables differ: joint.csv")
 dygita("run", expected=2, says="which deck?")
+shutil.copy(run / "run.json", FOLDER / "copy.json")
+dygita("run", "--repeat", FOLDER / "copy.json", expected=2, says="a run's folder, or the run.json in it")
 dygita("run", "--repeat", FOLDER / "none.json", expected=2, says="there is no such record")
 dygita("run", "--repeat", run, "--set", "us=20", expected=2, says="--set")
 moved = FOLDER / "moved.lua"

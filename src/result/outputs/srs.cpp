@@ -51,6 +51,7 @@ class SrsOutput final : public Output {
       check::fail(problem, origin, who + " is of " + of_->known_as() + ", a " + history->quantity, hint);
     if (!history->has_direction)
       check::fail(problem, origin, who + " is of " + of_->known_as() + ", which has no direction", hint);
+    check::names_are_free(problem, *this, {"_band"});
     check_spectrum(problem, *this);
   }
 
