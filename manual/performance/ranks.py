@@ -167,8 +167,8 @@ def figure(rows, folder):
         mine = [r for r in model if r["scaling"] == "weak" and r["form"] == form]
         axes[1].semilogx([r["ranks"] for r in mine], [r["efficiency"] for r in mine], line, marker=marker, color=figures.COMPUTED, label=form)
     axes[1].set_title("weak scaling, 244,000 unknowns a rank: efficiency")
-    axes[1].set_ylim(0)
-    axes[1].legend()
+    axes[1].set_ylim(0, 1.45)
+    axes[1].legend(loc="upper right")
     for a in axes:
         a.set_xlabel("ranks")
     figures.save(picture, folder / "ranks.svg")
