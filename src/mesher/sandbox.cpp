@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <linux/landlock.h>
 #include <omp.h>
+#include <poll.h>
 #include <sched.h>
 #include <seccomp.h>
 #include <signal.h>
@@ -146,11 +147,18 @@ void restrict_files(const std::vector<std::string>& readable) {
   close(static_cast<int>(set));
 }
 
+// A parent that died before PR_SET_PDEATHSIG sends no signal any more: its end of standard error is closed then.
+bool is_orphan() {
+  pollfd errors{STDERR_FILENO, 0, 0};
+  return poll(&errors, 1, 0) > 0 && (errors.revents & (POLLHUP | POLLERR)) != 0;
+}
+
 }  // namespace
 
 void confine(double memory, const std::vector<std::string>& readable) {
   omp_get_max_threads();  // clang's runtime writes shared memory where it is first used
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (is_orphan()) _exit(1);
   limit(RLIMIT_CORE, 0);
   limit_memory(memory);
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);

@@ -341,9 +341,41 @@ def a_time_limit_of_the_clock():
     check(time.monotonic() - start < 2.0, "the time limit does not count elapsed time")
 
 
+def a_kill_while_the_mesher_starts():
+    """A mesher whose dygita is killed before it has confined itself hears of it no more: it must not go on for ever."""
+    (FOLDER / "endless.geo").write_text('SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1};\nFor i In {1:1e18}\n  a = i;\nEndFor\n')
+    deck = FOLDER / "endless_mesh.lua"
+    deck.write_text('mesh.gmsh{ file = "endless.geo" }')
+    for wait in (0.0, 0.02, 0.05, 0.1, 0.4):
+        process = subprocess.Popen([PROGRAM, "run", str(deck)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        listed = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
+        meshers, begun = [], time.monotonic()
+        while not meshers and time.monotonic() < begun + 20:
+            meshers = listed.read_text().split()
+        time.sleep(wait)
+        process.kill()
+        process.wait()
+        begun = time.monotonic()
+        left = meshers
+        while left and time.monotonic() < begun + 20:
+            left = [pid for pid in meshers if is_running(pid)]
+            time.sleep(0.05)
+        check(meshers and not left, f"dygita was killed {wait} s after its mesher had begun: {len(left)} of {len(meshers)} go on")
+        for pid in left:
+            os.kill(int(pid), signal.SIGKILL)
+
+
+def is_running(pid):
+    try:
+        return pathlib.Path(f"/proc/{pid}/stat").read_text().split(") ")[1][0] != "Z"
+    except OSError:
+        return False
+
+
 for fault in (who_holds_the_folder, an_error_in_the_middle, numbers_that_overflow, energies_that_overflow, little_memory,
               a_disk_that_the_checkpoint_fills, a_small_disk, interrupted, a_spoiled_checkpoint, a_load_that_changed,
-              a_state_without_a_record, a_folder_that_is_removed, pipes_in_the_place_of_files, decks_that_take_long, a_time_limit_of_the_clock):
+              a_state_without_a_record, a_folder_that_is_removed, pipes_in_the_place_of_files, decks_that_take_long, a_time_limit_of_the_clock,
+              a_kill_while_the_mesher_starts):
     fault()
 shutil.rmtree(FOLDER)
 print("\n".join(failures) or "every fault was met")
