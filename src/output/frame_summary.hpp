@@ -23,8 +23,9 @@ FrameSummary summary_of(const Frame& frame);
 
 // The von Mises stresses (Pa) of these parts.
 std::vector<double> stresses_of(const Frame& frame);
-// How many of n values exceed what one in two hundred exceeds, and that value among the largest of them.
+// Of n values, how many the summary passes over as a notch: one in two hundred.
 inline size_t n_exceeding(size_t n) { return n == 0 ? 0 : (n - 1) / 200; }
+// The value that n others exceed; 0 where there is none. Changes their order.
 double exceeded_by(size_t n, std::vector<double>& values);
 
 }  // namespace dygita

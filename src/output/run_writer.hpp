@@ -48,8 +48,8 @@ class RunWriter {
   // ParaView cannot read appended data. `label_time` must increase (else ContractError). Throws InputError when it
   // cannot write.
   void write_frame(const Frame& frame);
-  // The same in two halves, where other processes write the parts that have no fields here (write_parts, below) between
-  // them and all are in the summary.
+  // The same in two halves, where other processes write the parts that have no fields here (write_parts) before the
+  // second; the summary is of all parts.
   void begin_frame(const Frame& frame);
   void end_frame(const Frame& frame, const FrameSummary& summary);
 

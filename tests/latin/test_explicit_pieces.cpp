@@ -247,11 +247,18 @@ struct SomeNodes : Observer {
   }
 };
 
+// One face is held still, another is moved.
 TEST(FieldsOfAPiece, at_some_nodes_are_those_of_all) {
   for (const IntegrationChoice choice : {implicitly, explicitly})
     for (const int pieces : {1, 3}) {
+      Problem problem = corner(choice, 1e-7, pieces);
+      const SubstructurePtr low = problem.substructures[0], top = problem.substructures[2];
+      problem.supports.push_back(support("fixed", {Face{top, "xmax"}}));
+      auto hit = std::make_shared<Step>(*problem.steps[0]);
+      hit->loads.push_back(load("velocity", {Face{low, "ymax"}}, History::half_sine(1.0, 4e-6), 1));
+      problem.steps = {hit};
       SomeNodes watcher;
-      solve(corner(choice, 1e-7, pieces), watcher);
+      solve(problem, watcher);
       EXPECT_GT(watcher.size, 0.0);
       EXPECT_LT(watcher.apart, 1e-12);
     }
