@@ -72,11 +72,11 @@ def costs_of(alone, share, two, pattern, how):
     here, shared = two["ranks"]["of_each"]
     pieces = sum(p["seconds"] for p in two["ranks"]["pieces"])
     asked = (here["bytes"]["results"] + shared["bytes"]["results"]) / n / 8 / shared["unknowns"]
-    gathered = (here["bytes"]["all"] + shared["bytes"]["all"]) / n / pattern.points()
+    gathered = (here["bytes"]["all"] + shared["bytes"]["all"]) / n
     return Costs(unknown=pieces / n / inc / pattern.total(), point=(seconds["local stage"] + seconds["acceleration"]) / n / inc / pattern.points(),
                  booked=seconds["laws and energies"] / n / pattern.points(), shown=seconds["output"] / n / pattern.total(), fields=asked,
                  questions=here["messages"]["results"] / n / shared["pieces"], sums=max(1.0, here["messages"]["all"] / n - 4) / inc, increments=inc,
-                 brought=min(1.0, SHOWN / n), gathered=gathered / inc if how == "implicit" else gathered)
+                 brought=min(1.0, SHOWN / n), gathered=gathered / (inc * pattern.points() if how == "implicit" else len(pattern.unknowns)))
 
 
 def predict_here(records, share, how, cores):
@@ -91,16 +91,16 @@ def predict_here(records, share, how, cores):
 
 
 def predict_ring(pattern, costs, quick):
-    """Rows of larger rings on a network: as the program is, with outputs made piece by piece, and with points booked with neighbours alone as well."""
+    """Rows of larger rings on a network: as the program is, and with outputs made piece by piece."""
     rows = []
     counts = [8, 64, 512, 4096] if quick else [8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096]
-    forms = {"as it is": {}, "outputs piece by piece": {"outputs": "pieces"}, "and booked with neighbours": {"outputs": "pieces", "booking": "neighbours"}}
+    forms = {"as it is": {}, "outputs piece by piece": {"outputs": "pieces"}}
     cases = [("strong", size, ranks) for size in (1e7, 1e8, 1e9) for ranks in counts] + [("weak", 1e9 / 4096 * ranks, ranks) for ranks in counts]
     network = Network(LATENCY, BANDWIDTH)
     for scaling, size, ranks in cases:
         refined = pattern.refined(size, 4 * ranks)
         own = with_increments(costs, size / pattern.total())
-        one = step(refined, 1, own, network, outputs="pieces", booking="neighbours")["all"]
+        one = step(refined, 1, own, network)["all"]
         for form, asked in forms.items():
             times = step(refined, ranks, own, network, **asked)
             bound = max((k for k in times if k not in ("all", "bytes")), key=times.get)
@@ -153,17 +153,17 @@ def figure(rows, folder):
     model = read_rows(folder / "ranks_model.csv")
     picture, axes = figures.plt.subplots(1, 2, figsize=(7.4, 3.0))
     picture.subplots_adjust(wspace=0.3)
-    forms = ["as it is", "outputs piece by piece", "and booked with neighbours"]
+    forms = ["as it is", "outputs piece by piece"]
     for size, colour in zip((1e7, 1e8, 1e9), figures.COLOURS):
-        for form, line in zip(forms, (":", "--", "-")):
+        for form, line in zip(forms, ("-", "--")):
             mine = [r for r in model if r["scaling"] == "strong" and r["unknowns"] == size and r["form"] == form]
             axes[0].loglog([r["ranks"] for r in mine], [r["speed-up"] for r in mine], line, color=colour,
-                           label=f"{size:.0e}".replace("e+0", "e") + " unknowns" if form == forms[2] else None)
+                           label=f"{size:.0e}".replace("e+0", "e") + " unknowns" if form == forms[0] else None)
     ends = sorted({r["ranks"] for r in model})
     axes[0].loglog(ends, ends, color=figures.EXACT, linewidth=0.8)
     axes[0].set_title("strong scaling: speed-up")
     axes[0].legend()
-    for form, line, marker in zip(forms, (":", "--", "-"), figures.MARKERS):
+    for form, line, marker in zip(forms, ("-", "--"), figures.MARKERS):
         mine = [r for r in model if r["scaling"] == "weak" and r["form"] == form]
         axes[1].semilogx([r["ranks"] for r in mine], [r["efficiency"] for r in mine], line, marker=marker, color=figures.COMPUTED, label=form)
     axes[1].set_title("weak scaling, 244,000 unknowns a rank: efficiency")

@@ -3,7 +3,9 @@
 A pattern is pieces with unknowns, seconds of a processor an increment, and the points they share. A larger ring has the same bodies, each refined and cut into
 cubes; pieces go to ranks in their order, evenly by cost. A time step of the deck then takes, on the rank that takes longest,
 
-    increments x (pieces + own points + messages to neighbours + sums over all) + what every rank does of all + what passes to all + outputs
+    increments x (pieces + own points + messages to neighbours + sums over all) + laws and energies of own points + what passes to all + outputs
+
+Where the pieces are implicit, every rank does the interface work of all, and interface unknowns pass to all in each iteration.
 
 Outputs of a body are made by the rank that has most of it, which is brought the fields that other ranks have of it.
 """
@@ -36,14 +38,14 @@ class Costs:
 
     unknown: float = 0.0            # of a piece, an increment (or iteration)
     point: float = 0.0              # of the interface work, an increment (or iteration) and point
-    booked: float = 0.0             # laws and energies, a time step of the deck and point: on every rank
+    booked: float = 0.0             # laws and energies, a time step of the deck and point
     shown: float = 0.0              # outputs and error estimates, a time step of the deck and unknown
     fields: float = 0.0             # numbers an unknown elsewhere that rank 0 is sent in a time step
     questions: float = 0.0
     brought: float = 0.0            # numbers an unknown that the rank which makes a body's outputs is brought of pieces elsewhere in a time step
     sums: float = 1.0
     increments: float = 1.0         # of a time step of the deck: iterations where the pieces are implicit
-    gathered: float = 0.0           # bytes a point that pass to all: in a time step of the deck, or an iteration where the pieces are implicit
+    gathered: float = 0.0           # bytes that pass to all: a piece and time step of the deck, or a point and iteration where the pieces are implicit
 
 
 @dataclass(frozen=True)
@@ -130,22 +132,21 @@ def shared_out(pattern, ranks, owners):
     return unknowns, points, [len(s) for s in sent], [sum(s.values()) for s in sent]
 
 
-def step(pattern, ranks, costs, network, how="explicit", owners=None, outputs="bodies", booking="all"):
+def step(pattern, ranks, costs, network, how="explicit", owners=None, outputs="bodies"):
     """Seconds of a time step of the deck by what takes them, and bytes that all ranks send. owners: as a run had them, else in order, by size; outputs: of "bodies" or of
-    "pieces"; booking: to "all" or "neighbours"."""
+    "pieces"."""
     owners = owners or owners_of(pattern, ranks)
     unknowns, points, peers, sent = shared_out(pattern, ranks, owners)
     n, n_points, pieces = pattern.total(), pattern.points(), len(pattern.unknowns)
     times, inc = {}, costs.increments
     everywhere = how == "implicit"
     work = [inc * (costs.unknown * u + costs.point * (0.0 if everywhere else p)) for u, p in zip(unknowns, points)]
-    replicated = inc * costs.point * n_points if everywhere else 0.0
-    alone = [costs.booked * (n_points if booking == "all" else p) + replicated for p in points]
-    times["pieces and points"] = max(work) + replicated
-    times["booked by all"] = max(alone) - replicated
+    of_all = n_points * (inc * costs.point + costs.booked) if everywhere else 0.0
+    alone = [of_all or costs.booked * p for p in points]
+    times["pieces and points"] = max(a + b for a, b in zip(work, alone))
     to_neighbours = 0 if everywhere or ranks == 1 else inc * sum(sent)
     times["neighbours"] = 0.0 if not to_neighbours else inc * max(network.to_one(2 * p, s) for p, s in zip(peers, sent))
-    gathered = costs.gathered * n_points * (inc if everywhere else booking == "all")
+    gathered = costs.gathered * (inc * n_points if everywhere else pieces)
     times["to all"] = network.to_all(inc * costs.sums + 5, gathered, ranks)
     asked = 8 * costs.fields * (n - unknowns[0])
     questions = costs.questions * len(set(pattern.bodies)) * (1 - 1 / ranks)

@@ -6,8 +6,17 @@
 
 namespace dygita {
 
+void DirectPoints::find_released() {
+  for (const OwnPoint& p : points_)
+    for (const Member& member : p.point->members)
+      if ((*model_->surfaces)[member.surface].interface) released_.push_back(member.surface);
+  std::sort(released_.begin(), released_.end());
+  released_.erase(std::unique(released_.begin(), released_.end()), released_.end());
+}
+
 void DirectPoints::begin_interval(int increment) {
   interval_ = 0.0;
+  i_interval_ = increment;
   for (OwnPoint& p : points_) {
     p.impulse.setZero();
     p.work = {};
@@ -51,28 +60,37 @@ void DirectPoints::end_point(OwnPoint& p) {
   p.impulse += increment_.dt * p.record.force;
 }
 
-void DirectPoints::show(State& state) {
-  if (points_.empty()) return;
-  complete_points();
-  std::vector<PointRecord> records(model_->exchange.points.size());
-  std::vector<Vec3> port_force(model_->exchange.ports.size(), Vec3::Zero());
+// By the rank that has the piece of the first port.
+void DirectPoints::book(const OwnPoint& p, IncrementEnergy& energy) {
+  if (p.point->law) gap_difference_ = std::max(gap_difference_, difference_of_gaps(p));
+  energy.loads += p.work.given;
+  energy.friction += p.work.friction;
+  energy.plastic += p.work.plastic;
+  energy.damping += p.work.damping;
+  energy.scheme += p.work.given - p.on_pieces - p.work.dissipated();
+}
+
+void DirectPoints::show(State& state, std::vector<IncrementEnergy>& energy) {
+  for (const int s : released_)
+    if (model_->loads->is_released((*model_->surfaces)[s].interface, i_interval_)) state.released[s] = 1;
+  std::vector<Vec3> port_force;
   for (OwnPoint& p : points_) {
-    PointRecord& shown = records[p.index];
-    shown = p.record;
+    PointRecord shown = p.record;
     shown.law.force = p.impulse / interval_;
-    for (int i = p.side_1.first; i < p.side_2.end; ++i) port_force[ports_[i].index] = ports_[i].impulse / interval_;
+    port_force.clear();
+    for (int i = p.side_1.first; i < p.side_2.end; ++i) port_force.push_back(ports_[i].impulse / interval_);
+    if (p.is_booked_here) book(p, energy[model_->exchange.ports[p.point->first_port].piece]);
     if (p.point->law) {
-      book_dissipation(*p.point, p.work, state);
+      book_on_surfaces(*p.point, p.work, state);
       show_point(*p.point, shown, state);
-      gap_difference_ = std::max(gap_difference_, p.gap_difference);
     }
-    state.energies.loads += p.work.given;
-    state.energies.scheme += p.work.given - p.on_pieces - p.work.dissipated();
+    show_ties(*model_, *p.point, shown, port_force, state);
     for (const Member& member : p.point->members) state.surfaces[member.surface].residual[member.point] = 0.0;
+    for (int t = p.point->first_tie; t < p.point->end_tie; ++t) {
+      const Tie& tie = model_->exchange.ties[t];
+      state.surfaces[tie.surface].residual[tie.surface_point] = 0.0;
+    }
   }
-  for (const Tie& tie : model_->exchange.ties)
-    if (model_->exchange.points[tie.point].is_direct) state.surfaces[tie.surface].residual[tie.surface_point] = 0.0;
-  show_ties(*model_, records, port_force, state, true);
 }
 
 Vec3 DirectPoints::end_displacement(const OwnPoint& p, const OwnPort& port) const {

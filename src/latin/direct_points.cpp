@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "law/law.hpp"
+#include "solution/distant_points.hpp"
 
 namespace dygita {
 
@@ -28,6 +29,7 @@ DirectPoints::DirectPoints(const StepModel& model, const State& start)
   complete_starts();
   for (size_t i = 0; i < model.exchange.points.size(); ++i)
     if (model.exchange.points[i].is_direct) add_point(model, static_cast<int>(i), start);
+  find_released();
   find_clusters();
   has_clusters_ = !clusters_.empty();
   if (!ranks::is_alone()) find_near();
@@ -38,7 +40,7 @@ void DirectPoints::add_point(const StepModel& model, int index, const State& sta
   OwnPoint p;
   p.point = &point;
   p.index = index;
-  p.owner = model.cut->piece(model.exchange.ports[point.first_port].piece).rank;
+  p.is_booked_here = DistantPoints::booking(model, point) == ranks::me();
   p.record = start_point(model, point, start);
   p.record.trial.shortening = p.record.shortening_old;
   const int first = static_cast<int>(ports_.size()) - point.first_port;

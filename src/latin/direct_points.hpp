@@ -16,13 +16,13 @@ class DirectPoints {
   // Takes the laws' memory from `start`.
   DirectPoints(const StepModel& model, const State& start);
 
-  bool is_empty() const { return points_.empty(); }
   // A time step of the deck begins: what has let go by its middle has let go for all of it.
   void begin_interval(int increment);
   // Forces and velocities of one increment, the pieces having begun it. motions: velocities at its end.
   void solve(const std::vector<double>& motions);
-  // Fields and works of the time step of the deck into the state: forces are means over its increments.
-  void show(State& state);
+  // Fields and works of the time step of the deck into the state and the energies of the pieces that book them: forces
+  // are means over its increments. On several ranks of the points that are kept here.
+  void show(State& state, std::vector<IncrementEnergy>& energy);
 
   // Largest part of a force, relative to the largest, that points sharing nodes have left to each other since this was
   // last asked.
@@ -75,8 +75,8 @@ class DirectPoints {
     bool needs_place = false;  // it needs displacements: its law holds the jump, or a side is a group
     Vec3 impulse = Vec3::Zero();
     Work work;
-    double on_pieces = 0.0, gap_difference = 0.0;
-    int owner = 0;  // rank that books it
+    double on_pieces = 0.0;
+    bool is_booked_here = true;
   };
 
   struct Motions {
@@ -86,13 +86,15 @@ class DirectPoints {
   };
   void find_motions(const StepModel& model);
   void find_near();
+  void keep_near(const std::vector<char>& is_near);
   void complete_motions();
   void complete_starts();
-  void complete_points();
+  void book(const OwnPoint& p, IncrementEnergy& energy);
   void add_point(const StepModel& model, int index, const State& start);
   OwnPort make_port(const StepModel& model, const Point& point, int index);
   Mat3 spread_port(const StepModel& model, const Point& point, const Port& port, OwnPort& own);
   void find_clusters();
+  void find_released();
   template <typename Visit>
   void for_each_node(const OwnPort& port, Visit&& visit) const {
     if (!port.is_spread()) visit(port.node);
@@ -121,13 +123,14 @@ class DirectPoints {
   double close_enough_;  // of the largest force, between rounds over points that share nodes
   // Nodes of all explicit pieces, told by those who have them; where there are several ranks.
   std::vector<Motions> motions_;
-  ranks::Segments of_starts_, of_points_;
+  ranks::Segments of_starts_;
   ranks::Neighbours of_motions_;
   std::vector<double> told_;
   bool has_clusters_ = false;  // anywhere
   std::vector<OwnPort> ports_;
   std::vector<Share> shares_;
-  std::vector<OwnPoint> points_;
+  std::vector<OwnPoint> points_;  // those that are kept here
+  std::vector<int> released_;     // surfaces with points in closed form, on any rank, which a load may release
   std::vector<int> alone_;
   std::vector<std::vector<int>> clusters_;
   struct Swept {
@@ -137,6 +140,7 @@ class DirectPoints {
   };
   std::vector<Swept> swept_;  // of each cluster in the last increment
   double interval_ = 0.0;
+  int i_interval_ = 0;
   double largest_force_ = 0.0, largest_change_ = 0.0, gap_difference_ = 0.0;
   long n_sweeps_ = 0;
   int most_sweeps_ = 0;

@@ -179,6 +179,7 @@ void StepRun::run() {
       solve_window(i, last);
     progress.update(last, describe_progress());
   }
+  if (distant_) distant_->complete_all();
 }
 
 }  // namespace dygita

@@ -29,7 +29,10 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
                  settings.is_assembled ? 1e-1 : 1e-2) {
   if (settings.is_assembled) assembled_.emplace(model, local_, k, settings.assembly_size);
   books_.energy.resize(model.pieces.size());
-  if (!ranks::is_alone()) books_.piece_seconds.resize(model.pieces.size());
+  if (!ranks::is_alone()) {
+    books_.piece_seconds.resize(model.pieces.size());
+    if (model.has_explicit()) distant_.emplace(model, files.state);
+  }
   long n_explicit = 0;
   for (const auto& piece : model.pieces) {
     explicit_.push_back(dynamic_cast<ExplicitPiece*>(piece.get()));
@@ -101,15 +104,15 @@ void StepRun::accept_interval(int increment, int iterations, double eta, double 
 // Those of pieces elsewhere.
 void StepRun::complete_energies() {
   if (ranks::is_alone()) return;
-  constexpr int n = 5;
+  constexpr int n = 7;
   const std::vector<double> all = of_all_pieces(*model_.cut, n, [&](int i, double* to) {
     const IncrementEnergy& e = books_.energy[i];
-    const double own[n] = {e.loads, e.damping, e.scheme, e.kinetic, e.strain};
+    const double own[n] = {e.loads, e.friction, e.plastic, e.damping, e.scheme, e.kinetic, e.strain};
     std::copy_n(own, n, to);
   });
   for (size_t i = 0; i < books_.energy.size(); ++i) {
     const double* e = all.data() + n * i;
-    books_.energy[i] = {e[0], e[1], e[2], e[3], e[4]};
+    books_.energy[i] = {e[0], e[1], e[2], e[3], e[4], e[5], e[6]};
   }
 }
 
@@ -173,7 +176,9 @@ std::string StepRun::describe_progress() const {
 }
 
 Instant StepRun::instant(int increment, int iterations, double eta) const {
-  return {model_, files_.state, settings_.i_step, increment, iterations, eta, eta <= settings_.tolerance};
+  Instant now{model_, files_.state, settings_.i_step, increment, iterations, eta, eta <= settings_.tolerance};
+  if (distant_) now.distant = &*distant_;
+  return now;
 }
 
 void StepRun::add_to(SolverFigures& figures) const {
@@ -197,7 +202,8 @@ void StepRun::add_to(SolverFigures& figures) const {
   figures.n_in_full += static_cast<int>(sums[in_full]);
   figures.n_equal += static_cast<int>(sums[equal]);
   figures.n_interface_unknowns = model_.n_q();
-  figures.gap_difference = std::max({figures.gap_difference, local_.gap_difference(), direct_.gap_difference()});
+  figures.gap_difference =
+      std::max({figures.gap_difference, local_.gap_difference(), ranks::largest(direct_.gap_difference())});
   figures.sharing.pieces.resize(books_.piece_seconds.size());
   for (size_t i = 0; i < books_.piece_seconds.size(); ++i) figures.sharing.pieces[i].seconds += books_.piece_seconds[i];
   const Seconds& seconds = books_.seconds;

@@ -15,6 +15,7 @@
 #include "latin/step_settings.hpp"
 #include "latin/tangent_iteration.hpp"
 #include "latin/warm_start.hpp"
+#include "solution/distant_points.hpp"
 #include "solution/trail.hpp"
 
 namespace dygita {
@@ -178,6 +179,7 @@ class StepRun {
   std::optional<TangentIteration> assembled_;  // static steps with all pieces in one system
   bool is_answered_ = false;                   // the velocities at hand are the linear stage's answer to q
   DirectPoints direct_;
+  std::optional<DistantPoints> distant_;  // where there are several ranks
   std::vector<ExplicitPiece*> explicit_;  // null: implicit
   int piece_threads_ = 0;                 // in loops over pieces; 1: they are too small to share
   Iterate at_;

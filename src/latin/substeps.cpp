@@ -117,7 +117,8 @@ void StepRun::solve_interval(int increment) {
   {
     const Stopwatch watch(books_.seconds.accept);
     show_mean_forces();
-    direct_.show(files_.state);
+    direct_.show(files_.state, books_.energy);
+    if (distant_) distant_->forget();
   }
   files_.state.time = start + model_.step->dt;
   accept_interval(increment, iterations, eta, interface_energy);

@@ -51,6 +51,12 @@ struct Work {
   double given = 0.0;                                   // by whatever drives the point, beside a shortening
 
   double dissipated() const { return friction + plastic + damping; }
+  void add(const Work& other, double share = 1.0) {
+    friction += share * other.friction;
+    plastic += share * other.plastic;
+    damping += share * other.damping;
+    given += share * other.given;
+  }
 };
 
 // Force (N) that works over an increment, of a law with the force of the step's end in static steps and the mean of the

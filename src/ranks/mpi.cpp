@@ -278,7 +278,7 @@ void Neighbours::exchange(double* values) const {
 
 std::vector<double> ask(int rank, const Question& question, std::span<const double> with) {
   const std::scoped_lock lock(asking);
-  std::vector<double> message{static_cast<double>(question.what), static_cast<double>(question.piece)};
+  std::vector<double> message{static_cast<double>(question.what), static_cast<double>(question.of)};
   message.insert(message.end(), with.begin(), with.end());
   send(message.data(), message.size(), rank, asked);
   return receive(rank, answered);

@@ -62,7 +62,7 @@ class Segments {
 
 // Rank 0 asks others for what they alone have, while they `answer_until_released`. Any thread of rank 0 may ask.
 struct Question {
-  int what = 0, piece = 0;
+  int what = 0, of = 0;  // of: a piece or a surface
 };
 std::vector<double> ask(int rank, const Question& question, std::span<const double> with);
 using Answer = std::function<std::vector<double>(const Question&, std::span<const double>)>;

@@ -43,7 +43,7 @@ BoltRecorder::Held BoltRecorder::held(const Instant& instant, int surface) {
   const Surface& on = (*instant.model.surfaces)[surface];
   Held held;
   for (int i = 0; i < on.n_points(); ++i) {
-    const LawState& point = instant.state.surfaces[surface].points[i];
+    const LawState& point = instant.surface(surface).points[i];
     held.force += point.force.dot(on.facing.normals.col(i));
     held.opening += point.plastic_opening * on.facing.areas[i];
   }
@@ -109,7 +109,7 @@ void BoltRecorder::accept(const Instant& instant) {
     bolt.shortening = now_[b].shortening;
     bolt.yielded = now_[b].opening - tightened_[b].opening;
     bolt.plastic_opening = 0.0;
-    for (const LawState& point : instant.state.surfaces[surfaces_[b]].points)
+    for (const LawState& point : instant.surface(surfaces_[b]).points)
       bolt.plastic_opening = std::max(bolt.plastic_opening, std::abs(point.plastic_opening));
     if (!instant.is_static()) follow_motion(instant, b, bolt.last);
     if (!is_dynamic_) bolt.lowest = bolt.highest = bolt.last;

@@ -61,11 +61,6 @@ void Collector::watch(const Instant& instant) {
   extremes_.scheme_loss = std::max(extremes_.scheme_loss, e.scheme);
   extremes_.scheme_gain = std::max(extremes_.scheme_gain, -e.scheme);
   if (instant.fields) extremes_.springs = std::max(extremes_.springs, e.scheme - extremes_.before_springs);
-  for (size_t s = 0; s < instant.model.surfaces->size(); ++s) {
-    if (!(*instant.model.surfaces)[s].declared_law().shown().gap) continue;
-    for (const LawState& p : instant.state.surfaces[s].points)
-      extremes_.penetration = std::max(extremes_.penetration, -p.gap);
-  }
 }
 
 namespace {
@@ -142,7 +137,7 @@ void Collector::finish(RunResult& result) {
   result.figures.energy_imbalance = percent * extremes_.imbalance;
   result.figures.numerical_dissipation = percent * extremes_.scheme_loss;
   result.figures.energy_gain = percent * extremes_.scheme_gain;
-  result.figures.largest_penetration = extremes_.penetration;
+  result.figures.largest_penetration = parts_.gaps().deepest();
   add_error_figures(parts_.errors(), problem_, result);
   // What the springs of a penalty hold is what the sides overlap: its interfaces' constitutive-relation error.
   if (problem_.explicit_dynamics) result.figures.penalty_error = limit::penalty_error_of(percent * extremes_.springs);

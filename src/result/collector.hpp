@@ -13,7 +13,7 @@ namespace dygita {
 
 // Largest imbalances and penetrations of the run, in percent of the largest energy and in metres.
 struct Extremes {
-  double energy = 0.0, imbalance = 0.0, scheme_loss = 0.0, scheme_gain = 0.0, penetration = 0.0;
+  double energy = 0.0, imbalance = 0.0, scheme_loss = 0.0, scheme_gain = 0.0;
   double springs = 0.0,
          before_springs = 0.0;  // J, penalty: largest held by its springs, the scheme's energy at the step's start
 };

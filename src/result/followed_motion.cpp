@@ -33,7 +33,7 @@ void FollowedMotion::accept(const Instant& instant) {
     const bool is_slip = followed(surface) == Followed::slip_while_closed;
     const Points now = sides_[s].jump(instant);
     for (int i = 0; i < surface.n_points(); ++i) {
-      if (is_slip && instant.state.surfaces[s].points[i].status == PointState::open) continue;
+      if (is_slip && instant.surface(s).points[i].status == PointState::open) continue;
       const Vec3 n = surface.facing.normals.col(i), moved = now.col(i) - before_[s].col(i);
       moved_[s].col(i) += is_slip ? Vec3(moved - moved.dot(n) * n) : moved;
     }
@@ -45,13 +45,13 @@ double FollowedMotion::opening(const Instant& instant, int surface, int point) c
   const Surface& of = (*instant.model.surfaces)[surface];
   if (followed(of) == Followed::opening_and_slip && moved_[surface].size() > 0)
     return moved_[surface].col(point).dot(of.facing.normals.col(point));
-  return of.declared_law().opening(instant.state.surfaces[surface].points[point]);
+  return of.declared_law().opening(instant.surface(surface).points[point]);
 }
 
 Vec3 FollowedMotion::slip(const Instant& instant, int surface, int point) const {
   const Surface& of = (*instant.model.surfaces)[surface];
   if (followed(of) == Followed::nothing || moved_[surface].size() == 0)
-    return instant.state.surfaces[surface].points[point].slip;
+    return instant.surface(surface).points[point].slip;
   const Vec3 n = of.facing.normals.col(point), moved = moved_[surface].col(point);
   return followed(of) == Followed::slip_while_closed ? moved : Vec3(moved - moved.dot(n) * n);
 }

@@ -13,7 +13,7 @@ namespace {
 
 InterfaceFrame interface_frame(const Instant& instant, int s, const FollowedMotion& motion) {
   const Surface& surface = (*instant.model.surfaces)[s];
-  const std::vector<LawState>& state = instant.state.surfaces[s].points;
+  const std::vector<LawState>& state = instant.surface(s).points;
   const Shown shown = surface.declared_law().shown();
   const int n = surface.n_points();
   InterfaceFrame frame;
@@ -34,7 +34,7 @@ InterfaceFrame interface_frame(const Instant& instant, int s, const FollowedMoti
     plastic(0, i) = state[i].plastic_opening;
     slips.col(i) = motion.slip(instant, s, i);
     status(0, i) = static_cast<double>(state[i].status);
-    residual(0, i) = instant.state.surfaces[s].residual[i] / surface.facing.areas[i];
+    residual(0, i) = instant.surface(s).residual[i] / surface.facing.areas[i];
     displacement.col(i) = u.col(i);
   }
   frame.fields = {{"displacement", displacement},

@@ -45,7 +45,7 @@ Mat3 frame_of(const Vec3& normal) {
 // A point between faces that do not match: each direction of its law is a sum over nodes.
 void add_spread_point(const Instant& instant, int s, int i, bool ties_sliding, LinearAssembly& assembly) {
   const Surface& surface = (*instant.model.surfaces)[s];
-  const Tangent tangent = surface.declared_law().tangent(instant.state.surfaces[s].points[i], ties_sliding);
+  const Tangent tangent = surface.declared_law().tangent(instant.surface(s).points[i], ties_sliding);
   const Mat3 frame = frame_of(surface.facing.normals.col(i));
   for (int d = 0; d < 3; ++d) {
     if (!tangent.holds[d] && tangent.damping[d] == 0.0) continue;
@@ -77,7 +77,7 @@ void add_surfaces(const Instant& instant, bool ties_sliding, LinearAssembly& ass
       }
       const int a = assembly.first_node[surface.part_1] + surface.facing.side_1.main_node(i);
       const int b = surface.part_2 >= 0 ? assembly.first_node[surface.part_2] + surface.facing.side_2.main_node(i) : -1;
-      const Tangent tangent = law.tangent(instant.state.surfaces[s].points[i], ties_sliding);
+      const Tangent tangent = law.tangent(instant.surface(s).points[i], ties_sliding);
       const Mat3 frame = frame_of(surface.facing.normals.col(i));
       const auto n_held = std::count(tangent.holds.begin(), tangent.holds.end(), true);
       for (int d = 0; d < 3; ++d)

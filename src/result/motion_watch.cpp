@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "law/law.hpp"
 #include "result/limits.hpp"
@@ -53,54 +54,62 @@ std::string in_mm(const Vec3& place) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", 1e3 * place[0], 1e3 * place[1], 1e3 * place[2]);
 }
 
+void MotionWatch::look_at_edges(const Surface& surface, Watched& watched) {
+  std::vector<double> edges;
+  watched.shortest.assign(static_cast<size_t>(surface.n_points()), std::numeric_limits<double>::infinity());
+  for (const Facet& facet : surface.facing.facets) {
+    const std::span<const int> rim = facet_shape(facet.type()).rim, nodes = facet.nodes();
+    for (size_t k = 0; k < rim.size(); ++k) {
+      const int a = nodes[rim[k]], b = nodes[rim[(k + 1) % rim.size()]];
+      if (a == b) continue;  // points that have been merged
+      edges.push_back((surface.facing.places.col(a) - surface.facing.places.col(b)).norm());
+      for (const int point : {a, b}) watched.shortest[point] = std::min(watched.shortest[point], edges.back());
+    }
+  }
+  if (edges.empty()) return;
+  std::nth_element(edges.begin(), edges.begin() + edges.size() / 2, edges.end());
+  watched.cell = edges[edges.size() / 2];
+}
+
 void MotionWatch::prepare(const Instant& instant) {
   is_ready_ = true;
+  std::set<const Interface*> released;
+  for (const StepPtr& step : instant.model.problem->steps)
+    for (const LoadPtr& load : step->loads)
+      for (const Effect& effect : load->effects())
+        if (const auto* release = std::get_if<Release>(&effect)) released.insert(release->on.get());
+  std::vector<const Surface*> moving;
   for (size_t s = 0; s < instant.model.surfaces->size(); ++s) {
     const Surface& surface = (*instant.model.surfaces)[s];
-    Watched watched{
-        static_cast<int>(s), (surface.interface ? "interface '" : "wall '") + surface.name() + "'", {}, 0.0, {}};
-    std::vector<double> shortest(surface.n_points(), std::numeric_limits<double>::infinity()), edges;
-    for (const Facet& facet : surface.facing.facets) {
-      const std::span<const int> rim = facet_shape(facet.type()).rim, nodes = facet.nodes();
-      for (size_t k = 0; k < rim.size(); ++k) {
-        const int a = nodes[rim[k]], b = nodes[rim[(k + 1) % rim.size()]];
-        if (a == b) continue;  // points that have been merged
-        edges.push_back((surface.facing.places.col(a) - surface.facing.places.col(b)).norm());
-        for (const int point : {a, b}) shortest[point] = std::min(shortest[point], edges.back());
-      }
-    }
-    if (edges.empty()) continue;
-    watched.shortest = shortest;
-    watched.sides = MovedSides(surface);
-    std::nth_element(edges.begin(), edges.begin() + edges.size() / 2, edges.end());
-    watched.cell = edges[edges.size() / 2];
-    surfaces_.push_back(std::move(watched));
+    if (!surface.declared_law().shown().gap && !released.contains(surface.interface)) continue;
+    moving.push_back(&surface);
+    surfaces_.push_back({.surface = static_cast<int>(s)});
+    surfaces_.back().name = (surface.interface ? "interface '" : "wall '") + surface.name() + "'";
   }
+  jumps_ = WatchedJumps(*instant.model.cut, moving);
+  for (size_t i = 0; i < moving.size(); ++i)
+    if (jumps_.watchers()[i] == ranks::me()) look_at_edges(*moving[i], surfaces_[i]);
 }
 
 void MotionWatch::begin_step(const Instant& start) {
   if (!is_ready_) prepare(start);
 }
 
-void MotionWatch::note(const Instant& instant, double share, Finding found, Finding& finding) {
+void MotionWatch::note(double share, Finding found, Finding& finding) const {
   if (!(share > finding.most)) return;
   found.most = share;
-  found.at = time_of(instant);
-  found.first = finding.first.empty() && share > 1.0 ? found.at : finding.first;
-  finding = std::move(found);
+  found.at = static_cast<int>(moments_.size()) - 1;
+  found.first = finding.first < 0 && share > 1.0 ? found.at : finding.first;
+  finding = found;
 }
 
 void MotionWatch::accept(const Instant& instant) {
-  if (!shows_motion(instant)) return;
-  std::vector<Watched*> looked_at;
-  std::vector<const MovedSides*> sides;
-  for (Watched& watched : surfaces_) {
-    if (!has_jump(instant, watched)) continue;
-    looked_at.push_back(&watched);
-    sides.push_back(&watched.sides);
-  }
-  const std::vector<Points> jumps = jumps_of(sides, instant);
-  for (size_t i = 0; i < looked_at.size(); ++i) watch_surface(instant, jumps[i], *looked_at[i]);
+  if (!shows_motion(instant) || surfaces_.empty()) return;
+  moments_.push_back(time_of(instant));
+  const std::vector<Points> jumps = jumps_.take(instant);
+  for (size_t i = 0; i < surfaces_.size(); ++i)
+    if (jumps[i].cols() > 0 && surfaces_[i].cell > 0.0 && has_jump(instant, surfaces_[i]))
+      watch_surface(instant, jumps[i], surfaces_[i]);
 }
 
 bool MotionWatch::has_jump(const Instant& instant, const Watched& watched) {
@@ -128,20 +137,40 @@ void MotionWatch::watch_surface(const Instant& instant, const Points& jumps, Wat
   const auto place = [&](int i) { return Vec3(facing.places.col(i)); };
   if (slid >= 0) {
     const double length = way.norm(), cell = cell_along(facing, slid, way / length);
-    note(instant, length / (limit::slip_in_cells * cell),
+    note(length / (limit::slip_in_cells * cell),
          {.value = length, .length = extent(facing.places, way / length), .cell = cell, .place = place(slid)},
          watched.slip);
   }
   if (is_contact)
-    note(instant, least / watched.cell, {.value = least, .cell = watched.cell, .place = place(at_least)},
-         watched.opening);
+    note(least / watched.cell, {.value = least, .cell = watched.cell, .place = place(at_least)}, watched.opening);
   if (is_released && instant.state.shortening[watched.surface] == 0.0)
-    note(instant, deepest / (limit::passing_in_cells * watched.cell),
+    note(deepest / (limit::passing_in_cells * watched.cell),
          {.value = deepest, .cell = watched.cell, .place = place(at_deepest)}, watched.passing);
 }
 
+void MotionWatch::settle() {
+  if (ranks::is_alone() || surfaces_.empty()) return;
+  constexpr int n_finding = 9;
+  std::vector<double> all;
+  std::vector<int> offset{0};
+  for (const Watched& w : surfaces_) {
+    for (const Finding* f : {&w.slip, &w.opening, &w.passing})
+      all.insert(all.end(), {f->most, f->value, f->length, f->cell, f->place[0], f->place[1], f->place[2],
+                             static_cast<double>(f->at), static_cast<double>(f->first)});
+    offset.push_back(static_cast<int>(all.size()));
+  }
+  ranks::Segments(jumps_.watchers(), offset).complete(all.data());
+  const double* of = all.data();
+  for (Watched& w : surfaces_)
+    for (Finding* f : {&w.slip, &w.opening, &w.passing}) {
+      *f = {of[0], of[1], of[2], of[3], {of[4], of[5], of[6]}, static_cast<int>(of[7]), static_cast<int>(of[8])};
+      of += n_finding;
+    }
+}
+
 void MotionWatch::finish(RunResult& result) const {
-  const auto since = [](const Finding& f) { return f.first == f.at ? "" : "; too much since " + f.first; };
+  const auto moment = [&](int i) { return moments_[static_cast<size_t>(i)]; };
+  const auto since = [&](const Finding& f) { return f.first == f.at ? "" : "; too much since " + moment(f.first); };
   double slip = 0.0;
   for (const Watched& w : surfaces_) {
     slip = std::max(slip, limit::slip_in_cells * w.slip.most);
@@ -149,7 +178,7 @@ void MotionWatch::finish(RunResult& result) const {
       result.warnings.push_back(fmt::format(
           "{} slides by {:.4g} mm at {}, {}{}: {}; displacements are taken as small, each node presses on the one it "
           "faced at first",
-          w.name, 1e3 * w.slip.value, in_mm(w.slip.place), w.slip.at, since(w.slip),
+          w.name, 1e3 * w.slip.value, in_mm(w.slip.place), moment(w.slip.at), since(w.slip),
           w.slip.value > w.slip.length
               ? fmt::format("it is {:.4g} mm long there, so that one side has left the other and is still carried",
                             1e3 * w.slip.length)
@@ -158,12 +187,12 @@ void MotionWatch::finish(RunResult& result) const {
       result.warnings.push_back(
           fmt::format("{} is open all over, by {:.4g} mm at least, {}{}: its sides have left each other by more than a "
                       "cell ({:.4g} mm); where they meet again, each node still meets the one it faced at first",
-                      w.name, 1e3 * w.opening.value, w.opening.at, since(w.opening), 1e3 * w.opening.cell));
+                      w.name, 1e3 * w.opening.value, moment(w.opening.at), since(w.opening), 1e3 * w.opening.cell));
     if (w.passing.most > 1.0)
       result.warnings.push_back(
           fmt::format("{} is released, and its sides pass into each other by {:.4g} mm at {}, {}{}: nothing keeps them "
                       "apart after load.release",
-                      w.name, 1e3 * w.passing.value, in_mm(w.passing.place), w.passing.at, since(w.passing)));
+                      w.name, 1e3 * w.passing.value, in_mm(w.passing.place), moment(w.passing.at), since(w.passing)));
   }
   if (slip > limit::slip_in_cells) result.figures.largest_slip = slip;
 }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "result/moved_side.hpp"
 #include "result/result.hpp"
+#include "result/watched_jumps.hpp"
 
 namespace dygita {
 
@@ -20,38 +20,43 @@ std::string in_mm(const Vec3& place);
 
 class MotionWatch {
  public:
+  // Collective.
   void begin_step(const Instant& start);
-  void accept(const Instant& instant);  // collective; all ranks see the same
-  // Warnings with figures, place and time, and the largest figures of all.
+  void accept(const Instant& instant);
+  // Collective. Puts together what all ranks have seen.
+  void settle();
+  // Warnings with figures, place and time, and the largest figures of all. On rank 0, once it has settled.
   void finish(RunResult& result) const;
 
  private:
-  // When and where something was largest, and when it first was too much.
+  // When and where something was largest, and when it first was too much; times are indices in moments_.
   struct Finding {
     double most = 0.0;          // as a share of what is allowed
     double value = 0.0;         // m, or rad
     double length = 0.0;        // m, of the interface along the slip
     double cell = 0.0;          // m, along the slip
     Vec3 place = Vec3::Zero();  // m
-    std::string at{}, first{};  // "t = 1.2 ms of step 'shock'"
+    int at = -1, first = -1;
   };
-  // What the meshes say of a surface, once.
+  // What the meshes say of a surface, once; but for its name where it is watched alone.
   struct Watched {
     int surface = 0;
-    std::string name;              // "interface.contact 'touch'"
-    std::vector<double> shortest;  // m, of each point, edges of the facets around it
-    double cell = 0.0;             // m, median edge
-    MovedSides sides;
+    std::string name{};              // "interface 'touch'"
+    std::vector<double> shortest{};  // m, of each point, edges of the facets around it
+    double cell = 0.0;               // m, median edge; 0: it has no facets, and is not looked at
     Finding slip{}, opening{}, passing{};
   };
 
   void prepare(const Instant& instant);
+  static void look_at_edges(const Surface& surface, Watched& watched);
   static bool has_jump(const Instant& instant, const Watched& watched);  // that anything is known of
-  static void watch_surface(const Instant& instant, const Points& jumps, Watched& watched);
-  static void note(const Instant& instant, double share, Finding found, Finding& finding);
+  void watch_surface(const Instant& instant, const Points& jumps, Watched& watched);
+  void note(double share, Finding found, Finding& finding) const;
 
   bool is_ready_ = false;
-  std::vector<Watched> surfaces_;
+  WatchedJumps jumps_;
+  std::vector<Watched> surfaces_;     // that may slide or part
+  std::vector<std::string> moments_;  // looked at so far, the same on all ranks
 };
 
 }  // namespace dygita

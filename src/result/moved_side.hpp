@@ -35,7 +35,4 @@ struct MovedSides {
   MovedSide first, second;
 };
 
-// Collective. The jumps of several interfaces, on all ranks.
-std::vector<Points> jumps_of(const std::vector<const MovedSides*>& interfaces, const Instant& instant);
-
 }  // namespace dygita

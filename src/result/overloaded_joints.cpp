@@ -144,7 +144,7 @@ std::vector<std::string> overloaded_joints(const Instant& instant) {
     if (!takes_part(problem, *instant.model.step, surface)) continue;
     if (instant.state.released[s])
       limits.push_back({.surface = &surface, .is_released = true});
-    else if (const auto joint = at_limit(surface, instant.state.surfaces[s]))
+    else if (const auto joint = at_limit(surface, instant.surface(s)))
       limits.push_back(*joint);
     else
       groups.join(surface.part_1, surface.part_2 < 0 ? ground : surface.part_2);

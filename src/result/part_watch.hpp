@@ -1,8 +1,9 @@
-// What is watched of all parts in every run, each part and piece on the rank that has it: errors, stresses, motions too
-// large for the theory.
+// What is watched of all parts and interfaces in every run, on the rank that has them: errors, stresses, motions too
+// large for the theory, penetrations.
 #pragma once
 
 #include "result/error_estimator.hpp"
+#include "result/gap_watch.hpp"
 #include "result/motion_watch.hpp"
 #include "result/rotation_watch.hpp"
 #include "result/stress_recorder.hpp"
@@ -24,23 +25,28 @@ class PartWatch : public Observer {
     motion_.accept(instant);
     turned_.accept(instant);
     stresses_.accept(instant);
+    gaps_.accept(instant);
   }
   // Once, after the last step: rank 0 knows all.
   void settle() {
+    motion_.settle();
     turned_.settle();
     stresses_.settle();
+    gaps_.settle();
   }
 
   const ErrorEstimator& errors() const { return errors_; }
   const MotionWatch& motion() const { return motion_; }
   const RotationWatch& turned() const { return turned_; }
   StressRecorder& stresses() { return stresses_; }
+  const GapWatch& gaps() const { return gaps_; }
 
  private:
   ErrorEstimator errors_;
   MotionWatch motion_;
   RotationWatch turned_;
   StressRecorder stresses_;
+  GapWatch gaps_;
 };
 
 }  // namespace dygita

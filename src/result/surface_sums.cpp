@@ -74,7 +74,7 @@ Resultant resultant(const Instant& instant, const Problem& problem, const std::v
   for (const int s : surfaces_of(instant, targets)) {
     const Surface& surface = (*instant.model.surfaces)[s];
     for (int i = 0; i < surface.n_points(); ++i)
-      add(r, tangential, instant.state.surfaces[s].points[i].force, surface.facing.normals.col(i));
+      add(r, tangential, instant.surface(s).points[i].force, surface.facing.normals.col(i));
   }
   for (const Target& target : targets)
     if (const auto* support = std::get_if<SupportPtr>(&target); support && !(*support)->kind->law())
@@ -88,7 +88,7 @@ double mean_pressure(const Instant& instant, const std::vector<Target>& targets)
   for (const int s : surfaces_of(instant, targets)) {
     const Surface& surface = (*instant.model.surfaces)[s];
     for (int i = 0; i < surface.n_points(); ++i) {
-      normal += instant.state.surfaces[s].points[i].force.dot(surface.facing.normals.col(i));
+      normal += instant.surface(s).points[i].force.dot(surface.facing.normals.col(i));
       area += surface.facing.areas[i];
     }
   }

@@ -19,6 +19,7 @@
 #include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
 #include "result/collector.hpp"
+#include "result/joint_scene_recorder.hpp"
 #include "result/lumped_inertia.hpp"
 #include "result/part_frames.hpp"
 #include "result/part_watch.hpp"
@@ -113,8 +114,10 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* 
   PartFrames frames(problem, [&](const Frame& frame) { files->write(frame); });
   Collector collector(problem, parts, files ? FrameSink([&](const Frame& frame) { frames.begin(frame); }) : nullptr);
   SceneRecorder scenes(problem);
+  JointSceneRecorder joint_scenes(problem);
   PenetrationWatch watch(problem);
   Observers here({&collector, &watch});
+  if (keeps_scenes) here.add(joint_scenes);
   RankObserver first(here);
   Observers observers({&parts, &first});
   if (files) observers.add(frames);
@@ -128,7 +131,7 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* 
   reserve.release();
   parts.settle();
   result->interface_fields = figures.interface_fields;
-  if (keeps_scenes) scenes.finish(*result);
+  if (keeps_scenes) scenes.finish(joint_scenes.take(), *result);
   if (!ranks::is_first()) return result;
   summarise(problem, figures, *result);
   collector.finish(*result);

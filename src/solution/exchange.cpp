@@ -283,6 +283,14 @@ class Builder {
             {index, port_of(side(surface, i, 1)), port_of(side(surface, i, 2)), static_cast<int>(s), i});
       }
     }
+    std::stable_sort(exchange_.ties.begin(), exchange_.ties.end(),
+                     [](const Tie& a, const Tie& b) { return a.point < b.point; });
+    auto tie = exchange_.ties.begin();
+    for (int i = 0; i < static_cast<int>(exchange_.points.size()); ++i) {
+      exchange_.points[i].first_tie = static_cast<int>(tie - exchange_.ties.begin());
+      tie = std::find_if(tie, exchange_.ties.end(), [i](const Tie& t) { return t.point != i; });
+      exchange_.points[i].end_tie = static_cast<int>(tie - exchange_.ties.begin());
+    }
   }
 
   const Problem& problem_;

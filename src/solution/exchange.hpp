@@ -51,6 +51,7 @@ struct Point {
   double area = 0.0;                                   // m^2
   const Law* law = nullptr;                            // null: the tie of a group alone
   int first_port = 0, first_port_2 = 0, end_port = 0;  // ports of side 1, then of side 2
+  int first_tie = 0, end_tie = 0;                      // of the exchange's ties
   bool is_wall = false;                                // side 2 is rigid and at rest
   std::array<bool, 3> has_law{};                       // directions on which the law acts in this step
   std::array<bool, 3> is_active{};                     // directions that carry an unknown
@@ -68,7 +69,7 @@ struct Tie {
 struct Exchange {
   std::vector<Port> ports;
   std::vector<Point> points;
-  std::vector<Tie> ties;
+  std::vector<Tie> ties;        // one point's after another's
   std::vector<int> n_unknowns;  // of each piece
 };
 

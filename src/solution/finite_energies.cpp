@@ -13,15 +13,14 @@ namespace {
 
 std::string owner(const StepModel& model, const State& state, const std::vector<IncrementEnergy>& pieces) {
   const auto piece = std::find_if(pieces.begin(), pieces.end(), [](const IncrementEnergy& e) {
-    return !std::isfinite(e.kinetic + e.strain + e.loads + e.damping + e.scheme);
+    return !std::isfinite(e.kinetic + e.strain + e.loads + e.friction + e.plastic + e.damping + e.scheme);
   });
   if (piece != pieces.end()) {
     const int part = model.cut->piece(static_cast<int>(piece - pieces.begin())).part;
     return "substructure '" + model.problem->substructures[static_cast<size_t>(part)]->name + "'";
   }
-  const auto surface = std::find_if(state.surfaces.begin(), state.surfaces.end(), [](const SurfaceState& s) {
-    return !std::isfinite(s.friction_work + s.plastic_work + s.damping_work);
-  });
+  const auto surface = std::find_if(state.surfaces.begin(), state.surfaces.end(),
+                                    [](const SurfaceState& s) { return !std::isfinite(s.work().dissipated()); });
   if (surface != state.surfaces.end())
     return "interface '" + (*model.surfaces)[static_cast<size_t>(surface - state.surfaces.begin())].name() + "'";
   return "the assembly";

@@ -1,7 +1,7 @@
 // What a solver shows while it runs: every accepted increment, interiors on demand.
 #pragma once
 
-#include "solution/step_model.hpp"
+#include "solution/distant_points.hpp"
 
 namespace dygita {
 
@@ -18,18 +18,33 @@ class NodalFields {
 
 struct Instant {
   const StepModel& model;
-  const State& state;  // surfaces, energies and time are those of this instant; nodal fields come from the pieces
+  const State& state;  // energies and time are those of this instant; nodal fields come from the pieces
   int i_step = 0;      // index in the problem's steps
   int increment = -1;  // -1: the step's start
   int iterations = 0;
   double indicator = 0.0;
   bool converged = true;
   double interface_energy = 0.0;  // J, constitutive-relation error of the interfaces in this increment (manual, eq. Q1)
-  const NodalFields* fields = nullptr;  // null: the pieces have them
+  const NodalFields* fields = nullptr;     // null: the pieces have them
+  const DistantPoints* distant = nullptr;  // null: all points of the interfaces are here
 
   double time() const { return state.time; }
   double interval() const { return is_static() ? model.scheme.dt : model.step->dt; }  // s, of the deck
   bool is_static() const { return model.scheme.is_static; }
+  // Fields of an interface or wall at this instant; on several ranks those of the first may ask.
+  const SurfaceState& surface(int s) const {
+    if (distant) distant->complete(s);
+    return state.surfaces[static_cast<size_t>(s)];
+  }
+  // f(state) of every point of it that this rank keeps; together they keep all.
+  template <class Function>
+  void for_each_point_here(int s, Function&& f) const {
+    const std::vector<LawState>& points = state.surfaces[static_cast<size_t>(s)].points;
+    if (!distant)
+      for (const LawState& point : points) f(point);
+    else
+      for (const int point : distant->here(s)) f(points[static_cast<size_t>(point)]);
+  }
   // 3 x n_nodes each: m, m/s, m/s^2 (mean over the increment).
   Points displacement(int part) const {
     if (fields) return fields->displacement(part);
@@ -70,6 +85,9 @@ struct Instant {
   // Force (N) on nodes of a substructure from whatever holds or moves them, mean over the increment.
   Points reactions(int part) const {
     if (fields) return fields->reactions(part);
+    for (size_t s = 0; s < model.surfaces->size(); ++s)
+      if (const Surface& of = (*model.surfaces)[s]; of.part_1 == part || of.part_2 == part)
+        surface(static_cast<int>(s));
     return model.reactions(part, state);
   }
   // Force (N) of absorbing supports beside what they kept of a static step, mean over the increment.

@@ -65,13 +65,12 @@ double gap_difference(const Point& point, const PointRecord& record) {
   return std::abs(record.first_gap + record.trial.jump[0] - record.law.gap);
 }
 
+void book_on_surfaces(const Point& point, const Work& work, State& state) {
+  for (const Member& member : point.members) state.surfaces[member.surface].works[member.point].add(work, member.share);
+}
+
 void book_dissipation(const Point& point, const Work& work, State& state) {
-  for (const Member& member : point.members) {
-    SurfaceState& surface = state.surfaces[member.surface];
-    surface.friction_work += member.share * work.friction;
-    surface.plastic_work += member.share * work.plastic;
-    surface.damping_work += member.share * work.damping;
-  }
+  book_on_surfaces(point, work, state);
   state.energies.friction += work.friction;
   state.energies.plastic += work.plastic;
   state.energies.damping += work.damping;
@@ -99,59 +98,59 @@ void show_point(const Point& point, const PointRecord& record, State& state) {
   }
 }
 
-void show_ties(const StepModel& model, const std::vector<PointRecord>& records, const std::vector<Vec3>& port_force,
-               State& state, bool direct) {
+void show_ties(const StepModel& model, const Point& point, const PointRecord& record, std::span<const Vec3> port_force,
+               State& state) {
   const Exchange& exchange = model.exchange;
-  std::vector<std::vector<const Tie*>> ties_of(exchange.points.size());
-  for (const Tie& tie : exchange.ties)
-    if (exchange.points[tie.point].is_direct == direct) ties_of[tie.point].push_back(&tie);
-  for (size_t i = 0; i < ties_of.size(); ++i) {
-    if (ties_of[i].empty()) continue;
-    const Point& point = exchange.points[i];
-    const int n_ports = point.end_port - point.first_port, n_ties = static_cast<int>(ties_of[i].size());
-    Eigen::Matrix3Xd net(3, n_ports);
-    for (int p = 0; p < n_ports; ++p) net.col(p) = port_force[point.first_port + p];
-    // A tie holds a substructure, wherever that is cut: what its copies take goes to the owner.
-    for (int p = 0; p < n_ports; ++p) {
-      const Port& port = exchange.ports[point.first_port + p];
-      for (int o = 0; o < n_ports && !port.is_owner; ++o) {
-        const Port& owner = exchange.ports[point.first_port + o];
-        if (!owner.is_owner || owner.part != port.part || owner.node != port.node) continue;
-        net.col(o) += net.col(p);
-        net.col(p).setZero();
-        break;
-      }
-    }
-    // The law's own share on each port is not the tie's.
-    for (const Member& member : point.members) {
-      const Surface& surface = (*model.surfaces)[member.surface];
-      for (int p = 0; p < n_ports; ++p) {
-        const Port& port = exchange.ports[point.first_port + p];
-        if (!port.is_owner) continue;
-        if (port.part == surface.part_1 && port.node == surface.facing.side_1.main_node(member.point))
-          net.col(p) -= member.share * records[i].law.force;
-        if (port.part == surface.part_2 && port.node == surface.facing.side_2.main_node(member.point))
-          net.col(p) += member.share * records[i].law.force;
-      }
-    }
-    Mat incidence = Mat::Zero(n_ports, n_ties);
-    Vec root_area(n_ties);
-    for (int t = 0; t < n_ties; ++t) {
-      const Tie& tie = *ties_of[i][t];
-      root_area[t] = std::sqrt((*model.surfaces)[tie.surface].facing.areas[tie.surface_point]);
-      incidence(tie.port_1 - point.first_port, t) = root_area[t];
-      incidence(tie.port_2 - point.first_port, t) = -root_area[t];
-    }
-    const Mat split = n_ties == 1 ? Mat(net.col(ties_of[i][0]->port_1 - point.first_port).transpose() / root_area[0])
-                                  : Mat(incidence.completeOrthogonalDecomposition().solve(Mat(net.transpose())));
-    for (int t = 0; t < n_ties; ++t) {
-      const Tie& tie = *ties_of[i][t];
-      const Vec3 force = root_area[t] * split.row(t).transpose();
-      LawState& shown = state.surfaces[tie.surface].points[tie.surface_point];
-      shown.force = point.frame * force;
-      shown.status = PointState::stick;
+  const std::span ties(exchange.ties.data() + point.first_tie, exchange.ties.data() + point.end_tie);
+  if (ties.empty()) return;
+  const int n_ports = point.end_port - point.first_port, n_ties = static_cast<int>(ties.size());
+  Eigen::Matrix3Xd net(3, n_ports);
+  for (int p = 0; p < n_ports; ++p) net.col(p) = port_force[p];
+  // A tie holds a substructure, wherever that is cut: what its copies take goes to the owner.
+  for (int p = 0; p < n_ports; ++p) {
+    const Port& port = exchange.ports[point.first_port + p];
+    for (int o = 0; o < n_ports && !port.is_owner; ++o) {
+      const Port& owner = exchange.ports[point.first_port + o];
+      if (!owner.is_owner || owner.part != port.part || owner.node != port.node) continue;
+      net.col(o) += net.col(p);
+      net.col(p).setZero();
+      break;
     }
   }
+  // The law's own share on each port is not the tie's.
+  for (const Member& member : point.members) {
+    const Surface& surface = (*model.surfaces)[member.surface];
+    for (int p = 0; p < n_ports; ++p) {
+      const Port& port = exchange.ports[point.first_port + p];
+      if (!port.is_owner) continue;
+      if (port.part == surface.part_1 && port.node == surface.facing.side_1.main_node(member.point))
+        net.col(p) -= member.share * record.law.force;
+      if (port.part == surface.part_2 && port.node == surface.facing.side_2.main_node(member.point))
+        net.col(p) += member.share * record.law.force;
+    }
+  }
+  Mat incidence = Mat::Zero(n_ports, n_ties);
+  Vec root_area(n_ties);
+  for (int t = 0; t < n_ties; ++t) {
+    root_area[t] = std::sqrt((*model.surfaces)[ties[t].surface].facing.areas[ties[t].surface_point]);
+    incidence(ties[t].port_1 - point.first_port, t) = root_area[t];
+    incidence(ties[t].port_2 - point.first_port, t) = -root_area[t];
+  }
+  const Mat split = n_ties == 1 ? Mat(net.col(ties[0].port_1 - point.first_port).transpose() / root_area[0])
+                                : Mat(incidence.completeOrthogonalDecomposition().solve(Mat(net.transpose())));
+  for (int t = 0; t < n_ties; ++t) {
+    const Vec3 force = root_area[t] * split.row(t).transpose();
+    LawState& shown = state.surfaces[ties[t].surface].points[ties[t].surface_point];
+    shown.force = point.frame * force;
+    shown.status = PointState::stick;
+  }
+}
+
+void show_ties(const StepModel& model, const std::vector<PointRecord>& records, const std::vector<Vec3>& port_force,
+               State& state) {
+  for (size_t i = 0; i < records.size(); ++i)
+    if (const Point& point = model.exchange.points[i]; !point.is_direct)
+      show_ties(model, point, records[i], std::span(port_force).subspan(static_cast<size_t>(point.first_port)), state);
 }
 
 }  // namespace dygita

@@ -1,6 +1,8 @@
 // The memory of one interface point through a step, and where its force and works go: the same for any solver.
 #pragma once
 
+#include <span>
+
 #include "solution/step_model.hpp"
 
 namespace dygita {
@@ -31,14 +33,17 @@ double gap_difference(const Point& point, const PointRecord& record);
 // residuals). on_pieces: work of the interface on the substructures during the increment, J.
 void book_work(const Point& point, const PointRecord& record, const LawState& end, const Increment& increment,
                double on_pieces, State& state);
-// What a law has dissipated, into the energies and its surfaces.
+// What a law has dissipated, into its surfaces; and into the energies.
+void book_on_surfaces(const Point& point, const Work& work, State& state);
 void book_dissipation(const Point& point, const Work& work, State& state);
 // Forces, gaps and slips of a point with a law into the surfaces' state, once record.law is that of the end.
 void show_point(const Point& point, const PointRecord& record, State& state);
 // A substructure's force inside a group, split over its bonded interfaces: least norm weighted with nodal areas.
-// port_force: of the interfaces on each port, in its point's frame, N. direct: of the points that are solved in closed
-// form, or of the others.
+// port_force: of the interfaces on each of the point's ports, in its frame, N.
+void show_ties(const StepModel& model, const Point& point, const PointRecord& record, std::span<const Vec3> port_force,
+               State& state);
+// The same of all points that are iterated, from the forces on all ports.
 void show_ties(const StepModel& model, const std::vector<PointRecord>& records, const std::vector<Vec3>& port_force,
-               State& state, bool direct = false);
+               State& state);
 
 }  // namespace dygita

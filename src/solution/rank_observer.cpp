@@ -14,7 +14,8 @@ void watch_or_answer(const Instant& instant, Watch&& watch) {
     return;
   }
   ranks::answer_until_released([&](const ranks::Question& question, std::span<const double> with) {
-    return answer_for(*instant.model.pieces.at(static_cast<size_t>(question.piece)), question.what, with);
+    if (question.what == DistantPoints::asked) return instant.distant->answer(question.of);
+    return answer_for(*instant.model.pieces.at(static_cast<size_t>(question.of)), question.what, with);
   });
 }
 

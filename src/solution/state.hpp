@@ -23,9 +23,17 @@ struct Energies {
 struct SurfaceState {
   std::vector<LawState> points;
   std::vector<double>
-      residual;  // N, of each point: what is left between the force of the substructure and that of the law
-  double friction_work = 0.0, plastic_work = 0.0, damping_work = 0.0;  // J, so far
+      residual;             // N, of each point: what is left between the force of the substructure and that of the law
+  std::vector<Work> works;  // J, of each point: what its law has dissipated so far
+
+  Work work() const;  // J, of all points
 };
+
+inline Work SurfaceState::work() const {
+  Work sum;
+  for (const Work& work : works) sum.add(work);
+  return sum;
+}
 
 struct State {
   double time = 0.0;                 // s, dynamic time elapsed

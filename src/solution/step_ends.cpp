@@ -161,6 +161,8 @@ void book_increment(const std::vector<IncrementEnergy>& increment, Energies& ene
     energies.kinetic += e.kinetic;
     energies.strain += e.strain;
     energies.loads += e.loads;
+    energies.friction += e.friction;
+    energies.plastic += e.plastic;
     energies.damping += e.damping;
     energies.scheme += e.scheme;
   }

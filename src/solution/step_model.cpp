@@ -27,7 +27,7 @@ State initial_state(const Problem& problem, const std::vector<Surface>& surfaces
   }
   for (const Surface& surface : surfaces) {
     state.surfaces.push_back({std::vector<LawState>(surface.n_points(), surface.declared_law().initial()),
-                              std::vector<double>(surface.n_points(), 0.0)});
+                              std::vector<double>(surface.n_points(), 0.0), std::vector<Work>(surface.n_points())});
     if (surface.interface && surface.interface->has_gap_of_geometry)
       for (int i = 0; i < surface.n_points(); ++i) state.surfaces.back().points[i].gap = surface.facing.gaps[i];
     state.shortening.push_back(0.0);

@@ -49,7 +49,7 @@ class FootprintRecorder : public TableRecorder {
     for (const int s : surfaces_of(instant, request_.on)) {
       const Facing& facing = (*instant.model.surfaces)[s].facing;
       for (int i = 0; i < facing.n_points(); ++i) {
-        const Vec3 force = instant.state.surfaces[s].points[i].force, normal = facing.normals.col(i);
+        const Vec3 force = instant.surface(s).points[i].force, normal = facing.normals.col(i);
         const double push = std::max(0.0, -force.dot(normal));
         const Vec3 shear = force - force.dot(normal) * normal;
         pressing.add(push, facing.places.col(i));

@@ -16,7 +16,7 @@ namespace {
 // What a joint is at one instant; a row is the mean of both ends of an increment, forces are means already.
 struct JointState {
   double opening = 0.0, slip = 0.0, plastic_opening = 0.0;
-  double friction_work = 0.0, plastic_work = 0.0, damping_work = 0.0;
+  Work work;
 };
 
 class JointRecorder : public TableRecorder {
@@ -40,13 +40,13 @@ class JointRecorder : public TableRecorder {
       const Surface& surface = (*instant.model.surfaces)[s];
       if (!surface.declared_law().shown().states) continue;
       for (int i = 0; i < surface.n_points(); ++i)
-        area[static_cast<int>(instant.state.surfaces[s].points[i].status)] += surface.facing.areas[i];
+        area[static_cast<int>(instant.surface(s).points[i].status)] += surface.facing.areas[i];
     }
     add_row(instant, mean_time(instant),
             {r.normal, r.shear, mean(a.opening, now.opening), mean(a.slip, now.slip),
              mean(a.plastic_opening, now.plastic_opening), area[0], area[1], area[2],
-             mean(a.friction_work, now.friction_work), mean(a.plastic_work, now.plastic_work),
-             mean(a.damping_work, now.damping_work)});
+             mean(a.work.friction, now.work.friction), mean(a.work.plastic, now.work.plastic),
+             mean(a.work.damping, now.work.damping)});
     before_ = now;
   }
 
@@ -54,7 +54,7 @@ class JointRecorder : public TableRecorder {
   JointState state_of(const Instant& instant) const {
     JointState joint;
     for (const int s : surfaces_of(instant, on_)) {
-      const SurfaceState& surface = instant.state.surfaces[s];
+      const SurfaceState& surface = instant.surface(s);
       for (size_t i = 0; i < surface.points.size(); ++i) {
         const LawState& p = surface.points[i];
         const double opening = motion_.opening(instant, s, static_cast<int>(i));
@@ -62,9 +62,7 @@ class JointRecorder : public TableRecorder {
         if (std::abs(p.plastic_opening) > std::abs(joint.plastic_opening)) joint.plastic_opening = p.plastic_opening;
         joint.slip = std::max(joint.slip, motion_.slip(instant, s, static_cast<int>(i)).norm());
       }
-      joint.friction_work += surface.friction_work;
-      joint.plastic_work += surface.plastic_work;
-      joint.damping_work += surface.damping_work;
+      joint.work.add(surface.work());
     }
     return joint;
   }
