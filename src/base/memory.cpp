@@ -2,7 +2,10 @@
 
 #include <sys/mman.h>
 
+#include <cstdlib>
+#include <fstream>
 #include <new>
+#include <string>
 
 namespace dygita {
 
@@ -15,6 +18,13 @@ MemoryReserve::MemoryReserve(std::size_t bytes)
 void MemoryReserve::release() {
   if (at_) munmap(at_, bytes_);
   at_ = nullptr;
+}
+
+double available_memory() {
+  std::ifstream told("/proc/meminfo");
+  for (std::string line; std::getline(told, line);)
+    if (line.starts_with("MemAvailable:")) return 1024.0 * std::strtod(line.c_str() + line.find(':') + 1, nullptr);
+  return 0.0;
 }
 
 void require_memory(std::size_t bytes) {

@@ -20,6 +20,9 @@ class MemoryReserve {
   std::size_t bytes_;
 };
 
+// Bytes that the machine could give without swapping (MemAvailable of /proc/meminfo); 0: it does not tell.
+double available_memory();
+
 // Throws std::bad_alloc where so many bytes cannot be had now.
 void require_memory(std::size_t bytes);
 

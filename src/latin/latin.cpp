@@ -180,6 +180,7 @@ void StepRun::run() {
     progress.update(last, describe_progress());
   }
   if (distant_) distant_->complete_all();
+  if (assembled_) share_first(files_.state);
 }
 
 }  // namespace dygita

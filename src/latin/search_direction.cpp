@@ -50,7 +50,7 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
   Vec k = Vec::Zero(model.n_q());
   const NodeAreas areas = node_areas(model);
   for (const Port& port : model.exchange.ports) {
-    if (!model.cut->is_here(port.piece)) continue;
+    if (!model.solves(port.piece)) continue;
     const Piece& piece = *model.pieces[port.piece];
     const Elastic& material = model.cut->piece(port.piece).body->material;
     const bool has_schur = piece.schur_diagonal().size() > 0;

@@ -186,13 +186,15 @@ void StepRun::add_to(SolverFigures& figures) const {
   for (const SubstructurePtr& part : model_.problem->substructures) figures.n_dofs += 3 * part->mesh->n_nodes();
   enum { bytes, solved, spared, in_full, equal };
   std::vector<double> sums(5, 0.0);
-  for (const auto& piece : model_.pieces) {
-    const PieceFigures of_piece = piece->figures();
+  for (size_t i = 0; i < model_.pieces.size(); ++i) {
+    if (!model_.cut->is_here(static_cast<int>(i))) continue;
+    const Piece& piece = *model_.pieces[i];
+    const PieceFigures of_piece = piece.figures();
     sums[bytes] += of_piece.bytes;
     sums[solved] += static_cast<double>(of_piece.n_solved);
     sums[spared] += static_cast<double>(of_piece.n_spared);
     sums[in_full] += of_piece.is_mostly_interface;
-    sums[equal] += piece->shares_operator();
+    sums[equal] += piece.shares_operator();
   }
   if (assembled_) sums[bytes] += assembled_->bytes();
   sums = ranks::sums(sums);

@@ -18,7 +18,7 @@ namespace {
 
 enum Tag { failed = 1, asked, answered, passed, brought };
 
-int n_ranks = 1, own_rank = 0;
+int n_ranks = 1, own_rank = 0, n_on_machine = 1;
 Traffic so_far;
 std::mutex asking;
 Say say_error = nullptr;
@@ -114,6 +114,10 @@ void start(Say say) {
   CHECK(provided >= MPI_THREAD_SERIALIZED, "an MPI that no two threads may use in turn");
   MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
   MPI_Comm_rank(MPI_COMM_WORLD, &own_rank);
+  MPI_Comm on_machine;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &on_machine);
+  MPI_Comm_size(on_machine, &n_on_machine);
+  MPI_Comm_free(&on_machine);
 }
 
 void finish() {
@@ -127,6 +131,8 @@ void finish() {
 int count() { return n_ranks; }
 
 int me() { return own_rank; }
+
+int count_on_machine() { return n_on_machine; }
 
 void stop_all(const std::string& message, int code) {
   if (own_rank == 0) {

@@ -23,6 +23,7 @@ void finish();
 
 int count();
 int me();
+int count_on_machine();  // those that share this machine's memory
 inline bool is_first() { return me() == 0; }
 inline bool is_alone() { return count() == 1; }
 

@@ -146,7 +146,32 @@ std::vector<Vec> lumped_masses(const std::vector<Body>& bodies, const Cut& cut) 
   return masses;
 }
 
+using BodyKey = std::tuple<std::string, double, double, double>;
+
+// Equal bodies share theirs.
+void add_matrices(const std::vector<char>& to, std::vector<Body>& bodies) {
+  std::map<BodyKey, std::shared_ptr<const BodyMatrices>> known;
+  const auto key = [](const Body& body) {
+    const Elastic& m = body.part->material;
+    return BodyKey{body.part->mesh->digest, m.young, m.poisson, m.density};
+  };
+  for (const Body& body : bodies)
+    if (body.matrices) known[key(body)] = body.matrices;
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    if (!to[i]) continue;
+    std::shared_ptr<const BodyMatrices>& matrices = known[key(bodies[i])];
+    if (!matrices)
+      matrices = std::make_shared<const BodyMatrices>(assemble(*bodies[i].part->mesh, bodies[i].part->material));
+    bodies[i].matrices = matrices;
+  }
+}
+
 }  // namespace
+
+std::vector<Body> with_all_matrices(std::vector<Body> bodies) {
+  add_matrices(std::vector<char>(bodies.size(), 1), bodies);
+  return bodies;
+}
 
 std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>& surfaces) {
   std::vector<Body> bodies = make_bodies(problem, surfaces, *no_cut(problem));
@@ -157,21 +182,14 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
   double dt = 0.0;
   for (const StepPtr& step : problem.steps)
     if (!step->is_static) dt = dt == 0.0 ? step->dt : std::min(dt, step->dt);
-  using Key = std::tuple<std::string, double, double, double>;
-  std::map<Key, std::shared_ptr<const BodyMatrices>> known;
-  std::map<Key, std::shared_ptr<const Mass>> known_mass;  // a mass has no directions: turned copies have the same
+  std::map<BodyKey, std::shared_ptr<const Mass>> known_mass;  // a mass has no directions: turned copies have the same
   std::vector<Body> bodies;
+  std::vector<char> is_here;
   for (const CutPiece& piece : cut.pieces()) {
-    const SubstructurePtr& part = piece.body;
-    const Elastic& m = part->material;
-    if (piece.rank != ranks::me()) {
-      bodies.push_back({part.get(), nullptr, nullptr});
-      continue;
-    }
-    std::shared_ptr<const BodyMatrices>& matrices = known[{part->mesh->digest, m.young, m.poisson, m.density}];
-    if (!matrices) matrices = std::make_shared<const BodyMatrices>(assemble(*part->mesh, m));
-    bodies.push_back({part.get(), matrices, nullptr});
+    bodies.push_back({piece.body.get(), nullptr, nullptr});
+    is_here.push_back(piece.rank == ranks::me());
   }
+  add_matrices(is_here, bodies);
   std::vector<std::vector<char>> marked(bodies.size());
   if (problem.mass().is_moved_from_contact && dt > 0.0) {
     CHECK(bodies.size() == problem.substructures.size(), "mass does not move across a cut");

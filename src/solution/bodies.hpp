@@ -10,7 +10,9 @@ namespace dygita {
 // Matrices of every piece of the cut, with the mass that the problem's solver asks for; equal mesh and material share
 // one. Of pieces that another rank has, the mass alone.
 std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>& surfaces, const Cut& cut);
-// The same of every substructure in one piece.
+// The same with the matrices of pieces elsewhere as well.
+std::vector<Body> with_all_matrices(std::vector<Body> bodies);
+// Those of every substructure in one piece.
 std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>& surfaces);
 
 }  // namespace dygita

@@ -134,4 +134,24 @@ void DistantPoints::complete_all() {
   is_known_.assign(is_known_.size(), 1);
 }
 
+void share_first(State& state) {
+  if (ranks::is_alone()) return;
+  Energies& e = state.energies;
+  const auto energies = {&e.kinetic, &e.strain, &e.loads, &e.friction, &e.plastic, &e.damping, &e.scheme, &e.start};
+  std::vector<double> values(state.shortening);
+  for (const double* energy : energies) values.push_back(*energy);
+  for (const SurfaceState& surface : state.surfaces)
+    for (size_t i = 0; i < surface.points.size(); ++i) {
+      values.resize(values.size() + n_point);
+      write(surface, static_cast<int>(i), values.data() + values.size() - n_point);
+    }
+  values = ranks::shared(std::move(values));
+  if (ranks::is_first()) return;
+  const double* from = values.data();
+  for (double& shortening : state.shortening) shortening = *from++;
+  for (double* energy : energies) *energy = *from++;
+  for (SurfaceState& surface : state.surfaces)
+    for (size_t i = 0; i < surface.points.size(); ++i, from += n_point) read(from, static_cast<int>(i), surface);
+}
+
 }  // namespace dygita

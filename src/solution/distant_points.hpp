@@ -37,4 +37,8 @@ class DistantPoints {
   mutable std::vector<char> is_known_;
 };
 
+// Collective. Interfaces and energies of rank 0, on all: where each has solved all for itself, on a processor that may
+// round otherwise.
+void share_first(State& state);
+
 }  // namespace dygita

@@ -39,7 +39,7 @@ void set_pieces(StepModel& model, int part, const State& state, const std::vecto
   }
   const Points imbalance = cut.summed(part, [&](int piece) { return elastic[piece]; }) - state.force[part] - interfaces;
   for (int p = cut.first(part); p < cut.first(part) + cut.n_pieces(part); ++p) {
-    if (!cut.is_here(p)) continue;
+    if (!model.solves(p)) continue;
     const Points force = cut.on_owners(p, state.force[part]);
     model.pieces[p]->set_state(cut.on_piece(p, state.displacement[part]), cut.on_piece(p, state.velocity[part]), force,
                                elastic[p] - force - cut.on_owners(p, imbalance));

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "base/log.hpp"
+#include "base/memory.hpp"
 #include "law/law.hpp"
 #include "solution/all_pieces.hpp"
 #include "solution/assembled_system.hpp"
@@ -174,20 +176,25 @@ bool is_assembled(const Problem& problem, const Step& step) {
          asked.static_tolerance >= 1e-12;
 }
 
-// None of several ranks could hold such a system: they iterate, and say so.
-bool is_for_one_rank(const Step& step) {
-  if (ranks::is_alone()) return true;
+// Every rank holds such a system and solves it: what one process does is done as often, and passes nowhere.
+bool fits_every_rank(const Problem& problem, const Step& step) {
+  if (ranks::is_alone() || problem.solver.static_steps == StaticSteps::assembled) return true;
+  double n = 0.0;
+  for (const SubstructurePtr& part : problem.substructures) n += 3.0 * part->mesh->n_nodes();
+  const double bytes = 130.0 * std::pow(n, 4.0 / 3.0);  // of factor and matrices, of solids (manual, several machines)
+  const double all = ranks::count_on_machine() * bytes, available = available_memory();
+  if (!ranks::any(available > 0.0 && all > 0.5 * available)) return true;
   warn(
-      fmt::format("static step '{}' is iterated substructure by substructure, as several MPI ranks do; one process "
-                  "takes all in one "
-                  "system, which needs fewer iterations: the forces of both agree to 'static_tolerance'",
-                  step.name));
+      fmt::format("static step '{}' is iterated substructure by substructure: as one system of all, which one process "
+                  "would solve, it would take some {:.1f} GB on each of the MPI ranks; the forces of both agree to "
+                  "'static_tolerance'",
+                  step.name, 1e-9 * bytes));
   return false;
 }
 
 // One process solves equal pieces together, whose last digits depend on how many there are.
 void tell_equal_apart(const StepModel& model) {
-  if (ranks::is_alone()) return;
+  if (ranks::is_alone() || model.is_assembled) return;
   std::map<std::tuple<std::string, double, double, double>, int> first;
   for (int i = 0; i < model.cut->n_pieces(); ++i) {
     if (model.integration.is_explicit_piece(i)) continue;
@@ -210,8 +217,16 @@ void tell_equal_apart(const StepModel& model) {
 StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                           const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
   StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true);
-  model.is_assembled = is_assembled(problem, step) && is_for_one_rank(step);
-  model.pieces = model.is_assembled ? make_assembled_pieces(model, bodies) : make_pieces(model, bodies);
+  model.is_assembled = is_assembled(problem, step) && fits_every_rank(problem, step);
+  if (model.is_assembled && !ranks::is_alone()) {
+    model.here.resize(static_cast<size_t>(cut->n_pieces()));
+    std::iota(model.here.begin(), model.here.end(), 0);
+    model.unknowns = {};
+    model.assembled_bodies = with_all_matrices(bodies);
+  }
+  model.pieces = !model.is_assembled ? make_pieces(model, bodies)
+                 : ranks::is_alone() ? make_assembled_pieces(model, bodies)
+                                     : make_assembled_pieces(model, model.assembled_bodies);
   model.equal = group_equal(model.pieces);
   tell_equal_apart(model);
   return model;

@@ -27,14 +27,16 @@ struct StepModel {
   Exchange exchange;
   std::unique_ptr<Loads> loads;
   std::vector<std::unique_ptr<Piece>> pieces;
-  std::vector<int> here;                // pieces that this rank has; the others are solved elsewhere
+  std::vector<int> here;                // pieces that this rank solves; the others are solved elsewhere
   ranks::Segments unknowns;             // of all pieces, of which each rank knows its own
   std::vector<std::vector<int>> equal;  // pieces that share a factor and are solved together, at most 16 in a group
   Integration integration;              // of the pieces
-  bool is_assembled = false;            // the pieces are not factorised one by one
+  bool is_assembled = false;            // the pieces are not factorised one by one; every rank solves all
+  std::vector<Body> assembled_bodies;   // then, of several ranks: with the matrices of pieces elsewhere
   std::vector<int> offset;              // of each piece in the assembled q; the last entry is its length
 
   int n_q() const { return offset.back(); }
+  bool solves(int piece) const { return is_assembled || cut->is_here(piece); }
   // Increments in each time step of the deck: the scheme's dt is that of one.
   int n_substeps() const { return integration.n_substeps; }
   bool has_explicit() const { return integration.has_explicit(); }
