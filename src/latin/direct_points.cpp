@@ -217,7 +217,7 @@ void DirectPoints::solve_cluster(const std::vector<int>& members, const std::vec
   }
 }
 
-void DirectPoints::solve(const std::vector<double>& motions) {
+void DirectPoints::solve(const std::vector<double>& motions, int most_threads) {
   complete_motions();
   const int n = static_cast<int>(alone_.size()), n_chunks = (n + chunk - 1) / chunk;
   parallel_for(
@@ -225,11 +225,11 @@ void DirectPoints::solve(const std::vector<double>& motions) {
       [&](int c) {
         for (int i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) solve_alone(points_[alone_[i]], motions);
       },
-      Schedule::evenly, n_chunks > 4 ? 0 : 1);
+      Schedule::evenly, n_chunks > 4 ? most_threads : 1);
   const size_t n_shared = points_.size() - alone_.size();
   parallel_for(
       static_cast<int>(clusters_.size()), [&](int c) { solve_cluster(clusters_[c], motions); }, Schedule::as_free,
-      n_shared > 4 * chunk ? 0 : 1);
+      n_shared > 4 * chunk ? most_threads : 1);
   for (size_t c = 0; c < clusters_.size(); ++c) {
     n_sweeps_ += swept_[c].sweeps;
     most_sweeps_ = std::max(most_sweeps_, swept_[c].sweeps);

@@ -19,7 +19,8 @@ class DirectPoints {
   // A time step of the deck begins: what has let go by its middle has let go for all of it.
   void begin_interval(int increment);
   // Forces and velocities of one increment, the pieces having begun it. motions: velocities at its end.
-  void solve(const std::vector<double>& motions);
+  // most_threads: as parallel_for has them.
+  void solve(const std::vector<double>& motions, int most_threads);
   // Fields and works of the time step of the deck into the state and the energies of the pieces that book them: forces
   // are means over its increments. On several ranks of the points that are kept here.
   void show(State& state, std::vector<IncrementEnergy>& energy);

@@ -47,7 +47,15 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
     figures.stable_step = figures.stable_step > 0.0 ? std::min(figures.stable_step, part.longest) : part.longest;
   }
   // An increment of less is over before threads have met.
-  if (n_explicit > 0 && n_explicit < 4000) piece_threads_ = 1;
+  constexpr long few_nodes = 4000;
+  if (model.has_explicit())
+    piece_threads_ = n_explicit < few_nodes ? ThreadChoice(ThreadChoice::one) : ThreadChoice::measured();
+  is_all_direct_ = model.has_explicit() && model.n_q() == 0 && !model.problem->solver.plain &&
+                   std::all_of(model.here.begin(), model.here.end(), [&](int i) { return explicit_[i] != nullptr; });
+  largest_first_ = model.here;
+  std::stable_sort(largest_first_.begin(), largest_first_.end(), [&](int a, int b) {
+    return model.pieces[a]->node_masses().size() > model.pieces[b]->node_masses().size();
+  });
 }
 
 // The first iteration only hears what the kept fields are worth.

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "base/parallel.hpp"
+#include "base/thread_choice.hpp"
 #include "latin/anderson.hpp"
 #include "latin/coarse_correction.hpp"
 #include "latin/direct_points.hpp"
@@ -90,8 +91,10 @@ class StepRun {
 
   // Steps with explicit pieces (substeps.cpp): the time step of the deck in one or several increments.
   void solve_interval(int increment);
+  void run_through(int increment);
   void begin_substep(int increment, int substep);
   Best solve_substep(int increment, int substep, bool is_led);
+  void finish_piece(Piece& piece, int i);
   void finish_substep(int substep);
   void add_forces();
   void show_mean_forces();
@@ -129,12 +132,12 @@ class StepRun {
   template <class Function>
   void for_each_piece(Function&& f) {
     parallel_for(
-        static_cast<int>(model_.here.size()),
+        static_cast<int>(largest_first_.size()),
         [&](int at) {
-          const PieceClock clock(books_.piece_seconds, {model_.here[at]});
-          f(*model_.pieces[model_.here[at]], model_.here[at]);
+          const PieceClock clock(books_.piece_seconds, {largest_first_[at]});
+          f(*model_.pieces[largest_first_[at]], largest_first_[at]);
         },
-        Schedule::as_free, piece_threads_);
+        Schedule::as_free, piece_threads_.threads());
   }
   template <class Function>
   void for_each_group(Function&& f) {
@@ -181,7 +184,9 @@ class StepRun {
   DirectPoints direct_;
   std::optional<DistantPoints> distant_;  // where there are several ranks
   std::vector<ExplicitPiece*> explicit_;  // null: implicit
-  int piece_threads_ = 0;                 // in loops over pieces; 1: they are too small to share
+  std::vector<int> largest_first_;        // pieces that are solved here
+  bool is_all_direct_ = false;            // of the pieces here and all points: nothing is iterated
+  ThreadChoice piece_threads_;            // in loops over pieces and points in closed form
   Iterate at_;
   // Acceleration, and when to stop.
   WarmStart warm_start_;

@@ -23,7 +23,29 @@ void StepRun::begin_substep(int increment, int substep) {
     local_.begin(increment, motions, true);
   }
   const Stopwatch laws(books_.seconds.local);
-  direct_.solve(motions);
+  direct_.solve(motions, piece_threads_.threads());
+}
+
+// Increments in which nothing is iterated: a piece ends one and begins the next before the threads meet.
+void StepRun::run_through(int increment) {
+  const int n = model_.n_substeps();
+  for (int i = 0; i <= n; ++i) {
+    const bool begins = i < n;
+    const int substep = increment * n + i;
+    const std::vector<double> motions = begins ? model_.motion_velocities(substep) : std::vector<double>();
+    if (begins) model_.loads->evaluate_mean(substep * model_.scheme.dt, (substep + 1) * model_.scheme.dt);
+    {
+      const Stopwatch watch(books_.seconds.forward);
+      for_each_piece([&](Piece& piece, int at) {
+        if (i > 0) finish_piece(piece, at);
+        if (begins) explicit_[at]->begin(model_.loads->values(), motions);
+      });
+    }
+    if (!begins) break;
+    const Stopwatch laws(books_.seconds.local);
+    direct_.solve(motions, piece_threads_.threads());
+  }
+  files_.kept.append(at_.q);
 }
 
 StepRun::Best StepRun::solve_substep(int increment, int substep, bool is_led) {
@@ -38,25 +60,27 @@ StepRun::Best StepRun::solve_substep(int increment, int substep, bool is_led) {
   return best;
 }
 
+void StepRun::finish_piece(Piece& piece, int i) {
+  // Explicit pieces have heard of the direct points' force from these.
+  const bool needs_force = piece.has_motions() && (model_.n_q() > 0 || !explicit_[i]);
+  const Points held = needs_force ? local_.held_force(i) : Points();
+  const IncrementEnergy energy =
+      piece.finish(at_.q.segment(model_.offset[i], piece.n_rows()), needs_force ? &held : nullptr);
+  IncrementEnergy& sum = books_.energy[i];
+  sum.loads += energy.loads;
+  sum.damping += energy.damping;
+  sum.scheme += energy.scheme;
+  sum.kinetic = energy.kinetic;
+  sum.strain = energy.strain;
+}
+
 void StepRun::finish_substep(int substep) {
   {
     const Stopwatch watch(books_.seconds.backward);
     if (model_.n_q() > 0)
       for_each_group(
           [&](const std::vector<Piece*>& group, const std::vector<int>&) { group.front()->backward(group); });
-    for_each_piece([&](Piece& piece, int i) {
-      // Explicit pieces have heard of the direct points' force from these.
-      const bool needs_force = piece.has_motions() && (model_.n_q() > 0 || !explicit_[i]);
-      const Points held = needs_force ? local_.held_force(i) : Points();
-      const IncrementEnergy energy =
-          piece.finish(at_.q.segment(model_.offset[i], piece.n_rows()), needs_force ? &held : nullptr);
-      IncrementEnergy& sum = books_.energy[i];
-      sum.loads += energy.loads;
-      sum.damping += energy.damping;
-      sum.scheme += energy.scheme;
-      sum.kinetic = energy.kinetic;
-      sum.strain = energy.strain;
-    });
+    for_each_piece([&](Piece& piece, int i) { finish_piece(piece, i); });
   }
   const Stopwatch watch(books_.seconds.accept);
   if (model_.n_q() > 0) {
@@ -96,14 +120,21 @@ void StepRun::solve_interval(int increment) {
   const double start = files_.state.time;
   int iterations = 0;
   double eta = 0.0, interface_energy = 0.0;
-  const bool is_led = model_.n_q() > 0 && leads(n);
-  for (int i = 0; i < n; ++i) {
-    const Best best = solve_substep(increment, increment * n + i, is_led);
-    iterations += best.iterations;
-    if (best.outcome.eta > settings_.tolerance) note_missed(best.missed);
-    eta = std::max(eta, best.outcome.eta);
-    interface_energy += model_.scheme.dt * at_.sums.force_distance;
+  const auto begun = std::chrono::steady_clock::now();
+  if (is_all_direct_) {
+    run_through(increment);
+    iterations = n;
+  } else {
+    const bool is_led = model_.n_q() > 0 && leads(n);
+    for (int i = 0; i < n; ++i) {
+      const Best best = solve_substep(increment, increment * n + i, is_led);
+      iterations += best.iterations;
+      if (best.outcome.eta > settings_.tolerance) note_missed(best.missed);
+      eta = std::max(eta, best.outcome.eta);
+      interface_energy += model_.scheme.dt * at_.sums.force_distance;
+    }
   }
+  piece_threads_.note(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
   if (const double change = direct_.take_change(); change > settings_.tolerance) {
     eta = std::max(eta, change);
     note_missed({increment, iterations, change, settings_.tolerance, false, {}});

@@ -177,18 +177,20 @@ bool is_assembled(const Problem& problem, const Step& step) {
 }
 
 // Every rank holds such a system and solves it: what one process does is done as often, and passes nowhere.
-bool fits_every_rank(const Problem& problem, const Step& step) {
+bool fits_every_rank(const StepModel& model) {
+  const Problem& problem = *model.problem;
   if (ranks::is_alone() || problem.solver.static_steps == StaticSteps::assembled) return true;
   double n = 0.0;
   for (const SubstructurePtr& part : problem.substructures) n += 3.0 * part->mesh->n_nodes();
-  const double bytes = 130.0 * std::pow(n, 4.0 / 3.0);  // of factor and matrices, of solids (manual, several machines)
+  // Of factor and matrices of solids, about (manual, several machines).
+  const double bytes = 200.0 * std::pow(n, 4.0 / 3.0);
   const double all = ranks::count_on_machine() * bytes, available = available_memory();
   if (!ranks::any(available > 0.0 && all > 0.5 * available)) return true;
   warn(
       fmt::format("static step '{}' is iterated substructure by substructure: as one system of all, which one process "
                   "would solve, it would take some {:.1f} GB on each of the MPI ranks; the forces of both agree to "
                   "'static_tolerance'",
-                  step.name, 1e-9 * bytes));
+                  model.step->name, 1e-9 * bytes));
   return false;
 }
 
@@ -217,7 +219,7 @@ void tell_equal_apart(const StepModel& model) {
 StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                           const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
   StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true);
-  model.is_assembled = is_assembled(problem, step) && fits_every_rank(problem, step);
+  model.is_assembled = is_assembled(problem, step) && fits_every_rank(model);
   if (model.is_assembled && !ranks::is_alone()) {
     model.here.resize(static_cast<size_t>(cut->n_pieces()));
     std::iota(model.here.begin(), model.here.end(), 0);

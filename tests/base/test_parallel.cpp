@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/thread_choice.hpp"
 
 namespace dygita {
 namespace {
@@ -111,6 +112,29 @@ TEST_F(ParallelFor, flushes_denormals_in_every_thread) {
       },
       Schedule::evenly);
   EXPECT_EQ(halved, std::vector<double>(2, 0.0));
+}
+
+// Loops of the choice's periods, with so many seconds a loop; how many of them took all threads.
+int loops_on_all(ThreadChoice& choice, int n, double on_all, double on_one) {
+  int n_all = 0;
+  for (int i = 0; i < n; ++i) {
+    const bool is_all = choice.threads() == ThreadChoice::all;
+    n_all += is_all;
+    choice.note(is_all ? on_all : on_one);
+  }
+  return n_all;
+}
+
+TEST(ThreadChoice, takes_what_is_faster_and_looks_again) {
+  ThreadChoice choice = ThreadChoice::measured();
+  EXPECT_LE(loops_on_all(choice, 800, 2.0, 1.0), 40);
+  EXPECT_GE(loops_on_all(choice, 800, 1.0, 2.0), 680);  // the machine is idle now
+}
+
+TEST(ThreadChoice, may_be_none) {
+  ThreadChoice one(ThreadChoice::one), all;
+  EXPECT_EQ(loops_on_all(one, 100, 1.0, 2.0), 0);
+  EXPECT_EQ(loops_on_all(all, 100, 2.0, 1.0), 100);
 }
 
 }  // namespace

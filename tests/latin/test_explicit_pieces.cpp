@@ -283,6 +283,15 @@ TEST(ExplicitPieces, give_the_same_bits_on_any_number_of_threads) {
   EXPECT_EQ(one.rows.back().energies.scheme, three.rows.back().energies.scheme);
 }
 
+TEST(ExplicitPieces, that_end_an_increment_and_begin_the_next_at_once_give_the_same_bits) {
+  Problem problem = hit_cubes(contact(0.3), 2e-7, explicitly, explicitly);
+  const Watcher at_once = solved(problem);
+  problem.solver.plain = true;
+  const Watcher one_by_one = solved(problem);
+  EXPECT_EQ(last_difference(at_once, one_by_one), 0.0);
+  EXPECT_EQ(at_once.rows.back().energies.balance(), one_by_one.rows.back().energies.balance());
+}
+
 // Tightened, then left alone: what the static step has left stays at rest.
 TEST(ExplicitPieces, rest_where_a_static_step_has_left_them_in_balance) {
   for (const LawPtr& law : {plastic(1e9), contact(0.3)}) {
