@@ -130,8 +130,6 @@ void check_ranks(const Problem& problem) {
   if (problem.monolithic) refuse("solver.monolithic is one system of all substructures, which MPI ranks do not share");
   if (problem.explicit_dynamics)
     refuse("solver.explicit is one mesh of all substructures, which MPI ranks do not share");
-  if (problem.mass().is_moved_from_contact)
-    refuse("'massless_contact' looks at both sides of a joint at once, which MPI ranks do not have");
 }
 
 }  // namespace dygita

@@ -183,15 +183,16 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
   for (const StepPtr& step : problem.steps)
     if (!step->is_static) dt = dt == 0.0 ? step->dt : std::min(dt, step->dt);
   std::map<BodyKey, std::shared_ptr<const Mass>> known_mass;  // a mass has no directions: turned copies have the same
+  const bool moves_mass = problem.mass().is_moved_from_contact && dt > 0.0;
   std::vector<Body> bodies;
-  std::vector<char> is_here;
+  std::vector<char> is_looked_at;  // both sides of a joint where mass moves: there all, for now
   for (const CutPiece& piece : cut.pieces()) {
     bodies.push_back({piece.body.get(), nullptr, nullptr});
-    is_here.push_back(piece.rank == ranks::me());
+    is_looked_at.push_back(moves_mass || piece.rank == ranks::me());
   }
-  add_matrices(is_here, bodies);
+  add_matrices(is_looked_at, bodies);
   std::vector<std::vector<char>> marked(bodies.size());
-  if (problem.mass().is_moved_from_contact && dt > 0.0) {
+  if (moves_mass) {
     CHECK(bodies.size() == problem.substructures.size(), "mass does not move across a cut");
     for (size_t i = 0; i < bodies.size(); ++i)
       marked[i] = nodes_in_contact_alone(problem, surfaces, static_cast<int>(i));
@@ -223,6 +224,8 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
     bodies[i].mass = std::make_shared<const Mass>(std::move(mass));
     if (!has_massless) equal = bodies[i].mass;
   }
+  for (size_t i = 0; i < bodies.size(); ++i)
+    if (!cut.is_here(static_cast<int>(i))) bodies[i].matrices.reset();
   return bodies;
 }
 

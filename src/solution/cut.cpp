@@ -147,12 +147,12 @@ CutPtr no_cut(const Problem& problem) {
 
 CutPtr make_cut(const Problem& problem, const std::vector<Surface>& surfaces) {
   // Mass that contact nodes give to those behind them would have to cross the cut.
-  if (problem.mass().is_moved_from_contact) return no_cut(problem);
+  const bool may_be_cut = !problem.mass().is_moved_from_contact;
   std::vector<int> n_pieces;
   double unknowns = 0.0;
   for (const SubstructurePtr& part : problem.substructures) unknowns += 3.0 * part->mesh->n_nodes();
   for (const SubstructurePtr& part : problem.substructures)
-    n_pieces.push_back(pieces_of(*part, unknowns, problem.solver.pieces));
+    n_pieces.push_back(may_be_cut ? pieces_of(*part, unknowns, problem.solver.pieces) : 1);
   auto cut = std::make_shared<Cut>(problem, n_pieces, &surfaces);
   share_out(problem, surfaces, *cut);
   return cut;

@@ -87,6 +87,7 @@ compare("tuned", unlike, "unlike", "--set", "beta=1e-8", "--set", "tuned=1", mos
 compare("pieces", asked.folder / "ranks.lua", "ranks")
 # Cut substructures on several ranks; motions too large for the theory, stresses beyond yield.
 compare("cut", asked.folder / "ranks.lua", "ranks", "--set", "cut=24", "--set", "peak=30000*MPa", "--set", "us=30", also=[3])
+compare("massless", stopped, "stopped", "--solver", "latin{ massless_contact = true, static_steps = 'iterated' }")
 # All pieces of static steps in one system, which every rank solves.
 ASSEMBLED = ["--solver", "latin{ static_steps = 'assembled', integration = 'implicit' }"]
 compare("assembled", stopped, "stopped", *ASSEMBLED, also=[3])
