@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/parallel.hpp"
 #include "fem/assembly.hpp"
 #include "result/joint_scene_recorder.hpp"
 
@@ -41,13 +42,18 @@ void SceneRecorder::keep_assembly(const Instant& instant, AssemblyScene& scene) 
 }
 
 void SceneRecorder::gather(AssemblyScene& scene) const {
-  for (size_t i = 0; i < problem_.substructures.size(); ++i) {
-    const Substructure& part = *problem_.substructures[i];
+  scene.von_mises.resize(scene.displacement.size());
+  parallel_for(static_cast<int>(scene.displacement.size()), [&](int i) {
+    const Substructure& part = *problem_.substructures[static_cast<size_t>(i)];
+    if (is_watched_here(*cut_, i))
+      scene.von_mises[static_cast<size_t>(i)] =
+          von_mises(nodal_stress(*part.mesh, part.material, scene.displacement[static_cast<size_t>(i)]));
+  });
+  for (size_t i = 0; i < scene.displacement.size(); ++i) {
     const int watcher = watcher_of(*cut_, static_cast<int>(i));
-    Points& u = scene.displacement[i];
-    Vec& stress = scene.von_mises.emplace_back();
-    if (watcher == ranks::me()) stress = von_mises(nodal_stress(*part.mesh, part.material, u));
     if (watcher == 0) continue;
+    Points& u = scene.displacement[i];
+    Vec& stress = scene.von_mises[i];
     const std::vector<double> moved = ranks::to_first(watcher, {u.data(), u.data() + u.size()}),
                               loaded = ranks::to_first(watcher, {stress.begin(), stress.end()});
     u = Eigen::Map<const Points>(moved.data(), 3, static_cast<Eigen::Index>(moved.size() / 3));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.hpp"
 #include "fem/assembly.hpp"
 
 namespace dygita {
@@ -111,9 +112,9 @@ void SkinRecorder::accept(const Instant& instant) {
       {instant.model.step->name, instant.i_step, instant.is_static(), instant.time(), {}, {}, missed_});
   nodes_.take(instant);
   std::vector<PartFrame>& frame = drawn_.emplace_back(layers_.size());
-  for (size_t i = 0; i < frame.size(); ++i)
-    if (const int part = static_cast<int>(i); is_watched_here(*cut_, part))
-      frame[i] = drawn(part, nodes_.displacement(part));
+  parallel_for(static_cast<int>(frame.size()), [&](int part) {
+    if (is_watched_here(*cut_, part)) frame[static_cast<size_t>(part)] = drawn(part, nodes_.displacement(part));
+  });
 }
 
 void SkinRecorder::add(const AssemblyScene& scene) {
