@@ -164,7 +164,7 @@ void ErrorEstimator::begin_step(const Instant& start) {
   }
   pieces_.clear();
   start_.clear();
-  still_ = {start.state.energies.loads, start.state.energies.balance()};
+  still_ = {start.state.energies.loads, start.state.energies.strain, start.state.energies.balance()};
   if (start.is_static()) return;
   for (int i = 0; i < start.model.cut->n_pieces(); ++i)
     if (start.model.cut->is_here(i))
@@ -182,13 +182,14 @@ void ErrorEstimator::begin_step(const Instant& start) {
 }
 
 // What increments leave adds up along a static path: friction keeps it. It is held against the work that the step's own
-// loads do, since what an earlier step has stored says nothing of this one; and it is no less than what the energy
-// balance misses in the step (eq. Q9).
+// loads do, or what it gives back of the strain energy, since what an earlier step has stored says nothing of this one;
+// and it is no less than what the energy balance misses in the step (eq. Q9).
 void ErrorEstimator::accept_static(const Instant& instant) {
   const Energies& energies = instant.state.energies;
   static_.interface_energy += instant.interface_energy;
   still_.left += std::sqrt(std::max(0.0, instant.interface_energy));
-  still_.work = std::max(still_.work, std::abs(energies.loads - still_.loads));
+  still_.work =
+      std::max({still_.work, std::abs(energies.loads - still_.loads), std::abs(energies.strain - still_.strain)});
   still_.missing = std::max(still_.missing, std::abs(energies.balance() - still_.balance));
   if (instant.increment + 1 < instant.model.step->n_increments()) return;
   if (const double work = std::max(still_.work, 1e-8 * energies.strain); work > 0.0)

@@ -94,9 +94,9 @@ class ErrorEstimator {
 
   // Of a static step so far.
   struct StaticStep {
-    double loads = 0.0, balance = 0.0;  // J, work of the loads and what the balance misses, at its start
-    double left = 0.0;                  // sqrt of J, sum of what its increments leave
-    double work = 0.0, missing = 0.0;   // J, largest so far since its start
+    double loads = 0.0, strain = 0.0, balance = 0.0;  // J, work of the loads and what the balance misses, at its start
+    double left = 0.0;                                // sqrt of J, sum of what its increments leave
+    double work = 0.0, missing = 0.0;                 // J, largest so far since its start
   };
 
   Estimate static_, dynamic_;

@@ -70,8 +70,9 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
     say("  cut into pieces: " + pieces);
   for (const StepSummary& step : result.steps) {
     std::string line =
-        fmt::format("  {} '{}': {} increments, {:.1f} {} each, {:.2f} s", step.is_static ? "static" : "dynamic",
-                    step.name, step.increments, step.increments ? double(step.iterations) / step.increments : 0.0,
+        fmt::format("  {} '{}': {} increment{}, {:.1f} {} each, {:.2f} s", step.is_static ? "static" : "dynamic",
+                    step.name, step.increments, step.increments == 1 ? "" : "s",
+                    step.increments ? double(step.iterations) / step.increments : 0.0,
                     problem.explicit_dynamics && !step.is_static ? "substeps" : "iterations", step.seconds);
     if (!step.explicit_parts.empty())
       line += fmt::format("; explicit{}: {}, {} substep{} of each dt", problem.mass().is_tuned ? ", tuned mass" : "",

@@ -29,6 +29,29 @@ TEST(Contact, closes_an_open_gap_exactly_in_a_static_increment) {
   EXPECT_NEAR(law->advance(t, static_step, start, f).gap, 0.0, 1e-18);
 }
 
+// Forces before and after -100 N, half of 4 mm of the way is through the interference.
+TEST(Contact, is_given_the_work_that_presses_an_interference_out_and_no_more) {
+  const LawPtr law = contact(0.3);
+  LawState start, end;
+  start.force[0] = end.force[0] = -100.0;
+  end.rate[0] = 4e-3;
+  start.gap = -2e-3;
+  EXPECT_DOUBLE_EQ(law->work(start, end, static_step, 1.0).given, 0.2);
+  start.gap = -1e-18;  // rounding
+  EXPECT_NEAR(law->work(start, end, static_step, 1.0).given, 0.0, 1e-15);
+}
+
+TEST(Contact, takes_no_work_back_where_friction_turns_around_in_a_static_increment) {
+  const LawPtr law = contact(0.3);
+  LawState start, end;
+  start.force = {-100.0, -30.0, 0.0};
+  end.force = {-100.0, 10.0, 0.0};
+  end.rate[1] = 1e-3;
+  EXPECT_EQ(law->work(start, end, static_step, 1.0).friction, 0.0);
+  start.force[1] = 10.0;
+  EXPECT_DOUBLE_EQ(law->work(start, end, static_step, 1.0).friction, 0.01);
+}
+
 TEST(Contact, does_not_throw_a_penetration_back_unless_asked) {
   const LawPtr law = contact(0.0);
   LawState start;

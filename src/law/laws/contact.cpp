@@ -102,8 +102,11 @@ Work Contact::work(const LawState& start, const LawState& end, const Increment& 
   const Vec3 force = working_force(start, end, increment), motion = motion_of(start, end, increment);
   Work work;
   work.friction = force.tail<2>().dot(motion.tail<2>());
-  // An interference pressed out in a static step is work done from outside.
-  if (increment.is_static && start.gap < 0.0) work.given = -force[0] * motion[0];
+  // Where friction turns around within a static increment the mean of both forces is not what it slides against.
+  if (increment.is_static) work.friction = std::max(0.0, work.friction);
+  // An interference pressed out in a static step is work done from outside: as far as it goes, so that a gap which is
+  // zero but for rounding adds nothing.
+  if (increment.is_static && start.gap < 0.0) work.given = -force[0] * std::clamp(motion[0], 0.0, -start.gap);
   return work;
 }
 
