@@ -49,13 +49,7 @@ void DirectPoints::end_point(OwnPoint& p) {
     port.impulse += increment_.dt * port.force;
   }
   const LawState end = dygita::end_of_point(*p.point, p.record, increment_);
-  if (p.point->law) {
-    const Work work = p.point->law->work(p.record.law, end, increment_, p.point->area);
-    p.work.friction += work.friction;
-    p.work.plastic += work.plastic;
-    p.work.damping += work.damping;
-    p.work.given += work.given;
-  }
+  if (p.point->law) p.work.add(p.point->law->work(p.record.law, end, increment_, p.point->area));
   p.record.law = end;
   p.impulse += increment_.dt * p.record.force;
 }

@@ -92,6 +92,7 @@ compare("massless", stopped, "stopped", "--solver", "latin{ massless_contact = t
 ASSEMBLED = ["--solver", "latin{ static_steps = 'assembled', integration = 'implicit' }"]
 compare("assembled", stopped, "stopped", *ASSEMBLED, also=[3])
 compare("assembled_pieces", asked.folder / "ranks.lua", "ranks", "--solver", "latin{ static_steps = 'assembled', pieces = 24 }")
+compare("released", asked.folder / "ranks.lua", "ranks", "--set", "release=20", also=[3])
 compare("study", asked.folder / "study.lua", "study", cases=("mu 0.1", "mu 0.2", "mu 0.3"), most=2)
 
 
