@@ -50,6 +50,30 @@ TEST_F(Pulse, knows_what_its_mesh_leaves) {
   }
 }
 
+// A static step without loads, after a shock: it unloads what is left of the waves, so that nothing is strained at its
+// end.
+const std::string unloaded = R"(
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 8000 }
+local function block(i)
+  return substructure{ name = "block " .. i, material = steel, mesh = mesh.box{ origin = { (i - 1) * 10*mm, 0, 0 }, size = { 10*mm, 10*mm, 10*mm }, cells = { 3, 3, 3 } } }
+end
+local a, b = block(1), block(2)
+local hit = step.dynamic{ name = "hit", duration = 30*us, dt = 0.5*us,
+  loads = { load.traction{ on = b:face "xmax", x = history.half_sine{ peak = 100*MPa, duration = 8*us } } } }
+problem{ name = "rest", substructures = { a, b },
+  interfaces = { interface.bonded{ name = "glue", between = { a:face "xmax", b:face "xmin" } } },
+  supports = { support.fixed{ name = "foot", on = a:face "xmin" } },
+  steps = { hit, step.static{ name = "rest", after = hit } }, outputs = { output.energy{} } }:run{}
+)";
+
+TEST(Unloading, has_an_iteration_error_held_against_what_it_unloads) {
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / "dygita_test_unloading.lua";
+  std::ofstream(path) << unloaded;
+  const DeckRun run = run_file(path).front();
+  std::filesystem::remove(path);
+  EXPECT_LT(run.figure("error estimate, static, iteration [%]"), 0.01);
+}
+
 // A bar shaken across at its foot, of tetrahedra that lock or of hexahedra that do not: how it bends is little beside
 // how it is carried along.
 const std::string shaken = R"(
