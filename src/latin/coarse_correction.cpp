@@ -115,12 +115,13 @@ Mat CoarseCorrection::respond(const Piece& piece, int offset, Local& local) {
   for (const int unknown : local.tied) is_tied[unknown - offset] = 1;
   for (int r = 0; r < piece.n_rows(); ++r)
     if (!is_tied[r]) local.rest.push_back(offset + r);
-  const Mat compliance = piece.row_compliance();
+  std::vector<int> columns;
+  for (const int unknown : local.tied) columns.push_back(unknown - offset);
+  const Mat compliance = piece.row_compliance(columns);
   Mat tied(n_tied, n_tied), rest(local.rest.size(), n_tied);
   for (int c = 0; c < n_tied; ++c) {
-    for (int r = 0; r < n_tied; ++r) tied(r, c) = compliance(local.tied[r] - offset, local.tied[c] - offset);
-    for (size_t r = 0; r < local.rest.size(); ++r)
-      rest(r, c) = compliance(local.rest[r] - offset, local.tied[c] - offset);
+    for (int r = 0; r < n_tied; ++r) tied(r, c) = compliance(columns[r], c);
+    for (size_t r = 0; r < local.rest.size(); ++r) rest(r, c) = compliance(local.rest[r] - offset, c);
   }
   local.data = tied.llt().solve(local.shape);
   local.answer = rest * local.data;

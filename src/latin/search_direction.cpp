@@ -4,7 +4,7 @@
 #include <map>
 #include <unordered_map>
 
-#include "base/parallel.hpp"
+#include "base/parallel_by_cost.hpp"
 
 namespace dygita {
 
@@ -87,8 +87,14 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
 }
 
 void fix_search_directions(StepModel& model, const Vec& k) {
+  std::vector<double> cost;  // of a dense factor
+  for (const int i : model.here) {
+    const Piece& piece = *model.pieces[i];
+    cost.push_back(piece.shares_operator() || model.integration.is_explicit_piece(i) ? 0.0
+                                                                                     : std::pow(piece.n_rows(), 3));
+  }
   for (const bool shares : {false, true})  // those whose operators others share come first
-    parallel_for(static_cast<int>(model.here.size()), [&](int at) {
+    parallel_by_cost(cost, [&](int at) {
       const int i = model.here[at];
       Piece& piece = *model.pieces[i];
       if (piece.shares_operator() == shares) piece.set_search_directions(k.segment(model.offset[i], piece.n_rows()));

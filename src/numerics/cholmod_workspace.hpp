@@ -1,4 +1,5 @@
-// CHOLMOD's workspace, shared by the factors of this folder; nothing else includes it.
+// The only place that names CHOLMOD, with repeated_factor.cpp: its workspace and what it lays out. METIS is named in
+// cholmod_workspace.cpp and in partition.cpp. Nothing outside this folder includes it.
 #pragma once
 
 #include <cholmod.h>

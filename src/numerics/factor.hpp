@@ -1,5 +1,5 @@
 // Sparse Cholesky factor with the interface unknowns last, and the solves that stop at the interface.
-// The only place that names CHOLMOD (factor.cpp); METIS is named there and in partition.cpp.
+// CHOLMOD orders and lays out (cholmod_workspace.cpp), the numbers are computed by fronts (fronts.cpp).
 #pragma once
 
 #include <string>
@@ -10,8 +10,9 @@
 
 namespace dygita {
 
-// A = L L^T in the order [interior, interface]. Vectors passed to the solves are in this order (`order`), so that state
-// kept in it is never gathered (manual, one solve per step). n_rhs right-hand sides: columns of a matrix.
+// A in the order [interior, interface], of which the interior is factorised, L_II L_II^T, and the interface is what is
+// left of it. Vectors passed to the solves are in this order (`order`), so that state kept in it is never gathered
+// (manual, one solve per step). n_rhs right-hand sides: columns of a matrix.
 class Factor {
  public:
   // matrix: symmetric positive definite, n x n, both triangles stored; node_of_dof: graph vertex of each unknown,
@@ -31,17 +32,14 @@ class Factor {
   void forward(Eigen::Ref<Mat> x) const;
   // Given x_b: x_I <- L_II^-T (x_I - L_bI^T x_b).
   void backward(Eigen::Ref<Mat> x) const;
-  // x <- A^-1 x. Not after release_interface.
+  // x <- A^-1 x, where no unknown is the interface's.
   void solve(Eigen::Ref<Mat> x) const;
-  // Schur complement of A on the interface, L_bb L_bb^T (n_interface x n_interface, in factor order). Not after
-  // release_interface.
-  Mat interface_schur() const;
-  // Frees L_bb: what is left of the factor is its interior.
-  void release_interface() { interface_.resize(0, 0); }
+  // Schur complement of A on the interface, A_bb - L_bI L_bI^T (n_interface x n_interface, in factor order); once.
+  Mat take_schur();
 
   double nonzeros() const;  // entries of L that a forward or backward solve reads
   double bytes() const;     // held by the factor
-  // The same before factorising, from the ordering and the pattern alone, once the interface is released; in single
+  // The same before factorising, from the ordering and the pattern alone, once the Schur complement is taken; in single
   // precision an estimate, since entries take the bytes that their size asks for.
   static double predicted_bytes(const SparseMatrix& matrix, const std::vector<int>& node_of_dof,
                                 const std::vector<char>& is_interface,
@@ -50,15 +48,9 @@ class Factor {
  private:
   std::vector<int> order_;
   int n_interior_ = 0;
-  Mat interface_;  // L_bb, lower triangle
+  Mat schur_;  // lower triangle, until it is taken
   PackedFactor interior_;
 };
-
-// Inverse of a symmetric positive definite matrix, lower triangle valid on return. Throws NumericalError naming `what`.
-Mat inverse_spd(Mat matrix, const std::string& what);
-
-// y = A x with A symmetric, only its lower triangle read.
-void multiply_symmetric(const Mat& lower, const Vec& x, Vec& y);
 
 // Flushes denormals in this thread; one thread inside BLAS, whoever calls it. Call before solving.
 void prepare_thread();

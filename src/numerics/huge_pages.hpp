@@ -4,10 +4,12 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <memory>
 #include <new>
-#include <vector>
 
 namespace dygita {
 
@@ -35,26 +37,21 @@ inline void* allocate_huge_pages(size_t n_bytes) {
   return memory;
 }
 
-template <class T>
-struct HugePages {
-  using value_type = T;
-  HugePages() = default;
-  template <class Other>
-  HugePages(const HugePages<Other>&) {}
+// Memory that nobody has written to: what is never reached costs nothing.
+class UntouchedPages {
+ public:
+  explicit UntouchedPages(size_t n_bytes)
+      : memory_(static_cast<std::byte*>(allocate_huge_pages(std::max(n_bytes, size_t{1})))) {
+    if (!memory_) throw std::bad_alloc();
+  }
+  std::byte* data() { return memory_.get(); }
+  double* doubles() { return reinterpret_cast<double*>(memory_.get()); }
 
-  T* allocate(size_t n) {
-    void* memory = allocate_huge_pages(n * sizeof(T));
-    if (!memory) throw std::bad_alloc();
-    return static_cast<T*>(memory);
-  }
-  void deallocate(T* memory, size_t) { std::free(memory); }
-  template <class Other>
-  bool operator==(const HugePages<Other>&) const {
-    return true;
-  }
+ private:
+  struct Free {
+    void operator()(std::byte* memory) const { std::free(memory); }
+  };
+  std::unique_ptr<std::byte, Free> memory_;
 };
-
-template <class T>
-using StreamedVector = std::vector<T, HugePages<T>>;
 
 }  // namespace dygita

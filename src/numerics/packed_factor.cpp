@@ -34,17 +34,16 @@ void PackedFactor::add(const SupernodeView& s) {
   std::vector<double> tolerance(n_rows, 0.0);
   for (int i = 0; i < n_rows && tolerance_.size() > 0; ++i)
     tolerance[i] = tolerance_[i < s.n_columns ? s.first + i : s.below[i - s.n_columns]];
-  Mat panel;
+  double top[Panels::width * Panels::width];
   for (int j = 0; j < s.n_columns; j += Panels::width) {
     const int width = std::min(Panels::width, s.n_columns - j), height = n_rows - j;
-    panel.setZero(height, width);
+    const double* values = s.values + static_cast<size_t>(j) * s.stride + j;
     for (int c = 0; c < width; ++c) {
-      const double* column = s.values + static_cast<size_t>(j + c) * s.stride + j;
-      panel.col(c).tail(height - c) = Eigen::Map<const Vec>(column + c, height - c);
-      panel(c, c) = 1.0 / column[c];
+      const double* column = values + static_cast<size_t>(c) * s.stride;
+      for (int r = 0; r < width; ++r) top[c * width + r] = r < c ? 0.0 : r == c ? 1.0 / column[c] : column[r];
       nonzeros_ += height - c;
     }
-    panels_.add(panel.data(), height, height, width, tolerance.data() + j);
+    panels_.add(top, values, s.stride, height, width, tolerance.data() + j);
   }
 }
 
@@ -158,17 +157,15 @@ void PackedFactor::backward(Eigen::Ref<Mat> x) const {
 SymmetricOperator::SymmetricOperator(const Mat& lower, Precision precision, double error)
     : n_(static_cast<int>(lower.rows())), panels_(precision) {
   const Vec size = lower.diagonal().cwiseSqrt();
-  Mat panel;
+  double top[Panels::width * Panels::width];
   Vec tolerance;
   for (int j = 0; j < n_; j += Panels::width) {
     const int width = std::min(Panels::width, n_ - j);
-    panel = lower.block(j, j, n_ - j, width);
     for (int c = 0; c < width; ++c)
-      for (int r = 0; r < c; ++r) panel(r, c) = lower(j + c, j + r);
+      for (int r = 0; r < width; ++r) top[c * width + r] = lower(j + std::max(c, r), j + std::min(c, r));
     tolerance = error * size.segment(j, width).minCoeff() * size.tail(n_ - j);
-    panels_.add(panel.data(), n_ - j, n_ - j, width, tolerance.data());
+    panels_.add(top, lower.data() + static_cast<size_t>(j) * n_ + j, n_, n_ - j, width, tolerance.data());
   }
-  panels_.shrink();
 }
 
 Mat SymmetricOperator::lower() const {

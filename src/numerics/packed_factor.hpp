@@ -23,7 +23,6 @@ class PackedFactor {
   explicit PackedFactor(Precision precision = Precision::double_precision, Vec largest_error = {});
   // Adds a supernode; in order of columns.
   void add(const SupernodeView& supernode);
-  void shrink() { panels_.shrink(); }  // after the last
   // x: all unknowns in factor order, a column a right-hand side. L x' = x over the packed columns; the rows below take
   // their share.
   void forward(Eigen::Ref<Mat> x) const;

@@ -44,71 +44,101 @@ Kind Panels::kind_of(double largest, double tolerance) const {
   return float_32;
 }
 
-void Panels::add(const double* values, int stride, int n_rows, int n_columns, const double* tolerance) {
-  const bool is_double = precision_ == Precision::double_precision;
-  struct Planned {
-    Tile tile;
-    Kind kind;
-  };
-  std::vector<Planned> planned;
-  for (int row = 0; row < n_rows; row += height) {
-    const int end = std::min(row + height, n_rows);
-    double largest = 0.0, allowed = std::numeric_limits<double>::infinity();
-    for (int c = 0; c < n_columns; ++c)
-      for (int i = row; i < end; ++i)
-        largest = std::max(largest, std::abs(values[static_cast<size_t>(c) * stride + i]));
-    for (int i = row; i < end && tolerance; ++i) allowed = std::min(allowed, tolerance[i]);
-    if (row > 0 && largest <= (is_double ? 0.0 : allowed)) continue;
-    const Kind kind = row == 0 ? (is_double ? full : float_32) : kind_of(largest, allowed);
-    const double most = kind == int_8 ? 127.0 : 32767.0;
-    planned.push_back({{row, kind == int_8 || kind == int_16 ? static_cast<float>(largest / most) : 1.0f}, kind});
-  }
-  std::stable_sort(planned.begin() + 1, planned.end(),
-                   [](const Planned& a, const Planned& b) { return a.kind < b.kind; });
+namespace {
 
-  Panel panel{data_.size(), tiles_.size(), n_rows, n_columns, {}};
-  const auto write = [&](const Tile& tile, auto zero) {
-    using T = decltype(zero);
-    const size_t start = data_.size();
-    data_.resize(start + tile_bytes<T>(n_columns));
-    std::vector<T> entries(static_cast<size_t>(height) * n_columns, T(0));
-    const double inverse = tile.scale > 0.0f ? 1.0 / static_cast<double>(tile.scale) : 0.0;
-    for (int c = 0; c < n_columns; ++c)
-      for (int i = tile.row; i < std::min(tile.row + height, n_rows); ++i) {
-        const double value = values[static_cast<size_t>(c) * stride + i];
-        entries[static_cast<size_t>(c) * height + i - tile.row] =
-            std::is_integral_v<T> ? static_cast<T>(std::lround(
-                                        std::clamp(value * inverse, -static_cast<double>(std::numeric_limits<T>::max()),
-                                                   static_cast<double>(std::numeric_limits<T>::max()))))
-                                  : static_cast<T>(value);
+// A tile of a panel, by columns of `height` entries; rows that the panel lacks are zero.
+struct TileEntries {
+  double value[width * height];
+  double largest = 0.0;
+
+  TileEntries(const double* top, const double* values, int stride, int row, int end, int n_columns) {
+    double most[height] = {};
+    for (int c = 0; c < n_columns; ++c) {
+      double* column = value + static_cast<ptrdiff_t>(c) * height;
+      const double* from = values + static_cast<size_t>(c) * stride + row;
+      if (end - row == height) {
+        std::copy_n(from, height, column);
+      } else {
+        std::fill_n(column, height, 0.0);
+        std::copy_n(from, end - row, column);
       }
-    std::memcpy(data_.data() + start, entries.data(), entries.size() * sizeof(T));
-  };
-  for (const Planned& p : planned) {
-    ++panel.count[p.kind];
-    tiles_.push_back(p.tile);
-    switch (p.kind) {
-      case full:
-        write(p.tile, 0.0);
-        break;
-      case float_32:
-        write(p.tile, 0.0f);
-        break;
-      case int_16:
-        write(p.tile, std::int16_t{0});
-        break;
-      default:
-        write(p.tile, std::int8_t{0});
-        break;
+      if (row == 0) std::copy_n(top + static_cast<ptrdiff_t>(c) * n_columns, n_columns, column);
+      for (int i = 0; i < height; ++i) most[i] = std::max(most[i], std::abs(column[i]));
     }
+    largest = *std::max_element(most, most + height);
   }
-  panels_.push_back(panel);
+};
+
+template <class T>
+void write_tile(const TileEntries& tile, double scale, int n_columns, std::byte* to) {
+  T entries[width * height];
+  const double inverse = scale > 0.0 ? 1.0 / scale : 0.0;
+  constexpr double most = std::is_integral_v<T> ? static_cast<double>(std::numeric_limits<T>::max()) : 0.0;
+  for (int i = 0; i < n_columns * height; ++i)
+    entries[i] = std::is_integral_v<T> ? static_cast<T>(std::lround(std::clamp(tile.value[i] * inverse, -most, most)))
+                                       : static_cast<T>(tile.value[i]);
+  std::memcpy(to, entries, tile_bytes<T>(n_columns));
 }
 
-void Panels::shrink() {
-  data_.shrink_to_fit();
-  tiles_.shrink_to_fit();
-  panels_.shrink_to_fit();
+}  // namespace
+
+std::byte* Chunks::room(size_t n) {
+  constexpr size_t smallest = size_t{1} << 16, largest = size_t{1} << 25;
+  if (chunks_.empty() || used_ + n > capacity_) {
+    capacity_ = std::max(n, std::clamp(taken_, smallest, largest));
+    chunks_.emplace_back(capacity_);
+    used_ = 0;
+  }
+  return chunks_.back().data() + used_;
+}
+
+void Panels::add(const double* top, const double* values, int stride, int n_rows, int n_columns,
+                 const double* tolerance) {
+  const bool is_double = precision_ == Precision::double_precision;
+  Panel panel{nullptr, tiles_.size(), n_rows, n_columns, {}};
+  const size_t n_tiles = (n_rows + height - 1) / height;
+  panel.data = data_.room(n_tiles * (is_double ? tile_bytes<double>(n_columns) : tile_bytes<float>(n_columns)));
+  auto* to = const_cast<std::byte*>(panel.data);
+  const auto read = [&](int row) {
+    return TileEntries(top, values, stride, row, std::min(row + height, n_rows), n_columns);
+  };
+  const auto put = [&](const Tile& tile, Kind kind, auto zero, const TileEntries& entries) {
+    using T = decltype(zero);
+    write_tile<T>(entries, tile.scale, n_columns, to);
+    to += tile_bytes<T>(n_columns);
+    ++panel.count[kind];
+    tiles_.push_back(tile);
+  };
+  if (is_double) {
+    for (int row = 0; row < n_rows; row += height)
+      if (const TileEntries entries = read(row); row == 0 || entries.largest > 0.0)
+        put({row, 1.0f}, full, 0.0, entries);
+  } else {
+    struct Planned {
+      Tile tile;
+      Kind kind;
+    };
+    std::vector<Planned> planned;
+    for (int row = 0; row < n_rows; row += height) {
+      const double largest = read(row).largest;
+      double allowed = std::numeric_limits<double>::infinity();
+      for (int i = row; i < std::min(row + height, n_rows) && tolerance; ++i) allowed = std::min(allowed, tolerance[i]);
+      if (row > 0 && largest <= allowed) continue;
+      const Kind kind = row == 0 ? float_32 : kind_of(largest, allowed);
+      const double most = kind == int_8 ? 127.0 : 32767.0;
+      planned.push_back({{row, kind == int_8 || kind == int_16 ? static_cast<float>(largest / most) : 1.0f}, kind});
+    }
+    std::stable_sort(planned.begin() + 1, planned.end(),
+                     [](const Planned& a, const Planned& b) { return a.kind < b.kind; });
+    for (const Planned& p : planned) {
+      const TileEntries entries = read(p.tile.row);
+      if (p.kind == float_32) put(p.tile, p.kind, 0.0f, entries);
+      if (p.kind == int_16) put(p.tile, p.kind, std::int16_t{0}, entries);
+      if (p.kind == int_8) put(p.tile, p.kind, std::int8_t{0}, entries);
+    }
+  }
+  data_.take(static_cast<size_t>(to - panel.data));
+  panels_.push_back(panel);
 }
 
 double Panels::bytes() const {

@@ -10,6 +10,19 @@
 
 namespace dygita {
 
+// Memory that grows without being moved: what has been written is not copied, and nobody clears what is not written.
+class Chunks {
+ public:
+  // Room for n bytes behind what is in use, which the next call gives again unless they are taken.
+  std::byte* room(size_t n);
+  void take(size_t n) { used_ += n, taken_ += n; }
+  size_t size() const { return taken_; }  // bytes taken
+
+ private:
+  std::vector<UntouchedPages> chunks_;
+  size_t capacity_ = 0, used_ = 0, taken_ = 0;  // of the last chunk; of all
+};
+
 // A panel has up to 8 columns and any number of rows; its tiles are 16 rows of it, column-major. The first tile, with
 // the triangle, is stored in full. Of the others, in single precision, each is stored in float, in 16 or 8 bits with a
 // scale, or not at all, whichever is the shortest that keeps the error of every entry below the tolerance of its rows:
@@ -21,11 +34,9 @@ class Panels {
 
   explicit Panels(Precision precision = Precision::double_precision) : precision_(precision) {}
 
-  // values: column-major, n_rows x n_columns, `stride` apart. tolerance: largest error allowed in each row (single
-  // precision).
-  void add(const double* values, int stride, int n_rows, int n_columns, const double* tolerance);
-  // Frees what was set aside for more panels; after the last.
-  void shrink();
+  // values: column-major, n_rows x n_columns, `stride` apart; top: the first n_columns rows of it, `n_columns` apart,
+  // which are not read in `values`. tolerance: largest error allowed in each row (single precision).
+  void add(const double* top, const double* values, int stride, int n_rows, int n_columns, const double* tolerance);
   size_t size() const { return panels_.size(); }
   Precision precision() const { return precision_; }
   double bytes() const;
@@ -49,19 +60,20 @@ class Panels {
 
  private:
   struct Panel {
-    size_t data, tiles;
+    const std::byte* data;
+    size_t tiles;
     int n_rows, n_columns;
     int count[panel::n_kinds];
   };
   panel::View view(const Panel& panel) const {
-    return {data_.data() + panel.data, tiles_.data() + panel.tiles, panel.n_columns, panel.count};
+    return {panel.data, tiles_.data() + panel.tiles, panel.n_columns, panel.count};
   }
   panel::Kind kind_of(double largest, double tolerance) const;
 
   Precision precision_;
   std::vector<Panel> panels_;
   std::vector<panel::Tile> tiles_;
-  StreamedVector<std::byte> data_;
+  Chunks data_;
 };
 
 // Bytes of a panel in double precision.

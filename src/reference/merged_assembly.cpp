@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "numerics/spd_inverse.hpp"
+
 namespace dygita {
 
 namespace {
@@ -33,7 +35,7 @@ bool are_equal(const SparseMatrix& a, const SparseMatrix& b) {
 // H = (S + G^T R G)^-1 and W = G H G^T, with S the Schur complement of the assembly without the reference.
 void make_compliance(const Vec& reference, const std::string& what, AssemblyFactor& made) {
   const SparseMatrix& rows = made.g_of_unknowns;
-  const Factor& factor = *made.factor;
+  Factor& factor = *made.factor;
   const int n_rows = static_cast<int>(rows.rows()), n_interior = factor.n_interior(), n = factor.n_interface();
   made.softening = Vec::Zero(n_rows);
   Triplets entries;
@@ -44,14 +46,14 @@ void make_compliance(const Vec& reference, const std::string& what, AssemblyFact
     }
   made.g = sparse(n_rows, n, entries);
   if (n == 0) return;
-  Mat schur = factor.interface_schur();
+  Mat schur = factor.take_schur();
   for (int i = 0; i < n; ++i) schur(i, i) -= reference[factor.order()[n_interior + i]];
   for (int i = 0; i < n_rows; ++i)
     for (SparseMatrix::InnerIterator r(made.g, i); r; ++r)
       for (SparseMatrix::InnerIterator c(made.g, i); c; ++c)
         schur(r.col(), c.col()) += made.softening[i] * r.value() * c.value();
   made.inverse = inverse_spd(std::move(schur), what);
-  made.inverse.triangularView<Eigen::StrictlyUpper>() = made.inverse.transpose();
+  mirror_lower(made.inverse);
   const Mat half = made.g * made.inverse;
   made.compliance = (made.g * Mat(half.transpose())).transpose();
 }

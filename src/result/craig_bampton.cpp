@@ -59,7 +59,7 @@ class HeldInterface {
     position_.resize(n);
     for (int i = 0; i < n; ++i) position_[factor_->order()[i]] = i;
     const int n_i = factor_->n_interior();
-    Mat schur = factor_->interface_schur();
+    Mat schur = factor_->take_schur();
     for (int i = 0; i < n_b; ++i) schur(i, i) -= reference[factor_->order()[n_i + i]];
     hold(coordinates, schur, what);
   }

@@ -23,8 +23,7 @@ void together(const std::vector<Vec*>& vectors, Function&& f) {
 }  // namespace
 
 Condensation::Condensation(std::unique_ptr<Factor> own, const PieceOperator& op) {
-  auto condensed = std::make_shared<Mat>(own->interface_schur());
-  own->release_interface();
+  auto condensed = std::make_shared<Mat>(own->take_schur());
   factor = std::move(own);
   take_reference_off(op, factor->n_interior(), *condensed);
   schur = std::move(condensed);
@@ -37,39 +36,60 @@ void Condensation::set_diagonal(const PieceOperator& op) {
   for (int i = 0; i < op.n_rows(); ++i) schur_diagonal[i] /= op.setup().rows[i].n_sharing;
 }
 
-Mat Condensation::with_rows(const PieceOperator& op, const Vec& k) const {
-  CHECK(schur, "the Schur complement has been given away for H");
-  Mat sum = *schur;
-  const int n_i = factor->n_interior();
+namespace {
+
+void add_rows(const PieceOperator& op, const Vec& k, int n_interior, Mat& to) {
   for (int i = 0; i < op.n_rows(); ++i) {
     const Trace t = op.traces()[i];
     for (int a = 0; a < t.n; ++a)
-      for (int b = 0; b < t.n; ++b) sum(t.at[a] - n_i, t.at[b] - n_i) += k[i] * t.value[a] * t.value[b];
+      for (int b = 0; b < t.n; ++b) to(t.at[a] - n_interior, t.at[b] - n_interior) += k[i] * t.value[a] * t.value[b];
   }
+}
+
+std::vector<int> all_rows(const PieceOperator& op) {
+  std::vector<int> all(op.n_rows());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+}  // namespace
+
+Mat Condensation::with_rows(const PieceOperator& op, const Vec& k) const {
+  CHECK(schur, "the Schur complement has been given away for H");
+  Mat sum = *schur;
+  add_rows(op, k, factor->n_interior(), sum);
   return sum;
 }
 
-Mat on_rows(const Mat& h, const PieceOperator& op, int n_interior) {
-  std::vector<int> all(op.n_rows());
-  std::iota(all.begin(), all.end(), 0);
-  return on_rows(h, op, n_interior, all);
+Mat Condensation::take_with_rows(const PieceOperator& op, const Vec& k) {
+  CHECK(schur, "the Schur complement has been given away for H");
+  if (schur.use_count() > 1) return with_rows(op, k);
+  Mat sum = std::move(*schur);
+  schur.reset();
+  add_rows(op, k, factor->n_interior(), sum);
+  return sum;
 }
 
-// T H first: a row over many nodes then costs no more than its entries.
-Mat on_rows(const Mat& h, const PieceOperator& op, int n_interior, const std::vector<int>& rows) {
-  const auto n = static_cast<Eigen::Index>(rows.size());
-  Mat compliance = Mat::Zero(n, n);
+Mat on_rows(const Mat& h, const PieceOperator& op, int n_interior, const std::vector<int>& columns) {
+  return on_rows(h, op, n_interior, all_rows(op), columns);
+}
+
+// H T^T first: a row over many nodes then costs no more than its entries.
+Mat on_rows(const Mat& h, const PieceOperator& op, int n_interior, const std::vector<int>& rows,
+            const std::vector<int>& columns) {
+  const auto n_rows = static_cast<Eigen::Index>(rows.size()), n_columns = static_cast<Eigen::Index>(columns.size());
+  Mat compliance = Mat::Zero(n_rows, n_columns);
   Vec line(h.rows());
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Trace one = op.traces()[rows[i]];
+  for (Eigen::Index j = 0; j < n_columns; ++j) {
+    const Trace one = op.traces()[columns[j]];
     line.setZero();
     for (int a = 0; a < one.n; ++a) {
       const Eigen::Index at = one.at[a] - n_interior, after = h.rows() - at;
       line.head(at) += one.value[a] * h.row(at).head(at).transpose();
       line.tail(after) += one.value[a] * h.col(at).tail(after);
     }
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const Trace other = op.traces()[rows[j]];
+    for (Eigen::Index i = 0; i < n_rows; ++i) {
+      const Trace other = op.traces()[rows[i]];
       for (int b = 0; b < other.n; ++b) compliance(i, j) += other.value[b] * line[other.at[b] - n_interior];
     }
   }
@@ -86,9 +106,32 @@ void CondensedPiece::set_search_directions(const Vec& k) {
   const PieceSetup& setup = op_.setup();
   h_ = twin_ && twin_->h_ && have_equal_springs(twin_->op_, twin_->k_, op_, k)
            ? twin_->h_
-           : std::make_shared<const SymmetricOperator>(inverse_spd(condensation_.with_rows(op_, k), setup.what),
-                                                       setup.precision, setup.storage_error / 16);
+           : std::make_shared<const SpdInverse>(
+                 condensation_.take_with_rows(op_, k),
+                 SpdInverse::cheapest(condensation_.factor->n_interface(), setup.n_products), setup.precision,
+                 setup.storage_error / 16, setup.what);
   condensation_.schur.reset();
+}
+
+// By substitution where it is cheaper than the whole inverse.
+Mat CondensedPiece::row_compliance(const std::vector<int>& columns) const {
+  const int n_i = condensation_.factor->n_interior(), n_b = h_->size();
+  const auto n = static_cast<Eigen::Index>(columns.size());
+  if (h_->form() == SpdInverse::Form::matrix || 3 * n > n_b) return on_rows(h_->lower(), op_, n_i, columns);
+  const Traces& traces = op_.traces();
+  Mat x = Mat::Zero(n_b, n);
+  for (Eigen::Index c = 0; c < n; ++c) {
+    const Trace t = traces[columns[c]];
+    for (int a = 0; a < t.n; ++a) x(t.at[a] - n_i, c) += t.value[a];
+  }
+  x = h_->times(std::move(x));
+  Mat compliance = Mat::Zero(n_rows(), n);
+  for (Eigen::Index c = 0; c < n; ++c)
+    for (int r = 0; r < n_rows(); ++r) {
+      const Trace t = traces[r];
+      for (int a = 0; a < t.n; ++a) compliance(r, c) += t.value[a] * x(t.at[a] - n_i, c);
+    }
+  return compliance;
 }
 
 void CondensedPiece::prepare(double quiet) {

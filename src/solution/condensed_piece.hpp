@@ -2,6 +2,7 @@
 // products with the interface operator H alone (manual, eq. H1-H4).
 #pragma once
 
+#include "numerics/spd_inverse.hpp"
 #include "solution/implicit_piece.hpp"
 
 namespace dygita {
@@ -9,8 +10,9 @@ namespace dygita {
 // The factor of a piece's interior and what it leaves on the interface; shared by equal pieces.
 struct Condensation {
   std::shared_ptr<const Factor> factor;
-  std::shared_ptr<const Mat> schur;  // S0, n_interface x n_interface, without the rows' reference stiffness
-  Vec schur_diagonal;                // in the directions of a piece's rows, shared between their laws
+  std::shared_ptr<Mat> schur;  // S0, n_interface x n_interface, without the rows' reference stiffness; as it is while
+                               // several pieces have it
+  Vec schur_diagonal;          // in the directions of a piece's rows, shared between their laws
 
   // op: of the piece that was factorised, its unknowns in the factor's order; the reference stiffness of its rows is
   // included in the factor.
@@ -19,12 +21,15 @@ struct Condensation {
   void set_diagonal(const PieceOperator& op);
   // S0 + T^T k T, with T the rows on the interface unknowns.
   Mat with_rows(const PieceOperator& op, const Vec& k) const;
+  // The same, in the place of S0 where no other piece has it.
+  Mat take_with_rows(const PieceOperator& op, const Vec& k);
 };
 
-// T H T^T, with T the rows of op on the interface unknowns; H by its lower triangle.
-Mat on_rows(const Mat& h, const PieceOperator& op, int n_interior);
-// The same of some rows only.
-Mat on_rows(const Mat& h, const PieceOperator& op, int n_interior, const std::vector<int>& rows);
+// T H T^T, with T the rows of op on the interface unknowns and H by its lower triangle: some of its columns, or those
+// of some rows too.
+Mat on_rows(const Mat& h, const PieceOperator& op, int n_interior, const std::vector<int>& columns);
+Mat on_rows(const Mat& h, const PieceOperator& op, int n_interior, const std::vector<int>& rows,
+            const std::vector<int>& columns);
 
 class CondensedPiece final : public ImplicitPiece {
  public:
@@ -33,7 +38,7 @@ class CondensedPiece final : public ImplicitPiece {
 
   const Condensation* condensation() const override { return &condensation_; }
   void set_search_directions(const Vec& k) override;
-  Mat row_compliance() const override { return on_rows(h_->lower(), op_, condensation_.factor->n_interior()); }
+  Mat row_compliance(const std::vector<int>& columns) const override;
   bool shares_operator() const override { return twin_ != nullptr; }
   const void* shared_key() const override { return condensation_.factor.get(); }
   void forward(std::span<Piece* const> equal) override;
@@ -54,7 +59,7 @@ class CondensedPiece final : public ImplicitPiece {
 
   Condensation condensation_;
   const CondensedPiece* twin_;
-  std::shared_ptr<const SymmetricOperator> h_;
+  std::shared_ptr<const SpdInverse> h_;
   // Of the increment at hand: the condensed right-hand side, and the interface's answer.
   Vec b_, dv_b_;
   double quiet_ = 0.0;

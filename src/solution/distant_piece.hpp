@@ -28,7 +28,7 @@ class DistantPiece : public Piece {
   const Vec& schur_diagonal() const override { return none_; }
   void set_search_directions(const Vec& /*k*/) override {}
   const Vec& k() const override { return none_; }
-  Mat row_compliance() const override { return {}; }
+  Mat row_compliance(const std::vector<int>& /*columns*/) const override { return {}; }
 
   void set_state(const Points&, const Points&, const Points&, const Points&) override {}
   const PieceState& state() const override;

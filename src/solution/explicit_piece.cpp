@@ -93,12 +93,17 @@ void ExplicitPiece::set_search_directions(const Vec& k) {
   for (Special& special : specials_) make_compliance(special);
 }
 
-Mat ExplicitPiece::row_compliance() const {
-  Mat compliance = Mat::Zero(n_rows(), n_rows());
+Mat ExplicitPiece::row_compliance(const std::vector<int>& columns) const {
+  const auto n = static_cast<Eigen::Index>(columns.size());
+  std::vector<Eigen::Index> column_of(setup_.rows.size(), -1);
+  for (Eigen::Index c = 0; c < n; ++c) column_of[columns[c]] = c;
+  Mat compliance = Mat::Zero(n_rows(), n);
   for (const Special& special : specials_)
     for (const int i : special.rows)
       for (const int j : special.rows)
-        compliance(i, j) = setup_.rows[i].nodes[0].along.dot(special.with_rows * setup_.rows[j].nodes[0].along);
+        if (column_of[j] >= 0)
+          compliance(i, column_of[j]) =
+              setup_.rows[i].nodes[0].along.dot(special.with_rows * setup_.rows[j].nodes[0].along);
   return compliance;
 }
 

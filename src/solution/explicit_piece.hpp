@@ -37,7 +37,7 @@ class ExplicitPiece final : public Piece, public ExplicitNodes {
   const Vec& schur_diagonal() const override { return schur_diagonal_; }
   void set_search_directions(const Vec& k) override;
   const Vec& k() const override { return k_; }
-  Mat row_compliance() const override;
+  Mat row_compliance(const std::vector<int>& columns) const override;
 
   void set_state(const Points& displacement, const Points& velocity, const Points& force,
                  const Points& interface_force) override;

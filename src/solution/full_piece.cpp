@@ -1,5 +1,7 @@
 #include "solution/full_piece.hpp"
 
+#include "numerics/spd_inverse.hpp"
+
 namespace dygita {
 
 FullPiece::FullPiece(PieceOperator op, std::optional<Condensation> condensation, bool is_shared)
@@ -39,20 +41,23 @@ void FullPiece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velo
   for (int i = 0; i < n_rows(); ++i) velocity[i] = traces[i].of(v) + (held ? (*held)[i] : 0.0);
 }
 
-Mat FullPiece::row_compliance() const {
+Mat FullPiece::row_compliance(const std::vector<int>& columns) const {
   if (condensation_)
     return on_rows(inverse_spd(condensation_->with_rows(op_, k_), op_.setup().what), op_,
-                   condensation_->factor->n_interior());
+                   condensation_->factor->n_interior(), columns);
   constexpr int together = 16;
+  const int n_columns = static_cast<int>(columns.size());
   const Traces& traces = op_.traces();
-  Mat compliance = Mat::Zero(n_rows(), n_rows());
+  Mat compliance = Mat::Zero(n_rows(), n_columns);
   std::vector<int> place(op_.n_free());
   for (int i = 0; i < op_.n_free(); ++i) place[factor_->order()[i]] = i;
-  for (int first = 0; first < n_rows(); first += together) {
-    const int n = std::min(together, n_rows() - first);
+  for (int first = 0; first < n_columns; first += together) {
+    const int n = std::min(together, n_columns - first);
     Mat x = Mat::Zero(op_.n_free(), n);
-    for (int c = 0; c < n; ++c)
-      for (int a = 0; a < traces[first + c].n; ++a) x(place[traces[first + c].at[a]], c) += traces[first + c].value[a];
+    for (int c = 0; c < n; ++c) {
+      const Trace t = traces[columns[first + c]];
+      for (int a = 0; a < t.n; ++a) x(place[t.at[a]], c) += t.value[a];
+    }
     factor_->solve(x);
     for (int c = 0; c < n; ++c)
       for (int r = 0; r < n_rows(); ++r)

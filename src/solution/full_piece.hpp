@@ -17,7 +17,7 @@ class FullPiece final : public ImplicitPiece {
 
   const Condensation* condensation() const override { return condensation_ ? &*condensation_ : nullptr; }
   void set_search_directions(const Vec& k) override;
-  Mat row_compliance() const override;
+  Mat row_compliance(const std::vector<int>& columns) const override;
   bool shares_operator() const override { return is_shared_; }
   void interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) override;
   PieceFigures figures() const override;

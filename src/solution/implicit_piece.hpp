@@ -27,7 +27,9 @@ class ImplicitPiece : public Piece {
   const Vec& schur_diagonal() const override { return schur_diagonal_; }
   void set_search_directions(const Vec& k) override;
   const Vec& k() const override { return k_; }
-  Mat row_compliance() const override { return Mat::Zero(n_rows(), n_rows()); }
+  Mat row_compliance(const std::vector<int>& columns) const override {
+    return Mat::Zero(n_rows(), static_cast<Eigen::Index>(columns.size()));
+  }
 
   void set_state(const Points& displacement, const Points& velocity, const Points& force,
                  const Points& interface_force) override;

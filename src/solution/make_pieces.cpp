@@ -3,11 +3,12 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
+#include "base/parallel_by_cost.hpp"
 #include "mesh/facing.hpp"
 #include "solution/distant_piece.hpp"
 #include "solution/equal_pieces.hpp"
@@ -165,6 +166,7 @@ void tune_explicitly(const StepModel& model, int piece, PieceSetup& setup) {
 }
 
 std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body>& bodies) {
+  constexpr double usual_iterations = 40.0;  // of an increment of a static step
   const int n = model.cut->n_pieces();
   CHECK(static_cast<int>(bodies.size()) == n, "one body a piece");
   std::vector<AbsorbingImpedance> absorbing;
@@ -185,6 +187,7 @@ std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body
                  "substructure '" + bodies[i].part->name + "' in step '" + model.step->name + "'";
     if (model.integration.is_explicit_piece(i) && model.problem->mass().is_tuned) tune_explicitly(model, i, setup);
     setup.precision = precision_of(model, part, bodies[i]);
+    if (model.scheme.is_static) setup.n_products = usual_iterations * model.step->increments;
     // Far below what the tolerance leaves of a step; what is stored of an entry follows.
     setup.storage_error = std::clamp(model.problem->solver.tolerance / 64.0, 0x1p-27, 0x1p-21);
   }
@@ -230,8 +233,13 @@ Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies) {
   std::vector<std::unique_ptr<ImplicitPiece>> built(n);
   std::vector<std::shared_ptr<const ExplicitOperator>> operators(n);
   prepare_thread();
+  // An implicit one costs a factor, of so many operations where its graph is that of a solid.
+  std::vector<double> cost;
+  for (const int i : model.here)
+    cost.push_back(model.integration.is_explicit_piece(i) || twins[i].piece >= 0 ? 0.0
+                                                                                 : std::pow(setups[i].n_nodes(), 2));
   for (const bool has_twin : {false, true})
-    parallel_for(static_cast<int>(model.here.size()), [&](int at) {
+    parallel_by_cost(cost, [&](int at) {
       const int i = model.here[at];
       if ((twins[i].piece >= 0) != has_twin) return;
       if (model.integration.is_explicit_piece(i))

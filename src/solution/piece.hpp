@@ -82,8 +82,8 @@ class Piece {
   // another's operator come after it. Throws NumericalError.
   virtual void set_search_directions(const Vec& k) = 0;
   virtual const Vec& k() const = 0;
-  // Velocities at the rows for a unit q at each of them, T (A + T^T k T)^-1 T^T (n_rows x n_rows).
-  virtual Mat row_compliance() const = 0;
+  // Velocities at all rows for a unit q at each of some of them: those columns of T (A + T^T k T)^-1 T^T.
+  virtual Mat row_compliance(const std::vector<int>& columns) const = 0;
   // Is its operator that of an equal piece, built before?
   virtual bool shares_operator() const { return false; }
   // Pieces with the same key are solved together; null: this one by itself.

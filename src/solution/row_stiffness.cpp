@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "numerics/spd_inverse.hpp"
+
 namespace dygita {
 
 namespace {
@@ -87,7 +89,7 @@ Vec stiffness_of_rows(const Condensation& condensation, const PieceOperator& op)
   for (int i = 0; i < op.n_rows(); ++i) reference[i] = op.setup().rows[i].reference_stiffness;
   const Mat answer = inverse_spd(condensation.with_rows(op, reference), op.setup().what);
   for (const std::vector<int>& side : sides) {
-    Mat compliance = on_rows(answer, op, n_i, side);
+    Mat compliance = on_rows(answer, op, n_i, side, side);
     compliance.diagonal() *= 1.0 + regularisation;
     const Mat own = inverse_spd(std::move(compliance), op.setup().what);
     for (size_t j = 0; j < side.size(); ++j) {

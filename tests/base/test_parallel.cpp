@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <new>
 #include <set>
@@ -9,7 +10,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
+#include "base/parallel_by_cost.hpp"
 #include "base/thread_choice.hpp"
 
 namespace dygita {
@@ -135,6 +136,33 @@ TEST(ThreadChoice, may_be_none) {
   ThreadChoice one(ThreadChoice::one), all;
   EXPECT_EQ(loops_on_all(one, 100, 1.0, 2.0), 0);
   EXPECT_EQ(loops_on_all(all, 100, 2.0, 1.0), 100);
+}
+
+TEST(ParallelByCost, runs_what_outweighs_the_rest_first_and_with_all_threads_within) {
+  const int threads = omp_get_max_threads();
+  omp_set_num_threads(4);
+  std::vector<int> within(6, 0), count(6, 0);
+  std::atomic<int> n_ended = 0;
+  int ended_before_largest = -1;
+  parallel_by_cost({1.0, 2.0, 100.0, 0.0, 1.0, 2.0}, [&](int i) {
+    if (i == 2) ended_before_largest = n_ended;
+    std::atomic<int> most = 0;
+    parallel_for(8, [&](int) { most = std::max(most.load(), omp_get_num_threads()); });
+    within[i] = most;
+    ++count[i];
+    ++n_ended;
+  });
+  omp_set_num_threads(threads);
+  EXPECT_EQ(count, std::vector<int>(6, 1));
+  EXPECT_EQ(ended_before_largest, 0);
+  EXPECT_EQ(within[2], 4);
+  EXPECT_EQ(within[0], 1);
+}
+
+TEST(ParallelByCost, throws_what_a_body_throws) {
+  EXPECT_THROW(parallel_by_cost({1.0, 50.0, 1.0}, [](int i) { CHECK(i != 1, "not this one"); }), ContractError);
+  EXPECT_THROW(parallel_by_cost({1.0, 1.0, 1.0, 1.0}, [](int i) { CHECK(i != 1, "not this one"); }), ContractError);
+  parallel_by_cost({}, [](int) { FAIL(); });
 }
 
 }  // namespace

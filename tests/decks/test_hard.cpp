@@ -117,8 +117,12 @@ TEST(PlasticCycle, loads_unloads_and_reloads_as_by_hand) {
 
 // CFL 6.4: with p1 = p + dt l the interface fed energy without bound (manual, eq. L3).
 TEST(PlasticCycle, a_long_time_step_creates_no_energy) {
-  const PrintedRun joint = run_printing("hard/plastic_cycle.lua", {{"slow", "400"}});
-  expect_sane(joint.runs.at(1), 0.0);
+  // What is created is what the tolerance leaves: up to 0.16 % at the usual one, 0.03 % at this.
+  for (const char* slow : {"390", "400", "410", "420"}) {
+    expect_sane(run_printing("hard/plastic_cycle.lua", {{"slow", slow}}).runs.at(1), 0.0, 0.2);
+    const char* const tight = R"(latin{ integration = "implicit", tolerance = 1e-6 })";
+    expect_sane(run_printing("hard/plastic_cycle.lua", {{"slow", slow}}, tight).runs.at(1), 0.0);
+  }
 }
 
 TEST(LongRun, ten_thousand_steps_create_nothing_and_drift_nowhere) {
@@ -191,7 +195,8 @@ TEST(StaticYield, creates_no_energy_in_one_increment) {
   for (const char* name : {"hard/early_yield.lua", "hard/plastic_cycle.lua"}) {
     const PrintedRun bolt = run_printing(name);
     for (const DeckRun& run : bolt.runs) {
-      if (run.figure("largest energy [J]") < 1e-15) continue;  // a gap that stays open: percentages of round-off
+      // A gap that stays open: percentages of what the tolerance leaves of the 1e-5 J of a tightened bolt.
+      if (run.figure("largest energy [J]") < 1e-12) continue;
       EXPECT_LT(run.figure("energy created by the scheme [%]"), 1e-3) << name;
     }
   }

@@ -1,11 +1,14 @@
 // The factor with the interface last, against dense algebra.
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <random>
 
 #include "base/error.hpp"
 #include "numerics/dense.hpp"
+#include "numerics/dense_blocks.hpp"
 #include "numerics/factor.hpp"
+#include "numerics/spd_inverse.hpp"
 
 namespace dygita {
 namespace {
@@ -46,6 +49,13 @@ Grid grid(int n, int per_node) {
   return g;
 }
 
+// The same without unknowns that are ordered last.
+Grid without_interface(int n, int per_node) {
+  Grid g = grid(n, per_node);
+  g.is_interface.assign(g.is_interface.size(), 0);
+  return g;
+}
+
 Vec ordered(const Factor& factor, const Vec& x) {
   Vec y(x.size());
   for (int i = 0; i < x.size(); ++i) y[i] = x[factor.order()[i]];
@@ -54,7 +64,7 @@ Vec ordered(const Factor& factor, const Vec& x) {
 
 TEST(Factor, solves_as_dense_algebra_does) {
   for (const int per_node : {1, 3}) {
-    const Grid g = grid(7, per_node);
+    const Grid g = without_interface(7, per_node);
     const Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid");
     const Vec b = Vec::LinSpaced(g.matrix.rows(), -1.0, 2.0);
     const Vec exact = solve_dense(Mat(g.matrix), b);
@@ -73,12 +83,12 @@ TEST(Factor, puts_the_interface_last) {
 
 TEST(Factor, forward_interface_and_backward_make_the_whole_solve) {
   const Grid g = grid(7, 3);
-  const Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid");
+  Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid");
   const Vec b = Vec::LinSpaced(g.matrix.rows(), -1.0, 2.0);
-  Vec whole = ordered(factor, b), x = whole;
-  factor.solve(whole);
+  const Vec whole = ordered(factor, solve_dense(Mat(g.matrix), b));
+  Vec x = ordered(factor, b);
   factor.forward(x);
-  const Mat h = inverse_spd(factor.interface_schur(), "schur");
+  const Mat h = inverse_spd(factor.take_schur(), "schur");
   Vec v;
   multiply_symmetric(h, x.tail(factor.n_interface()), v);
   x.tail(factor.n_interface()) = v;
@@ -87,7 +97,7 @@ TEST(Factor, forward_interface_and_backward_make_the_whole_solve) {
 }
 
 TEST(Factor, solves_several_right_hand_sides_as_it_solves_one) {
-  const Grid g = grid(7, 3);
+  const Grid g = without_interface(7, 3);
   for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
     const Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid", precision);
     Mat together = Mat::Random(g.matrix.rows(), 21), alone = together;
@@ -98,7 +108,7 @@ TEST(Factor, solves_several_right_hand_sides_as_it_solves_one) {
 }
 
 TEST(Factor, in_single_precision_stays_linear_and_symmetric) {
-  const Grid g = grid(7, 3);
+  const Grid g = without_interface(7, 3);
   const Factor exact(g.matrix, g.node_of_dof, g.is_interface, "grid");
   const Factor single(g.matrix, g.node_of_dof, g.is_interface, "grid", Precision::single_precision);
   EXPECT_LT(single.bytes(), 0.6 * exact.bytes());
@@ -126,9 +136,74 @@ TEST(SymmetricOperator, multiplies_as_the_dense_matrix_does) {
   }
 }
 
+TEST(SpdInverse, is_the_same_as_a_matrix_and_by_substitution) {
+  for (const int n : {1, 7, 8, 17, 40, 101}) {
+    const Mat random = Mat::Random(n, n);
+    const Mat symmetric = random * random.transpose() + Mat::Identity(n, n);
+    Mat lower = symmetric;
+    lower.triangularView<Eigen::StrictlyUpper>().setConstant(1e30);  // must not be read
+    const Mat exact = solve_dense(symmetric, Mat::Identity(n, n));
+    const Vec x = Vec::Random(n);
+    const Mat columns = Mat::Random(n, 3);
+    for (const auto form : {SpdInverse::Form::matrix, SpdInverse::Form::factor}) {
+      const SpdInverse inverse(lower, form, Precision::double_precision, 0.0, "matrix");
+      Vec y;
+      inverse.multiply(x, y);
+      EXPECT_LT((y - exact * x).norm(), 1e-12 * (exact * x).norm()) << n;
+      EXPECT_LT((inverse.times(columns) - exact * columns).norm(), 1e-12 * (exact * columns).norm()) << n;
+      Mat whole = inverse.lower();
+      mirror_lower(whole);
+      EXPECT_LT((whole - exact).norm(), 1e-12 * exact.norm()) << n;
+    }
+    lower(n / 2, n / 2) = -1.0;
+    EXPECT_THROW(SpdInverse(lower, SpdInverse::Form::factor, Precision::double_precision, 0.0, "matrix"),
+                 NumericalError);
+  }
+}
+
+// Sizes beside those of blocks; large enough to be shared among threads.
+TEST(DenseBlocks, give_the_same_bits_on_any_number_of_threads_and_what_dense_algebra_does) {
+  const int threads = omp_get_max_threads();
+  for (const int n : {191, 192, 193, 500}) {
+    const Mat random = Mat::Random(n, n);
+    const Mat spd = random * random.transpose() + Mat::Identity(n, n);
+    const int n_columns = 2 * n / 3, n_below = n - n_columns;
+    std::vector<Mat> results;
+    for (const int n_threads : {1, 3}) {
+      omp_set_num_threads(n_threads);
+      Mat a = spd;
+      ASSERT_EQ(factorise_columns(n, n_columns, a.data(), n), -1);
+      subtract_square(n_below, n_columns, a.data() + n_columns, n, 1.0, &a(n_columns, n_columns), n);
+      ASSERT_EQ(factorise_columns(n_below, n_below, &a(n_columns, n_columns), n), -1);
+      results.push_back(a.triangularView<Eigen::Lower>());
+      const Mat l = results.back();
+      EXPECT_LT((l * l.transpose() - spd).norm(), 1e-13 * spd.norm()) << n;
+      invert_factor(a);
+      results.push_back(a.triangularView<Eigen::Lower>());
+      mirror_lower(a);
+      EXPECT_LT((a * spd - Mat::Identity(n, n)).norm(), 1e-8) << n;
+      EXPECT_EQ(factorise_columns(n, n,
+                                  Mat(Mat::Identity(n, n) -
+                                      2.0 * Mat::Identity(n, n).row(n / 2).transpose() * Mat::Identity(n, n).row(n / 2))
+                                      .data(),
+                                  n),
+                n / 2);
+    }
+    EXPECT_EQ(results[0], results[2]) << n;
+    EXPECT_EQ(results[1], results[3]) << n;
+  }
+  omp_set_num_threads(threads);
+}
+
+TEST(SpdInverse, is_a_matrix_where_many_products_pay_for_it) {
+  EXPECT_EQ(SpdInverse::cheapest(3500, 80.0), SpdInverse::Form::factor);
+  EXPECT_EQ(SpdInverse::cheapest(3500, 1000.0), SpdInverse::Form::matrix);
+  EXPECT_EQ(SpdInverse::cheapest(200, 80.0), SpdInverse::Form::matrix);
+}
+
 TEST(Factor, has_the_schur_complement_of_the_matrix) {
   const Grid g = grid(5, 3);
-  const Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid");
+  Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid");
   const int n_i = factor.n_interior(), n_b = factor.n_interface();
   const Mat dense = g.matrix;
   Mat a(dense.rows(), dense.cols());
@@ -136,24 +211,27 @@ TEST(Factor, has_the_schur_complement_of_the_matrix) {
     for (int j = 0; j < a.cols(); ++j) a(i, j) = dense(factor.order()[i], factor.order()[j]);
   const Mat schur = a.bottomRightCorner(n_b, n_b) -
                     a.bottomLeftCorner(n_b, n_i) * solve_dense(a.topLeftCorner(n_i, n_i), a.topRightCorner(n_i, n_b));
-  EXPECT_LT((factor.interface_schur() - schur).norm(), 1e-11 * schur.norm());
+  EXPECT_LT((factor.take_schur() - schur).norm(), 1e-11 * schur.norm());
 }
 
 TEST(Factor, works_without_interface_and_with_nothing_else) {
   Grid g = grid(4, 3);
   g.is_interface.assign(g.is_interface.size(), 0);
-  const Factor none(g.matrix, g.node_of_dof, g.is_interface, "grid");
-  EXPECT_EQ(none.interface_schur().size(), 0);
+  Factor none(g.matrix, g.node_of_dof, g.is_interface, "grid");
+  EXPECT_EQ(none.take_schur().size(), 0);
   g.is_interface.assign(g.is_interface.size(), 1);
-  const Factor all(g.matrix, g.node_of_dof, g.is_interface, "grid");
+  Factor all(g.matrix, g.node_of_dof, g.is_interface, "grid");
   EXPECT_EQ(all.n_interior(), 0);
+  const Mat schur = all.take_schur();
+  for (int i = 0; i < all.size(); ++i)
+    for (int j = 0; j < all.size(); ++j) EXPECT_EQ(schur(i, j), g.matrix.coeff(all.order()[i], all.order()[j]));
   EXPECT_EQ(all.nonzeros(), 0.0);
 }
 
 TEST(Factor, predicts_the_entries_it_then_has) {
   const Grid g = grid(7, 3);
   Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid");
-  factor.release_interface();
+  factor.take_schur();
   const double predicted = Factor::predicted_bytes(g.matrix, g.node_of_dof, g.is_interface);
   EXPECT_NEAR(predicted, factor.bytes(), 0.05 * factor.bytes());
 }

@@ -31,7 +31,9 @@ struct PanelCase {
       for (int r = 0; r < c; ++r) values(r, c) = is_symmetric ? values(c, r) : 0.0;
     }
     const Vec tolerance = Vec::Constant(rows, 1e-6);
-    panels.add(values.data(), rows, rows, columns, tolerance.data());
+    const Mat top = values.topRows(columns);
+    values.topRows(columns).setConstant(1e30);  // must not be read
+    panels.add(top.data(), values.data(), rows, rows, columns, tolerance.data());
     panels.unpack(0, entries.data(), rows);
   }
 

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "mesh/box.hpp"
 #include "mesh/facing.hpp"
@@ -91,5 +92,12 @@ Points nodal(const Vec& values);
 // An increment of one piece by itself, for data q.
 IncrementEnergy advance(Piece& piece, const Points& force, const Vec& q, const std::vector<double>& motions,
                         Vec* velocity = nullptr);
+
+// T (A + T^T k T)^-1 T^T.
+inline Mat row_compliance(const Piece& piece) {
+  std::vector<int> all(static_cast<size_t>(piece.n_rows()));
+  std::iota(all.begin(), all.end(), 0);
+  return piece.row_compliance(all);
+}
 
 }  // namespace dygita

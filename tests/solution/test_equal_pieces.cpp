@@ -127,8 +127,8 @@ TEST(TurnedPiece, answers_by_the_factor_of_the_one_that_is_not) {
       if (!is_plain) {
         EXPECT_LT(shared->figures().bytes, 0.5 * own->figures().bytes);
       }
-      const Mat compliance = own->row_compliance();
-      EXPECT_LT((shared->row_compliance() - compliance).norm(), 1e-8 * compliance.norm());
+      const Mat compliance = row_compliance(*own);
+      EXPECT_LT((row_compliance(*shared) - compliance).norm(), 1e-8 * compliance.norm());
       EXPECT_LT((shared->schur_diagonal() - own->schur_diagonal()).norm(), 1e-9 * own->schur_diagonal().norm());
 
       const std::vector<double> motions(turned.setup.n_motions, 0.4);
@@ -170,8 +170,8 @@ TEST(TurnedPiece, whose_rows_have_directions_of_their_own_shares_the_factor_alon
   EXPECT_TRUE(have_equal_springs(first->op(), c.directions(), first->op(), c.directions()));
   EXPECT_FALSE(have_equal_springs(first->op(), c.directions(), first->op(), (1.0 + 1e-6) * c.directions()));
   const auto alone = turned.piece();
-  const Mat compliance = alone->row_compliance();
-  EXPECT_LT((shared->row_compliance() - compliance).norm(), 1e-8 * compliance.norm());
+  const Mat compliance = row_compliance(*alone);
+  EXPECT_LT((row_compliance(*shared) - compliance).norm(), 1e-8 * compliance.norm());
   const Vec own = alone->schur_diagonal();
   EXPECT_LT((shared->schur_diagonal() - own).norm(), 1e-9 * own.norm());
 }

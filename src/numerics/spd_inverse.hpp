@@ -1,0 +1,53 @@
+// Inverses of dense symmetric positive definite matrices.
+#pragma once
+
+#include <string>
+
+#include "numerics/packed_factor.hpp"
+#include "numerics/types.hpp"
+
+namespace dygita {
+
+// Inverse of a symmetric positive definite matrix, lower triangle valid on return. Throws NumericalError naming `what`.
+Mat inverse_spd(Mat matrix, const std::string& what);
+
+// The upper triangle from the lower one.
+void mirror_lower(Mat& a);
+
+// y = A x with A symmetric, only its lower triangle read.
+void multiply_symmetric(const Mat& lower, const Vec& x, Vec& y);
+
+// A^-1 of a symmetric positive definite matrix A (n x n), for products with vectors.
+class SpdInverse {
+ public:
+  // As a matrix, or as the Cholesky factor of A: that takes a third of the operations to make, and a product reads
+  // twice as much.
+  enum class Form { matrix, factor };
+
+  // The lower triangle of a is read. As a matrix in single precision an entry is off by at most `error` of its
+  // diagonal's mean; a factor is kept in double precision. Throws NumericalError naming `what` when a is not positive
+  // definite.
+  SpdInverse(Mat a, Form form, Precision precision, double error, const std::string& what);
+  // The form in which that many products cost least, what it takes to make it included.
+  static Form cheapest(int n, double n_products);
+
+  int size() const { return n_; }
+  Form form() const { return form_; }
+  // y = A^-1 x.
+  void multiply(const Vec& x, Vec& y) const;
+  // A^-1 X of many columns, by dense algebra.
+  Mat times(Mat x) const;
+  // A^-1, its lower triangle.
+  Mat lower() const;
+  double bytes() const { return form_ == Form::matrix ? matrix_.bytes() : factor_.bytes(); }
+
+ private:
+  Mat unpacked_factor() const;
+
+  int n_ = 0;
+  Form form_;
+  SymmetricOperator matrix_;
+  Panels factor_;
+};
+
+}  // namespace dygita
