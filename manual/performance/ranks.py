@@ -65,7 +65,7 @@ def row_of(scene, ranks, record, share, off):
     return row
 
 
-def costs_of(alone, share, two, pattern, how):
+def costs_of(alone, share, two, pattern):
     """Costs of one processor: of pieces from two ranks' own clocks, of the rest from the phases of one process and its share of the processor; what passes from what two ranks sent."""
     shock, seconds = two["steps"][-1], {phase: share * value for phase, value in alone["seconds"].items()}
     n, inc = shock["increments"], shock["iterations"] / shock["increments"]
@@ -76,17 +76,17 @@ def costs_of(alone, share, two, pattern, how):
     return Costs(unknown=pieces / n / inc / pattern.total(), point=(seconds["local stage"] + seconds["acceleration"]) / n / inc / pattern.points(),
                  booked=seconds["laws and energies"] / n / pattern.points(), shown=seconds["output"] / n / pattern.total(), fields=asked,
                  questions=here["messages"]["results"] / n / shared["pieces"], sums=max(1.0, here["messages"]["all"] / n - 4) / inc, increments=inc,
-                 brought=min(1.0, SHOWN / n), gathered=gathered / (inc * pattern.points() if how == "implicit" else len(pattern.unknowns)))
+                 brought=min(1.0, SHOWN / n), gathered=gathered / len(pattern.unknowns))
 
 
-def predict_here(records, share, how, cores):
+def predict_here(records, share, cores):
     """share: of the processor, that one process had. What the model says of the runs that were measured."""
     pattern = Pattern.of(records[2])
-    costs = costs_of(records[1], share, records[2], pattern, how)
+    costs = costs_of(records[1], share, records[2], pattern)
     found = {}
     for ranks, record in records.items():
         owners = [p["rank"] for p in record["ranks"]["pieces"]] if ranks > 1 else None
-        found[ranks] = step(pattern, ranks, costs, Network(LATENCY, BANDWIDTH, cores), how, owners)
+        found[ranks] = step(pattern, ranks, costs, Network(LATENCY, BANDWIDTH, cores), owners)
     return pattern, costs, found
 
 
@@ -123,7 +123,7 @@ def measure(machine, folder, quick):
         for ranks in (1, 2, 4):
             machine.say(f"Ranks: {how}, {ranks}")
             records[ranks], folders[ranks], shares[ranks] = run(machine, ranks, solver, settings)
-        pattern, costs, model = predict_here(records, shares[1], how, cores)
+        pattern, costs, model = predict_here(records, shares[1], cores)
         for ranks, record in records.items():
             row = row_of(how, ranks, record, shares[ranks], difference(folders[1], folders[ranks]))
             times = model[ranks]

@@ -5,7 +5,7 @@ cubes; pieces go to ranks in their order, evenly by cost. A time step of the dec
 
     increments x (pieces + own points + messages to neighbours + sums over all) + laws and energies of own points + what passes to all + outputs
 
-Where the pieces are implicit, every rank does the interface work of all, and interface unknowns pass to all in each iteration.
+Where the pieces are implicit an increment is an iteration: data and velocities of the unknowns at points between ranks pass to neighbours, sums of each piece to all.
 
 Outputs of a body are made by the rank that has most of it, which is brought the fields that other ranks have of it.
 """
@@ -13,7 +13,7 @@ Outputs of a body are made by the rank that has most of it, which is brought the
 import math
 from dataclasses import dataclass, replace
 
-MOTION = 48     # bytes of a node's motion
+MOTION = 48     # bytes of a node's motion; or of data and velocities of a point, three unknowns
 MESH = 64                                   # bytes of mesh and mass a node: coordinates, a cell's nodes, a mass
 
 
@@ -45,7 +45,7 @@ class Costs:
     brought: float = 0.0            # numbers an unknown that the rank which makes a body's outputs is brought of pieces elsewhere in a time step
     sums: float = 1.0
     increments: float = 1.0         # of a time step of the deck: iterations where the pieces are implicit
-    gathered: float = 0.0           # bytes that pass to all: a piece and time step of the deck, or a point and iteration where the pieces are implicit
+    gathered: float = 0.0           # bytes that pass to all: a piece and time step of the deck
 
 
 @dataclass(frozen=True)
@@ -132,21 +132,19 @@ def shared_out(pattern, ranks, owners):
     return unknowns, points, [len(s) for s in sent], [sum(s.values()) for s in sent]
 
 
-def step(pattern, ranks, costs, network, how="explicit", owners=None, outputs="bodies"):
+def step(pattern, ranks, costs, network, owners=None, outputs="bodies"):
     """Seconds of a time step of the deck by what takes them, and bytes that all ranks send. owners: as a run had them, else in order, by size; outputs: of "bodies" or of
     "pieces"."""
     owners = owners or owners_of(pattern, ranks)
     unknowns, points, peers, sent = shared_out(pattern, ranks, owners)
-    n, n_points, pieces = pattern.total(), pattern.points(), len(pattern.unknowns)
+    n, pieces = pattern.total(), len(pattern.unknowns)
     times, inc = {}, costs.increments
-    everywhere = how == "implicit"
-    work = [inc * (costs.unknown * u + costs.point * (0.0 if everywhere else p)) for u, p in zip(unknowns, points)]
-    of_all = n_points * (inc * costs.point + costs.booked) if everywhere else 0.0
-    alone = [of_all or costs.booked * p for p in points]
+    work = [inc * (costs.unknown * u + costs.point * p) for u, p in zip(unknowns, points)]
+    alone = [costs.booked * p for p in points]
     times["pieces and points"] = max(a + b for a, b in zip(work, alone))
-    to_neighbours = 0 if everywhere or ranks == 1 else inc * sum(sent)
+    to_neighbours = 0 if ranks == 1 else inc * sum(sent)
     times["neighbours"] = 0.0 if not to_neighbours else inc * max(network.to_one(2 * p, s) for p, s in zip(peers, sent))
-    gathered = costs.gathered * (inc * n_points if everywhere else pieces)
+    gathered = costs.gathered * pieces
     times["to all"] = network.to_all(inc * costs.sums + 5, gathered, ranks)
     asked = 8 * costs.fields * (n - unknowns[0])
     questions = costs.questions * len(set(pattern.bodies)) * (1 - 1 / ranks)

@@ -1,37 +1,39 @@
 #include "latin/anderson.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dygita {
 
-Anderson::Anderson(int depth, int n_problems, double relaxation, Vec weight)
+Anderson::Anderson(int depth, int n_problems, double relaxation, Vec weight, const InterfaceSums& sums)
     : depth_(depth),
       n_problems_(depth > 0 ? n_problems : 0),
       relaxation_(relaxation),
       weight_(std::move(weight)),
-      recent_(depth, weight_.size()),
-      past_(n_problems_, weight_.size()) {}
+      recent_(depth, weight_.size(), sums),
+      past_(n_problems_, weight_.size(), sums) {}
 
 void Anderson::begin() {
   recent_.clear();
   has_before_ = false;
 }
 
-void Anderson::hear(const Vec& q, const Vec& image) {
+void Anderson::hear(const Field& q, const Field& image) {
   if (depth_ == 0) return;
   q_first_ = q;
   residual_first_ = (image - q).cwiseProduct(weight_);
   has_before_ = true;
 }
 
-void Anderson::advance(Vec& q, const Vec& image) {
+void Anderson::advance(Eigen::Ref<Vec> q, const Field& image) {
   residual_ = (image - q).cwiseProduct(weight_);
   if (depth_ == 0) {
     q += relaxation_ * (image - q);
     return;
   }
-  const double norm = residual_.norm();
   const bool is_first = !has_before_;
+  const double norm =
+      std::sqrt(is_first ? past_.hear(residual_) : recent_.add(q, q_before_, residual_, residual_before_));
   if (is_first) {
     q_first_ = q;
     residual_first_ = residual_;
@@ -40,7 +42,6 @@ void Anderson::advance(Vec& q, const Vec& image) {
     recent_.clear();
     best_ = norm;
   } else {
-    recent_.add(q, q_before_, residual_, residual_before_);
     best_ = std::min(best_, norm);
   }
   has_before_ = true;
@@ -50,7 +51,7 @@ void Anderson::advance(Vec& q, const Vec& image) {
   q += relaxation_ * residual_.cwiseQuotient(weight_);
 }
 
-void Anderson::end(const Vec& q, const Vec& image, bool is_solved) {
+void Anderson::end(const Field& q, const Field& image, bool is_solved) {
   if (!is_solved) past_.clear();
   if (!is_solved || !has_before_) return;
   residual_ = (image - q).cwiseProduct(weight_);

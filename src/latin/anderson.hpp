@@ -7,22 +7,26 @@ namespace dygita {
 
 class Anderson {
  public:
+  using Field = Eigen::Ref<const Vec>;
   // depth: differences of one fixed-point problem kept (0: relaxation alone); n_problems: changes from start to end of
   // past problems kept, with which the next one is predicted; relaxation: share of the residual taken; weight: scales
-  // each component of the residual in the least squares (1/sqrt(k)).
-  Anderson(int depth, int n_problems, double relaxation, Vec weight);
+  // each component of the residual in the least squares (1/sqrt(k)). Collective where the sums are.
+  Anderson(int depth, int n_problems, double relaxation, Vec weight, const InterfaceSums& sums);
+  // Of one process, in one sum.
+  Anderson(int depth, int n_problems, double relaxation, const Vec& weight)
+      : Anderson(depth, n_problems, relaxation, weight, InterfaceSums(weight.size())) {}
 
   // Another fixed-point problem begins: the same derivative or nearly, other data.
   void begin();
   // Takes the first iterate of a problem whose end is known, in place of `advance`: the next one is predicted as if it
   // had been iterated.
-  void hear(const Vec& q, const Vec& image);
+  void hear(const Field& q, const Field& image);
   // Replaces q by the next iterate, from image = G(q). The history is cleared where the residual exceeds twice the
   // best.
-  void advance(Vec& q, const Vec& image);
+  void advance(Eigen::Ref<Vec> q, const Field& image);
   int n_problems() const { return n_problems_; }
   // The problem ends with q. If it is solved, what it changed helps to predict the next; if not, nothing past does.
-  void end(const Vec& q, const Vec& image, bool is_solved);
+  void end(const Field& q, const Field& image, bool is_solved);
 
  private:
   int depth_, n_problems_;

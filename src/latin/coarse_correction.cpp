@@ -34,7 +34,7 @@ std::vector<CoarseCorrection::Side> CoarseCorrection::find_sides(const StepModel
         for (int p = first; p < end; ++p) {
           const Port& port = model.exchange.ports[p];
           is_held = is_held || port.is_held[d];
-          const int unknown = model.unknown(port, d);
+          const int unknown = model.assembled_unknown(port, d);
           if (unknown < 0) continue;
           side.push_back({unknown, p, static_cast<int>(i), d, k[unknown], !has_law});
           sum += k[unknown];
@@ -141,7 +141,21 @@ CoarseCorrection::CoarseCorrection(const StepModel& model, const Vec& k) {
     share[i] = respond(*model.pieces[i], model.offset[i], pieces_[i]);
   });
   complete_shares(model, share);
-  unknowns_ = model.unknowns;
+  here_ = model.here;
+  for (int i = 0; i < n; ++i) {
+    const bool is_here = model.cut->is_here(i);
+    for (std::vector<int>* unknowns : {&pieces_[i].tied, &pieces_[i].rest}) {
+      if (!is_here) unknowns->clear();
+      for (int& unknown : *unknowns) unknown = model.near.at(unknown);
+    }
+    if (!is_here) pieces_[i].shape.resize(0, 0);
+  }
+  std::vector<int> sizes;
+  for (const Local& local : pieces_) sizes.push_back(static_cast<int>(local.motions.size()));
+  of_amounts_ = segments_of(*model.cut, sizes);
+  first_.assign(1, 0);
+  for (const int n_motions : sizes) first_.push_back(first_.back() + n_motions);
+  amounts_.resize(static_cast<size_t>(first_.back()));
   Mat stiffness = Mat::Zero(6 * n, 6 * n);
   for (int i = 0; i < n; ++i)
     for (int c = 0; c < share[i].cols(); ++c)
@@ -175,28 +189,31 @@ void CoarseCorrection::complete_shares(const StepModel& model, std::vector<Mat>&
 }
 
 void CoarseCorrection::correct(Vec& q, Vec& velocity) {
-  amount_.setZero();
-  for (Local& local : pieces_) {
+  for (const int i : here_) {
+    Local& local = pieces_[i];
     local.force.resize(local.tied.size());
     for (size_t r = 0; r < local.tied.size(); ++r)
       local.force[r] = local.balances[r] ? q[local.tied[r]] - local.k[r] * velocity[local.tied[r]] : 0.0;
     local.amount.noalias() = local.shape.transpose() * local.force;
-    for (size_t c = 0; c < local.motions.size(); ++c) amount_[local.motions[c]] -= local.amount[c];
+    std::copy(local.amount.begin(), local.amount.end(), amounts_.begin() + first_[i]);
   }
+  of_amounts_.complete(amounts_.data());
+  amount_.setZero();
+  for (size_t i = 0; i < pieces_.size(); ++i)
+    for (size_t c = 0; c < pieces_[i].motions.size(); ++c) amount_[pieces_[i].motions[c]] -= amounts_[first_[i] + c];
   factor_.solveInPlace(amount_);
   const auto add = [](Local& local, const Mat& columns, const std::vector<int>& unknowns, Vec& to) {
     local.change.noalias() = columns * local.amount;
     for (size_t r = 0; r < unknowns.size(); ++r) to[unknowns[r]] += local.change[r];
   };
-  for (Local& local : pieces_) {
-    if (local.data.size() == 0) continue;  // not tied, or elsewhere
+  for (const int i : here_) {
+    Local& local = pieces_[i];
+    if (local.data.size() == 0) continue;  // not tied
     for (size_t c = 0; c < local.motions.size(); ++c) local.amount[c] = amount_[local.motions[c]];
     add(local, local.data, local.tied, q);
     add(local, local.shape, local.tied, velocity);
     add(local, local.answer, local.rest, velocity);
   }
-  unknowns_.complete(q.data());
-  unknowns_.complete(velocity.data());
 }
 
 }  // namespace dygita

@@ -16,14 +16,14 @@ class CoarseCorrection {
   // operator on its tied unknowns, and a dense matrix of 6 unknowns per substructure.
   CoarseCorrection(const StepModel& model, const Vec& k);
   bool is_empty() const { return pieces_.empty(); }
-  // Changes data q and the velocities that the linear stage answered them with, which remain its answer. Changes
-  // nothing where the forces of the ties are in balance.
+  // Changes data q and the velocities that the linear stage answered them with, which remain its answer, of the pieces
+  // that are here. Changes nothing where the forces of the ties are in balance. Collective.
   void correct(Vec& q, Vec& velocity);
 
  private:
   // The share of a piece; c coarse motions reach its tied unknowns.
   struct Local {
-    std::vector<int> tied, rest;  // unknowns in the assembled q
+    std::vector<int> tied, rest;  // near unknowns; of pieces elsewhere none
     std::vector<int> motions;     // coarse motions, length c
     std::vector<char> balances;   // of the tied: no law has a say in their balance
     Vec k;                        // of the tied that balance, else 0
@@ -46,7 +46,10 @@ class CoarseCorrection {
   void complete_shares(const StepModel& model, std::vector<Mat>& share) const;
 
   std::vector<Local> pieces_;
-  ranks::Segments unknowns_;
+  std::vector<int> here_;
+  std::vector<int> first_;  // of each piece's amounts in those of all
+  ranks::Segments of_amounts_;
+  std::vector<double> amounts_;
   Eigen::LLT<Mat> factor_;
   Vec amount_;
 };

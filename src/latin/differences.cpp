@@ -12,8 +12,16 @@ constexpr double independent = 1e-12;
 
 }  // namespace
 
-Differences::Differences(int depth, Eigen::Index length)
-    : dq_(length, depth), df_(length, depth), gram_(depth, depth), factor_(depth, depth), gamma_(depth) {
+Differences::Differences(int depth, Eigen::Index length) : Differences(depth, length, InterfaceSums(length)) {}
+
+Differences::Differences(int depth, Eigen::Index length, InterfaceSums sums)
+    : sums_(std::move(sums)),
+      dq_(length, depth),
+      df_(length, depth),
+      gram_(depth, depth),
+      factor_(depth, depth),
+      along_(depth),
+      gamma_(depth) {
   newest_first_.reserve(depth + 1);
   used_.reserve(depth);
 }
@@ -23,34 +31,71 @@ void Differences::clear() {
   last_ = -1;
 }
 
-void Differences::add(const Vec& q, const Vec& q_before, const Vec& residual, const Vec& residual_before) {
-  if (gamma_.size() == 0) return;
+double Differences::hear(const Vec& residual) {
+  const int n = static_cast<int>(newest_first_.size());
+  const std::vector<double>& sums = sums_.add(n + 1, [&](Eigen::Index first, Eigen::Index size, double* to) {
+    const auto own = residual.segment(first, size);
+    for (int i = 0; i < n; ++i) to[i] += df_.col(newest_first_[i]).segment(first, size).dot(own);
+    to[n] += own.squaredNorm();
+  });
+  for (int i = 0; i < n; ++i) along_[newest_first_[i]] = sums[i];
+  return sums[n];
+}
+
+double Differences::add(const Eigen::Ref<const Vec>& q, const Vec& q_before, const Vec& residual,
+                        const Vec& residual_before) {
+  if (gamma_.size() == 0) return hear(residual);
   const int at = (last_ + 1) % static_cast<int>(gamma_.size());
   std::erase(newest_first_, at);
   last_ = at;
   auto df = df_.col(at);
   df = residual - residual_before;
-  const double length = df.norm();
-  if (length == 0.0) return;
+  const int n = static_cast<int>(newest_first_.size());
+  const std::vector<double>& sums = sums_.add(2 * n + 3, [&](Eigen::Index first, Eigen::Index size, double* to) {
+    const auto own = residual.segment(first, size);
+    const auto change = df.segment(first, size);
+    for (int i = 0; i < n; ++i) {
+      const auto other = df_.col(newest_first_[i]).segment(first, size);
+      to[2 * i] += other.dot(own);
+      to[2 * i + 1] += other.dot(change);
+    }
+    to[2 * n] += change.dot(own);
+    to[2 * n + 1] += change.squaredNorm();
+    to[2 * n + 2] += own.squaredNorm();
+  });
+  const double length = std::sqrt(sums[2 * n + 1]), residual_size = sums[2 * n + 2];
+  for (int i = 0; i < n; ++i) {
+    along_[newest_first_[i]] = sums[2 * i];
+    gram_(at, newest_first_[i]) = gram_(newest_first_[i], at) = sums[2 * i + 1] / length;
+  }
+  if (length == 0.0) return residual_size;
+  along_[at] = sums[2 * n] / length;
+  gram_(at, at) = 1.0;
   df /= length;
   dq_.col(at) = (q - q_before) / length;
   newest_first_.insert(newest_first_.begin(), at);
-  for (const int other : newest_first_) gram_(at, other) = gram_(other, at) = df_.col(other).dot(df);
+  return residual_size;
 }
 
-void Differences::take_off(Vec& q, Vec& residual) {
-  // Twice: normal equations leave behind what their rounding errors hide.
-  for (int pass = 0; pass < 2; ++pass) {
-    solve(residual);
-    for (const int at : used_) {
-      q -= gamma_[at] * dq_.col(at);
-      residual -= gamma_[at] * df_.col(at);
-    }
+void Differences::subtract(Eigen::Ref<Vec> q, Vec& residual) const {
+  for (const int at : used_) {
+    q -= gamma_[at] * dq_.col(at);
+    residual -= gamma_[at] * df_.col(at);
   }
 }
 
+void Differences::take_off(Eigen::Ref<Vec> q, Vec& residual) {
+  if (newest_first_.empty()) return;
+  solve();
+  subtract(q, residual);
+  // Once more: normal equations leave behind what their rounding errors hide.
+  hear(residual);
+  solve();
+  subtract(q, residual);
+}
+
 // Normal equations, by Cholesky's factor built row by row.
-void Differences::solve(const Vec& residual) {
+void Differences::solve() {
   used_.clear();
   for (const int at : newest_first_) {
     const int row = static_cast<int>(used_.size());
@@ -64,7 +109,7 @@ void Differences::solve(const Vec& residual) {
     if (!(rest > independent)) continue;
     factor_(row, row) = std::sqrt(rest);
     used_.push_back(at);
-    double entry = df_.col(at).dot(residual);
+    double entry = along_[at];
     for (int l = 0; l < row; ++l) entry -= factor_(row, l) * gamma_[used_[l]];
     gamma_[at] = entry / factor_(row, row);
   }

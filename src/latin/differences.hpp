@@ -4,30 +4,36 @@
 
 #include <vector>
 
-#include "numerics/types.hpp"
+#include "solution/interface_sums.hpp"
 
 namespace dygita {
 
 // The last `depth` pairs stand in fixed columns beside the Gram matrix of the residuals' differences: a pair costs one
-// product with each of the others, a solve two passes over them, and nothing is allocated. Runs on one thread: the same
-// bits for any number.
+// product with each of the others, a solve two passes over them. Runs on one thread: the same bits for any number.
+// Collective where the sums are.
 class Differences {
  public:
   Differences(int depth, Eigen::Index length);
+  Differences(int depth, Eigen::Index length, InterfaceSums sums);
   void clear();
   bool is_empty() const { return newest_first_.empty(); }
-  // The oldest pair goes where there is no room. A pair without a difference is not kept.
-  void add(const Vec& q, const Vec& q_before, const Vec& residual, const Vec& residual_before);
-  // q <- q - dq gamma, residual <- residual - df gamma, with gamma that leaves the least |residual|.
-  void take_off(Vec& q, Vec& residual);
+  // The oldest pair goes where there is no room. A pair without a difference is not kept. Returns |residual|^2.
+  double add(const Eigen::Ref<const Vec>& q, const Vec& q_before, const Vec& residual, const Vec& residual_before);
+  // The next to be taken off, where no pair comes with it. Returns |residual|^2.
+  double hear(const Vec& residual);
+  // q <- q - dq gamma, residual <- residual - df gamma, with gamma that leaves the least |residual|: the one last added
+  // or heard.
+  void take_off(Eigen::Ref<Vec> q, Vec& residual);
 
  private:
-  void solve(const Vec& residual);
+  void solve();
+  void subtract(Eigen::Ref<Vec> q, Vec& residual) const;
 
+  InterfaceSums sums_;
   int last_ = -1;
   Mat dq_, df_;        // length x depth, divided by the length of df
   Mat gram_, factor_;  // df^T df, and Cholesky's factor of the pairs that are used
-  Vec gamma_;
+  Vec along_, gamma_;  // df^T residual
   std::vector<int> newest_first_, used_;
 };
 

@@ -9,16 +9,18 @@ namespace dygita {
 
 TrailEntry StepRun::take_entry() {
   TrailEntry entry = files_.trail->take();
-  if (entry.q.size() != at_.q.size() || (entry.uncorrected.size() > 0 && entry.uncorrected.size() != at_.q.size()))
+  if (entry.q.size() != model_.n_q() || (entry.uncorrected.size() > 0 && entry.uncorrected.size() != model_.n_q()))
     throw InputError(fmt::format("step '{}': the checkpoint is of another problem: {} interface unknowns, not {}",
-                                 model_.step->name, entry.q.size(), at_.q.size()));
+                                 model_.step->name, entry.q.size(), model_.n_q()));
+  entry.q = model_.near.part(entry.q);
+  if (entry.uncorrected.size() > 0) entry.uncorrected = model_.near.part(entry.uncorrected);
   return entry;
 }
 
 void StepRun::leave(const Best& best, bool is_solved) {
   TrailEntry entry;
-  entry.q = at_.q;
-  entry.uncorrected = at_.uncorrected;
+  entry.q = model_.near.assembled_on_first(at_.q);
+  if (at_.uncorrected.size() > 0) entry.uncorrected = model_.near.assembled_on_first(at_.uncorrected);
   if (local_.has_preloads()) entry.shortening = local_.preload_figures().shortening;
   for (const double moved :
        of_all_pieces(*model_.cut, 1, [&](int i, double*to) { *to = model_.pieces[i]->is_moved(); }))
@@ -42,7 +44,7 @@ StepRun::Best StepRun::follow(int increment, const Goal& goal) {
   if (entry.iterations > 1 && files_.trail->n_left() < anderson_.n_problems()) {
     linear_stage(at_.q, at_.velocity);
     local_stage(at_.velocity, at_.q, at_.image);
-    anderson_.hear(at_.q, at_.image);
+    anderson_.hear(own(at_.q), own(at_.image));
   }
   for (size_t i = 0; i < model_.pieces.size() && i < entry.moved.size(); ++i)
     if (entry.moved[i]) model_.pieces[i]->wake();
@@ -53,10 +55,11 @@ StepRun::Best StepRun::follow(int increment, const Goal& goal) {
   if (local_.has_preloads()) local_.prescribe_shortenings(entry.shortening);
   at_.sums = local_stage(at_.velocity, at_.q, at_.image);
   if (local_.has_preloads()) local_.prescribe_shortenings({});
-  anderson_.end(at_.q, at_.image, entry.is_solved);
-  const bool is_same =
-      (at_.q.array() == entry.q.array()).all() && (!entry.is_solved || indicator_.measure(at_.sums).eta == entry.eta);
-  if (!is_same) files_.trail->note_difference();
+  anderson_.end(own(at_.q), own(at_.image), entry.is_solved);
+  const int n_own = model_.near.n_own();
+  const bool is_same = (at_.q.head(n_own).array() == entry.q.head(n_own).array()).all() &&
+                       (!entry.is_solved || indicator_.measure(at_.sums).eta == entry.eta);
+  if (ranks::any(!is_same)) files_.trail->note_difference();
   // The pieces have not heard of the last correction.
   if (is_corrected) linear_stage(at_.q, at_.velocity);
   indicator_.accept(best.outcome);
@@ -67,14 +70,15 @@ StepRun::Best StepRun::follow(int increment, const Goal& goal) {
 // having no such system, they are so to the tolerance.
 StepRun::Best StepRun::go_over_again(const TrailEntry& entry, int increment, const Goal& goal) {
   const Best best = answer(increment, goal, true);
-  if ((at_.q.array() != entry.q.array()).any()) files_.trail->note_difference();
+  const int n_own = model_.near.n_own();
+  if (ranks::any((at_.q.head(n_own).array() != entry.q.head(n_own).array()).any())) files_.trail->note_difference();
   return best;
 }
 
 void StepRun::leave_window(const std::vector<Vec>& q, int iterations, double eta, const std::optional<Missed>& missed) {
   for (const Vec& of_step : q) {
     TrailEntry entry;
-    entry.q = of_step;
+    entry.q = model_.near.assembled_on_first(of_step);
     entry.eta = eta;
     entry.iterations = iterations;
     if (&of_step == &q.front()) entry.missed = missed;

@@ -15,15 +15,15 @@ void StepRun::linear_stage(const Vec& q, Vec& velocity) {
   const Stopwatch watch(books_.seconds.interface);
   if (assembled_) return assembled_->linear_stage(q, velocity);
   for_each_piece([&](Piece& piece, int i) {
-    piece.interface_velocity(q.segment(model_.offset[i], piece.n_rows()),
-                             velocity.segment(model_.offset[i], piece.n_rows()));
+    piece.interface_velocity(q.segment(model_.near.start(i), piece.n_rows()),
+                             velocity.segment(model_.near.start(i), piece.n_rows()));
   });
-  model_.unknowns.complete(velocity.data());
 }
 
-// Local stage: the law at every interface point; image = F_hat + k W_hat.
-IndicatorSums StepRun::local_stage(const Vec& velocity, const Vec& q, Vec& image) {
+// Local stage: the law at every interface point, with what other ranks have at theirs; image = F_hat + k W_hat.
+IndicatorSums StepRun::local_stage(Vec& velocity, Vec& q, Vec& image) {
   const Stopwatch watch(books_.seconds.local);
+  model_.near.exchange({q.data(), velocity.data()});
   return local_.run(velocity, q, image);
 }
 
@@ -53,14 +53,13 @@ void StepRun::iterate(int increment, const Goal& goal, Best& best) {
       best.outcome = outcome;
       best.q = at_.q;
     }
-    const bool is_lost =
-        goal.furthest > 0.0 && at_.velocity.size() > 0 && !(at_.velocity.cwiseAbs().maxCoeff() <= goal.furthest);
+    const bool is_lost = goal.furthest > 0.0 && model_.n_q() > 0 && !(largest_velocity() <= goal.furthest);
     if (outcome.eta <= goal.tolerance || is_lost || persistence.ends(i + 1, best.outcome.eta)) {
       best.missed = persistence.missed(increment, settings_.tolerance);
       return;
     }
     const Stopwatch watch(books_.seconds.accelerate);
-    anderson_.advance(at_.q, at_.image);
+    anderson_.advance(own(at_.q), own(at_.image));
   }
 }
 
@@ -87,8 +86,7 @@ void StepRun::iterate_assembled(int increment, const Goal& goal, Best& best) {
       best.outcome = outcome;
       best.q = at_.q;
     }
-    const bool is_lost =
-        goal.furthest > 0.0 && at_.velocity.size() > 0 && !(at_.velocity.cwiseAbs().maxCoeff() <= goal.furthest);
+    const bool is_lost = goal.furthest > 0.0 && model_.n_q() > 0 && !(largest_velocity() <= goal.furthest);
     if (outcome.eta <= goal.tolerance || is_lost || persistence.ends(i + 1, best.outcome.eta)) {
       best.missed = persistence.missed(increment, settings_.tolerance);
       return;
@@ -121,7 +119,7 @@ void StepRun::finish_increment(const Vec& q) {
       Piece& piece = *model_.pieces[i];
       const Points held = piece.has_motions() ? local_.held_force(i) : Points();
       books_.energy[i] =
-          piece.finish(q.segment(model_.offset[i], piece.n_rows()), piece.has_motions() ? &held : nullptr);
+          piece.finish(q.segment(model_.near.start(i), piece.n_rows()), piece.has_motions() ? &held : nullptr);
     }
   });
 }
@@ -134,7 +132,7 @@ StepRun::Best StepRun::answer(int increment, const Goal& goal, bool goes_over_ag
   iterate(increment, goal, best);
   if (best.outcome.eta > settings_.tolerance && local_.has_preloads()) seat_bolts(increment, bolts, best);
   const bool is_solved = best.outcome.eta <= goal.tolerance;
-  anderson_.end(at_.q, at_.image, is_solved);
+  anderson_.end(own(at_.q), own(at_.image), is_solved);
   if (is_solved) {
     // The pieces have not heard of the last correction.
     if (best.iterations > 1 && !coarse_.is_empty()) linear_stage(at_.q, at_.velocity);

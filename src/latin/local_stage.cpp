@@ -8,13 +8,13 @@
 
 namespace dygita {
 
-LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k) : model_(&model), k_(k) {
+LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k) : model_(&model), k_(k), sums_(model) {
   const Scheme& scheme = model.scheme;
   increment_ = increment_of(scheme, model.problem->solver.push_out);
   const Exchange& exchange = model.exchange;
   ports_.resize(exchange.ports.size());
   points_.resize(exchange.points.size());
-  for (size_t i = 0; i < exchange.points.size(); ++i) {
+  for (const int i : model.near.points()) {
     const Point& point = exchange.points[i];
     for (int p = point.first_port; p < point.end_port; ++p) {
       const Port& port = exchange.ports[p];
@@ -38,6 +38,7 @@ LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k)
     }
   }
   preloads_ = make_preloads(model, points_);
+  find_surfaces();
   for (const Tie& tie : exchange.ties) {
     const Vec3 force =
         exchange.points[tie.point].frame.transpose() * start.surfaces[tie.surface].points[tie.surface_point].force;
@@ -47,7 +48,7 @@ LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k)
 }
 
 Vec LocalStage::initial_q() const {
-  Vec q = Vec::Zero(model_->n_q());
+  Vec q = Vec::Zero(model_->near.n());
   for (size_t p = 0; p < ports_.size(); ++p)
     for (int d = 0; d < 3; ++d)
       if (const int i = model_->unknown(model_->exchange.ports[p], d); i >= 0)
@@ -73,15 +74,14 @@ Vec3 LocalStage::mean_displacement(int first, int end) const {
 void LocalStage::begin(int increment, const std::vector<double>& motions, bool starts_window) {
   const Exchange& exchange = model_->exchange;
   i_increment_ = increment;
-  Vec displacement(starts_window ? model_->n_q() : 0);
+  Vec displacement(starts_window ? model_->near.n() : 0);
   for (size_t i = 0; i < model_->here.size() && starts_window; ++i) {
     const Piece& piece = *model_->pieces[model_->here[i]];
-    displacement.segment(model_->offset[model_->here[i]], piece.n_rows()) = piece.row_displacements();
+    displacement.segment(model_->near.start(model_->here[i]), piece.n_rows()) = piece.row_displacements();
   }
-  if (starts_window) model_->unknowns.complete(displacement.data());
-  for (size_t i = 0; i < exchange.points.size(); ++i) {
+  if (starts_window) model_->near.exchange({displacement.data()});
+  for (const int i : model_->near.points()) {
     const Point& point = exchange.points[i];
-    if (point.is_direct) continue;
     for (int p = point.first_port; p < point.end_port; ++p) {
       const Port& port = exchange.ports[p];
       PortState& state = ports_[p];
@@ -126,7 +126,7 @@ LocalStage::Side LocalStage::gather(int first, int end, const Vec& velocity, con
 }
 
 void LocalStage::scatter(int first, int end, const Side& side, const Vec3& force, const Vec& velocity, const Vec& q,
-                         Vec& image, IndicatorSums& sums) {
+                         Vec& image) {
   for (int d = 0; d < 3; ++d) {
     const double w_side = side.r[d] + side.inverse_k[d] * force[d];
     double balance = force[d];  // what a held port of the group takes
@@ -148,12 +148,7 @@ void LocalStage::scatter(int first, int end, const Side& side, const Vec3& force
       ports_[p].f[d] = f_hat;
       balance -= f_hat;
       image[i] = f_hat + k_[i] * w_hat;
-      const double df = f_linear - f_hat, dv = velocity[i] - w_hat;
-      ports_[p].residual[d] = df;
-      sums.force_distance += df * df / k_[i];
-      sums.velocity_distance += k_[i] * dv * dv;
-      sums.force_size += 0.5 * (f_linear * f_linear + f_hat * f_hat) / k_[i];
-      sums.velocity_size += 0.5 * k_[i] * (velocity[i] * velocity[i] + w_hat * w_hat);
+      ports_[p].residual[d] = f_linear - f_hat;
     }
     if (held_port >= 0) ports_[held_port].f[d] = balance;
   }
@@ -175,9 +170,8 @@ std::vector<double> LocalStage::normal_trials() const {
   return trials;
 }
 
-IndicatorSums LocalStage::run_point(size_t i_point, const Vec& velocity, const Vec& q, Vec& image) {
+void LocalStage::run_point(size_t i_point, const Vec& velocity, const Vec& q, Vec& image) {
   const Point& point = model_->exchange.points[i_point];
-  if (point.is_direct) return {};
   PointRecord& state = points_[i_point];
   const Side side_1 = gather(point.first_port, point.first_port_2, velocity, q);
   const Side side_2 = gather(point.first_port_2, point.end_port, velocity, q);
@@ -187,97 +181,36 @@ IndicatorSums LocalStage::run_point(size_t i_point, const Vec& velocity, const V
     if (!state.is_released)
       state.force = limited_force(*point.law, state.trial, increment_at(point), state.law, limit_at(i_point));
   }
-  IndicatorSums sums;
-  scatter(point.first_port, point.first_port_2, side_1, state.force, velocity, q, image, sums);
-  scatter(point.first_port_2, point.end_port, side_2, -state.force, velocity, q, image, sums);
-  return sums;
+  scatter(point.first_port, point.first_port_2, side_1, state.force, velocity, q, image);
+  scatter(point.first_port_2, point.end_port, side_2, -state.force, velocity, q, image);
 }
 
 IndicatorSums LocalStage::run(const Vec& velocity, const Vec& q, Vec& image) {
   image.resize(q.size());
   for (size_t i = 0; i < preloads_.size(); ++i) shorten(static_cast<int>(i), velocity, q);
-  // Sums by fixed chunks, added in order: the same bits for any number of threads.
   constexpr int chunk = 128;
-  const int n = static_cast<int>(points_.size()), n_chunks = (n + chunk - 1) / chunk;
-  std::vector<IndicatorSums> partial(n_chunks);
+  const std::vector<int>& points = model_->near.points();
+  const int n = static_cast<int>(points.size()), n_chunks = (n + chunk - 1) / chunk;
   const auto run_chunk = [&](int c) {
-    for (int i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) partial[c].add(run_point(i, velocity, q, image));
+    for (int i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) run_point(points[i], velocity, q, image);
   };
   parallel_for(n_chunks, run_chunk, Schedule::evenly, n_chunks > 8 ? 0 : 1);
-  IndicatorSums sums;
-  for (const IndicatorSums& s : partial) sums.add(s);
-  return sums;
+  return measure(velocity, q, image);
 }
 
-void LocalStage::accept(State* state) {
-  for (size_t i = 0; i < points_.size(); ++i) {
-    const Point& point = model_->exchange.points[i];
-    if (point.is_direct) continue;
-    PointRecord& p = points_[i];
-    const Increment increment = increment_at(point);
-    const LawState end = end_of_point(point, p, increment);
-    gap_difference_ = std::max(gap_difference_, dygita::gap_difference(point, p));
-    if (state) book_work(point, p, end, increment, work_on_pieces(point), *state);
-    p.law = end;
-    if (state && point.law) show_point(point, p, *state);
-  }
-  for (const Point& point : model_->exchange.points) {
-    if (point.is_direct) continue;
-    const double g = increment_at(point).g;
-    for (int i = point.first_port; i < point.end_port; ++i)
-      ports_[i].u += increment_.dt * (g * ports_[i].w_old + (1 - g) * ports_[i].w);
-  }
-  if (!state) return;
-  std::vector<Vec3> port_force;
-  for (const PortState& port : ports_) port_force.push_back(port.f);
-  show_ties(*model_, points_, port_force, *state);
-  show_residuals(*state);
-}
-
-// The constitutive-relation error as a field: |F - F_hat| of the worse side of every surface point.
-void LocalStage::show_residuals(State& state) const {
-  const Exchange& exchange = model_->exchange;
-  for (const Point& point : exchange.points) {
-    if (point.is_direct) continue;
-    double worst = 0.0;
-    for (int p = point.first_port; p < point.end_port; ++p) worst = std::max(worst, ports_[p].residual.norm());
-    for (const Member& member : point.members)
-      state.surfaces[member.surface].residual[member.point] = member.share * worst;
-  }
-  for (const Tie& tie : exchange.ties) {
-    if (exchange.points[tie.point].is_direct) continue;
-    state.surfaces[tie.surface].residual[tie.surface_point] =
-        std::max(ports_[tie.port_1].residual.norm(), ports_[tie.port_2].residual.norm());
-  }
-}
-
-bool LocalStage::is_massless(const Point& point) const {
-  const Port& port = model_->exchange.ports[point.first_port];
-  return model_->pieces[port.piece]->is_massless(port.piece_node);
-}
-
-double LocalStage::work_on_pieces(const Point& point) const {
-  double work = 0.0;
-  const double g = increment_at(point).g;
-  const bool has_force_of_end = increment_.is_static || is_massless(point);
-  for (int i = point.first_port; i < point.end_port; ++i) {
-    const Vec3 motion = increment_.dt * (g * ports_[i].w_old + (1 - g) * ports_[i].w);
-    work += (has_force_of_end ? Vec3(0.5 * (ports_[i].f_old + ports_[i].f)) : ports_[i].f).dot(motion);
-  }
-  return work;
-}
-
-Points LocalStage::held_force(int piece) const {
-  Points force = Points::Zero(3, model_->cut->piece(piece).body->mesh->n_nodes());
-  for (const Point& point : model_->exchange.points)
-    for (int p = point.first_port; p < point.end_port && !point.is_direct; ++p) {
-      const Port& port = model_->exchange.ports[p];
-      if (port.piece != piece) continue;
-      if (port.trace) spread(*model_->cut, port, point.frame * ports_[p].f, force);
-      for (int d = 0; d < 3 && !port.trace; ++d)
-        if (port.is_held[d]) force.col(port.piece_node) += ports_[p].f[d] * point.frame.col(d);
+// Both answers are on one line through (F, V) of slope -k: q and image tell how far apart, F - F_hat = (q - image)/2.
+IndicatorSums LocalStage::measure(const Vec& velocity, const Vec& q, const Vec& image) {
+  enum { distance, force, motion, n_sums };
+  const std::vector<double>& sums = sums_.add(n_sums, [&](Eigen::Index first, Eigen::Index n, double* to) {
+    for (Eigen::Index i = first; i < first + n; ++i) {
+      const double k = k_[i], inverse = 1.0 / k, change = 0.5 * (q[i] - image[i]);
+      const double f = q[i] - k * velocity[i], f_hat = f - change, w_hat = velocity[i] - inverse * change;
+      to[distance] += inverse * (change * change);
+      to[force] += 0.5 * inverse * (f * f + f_hat * f_hat);
+      to[motion] += 0.5 * k * (velocity[i] * velocity[i] + w_hat * w_hat);
     }
-  return force;
+  });
+  return {sums[distance], sums[distance], sums[force], sums[motion]};
 }
 
 }  // namespace dygita

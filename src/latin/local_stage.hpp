@@ -1,7 +1,10 @@
 // The local stage: at each interface point, the law; nothing global.
 #pragma once
 
+#include <map>
+
 #include "law/law_slope.hpp"
+#include "solution/interface_sums.hpp"
 #include "solution/preload.hpp"
 #include "solution/tangents.hpp"
 
@@ -11,13 +14,6 @@ namespace dygita {
 struct IndicatorSums {
   double force_distance = 0.0, velocity_distance = 0.0;  // sum (F - F_hat)^2 / k,  sum k (V - W_hat)^2
   double force_size = 0.0, velocity_size = 0.0;          // sum (F^2 + F_hat^2) / 2k,  sum k (V^2 + W_hat^2) / 2
-
-  void add(const IndicatorSums& other) {
-    force_distance += other.force_distance;
-    velocity_distance += other.velocity_distance;
-    force_size += other.force_size;
-    velocity_size += other.velocity_size;
-  }
 };
 
 // Of each preload in an increment: shortening (m), force through it and force asked for (N), stiffness of its search
@@ -27,10 +23,13 @@ struct PreloadFigures {
   std::vector<const Interface*> interfaces;
 };
 
+// Of the points that are near this rank. Fields V, q and image are of the near unknowns; an answer counts where V and q
+// are those of all ranks.
+//
 // Copyable: a window of several steps keeps the copy it starts from.
 class LocalStage {
  public:
-  // Takes the laws' memory from `start`. k: search directions, length n_q.
+  // Takes the laws' memory from `start`. k: search directions of the near unknowns.
   LocalStage(const StepModel& model, const State& start, const Vec& k);
 
   // Interface data that continues the state: q = F_hat + k W_hat with the forces and velocities at hand.
@@ -39,10 +38,14 @@ class LocalStage {
   // Jumps come from the substructures' displacements at the start of a window; inside a window of several steps from
   // W_hat, since the displacements of an unfinished iteration would be answered with a velocity of jump / dt.
   void begin(int increment, const std::vector<double>& motions, bool starts_window);
-  // From velocities V and data q of the linear stage: F_hat, W_hat and their q (the fixed-point image).
+  // From velocities V and data q of the linear stage: F_hat, W_hat and their q (the fixed-point image). Collective,
+  // unless every rank has all pieces.
   IndicatorSums run(const Vec& velocity, const Vec& q, Vec& image);
-  // Accepts the fields of the last `run`: the laws move on; with a state, forces, gaps, slips and works go into it.
-  void accept(State* state);
+  // Accepts the fields of the last `run`: the laws move on.
+  void accept() { accept(nullptr, nullptr); }
+  // The same; forces, gaps, slips and works go into the state, energies of the points are added to those of the pieces
+  // that they are booked with (one each).
+  void accept(State& state, std::vector<IncrementEnergy>& energy) { accept(&state, &energy); }
   // Largest difference so far between a contact law's gap and that of the displacements, m.
   double gap_difference() const { return gap_difference_; }
   bool has_preloads() const { return !preloads_.empty(); }
@@ -76,14 +79,15 @@ class LocalStage {
     Vec3 r = Vec3::Zero(), inverse_k = Vec3::Zero();
   };
 
+  void accept(State* state, std::vector<IncrementEnergy>* energy);
+  IndicatorSums measure(const Vec& velocity, const Vec& q, const Vec& image);
   Side gather(int first, int end, const Vec& velocity, const Vec& q) const;
-  void scatter(int first, int end, const Side& side, const Vec3& force, const Vec& velocity, const Vec& q, Vec& image,
-               IndicatorSums& sums);
+  void scatter(int first, int end, const Side& side, const Vec3& force, const Vec& velocity, const Vec& q, Vec& image);
   // The trial of a point with a law, from both its sides.
   void set_trial(const Point& point, const Side& side_1, const Side& side_2, PointRecord& record) const;
   // Finds the shortening of a preloaded interface for the fields at hand, or takes the one prescribed.
   void shorten(int i_preload, const Vec& velocity, const Vec& q);
-  IndicatorSums run_point(size_t i_point, const Vec& velocity, const Vec& q, Vec& image);
+  void run_point(size_t i_point, const Vec& velocity, const Vec& q, Vec& image);
   const double* limit_at(size_t i_point) const { return limits_.empty() ? nullptr : &limits_[i_point]; }
   std::vector<PortRow> port_rows(const Point& point) const;
   PointTangent point_tangent(const Point& point, const Mat3& of_law, double tie) const;
@@ -91,7 +95,9 @@ class LocalStage {
   Mat3 law_tangent(size_t i_point, bool sticks, double least, const TangentBounds& bounds) const;
   Vec3 mean_displacement(int first, int end) const;
   double work_on_pieces(const Point& point) const;
-  void show_residuals(State& state) const;
+  void show_residuals(const Point& point, State& state) const;
+  void find_surfaces();
+  void follow_loads(State& state) const;
   // Points between nodes without mass take the force and the gap of the step's end (manual, eq. S7).
   bool is_massless(const Point& point) const;
   Increment increment_at(const Point& point) const {
@@ -102,11 +108,13 @@ class LocalStage {
 
   const StepModel* model_;
   Vec k_;
+  InterfaceSums sums_;
   std::vector<PortState> ports_;
   std::vector<PointRecord> points_;
   std::vector<Preload> preloads_;
-  std::vector<double> limits_;  // normal trials that limit tangential forces; empty: each point's own
-  Vec prescribed_;              // shortenings of the preloads; empty: found
+  std::map<int, const Interface*> interfaces_;  // of surfaces whose laws are iterated on any rank, not preloaded
+  std::vector<double> limits_;                  // normal trials that limit tangential forces; empty: each point's own
+  Vec prescribed_;                              // shortenings of the preloads; empty: found
   Increment increment_;
   int i_increment_ = 0;
   double gap_difference_ = 0.0;

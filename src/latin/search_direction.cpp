@@ -58,7 +58,7 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
       if (port.unknown[d] < 0) continue;
       const InterfaceRow& row = piece.rows()[port.unknown[d]];
       const double schur = has_schur ? piece.schur_diagonal()[port.unknown[d]] : 0.0;
-      double& direction = k[model.unknown(port, d)];
+      double& direction = k[model.assembled_unknown(port, d)];
       if (piece.is_explicit()) {  // its answer is known, whatever q is
         direction = schur;
         continue;

@@ -17,21 +17,21 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
     : settings_(settings),
       files_(files),
       model_(model),
-      weight_(k.cwiseSqrt().cwiseInverse()),
+      weight_(model.near.part(k).head(model.near.n_own()).cwiseSqrt().cwiseInverse()),
       coarse_(settings.has_correction ? CoarseCorrection(model, k) : CoarseCorrection()),
-      local_(model, files.state, k),
+      local_(model, files.state, model.near.part(k)),
       direct_(model, files.state),
-      at_{local_.initial_q(), Vec::Zero(k.size()), {}, {}},
-      warm_start_(files.start_from, settings.i_step, weight_),
+      at_{local_.initial_q(), Vec::Zero(model.near.n()), {}, {}},
+      warm_start_({files.start_from, static_cast<size_t>(settings.i_step), &model.near}, weight_, InterfaceSums(model)),
       anderson_(settings.of_increment.depth, settings.of_increment.n_problems, settings.of_increment.relaxation,
-                weight_),
+                weight_, InterfaceSums(model)),
       indicator_(model.scheme.is_static ? k.sum() * settings.assembly_size * settings.assembly_size : 0.0,
                  settings.is_assembled ? 1e-1 : 1e-2) {
   if (settings.is_assembled) assembled_.emplace(model, local_, k, settings.assembly_size);
   books_.energy.resize(model.pieces.size());
   if (!ranks::is_alone()) {
     books_.piece_seconds.resize(model.pieces.size());
-    if (model.has_explicit()) distant_.emplace(model, files.state);
+    if (!model.is_assembled) distant_.emplace(model, files.state);
   }
   long n_explicit = 0;
   for (const auto& piece : model.pieces) {
@@ -69,7 +69,7 @@ StepRun::Goal StepRun::goal_of(bool has_start) const {
 // Where the iteration of an increment starts; false: not from another case's fields.
 bool StepRun::predict(int increment, Vec& q) {
   const InterfaceFields* fields = files_.start_from;
-  const bool has_start = warm_start_.predict(increment, q) && fields;
+  const bool has_start = warm_start_.predict(increment, own(q)) && fields;
   if (fields && !has_start && increment == 0 && fields->n_increments(settings_.i_step) > 0)
     warn(
         fmt::format("step '{}': nothing of the case to start from fits (other interfaces, another number of pieces or "
@@ -82,10 +82,12 @@ bool StepRun::predict(int increment, Vec& q) {
 void StepRun::accept_increment(int increment, int iterations, double eta) {
   {
     const Stopwatch watch(books_.seconds.accept);
-    local_.accept(&files_.state);
+    books_.of_points.assign(model_.pieces.size(), {});
+    local_.accept(files_.state, books_.of_points);
   }
   if (!model_.scheme.is_static) files_.state.time += model_.scheme.dt;
-  files_.kept.append(at_.q);
+  keep(at_.q);
+  if (distant_) distant_->forget();
   accept_interval(increment, iterations, eta, model_.scheme.dt * at_.sums.force_distance);
 }
 
@@ -93,8 +95,8 @@ void StepRun::accept_increment(int increment, int iterations, double eta) {
 void StepRun::accept_interval(int increment, int iterations, double eta, double interface_energy) {
   State& state = files_.state;
   Energies& energies = state.energies;
-  complete_energies();
-  book_increment(books_.energy, energies);
+  book_increment(all_energies(), energies);
+  if (!std::isfinite(energies.balance())) complete_energies(books_.energy);  // to tell where
   check_energies(model_, state, books_.energy, increment);
   if (has_flown_off()) eta = std::numeric_limits<double>::infinity();
   indicator_.raise_floor(energies.kinetic + energies.strain + std::abs(energies.loads), model_.scheme.dt);
@@ -109,18 +111,33 @@ void StepRun::accept_interval(int increment, int iterations, double eta, double 
   files_.observer.accept(shown);
 }
 
+// Of all pieces, with those of the points that are booked with each.
+std::vector<IncrementEnergy> StepRun::all_energies() const {
+  std::vector<IncrementEnergy> all = books_.energy;
+  for (size_t i = 0; i < books_.of_points.size(); ++i) {
+    const IncrementEnergy& points = books_.of_points[i];
+    all[i].loads += points.loads;
+    all[i].friction += points.friction;
+    all[i].plastic += points.plastic;
+    all[i].damping += points.damping;
+    all[i].scheme += points.scheme;
+  }
+  complete_energies(all);
+  return all;
+}
+
 // Those of pieces elsewhere.
-void StepRun::complete_energies() {
+void StepRun::complete_energies(std::vector<IncrementEnergy>& energies) const {
   if (ranks::is_alone()) return;
   constexpr int n = 7;
   const std::vector<double> all = of_all_pieces(*model_.cut, n, [&](int i, double* to) {
-    const IncrementEnergy& e = books_.energy[i];
+    const IncrementEnergy& e = energies[i];
     const double own[n] = {e.loads, e.friction, e.plastic, e.damping, e.scheme, e.kinetic, e.strain};
     std::copy_n(own, n, to);
   });
-  for (size_t i = 0; i < books_.energy.size(); ++i) {
+  for (size_t i = 0; i < energies.size(); ++i) {
     const double* e = all.data() + n * i;
-    books_.energy[i] = {e[0], e[1], e[2], e[3], e[4], e[5], e[6]};
+    energies[i] = {e[0], e[1], e[2], e[3], e[4], e[5], e[6]};
   }
 }
 
@@ -131,11 +148,20 @@ void StepRun::note_missed(const Missed& missed) {
   if (all.size() < 1000) all.push_back(missed);
 }
 
+// The first rank has the fields of all pieces, the others know of how many increments.
+void StepRun::keep(const Vec& q) { files_.kept.append(model_.near.assembled_on_first(q)); }
+
+double StepRun::largest_velocity() const {
+  const int n = model_.near.n_own();
+  const double own = n > 0 ? at_.velocity.head(n).cwiseAbs().maxCoeff() : 0.0;
+  return assembled_ ? own : ranks::largest(own);
+}
+
 // A static increment that moves bodies by many times the assembly's size has found no equilibrium, whatever the
 // indicator says.
 bool StepRun::has_flown_off() const {
-  if (!model_.scheme.is_static || at_.velocity.size() == 0) return false;
-  const double moved = at_.velocity.cwiseAbs().maxCoeff(), size = settings_.assembly_size;
+  if (!model_.scheme.is_static || model_.n_q() == 0) return false;
+  const double moved = largest_velocity(), size = settings_.assembly_size;
   if (moved <= 10.0 * size) return false;
   warn(fmt::format(
       "static step '{}': an increment moves a substructure by {:.3g} m, {:.0f} times the size of the assembly: it is "
@@ -145,7 +171,7 @@ bool StepRun::has_flown_off() const {
 }
 
 void StepRun::check_finite(const Outcome& outcome, int increment) const {
-  if (std::isfinite(outcome.eta)) return;
+  if (std::isfinite(outcome.eta) && std::isfinite(outcome.size)) return;
   throw NumericalError(
       fmt::format("step '{}', increment {} (t = {:.6g} s): the iteration has diverged{}; likely cause: a load, "
                   "search direction, stiffness or density out of proportion, or a time step far too large",
@@ -155,14 +181,15 @@ void StepRun::check_finite(const Outcome& outcome, int increment) const {
 // " at substructure 'rod', interface 'thread'": where a velocity is not a number, or else is largest.
 std::string StepRun::place_of_divergence() const {
   const Exchange& exchange = model_.exchange;
+  const Vec velocity = model_.near.assembled(at_.velocity);
   const Port* worst = nullptr;
   const Point* at = nullptr;
   double largest = -1.0;
   for (const Point& point : exchange.points)
     for (int p = point.first_port; p < point.end_port && std::isfinite(largest); ++p)
       for (int d = 0; d < 3; ++d) {
-        const int i = model_.unknown(exchange.ports[p], d);
-        const double size = i < 0 || i >= at_.velocity.size() ? -1.0 : std::abs(at_.velocity[i]);
+        const int i = model_.assembled_unknown(exchange.ports[p], d);
+        const double size = i < 0 || i >= velocity.size() ? -1.0 : std::abs(velocity[i]);
         if (size <= largest) continue;
         largest = std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
         worst = &exchange.ports[p];
@@ -213,7 +240,7 @@ void StepRun::add_to(SolverFigures& figures) const {
   figures.n_equal += static_cast<int>(sums[equal]);
   figures.n_interface_unknowns = model_.n_q();
   figures.gap_difference =
-      std::max({figures.gap_difference, local_.gap_difference(), ranks::largest(direct_.gap_difference())});
+      std::max(figures.gap_difference, ranks::largest(std::max(local_.gap_difference(), direct_.gap_difference())));
   figures.sharing.pieces.resize(books_.piece_seconds.size());
   for (size_t i = 0; i < books_.piece_seconds.size(); ++i) figures.sharing.pieces[i].seconds += books_.piece_seconds[i];
   const Seconds& seconds = books_.seconds;

@@ -21,7 +21,8 @@
 
 namespace dygita {
 
-// What is iterated: data go from left to right, and from the image back to q. Length n_q each.
+// What is iterated: data go from left to right, and from the image back to q. Of the near unknowns; those of pieces
+// elsewhere are what the last local stage has heard of them.
 struct Iterate {
   Vec q;               // of the linear stage: F_hat + k W_hat, N
   Vec velocity;        // V, its answer, m/s
@@ -41,7 +42,7 @@ struct RunFiles {
 
 class StepRun {
  public:
-  // The step has been started (start_step) and its pieces have search directions k (length n_q).
+  // The step has been started (start_step) and its pieces have search directions k (of the assembled q).
   StepRun(const StepSettings& settings, StepModel& model, const Vec& k, const RunFiles& files);
 
   void run();
@@ -69,7 +70,7 @@ class StepRun {
 
   // The stages (latin.cpp): q gives velocity; velocity and q give the image and its distance.
   void linear_stage(const Vec& q, Vec& velocity);
-  IndicatorSums local_stage(const Vec& velocity, const Vec& q, Vec& image);
+  IndicatorSums local_stage(Vec& velocity, Vec& q, Vec& image);
   void coarse_correction(Vec& q, Vec& velocity);
   void iterate(int increment, const Goal& goal, Best& best);
   // The same with all pieces in one system.
@@ -110,7 +111,7 @@ class StepRun {
     LocalStage local;
   };
   void solve_window(int first, int last);
-  Outcome sweep(int first, const std::vector<Vec>& q, std::vector<Vec>& image);
+  Outcome sweep(int first, std::vector<Vec>& q, std::vector<Vec>& image);
   void replay(int increment, const Vec& q, bool starts_window, int iterations, double eta);
   Start remember() const;
   void go_back(const Start& start);
@@ -118,11 +119,16 @@ class StepRun {
   // Bookkeeping (step_run.cpp).
   Goal goal_of(bool has_start) const;
   bool predict(int increment, Vec& q);
+  // Of the pieces that are here.
+  Eigen::VectorBlock<Vec> own(Vec& near) const { return near.head(model_.near.n_own()); }
+  double largest_velocity() const;
+  void keep(const Vec& q);
   void accept_increment(int increment, int iterations, double eta);
   void accept_interval(int increment, int iterations, double eta, double interface_energy);
   void note_missed(const Missed& missed);
   bool has_flown_off() const;
-  void complete_energies();
+  std::vector<IncrementEnergy> all_energies() const;
+  void complete_energies(std::vector<IncrementEnergy>& energies) const;
   void check_finite(const Outcome& outcome, int increment) const;
   std::string place_of_divergence() const;
   std::string describe_progress() const;
@@ -154,8 +160,9 @@ class StepRun {
     double forward = 0.0, interface = 0.0, local = 0.0, accelerate = 0.0, backward = 0.0, accept = 0.0, output = 0.0;
   };
   struct Books {
-    std::vector<IncrementEnergy> energy;   // of the increment, one a piece
-    std::vector<std::vector<Vec3>> force;  // N, of the surfaces' points, summed over the substeps of a time step
+    std::vector<IncrementEnergy> energy;     // of the increment, one a piece
+    std::vector<IncrementEnergy> of_points;  // iterated ones, with the piece of their first port
+    std::vector<std::vector<Vec3>> force;    // N, of the surfaces' points, summed over the substeps of a time step
     StepFigures figures;
     Seconds seconds;
     std::vector<double> piece_seconds;  // of a processor; empty: one process, whose phases tell enough
@@ -176,7 +183,7 @@ class StepRun {
   RunFiles files_;
   // Operators, and the laws with what they remember.
   StepModel& model_;
-  Vec weight_;  // 1/sqrt(k): of the components of q in norms
+  Vec weight_;  // 1/sqrt(k): of the components of q in norms, of the pieces here
   CoarseCorrection coarse_;
   LocalStage local_;
   std::optional<TangentIteration> assembled_;  // static steps with all pieces in one system

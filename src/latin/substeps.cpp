@@ -45,7 +45,7 @@ void StepRun::run_through(int increment) {
     const Stopwatch laws(books_.seconds.local);
     direct_.solve(motions, piece_threads_.threads());
   }
-  files_.kept.append(at_.q);
+  keep(at_.q);
 }
 
 StepRun::Best StepRun::solve_substep(int increment, int substep, bool is_led) {
@@ -65,7 +65,7 @@ void StepRun::finish_piece(Piece& piece, int i) {
   const bool needs_force = piece.has_motions() && (model_.n_q() > 0 || !explicit_[i]);
   const Points held = needs_force ? local_.held_force(i) : Points();
   const IncrementEnergy energy =
-      piece.finish(at_.q.segment(model_.offset[i], piece.n_rows()), needs_force ? &held : nullptr);
+      piece.finish(at_.q.segment(model_.near.start(i), piece.n_rows()), needs_force ? &held : nullptr);
   IncrementEnergy& sum = books_.energy[i];
   sum.loads += energy.loads;
   sum.damping += energy.damping;
@@ -84,11 +84,11 @@ void StepRun::finish_substep(int substep) {
   }
   const Stopwatch watch(books_.seconds.accept);
   if (model_.n_q() > 0) {
-    local_.accept(&files_.state);
+    local_.accept(files_.state, books_.of_points);
     add_forces();
-    files_.kept.append(at_.q);
+    keep(at_.q);
   } else if ((substep + 1) % model_.n_substeps() == 0) {
-    files_.kept.append(at_.q);
+    keep(at_.q);
   }
 }
 
@@ -116,6 +116,7 @@ void StepRun::solve_interval(int increment) {
     if (piece->is_explicit() || model_.n_substeps() > 1) piece->begin_interval();
   direct_.begin_interval(increment);
   books_.energy.assign(model_.pieces.size(), {});
+  books_.of_points.assign(model_.pieces.size(), {});
   const int n = model_.n_substeps();
   const double start = files_.state.time;
   int iterations = 0;

@@ -4,17 +4,31 @@
 
 namespace dygita {
 
-WarmStart::WarmStart(const InterfaceFields* fields, size_t i_step, Vec weight)
-    : fields_(fields), i_step_(i_step), weight_(std::move(weight)) {}
+bool OwnFields::read(size_t increment, Eigen::Index n_own, Vec& q) const {
+  if (!near || ranks::is_alone()) return fields->read(i_step, increment, n_own, q);
+  Vec kept;
+  const bool is_kept = ranks::is_first() && fields->read(i_step, increment, near->n_assembled(), kept);
+  if (!ranks::any(is_kept)) return false;
+  const std::vector<double> all = ranks::shared(std::vector<double>(kept.begin(), kept.end()));
+  q = near->part(Eigen::Map<const Vec>(all.data(), static_cast<Eigen::Index>(all.size()))).head(n_own);
+  return true;
+}
 
-bool WarmStart::predict(int increment, Vec& q) {
+WarmStart::WarmStart(const OwnFields& fields, Vec weight, InterfaceSums sums)
+    : fields_(fields), weight_(std::move(weight)), sums_(std::move(sums)) {}
+
+bool WarmStart::predict(int increment, Eigen::Ref<Vec> q) {
   constexpr double memory = 0.5;
-  if (!fields_) return true;
-  if (has_guessed_)
-    for (int i = 0; i < n_guesses; ++i)
-      error_[i] = memory * error_[i] + (guess_[i] - q).cwiseProduct(weight_).squaredNorm();
+  if (!fields_.fields) return true;
+  if (has_guessed_) {
+    const std::vector<double>& errors = sums_.add(n_guesses, [&](Eigen::Index first, Eigen::Index n, double* to) {
+      for (int i = 0; i < n_guesses; ++i)
+        to[i] += (guess_[i] - q).segment(first, n).cwiseProduct(weight_.segment(first, n)).squaredNorm();
+    });
+    for (int i = 0; i < n_guesses; ++i) error_[i] = memory * error_[i] + errors[i];
+  }
   kept_before_.swap(kept_);
-  has_guessed_ = fields_->read(i_step_, static_cast<size_t>(increment), q.size(), kept_);
+  has_guessed_ = fields_.read(static_cast<size_t>(increment), q.size(), kept_);
   if (!has_guessed_) {
     kept_.resize(0);
     return false;

@@ -18,7 +18,7 @@ void StepRun::go_back(const Start& start) {
 
 // Both stages of every time step, each from the end of the one before: from data q their images, and the worst outcome.
 // Nothing is kept but those.
-Outcome StepRun::sweep(int first, const std::vector<Vec>& q, std::vector<Vec>& image) {
+Outcome StepRun::sweep(int first, std::vector<Vec>& q, std::vector<Vec>& image) {
   const Indicator before = indicator_;
   Outcome worst{0.0};
   for (size_t i = 0; i < q.size(); ++i) {
@@ -30,7 +30,7 @@ Outcome StepRun::sweep(int first, const std::vector<Vec>& q, std::vector<Vec>& i
     worst.eta = std::max(worst.eta, outcome.eta);
     check_finite(outcome, increment);
     finish_increment(q[i]);
-    local_.accept(nullptr);
+    local_.accept();
   }
   indicator_ = before;
   return worst;
@@ -39,16 +39,22 @@ Outcome StepRun::sweep(int first, const std::vector<Vec>& q, std::vector<Vec>& i
 void StepRun::solve_window(int first, int last) {
   const int n_steps = last - first;
   if (leads(n_steps)) return replay_window(first, last);
-  const Eigen::Index n_q = at_.q.size();
+  const Eigen::Index n_own = model_.near.n_own();
+  const OwnFields fields{files_.start_from, static_cast<size_t>(settings_.i_step), &model_.near};
   const Start start = remember();
   std::vector<Vec> q(n_steps, at_.q), image(n_steps);
   bool has_start = files_.start_from != nullptr;
-  for (int i = 0; i < n_steps && files_.start_from; ++i)
-    has_start &= files_.start_from->read(settings_.i_step, first + i, n_q, q[i]);
+  Vec kept;
+  for (int i = 0; i < n_steps && files_.start_from; ++i) {
+    const bool is_kept = fields.read(static_cast<size_t>(first + i), n_own, kept);
+    if (is_kept) own(q[i]) = kept;
+    has_start &= is_kept;
+  }
   const Goal goal = goal_of(has_start);
-  Vec all(n_steps * n_q), all_image(all.size());
+  Vec all(n_steps * n_own), all_image(all.size());
   const StepSettings::Acceleration& asked = settings_.of_window;
-  Anderson anderson(asked.depth, asked.n_problems, asked.relaxation, weight_.replicate(n_steps, 1));
+  Anderson anderson(asked.depth, asked.n_problems, asked.relaxation, weight_.replicate(n_steps, 1),
+                    InterfaceSums(model_, n_steps));
   Persistence persistence(goal.limit);
   for (int n = 1;; ++n) {
     const Outcome worst = sweep(first, q, image);
@@ -62,11 +68,11 @@ void StepRun::solve_window(int first, int last) {
       return;
     }
     for (int i = 0; i < n_steps; ++i) {
-      all.segment(i * n_q, n_q) = q[i];
-      all_image.segment(i * n_q, n_q) = image[i];
+      all.segment(i * n_own, n_own) = own(q[i]);
+      all_image.segment(i * n_own, n_own) = own(image[i]);
     }
     anderson.advance(all, all_image);
-    for (int i = 0; i < n_steps; ++i) q[i] = all.segment(i * n_q, n_q);
+    for (int i = 0; i < n_steps; ++i) own(q[i]) = all.segment(i * n_own, n_own);
   }
 }
 

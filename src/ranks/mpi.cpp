@@ -213,26 +213,44 @@ Segments::Segments(const std::vector<int>& owner, const std::vector<int>& offset
     counts_[rank] += of_rank_[rank].back().n;
   }
   for (size_t r = 1; r < counts_.size(); ++r) starts_[r] = starts_[r - 1] + counts_[r - 1];
-  own_.resize(static_cast<size_t>(counts_[static_cast<size_t>(own_rank)]));
-  all_.resize(static_cast<size_t>(offset.back() - offset.front()));
+  n_ = offset.back() - offset.front();
 }
 
-void Segments::complete(double* values) const {
-  if (n_ranks == 1 || all_.empty()) return;
-  const size_t me_here = static_cast<size_t>(own_rank);
+void Segments::complete(double* values, int width) const { collect(values, width, true); }
+
+void Segments::bring(double* values) const { collect(values, 1, false); }
+
+void Segments::collect(double* values, int width, bool on_all) const {
+  if (n_ranks == 1 || n_ == 0) return;
+  const size_t me_here = static_cast<size_t>(own_rank), w = static_cast<size_t>(width);
+  std::vector<int> counts, starts;
+  for (size_t r = 0; r < counts_.size(); ++r) {
+    counts.push_back(as_count(w * static_cast<size_t>(counts_[r])));
+    starts.push_back(as_count(w * static_cast<size_t>(starts_[r])));
+  }
+  own_.resize(static_cast<size_t>(counts[me_here]));
+  all_.resize(on_all || own_rank == 0 ? w * static_cast<size_t>(n_) : 0);
   double* to = own_.data();
-  for (const Run& run : of_rank_[me_here]) to = std::copy_n(values + run.at, run.n, to);
+  for (const Run& run : of_rank_[me_here])
+    to = std::copy_n(values + w * static_cast<size_t>(run.at), w * static_cast<size_t>(run.n), to);
   MPI_Request request;
-  MPI_Iallgatherv(own_.data(), as_count(own_.size()), MPI_DOUBLE, all_.data(), counts_.data(), starts_.data(),
-                  MPI_DOUBLE, MPI_COMM_WORLD, &request);
+  if (on_all)
+    MPI_Iallgatherv(own_.data(), counts[me_here], MPI_DOUBLE, all_.data(), counts.data(), starts.data(), MPI_DOUBLE,
+                    MPI_COMM_WORLD, &request);
+  else
+    MPI_Igatherv(own_.data(), counts[me_here], MPI_DOUBLE, all_.data(), counts.data(), starts.data(), MPI_DOUBLE, 0,
+                 MPI_COMM_WORLD, &request);
   wait(request);
-  note_sent(everybody, n_ranks - 1, 8.0 * (n_ranks - 1) * own_.size());
-  for (size_t r = 0; r < of_rank_.size(); ++r) {
+  if (on_all)
+    note_sent(everybody, n_ranks - 1, 8.0 * (n_ranks - 1) * own_.size());
+  else if (own_rank != 0)
+    note_sent(asker, 1, 8.0 * own_.size());
+  for (size_t r = 0; r < of_rank_.size() && !all_.empty(); ++r) {
     if (r == me_here) continue;
-    const double* from = all_.data() + starts_[r];
+    const double* from = all_.data() + starts[r];
     for (const Run& run : of_rank_[r]) {
-      std::copy_n(from, run.n, values + run.at);
-      from += run.n;
+      std::copy_n(from, w * static_cast<size_t>(run.n), values + w * static_cast<size_t>(run.at));
+      from += w * static_cast<size_t>(run.n);
     }
   }
 }
@@ -250,16 +268,18 @@ Neighbours::Neighbours(const std::vector<int>& owner, const std::vector<std::vec
     Peer& peer = of_rank[r];
     if (peer.sends.empty() && peer.receives.empty()) continue;
     peer.rank = static_cast<int>(r);
-    peer.out.resize(static_cast<size_t>(width) * peer.sends.size());
-    peer.in.resize(static_cast<size_t>(width) * peer.receives.size());
     peers_.push_back(std::move(peer));
   }
 }
 
-void Neighbours::exchange(double* values) const {
+// Of fields that lie in one array, width numbers at each index, or in several, one number at each.
+template <class Place>
+void Neighbours::pass(int n_blocks, int width, Place&& place) const {
   std::vector<MPI_Request> requests;
-  const auto place = [&](int i) { return values + static_cast<std::ptrdiff_t>(width_) * i; };
   for (Peer& peer : peers_) {
+    const auto n = static_cast<size_t>(n_blocks) * static_cast<size_t>(width);
+    peer.in.resize(n * peer.receives.size());
+    peer.out.resize(n * peer.sends.size());
     if (peer.in.empty()) continue;
     MPI_Irecv(peer.in.data(), as_count(peer.in.size()), MPI_DOUBLE, peer.rank, passed, MPI_COMM_WORLD,
               &requests.emplace_back());
@@ -267,7 +287,8 @@ void Neighbours::exchange(double* values) const {
   for (Peer& peer : peers_) {
     if (peer.out.empty()) continue;
     double* to = peer.out.data();
-    for (const int i : peer.sends) to = std::copy_n(place(i), width_, to);
+    for (int block = 0; block < n_blocks; ++block)
+      for (const int i : peer.sends) to = std::copy_n(place(block, i), width, to);
     MPI_Isend(peer.out.data(), as_count(peer.out.size()), MPI_DOUBLE, peer.rank, passed, MPI_COMM_WORLD,
               &requests.emplace_back());
     note_sent(neighbours, 1, 8.0 * peer.out.size());
@@ -275,11 +296,20 @@ void Neighbours::exchange(double* values) const {
   for (MPI_Request& request : requests) wait(request);
   for (const Peer& peer : peers_) {
     const double* from = peer.in.data();
-    for (const int i : peer.receives) {
-      std::copy_n(from, width_, place(i));
-      from += width_;
-    }
+    for (int block = 0; block < n_blocks; ++block)
+      for (const int i : peer.receives) {
+        std::copy_n(from, width, place(block, i));
+        from += width;
+      }
   }
+}
+
+void Neighbours::exchange(double* values) const {
+  pass(1, width_, [&](int, int i) { return values + static_cast<std::ptrdiff_t>(width_) * i; });
+}
+
+void Neighbours::exchange(std::initializer_list<double*> fields) const {
+  pass(static_cast<int>(fields.size()), 1, [&](int field, int i) { return fields.begin()[field] + i; });
 }
 
 std::vector<double> ask(int rank, const Question& question, std::span<const double> with) {

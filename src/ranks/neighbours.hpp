@@ -1,6 +1,7 @@
 // Values that pass between ranks that share interface points: each is sent to those who read it, and to nobody else.
 #pragma once
 
+#include <initializer_list>
 #include <vector>
 
 namespace dygita::ranks {
@@ -12,6 +13,8 @@ class Neighbours {
   Neighbours(const std::vector<int>& owner, const std::vector<std::vector<int>>& readers, int width);
   // values: a rank has filled those that it owns, and gets those that it reads.
   void exchange(double* values) const;
+  // The same of several fields of one number a value, in one message.
+  void exchange(std::initializer_list<double*> fields) const;
   bool is_empty() const { return peers_.empty(); }
 
  private:
@@ -20,6 +23,9 @@ class Neighbours {
     std::vector<int> sends, receives;  // values
     std::vector<double> out, in;
   };
+  template <class Place>
+  void pass(int n_blocks, int width, Place&& place) const;
+
   int width_ = 0;
   mutable std::vector<Peer> peers_;
 };

@@ -49,15 +49,19 @@ class Segments {
   Segments() = default;
   // owner: rank of each piece; offset: where its values begin, one entry more than pieces.
   Segments(const std::vector<int>& owner, const std::vector<int>& offset);
-  // values: of all pieces, of which a rank has filled those of its own.
-  void complete(double* values) const;
+  // values: of all pieces, of which a rank has filled those of its own; `width` numbers for each of the values.
+  void complete(double* values, int width = 1) const;
+  // The same for rank 0 alone.
+  void bring(double* values) const;
 
  private:
   struct Run {
     int at, n;
   };
+  void collect(double* values, int width, bool on_all) const;
   std::vector<std::vector<Run>> of_rank_;
   std::vector<int> counts_, starts_;
+  int n_ = 0;  // values
   mutable std::vector<double> own_, all_;
 };
 

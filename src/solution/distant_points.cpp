@@ -9,7 +9,7 @@ namespace dygita {
 
 namespace {
 
-constexpr size_t n_point = 17;
+constexpr size_t n_point = 18;
 
 void write(const SurfaceState& surface, int point, double* to) {
   const LawState& law = surface.points[static_cast<size_t>(point)];
@@ -18,9 +18,9 @@ void write(const SurfaceState& surface, int point, double* to) {
   *to++ = static_cast<double>(law.status);
   const Work& work = surface.works[static_cast<size_t>(point)];
   for (const double value : {work.friction, work.plastic, work.damping}) *to++ = value;
+  *to = surface.residual[static_cast<size_t>(point)];
 }
 
-// What is solved in closed form leaves no residual.
 void read(const double* from, int point, SurfaceState& surface) {
   LawState& law = surface.points[static_cast<size_t>(point)];
   for (double* value : {&law.gap, &law.plastic_opening, &law.hardening_opening, &law.opening_rate}) *value = *from++;
@@ -28,7 +28,7 @@ void read(const double* from, int point, SurfaceState& surface) {
   law.status = static_cast<PointState>(*from++);
   Work& work = surface.works[static_cast<size_t>(point)];
   for (double* value : {&work.friction, &work.plastic, &work.damping}) *value = *from++;
-  surface.residual[static_cast<size_t>(point)] = 0.0;
+  surface.residual[static_cast<size_t>(point)] = *from;
 }
 
 }  // namespace
@@ -45,7 +45,6 @@ DistantPoints::DistantPoints(const StepModel& model, State& state)
   std::vector<std::vector<int>> rank_of;
   for (const SurfaceState& surface : state.surfaces) rank_of.emplace_back(surface.points.size(), -1);
   for (const Point& point : model.exchange.points) {
-    if (!point.is_direct) continue;
     const int rank = booking(model, point);
     for (const Member& member : point.members)
       rank_of[static_cast<size_t>(member.surface)][static_cast<size_t>(member.point)] = rank;

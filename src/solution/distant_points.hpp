@@ -1,5 +1,5 @@
-// Points in closed form are kept by the ranks whose pieces they touch, and by no other. One of these books a point: it
-// answers rank 0, where an output reads its fields.
+// Points are kept by the ranks whose pieces they touch, and by no other. One of these books a point: it answers rank 0,
+// where an output reads its fields.
 #pragma once
 
 #include <map>
@@ -19,7 +19,7 @@ class DistantPoints {
 
   // Rank that books a point: who has the piece of its first port.
   static int booking(const StepModel& model, const Point& point);
-  // Points of a surface that this rank books, and those that all ranks keep since they are iterated.
+  // Points of a surface that this rank books, and those that all ranks keep since they have no part in the step.
   const std::vector<int>& here(int surface) const { return here_[static_cast<size_t>(surface)]; }
   // Another time step of the deck is over: what is booked elsewhere is not known any more, and no number.
   void forget();

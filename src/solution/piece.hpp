@@ -28,8 +28,8 @@ struct InterfaceRow {
   bool is_of_one_node() const { return nodes.size() == 1; }
 };
 
-// Energies of one increment (J): works of the increment, and what is stored at its end. Friction and plastic: of points
-// in closed form, which are booked with a piece.
+// Energies of one increment (J): works of the increment, and what is stored at its end. Friction and plastic: of
+// points, which are booked with a piece.
 struct IncrementEnergy {
   double loads = 0.0, friction = 0.0, plastic = 0.0, damping = 0.0, scheme = 0.0;
   double kinetic = 0.0, strain = 0.0;

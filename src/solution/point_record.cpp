@@ -77,16 +77,30 @@ void book_dissipation(const Point& point, const Work& work, State& state) {
 }
 
 void book_work(const Point& point, const PointRecord& record, const LawState& end, const Increment& increment,
-               double on_pieces, State& state) {
+               double on_pieces, State& state, IncrementEnergy& energy) {
   Work work;
   if (point.law) {
     work = point.law->work(record.law, end, increment, point.area);
     const double force = working_force(record.law, end, increment)[0];
     work.given += force * (record.trial.shortening - record.shortening_old);
-    book_dissipation(point, work, state);
+    book_on_surfaces(point, work, state);
   }
-  state.energies.loads += work.given;
-  state.energies.scheme += work.given - on_pieces - work.friction - work.plastic - work.damping;
+  energy.loads += work.given;
+  energy.friction += work.friction;
+  energy.plastic += work.plastic;
+  energy.damping += work.damping;
+  energy.scheme += work.given - on_pieces - work.friction - work.plastic - work.damping;
+}
+
+void book_work(const Point& point, const PointRecord& record, const LawState& end, const Increment& increment,
+               double on_pieces, State& state) {
+  IncrementEnergy energy;
+  book_work(point, record, end, increment, on_pieces, state, energy);
+  state.energies.friction += energy.friction;
+  state.energies.plastic += energy.plastic;
+  state.energies.damping += energy.damping;
+  state.energies.loads += energy.loads;
+  state.energies.scheme += energy.scheme;
 }
 
 void show_point(const Point& point, const PointRecord& record, State& state) {

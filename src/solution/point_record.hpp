@@ -33,6 +33,9 @@ double gap_difference(const Point& point, const PointRecord& record);
 // residuals). on_pieces: work of the interface on the substructures during the increment, J.
 void book_work(const Point& point, const PointRecord& record, const LawState& end, const Increment& increment,
                double on_pieces, State& state);
+// The same, of a point that is booked with a piece.
+void book_work(const Point& point, const PointRecord& record, const LawState& end, const Increment& increment,
+               double on_pieces, State& state, IncrementEnergy& energy);
 // What a law has dissipated, into its surfaces; and into the energies.
 void book_on_surfaces(const Point& point, const Work& work, State& state);
 void book_dissipation(const Point& point, const Work& work, State& state);

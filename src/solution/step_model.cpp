@@ -127,6 +127,13 @@ void split_loads(StepModel& model) {
   }
 }
 
+// All ranks look for the shortening of a bolt, which its points share.
+bool is_preloaded(const StepModel& model, const Point& point) {
+  if (!model.scheme.is_static || !point.law) return false;
+  const Interface* interface = (*model.surfaces)[point.members.front().surface].interface;
+  return interface && model.loads->preload(interface);
+}
+
 StepModel make_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                      const std::vector<Body>& bodies, const State& start, const CutPtr& cut, bool chooses_integration) {
   StepModel model;
@@ -157,6 +164,9 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
   for (int i = 0; i < cut->n_pieces(); ++i)
     if (cut->is_here(i)) model.here.push_back(i);
   model.unknowns = segments_of(*cut, model.exchange.n_unknowns);
+  model.near = ranks::is_alone() ? NearUnknowns(model.exchange, model.offset)
+                                 : NearUnknowns(*cut, model.exchange, model.offset,
+                                                [&](const Point& point) { return is_preloaded(model, point); });
   return model;
 }
 
@@ -224,6 +234,7 @@ StepModel make_step_model(const Problem& problem, const Step& step, const std::v
     model.here.resize(static_cast<size_t>(cut->n_pieces()));
     std::iota(model.here.begin(), model.here.end(), 0);
     model.unknowns = {};
+    model.near = NearUnknowns(model.exchange, model.offset);
     model.assembled_bodies = with_all_matrices(bodies);
   }
   model.pieces = !model.is_assembled ? make_pieces(model, bodies)

@@ -8,6 +8,7 @@
 #include "solution/exchange.hpp"
 #include "solution/integration.hpp"
 #include "solution/loads.hpp"
+#include "solution/near_unknowns.hpp"
 #include "solution/piece.hpp"
 #include "solution/scheme.hpp"
 #include "solution/state.hpp"
@@ -29,6 +30,7 @@ struct StepModel {
   std::vector<std::unique_ptr<Piece>> pieces;
   std::vector<int> here;                // pieces that this rank solves; the others are solved elsewhere
   ranks::Segments unknowns;             // of all pieces, of which each rank knows its own
+  NearUnknowns near;                    // iterated points and unknowns of this rank
   std::vector<std::vector<int>> equal;  // pieces that share a factor and are solved together, at most 16 in a group
   Integration integration;              // of the pieces
   bool is_assembled = false;            // the pieces are not factorised one by one; every rank solves all
@@ -41,7 +43,14 @@ struct StepModel {
   int n_substeps() const { return integration.n_substeps; }
   bool has_explicit() const { return integration.has_explicit(); }
   // Index in the assembled q of a port's direction; -1 where it has none.
-  int unknown(const Port& port, int d) const { return port.unknown[d] < 0 ? -1 : offset[port.piece] + port.unknown[d]; }
+  int assembled_unknown(const Port& port, int d) const {
+    return port.unknown[d] < 0 ? -1 : offset[port.piece] + port.unknown[d];
+  }
+  // The same among the near unknowns, for ports of near points.
+  int unknown(const Port& port, int d) const {
+    const int assembled = assembled_unknown(port, d);
+    return assembled < 0 ? -1 : near.at(assembled);
+  }
   // Is the mass of all cells tuned to the time scheme? That of explicit ones is not where laws act.
   bool is_tuned() const;
   // By how much the time scheme turns a motion, of what trapezoidal steps of the deck's dt would (manual, eq. Q2):

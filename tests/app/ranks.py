@@ -93,6 +93,12 @@ ASSEMBLED = ["--solver", "latin{ static_steps = 'assembled', integration = 'impl
 compare("assembled", stopped, "stopped", *ASSEMBLED, also=[3])
 compare("assembled_pieces", asked.folder / "ranks.lua", "ranks", "--solver", "latin{ static_steps = 'assembled', pieces = 24 }")
 compare("released", asked.folder / "ranks.lua", "ranks", "--set", "release=20", also=[3])
+# Iterated points between ranks: each solves those that its pieces touch, sums are made piece by piece.
+implicit = asked.folder / "ranks_implicit.lua"
+compare("iterated", implicit, "implicit", "--set", "release=8", also=[3, 4])
+compare("iterated_cut", implicit, "implicit", "--set", "cut=3", "--set", "driven=1", also=[3, 4])
+compare("iterated_windows", implicit, "implicit", "--set", "window=4", "--set", "cut=2", also=[3])
+compare("iterated_mixed", implicit, "implicit", "--set", "explicit=4", also=[3, 4])
 compare("study", asked.folder / "study.lua", "study", cases=("mu 0.1", "mu 0.2", "mu 0.3"), most=2)
 
 
@@ -102,16 +108,26 @@ def ranks_of(pid):
     return sorted(int(line.split()[0]) for line in listed if line and not line.split()[1].startswith("Z"))
 
 
-def go_on(name, killed, then, *solver):
+def to_all(name):
+    """What passes in an iteration is the interface fields between neighbours, and to all less than a number an unknown: sums of each piece."""
+    record = json.loads((FOLDER / name / "implicit" / "base" / "run.json").read_text())
+    each, n_iterations = record["ranks"]["of_each"], record["iterations"]["all"]
+    to_neighbours, of_all = (sum(rank["bytes"][kind] for rank in each) / n_iterations for kind in ("neighbours", "all"))
+    one_field = 8 * record["size"]["interface_unknowns"]
+    if not 0.1 * one_field < to_neighbours < one_field or of_all / (len(each) - 1) > 0.7 * one_field:
+        failures.append(f"{name}: {to_neighbours:.0f} bytes to neighbours and {of_all:.0f} to all in an iteration; a field of the interfaces: {one_field}")
+
+
+def go_on(name, killed, then, *solver, deck=stopped, problem="stopped", us=300):
     """A rank that dies ends the run; any number of ranks go on with what was computed, to the bits of a run that was never stopped."""
-    words = ["run", stopped, "--set", "us=300", "--checkpoint-every", "0.02s", "--no-frames", "--quiet", "--threads", "1", *solver, "--out"]
-    whole = FOLDER / ("whole" + "_assembled" * bool(solver))
+    words = ["run", deck, "--set", f"us={us}", "--checkpoint-every", "0.02s", "--no-frames", "--quiet", "--threads", "1", *solver, "--out"]
+    whole = FOLDER / (f"whole_{problem}" + "_assembled" * bool(solver))
     if not whole.exists():
         dygita(1, *words, whole, expected=0)
     out = FOLDER / name
     process = subprocess.Popen([*under_mpi(killed), asked.program, *map(str, [*words, out])],
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
-    run = out / "stopped" / "base"
+    run = out / problem / "base"
     begun = time.monotonic()
     while not ((run / "checkpoint.dygita").exists() and (run / "checkpoint.dygita").stat().st_size > 500000):
         if process.poll() is not None or time.monotonic() > begun + 100:
@@ -126,7 +142,7 @@ def go_on(name, killed, then, *solver):
     said = dygita(then, "continue", run, "--no-frames", "--threads", "1", expected=0, says=["increments are gone over again"])
     if "other last digits" in said:
         failures.append(f"{name}: the increments gone over differ\n{said}")
-    same(name, whole / "stopped" / "base", run)
+    same(name, whole / problem / "base", run)
 
 
 def go_further(name, *words):
@@ -139,10 +155,13 @@ def go_further(name, *words):
     same(name, runs[1], runs[2])
 
 
+to_all("iterated_4")
 go_on("two_then_one", 2, 1)
 go_on("two_then_three", 2, 3)
 go_on("one_then_two", 1, 2)
 go_on("assembled_two_then_one", 2, 1, *ASSEMBLED)
+go_on("iterated_four_then_three", 4, 3, deck=implicit, problem="implicit", us=150)
+go_on("iterated_three_then_one", 3, 1, deck=implicit, problem="implicit", us=150)
 go_further("further", "--until", "80*us")
 go_further("tighter", "--tolerance", "1e-8")
 dygita(2, "continue", FOLDER / "none", expected=2, says=["no folder"])

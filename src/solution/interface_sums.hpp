@@ -1,0 +1,37 @@
+// Sums over the interface unknowns: each piece's share is added up by itself, and the shares piece by piece, so that
+// one process and any number of ranks have the same bits.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "solution/step_model.hpp"
+
+namespace dygita {
+
+class InterfaceSums {
+ public:
+  // Of a field that belongs to one piece.
+  explicit InterfaceSums(Eigen::Index length);
+  // Of the near unknowns of a step; or of the own ones of n_fields fields, one after the other (a window).
+  explicit InterfaceSums(const StepModel& model, int n_fields = 1);
+
+  // Adds what a run of unknowns [first, first + n) has to the sums of its piece.
+  using Share = std::function<void(Eigen::Index first, Eigen::Index n, double* sums)>;
+  // Collective. share: called for the unknowns of every piece that is here. Returns n_sums sums over all pieces, which
+  // are valid until the next call.
+  const std::vector<double>& add(int n_sums, const Share& share);
+
+ private:
+  struct Run {
+    int piece;
+    Eigen::Index first, n;
+  };
+  std::vector<Run> runs_;
+  int n_pieces_ = 1;
+  bool is_shared_out_ = false;
+  ranks::Segments of_pieces_;
+  std::vector<double> shares_, sums_;
+};
+
+}  // namespace dygita

@@ -1,0 +1,115 @@
+#include "solution/near_unknowns.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "solution/all_pieces.hpp"
+
+namespace dygita {
+
+namespace {
+
+// Increasing.
+std::vector<int> ranks_at(const Cut& cut, const Exchange& exchange, const Point& point, bool everywhere) {
+  std::set<int> touching;
+  for (int p = point.first_port; p < point.end_port; ++p)
+    touching.insert(cut.piece(exchange.ports[static_cast<size_t>(p)].piece).rank);
+  for (int rank = 0; rank < ranks::count() && everywhere; ++rank) touching.insert(rank);
+  return {touching.begin(), touching.end()};
+}
+
+// Who has and who reads an unknown of the assembled q.
+struct Passing {
+  int owner = 0;
+  std::vector<int> readers;
+};
+
+// Notes who reads the unknowns of a point; returns those of pieces elsewhere.
+std::vector<int> note_readers(const Cut& cut, const Exchange& exchange, const std::vector<int>& offset,
+                              const Point& point, const std::vector<int>& readers, std::vector<Passing>& passing) {
+  std::vector<int> elsewhere;
+  for (int p = point.first_port; p < point.end_port; ++p) {
+    const Port& port = exchange.ports[static_cast<size_t>(p)];
+    for (const int of_piece : port.unknown) {
+      if (of_piece < 0) continue;
+      const int unknown = offset[static_cast<size_t>(port.piece)] + of_piece;
+      passing[static_cast<size_t>(unknown)] = {cut.piece(port.piece).rank, readers};
+      if (!cut.is_here(port.piece)) elsewhere.push_back(unknown);
+    }
+  }
+  return elsewhere;
+}
+
+}  // namespace
+
+NearUnknowns::NearUnknowns(const Exchange& exchange, const std::vector<int>& offset)
+    : n_(offset.back()), n_own_(n_), n_assembled_(n_), start_(offset) {
+  for (int i = 0; i < static_cast<int>(exchange.points.size()); ++i)
+    if (!exchange.points[static_cast<size_t>(i)].is_direct) points_.push_back(i);
+}
+
+NearUnknowns::NearUnknowns(const Cut& cut, const Exchange& exchange, const std::vector<int>& offset,
+                           const std::function<bool(const Point&)>& everywhere)
+    : is_all_(false), n_assembled_(offset.back()), of_pieces_(segments_of(cut, exchange.n_unknowns)) {
+  start_.assign(static_cast<size_t>(cut.n_pieces()), -1);
+  for (int i = 0; i < cut.n_pieces(); ++i) {
+    if (!cut.is_here(i)) continue;
+    start_[static_cast<size_t>(i)] = static_cast<int>(assembled_.size());
+    for (int u = offset[static_cast<size_t>(i)]; u < offset[static_cast<size_t>(i) + 1]; ++u) assembled_.push_back(u);
+  }
+  n_own_ = static_cast<int>(assembled_.size());
+  std::vector<Passing> passing(static_cast<size_t>(n_assembled_), {ranks::me(), {}});
+  for (int i = 0; i < static_cast<int>(exchange.points.size()); ++i) {
+    const Point& point = exchange.points[static_cast<size_t>(i)];
+    if (point.is_direct) continue;
+    const std::vector<int> touching = ranks_at(cut, exchange, point, everywhere(point));
+    if (std::find(touching.begin(), touching.end(), ranks::me()) == touching.end()) continue;
+    points_.push_back(i);
+    const std::vector<int> elsewhere = note_readers(cut, exchange, offset, point, touching, passing);
+    assembled_.insert(assembled_.end(), elsewhere.begin(), elsewhere.end());
+  }
+  n_ = static_cast<int>(assembled_.size());
+  // What passes between two ranks stands in the assembled order on both.
+  std::sort(assembled_.begin() + n_own_, assembled_.end());
+  at_.assign(static_cast<size_t>(n_assembled_), -1);
+  std::vector<int> owner;
+  std::vector<std::vector<int>> readers;
+  for (int i = 0; i < n_; ++i) {
+    const auto unknown = static_cast<size_t>(assembled_[static_cast<size_t>(i)]);
+    at_[unknown] = i;
+    owner.push_back(passing[unknown].owner);
+    readers.push_back(std::move(passing[unknown].readers));
+  }
+  passing_ = ranks::Neighbours(owner, readers, 1);
+}
+
+void NearUnknowns::exchange(std::initializer_list<double*> fields) const { passing_.exchange(fields); }
+
+Vec NearUnknowns::part(const Vec& assembled) const {
+  if (is_all_) return assembled;
+  Vec near(n_);
+  for (int i = 0; i < n_; ++i) near[i] = assembled[assembled_[static_cast<size_t>(i)]];
+  return near;
+}
+
+Vec NearUnknowns::spread(const Vec& near) const {
+  Vec assembled(n_assembled_);
+  for (int i = 0; i < n_own_; ++i) assembled[assembled_[static_cast<size_t>(i)]] = near[i];
+  return assembled;
+}
+
+Vec NearUnknowns::assembled(const Vec& near) const {
+  if (is_all_) return near;
+  Vec all = spread(near);
+  of_pieces_.complete(all.data());
+  return all;
+}
+
+Vec NearUnknowns::assembled_on_first(const Vec& near) const {
+  if (is_all_) return ranks::is_first() ? near : Vec();
+  Vec all = spread(near);
+  of_pieces_.bring(all.data());
+  return ranks::is_first() ? all : Vec();
+}
+
+}  // namespace dygita
