@@ -45,6 +45,15 @@ struct Tree {
   }
 };
 
+// f(j) for the columns of an update of m rows, shared among threads where there are many.
+template <class Function>
+void for_each_column(int m, Function&& f) {
+  const auto run = [&](int block) {
+    for (int j = block * columns_at_once; j < std::min(m, (block + 1) * columns_at_once); ++j) f(j);
+  };
+  parallel_for((m + columns_at_once - 1) / columns_at_once, run, Schedule::as_free, m < rows_of_one_thread ? 1 : 0);
+}
+
 class Elimination {
  public:
   Elimination(const SparseMatrix& matrix, const std::vector<int>& order, int n_interior,
@@ -126,18 +135,13 @@ class Elimination {
     const auto height = static_cast<size_t>(s.n_columns + s.n_below);
     to_.resize(m);
     for (int i = 0; i < m; ++i) to_[i] = local_[from.below[i]];
-    parallel_for((m + columns_at_once - 1) / columns_at_once,
-                 [&](int block) {
-                   for (int j = block * columns_at_once; j < std::min(m, (block + 1) * columns_at_once); ++j) {
-                     const double* column = update_[child] + static_cast<size_t>(j) * m;
-                     const int at = to_[j];
-                     double* into = at < s.n_columns
-                                        ? panel_.doubles() + height * at
-                                        : update + static_cast<size_t>(at - s.n_columns) * s.n_below - s.n_columns;
-                     for (int i = j; i < m; ++i) into[to_[i]] += column[i];
-                   }
-                 },
-                 Schedule::as_free, m < rows_of_one_thread ? 1 : 0);
+    for_each_column(m, [&](int j) {
+      const double* column = update_[child] + static_cast<size_t>(j) * m;
+      const int at = to_[j];
+      double* into = at < s.n_columns ? panel_.doubles() + height * at
+                                      : update + static_cast<size_t>(at - s.n_columns) * s.n_below - s.n_columns;
+      for (int i = j; i < m; ++i) into[to_[i]] += column[i];
+    });
   }
 
   // The columns of a supernode into the panel, what they leave onto the stack, or into the Schur complement. Answers
@@ -166,12 +170,7 @@ class Elimination {
   }
 
   static void clear(double* update, int m) {
-    parallel_for((m + columns_at_once - 1) / columns_at_once,
-                 [&](int block) {
-                   for (int j = block * columns_at_once; j < std::min(m, (block + 1) * columns_at_once); ++j)
-                     std::fill_n(update + static_cast<size_t>(j) * m + j, m - j, 0.0);
-                 },
-                 Schedule::as_free, m < rows_of_one_thread ? 1 : 0);
+    for_each_column(m, [&](int j) { std::fill_n(update + static_cast<size_t>(j) * m + j, m - j, 0.0); });
   }
 
   void give_to_schur(const SupernodeView& s, const double* update) {

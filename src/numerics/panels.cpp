@@ -97,8 +97,8 @@ void Panels::add(const double* top, const double* values, int stride, int n_rows
   const bool is_double = precision_ == Precision::double_precision;
   Panel panel{nullptr, tiles_.size(), n_rows, n_columns, {}};
   const size_t n_tiles = (n_rows + height - 1) / height;
-  panel.data = data_.room(n_tiles * (is_double ? tile_bytes<double>(n_columns) : tile_bytes<float>(n_columns)));
-  auto* to = const_cast<std::byte*>(panel.data);
+  std::byte* to = data_.room(n_tiles * (is_double ? tile_bytes<double>(n_columns) : tile_bytes<float>(n_columns)));
+  panel.data = to;
   const auto read = [&](int row) {
     return TileEntries(top, values, stride, row, std::min(row + height, n_rows), n_columns);
   };

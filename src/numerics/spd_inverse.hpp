@@ -24,9 +24,8 @@ class SpdInverse {
   // twice as much.
   enum class Form { matrix, factor };
 
-  // The lower triangle of a is read. As a matrix in single precision an entry is off by at most `error` of its
-  // diagonal's mean; a factor is kept in double precision. Throws NumericalError naming `what` when a is not positive
-  // definite.
+  // The lower triangle of a is read. `precision` and `error` are those of SymmetricOperator, where it is kept as a
+  // matrix; a factor is kept in double precision. Throws NumericalError naming `what` when a is not positive definite.
   SpdInverse(Mat a, Form form, Precision precision, double error, const std::string& what);
   // The form in which that many products cost least, what it takes to make it included.
   static Form cheapest(int n, double n_products);
