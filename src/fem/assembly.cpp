@@ -59,11 +59,6 @@ struct AssemblyKernel {
 
   void begin(int owner) { me = owner; }
 
-  bool touches(int i) const {
-    const int* nodes = block.cell(i);
-    return std::any_of(nodes, nodes + n, [&](int node) { return owners.owner[node] == me; });
-  }
-
   void compute(const int*, int i) {
     i_cell = i;
     while (current < n_batch && batch[current] != model[i]) ++current;
@@ -75,7 +70,8 @@ struct AssemblyKernel {
     if (is_plain) return compute_one(model[i]);
     const int end = std::min(block.n_cells(), i + furthest);
     for (int j = i; j < end && n_batch < n_lanes; ++j)
-      if ((n_batch == 0 || model[j] != batch[n_batch - 1]) && touches(j)) batch[n_batch++] = model[j];
+      if ((n_batch == 0 || model[j] != batch[n_batch - 1]) && owners.has_part_of(me, block.cell(j), n))
+        batch[n_batch++] = model[j];
     Lanes x[n][3];
     for (int lane = 0; lane < n_lanes; ++lane) {
       const int* nodes = block.cell(batch[std::min(lane, n_batch - 1)]);

@@ -1,6 +1,7 @@
 // Sums over the cells that end at nodes, in parallel, with the same result for any number of threads.
 #pragma once
 
+#include <algorithm>
 #include <mutex>
 #include <vector>
 
@@ -22,6 +23,11 @@ Nodes<n> gather(const Points& values, const int* nodes) {
 struct NodeOwners {
   int n_owners = 1;
   std::vector<unsigned char> owner;  // of each node
+
+  // Has an owner any of these nodes?
+  bool has_part_of(int who, const int* nodes, int n) const {
+    return std::any_of(nodes, nodes + n, [&](int node) { return owner[static_cast<size_t>(node)] == who; });
+  }
 };
 
 // As many owners as threads, fewer for a small mesh, one inside a parallel region.

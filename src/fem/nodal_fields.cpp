@@ -1,25 +1,42 @@
+#include <array>
+
 #include "fem/assembly.hpp"
 #include "fem/cell_loop.hpp"
+#include "fem/cell_stress.hpp"
 
 namespace dygita {
 
 namespace {
 
+// Computes cells ahead, those of the next ones that its owner touches.
 template <class Cell>
 struct StressKernel {
-  static constexpr int n = Cell::n_nodes;
+  static constexpr int n = Cell::n_nodes, at_once = 8;
 
   const Mesh& mesh;
-  const Elastic& material;
-  const Points& displacement;
+  const CellBlock& block;
+  const NodeOwners& owners;
+  const CellFields fields;
   Tensors& sum;
 
-  CornerStress<n> stress;
+  int me = 0, n_batch = 0, current = 0;  // current: of the batch, the cell at hand
+  std::array<int, at_once> batch{};
+  std::array<CornerStress<n>, at_once> stress{};
 
-  void compute(const int* nodes, int) {
-    stress = Cell::stress(gather<n>(mesh.nodes, nodes), material, gather<n>(displacement, nodes));
+  void begin(int owner) { me = owner; }
+  void compute(const int*, int i) {
+    while (current < n_batch && batch[current] != i) ++current;
+    if (current < n_batch) return;
+    n_batch = current = 0;
+    std::array<const int*, at_once> nodes{};
+    for (int j = i; j < block.n_cells() && n_batch < at_once; ++j) {
+      if (!owners.has_part_of(me, block.cell(j), n)) continue;
+      nodes[n_batch] = block.cell(j);
+      batch[n_batch++] = j;
+    }
+    stresses_of<Cell>(fields, {nodes.data(), static_cast<size_t>(n_batch)}, stress.data());
   }
-  void add(const int* nodes, int a) { sum.col(nodes[a]) += stress.col(a); }
+  void add(const int* nodes, int a) { sum.col(nodes[a]) += stress[current].col(a); }
   void finish() {}
 };
 
@@ -62,7 +79,8 @@ Tensors nodal_stress(const Mesh& mesh, const Elastic& material, const Points& di
   Vec n_cells = Vec::Zero(mesh.n_nodes());
   for (const CellBlock& block : mesh.blocks) {
     with_cell(block.type, [&](auto cell) {
-      sum_at_nodes(block, owners, StressKernel<decltype(cell)>{mesh, material, displacement, stress, {}});
+      sum_at_nodes(block, owners,
+                   StressKernel<decltype(cell)>{mesh, block, owners, {mesh.nodes, displacement, material}, stress});
     });
     for (const int node : block.nodes) n_cells[node] += 1;
   }

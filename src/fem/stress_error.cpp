@@ -1,6 +1,10 @@
 #include "fem/stress_error.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "fem/cell_loop.hpp"
+#include "fem/cell_stress.hpp"
 #include "fem/patch_recovery.hpp"
 
 namespace dygita {
@@ -48,13 +52,17 @@ double energy_against(const Elastic& material, const Nodes<Cell::n_nodes>& x, co
 // The stress of every cell at its nodes, column by column in the order of the block's nodes.
 template <class Cell>
 Tensors cell_stresses(const Mesh& mesh, const CellBlock& block, const Elastic& material, const Points& displacement) {
-  constexpr int n = Cell::n_nodes;
+  constexpr int n = Cell::n_nodes, at_once = 8;
   Tensors stress(6, static_cast<Eigen::Index>(block.nodes.size()));
-  const auto compute = [&](int i) {
-    stress.middleCols<n>(n * i) =
-        Cell::stress(gather<n>(mesh.nodes, block.cell(i)), material, gather<n>(displacement, block.cell(i)));
+  const auto compute = [&](int batch) {
+    const int first = at_once * batch, count = std::min(at_once, block.n_cells() - first);
+    std::array<const int*, at_once> nodes{};
+    std::array<CornerStress<n>, at_once> of_cell;
+    for (int i = 0; i < count; ++i) nodes[i] = block.cell(first + i);
+    stresses_of<Cell>({mesh.nodes, displacement, material}, {nodes.data(), static_cast<size_t>(count)}, of_cell.data());
+    for (int i = 0; i < count; ++i) stress.middleCols<n>(n * (first + i)) = of_cell[i];
   };
-  parallel_for(block.n_cells(), compute, Schedule::evenly);
+  parallel_for((block.n_cells() + at_once - 1) / at_once, compute, Schedule::evenly);
   return stress;
 }
 
