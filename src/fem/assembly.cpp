@@ -79,6 +79,11 @@ struct AssemblyKernel {
         for (int p = 0; p < 3; ++p) x[a][p][lane] = mesh.nodes(p, nodes[a]) - mesh.nodes(p, nodes[0]);
     }
     stiffness_in_lanes<Cell>(x, material, matrices);
+    if constexpr (Cell::row.lumping != Lumping::row_sums)
+      for (int lane = 0; lane < n_batch; ++lane) {
+        const Eigen::Matrix<double, n, 1> volumes = node_volumes<Cell>(gather<n>(mesh.nodes, block.cell(batch[lane])));
+        for (int a = 0; a < n; ++a) matrices.volume[a][lane] = volumes[a];
+      }
   }
 
   void compute_one(int i) {

@@ -12,7 +12,7 @@ namespace dygita {
 template <int n>
 struct CellLanes {
   Lanes plane[6][n][n];  // N/m
-  Lanes volume[n];       // m^3, of each node
+  Lanes volume[n];       // m^3, of each node: integrals of the shape functions
 
   static constexpr int plane_of(int p, int q) { return p == 0 ? q : p + q + 1; }  // xx xy xz yy yz zz
 };

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/log.hpp"
+#include "fem/mass.hpp"
 #include "solution/all_pieces.hpp"
 #include "solution/finite_energies.hpp"
 #include "solution/step_ends.hpp"
@@ -43,7 +44,9 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
   for (size_t i = 0; i < model.integration.parts.size(); ++i) {
     const Integration::Part& part = model.integration.parts[i];
     if (!part.is_explicit) continue;
-    figures.explicit_parts.push_back(model.problem->substructures[i]->name);
+    const Substructure& body = *model.problem->substructures[i];
+    figures.explicit_parts.push_back(body.name);
+    if (has_consistent_mass(*body.mesh)) figures.diagonal_parts.push_back(body.name);
     figures.stable_step = figures.stable_step > 0.0 ? std::min(figures.stable_step, part.longest) : part.longest;
   }
   // An increment of less is over before threads have met.

@@ -137,11 +137,13 @@ Json steps(const Problem& problem, const RunResult& result) {
       if (has_length) json["asked_increments"] = problem.steps[i]->n_increments();
       if (!problem.steps[i]->is_static)
         json.update({{"dt", problem.steps[i]->dt}, {"duration", problem.steps[i]->duration}});
-      if (!step.explicit_parts.empty())
+      if (!step.explicit_parts.empty()) {
         json["explicit"] = {{"substructures", step.explicit_parts},
                             {"substeps", step.substeps},
                             {"stable_step", step.stable_step},
                             {"mass", problem.mass().is_tuned ? "tuned" : "lumped"}};
+        if (!step.diagonal_parts.empty()) json["explicit"]["diagonal_mass"] = step.diagonal_parts;
+      }
       json["loads"] = loads(*problem.steps[i]);
     }
     list.push_back(json);

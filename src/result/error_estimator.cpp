@@ -8,6 +8,7 @@
 #include "base/parallel.hpp"
 #include "fem/mass.hpp"
 #include "fem/stress_error.hpp"
+#include "result/mass_lag.hpp"
 
 namespace dygita {
 
@@ -175,6 +176,11 @@ void ErrorEstimator::begin_step(const Instant& start) {
   dt_ = start.interval();
   total_mass_ = 0.0;
   for (const auto& piece : start.model.pieces) total_mass_ += piece->node_masses().sum();
+  lag_ = 0.0;
+  for (const double own : of_all_pieces(*start.model.cut, 1, [&](int i, double*to) {
+         *to = mass_lag(*start.model.pieces[static_cast<size_t>(i)], *start.model.cut->piece(i).body);
+       }))
+    lag_ += own / total_mass_;
   if (!parts_) parts_.emplace(*start.model.cut, all_nodes(*start.model.problem));
   parts_->take(start);
   for (size_t i = 0; i < start.model.problem->substructures.size(); ++i)
@@ -233,8 +239,10 @@ ErrorEstimator::Estimate ErrorEstimator::dynamic_steps() const {
   const double frequency2 = (rate_ / static_cast<double>(n_rates_)) / (2.0 * strain_sum_ / n_stress_);
   estimate.mean_frequency = std::sqrt(frequency2) / (2 * std::numbers::pi);
   // Linear cells of length h leave (k h)^2 / 12 of the strain energy in the stress error, and turn a wave by w dt (k
-  // h)^2 / 24 too little. Cells of order two turn it by (k h)^4 / 1440 alone.
-  const double turned = frequency2 > 0.0 ? 6.0 * stress_sum_ / strain_sum_ / (frequency2 * dt_ * dt_) : 0.0;
+  // h)^2 / 24 too little. Cells of order two turn it by (k h)^4 / 1440 alone, but with a diagonal mass by half of w^3
+  // dt times its lag.
+  const double turned =
+      (frequency2 > 0.0 ? 6.0 * stress_sum_ / strain_sum_ / (frequency2 * dt_ * dt_) : 0.0) + 6.0 * lag_ / (dt_ * dt_);
   const double phase = bank_ ? bank_->phase_error(turned) / root : 0.0;
   estimate.mesh = std::hypot(phase, ratio(stress_energy_, energy));
   return estimate;

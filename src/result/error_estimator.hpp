@@ -117,6 +117,7 @@ class ErrorEstimator {
   double stress_sum_ = 0.0, strain_sum_ = 0.0;
   int n_stress_ = 0;
   double total_mass_ = 0.0;  // kg
+  double lag_ = 0.0;         // s^2, of the diagonal mass of cells of order two (eq. Q12)
   double rate_ = 0.0;        // sum of |dV / dt|^2, in the norm of the mass
   long n_rates_ = 0;
   bool has_old_ = false;  // of the step: velocities of an increment before

@@ -48,6 +48,7 @@ struct StepSummary {
   std::vector<std::string> explicit_parts;  // substructures integrated explicitly
   int substeps = 1;                         // increments in each time step of the deck
   double stable_step = 0.0;                 // s, longest increment that they are stable with; 0: there are none
+  std::vector<std::string> diagonal_parts;  // of those, with cells of order two, whose mass is a diagonal there
 };
 
 // What VDI 2230's hand formula says of a bolt (manual, eq. B3-B6).

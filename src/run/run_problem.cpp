@@ -46,7 +46,7 @@ void summarise(const Problem& problem, const SolverFigures& figures, RunResult& 
     const StepFigures& f = figures.steps[i];
     const Step& step = *problem.steps[i];
     result.steps.push_back({step.name, step.is_static, f.increments, f.not_converged, f.iterations, f.worst_indicator,
-                            f.seconds, f.missed, f.explicit_parts, f.substeps, f.stable_step});
+                            f.seconds, f.missed, f.explicit_parts, f.substeps, f.stable_step, f.diagonal_parts});
     result.iterations += f.iterations;
     increments += f.increments;
     if (f.not_converged > 0) result.converged = false;
@@ -75,7 +75,10 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
                     step.increments ? double(step.iterations) / step.increments : 0.0,
                     problem.explicit_dynamics && !step.is_static ? "substeps" : "iterations", step.seconds);
     if (!step.explicit_parts.empty())
-      line += fmt::format("; explicit{}: {}, {} substep{} of each dt", problem.mass().is_tuned ? ", tuned mass" : "",
+      line += fmt::format("; explicit{}: {}, {} substep{} of each dt",
+                          problem.mass().is_tuned       ? ", tuned mass"
+                          : step.diagonal_parts.empty() ? ""
+                                                        : ", diagonal mass in cells of order two",
                           list_of_names(step.explicit_parts), step.substeps, step.substeps == 1 ? "" : "s");
     if (step.increments_not_converged > 0)
       line += fmt::format("; {} NOT CONVERGED (worst indicator {:.1e})", step.increments_not_converged,

@@ -16,9 +16,9 @@ struct Mass {
   std::vector<char> is_massless;  // nodes whose mass has been moved inside (manual, eq. S7); empty: none
   bool is_consistent = false;     // row sums of the matrix are not the lumped masses
 
-  // Forces (N) of an acceleration, both 3 x n_nodes.
-  Points times(const Points& acceleration) const {
-    if (is_consistent) return (matrix * acceleration.transpose()).transpose();
+  // Forces (N) of an acceleration, both 3 x n_nodes; in explicit steps by the lumped mass, whatever the cells.
+  Points times(const Points& acceleration, bool is_explicit) const {
+    if (is_consistent && !is_explicit) return (matrix * acceleration.transpose()).transpose();
     return acceleration * lumped.asDiagonal();
   }
 };

@@ -9,6 +9,7 @@
 
 #include "base/name_list.hpp"
 #include "base/parallel.hpp"
+#include "fem/mass.hpp"
 #include "model/model.hpp"
 #include "solution/alike_parts.hpp"
 #include "solution/all_pieces.hpp"
@@ -19,17 +20,18 @@ namespace {
 
 constexpr double safety = 0.98;
 // What each costs in bytes of plain reading, fitted to the bolted flanges at 14,000 to 50,000 unknowns: of an unknown
-// in an explicit increment, more where its mass is tuned, and of a point; entries of a factor are so many n^1.5; a
-// solve and a product by H read so much an entry (in single precision, packed, they are bound by unpacking); the rest
-// of an iteration, of an interface unknown; making the factor, of n^2, and H, of n^3.
-constexpr double explicit_unknown = 244.0, tuned_unknown = 80.0, damped_unknown = 60.0, explicit_point = 1100.0,
-                 fill = 1.4;
+// in an explicit increment and of each pair of neighbours, more where the mass is tuned, and of a point; entries of a
+// factor are so many n^1.5; a solve and a product by H read so much an entry (in single precision, packed, they are
+// bound by unpacking); the rest of an iteration, of an interface unknown; making the factor, of n^2, and H, of n^3.
+constexpr double explicit_unknown = 95.0, explicit_pair = 40.0, tuned_unknown = 80.0, damped_unknown = 60.0,
+                 explicit_point = 1100.0, fill = 1.4;
 constexpr double spread_point = 10000.0;  // between meshes that do not match: some eight rounds
 constexpr double single_factor = 9.0, double_factor = 12.0, single_h = 4.0, double_h = 12.0, iterations = 7.0;
 constexpr double rest_of_iteration = 1000.0, factorising = 16.0, condensing = 0.5;
 
 struct Size {
   double unknowns = 0.0, interface_unknowns = 0.0;
+  double pairs = 0.0;          // of nodes that share a cell
   double spread_points = 0.0;  // between meshes that do not match; half of each interface's
   bool is_damped = false;      // by stiffness
 };
@@ -38,7 +40,8 @@ struct Size {
 double explicit_cost(const Size& size, bool is_tuned) {
   return (explicit_unknown + (is_tuned ? tuned_unknown : 0.0) + (size.is_damped ? damped_unknown : 0.0)) *
              size.unknowns +
-         explicit_point * size.interface_unknowns / 6.0 + spread_point * size.spread_points;
+         explicit_pair * size.pairs + explicit_point * size.interface_unknowns / 6.0 +
+         spread_point * size.spread_points;
 }
 // n_increments: of the step, which the factor is made for.
 double implicit_cost(const Size& size, double tolerance, int n_increments) {
@@ -49,7 +52,22 @@ double implicit_cost(const Size& size, double tolerance, int n_increments) {
          (factorising * n * n + condensing * n_b * n_b * n_b) / n_increments;
 }
 
-std::vector<Size> sizes_of(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces) {
+std::vector<double> pairs_of_neighbours(const Cut& cut, const std::vector<Body>& bodies) {
+  const std::vector<double> of_pieces = of_all_pieces(cut, 1, [&](int p, double* to) {
+    const SparseMatrix& stiffness = bodies[static_cast<size_t>(p)].matrices->stiffness;
+    *to = 0.5 * (stiffness.nonZeros() / 9.0 - stiffness.rows() / 3.0);
+  });
+  std::vector<double> pairs;
+  for (size_t p = 0; p < of_pieces.size(); ++p) {
+    const size_t part = static_cast<size_t>(cut.piece(static_cast<int>(p)).part);
+    pairs.resize(std::max(pairs.size(), part + 1), 0.0);
+    pairs[part] += of_pieces[p];
+  }
+  return pairs;
+}
+
+std::vector<Size> sizes_of(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                           const std::vector<double>& pairs) {
   std::vector<std::set<int>> nodes(problem.substructures.size());
   std::vector<double> spread(nodes.size(), 0.0);
   for (const Surface& s : surfaces) {
@@ -67,7 +85,7 @@ std::vector<Size> sizes_of(const Problem& problem, const Step& step, const std::
   std::vector<Size> sizes;
   for (size_t i = 0; i < nodes.size(); ++i)
     sizes.push_back({3.0 * problem.substructures[i]->mesh->n_nodes(), 3.0 * static_cast<double>(nodes[i].size()),
-                     spread[i], problem.substructures[i]->material.damping.stiffness > 0.0});
+                     pairs[i], spread[i], problem.substructures[i]->material.damping.stiffness > 0.0});
   return sizes;
 }
 
@@ -201,7 +219,6 @@ void refuse_mixed_window(const Problem& problem, const Integration& chosen) {
 
 std::string why_not_explicit(const Body& body, double numerical_damping) {
   if (numerical_damping != 0.0) return "'numerical_damping' belongs to the implicit scheme";
-  if (body.mass->is_consistent) return "it has cells of order two, whose mass couples the nodes";
   if (!body.mass->is_massless.empty()) return "'massless_contact' leaves nodes without mass";
   if (body.mass->lumped.minCoeff() <= 0.0) return "it has a node without mass";
   return "";
@@ -236,7 +253,8 @@ Integration choose_integration(const Problem& problem, const Step& step, const s
     parts[i].longest =
         *std::min_element(longest.begin() + first, longest.begin() + first + cut.n_pieces(static_cast<int>(i)));
   }
-  Integration chosen = Chooser(problem, step, parts, sizes_of(problem, step, surfaces), alike).best();
+  Integration chosen =
+      Chooser(problem, step, parts, sizes_of(problem, step, surfaces, pairs_of_neighbours(cut, bodies)), alike).best();
   refuse_mixed_window(problem, chosen);
   for (const CutPiece& piece : cut.pieces()) chosen.is_explicit.push_back(chosen.parts[piece.part].is_explicit);
   if (std::find(chosen.is_explicit.begin(), chosen.is_explicit.end(), 1) == chosen.is_explicit.end())
@@ -264,6 +282,7 @@ void add_to(ByReason& groups, std::string reason, const std::string& name) {
 std::string describe(const Integration& integration, const Problem& problem, const Step& step) {
   if (integration.parts.empty()) return "";
   std::vector<std::string> is_explicit;
+  bool has_diagonal = false;
   ByReason is_implicit;
   double shortest = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < integration.parts.size(); ++i) {
@@ -271,6 +290,7 @@ std::string describe(const Integration& integration, const Problem& problem, con
     const std::string& name = problem.substructures[i]->name;
     if (part.is_explicit) {
       is_explicit.push_back(name);
+      has_diagonal |= has_consistent_mass(*problem.substructures[i]->mesh);
       shortest = std::min(shortest, part.longest);
     } else {
       add_to(is_implicit, part.why_not, name);
@@ -281,9 +301,12 @@ std::string describe(const Integration& integration, const Problem& problem, con
     text = fmt::format(
         "explicit: {}; {}{} increment{} of {:.4g} us in each dt (stable to {:.4g} us), an estimated {:.2g} "
         "of the cost of implicit ones",
-        list_of_names(is_explicit), problem.mass().is_tuned ? "tuned mass, " : "", integration.n_substeps,
-        integration.n_substeps == 1 ? "" : "s", 1e6 * step.dt / integration.n_substeps, 1e6 * shortest,
-        integration.cost);
+        list_of_names(is_explicit),
+        problem.mass().is_tuned ? "tuned mass, "
+        : has_diagonal          ? "diagonal mass in cells of order two, "
+                                : "",
+        integration.n_substeps, integration.n_substeps == 1 ? "" : "s", 1e6 * step.dt / integration.n_substeps,
+        1e6 * shortest, integration.cost);
   for (size_t i = 0; i < is_implicit.size(); ++i) {
     const auto& [reason, names] = is_implicit[i];
     text += (text.empty() ? "implicit: " : i == 0 ? "; implicit: " : ", ") + list_of_names(names);

@@ -38,12 +38,16 @@ NodesUnderLoad nodes_under_load(const FaceOrRegion& on) {
   return result;
 }
 
-Loads::Loads(const Problem& problem, const Step& step, const State& start, const InertiaForce& inertia)
+Loads::Loads(const Problem& problem, const Step& step, const State& start, const InertiaForce& inertia,
+             const InertiaForce& of_static_steps)
     : problem_(problem), step_(step) {
   for (const LoadPtr& load : step.loads)
     for (const Effect& effect : load->effects())
       std::visit(overloaded{[&](const NodalForces& forces) { add(forces, forces.value, start); },
-                            [&](const BodyForce& force) { add(force, force.value, start, inertia); },
+                            [&](const BodyForce& force) {
+                              const LoadValue value{force.value, value_reached(start, force.name)};
+                              add(force, value, force.name, inertia);
+                            },
                             [&](const PrescribedMotion& motion) { note_reached(motion, start); },
                             [&](const Shortening& shortening) { add(shortening, start); },
                             [&](const PreloadForce& preload) {
@@ -53,6 +57,7 @@ Loads::Loads(const Problem& problem, const Step& step, const State& start, const
                             Ignored<BaseMotion>()},  // moves with the conditions
                  effect);
   if (step.is_static) add_vanished(start, inertia);
+  if (of_static_steps) keep_as_laid(inertia, of_static_steps);
 }
 
 void Loads::add(const NodalForces& forces, const TimeValue& value, const State& start) {
@@ -64,14 +69,15 @@ void Loads::add(const NodalForces& forces, const TimeValue& value, const State& 
   patterns_.push_back(std::move(pattern));
 }
 
-void Loads::add(const BodyForce& force, const TimeValue& value, const State& start, const InertiaForce& inertia) {
+void Loads::add(const BodyForce& force, const LoadValue& value, const std::string& key, const InertiaForce& inertia) {
   for (size_t i = 0; i < problem_.substructures.size(); ++i) {
     const Substructure& part = *problem_.substructures[i];
-    LoadPattern pattern{static_cast<int>(i), {}, {value, value_reached(start, force.name)}, force.name};
+    LoadPattern pattern{static_cast<int>(i), {}, value, key};
     Points acceleration(3, part.mesh->n_nodes());
     for (int node = 0; node < part.mesh->n_nodes(); ++node)
       acceleration.col(node) = force.unit(part.mesh->nodes.col(node) + part.place);
     const Points unit = inertia(static_cast<int>(i), acceleration);
+    if (unit.isZero(0.0)) continue;
     for (int node = 0; node < part.mesh->n_nodes(); ++node) pattern.nodes.emplace_back(node, unit.col(node));
     patterns_.push_back(std::move(pattern));
   }
@@ -116,7 +122,22 @@ void Loads::add_vanished(const State& start, const InertiaForce& inertia) {
   for (const NodalForces& forces : nodal_forces)
     if (has_vanished(load_key(forces.name, forces.on))) add(forces, nothing, start);
   for (const BodyForce& force : body_forces)
-    if (has_vanished(force.name)) add(force, nothing, start, inertia);
+    if (has_vanished(force.name)) add(force, {nothing, value_reached(start, force.name)}, force.name, inertia);
+}
+
+// What the last static step has balanced cell by cell stays in balance where this one's mass is spread in another way.
+void Loads::keep_as_laid(const InertiaForce& inertia, const InertiaForce& of_static_steps) {
+  int last = index_of(problem_.steps, &step_) - 1;
+  while (last >= 0 && !problem_.steps[static_cast<size_t>(last)]->is_static) --last;
+  if (last < 0) return;
+  for (const LoadPtr& load : problem_.steps[static_cast<size_t>(last)]->loads)
+    for (const Effect& effect : load->effects())
+      if (const auto* force = std::get_if<BodyForce>(&effect)) {
+        const LoadValue laid{{History::constant(force->value.history.value(1.0)), false}, 0.0};
+        add(*force, laid, "", [&](int part, const Points& acceleration) {
+          return Points(of_static_steps(part, acceleration) - inertia(part, acceleration));
+        });
+      }
 }
 
 void Loads::evaluate(int increment) {
@@ -164,8 +185,9 @@ bool Loads::is_released(const Interface* interface, int increment) const {
 std::map<std::string, double> Loads::reached() const {
   std::map<std::string, double> values = motions_reached_;
   for (const LoadPattern& pattern : patterns_)
-    values[pattern.key] = step_.is_static ? pattern.value.at_static(step_.increments - 1, step_.increments)
-                                          : pattern.value.history.value(step_.duration);
+    if (!pattern.key.empty())
+      values[pattern.key] = step_.is_static ? pattern.value.at_static(step_.increments - 1, step_.increments)
+                                            : pattern.value.history.value(step_.duration);
   return values;
 }
 

@@ -10,7 +10,7 @@ struct LoadPattern {
   int part = -1;
   std::vector<std::pair<int, Vec3>> nodes;  // force at a node for a value of one, N
   LoadValue value;
-  std::string key;
+  std::string key;  // in State::reached; empty: of no load of the step's own
 };
 
 // Nodes of a substructure's mesh under a load, and what a load asks of them.
@@ -25,8 +25,9 @@ using InertiaForce = std::function<Points(int part, const Points& acceleration)>
 
 class Loads {
  public:
-  // inertia: for gravity.
-  Loads(const Problem& problem, const Step& step, const State& start, const InertiaForce& inertia);
+  // inertia: for gravity; of_static_steps: by that mass, where it differs in this step.
+  Loads(const Problem& problem, const Step& step, const State& start, const InertiaForce& inertia,
+        const InertiaForce& of_static_steps = {});
 
   // Evaluates all loads for an increment: at its end in a static step, mean over it in a dynamic one. One thread only:
   // a history may be a function of the deck.
@@ -50,10 +51,11 @@ class Loads {
 
  private:
   void add(const NodalForces& forces, const TimeValue& value, const State& start);
-  void add(const BodyForce& force, const TimeValue& value, const State& start, const InertiaForce& inertia);
+  void add(const BodyForce& force, const LoadValue& value, const std::string& key, const InertiaForce& inertia);
   void add(const Shortening& shortening, const State& start);
   void note_reached(const PrescribedMotion& motion, const State& start);
   void add_vanished(const State& start, const InertiaForce& inertia);
+  void keep_as_laid(const InertiaForce& inertia, const InertiaForce& of_static_steps);
 
   const Problem& problem_;
   const Step& step_;

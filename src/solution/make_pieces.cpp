@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/parallel_by_cost.hpp"
 #include "mesh/facing.hpp"
+#include "solution/absorbing_impedance.hpp"
 #include "solution/distant_piece.hpp"
 #include "solution/equal_pieces.hpp"
 #include "solution/explicit_piece.hpp"
@@ -19,60 +20,6 @@
 namespace dygita {
 
 namespace {
-
-// Impedance of absorbing supports (manual, absorbing support): lumped at the nodes of linear facets, consistent on
-// those of order two.
-struct AbsorbingImpedance {
-  std::unordered_map<int, Mat3> of_nodes;
-  std::vector<NodePairImpedance> of_pairs;
-};
-
-// A lumped impedance would scatter waves at the scale of the nodes, where the mass behind it is consistent.
-void add_facet(const Substructure& body, const Facet& facet, AbsorbingImpedance& impedance) {
-  const double z_n = body.material.density * body.material.p_wave_speed();
-  const double z_t = body.material.density * body.material.s_wave_speed();
-  const std::span<const int> nodes = facet.nodes();
-  for (const FacetSample& sample : facet_samples(body.mesh->nodes, facet)) {
-    const double area = sample.area.norm();
-    const Mat3 along = sample.area * sample.area.transpose() / (area * area);
-    const Mat3 z = area * (z_n * along + z_t * (Mat3::Identity() - along));
-    for (size_t a = 0; a < nodes.size(); ++a)
-      for (size_t b = 0; b < nodes.size(); ++b) {
-        const double share = sample.values[static_cast<Eigen::Index>(a)] * sample.values[static_cast<Eigen::Index>(b)];
-        impedance.of_pairs.push_back({nodes[a], nodes[b], share * z});
-      }
-  }
-}
-
-bool is_linear(const Facet& facet) { return facet.nodes().size() == facet.corners().size(); }
-
-AbsorbingImpedance absorbing_impedance(const Problem& problem, const Step& step, int part) {
-  AbsorbingImpedance impedance;
-  if (step.is_static) return impedance;
-  const Substructure& body = *problem.substructures[part];
-  const double z_n = body.material.density * body.material.p_wave_speed();
-  const double z_t = body.material.density * body.material.s_wave_speed();
-  for (const SupportPtr& support : supports_of(problem, step)) {
-    if (!support->kind->absorbs()) continue;
-    for (const FaceOrRegion& on : support->on) {
-      const Face& face = std::get<Face>(on);
-      if (face.part.get() != &body) continue;
-      std::vector<Facet> linear;
-      for (const Facet& facet : face.facets())
-        if (is_linear(facet))
-          linear.push_back(facet);
-        else
-          add_facet(body, facet, impedance);
-      const FaceNodes nodes = face_nodes(*body.mesh, linear);
-      for (size_t i = 0; i < nodes.nodes.size(); ++i) {
-        const Mat3 along = nodes.normals.col(i) * nodes.normals.col(i).transpose();
-        auto [it, is_new] = impedance.of_nodes.emplace(nodes.nodes[i], Mat3::Zero());
-        it->second += nodes.areas[i] * (z_n * along + z_t * (Mat3::Identity() - along));
-      }
-    }
-  }
-  return impedance;
-}
 
 // Held directions of a piece's nodes: every copy of a node is held as the node is.
 std::unordered_map<int, Held> held_of_piece(const StepModel& model, int piece) {
@@ -171,7 +118,7 @@ std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body
   CHECK(static_cast<int>(bodies.size()) == n, "one body a piece");
   std::vector<AbsorbingImpedance> absorbing;
   for (size_t part = 0; part < model.problem->substructures.size(); ++part)
-    absorbing.push_back(absorbing_impedance(*model.problem, *model.step, static_cast<int>(part)));
+    absorbing.push_back(absorbing_impedance(model, static_cast<int>(part)));
   std::vector<PieceSetup> setups(n);
   for (const int i : model.here) {
     const int part = model.cut->piece(i).part, n_cut = model.cut->n_pieces(part);

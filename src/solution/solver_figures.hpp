@@ -32,6 +32,7 @@ struct StepFigures {
   std::vector<std::string> explicit_parts;  // substructures integrated explicitly
   int substeps = 1;                         // increments in each time step of the deck
   double stable_step = 0.0;                 // s, longest increment that they are stable with; 0: there are none
+  std::vector<std::string> diagonal_parts;  // of those, with cells of order two, whose mass is a diagonal there
 };
 
 // What only some solvers have to tell; empty: this one has not.

@@ -102,11 +102,11 @@ Points StepModel::reactions(int part, const State& state) const {
 namespace {
 
 // Mass times an acceleration of the nodes (3 x n) of a substructure.
-InertiaForce inertia_of(const Cut& cut, const std::vector<Body>& bodies) {
-  return [&](int part, const Points& acceleration) {
+InertiaForce inertia_of(const Cut& cut, const std::vector<Body>& bodies, std::vector<char> is_explicit) {
+  return [&, is_explicit = std::move(is_explicit)](int part, const Points& acceleration) {
     Points force = Points::Zero(3, acceleration.cols());
     for (int p = cut.first(part); p < cut.first(part) + cut.n_pieces(part); ++p) {
-      const Points own = bodies[p].mass->times(cut.on_piece(p, acceleration));
+      const Points own = bodies[p].mass->times(cut.on_piece(p, acceleration), !is_explicit.empty() && is_explicit[p]);
       for (Eigen::Index i = 0; i < own.cols(); ++i) force.col(cut.piece(p).node(static_cast<int>(i))) += own.col(i);
     }
     return force;
@@ -143,7 +143,12 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
   model.surfaces = &surfaces;
   if (!step.is_static) model.scheme = {false, step.dt, 0.5 * (1.0 - problem.numerical_damping())};
   model.conditions = make_conditions(problem, step, start);
-  model.loads = std::make_unique<Loads>(problem, step, start, inertia_of(*cut, bodies));
+  if (chooses_integration && !step.is_static) {
+    model.integration = choose_integration(problem, step, bodies, *cut, model.conditions, surfaces);
+    model.scheme.dt = step.dt / model.integration.n_substeps;
+  }
+  model.loads = std::make_unique<Loads>(problem, step, start, inertia_of(*cut, bodies, model.integration.is_explicit),
+                                        model.has_explicit() ? inertia_of(*cut, bodies, {}) : InertiaForce());
   if (step.is_static) {
     std::vector<Points> force;
     model.loads->evaluate(step.increments - 1);
@@ -152,10 +157,6 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
     // What is free to move, and where it is pinned, is a matter of the substructures.
     pin_free_motions(problem, step, make_exchange(problem, step, *no_cut(problem), surfaces, model.conditions), force,
                      model.conditions);
-  }
-  if (chooses_integration && !step.is_static) {
-    model.integration = choose_integration(problem, step, bodies, *cut, model.conditions, surfaces);
-    model.scheme.dt = step.dt / model.integration.n_substeps;
   }
   model.exchange = make_exchange(problem, step, *cut, surfaces, model.conditions, model.integration.is_explicit);
   split_loads(model);

@@ -53,6 +53,18 @@ TEST(Assembly, reuses_the_matrix_of_a_cell_for_its_translations_only) {
   EXPECT_LT(difference(assemble(graded, material).stiffness, from_triplets(graded, material)), 1e-12);
 }
 
+// In lanes too, which many shapes of cells take: the diagonal, not the sums of rows.
+TEST(Assembly, has_a_positive_mass_at_every_node_of_any_cells) {
+  const Elastic material = material_of(1.0, 0.3, 7800.0);
+  for (const CellType type : cell_types) {
+    Mesh mesh = *box_mesh(Vec3::Zero(), {1, 2, 4}, {5, 4, 4}, type);
+    for (int a = 0; a < mesh.n_nodes(); ++a) mesh.nodes(0, a) *= 1.0 + 0.1 * mesh.nodes(1, a);
+    const Vec mass = assemble(mesh, material).mass, expected = material.density * nodal_volumes(mesh);
+    EXPECT_GT(mass.minCoeff(), 0.0) << cell_shape(type).name;
+    EXPECT_LT((mass - expected).cwiseAbs().maxCoeff(), 1e-12 * expected.maxCoeff()) << cell_shape(type).name;
+  }
+}
+
 TEST(Assembly, has_sorted_columns_and_both_triangles) {
   const SparseMatrix stiffness = assemble(distorted_mixed_box(), material_of(1.0, 0.3)).stiffness;
   for (int row = 0; row < stiffness.rows(); ++row)

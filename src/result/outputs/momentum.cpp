@@ -14,6 +14,7 @@ struct WeighedPart {
   int index;   // in problem.substructures
   Vec masses;  // kg, the integral of density times each node's shape function: exact for the sum, whatever the mass
                // matrix
+  Vec lumped;  // kg, what explicit increments have instead: the same but in cells of order two
 };
 
 class MomentumRecorder : public TableRecorder {
@@ -26,7 +27,11 @@ class MomentumRecorder : public TableRecorder {
   }
   void accept(const Instant& instant) override {
     Vec3 momentum = Vec3::Zero();
-    for (const WeighedPart& part : parts_) momentum += instant.velocity(part.index) * part.masses;
+    const std::vector<Integration::Part>& how = instant.model.integration.parts;
+    for (const WeighedPart& part : parts_) {
+      const bool is_explicit = !how.empty() && how[static_cast<size_t>(part.index)].is_explicit;
+      momentum += instant.velocity(part.index) * (is_explicit ? part.lumped : part.masses);
+    }
     add_row(instant, instant.time(), {momentum[0], momentum[1], momentum[2]});
   }
 
@@ -70,7 +75,10 @@ class MomentumOutput final : public Output {
     for (size_t i = 0; i < problem.substructures.size(); ++i) {
       const SubstructurePtr& part = problem.substructures[i];
       const bool is_asked = of_.empty() || std::find(of_.begin(), of_.end(), part) != of_.end();
-      if (is_asked) parts.push_back({static_cast<int>(i), part->material.density * nodal_integrals(*part->mesh)});
+      const double density = part->material.density;
+      if (is_asked)
+        parts.push_back(
+            {static_cast<int>(i), density * nodal_integrals(*part->mesh), density * nodal_volumes(*part->mesh)});
     }
     return std::make_unique<MomentumRecorder>(columns(), std::move(parts));
   }
