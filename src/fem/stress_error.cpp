@@ -68,6 +68,12 @@ Tensors cell_stresses(const Mesh& mesh, const CellBlock& block, const Elastic& m
 
 }  // namespace
 
+double StressError::energy() const {
+  double sum = 0.0;
+  for (const Vec& of_block : of_cells) sum += of_block.sum();
+  return sum;
+}
+
 StressError stress_error(const Mesh& mesh, const Elastic& material, const Points& displacement) {
   const bool of_order_two = is_of_order_two(mesh);
   std::vector<Tensors> of_cells;
@@ -85,7 +91,7 @@ StressError stress_error(const Mesh& mesh, const Elastic& material, const Points
   smooth *= n_cells.cwiseInverse().asDiagonal();
   if (of_order_two) smooth = recovered_stress(mesh, material, displacement);
 
-  StressError error{0.0, Vec::Zero(mesh.n_nodes())};
+  StressError error{{}, Vec::Zero(mesh.n_nodes())};
   for (size_t b = 0; b < mesh.blocks.size(); ++b)
     with_cell(mesh.blocks[b].type, [&](auto cell) {
       using Cell = decltype(cell);
@@ -101,7 +107,7 @@ StressError stress_error(const Mesh& mesh, const Elastic& material, const Points
                                  : cell_energy<Cell>(material, x, difference);
       };
       parallel_for(block.n_cells(), compute, Schedule::evenly);
-      error.energy += energy.sum();
+      error.of_cells.push_back(std::move(energy));
       const Vec corners = von_mises(of_cells[b]);
       for (size_t i = 0; i < block.nodes.size(); ++i) {
         double& at_node = error.at_nodes[block.nodes[i]];

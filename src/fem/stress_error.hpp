@@ -6,8 +6,10 @@
 namespace dygita {
 
 struct StressError {
-  double energy = 0.0;  // J, 1/2 of the integral of (s* - s) : C^-1 : (s* - s)
-  Vec at_nodes;         // Pa, largest von Mises stress of s* - s among the cells at each node
+  std::vector<Vec> of_cells;  // J, 1/2 of the integral of (s* - s) : C^-1 : (s* - s), of each cell of each block
+  Vec at_nodes;               // Pa, largest von Mises stress of s* - s among the cells at each node
+
+  double energy() const;  // J, of all
 };
 
 // s is the stress of the cells, s* that of nodal_stress (Pa), interpolated, or where all cells are of order two that of

@@ -9,11 +9,14 @@ namespace dygita {
 
 namespace {
 
-void gather(const std::vector<NamedField>& fields, const char* name, std::vector<double>& values) {
+// is_own: of the points; empty: all count.
+void gather(const std::vector<NamedField>& fields, const char* name, std::vector<double>& values,
+            const std::vector<char>& is_own = {}) {
   for (const NamedField& field : fields)
     if (field.name == name && field.values.rows() == 1)
       for (Eigen::Index i = 0; i < field.values.cols(); ++i)
-        if (std::isfinite(field.values(0, i))) values.push_back(field.values(0, i));
+        if (std::isfinite(field.values(0, i)) && (is_own.empty() || is_own[static_cast<size_t>(i)]))
+          values.push_back(field.values(0, i));
 }
 
 }  // namespace
@@ -27,7 +30,7 @@ double exceeded_by(size_t n, std::vector<double>& values) {
 
 std::vector<double> stresses_of(const Frame& frame) {
   std::vector<double> von_mises;
-  for (const PartFrame& part : frame.parts) gather(part.fields, "von_mises", von_mises);
+  for (const PartFrame& part : frame.parts) gather(part.fields, "von_mises", von_mises, part.is_own);
   return von_mises;
 }
 

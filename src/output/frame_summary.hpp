@@ -21,7 +21,7 @@ struct FrameSummary {
 // Of the parts that have fields. Values that are not finite are passed over.
 FrameSummary summary_of(const Frame& frame);
 
-// The von Mises stresses (Pa) of these parts.
+// The von Mises stresses (Pa) of these parts, of each node by one of its ranks.
 std::vector<double> stresses_of(const Frame& frame);
 // Of n values, how many the summary passes over as a notch: one in two hundred.
 inline size_t n_exceeding(size_t n) { return n == 0 ? 0 : (n - 1) / 200; }

@@ -24,8 +24,15 @@ constexpr const char* interface_frames = "frames/interfaces";
 
 std::string number_of(size_t frame) { return fmt::format("_{:05}.vtu", frame); }
 
+// What the .pvd names.
 fs::path part_file(const PartFrame& part, size_t frame) {
-  return fs::path(frames_folder) / (file_name_of(part.part->name) + number_of(frame));
+  return fs::path(frames_folder) /
+         fmt::format("{}_{:05}.{}", file_name_of(part.part->name), frame, part.is_in_pieces() ? "pvtu" : "vtu");
+}
+
+// The cells of a rank, where several have some.
+fs::path piece_file(const PartFrame& part, size_t frame, int rank) {
+  return fs::path(frames_folder) / fmt::format("{}_{:05}_rank_{}.vtu", file_name_of(part.part->name), frame, rank);
 }
 
 std::vector<std::string> step_names(const Problem& problem) {
@@ -68,7 +75,8 @@ void write_parts(const Frame& frame, size_t i, const fs::path& directory) {
   refuse_links(directory, interface_frames);
   make_directory(directory / interface_frames);
   for (const PartFrame& part : frame.parts)
-    if (part.displacement.cols() > 0) write_part(part, frame, directory / part_file(part, i));
+    if (part.displacement.cols() > 0)
+      write_part(part, frame, directory / (part.is_in_pieces() ? piece_file(part, i, part.rank) : part_file(part, i)));
 }
 
 void RunWriter::write_frame(const Frame& frame) {
@@ -79,7 +87,10 @@ void RunWriter::write_frame(const Frame& frame) {
 void RunWriter::begin_frame(const Frame& frame) {
   CHECK(index_->frames.empty() || frame.label_time > index_->frames.back().label_time,
         "frames come in the order of their label_time");
-  for (const PartFrame& part : frame.parts) index_->manifest.add(part_file(part, index_->frames.size()));
+  for (const PartFrame& part : frame.parts) {
+    index_->manifest.add(part_file(part, index_->frames.size()));
+    for (const int rank : part.ranks) index_->manifest.add(piece_file(part, index_->frames.size(), rank));
+  }
   write_parts(frame, index_->frames.size(), directory_);
 }
 
@@ -93,8 +104,12 @@ void RunWriter::end_frame(const Frame& frame, const FrameSummary& summary) {
     index_->interfaces.add(frame.label_time, 0, "interfaces", file);
   }
   int i_part = 0;
-  for (const PartFrame& part : frame.parts)
+  for (const PartFrame& part : frame.parts) {
+    std::vector<fs::path> pieces;  // names beside the list's own
+    for (const int rank : part.ranks) pieces.push_back(piece_file(part, i, rank).filename());
+    if (part.is_in_pieces()) write_pieces(part, frame, pieces, directory_ / part_file(part, i));
     index_->parts.add(frame.label_time, i_part++, part.part->name, part_file(part, i));
+  }
   index_->frames.push_back(summary);
   // A list grows with the frames: rewritten for each of thousands it would take longer than they do.
   const size_t n = index_->frames.size(), n_new = n - index_->n_listed;

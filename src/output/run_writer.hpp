@@ -31,7 +31,8 @@ struct RunIdentity {
 // "0.1.0"
 const char* program_version();
 
-// Those parts of the i-th frame that have fields, into a run's directory. Throws InputError when it cannot write.
+// Those parts of the i-th frame that have fields, or the cells of them that are here, into a run's directory. Throws
+// InputError when it cannot write.
 void write_parts(const Frame& frame, size_t i, const std::filesystem::path& directory);
 
 class RunWriter {
@@ -42,11 +43,11 @@ class RunWriter {
   RunWriter(std::filesystem::path directory, std::string problem_name);
   ~RunWriter();
 
-  // <problem>.pvd with one .vtu a substructure and interfaces.pvd with one .vtu of all interfaces, both in frames/. The
-  // .pvd are rewritten after each frame, of many after some of them and every second, so that a run in progress and an
-  // interrupted one can be opened. Inline binary, zlib: Debian's
-  // ParaView cannot read appended data. `label_time` must increase (else ContractError). Throws InputError when it
-  // cannot write.
+  // <problem>.pvd with one .vtu a substructure (where several ranks have its pieces a .pvtu, which names a .vtu of
+  // each) and interfaces.pvd with one .vtu of all interfaces, both in frames/. The .pvd are rewritten after each frame,
+  // of many after some of them and every second, so that a run in progress and an interrupted one can be opened. Inline
+  // binary, zlib: Debian's ParaView cannot read appended data. `label_time` must increase (else ContractError). Throws
+  // InputError when it cannot write.
   void write_frame(const Frame& frame);
   // The same in two halves, where other processes write the parts that have no fields here (write_parts) before the
   // second; the summary is of all parts.

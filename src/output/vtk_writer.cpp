@@ -20,6 +20,8 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/log.hpp"
+#include "base/markup.hpp"
 #include "base/memory.hpp"
 #include "output/files.hpp"
 
@@ -28,6 +30,7 @@ namespace dygita {
 namespace {
 
 constexpr const char* displacement_name = "displacement";
+constexpr const char* tensor_components[] = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
 
 // Cells gathered one by one, for all grids here.
 class Cells {
@@ -64,8 +67,7 @@ void add_point_array(vtkUnstructuredGrid* grid, const std::string& name, const E
   array->SetNumberOfComponents(static_cast<int>(values.rows()));
   array->SetNumberOfTuples(values.cols());
   if (values.rows() == 6) {
-    constexpr const char* components[] = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
-    for (int i = 0; i < 6; ++i) array->SetComponentName(i, components[i]);
+    for (int i = 0; i < 6; ++i) array->SetComponentName(i, tensor_components[i]);
   }
   auto* to = array->GetPointer(0);
   for (Eigen::Index j = 0; j < values.cols(); ++j) {
@@ -154,7 +156,7 @@ Mat gathered(const std::vector<InterfaceFrame>& interfaces, const std::string& n
 }  // namespace
 
 void write_part(const PartFrame& frame_of_part, const Frame& frame, const std::filesystem::path& path) {
-  const Mesh& mesh = *frame_of_part.part->mesh;
+  const Mesh& mesh = frame_of_part.mesh();
   vtkNew<vtkUnstructuredGrid> grid;
   set_points(grid, mesh.nodes.colwise() + frame_of_part.part->place);
   Cells cells;
@@ -169,6 +171,43 @@ void write_part(const PartFrame& frame_of_part, const Frame& frame, const std::f
   }
   add_instant(grid, frame);
   write(grid, path);
+}
+
+namespace {
+
+// One of the arrays that all pieces have.
+std::string array_text(const std::string& name, Eigen::Index n_components) {
+  std::string text = fmt::format("      <PDataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"",
+                                 name == displacement_name ? "Float64" : "Float32", escaped(name), n_components);
+  for (int i = 0; i < 6 && n_components == 6; ++i)
+    text += fmt::format(" ComponentName{}=\"{}\"", i, tensor_components[i]);
+  return text + "/>\n";
+}
+
+}  // namespace
+
+void write_pieces(const PartFrame& frame_of_part, const Frame& frame, const std::vector<std::filesystem::path>& files,
+                  const std::filesystem::path& path) {
+  const auto field = [](const char* type, const char* name, const auto& value) {
+    return fmt::format(
+        "      <DataArray type=\"{}\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n", type, name,
+        value);
+  };
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+      "  <PUnstructuredGrid GhostLevel=\"0\">\n    <FieldData>\n";
+  text += field("Float64", "time", frame.time);
+  text += field("Int32", "converged", frame.converged ? 1 : 0);
+  text += field("Int32", "increments_not_converged", frame.missed);
+  text += "    </FieldData>\n    <PPointData>\n" + array_text(displacement_name, 3);
+  for (const NamedField& named : frame_of_part.fields)
+    if (named.name != displacement_name) text += array_text(named.name, named.values.rows());
+  text +=
+      "    </PPointData>\n    <PPoints>\n      <PDataArray type=\"Float64\" Name=\"Points\" "
+      "NumberOfComponents=\"3\"/>\n    </PPoints>\n";
+  for (const std::filesystem::path& file : files)
+    text += fmt::format("    <Piece Source=\"{}\"/>\n", escaped(file.generic_string()));
+  write_text(path, text + "  </PUnstructuredGrid>\n</VTKFile>\n");
 }
 
 void write_interfaces(const Frame& frame, const std::filesystem::path& path) {

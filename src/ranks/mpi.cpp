@@ -174,6 +174,30 @@ std::vector<std::string> gathered(const std::string& bytes) {
   return texts;
 }
 
+std::vector<std::vector<int>> swapped(const std::vector<std::vector<int>>& to_each) {
+  if (n_ranks == 1) return to_each;
+  const auto n = static_cast<size_t>(n_ranks);
+  std::vector<int> sent, sizes(n), found(n), starts(n + 1, 0), places(n + 1, 0);
+  for (size_t rank = 0; rank < n; ++rank) {
+    sizes[rank] = as_count(to_each[rank].size());
+    starts[rank + 1] = starts[rank] + sizes[rank];
+    sent.insert(sent.end(), to_each[rank].begin(), to_each[rank].end());
+    if (sizes[rank] > 0) note_sent(everybody, 1, 4.0 * sizes[rank]);
+  }
+  MPI_Request request;
+  MPI_Ialltoall(sizes.data(), 1, MPI_INT, found.data(), 1, MPI_INT, MPI_COMM_WORLD, &request);
+  wait(request);
+  for (size_t rank = 0; rank < n; ++rank) places[rank + 1] = places[rank] + found[rank];
+  std::vector<int> received(static_cast<size_t>(places.back()));
+  MPI_Ialltoallv(sent.data(), sizes.data(), starts.data(), MPI_INT, received.data(), found.data(), places.data(),
+                 MPI_INT, MPI_COMM_WORLD, &request);
+  wait(request);
+  std::vector<std::vector<int>> from_each;
+  for (size_t rank = 0; rank < n; ++rank)
+    from_each.emplace_back(received.begin() + places[rank], received.begin() + places[rank + 1]);
+  return from_each;
+}
+
 std::vector<double> to_first(int owner, std::vector<double> values) {
   if (owner == 0) return values;
   if (own_rank == owner) send(values.data(), values.size(), 0, brought);

@@ -132,15 +132,19 @@ void ErrorEstimator::take_velocities(const Instant& instant) {
 ErrorEstimator::StressEnergies ErrorEstimator::stress_energies(const Instant& instant) {
   const Cut& cut = *instant.model.cut;
   const Problem& problem = *instant.model.problem;
-  const size_t n_parts = problem.substructures.size();
-  if (!parts_) parts_.emplace(cut, all_nodes(problem));
-  parts_->take(instant);
-  const std::vector<double> errors = of_all_parts(cut, std::vector<int>(n_parts, 1), [&](int part, double* to) {
-    const Substructure& body = *problem.substructures[static_cast<size_t>(part)];
-    Points u = parts_->displacement(part);
-    if (!start_.empty()) u -= start_[static_cast<size_t>(part)];
-    *to = stress_error(*body.mesh, body.material, u).energy;
-  });
+  views_->take(instant);
+  std::vector<double> own(static_cast<size_t>(cut.n_pieces()), 0.0);
+  for (size_t part = 0; part < problem.substructures.size(); ++part) {
+    const PartView& view = views_->of(static_cast<int>(part));
+    if (view.is_empty()) continue;
+    Points u = views_->field(static_cast<int>(part));
+    if (!start_.empty()) u -= start_[part];
+    const std::vector<double> of_pieces =
+        view.sums(stress_error(view.mesh(), problem.substructures[part]->material, u).of_cells);
+    for (size_t k = 0; k < of_pieces.size(); ++k) own[static_cast<size_t>(view.pieces()[k])] = of_pieces[k];
+  }
+  const std::vector<double> errors =
+      of_all_pieces(cut, 1, [&](int piece, double* to) { *to = own[static_cast<size_t>(piece)]; });
   size_t next = 0;
   const std::vector<double> strains = of_all_pieces(cut, 1, [&](int piece, double* to) {
     Points u = instant.piece_displacement(piece);
@@ -149,9 +153,10 @@ ErrorEstimator::StressEnergies ErrorEstimator::stress_energies(const Instant& in
     *to = 0.5 * u.reshaped().dot(force.reshaped());
   });
   StressEnergies energies;
-  for (size_t part = 0; part < n_parts; ++part) {
-    energies.error += errors[part];
-    if (!has_consistent_mass(*problem.substructures[part]->mesh)) energies.of_linear += errors[part];
+  for (size_t i = 0; i < errors.size(); ++i) {
+    const auto part = static_cast<size_t>(cut.piece(static_cast<int>(i)).part);
+    energies.error += errors[i];
+    if (!has_consistent_mass(*problem.substructures[part]->mesh)) energies.of_linear += errors[i];
   }
   for (const double strain : strains) energies.strain += strain;
   return energies;
@@ -181,10 +186,9 @@ void ErrorEstimator::begin_step(const Instant& start) {
          *to = mass_lag(*start.model.pieces[static_cast<size_t>(i)], *start.model.cut->piece(i).body);
        }))
     lag_ += own / total_mass_;
-  if (!parts_) parts_.emplace(*start.model.cut, all_nodes(*start.model.problem));
-  parts_->take(start);
+  views_->take(start);
   for (size_t i = 0; i < start.model.problem->substructures.size(); ++i)
-    start_.push_back(parts_->displacement(static_cast<int>(i)));
+    start_.push_back(views_->field(static_cast<int>(i)));
 }
 
 // What increments leave adds up along a static path: friction keeps it. It is held against the work that the step's own

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "result/carried_motion.hpp"
-#include "result/watched_nodes.hpp"
+#include "result/part_views.hpp"
 
 namespace dygita {
 
@@ -50,10 +50,11 @@ class OctaveBank {
   std::vector<Octave> octaves_;
 };
 
-// Every rank has the velocities of its own pieces, and the stress error of the parts that it watches; the estimates are
-// the same on all. Sums are taken piece by piece and part by part, in their order.
+// Every rank has the velocities and the stress error of its own pieces; the estimates are the same on all. Sums are
+// taken piece by piece, in their order.
 class ErrorEstimator {
  public:
+  explicit ErrorEstimator(PartViews& views) : views_(&views) {}
   // Both are collective.
   void begin_step(const Instant& start);
   void accept(const Instant& instant);
@@ -106,9 +107,9 @@ class ErrorEstimator {
   std::vector<PieceMotion> pieces_;          // that are here, in a dynamic step
   std::optional<CarriedMotion> carried_;     // of the step
   double dt_ = 0.0, phase_factor_ = 1.0;
-  std::optional<WatchedNodes> parts_;    // all nodes
-  std::vector<Points> start_;            // displacements at the start of the dynamic step, of the parts watched here:
-                                         // what it adds is the shock; empty in static ones
+  PartViews* views_;
+  std::vector<Points> start_;            // displacements of the views at the start of the dynamic step: what it adds is
+                                         // the shock; empty in static ones
   double kinetic_now_ = 0.0;             // J, of the relative velocities
   double kinetic_ = 0.0, stored_ = 0.0;  // J, largest so far: kinetic of the relative velocities; kinetic + strain
   double shock_energy_ = 0.0;            // J, largest of the samples: kinetic, and strain of the shock

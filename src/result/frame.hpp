@@ -17,6 +17,15 @@ struct PartFrame {
   const Substructure* part = nullptr;
   Points displacement;             // 3 x n_nodes, always there
   std::vector<NamedField> fields;  // as asked for, displacement among them if asked
+  // Of a part that several ranks have: they, increasing, and whose cells these are; those cells, with the nodes that
+  // they have; of these nodes, which belong to this rank. Elsewhere empty: the part's own mesh, all of it.
+  std::vector<int> ranks{};
+  int rank = 0;
+  MeshPtr cells{};
+  std::vector<char> is_own{};
+
+  const Mesh& mesh() const { return cells ? *cells : *part->mesh; }
+  bool is_in_pieces() const { return !ranks.empty(); }
 };
 
 // Interface (or wall) surface: points are the interface's own.

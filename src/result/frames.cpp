@@ -64,20 +64,24 @@ Frame make_frame(const Instant& instant, const std::vector<std::string>& fields,
   return frame;
 }
 
-void fill_part(PartFrame& frame, const Points& velocity, const Points& acceleration) {
-  const Mesh& mesh = *frame.part->mesh;
+int components_of(const std::string& field) {
+  return field == "stress" ? 6 : field == "von_mises" || field == "stress_error" ? 1 : 3;
+}
+
+void fill_part(const Mesh& mesh, const NodalMotion& motion, PartFrame& frame) {
   const Elastic& material = frame.part->material;
   const auto wants = [&](const char* name) {
     return std::any_of(frame.fields.begin(), frame.fields.end(), [&](const NamedField& f) { return f.name == name; });
   };
+  frame.displacement = motion.displacement;
   Tensors stress;
-  if (wants("stress") || wants("von_mises")) stress = nodal_stress(mesh, material, frame.displacement);
+  if (wants("stress") || wants("von_mises")) stress = nodal_stress(mesh, material, motion.displacement);
   for (auto& [name, values] : frame.fields) {
-    if (name == "displacement") values = frame.displacement;
-    if (name == "velocity") values = velocity;
-    if (name == "acceleration") values = acceleration;
+    if (name == "displacement") values = motion.displacement;
+    if (name == "velocity") values = motion.velocity;
+    if (name == "acceleration") values = motion.acceleration;
     if (name == "stress") values = stress;
-    if (name == "stress_error") values = stress_error(mesh, material, frame.displacement).at_nodes.transpose();
+    if (name == "stress_error") values = stress_error(mesh, material, motion.displacement).at_nodes.transpose();
     if (name == "von_mises") values = von_mises(stress).transpose();
   }
 }

@@ -1,40 +1,53 @@
 #include "result/part_frames.hpp"
 
+#include <algorithm>
 #include <sstream>
-
-#include "result/frames.hpp"
 
 namespace dygita {
 
 void PartFrames::fill(const Instant& instant) {
   if (!ranks::any(begun_.has_value())) return;
-  if (!cut_) {
-    cut_ = instant.model.cut;
-    nodes_ = WatchedNodes(*cut_, all_nodes(problem_));
-  }
+  views_.prepare(instant.model.cut);
   share();
-  const auto of_parts = [&](const char* name, NodalField field) {
-    std::vector<Points> values(begun_->parts.size());
+  std::vector<NodalMotion> motion(begun_->parts.size());
+  const auto take = [&](const char* name, NodalField field, Points NodalMotion::*to) {
     const std::vector<NamedField>& wanted = begun_->parts.front().fields;
-    if (std::string_view(name) != "displacement" &&
+    if (field != NodalField::displacement &&
         std::none_of(wanted.begin(), wanted.end(), [&](const NamedField& f) { return f.name == name; }))
-      return values;
-    nodes_.take(instant, field);
-    for (size_t i = 0; i < values.size(); ++i)
-      if (is_watched_here(*cut_, static_cast<int>(i))) values[i] = nodes_.field(static_cast<int>(i));
-    return values;
+      return;
+    views_.take(instant, field);
+    for (size_t i = 0; i < motion.size(); ++i)
+      if (!views_.of(static_cast<int>(i)).is_empty()) motion[i].*to = views_.field(static_cast<int>(i));
   };
-  std::vector<Points> displacement = of_parts("displacement", NodalField::displacement);
-  const std::vector<Points> velocity = of_parts("velocity", NodalField::velocity),
-                            acceleration = of_parts("acceleration", NodalField::acceleration);
-  for (size_t i = 0; i < displacement.size(); ++i) {
-    if (!is_watched_here(*cut_, static_cast<int>(i))) continue;
-    begun_->parts[i].displacement = std::move(displacement[i]);
-    fill_part(begun_->parts[i], velocity[i], acceleration[i]);
-  }
+  take("displacement", NodalField::displacement, &NodalMotion::displacement);
+  take("velocity", NodalField::velocity, &NodalMotion::velocity);
+  take("acceleration", NodalField::acceleration, &NodalMotion::acceleration);
+  for (size_t i = 0; i < motion.size(); ++i) fill_part_here(static_cast<int>(i), motion[i]);
   const Frame whole = std::move(*begun_);
   begun_.reset();
   sink_(whole);
+}
+
+// Of a part that several ranks have, the nodes of the cells that are here.
+void PartFrames::fill_part_here(int part, const NodalMotion& motion) {
+  PartFrame& frame = begun_->parts[static_cast<size_t>(part)];
+  const PartView& view = views_.of(part);
+  if (!view.is_empty()) fill_part(view.mesh(), motion, frame);
+  const std::vector<int> ranks = ranks_of(views_.cut(), part);
+  if (ranks.size() == 1) return;
+  frame.ranks = ranks;
+  frame.rank = ranks::me();
+  if (view.is_empty()) {
+    for (auto& [name, values] : frame.fields) values.resize(components_of(name), 0);
+    return;
+  }
+  shown_.resize(begun_->parts.size());
+  PartView::Shown& shown = shown_[static_cast<size_t>(part)];
+  if (!shown.mesh) shown = view.shown();
+  frame.cells = shown.mesh;
+  for (const int node : shown.nodes) frame.is_own.push_back(view.owner(node) >= 0);
+  frame.displacement = Points(frame.displacement(Eigen::all, shown.nodes));
+  for (auto& [name, values] : frame.fields) values = Mat(values(Eigen::all, shown.nodes));
 }
 
 void PartFrames::share() {

@@ -12,7 +12,9 @@ namespace dygita {
 
 class PartWatch : public Observer {
  public:
-  explicit PartWatch(const Problem& problem) : stresses_(problem) {}
+  explicit PartWatch(const Problem& problem) : views_(problem), errors_(views_), stresses_(problem, views_) {}
+  PartWatch(const PartWatch&) = delete;
+  PartWatch& operator=(const PartWatch&) = delete;
 
   // All of these are collective.
   void begin_step(const Instant& start) override {
@@ -38,10 +40,12 @@ class PartWatch : public Observer {
   const ErrorEstimator& errors() const { return errors_; }
   const MotionWatch& motion() const { return motion_; }
   const RotationWatch& turned() const { return turned_; }
+  PartViews& views() { return views_; }
   StressRecorder& stresses() { return stresses_; }
   const GapWatch& gaps() const { return gaps_; }
 
  private:
+  PartViews views_;
   ErrorEstimator errors_;
   MotionWatch motion_;
   RotationWatch turned_;

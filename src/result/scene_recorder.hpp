@@ -13,10 +13,10 @@ namespace dygita {
 
 class SceneRecorder : public Observer {
  public:
-  explicit SceneRecorder(const Problem& problem) : problem_(problem), motion_(problem) {}
+  SceneRecorder(const Problem& problem, PartViews& views) : problem_(problem), views_(views), motion_(problem, views) {}
 
   void begin_step(const Instant&) override {}
-  // Both are collective: of each part by the rank that watches it (watched_nodes.hpp).
+  // Both are collective: each rank keeps what it has of the parts.
   void accept(const Instant& instant) override;
   // Puts the scenes into the result, on rank 0, those of joints with them; stresses are computed here.
   void finish(std::vector<JointScenes> joints, RunResult& result);
@@ -24,12 +24,12 @@ class SceneRecorder : public Observer {
  private:
   void keep_assembly(const Instant& instant, AssemblyScene& scene);
   void gather(AssemblyScene& scene) const;
+  void gather_part(int part, Points& displacement, Vec& stress) const;
 
   const Problem& problem_;
+  PartViews& views_;
   SkinRecorder motion_;
-  CutPtr cut_;
-  WatchedNodes nodes_;                 // all
-  AssemblyScene tightened_, shocked_;  // of the parts that are watched here; without displacements: not met yet
+  AssemblyScene tightened_, shocked_;  // of the views (part_views.hpp); without displacements: not met yet
   double strain_energy_ = -1.0;        // J, of shocked_
   int missed_ = 0;                     // increments so far that have not converged
 };

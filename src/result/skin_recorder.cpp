@@ -44,49 +44,44 @@ std::vector<int> shared_out(const std::vector<bool>& is_static, int n_frames) {
 }
 
 void SkinRecorder::prepare(const Instant& instant) {
-  cut_ = instant.model.cut;
+  is_ready_ = true;
+  views_.prepare(instant.model.cut);
   double n_nodes = 1.0;
   std::vector<std::vector<int>> of_layers;
   for (size_t i = 0; i < problem_.substructures.size(); ++i) {
-    const Mesh& mesh = *problem_.substructures[i]->mesh;
-    const int part = static_cast<int>(i);
-    motion_.nodes.push_back(boundary_nodes(mesh));
-    const bool is_needed = is_watched_here(*cut_, part) || !is_on_one_rank(*cut_, part);
-    layers_.push_back(is_needed ? layer_of(mesh, motion_.nodes.back()) : Layer{});
-    of_layers.push_back(layers_.back().node_of);
+    const PartView& view = views_.of(static_cast<int>(i));
+    motion_.nodes.push_back(boundary_nodes(*problem_.substructures[i]->mesh));
+    layers_.push_back(view.is_empty() ? Layer{} : layer_of(view, motion_.nodes.back()));
+    std::vector<int>& nodes = of_layers.emplace_back();
+    for (const int node : layers_.back().in_view) nodes.push_back(view.node(node));
     n_nodes += static_cast<double>(motion_.nodes.back().size());
   }
-  nodes_ = WatchedNodes(*cut_, std::move(of_layers));
+  nodes_ = WatchedNodes(views_.cut(), std::move(of_layers));
   const double affordable = std::floor(most_bytes / (4.0 * sizeof(float) * n_nodes));
   std::vector<bool> is_static;
   for (const StepPtr& step : problem_.steps) is_static.push_back(step->is_static);
   samples_ = shared_out(is_static, static_cast<int>(std::clamp<double>(affordable, fewest_frames, most_frames)));
 }
 
-SkinRecorder::Layer SkinRecorder::layer_of(const Mesh& mesh, const std::vector<int>& boundary) {
+// boundary: of the part, increasing.
+SkinRecorder::Layer SkinRecorder::layer_of(const PartView& view, const std::vector<int>& boundary) {
   Layer layer;
+  const Mesh& mesh = view.mesh();
   std::vector<char> is_boundary(static_cast<size_t>(mesh.n_nodes()), 0);
-  for (const int node : boundary) is_boundary[node] = 1;
-  std::vector<int> number(static_cast<size_t>(mesh.n_nodes()), -1);
+  for (int i = 0; i < mesh.n_nodes(); ++i)
+    is_boundary[static_cast<size_t>(i)] =
+        view.owner(i) >= 0 && std::binary_search(boundary.begin(), boundary.end(), view.node(i));
+  std::vector<std::vector<char>> is_kept;
   for (const CellBlock& block : mesh.blocks) {
-    CellBlock& kept = layer.mesh.blocks.emplace_back(CellBlock{block.type, {}});
+    std::vector<char>& kept = is_kept.emplace_back();
     const int n = nodes_per_cell(block.type);
-    for (int i = 0; i < block.n_cells(); ++i) {
-      const int* cell = block.cell(i);
-      if (std::none_of(cell, cell + n, [&](int node) { return is_boundary[node]; })) continue;
-      for (int a = 0; a < n; ++a) {
-        int& to = number[cell[a]];
-        if (to < 0) {
-          to = static_cast<int>(layer.node_of.size());
-          layer.node_of.push_back(cell[a]);
-        }
-        kept.nodes.push_back(to);
-      }
-    }
+    for (int i = 0; i < block.n_cells(); ++i)
+      kept.push_back(std::any_of(block.cell(i), block.cell(i) + n,
+                                 [&](int node) { return is_boundary[static_cast<size_t>(node)] != 0; }));
   }
-  std::erase_if(layer.mesh.blocks, [](const CellBlock& block) { return block.nodes.empty(); });
-  layer.mesh.nodes = mesh.nodes(Eigen::all, layer.node_of);
-  for (const int node : boundary) layer.boundary.push_back(number[node]);
+  std::tie(layer.mesh, layer.in_view) = some_cells(mesh, is_kept);
+  for (size_t i = 0; i < layer.in_view.size(); ++i)
+    if (is_boundary[static_cast<size_t>(layer.in_view[i])]) layer.boundary.push_back(static_cast<int>(i));
   return layer;
 }
 
@@ -94,7 +89,7 @@ SkinRecorder::Layer SkinRecorder::layer_of(const Mesh& mesh, const std::vector<i
 SkinRecorder::PartFrame SkinRecorder::drawn(int part, const Points& displacement) const {
   const Layer& layer = layers_[static_cast<size_t>(part)];
   const Elastic& material = problem_.substructures[static_cast<size_t>(part)]->material;
-  const Vec stress = von_mises(nodal_stress(layer.mesh, material, displacement));
+  const Vec stress = von_mises(nodal_stress(*layer.mesh, material, displacement));
   PartFrame frame;
   for (const int node : layer.boundary) {
     for (int d = 0; d < 3; ++d) frame.displacement.push_back(static_cast<float>(displacement(d, node)));
@@ -104,7 +99,7 @@ SkinRecorder::PartFrame SkinRecorder::drawn(int part, const Points& displacement
 }
 
 void SkinRecorder::accept(const Instant& instant) {
-  if (!cut_) prepare(instant);
+  if (!is_ready_) prepare(instant);
   missed_ += !instant.converged;
   const int n = instant.model.step->n_increments(), samples = std::min(n, samples_[instant.i_step]);
   if (samples == 0 || !is_kept(instant.increment, n, samples)) return;
@@ -113,7 +108,8 @@ void SkinRecorder::accept(const Instant& instant) {
   nodes_.take(instant);
   std::vector<PartFrame>& frame = drawn_.emplace_back(layers_.size());
   parallel_for(static_cast<int>(frame.size()), [&](int part) {
-    if (is_watched_here(*cut_, part)) frame[static_cast<size_t>(part)] = drawn(part, nodes_.displacement(part));
+    if (layers_[static_cast<size_t>(part)].mesh)
+      frame[static_cast<size_t>(part)] = drawn(part, nodes_.displacement(part));
   });
 }
 
@@ -132,25 +128,35 @@ void SkinRecorder::add(const AssemblyScene& scene) {
   }
   std::vector<PartFrame> parts(layers_.size());
   for (size_t i = 0; i < parts.size(); ++i)
-    if (is_watched_here(*cut_, static_cast<int>(i)))
-      parts[i] = drawn(static_cast<int>(i), scene.displacement[i](Eigen::all, layers_[i].node_of));
+    if (layers_[i].mesh) parts[i] = drawn(static_cast<int>(i), scene.displacement[i](Eigen::all, layers_[i].in_view));
   drawn_.insert(drawn_.begin() + (at - motion_.frames.begin()), std::move(parts));
   motion_.frames.insert(at, std::move(frame));
 }
 
 SkinMotion SkinRecorder::take() {
-  const auto append = [](const std::vector<double>& values, std::vector<float>& to) {
-    to.insert(to.end(), values.begin(), values.end());
-  };
   for (size_t k = 0; k < drawn_.size(); ++k)
-    for (size_t i = 0; i < layers_.size(); ++i) {
-      const PartFrame& own = drawn_[k][i];
-      const int watcher = watcher_of(*cut_, static_cast<int>(i));
-      append(ranks::to_first(watcher, {own.displacement.begin(), own.displacement.end()}),
-             motion_.frames[k].displacement);
-      append(ranks::to_first(watcher, {own.von_mises.begin(), own.von_mises.end()}), motion_.frames[k].von_mises);
-    }
+    for (size_t i = 0; i < layers_.size(); ++i) append(static_cast<int>(i), drawn_[k][i], motion_.frames[k]);
   return std::move(motion_);
+}
+
+// On rank 0 that of all ranks, each of which has some of the part's boundary nodes.
+void SkinRecorder::append(int part, const PartFrame& own, SkinFrame& frame) const {
+  const Cut& cut = views_.cut();
+  const std::vector<int>& boundary = motion_.nodes[static_cast<size_t>(part)];
+  const size_t first = frame.von_mises.size();
+  frame.von_mises.resize(first + boundary.size());
+  frame.displacement.resize(3 * frame.von_mises.size());
+  for (const int rank : ranks_of(cut, part)) {
+    const std::vector<double> moved = ranks::to_first(rank, {own.displacement.begin(), own.displacement.end()}),
+                              loaded = ranks::to_first(rank, {own.von_mises.begin(), own.von_mises.end()});
+    if (!ranks::is_first()) continue;
+    size_t k = 0;
+    for (size_t i = 0; i < boundary.size(); ++i) {
+      if (cut.piece(cut.owner(part, boundary[i]).piece).rank != rank) continue;
+      for (size_t d = 0; d < 3; ++d) frame.displacement[3 * (first + i) + d] = static_cast<float>(moved[3 * k + d]);
+      frame.von_mises[first + i] = static_cast<float>(loaded[k++]);
+    }
+  }
 }
 
 }  // namespace dygita

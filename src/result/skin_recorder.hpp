@@ -4,44 +4,45 @@
 
 #include <vector>
 
+#include "result/part_views.hpp"
 #include "result/scenes.hpp"
 #include "result/skin_motion.hpp"
-#include "result/watched_nodes.hpp"
 
 namespace dygita {
 
 class SkinRecorder {
  public:
-  explicit SkinRecorder(const Problem& problem) : problem_(problem) {}
+  SkinRecorder(const Problem& problem, PartViews& views) : problem_(problem), views_(views) {}
 
-  // All of these are collective: parts are drawn where they are watched (watched_nodes.hpp).
+  // All of these are collective: each rank draws the boundary nodes that its pieces own.
   void accept(const Instant& instant);
-  // Whole fields that others kept of the parts watched here join in, each at its instant unless there is a frame
-  // already.
+  // Fields that others kept of the views (part_views.hpp) join in, each at its instant unless there is a frame already.
   void add(const AssemblyScene& scene);
   // On rank 0 the frames of all parts.
   SkinMotion take();
 
  private:
-  // A part's boundary nodes and the cells around them, as a mesh of its own.
+  // The boundary nodes of a part that are here, and the cells around them as a mesh of their own.
   struct Layer {
-    Mesh mesh;
-    std::vector<int> node_of;   // of the part, for each node of `mesh`
-    std::vector<int> boundary;  // nodes of `mesh`, in the order of SkinMotion::nodes
+    MeshPtr mesh;
+    std::vector<int> in_view;   // node of the view, for each of `mesh`, increasing
+    std::vector<int> boundary;  // nodes of `mesh`, increasing
   };
-  // Of the parts that are watched here.
+  // Of the boundary nodes that are here.
   struct PartFrame {
     std::vector<float> displacement, von_mises;  // as SkinFrame
   };
   void prepare(const Instant& instant);
-  static Layer layer_of(const Mesh& mesh, const std::vector<int>& boundary);
+  static Layer layer_of(const PartView& view, const std::vector<int>& boundary);
   PartFrame drawn(int part, const Points& displacement) const;
+  void append(int part, const PartFrame& own, SkinFrame& frame) const;
 
   const Problem& problem_;
-  CutPtr cut_;
+  PartViews& views_;
+  bool is_ready_ = false;
   SkinMotion motion_;                          // frames without fields, which are in drawn_
   std::vector<std::vector<PartFrame>> drawn_;  // of each frame, of each part
-  std::vector<Layer> layers_;                  // of parts that are watched here or are on several ranks
+  std::vector<Layer> layers_;                  // without a mesh: nothing of the part is here
   WatchedNodes nodes_;                         // of the layers
   std::vector<int> samples_;                   // frames of each step
   int missed_ = 0;                             // increments so far that have not converged

@@ -1,53 +1,67 @@
 #include "result/watched_nodes.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace dygita {
 
-int watcher_of(const Cut& cut, int part) {
-  std::map<int, Eigen::Index> n_nodes;
-  for (int i = cut.first(part); i < cut.first(part) + cut.n_pieces(part); ++i)
-    n_nodes[cut.piece(i).rank] += cut.piece(i).body->mesh->n_nodes();
-  int most = n_nodes.begin()->first;
-  for (const auto& [rank, n] : n_nodes)
-    if (n > n_nodes[most]) most = rank;
-  return most;
-}
-
-bool is_on_one_rank(const Cut& cut, int part) {
-  for (int i = cut.first(part); i < cut.first(part) + cut.n_pieces(part); ++i)
-    if (cut.piece(i).rank != cut.piece(cut.first(part)).rank) return false;
-  return true;
-}
-
-std::vector<std::vector<int>> all_nodes(const Problem& problem) {
-  std::vector<std::vector<int>> nodes;
-  for (const SubstructurePtr& part : problem.substructures) {
-    nodes.emplace_back(static_cast<size_t>(part->mesh->n_nodes()));
-    std::iota(nodes.back().begin(), nodes.back().end(), 0);
-  }
-  return nodes;
-}
-
 WatchedNodes::WatchedNodes(const Cut& cut, std::vector<std::vector<int>> nodes)
     : nodes_(std::move(nodes)), taken_(nodes_.size()) {
-  std::vector<int> owner;
-  std::vector<std::vector<int>> readers;
+  for (Points& taken : taken_) taken.resize(3, 0);
+  if (!ranks::is_alone()) split_up(cut);
+}
+
+// Each rank asks the owners for what it lacks, and knows then who asks it.
+void WatchedNodes::split_up(const Cut& cut) {
+  struct Passed {
+    int owner = ranks::me();
+    std::vector<int> readers;
+  };
+  using Node = std::pair<int, int>;  // part, node: both sides of an exchange have them in one order
+  std::map<Node, Passed> passed;
+  std::vector<std::vector<int>> wanted(static_cast<size_t>(ranks::count()));
+  std::map<int, std::map<int, Cut::OnOwner>> split;
   for (size_t i = 0; i < nodes_.size(); ++i) {
     const int part = static_cast<int>(i);
-    if (!is_on_one_rank(cut, part)) {
-      const int first = static_cast<int>(owner.size()), watcher = watcher_of(cut, part);
-      for (const int node : nodes_[i]) {
-        owner.push_back(cut.piece(cut.owner(part, node).piece).rank);
-        readers.push_back({watcher});
+    std::map<int, Cut::OnOwner> on_owner = cut.on_owners(part, nodes_[i]);
+    if (std::all_of(on_owner.begin(), on_owner.end(), [&](const auto& of) { return cut.is_here(of.first); })) continue;
+    for (const auto& [piece, on] : on_owner) {
+      if (cut.is_here(piece)) continue;
+      const int owner = cut.piece(piece).rank;
+      for (const int at : on.at) {
+        const int node = nodes_[i][static_cast<size_t>(at)];
+        passed[{part, node}] = {owner, {ranks::me()}};
+        wanted[static_cast<size_t>(owner)].insert(wanted[static_cast<size_t>(owner)].end(), {part, node});
       }
-      split_.push_back({part, first, cut.on_owners(part, nodes_[i])});
-      if (watcher == ranks::me()) taken_[i].resize(3, static_cast<Eigen::Index>(nodes_[i].size()));
-      nodes_[i].clear();
-    } else if (!is_watched_here(cut, part)) {
-      nodes_[i].clear();
     }
+    split[part] = std::move(on_owner);
+  }
+  const std::vector<std::vector<int>> asked = ranks::swapped(wanted);
+  for (size_t rank = 0; rank < asked.size(); ++rank)
+    for (size_t k = 0; k < asked[rank].size(); k += 2)
+      passed[{asked[rank][k], asked[rank][k + 1]}].readers.push_back(static_cast<int>(rank));
+  std::vector<int> owner;
+  std::vector<std::vector<int>> readers;
+  std::map<Node, int> place;
+  for (auto& [node, of] : passed) {
+    const int at = place[node] = static_cast<int>(owner.size());
+    owner.push_back(of.owner);
+    readers.push_back(std::move(of.readers));
+    if (of.owner != ranks::me()) continue;
+    const Copy copy = cut.owner(node.first, node.second);
+    asked_[copy.piece].nodes.push_back(copy.node);
+    asked_[copy.piece].at.push_back(at);
+  }
+  for (auto& [part, on_owner] : split) {
+    std::vector<int>& nodes = nodes_[static_cast<size_t>(part)];
+    Split& own = split_.emplace_back(Split{part, {}, {}});
+    for (auto& [piece, on] : on_owner) {
+      if (cut.is_here(piece))
+        own.here[piece] = std::move(on);
+      else
+        for (const int at : on.at) own.passed.emplace_back(at, place.at({part, nodes[static_cast<size_t>(at)]}));
+    }
+    taken_[static_cast<size_t>(part)].resize(3, static_cast<Eigen::Index>(nodes.size()));
+    nodes.clear();
   }
   passing_.resize(3 * owner.size());
   exchange_ = ranks::Neighbours(owner, readers, 3);
@@ -86,18 +100,14 @@ void WatchedNodes::take(const Instant& instant, NodalField field) {
         static_cast<int>(nodes_[i].size()) == n_nodes && std::is_sorted(nodes_[i].begin(), nodes_[i].end());
     taken_[i] = is_all ? of_part(instant, part, field) : of_nodes(instant, part, nodes_[i], field);
   }
-  if (split_.empty()) return;
+  if (ranks::is_alone()) return;
   Eigen::Map<Points> all(passing_.data(), 3, static_cast<Eigen::Index>(passing_.size() / 3));
-  for (const Split& split : split_)
-    for (const auto& [piece, on] : split.on_owner) {
-      if (!instant.model.cut->is_here(piece)) continue;
-      const Points own = of_piece(instant, piece, on.nodes, field);
-      for (size_t k = 0; k < on.at.size(); ++k) all.col(split.first + on.at[k]) = own.col(static_cast<Eigen::Index>(k));
-    }
+  for (const auto& [piece, asked] : asked_) all(Eigen::all, asked.at) = of_piece(instant, piece, asked.nodes, field);
   exchange_.exchange(passing_.data());
   for (const Split& split : split_) {
-    Points& of_part = taken_[static_cast<size_t>(split.part)];
-    of_part = all.middleCols(split.first, of_part.cols());  // of none where it is not watched here
+    Points& taken = taken_[static_cast<size_t>(split.part)];
+    for (const auto& [piece, on] : split.here) taken(Eigen::all, on.at) = of_piece(instant, piece, on.nodes, field);
+    for (const auto& [at, passed] : split.passed) taken.col(at) = all.col(passed);
   }
 }
 

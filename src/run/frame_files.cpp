@@ -1,7 +1,9 @@
 #include "run/frame_files.hpp"
 
 #include <algorithm>
-#include <functional>
+#include <bit>
+#include <cstdint>
+#include <limits>
 
 #include "base/error.hpp"
 #include "ranks/ranks.hpp"
@@ -32,22 +34,33 @@ void FrameFiles::write(const Frame& frame) {
   });
 }
 
-// Of what each rank has, rank 0 needs no more than the largest of all.
+namespace {
+
+// The value, of all ranks' values none of which is negative, that n others exceed: its bits, which increase with it,
+// are halved in on, so that no rank is sent what others have.
+double exceeded_by_of_all(size_t n, const std::vector<double>& own) {
+  std::uint64_t below = 0, above = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::max());
+  while (below < above) {
+    const std::uint64_t middle = below + (above - below) / 2;
+    const auto value = std::bit_cast<double>(middle);
+    const auto n_more = std::count_if(own.begin(), own.end(), [&](double x) { return x > value; });
+    if (ranks::sums({static_cast<double>(n_more)})[0] <= static_cast<double>(n))
+      above = middle;
+    else
+      below = middle + 1;
+  }
+  return std::bit_cast<double>(below);
+}
+
+}  // namespace
+
 FrameSummary FrameFiles::summary_of_all(const Frame& frame) const {
   FrameSummary summary = summary_of(frame);
   if (ranks::is_alone()) return summary;
   summary.displacement = ranks::largest(summary.displacement);
-  std::vector<double> own = stresses_of(frame);
-  const size_t n = n_exceeding(static_cast<size_t>(ranks::sums({static_cast<double>(own.size())})[0]));
-  const size_t kept = std::min(own.size(), n + 1);
-  std::partial_sort(own.begin(), own.begin() + static_cast<long>(kept), own.end(), std::greater<>());
-  own.resize(kept);
-  std::vector<double> all = own;
-  for (int rank = 1; rank < ranks::count(); ++rank) {
-    const std::vector<double> others = ranks::to_first(rank, own);
-    if (ranks::is_first()) all.insert(all.end(), others.begin(), others.end());
-  }
-  if (ranks::is_first()) summary.von_mises = exceeded_by(n, all);
+  const std::vector<double> own = stresses_of(frame);
+  const auto n_all = static_cast<size_t>(ranks::sums({static_cast<double>(own.size())})[0]);
+  summary.von_mises = n_all > 0 ? exceeded_by_of_all(n_exceeding(n_all), own) : 0.0;
   return summary;
 }
 

@@ -1,4 +1,4 @@
-// Frames of a run on disk: each rank writes the parts that it has filled in, rank 0 the rest and the lists.
+// Frames of a run on disk: each rank writes what it has of the parts, rank 0 the rest and the lists.
 #pragma once
 
 #include "output/run_writer.hpp"

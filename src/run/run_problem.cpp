@@ -115,9 +115,9 @@ constexpr std::size_t memory_for_results = std::size_t{64} << 20, memory_of_thre
 std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* start_from, FrameFiles* files,
                                  bool keeps_scenes, Trail* trail) {
   PartWatch parts(problem);
-  PartFrames frames(problem, [&](const Frame& frame) { files->write(frame); });
+  PartFrames frames(problem, parts.views(), [&](const Frame& frame) { files->write(frame); });
   Collector collector(problem, parts, files ? FrameSink([&](const Frame& frame) { frames.begin(frame); }) : nullptr);
-  SceneRecorder scenes(problem);
+  SceneRecorder scenes(problem, parts.views());
   JointSceneRecorder joint_scenes(problem);
   PenetrationWatch watch(problem);
   Observers here({&collector, &watch});

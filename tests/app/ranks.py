@@ -4,16 +4,20 @@ ranks.py PROGRAM MPIRUN FOLDER_OF_THE_DECKS [--ranks N]
 """
 
 import argparse
+import base64
 import hashlib
 import json
 import os
 import pathlib
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
 import time
+import xml.etree.ElementTree
+import zlib
 
 asked = argparse.ArgumentParser()
 asked.add_argument("program")
@@ -47,6 +51,71 @@ def contents(run):
             if p.is_file() and p.name not in told_apart}
 
 
+def arrays(file):
+    """Arrays of a .vtu (name: bytes of each tuple), and its cells as (type, points of each)."""
+    def decode(array):
+        text = array.text.strip()
+        n_blocks = int.from_bytes(base64.b64decode(text[:8])[:4], "little")
+        if n_blocks == 0:
+            return b""
+        width = 4 * -(-4 * (3 + n_blocks) // 3)    # characters of the header, by itself
+        sizes = struct.unpack(f"<{3 + n_blocks}I", base64.b64decode(text[:width])[:4 * (3 + n_blocks)])[3:]
+        data, at, whole = base64.b64decode(text[width:]), 0, b""
+        for size in sizes:
+            whole += zlib.decompress(data[at:at + size])
+            at += size
+        return whole
+
+    def tuples(array):
+        size = {"Float64": 8, "Float32": 4, "Int64": 8, "UInt8": 1}[array.get("type")] * int(array.get("NumberOfComponents", 1))
+        data = decode(array)
+        return [data[i:i + size] for i in range(0, len(data), size)]
+
+    piece = xml.etree.ElementTree.parse(file).getroot().find("UnstructuredGrid/Piece")
+    points = {array.get("Name"): tuples(array) for array in piece.findall("PointData/DataArray")}
+    places = tuples(piece.find("Points/DataArray"))
+    cells = {array.get("Name"): tuples(array) for array in piece.findall("Cells/DataArray")}
+    corners = [places[int.from_bytes(node, "little")] for node in cells["connectivity"]]
+    ends = [0] + [int.from_bytes(end, "little") for end in cells["offsets"]]
+    return places, points, [(kind, *corners[a:b]) for kind, a, b in zip(cells["types"], ends, ends[1:])]
+
+
+def difference_of_pieces(whole, listed):
+    """What the files that a .pvtu lists have otherwise than the .vtu of one process: every cell once, at each point the same bits."""
+    places, fields, cells = arrays(whole)
+    of_place = {place: {name: field[i] for name, field in fields.items()} for i, place in enumerate(places)}
+    seen, seen_cells = set(), []
+    pieces = xml.etree.ElementTree.parse(listed).getroot().findall("PUnstructuredGrid/Piece")
+    for piece in pieces:
+        own, own_fields, own_cells = arrays(listed.parent / piece.get("Source"))
+        seen.update(own)
+        seen_cells += own_cells
+        for name, field in own_fields.items():
+            if any(value != of_place[place].get(name) for place, value in zip(own, field)):
+                return f"{name} in {piece.get('Source')}"
+    if len(pieces) < 2 or seen != set(places) or sorted(seen_cells) != sorted(cells):
+        return f"{len(pieces)} pieces have {len(seen)} of {len(places)} points, {len(seen_cells)} of {len(cells)} cells"
+    return ""
+
+
+def put_together(alone, shared, run_alone, run):
+    """Takes what ranks write in pieces out of both contents; returns how it differs."""
+    wrong = []
+    for listed in sorted(run.rglob("*.pvtu")):
+        name = str(listed.relative_to(run))
+        whole = name.replace(".pvtu", ".vtu")
+        for file in [name, *(n for n in shared if n.startswith(name.replace(".pvtu", "_rank_")))]:
+            shared.pop(file)
+        if alone.pop(whole, None) is None or (difference := difference_of_pieces(run_alone / whole, listed)):
+            wrong.append(f"{name}: {difference}")
+        pvd = f"{run.parent.name}.pvd"
+        if (run / pvd).read_text().replace(".pvtu", ".vtu") != (run_alone / pvd).read_text():
+            wrong.append(pvd)
+        for names_files in pvd, ".dygita-files":
+            alone.pop(names_files, None), shared.pop(names_files, None)
+    return wrong
+
+
 def numbers(run):
     """What run.json says of the answer: figures but those of what the ranks have each, warnings, bolts, outputs."""
     record = json.loads((run / "run.json").read_text())
@@ -58,10 +127,13 @@ def numbers(run):
 
 def same(name, alone, shared):
     told = numbers(alone), numbers(shared)
+    folders = alone, shared
     alone, shared = contents(alone), contents(shared)
-    differ = [file for file in {**alone, **shared} if alone.get(file) != shared.get(file)]
+    n_files = len(alone)
+    differ = put_together(alone, shared, *folders)
+    differ += [file for file in {**alone, **shared} if alone.get(file) != shared.get(file)]
     differ += [f"run.json: {key}" for key, value in told[0].items() if value != told[1].get(key)]
-    if differ or len(alone) < 3:
+    if differ or n_files < 3:
         failures.append(f"{name}: other bits than those of one process: {sorted(differ)}, of {sorted(alone)}")
 
 

@@ -8,6 +8,7 @@
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkXMLPUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <algorithm>
@@ -153,6 +154,67 @@ TEST(RunWriter, writes_all_interfaces_of_a_frame_in_one_grid_with_their_names) {
   vtkDataArray* opening = grid->GetPointData()->GetArray("plastic_opening");
   EXPECT_TRUE(std::isnan(opening->GetComponent(0, 0)));  // the first interface has none
   EXPECT_EQ(opening->GetComponent(6, 0), 7.0);
+}
+
+// One rank has the hexahedron and the wedge, the other the tetrahedron on top; nodes 4, 5 and 6 lie on the cut.
+TEST(RunWriter, writes_a_substructure_in_pieces_that_vtk_reads_back_as_one_grid) {
+  const Scratch scratch;
+  const Scene scene;
+  const auto piece = [&](int rank, const std::vector<int>& nodes, std::vector<CellBlock> blocks) {
+    Frame frame = scene.frame(0.25, 1.0);
+    frame.missed = 3;
+    PartFrame& of_part = frame.parts[1];
+    auto cells = std::make_shared<Mesh>();
+    cells->nodes = of_part.part->mesh->nodes(Eigen::all, nodes);
+    cells->blocks = std::move(blocks);
+    of_part.displacement = Points(of_part.displacement(Eigen::all, nodes));
+    for (NamedField& field : of_part.fields) field.values = Mat(field.values(Eigen::all, nodes));
+    of_part.cells = cells;
+    of_part.ranks = {0, 3};
+    of_part.rank = rank;
+    of_part.is_own.assign(nodes.size(), 1);
+    return frame;
+  };
+  const std::vector<int> below{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, above{4, 5, 6, 10};
+  const Frame first = piece(0, below, {scene.parts[1]->mesh->blocks[0], scene.parts[1]->mesh->blocks[1]});
+  Frame other = piece(3, above, {{CellType::tet4, {0, 1, 2, 3}}});
+  other.parts[0].displacement.resize(3, 0);  // rank 0 has it
+  RunWriter writer(scratch.path(), "crush");
+  writer.begin_frame(first);
+  write_parts(other, 0, scratch.path());
+  writer.end_frame(first, summary_of(first));
+  EXPECT_NE(text_of(scratch.path() / "crush.pvd").find("name=\"upper\" file=\"frames/upper_00000.pvtu\""),
+            std::string::npos);
+
+  vtkNew<vtkXMLPUnstructuredGridReader> reader;
+  reader->SetFileName((scratch.path() / "frames" / "upper_00000.pvtu").c_str());
+  reader->Update();
+  vtkUnstructuredGrid* grid = reader->GetOutput();
+  ASSERT_EQ(grid->GetNumberOfPoints(), 14);
+  ASSERT_EQ(grid->GetNumberOfCells(), 3);
+  EXPECT_EQ(cell(grid, 1), (std::vector<int>{VTK_WEDGE, 1, 2, 8, 5, 6, 9}));
+  EXPECT_EQ(cell(grid, 2), (std::vector<int>{VTK_TETRA, 10, 11, 12, 13}));
+  const PartFrame expected = Scene::part_frame(*scene.parts[1], 1.0);
+  vtkDataArray* displacement = grid->GetPointData()->GetArray("displacement");
+  vtkDataArray* stress = grid->GetPointData()->GetArray("stress");
+  ASSERT_NE(displacement, nullptr);
+  ASSERT_NE(stress, nullptr);
+  EXPECT_STREQ(stress->GetComponentName(4), "YZ");
+  for (int j = 0; j < 14; ++j) {
+    const int node = j < 10 ? below[j] : above[j - 10];
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(grid->GetPoint(j)[i], scene.parts[1]->mesh->nodes(i, node) + scene.parts[1]->place[i]);
+      EXPECT_EQ(displacement->GetComponent(j, i), expected.displacement(i, node));
+    }
+    for (int i = 0; i < 6; ++i) EXPECT_FLOAT_EQ(stress->GetComponent(j, i), expected.fields[1].values(i, node));
+  }
+  ASSERT_NE(grid->GetFieldData()->GetArray("time"), nullptr);
+  EXPECT_EQ(grid->GetFieldData()->GetArray("time")->GetComponent(0, 0), 0.25);
+  EXPECT_EQ(grid->GetFieldData()->GetArray("increments_not_converged")->GetComponent(0, 0), 3);
+  // The next run takes all of it away.
+  RunWriter again(scratch.path(), "crush");
+  EXPECT_FALSE(fs::exists(scratch.path() / "frames" / "upper_00000_rank_3.vtu"));
+  EXPECT_FALSE(fs::exists(scratch.path() / "frames" / "upper_00000.pvtu"));
 }
 
 TEST(RunWriter, lists_the_frames_after_each_of_them) {
