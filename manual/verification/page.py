@@ -80,6 +80,7 @@ def speed_section(done, kept):
         knows = any(r.solver == "latin implicit" for _, rows, _ in done for r in rows)
         parts.append("The runs of this section are of an earlier command, those of all others of the last one"
                      + ("." if knows else "; in them `latin` integrated implicitly throughout."))
+    parts.append(speed.balance(done))
     for scene, rows, told in done:
         parts += [f"### {scene.title}", f"`{scene.deck}`. {told}", picture(f"speed_{scene.name}", scene.title),
                   f"{speed.against_latin(rows)} {scene.why}"]

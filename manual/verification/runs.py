@@ -106,6 +106,7 @@ class Program:
             known["latin implicit"] = 'latin{ integration = "implicit" }'
             known["latin implicit tuned"] = 'latin{ integration = "implicit", mass = "tuned", massless_contact = true }'
             known["latin explicit lumped"] = 'latin{ integration = "explicit", mass = "lumped" }'
+            known["latin explicit tuned"] = 'latin{ integration = "explicit", mass = "tuned" }'
         if self.has_solver("monolithic"):
             known["monolithic"] = "monolithic"
         if self.has_solver("explicit"):

@@ -11,7 +11,7 @@ from scenes import SCENES, TOLERANCES, WINDOWS
 ESTIMATES = [f"error estimate, {what} [%]" for what in ("iteration", "time step", "mesh")]   # figures of run.json
 LEVELS = [0.10, 0.03, 0.01, 0.003]
 LINES = {"mesh": "-", "dt": "--", "tolerance": ":", "window": "-.", "safety": "--", "penalty": ":"}
-COLOUR = {"latin": "#0b5394", "latin implicit": "#5b8fd6", "latin implicit tuned": "#00a0c6", "latin explicit lumped": "#6a6a00", "monolithic": "#c75b12", "explicit one_point": "#2e7d32", "explicit full": "#8e24aa"}
+COLOUR = {"latin": "#0b5394", "latin implicit": "#5b8fd6", "latin implicit tuned": "#00a0c6", "latin explicit lumped": "#6a6a00", "latin explicit tuned": "#b8860b", "monolithic": "#c75b12", "explicit one_point": "#2e7d32", "explicit full": "#8e24aa"}
 
 
 @dataclass
@@ -170,17 +170,37 @@ def to_the_right(axes, ends):
                                                          "shrinkA": 1, "shrinkB": 3})
 
 
+def best_of(rows, panel, level):
+    """The cheapest run that reaches an error level, or None."""
+    return min((r for r in rows if r.seconds and r.errors[panel] <= level), key=lambda r: r.seconds, default=None)
+
+
 def cheapest(rows, panel):
-    """A row a solver: the cheapest setting that reaches each level, in seconds and as it is set."""
+    """A row a solver: the cheapest setting that reaches each level, in seconds and as it is set; last, what latin as it chooses by itself costs over the cheapest of all."""
     table = []
     for solver in dict.fromkeys(r.solver for r in rows):
-        cells = [solver]
-        for level in LEVELS:
-            good = [r for r in rows if r.solver == solver and r.seconds and r.errors[panel] <= level]
-            best = min(good, key=lambda r: r.seconds) if good else None
-            cells.append("-" if best is None else f"{number(best.seconds, 2)} s ({best.knob} {best.value})")
-        table.append(cells)
+        found = [best_of([r for r in rows if r.solver == solver], panel, level) for level in LEVELS]
+        table.append([solver] + ["-" if best is None else f"{number(best.seconds, 2)} s ({best.knob} {best.value})" for best in found])
+    ratios = ratios_to_cheapest(rows, panel)
+    table.append(["*latin over the cheapest*"] + ["-" if ratio is None else number(ratio, 2) for ratio in ratios])
     return ["solver"] + [f"{100 * level:g} %" for level in LEVELS], table
+
+
+def ratios_to_cheapest(rows, panel):
+    """Of each level: seconds of latin as it chooses by itself over those of the cheapest of all; infinite where it alone does not reach the level, None where nobody does."""
+    ratios = []
+    for level in LEVELS:
+        own, best = best_of([r for r in rows if r.solver == "latin"], panel, level), best_of(rows, panel, level)
+        ratios.append(None if best is None else math.inf if own is None else own.seconds / best.seconds)
+    return ratios
+
+
+def balance(done, most=1.2):
+    """How often latin as it chooses by itself is within `most` of the cheapest of all, in words."""
+    ratios = [ratio for scene, rows, _ in done for panel in (0, 1) for ratio in ratios_to_cheapest(rows, panel) if ratio is not None]
+    within = sum(ratio <= most for ratio in ratios)
+    return (f"Of {len(ratios)} levels of error that any of the runs reaches, *latin*, as it chooses by itself, is within {most:g} of the cheapest of all at {within}, "
+            f"within 2 at {sum(ratio <= 2 for ratio in ratios)}.")
 
 
 def against_latin(rows):

@@ -49,7 +49,7 @@ Content build_latin(const Declaration& d) {
   settings->numerical_damping = a.number("numerical_damping");
   settings->push_out = a.number("push_out");
   settings->search_direction = a.number("search_direction");
-  settings->mass = {a.text("mass") == "tuned", a.boolean("massless_contact")};
+  settings->mass = {a.text("mass") == "tuned", a.boolean("massless_contact"), a.text("mass") == "automatic"};
   settings->integration = integration_of(a.text("integration"));
   if (a.has("precision"))
     settings->precision = a.text("precision") == "single" ? Precision::single_precision : Precision::double_precision;

@@ -47,6 +47,8 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
     const Substructure& body = *model.problem->substructures[i];
     figures.explicit_parts.push_back(body.name);
     if (has_consistent_mass(*body.mesh)) figures.diagonal_parts.push_back(body.name);
+    if (part.is_tuned) figures.tuned_parts.push_back(body.name);
+    if (model.problem->mass().is_chosen) figures.phases.emplace_back(body.name, part.phase);
     figures.stable_step = figures.stable_step > 0.0 ? std::min(figures.stable_step, part.longest) : part.longest;
   }
   // An increment of less is over before threads have met.

@@ -8,15 +8,13 @@
 
 #include "base/log.hpp"
 #include "model/check.hpp"
-#include "model/load.hpp"
+#include "model/load_content.hpp"
 #include "model/output.hpp"
-#include "signal/spectrum.hpp"
 
 namespace dygita::check {
 
 namespace {
 
-constexpr double share = 0.95;            // of a load's energy that must be carried
 constexpr double steps_a_period = 10.0;   // a trapezoidal step then turns a wave by 3 % too little each period
 constexpr double cells_a_wavelength = 5;  // a mesh turns it by 7 %; as many nodes of cells of order two, by less
 constexpr double most_damping = 0.2;      // of critical
@@ -26,18 +24,6 @@ struct Content {
   std::string of;          // "load.pressure on face 'rod.zmax'"
   Origin origin;
 };
-
-double load_frequency(const Load& load, const Step& step) {
-  double highest = 0.0;
-  for (const auto& value : load.values) {
-    if (!value || value->history.is_constant()) continue;
-    const int n = std::clamp(4 * step.n_increments(), 256, 2048);
-    std::vector<double> samples(n + 1);
-    for (int i = 0; i <= n; ++i) samples[i] = value->history.value(step.duration * i / n);
-    highest = std::max(highest, band_limit(samples, step.duration / n, share));
-  }
-  return highest;
-}
 
 std::string label(const Load& load) {
   return load.on.empty() ? load.path : load.path + " on " + describe(load.on.front());
@@ -54,8 +40,7 @@ std::vector<Content> contents(const Problem& problem, const Step& step) {
   std::vector<Content> list;
   for (const LoadPtr& load : step.loads)
     if (const double f = load_frequency(*load, step); f > 0.0)
-      list.push_back(
-          {f, fmt::format("{:.0f} % of the energy of {} lies below", 100 * share, label(*load)), load->origin});
+      list.push_back({f, "95 % of the energy of " + label(*load) + " lies below", load->origin});
   for (const OutputPtr& output : problem.outputs)
     if (const std::optional<double> f = output->highest_frequency())
       list.push_back({*f, output->known_as() + " asks for", output->origin});

@@ -95,6 +95,7 @@ using StepPtr = std::shared_ptr<const Step>;
 struct MassSettings {
   bool is_tuned = false;  // between lumped and consistent, so that mesh and time step undo each other's error
   bool is_moved_from_contact = false;  // nodes in contact have none
+  bool is_chosen = false;              // of explicit substructures, by what their loads bring: tuned or lumped
 };
 
 // How static steps are solved: all parts in one system, part by part, or whichever is likely to cost less.

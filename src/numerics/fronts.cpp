@@ -4,7 +4,7 @@
 
 #include "base/parallel.hpp"
 #include "numerics/dense_blocks.hpp"
-#include "numerics/huge_pages.hpp"
+#include "numerics/scratch_pages.hpp"
 
 namespace dygita {
 
@@ -194,7 +194,7 @@ class Elimination {
   std::vector<int> position_;    // of an unknown in the factor
   std::vector<int> local_, to_;  // of a position in the front at hand, of a row of a child's update in it
   std::vector<double*> update_;  // of each supernode whose parent is still to come, n_below x n_below
-  UntouchedPages panel_, stack_;
+  ScratchPages panel_, stack_;
   double* top_ = nullptr;
   Mat schur_;
 };

@@ -141,7 +141,11 @@ Json steps(const Problem& problem, const RunResult& result) {
         json["explicit"] = {{"substructures", step.explicit_parts},
                             {"substeps", step.substeps},
                             {"stable_step", step.stable_step},
-                            {"mass", problem.mass().is_tuned ? "tuned" : "lumped"}};
+                            {"mass", step.tuned_parts.empty()                                ? "lumped"
+                                     : step.tuned_parts.size() == step.explicit_parts.size() ? "tuned"
+                                                                                             : "tuned in some"}};
+        if (!step.tuned_parts.empty()) json["explicit"]["tuned_mass"] = step.tuned_parts;
+        for (const auto& [part, phase] : step.phases) json["explicit"]["phase_of_lumped_mass"][part] = phase;
         if (!step.diagonal_parts.empty()) json["explicit"]["diagonal_mass"] = step.diagonal_parts;
       }
       json["loads"] = loads(*problem.steps[i]);

@@ -49,6 +49,8 @@ struct StepSummary {
   int substeps = 1;                         // increments in each time step of the deck
   double stable_step = 0.0;                 // s, longest increment that they are stable with; 0: there are none
   std::vector<std::string> diagonal_parts;  // of those, with cells of order two, whose mass is a diagonal there
+  std::vector<std::string> tuned_parts;     // of those, whose mass is tuned
+  std::vector<std::pair<std::string, double>> phases;  // of those, rad, by which lumped or tuned mass was chosen
 };
 
 // What VDI 2230's hand formula says of a bolt (manual, eq. B3-B6).

@@ -46,7 +46,8 @@ void summarise(const Problem& problem, const SolverFigures& figures, RunResult& 
     const StepFigures& f = figures.steps[i];
     const Step& step = *problem.steps[i];
     result.steps.push_back({step.name, step.is_static, f.increments, f.not_converged, f.iterations, f.worst_indicator,
-                            f.seconds, f.missed, f.explicit_parts, f.substeps, f.stable_step, f.diagonal_parts});
+                            f.seconds, f.missed, f.explicit_parts, f.substeps, f.stable_step, f.diagonal_parts,
+                            f.tuned_parts, f.phases});
     result.iterations += f.iterations;
     increments += f.increments;
     if (f.not_converged > 0) result.converged = false;
@@ -64,6 +65,15 @@ void summarise(const Problem& problem, const SolverFigures& figures, RunResult& 
   result.figures.gap_difference = figures.gap_difference;
 }
 
+// What is not lumped of explicit substructures.
+std::string mass_of(const StepSummary& step) {
+  std::string text;
+  if (!step.tuned_parts.empty())
+    text = step.tuned_parts.size() == step.explicit_parts.size() ? ", tuned mass"
+                                                                 : ", tuned mass in " + list_of_names(step.tuned_parts);
+  return step.diagonal_parts.empty() ? text : text + ", diagonal mass in cells of order two";
+}
+
 void say_summary(const Problem& problem, const RunResult& result, const std::filesystem::path& directory,
                  double seconds) {
   if (const std::string pieces = list_pieces(problem, result.pieces); !pieces.empty())
@@ -75,10 +85,7 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
                     step.increments ? double(step.iterations) / step.increments : 0.0,
                     problem.explicit_dynamics && !step.is_static ? "substeps" : "iterations", step.seconds);
     if (!step.explicit_parts.empty())
-      line += fmt::format("; explicit{}: {}, {} substep{} of each dt",
-                          problem.mass().is_tuned       ? ", tuned mass"
-                          : step.diagonal_parts.empty() ? ""
-                                                        : ", diagonal mass in cells of order two",
+      line += fmt::format("; explicit{}: {}, {} substep{} of each dt", mass_of(step),
                           list_of_names(step.explicit_parts), step.substeps, step.substeps == 1 ? "" : "s");
     if (step.increments_not_converged > 0)
       line += fmt::format("; {} NOT CONVERGED (worst indicator {:.1e})", step.increments_not_converged,

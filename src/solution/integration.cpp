@@ -13,6 +13,7 @@
 #include "model/model.hpp"
 #include "solution/alike_parts.hpp"
 #include "solution/all_pieces.hpp"
+#include "solution/mass_choice.hpp"
 
 namespace dygita {
 
@@ -161,7 +162,7 @@ class Chooser {
     double cost = 0.0;
     bool is_mixed = false;
     for (size_t i = 0; i < set.size(); ++i) {
-      cost += set[i] ? substeps(set) * explicit_cost(sizes_[i], problem_.mass().is_tuned)
+      cost += set[i] ? substeps(set) * explicit_cost(sizes_[i], parts_[i].is_tuned)
                      : substeps(set) *
                            implicit_cost(sizes_[i], problem_.solver.tolerance, substeps(set) * step_.n_increments());
       is_mixed |= set[i] != set[0];
@@ -193,6 +194,19 @@ void bind_to_implicit(const Problem& problem, const AlikeParts& alike, std::vect
             fmt::format("interface '{}', between meshes that do not match, binds it to '{}', which is implicit{}",
                         alike.interfaces[i], problem.substructures[j]->name,
                         parts[j].why_not.empty() ? "" : ": " + parts[j].why_not);
+}
+
+// Along a cut cells would stay lumped, and what is cut would not be what is whole: all of it stays so.
+void choose_mass(const Problem& problem, const Cut& cut, const std::vector<Size>& sizes,
+                 std::vector<Integration::Part>& parts) {
+  for (size_t i = 0; i < parts.size(); ++i) {
+    parts[i].is_tuned = problem.mass().is_tuned;
+    if (!problem.mass().is_chosen || !parts[i].why_not.empty()) continue;
+    const Substructure& part = *problem.substructures[i];
+    parts[i].phase = phase_of_lumped_mass(problem, part);
+    parts[i].is_tuned = !cut.is_cut(static_cast<int>(i)) &&
+                        wants_tuned_mass(part, parts[i].phase, sizes[i].interface_unknowns / sizes[i].unknowns);
+  }
 }
 
 void refuse(const Problem& problem, const std::vector<Integration::Part>& parts) {
@@ -240,11 +254,13 @@ Integration choose_integration(const Problem& problem, const Step& step, const s
   const AlikeParts alike = find_alike(problem, step, surfaces);
   bind_to_implicit(problem, alike, parts);
   refuse(problem, parts);
+  const std::vector<Size> sizes = sizes_of(problem, step, surfaces, pairs_of_neighbours(cut, bodies));
+  choose_mass(problem, cut, sizes, parts);
   parallel_for(static_cast<int>(bodies.size()), [&](int p) {
     const int part = cut.piece(p).part;
     if (!cut.is_here(p)) return;
     if (parts[part].why_not.empty() && asked_of(problem, *problem.substructures[part]) != IntegrationChoice::implicitly)
-      longest[p] = safety * (problem.mass().is_tuned ? longest_tuned_step : longest_explicit_step)(
+      longest[p] = safety * (parts[part].is_tuned ? longest_tuned_step : longest_explicit_step)(
                                 bodies[p], held_of(cut, p, conditions));
   });
   longest = of_all_pieces(cut, 1, [&](int p, double* to) { *to = longest[p]; });
@@ -253,8 +269,7 @@ Integration choose_integration(const Problem& problem, const Step& step, const s
     parts[i].longest =
         *std::min_element(longest.begin() + first, longest.begin() + first + cut.n_pieces(static_cast<int>(i)));
   }
-  Integration chosen =
-      Chooser(problem, step, parts, sizes_of(problem, step, surfaces, pairs_of_neighbours(cut, bodies)), alike).best();
+  Integration chosen = Chooser(problem, step, parts, sizes, alike).best();
   refuse_mixed_window(problem, chosen);
   for (const CutPiece& piece : cut.pieces()) chosen.is_explicit.push_back(chosen.parts[piece.part].is_explicit);
   if (std::find(chosen.is_explicit.begin(), chosen.is_explicit.end(), 1) == chosen.is_explicit.end())
@@ -277,12 +292,31 @@ void add_to(ByReason& groups, std::string reason, const std::string& name) {
     it->second.push_back(name);
 }
 
+// "tuned mass in 'rod' (lumped mass would keep waves back by up to 3.2 rad), ": what is not lumped.
+std::string mass_of_explicit(const Integration& integration, const Problem& problem) {
+  std::vector<std::string> tuned;
+  bool has_diagonal = false, has_lumped = false;
+  double phase = 0.0;
+  for (size_t i = 0; i < integration.parts.size(); ++i) {
+    const Integration::Part& part = integration.parts[i];
+    if (!part.is_explicit) continue;
+    has_diagonal |= has_consistent_mass(*problem.substructures[i]->mesh);
+    has_lumped |= !part.is_tuned;
+    if (!part.is_tuned) continue;
+    tuned.push_back(problem.substructures[i]->name);
+    phase = std::max(phase, part.phase);
+  }
+  std::string text = tuned.empty() ? "" : has_lumped ? "tuned mass in " + list_of_names(tuned) : "tuned mass";
+  if (phase > 0.0) text += fmt::format(" (lumped mass would keep waves back by up to {:.2g} rad)", phase);
+  if (!text.empty()) text += ", ";
+  return has_diagonal ? text + "diagonal mass in cells of order two, " : text;
+}
+
 }  // namespace
 
 std::string describe(const Integration& integration, const Problem& problem, const Step& step) {
   if (integration.parts.empty()) return "";
   std::vector<std::string> is_explicit;
-  bool has_diagonal = false;
   ByReason is_implicit;
   double shortest = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < integration.parts.size(); ++i) {
@@ -290,7 +324,6 @@ std::string describe(const Integration& integration, const Problem& problem, con
     const std::string& name = problem.substructures[i]->name;
     if (part.is_explicit) {
       is_explicit.push_back(name);
-      has_diagonal |= has_consistent_mass(*problem.substructures[i]->mesh);
       shortest = std::min(shortest, part.longest);
     } else {
       add_to(is_implicit, part.why_not, name);
@@ -301,12 +334,9 @@ std::string describe(const Integration& integration, const Problem& problem, con
     text = fmt::format(
         "explicit: {}; {}{} increment{} of {:.4g} us in each dt (stable to {:.4g} us), an estimated {:.2g} "
         "of the cost of implicit ones",
-        list_of_names(is_explicit),
-        problem.mass().is_tuned ? "tuned mass, "
-        : has_diagonal          ? "diagonal mass in cells of order two, "
-                                : "",
-        integration.n_substeps, integration.n_substeps == 1 ? "" : "s", 1e6 * step.dt / integration.n_substeps,
-        1e6 * shortest, integration.cost);
+        list_of_names(is_explicit), mass_of_explicit(integration, problem), integration.n_substeps,
+        integration.n_substeps == 1 ? "" : "s", 1e6 * step.dt / integration.n_substeps, 1e6 * shortest,
+        integration.cost);
   for (size_t i = 0; i < is_implicit.size(); ++i) {
     const auto& [reason, names] = is_implicit[i];
     text += (text.empty() ? "implicit: " : i == 0 ? "; implicit: " : ", ") + list_of_names(names);

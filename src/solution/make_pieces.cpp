@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/parallel_by_cost.hpp"
 #include "mesh/facing.hpp"
+#include "numerics/scratch_pages.hpp"
 #include "solution/absorbing_impedance.hpp"
 #include "solution/distant_piece.hpp"
 #include "solution/equal_pieces.hpp"
@@ -132,7 +133,8 @@ std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body
     setup.n_motions = static_cast<int>(model.conditions.motions.size());
     setup.what = (n_cut > 1 ? fmt::format("piece {} of {} of ", i - model.cut->first(part) + 1, n_cut) : "") +
                  "substructure '" + bodies[i].part->name + "' in step '" + model.step->name + "'";
-    if (model.integration.is_explicit_piece(i) && model.problem->mass().is_tuned) tune_explicitly(model, i, setup);
+    if (model.integration.is_explicit_piece(i) && model.integration.parts[static_cast<size_t>(part)].is_tuned)
+      tune_explicitly(model, i, setup);
     setup.precision = precision_of(model, part, bodies[i]);
     if (model.scheme.is_static) setup.n_products = usual_iterations * model.step->increments;
     // Far below what the tolerance leaves of a step; what is stored of an entry follows.
@@ -180,6 +182,7 @@ Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies) {
   std::vector<std::unique_ptr<ImplicitPiece>> built(n);
   std::vector<std::shared_ptr<const ExplicitOperator>> operators(n);
   prepare_thread();
+  const KeepScratch kept_for_the_next;
   // An implicit one costs a factor, of so many operations where its graph is that of a solid.
   std::vector<double> cost;
   for (const int i : model.here)

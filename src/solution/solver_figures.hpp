@@ -33,6 +33,9 @@ struct StepFigures {
   int substeps = 1;                         // increments in each time step of the deck
   double stable_step = 0.0;                 // s, longest increment that they are stable with; 0: there are none
   std::vector<std::string> diagonal_parts;  // of those, with cells of order two, whose mass is a diagonal there
+  std::vector<std::string> tuned_parts;     // of those, whose mass is tuned
+  // Of those, where the program chose: by how much lumped mass would keep waves back, rad (manual, eq. S15).
+  std::vector<std::pair<std::string, double>> phases;
 };
 
 // What only some solvers have to tell; empty: this one has not.

@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <limits>
 #include <random>
 
 #include "base/error.hpp"
 #include "numerics/dense.hpp"
 #include "numerics/dense_blocks.hpp"
 #include "numerics/factor.hpp"
+#include "numerics/scratch_pages.hpp"
 #include "numerics/spd_inverse.hpp"
 
 namespace dygita {
@@ -94,6 +96,30 @@ TEST(Factor, forward_interface_and_backward_make_the_whole_solve) {
   x.tail(factor.n_interface()) = v;
   factor.backward(x);
   EXPECT_LT((x - whole).norm(), 1e-12 * whole.norm());
+}
+
+// What other factors have left in it does not matter.
+TEST(Factor, has_the_same_bits_in_memory_that_others_have_worked_in) {
+  const Grid large = grid(9, 3), small = grid(6, 3);
+  const auto solved = [](const Grid& g) {
+    Factor factor(g.matrix, g.node_of_dof, g.is_interface, "grid");
+    Vec x = Vec::LinSpaced(g.matrix.rows(), -1.0, 2.0);
+    factor.forward(x);
+    const Mat schur = factor.take_schur();
+    return std::pair<Vec, Mat>(x, schur.triangularView<Eigen::Lower>());
+  };
+  const auto alone = solved(small);
+  const KeepScratch kept;
+  {
+    ScratchPages spoiled(size_t{1} << 24);
+    std::fill_n(spoiled.doubles(), (size_t{1} << 24) / sizeof(double), std::numeric_limits<double>::quiet_NaN());
+  }
+  for (const Grid* g : {&large, &small, &large, &small}) {
+    const auto again = solved(*g);
+    if (g != &small) continue;
+    EXPECT_EQ(again.first, alone.first);
+    EXPECT_EQ(again.second, alone.second);
+  }
 }
 
 TEST(Factor, solves_several_right_hand_sides_as_it_solves_one) {

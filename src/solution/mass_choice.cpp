@@ -1,0 +1,42 @@
+#include "solution/mass_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fem/mass.hpp"
+#include "model/load_content.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr double most_phase = 0.1;               // rad
+constexpr double fewest_cells_a_wavelength = 5;  // of what a mesh carries
+constexpr double most_on_interfaces = 0.5;
+
+bool is_of_bricks(const Mesh& mesh) {
+  return !has_consistent_mass(mesh) && std::all_of(mesh.blocks.begin(), mesh.blocks.end(), [](const CellBlock& block) {
+    return cell_shape(block.type).cells_per_brick == 1;
+  });
+}
+
+}  // namespace
+
+double phase_of_lumped_mass(const Problem& problem, const Substructure& part) {
+  const double h = std::cbrt(volume(*part.mesh) / part.mesh->n_cells()), speed = part.material.s_wave_speed();
+  const double highest = speed / (fewest_cells_a_wavelength * h);
+  double phase = 0.0;
+  for (const StepPtr& step : problem.steps) {
+    if (step->is_static) continue;
+    const double w = 2.0 * std::numbers::pi * std::min(highest, brought_frequency(problem, *step));
+    phase += w * step->duration * std::pow(w / speed * h, 2) / 24.0;
+  }
+  return phase;
+}
+
+bool wants_tuned_mass(const Substructure& part, double phase, double interface_share) {
+  return phase > most_phase && interface_share < most_on_interfaces && is_of_bricks(*part.mesh);
+}
+
+}  // namespace dygita

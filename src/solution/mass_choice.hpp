@@ -1,0 +1,17 @@
+// Whether the mass of an explicit substructure is tuned to its waves, where the deck leaves that to the program
+// (manual, eq. S15).
+#pragma once
+
+#include "model/model.hpp"
+
+namespace dygita {
+
+// Rad, at the end of the dynamic steps: by how much a lumped mass keeps back shear waves of the highest frequency that
+// the loads bring, or that the mesh carries.
+double phase_of_lumped_mass(const Problem& problem, const Substructure& part);
+
+// Is that worth a tuned mass? Not where most nodes have laws, whose cells stay lumped, nor in cells that are no bricks.
+// interface_share: of its nodes.
+bool wants_tuned_mass(const Substructure& part, double phase, double interface_share);
+
+}  // namespace dygita
