@@ -56,6 +56,14 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
   std::stable_sort(largest_first_.begin(), largest_first_.end(), [&](int a, int b) {
     return model.pieces[a]->node_masses().size() > model.pieces[b]->node_masses().size();
   });
+  const auto in_turn = [&](const std::vector<int>& border) {
+    InTurn turns;
+    for (const int i : largest_first_)
+      (std::find(border.begin(), border.end(), i) != border.end() ? turns.border : turns.interior).push_back(i);
+    return turns;
+  };
+  telling_ = in_turn(direct_.border_pieces());
+  iterating_ = in_turn(model.near.border_pieces());
 }
 
 // The first iteration only hears what the kept fields are worth.
