@@ -174,7 +174,7 @@ void StepRun::solve_increment(int increment) {
 
 void StepRun::run() {
   const int n = model_.step->n_increments();
-  files_.kept.begin_step();
+  files_.kept.begin_step(model_.near.kept_runs());
   files_.observer.begin_step(instant(-1, 0, 0.0));
   Progress progress(model_.step->name, n);
   for (int i = 0; i < n && !ranks::any(interrupt_requested()); i += settings_.window) {

@@ -156,8 +156,8 @@ void StepRun::note_missed(const Missed& missed) {
   if (all.size() < 1000) all.push_back(missed);
 }
 
-// The first rank has the fields of all pieces, the others know of how many increments.
-void StepRun::keep(const Vec& q) { files_.kept.append(model_.near.assembled_on_first(q)); }
+// Each rank those of its pieces.
+void StepRun::keep(const Vec& q) { files_.kept.append(model_.near.kept_part(q)); }
 
 double StepRun::largest_velocity() const {
   const int n = model_.near.n_own();

@@ -110,11 +110,20 @@ Vec NearUnknowns::assembled(const Vec& near) const {
   return all;
 }
 
-Vec NearUnknowns::assembled_on_first(const Vec& near) const {
-  if (is_all_) return ranks::is_first() ? near : Vec();
-  Vec all = spread(near);
-  of_pieces_.bring(all.data());
-  return ranks::is_first() ? all : Vec();
+AssembledRuns NearUnknowns::kept_runs() const {
+  if (ranks::is_alone()) return {};
+  AssembledRuns kept{n_assembled_, {}};
+  if (is_all_ && ranks::is_first()) kept.runs.push_back({0, n_assembled_});
+  for (int i = 0; i < n_own_ && !is_all_; ++i) {
+    const int unknown = assembled_[static_cast<size_t>(i)];
+    if (kept.runs.empty() || kept.runs.back().first + kept.runs.back().n != unknown) kept.runs.push_back({unknown, 0});
+    ++kept.runs.back().n;
+  }
+  return kept;
+}
+
+Vec NearUnknowns::kept_part(const Vec& near) const {
+  return is_all_ && !ranks::is_first() ? Vec() : Vec(near.head(n_own_));
 }
 
 }  // namespace dygita

@@ -9,6 +9,7 @@
 #include "ranks/neighbours.hpp"
 #include "ranks/ranks.hpp"
 #include "solution/exchange.hpp"
+#include "solution/interface_fields.hpp"
 
 namespace dygita {
 
@@ -46,10 +47,12 @@ class NearUnknowns {
   void end(std::initializer_list<double*> fields) const { passing_.end(fields); }
   // The near values of the assembled q.
   Vec part(const Vec& assembled) const;
-  // Collective: the assembled q of fields of which each rank has its own; on all ranks, and on the first alone (empty
-  // on the others).
+  // Collective: the assembled q of fields of which each rank has its own.
   Vec assembled(const Vec& near) const;
-  Vec assembled_on_first(const Vec& near) const;
+  // Where the values that a rank keeps of a field lie in the assembled q: its own, or all where all ranks have them
+  // (the first keeps them then); and these.
+  AssembledRuns kept_runs() const;
+  Vec kept_part(const Vec& near) const;
 
  private:
   Vec spread(const Vec& near) const;
