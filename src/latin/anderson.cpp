@@ -11,10 +11,12 @@ Anderson::Anderson(int depth, int n_problems, double relaxation, Vec weight, con
       relaxation_(relaxation),
       weight_(std::move(weight)),
       recent_(depth, weight_.size(), sums),
-      past_(n_problems_, weight_.size(), sums) {}
+      past_(n_problems_, weight_.size(), sums),
+      sums_(sums) {}
 
 void Anderson::begin() {
   recent_.clear();
+  first_sums_.clear();
   has_before_ = false;
 }
 
@@ -25,15 +27,25 @@ void Anderson::hear(const Field& q, const Field& image) {
   has_before_ = true;
 }
 
-void Anderson::advance(Eigen::Ref<Vec> q, const Field& image) {
+InterfaceSums::ToCome Anderson::first_sums(const Field& q, const Field& image) {
+  if (depth_ == 0) return {};
   residual_ = (image - q).cwiseProduct(weight_);
+  return has_before_ ? recent_.sums_to_add(residual_, residual_before_) : past_.sums_to_hear(residual_);
+}
+
+void Anderson::advance(Eigen::Ref<Vec> q, const Field& image) {
   if (depth_ == 0) {
     q += relaxation_ * (image - q);
     return;
   }
+  if (first_sums_.empty()) {
+    const InterfaceSums::ToCome needed = first_sums(q, image);
+    first_sums_ = sums_.add(needed.n, needed.share);
+  }
   const bool is_first = !has_before_;
   const double norm =
-      std::sqrt(is_first ? past_.hear(residual_) : recent_.add(q, q_before_, residual_, residual_before_));
+      std::sqrt(is_first ? past_.hear(first_sums_.data()) : recent_.add(q, q_before_, first_sums_.data()));
+  first_sums_.clear();
   if (is_first) {
     q_first_ = q;
     residual_first_ = residual_;

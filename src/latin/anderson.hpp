@@ -24,6 +24,10 @@ class Anderson {
   // Replaces q by the next iterate, from image = G(q). The history is cleared where the residual exceeds twice the
   // best.
   void advance(Eigen::Ref<Vec> q, const Field& image);
+  // The first sums that `advance` of the same will need, for who takes others at that time: told them it asks for no
+  // more. Nothing comes of them where the problem ends instead.
+  InterfaceSums::ToCome first_sums(const Field& q, const Field& image);
+  void tell_first_sums(const double* sums, int n) { first_sums_.assign(sums, sums + n); }
   int n_problems() const { return n_problems_; }
   // The problem ends with q. If it is solved, what it changed helps to predict the next; if not, nothing past does.
   void end(const Field& q, const Field& image, bool is_solved);
@@ -34,6 +38,8 @@ class Anderson {
   Vec weight_;
   Differences recent_, past_;
   Vec q_first_, q_before_, residual_first_, residual_before_, residual_;
+  InterfaceSums sums_;
+  std::vector<double> first_sums_;  // of the next `advance`; empty: they are not known
   bool has_before_ = false;
   double best_ = 0.0;
 };

@@ -31,38 +31,51 @@ void Differences::clear() {
   last_ = -1;
 }
 
-double Differences::hear(const Vec& residual) {
+InterfaceSums::ToCome Differences::sums_to_hear(const Vec& residual) const {
   const int n = static_cast<int>(newest_first_.size());
-  const std::vector<double>& sums = sums_.add(n + 1, [&](Eigen::Index first, Eigen::Index size, double* to) {
-    const auto own = residual.segment(first, size);
-    for (int i = 0; i < n; ++i) to[i] += df_.col(newest_first_[i]).segment(first, size).dot(own);
-    to[n] += own.squaredNorm();
-  });
+  return {n + 1, [this, n, &residual](Eigen::Index first, Eigen::Index size, double* to) {
+            const auto own = residual.segment(first, size);
+            for (int i = 0; i < n; ++i) to[i] += df_.col(newest_first_[i]).segment(first, size).dot(own);
+            to[n] += own.squaredNorm();
+          }};
+}
+
+double Differences::hear(const double* sums) {
+  const int n = static_cast<int>(newest_first_.size());
   for (int i = 0; i < n; ++i) along_[newest_first_[i]] = sums[i];
   return sums[n];
 }
 
-double Differences::add(const Eigen::Ref<const Vec>& q, const Vec& q_before, const Vec& residual,
-                        const Vec& residual_before) {
-  if (gamma_.size() == 0) return hear(residual);
+double Differences::hear(const Vec& residual) {
+  const InterfaceSums::ToCome needed = sums_to_hear(residual);
+  return hear(sums_.add(needed.n, needed.share).data());
+}
+
+// The column is taken already; it counts once `add` has put it in front.
+InterfaceSums::ToCome Differences::sums_to_add(const Vec& residual, const Vec& residual_before) {
+  if (gamma_.size() == 0) return sums_to_hear(residual);
   const int at = (last_ + 1) % static_cast<int>(gamma_.size());
   std::erase(newest_first_, at);
   last_ = at;
-  auto df = df_.col(at);
-  df = residual - residual_before;
+  df_.col(at) = residual - residual_before;
   const int n = static_cast<int>(newest_first_.size());
-  const std::vector<double>& sums = sums_.add(2 * n + 3, [&](Eigen::Index first, Eigen::Index size, double* to) {
-    const auto own = residual.segment(first, size);
-    const auto change = df.segment(first, size);
-    for (int i = 0; i < n; ++i) {
-      const auto other = df_.col(newest_first_[i]).segment(first, size);
-      to[2 * i] += other.dot(own);
-      to[2 * i + 1] += other.dot(change);
-    }
-    to[2 * n] += change.dot(own);
-    to[2 * n + 1] += change.squaredNorm();
-    to[2 * n + 2] += own.squaredNorm();
-  });
+  return {2 * n + 3, [this, n, at, &residual](Eigen::Index first, Eigen::Index size, double* to) {
+            const auto own = residual.segment(first, size);
+            const auto change = df_.col(at).segment(first, size);
+            for (int i = 0; i < n; ++i) {
+              const auto other = df_.col(newest_first_[i]).segment(first, size);
+              to[2 * i] += other.dot(own);
+              to[2 * i + 1] += other.dot(change);
+            }
+            to[2 * n] += change.dot(own);
+            to[2 * n + 1] += change.squaredNorm();
+            to[2 * n + 2] += own.squaredNorm();
+          }};
+}
+
+double Differences::add(const Eigen::Ref<const Vec>& q, const Vec& q_before, const double* sums) {
+  if (gamma_.size() == 0) return hear(sums);
+  const int n = static_cast<int>(newest_first_.size()), at = last_;
   const double length = std::sqrt(sums[2 * n + 1]), residual_size = sums[2 * n + 2];
   for (int i = 0; i < n; ++i) {
     along_[newest_first_[i]] = sums[2 * i];
@@ -71,10 +84,16 @@ double Differences::add(const Eigen::Ref<const Vec>& q, const Vec& q_before, con
   if (length == 0.0) return residual_size;
   along_[at] = sums[2 * n] / length;
   gram_(at, at) = 1.0;
-  df /= length;
+  df_.col(at) /= length;
   dq_.col(at) = (q - q_before) / length;
   newest_first_.insert(newest_first_.begin(), at);
   return residual_size;
+}
+
+double Differences::add(const Eigen::Ref<const Vec>& q, const Vec& q_before, const Vec& residual,
+                        const Vec& residual_before) {
+  const InterfaceSums::ToCome needed = sums_to_add(residual, residual_before);
+  return add(q, q_before, sums_.add(needed.n, needed.share).data());
 }
 
 void Differences::subtract(Eigen::Ref<Vec> q, Vec& residual) const {

@@ -65,6 +65,9 @@ void DirectPoints::find_near() {
   motions_ = std::move(passed);
   of_motions_ = ranks::Neighbours(owner, readers, static_cast<int>(n_motion));
   told_.resize(n_motion * motions_.size());
+  for (const Motions& motion : motions_)
+    if (motion.is_here && (border_pieces_.empty() || border_pieces_.back() != motion.piece))
+      border_pieces_.push_back(motion.piece);
   keep_near(is_near);
 }
 
@@ -101,11 +104,16 @@ void DirectPoints::keep_near(const std::vector<char>& is_near) {
   swept_.resize(clusters_.size());
 }
 
-void DirectPoints::complete_motions() {
+void DirectPoints::tell() {
   if (motions_.empty()) return;
   for (size_t i = 0; i < motions_.size(); ++i)
     if (motions_[i].is_here) motions_[i].nodes->tell_motion(motions_[i].index, told_.data() + n_motion * i);
-  of_motions_.exchange(told_.data());
+  of_motions_.begin(told_.data());
+}
+
+void DirectPoints::hear() {
+  if (motions_.empty()) return;
+  of_motions_.end(told_.data());
   for (size_t i = 0; i < motions_.size(); ++i)
     if (!motions_[i].is_here) motions_[i].nodes->hear_motion(motions_[i].index, told_.data() + n_motion * i);
 }

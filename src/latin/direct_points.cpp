@@ -33,6 +33,7 @@ DirectPoints::DirectPoints(const StepModel& model, const State& start)
   find_clusters();
   has_clusters_ = !clusters_.empty();
   if (!ranks::is_alone()) find_near();
+  split_points();
 }
 
 void DirectPoints::add_point(const StepModel& model, int index, const State& start) {
@@ -217,19 +218,32 @@ void DirectPoints::solve_cluster(const std::vector<int>& members, const std::vec
   }
 }
 
-void DirectPoints::solve(const std::vector<double>& motions, int most_threads) {
-  complete_motions();
-  const int n = static_cast<int>(alone_.size()), n_chunks = (n + chunk - 1) / chunk;
+void DirectPoints::solve_some(const std::vector<int>& alone, const std::vector<double>& motions, int most_threads) {
+  const int n = static_cast<int>(alone.size()), n_chunks = (n + chunk - 1) / chunk;
   parallel_for(
       n_chunks,
       [&](int c) {
-        for (int i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) solve_alone(points_[alone_[i]], motions);
+        for (int i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) solve_alone(points_[alone[i]], motions);
       },
       Schedule::evenly, n_chunks > 4 ? most_threads : 1);
+}
+
+void DirectPoints::solve_some_clusters(const std::vector<int>& clusters, const std::vector<double>& motions,
+                                       int most_threads) {
   const size_t n_shared = points_.size() - alone_.size();
   parallel_for(
-      static_cast<int>(clusters_.size()), [&](int c) { solve_cluster(clusters_[c], motions); }, Schedule::as_free,
+      static_cast<int>(clusters.size()),
+      [&](int i) { solve_cluster(clusters_[clusters[static_cast<size_t>(i)]], motions); }, Schedule::as_free,
       n_shared > 4 * chunk ? most_threads : 1);
+}
+
+void DirectPoints::solve(const std::vector<double>& motions, int most_threads) {
+  solve_some(points_in_turn_[0], motions, most_threads);
+  if (largest_of_all_.is_begun()) largest_force_ = largest_of_all_.end();
+  solve_some_clusters(clusters_in_turn_[0], motions, most_threads);
+  hear();
+  solve_some(points_in_turn_[1], motions, most_threads);
+  solve_some_clusters(clusters_in_turn_[1], motions, most_threads);
   for (size_t c = 0; c < clusters_.size(); ++c) {
     n_sweeps_ += swept_[c].sweeps;
     most_sweeps_ = std::max(most_sweeps_, swept_[c].sweeps);
@@ -237,9 +251,26 @@ void DirectPoints::solve(const std::vector<double>& motions, int most_threads) {
     for (const int i : clusters_[c])
       largest_force_ = std::max(largest_force_, points_[i].record.force.cwiseAbs().maxCoeff());
   }
-  // Rounds over points that share nodes end by it, everywhere.
-  if (has_clusters_) largest_force_ = ranks::largest(largest_force_);
+  // Rounds over points that share nodes end by it, everywhere: in the next increment.
+  if (has_clusters_) largest_of_all_.begin(largest_force_);
   interval_ += increment_.dt;
+}
+
+double DirectPoints::take_change() {
+  if (largest_of_all_.is_begun()) largest_force_ = largest_of_all_.end();
+  return ranks::largest(std::exchange(largest_change_, 0.0));
+}
+
+// Those that wait for other ranks come last.
+void DirectPoints::split_points() {
+  const auto waits = [&](int i) {
+    for (int p = points_[i].side_1.first; p < points_[i].side_2.end; ++p)
+      if (!ports_[p].piece) return true;
+    return false;
+  };
+  for (const int i : alone_) points_in_turn_[waits(i)].push_back(i);
+  for (size_t c = 0; c < clusters_.size(); ++c)
+    clusters_in_turn_[std::any_of(clusters_[c].begin(), clusters_[c].end(), waits)].push_back(static_cast<int>(c));
 }
 
 }  // namespace dygita

@@ -18,8 +18,12 @@ class DirectPoints {
 
   // A time step of the deck begins: what has let go by its middle has let go for all of it.
   void begin_interval(int increment);
-  // Forces and velocities of one increment, the pieces having begun it. motions: velocities at its end.
-  // most_threads: as parallel_for has them.
+  // Pieces whose nodes other ranks solve points at: once these have begun the increment, `tell` sends their motions.
+  const std::vector<int>& border_pieces() const { return border_pieces_; }
+  void tell();
+  // Forces and velocities of one increment, all pieces having begun it, and told. motions: velocities at its end.
+  // most_threads: as parallel_for has them. Points that touch no other rank's nodes come first, while motions are on
+  // their way.
   void solve(const std::vector<double>& motions, int most_threads);
   // Fields and works of the time step of the deck into the state and the energies of the pieces that book them: forces
   // are means over its increments. On several ranks of the points that are kept here.
@@ -27,7 +31,7 @@ class DirectPoints {
 
   // Largest part of a force, relative to the largest, that points sharing nodes have left to each other since this was
   // last asked.
-  double take_change() { return ranks::largest(std::exchange(largest_change_, 0.0)); }
+  double take_change();
   // Rounds over points that share nodes, of all increments, and of the worst.
   long n_sweeps() const { return n_sweeps_; }
   int most_sweeps() const { return most_sweeps_; }
@@ -88,8 +92,11 @@ class DirectPoints {
   void find_motions(const StepModel& model);
   void find_near();
   void keep_near(const std::vector<char>& is_near);
-  void complete_motions();
+  void hear();
   void complete_starts();
+  void split_points();
+  void solve_some(const std::vector<int>& alone, const std::vector<double>& motions, int most_threads);
+  void solve_some_clusters(const std::vector<int>& clusters, const std::vector<double>& motions, int most_threads);
   void book(const OwnPoint& p, IncrementEnergy& energy);
   void add_point(const StepModel& model, int index, const State& start);
   OwnPort make_port(const StepModel& model, const Point& point, int index);
@@ -132,8 +139,11 @@ class DirectPoints {
   std::vector<Share> shares_;
   std::vector<OwnPoint> points_;  // those that are kept here
   std::vector<int> released_;     // surfaces with points in closed form, on any rank, which a load may release
+  // Points, and sets of points that take turns: those on nodes that are here, then the others.
   std::vector<int> alone_;
   std::vector<std::vector<int>> clusters_;
+  std::array<std::vector<int>, 2> points_in_turn_, clusters_in_turn_;
+  std::vector<int> border_pieces_;
   struct Swept {
     double change = 0.0;
     int sweeps = 0;
@@ -142,6 +152,7 @@ class DirectPoints {
   std::vector<Swept> swept_;  // of each cluster in the last increment
   double interval_ = 0.0;
   int i_interval_ = 0;
+  ranks::LaterLargest largest_of_all_;
   double largest_force_ = 0.0, largest_change_ = 0.0, gap_difference_ = 0.0;
   long n_sweeps_ = 0;
   int most_sweeps_ = 0;

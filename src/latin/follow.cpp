@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "latin/step_run.hpp"
-#include "solution/all_pieces.hpp"
 
 namespace dygita {
 
@@ -19,12 +18,12 @@ TrailEntry StepRun::take_entry() {
 
 void StepRun::leave(const Best& best, bool is_solved) {
   TrailEntry entry;
-  entry.q = model_.near.assembled_on_first(at_.q);
-  if (at_.uncorrected.size() > 0) entry.uncorrected = model_.near.assembled_on_first(at_.uncorrected);
+  entry.runs = model_.near.kept_runs();
+  entry.q = model_.near.kept_part(at_.q);
+  if (at_.uncorrected.size() > 0) entry.uncorrected = model_.near.kept_part(at_.uncorrected);
   if (local_.has_preloads()) entry.shortening = local_.preload_figures().shortening;
-  for (const double moved :
-       of_all_pieces(*model_.cut, 1, [&](int i, double*to) { *to = model_.pieces[i]->is_moved(); }))
-    entry.moved.push_back(moved != 0.0);
+  entry.moved.assign(model_.pieces.size(), 0);
+  for (const int i : model_.here) entry.moved[static_cast<size_t>(i)] = model_.pieces[i]->is_moved();
   entry.eta = best.outcome.eta;
   entry.size = best.outcome.size;
   entry.force_size = best.outcome.force_size;
@@ -78,7 +77,8 @@ StepRun::Best StepRun::go_over_again(const TrailEntry& entry, int increment, con
 void StepRun::leave_window(const std::vector<Vec>& q, int iterations, double eta, const std::optional<Missed>& missed) {
   for (const Vec& of_step : q) {
     TrailEntry entry;
-    entry.q = model_.near.assembled_on_first(of_step);
+    entry.runs = model_.near.kept_runs();
+    entry.q = model_.near.kept_part(of_step);
     entry.eta = eta;
     entry.iterations = iterations;
     if (&of_step == &q.front()) entry.missed = missed;

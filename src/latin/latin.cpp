@@ -11,20 +11,28 @@
 namespace dygita {
 
 // Linear stage: velocities at the interfaces for data q, every piece by itself.
-void StepRun::linear_stage(const Vec& q, Vec& velocity) {
+void StepRun::linear_stage(const Vec& q, Vec& velocity, bool is_told) {
   const Stopwatch watch(books_.seconds.interface);
   if (assembled_) return assembled_->linear_stage(q, velocity);
-  for_each_piece([&](Piece& piece, int i) {
+  const auto answer = [&](Piece& piece, int i) {
     piece.interface_velocity(q.segment(model_.near.start(i), piece.n_rows()),
                              velocity.segment(model_.near.start(i), piece.n_rows()));
-  });
+  };
+  for_each_piece(iterating_.border, answer);
+  if (is_told) model_.near.begin({q.data(), velocity.data()});
+  for_each_piece(iterating_.interior, answer);
 }
 
 // Local stage: the law at every interface point, with what other ranks have at theirs; image = F_hat + k W_hat.
-IndicatorSums StepRun::local_stage(Vec& velocity, Vec& q, Vec& image) {
+IndicatorSums StepRun::local_stage(Vec& velocity, Vec& q, Vec& image, bool is_told, Anderson* also) {
   const Stopwatch watch(books_.seconds.local);
-  model_.near.exchange({q.data(), velocity.data()});
-  return local_.run(velocity, q, image);
+  if (!is_told) model_.near.begin({q.data(), velocity.data()});
+  local_.run_inner(velocity, q, image);
+  model_.near.end({q.data(), velocity.data()});
+  local_.run_outer(velocity, q, image);
+  if (!also) return local_.measure(velocity, q, image);
+  const InterfaceSums::ToCome first = also->first_sums(own(q), own(image));
+  return local_.measure(velocity, q, image, first, [&](const double* sums) { also->tell_first_sums(sums, first.n); });
 }
 
 // Balance of tied substructures against their rigid motions; velocities stay the answer to q.
@@ -42,10 +50,12 @@ void StepRun::iterate(int increment, const Goal& goal, Best& best) {
   at_.uncorrected.resize(0);
   best.outcome = {};
   Persistence persistence(goal.limit);
+  Anderson* const also = model_.near.is_all() ? nullptr : &anderson_;
   for (int i = 0;; ++i) {
-    linear_stage(at_.q, at_.velocity);
-    if (i > 0) coarse_correction(at_.q, at_.velocity);  // what is in balance to the tolerance is left as it is
-    at_.sums = local_stage(at_.velocity, at_.q, at_.image);
+    const bool is_corrected = i > 0 && !coarse_.is_empty();  // what is in balance to the tolerance is left as it is
+    linear_stage(at_.q, at_.velocity, !is_corrected);
+    if (is_corrected) coarse_correction(at_.q, at_.velocity);
+    at_.sums = local_stage(at_.velocity, at_.q, at_.image, !is_corrected, also);
     const Outcome outcome = indicator_.measure(at_.sums);
     ++best.iterations;
     check_finite(outcome, increment);
@@ -139,8 +149,8 @@ StepRun::Best StepRun::answer(int increment, const Goal& goal, bool goes_over_ag
   } else {  // not there: the best there was is what is shown
     at_.q = best.q;
     at_.uncorrected.resize(0);
-    linear_stage(at_.q, at_.velocity);
-    at_.sums = local_stage(at_.velocity, at_.q, at_.image);
+    linear_stage(at_.q, at_.velocity, true);
+    at_.sums = local_stage(at_.velocity, at_.q, at_.image, true);
   }
   indicator_.accept(best.outcome);
   if (files_.trail && !goes_over_again) leave(best, is_solved);
@@ -164,7 +174,7 @@ void StepRun::solve_increment(int increment) {
 
 void StepRun::run() {
   const int n = model_.step->n_increments();
-  files_.kept.begin_step();
+  files_.kept.begin_step(model_.near.kept_runs());
   files_.observer.begin_step(instant(-1, 0, 0.0));
   Progress progress(model_.step->name, n);
   for (int i = 0; i < n && !ranks::any(interrupt_requested()); i += settings_.window) {

@@ -185,23 +185,32 @@ void LocalStage::run_point(size_t i_point, const Vec& velocity, const Vec& q, Ve
   scatter(point.first_port_2, point.end_port, side_2, -state.force, velocity, q, image);
 }
 
-IndicatorSums LocalStage::run(const Vec& velocity, const Vec& q, Vec& image) {
-  image.resize(q.size());
-  for (size_t i = 0; i < preloads_.size(); ++i) shorten(static_cast<int>(i), velocity, q);
+void LocalStage::run_points(const std::vector<int>& points, const Vec& velocity, const Vec& q, Vec& image) {
   constexpr int chunk = 128;
-  const std::vector<int>& points = model_->near.points();
   const int n = static_cast<int>(points.size()), n_chunks = (n + chunk - 1) / chunk;
   const auto run_chunk = [&](int c) {
     for (int i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) run_point(points[i], velocity, q, image);
   };
   parallel_for(n_chunks, run_chunk, Schedule::evenly, n_chunks > 8 ? 0 : 1);
-  return measure(velocity, q, image);
+}
+
+// Shortenings need all points of their interface.
+void LocalStage::run_inner(const Vec& velocity, const Vec& q, Vec& image) {
+  image.resize(q.size());
+  if (preloads_.empty()) run_points(model_->near.inner_points(), velocity, q, image);
+}
+
+void LocalStage::run_outer(const Vec& velocity, const Vec& q, Vec& image) {
+  for (size_t i = 0; i < preloads_.size(); ++i) shorten(static_cast<int>(i), velocity, q);
+  if (!preloads_.empty()) run_points(model_->near.inner_points(), velocity, q, image);
+  run_points(model_->near.outer_points(), velocity, q, image);
 }
 
 // Both answers are on one line through (F, V) of slope -k: q and image tell how far apart, F - F_hat = (q - image)/2.
-IndicatorSums LocalStage::measure(const Vec& velocity, const Vec& q, const Vec& image) {
+IndicatorSums LocalStage::measure(const Vec& velocity, const Vec& q, const Vec& image,
+                                  const InterfaceSums::ToCome& also, const std::function<void(const double*)>& hear) {
   enum { distance, force, motion, n_sums };
-  const std::vector<double>& sums = sums_.add(n_sums, [&](Eigen::Index first, Eigen::Index n, double* to) {
+  const std::vector<double>& sums = sums_.add(n_sums + also.n, [&](Eigen::Index first, Eigen::Index n, double* to) {
     for (Eigen::Index i = first; i < first + n; ++i) {
       const double k = k_[i], inverse = 1.0 / k, change = 0.5 * (q[i] - image[i]);
       const double f = q[i] - k * velocity[i], f_hat = f - change, w_hat = velocity[i] - inverse * change;
@@ -209,7 +218,9 @@ IndicatorSums LocalStage::measure(const Vec& velocity, const Vec& q, const Vec& 
       to[force] += 0.5 * inverse * (f * f + f_hat * f_hat);
       to[motion] += 0.5 * k * (velocity[i] * velocity[i] + w_hat * w_hat);
     }
+    if (also.n > 0) also.share(first, n, to + n_sums);
   });
+  if (also.n > 0) hear(sums.data() + n_sums);
   return {sums[distance], sums[distance], sums[force], sums[motion]};
 }
 

@@ -38,10 +38,21 @@ class LocalStage {
   // Jumps come from the substructures' displacements at the start of a window; inside a window of several steps from
   // W_hat, since the displacements of an unfinished iteration would be answered with a velocity of jump / dt.
   void begin(int increment, const std::vector<double>& motions, bool starts_window);
-  // From velocities V and data q of the linear stage: F_hat, W_hat and their q (the fixed-point image). Collective,
-  // unless every rank has all pieces.
-  IndicatorSums run(const Vec& velocity, const Vec& q, Vec& image);
-  // Accepts the fields of the last `run`: the laws move on.
+  // From velocities V and data q of the linear stage: F_hat, W_hat and their q (the fixed-point image). First at points
+  // whose unknowns are all here, while others' are on their way, then at the rest.
+  void run_inner(const Vec& velocity, const Vec& q, Vec& image);
+  void run_outer(const Vec& velocity, const Vec& q, Vec& image);
+  // Both, and their distance, where all unknowns are here.
+  IndicatorSums run(const Vec& velocity, const Vec& q, Vec& image) {
+    run_inner(velocity, q, image);
+    run_outer(velocity, q, image);
+    return measure(velocity, q, image);
+  }
+  // How far both answers are apart; with it sums of the own unknowns that somebody else needs, which are told to
+  // hear(sums). Collective, unless every rank has all pieces.
+  IndicatorSums measure(const Vec& velocity, const Vec& q, const Vec& image, const InterfaceSums::ToCome& also = {},
+                        const std::function<void(const double*)>& hear = nullptr);
+  // Accepts the fields of the last iteration: the laws move on.
   void accept() { accept(nullptr, nullptr); }
   // The same; forces, gaps, slips and works go into the state, energies of the points are added to those of the pieces
   // that they are booked with (one each).
@@ -51,15 +62,15 @@ class LocalStage {
   bool has_preloads() const { return !preloads_.empty(); }
   // Prescribes the shortenings of all preloads (m) from now on; empty: they are found again.
   void prescribe_shortenings(Vec d) { prescribed_ = std::move(d); }
-  PreloadFigures preload_figures() const;  // of the last `run`
+  PreloadFigures preload_figures() const;  // of the last iteration
   // Force of the laws on held directions of a piece's nodes (3 x n_nodes, N).
   Points held_force(int piece) const;
-  // Normal trials (m/s) of the last `run`, one a point; and those that limit tangential forces from now on, empty: each
-  // point's own.
+  // Normal trials (m/s) of the last iteration, one a point; and those that limit tangential forces from now on, empty:
+  // each point's own.
   std::vector<double> normal_trials() const;
   void limit_friction(std::vector<double> trials) { limits_ = std::move(trials); }
-  // How the forces of the last `run` answer to the velocities (manual, eq. U1-U3). sticks: what touches does not slide,
-  // as where nothing is known yet. least: velocity (m/s; static m) below which differences tell nothing.
+  // How the forces of the last iteration answer to the velocities (manual, eq. U1-U3). sticks: what touches does not
+  // slide, as where nothing is known yet. least: velocity (m/s; static m) below which differences tell nothing.
   Tangents tangents(bool sticks, double least, const TangentBounds& bounds) const;
 
  private:
@@ -80,7 +91,7 @@ class LocalStage {
   };
 
   void accept(State* state, std::vector<IncrementEnergy>* energy);
-  IndicatorSums measure(const Vec& velocity, const Vec& q, const Vec& image);
+  void run_points(const std::vector<int>& points, const Vec& velocity, const Vec& q, Vec& image);
   Side gather(int first, int end, const Vec& velocity, const Vec& q) const;
   void scatter(int first, int end, const Side& side, const Vec3& force, const Vec& velocity, const Vec& q, Vec& image);
   // The trial of a point with a law, from both its sides.

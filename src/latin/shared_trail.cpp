@@ -70,7 +70,8 @@ long SharedTrail::n_left() const {
 }
 
 TrailEntry SharedTrail::take() {
-  return entry_of(ranks::shared(kept_ ? numbers_of(kept_->take()) : std::vector<double>()));
+  const TrailEntry entry = kept_ ? kept_->take() : TrailEntry();
+  return entry_of(ranks::shared(ranks::is_first() ? numbers_of(entry) : std::vector<double>()));
 }
 
 void SharedTrail::leave(const TrailEntry& entry) {

@@ -1,4 +1,4 @@
-// The trail of several ranks: rank 0 keeps it, all go over it.
+// The trail of several ranks: each keeps its part, rank 0 reads all of them, and all go over it.
 #pragma once
 
 #include "solution/trail.hpp"
@@ -8,7 +8,7 @@ namespace dygita {
 // Collective, but for `leave` and `note_difference`.
 class SharedTrail final : public Trail {
  public:
-  // kept: rank 0's; null on the others.
+  // kept: rank 0's, or the part of another; null: it keeps none.
   explicit SharedTrail(Trail* kept) : kept_(kept) {}
   bool leads(long n) override;
   long n_left() const override;

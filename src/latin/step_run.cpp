@@ -69,6 +69,14 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
   std::stable_sort(largest_first_.begin(), largest_first_.end(), [&](int a, int b) {
     return model.pieces[a]->node_masses().size() > model.pieces[b]->node_masses().size();
   });
+  const auto in_turn = [&](const std::vector<int>& border) {
+    InTurn turns;
+    for (const int i : largest_first_)
+      (std::find(border.begin(), border.end(), i) != border.end() ? turns.border : turns.interior).push_back(i);
+    return turns;
+  };
+  telling_ = in_turn(direct_.border_pieces());
+  iterating_ = in_turn(model.near.border_pieces());
 }
 
 // The first iteration only hears what the kept fields are worth.
@@ -161,8 +169,8 @@ void StepRun::note_missed(const Missed& missed) {
   if (all.size() < 1000) all.push_back(missed);
 }
 
-// The first rank has the fields of all pieces, the others know of how many increments.
-void StepRun::keep(const Vec& q) { files_.kept.append(model_.near.assembled_on_first(q)); }
+// Each rank those of its pieces.
+void StepRun::keep(const Vec& q) { files_.kept.append(model_.near.kept_part(q)); }
 
 double StepRun::largest_velocity() const {
   const int n = model_.near.n_own();

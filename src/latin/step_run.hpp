@@ -68,9 +68,11 @@ class StepRun {
     Vec q, shortening;
   };
 
-  // The stages (latin.cpp): q gives velocity; velocity and q give the image and its distance.
-  void linear_stage(const Vec& q, Vec& velocity);
-  IndicatorSums local_stage(Vec& velocity, Vec& q, Vec& image);
+  // The stages (latin.cpp): q gives velocity; velocity and q give the image and its distance. Neighbours are told both
+  // in between: as soon as the pieces that they hear of have answered, where is_told. also: an acceleration whose first
+  // sums come with the distance.
+  void linear_stage(const Vec& q, Vec& velocity, bool is_told = false);
+  IndicatorSums local_stage(Vec& velocity, Vec& q, Vec& image, bool is_told = false, Anderson* also = nullptr);
   void coarse_correction(Vec& q, Vec& velocity);
   void iterate(int increment, const Goal& goal, Best& best);
   // The same with all pieces in one system.
@@ -134,16 +136,20 @@ class StepRun {
   std::string describe_progress() const;
   Instant instant(int increment, int iterations, double eta) const;
 
-  // f on every piece that is here; on every group of pieces that are solved together.
+  // f on some of the pieces that are here; on all of them; on every group of pieces that are solved together.
   template <class Function>
-  void for_each_piece(Function&& f) {
+  void for_each_piece(const std::vector<int>& pieces, Function&& f) {
     parallel_for(
-        static_cast<int>(largest_first_.size()),
+        static_cast<int>(pieces.size()),
         [&](int at) {
-          const PieceClock clock(books_.piece_seconds, {largest_first_[at]});
-          f(*model_.pieces[largest_first_[at]], largest_first_[at]);
+          const PieceClock clock(books_.piece_seconds, {pieces[at]});
+          f(*model_.pieces[pieces[at]], pieces[at]);
         },
         Schedule::as_free, piece_threads_.threads());
+  }
+  template <class Function>
+  void for_each_piece(Function&& f) {
+    for_each_piece(largest_first_, f);
   }
   template <class Function>
   void for_each_group(Function&& f) {
@@ -192,8 +198,13 @@ class StepRun {
   std::optional<DistantPoints> distant_;  // where there are several ranks
   std::vector<ExplicitPiece*> explicit_;  // null: implicit
   std::vector<int> largest_first_;        // pieces that are solved here
-  bool is_all_direct_ = false;            // of the pieces here and all points: nothing is iterated
-  ThreadChoice piece_threads_;            // in loops over pieces and points in closed form
+  // Of these, those that other ranks hear of, and the rest: in explicit increments, and in iterations.
+  struct InTurn {
+    std::vector<int> border, interior;
+  };
+  InTurn telling_, iterating_;
+  bool is_all_direct_ = false;  // of the pieces here and all points: nothing is iterated
+  ThreadChoice piece_threads_;  // in loops over pieces and points in closed form
   Iterate at_;
   // Acceleration, and when to stop.
   WarmStart warm_start_;

@@ -12,12 +12,15 @@ void StepRun::begin_substep(int increment, int substep) {
   const std::vector<double> motions = model_.motion_velocities(substep);
   model_.loads->evaluate_mean(substep * model_.scheme.dt, (substep + 1) * model_.scheme.dt);
   const double quiet = indicator_.quiet(settings_.tolerance);
-  for_each_piece([&](Piece& piece, int i) {
+  const auto begin = [&](Piece& piece, int i) {
     if (explicit_[i])
       explicit_[i]->begin(model_.loads->values(), motions);
     else
       piece.begin(model_.piece_force(i, files_.state), motions, quiet);
-  });
+  };
+  for_each_piece(telling_.border, begin);
+  direct_.tell();
+  for_each_piece(telling_.interior, begin);
   if (model_.n_q() > 0) {
     for_each_group([&](const std::vector<Piece*>& group, const std::vector<int>&) { group.front()->forward(group); });
     local_.begin(increment, motions, true);
@@ -36,10 +39,13 @@ void StepRun::run_through(int increment) {
     if (begins) model_.loads->evaluate_mean(substep * model_.scheme.dt, (substep + 1) * model_.scheme.dt);
     {
       const Stopwatch watch(books_.seconds.forward);
-      for_each_piece([&](Piece& piece, int at) {
+      const auto pass = [&](Piece& piece, int at) {
         if (i > 0) finish_piece(piece, at);
         if (begins) explicit_[at]->begin(model_.loads->values(), motions);
-      });
+      };
+      for_each_piece(telling_.border, pass);
+      if (begins) direct_.tell();
+      for_each_piece(telling_.interior, pass);
     }
     if (!begins) break;
     const Stopwatch laws(books_.seconds.local);

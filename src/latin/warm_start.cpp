@@ -6,10 +6,27 @@ namespace dygita {
 
 bool OwnFields::read(size_t increment, Eigen::Index n_own, Vec& q) const {
   if (!near || ranks::is_alone()) return fields->read(i_step, increment, n_own, q);
+  if (i_step >= fields->n_steps()) return false;
+  const AssembledRuns& runs = fields->runs(i_step);
   Vec kept;
-  const bool is_kept = ranks::is_first() && fields->read(i_step, increment, near->n_assembled(), kept);
-  if (!ranks::any(is_kept)) return false;
-  const std::vector<double> all = ranks::shared(std::vector<double>(kept.begin(), kept.end()));
+  if (runs.is_whole()) {
+    const bool is_kept = ranks::is_first() && fields->read(i_step, increment, near->n_assembled(), kept);
+    if (!ranks::any(is_kept)) return false;
+    const std::vector<double> all = ranks::shared(std::vector<double>(kept.begin(), kept.end()));
+    q = near->part(Eigen::Map<const Vec>(all.data(), static_cast<Eigen::Index>(all.size()))).head(n_own);
+    return true;
+  }
+  const bool is_kept = runs.n_all == near->n_assembled() && increment < fields->n_increments(i_step) &&
+                       fields->read(i_step, increment, fields->size(i_step, increment), kept);
+  if (ranks::any(!is_kept)) return false;
+  if (!ranks::any(runs != near->kept_runs() || near->is_all())) {
+    q = kept;
+    return true;
+  }
+  // Pieces are on other ranks now: each puts in what it has, where the others have zero.
+  Vec mine = Vec::Zero(runs.n_all);
+  runs.place(kept, mine);
+  const std::vector<double> all = ranks::sums({mine.begin(), mine.end()});
   q = near->part(Eigen::Map<const Vec>(all.data(), static_cast<Eigen::Index>(all.size()))).head(n_own);
   return true;
 }

@@ -8,7 +8,7 @@
 
 namespace dygita {
 
-// A step's fields of another case, of which the first rank has all and each takes those of its pieces.
+// A step's fields of another case, of which each rank takes those of its pieces.
 struct OwnFields {
   const InterfaceFields* fields;  // null: none
   size_t i_step;

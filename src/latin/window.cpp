@@ -24,8 +24,8 @@ Outcome StepRun::sweep(int first, std::vector<Vec>& q, std::vector<Vec>& image) 
   for (size_t i = 0; i < q.size(); ++i) {
     const int increment = first + static_cast<int>(i);
     begin_increment(increment, i == 0);
-    linear_stage(q[i], at_.velocity);
-    const Outcome outcome = indicator_.measure(local_stage(at_.velocity, q[i], image[i]));
+    linear_stage(q[i], at_.velocity, true);
+    const Outcome outcome = indicator_.measure(local_stage(at_.velocity, q[i], image[i], true));
     indicator_.accept(outcome);
     worst.eta = std::max(worst.eta, outcome.eta);
     check_finite(outcome, increment);
@@ -80,8 +80,8 @@ void StepRun::solve_window(int first, int last) {
 void StepRun::replay(int increment, const Vec& q, bool starts_window, int iterations, double eta) {
   begin_increment(increment, starts_window);
   at_.q = q;
-  linear_stage(at_.q, at_.velocity);
-  at_.sums = local_stage(at_.velocity, at_.q, at_.image);
+  linear_stage(at_.q, at_.velocity, true);
+  at_.sums = local_stage(at_.velocity, at_.q, at_.image, true);
   indicator_.accept(indicator_.measure(at_.sums));
   finish_increment(at_.q);
   accept_increment(increment, iterations, eta);

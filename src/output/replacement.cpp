@@ -64,7 +64,7 @@ void Replacement::commit(const std::string& dropped) {
   { const Manifest removes_what_it_lists(work_); }
   std::error_code error;
   fs::remove(work_ / Manifest::file_name, error);
-  if (!dropped.empty()) fs::remove(work_ / dropped, error);
+  if (!dropped.empty()) fs::remove_all(work_ / dropped, error), fs::remove_all(work_ / (dropped + ".parts"), error);
   if (carry_over(work_, directory_)) fs::remove_all(work_, error);
 }
 

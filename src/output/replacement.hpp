@@ -19,7 +19,8 @@ class Replacement {
   const std::filesystem::path& work() const { return work_; }
 
   // The new results take the place of the old ones in one move; files there that no run of ours wrote stay. Throws
-  // InputError with the system's reason; then the old ones are still there. The old one of `dropped` does not stay.
+  // InputError with the system's reason; then the old ones are still there. The old one of `dropped`, and of
+  // `dropped`.parts, does not stay.
   void commit(const std::string& dropped = "");
 
  private:

@@ -296,17 +296,23 @@ Neighbours::Neighbours(const std::vector<int>& owner, const std::vector<std::vec
   }
 }
 
+struct Neighbours::Flight {
+  std::vector<MPI_Request> requests;
+};
+
 // Of fields that lie in one array, width numbers at each index, or in several, one number at each.
 template <class Place>
-void Neighbours::pass(int n_blocks, int width, Place&& place) const {
-  std::vector<MPI_Request> requests;
+void Neighbours::send(int n_blocks, int width, Place&& place) const {
+  if (peers_.empty()) return;
+  CHECK(!flight_, "what was sent before has been received");
+  flight_ = std::make_shared<Flight>();
   for (Peer& peer : peers_) {
     const auto n = static_cast<size_t>(n_blocks) * static_cast<size_t>(width);
     peer.in.resize(n * peer.receives.size());
     peer.out.resize(n * peer.sends.size());
     if (peer.in.empty()) continue;
     MPI_Irecv(peer.in.data(), as_count(peer.in.size()), MPI_DOUBLE, peer.rank, passed, MPI_COMM_WORLD,
-              &requests.emplace_back());
+              &flight_->requests.emplace_back());
   }
   for (Peer& peer : peers_) {
     if (peer.out.empty()) continue;
@@ -314,10 +320,17 @@ void Neighbours::pass(int n_blocks, int width, Place&& place) const {
     for (int block = 0; block < n_blocks; ++block)
       for (const int i : peer.sends) to = std::copy_n(place(block, i), width, to);
     MPI_Isend(peer.out.data(), as_count(peer.out.size()), MPI_DOUBLE, peer.rank, passed, MPI_COMM_WORLD,
-              &requests.emplace_back());
+              &flight_->requests.emplace_back());
     note_sent(neighbours, 1, 8.0 * peer.out.size());
   }
-  for (MPI_Request& request : requests) wait(request);
+}
+
+template <class Place>
+void Neighbours::receive(int n_blocks, int width, Place&& place) const {
+  if (peers_.empty()) return;
+  CHECK(flight_ != nullptr, "what is received has been sent");
+  for (MPI_Request& request : flight_->requests) wait(request);
+  flight_.reset();
   for (const Peer& peer : peers_) {
     const double* from = peer.in.data();
     for (int block = 0; block < n_blocks; ++block)
@@ -328,12 +341,51 @@ void Neighbours::pass(int n_blocks, int width, Place&& place) const {
   }
 }
 
+void Neighbours::begin(const double* values) const {
+  send(1, width_, [&](int, int i) { return values + static_cast<std::ptrdiff_t>(width_) * i; });
+}
+
+void Neighbours::end(double* values) const {
+  receive(1, width_, [&](int, int i) { return values + static_cast<std::ptrdiff_t>(width_) * i; });
+}
+
+void Neighbours::begin(std::initializer_list<const double*> fields) const {
+  send(static_cast<int>(fields.size()), 1, [&](int field, int i) { return fields.begin()[field] + i; });
+}
+
+void Neighbours::end(std::initializer_list<double*> fields) const {
+  receive(static_cast<int>(fields.size()), 1, [&](int field, int i) { return fields.begin()[field] + i; });
+}
+
 void Neighbours::exchange(double* values) const {
-  pass(1, width_, [&](int, int i) { return values + static_cast<std::ptrdiff_t>(width_) * i; });
+  begin(values);
+  end(values);
 }
 
 void Neighbours::exchange(std::initializer_list<double*> fields) const {
-  pass(static_cast<int>(fields.size()), 1, [&](int field, int i) { return fields.begin()[field] + i; });
+  send(static_cast<int>(fields.size()), 1, [&](int field, int i) { return fields.begin()[field] + i; });
+  end(fields);
+}
+
+struct LaterLargest::Flight {
+  double own, of_all;
+  MPI_Request request;
+};
+
+void LaterLargest::begin(double value) {
+  CHECK(!flight_, "one at a time");
+  flight_ = std::make_shared<Flight>(Flight{value, value, MPI_REQUEST_NULL});
+  if (n_ranks == 1) return;
+  MPI_Iallreduce(&flight_->own, &flight_->of_all, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD, &flight_->request);
+  note_sent(everybody, 1, 8);
+}
+
+double LaterLargest::end() {
+  CHECK(flight_ != nullptr, "it was asked for");
+  if (n_ranks > 1) wait(flight_->request);
+  const double of_all = flight_->of_all;
+  flight_.reset();
+  return of_all;
 }
 
 std::vector<double> ask(int rank, const Question& question, std::span<const double> with) {

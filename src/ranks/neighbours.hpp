@@ -2,6 +2,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <memory>
 #include <vector>
 
 namespace dygita::ranks {
@@ -15,6 +16,12 @@ class Neighbours {
   void exchange(double* values) const;
   // The same of several fields of one number a value, in one message.
   void exchange(std::initializer_list<double*> fields) const;
+  // Each of them in two halves, between which the caller computes what needs nothing of the others. What is sent is
+  // read by the first, what is received is written by the second.
+  void begin(const double* values) const;
+  void end(double* values) const;
+  void begin(std::initializer_list<const double*> fields) const;
+  void end(std::initializer_list<double*> fields) const;
   bool is_empty() const { return peers_.empty(); }
 
  private:
@@ -24,10 +31,14 @@ class Neighbours {
     std::vector<double> out, in;
   };
   template <class Place>
-  void pass(int n_blocks, int width, Place&& place) const;
+  void send(int n_blocks, int width, Place&& place) const;
+  template <class Place>
+  void receive(int n_blocks, int width, Place&& place) const;
 
+  struct Flight;  // messages that are on their way
   int width_ = 0;
   mutable std::vector<Peer> peers_;
+  mutable std::shared_ptr<Flight> flight_;
 };
 
 }  // namespace dygita::ranks

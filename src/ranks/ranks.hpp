@@ -7,6 +7,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,6 +43,17 @@ std::vector<std::vector<int>> swapped(const std::vector<std::vector<int>>& to_ea
 std::vector<double> to_first(int owner, std::vector<double> values);
 double largest(double value);
 bool any(bool is_so);
+// `largest` in two halves, between which the caller goes on.
+class LaterLargest {
+ public:
+  void begin(double value);
+  bool is_begun() const { return flight_ != nullptr; }
+  double end();
+
+ private:
+  struct Flight;
+  std::shared_ptr<Flight> flight_;
+};
 // To round-off: for figures.
 std::vector<double> sums(const std::vector<double>& values);
 

@@ -8,9 +8,10 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "base/fnv1a.hpp"
 #include "base/log.hpp"
 #include "base/plain_file.hpp"
+#include "ranks/ranks.hpp"
+#include "result/record_chain.hpp"
 #include "result/state_coder.hpp"
 
 namespace dygita {
@@ -20,14 +21,6 @@ namespace {
 constexpr char magic[] = "DYGITACP";  // 8 bytes
 constexpr std::uint32_t format_version = 1, byte_order = 0x01020304;
 constexpr size_t buffer_bytes = size_t{1} << 20;
-constexpr std::uint64_t largest_record = std::uint64_t{1} << 40;
-
-std::uint64_t checksum(std::uint64_t before, const std::string& bytes) {
-  Checksum sum;
-  sum.add(&before, sizeof before);
-  sum.add(bytes.data(), bytes.size());
-  return sum.value();
-}
 
 template <class Coder>
 void code_vector(Coder& code, Vec& vector) {
@@ -51,21 +44,36 @@ void code_missed(Coder& code, Missed& missed) {
 }
 
 template <class Coder>
+void code_runs(Coder& code, TrailEntry& entry) {
+  code_number(code, entry.runs.n_all);
+  code_list(code, entry.runs.runs, [&](auto& run) {
+    auto first = run.first, n = run.n;
+    code_number(code, first), code_number(code, n);
+    if constexpr (std::is_same_v<Coder, Decoder>) run = {first, n};
+  });
+  if constexpr (std::is_same_v<Coder, Decoder>)
+    if (!entry.runs.fit(entry.q.size()) || (entry.uncorrected.size() > 0 && entry.uncorrected.size() != entry.q.size()))
+      throw InputError("an entry does not fit together");
+}
+
+template <class Coder>
 void code_entry(Coder& code, TrailEntry& entry) {
   code_vector(code, entry.q), code_vector(code, entry.uncorrected), code_vector(code, entry.shortening);
   std::string moved(entry.moved.begin(), entry.moved.end());
   code(moved);
   entry.moved.assign(moved.begin(), moved.end());
   code(entry.eta), code(entry.size), code(entry.force_size);
-  int flags = (entry.is_solved ? 1 : 0) + (entry.is_assembled ? 2 : 0);
+  int flags = (entry.is_solved ? 1 : 0) + (entry.is_assembled ? 2 : 0) + (entry.runs.is_whole() ? 0 : 4);
   code_number(code, entry.iterations), code_number(code, flags);
   entry.is_solved = (flags & 1) != 0;
   entry.is_assembled = (flags & 2) != 0;
   bool is_missed = entry.missed.has_value();
   code_number(code, is_missed);
-  if (!is_missed) return;
-  if (!entry.missed) entry.missed.emplace();
-  code_missed(code, *entry.missed);
+  if (is_missed) {
+    if (!entry.missed) entry.missed.emplace();
+    code_missed(code, *entry.missed);
+  }
+  if ((flags & 4) != 0) code_runs(code, entry);
 }
 
 template <class Coder>
@@ -77,11 +85,6 @@ void code_identity(Coder& code, CheckpointIdentity& identity, std::string& state
 }
 
 bool put(std::FILE* file, const void* data, size_t bytes) { return std::fwrite(data, 1, bytes, file) == bytes; }
-
-bool put_record(std::FILE* file, const std::string& payload, std::uint64_t sum) {
-  const std::uint64_t length = payload.size();
-  return put(file, &length, 8) && put(file, payload.data(), payload.size()) && put(file, &sum, 8);
-}
 
 }  // namespace
 
@@ -115,8 +118,9 @@ CheckpointFile::CheckpointFile(std::filesystem::path path, const CheckpointIdent
   std::filesystem::remove(temporary, ignored);  // a link there would lead to a file of somebody's
   errno = 0;
   file_.reset(std::fopen(temporary.c_str(), "w+b"));
+  std::filesystem::remove_all(parts_folder(path_), ignored);  // they go with what is there
   const std::string header = bytes_of(identity);
-  sum_ = checksum(0, header);
+  head_ = sum_ = chained_sum(0, header);
   if (file_) std::setvbuf(file_.get(), buffer_.get(), _IOFBF, buffer_bytes);
   if (!file_ || !put(file_.get(), magic, 8) || !put(file_.get(), &format_version, 4) ||
       !put(file_.get(), &byte_order, 4) || !put_record(file_.get(), header, sum_) || std::fflush(file_.get()) != 0 ||
@@ -141,6 +145,7 @@ CheckpointFile::CheckpointFile(std::filesystem::path path, double every)
   } catch (const InputError& error) {
     throw InputError(fmt::format("'{}' cannot be used: {}\n    run the deck again", path_.string(), error.what()));
   }
+  parts_.emplace(path_, head_);
   scan();
 }
 
@@ -162,31 +167,32 @@ void CheckpointFile::read_header() {
         fmt::format("it has version {} of the format, this program reads version {}", version, format_version));
   std::string header;
   std::uint64_t sum = 0;
-  if (!read_entry(header, sum)) throw InputError("its header is truncated or damaged");
-  sum_ = sum;
+  if (!get_record(file_.get(), sum_, header, sum)) throw InputError("its header is truncated or damaged");
+  head_ = sum_ = sum;
   at_ = ftello(file_.get());
   identity_ = checkpoint_identity_of(std::move(header));
 }
 
-// A record that is whole and follows what came before it.
-bool CheckpointFile::read_entry(std::string& payload, std::uint64_t& sum) {
-  std::uint64_t length = 0;
-  const std::int64_t begin = ftello(file_.get());
-  if (std::fread(&length, 8, 1, file_.get()) != 1 || length > largest_record) return false;
-  fseeko(file_.get(), 0, SEEK_END);
-  const auto rest = static_cast<std::uint64_t>(ftello(file_.get()) - begin - 8);
-  fseeko(file_.get(), begin + 8, SEEK_SET);
-  if (rest < length + 8) return false;
-  payload.resize(length);
-  return std::fread(payload.data(), 1, length, file_.get()) == length && std::fread(&sum, 8, 1, file_.get()) == 1 &&
-         sum == checksum(sum_, payload);
+// Where several ranks have left it, all of its unknowns are there.
+bool CheckpointFile::is_complete(const std::string& payload, std::uint64_t number) const {
+  TrailEntry entry;
+  try {
+    Decoder decoder(payload);
+    code_entry(decoder, entry);
+  } catch (const InputError&) {
+    return true;  // `take` says what is wrong with it
+  }
+  return entry.runs.is_whole() || static_cast<long>(entry.q.size()) + parts_->n_unknowns(number) == entry.runs.n_all;
 }
 
 void CheckpointFile::scan() {
   const std::int64_t begin = at_;
   const std::uint64_t first = sum_;
   std::string payload;
-  for (std::uint64_t sum = 0; read_entry(payload, sum); ++n_left_) sum_ = sum;
+  for (std::uint64_t sum = 0; get_record(file_.get(), sum_, payload, sum) &&
+                              is_complete(payload, number_ + static_cast<std::uint64_t>(n_left_));
+       ++n_left_)
+    sum_ = sum;
   at_ = begin;
   sum_ = first;
 }
@@ -196,6 +202,8 @@ bool CheckpointFile::leads(long n) {
   if (n <= n_left_) return true;
   n_left_ = 0;
   is_leaving_ = true;
+  if (parts_) parts_->cut(number_);
+  parts_.reset();
   std::fflush(file_.get());
   if (ftruncate(fileno(file_.get()), at_) != 0 || fseeko(file_.get(), at_, SEEK_SET) != 0) fail("cut");
   return false;
@@ -205,23 +213,37 @@ TrailEntry CheckpointFile::take() {
   TrailEntry entry;
   std::string payload;
   std::uint64_t sum = 0;
-  if (fseeko(file_.get(), at_, SEEK_SET) != 0 || !read_entry(payload, sum))
+  if (fseeko(file_.get(), at_, SEEK_SET) != 0 || !get_record(file_.get(), sum_, payload, sum))
     throw InputError(fmt::format("'{}' has changed while the run went over it", path_.string()));
   sum_ = sum;
   at_ = ftello(file_.get());
   --n_left_;
   Decoder decoder(std::move(payload));
   code_entry(decoder, entry);
+  if (!entry.runs.is_whole()) complete(entry);
+  ++number_;
   return entry;
+}
+
+// With what the other ranks have left of it.
+void CheckpointFile::complete(TrailEntry& entry) {
+  Vec q = Vec::Zero(entry.runs.n_all), uncorrected = Vec::Zero(entry.uncorrected.size() > 0 ? entry.runs.n_all : 0);
+  entry.runs.place(entry.q, q);
+  if (uncorrected.size() > 0) entry.runs.place(entry.uncorrected, uncorrected);
+  entry.q = std::move(q);
+  entry.uncorrected = std::move(uncorrected);
+  entry.runs = {};
+  parts_->add_to(number_, entry);
 }
 
 void CheckpointFile::leave(const TrailEntry& entry) {
   if (!is_leaving_) leads(1);
+  ++number_;
   if (has_failed_) return;
   Encoder encoder;
   TrailEntry coded = entry;
   code_entry(encoder, coded);
-  sum_ = checksum(sum_, encoder.bytes);
+  sum_ = chained_sum(sum_, encoder.bytes);
   errno = 0;
   if (!put_record(file_.get(), encoder.bytes, sum_)) return fail("written");
   const auto bytes = static_cast<std::int64_t>(encoder.bytes.size()) + 16;
@@ -245,10 +267,12 @@ void CheckpointFile::sync() {
 void CheckpointFile::foresee(std::int64_t bytes_of_entry) {
   std::error_code error;
   const std::filesystem::space_info space = std::filesystem::space(path_.parent_path(), error);
-  room_ = error ? std::numeric_limits<double>::infinity() : 0.5 * static_cast<double>(space.available);
+  // Other ranks keep about as much.
+  const double room = error ? std::numeric_limits<double>::infinity() : 0.5 * static_cast<double>(space.available);
+  room_ = room / ranks::count();
   has_foreseen_ = true;
-  const double all = static_cast<double>(expected_) * static_cast<double>(bytes_of_entry);
-  if (all <= room_) return;
+  const double all = ranks::count() * static_cast<double>(expected_) * static_cast<double>(bytes_of_entry);
+  if (all <= room) return;
   warn(fmt::format(
       "the checkpoint '{}' comes to about {:.3g} GB, and {:.3g} GB are free: it is kept up to half of those, and a run "
       "stopped after that goes on from there; --checkpoint-every 0 keeps none, --no-state neither it nor the state, "

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "result/checkpoint_part.hpp"
 #include "result/state_file.hpp"
 #include "solution/trail.hpp"
 
@@ -29,7 +30,8 @@ std::string bytes_of(const CheckpointIdentity& identity);
 CheckpointIdentity checkpoint_identity_of(std::string bytes);
 
 // Entries are appended, each with a checksum that goes on from the one before; what a crash has cut off is dropped when
-// the file is read. Entries reach the system within a second, and the disk every so often.
+// the file is read. Entries reach the system within a second, and the disk every so often. Of several ranks the others
+// leave their shares beside it (checkpoint_part.hpp): an entry counts where all are there.
 class CheckpointFile final : public Trail {
  public:
   // Begins a new one in the place of whatever is there. every: s between two times that it is brought to the disk.
@@ -40,6 +42,8 @@ class CheckpointFile final : public Trail {
   ~CheckpointFile() override;
 
   const CheckpointIdentity& identity() const { return identity_; }
+  const std::filesystem::path& path() const { return path_; }
+  std::uint64_t head() const { return head_; }  // told apart from others by it
   bool leads(long n) override;
   long n_left() const override { return n_left_; }
   bool has_entries() const { return n_left_ > 0 || has_foreseen_; }
@@ -54,23 +58,23 @@ class CheckpointFile final : public Trail {
 
  private:
   using Clock = std::chrono::steady_clock;
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
   void read_header();
   void scan();
-  bool read_entry(std::string& payload, std::uint64_t& sum);
+  void complete(TrailEntry& entry);
+  bool is_complete(const std::string& payload, std::uint64_t number) const;
   void fail(const char* what);
   void foresee(std::int64_t bytes_of_entry);
   void stop_growing();
 
   std::filesystem::path path_;
-  std::unique_ptr<std::FILE, Close> file_;
+  OpenFile file_;
   std::unique_ptr<char[]> buffer_;
   CheckpointIdentity identity_;
-  long n_left_ = 0;    // entries to be taken
-  long expected_ = 0;  // in all; 0: nobody told
-  double room_ = 0.0;  // bytes that it may still take, once that is foreseen
+  std::optional<CheckpointParts> parts_;  // of a checkpoint that is read
+  std::uint64_t head_ = 0, number_ = 0;   // number of the next entry
+  long n_left_ = 0;                       // entries to be taken
+  long expected_ = 0;                     // in all; 0: nobody told
+  double room_ = 0.0;                     // bytes that it may still take, once that is foreseen
   bool has_foreseen_ = false;
   std::int64_t at_ = 0;    // where the next one is taken or left, bytes
   std::uint64_t sum_ = 0;  // of the entry before it

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "base/log.hpp"
+#include "ranks/ranks.hpp"
 #include "run/keep_state.hpp"
 #include "run/passes.hpp"
 
@@ -80,17 +81,41 @@ std::shared_ptr<CheckpointFile> checkpoint_of(const Problem& problem, const RunR
   }
 }
 
+std::shared_ptr<Trail> part_of_checkpoint(const CheckpointFile* checkpoint, double every) {
+  if (ranks::is_alone()) return nullptr;
+  const std::string path = ranks::shared(checkpoint ? std::filesystem::absolute(checkpoint->path()).string() : "");
+  std::string head(sizeof(std::uint64_t), '\0');
+  if (checkpoint) {
+    const std::uint64_t own = checkpoint->head();
+    std::memcpy(head.data(), &own, sizeof own);
+  }
+  head = ranks::shared(head);
+  std::uint64_t of_first = 0;
+  std::memcpy(&of_first, head.data(), sizeof of_first);
+  if (path.empty() || ranks::is_first()) return nullptr;
+  return std::make_shared<CheckpointPart>(path, ranks::me(), of_first, every);
+}
+
 void remove_checkpoint(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::filesystem::remove(folder / checkpoint_file_name, ignored);
+  std::filesystem::remove_all(parts_folder(folder / checkpoint_file_name), ignored);
 }
 
 void share_checkpoint(const std::filesystem::path& from, const std::filesystem::path& to) {
-  std::error_code error;
-  std::filesystem::remove(to / checkpoint_file_name, error);
-  std::filesystem::create_hard_link(from / checkpoint_file_name, to / checkpoint_file_name, error);
-  if (error) std::filesystem::copy_file(from / checkpoint_file_name, to / checkpoint_file_name, error);
-  if (error) warn("the checkpoint cannot be kept: " + error.message());
+  namespace fs = std::filesystem;
+  remove_checkpoint(to);
+  std::error_code error, ignored;
+  const auto link = [&](const fs::path& file) {
+    fs::create_hard_link(from / file, to / file, error);
+    if (error) fs::copy_file(from / file, to / file, error);
+    if (error) warn("the checkpoint cannot be kept: " + error.message());
+  };
+  const fs::path parts = parts_folder(checkpoint_file_name);
+  if (fs::is_directory(from / parts, ignored)) fs::create_directory(to / parts, ignored);
+  for (const fs::directory_entry& part : fs::directory_iterator(from / parts, ignored))
+    link(parts / part.path().filename());
+  link(checkpoint_file_name);
 }
 
 std::string shell_word(const std::string& text) {

@@ -162,8 +162,9 @@ struct RunSite {
   std::filesystem::path directory, work;
   std::shared_ptr<RunLock> lock;
   std::optional<Replacement> replacement;
-  std::shared_ptr<CheckpointFile> checkpoint;
-  std::unique_ptr<RunWriter> writer;  // null: nothing is written
+  std::shared_ptr<CheckpointFile> checkpoint;  // rank 0's
+  std::shared_ptr<Trail> part;                 // another's part of it
+  std::unique_ptr<RunWriter> writer;           // null: nothing is written
   Unwritten unwritten;
   bool is_kept = true;  // false: what is in the folder reaches further
 
@@ -191,10 +192,11 @@ std::shared_ptr<RunResult> compute(const Problem& declared, const RunRequest& re
   for (size_t pass = 0; pass < tolerances.size(); ++pass) {
     problem.solver.tolerance = tolerances[pass];
     open_files(declared, request, pass == 0, site);
+    if (pass == 0) site.part = part_of_checkpoint(site.checkpoint.get(), request.checkpoint_every);
     std::optional<FrameFiles> files;
     if (has_frames && (pass > 0 || tolerances.size() == 1)) files.emplace(site.writer.get(), site.unwritten);
     result = sweep(problem, before ? before->interface_fields.get() : start_of(request), files ? &*files : nullptr,
-                   ranks::any(site.writer != nullptr), site.checkpoint.get());
+                   ranks::any(site.writer != nullptr), ranks::is_first() ? site.checkpoint.get() : site.part.get());
     share_result(problem, *result);
     if (before) add_pass(*before, *result);
     if (result->interrupted || (before && have_settled(problem, *before, *result))) break;
@@ -205,7 +207,7 @@ std::shared_ptr<RunResult> compute(const Problem& declared, const RunRequest& re
 
 // State, tables, pictures, report and, last of all, the record.
 void write_results(const Problem& problem, const RunRequest& request, RunSite& site, RunResult& result) {
-  const RunState state =
+  RunState state =
       (site.writer && request.write_state) || request.continues ? state_of(problem, request, result) : RunState{};
   if (request.continues) {
     long earlier = 0;
@@ -214,6 +216,10 @@ void write_results(const Problem& problem, const RunRequest& request, RunSite& s
     site.is_kept = reaches_as_far(state, *request.continues);
   } else if (site.replacement && site.checkpoint) {
     site.is_kept = site.checkpoint->n_left() == 0;
+  }
+  if (ranks::any(site.writer && request.write_state)) {
+    auto whole = whole_on_first(result.interface_fields, problem.solver.history_memory);
+    if (ranks::is_first() && state.fields) state.fields = std::move(whole);
   }
   collect_warnings();
   if (!ranks::is_first()) return;

@@ -7,13 +7,14 @@
 #include <filesystem>
 
 #include "base/log.hpp"
+#include "ranks/ranks.hpp"
 
 namespace dygita {
 
 InterfaceFields::InterfaceFields(std::FILE* file, const std::vector<std::vector<Place>>& steps)
     : budget_(0.0), file_(file) {
   for (const std::vector<Place>& places : steps) {
-    begin_step();
+    begin_step({});
     for (const Place& place : places) {
       Kept kept;
       kept.at = place.at;
@@ -78,6 +79,39 @@ bool InterfaceFields::read(size_t i_step, size_t increment, Eigen::Index size, V
     return false;
   q = std::move(from_file);
   return true;
+}
+
+std::shared_ptr<const InterfaceFields> whole_on_first(const std::shared_ptr<const InterfaceFields>& kept,
+                                                      double memory_bytes) {
+  if (ranks::is_alone() || !kept) return kept;
+  auto whole = std::make_shared<InterfaceFields>(memory_bytes);
+  for (size_t s = 0; s < kept->n_steps(); ++s) {
+    whole->begin_step();
+    const AssembledRuns& runs = kept->runs(s);
+    std::vector<double> of_runs;
+    for (const AssembledRuns::Run& run : runs.runs)
+      of_runs.insert(of_runs.end(), {static_cast<double>(run.first), static_cast<double>(run.n)});
+    std::vector<AssembledRuns> of_ranks;
+    for (int rank = 0; rank < ranks::count(); ++rank) {
+      const std::vector<double> numbers = ranks::to_first(rank, of_runs);
+      AssembledRuns& of_rank = of_ranks.emplace_back();
+      for (size_t i = 0; i < numbers.size(); i += 2)
+        of_rank.runs.push_back({static_cast<long>(numbers[i]), static_cast<long>(numbers[i + 1])});
+    }
+    const auto n_increments = -ranks::largest(-static_cast<double>(kept->n_increments(s)));
+    for (size_t i = 0; i < static_cast<size_t>(n_increments); ++i) {
+      Vec own, all(ranks::is_first() ? runs.n_all : 0);
+      kept->read(s, i, kept->size(s, i), own);
+      for (int rank = 0; rank < ranks::count(); ++rank) {
+        const std::vector<double> brought = ranks::to_first(rank, {own.begin(), own.end()});
+        if (ranks::is_first())
+          of_ranks[static_cast<size_t>(rank)].place(
+              Eigen::Map<const Vec>(brought.data(), static_cast<Eigen::Index>(brought.size())), all);
+      }
+      if (ranks::is_first()) whole->append(all);
+    }
+  }
+  return ranks::is_first() ? whole : nullptr;
 }
 
 }  // namespace dygita

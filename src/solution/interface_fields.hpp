@@ -10,6 +10,37 @@
 
 namespace dygita {
 
+// Which of the unknowns of an assembled q a rank keeps, in their order.
+struct AssembledRuns {
+  struct Run {
+    long first, n;
+    bool operator==(const Run&) const = default;
+  };
+  long n_all = -1;  // unknowns of the assembled q; -1: it is kept whole
+  std::vector<Run> runs{};
+
+  bool is_whole() const { return n_all < 0; }
+  bool operator==(const AssembledRuns&) const = default;
+  // Are they runs of so many unknowns in all, in their order, within the assembled q?
+  bool fit(Eigen::Index n_kept) const {
+    long n = 0, end = 0;
+    for (const Run& run : runs) {
+      if (run.first < end || run.n < 1 || run.n > n_all || run.first > n_all - run.n) return false;
+      end = run.first + run.n;
+      n += run.n;
+    }
+    return n_kept == n;
+  }
+  // Puts what is kept in its places among all.
+  void place(const Vec& kept, Vec& assembled) const {
+    long at = 0;
+    for (const Run& run : runs) {
+      assembled.segment(run.first, run.n) = kept.segment(at, run.n);
+      at += run.n;
+    }
+  }
+};
+
 // q of every increment of every step (assembled order of the step's exchange; N), for another case to start from. Up to
 // a budget they stay in memory, what comes after goes to a file that has no name and vanishes with this object.
 class InterfaceFields {
@@ -27,7 +58,11 @@ class InterfaceFields {
   InterfaceFields(const InterfaceFields&) = delete;
   InterfaceFields& operator=(const InterfaceFields&) = delete;
 
-  void begin_step() { steps_.emplace_back(); }
+  // Of several ranks each keeps some of the unknowns.
+  void begin_step(AssembledRuns runs = {}) {
+    steps_.emplace_back();
+    runs_.push_back(std::move(runs));
+  }
   // The next increment of the step begun last. A file that cannot be written ends the keeping, with a warning.
   void append(const Vec& q);
 
@@ -35,6 +70,7 @@ class InterfaceFields {
   bool read(size_t i_step, size_t increment, Eigen::Index size, Vec& q) const;
 
   size_t n_steps() const { return steps_.size(); }
+  const AssembledRuns& runs(size_t i_step) const { return runs_.at(i_step); }
   size_t n_increments(size_t i_step) const { return i_step < steps_.size() ? steps_[i_step].size() : 0; }
   // Unknowns of a kept increment.
   Eigen::Index size(size_t i_step, size_t increment) const { return steps_.at(i_step).at(increment).size; }
@@ -55,9 +91,14 @@ class InterfaceFields {
 
   double budget_, in_memory_ = 0.0;
   std::vector<std::vector<Kept>> steps_;
+  std::vector<AssembledRuns> runs_;  // of each step
   std::unique_ptr<std::FILE, Close> file_;
   std::int64_t file_end_ = 0;
   bool has_failed_ = false;
 };
+
+// Collective. On the first rank the fields of which each has some, as whole ones; on the others none (null).
+std::shared_ptr<const InterfaceFields> whole_on_first(const std::shared_ptr<const InterfaceFields>& kept,
+                                                      double memory_bytes);
 
 }  // namespace dygita

@@ -22,6 +22,12 @@ class InterfaceSums {
   // are valid until the next call.
   const std::vector<double>& add(int n_sums, const Share& share);
 
+  // Sums that somebody needs at a time when others are taken.
+  struct ToCome {
+    int n = 0;
+    Share share;
+  };
+
  private:
   struct Run {
     int piece;

@@ -58,6 +58,7 @@ NearUnknowns::NearUnknowns(const Cut& cut, const Exchange& exchange, const std::
     for (int u = offset[static_cast<size_t>(i)]; u < offset[static_cast<size_t>(i) + 1]; ++u) assembled_.push_back(u);
   }
   n_own_ = static_cast<int>(assembled_.size());
+  std::set<int> told;
   std::vector<Passing> passing(static_cast<size_t>(n_assembled_), {ranks::me(), {}});
   for (int i = 0; i < static_cast<int>(exchange.points.size()); ++i) {
     const Point& point = exchange.points[static_cast<size_t>(i)];
@@ -67,7 +68,11 @@ NearUnknowns::NearUnknowns(const Cut& cut, const Exchange& exchange, const std::
     points_.push_back(i);
     const std::vector<int> elsewhere = note_readers(cut, exchange, offset, point, touching, passing);
     assembled_.insert(assembled_.end(), elsewhere.begin(), elsewhere.end());
+    (elsewhere.empty() ? inner_ : outer_).push_back(i);
+    for (int p = point.first_port; p < point.end_port && touching.size() > 1; ++p)
+      if (const int piece = exchange.ports[static_cast<size_t>(p)].piece; cut.is_here(piece)) told.insert(piece);
   }
+  border_pieces_.assign(told.begin(), told.end());
   n_ = static_cast<int>(assembled_.size());
   // What passes between two ranks stands in the assembled order on both.
   std::sort(assembled_.begin() + n_own_, assembled_.end());
@@ -105,11 +110,20 @@ Vec NearUnknowns::assembled(const Vec& near) const {
   return all;
 }
 
-Vec NearUnknowns::assembled_on_first(const Vec& near) const {
-  if (is_all_) return ranks::is_first() ? near : Vec();
-  Vec all = spread(near);
-  of_pieces_.bring(all.data());
-  return ranks::is_first() ? all : Vec();
+AssembledRuns NearUnknowns::kept_runs() const {
+  if (ranks::is_alone()) return {};
+  AssembledRuns kept{n_assembled_, {}};
+  if (is_all_ && ranks::is_first()) kept.runs.push_back({0, n_assembled_});
+  for (int i = 0; i < n_own_ && !is_all_; ++i) {
+    const int unknown = assembled_[static_cast<size_t>(i)];
+    if (kept.runs.empty() || kept.runs.back().first + kept.runs.back().n != unknown) kept.runs.push_back({unknown, 0});
+    ++kept.runs.back().n;
+  }
+  return kept;
+}
+
+Vec NearUnknowns::kept_part(const Vec& near) const {
+  return is_all_ && !ranks::is_first() ? Vec() : Vec(near.head(n_own_));
 }
 
 }  // namespace dygita

@@ -9,6 +9,7 @@
 #include "ranks/neighbours.hpp"
 #include "ranks/ranks.hpp"
 #include "solution/exchange.hpp"
+#include "solution/interface_fields.hpp"
 
 namespace dygita {
 
@@ -24,6 +25,11 @@ class NearUnknowns {
 
   // Of the exchange, increasing; none in closed form.
   const std::vector<int>& points() const { return points_; }
+  // Those of them all of whose unknowns are of pieces that are here, and the others.
+  const std::vector<int>& inner_points() const { return is_all_ ? points_ : inner_; }
+  const std::vector<int>& outer_points() const { return outer_; }
+  // Pieces that are here and whose unknowns others read.
+  const std::vector<int>& border_pieces() const { return border_pieces_; }
   int n() const { return n_; }
   int n_own() const { return n_own_; }  // of the pieces that are here; they come first
   // First unknown of a piece that is here; they stand one after the other.
@@ -36,12 +42,17 @@ class NearUnknowns {
   // Collective: fields of which each rank has its own pieces' values (the first n_own) get those of the others (n in
   // all), from those who have them.
   void exchange(std::initializer_list<double*> fields) const;
+  // The same in two halves: what is sent is read by the first, the others' values are there after the second.
+  void begin(std::initializer_list<const double*> fields) const { passing_.begin(fields); }
+  void end(std::initializer_list<double*> fields) const { passing_.end(fields); }
   // The near values of the assembled q.
   Vec part(const Vec& assembled) const;
-  // Collective: the assembled q of fields of which each rank has its own; on all ranks, and on the first alone (empty
-  // on the others).
+  // Collective: the assembled q of fields of which each rank has its own.
   Vec assembled(const Vec& near) const;
-  Vec assembled_on_first(const Vec& near) const;
+  // Where the values that a rank keeps of a field lie in the assembled q: its own, or all where all ranks have them
+  // (the first keeps them then); and these.
+  AssembledRuns kept_runs() const;
+  Vec kept_part(const Vec& near) const;
 
  private:
   Vec spread(const Vec& near) const;
@@ -49,6 +60,7 @@ class NearUnknowns {
   bool is_all_ = true;
   int n_ = 0, n_own_ = 0, n_assembled_ = 0;
   std::vector<int> points_, start_;
+  std::vector<int> inner_, outer_, border_pieces_;
   std::vector<int> at_, assembled_;  // empty: they are the same
   ranks::Segments of_pieces_;
   ranks::Neighbours passing_;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "solution/interface_fields.hpp"
 #include "solution/solver_figures.hpp"
 
 namespace dygita {
@@ -21,6 +22,8 @@ struct TrailEntry {
   bool is_solved = true;
   bool is_assembled = false;  // of a static step with all pieces in one system
   std::optional<Missed> missed;
+  // Of several ranks each leaves those unknowns of q and of uncorrected that it has, and moves of its own pieces.
+  AssembledRuns runs{};
 };
 
 // Entries one after the other, of all steps and passes of a run: taken where an earlier run has left them, left from
@@ -31,7 +34,8 @@ class Trail {
   // Do at least n entries follow? If not, those that do are dropped: from here on entries are left.
   virtual bool leads(long n) = 0;
   virtual long n_left() const = 0;
-  // The next one, which there is. Throws InputError where it cannot be read.
+  // The next one, which there is, whole. Throws InputError where it cannot be read. On other ranks than the first: what
+  // is in it the first tells.
   virtual TrailEntry take() = 0;
   virtual void leave(const TrailEntry& entry) = 0;
   // The numbers of an increment gone over differ from those that it had.

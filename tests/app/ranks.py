@@ -202,7 +202,9 @@ def go_on(name, killed, then, *solver, deck=stopped, problem="stopped", us=300):
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
     run = out / problem / "base"
     begun = time.monotonic()
-    while not ((run / "checkpoint.dygita").exists() and (run / "checkpoint.dygita").stat().st_size > 500000):
+    # Rank 0 has its part in the checkpoint, the others have theirs beside it.
+    while sum(p.stat().st_size for p in run.glob("checkpoint.dygita*/**/*") if p.is_file()) + sum(
+            p.stat().st_size for p in run.glob("checkpoint.dygita")) <= 500000:
         if process.poll() is not None or time.monotonic() > begun + 100:
             failures.append(f"{name}: the run has left no checkpoint to kill it by")
             process.kill()

@@ -63,7 +63,8 @@ TEST(NearUnknowns, of_one_process_are_all_in_the_assembled_order) {
   const Vec field = unlike_numbers(near.n());
   EXPECT_EQ(near.part(field), field);
   EXPECT_EQ(near.assembled(field), field);
-  EXPECT_EQ(near.assembled_on_first(field), field);
+  EXPECT_EQ(near.kept_part(field), field);
+  EXPECT_TRUE(near.kept_runs().is_whole());
 }
 
 }  // namespace
