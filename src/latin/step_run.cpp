@@ -13,11 +13,23 @@
 
 namespace dygita {
 
+namespace {
+
+// 1/sqrt(k), one by one: Eigen's root of many at once is rounded otherwise on some processors (AVX-512), and which are
+// taken together depends on the rank.
+Vec weights(const Vec& k) {
+  Vec weights(k.size());
+  for (Eigen::Index i = 0; i < k.size(); ++i) weights[i] = 1.0 / std::sqrt(k[i]);
+  return weights;
+}
+
+}  // namespace
+
 StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, const RunFiles& files)
     : settings_(settings),
       files_(files),
       model_(model),
-      weight_(model.near.part(k).head(model.near.n_own()).cwiseSqrt().cwiseInverse()),
+      weight_(weights(model.near.part(k).head(model.near.n_own()))),
       coarse_(settings.has_correction ? CoarseCorrection(model, k) : CoarseCorrection()),
       local_(model, files.state, model.near.part(k)),
       direct_(model, files.state),
