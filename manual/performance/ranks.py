@@ -9,11 +9,12 @@ import time
 import figures
 from measure import write_rows, read_rows
 from page import table
-from ranks_model import MESH, Costs, Network, Pattern, step, with_increments
+from ranks_model import BANDWIDTH, LATENCY, Costs, Network, Pattern, predict_rings, saved, step
 
 RING = "decks/bench/ring.lua"
 SCENES = {"explicit": ("latin{ integration = 'explicit' }", 24), "implicit": ("latin{ integration = 'implicit' }", 24)}
-LATENCY, BANDWIDTH = 2e-6, 10e9
+BLOCKS = "decks/bench/blocks.lua"
+ADDED = 8e9      # bytes a second that a processor adds up
 SHOWN = 70       # instants of a run at which outputs want whole bodies: stress errors, scenes, the turning picture (stress beyond yield: 200 a step more)
 
 
@@ -31,12 +32,12 @@ def difference(folder, other):
     return largest
 
 
-def run(machine, ranks, solver, settings):
+def run(machine, ranks, solver, settings, deck=RING):
     """run.json and folder of a deck on so many ranks of one thread."""
     out = machine.scratch / f"ranks_{machine.count}"
     machine.count += 1
     command = [shutil.which("mpirun"), "--allow-run-as-root", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
-    command += [machine.build / "dygita", "run", machine.root / RING, "--quiet", "--no-frames", "--threads", "1", "--out", out, "--solver", solver]
+    command += [machine.build / "dygita", "run", machine.root / deck, "--quiet", "--no-frames", "--threads", "1", "--out", out, "--solver", solver]
     for name, value in settings.items():
         command += ["--set", f"{name}={value}"]
     began = time.monotonic()
@@ -65,7 +66,7 @@ def row_of(scene, ranks, record, share, off):
     return row
 
 
-def costs_of(alone, share, two, pattern):
+def costs_of(alone, share, two, pattern, how):
     """Costs of one processor: of pieces from two ranks' own clocks, of the rest from the phases of one process and its share of the processor; what passes from what two ranks sent."""
     shock, seconds = two["steps"][-1], {phase: share * value for phase, value in alone["seconds"].items()}
     n, inc = shock["increments"], shock["iterations"] / shock["increments"]
@@ -76,13 +77,14 @@ def costs_of(alone, share, two, pattern):
     return Costs(unknown=pieces / n / inc / pattern.total(), point=(seconds["local stage"] + seconds["acceleration"]) / n / inc / pattern.points(),
                  booked=seconds["laws and energies"] / n / pattern.points(), shown=seconds["output"] / n / pattern.total(), fields=asked,
                  questions=here["messages"]["results"] / n / shared["pieces"], sums=max(1.0, here["messages"]["all"] / n - 4) / inc, increments=inc,
-                 brought=min(1.0, SHOWN / n), gathered=gathered / len(pattern.unknowns))
+                 looks=min(1.0, SHOWN / n), gathered=gathered / len(pattern.unknowns), growth=1 / 3 if how == "implicit" else 0.0,
+                 piece=pattern.total() / len(pattern.unknowns), added=1 / ADDED)
 
 
-def predict_here(records, share, cores):
+def predict_here(records, share, cores, how):
     """share: of the processor, that one process had. What the model says of the runs that were measured."""
     pattern = Pattern.of(records[2])
-    costs = costs_of(records[1], share, records[2], pattern)
+    costs = costs_of(records[1], share, records[2], pattern, how)
     found = {}
     for ranks, record in records.items():
         owners = [p["rank"] for p in record["ranks"]["pieces"]] if ranks > 1 else None
@@ -90,29 +92,28 @@ def predict_here(records, share, cores):
     return pattern, costs, found
 
 
-def predict_ring(pattern, costs, quick):
-    """Rows of larger rings on a network: as the program is, and with outputs made piece by piece."""
+def measure_windows(machine, quick):
+    """Rows of a scene on 2 ranks, a row a window: iterations, and what one process takes for them."""
     rows = []
-    counts = [8, 64, 512, 4096] if quick else [8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096]
-    forms = {"as it is": {}, "outputs piece by piece": {"outputs": "pieces"}}
-    cases = [("strong", size, ranks) for size in (1e7, 1e8, 1e9) for ranks in counts] + [("weak", 1e9 / 4096 * ranks, ranks) for ranks in counts]
-    network = Network(LATENCY, BANDWIDTH)
-    for scaling, size, ranks in cases:
-        refined = pattern.refined(size, 4 * ranks)
-        own = with_increments(costs, size / pattern.total())
-        one = step(refined, 1, own, network)["all"]
-        for form, asked in forms.items():
-            times = step(refined, ranks, own, network, **asked)
-            bound = max((k for k in times if k not in ("all", "bytes")), key=times.get)
-            rows.append({"scaling": scaling, "unknowns": size, "ranks": ranks, "form": form, "increments per step": own.increments, "s per step": times["all"],
-                         "speed-up": one / times["all"], "efficiency": one / times["all"] / ranks, "most in": bound, "share of it": times[bound] / times["all"],
-                         "GB per step": 1e-9 * times["bytes"], "meshes on every rank [GB]": 1e-9 * MESH * size / 3})
+    for cfl in (1, 4):
+        for window in (1, 2, 5, 10):
+            solver = f"latin{{ integration = 'implicit', window = {window} }}"
+            settings = {"cells": 8 if quick else 12, "cfl": cfl, "steps": 20}
+            record, _, share = run(machine, 2, solver, settings, BLOCKS)
+            row = {"cfl": cfl, "window": window, "iterations": record["steps"][-1]["iterations"] / record["steps"][-1]["increments"]}
+            if window == 1:
+                alone, _, share = run(machine, 1, solver, settings, BLOCKS)
+                n, seconds = row["iterations"], {phase: share * value / 20 for phase, value in alone["seconds"].items()}
+                row |= {"s of an iteration": (seconds["interface operator"] + seconds["local stage"] + seconds["acceleration"]) / n, "s around": seconds["forward"] + seconds["backward"]}
+            row["messages sent a step"] = sum(sum(rank["messages"][kind] for kind in ("neighbours", "all")) for rank in record["ranks"]["of_each"]) / 20
+            rows.append(row)
+            machine.say(f"Ranks: dt {cfl} h/c, window {window}: {row['iterations']:.1f} iterations")
     return rows
 
 
 def measure(machine, folder, quick):
-    """Writes ranks.csv, a row a run, with what the model says of it, and ranks_model.csv, a row a larger ring."""
-    rows = []
+    """Writes ranks.csv, a row a run, with what the model says of it, ranks_pattern.json, what the model is fed with, and ranks_model.csv, a row a larger ring."""
+    rows, measured = [], {}
     if not shutil.which("mpirun"):
         machine.say("Ranks: there is no mpirun")
         return
@@ -123,13 +124,14 @@ def measure(machine, folder, quick):
         for ranks in (1, 2, 4):
             machine.say(f"Ranks: {how}, {ranks}")
             records[ranks], folders[ranks], shares[ranks] = run(machine, ranks, solver, settings)
-        pattern, costs, model = predict_here(records, shares[1], cores)
+        pattern, costs, model = predict_here(records, shares[1], cores, how)
+        measured[how] = pattern, costs
         for ranks, record in records.items():
             row = row_of(how, ranks, record, shares[ranks], difference(folders[1], folders[ranks]))
             times = model[ranks]
             rows.append(row | {"model: ms per step": 1e3 * times["all"], "model: kB per step": 1e-3 * times["bytes"]})
-        if how == "explicit":
-            write_rows(folder / "ranks_model.csv", predict_ring(pattern, costs, quick))
+    (folder / "ranks_pattern.json").write_text(saved(measured, measure_windows(machine, quick)) + "\n")
+    write_rows(folder / "ranks_model.csv", predict_rings(measured, quick))
     write_rows(folder / "ranks.csv", rows)
     for row in rows:
         machine.say(f"{row['scene']}, {row['ranks']} ranks: {row['ms per step']:.0f} ms a step, model {row['model: ms per step']:.0f} ms; "
@@ -153,10 +155,10 @@ def figure(rows, folder):
     model = read_rows(folder / "ranks_model.csv")
     picture, axes = figures.plt.subplots(1, 2, figsize=(7.4, 3.0))
     picture.subplots_adjust(wspace=0.3)
-    forms = ["as it is", "outputs piece by piece"]
+    forms = ["explicit", "implicit"]
     for size, colour in zip((1e7, 1e8, 1e9), figures.COLOURS):
         for form, line in zip(forms, ("-", "--")):
-            mine = [r for r in model if r["scaling"] == "strong" and r["unknowns"] == size and r["form"] == form]
+            mine = [r for r in model if r["scaling"] == "strong" and r["unknowns"] == size and r["pieces"] == form]
             axes[0].loglog([r["ranks"] for r in mine], [r["speed-up"] for r in mine], line, color=colour,
                            label=f"{size:.0e}".replace("e+0", "e") + " unknowns" if form == forms[0] else None)
     ends = sorted({r["ranks"] for r in model})
@@ -164,7 +166,7 @@ def figure(rows, folder):
     axes[0].set_title("strong scaling: speed-up")
     axes[0].legend()
     for form, line, marker in zip(forms, ("-", "--"), figures.MARKERS):
-        mine = [r for r in model if r["scaling"] == "weak" and r["form"] == form]
+        mine = [r for r in model if r["scaling"] == "weak" and r["pieces"] == form]
         axes[1].semilogx([r["ranks"] for r in mine], [r["efficiency"] for r in mine], line, marker=marker, color=figures.COMPUTED, label=form)
     axes[1].set_title("weak scaling, 244,000 unknowns a rank: efficiency")
     axes[1].set_ylim(0, 1.45)

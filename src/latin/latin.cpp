@@ -108,6 +108,13 @@ void StepRun::iterate_assembled(int increment, const Goal& goal, Best& best) {
 
 // Right-hand sides of an increment, and all that it changes on the interfaces before any iteration.
 void StepRun::begin_increment(int increment, bool starts_window) {
+  const std::vector<double> motions = begin_pieces(increment);
+  const Stopwatch watch(books_.seconds.forward);
+  local_.begin(increment, motions, starts_window);
+}
+
+// Returns the velocities of motions at its end.
+std::vector<double> StepRun::begin_pieces(int increment) {
   const Stopwatch watch(books_.seconds.forward);
   const std::vector<double> motions = model_.motion_velocities(increment);
   model_.loads->evaluate(increment);
@@ -116,7 +123,7 @@ void StepRun::begin_increment(int increment, bool starts_window) {
     for (const int i : members) model_.pieces[i]->begin(model_.piece_force(i, files_.state), motions, quiet);
     group.front()->forward(group);
   });
-  local_.begin(increment, motions, starts_window);
+  return motions;
 }
 
 // Interiors of an increment for data q.

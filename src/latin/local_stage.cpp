@@ -207,21 +207,28 @@ void LocalStage::run_outer(const Vec& velocity, const Vec& q, Vec& image) {
 }
 
 // Both answers are on one line through (F, V) of slope -k: q and image tell how far apart, F - F_hat = (q - image)/2.
+InterfaceSums::ToCome LocalStage::distance_sums(const Vec& velocity, const Vec& q, const Vec& image) const {
+  enum { distance, force, motion, n_sums };
+  return {n_sums, [this, &velocity, &q, &image](Eigen::Index first, Eigen::Index n, double* to) {
+            for (Eigen::Index i = first; i < first + n; ++i) {
+              const double k = k_[i], inverse = 1.0 / k, change = 0.5 * (q[i] - image[i]);
+              const double f = q[i] - k * velocity[i], f_hat = f - change, w_hat = velocity[i] - inverse * change;
+              to[distance] += inverse * (change * change);
+              to[force] += 0.5 * inverse * (f * f + f_hat * f_hat);
+              to[motion] += 0.5 * k * (velocity[i] * velocity[i] + w_hat * w_hat);
+            }
+          }};
+}
+
 IndicatorSums LocalStage::measure(const Vec& velocity, const Vec& q, const Vec& image,
                                   const InterfaceSums::ToCome& also, const std::function<void(const double*)>& hear) {
-  enum { distance, force, motion, n_sums };
-  const std::vector<double>& sums = sums_.add(n_sums + also.n, [&](Eigen::Index first, Eigen::Index n, double* to) {
-    for (Eigen::Index i = first; i < first + n; ++i) {
-      const double k = k_[i], inverse = 1.0 / k, change = 0.5 * (q[i] - image[i]);
-      const double f = q[i] - k * velocity[i], f_hat = f - change, w_hat = velocity[i] - inverse * change;
-      to[distance] += inverse * (change * change);
-      to[force] += 0.5 * inverse * (f * f + f_hat * f_hat);
-      to[motion] += 0.5 * k * (velocity[i] * velocity[i] + w_hat * w_hat);
-    }
-    if (also.n > 0) also.share(first, n, to + n_sums);
+  const InterfaceSums::ToCome own = distance_sums(velocity, q, image);
+  const std::vector<double>& sums = sums_.add(own.n + also.n, [&](Eigen::Index first, Eigen::Index n, double* to) {
+    own.share(first, n, to);
+    if (also.n > 0) also.share(first, n, to + own.n);
   });
-  if (also.n > 0) hear(sums.data() + n_sums);
-  return {sums[distance], sums[distance], sums[force], sums[motion]};
+  if (also.n > 0) hear(sums.data() + own.n);
+  return distance_of(sums.data());
 }
 
 }  // namespace dygita

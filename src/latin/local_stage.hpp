@@ -48,6 +48,9 @@ class LocalStage {
     run_outer(velocity, q, image);
     return measure(velocity, q, image);
   }
+  // The sums that say how far both answers are apart, and what they say. Fields stay what they were meanwhile.
+  InterfaceSums::ToCome distance_sums(const Vec& velocity, const Vec& q, const Vec& image) const;
+  static IndicatorSums distance_of(const double* sums) { return {sums[0], sums[0], sums[1], sums[2]}; }
   // How far both answers are apart; with it sums of the own unknowns that somebody else needs, which are told to
   // hear(sums). Collective, unless every rank has all pieces.
   IndicatorSums measure(const Vec& velocity, const Vec& q, const Vec& image, const InterfaceSums::ToCome& also = {},

@@ -34,6 +34,7 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
       warm_start_({files.start_from, static_cast<size_t>(settings.i_step), &model.near}, weight_, InterfaceSums(model)),
       anderson_(settings.of_increment.depth, settings.of_increment.n_problems, settings.of_increment.relaxation,
                 weight_, InterfaceSums(model)),
+      window_sums_(model),
       indicator_(model.scheme.is_static ? k.sum() * settings.assembly_size * settings.assembly_size : 0.0,
                  settings.is_assembled ? 1e-1 : 1e-2) {
   if (settings.is_assembled) assembled_.emplace(model, local_, k, settings.assembly_size);

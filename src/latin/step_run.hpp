@@ -78,6 +78,7 @@ class StepRun {
   // The same with all pieces in one system.
   void iterate_assembled(int increment, const Goal& goal, Best& best);
   void begin_increment(int increment, bool starts_window);
+  std::vector<double> begin_pieces(int increment);
   void finish_increment(const Vec& q);
   void solve_increment(int increment);
   Best answer(int increment, const Goal& goal, bool goes_over_again = false);
@@ -114,6 +115,8 @@ class StepRun {
   };
   void solve_window(int first, int last);
   Outcome sweep(int first, std::vector<Vec>& q, std::vector<Vec>& image);
+  Outcome sweep_at_once(int first, std::vector<Vec>& q, std::vector<Vec>& image);
+  bool sweeps_at_once() const;
   void replay(int increment, const Vec& q, bool starts_window, int iterations, double eta);
   Start remember() const;
   void go_back(const Start& start);
@@ -209,6 +212,7 @@ class StepRun {
   // Acceleration, and when to stop.
   WarmStart warm_start_;
   Anderson anderson_;
+  InterfaceSums window_sums_;
   Indicator indicator_;
   Books books_;
 };

@@ -36,6 +36,52 @@ Outcome StepRun::sweep(int first, std::vector<Vec>& q, std::vector<Vec>& image) 
   return worst;
 }
 
+// The same with one message to each neighbour and one sum over all for the window: what the pieces go through from one
+// time step to the next needs nothing of the laws, which follow once the answers of all time steps are there.
+Outcome StepRun::sweep_at_once(int first, std::vector<Vec>& q, std::vector<Vec>& image) {
+  const Indicator before = indicator_;
+  std::vector<Vec> velocity(q.size(), at_.velocity);
+  std::vector<std::vector<double>> motions;
+  std::vector<double*> passed;
+  for (size_t i = 0; i < q.size(); ++i) {
+    motions.push_back(begin_pieces(first + static_cast<int>(i)));
+    if (i == 0) local_.begin(first, motions[i], true);
+    linear_stage(q[i], velocity[i]);
+    finish_increment(q[i]);
+    passed.insert(passed.end(), {q[i].data(), velocity[i].data()});
+  }
+  model_.near.exchange(passed);
+  std::vector<InterfaceSums::ToCome> distances;
+  for (size_t i = 0; i < q.size(); ++i) {
+    if (i > 0) local_.begin(first + static_cast<int>(i), motions[i], false);
+    local_.run_inner(velocity[i], q[i], image[i]);
+    local_.run_outer(velocity[i], q[i], image[i]);
+    local_.accept();
+    distances.push_back(local_.distance_sums(velocity[i], q[i], image[i]));
+  }
+  const int n_each = distances.front().n;
+  const std::vector<double> sums =
+      window_sums_.add(n_each * static_cast<int>(q.size()), [&](Eigen::Index at, Eigen::Index n, double* to) {
+        for (const InterfaceSums::ToCome& distance : distances) distance.share(at, n, to), to += n_each;
+      });
+  Outcome worst{0.0};
+  for (size_t i = 0; i < q.size(); ++i) {
+    const Outcome outcome = indicator_.measure(LocalStage::distance_of(sums.data() + n_each * i));
+    indicator_.accept(outcome);
+    worst.eta = std::max(worst.eta, outcome.eta);
+    check_finite(outcome, first + static_cast<int>(i));
+  }
+  indicator_ = before;
+  return worst;
+}
+
+// Forces on held sides that move are the laws' answer, which their pieces wait for.
+bool StepRun::sweeps_at_once() const {
+  return !model_.problem->solver.plain && !assembled_ &&
+         std::none_of(model_.pieces.begin(), model_.pieces.end(),
+                      [](const auto& piece) { return piece->has_motions(); });
+}
+
 void StepRun::solve_window(int first, int last) {
   const int n_steps = last - first;
   if (leads(n_steps)) return replay_window(first, last);
@@ -56,8 +102,9 @@ void StepRun::solve_window(int first, int last) {
   Anderson anderson(asked.depth, asked.n_problems, asked.relaxation, weight_.replicate(n_steps, 1),
                     InterfaceSums(model_, n_steps));
   Persistence persistence(goal.limit);
+  const bool at_once = sweeps_at_once();
   for (int n = 1;; ++n) {
-    const Outcome worst = sweep(first, q, image);
+    const Outcome worst = at_once ? sweep_at_once(first, q, image) : sweep(first, q, image);
     go_back(start);
     if (worst.eta <= goal.tolerance || persistence.ends(n, worst.eta)) {
       std::optional<Missed> missed;

@@ -62,6 +62,8 @@ void Neighbours::end(std::initializer_list<double*>) const {}
 
 void Neighbours::exchange(double*) const {}
 
+void Neighbours::exchange(const std::vector<double*>&) const {}
+
 void Neighbours::exchange(std::initializer_list<double*>) const {}
 
 struct LaterLargest::Flight {

@@ -367,6 +367,12 @@ void Neighbours::exchange(std::initializer_list<double*> fields) const {
   end(fields);
 }
 
+void Neighbours::exchange(const std::vector<double*>& fields) const {
+  const auto place = [&](int field, int i) { return fields[static_cast<size_t>(field)] + i; };
+  send(static_cast<int>(fields.size()), 1, place);
+  receive(static_cast<int>(fields.size()), 1, place);
+}
+
 struct LaterLargest::Flight {
   double own, of_all;
   MPI_Request request;

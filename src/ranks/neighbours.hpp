@@ -16,6 +16,7 @@ class Neighbours {
   void exchange(double* values) const;
   // The same of several fields of one number a value, in one message.
   void exchange(std::initializer_list<double*> fields) const;
+  void exchange(const std::vector<double*>& fields) const;
   // Each of them in two halves, between which the caller computes what needs nothing of the others. What is sent is
   // read by the first, what is received is written by the second.
   void begin(const double* values) const;

@@ -9,6 +9,11 @@
 
 namespace dygita {
 
+// How Eigen adds up depends on where numbers lie in memory, unless they are its own.
+double sum_of(const std::vector<double>& values) {
+  return Vec(Eigen::Map<const Vec>(values.data(), static_cast<Eigen::Index>(values.size()))).sum();
+}
+
 std::vector<int> ranks_of(const Cut& cut, int part) {
   std::set<int> ranks;
   for (int i = cut.first(part); i < cut.first(part) + cut.n_pieces(part); ++i) ranks.insert(cut.piece(i).rank);
@@ -130,8 +135,7 @@ std::vector<double> PartView::sums(const std::vector<Vec>& of_cells) const {
     for (size_t i = 0; i < of_cells_[b].size(); ++i)
       if (const int piece = of_cells_[b][i]; piece >= 0)
         of_pieces[static_cast<size_t>(piece)].push_back(of_cells[b][static_cast<Eigen::Index>(i)]);
-    for (size_t k = 0; k < sums.size(); ++k)
-      sums[k] += Eigen::Map<const Vec>(of_pieces[k].data(), static_cast<Eigen::Index>(of_pieces[k].size())).sum();
+    for (size_t k = 0; k < sums.size(); ++k) sums[k] += sum_of(of_pieces[k]);
   }
   return sums;
 }

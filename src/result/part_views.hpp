@@ -43,6 +43,9 @@ class PartView {
 // The cells of a mesh that are kept, in their order, all blocks staying, with the nodes that they have; and those.
 std::pair<MeshPtr, std::vector<int>> some_cells(const Mesh& mesh, const std::vector<std::vector<char>>& is_kept);
 
+// The same for the same numbers, whatever the rank.
+double sum_of(const std::vector<double>& values);
+
 // Ranks that have pieces of a part, increasing.
 std::vector<int> ranks_of(const Cut& cut, int part);
 

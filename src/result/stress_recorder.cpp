@@ -121,7 +121,7 @@ void StressRecorder::settle_above(Watched& watched) const {
     for (int i = 0; i < static_cast<int>(watched.volumes.size()); ++i)
       if (view.owner(i) == static_cast<int>(k)) own.push_back(watched.volumes[i]);
     double* to = values.data() + offset[static_cast<size_t>(view.pieces()[k] - cut.first(part))];
-    *to = Eigen::Map<const Vec>(own.data(), static_cast<Eigen::Index>(own.size())).sum();
+    *to = sum_of(own);
     std::copy(watched.above[k].begin(), watched.above[k].end(), to + 1);
   }
   ranks::Segments(owner, offset).complete(values.data());

@@ -42,6 +42,7 @@ class NearUnknowns {
   // Collective: fields of which each rank has its own pieces' values (the first n_own) get those of the others (n in
   // all), from those who have them.
   void exchange(std::initializer_list<double*> fields) const;
+  void exchange(const std::vector<double*>& fields) const { passing_.exchange(fields); }
   // The same in two halves: what is sent is read by the first, the others' values are there after the second.
   void begin(std::initializer_list<const double*> fields) const { passing_.begin(fields); }
   void end(std::initializer_list<double*> fields) const { passing_.end(fields); }
