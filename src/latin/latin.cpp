@@ -35,6 +35,27 @@ void StepRun::coarse_correction(Vec& q, Vec& velocity) {
   coarse_.correct(q, velocity);
 }
 
+// Both stages in turn from the fields at hand on, the pieces by their rough operators: the image then knows what came
+// back from the neighbourhood of each point. Fields and indicator stay those of the last iteration.
+void StepRun::inner_iterations() {
+  for (int n = 0; n < n_inner_; ++n) {
+    {
+      const Stopwatch watch(books_.seconds.interface);
+      at_.inner_velocity.resize(at_.velocity.size());
+      for_each_piece([&](Piece& piece, int i) {
+        const int first = model_.near.start(i), n_rows = piece.n_rows();
+        auto velocity = at_.inner_velocity.segment(first, n_rows);
+        piece.rough_change(at_.image.segment(first, n_rows) - at_.q.segment(first, n_rows), velocity);
+        velocity += at_.velocity.segment(first, n_rows);
+      });
+    }
+    const Stopwatch watch(books_.seconds.local);
+    model_.near.exchange({at_.inner_velocity.data()});
+    local_.answer(at_.inner_velocity, at_.image, at_.inner_image);
+    at_.image.swap(at_.inner_image);
+  }
+}
+
 // Both stages in turn, until the goal is reached.
 void StepRun::iterate(int increment, const Goal& goal, Best& best) {
   if (assembled_) return iterate_assembled(increment, goal, best);
@@ -58,6 +79,7 @@ void StepRun::iterate(int increment, const Goal& goal, Best& best) {
       best.missed = persistence.missed(increment, settings_.tolerance);
       return;
     }
+    inner_iterations();
     const Stopwatch watch(books_.seconds.accelerate);
     anderson_.advance(own(at_.q), own(at_.image));
   }

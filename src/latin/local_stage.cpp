@@ -185,7 +185,7 @@ void LocalStage::run_point(size_t i_point, const Vec& velocity, const Vec& q, Ve
   scatter(point.first_port_2, point.end_port, side_2, -state.force, velocity, q, image);
 }
 
-IndicatorSums LocalStage::run(const Vec& velocity, const Vec& q, Vec& image) {
+void LocalStage::answer(const Vec& velocity, const Vec& q, Vec& image) {
   image.resize(q.size());
   for (size_t i = 0; i < preloads_.size(); ++i) shorten(static_cast<int>(i), velocity, q);
   constexpr int chunk = 128;
@@ -195,6 +195,10 @@ IndicatorSums LocalStage::run(const Vec& velocity, const Vec& q, Vec& image) {
     for (int i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) run_point(points[i], velocity, q, image);
   };
   parallel_for(n_chunks, run_chunk, Schedule::evenly, n_chunks > 8 ? 0 : 1);
+}
+
+IndicatorSums LocalStage::run(const Vec& velocity, const Vec& q, Vec& image) {
+  answer(velocity, q, image);
   return measure(velocity, q, image);
 }
 

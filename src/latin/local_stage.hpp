@@ -41,6 +41,8 @@ class LocalStage {
   // From velocities V and data q of the linear stage: F_hat, W_hat and their q (the fixed-point image). Collective,
   // unless every rank has all pieces.
   IndicatorSums run(const Vec& velocity, const Vec& q, Vec& image);
+  // The image alone. Not collective.
+  void answer(const Vec& velocity, const Vec& q, Vec& image);
   // Accepts the fields of the last `run`: the laws move on.
   void accept() { accept(nullptr, nullptr); }
   // The same; forces, gaps, slips and works go into the state, energies of the points are added to those of the pieces
