@@ -32,8 +32,13 @@ def iterations(program, deck, settings, solver=None):
     return ", ".join(told)
 
 
-def block(program, n, solver=None, **settings):
-    return iterations(program, "verification/iterations.lua", dict(zip(("nx", "ny", "nz"), BRICKS[n]), **settings), solver)
+def block(program, n, solver="", **settings):
+    return iterations(program, "verification/iterations.lua", dict(zip(("nx", "ny", "nz"), BRICKS[n]), **settings), implicit(solver))
+
+
+def implicit(more=""):
+    """Explicit substructures are not iterated."""
+    return f'latin{{ integration = "implicit", {more} }}'
 
 
 def print_table(head, rows):
@@ -63,10 +68,13 @@ def main():
 
     depths = ("0", "5", "10", "20")
     print_table(["8 pieces, `anderson`"] + list(depths),
-                [[f"CFL {cfl}"] + [block(program, 8, f"latin{{ anderson = {m} }}", cfl=cfl) for m in depths] for cfl in (1, 5, 10)])
+                [[f"CFL {cfl}"] + [block(program, 8, f"anderson = {m}", cfl=cfl) for m in depths] for cfl in (1, 5, 10)])
+
+    masses = ("lumped", "tuned")
+    print_table(["`crush.lua`, mass"] + list(masses), [["shot"] + [iterations(program, "crush.lua", {}, implicit(f'mass = "{m}"')) for m in masses]])
 
     sizes = ("4*mm", "2*mm", "1.5*mm") if arguments.flanges else ("4*mm",)
-    print_table(["bolted flanges"] + list(sizes), [["tighten, shock"] + [iterations(program, "bench/even_flanges.lua", {"size": s}) for s in sizes]])
+    print_table(["bolted flanges"] + list(sizes), [["tighten, shock"] + [iterations(program, "bench/even_flanges.lua", {"size": s}, implicit()) for s in sizes]])
 
 
 if __name__ == "__main__":

@@ -43,6 +43,7 @@ StepRun::Best StepRun::follow(int increment, const Goal& goal) {
   if (entry.iterations > 1 && files_.trail->n_left() < anderson_.n_problems()) {
     linear_stage(at_.q, at_.velocity);
     local_stage(at_.velocity, at_.q, at_.image);
+    inner_iterations();
     anderson_.hear(own(at_.q), own(at_.image));
   }
   for (size_t i = 0; i < model_.pieces.size() && i < entry.moved.size(); ++i)

@@ -43,6 +43,27 @@ void StepRun::coarse_correction(Vec& q, Vec& velocity) {
   coarse_.correct(q, velocity);
 }
 
+// Both stages in turn from the fields at hand on, the pieces by their rough operators: the image then knows what came
+// back from the neighbourhood of each point. Fields and indicator stay those of the last iteration.
+void StepRun::inner_iterations() {
+  for (int n = 0; n < n_inner_; ++n) {
+    {
+      const Stopwatch watch(books_.seconds.interface);
+      at_.inner_velocity.resize(at_.velocity.size());
+      for_each_piece([&](Piece& piece, int i) {
+        const int first = model_.near.start(i), n_rows = piece.n_rows();
+        auto velocity = at_.inner_velocity.segment(first, n_rows);
+        piece.rough_change(at_.image.segment(first, n_rows) - at_.q.segment(first, n_rows), velocity);
+        velocity += at_.velocity.segment(first, n_rows);
+      });
+    }
+    const Stopwatch watch(books_.seconds.local);
+    model_.near.exchange({at_.inner_velocity.data()});
+    local_.answer(at_.inner_velocity, at_.image, at_.inner_image);
+    at_.image.swap(at_.inner_image);
+  }
+}
+
 // Both stages in turn, until the goal is reached.
 void StepRun::iterate(int increment, const Goal& goal, Best& best) {
   if (assembled_) return iterate_assembled(increment, goal, best);
@@ -50,7 +71,8 @@ void StepRun::iterate(int increment, const Goal& goal, Best& best) {
   at_.uncorrected.resize(0);
   best.outcome = {};
   Persistence persistence(goal.limit);
-  Anderson* const also = model_.near.is_all() ? nullptr : &anderson_;
+  // Inner iterations change the image that the acceleration takes sums of.
+  Anderson* const also = model_.near.is_all() || n_inner_ > 0 ? nullptr : &anderson_;
   for (int i = 0;; ++i) {
     const bool is_corrected = i > 0 && !coarse_.is_empty();  // what is in balance to the tolerance is left as it is
     linear_stage(at_.q, at_.velocity, !is_corrected);
@@ -68,6 +90,7 @@ void StepRun::iterate(int increment, const Goal& goal, Best& best) {
       best.missed = persistence.missed(increment, settings_.tolerance);
       return;
     }
+    inner_iterations();
     const Stopwatch watch(books_.seconds.accelerate);
     anderson_.advance(own(at_.q), own(at_.image));
   }

@@ -42,10 +42,13 @@ class LocalStage {
   // whose unknowns are all here, while others' are on their way, then at the rest.
   void run_inner(const Vec& velocity, const Vec& q, Vec& image);
   void run_outer(const Vec& velocity, const Vec& q, Vec& image);
-  // Both, and their distance, where all unknowns are here.
-  IndicatorSums run(const Vec& velocity, const Vec& q, Vec& image) {
+  void answer(const Vec& velocity, const Vec& q, Vec& image) {
     run_inner(velocity, q, image);
     run_outer(velocity, q, image);
+  }
+  // Both, and their distance, where all unknowns are here.
+  IndicatorSums run(const Vec& velocity, const Vec& q, Vec& image) {
+    answer(velocity, q, image);
     return measure(velocity, q, image);
   }
   // The sums that say how far both answers are apart, and what they say. Fields stay what they were meanwhile.

@@ -28,6 +28,10 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
       model_(model),
       weight_(model.near.part(k).head(model.near.n_own()).unaryExpr(&inverse_root)),
       coarse_(settings.has_correction ? CoarseCorrection(model, k) : CoarseCorrection()),
+      n_inner_(ranks::any(std::any_of(model.here.begin(), model.here.end(),
+                                      [&](int i) { return model.pieces[i]->has_rough_operator(); }))
+                   ? settings.n_inner
+                   : 0),
       local_(model, files.state, model.near.part(k)),
       direct_(model, files.state),
       at_{local_.initial_q(), Vec::Zero(model.near.n()), {}, {}},

@@ -24,11 +24,12 @@ namespace dygita {
 // What is iterated: data go from left to right, and from the image back to q. Of the near unknowns; those of pieces
 // elsewhere are what the last local stage has heard of them.
 struct Iterate {
-  Vec q;               // of the linear stage: F_hat + k W_hat, N
-  Vec velocity;        // V, its answer, m/s
-  Vec image;           // F_hat + k W_hat of what the local stage answers to both, N
-  IndicatorSums sums;  // the distance between both answers
-  Vec uncorrected{};   // q before the last coarse correction; empty: there was none. Only where a trail is left
+  Vec q;                                // of the linear stage: F_hat + k W_hat, N
+  Vec velocity;                         // V, its answer, m/s
+  Vec image;                            // F_hat + k W_hat of what the local stage answers to both, N
+  IndicatorSums sums;                   // the distance between both answers
+  Vec inner_velocity{}, inner_image{};  // of inner iterations
+  Vec uncorrected{};  // q before the last coarse correction; empty: there was none. Only where a trail is left
 };
 
 // What a run reads and writes besides its own step.
@@ -74,6 +75,7 @@ class StepRun {
   void linear_stage(const Vec& q, Vec& velocity, bool is_told = false);
   IndicatorSums local_stage(Vec& velocity, Vec& q, Vec& image, bool is_told = false, Anderson* also = nullptr);
   void coarse_correction(Vec& q, Vec& velocity);
+  void inner_iterations();
   void iterate(int increment, const Goal& goal, Best& best);
   // The same with all pieces in one system.
   void iterate_assembled(int increment, const Goal& goal, Best& best);
@@ -194,6 +196,7 @@ class StepRun {
   StepModel& model_;
   Vec weight_;  // 1/sqrt(k): of the components of q in norms, of the pieces here
   CoarseCorrection coarse_;
+  int n_inner_;  // iterations by the pieces' rough operators after each
   LocalStage local_;
   std::optional<TangentIteration> assembled_;  // static steps with all pieces in one system
   bool is_answered_ = false;                   // the velocities at hand are the linear stage's answer to q

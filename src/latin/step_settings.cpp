@@ -44,6 +44,7 @@ StepSettings step_settings(const Problem& problem, const StepModel& model, bool 
   settings.is_assembled = is_static && model.is_assembled;
   settings.has_correction = model.n_q() > 0 && !settings.is_assembled && settings.window == 1 && asked.anderson != 0 &&
                             needs_coarse_correction(model);
+  settings.n_inner = model.has_inner_iterations() ? 2 : 0;
   const auto relaxation = [&](double usual) { return asked.relaxation > 0.0 ? asked.relaxation : usual; };
   const auto depth = [&](int usual) { return asked.anderson >= 0 ? asked.anderson : usual; };
   settings.of_increment = {depth(is_static ? 40 : 10), is_static ? 0 : 20, relaxation(is_static ? 0.8 : 0.95)};

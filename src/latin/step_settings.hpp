@@ -16,6 +16,7 @@ struct StepSettings {
   int window = 1;               // time steps; 1 in a static step
   double assembly_size = 0.0;   // m
   bool has_correction = false;  // coarse
+  int n_inner = 0;              // inner iterations after each: an even number (manual, A5)
   bool is_assembled = false;    // static, all pieces in one system
   struct Acceleration {
     int depth, n_problems;  // see Anderson

@@ -47,12 +47,13 @@ void multiply_symmetric(const Mat& lower, const Vec& x, Vec& y) {
   if (n > 0) cblas_dsymv(CblasColMajor, CblasLower, n, 1.0, lower.data(), n, x.data(), 1, 0.0, y.data(), 1);
 }
 
-SpdInverse::SpdInverse(Mat a, Form form, Precision precision, double error, const std::string& what)
+SpdInverse::SpdInverse(Mat a, Form form, const Storage& storage, const std::string& what)
     : n_(static_cast<int>(a.rows())), form_(form) {
   factorise(a, what);
   if (form == Form::matrix) {
     invert_factor(a);
-    matrix_ = SymmetricOperator(a, precision, error);
+    matrix_ = SymmetricOperator(a, storage.precision, storage.error);
+    if (storage.rough_error > 0.0) rough_ = SymmetricOperator(a, Precision::single_precision, storage.rough_error);
     return;
   }
   double top[Panels::width * Panels::width];

@@ -24,9 +24,16 @@ class SpdInverse {
   // twice as much.
   enum class Form { matrix, factor };
 
-  // The lower triangle of a is read. `precision` and `error` are those of SymmetricOperator, where it is kept as a
-  // matrix; a factor is kept in double precision. Throws NumericalError naming `what` when a is not positive definite.
-  SpdInverse(Mat a, Form form, Precision precision, double error, const std::string& what);
+  // How a matrix is kept: as a SymmetricOperator of this precision and error; and beside it, where rough_error is not
+  // zero, another of that error, most of which is then not stored at all.
+  struct Storage {
+    Precision precision = Precision::double_precision;
+    double error = 0.0, rough_error = 0.0;
+  };
+
+  // The lower triangle of a is read. A factor is kept in double precision, with nothing beside it. Throws
+  // NumericalError naming `what` when a is not positive definite.
+  SpdInverse(Mat a, Form form, const Storage& storage, const std::string& what);
   // The form in which that many products cost least, what it takes to make it included.
   static Form cheapest(int n, double n_products);
 
@@ -34,18 +41,21 @@ class SpdInverse {
   Form form() const { return form_; }
   // y = A^-1 x.
   void multiply(const Vec& x, Vec& y) const;
+  // The same with what is kept of A^-1 roughly.
+  bool has_rough() const { return rough_.size() > 0; }
+  void multiply_roughly(const Vec& x, Vec& y) const { rough_.multiply(x, y); }
   // A^-1 X of many columns, by dense algebra.
   Mat times(Mat x) const;
   // A^-1, its lower triangle.
   Mat lower() const;
-  double bytes() const { return form_ == Form::matrix ? matrix_.bytes() : factor_.bytes(); }
+  double bytes() const { return form_ == Form::matrix ? matrix_.bytes() + rough_.bytes() : factor_.bytes(); }
 
  private:
   Mat unpacked_factor() const;
 
   int n_ = 0;
   Form form_;
-  SymmetricOperator matrix_;
+  SymmetricOperator matrix_, rough_;
   Panels factor_;
 };
 

@@ -108,8 +108,8 @@ void CondensedPiece::set_search_directions(const Vec& k) {
            ? twin_->h_
            : std::make_shared<const SpdInverse>(
                  condensation_.take_with_rows(op_, k),
-                 SpdInverse::cheapest(condensation_.factor->n_interface(), setup.n_products), setup.precision,
-                 setup.storage_error / 16, setup.what);
+                 SpdInverse::cheapest(condensation_.factor->n_interface(), setup.n_products),
+                 SpdInverse::Storage{setup.precision, setup.storage_error / 16, setup.rough_error}, setup.what);
   condensation_.schur.reset();
 }
 
@@ -213,6 +213,24 @@ void CondensedPiece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec>
     velocity[i] = for_change ? t.of(work_.v_old) : 0.0;
     for (int a = 0; a < t.n; ++a) velocity[i] += t.value[a] * dv_b_[t.at[a] - n_i];
     if (held) velocity[i] += (*held)[i];
+  }
+}
+
+void CondensedPiece::rough_change(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) const {
+  if (!h_->has_rough()) return Piece::rough_change(q, velocity);
+  const Traces& traces = op_.traces();
+  const int n_i = condensation_.factor->n_interior();
+  thread_local Vec rhs, answer;
+  rhs.setZero(h_->size());
+  for (int i = 0; i < n_rows(); ++i) {
+    const Trace t = traces[i];
+    for (int a = 0; a < t.n; ++a) rhs[t.at[a] - n_i] += t.value[a] * q[i];
+  }
+  h_->multiply_roughly(rhs, answer);
+  for (int i = 0; i < n_rows(); ++i) {
+    const Trace t = traces[i];
+    velocity[i] = 0.0;
+    for (int a = 0; a < t.n; ++a) velocity[i] += t.value[a] * answer[t.at[a] - n_i];
   }
 }
 

@@ -46,6 +46,8 @@ class CondensedPiece final : public ImplicitPiece {
   bool is_moved() const override { return is_moved_; }
   void wake() override;
   void interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) override;
+  bool has_rough_operator() const override { return h_ && h_->has_rough(); }
+  void rough_change(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) const override;
   PieceFigures figures() const override;
 
  protected:

@@ -114,6 +114,7 @@ void tune_explicitly(const StepModel& model, int piece, PieceSetup& setup) {
 }
 
 std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body>& bodies) {
+  constexpr double rough_error = 5e-3;       // of H in inner iterations: near entries remain
   constexpr double usual_iterations = 40.0;  // of an increment of a static step
   const int n = model.cut->n_pieces();
   CHECK(static_cast<int>(bodies.size()) == n, "one body a piece");
@@ -138,6 +139,7 @@ std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body
     setup.precision = precision_of(model, part, bodies[i]);
     if (model.scheme.is_static) setup.n_products = usual_iterations * model.step->increments;
     // Far below what the tolerance leaves of a step; what is stored of an entry follows.
+    if (model.has_inner_iterations()) setup.rough_error = rough_error;
     setup.storage_error = std::clamp(model.problem->solver.tolerance / 64.0, 0x1p-27, 0x1p-21);
   }
   return setups;

@@ -112,6 +112,12 @@ class Piece {
   virtual void wake() {}
   // Velocities at the rows for interface data q.
   virtual void interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) = 0;
+  // Roughly how they change with interface data that change by q: as much as a stiffness k at each row would have it,
+  // or better (manual, eq. A5).
+  virtual bool has_rough_operator() const { return false; }
+  virtual void rough_change(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) const {
+    velocity = 0.5 * q.cwiseQuotient(k());
+  }
   // After the backward solve, for the q last given: advances the state. interface_force: on held directions of moving
   // nodes (3 x n_nodes), or null.
   virtual IncrementEnergy finish(Eigen::Ref<const Vec> q, const Points* interface_force) = 0;

@@ -46,6 +46,10 @@ std::vector<double> StepModel::motion_velocities(int increment) const {
 
 double StepModel::phase_factor() const { return 1.0 / std::pow(n_substeps(), 2); }
 
+bool StepModel::has_inner_iterations() const {
+  return !scheme.is_static && problem->solver.anderson != 0 && problem->solver.window == 1;
+}
+
 bool StepModel::is_tuned() const { return !has_explicit() && problem->mass().is_tuned; }
 
 double StepModel::held_velocity(const Port& port, const Vec3& direction, const std::vector<double>& motions) const {

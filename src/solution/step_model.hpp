@@ -51,6 +51,8 @@ struct StepModel {
     const int assembled = assembled_unknown(port, d);
     return assembled < 0 ? -1 : near.at(assembled);
   }
+  // Do inner iterations follow each iteration (manual, eq. A5)?
+  bool has_inner_iterations() const;
   // Is the mass of all cells tuned to the time scheme? That of explicit ones is not where laws act.
   bool is_tuned() const;
   // By how much the time scheme turns a motion, of what trapezoidal steps of the deck's dt would (manual, eq. Q2):

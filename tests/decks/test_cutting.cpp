@@ -127,7 +127,7 @@ TEST(Forms, the_condensed_form_equals_full_solves) {
   const DeckRun plain = block({{"nx", "2"}, {"nz", "2"}, {"contact", "1"}, {"plain", "1"}});
   EXPECT_LT(difference(condensed.column("corner", "x"), plain.column("corner", "x")), 1e-8);
   EXPECT_LT(difference(condensed.column("foot", "normal"), plain.column("foot", "normal")), 1e-8);
-  EXPECT_EQ(condensed.result->iterations, plain.result->iterations);
+  EXPECT_LE(condensed.result->iterations, plain.result->iterations);  // which have no rough operator
 }
 
 TEST(Threads, any_number_of_threads_gives_the_same_bits) {

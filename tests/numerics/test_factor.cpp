@@ -162,6 +162,34 @@ TEST(SymmetricOperator, multiplies_as_the_dense_matrix_does) {
   }
 }
 
+// Entries that fall off away from the diagonal, as those of an interface operator do.
+TEST(SpdInverse, has_a_rough_form_of_few_bytes) {
+  const int n = 400;
+  const double error = 5e-3;
+  Mat matrix = Mat::Zero(n, n);
+  for (int i = 0; i < n; ++i) {
+    matrix(i, i) = 2.5 + 0.001 * i;
+    if (i > 0) matrix(i, i - 1) = matrix(i - 1, i) = -1.0;
+  }
+  const SpdInverse plain(matrix, SpdInverse::Form::matrix, {}, "matrix"),
+      both(matrix, SpdInverse::Form::matrix, {Precision::double_precision, 0.0, error}, "matrix");
+  EXPECT_FALSE(plain.has_rough());
+  ASSERT_TRUE(both.has_rough());
+  EXPECT_LT(both.bytes() - plain.bytes(), 0.1 * plain.bytes());
+  const Mat exact = solve_dense(matrix, Mat::Identity(n, n));
+  Vec y;
+  double worst = 0.0;
+  for (int j = 0; j < n; ++j) {
+    both.multiply(Vec::Unit(n, j), y);
+    EXPECT_LT((y - exact.col(j)).norm(), 1e-12 * exact.col(j).norm());
+    both.multiply_roughly(Vec::Unit(n, j), y);
+    for (int i = 0; i < n; ++i)
+      worst = std::max(worst, std::abs(y[i] - exact(i, j)) / std::sqrt(exact(i, i) * exact(j, j)));
+  }
+  EXPECT_LE(worst, 1.001 * error);
+  EXPECT_GT(worst, 0.01 * error);
+}
+
 TEST(SpdInverse, is_the_same_as_a_matrix_and_by_substitution) {
   for (const int n : {1, 7, 8, 17, 40, 101}) {
     const Mat random = Mat::Random(n, n);
@@ -172,7 +200,7 @@ TEST(SpdInverse, is_the_same_as_a_matrix_and_by_substitution) {
     const Vec x = Vec::Random(n);
     const Mat columns = Mat::Random(n, 3);
     for (const auto form : {SpdInverse::Form::matrix, SpdInverse::Form::factor}) {
-      const SpdInverse inverse(lower, form, Precision::double_precision, 0.0, "matrix");
+      const SpdInverse inverse(lower, form, {}, "matrix");
       Vec y;
       inverse.multiply(x, y);
       EXPECT_LT((y - exact * x).norm(), 1e-12 * (exact * x).norm()) << n;
@@ -182,8 +210,7 @@ TEST(SpdInverse, is_the_same_as_a_matrix_and_by_substitution) {
       EXPECT_LT((whole - exact).norm(), 1e-12 * exact.norm()) << n;
     }
     lower(n / 2, n / 2) = -1.0;
-    EXPECT_THROW(SpdInverse(lower, SpdInverse::Form::factor, Precision::double_precision, 0.0, "matrix"),
-                 NumericalError);
+    EXPECT_THROW(SpdInverse(lower, SpdInverse::Form::factor, {}, "matrix"), NumericalError);
   }
 }
 
