@@ -82,7 +82,7 @@ local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0, de
 local bar = substructure{ name = "bar", material = steel, velocity = { 0, 0, -1 }, mesh = mesh.box{ size = { 10*mm, 10*mm, 50*mm }, cells = { 1, 1, 20 }, cell = CELL } }
 local wall = support.wall{ name = "wall", on = bar:face "zmin" }
 problem{ name = "thrown", substructures = { bar }, supports = { wall }, steps = { step.dynamic{ name = "flight", duration = 40*us, dt = 0.2*us } },
-         outputs = { output.joint{ name = "hit", on = wall } } }:run{}
+         solver = solver.latin{ integration = "implicit" }, outputs = { output.joint{ name = "hit", on = wall } } }:run{}
 )";
   for_each_cell(
       thrown,

@@ -137,6 +137,33 @@ TEST(Integration, tuned_masses_halve_the_error_of_a_pulse) {
   EXPECT_LT(tuned, 0.03);
 }
 
+// Contact nodes without mass, which only implicit substructures have, against what they would have to gain in explicit
+// ones: the same pulse with cells of a third of the size.
+TEST(Integration, contact_nodes_without_mass_gain_nothing_where_blocks_rub) {
+  const auto force = [](const char* n, const char* dt, const char* solver) {
+    return run_file(deck("verification/pulse.lua"), {{"n", n}, {"dt", dt}}, 1, solver).at(0).column("ab", "normal");
+  };
+  const std::vector<double> fine = force("24", "0.04*us", "latin{ integration = 'explicit', mass = 'tuned' }");
+  const auto error = [&](const std::string& solver) {
+    const std::vector<double> coarse = force("8", "0.08*us", ("latin{ " + solver + " }").c_str());
+    double apart = 0.0, size = 0.0;
+    for (size_t i = 0; i < coarse.size(); ++i) {
+      const double mean = 0.5 * (fine.at(2 * i) + fine.at(2 * i + 1));
+      apart += std::pow(coarse[i] - mean, 2);
+      size += mean * mean;
+    }
+    return 100.0 * std::sqrt(apart / size);
+  };
+  for (const std::string mass : {"lumped", "tuned"}) {
+    const double of_explicit = error("integration = 'explicit', mass = '" + mass + "'");
+    const double with = error("integration = 'implicit', mass = '" + mass + "'");
+    const double without = error("integration = 'implicit', massless_contact = true, mass = '" + mass + "'");
+    std::cout << "  " << mass << ": explicit " << of_explicit << " %, implicit " << with
+              << " %, without mass at contacts " << without << " %\n";
+    EXPECT_GT(without, with);
+  }
+}
+
 // Damped, a step that goes on starts with the force that the velocities then have.
 TEST(Integration, stiffness_damping_becomes_that_of_implicit_substructures_as_dt_goes_to_zero) {
   const Settings damped = {{"beta", "2e-8"}, {"alpha", "1e4"}, {"driven", "1"}};

@@ -116,14 +116,16 @@ std::string complaint(const Settings& settings) {
   return "";
 }
 
-// All of them or none: an implicit one binds those that it meets; cells of order two do not.
+// All of them or none: an implicit one binds those that it meets; so does one of hex20, unless it is asked for.
 TEST(UnlikeIntegration, those_bound_together_are_all_explicit_or_none_is) {
   const std::string mixed = complaint({{"top", "1"}});
   EXPECT_NE(mixed.find("substructure 'low': integration = \"explicit\" is not possible"), std::string::npos) << mixed;
   EXPECT_NE(mixed.find("binds it to 'high', which is implicit"), std::string::npos) << mixed;
   const DeckRun together = solved({{"top", "3"}});  // chosen together with those that must be
   EXPECT_EQ(together.result->iterations, together.result->steps.at(0).increments);
-  const DeckRun of_two_orders = solved({{"how", "3"}, {"quadratic", "1"}});
+  const DeckRun all_implicit = solved({{"how", "3"}, {"quadratic", "1"}});
+  EXPECT_TRUE(all_implicit.result->steps.at(0).explicit_parts.empty());
+  const DeckRun of_two_orders = solved({{"how", "3"}, {"top", "2"}, {"quadratic", "1"}});
   EXPECT_EQ(of_two_orders.result->steps.at(0).explicit_parts.size(), 3u);
   EXPECT_EQ(of_two_orders.result->steps.at(0).diagonal_parts, std::vector<std::string>{"high"});
   EXPECT_LT(imbalance(of_two_orders), 1e-9);
