@@ -78,7 +78,7 @@ def costs_of(alone, share, two, pattern, how):
                  booked=seconds["laws and energies"] / n / pattern.points(), shown=seconds["output"] / n / pattern.total(), fields=asked,
                  questions=here["messages"]["results"] / n / shared["pieces"], sums=max(1.0, here["messages"]["all"] / n - 4) / inc, increments=inc,
                  looks=min(1.0, SHOWN / n), gathered=gathered / len(pattern.unknowns), growth=1 / 3 if how == "implicit" else 0.0,
-                 piece=pattern.total() / len(pattern.unknowns), added=1 / ADDED)
+                 piece=pattern.total() / len(pattern.unknowns), added=1 / ADDED, exchanges=3.0 if how == "implicit" else 1.0)
 
 
 def predict_here(records, share, cores, how):

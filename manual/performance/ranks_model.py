@@ -57,6 +57,7 @@ class Costs:
     piece: float = 0.0              # unknowns of the pieces that `unknown` is of
     added: float = 0.0              # s a byte that passed to all: adding up
     sums: float = 1.0
+    exchanges: float = 1.0          # with neighbours, an increment (an iteration has two inner ones, of half the numbers)
     increments: float = 1.0         # of a time step of the deck: iterations where the pieces are implicit
     gathered: float = 0.0           # bytes that pass to all: a piece and time step of the deck
 
@@ -167,8 +168,9 @@ def step(pattern, ranks, costs, network, owners=None):
     alone = [costs.booked * p for p in points]
     times["pieces and points"] = max(a + b for a, b in zip(work, alone))
     hidden = [inc * (of_unknown * u + costs.point * p) for u, p in zip(*interior(pattern, ranks, owners))]
-    to_neighbours = 0 if ranks == 1 else inc * sum(sent)
-    times["neighbours"] = 0.0 if not to_neighbours else max(max(0.0, inc * network.to_one(2 * p, s) - h) for p, s, h in zip(peers, sent, hidden))
+    numbers = 0.5 * (1.0 + costs.exchanges)
+    to_neighbours = 0 if ranks == 1 else inc * numbers * sum(sent)
+    times["neighbours"] = 0.0 if not to_neighbours else max(max(0.0, inc * network.to_one(2 * costs.exchanges * p, numbers * s) - h) for p, s, h in zip(peers, sent, hidden))
     gathered = costs.gathered * pieces
     times["to all"] = network.to_all(inc * costs.sums + 5, gathered, ranks) + (costs.added * gathered if ranks > 1 else 0.0)
     asked = 8 * costs.fields * (n - unknowns[0])
@@ -209,7 +211,9 @@ def predict_rings(measured, quick=False):
     return rows
 
 
-MESSAGES = 3        # of an iteration, one after the other: to neighbours; the indicator with the acceleration's first sums, to all; its second sums, to all
+# Of an iteration, one after the other. By itself: to neighbours; the indicator, to all; two inner ones, to neighbours; the acceleration's first and second sums, to all. In a window
+# there are no inner ones, and the first sums go with the indicator.
+MESSAGES, IN_WINDOWS = 6, 3
 
 
 def break_even(iteration, around, of_step, of_window, window):
@@ -217,7 +221,7 @@ def break_even(iteration, around, of_step, of_window, window):
 
     iteration, around: s that an iteration computes, and that a time step does before and after all of its iterations; of_step, of_window: iterations of a time step by itself and
     of a window, each of which goes through all of its time steps with what is before and after, and exchanges once."""
-    spared = MESSAGES * (of_step - of_window / window)
+    spared = MESSAGES * of_step - IN_WINDOWS * of_window / window
     more = of_window * (around + iteration) - around - of_step * iteration
     return more / spared if spared > 0.0 else math.inf
 
@@ -248,7 +252,7 @@ def windows_table(rows):
         one = next(r for r in rows if r["cfl"] == row["cfl"] and r["window"] == 1)
         latency = break_even(one["s of an iteration"], one["s around"], one["iterations"], row["iterations"], row["window"]) if row["window"] > 1 else None
         pays = "" if latency is None else "never" if math.isinf(latency) else f"{1e6 * latency:.0f} us"
-        lines.append(f"| {row['cfl']:g} h/c | {row['window']} | {row['iterations']:.1f} | {MESSAGES * row['iterations'] / row['window']:.1f} | {pays} |")
+        lines.append(f"| {row['cfl']:g} h/c | {row['window']} | {row['iterations']:.1f} | {(MESSAGES if row['window'] == 1 else IN_WINDOWS) * row['iterations'] / row['window']:.1f} | {pays} |")
     return "\n".join(lines)
 
 

@@ -1,7 +1,10 @@
 #include "model/load_content.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 
 #include "model/effects.hpp"
 #include "signal/spectrum.hpp"
@@ -12,10 +15,6 @@ namespace {
 
 constexpr double share = 0.95;  // of a load's energy
 
-bool is_listed(const LoadPtr& load, const Step* step) {
-  return step && std::find(step->loads.begin(), step->loads.end(), load) != step->loads.end();
-}
-
 template <typename Kind>
 bool has_effect(const Load& load) {
   for (const Effect& effect : load.effects())
@@ -23,11 +22,37 @@ bool has_effect(const Load& load) {
   return false;
 }
 
-bool is_steady_force(const Load& load) {
-  for (const Effect& effect : load.effects())
-    if (const auto* force = std::get_if<NodalForces>(&effect))
-      if (force->value.history.is_constant() && force->value.history.value(0.0) != 0.0) return true;
-  return false;
+// Where a force acts and how, and velocities that nodes are given, with their values at an instant of a step (s).
+using Values = std::map<std::string, double>;
+Values values_at(const Step& step, double t) {
+  Values values;
+  for (const LoadPtr& load : step.loads)
+    for (const Effect& effect : load->effects()) {
+      const auto add = [&](const std::string& name, const FaceOrRegion& on, const TimeValue& value) {
+        values[name + " on " + std::visit([](const auto& place) { return place.label(); }, on)] +=
+            value.history.value(t);
+      };
+      if (const auto* force = std::get_if<NodalForces>(&effect)) add(force->name, force->on, force->value);
+      if (const auto* motion = std::get_if<PrescribedMotion>(&effect); motion && motion->is_velocity)
+        for (size_t axis = 0; axis < 3; ++axis)
+          if (motion->along[axis]) add(motion->name_along(static_cast<int>(axis)), motion->on, *motion->along[axis]);
+    }
+  return values;
+}
+
+// What goes on where the step before has ended, or begins at zero, is no jump; a tenth of it is none either.
+bool jumps_between(const Values& before, const Values& after) {
+  constexpr double most = 0.1;
+  const auto at = [](const Values& values, const std::string& name) {
+    const auto it = values.find(name);
+    return it == values.end() ? 0.0 : it->second;
+  };
+  const auto jumps = [&](const std::string& name) {
+    const double a = at(before, name), b = at(after, name);
+    return std::abs(b - a) > most * std::max(std::abs(a), std::abs(b));
+  };
+  return std::any_of(before.begin(), before.end(), [&](const auto& value) { return jumps(value.first); }) ||
+         std::any_of(after.begin(), after.end(), [&](const auto& value) { return jumps(value.first); });
 }
 
 bool is_first_in_motion(const Step& step) {
@@ -47,31 +72,41 @@ bool begins_with_a_jump(const Problem& problem, const Step& step) {
   if (is_first_in_motion(step) && meet_at_speed(problem)) return true;
   const Step* before = step.after.get();
   if (before && step.supports != before->supports) return true;
-  for (const LoadPtr& load : step.loads)
-    if (has_effect<Release>(*load) || (is_steady_force(*load) && !is_listed(load, before))) return true;
-  if (!before || !before->is_static) return false;
-  return std::any_of(before->loads.begin(), before->loads.end(),
-                     [&](const LoadPtr& load) { return has_effect<NodalForces>(*load) && !is_listed(load, &step); });
+  if (std::any_of(step.loads.begin(), step.loads.end(), [](const LoadPtr& load) { return has_effect<Release>(*load); }))
+    return true;
+  const double end = !before ? 0.0 : before->is_static ? 1.0 : before->duration;
+  return jumps_between(before ? values_at(*before, end) : Values(), values_at(step, 0.0));
+}
+
+}  // namespace
+
+namespace {
+
+// Of values less `from`.
+double frequency_of(const History& history, const Step& step, double from) {
+  if (history.is_constant()) return 0.0;
+  const int n = std::clamp(4 * step.n_increments(), 256, 2048);
+  std::vector<double> samples(n + 1);
+  for (int i = 0; i <= n; ++i) samples[i] = history.value(step.duration * i / n) - from;
+  return band_limit(samples, step.duration / n, share);
 }
 
 }  // namespace
 
 double load_frequency(const Load& load, const Step& step) {
   double highest = 0.0;
-  for (const auto& value : load.values) {
-    if (!value || value->history.is_constant()) continue;
-    const int n = std::clamp(4 * step.n_increments(), 256, 2048);
-    std::vector<double> samples(n + 1);
-    for (int i = 0; i <= n; ++i) samples[i] = value->history.value(step.duration * i / n);
-    highest = std::max(highest, band_limit(samples, step.duration / n, share));
-  }
+  for (const auto& value : load.values)
+    if (value) highest = std::max(highest, frequency_of(value->history, step, 0.0));
   return highest;
 }
 
+// What is there from the start is at rest.
 double brought_frequency(const Problem& problem, const Step& step) {
   if (begins_with_a_jump(problem, step)) return std::numeric_limits<double>::infinity();
   double highest = 0.0;
-  for (const LoadPtr& load : step.loads) highest = std::max(highest, load_frequency(*load, step));
+  for (const LoadPtr& load : step.loads)
+    for (const auto& value : load->values)
+      if (value) highest = std::max(highest, frequency_of(value->history, step, value->history.value(0.0)));
   return highest;
 }
 

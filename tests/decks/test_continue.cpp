@@ -122,8 +122,8 @@ TEST_F(Continue, to_a_tighter_tolerance_gives_what_that_tolerance_gives_and_take
     std::cout << "latin{" << more << " }: first run " << before << " iterations, continued with "
               << iterations(going_on) << ", a fresh run at 1e-7 takes " << fresh << "; difference from it "
               << difference_before << " before, " << after << " after\n";
-    EXPECT_LT(after, 1e-5) << more;
-    EXPECT_LT(after, 0.02 * difference_before) << more;
+    // What an iteration leaves goes with its tolerance, here by 1e-4; both runs leave it.
+    EXPECT_LT(after, 2e-4 * difference_before) << more;
     // A window of several steps begins anew what its steps tell each other.
     EXPECT_LT(static_cast<double>(iterations(going_on)),
               (std::string(more).find("window") == std::string::npos ? 0.9 : 1.1) * static_cast<double>(fresh))
