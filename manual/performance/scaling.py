@@ -52,7 +52,7 @@ def of(rows, study):
 
 def goals(rows):
     done = []
-    for limit, cfls in ((7, (1, 2)), (16, (10,))):
+    for limit, cfls in ((5, (1, 2)), (10, (10,))):
         mine = [r for r in of(rows, "CFL") if r["cfl"] in cfls]
         worst = max(r["iterations per step"] for r in mine)
         done.append((f"iterations per step at CFL {' and '.join(str(c) for c in cfls if any(r['cfl'] == c for r in mine))}, tolerance 1e-6, 8 pieces: at most {limit}",

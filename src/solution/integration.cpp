@@ -108,8 +108,13 @@ IntegrationChoice asked_of(const Problem& problem, const Substructure& part) {
 // that of tetrahedra: at equal cost their consistent mass is more accurate in implicit increments (manual, explicit
 // substructures).
 bool loses_by_diagonal(const Mesh& mesh) {
-  return std::any_of(mesh.blocks.begin(), mesh.blocks.end(), [](const CellBlock& block) {
-    return block.type == CellType::hex20 || block.type == CellType::prism15;
+  const auto has_no_middle = [](const LocalFacet& facet) {
+    const FacetShape& shape = facet_shape(facet.type);
+    return shape.n_corners == 4 && nodes_per_facet(facet.type) == 2 * shape.n_corners;
+  };
+  return std::any_of(mesh.blocks.begin(), mesh.blocks.end(), [&](const CellBlock& block) {
+    const std::span<const LocalFacet> facets = cell_shape(block.type).facets;
+    return std::any_of(facets.begin(), facets.end(), has_no_middle);
   });
 }
 
@@ -161,7 +166,8 @@ class Chooser {
     for (size_t i = 0; i < best.parts.size(); ++i)
       if (left_[i] && best.parts[i].why_not.empty())
         best.parts[i].why_not =
-            "hex20 and prism15 are explicit only where asked for: their diagonal mass is less accurate";
+            "its cells of order two have no nodes in the middle of quadrangles, so that their diagonal mass is less "
+            "accurate: explicit only where asked for";
     return best;
   }
 
@@ -220,11 +226,13 @@ void bind_to_implicit(const Problem& problem, const AlikeParts& alike, std::vect
 // Along a cut cells would stay lumped, and what is cut would not be what is whole: all of it stays so.
 void choose_mass(const Problem& problem, const Cut& cut, const std::vector<Size>& sizes,
                  std::vector<Integration::Part>& parts) {
+  const bool is_chosen = problem.mass().is_chosen;
+  const std::vector<double> brought = is_chosen ? brought_frequencies(problem) : std::vector<double>();
   for (size_t i = 0; i < parts.size(); ++i) {
     parts[i].is_tuned = problem.mass().is_tuned;
-    if (!problem.mass().is_chosen || !parts[i].why_not.empty()) continue;
+    if (!is_chosen || !parts[i].why_not.empty()) continue;
     const Substructure& part = *problem.substructures[i];
-    parts[i].phase = phase_of_lumped_mass(problem, part);
+    parts[i].phase = phase_of_lumped_mass(problem, brought, part);
     parts[i].is_tuned = !cut.is_cut(static_cast<int>(i)) &&
                         wants_tuned_mass(part, parts[i].phase, sizes[i].interface_unknowns / sizes[i].unknowns);
   }

@@ -23,14 +23,20 @@ bool is_of_bricks(const Mesh& mesh) {
 
 }  // namespace
 
-double phase_of_lumped_mass(const Problem& problem, const Substructure& part) {
+std::vector<double> brought_frequencies(const Problem& problem) {
+  std::vector<double> brought;
+  for (const StepPtr& step : problem.steps)
+    brought.push_back(step->is_static ? 0.0 : brought_frequency(problem, *step));
+  return brought;
+}
+
+double phase_of_lumped_mass(const Problem& problem, const std::vector<double>& brought, const Substructure& part) {
   const double h = std::cbrt(volume(*part.mesh) / part.mesh->n_cells()), speed = part.material.s_wave_speed();
   const double highest = speed / (fewest_cells_a_wavelength * h);
   double phase = 0.0;
-  for (const StepPtr& step : problem.steps) {
-    if (step->is_static) continue;
-    const double w = 2.0 * std::numbers::pi * std::min(highest, brought_frequency(problem, *step));
-    phase += w * step->duration * std::pow(w / speed * h, 2) / 24.0;
+  for (size_t i = 0; i < problem.steps.size(); ++i) {
+    const double w = 2.0 * std::numbers::pi * std::min(highest, brought[i]);
+    phase += w * problem.steps[i]->duration * std::pow(w / speed * h, 2) / 24.0;
   }
   return phase;
 }

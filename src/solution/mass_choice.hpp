@@ -6,9 +6,12 @@
 
 namespace dygita {
 
+// Hz, the highest that the loads of each step bring; 0 in static ones.
+std::vector<double> brought_frequencies(const Problem& problem);
+
 // Rad, at the end of the dynamic steps: by how much a lumped mass keeps back shear waves of the highest frequency that
 // the loads bring, or that the mesh carries.
-double phase_of_lumped_mass(const Problem& problem, const Substructure& part);
+double phase_of_lumped_mass(const Problem& problem, const std::vector<double>& brought, const Substructure& part);
 
 // Is that worth a tuned mass? Not where most nodes have laws, whose cells stay lumped, nor in cells that are no bricks.
 // interface_share: of its nodes.
