@@ -78,10 +78,6 @@ bool begins_with_a_jump(const Problem& problem, const Step& step) {
   return jumps_between(before ? values_at(*before, end) : Values(), values_at(step, 0.0));
 }
 
-}  // namespace
-
-namespace {
-
 // Of values less `from`.
 double frequency_of(const History& history, const Step& step, double from) {
   if (history.is_constant()) return 0.0;
