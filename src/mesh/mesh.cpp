@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <unordered_map>
 
 #include "base/error.hpp"
 #include "base/fnv1a.hpp"
@@ -59,26 +58,38 @@ Facet facet_of_cell(const CellBlock& block, int i, int k) {
   return {local.type, std::span<const int>(nodes.data(), static_cast<size_t>(n))};
 }
 
+// Facets are looked for among those that have the same highest corner: a dozen at most.
 std::vector<Facet> boundary_facets(const std::vector<CellBlock>& blocks) {
-  struct Seen {
-    Facet facet;
-    int cells;
-  };
-  std::unordered_map<FacetKey, Seen, FacetKeyHash> seen;
-  std::vector<FacetKey> order;
+  int n_nodes = 0;
+  size_t n_facets = 0;
+  for (const CellBlock& block : blocks) {
+    for (const int node : block.nodes) n_nodes = std::max(n_nodes, node + 1);
+    n_facets += static_cast<size_t>(block.n_cells()) * facets_per_cell(block.type);
+  }
+  std::vector<FacetKey> keys;
+  keys.reserve(n_facets);
+  std::vector<int> last(static_cast<size_t>(n_nodes), -1), before;  // facet with that highest corner; the one before it
+  before.reserve(n_facets);
+  std::vector<char> is_outside(n_facets, 1);
   for (const CellBlock& block : blocks)
     for (int i = 0; i < block.n_cells(); ++i)
       for (int k = 0; k < facets_per_cell(block.type); ++k) {
-        const Facet facet = facet_of_cell(block, i, k);
-        const FacetKey key = facet_key(facet);
-        const auto [at, is_new] = seen.try_emplace(key, Seen{facet, 0});
-        if (is_new) order.push_back(key);
-        ++at->second.cells;
+        const FacetKey& key = keys.emplace_back(facet_key(facet_of_cell(block, i, k)));
+        const int own = static_cast<int>(before.size());
+        int& chain = last[static_cast<size_t>(key.back())];
+        int same = chain;
+        while (same >= 0 && keys[same] != key) same = before[same];
+        if (same >= 0) is_outside[same] = is_outside[own] = 0;
+        before.push_back(chain);
+        chain = own;
       }
 
   std::vector<Facet> boundary;
-  for (const FacetKey& key : order)
-    if (const Seen& found = seen.at(key); found.cells == 1) boundary.push_back(found.facet);
+  size_t facet = 0;
+  for (const CellBlock& block : blocks)
+    for (int i = 0; i < block.n_cells(); ++i)
+      for (int k = 0; k < facets_per_cell(block.type); ++k)
+        if (is_outside[facet++]) boundary.push_back(facet_of_cell(block, i, k));
   return boundary;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/parallel.hpp"
 #include "report/cut_plane.hpp"
 #include "report/joint_map.hpp"
 #include "report/picture.hpp"
@@ -90,25 +91,30 @@ Json stress_picture(const Problem& problem, const View& view, const AssemblyScen
   return json;
 }
 
+Json shape_picture(const Problem& problem, const View& view) {
+  Json json = json_of(make_picture(problem.substructures, view, {}, {}, 0.0));
+  json["colour"] = "part";
+  return json;
+}
+
 Json assembly(const Problem& problem, const Scenes& scenes) {
   const Views views = views_of(problem);
-  Json list = Json::array();
-  const auto add = [&](Json picture, bool is_cut) {
+  std::vector<std::pair<const AssemblyScene*, bool>> wanted;  // none: the shape; is it cut?
+  const auto want = [&](const AssemblyScene* scene) {
+    wanted.emplace_back(scene, false);
+    if (views.cut) wanted.emplace_back(scene, true);
+  };
+  want(nullptr);
+  for (const AssemblyScene& scene : scenes.assembly) want(&scene);
+  std::vector<Json> pictures(wanted.size());
+  parallel_for(static_cast<int>(wanted.size()), [&](int i) {
+    const auto& [scene, is_cut] = wanted[static_cast<size_t>(i)];
+    const View& view = is_cut ? *views.cut : views.whole;
+    Json picture = scene ? stress_picture(problem, view, *scene) : shape_picture(problem, view);
     if (is_cut) picture["cut_text"] = views.cut_text;
-    list.push_back(std::move(picture));
-  };
-  const auto shape = [&](const View& view) {
-    Json picture = json_of(make_picture(problem.substructures, view, {}, {}, 0.0));
-    picture["colour"] = "part";
-    return picture;
-  };
-  add(shape(views.whole), false);
-  if (views.cut) add(shape(*views.cut), true);
-  for (const AssemblyScene& scene : scenes.assembly) {
-    add(stress_picture(problem, views.whole, scene), false);
-    if (views.cut) add(stress_picture(problem, *views.cut, scene), true);
-  }
-  return list;
+    pictures[static_cast<size_t>(i)] = std::move(picture);
+  });
+  return pictures;
 }
 
 Json values(const std::vector<float>& of_points, const JointMap& map) {

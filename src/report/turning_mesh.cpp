@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "report/picture_mesh.hpp"
 
 namespace dygita {
@@ -161,9 +162,11 @@ void append(const Boundary& b, int quota, TurningMesh& mesh, std::vector<Vec3>& 
 
 TurningMesh make_turning_mesh(const std::vector<SubstructurePtr>& parts, const std::vector<FacetLabels>& labels,
                               int most_nodes) {
-  std::vector<Boundary> boundaries;
-  for (size_t p = 0; p < parts.size(); ++p)
-    boundaries.push_back(boundary_of(*parts[p], labels.empty() ? nullptr : &labels[p]));
+  std::vector<Boundary> boundaries(parts.size());
+  parallel_for(static_cast<int>(parts.size()), [&](int i) {
+    const size_t p = static_cast<size_t>(i);
+    boundaries[p] = boundary_of(*parts[p], labels.empty() ? nullptr : &labels[p]);
+  });
   const std::vector<int> quota = quotas(boundaries, most_nodes);
   TurningMesh mesh;
   std::vector<Vec3> places;

@@ -85,10 +85,15 @@ double OctaveBank::phase_error(double factor) const {
 // Relative to the assembly's motion as a whole, which bends no cell and turns no phase (eq. Q0).
 void ErrorEstimator::take_velocities(const Instant& instant) {
   const Cut& cut = *instant.model.cut;
-  for (PieceMotion& own : pieces_) {
+  const auto renew = [&](int i) {
+    PieceMotion& own = pieces_[static_cast<size_t>(i)];
     own.old = std::move(own.velocity);
     own.velocity = velocity_of(instant, own.piece);
-  }
+  };
+  Eigen::Index n_unknowns = 0;
+  for (const PieceMotion& own : pieces_) n_unknowns += own.velocity.size();
+  const int threads_for_few = 1, n_threads = n_unknowns < 20000 ? threads_for_few : 0;
+  parallel_for(static_cast<int>(pieces_.size()), renew, Schedule::as_free, n_threads);
   size_t next = 0;  // of pieces_, whose order is that of the cut
   const Vec3 carried = carried_->at(instant, [&] {
     const std::vector<double> momenta = of_all_pieces(cut, 3, [&](int, double* to) {
@@ -112,10 +117,7 @@ void ErrorEstimator::take_velocities(const Instant& instant) {
       sums[1] += own.mass[k] * std::pow((own.velocity[k] - own.old[k]) / dt_, 2);
     n_octaves[static_cast<size_t>(i)] = own.octaves.add(own.mass, own.velocity, sums + 2);
   };
-  Eigen::Index n_unknowns = 0;
-  for (const PieceMotion& own : pieces_) n_unknowns += own.velocity.size();
-  const int threads_for_few = 1;
-  parallel_for(static_cast<int>(pieces_.size()), take, Schedule::as_free, n_unknowns < 20000 ? threads_for_few : 0);
+  parallel_for(static_cast<int>(pieces_.size()), take, Schedule::as_free, n_threads);
   const int n = 2 + n_octaves.front();
   next = 0;
   const std::vector<double> all =
@@ -145,13 +147,19 @@ ErrorEstimator::StressEnergies ErrorEstimator::stress_energies(const Instant& in
   }
   const std::vector<double> errors =
       of_all_pieces(cut, 1, [&](int piece, double* to) { *to = own[static_cast<size_t>(piece)]; });
-  size_t next = 0;
-  const std::vector<double> strains = of_all_pieces(cut, 1, [&](int piece, double* to) {
-    Points u = instant.piece_displacement(piece);
-    if (!start_.empty()) u -= pieces_[next++].start;
-    const Points force = instant.model.pieces[static_cast<size_t>(piece)]->elastic_force(u);
-    *to = 0.5 * u.reshaped().dot(force.reshaped());
+  std::vector<int> here;
+  for (int i = 0; i < cut.n_pieces(); ++i)
+    if (cut.is_here(i)) here.push_back(i);
+  std::vector<double> own_strains(here.size());
+  parallel_for(static_cast<int>(here.size()), [&](int i) {
+    const auto k = static_cast<size_t>(i);
+    Points u = instant.piece_displacement(here[k]);
+    if (!start_.empty()) u -= pieces_[k].start;
+    const Points force = instant.model.pieces[static_cast<size_t>(here[k])]->elastic_force(u);
+    own_strains[k] = 0.5 * u.reshaped().dot(force.reshaped());
   });
+  size_t next = 0;
+  const std::vector<double> strains = of_all_pieces(cut, 1, [&](int, double* to) { *to = own_strains[next++]; });
   StressEnergies energies;
   for (size_t i = 0; i < errors.size(); ++i) {
     const auto part = static_cast<size_t>(cut.piece(static_cast<int>(i)).part);

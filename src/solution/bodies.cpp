@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/overloaded.hpp"
+#include "base/parallel_by_cost.hpp"
 #include "fem/mass.hpp"
 #include "law/law.hpp"
 #include "model/load.hpp"
@@ -157,13 +158,21 @@ void add_matrices(const std::vector<char>& to, std::vector<Body>& bodies) {
   };
   for (const Body& body : bodies)
     if (body.matrices) known[key(body)] = body.matrices;
+  std::vector<std::pair<const Substructure*, std::shared_ptr<const BodyMatrices>*>> wanted;
+  std::vector<double> cost;
   for (size_t i = 0; i < bodies.size(); ++i) {
     if (!to[i]) continue;
-    std::shared_ptr<const BodyMatrices>& matrices = known[key(bodies[i])];
-    if (!matrices)
-      matrices = std::make_shared<const BodyMatrices>(assemble(*bodies[i].part->mesh, bodies[i].part->material));
-    bodies[i].matrices = matrices;
+    const auto [at, is_new] = known.try_emplace(key(bodies[i]));
+    if (!is_new) continue;
+    wanted.emplace_back(bodies[i].part, &at->second);
+    cost.push_back(bodies[i].part->mesh->n_cells());
   }
+  parallel_by_cost(cost, [&](int i) {
+    const auto& [part, matrices] = wanted[static_cast<size_t>(i)];
+    *matrices = std::make_shared<const BodyMatrices>(assemble(*part->mesh, part->material));
+  });
+  for (size_t i = 0; i < bodies.size(); ++i)
+    if (to[i]) bodies[i].matrices = known.at(key(bodies[i]));
 }
 
 }  // namespace

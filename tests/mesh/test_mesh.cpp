@@ -126,6 +126,29 @@ TEST(Mesh, has_outward_facets_of_the_right_area_on_every_cell_type) {
   }
 }
 
+// The plain way: those that are met once, in the order of the cells; here a facet of three cells, too.
+TEST(Mesh, has_on_its_boundary_what_is_met_once) {
+  for (const CellType type : {CellType::hex8, CellType::tet4, CellType::tet10, CellType::hex27}) {
+    const MeshPtr box = box_mesh({0, 0, 0}, {1, 1, 1}, {3, 2, 4}, type);
+    std::vector<CellBlock> blocks = box->blocks;
+    const std::vector<int> first(blocks[0].cell(5), blocks[0].cell(6));
+    for (int again = 0; again < 2; ++again) blocks[0].nodes.insert(blocks[0].nodes.end(), first.begin(), first.end());
+    std::map<FacetKey, int> met;
+    std::vector<Facet> facets, plain;
+    for (const CellBlock& block : blocks)
+      for (int i = 0; i < block.n_cells(); ++i)
+        for (int k = 0; k < facets_per_cell(block.type); ++k)
+          ++met[facet_key(facets.emplace_back(facet_of_cell(block, i, k)))];
+    for (const Facet& facet : facets)
+      if (met[facet_key(facet)] == 1) plain.push_back(facet);
+    const std::vector<Facet> computed = boundary_facets(blocks);
+    ASSERT_EQ(computed.size(), plain.size());
+    ASSERT_GT(plain.size(), 20u);
+    for (size_t i = 0; i < plain.size(); ++i)
+      EXPECT_TRUE(std::equal(plain[i].nodes().begin(), plain[i].nodes().end(), computed[i].nodes().begin()));
+  }
+}
+
 TEST(Mesh, measures_the_volume_of_every_cell_type) {
   EXPECT_NEAR(volume(one_cell(CellType::tet4, unit_tet())), 1.0 / 6, 1e-15);
   EXPECT_NEAR(volume(one_cell(CellType::prism6, unit_prism())), 0.5, 1e-15);
