@@ -528,7 +528,7 @@ words[9] = {
       { "numerical_damping", type = "number", range = { 0, 1 }, default = 0, doc = "of the time scheme; 0: none" },
       { "push_out", type = "number", range = { 0, 1 }, default = 0, doc = "part of a penetration undone in a time step" },
       { "search_direction", type = "number", range = { 1e-6, 1e6 }, default = 1, doc = "multiplies every search direction" },
-      { "mass", type = "choice", choices = { "automatic", "tuned", "lumped" }, default = "lumped",
+      { "mass", type = "choice", choices = { "automatic", "tuned", "lumped" }, default = "automatic",
         doc = "of the cells: tuned to the time scheme so that waves keep their speed, or all at the nodes; \"automatic\": tuned in explicit substructures of "
           .. "hexahedra whose waves lumped mass would keep back, else lumped" },
       { "massless_contact", type = "boolean", default = false,

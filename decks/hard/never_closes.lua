@@ -22,7 +22,10 @@ local ring = step.dynamic{
 local tip = output.history{ name = "tip", on = bar:face "zmax", quantity = "displacement", direction = { 0, 0, 1 } }
 local push, energy = output.resultant{ name = "push", on = wall }, output.energy{}
 local function case(name, supports, outputs)
-  return problem{ name = "never_closes", substructures = { bar }, supports = supports, steps = { ring }, outputs = outputs }:run{ case = name }
+  return problem{
+    name = "never_closes", substructures = { bar }, supports = supports, steps = { ring }, outputs = outputs,
+    solver = solver.latin{ mass = "lumped" },  -- a tuned one is lumped in cells at a contact, be it ever so far: 0.08 %
+  }:run{ case = name }
 end
 local with, without = case("base", { root, wall }, { tip, push, energy }), case("without", { root }, { tip })
 local off = 0

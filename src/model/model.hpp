@@ -112,7 +112,7 @@ struct LatinSettings {
   double numerical_damping = 0.0;
   double push_out = 0.0;          // b of the contact law
   double search_direction = 1.0;  // multiplies every k (studies, hard cases)
-  MassSettings mass;
+  MassSettings mass{.is_chosen = true};
   IntegrationChoice integration = IntegrationChoice::as_cheapest;  // of substructures that do not say
   std::optional<Precision>
       precision;                  // of the stored factors in dynamic steps; none: single where a substructure is large

@@ -27,7 +27,7 @@ constexpr double safety = 0.98;
 constexpr double explicit_unknown = 95.0, explicit_pair = 40.0, tuned_unknown = 80.0, damped_unknown = 60.0,
                  explicit_point = 1100.0, fill = 1.4;
 constexpr double spread_point = 10000.0;  // between meshes that do not match: some eight rounds
-constexpr double single_factor = 9.0, double_factor = 12.0, single_h = 4.0, double_h = 12.0, iterations = 7.0;
+constexpr double single_factor = 9.0, double_factor = 12.0, single_h = 4.0, double_h = 12.0, iterations = 4.5;
 constexpr double rest_of_iteration = 1000.0, factorising = 16.0, condensing = 0.5;
 
 struct Size {
@@ -223,9 +223,8 @@ void bind_to_implicit(const Problem& problem, const AlikeParts& alike, std::vect
                         parts[j].why_not.empty() ? "" : ": " + parts[j].why_not);
 }
 
-// Along a cut cells would stay lumped, and what is cut would not be what is whole: all of it stays so.
-void choose_mass(const Problem& problem, const Cut& cut, const std::vector<Size>& sizes,
-                 std::vector<Integration::Part>& parts) {
+// Whether it is cut does not count: then the cells along the cut stay lumped, and no others.
+void choose_mass(const Problem& problem, const std::vector<Size>& sizes, std::vector<Integration::Part>& parts) {
   const bool is_chosen = problem.mass().is_chosen;
   const std::vector<double> brought = is_chosen ? brought_frequencies(problem) : std::vector<double>();
   for (size_t i = 0; i < parts.size(); ++i) {
@@ -233,8 +232,7 @@ void choose_mass(const Problem& problem, const Cut& cut, const std::vector<Size>
     if (!is_chosen || !parts[i].why_not.empty()) continue;
     const Substructure& part = *problem.substructures[i];
     parts[i].phase = phase_of_lumped_mass(problem, brought, part);
-    parts[i].is_tuned = !cut.is_cut(static_cast<int>(i)) &&
-                        wants_tuned_mass(part, parts[i].phase, sizes[i].interface_unknowns / sizes[i].unknowns);
+    parts[i].is_tuned = wants_tuned_mass(part, parts[i].phase, sizes[i].interface_unknowns / sizes[i].unknowns);
   }
 }
 
@@ -284,7 +282,7 @@ Integration choose_integration(const Problem& problem, const Step& step, const s
   bind_to_implicit(problem, alike, parts);
   refuse(problem, parts);
   const std::vector<Size> sizes = sizes_of(problem, step, surfaces, pairs_of_neighbours(cut, bodies));
-  choose_mass(problem, cut, sizes, parts);
+  choose_mass(problem, sizes, parts);
   parallel_for(static_cast<int>(bodies.size()), [&](int p) {
     const int part = cut.piece(p).part;
     if (!cut.is_here(p)) return;

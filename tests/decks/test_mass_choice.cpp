@@ -47,8 +47,7 @@ TEST(MassChoice, is_the_deck_s_where_it_says) {
   EXPECT_TRUE(hit(run_text(bar, {{"load", "2"}, {"mass", "1"}}).at(0)).phases.empty());
 }
 
-TEST(MassChoice, leaves_lumped_what_is_cut_or_has_other_cells_or_is_implicit) {
-  EXPECT_EQ(tuned({{"load", "2"}, {"pieces", "2"}}), none);
+TEST(MassChoice, leaves_lumped_what_has_other_cells_or_is_implicit) {
   EXPECT_EQ(tuned({{"load", "2"}, {"cell", "2"}}), none);
   EXPECT_EQ(tuned({{"load", "2"}, {"integration", "1"}}), none);
 }
@@ -82,6 +81,12 @@ TEST(MassChoice, makes_a_pulse_at_least_twice_as_accurate) {
   const double chosen = error(force({})), lumped = error(force({{"mass", "1"}}));
   std::cout << "force between the halves, off by " << 100 * chosen << " % tuned, " << 100 * lumped << " % lumped\n";
   EXPECT_LT(chosen, 0.5 * lumped);
+  // Cells along a cut are lumped: that costs less than what tuning the others gains.
+  const double cut = error(force({{"pieces", "4"}}));
+  std::cout << "each cut into four: " << 100 * cut << " %\n";
+  EXPECT_EQ(tuned({{"load", "2"}, {"pieces", "4"}}), both);
+  EXPECT_GT(cut, chosen);
+  EXPECT_LT(cut, 0.6 * lumped);
 }
 
 }  // namespace
