@@ -38,7 +38,10 @@ def curves(scene, solvers, quick):
     def every(values):
         return values[1:-1] if quick else values
 
+    solvers = {name: option for name, option in solvers.items() if not scene.solvers or name in scene.solvers}
     found = [(name, "mesh", [(v, s, option) for v, s in every(scene.mesh)]) for name, option in solvers.items()]
+    if scene.solvers:
+        return found + [("latin", "dt", [(v, s, solvers["latin"]) for v, s in every(scene.dt) if s not in [of for _, of in scene.mesh]])]
     found += [(name, "dt", [(v, s, solvers[name]) for v, s in every(scene.dt)]) for name in ("latin", "latin implicit", "latin implicit tuned", "monolithic")
               if name in solvers]
     if "latin implicit" in solvers:
