@@ -10,6 +10,7 @@
 #include "mesh/box.hpp"
 #include "mesh/geo_script.hpp"
 #include "mesh/mesh_limits.hpp"
+#include "mesh/shared_pages.hpp"
 #include "model/found_faces.hpp"
 
 namespace dygita {
@@ -36,8 +37,8 @@ Content build_box(const Declaration& d) {
   const auto cells = d.arguments.counts("cells");
   const auto bytes = static_cast<size_t>(bytes_per_cell * cells[0] * cells[1] * cells[2]);
   d.lua.reserve(fmt::format("mesh.box: {} x {} x {} cells", cells[0], cells[1], cells[2]), bytes);
-  const MeshPtr mesh =
-      box_mesh(d.arguments.vector("origin"), d.arguments.vector("size"), cells, cell_of_box(d.arguments));
+  const MeshPtr mesh = on_shared_pages(
+      box_mesh(d.arguments.vector("origin"), d.arguments.vector("size"), cells, cell_of_box(d.arguments)));
   d.lua.hold_reserved(mesh, bytes);
   return mesh;
 }
@@ -158,7 +159,7 @@ void set_place(const std::vector<double>& place, Substructure& part) {
   part.place = Eigen::Map<const Vec3>(place.data() + place.size() - 3);
   if (place.size() == 3) return;
   const Mat3 rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(place.data());
-  part.mesh = turned_mesh(*part.mesh, rotation, Vec3::Zero());
+  part.mesh = on_shared_pages(turned_mesh(*part.mesh, rotation, Vec3::Zero()));
 }
 
 Content build_substructure(const Declaration& d) {

@@ -91,7 +91,7 @@ class DirectPoints {
   void complete_motions();
   void complete_starts();
   void book(const OwnPoint& p, IncrementEnergy& energy);
-  void add_point(const StepModel& model, int index, const State& start);
+  void add_point(const StepModel& model, int index, const State& start, const std::vector<PortMotion>& motions);
   OwnPort make_port(const StepModel& model, const Point& point, int index);
   Mat3 spread_port(const StepModel& model, const Point& point, const Port& port, OwnPort& own);
   void find_clusters();

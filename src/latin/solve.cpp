@@ -7,6 +7,7 @@
 #include "latin/shared_trail.hpp"
 #include "latin/sharing.hpp"
 #include "latin/step_run.hpp"
+#include "mesh/shared_pages.hpp"
 #include "numerics/factor.hpp"
 #include "solution/step_ends.hpp"
 #include "solution/stopped_run.hpp"
@@ -28,7 +29,8 @@ void tell_run(const std::shared_ptr<const InterfaceFields>& kept, SolverFigures&
 
 }  // namespace
 
-SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceFields* start_from, Trail* kept_trail) {
+SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceFields* start_from, Trail* kept_trail,
+                    const SharePlan& plan) {
   using clock = std::chrono::steady_clock;
   auto start = clock::now();
   const auto lap = [&] {
@@ -39,9 +41,10 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
   Trail* const trail = ranks::is_alone() ? kept_trail : ranks::any(kept_trail) ? &shared_trail : nullptr;
   const ranks::Traffic traffic_before = ranks::traffic();
   const std::vector<Surface> surfaces = make_surfaces(problem);
-  const CutPtr cut = make_cut(problem, surfaces);
+  const CutPtr cut = make_cut(problem, surfaces, plan);
   const std::vector<Body> bodies = make_bodies(problem, surfaces, *cut);
-  State state = initial_state(problem, surfaces);
+  leave_shared_pages();
+  State state = initial_state(problem, surfaces, *cut);
   auto kept = std::make_shared<InterfaceFields>(problem.solver.history_memory);
   SolverFigures figures;
   figures.pieces = cut->counts();
@@ -50,6 +53,7 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
     if (ranks::any(interrupt_requested())) break;
     StepModel model = make_step_model(problem, *step, surfaces, bodies, state, cut);
     if (ranks::any(interrupt_requested())) break;  // the factorisation may have taken long
+    leave_shared_pages();
     const StepSettings settings = step_settings(problem, model, start_from != nullptr);
     start_step(model, state);
     const Vec k = search_directions(model, problem.solver.search_direction, settings.window);

@@ -10,6 +10,7 @@
 #include "base/names.hpp"
 #include "mesh/mesh_file.hpp"
 #include "mesh/mesher_process.hpp"
+#include "mesh/shared_pages.hpp"
 #include "mesh/straighten.hpp"
 
 namespace dygita {
@@ -39,7 +40,7 @@ GmshMeshes::GmshMeshes(const GmshOptions& options) : file_(options.file) {
   for (const Straightened& one : straighten(model)) warn(text_of(one, file_));
   Fnv1a digest;
   for (const TaggedVolume& volume : model.volumes) {
-    const MeshPtr mesh = build_mesh(model, volume);
+    const MeshPtr mesh = on_shared_pages(build_mesh(model, volume));
     warn_of_implausible_size(*mesh, volume.name);
     volumes_[volume.name] = mesh;
     digest.add(volume.name);

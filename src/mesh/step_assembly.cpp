@@ -12,6 +12,7 @@
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/mesh_file.hpp"
 #include "mesh/mesher_process.hpp"
+#include "mesh/shared_pages.hpp"
 #include "mesh/straighten.hpp"
 
 namespace dygita {
@@ -70,9 +71,9 @@ std::vector<StepPart> build_parts(MesherAnswer& all) {
     if (const auto& copy = all.copies[i]) {
       const StepPart& first = parts[copy->of];
       part.copy_of = first.name;
-      part.mesh = turned_mesh(*first.mesh, copy->turn, copy->shift);
+      part.mesh = on_shared_pages(turned_mesh(*first.mesh, copy->turn, copy->shift));
     } else {
-      part.mesh = build_mesh(one, one.volumes[0]);
+      part.mesh = on_shared_pages(build_mesh(one, one.volumes[0]));
     }
     all.model.nodes = std::move(one.nodes);
   }

@@ -2,6 +2,7 @@
 #ifdef DYGITA_HAS_MPI
 #include <mpi.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <limits>
@@ -18,7 +19,7 @@ namespace {
 
 enum Tag { failed = 1, asked, answered, passed, brought };
 
-int n_ranks = 1, own_rank = 0, n_on_machine = 1;
+int n_ranks = 1, own_rank = 0, n_on_machine = 1, own_on_machine = 0;
 Traffic so_far;
 std::mutex asking;
 Say say_error = nullptr;
@@ -63,12 +64,15 @@ int as_count(size_t n) {
   return static_cast<int>(n);
 }
 
-// Rank 0's values to all, which know how many.
+// Rank 0's values to all, which know how many: meshes are larger than what one call takes.
 template <class Values>
 void broadcast(Values& values, MPI_Datatype type) {
-  MPI_Request request;
-  MPI_Ibcast(values.data(), as_count(values.size()), type, 0, MPI_COMM_WORLD, &request);
-  wait(request);
+  constexpr size_t most = size_t{1} << 28;
+  for (size_t at = 0; at < values.size(); at += most) {
+    MPI_Request request;
+    MPI_Ibcast(values.data() + at, as_count(std::min(most, values.size() - at)), type, 0, MPI_COMM_WORLD, &request);
+    wait(request);
+  }
   if (own_rank == 0) note_sent(everybody, n_ranks - 1, (n_ranks - 1.0) * values.size() * sizeof(values[0]));
 }
 
@@ -117,6 +121,7 @@ void start(Say say) {
   MPI_Comm on_machine;
   MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &on_machine);
   MPI_Comm_size(on_machine, &n_on_machine);
+  MPI_Comm_rank(on_machine, &own_on_machine);
   MPI_Comm_free(&on_machine);
 }
 
@@ -133,6 +138,8 @@ int count() { return n_ranks; }
 int me() { return own_rank; }
 
 int count_on_machine() { return n_on_machine; }
+
+bool is_first_on_machine() { return own_on_machine == 0; }
 
 void stop_all(const std::string& message, int code) {
   if (own_rank == 0) {

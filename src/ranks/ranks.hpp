@@ -24,6 +24,7 @@ void finish();
 int count();
 int me();
 int count_on_machine();  // those that share this machine's memory
+bool is_first_on_machine();
 inline bool is_first() { return me() == 0; }
 inline bool is_alone() { return count() == 1; }
 

@@ -44,9 +44,9 @@ WatchedNodes::WatchedNodes(const Cut& cut, std::vector<std::vector<int>> nodes)
       }
       split_.push_back({part, first, cut.on_owners(part, nodes_[i])});
       if (watcher == ranks::me()) taken_[i].resize(3, static_cast<Eigen::Index>(nodes_[i].size()));
-      nodes_[i].clear();
+      nodes_[i] = {};
     } else if (!is_watched_here(cut, part)) {
-      nodes_[i].clear();
+      nodes_[i] = {};
     }
   }
   passing_.resize(3 * owner.size());
