@@ -17,7 +17,7 @@ namespace dygita {
 
 namespace {
 
-constexpr size_t page = 4096, least = size_t{1} << 17;  // bytes; least: of an array that is worth a mapping
+constexpr size_t page = 4096, least = size_t{1} << 20;  // bytes; least: of an array that is worth a mapping
 constexpr int most_meshes = 4000;  // a process may have some 65,000 mappings, a mesh takes six or more
 
 struct Array {

@@ -100,7 +100,7 @@ compare("iterated", implicit, "implicit", "--set", "release=8", also=[3, 4])
 compare("iterated_cut", implicit, "implicit", "--set", "cut=3", "--set", "driven=1", also=[3, 4])
 compare("iterated_windows", implicit, "implicit", "--set", "window=4", "--set", "cut=2", also=[3])
 compare("iterated_mixed", implicit, "implicit", "--set", "explicit=4", also=[3, 4])
-# Meshes of files: rank 0 has them meshed for all; turned copies; meshes large enough for pages that the ranks share.
+# Meshes of files: rank 0 has them meshed for all; turned copies.
 RING = asked.folder.parents[1] / "decks" / "bench" / "ring.lua"
 compare("meshed", RING, "ring", "--set", "bolts=6", "--set", "steps=3", "--solver", "latin{ integration = 'explicit' }", also=[3])
 (FOLDER / "spoiled.geo").write_text("Point(1) = {0, 0;\n")
