@@ -27,8 +27,9 @@ DirectPoints::DirectPoints(const StepModel& model, const State& start)
       close_enough_(std::clamp(0.1 * model.problem->solver.tolerance, 1e-13, 1e-10)) {
   find_motions(model);
   complete_starts();
+  const std::vector<PortMotion> motions = port_motions(model, start);
   for (size_t i = 0; i < model.exchange.points.size(); ++i)
-    if (model.exchange.points[i].is_direct) add_point(model, static_cast<int>(i), start);
+    if (model.exchange.points[i].is_direct) add_point(model, static_cast<int>(i), start, motions);
   find_released();
   find_clusters();
   has_clusters_ = !clusters_.empty();
@@ -36,13 +37,14 @@ DirectPoints::DirectPoints(const StepModel& model, const State& start)
   split_points();
 }
 
-void DirectPoints::add_point(const StepModel& model, int index, const State& start) {
+void DirectPoints::add_point(const StepModel& model, int index, const State& start,
+                             const std::vector<PortMotion>& motions) {
   const Point& point = model.exchange.points[index];
   OwnPoint p;
   p.point = &point;
   p.index = index;
   p.is_booked_here = DistantPoints::booking(model, point) == ranks::me();
-  p.record = start_point(model, point, start);
+  p.record = start_point(model, point, start, motions);
   p.record.trial.shortening = p.record.shortening_old;
   const int first = static_cast<int>(ports_.size()) - point.first_port;
   p.side_1.first = first + point.first_port;

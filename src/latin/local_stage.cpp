@@ -14,14 +14,14 @@ LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k)
   const Exchange& exchange = model.exchange;
   ports_.resize(exchange.ports.size());
   points_.resize(exchange.points.size());
+  const std::vector<PortMotion> motions = port_motions(model, start);
   for (const int i : model.near.points()) {
     const Point& point = exchange.points[i];
     for (int p = point.first_port; p < point.end_port; ++p) {
-      const Port& port = exchange.ports[p];
-      ports_[p].u = point.frame.transpose() * port.motion(start.displacement[port.part]);
-      if (!scheme.is_static) ports_[p].w = point.frame.transpose() * port.motion(start.velocity[port.part]);
+      ports_[p].u = point.frame.transpose() * motions[p].displacement;
+      if (!scheme.is_static) ports_[p].w = point.frame.transpose() * motions[p].velocity;
     }
-    points_[i] = start_point(model, point, start);
+    points_[i] = start_point(model, point, start, motions);
     // Forces of the step before, on whichever port carries the node.
     for (const Member& member : point.members) {
       const Surface& surface = (*model.surfaces)[member.surface];

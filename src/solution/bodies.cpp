@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -140,9 +141,15 @@ std::vector<Vec> lumped_masses(const std::vector<Body>& bodies, const Cut& cut) 
     for (const Body& body : bodies) masses.push_back(body.matrices->mass);
     return masses;
   }
-  const std::vector<Points> fields =
-      fields_of_all_pieces(cut, [&](int i) { return Points(bodies[i].matrices->mass.transpose().replicate(3, 1)); });
-  for (const Points& field : fields) masses.push_back(field.row(0).transpose());
+  std::vector<int> sizes;
+  for (const CutPiece& piece : cut.pieces()) sizes.push_back(piece.body->mesh->n_nodes());
+  Vec all(std::accumulate(sizes.begin(), sizes.end(), Eigen::Index{0}));
+  Eigen::Index at = 0;
+  for (int i = 0; i < cut.n_pieces(); at += sizes[i++])
+    if (cut.is_here(i)) all.segment(at, sizes[i]) = bodies[i].matrices->mass;
+  segments_of(cut, sizes).complete(all.data());
+  at = 0;
+  for (const int size : sizes) masses.emplace_back(all.segment(at, size)), at += size;
   return masses;
 }
 
