@@ -28,12 +28,13 @@ DirectPoints::DirectPoints(const StepModel& model, const State& start)
   find_motions(model);
   complete_starts();
   const std::vector<PortMotion> motions = port_motions(model, start);
+  const std::vector<char> is_near = points_near(model);
   for (size_t i = 0; i < model.exchange.points.size(); ++i)
-    if (model.exchange.points[i].is_direct) add_point(model, static_cast<int>(i), start, motions);
+    if (is_near[i] && model.exchange.points[i].is_direct) add_point(model, static_cast<int>(i), start, motions);
   find_released();
   find_clusters();
-  has_clusters_ = !clusters_.empty();
-  if (!ranks::is_alone()) find_near();
+  has_clusters_ = ranks::any(!clusters_.empty());
+  if (!ranks::is_alone()) find_readers();
   split_points();
 }
 

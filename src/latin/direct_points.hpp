@@ -90,8 +90,8 @@ class DirectPoints {
     bool is_here = false;
   };
   void find_motions(const StepModel& model);
-  void find_near();
-  void keep_near(const std::vector<char>& is_near);
+  static std::vector<char> points_near(const StepModel& model);
+  void find_readers();
   void hear();
   void complete_starts();
   void split_points();

@@ -169,13 +169,14 @@ compare("assembled_pieces", asked.folder / "ranks.lua", "ranks", "--solver", "la
 compare("released", asked.folder / "ranks.lua", "ranks", "--set", "release=20", also=[3])
 # Iterated points between ranks: each solves those that its pieces touch, sums are made piece by piece.
 implicit = asked.folder / "ranks_implicit.lua"
+DECKS = asked.folder.parents[1] / "decks"
 compare("iterated", implicit, "implicit", "--set", "release=8", also=[3, 4])
 compare("iterated_cut", implicit, "implicit", "--set", "cut=3", "--set", "driven=1", also=[3, 4])
 compare("iterated_windows", implicit, "implicit", "--set", "window=4", "--set", "cut=2", also=[3])
+compare("cut_cube", DECKS / "verification" / "pieces.lua", "pieces", "--set", "n=8", "--set", "only=6", cases=("6_pieces",), also=[3])
 compare("iterated_mixed", implicit, "implicit", "--set", "explicit=4", also=[3, 4])
 # Meshes of files: rank 0 has them meshed for all; turned copies.
-RING = asked.folder.parents[1] / "decks" / "bench" / "ring.lua"
-compare("meshed", RING, "ring", "--set", "bolts=6", "--set", "steps=3", "--solver", "latin{ integration = 'explicit' }", also=[3])
+compare("meshed", DECKS / "bench" / "ring.lua", "ring", "--set", "bolts=6", "--set", "steps=3", "--solver", "latin{ integration = 'explicit' }", also=[3])
 (FOLDER / "spoiled.geo").write_text("Point(1) = {0, 0;\n")
 (FOLDER / "spoiled.lua").write_text('local m = mesh.gmsh{ file = "spoiled.geo" }\n')
 dygita(2, "run", FOLDER / "spoiled.lua", "--quiet", "--out", FOLDER / "spoiled", expected=2, says=["gmsh cannot read or mesh it"])
