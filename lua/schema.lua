@@ -538,7 +538,7 @@ words[9] = {
       { "precision", type = "choice", choices = { "single", "double" }, default_doc = "single in substructures of more than 4000 unknowns, unless tolerance is below 1e-7",
         doc = "of the stored factors in dynamic steps; arithmetic is in double precision either way" },
       { "pieces", type = "integer", range = { 1, 100000 }, default = "auto", or_word = "auto",
-        doc = "into how many bonded pieces each substructure is cut; 1: none is; \"auto\": large ones are" },
+        doc = "into how many bonded pieces each substructure is cut; 1: none is; \"auto\": large ones are, and for several MPI ranks what would leave them uneven" },
       { "history_memory", type = "number", range = { 0, 1e6 }, default = 512,
         doc = "MB of interface fields kept in memory for `start_from`; what is more goes to a temporary file" },
       { "spectra", type = "number", range = { 1e-4, 20 }, default_doc = "one run at `tolerance`",

@@ -59,6 +59,7 @@ def row_of(scene, ranks, record, share, off):
     for kind in ("neighbours", "all", "results"):
         row[f"messages per step, {kind}"] = sum(r["messages"][kind] for r in of_each) / n
         row[f"kB per step, {kind}"] = 1e-3 * sum(r["bytes"][kind] for r in of_each) / n
+    row["MB of a rank at most"] = 1e-6 * max((r["memory"]["peak"] for r in of_each), default=0.0)  # one process does not tell
     row["waited, share"] = max((r["seconds_waited"] for r in of_each), default=0.0) / shock["seconds"]
     if of_each:
         row["heaviest over mean, unknowns"] = max(r["unknowns"] for r in of_each) * ranks / size
@@ -177,13 +178,16 @@ def figure(rows, folder):
 
 
 def section(rows):
+    has_memory = any(r.get("MB of a rank at most") for r in rows)  # not in what an earlier version measured
     cells = [(r["scene"], f"{r['ranks']:.0f}", f"{r['ms per step']:.0f}", f"{r['model: ms per step']:.0f}", f"{sum(r[f'messages per step, {k}'] for k in ('neighbours', 'all', 'results')):.0f}",
               f"{r['kB per step, neighbours']:.0f} / {r['kB per step, all']:.0f} / {r['kB per step, results']:.0f}", f"{r['model: kB per step']:.0f}",
-              f"{100 * r['waited, share']:.0f} %", f"{r['heaviest over mean, unknowns']:.2f} / {r['heaviest over mean, seconds']:.2f}", f"{100 * r['share of the processors']:.0f} %", f"{r['tables differ by']:.1g}") for r in rows]
+              f"{100 * r['waited, share']:.0f} %", f"{r['heaviest over mean, unknowns']:.2f} / {r['heaviest over mean, seconds']:.2f}", f"{100 * r['share of the processors']:.0f} %", f"{r['tables differ by']:.1g}",
+              *([f"{r['MB of a rank at most']:.0f}" if r.get("MB of a rank at most") else ""] if has_memory else [])) for r in rows]
     return "\n\n".join([
         "## Ranks", f"`{RING}`: {rows[0]['bodies']:.0f} bodies, {rows[0]['dofs']:.0f} unknowns, {rows[0]['increments per step']:.0f} explicit increments a time step of the deck, or "
         "implicit ones; 1, 2 and 4 ranks of one thread on the processors named above, which other programs used as well. Sums over the ranks; "
         "*waited*: of the rank that waited longest. *Model*: replayed from two ranks' pattern and one process's seconds ([Several machines](parallel.md)).",
-        table(["scene", "ranks", "ms per step", "model", "messages per step", "kB per step: neighbours / all / results", "model, all", "waited", "heaviest over mean: unknowns / seconds", "share of the processors", "tables differ by"], cells)])
+        table(["scene", "ranks", "ms per step", "model", "messages per step", "kB per step: neighbours / all / results", "model, all", "waited", "heaviest over mean: unknowns / seconds", "share of the processors", "tables differ by",
+               *(["MB of a rank at most"] if has_memory else [])], cells)])
 
 

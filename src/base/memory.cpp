@@ -20,12 +20,23 @@ void MemoryReserve::release() {
   at_ = nullptr;
 }
 
-double available_memory() {
-  std::ifstream told("/proc/meminfo");
+namespace {
+
+// What a file of /proc says behind a name, in kB there; 0: nothing.
+double bytes_in(const char* file, const char* name) {
+  std::ifstream told(file);
   for (std::string line; std::getline(told, line);)
-    if (line.starts_with("MemAvailable:")) return 1024.0 * std::strtod(line.c_str() + line.find(':') + 1, nullptr);
+    if (line.starts_with(name)) return 1024.0 * std::strtod(line.c_str() + line.find(':') + 1, nullptr);
   return 0.0;
 }
+
+}  // namespace
+
+double available_memory() { return bytes_in("/proc/meminfo", "MemAvailable:"); }
+
+double resident_memory() { return bytes_in("/proc/self/status", "VmRSS:"); }
+
+double peak_memory() { return bytes_in("/proc/self/status", "VmHWM:"); }
 
 void require_memory(std::size_t bytes) {
   void* const at = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);

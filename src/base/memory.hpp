@@ -23,6 +23,10 @@ class MemoryReserve {
 // Bytes that the machine could give without swapping (MemAvailable of /proc/meminfo); 0: it does not tell.
 double available_memory();
 
+// Bytes of this process that are in memory now, and that were at most.
+double resident_memory();
+double peak_memory();
+
 // Throws std::bad_alloc where so many bytes cannot be had now.
 void require_memory(std::size_t bytes);
 

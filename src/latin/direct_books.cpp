@@ -7,9 +7,9 @@
 namespace dygita {
 
 void DirectPoints::find_released() {
-  for (const OwnPoint& p : points_)
-    for (const Member& member : p.point->members)
-      if ((*model_->surfaces)[member.surface].interface) released_.push_back(member.surface);
+  for (const Point& point : model_->exchange.points)
+    for (const Member& member : point.members)
+      if (point.is_direct && (*model_->surfaces)[member.surface].interface) released_.push_back(member.surface);
   std::sort(released_.begin(), released_.end());
   released_.erase(std::unique(released_.begin(), released_.end()), released_.end());
 }

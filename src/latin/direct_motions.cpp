@@ -2,6 +2,7 @@
 // both, from the same numbers, and booked by one. Motions of nodes pass in every increment, to neighbours alone.
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "base/error.hpp"
@@ -32,23 +33,46 @@ void DirectPoints::find_motions(const StepModel& model) {
   of_starts_ = segments_of(*model.cut, standing);
 }
 
-// Points that touch a piece that is here, and those that they share nodes with; who reads the motion of which node.
-void DirectPoints::find_near() {
+// Of the exchange's points those that touch a piece that is here, and those that these share nodes with.
+std::vector<char> DirectPoints::points_near(const StepModel& model) {
+  const std::vector<Point>& points = model.exchange.points;
+  std::vector<char> is_near(points.size(), 1);
+  if (ranks::is_alone()) return is_near;
+  std::vector<int> root(points.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  std::map<std::pair<int, int>, int> first_at;  // by piece and node
+  for (int i = 0; i < static_cast<int>(points.size()); ++i)
+    for (int p = points[i].first_port; p < points[i].end_port && points[i].is_direct; ++p) {
+      const Port& port = model.exchange.ports[p];
+      for (const int node : piece_nodes(*model.cut, port))
+        root[find(i)] = find(first_at.emplace(std::pair(port.piece, node), i).first->second);
+    }
+  std::vector<char> touches(points.size(), 0);
+  for (int i = 0; i < static_cast<int>(points.size()); ++i)
+    for (int p = points[i].first_port; p < points[i].end_port; ++p)
+      if (model.cut->is_here(model.exchange.ports[p].piece)) touches[find(i)] = 1;
+  for (int i = 0; i < static_cast<int>(points.size()); ++i) is_near[i] = touches[find(i)];
+  return is_near;
+}
+
+// Who reads the motion of which node.
+void DirectPoints::find_readers() {
   const Exchange& exchange = model_->exchange;
   const auto rank_of = [&](int port) { return model_->cut->piece(exchange.ports[ports_[port].index].piece).rank; };
   std::map<std::pair<const ExplicitNodes*, int>, std::set<int>> readers_of;
-  std::vector<char> is_near(points_.size(), 0);
   const auto share = [&](const std::vector<int>& members) {
     std::set<int> solving;
     for (const int i : members)
       for (int p = points_[i].side_1.first; p < points_[i].side_2.end; ++p) solving.insert(rank_of(p));
-    for (const int i : members) {
-      is_near[i] = solving.contains(ranks::me());
+    for (const int i : members)
       for (int p = points_[i].side_1.first; p < points_[i].side_2.end; ++p)
         for_each_node(ports_[p], [&](int node) {
           readers_of[{ports_[p].nodes, node}].insert(solving.begin(), solving.end());
         });
-    }
   };
   for (const int i : alone_) share({i});
   for (const std::vector<int>& members : clusters_) share(members);
@@ -68,40 +92,6 @@ void DirectPoints::find_near() {
   for (const Motions& motion : motions_)
     if (motion.is_here && (border_pieces_.empty() || border_pieces_.back() != motion.piece))
       border_pieces_.push_back(motion.piece);
-  keep_near(is_near);
-}
-
-// All others are solved elsewhere.
-void DirectPoints::keep_near(const std::vector<char>& is_near) {
-  std::vector<int> place(points_.size(), -1);
-  std::vector<OwnPoint> points;
-  std::vector<OwnPort> ports;
-  std::vector<Share> shares;
-  for (size_t i = 0; i < points_.size(); ++i) {
-    if (!is_near[i]) continue;
-    place[i] = static_cast<int>(points.size());
-    OwnPoint& p = points.emplace_back(std::move(points_[i]));
-    const int moved = static_cast<int>(ports.size()) - p.side_1.first;
-    for (int k = p.side_1.first; k < p.side_2.end; ++k) {
-      OwnPort& port = ports.emplace_back(std::move(ports_[k]));
-      const int first = static_cast<int>(shares.size());
-      shares.insert(shares.end(), shares_.begin() + port.first_share, shares_.begin() + port.end_share);
-      port.end_share = first + port.end_share - port.first_share;
-      port.first_share = first;
-    }
-    for (int* at : {&p.side_1.first, &p.side_1.end, &p.side_2.first, &p.side_2.end}) *at += moved;
-  }
-  points_ = std::move(points);
-  ports_ = std::move(ports);
-  shares_ = std::move(shares);
-  const auto keep = [&](std::vector<int>& all) {
-    std::erase_if(all, [&](int i) { return place[i] < 0; });
-    for (int& i : all) i = place[i];
-  };
-  keep(alone_);
-  for (std::vector<int>& members : clusters_) keep(members);
-  std::erase_if(clusters_, [](const std::vector<int>& members) { return members.empty(); });
-  swept_.resize(clusters_.size());
 }
 
 void DirectPoints::tell() {

@@ -27,22 +27,25 @@ DirectPoints::DirectPoints(const StepModel& model, const State& start)
       close_enough_(std::clamp(0.1 * model.problem->solver.tolerance, 1e-13, 1e-10)) {
   find_motions(model);
   complete_starts();
+  const std::vector<PortMotion> motions = port_motions(model, start);
+  const std::vector<char> is_near = points_near(model);
   for (size_t i = 0; i < model.exchange.points.size(); ++i)
-    if (model.exchange.points[i].is_direct) add_point(model, static_cast<int>(i), start);
+    if (is_near[i] && model.exchange.points[i].is_direct) add_point(model, static_cast<int>(i), start, motions);
   find_released();
   find_clusters();
-  has_clusters_ = !clusters_.empty();
-  if (!ranks::is_alone()) find_near();
+  has_clusters_ = ranks::any(!clusters_.empty());
+  if (!ranks::is_alone()) find_readers();
   split_points();
 }
 
-void DirectPoints::add_point(const StepModel& model, int index, const State& start) {
+void DirectPoints::add_point(const StepModel& model, int index, const State& start,
+                             const std::vector<PortMotion>& motions) {
   const Point& point = model.exchange.points[index];
   OwnPoint p;
   p.point = &point;
   p.index = index;
   p.is_booked_here = DistantPoints::booking(model, point) == ranks::me();
-  p.record = start_point(model, point, start);
+  p.record = start_point(model, point, start, motions);
   p.record.trial.shortening = p.record.shortening_old;
   const int first = static_cast<int>(ports_.size()) - point.first_port;
   p.side_1.first = first + point.first_port;

@@ -90,15 +90,15 @@ class DirectPoints {
     bool is_here = false;
   };
   void find_motions(const StepModel& model);
-  void find_near();
-  void keep_near(const std::vector<char>& is_near);
+  static std::vector<char> points_near(const StepModel& model);
+  void find_readers();
   void hear();
   void complete_starts();
   void split_points();
   void solve_some(const std::vector<int>& alone, const std::vector<double>& motions, int most_threads);
   void solve_some_clusters(const std::vector<int>& clusters, const std::vector<double>& motions, int most_threads);
   void book(const OwnPoint& p, IncrementEnergy& energy);
-  void add_point(const StepModel& model, int index, const State& start);
+  void add_point(const StepModel& model, int index, const State& start, const std::vector<PortMotion>& motions);
   OwnPort make_port(const StepModel& model, const Point& point, int index);
   Mat3 spread_port(const StepModel& model, const Point& point, const Port& port, OwnPort& own);
   void find_clusters();

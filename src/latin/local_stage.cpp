@@ -12,16 +12,18 @@ LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k)
   const Scheme& scheme = model.scheme;
   increment_ = increment_of(scheme, model.problem->solver.push_out);
   const Exchange& exchange = model.exchange;
-  ports_.resize(exchange.ports.size());
-  points_.resize(exchange.points.size());
+  // Up to the last one that is iterated here: none where all pieces are explicit.
+  const int n_points = model.near.points().empty() ? 0 : model.near.points().back() + 1;
+  points_.resize(static_cast<size_t>(n_points));
+  if (n_points > 0) ports_.resize(static_cast<size_t>(exchange.points[n_points - 1].end_port));
+  const std::vector<PortMotion> motions = port_motions(model, start);
   for (const int i : model.near.points()) {
     const Point& point = exchange.points[i];
     for (int p = point.first_port; p < point.end_port; ++p) {
-      const Port& port = exchange.ports[p];
-      ports_[p].u = point.frame.transpose() * port.motion(start.displacement[port.part]);
-      if (!scheme.is_static) ports_[p].w = point.frame.transpose() * port.motion(start.velocity[port.part]);
+      ports_[p].u = point.frame.transpose() * motions[p].displacement;
+      if (!scheme.is_static) ports_[p].w = point.frame.transpose() * motions[p].velocity;
     }
-    points_[i] = start_point(model, point, start);
+    points_[i] = start_point(model, point, start, motions);
     // Forces of the step before, on whichever port carries the node.
     for (const Member& member : point.members) {
       const Surface& surface = (*model.surfaces)[member.surface];
@@ -39,12 +41,14 @@ LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k)
   }
   preloads_ = make_preloads(model, points_);
   find_surfaces();
-  for (const Tie& tie : exchange.ties) {
-    const Vec3 force =
-        exchange.points[tie.point].frame.transpose() * start.surfaces[tie.surface].points[tie.surface_point].force;
-    ports_[tie.port_1].f += force;
-    ports_[tie.port_2].f -= force;
-  }
+  for (const int i : model.near.points())
+    for (int t = exchange.points[i].first_tie; t < exchange.points[i].end_tie; ++t) {
+      const Tie& tie = exchange.ties[t];
+      const Vec3 force =
+          exchange.points[i].frame.transpose() * start.surfaces[tie.surface].points[tie.surface_point].force;
+      ports_[tie.port_1].f += force;
+      ports_[tie.port_2].f -= force;
+    }
 }
 
 Vec LocalStage::initial_q() const {

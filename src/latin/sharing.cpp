@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/log.hpp"
+#include "base/memory.hpp"
 #include "solution/all_pieces.hpp"
 #include "solution/share_out.hpp"
 
@@ -12,9 +13,9 @@ namespace dygita {
 
 namespace {
 
-// Of the ranks, one after the other: messages, bytes and seconds.
+// Of the ranks, one after the other: messages, bytes, seconds, and memory now and at most.
 std::vector<double> traffic_of_all(const ranks::Traffic& before) {
-  constexpr size_t n = 2 * ranks::n_receivers + 1;
+  constexpr size_t n = 2 * ranks::n_receivers + 3;
   const ranks::Traffic now = ranks::traffic();
   std::vector<double> all(n * static_cast<size_t>(ranks::count()), 0.0);
   double* const own = all.data() + n * static_cast<size_t>(ranks::me());
@@ -22,7 +23,9 @@ std::vector<double> traffic_of_all(const ranks::Traffic& before) {
     own[i] = now.messages[i] - before.messages[i];
     own[ranks::n_receivers + i] = now.bytes[i] - before.bytes[i];
   }
-  own[n - 1] = now.seconds_waited - before.seconds_waited;
+  own[n - 3] = now.seconds_waited - before.seconds_waited;
+  own[n - 2] = resident_memory();
+  own[n - 1] = peak_memory();
   return ranks::sums(all);
 }
 
@@ -44,9 +47,11 @@ void say_rank(int rank, const RankFigures& of) {
   const auto sum = [](const std::array<double, ranks::n_receivers>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
   };
-  say(fmt::format("  rank {}: {} piece{}, {} unknowns; sent {:.0f} messages, {:.4g} MB; waited {:.2f} s", rank,
-                  of.pieces, of.pieces == 1 ? "" : "s", of.unknowns, sum(of.messages), 1e-6 * sum(of.bytes),
-                  of.seconds_waited));
+  say(
+      fmt::format("  rank {}: {} piece{}, {} unknowns; sent {:.0f} messages, {:.4g} MB; waited {:.2f} s; {:.0f} MB of "
+                  "memory at most",
+                  rank, of.pieces, of.pieces == 1 ? "" : "s", of.unknowns, sum(of.messages), 1e-6 * sum(of.bytes),
+                  of.seconds_waited, 1e-6 * of.peak_memory));
 }
 
 }  // namespace
@@ -69,6 +74,8 @@ void tell_ranks(const std::vector<Surface>& surfaces, const Cut& cut, const rank
     for (double& n : rank.messages) n = *at++;
     for (double& n : rank.bytes) n = *at++;
     rank.seconds_waited = *at++;
+    rank.memory = *at++;
+    rank.peak_memory = *at++;
     say_rank(i, rank);
   }
   figures.seconds["waiting for other ranks"] += sharing.ranks[static_cast<size_t>(ranks::me())].seconds_waited;

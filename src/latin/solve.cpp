@@ -28,7 +28,8 @@ void tell_run(const std::shared_ptr<const InterfaceFields>& kept, SolverFigures&
 
 }  // namespace
 
-SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceFields* start_from, Trail* kept_trail) {
+SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceFields* start_from, Trail* kept_trail,
+                    const SharePlan& plan) {
   using clock = std::chrono::steady_clock;
   auto start = clock::now();
   const auto lap = [&] {
@@ -39,9 +40,9 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
   Trail* const trail = ranks::is_alone() ? kept_trail : ranks::any(kept_trail) ? &shared_trail : nullptr;
   const ranks::Traffic traffic_before = ranks::traffic();
   const std::vector<Surface> surfaces = make_surfaces(problem);
-  const CutPtr cut = make_cut(problem, surfaces);
+  const CutPtr cut = make_cut(problem, surfaces, plan);
   const std::vector<Body> bodies = make_bodies(problem, surfaces, *cut);
-  State state = initial_state(problem, surfaces);
+  State state = initial_state(problem, surfaces, *cut);
   auto kept = std::make_shared<InterfaceFields>(problem.solver.history_memory);
   SolverFigures figures;
   figures.pieces = cut->counts();

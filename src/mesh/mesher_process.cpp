@@ -17,6 +17,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/progress.hpp"
+#include "ranks/ranks.hpp"
 
 namespace dygita {
 
@@ -191,7 +192,10 @@ bool is_trusted_mesh(const std::string& file) {
                      [&](const std::string& trusted) { return fs::equivalent(trusted, file, ignored); });
 }
 
-MesherAnswer ask_mesher(MesherTask task, const std::string& file) {
+namespace {
+
+// What it answers, as bytes.
+std::string run_mesher(MesherTask task, const std::string& file) {
   using Clock = std::chrono::steady_clock;
   task.memory_limit = memory_of_machine();
   task.is_trusted = is_trusted_mesh(file);
@@ -210,7 +214,29 @@ MesherAnswer ask_mesher(MesherTask task, const std::string& file) {
                     file, limits().time));
   }
   if (const int status = mesher.wait(); status != 0) throw crash(file, status, mesher.errors);
-  MesherAnswer answer = answer_of(mesher.output, file);
+  return std::move(mesher.output);
+}
+
+// Of several ranks the first has the file meshed, and all get what it was answered, or throw what it threw.
+std::string run_mesher_once(const MesherTask& task, const std::string& file) {
+  if (ranks::is_alone()) return run_mesher(task, file);
+  std::string answer, error;
+  if (ranks::is_first()) {
+    try {
+      answer = run_mesher(task, file);
+    } catch (const InputError& thrown) {
+      error = thrown.what();
+    }
+  }
+  error = ranks::shared(std::move(error));
+  if (!error.empty()) throw InputError(error);
+  return ranks::shared(std::move(answer));
+}
+
+}  // namespace
+
+MesherAnswer ask_mesher(const MesherTask& task, const std::string& file) {
+  MesherAnswer answer = answer_of(run_mesher_once(task, file), file);
   for (const std::string& warning : answer.warnings) warn(warning);
   if (!answer.error.empty()) throw InputError(answer.error);
   return answer;

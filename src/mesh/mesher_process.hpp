@@ -9,8 +9,9 @@ namespace dygita {
 // The deck's folder, which mesh files may include others from, besides their own.
 void set_mesh_folder(const std::string& folder);
 
-// Hands the task to the mesher and waits; says its warnings. Throws InputError: what the mesher says of the file, a
-// mesher that crashes, takes too long or is not installed; that the user interrupted it.
-MesherAnswer ask_mesher(MesherTask task, const std::string& file);
+// Collective: of several ranks the first has the mesher at work, all get its answer. Hands the task to it and waits;
+// says its warnings. Throws InputError, on all ranks: what the mesher says of the file, a mesher that crashes, takes
+// too long or is not installed; that the user interrupted it.
+MesherAnswer ask_mesher(const MesherTask& task, const std::string& file);
 
 }  // namespace dygita

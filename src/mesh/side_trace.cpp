@@ -1,6 +1,5 @@
 #include "mesh/side_trace.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -43,17 +42,6 @@ std::pair<SideTrace, std::vector<int>> SideTrace::on_its_nodes() const {
   for (Share& share : own.shares_)
     share.node = static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), share.node) - nodes.begin());
   return {std::move(own), std::move(nodes)};
-}
-
-Vec3 SideTrace::at(int i, const Points& nodal) const {
-  if (is_of_one_node(i) && share(i, 0).weight == 1.0) return nodal.col(share(i, 0).node);
-  Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
-  for (int k = 0; k < n_shares(i); ++k) {
-    const Share& own = share(i, k);
-    sum += own.weight * nodal.col(own.node);
-    moment += own.arm.cross(nodal.col(own.node));
-  }
-  return turn_of_[i] < 0 ? sum : Vec3(sum + turns_[turn_of_[i]] * moment);
 }
 
 // The transpose of [d]x is - [d]x.

@@ -1,6 +1,7 @@
 // How the points of an interface move with the nodes of one of its sides (manual, eq. J1).
 #pragma once
 
+#include <Eigen/Geometry>
 #include <utility>
 #include <vector>
 
@@ -39,7 +40,21 @@ class SideTrace {
   std::pair<SideTrace, std::vector<int>> on_its_nodes() const;
 
   // The motion of a point, given a field (3 x n_nodes).
-  Vec3 at(int i, const Points& nodal) const;
+  Vec3 at(int i, const Points& nodal) const {
+    return at_nodes(i, [&](int node) { return nodal.col(node); });
+  }
+  // The same of a field that of_node(node) answers for.
+  template <class OfNode>
+  Vec3 at_nodes(int i, OfNode&& of_node) const {
+    if (is_of_one_node(i) && share(i, 0).weight == 1.0) return of_node(share(i, 0).node);
+    Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
+    for (int k = 0; k < n_shares(i); ++k) {
+      const Share& own = share(i, k);
+      sum += own.weight * of_node(own.node);
+      moment += own.arm.cross(of_node(own.node));
+    }
+    return turn_of_[i] < 0 ? sum : Vec3(sum + turns_[turn_of_[i]] * moment);
+  }
   // Adds a force on a point to those on the nodes: power is the same for any motion.
   void spread(int i, const Vec3& force, Points& nodal) const;
 

@@ -111,7 +111,8 @@ Json sharing(const Sharing& shared) {
                        {"unknowns", rank.unknowns},
                        {"messages", kinds(rank.messages)},
                        {"bytes", kinds(rank.bytes)},
-                       {"seconds_waited", rank.seconds_waited}});
+                       {"seconds_waited", rank.seconds_waited},
+                       {"memory", {{"now", rank.memory}, {"peak", rank.peak_memory}}}});
   for (const SharedPiece& piece : shared.pieces)
     pieces.push_back({{"substructure", piece.part},
                       {"rank", piece.rank},
@@ -221,6 +222,20 @@ std::optional<RecordedRun> read_run_record(const std::filesystem::path& director
   } catch (const Json::exception&) {
     return std::nullopt;
   }
+}
+
+std::vector<RecordedPiece> read_recorded_pieces(const std::filesystem::path& directory) {
+  std::ifstream file(directory / "run.json");
+  const Json json = Json::parse(file, nullptr, false);
+  std::vector<RecordedPiece> pieces;
+  if (!file || json.is_discarded()) return pieces;
+  try {
+    for (const Json& piece : json.at("ranks").at("pieces"))
+      pieces.push_back({piece.at("unknowns"), piece.at("seconds")});
+  } catch (const Json::exception&) {
+    pieces.clear();
+  }
+  return pieces;
 }
 
 std::string run_record(const Problem& problem, const RunResult& result, const RunIdentity& identity,

@@ -22,6 +22,12 @@ struct RecordedRun {
   double seconds = 0.0;
 };
 std::optional<RecordedRun> read_run_record(const std::filesystem::path& directory);
+// What it tells of the pieces that several ranks have shared out; empty: nothing.
+struct RecordedPiece {
+  long unknowns = 0;
+  double seconds = 0.0;  // of a processor
+};
+std::vector<RecordedPiece> read_recorded_pieces(const std::filesystem::path& directory);
 
 // The text of run.json. Numbers that are not finite become null. `files` are relative to the output directory.
 std::string run_record(const Problem& problem, const RunResult& result, const RunIdentity& identity,

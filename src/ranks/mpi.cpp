@@ -2,6 +2,7 @@
 #ifdef DYGITA_HAS_MPI
 #include <mpi.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <limits>
@@ -63,12 +64,15 @@ int as_count(size_t n) {
   return static_cast<int>(n);
 }
 
-// Rank 0's values to all, which know how many.
+// Rank 0's values to all, which know how many: meshes are larger than what one call takes.
 template <class Values>
 void broadcast(Values& values, MPI_Datatype type) {
-  MPI_Request request;
-  MPI_Ibcast(values.data(), as_count(values.size()), type, 0, MPI_COMM_WORLD, &request);
-  wait(request);
+  constexpr size_t most = size_t{1} << 28;
+  for (size_t at = 0; at < values.size(); at += most) {
+    MPI_Request request;
+    MPI_Ibcast(values.data() + at, as_count(std::min(most, values.size() - at)), type, 0, MPI_COMM_WORLD, &request);
+    wait(request);
+  }
   if (own_rank == 0) note_sent(everybody, n_ranks - 1, (n_ranks - 1.0) * values.size() * sizeof(values[0]));
 }
 

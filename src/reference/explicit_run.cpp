@@ -19,7 +19,8 @@ constexpr double unstable = 1.0;
 
 std::vector<PointRecord> start_records(const StepModel& model, const State& state) {
   std::vector<PointRecord> records;
-  for (const Point& point : model.exchange.points) records.push_back(start_point(model, point, state));
+  const std::vector<PortMotion> motions = port_motions(model, state);
+  for (const Point& point : model.exchange.points) records.push_back(start_point(model, point, state, motions));
   return records;
 }
 
@@ -69,7 +70,8 @@ void ExplicitRun::start(const std::vector<Body>& bodies, const ExplicitMemory& m
     const Eigen::Map<const Vec> displacement(state_.displacement[part].data(), size);
     if (memory.internal.size() == 0) prestress_.segment(first, size) = bodies[part].matrices->stiffness * displacement;
     velocity_.segment(first, size) = Eigen::Map<const Vec>(state_.velocity[part].data(), size);
-    anchor_.segment(first, size) = Eigen::Map<const Vec>(state_.anchor[part].data(), size);
+    anchor_.segment(first, size).setZero();
+    for (const auto& [node, held] : state_.anchor[part]) anchor_.segment<3>(first + 3 * node) = held;
     for (int i = 0; i < size; ++i) mass_[first + i] = bodies[part].matrices->mass[i / 3];
   }
   base_external_ = -prestress_;
@@ -261,7 +263,7 @@ void ExplicitRun::finish(ExplicitMemory& memory) {
   for (size_t i = 0; i < model_.pieces.size(); ++i) {
     const int part = static_cast<int>(i);
     model_.pieces[i]->set_state(displacement(part), velocity(part), model_.external_force(part, state_),
-                                interface_force(*model_.surfaces, state_, part));
+                                interface_force(*model_.problem, *model_.surfaces, state_, part));
   }
   internal_.elastic(moved_, elastic_);
   memory.internal = prestress_ + elastic_;

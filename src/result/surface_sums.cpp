@@ -53,8 +53,9 @@ void add_support(Resultant& r, Vec3& tangential, const Instant& instant, const P
       normals = Points::Zero(3, nodes.size());
     }
     const bool is_absorbing = support.kind->absorbs() && !instant.is_static();
-    const Points force =
-        is_absorbing ? Points(instant.absorbing_force(part) + instant.state.anchor[part]) : instant.reactions(part);
+    Points force = is_absorbing ? instant.absorbing_force(part) : instant.reactions(part);
+    if (is_absorbing)
+      for (const auto& [node, held] : instant.state.anchor[part]) force.col(node) += held;
     for (size_t i = 0; i < nodes.size(); ++i) {
       if (!counted.emplace(part, nodes[i]).second) continue;
       const Held* held = instant.model.conditions.at(part, nodes[i]);

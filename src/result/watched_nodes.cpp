@@ -61,7 +61,7 @@ void WatchedNodes::split_up(const Cut& cut) {
         for (const int at : on.at) own.passed.emplace_back(at, place.at({part, nodes[static_cast<size_t>(at)]}));
     }
     taken_[static_cast<size_t>(part)].resize(3, static_cast<Eigen::Index>(nodes.size()));
-    nodes.clear();
+    nodes = std::vector<int>();
   }
   passing_.resize(3 * owner.size());
   exchange_ = ranks::Neighbours(owner, readers, 3);

@@ -14,6 +14,7 @@
 #include "ranks/ranks.hpp"
 #include "result/hollow_result.hpp"
 #include "run/keep_state.hpp"
+#include "run/share_plan.hpp"
 
 namespace dygita {
 
@@ -96,7 +97,7 @@ void check_problem_is_same(const Problem& problem, const RunState& state) {
   for (const SubstructurePtr& part : problem.substructures) {
     const auto kept = std::find_if(state.mesh_digests.begin(), state.mesh_digests.end(),
                                    [&](const auto& d) { return d.first == part->name; });
-    if (kept == state.mesh_digests.end() || kept->second != part->mesh->digest)
+    if (kept == state.mesh_digests.end() || digest_alone(kept->second) != part->mesh->digest)
       throw InputError(fmt::format("the mesh of substructure '{}' ({}) has changed since the run: run the deck again",
                                    part->name, part->mesh->source));
   }
@@ -194,6 +195,7 @@ std::shared_ptr<const RunResult> Continuation::run(const Problem& problem, const
   if (resumes()) return resume(problem, request);
   RunRequest going_on = request;
   going_on.continues = state_;
+  going_on.pieces = kept_pieces(problem, *state_);
   going_on.start_from = nullptr;
   take_folder(going_on);
   auto result = run_problem(changed(problem), going_on);
@@ -208,6 +210,7 @@ std::shared_ptr<const RunResult> Continuation::resume(const Problem& problem, co
   take_folder(going_on);
   going_on.is_in_place = !has_record_;
   going_on.checkpoint = checkpoint_;
+  going_on.pieces = kept_pieces(problem, *state_);
   const CheckpointIdentity& identity = *resumed_;
   if (!identity.has_start) going_on.start_from = nullptr;
   if (identity.has_start && (!request.start_from || !request.start_from->interface_fields))

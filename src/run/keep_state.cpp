@@ -7,6 +7,7 @@
 
 #include "base/log.hpp"
 #include "model/load.hpp"
+#include "run/share_plan.hpp"
 
 namespace dygita {
 
@@ -21,6 +22,14 @@ double sample(const History& history, double t) {
   } catch (const InputError&) {
     return 0.0;
   }
+}
+
+// The digests have them, where they are not the usual ones.
+void note_pieces(const Problem& problem, const std::vector<int>& pieces, RunState& state) {
+  const std::vector<int> usual = usual_pieces(problem);
+  for (auto& [name, digest] : state.mesh_digests)
+    for (size_t i = 0; i < pieces.size(); ++i)
+      if (problem.substructures[i]->name == name) digest = digest_and_pieces(digest, pieces[i], usual[i]);
 }
 
 std::string list_efforts(const std::vector<Effort>& efforts) {
@@ -87,6 +96,7 @@ RunState identity_of_run(const Problem& problem, const RunRequest& request) {
   state.solver = identity.solver;
   state.settings = request.settings;
   state.mesh_digests = identity.mesh_digests;
+  if (!request.pieces.empty()) note_pieces(problem, request.pieces, state);
   for (size_t i = 0; i < problem.steps.size(); ++i) {
     const Step& step = *problem.steps[i];
     state.steps.push_back({step.name, step.is_static, step.n_increments(), step.is_static ? 0.0 : step.duration, 0.0});

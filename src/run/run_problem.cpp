@@ -32,6 +32,7 @@
 #include "run/passes.hpp"
 #include "run/run_files.hpp"
 #include "run/run_warnings.hpp"
+#include "run/share_plan.hpp"
 #include "run/shared_result.hpp"
 #include "solution/rank_observer.hpp"
 #include "solution/step_model.hpp"
@@ -117,10 +118,16 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
 // Set aside while a run computes; what each thread takes in BLAS, where OpenBLAS waits for ever if it cannot have it.
 constexpr std::size_t memory_for_results = std::size_t{64} << 20, memory_of_thread = std::size_t{136} << 20;
 
+// What LATIN is given besides the problem.
+struct Given {
+  const InterfaceFields* start_from;
+  Trail* trail;
+  const SharePlan& plan;
+};
+
 // Solves all steps once; tables and figures; scenes for the report where `keeps_scenes`. Of several ranks the first has
 // them.
-std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* start_from, FrameFiles* files,
-                                 bool keeps_scenes, Trail* trail) {
+std::shared_ptr<RunResult> sweep(const Problem& problem, const Given& given, FrameFiles* files, bool keeps_scenes) {
   PartWatch parts(problem);
   PartFrames frames(problem, parts.views(), [&](const Frame& frame) { files->write(frame); });
   Collector collector(problem, parts, files ? FrameSink([&](const Frame& frame) { frames.begin(frame); }) : nullptr);
@@ -137,8 +144,9 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const InterfaceFields* 
   require_memory(memory_for_results + static_cast<std::size_t>(omp_get_max_threads()) * memory_of_thread);
   MemoryReserve reserve(memory_for_results);
   const SolverFigures figures = problem.explicit_dynamics ? solve_explicit(problem, observers)
-                                : problem.monolithic      ? solve_monolithic(problem, observers)
-                                                          : solve(problem, observers, start_from, trail);
+                                : problem.monolithic
+                                    ? solve_monolithic(problem, observers)
+                                    : solve(problem, observers, given.start_from, given.trail, given.plan);
   reserve.release();
   parts.settle();
   result->interface_fields = figures.interface_fields;
@@ -165,6 +173,7 @@ struct RunSite {
   std::shared_ptr<CheckpointFile> checkpoint;  // rank 0's
   std::shared_ptr<Trail> part;                 // another's part of it
   std::unique_ptr<RunWriter> writer;           // null: nothing is written
+  SharePlan plan;
   Unwritten unwritten;
   bool is_kept = true;  // false: what is in the folder reaches further
 
@@ -195,8 +204,9 @@ std::shared_ptr<RunResult> compute(const Problem& declared, const RunRequest& re
     if (pass == 0) site.part = part_of_checkpoint(site.checkpoint.get(), request.checkpoint_every);
     std::optional<FrameFiles> files;
     if (has_frames && (pass > 0 || tolerances.size() == 1)) files.emplace(site.writer.get(), site.unwritten);
-    result = sweep(problem, before ? before->interface_fields.get() : start_of(request), files ? &*files : nullptr,
-                   ranks::any(site.writer != nullptr), ranks::is_first() ? site.checkpoint.get() : site.part.get());
+    const Given given{before ? before->interface_fields.get() : start_of(request),
+                      ranks::is_first() ? site.checkpoint.get() : site.part.get(), site.plan};
+    result = sweep(problem, given, files ? &*files : nullptr, ranks::any(site.writer != nullptr));
     share_result(problem, *result);
     if (before) add_pass(*before, *result);
     if (result->interrupted || (before && have_settled(problem, *before, *result))) break;
@@ -283,14 +293,17 @@ void tell_stop(const RunResult& result, const RunSite& site) {
 
 }  // namespace
 
-std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunRequest& request) {
+std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunRequest& asked) {
   const auto start = std::chrono::steady_clock::now();
-  if (request.threads > 0) omp_set_num_threads(request.threads);
+  if (asked.threads > 0) omp_set_num_threads(asked.threads);
   check_ranks(declared);
   check_problem(declared);
-  say(fmt::format("problem '{}', case '{}': {} substructures, {} interfaces, {} steps", declared.name,
-                  request.case_name, declared.substructures.size(), declared.interfaces.size(), declared.steps.size()));
-  RunSite site(declared, request);
+  say(fmt::format("problem '{}', case '{}': {} substructures, {} interfaces, {} steps", declared.name, asked.case_name,
+                  declared.substructures.size(), declared.interfaces.size(), declared.steps.size()));
+  RunSite site(declared, asked);
+  site.plan = plan_of(declared, asked, site.directory);
+  RunRequest request = asked;
+  request.pieces = site.plan.n_pieces;
   Problem problem = declared;  // with the tolerance of the pass
   std::shared_ptr<RunResult> result;
   double seconds = 0.0;

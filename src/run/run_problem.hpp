@@ -34,6 +34,7 @@ struct RunRequest {
   bool is_in_place = false;
   std::shared_ptr<RunLock> lock;    // held by who asks; null: the run takes its own
   double checkpoint_every = 180.0;  // s; 0: none
+  std::vector<int> pieces;          // of each substructure, those of the run that is continued; empty: as it comes
   RunIdentity identity;
   std::shared_ptr<const RunResult> start_from;  // an earlier case: the iteration starts from its interface fields
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -134,6 +135,15 @@ void move_inside(const Mesh& mesh, const SparseMatrix& stiffness, const std::vec
   }
 }
 
+// Loads on all of a substructure are laid on every rank.
+bool has_body_forces(const Problem& problem) {
+  for (const StepPtr& step : problem.steps)
+    for (const LoadPtr& load : step->loads)
+      for (const Effect& effect : load->effects())
+        if (std::holds_alternative<BodyForce>(effect)) return true;
+  return false;
+}
+
 // As assembled, wherever that is.
 std::vector<Vec> lumped_masses(const std::vector<Body>& bodies, const Cut& cut) {
   std::vector<Vec> masses;
@@ -141,13 +151,46 @@ std::vector<Vec> lumped_masses(const std::vector<Body>& bodies, const Cut& cut) 
     for (const Body& body : bodies) masses.push_back(body.matrices->mass);
     return masses;
   }
-  const std::vector<Points> fields =
-      fields_of_all_pieces(cut, [&](int i) { return Points(bodies[i].matrices->mass.transpose().replicate(3, 1)); });
-  for (const Points& field : fields) masses.push_back(field.row(0).transpose());
+  std::vector<int> sizes;
+  for (const CutPiece& piece : cut.pieces()) sizes.push_back(piece.body->mesh->n_nodes());
+  Vec all(std::accumulate(sizes.begin(), sizes.end(), Eigen::Index{0}));
+  Eigen::Index at = 0;
+  for (int i = 0; i < cut.n_pieces(); at += sizes[i++])
+    if (cut.is_here(i)) all.segment(at, sizes[i]) = bodies[i].matrices->mass;
+  segments_of(cut, sizes).complete(all.data());
+  at = 0;
+  for (const int size : sizes) masses.emplace_back(all.segment(at, size)), at += size;
   return masses;
 }
 
 using BodyKey = std::tuple<std::string, double, double, double>;
+
+// A mass has no directions: turned copies have the same.
+BodyKey mass_key(const Substructure& part) {
+  const Elastic& m = part.material;
+  return {part.mesh->shape_digest(), m.young, m.poisson, m.density};
+}
+
+// marked: nodes whose mass moves inside, empty: none. dt (s): of the shortest dynamic step, 0: there is none, negative:
+// nobody asks for a matrix of it.
+Mass mass_of(const Problem& problem, const Body& body, const Vec& lumped, const std::vector<char>& marked, double dt) {
+  const Mesh& mesh = *body.part->mesh;
+  const Elastic& m = body.part->material;
+  const bool has_massless = std::find(marked.begin(), marked.end(), 1) != marked.end();
+  Mass mass{lumped, {}, {}};
+  if (problem.mass().is_tuned && dt > 0.0)
+    mass.matrix = tuned_mass(mesh, m, {m.p_wave_speed(), dt, false}, has_massless ? marked : std::vector<char>());
+  if (has_consistent_mass(mesh)) {
+    CHECK(!has_massless && !problem.mass().is_tuned, "refused by check_problem");
+    if (dt >= 0.0) mass.matrix = consistent_mass(mesh, m);
+    mass.is_consistent = true;
+  }
+  if (has_massless) {
+    move_inside(mesh, body.matrices->stiffness, marked, mass);
+    mass.is_massless = marked;
+  }
+  return mass;
+}
 
 // Equal bodies share theirs.
 void add_matrices(const std::vector<char>& to, std::vector<Body>& bodies) {
@@ -191,7 +234,12 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
   double dt = 0.0;
   for (const StepPtr& step : problem.steps)
     if (!step->is_static) dt = dt == 0.0 ? step->dt : std::min(dt, step->dt);
-  std::map<BodyKey, std::shared_ptr<const Mass>> known_mass;  // a mass has no directions: turned copies have the same
+  std::map<BodyKey, std::shared_ptr<const Mass>> known_mass;
+  // Matrices of others serve loads alone.
+  std::set<BodyKey> with_matrix;
+  const bool lays_loads = has_body_forces(problem);
+  for (int i = 0; i < cut.n_pieces(); ++i)
+    if (lays_loads || cut.is_here(i)) with_matrix.insert(mass_key(*cut.piece(i).body));
   const bool moves_mass = problem.mass().is_moved_from_contact && dt > 0.0;
   std::vector<Body> bodies;
   std::vector<char> is_looked_at;  // both sides of a joint where mass moves: there all, for now
@@ -210,27 +258,14 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
   }
   const std::vector<Vec> lumped = lumped_masses(bodies, cut);
   for (size_t i = 0; i < bodies.size(); ++i) {
-    const Mesh& mesh = *bodies[i].part->mesh;
-    const Elastic& m = bodies[i].part->material;
     const bool has_massless = std::find(marked[i].begin(), marked[i].end(), 1) != marked[i].end();
-    std::shared_ptr<const Mass>& equal = known_mass[{mesh.shape_digest(), m.young, m.poisson, m.density}];
-    if (!has_massless && equal) {
+    const BodyKey key = mass_key(*bodies[i].part);
+    std::shared_ptr<const Mass>& equal = known_mass[key];
+    if (has_massless || !equal)
+      bodies[i].mass = std::make_shared<const Mass>(
+          mass_of(problem, bodies[i], lumped[i], marked[i], with_matrix.contains(key) ? dt : -1.0));
+    else
       bodies[i].mass = equal;
-      continue;
-    }
-    Mass mass{lumped[i], {}, {}};
-    if (problem.mass().is_tuned && dt > 0.0)
-      mass.matrix = tuned_mass(mesh, m, {m.p_wave_speed(), dt, false}, has_massless ? marked[i] : std::vector<char>());
-    if (has_consistent_mass(mesh)) {
-      CHECK(!has_massless && !problem.mass().is_tuned, "refused by check_problem");
-      mass.matrix = consistent_mass(mesh, m);
-      mass.is_consistent = true;
-    }
-    if (has_massless) {
-      move_inside(mesh, bodies[i].matrices->stiffness, marked[i], mass);
-      mass.is_massless = marked[i];
-    }
-    bodies[i].mass = std::make_shared<const Mass>(std::move(mass));
     if (!has_massless) equal = bodies[i].mass;
   }
   for (size_t i = 0; i < bodies.size(); ++i)

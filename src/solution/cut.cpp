@@ -17,21 +17,8 @@ namespace {
 // The automatic cut (manual, cutting): a substructure that holds more than half of all unknowns would leave other
 // threads idle, one too large would take long to factorise and much memory. Others are left whole: products with what a
 // cut adds to the interface cost more than the cut spares.
-constexpr double smallest_cut = 20e3, largest_piece = 150e3;  // unknowns
+constexpr double largest_piece = 150e3;  // unknowns
 constexpr int pieces_of_the_dominant = 4;
-
-int pieces_of(const Substructure& part, double all_unknowns, int asked) {
-  const double unknowns = 3.0 * part.mesh->n_nodes();
-  const int most = std::max(1, part.mesh->n_cells() / 8);
-  if (asked > 0) return std::min(asked, most);
-  if (unknowns < smallest_cut) return 1;
-  const int by_size = static_cast<int>(std::ceil(unknowns / largest_piece));
-  return std::min(most, unknowns > 0.5 * all_unknowns ? std::max(pieces_of_the_dominant, by_size) : by_size);
-}
-
-}  // namespace
-
-namespace {
 
 // Nodes of each side of an interface whose faces do not match.
 std::vector<std::vector<int>> together(const std::vector<Surface>* surfaces, int part) {
@@ -71,7 +58,6 @@ void Cut::add_cut(int part, const SubstructurePtr& body, const std::vector<int>&
   for (const CellBlock& block : body->mesh->blocks)
     for (const int node : block.nodes) n_cells[node] += 1.0;
   owner_[part].assign(n_nodes, Copy{-1, -1, 0.0});
-  others_[part].resize(n_nodes);
   for (size_t m = 0; m < meshes.size(); ++m) {
     MeshPiece& mesh = meshes[m];
     auto own = std::make_shared<Substructure>(*body);
@@ -97,7 +83,7 @@ void Cut::add_cut(int part, const SubstructurePtr& body, const std::vector<int>&
     const double side = std::pow(volume(*piece.body->mesh) / piece.body->mesh->n_nodes(), 2.0 / 3.0);
     for (size_t i = 0; i < piece.nodes.size(); ++i)
       if (double& area = piece.cut_areas[static_cast<Eigen::Index>(i)];
-          area == 0.0 && !others_[part][piece.nodes[i]].empty())
+          area == 0.0 && others_[part].contains(piece.nodes[i]))
         area = side;
   }
 }
@@ -110,7 +96,8 @@ std::vector<int> Cut::counts() const {
 
 std::vector<Copy> Cut::copies(int part, int node) const {
   std::vector<Copy> copies{owner(part, node)};
-  if (is_cut(part)) copies.insert(copies.end(), others_[part][node].begin(), others_[part][node].end());
+  if (const auto others = others_[part].find(node); others != others_[part].end())
+    copies.insert(copies.end(), others->second.begin(), others->second.end());
   return copies;
 }
 
@@ -134,27 +121,47 @@ Points Cut::on_piece(int piece, const Points& nodal) const {
 }
 
 Points Cut::on_owners(int piece, const Points& nodal) const {
-  const CutPiece& p = pieces_[piece];
   Points own = on_piece(piece, nodal);
-  for (Eigen::Index i = 0; i < own.cols() && !p.is_whole(); ++i)
-    if (!p.is_owner[i]) own.col(i).setZero();
+  keep_owned(piece, own);
   return own;
+}
+
+void Cut::keep_owned(int piece, Points& on_piece) const {
+  const CutPiece& p = pieces_[piece];
+  for (Eigen::Index i = 0; i < on_piece.cols() && !p.is_whole(); ++i)
+    if (!p.is_owner[i]) on_piece.col(i).setZero();
 }
 
 CutPtr no_cut(const Problem& problem) {
   return std::make_shared<const Cut>(problem, std::vector<int>(problem.substructures.size(), 1));
 }
 
-CutPtr make_cut(const Problem& problem, const std::vector<Surface>& surfaces) {
+int most_pieces(const Problem& problem, int part) {
+  constexpr int least_cells = 8;
   // Mass that contact nodes give to those behind them would have to cross the cut.
-  const bool may_be_cut = !problem.mass().is_moved_from_contact;
+  if (problem.mass().is_moved_from_contact) return 1;
+  return std::max(1, problem.substructures[part]->mesh->n_cells() / least_cells);
+}
+
+std::vector<int> usual_pieces(const Problem& problem) {
+  double all = 0.0;
+  for (const SubstructurePtr& part : problem.substructures) all += 3.0 * part->mesh->n_nodes();
   std::vector<int> n_pieces;
-  double unknowns = 0.0;
-  for (const SubstructurePtr& part : problem.substructures) unknowns += 3.0 * part->mesh->n_nodes();
-  for (const SubstructurePtr& part : problem.substructures)
-    n_pieces.push_back(may_be_cut ? pieces_of(*part, unknowns, problem.solver.pieces) : 1);
-  auto cut = std::make_shared<Cut>(problem, n_pieces, &surfaces);
-  share_out(problem, surfaces, *cut);
+  for (size_t i = 0; i < problem.substructures.size(); ++i) {
+    const double unknowns = 3.0 * problem.substructures[i]->mesh->n_nodes();
+    int wanted = problem.solver.pieces;
+    if (wanted == 0 && unknowns >= smallest_cut) {
+      wanted = static_cast<int>(std::ceil(unknowns / largest_piece));
+      if (unknowns > 0.5 * all) wanted = std::max(pieces_of_the_dominant, wanted);
+    }
+    n_pieces.push_back(std::min(std::max(1, wanted), most_pieces(problem, static_cast<int>(i))));
+  }
+  return n_pieces;
+}
+
+CutPtr make_cut(const Problem& problem, const std::vector<Surface>& surfaces, const SharePlan& plan) {
+  auto cut = std::make_shared<Cut>(problem, plan.n_pieces.empty() ? usual_pieces(problem) : plan.n_pieces, &surfaces);
+  share_out(problem, surfaces, plan, *cut);
   return cut;
 }
 

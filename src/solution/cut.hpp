@@ -40,6 +40,7 @@ class Cut {
   Cut(const Problem& problem, const std::vector<int>& n_pieces, const std::vector<Surface>* surfaces = nullptr);
 
   int n_pieces() const { return static_cast<int>(pieces_.size()); }
+  int n_parts() const { return static_cast<int>(others_.size()); }
   const CutPiece& piece(int i) const { return pieces_[i]; }
   const std::vector<CutPiece>& pieces() const { return pieces_; }
   bool is_here(int i) const { return pieces_[i].rank == ranks::me(); }
@@ -49,6 +50,9 @@ class Cut {
   int n_pieces(int part) const { return first_[part + 1] - first_[part]; }
   std::vector<int> counts() const;  // of the pieces of each substructure
   bool is_cut(int part) const { return n_pieces(part) > 1; }
+  // The nodes of a substructure on a cut, and their copies but the owner, in the order of the pieces: none comes before
+  // the owner.
+  const std::map<int, std::vector<Copy>>& on_cuts(int part) const { return others_[part]; }
   // Copies of a node of a substructure, the owner first.
   std::vector<Copy> copies(int part, int node) const;
   Copy owner(int part, int node) const { return is_cut(part) ? owner_[part][node] : Copy{first_[part], node, 1.0}; }
@@ -63,6 +67,8 @@ class Cut {
   // owners.
   Points on_piece(int piece, const Points& nodal) const;
   Points on_owners(int piece, const Points& nodal) const;
+  // Zero at copies that are no owners.
+  void keep_owned(int piece, Points& on_piece) const;
   // Field on a substructure from those on its pieces: of the owners, or summed over the copies. of_piece(i): 3 x n of
   // piece i.
   template <class OfPiece>
@@ -101,8 +107,9 @@ class Cut {
 
   std::vector<CutPiece> pieces_;
   std::vector<int> first_;
-  std::vector<std::vector<Copy>> owner_;                // of each node of the substructures that are cut
-  std::vector<std::vector<std::vector<Copy>>> others_;  // the other copies of the nodes on a cut
+  std::vector<std::vector<Copy>> owner_;  // of each node of the substructures that are cut
+  std::vector<std::map<int, std::vector<Copy>>>
+      others_;  // the other copies of the nodes on a cut, of each substructure
 };
 
 using CutPtr = std::shared_ptr<const Cut>;
@@ -110,10 +117,24 @@ using CutPtr = std::shared_ptr<const Cut>;
 // Every substructure in one piece.
 CutPtr no_cut(const Problem& problem);
 
-// As the problem's solver.latin has it: into a number of pieces, or large substructures only (manual, cutting); by
-// sizes alone, so that the answer does not depend on the machine. A substructure gets fewer pieces than asked for where
-// they would have less than 8 cells each, or more than a quarter of its cells at a face that does not match; with
-// massless contact none is cut. Several ranks share the pieces out (share_out.hpp).
-CutPtr make_cut(const Problem& problem, const std::vector<Surface>& surfaces);
+inline constexpr double smallest_cut = 20e3;  // unknowns of a substructure that the program cuts by itself
+
+// How a run is to be cut and shared out, as far as that does not follow from the problem.
+struct SharePlan {
+  std::vector<int> n_pieces;    // of each substructure; empty: as usual
+  std::vector<double> seconds;  // that each piece took in a run before, and its unknowns; empty: nobody knows
+  std::vector<long> unknowns;
+};
+
+// Pieces of each substructure, as the problem's solver.latin has it: a number of them, or large substructures only
+// (manual, cutting); by sizes alone, so that the answer does not depend on the machine.
+std::vector<int> usual_pieces(const Problem& problem);
+// The most that a substructure may be cut into; 1 where it may not.
+int most_pieces(const Problem& problem, int part);
+
+// A substructure gets fewer pieces than asked for where they would have less than 8 cells each, or more than a quarter
+// of its cells at a face that does not match; with massless contact none is cut. Several ranks share the pieces out
+// (share_out.hpp).
+CutPtr make_cut(const Problem& problem, const std::vector<Surface>& surfaces, const SharePlan& plan = {});
 
 }  // namespace dygita

@@ -20,7 +20,34 @@ double first_gap(const Surface& surface, int point) {
 
 }  // namespace
 
-PointRecord start_point(const StepModel& model, const Point& point, const State& start) {
+std::vector<PortMotion> port_motions(const StepModel& model, const State& start) {
+  const Cut& cut = *model.cut;
+  const std::vector<Port>& ports = model.exchange.ports;
+  constexpr int n_motion = 6;
+  std::vector<double> values(n_motion * ports.size(), 0.0);
+  std::vector<int> owner, offset{0};
+  for (size_t p = 0; p < ports.size(); ++p) {
+    const Port& port = ports[p];
+    owner.push_back(cut.piece(port.piece).rank);
+    offset.push_back(static_cast<int>(n_motion * (p + 1)));
+    if (!model.solves(port.piece)) continue;
+    const auto motion = [&](const Points& field) -> Vec3 {
+      if (!port.trace) return field.col(port.piece_node);
+      return port.trace->at_nodes(port.point, [&](int node) { return field.col(cut.owner(port.part, node).node); });
+    };
+    Eigen::Map<Vec3>(values.data() + n_motion * p) = motion(start.displacement[port.piece]);
+    Eigen::Map<Vec3>(values.data() + n_motion * p + 3) = motion(start.velocity[port.piece]);
+  }
+  if (!model.is_assembled) ranks::Segments(owner, offset).complete(values.data());
+  std::vector<PortMotion> motions(ports.size());
+  for (size_t p = 0; p < ports.size(); ++p)
+    motions[p] = {Eigen::Map<const Vec3>(values.data() + n_motion * p),
+                  Eigen::Map<const Vec3>(values.data() + n_motion * p + 3)};
+  return motions;
+}
+
+PointRecord start_point(const StepModel& model, const Point& point, const State& start,
+                        const std::vector<PortMotion>& ports) {
   PointRecord record;
   record.trial.area = point.area;
   if (!point.law) return record;
@@ -35,9 +62,8 @@ PointRecord start_point(const StepModel& model, const Point& point, const State&
   if (model.scheme.is_static) return record;
   const int n_1 = point.first_port_2 - point.first_port, n_2 = point.end_port - point.first_port_2;
   for (int p = point.first_port; p < point.end_port; ++p) {
-    const Port& port = model.exchange.ports[p];
     const double share = p < point.first_port_2 ? -1.0 / n_1 : 1.0 / n_2;
-    law.rate += share * (point.frame.transpose() * port.motion(start.velocity[port.part]));
+    law.rate += share * (point.frame.transpose() * ports[p].velocity);
   }
   return record;
 }

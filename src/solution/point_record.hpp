@@ -20,8 +20,15 @@ struct PointRecord {
   double first_gap = 0.0;       // m, of the undeformed state
 };
 
-// The record a step starts from, for a point with or without a law.
-PointRecord start_point(const StepModel& model, const Point& point, const State& start);
+// How the ports of the exchange move when a step starts, in global axes: m, m/s. Collective: those of all pieces.
+struct PortMotion {
+  Vec3 displacement = Vec3::Zero(), velocity = Vec3::Zero();
+};
+std::vector<PortMotion> port_motions(const StepModel& model, const State& start);
+
+// The record a step starts from, for a point with or without a law. ports: of the exchange.
+PointRecord start_point(const StepModel& model, const Point& point, const State& start,
+                        const std::vector<PortMotion>& ports);
 // Jump (m, u' - u), shortening and release of an increment, for a point with a law.
 void begin_point(const StepModel& model, const Point& point, const Vec3& jump, int increment, PointRecord& record);
 // The law's state at the end of the increment, with the force found.

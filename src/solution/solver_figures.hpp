@@ -56,6 +56,7 @@ struct RankFigures {
   // To neighbours, to all, for results of rank 0; over the run.
   std::array<double, 3> messages{}, bytes{};
   double seconds_waited = 0.0;
+  double memory = 0.0, peak_memory = 0.0;  // bytes, resident: when the last step ended, and at most
 };
 struct SharedPiece {
   int part = 0, rank = 0;  // its substructure; who has it

@@ -37,10 +37,11 @@ inline Work SurfaceState::work() const {
 
 struct State {
   double time = 0.0;                 // s, dynamic time elapsed
-  std::vector<Points> displacement;  // one 3 x n_nodes a substructure, m
+  std::vector<Points> displacement;  // one 3 x n_nodes a piece, m, at all copies; of a piece elsewhere: 3 x 0
   std::vector<Points> velocity;      // m/s
-  std::vector<Points> force;         // N, external forces of the last increment
-  std::vector<Points> anchor;        // N, static reactions kept by absorbing supports
+  std::vector<Points> force;         // N, external forces of the last increment, on the copies that own a node
+  std::vector<std::map<int, Vec3>>
+      anchor;  // N, static reactions that absorbing supports keep: of each substructure, by node
   std::vector<SurfaceState> surfaces;
   std::vector<double> shortening;             // m, of each surface, as its last step left it
   std::vector<char> released;                 // surfaces that have let go for good

@@ -1,13 +1,35 @@
 #include "solution/step_ends.hpp"
 
+#include <algorithm>
+#include <map>
+
 #include "base/overloaded.hpp"
 #include "law/law.hpp"
 #include "solution/all_pieces.hpp"
+#include "solution/copies.hpp"
 #include "solution/explicit_piece.hpp"
 
 namespace dygita {
 
 namespace {
+
+// Displacements (m) of the points of a wall, on all ranks.
+Points displacements_of(const StepModel& model, const State& state, const Surface& wall) {
+  const Cut& cut = *model.cut;
+  const SideTrace& side = wall.facing.side_1;
+  Points values = Points::Zero(3, wall.n_points());
+  std::vector<int> owner, offset{0};
+  for (int i = 0; i < wall.n_points(); ++i) {
+    const int piece = cut.owner(wall.part_1, side.main_node(i)).piece;
+    owner.push_back(cut.piece(piece).rank);
+    offset.push_back(3 * (i + 1));
+    if (model.solves(piece))
+      values.col(i) =
+          side.at_nodes(i, [&](int node) { return state.displacement[piece].col(cut.owner(wall.part_1, node).node); });
+  }
+  if (!model.is_assembled) ranks::Segments(owner, offset).complete(values.data());
+  return values;
+}
 
 // A wall that is a support now and was none in the step before stands where it was declared: its gap is that of the
 // displacements.
@@ -19,40 +41,55 @@ void place_returning_walls(const StepModel& model, State& state) {
   for (size_t s = 0; s < model.surfaces->size(); ++s) {
     const Surface& surface = (*model.surfaces)[s];
     if (!surface.wall || index_of(now, surface.wall) < 0 || index_of(before, surface.wall) >= 0) continue;
+    const Points displacements = displacements_of(model, state, surface);
     for (int i = 0; i < surface.n_points(); ++i)
       state.surfaces[s].points[i].gap =
-          surface.declared_law().initial().gap -
-          surface.facing.normals.col(i).dot(surface.facing.side_1.at(i, state.displacement[surface.part_1]));
+          surface.declared_law().initial().gap - surface.facing.normals.col(i).dot(displacements.col(i));
   }
+}
+
+// K u of the pieces that are solved here and belong to substructures that are cut.
+std::vector<Points> elastic_forces(const StepModel& model, const State& state) {
+  std::vector<Points> elastic(model.pieces.size());
+  for (const int i : model.here)
+    if (model.cut->is_cut(model.cut->piece(i).part)) elastic[i] = model.pieces[i]->elastic_force(state.displacement[i]);
+  return elastic;
 }
 
 // The pieces of a substructure start from its fields. Forces across a cut are not part of the state: each piece is in
 // balance by itself, and what the substructure as a whole has too much at a node is its owner's.
-// elastic: K u of all pieces of substructures that are cut.
-void set_pieces(StepModel& model, int part, const State& state, const std::vector<Points>& elastic) {
+void set_pieces(StepModel& model, const State& state) {
   const Cut& cut = *model.cut;
-  const Points interfaces = interface_force(*model.surfaces, state, part);
-  if (!cut.is_cut(part)) {
-    model.pieces[cut.first(part)]->set_state(state.displacement[part], state.velocity[part], state.force[part],
-                                             interfaces);
-    return;
-  }
-  const Points imbalance = cut.summed(part, [&](int piece) { return elastic[piece]; }) - state.force[part] - interfaces;
-  for (int p = cut.first(part); p < cut.first(part) + cut.n_pieces(part); ++p) {
-    if (!model.solves(p)) continue;
-    const Points force = cut.on_owners(p, state.force[part]);
-    model.pieces[p]->set_state(cut.on_piece(p, state.displacement[part]), cut.on_piece(p, state.velocity[part]), force,
-                               elastic[p] - force - cut.on_owners(p, imbalance));
+  const std::vector<Points> elastic = elastic_forces(model, state);
+  std::vector<Points> whole = elastic;  // that of the substructure, on the copies that own a node
+  sum_on_owners(cut, model.is_assembled, whole);
+  int last_part = -1;
+  Points interfaces;
+  for (const int i : model.here) {
+    const int part = cut.piece(i).part;
+    if (part != last_part) interfaces = interface_force(*model.problem, *model.surfaces, state, part);
+    last_part = part;
+    const Points &u = state.displacement[i], &v = state.velocity[i], &force = state.force[i];
+    if (!cut.is_cut(part)) {
+      model.pieces[i]->set_state(u, v, force, interfaces);
+      continue;
+    }
+    Points imbalance = whole[i] - force - cut.on_owners(i, interfaces);
+    cut.keep_owned(i, imbalance);
+    model.pieces[i]->set_state(u, v, force, elastic[i] - force - imbalance);
   }
 }
 
-std::vector<Points> elastic_forces(const StepModel& model, const State& state) {
-  const Cut& cut = *model.cut;
-  return fields_of_all_pieces(cut, [&](int piece) {
-    const int part = cut.piece(piece).part;
-    return cut.is_cut(part) ? model.pieces[piece]->elastic_force(cut.on_piece(piece, state.displacement[part]))
-                            : Points(Points::Zero(3, cut.piece(piece).body->mesh->n_nodes()));
-  });
+// A system of all pieces starts from the fields of all.
+void complete(const Cut& cut, State& state) {
+  for (std::vector<Points>* field : {&state.displacement, &state.velocity, &state.force})
+    *field = fields_of_all_pieces(cut, [&](int piece) { return (*field)[piece]; });
+}
+
+void leave_to_others(const Cut& cut, State& state) {
+  for (int i = 0; i < cut.n_pieces(); ++i)
+    if (!cut.is_here(i))
+      for (std::vector<Points>* field : {&state.displacement, &state.velocity, &state.force}) (*field)[i].resize(3, 0);
 }
 
 // Explicit pieces keep the loads that are theirs: a field of forces in each increment would cost what a product does.
@@ -69,7 +106,7 @@ void give_loads(StepModel& model, const State& state) {
         if (const LoadPattern& pattern = model.loads->patterns()[p]; pattern.part == part)
           loads.push_back({p, pattern.nodes});
     }
-    piece->set_loads(model.cut->on_owners(i, state.anchor[part]), loads);
+    piece->set_loads(model.piece_anchor(i, state), loads);
   }
 }
 
@@ -87,17 +124,15 @@ void start_step(StepModel& model, State& state) {
       point.status = surface.declared_law().initial().status;
     }
   }
-  for (size_t i = 0; i < state.velocity.size(); ++i) {
+  if (model.is_assembled && !ranks::is_alone()) complete(*model.cut, state);
+  for (const int i : model.here) {
     Points& velocity = state.velocity[i];
     if (is_static) velocity.setZero();
-    if (first_dynamic) velocity.colwise() += model.problem->substructures[i]->velocity;
+    if (first_dynamic) velocity.colwise() += model.problem->substructures[model.cut->piece(i).part]->velocity;
   }
-  const std::vector<Points> elastic = elastic_forces(model, state);
-  for (size_t i = 0; i < state.velocity.size(); ++i) set_pieces(model, static_cast<int>(i), state, elastic);
-  const std::vector<Points> velocities =
-      fields_of_all_pieces(*model.cut, [&](int piece) { return model.pieces[piece]->velocity(); });
-  for (size_t i = 0; i < state.velocity.size(); ++i)
-    state.velocity[i] = model.cut->from_owners(static_cast<int>(i), [&](int piece) { return velocities[piece]; });
+  set_pieces(model, state);
+  for (const int i : model.here) state.velocity[i] = model.pieces[i]->velocity();
+  give_to_copies(*model.cut, model.is_assembled, state.velocity);
   give_loads(model, state);
   place_returning_walls(model, state);
   Energies& energies = state.energies;
@@ -117,29 +152,52 @@ void start_step(StepModel& model, State& state) {
   if (first_dynamic) state.has_moved = true;
 }
 
+namespace {
+
+// What an absorbing support held in the static step it keeps holding while waves pass through it.
+void keep_reactions(const StepModel& model, State& state) {
+  const Cut& cut = *model.cut;
+  std::vector<std::pair<int, int>> held_nodes;  // substructure and node
+  for (int part = 0; part < cut.n_parts(); ++part)
+    for (const auto& [node, held] : model.conditions.held[part])
+      if (held.n > 0 && held.support[0] && held.support[0]->kind->absorbs()) held_nodes.emplace_back(part, node);
+  std::sort(held_nodes.begin(), held_nodes.end());
+  std::map<int, Points> reactions;  // of the pieces here that have such nodes
+  std::vector<double> values;
+  std::vector<int> owner, offset{0};
+  for (const auto& [part, node] : held_nodes)
+    for (const Copy& copy : cut.copies(part, node)) {
+      values.resize(values.size() + 3, 0.0);
+      owner.push_back(cut.piece(copy.piece).rank);
+      offset.push_back(static_cast<int>(values.size()));
+      if (!model.solves(copy.piece)) continue;
+      auto [it, is_new] = reactions.try_emplace(copy.piece);
+      if (is_new) it->second = model.reactions_of(copy.piece, state);
+      Eigen::Map<Vec3>(values.data() + values.size() - 3) = it->second.col(copy.node);
+    }
+  if (!model.is_assembled) ranks::Segments(owner, offset).complete(values.data());
+  for (auto& of_part : state.anchor) of_part.clear();
+  const double* next = values.data();
+  for (const auto& [part, node] : held_nodes) {
+    Vec3& force = state.anchor[part].emplace(node, Vec3::Zero()).first->second;
+    for (size_t i = 0; i < cut.copies(part, node).size(); ++i, next += 3) force += Eigen::Map<const Vec3>(next);
+  }
+}
+
+}  // namespace
+
 void end_step(const StepModel& model, State& state) {
   const Cut& cut = *model.cut;
-  const std::vector<Points> displacements =
-      fields_of_all_pieces(cut, [&](int piece) { return model.pieces[piece]->displacement(); });
-  const std::vector<Points> velocities =
-      fields_of_all_pieces(cut, [&](int piece) { return model.pieces[piece]->velocity(); });
-  const std::vector<Points> all_reactions =
-      model.scheme.is_static ? fields_of_all_pieces(cut, [&](int piece) { return model.reactions_of(piece, state); })
-                             : std::vector<Points>();
-  for (size_t i = 0; i < state.displacement.size(); ++i) {
-    const int part = static_cast<int>(i);
-    state.displacement[i] = cut.from_owners(part, [&](int piece) { return displacements[piece]; });
-    state.velocity[i] = cut.from_owners(part, [&](int piece) { return velocities[piece]; });
+  for (const int i : model.here) {
+    state.displacement[i] = model.pieces[i]->displacement();
+    state.velocity[i] = model.pieces[i]->velocity();
     if (model.scheme.is_static) state.velocity[i].setZero();
-    state.force[i] = model.external_force(part, state);
-    if (!model.scheme.is_static) continue;
-    // What an absorbing support held in the static step it keeps holding while waves pass through it.
-    state.anchor[i].setZero();
-    const Points reactions = cut.summed(part, [&](int piece) { return all_reactions[piece]; });
-    for (const auto& [node, held] : model.conditions.held[i])
-      if (held.n > 0 && held.support[0] && held.support[0]->kind->absorbs())
-        state.anchor[i].col(node) = reactions.col(node);
+    state.force[i] = model.piece_force(i, state);
   }
+  give_to_copies(cut, model.is_assembled, state.displacement);
+  give_to_copies(cut, model.is_assembled, state.velocity);
+  if (model.scheme.is_static) keep_reactions(model, state);
+  if (model.is_assembled) leave_to_others(cut, state);
   state.reached = model.loads->reached();
   if (model.scheme.is_static) {
     state.base_velocity.clear();  // at rest

@@ -19,14 +19,15 @@
 namespace dygita {
 
 State initial_state(const Problem& problem, const std::vector<Surface>& surfaces) {
+  return initial_state(problem, surfaces, *no_cut(problem));
+}
+
+State initial_state(const Problem& problem, const std::vector<Surface>& surfaces, const Cut& cut) {
   State state;
-  for (const SubstructurePtr& part : problem.substructures) {
-    const Points zero = Points::Zero(3, part->mesh->n_nodes());
-    state.displacement.push_back(zero);
-    state.velocity.push_back(zero);
-    state.force.push_back(zero);
-    state.anchor.push_back(zero);
-  }
+  for (int i = 0; i < cut.n_pieces(); ++i)
+    for (std::vector<Points>* field : {&state.displacement, &state.velocity, &state.force})
+      field->emplace_back(Points::Zero(3, cut.is_here(i) ? cut.piece(i).body->mesh->n_nodes() : 0));
+  state.anchor.resize(problem.substructures.size());
   for (const Surface& surface : surfaces) {
     state.surfaces.push_back({std::vector<LawState>(surface.n_points(), surface.declared_law().initial()),
                               std::vector<double>(surface.n_points(), 0.0), std::vector<Work>(surface.n_points())});
@@ -64,24 +65,34 @@ double StepModel::held_velocity(const Port& port, const Vec3& direction, const s
 }
 
 Points StepModel::external_force(int part, const State& state) const {
-  Points force = scheme.is_static ? Points(Points::Zero(3, state.anchor[part].cols())) : state.anchor[part];
+  Points force = Points::Zero(3, problem->substructures[part]->mesh->n_nodes());
+  if (!scheme.is_static)
+    for (const auto& [node, held] : state.anchor[part]) force.col(node) = held;
   loads->add_forces(part, force);
+  return force;
+}
+
+Points StepModel::piece_anchor(int piece, const State& state) const {
+  const CutPiece& own = cut->piece(piece);
+  Points force = Points::Zero(3, own.body->mesh->n_nodes());
+  for (const auto& [node, held] : state.anchor[own.part])
+    if (const Copy owner = cut->owner(own.part, node); owner.piece == piece) force.col(owner.node) = held;
   return force;
 }
 
 Points StepModel::piece_force(int piece, const State& state) const {
   const int part = cut->piece(piece).part;
   if (!cut->is_cut(part)) return external_force(part, state);
-  Points force = scheme.is_static ? Points(Points::Zero(3, cut->piece(piece).body->mesh->n_nodes()))
-                                  : cut->on_owners(piece, state.anchor[part]);
+  Points force =
+      scheme.is_static ? Points(Points::Zero(3, cut->piece(piece).body->mesh->n_nodes())) : piece_anchor(piece, state);
   for (const PieceLoad& load : piece_loads[piece])
     if (const double value = loads->values()[load.pattern]; value != 0.0)
       for (const auto& [node, unit] : load.nodes) force.col(node) += value * unit;
   return force;
 }
 
-Points interface_force(const std::vector<Surface>& surfaces, const State& state, int part) {
-  Points force = Points::Zero(3, state.displacement[part].cols());
+Points interface_force(const Problem& problem, const std::vector<Surface>& surfaces, const State& state, int part) {
+  Points force = Points::Zero(3, problem.substructures[part]->mesh->n_nodes());
   for (size_t s = 0; s < surfaces.size(); ++s) {
     const Surface& surface = surfaces[s];
     for (int i = 0; i < surface.n_points(); ++i) {
@@ -94,12 +105,12 @@ Points interface_force(const std::vector<Surface>& surfaces, const State& state,
 }
 
 Points StepModel::reactions_of(int piece, const State& state) const {
-  const Points interfaces = interface_force(*surfaces, state, cut->piece(piece).part);
+  const Points interfaces = interface_force(*problem, *surfaces, state, cut->piece(piece).part);
   return pieces[piece]->reactions(cut->on_owners(piece, interfaces));
 }
 
 Points StepModel::reactions(int part, const State& state) const {
-  const Points interfaces = interface_force(*surfaces, state, part);
+  const Points interfaces = interface_force(*problem, *surfaces, state, part);
   return cut->summed(part, [&](int piece) { return pieces[piece]->reactions(cut->on_owners(piece, interfaces)); });
 }
 

@@ -15,7 +15,8 @@
 
 namespace dygita {
 
-// The undeformed state at rest.
+// The undeformed state at rest, of pieces or of whole substructures.
+State initial_state(const Problem& problem, const std::vector<Surface>& surfaces, const Cut& cut);
 State initial_state(const Problem& problem, const std::vector<Surface>& surfaces);
 
 struct StepModel {
@@ -67,6 +68,8 @@ struct StepModel {
   Points external_force(int part, const State& state) const;
   // The same on a piece: on the copies that own their node.
   Points piece_force(int piece, const State& state) const;
+  // What absorbing supports keep of it in dynamic steps.
+  Points piece_anchor(int piece, const State& state) const;
 
   // Force (N, 3 x n_nodes) of supports and prescribed motions on a substructure in the last increment.
   Points reactions(int part, const State& state) const;
@@ -100,6 +103,6 @@ StepSize predict_step(const Problem& problem, const Step& step, const std::vecto
                       const std::vector<Body>& bodies, const State& start, const CutPtr& cut);
 
 // Force of all interfaces on the nodes of a substructure (3 x n_nodes, N), from the surfaces' state.
-Points interface_force(const std::vector<Surface>& surfaces, const State& state, int part);
+Points interface_force(const Problem& problem, const std::vector<Surface>& surfaces, const State& state, int part);
 
 }  // namespace dygita

@@ -5,6 +5,7 @@ ranks.py PROGRAM MPIRUN FOLDER_OF_THE_DECKS [--ranks N]
 
 import argparse
 import base64
+import csv
 import hashlib
 import json
 import os
@@ -168,10 +169,17 @@ compare("assembled_pieces", asked.folder / "ranks.lua", "ranks", "--solver", "la
 compare("released", asked.folder / "ranks.lua", "ranks", "--set", "release=20", also=[3])
 # Iterated points between ranks: each solves those that its pieces touch, sums are made piece by piece.
 implicit = asked.folder / "ranks_implicit.lua"
+DECKS = asked.folder.parents[1] / "decks"
 compare("iterated", implicit, "implicit", "--set", "release=8", also=[3, 4])
 compare("iterated_cut", implicit, "implicit", "--set", "cut=3", "--set", "driven=1", also=[3, 4])
 compare("iterated_windows", implicit, "implicit", "--set", "window=4", "--set", "cut=2", also=[3])
+compare("cut_cube", DECKS / "verification" / "pieces.lua", "pieces", "--set", "n=8", "--set", "only=6", cases=("6_pieces",), also=[3])
 compare("iterated_mixed", implicit, "implicit", "--set", "explicit=4", also=[3, 4])
+# Meshes of files: rank 0 has them meshed for all; turned copies.
+compare("meshed", DECKS / "bench" / "ring.lua", "ring", "--set", "bolts=6", "--set", "steps=3", "--solver", "latin{ integration = 'explicit' }", also=[3])
+(FOLDER / "spoiled.geo").write_text("Point(1) = {0, 0;\n")
+(FOLDER / "spoiled.lua").write_text('local m = mesh.gmsh{ file = "spoiled.geo" }\n')
+dygita(2, "run", FOLDER / "spoiled.lua", "--quiet", "--out", FOLDER / "spoiled", expected=2, says=["gmsh cannot read or mesh it"])
 compare("study", asked.folder / "study.lua", "study", cases=("mu 0.1", "mu 0.2", "mu 0.3"), most=2)
 
 
@@ -230,6 +238,67 @@ def go_further(name, *words):
     same(name, runs[1], runs[2])
 
 
+def largest_difference(alone, shared):
+    """Of the tables of what was asked for, over the largest number of a table in that unit."""
+    largest = {}
+    for path in alone.glob("*.csv"):
+        if path.name == "convergence.csv":
+            continue
+        here, there = (list(csv.DictReader(file.read_text().splitlines())) for file in (path, shared / path.name))
+        for name in here[0]:
+            if "[" not in name:
+                continue
+            pairs = [(float(a[name]), float(b[name])) for a, b in zip(here, there, strict=True)]
+            size, off = largest.get((path.name, name.split("[")[1]), (0.0, 0.0))
+            largest[path.name, name.split("[")[1]] = max(size, *(abs(a) for a, _ in pairs)), max(off, *(abs(a - b) for a, b in pairs))
+    return max(off / size for size, off in largest.values() if size)
+
+
+def cut_for_ranks(name, ranks, tolerance, *words, heaviest=1.15):
+    """Too few bodies or unequal ones are cut, with a warning; ranks have about as much each, and the answer is that of one process (to the last of nine digits)."""
+    runs = {}
+    for n in 1, ranks:
+        runs[n] = FOLDER / f"{name}_{n}" / "uneven" / "base"
+        dygita(n, "run", uneven, "--quiet", "--threads", 1, "--out", FOLDER / f"{name}_{n}", *words, expected=0)
+    record = json.loads((runs[ranks] / "run.json").read_text())
+    unknowns = [rank["unknowns"] for rank in record["ranks"]["of_each"]]
+    off = largest_difference(runs[1], runs[ranks])
+    warned = sum("are cut for several MPI ranks" in text for text in record["warnings"])
+    if len(unknowns) != ranks or max(unknowns) * ranks > heaviest * sum(unknowns) or not 0.0 < off < tolerance or warned != 1:
+        failures.append(f"{name}: unknowns of each rank {unknowns}, tables differ by {off:.3g}, {warned} warnings of the cut")
+    return runs[ranks]
+
+
+uneven = asked.folder / "ranks_uneven.lua"
+cut_for_ranks("uneven", 3, 1e-8, "--set", "cells=12")
+cut_for_ranks("one_body", 3, 1e-8, "--set", "bodies=1", "--set", "cells=5")
+implicit_cut = cut_for_ranks("one_implicit_body", 3, 1e-5, "--set", "bodies=1", "--set", "implicit=1", heaviest=1.2)
+# The cut is that of the run which is continued, on however many ranks.
+on_one = shutil.copytree(FOLDER / "one_implicit_body_3", FOLDER / "continued_on_one") / "uneven" / "base"
+for ranks, run in (3, implicit_cut), (1, on_one):
+    dygita(ranks, "continue", run, "--until", "15*us", "--quiet", "--threads", 1, expected=0)
+same("a cut for three ranks continued on one", on_one, implicit_cut)
+compare("even", uneven, "uneven", "--set", "bodies=4", "--set", "long=1", "--set", "cells=5", also=[2])
+
+
+def measured(name):
+    """Pieces are shared out by the seconds that they took in the run before, and the answer keeps its bits."""
+    out = FOLDER / name
+    words = ["run", asked.folder / "ranks.lua", "--quiet", "--threads", 1, "--set", "us=10", "--out", out]
+    dygita(2, *words, expected=0)
+    run = out / "ranks" / "base"
+    before, record = contents(run), json.loads((run / "run.json").read_text())
+    pieces = record["ranks"]["pieces"]
+    for i, piece in enumerate(pieces):
+        piece["seconds"] = 14.0 if i == 4 else 1.0
+    (run / "run.json").write_text(json.dumps(record))
+    dygita(2, *words, expected=0)
+    ranks = [piece["rank"] for piece in json.loads((run / "run.json").read_text())["ranks"]["pieces"]]
+    if ranks.count(ranks[4]) != 1 or contents(run) != before:
+        failures.append(f"{name}: the piece that took most is not alone: {ranks}; or other bits")
+
+
+measured("measured")
 to_all("iterated_4")
 go_on("two_then_one", 2, 1)
 go_on("two_then_three", 2, 3)
@@ -240,7 +309,7 @@ go_on("iterated_three_then_one", 3, 1, deck=implicit, problem="implicit", us=150
 go_further("further", "--until", "80*us")
 go_further("tighter", "--tolerance", "1e-8")
 dygita(2, "continue", FOLDER / "none", expected=2, says=["no folder"])
-dygita(7, "run", stopped, "--quiet", "--out", FOLDER / "many", expected=2, says=["7 MPI ranks for 6 substructures"])
+dygita(7, "run", stopped, "--quiet", "--solver", "latin{ pieces = 1 }", "--out", FOLDER / "many", expected=2, says=["7 MPI ranks for 6 substructures"])
 dygita(2, "run", stopped, "--quiet", "--solver", "monolithic", "--out", FOLDER / "one", expected=2, says=["solver.monolithic is one system"])
 dygita(2, "check", stopped, expected=2, says=["dygita check: not on several MPI ranks"])
 dygita(2, "run", stopped, "--set", "usage=1", "--quiet", "--out", FOLDER / "none", expected=2, says=["usage"])

@@ -15,7 +15,7 @@ const std::map<std::string, std::set<std::string>> may_use = {
     {"base", {}},
     {"ranks", {"base"}},
     {"numerics", {"base"}},
-    {"mesh", {"base", "numerics"}},
+    {"mesh", {"base", "ranks", "numerics"}},
     {"mesher", {"base", "numerics", "mesh"}},
     {"signal", {"base", "numerics"}},
     {"material", {"base", "numerics"}},

@@ -143,7 +143,7 @@ TEST(InterfaceNewton, solves_contact_with_friction) {
   begin(of, assembly);
   std::vector<PointRecord> records;
   for (const Point& point : of.model.exchange.points) {
-    records.push_back(start_point(of.model, point, of.state));
+    records.push_back(start_point(of.model, point, of.state, port_motions(of.model, of.state)));
     begin_point(of.model, point, Vec3::Zero(), 0, records.back());
   }
   newton.start(records);
@@ -180,7 +180,8 @@ ExplicitSettings full_stiffness() {
 }
 std::vector<PointRecord> records_of(const Modelled& of) {
   std::vector<PointRecord> records;
-  for (const Point& point : of.model.exchange.points) records.push_back(start_point(of.model, point, of.state));
+  for (const Point& point : of.model.exchange.points)
+    records.push_back(start_point(of.model, point, of.state, port_motions(of.model, of.state)));
   return records;
 }
 

@@ -60,7 +60,7 @@ struct Modelled {
         surfaces(make_surfaces(problem)),
         cut(make_cut(problem, surfaces)),
         bodies(make_bodies(problem, surfaces, *cut)),
-        state(initial_state(problem, surfaces)),
+        state(initial_state(problem, surfaces, is_assembled ? *no_cut(problem) : *cut)),
         model(is_assembled ? make_assembled_model(problem, *problem.steps[i_step], surfaces, bodies, state)
                            : make_step_model(problem, *problem.steps[i_step], surfaces, bodies, state, cut)) {}
   Modelled(const Modelled&) = delete;

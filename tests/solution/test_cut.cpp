@@ -1,8 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "mesh/box.hpp"
 #include "solution/bodies.hpp"
+#include "solution/copies.hpp"
 #include "solution/cut.hpp"
+#include "solution/share_out.hpp"
 #include "solution/step_model.hpp"
 
 namespace dygita::cut_tests {
@@ -108,6 +112,70 @@ TEST(Cut, a_large_body_is_cut_by_itself_whatever_the_number_of_threads) {
   large->mesh = box_mesh(Vec3::Zero(), Vec3::Ones(), {24, 24, 24});
   problem.substructures[0] = large;
   EXPECT_GT(make_cut(problem, {})->n_pieces(0), 1);
+}
+
+// Cubes of so many cells along an edge.
+Problem cubes(const std::vector<int>& cells) {
+  Problem problem = blocks(0);
+  const SubstructurePtr first = problem.substructures[0];
+  problem.substructures.clear();
+  for (const int n : cells) {
+    auto cube = std::make_shared<Substructure>(*first);
+    cube->mesh = box_mesh(Vec3::Zero(), Vec3::Ones(), {n, n, n});
+    problem.substructures.push_back(cube);
+  }
+  return problem;
+}
+
+using Pieces = std::vector<int>;
+
+TEST(PiecesForRanks, are_the_usual_ones_where_these_share_out_evenly) {
+  const Problem few = cubes({3, 3, 3, 3});
+  EXPECT_EQ(pieces_for_ranks(few, 1), usual_pieces(few));
+  EXPECT_EQ(pieces_for_ranks(few, 2), usual_pieces(few));
+  EXPECT_EQ(pieces_for_ranks(few, 4), usual_pieces(few));
+  const Problem small = cubes({8, 8, 8});  // too small to be cut for evenness alone
+  EXPECT_EQ(pieces_for_ranks(small, 2), Pieces({1, 1, 1}));
+}
+
+TEST(PiecesForRanks, are_more_where_ranks_would_have_none) {
+  EXPECT_EQ(pieces_for_ranks(cubes({8}), 4), Pieces({4}));
+  const Pieces pieces = pieces_for_ranks(cubes({8, 8, 8}), 4);
+  EXPECT_GE(std::accumulate(pieces.begin(), pieces.end(), 0), 4);
+  EXPECT_EQ(pieces_for_ranks(cubes({2}), 4), Pieces({1}));  // eight cells are one piece
+}
+
+TEST(PiecesForRanks, are_more_of_what_the_heaviest_rank_would_have_too_much_of) {
+  Problem problem = cubes({20, 20, 20});
+  const Pieces usual = usual_pieces(problem), pieces = pieces_for_ranks(problem, 2);
+  EXPECT_EQ(usual, Pieces({1, 1, 1}));
+  std::vector<double> costs, as_usual(3, 1.0);
+  for (const int n : pieces) costs.insert(costs.end(), n, 1.0 / n);
+  EXPECT_LT(unevenness(costs, 2), 1.15);
+  EXPECT_NEAR(unevenness(as_usual, 2), 4.0 / 3.0, 1e-12);
+  problem.solver.integration = IntegrationChoice::implicitly;  // a third too much is not worth a cut that iterates
+  EXPECT_EQ(pieces_for_ranks(problem, 2), usual);
+  problem.solver.pieces = 1;
+  EXPECT_EQ(pieces_for_ranks(problem, 5), usual);
+}
+
+TEST(Copies, have_what_the_owner_has_and_are_summed_on_it) {
+  const Problem problem = blocks(5);
+  const CutPtr cut = make_cut(problem, {});
+  std::vector<Points> fields;
+  for (const CutPiece& piece : cut->pieces()) fields.push_back(Points::Random(3, piece.body->mesh->n_nodes()));
+  std::vector<Points> given = fields, summed = fields;
+  give_to_copies(*cut, false, given);
+  sum_on_owners(*cut, true, summed);
+  for (int part = 0; part < 2; ++part) {
+    const Points owned = cut->from_owners(part, [&](int p) { return fields[p]; }),
+                 sum = cut->summed(part, [&](int p) { return fields[p]; });
+    for (int p = cut->first(part); p < cut->first(part) + cut->n_pieces(part); ++p) {
+      EXPECT_EQ(given[p], cut->on_piece(p, owned));
+      cut->keep_owned(p, summed[p]);
+      EXPECT_EQ(summed[p], cut->on_owners(p, sum));
+    }
+  }
 }
 
 }  // namespace

@@ -153,15 +153,21 @@ TEST(StepEnds, leave_the_fields_of_the_pieces) {
     problem.solver.pieces = pieces;
     Modelled of(problem);
     ASSERT_EQ(static_cast<int>(of.model.pieces.size()), pieces);
-    of.state.displacement[0] = 1e-6 * random_points(125, 1);
-    of.state.velocity[0] = random_points(125, 2);
+    for (int i = 0; i < pieces; ++i) {
+      of.state.displacement[i] = of.cut->on_piece(i, 1e-6 * random_points(125, 1));
+      of.state.velocity[i] = of.cut->on_piece(i, random_points(125, 2));
+    }
     start_step(of.model, of.state);
     State end = of.state;
-    end.displacement[0].setZero();
-    end.velocity[0].setZero();
+    for (int i = 0; i < pieces; ++i) {
+      end.displacement[i].setZero();
+      end.velocity[i].setZero();
+    }
     end_step(of.model, end);
-    EXPECT_LT((end.displacement[0] - 1e-6 * random_points(125, 1)).norm(), 1e-20);
-    EXPECT_LT((end.velocity[0] - random_points(125, 2)).norm(), 1e-14);
+    for (int i = 0; i < pieces; ++i) {
+      EXPECT_LT((end.displacement[i] - of.cut->on_piece(i, 1e-6 * random_points(125, 1))).norm(), 1e-20);
+      EXPECT_LT((end.velocity[i] - of.cut->on_piece(i, random_points(125, 2))).norm(), 1e-14);
+    }
     EXPECT_GT(end.energies.kinetic, 0.0);
   }
 }
