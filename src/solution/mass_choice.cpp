@@ -45,4 +45,11 @@ bool wants_tuned_mass(const Substructure& part, double phase, double interface_s
   return phase > most_phase && interface_share < most_on_interfaces && is_of_bricks(*part.mesh);
 }
 
+bool may_be_tuned(const Problem& problem, const std::vector<double>& brought, const Substructure& part) {
+  if (part.integration.value_or(problem.solver.integration) == IntegrationChoice::implicitly) return false;
+  const MassSettings mass = problem.mass();
+  if (!mass.is_chosen) return mass.is_tuned && is_of_bricks(*part.mesh);
+  return wants_tuned_mass(part, phase_of_lumped_mass(problem, brought, part), 0.0);
+}
+
 }  // namespace dygita

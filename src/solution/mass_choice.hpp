@@ -17,4 +17,7 @@ double phase_of_lumped_mass(const Problem& problem, const std::vector<double>& b
 // interface_share: of its nodes.
 bool wants_tuned_mass(const Substructure& part, double phase, double interface_share);
 
+// May it have a tuned mass in explicit steps, as far as is known before any surface is made?
+bool may_be_tuned(const Problem& problem, const std::vector<double>& brought, const Substructure& part);
+
 }  // namespace dygita

@@ -11,6 +11,7 @@
 
 #include "fem/mass.hpp"
 #include "numerics/partition.hpp"
+#include "solution/mass_choice.hpp"
 
 namespace dygita {
 
@@ -178,6 +179,11 @@ std::vector<int> pieces_for_ranks(const Problem& problem, int n_ranks) {
     for (size_t i = 0; i < costs.size(); ++i) of_pieces.insert(of_pieces.end(), n_pieces[i], costs[i] / n_pieces[i]);
     return unevenness(of_pieces, n_ranks);
   };
+  // Cells along a cut stay lumped where the mass is tuned: as one process would have them where there is enough to do.
+  const std::vector<double> brought = brought_frequencies(problem);
+  std::vector<char> stays_whole;
+  for (const SubstructurePtr& part : problem.substructures)
+    stays_whole.push_back(may_be_tuned(problem, brought, *part));
   const double as_usual = uneven(usual);
   const bool is_too_few = std::accumulate(usual.begin(), usual.end(), 0) < n_ranks;
   std::vector<int> best = usual;
@@ -187,7 +193,7 @@ std::vector<int> pieces_for_ranks(const Problem& problem, int n_ranks) {
     std::vector<int> n_pieces = usual;
     for (size_t i = 0; i < costs.size(); ++i) {
       const Substructure& part = *problem.substructures[i];
-      const bool may_be_cut = is_too_few || (3.0 * part.mesh->n_nodes() >= smallest_cut &&
+      const bool may_be_cut = is_too_few || (!stays_whole[i] && 3.0 * part.mesh->n_nodes() >= smallest_cut &&
                                              (as_usual > of_implicit || !is_surely_implicit(problem, part)));
       const int wanted = static_cast<int>(std::ceil(finer * costs[i] / mean * (1.0 - 1e-12)));
       if (may_be_cut) n_pieces[i] = std::max(usual[i], std::min(wanted, most_pieces(problem, static_cast<int>(i))));

@@ -17,4 +17,4 @@ local strike = load.traction{ on = blocks[#blocks]:face "zmax", x = history.half
 local far = output.history{ name = "far", on = blocks[1]:face "zmax", quantity = "velocity", direction = { 1, 0, 0 } }
 problem{ name = "uneven", substructures = blocks, interfaces = joints, supports = { support.fixed{ name = "end", on = blocks[1]:face "xmin" } },
   steps = { step.dynamic{ name = "strike", duration = p.us * us, dt = 0.25*us, loads = { strike } } },
-  solver = solver.latin{ tolerance = 1e-8 }, outputs = { far, output.energy{}, output.vtk{ frames = 3, fields = { "displacement", "stress" } } } }:run{}
+  solver = solver.latin{ tolerance = 1e-8, mass = "lumped" }, outputs = { far, output.energy{}, output.vtk{ frames = 3, fields = { "displacement", "stress" } } } }:run{}

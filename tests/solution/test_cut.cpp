@@ -155,6 +155,12 @@ TEST(PiecesForRanks, are_more_of_what_the_heaviest_rank_would_have_too_much_of) 
   EXPECT_NEAR(unevenness(as_usual, 2), 4.0 / 3.0, 1e-12);
   problem.solver.integration = IntegrationChoice::implicitly;  // a third too much is not worth a cut that iterates
   EXPECT_EQ(pieces_for_ranks(problem, 2), usual);
+  problem.solver.integration = IntegrationChoice::explicitly;
+  EXPECT_EQ(pieces_for_ranks(problem, 2), pieces);
+  problem.solver.mass.is_chosen = false;  // cells along a cut would be lumped: not for evenness alone
+  problem.solver.mass.is_tuned = true;
+  EXPECT_EQ(pieces_for_ranks(problem, 2), usual);
+  EXPECT_NE(pieces_for_ranks(problem, 5), usual);
   problem.solver.pieces = 1;
   EXPECT_EQ(pieces_for_ranks(problem, 5), usual);
 }
