@@ -25,16 +25,15 @@ DirectPoints::DirectPoints(const StepModel& model, const State& start)
     : model_(&model),
       increment_(increment_of(model.scheme, model.problem->solver.push_out)),
       close_enough_(std::clamp(0.1 * model.problem->solver.tolerance, 1e-13, 1e-10)) {
-  find_motions(model);
-  complete_starts();
+  const NearDirect near = ranks::is_alone() ? NearDirect() : near_direct(*model.cut, model.exchange);
+  if (model.has_explicit() && !ranks::is_alone()) find_motions(model, near);
   const std::vector<PortMotion> motions = port_motions(model, start);
-  const std::vector<char> is_near = points_near(model);
   for (size_t i = 0; i < model.exchange.points.size(); ++i)
-    if (is_near[i] && model.exchange.points[i].is_direct) add_point(model, static_cast<int>(i), start, motions);
+    if (model.exchange.points[i].is_direct && (ranks::is_alone() || near.points[i]))
+      add_point(model, static_cast<int>(i), start, motions);
   find_released();
   find_clusters();
   has_clusters_ = ranks::any(!clusters_.empty());
-  if (!ranks::is_alone()) find_readers();
   split_points();
 }
 

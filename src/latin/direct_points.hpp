@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ranks/neighbours.hpp"
+#include "solution/direct_links.hpp"
 #include "solution/distant_piece.hpp"
 #include "solution/explicit_piece.hpp"
 #include "solution/point_record.hpp"
@@ -89,11 +90,9 @@ class DirectPoints {
     ExplicitNodes* nodes = nullptr;
     bool is_here = false;
   };
-  void find_motions(const StepModel& model);
-  static std::vector<char> points_near(const StepModel& model);
-  void find_readers();
+  void find_motions(const StepModel& model, const NearDirect& near);
   void hear();
-  void complete_starts();
+  void complete_starts(const ranks::Neighbours& of_starts);
   void split_points();
   void solve_some(const std::vector<int>& alone, const std::vector<double>& motions, int most_threads);
   void solve_some_clusters(const std::vector<int>& clusters, const std::vector<double>& motions, int most_threads);
@@ -129,9 +128,8 @@ class DirectPoints {
   const StepModel* model_;
   Increment increment_;
   double close_enough_;  // of the largest force, between rounds over points that share nodes
-  // Nodes of all explicit pieces, told by those who have them; where there are several ranks.
+  // Nodes that several ranks solve points at, told by those who have them.
   std::vector<Motions> motions_;
-  ranks::Segments of_starts_;
   ranks::Neighbours of_motions_;
   std::vector<double> told_;
   bool has_clusters_ = false;  // anywhere

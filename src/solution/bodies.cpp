@@ -10,6 +10,7 @@
 #include "base/overloaded.hpp"
 #include "base/parallel_by_cost.hpp"
 #include "fem/mass.hpp"
+#include "fem/node_pattern.hpp"
 #include "law/law.hpp"
 #include "model/load.hpp"
 #include "solution/all_pieces.hpp"
@@ -91,11 +92,11 @@ void agree(const std::vector<Surface>& surfaces, std::vector<std::vector<char>>&
 }
 
 // Neighbours of a node that stay, the nearest of them (several where they are as near).
-std::vector<int> nearest_inside(const Mesh& mesh, const SparseMatrix& stiffness, const std::vector<char>& marked,
+std::vector<int> nearest_inside(const Mesh& mesh, const NodePattern& pattern, const std::vector<char>& marked,
                                 int node) {
   std::vector<std::pair<double, int>> inside;
-  for (int e = stiffness.outerIndexPtr()[3 * node]; e < stiffness.outerIndexPtr()[3 * node + 1]; e += 3)
-    if (const int other = stiffness.innerIndexPtr()[e] / 3; !marked[other])
+  for (int e = pattern.starts[node]; e < pattern.starts[node + 1]; ++e)
+    if (const int other = pattern.neighbours[e]; !marked[other])
       inside.emplace_back((mesh.nodes.col(other) - mesh.nodes.col(node)).norm(), other);
   std::vector<int> nearest;
   if (inside.empty()) return nearest;
@@ -106,24 +107,24 @@ std::vector<int> nearest_inside(const Mesh& mesh, const SparseMatrix& stiffness,
 }
 
 // A node with no neighbour to leave its mass to keeps it.
-void keep_where_there_is_no_inside(const Problem& problem, const std::vector<Body>& bodies,
-                                   const std::vector<Surface>& surfaces, std::vector<std::vector<char>>& marked) {
-  for (size_t i = 0; i < bodies.size(); ++i) {
+void keep_where_there_is_no_inside(const Problem& problem, const std::vector<Surface>& surfaces,
+                                   std::vector<std::vector<char>>& marked) {
+  for (size_t i = 0; i < marked.size(); ++i) {
     const std::vector<char> before = marked[i];
+    const Mesh& mesh = *problem.substructures[i]->mesh;
+    const NodePattern pattern = node_pattern(mesh);
     for (size_t node = 0; node < before.size(); ++node)
-      if (before[node] &&
-          nearest_inside(*problem.substructures[i]->mesh, bodies[i].matrices->stiffness, before, static_cast<int>(node))
-              .empty())
-        marked[i][node] = 0;
+      if (before[node] && nearest_inside(mesh, pattern, before, static_cast<int>(node)).empty()) marked[i][node] = 0;
   }
   agree(surfaces, marked);
 }
 
-void move_inside(const Mesh& mesh, const SparseMatrix& stiffness, const std::vector<char>& marked, Mass& mass) {
+void move_inside(const Mesh& mesh, const std::vector<char>& marked, Mass& mass) {
+  const NodePattern pattern = node_pattern(mesh);
   const Vec lumped = mass.lumped;
   for (int node = 0; node < mesh.n_nodes(); ++node) {
     if (!marked[node]) continue;
-    const std::vector<int> inside = nearest_inside(mesh, stiffness, marked, node);
+    const std::vector<int> inside = nearest_inside(mesh, pattern, marked, node);
     const double share = lumped[node] / static_cast<double>(inside.size());
     for (const int other : inside) {
       mass.lumped[other] += share;
@@ -186,7 +187,7 @@ Mass mass_of(const Problem& problem, const Body& body, const Vec& lumped, const 
     mass.is_consistent = true;
   }
   if (has_massless) {
-    move_inside(mesh, body.matrices->stiffness, marked, mass);
+    move_inside(mesh, marked, mass);
     mass.is_massless = marked;
   }
   return mass;
@@ -242,19 +243,19 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
     if (lays_loads || cut.is_here(i)) with_matrix.insert(mass_key(*cut.piece(i).body));
   const bool moves_mass = problem.mass().is_moved_from_contact && dt > 0.0;
   std::vector<Body> bodies;
-  std::vector<char> is_looked_at;  // both sides of a joint where mass moves: there all, for now
+  std::vector<char> is_here;
   for (const CutPiece& piece : cut.pieces()) {
     bodies.push_back({piece.body.get(), nullptr, nullptr});
-    is_looked_at.push_back(moves_mass || piece.rank == ranks::me());
+    is_here.push_back(piece.rank == ranks::me());
   }
-  add_matrices(is_looked_at, bodies);
+  add_matrices(is_here, bodies);
   std::vector<std::vector<char>> marked(bodies.size());
   if (moves_mass) {
     CHECK(bodies.size() == problem.substructures.size(), "mass does not move across a cut");
     for (size_t i = 0; i < bodies.size(); ++i)
       marked[i] = nodes_in_contact_alone(problem, surfaces, static_cast<int>(i));
     agree(surfaces, marked);
-    keep_where_there_is_no_inside(problem, bodies, surfaces, marked);
+    keep_where_there_is_no_inside(problem, surfaces, marked);
   }
   const std::vector<Vec> lumped = lumped_masses(bodies, cut);
   for (size_t i = 0; i < bodies.size(); ++i) {
@@ -268,8 +269,6 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
       bodies[i].mass = equal;
     if (!has_massless) equal = bodies[i].mass;
   }
-  for (size_t i = 0; i < bodies.size(); ++i)
-    if (!cut.is_here(static_cast<int>(i))) bodies[i].matrices.reset();
   return bodies;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
+#include <set>
 
 #include "solution/node_groups.hpp"
 
@@ -34,15 +36,46 @@ void find_direct(const Cut& cut, const std::vector<char>& explicit_pieces, Excha
     exchange.points[i].is_direct = any[i].first >= 0 && !has_implicit.at(linked.of(any[i]));
 }
 
-std::vector<int> direct_nodes(const Cut& cut, const Exchange& exchange, int piece) {
-  std::vector<int> nodes;
-  for (const Point& point : exchange.points)
-    for (int p = point.first_port; p < point.end_port && point.is_direct; ++p)
-      if (exchange.ports[p].piece == piece)
-        for (const int node : piece_nodes(cut, exchange.ports[p])) nodes.push_back(node);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
+NearDirect near_direct(const Cut& cut, const Exchange& exchange) {
+  const int n = static_cast<int>(exchange.points.size());
+  std::vector<int> root(exchange.points.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  std::map<std::pair<int, int>, int> first_at;  // by piece and node
+  const auto for_each_port = [&](int i, const auto& visit) {
+    const Point& point = exchange.points[i];
+    for (int p = point.first_port; p < point.end_port && point.is_direct; ++p) visit(exchange.ports[p]);
+  };
+  for (int i = 0; i < n; ++i)
+    for_each_port(i, [&](const Port& port) {
+      for (const int node : piece_nodes(cut, port))
+        root[find(i)] = find(first_at.emplace(std::pair(port.piece, node), i).first->second);
+    });
+  std::vector<char> is_near(exchange.points.size(), 0);
+  for (int i = 0; i < n; ++i) for_each_port(i, [&](const Port& port) { is_near[find(i)] |= cut.is_here(port.piece); });
+  std::map<int, std::set<int>> solving;  // ranks, of near points that share nodes
+  for (int i = 0; i < n; ++i)
+    for_each_port(i, [&](const Port& port) {
+      if (is_near[find(i)]) solving[find(i)].insert(cut.piece(port.piece).rank);
+    });
+  NearDirect near;
+  for (int i = 0; i < n; ++i) near.points.push_back(is_near[find(i)]);
+  for (const auto& [at, point] : first_at)
+    if (is_near[find(point)]) {
+      const std::set<int>& readers = solving.at(find(point));
+      near.nodes.push_back({at.first, at.second, {readers.begin(), readers.end()}});
+    }
+  return near;
+}
+
+std::vector<int> NearDirect::nodes_of(int piece) const {
+  std::vector<int> of_piece;
+  auto node = std::lower_bound(nodes.begin(), nodes.end(), piece, [](const Node& a, int b) { return a.piece < b; });
+  for (; node != nodes.end() && node->piece == piece; ++node) of_piece.push_back(node->node);
+  return of_piece;
 }
 
 }  // namespace dygita

@@ -9,7 +9,18 @@ namespace dygita {
 // has all of them iterated.
 void find_direct(const Cut& cut, const std::vector<char>& explicit_pieces, Exchange& exchange);
 
-// Nodes of a piece that points in closed form act on, increasing.
-std::vector<int> direct_nodes(const Cut& cut, const Exchange& exchange, int piece);
+// What a rank is concerned with of points in closed form where there are several: those that touch its pieces, and
+// those that these share nodes with.
+struct NearDirect {
+  struct Node {
+    int piece, node;
+    std::vector<int> readers;  // ranks that solve a point there
+  };
+  std::vector<char> points;  // of the exchange: is it near?
+  std::vector<Node> nodes;   // that near points act on, by piece and node
+
+  std::vector<int> nodes_of(int piece) const;
+};
+NearDirect near_direct(const Cut& cut, const Exchange& exchange);
 
 }  // namespace dygita

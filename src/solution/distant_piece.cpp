@@ -118,11 +118,12 @@ void add_distant(const StepModel& model, const std::vector<Body>& bodies, std::v
   if (ranks::is_alone()) return;
   const std::vector<double> has_motions =
       of_all_pieces(*model.cut, 1, [&](int i, double* to) { *to = pieces[i]->has_motions(); });
+  const NearDirect near = near_direct(*model.cut, model.exchange);
   for (int i = 0; i < static_cast<int>(pieces.size()); ++i) {
     if (model.cut->is_here(i)) continue;
     const DistantPiece piece(i, model.cut->piece(i).rank, *bodies[i].mass, has_motions[i] != 0.0);
     if (model.integration.is_explicit_piece(i))
-      pieces[i] = std::make_unique<DistantNodes>(piece, direct_nodes(*model.cut, model.exchange, i), model.scheme.dt);
+      pieces[i] = std::make_unique<DistantNodes>(piece, near.nodes_of(i), model.scheme.dt);
     else
       pieces[i] = std::make_unique<DistantPiece>(piece);
   }

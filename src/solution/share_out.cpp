@@ -26,10 +26,10 @@ bool is_surely_implicit(const Problem& problem, const Substructure& part) {
 }
 
 // What an increment costs, in bytes read from a factor: measured on the bolted flanges, the ring and rows of blocks of
-// 200 to 15,000 unknowns, where explicit and implicit pieces then agree to a third. Of an implicit one factor and
+// 200 to 15,000 unknowns, where explicit and implicit pieces then agree to about a third. Of an implicit one factor and
 // iterations, the interface operator of which has no zeros (integration.cpp has the same terms).
 double cost_of(const Problem& problem, const Substructure& whole, double n, double n_b) {
-  constexpr double explicit_unknown = 400.0, fill = 1.4, iterations = 4.5, rest_of_iteration = 1000.0, large = 4000.0;
+  constexpr double explicit_unknown = 500.0, fill = 1.4, iterations = 4.5, rest_of_iteration = 1000.0, large = 4000.0;
   if (!is_surely_implicit(problem, whole)) return explicit_unknown * n;
   const bool is_single = problem.solver.precision
                              ? *problem.solver.precision == Precision::single_precision

@@ -173,6 +173,7 @@ DECKS = asked.folder.parents[1] / "decks"
 compare("iterated", implicit, "implicit", "--set", "release=8", also=[3, 4])
 compare("iterated_cut", implicit, "implicit", "--set", "cut=3", "--set", "driven=1", also=[3, 4])
 compare("iterated_windows", implicit, "implicit", "--set", "window=4", "--set", "cut=2", also=[3])
+compare("heavy", implicit, "implicit", "--set", "heavy=1", "--set", "us=3", also=[3])    # a load on bodies whose mass is a matrix
 compare("cut_cube", DECKS / "verification" / "pieces.lua", "pieces", "--set", "n=8", "--set", "only=6", cases=("6_pieces",), also=[3])
 compare("iterated_mixed", implicit, "implicit", "--set", "explicit=4", also=[3, 4])
 # Meshes of files: rank 0 has them meshed for all; turned copies.
@@ -199,12 +200,12 @@ def to_all(name):
         failures.append(f"{name}: {to_neighbours:.0f} bytes to neighbours and {of_all:.0f} to all in an iteration; a field of the interfaces: {one_field}")
 
 
-def go_on(name, killed, then, *solver, deck=stopped, problem="stopped", us=300):
-    """A rank that dies ends the run; any number of ranks go on with what was computed, to the bits of a run that was never stopped."""
+def go_on(name, killed, then, *solver, deck=stopped, problem="stopped", us=300, whole_on=1):
+    """A rank that dies ends the run; any number of ranks go on with what was computed, to the bits of a run that was never stopped (in one process; on as many ranks, where these cut it)."""
     words = ["run", deck, "--set", f"us={us}", "--checkpoint-every", "0.02s", "--no-frames", "--quiet", "--threads", "1", *solver, "--out"]
     whole = FOLDER / (f"whole_{problem}" + "_assembled" * bool(solver))
     if not whole.exists():
-        dygita(1, *words, whole, expected=0)
+        dygita(whole_on, *words, whole, expected=0)
     out = FOLDER / name
     process = subprocess.Popen([*under_mpi(killed), asked.program, *map(str, [*words, out])],
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
@@ -306,6 +307,7 @@ go_on("one_then_two", 1, 2)
 go_on("assembled_two_then_one", 2, 1, *ASSEMBLED)
 go_on("iterated_four_then_three", 4, 3, deck=implicit, problem="implicit", us=150)
 go_on("iterated_three_then_one", 3, 1, deck=implicit, problem="implicit", us=150)
+go_on("cut_three_then_one", 3, 1, "--set", "bodies=1", "--set", "implicit=1", deck=uneven, problem="uneven", us=200, whole_on=3)
 go_further("further", "--until", "80*us")
 go_further("tighter", "--tolerance", "1e-8")
 dygita(2, "continue", FOLDER / "none", expected=2, says=["no folder"])

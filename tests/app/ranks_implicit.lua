@@ -1,6 +1,6 @@
 -- Twelve implicit blocks in a row, no two alike: tied, rubbing under a squeeze, one across a gap that closes, one yielding,
 -- the last against a rough wall; two of them struck, the first held or driven along. Several ranks share them out, some cut.
-local p = param{ us = 12, cut = 1, window = 1, driven = 0, release = 0, explicit = 0, tolerance = 1e-6 }
+local p = param{ us = 12, cut = 1, window = 1, driven = 0, release = 0, explicit = 0, heavy = 0, tolerance = 1e-6 }
 local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
 local soft = material.elastic{ name = "soft", young = 70*GPa, poisson = 0.3, density = 2700 }
 local n = 12
@@ -9,7 +9,7 @@ for i = 1, n do
   local length = (6 + 0.37 * i) * mm
   blocks[i] = substructure{ name = ("block %d"):format(i), material = i % 4 == 0 and soft or steel,
     integration = i <= p.explicit and "explicit" or "implicit",
-    mesh = mesh.box{ origin = { from, 0, 0 }, size = { length, 8*mm, 9*mm }, cells = { 3 + i % 3, 3, 3 } } }
+    mesh = mesh.box{ origin = { from, 0, 0 }, size = { length, 8*mm, 9*mm }, cells = { 3 + i % 3, 3, 3 }, order = p.heavy == 1 and 2 or 1 } }
   from = from + length
 end
 for i = 2, n do
@@ -28,6 +28,7 @@ local loads = { squeeze, load.traction{ on = blocks[2]:face "zmax", z = history.
   load.traction{ on = blocks[8]:face "zmax", x = history.half_sine{ peak = -90*MPa, duration = 3*us } } }
 if p.release > 0 then table.insert(loads, load.release{ on = joints[10], at = p.release * us }) end
 if p.driven == 1 then table.insert(loads, load.velocity{ on = blocks[1]:face "ymin", z = history.haversine{ peak = 1, duration = 6*us } }) end
+if p.heavy == 1 then table.insert(loads, load.gravity{ x = -1e5, z = -2e5 }) end
 local press = step.static{ name = "press", increments = 2, loads = { squeeze } }
 local strike = step.dynamic{ name = "strike", after = press, duration = p.us * us, dt = 0.25*us, loads = loads }
 local corner = output.history{ name = "corner", on = blocks[n]:face "zmax", quantity = "acceleration", direction = { 0, 0, 1 } }
