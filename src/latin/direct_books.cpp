@@ -1,6 +1,7 @@
 // What direct points keep and tell: the laws' memory, works, forces over the time step of the deck.
 #include <algorithm>
 
+#include "base/parallel.hpp"
 #include "latin/direct_points.hpp"
 #include "law/law.hpp"
 
@@ -64,27 +65,35 @@ void DirectPoints::book(const OwnPoint& p, IncrementEnergy& energy) {
   energy.scheme += p.work.given - p.on_pieces - p.work.dissipated();
 }
 
-void DirectPoints::show(State& state, std::vector<IncrementEnergy>& energy) {
+void DirectPoints::show(State& state, std::vector<IncrementEnergy>& energy, int most_threads) {
   for (const int s : released_)
     if (model_->loads->is_released((*model_->surfaces)[s].interface, i_interval_)) state.released[s] = 1;
-  std::vector<Vec3> port_force;
-  for (OwnPoint& p : points_) {
+  const auto shown_of = [&](const OwnPoint& p) {
     PointRecord shown = p.record;
     shown.law.force = p.impulse / interval_;
-    port_force.clear();
-    for (int i = p.side_1.first; i < p.side_2.end; ++i) port_force.push_back(ports_[i].impulse / interval_);
+    return shown;
+  };
+  for (OwnPoint& p : points_) {
     if (p.is_booked_here) book(p, energy[model_->exchange.ports[p.point->first_port].piece]);
     if (p.point->law) {
       book_on_surfaces(*p.point, p.work, state);
-      show_point(*p.point, shown, state);
+      show_point(*p.point, shown_of(p), state);
     }
-    show_ties(*model_, *p.point, shown, port_force, state);
     for (const Member& member : p.point->members) state.surfaces[member.surface].residual[member.point] = 0.0;
     for (int t = p.point->first_tie; t < p.point->end_tie; ++t) {
       const Tie& tie = model_->exchange.ties[t];
       state.surfaces[tie.surface].residual[tie.surface_point] = 0.0;
     }
   }
+  const int n = static_cast<int>(points_.size());
+  const auto show_ties_of = [&](int i) {
+    const OwnPoint& p = points_[static_cast<size_t>(i)];
+    if (p.point->first_tie == p.point->end_tie) return;
+    std::vector<Vec3> port_force;
+    for (int k = p.side_1.first; k < p.side_2.end; ++k) port_force.push_back(ports_[k].impulse / interval_);
+    show_ties(*model_, *p.point, shown_of(p), port_force, state);
+  };
+  parallel_for(n, show_ties_of, Schedule::evenly, n > 1000 ? most_threads : 1);
 }
 
 Vec3 DirectPoints::end_displacement(const OwnPoint& p, const OwnPort& port) const {

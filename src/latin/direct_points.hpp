@@ -28,7 +28,7 @@ class DirectPoints {
   void solve(const std::vector<double>& motions, int most_threads);
   // Fields and works of the time step of the deck into the state and the energies of the pieces that book them: forces
   // are means over its increments. On several ranks of the points that are kept here.
-  void show(State& state, std::vector<IncrementEnergy>& energy);
+  void show(State& state, std::vector<IncrementEnergy>& energy, int most_threads);
 
   // Largest part of a force, relative to the largest, that points sharing nodes have left to each other since this was
   // last asked.

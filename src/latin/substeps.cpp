@@ -155,7 +155,7 @@ void StepRun::solve_interval(int increment) {
   {
     const Stopwatch watch(books_.seconds.accept);
     show_mean_forces();
-    direct_.show(files_.state, books_.energy);
+    direct_.show(files_.state, books_.energy, piece_threads_.threads());
     if (distant_) distant_->forget();
   }
   files_.state.time = start + model_.step->dt;
