@@ -25,7 +25,7 @@ def asked(machine, quick):
         found += [("bolted flanges, 8 pieces per part", FLANGES, {"size": "1.4*mm", "duration": "40*us"}, cut, t, 300) for t in machine.threads]
     found += [("bolted flanges", FLANGES, {"size": size, "duration": duration}, None, machine.threads[-1], 600)
               for size, duration in (("0.96*mm", "20*us"), ("0.64*mm", "10*us"))]
-    for cells, bricks, steps in ((12, few, 40), (20, few, 40), (32, few, 40), (32, many, 40), (46, many, 20), (69, many, 10)):
+    for cells, bricks, steps in ((12, few, 200), (20, few, 200), (32, few, 200), (32, many, 200), (46, many, 20), (69, many, 10)):
         threads = machine.threads if cells < 46 else machine.threads[-1:]
         found += [(f"blocks, {bricks['bx']**3}", BLOCKS, {"cells": cells, "steps": steps} | bricks, None, t, 600) for t in threads]
     return found
@@ -70,10 +70,10 @@ def goals(rows):
                  "the phases below"))
     speeds = speed_up(rows)
     if speeds:
-        scene, dofs, value = max((s for s in speeds if s[0] == "bolted flanges"), key=lambda s: s[1])
-        worst = min(speeds, key=lambda s: s[2])
-        done.append((f"two threads at least 1.7 x one on the whole run ({scene}, {dofs / 1e3:.0f}k; of all scenes {worst[2]:.2f} at least)", f"{value:.2f}", value >= 1.7,
-                     f"what one thread does (mesh, collecting results) and the largest piece, which one thread factorises"))
+        scene, dofs, value = min((s for s in speeds if s[1] > 3e4), key=lambda s: s[2], default=min(speeds, key=lambda s: s[2]))
+        done.append((f"two threads at least 1.7 x one on the whole run, in every scene above 30k unknowns (least: {scene}, {dofs / 1e3:.0f}k; "
+                     f"most of all: {max(s[2] for s in speeds):.2f})", f"{value:.2f}", value >= 1.7,
+                     "what one thread does (mesh, collecting results), and where parts are few the largest, which one thread has"))
     largest = max(rows, key=lambda r: r["dofs"])
     if largest["dofs"] > 9e5:
         done.append((f"1M unknowns within 20 GiB ({largest['scene']}, {largest['dofs'] / 1e6:.2f}M; {largest['steps']:.0f} steps run; more of them add the interface fields kept, 512 MB at most)",
