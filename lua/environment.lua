@@ -73,6 +73,36 @@ math.randomseed(1)  -- the same deck computes the same
 local safe_table = { concat = table.concat, insert = table.insert, pack = table.pack, remove = table.remove,
                      sort = table.sort, unpack = table.unpack }
 
+-- Keys in one order, numbers before texts, each by size: Lua's own order of texts is another in each process, and MPI
+-- ranks, which read the deck side by side, would number what it declares differently. Other keys come last, as they come.
+local rank_of_key = { number = 1, string = 2, boolean = 3 }
+
+local function precedes(a, b)
+  local rank_a, rank_b = rank_of_key[type(a)] or 4, rank_of_key[type(b)] or 4
+  if rank_a ~= rank_b then return rank_a < rank_b end
+  if rank_a <= 2 then return a < b end
+  return rank_a == 3 and b and not a
+end
+
+local function in_order(t)
+  local keys, i = {}, 0
+  for key in next, t do keys[#keys + 1] = key end
+  table.sort(keys, precedes)
+  return function()
+    local value
+    repeat
+      i = i + 1
+      value = t[keys[i]]
+    until keys[i] == nil or value ~= nil
+    return keys[i], value
+  end, t
+end
+
+local function ordered_pairs(t)
+  if type(t) ~= "table" or getmetatable(t) ~= nil then return pairs(t) end
+  return in_order(t)
+end
+
 -- A table that can be read and not written; `what` opens the message.
 local function read_only(members, what)
   return setmetatable({}, {
@@ -95,7 +125,7 @@ local function read_only(members, what)
     __pairs = function()
       local copy = {}
       for name, member in pairs(members) do copy[name] = member end
-      return next, copy, nil
+      return in_order(copy)
     end,
     __metatable = false,
   })
@@ -119,7 +149,7 @@ return {
   read_only = read_only,
   functions = {
     math = read_only(safe_math, "math"), string = read_only(safe_string, "string"), table = read_only(safe_table, "table"),
-    ipairs = ipairs, pairs = pairs, next = next, select = select, type = type, tonumber = tonumber, tostring = tostring,
+    ipairs = ipairs, pairs = ordered_pairs, next = next, select = select, type = type, tonumber = tonumber, tostring = tostring,
     error = raise, assert = assert_value, print = native.print, near = near,
   },
   refused = {

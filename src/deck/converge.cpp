@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "base/log.hpp"
+#include "base/name_list.hpp"
 #include "base/names.hpp"
 #include "report/convergence_files.hpp"
 
@@ -81,6 +82,7 @@ class Converge {
       run.figures.push_back(*figure);
     }
     run.converged &= result.converged;
+    for (const StepSummary& step : result.steps) run.tuned.insert(step.tuned_parts.begin(), step.tuned_parts.end());
     if (const auto all = result.seconds.find("all"); all != result.seconds.end()) run.seconds += all->second;
   }
 
@@ -163,10 +165,27 @@ class Converge {
     say(fmt::format("\n{} runs in {:.3g} s:", study_.runs().size(), spent_));
     say(convergence_text(study_, figures));
     if (options_.aim > 0.0) recommend(figures);
+    doubt_masses();
     const std::filesystem::path folder = options_.deck.out / (options_.deck.path.stem().string() + "_converge");
     write_convergence(folder, options_.deck.path.stem().string(), study_, figures);
     say(fmt::format("table and figure: {}, {}", (folder / "converge.csv").string(),
                     (folder / "converge.svg").string()));
+  }
+
+  // Two kinds of mass go to one limit, but not in one sequence.
+  void doubt_masses() {
+    std::set<std::string> in_some, in_all = study_.runs().begin()->second.tuned;
+    for (const auto& [levels, run] : study_.runs()) {
+      in_some.insert(run.tuned.begin(), run.tuned.end());
+      std::erase_if(in_all, [&tuned = run.tuned](const std::string& name) { return !tuned.contains(name); });
+    }
+    std::erase_if(in_some, [&](const std::string& name) { return in_all.contains(name); });
+    if (in_some.empty()) return;
+    outcome_.is_met = false;
+    say(
+        fmt::format("these runs are no one sequence: the mass of {} was tuned in some and lumped in others; say which, "
+                    "--solver \"latin{{ mass = 'tuned' }}\" or 'lumped'",
+                    list_of_names({in_some.begin(), in_some.end()})));
   }
 
   // The cheapest setting that is predicted to meet the aim, computed and compared with the limit.

@@ -1,5 +1,7 @@
 #include "deck/histories.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <cmath>
 
 #include "base/log.hpp"
@@ -31,6 +33,16 @@ class DeckFunction {
   double value(double t) const {
     CHECK(*alive_, "a history asks its deck's function after the deck has ended");
     return lua_.value_of_function(reference_, declared_at_, t);
+  }
+  // A run asks for an instant as often as it needs it, on several MPI ranks each as often as it has use for it.
+  void check_answers_the_same() const {
+    const double first = value(0.0), again = value(0.0);
+    if (first == again) return;
+    throw InputError(DeckState::of(lua_).origin(declared_at_),
+                     fmt::format("a function of time must give one value for one time, and this one gave {:g} and then "
+                                 "{:g} at t = 0\n    math.random and counters belong outside of it: make a table of "
+                                 "values once, and history.piecewise of it",
+                                 first, again));
   }
 
  private:
@@ -68,7 +80,7 @@ void doubt_factor(const History& history, double factor, const Origin& origin) {
 History history_of_function(lua_State* L, int index) {
   lua_pushvalue(L, index);
   const auto function = std::make_shared<const DeckFunction>(LuaState::of(L));
-  function->value(0.0);  // what cannot answer at all is told where it is declared
+  function->check_answers_the_same();  // what cannot answer at all is told where it is declared
   return History::function([function](double t) { return function->value(t); });
 }
 

@@ -1,6 +1,7 @@
 #include "model/load_content.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -19,6 +20,13 @@ template <typename Kind>
 bool has_effect(const Load& load) {
   for (const Effect& effect : load.effects())
     if (std::holds_alternative<Kind>(effect)) return true;
+  return false;
+}
+
+// Does it give nodes a velocity?
+bool is_of_velocity(const Load& load) {
+  for (const Effect& effect : load.effects())
+    if (const auto* motion = std::get_if<PrescribedMotion>(&effect); motion && motion->is_velocity) return true;
   return false;
 }
 
@@ -61,11 +69,11 @@ bool is_first_in_motion(const Step& step) {
   return true;
 }
 
-// Some substructures move against others.
+// Some substructures move against others, or against the ground.
 bool meet_at_speed(const Problem& problem) {
-  return std::any_of(problem.substructures.begin(), problem.substructures.end(), [&](const SubstructurePtr& part) {
-    return part->velocity != problem.substructures.front()->velocity;
-  });
+  const Vec3 ground = problem.supports.empty() ? problem.substructures.front()->velocity : Vec3(Vec3::Zero());
+  return std::any_of(problem.substructures.begin(), problem.substructures.end(),
+                     [&](const SubstructurePtr& part) { return part->velocity != ground; });
 }
 
 bool begins_with_a_jump(const Problem& problem, const Step& step) {
@@ -78,13 +86,32 @@ bool begins_with_a_jump(const Problem& problem, const Step& step) {
   return jumps_between(before ? values_at(*before, end) : Values(), values_at(step, 0.0));
 }
 
+// As many as resolve the time steps, where they are not too many; a power of two, as the transform likes them.
+std::vector<double> samples_of(const History& history, const Step& step) {
+  constexpr unsigned fewest = 256, most = 1u << 17;
+  const unsigned n = std::bit_ceil(std::clamp(4u * static_cast<unsigned>(step.n_increments()), fewest, most));
+  std::vector<double> samples(n);
+  for (unsigned i = 0; i < n; ++i) samples[i] = history.value(step.duration * i / (n - 1));
+  return samples;
+}
+
 // Of values less `from`.
 double frequency_of(const History& history, const Step& step, double from) {
   if (history.is_constant()) return 0.0;
-  const int n = std::clamp(4 * step.n_increments(), 256, 2048);
-  std::vector<double> samples(n + 1);
-  for (int i = 0; i <= n; ++i) samples[i] = history.value(step.duration * i / n) - from;
-  return band_limit(samples, step.duration / n, share);
+  std::vector<double> samples = samples_of(history, step);
+  for (double& value : samples) value -= from;
+  return band_limit(samples, step.duration / static_cast<double>(samples.size() - 1), share);
+}
+
+// By half of all that it moves, within a quarter of a time step.
+bool jumps_on_the_way(const History& history, const Step& step) {
+  if (history.is_constant()) return false;
+  const std::vector<double> samples = samples_of(history, step);
+  if (samples.size() < 4 * static_cast<size_t>(step.n_increments())) return false;
+  const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
+  for (size_t i = 1; i < samples.size(); ++i)
+    if (std::abs(samples[i] - samples[i - 1]) > 0.5 * (*high - *low)) return true;
+  return false;
 }
 
 }  // namespace
@@ -98,11 +125,17 @@ double load_frequency(const Load& load, const Step& step) {
 
 // What is there from the start is at rest.
 double brought_frequency(const Problem& problem, const Step& step) {
-  if (begins_with_a_jump(problem, step)) return std::numeric_limits<double>::infinity();
+  constexpr double without_bound = std::numeric_limits<double>::infinity();
+  if (begins_with_a_jump(problem, step)) return without_bound;
   double highest = 0.0;
-  for (const LoadPtr& load : step.loads)
-    for (const auto& value : load->values)
-      if (value) highest = std::max(highest, frequency_of(value->history, step, value->history.value(0.0)));
+  for (const LoadPtr& load : step.loads) {
+    const bool acts_at_once = has_effect<NodalForces>(*load) || is_of_velocity(*load);
+    for (const auto& value : load->values) {
+      if (!value) continue;
+      if (acts_at_once && jumps_on_the_way(value->history, step)) return without_bound;
+      highest = std::max(highest, frequency_of(value->history, step, value->history.value(0.0)));
+    }
+  }
   return highest;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <map>
+#include <set>
+#include <string>
 
 #include "result/grid_convergence.hpp"
 #include "result/watched_figures.hpp"
@@ -26,6 +28,7 @@ struct ConvergenceRun {
   std::vector<WatchedFigure> figures;
   double seconds = 0.0;
   bool converged = true;
+  std::set<std::string> tuned = {};  // substructures whose mass was tuned (manual, eq. S15)
 };
 
 // What became of a figure: by variation, and in the limit of all of them.

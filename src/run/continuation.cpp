@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "base/log.hpp"
+#include "base/name_list.hpp"
 #include "base/names.hpp"
 #include "output/csv.hpp"
 #include "output/run_record.hpp"
@@ -15,6 +16,7 @@
 #include "result/hollow_result.hpp"
 #include "run/keep_state.hpp"
 #include "run/share_plan.hpp"
+#include "solution/mass_choice.hpp"
 
 namespace dygita {
 
@@ -237,8 +239,16 @@ Problem Continuation::changed(Problem problem) const {
     throw InputError(fmt::format("--tolerance {:g}: 'precision' = \"single\" of the deck holds 1e-7 at least",
                                  problem.solver.tolerance));
   const double duration = state_->steps.back().duration + (options_.until ? *options_.until - end_of(*state_) : 0.0);
-  if (!problem.steps.back()->is_static && duration != problem.steps.back()->duration)
+  if (!problem.steps.back()->is_static && duration != problem.steps.back()->duration) {
+    const std::vector<std::string> before = tuned_by_choice(problem);
     problem.steps.back() = extended(*problem.steps.back(), duration);
+    if (const std::vector<std::string> now = tuned_by_choice(problem); now != before)
+      warn(fmt::format(
+          "in the longer time the mass of other substructures is worth being tuned ({} in place of {}): what "
+          "was reported before moves by what the mesh leaves; solver.latin{{ mass = \"tuned\" }} or "
+          "\"lumped\" in the deck fixes it",
+          now.empty() ? "none" : list_of_names(now), before.empty() ? "none" : list_of_names(before)));
+  }
   check_problem_is_same(problem, *state_);
   return problem;
 }

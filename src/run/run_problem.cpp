@@ -298,6 +298,7 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
   if (asked.threads > 0) omp_set_num_threads(asked.threads);
   check_ranks(declared);
   check_problem(declared);
+  check_ranks_agree(declared);
   say(fmt::format("problem '{}', case '{}': {} substructures, {} interfaces, {} steps", declared.name, asked.case_name,
                   declared.substructures.size(), declared.interfaces.size(), declared.steps.size()));
   RunSite site(declared, asked);
@@ -314,8 +315,12 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
   } catch (const std::bad_alloc&) {
     tell_lack_of_memory(site);
   }
-  if (!ranks::is_first()) return result;
+  if (!ranks::is_first()) {
+    ranks::any(false);  // what the deck does next may end all: not before rank 0 has written
+    return result;
+  }
   settle(request, *result, site);
+  ranks::any(false);
   if (request.continues) say(continuation_line(*request.continues, *result));
   say_summary(problem, *result, site.writer && site.is_kept ? site.directory : std::filesystem::path(), seconds);
   tell_stop(*result, site);

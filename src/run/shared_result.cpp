@@ -1,10 +1,17 @@
 #include "run/shared_result.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
+#include <array>
+#include <bit>
 #include <cstring>
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/fnv1a.hpp"
 #include "base/log.hpp"
+#include "law/law.hpp"
+#include "model/load.hpp"
 #include "ranks/ranks.hpp"
 
 namespace dygita {
@@ -130,6 +137,76 @@ void check_ranks(const Problem& problem) {
   if (problem.monolithic) refuse("solver.monolithic is one system of all substructures, which MPI ranks do not share");
   if (problem.explicit_dynamics)
     refuse("solver.explicit is one mesh of all substructures, which MPI ranks do not share");
+}
+
+namespace {
+
+// What a rank has read, and what that is called.
+struct ReadPart {
+  const char* what;
+  Fnv1a digest = {};
+
+  void add(double value) { digest.add(std::bit_cast<std::uint64_t>(value)); }
+  template <class Values>
+  void add_all(const Values& values) {
+    for (const double value : values) add(value);
+  }
+};
+
+std::vector<ReadPart> read_parts(const Problem& problem) {
+  constexpr int n_instants = 32;
+  ReadPart parts{"substructures"}, joints{"interfaces"}, supports{"supports"}, steps{"steps"};
+  for (const SubstructurePtr& part : problem.substructures) {
+    parts.digest.add(part->name);
+    parts.digest.add(part->mesh->digest);
+    const Elastic& m = part->material;
+    parts.add_all(std::array{m.young, m.poisson, m.density, m.damping.mass, m.damping.stiffness});
+    parts.add_all(part->place);
+    parts.add_all(part->velocity);
+  }
+  for (const InterfacePtr& joint : problem.interfaces) {
+    for (const std::string& text : {joint->name, joint->side_1.label(), joint->side_2.label(), joint->law->word()})
+      joints.digest.add(text);
+    for (const LawParameter& parameter : joint->law->parameters())
+      joints.add(std::visit([](auto value) { return static_cast<double>(value); }, parameter.value));
+  }
+  for (const SupportPtr& support : problem.supports) {
+    supports.digest.add(support->name);
+    for (const FaceOrRegion& on : support->on)
+      supports.digest.add(std::visit([](const auto& place) { return place.label(); }, on));
+  }
+  for (const StepPtr& step : problem.steps) {
+    steps.digest.add(step->name);
+    steps.add_all(std::array{double(step->increments), step->duration, step->dt});
+    for (const LoadPtr& load : step->loads) {
+      steps.digest.add(load->path);
+      for (const Target& target : load->on) steps.digest.add(label(target));
+      for (const auto& value : load->values)
+        for (int i = 0; value && i <= n_instants; ++i)
+          steps.add(value->history.value((step->is_static ? 1.0 : step->duration) * i / n_instants));
+    }
+  }
+  return {parts, joints, supports, steps};
+}
+
+}  // namespace
+
+void check_ranks_agree(const Problem& problem) {
+  if (ranks::is_alone()) return;
+  const std::vector<ReadPart> read = read_parts(problem);
+  std::string own;
+  for (const ReadPart& part : read) own += part.digest.hexadecimal();
+  const std::string of_first = ranks::shared(own);
+  const size_t length = own.size() / read.size();
+  for (size_t i = 0; i < read.size(); ++i)
+    if (ranks::any(own.compare(i * length, length, of_first, i * length, length) != 0))
+      throw InputError(
+          problem.origin,
+          fmt::format("problem '{}': the MPI ranks have read different {} from the deck, in number, order "
+                      "or value\n    a deck must say the same each time it is read: no order of pairs() over "
+                      "a table whose keys are objects, nothing kept from one call of a function of time to "
+                      "the next",
+                      problem.name, read[i].what));
 }
 
 }  // namespace dygita

@@ -8,6 +8,9 @@ namespace dygita {
 // What several ranks cannot do is refused, not done by each of them. Throws InputError.
 void check_ranks(const Problem& problem);
 
+// Collective. Have all ranks read the same from the deck? Throws InputError, on all of them, which says what differs.
+void check_ranks_agree(const Problem& problem);
+
 // Collective. Gives the other ranks what a deck reads of rank 0's result: tables, what outputs tell beside them, peaks
 // of stress, iterations and whether they have converged.
 void share_result(const Problem& problem, RunResult& result);

@@ -1,5 +1,7 @@
 #include "solution/bodies.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -7,6 +9,8 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "base/log.hpp"
+#include "base/name_list.hpp"
 #include "base/overloaded.hpp"
 #include "base/parallel_by_cost.hpp"
 #include "fem/mass.hpp"
@@ -29,6 +33,17 @@ void take_off(const FaceOrRegion& place, const SubstructurePtr& part, std::vecto
 
 void take_off(const std::vector<FaceOrRegion>& places, const SubstructurePtr& part, std::vector<char>& marked) {
   for (const FaceOrRegion& place : places) take_off(place, part, marked);
+}
+
+void tell_those_that_keep_mass(const Problem& problem) {
+  std::vector<std::string> names;
+  for (const SubstructurePtr& part : problem.substructures)
+    if (part->material.damping.stiffness > 0.0) names.push_back(part->name);
+  if (!names.empty())
+    warn(
+        fmt::format("problem '{}': 'massless_contact' leaves their mass to nodes in contact of {} and of what they "
+                    "touch: with damping by stiffness (damping_ratio, damping.stiffness) they cannot do without",
+                    problem.name, list_of_names(names)));
 }
 
 // Nodes of a substructure that can do without mass: in contact and in nothing else that counts on it.
@@ -251,6 +266,7 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
   add_matrices(is_here, bodies);
   std::vector<std::vector<char>> marked(bodies.size());
   if (moves_mass) {
+    tell_those_that_keep_mass(problem);
     CHECK(bodies.size() == problem.substructures.size(), "mass does not move across a cut");
     for (size_t i = 0; i < bodies.size(); ++i)
       marked[i] = nodes_in_contact_alone(problem, surfaces, static_cast<int>(i));

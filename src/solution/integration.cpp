@@ -232,7 +232,9 @@ void choose_mass(const Problem& problem, const std::vector<Size>& sizes, std::ve
     if (!is_chosen || !parts[i].why_not.empty()) continue;
     const Substructure& part = *problem.substructures[i];
     parts[i].phase = phase_of_lumped_mass(problem, brought, part);
-    parts[i].is_tuned = wants_tuned_mass(part, parts[i].phase, sizes[i].interface_unknowns / sizes[i].unknowns);
+    const double interface_share = sizes[i].interface_unknowns / sizes[i].unknowns;
+    parts[i].is_tuned = wants_tuned_mass(part, parts[i].phase, interface_share);
+    parts[i].why_lumped = why_lumped(part, parts[i].phase, interface_share);
   }
 }
 
@@ -322,6 +324,7 @@ void add_to(ByReason& groups, std::string reason, const std::string& name) {
 // "tuned mass in 'rod' (lumped mass would keep waves back by up to 3.2 rad), ": what is not lumped.
 std::string mass_of_explicit(const Integration& integration, const Problem& problem) {
   std::vector<std::string> tuned;
+  ByReason lumped;
   bool has_diagonal = false, has_lumped = false;
   double phase = 0.0;
   for (size_t i = 0; i < integration.parts.size(); ++i) {
@@ -329,6 +332,8 @@ std::string mass_of_explicit(const Integration& integration, const Problem& prob
     if (!part.is_explicit) continue;
     has_diagonal |= has_consistent_mass(*problem.substructures[i]->mesh);
     has_lumped |= !part.is_tuned;
+    if (!part.why_lumped.empty() && !has_consistent_mass(*problem.substructures[i]->mesh))
+      add_to(lumped, part.why_lumped, problem.substructures[i]->name);
     if (!part.is_tuned) continue;
     tuned.push_back(problem.substructures[i]->name);
     phase = std::max(phase, part.phase);
@@ -336,6 +341,9 @@ std::string mass_of_explicit(const Integration& integration, const Problem& prob
   std::string text = tuned.empty() ? "" : has_lumped ? "tuned mass in " + list_of_names(tuned) : "tuned mass";
   if (phase > 0.0) text += fmt::format(" (lumped mass would keep waves back by up to {:.2g} rad)", phase);
   if (!text.empty()) text += ", ";
+  for (const auto& [reason, names] : lumped)
+    text += fmt::format("{}{} ({}), ", &reason == &lumped.front().first ? "lumped, though waves are kept back: " : "",
+                        list_of_names(names), reason);
   return has_diagonal ? text + "diagonal mass in cells of order two, " : text;
 }
 

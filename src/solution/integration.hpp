@@ -15,10 +15,11 @@ namespace dygita {
 struct Integration {
   struct Part {
     bool is_explicit = false;
-    double longest = 0.0;   // s, increment that is stable; 0: nobody has asked
-    std::string why_not;    // it cannot be explicit; empty: it can
-    bool is_tuned = false;  // its mass, where it is explicit (manual, eq. S13)
-    double phase = 0.0;     // rad, that this was decided by (eq. S15); 0: the deck did
+    double longest = 0.0;    // s, increment that is stable; 0: nobody has asked
+    std::string why_not;     // it cannot be explicit; empty: it can
+    bool is_tuned = false;   // its mass, where it is explicit (manual, eq. S13)
+    double phase = 0.0;      // rad, that this was decided by (eq. S15); 0: the deck did
+    std::string why_lumped;  // though the phase asks for more
   };
   std::vector<char> is_explicit;  // of each piece; empty: none is
   int n_substeps = 1;             // increments in each time step of the deck

@@ -42,7 +42,13 @@ double phase_of_lumped_mass(const Problem& problem, const std::vector<double>& b
 }
 
 bool wants_tuned_mass(const Substructure& part, double phase, double interface_share) {
-  return phase > most_phase && interface_share < most_on_interfaces && is_of_bricks(*part.mesh);
+  return phase > most_phase && why_lumped(part, phase, interface_share).empty();
+}
+
+std::string why_lumped(const Substructure& part, double phase, double interface_share) {
+  if (phase <= most_phase) return "";
+  if (!is_of_bricks(*part.mesh)) return "its cells are no hexahedra of order one";
+  return interface_share < most_on_interfaces ? "" : "half of its nodes or more have laws";
 }
 
 bool may_be_tuned(const Problem& problem, const std::vector<double>& brought, const Substructure& part) {
@@ -50,6 +56,15 @@ bool may_be_tuned(const Problem& problem, const std::vector<double>& brought, co
   const MassSettings mass = problem.mass();
   if (!mass.is_chosen) return mass.is_tuned && is_of_bricks(*part.mesh);
   return wants_tuned_mass(part, phase_of_lumped_mass(problem, brought, part), 0.0);
+}
+
+std::vector<std::string> tuned_by_choice(const Problem& problem) {
+  std::vector<std::string> names;
+  if (!problem.mass().is_chosen) return names;
+  const std::vector<double> brought = brought_frequencies(problem);
+  for (const SubstructurePtr& part : problem.substructures)
+    if (may_be_tuned(problem, brought, *part)) names.push_back(part->name);
+  return names;
 }
 
 }  // namespace dygita

@@ -318,6 +318,28 @@ dygita(2, "run", stopped, "--set", "usage=1", "--quiet", "--out", FOLDER / "none
 dygita(2, "run", FOLDER / "none.lua", expected=2, says=["no deck"])
 # A history that fails in the middle of a run fails on all ranks, and is told once.
 dygita(2, "run", stopped, "--set", "broken=1", "--quiet", "--out", FOLDER / "broken", expected=2, says=["no record at 20 us"])
+# What Lua orders otherwise in each process is declared in one order; what is another on each rank all the same is refused.
+ROW = """
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local at, named, parts = { bottom = 0, middle = 1, top = 2, lid = 3 }, {}, {}
+for name, k in pairs(at) do
+  named[name] = substructure{ name = name, material = steel, mesh = mesh.box{ origin = { 0, 0, k * 10*mm }, size = { 10*mm, 10*mm, 10*mm }, cells = { 3, 3, 3 } } }
+  parts[#parts + 1] = named[name]
+end
+local base = support.fixed{ name = "base", on = named.bottom:face "zmin" }
+local hit = step.dynamic{ name = "hit", duration = 10*us, dt = 0.25*us, loads = { load.pressure{ on = named.lid:face "zmax", history = history.half_sine{ peak = PEAK, duration = 6*us } } } }
+problem{ name = "row", substructures = parts, interfaces = { interface.contact{ between = "all touching", friction = 0.3 } }, supports = { base }, steps = { hit },
+  outputs = { output.momentum{ name = "m", of = named.middle }, output.energy{} } }:run{}
+"""
+(FOLDER / "row.lua").write_text(ROW.replace("PEAK", "100*MPa"))
+compare("row", FOLDER / "row.lua", "row", also=[3])
+(FOLDER / "chance.lua").write_text(ROW.replace("PEAK", "tonumber(tostring({}):match('0x(%x+)'), 16) * Pa"))
+dygita(2, "run", FOLDER / "chance.lua", "--quiet", "--out", FOLDER / "chance", expected=2, says=["the MPI ranks have read different steps from the deck"])
+# An error of the deck after a run leaves what the run has written.
+(FOLDER / "late.lua").write_text(ROW.replace("PEAK", "100*MPa") + "error('after all')\n")
+dygita(4, "run", FOLDER / "late.lua", "--quiet", "--out", FOLDER / "late", expected=2, says=["after all"])
+if not (FOLDER / "late" / "row" / "base" / "run.json").exists():
+    failures.append("an error of the deck after a run took its results away")
 # Each rank writes the frames of its own parts; one that cannot ends the run, which keeps the rest.
 run = FOLDER / "barred" / "ranks" / "base"
 (run / "frames" / "block 15_00002.vtu" / "in the way").mkdir(parents=True)

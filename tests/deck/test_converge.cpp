@@ -13,6 +13,7 @@ namespace {
 struct PowerLaws {
   std::vector<std::map<std::string, double>> asked;
   std::function<double(std::map<std::string, double>)> spoil = [](const auto&) { return 0.0; };
+  std::function<bool(std::map<std::string, double>)> tuned = nullptr;  // is the mass of the lower block?
   bool converged = true;
 
   Engine engine() {
@@ -25,6 +26,7 @@ struct PowerLaws {
               table.units = {"s", "N"};
               table.columns = {{0.0, 1.0}, {0.0, 5.0 + 0.1 * std::pow(at["size"], 2) + 0.02 / at["n"] + spoil(at)}};
               for (const OutputPtr& output : problem.outputs) result->tables[output.get()] = table;
+              if (tuned && tuned(at)) result->steps.emplace_back().tuned_parts = {"low"};
               result->seconds["all"] = std::pow(at["size"], -3);
               result->converged = converged;
               return result;
@@ -115,6 +117,15 @@ TEST_F(Converging, names_what_has_no_limit) {
   options.aim = 0.01;
   EXPECT_FALSE(run({"size"}, {"bolt.normal.max"}).is_met);
   EXPECT_TRUE(says("no limit in these runs")) << said;
+}
+
+TEST_F(Converging, says_where_masses_make_it_no_one_sequence) {
+  laws.tuned = [](std::map<std::string, double> at) { return at["size"] > 1.5; };
+  EXPECT_FALSE(run({"size"}, {"bolt.normal.max"}).is_met);
+  EXPECT_TRUE(says("these runs are no one sequence: the mass of 'low' was tuned in some and lumped in others")) << said;
+  laws.tuned = [](std::map<std::string, double>) { return true; };
+  EXPECT_TRUE(run({"size"}, {"bolt.normal.max"}).is_met);
+  EXPECT_FALSE(says("no one sequence")) << said;
 }
 
 TEST_F(Converging, leaves_out_runs_that_did_not_converge) {

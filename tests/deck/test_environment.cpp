@@ -40,6 +40,26 @@ TEST(Environment, has_what_a_deck_needs) {
             "");
 }
 
+// MPI ranks read the deck side by side: what it declares in this order they number alike.
+TEST(Environment, goes_through_tables_in_one_order) {
+  EXPECT_EQ(message_of(R"(
+    local order, t = {}, { "x", "y", zinc = 1, 20.5, [100] = 2, [-1] = 0, copper = 3, [true] = 4, [false] = 5, ["10"] = 6 }
+    for key in pairs(t) do order[#order + 1] = tostring(key) end
+    assert(table.concat(order, " ") == "-1 1 2 3 100 10 copper zinc false true", table.concat(order, " "))
+    local sum = 0
+    for key, value in pairs(t) do
+      t.zinc = nil
+      if key == "zinc" then sum = sum + 1000 end
+      if type(value) == "number" then sum = sum + value end
+    end
+    assert(sum == 20.5 + 2 + 0 + 3 + 4 + 5 + 6, tostring(sum))
+    local f, state, first = pairs({ a = 7 })
+    local key, value = f(state, first)
+    assert(key == "a" and value == 7 and f(state, key) == nil)
+  )"),
+            "");
+}
+
 TEST(Environment, has_nothing_that_reaches_out) {
   for (const std::string name :
        {"os", "io", "package", "debug", "loadstring", "dofile", "loadfile", "require", "collectgarbage", "setmetatable",

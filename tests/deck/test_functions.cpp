@@ -49,6 +49,23 @@ TEST(DeckFunction, can_be_asked_by_several_threads) {
   for (const double sum : sums) EXPECT_DOUBLE_EQ(sum, 499500.0);
 }
 
+TEST(DeckFunction, gives_one_value_for_one_time) {
+  for (const char* function : {"function(t) return math.random() end",
+                               "(function()\n local n = 0\n return function(t) n = n + 1 return n * MPa end\nend)()"}) {
+    FakeEngine fake;
+    try {
+      run_text(deck_with(function), fake);
+      FAIL() << "nothing thrown";
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      EXPECT_EQ(message.find("deck.lua:"), 0u) << message;
+      EXPECT_NE(message.find("a function of time must give one value for one time, and this one gave"), message.npos)
+          << message;
+      EXPECT_NE(message.find("history.piecewise"), message.npos) << message;
+    }
+  }
+}
+
 TEST(DeckFunction, that_fails_during_the_run_says_where) {
   FakeEngine fake;
   fake.during = [](const Problem& problem) { history_in(problem).value(3e-6); };

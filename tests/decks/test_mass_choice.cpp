@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "decks/deck_prints.hpp"
+#include "solution/mass_choice.hpp"
 
 namespace dygita::test::mass_choice_tests {
 namespace {
@@ -16,8 +17,8 @@ local a, b = half("a", 0, 0), half("b", 50*mm, p.speed)
 local tie = interface.bonded{ name = "tie", between = { a:face "zmax", b:face "zmin" } }
 local base = support.fixed{ name = "base", on = a:face "zmin" }
 local of = ({ history.half_sine{ peak = 100*MPa, duration = 400*us }, history.half_sine{ peak = 100*MPa, duration = 3*us },
-              history.step{ value = 100*MPa }, 100*MPa, 0, 100*MPa })[p.load]
-local press = step.static{ name = "press", loads = p.load >= 5 and { load.traction{ on = b:face "zmax", z = 100*MPa } } or {} }
+              history.step{ value = 100*MPa }, 100*MPa, 0, 100*MPa, history.step{ value = 100*MPa, at = 1*us } })[p.load]
+local press = step.static{ name = "press", loads = (p.load == 5 or p.load == 6) and { load.traction{ on = b:face "zmax", z = 100*MPa } } or {} }
 local hit = step.dynamic{ name = "hit", after = press, duration = 24*us, dt = p.dt*us, loads = { load.traction{ on = b:face "zmax", z = of } } }
 problem{ name = "bar", substructures = { a, b }, interfaces = { tie }, supports = { base }, steps = { press, hit },
   solver = solver.latin{ integration = p.integration == 1 and "implicit" or "explicit", pieces = p.pieces,
@@ -38,6 +39,7 @@ TEST(MassChoice, is_tuned_where_loads_bring_waves_that_the_mesh_would_keep_back)
   EXPECT_EQ(tuned({{"load", "4"}}), both);                  // a force that is there at once
   EXPECT_EQ(tuned({{"load", "5"}}), both);                  // one that is gone at once
   EXPECT_EQ(tuned({{"load", "6"}}), none);                  // one that goes on, told anew
+  EXPECT_EQ(tuned({{"load", "7"}}), both);                  // one that is there at once, later
   EXPECT_EQ(tuned({{"load", "1"}, {"speed", "5"}}), both);  // halves that meet at speed
 }
 
@@ -50,6 +52,13 @@ TEST(MassChoice, is_the_deck_s_where_it_says) {
 TEST(MassChoice, leaves_lumped_what_has_other_cells_or_is_implicit) {
   EXPECT_EQ(tuned({{"load", "2"}, {"cell", "2"}}), none);
   EXPECT_EQ(tuned({{"load", "2"}, {"integration", "1"}}), none);
+}
+
+TEST(MassChoice, is_known_before_anything_is_cut) {
+  EXPECT_EQ(tuned_by_choice(run_text(bar, {{"load", "1"}}).at(0).problem), none);
+  EXPECT_EQ(tuned_by_choice(run_text(bar, {{"load", "2"}}).at(0).problem), both);
+  EXPECT_EQ(tuned_by_choice(run_text(bar, {{"load", "2"}, {"mass", "2"}}).at(0).problem), none);  // the deck's choice
+  EXPECT_EQ(tuned_by_choice(run_text(bar, {{"load", "2"}, {"integration", "1"}}).at(0).problem), none);
 }
 
 TEST(MassChoice, tells_the_phase_it_goes_by) {
