@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "base/error.hpp"
 #include "model/effects.hpp"
 #include "signal/spectrum.hpp"
 
@@ -90,8 +91,14 @@ bool begins_with_a_jump(const Problem& problem, const Step& step) {
 std::vector<double> samples_of(const History& history, const Step& step) {
   constexpr unsigned fewest = 256, most = 1u << 17;
   const unsigned n = std::bit_ceil(std::clamp(4u * static_cast<unsigned>(step.n_increments()), fewest, most));
-  std::vector<double> samples(n);
-  for (unsigned i = 0; i < n; ++i) samples[i] = history.value(step.duration * i / (n - 1));
+  std::vector<double> samples(n, 0.0);
+  for (unsigned i = 0; i < n; ++i) {
+    try {
+      samples[i] = history.value(step.duration * i / (n - 1));
+    } catch (const InputError&) {  // of the deck's function: the run tells it, and keeps what it has computed till then
+      samples[i] = i > 0 ? samples[i - 1] : 0.0;
+    }
+  }
   return samples;
 }
 

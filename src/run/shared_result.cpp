@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <sstream>
 
 #include "base/error.hpp"
@@ -153,6 +154,15 @@ struct ReadPart {
   }
 };
 
+// What the deck's function fails at, the run tells when it comes to it.
+double value_or_nothing(const History& history, double t) {
+  try {
+    return history.value(t);
+  } catch (const InputError&) {
+    return std::numeric_limits<double>::infinity();
+  }
+}
+
 std::vector<ReadPart> read_parts(const Problem& problem) {
   constexpr int n_instants = 32;
   ReadPart parts{"substructures"}, joints{"interfaces"}, supports{"supports"}, steps{"steps"};
@@ -183,7 +193,7 @@ std::vector<ReadPart> read_parts(const Problem& problem) {
       for (const Target& target : load->on) steps.digest.add(label(target));
       for (const auto& value : load->values)
         for (int i = 0; value && i <= n_instants; ++i)
-          steps.add(value->history.value((step->is_static ? 1.0 : step->duration) * i / n_instants));
+          steps.add(value_or_nothing(value->history, (step->is_static ? 1.0 : step->duration) * i / n_instants));
     }
   }
   return {parts, joints, supports, steps};
