@@ -27,7 +27,7 @@ constexpr double safety = 0.98;
 constexpr double explicit_unknown = 95.0, explicit_pair = 40.0, tuned_unknown = 80.0, damped_unknown = 60.0,
                  explicit_point = 1100.0, fill = 1.4;
 constexpr double spread_point = 10000.0;  // between meshes that do not match: some eight rounds
-constexpr double single_factor = 9.0, double_factor = 12.0, single_h = 4.0, double_h = 12.0, iterations = 4.5;
+constexpr double single_factor = 9.0, double_factor = 12.0, single_h = 4.0, double_h = 12.0, iterations = 7.0;
 constexpr double rest_of_iteration = 1000.0, factorising = 16.0, condensing = 0.5;
 
 struct Size {
