@@ -9,7 +9,7 @@
 namespace dygita {
 
 // n x n, kg, symmetric, the same for the three directions; row sums are the lumped masses. `keeps_lumped` (one entry a
-// node, or empty): cells with such a node stay lumped. Manual, eq. S6 and S13; the rule is that of B. Yue, M. N.
+// node, or empty): cells with such a node stay lumped. Manual, eq. S6; the rule is that of B. Yue, M. N.
 // Guddati (J. Acoust. Soc. Am. 118, 2005).
 SparseMatrix tuned_mass(const Mesh& mesh, const Elastic& material, const WaveTuning& tuning,
                         const std::vector<char>& keeps_lumped);

@@ -1,22 +1,36 @@
-// What a mass between lumped and consistent lacks of the lumped one, by edges: C = M - M_s (manual, eq. S13).
+// What a tuned mass has beyond the lumped one in explicit increments, by the edges of hexahedra: C of the manual's
+// eq. S13, a mass for the difference of the two ends of each edge.
 #pragma once
 
 #include <vector>
 
-#include "fem/mass.hpp"
+#include "material/elastic.hpp"
+#include "mesh/mesh.hpp"
 
 namespace dygita {
+
+// Edges of hexahedra, each once, at the lower of its two nodes.
+struct CellEdges {
+  std::vector<int> starts, others;
+  std::vector<double> lengths, masses;  // m; kg: what consistent mass would take, over the cells around the edge
+
+  // keeps_lumped: one entry a node, or empty; cells with such a node count for nothing.
+  CellEdges(const Mesh& mesh, const Elastic& material, const std::vector<char>& keeps_lumped);
+};
 
 // In single precision; a translation has none, as in EdgeBlocks, whose fields these are.
 class MassEdges {
  public:
   MassEdges() = default;  // none: the mass is lumped
-  MassEdges(const Mesh& mesh, const Elastic& material, const WaveTuning& tuning, const std::vector<char>& keeps_lumped);
+  // Tuned to waves of that speed (m/s), in increments of dt (s).
+  MassEdges(const CellEdges& edges, double speed, double dt);
 
   bool empty() const { return others_.empty(); }
   // y += C x, both 4 n long.
   void add_product(const double* x, double* y) const;
   double bytes() const { return 4.0 * static_cast<double>(starts_.size() + others_.size() + values_.size()); }
+  // For about as many edges as a mesh of hexahedra has.
+  static double bytes_of(double n_nodes) { return 4.0 * (1.0 + 2.0 * 3.0) * n_nodes; }
 
  private:
   std::vector<int> starts_, others_;

@@ -2,21 +2,18 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 namespace dygita {
 
 struct WaveTuning {
   double speed = 0.0;  // m/s, of the waves that keep it
-  double dt = 0.0;     // s
-  bool is_explicit = false;
+  double dt = 0.0;     // s, of trapezoidal steps
 
   // Share of the consistent mass along a length h (m): linear cells with lumped mass turn a wave by (k h)^2 / 24 too
-  // little and those with consistent mass by as much too much; a trapezoidal step turns it by (w dt)^2 / 12 too little,
-  // an explicit one by (w dt)^2 / 24 too much.
+  // little and those with consistent mass by as much too much; a trapezoidal step turns it by (w dt)^2 / 12 too little.
   double share(double h) const {
     const double cfl = speed * dt / h;
-    return is_explicit ? std::max(0.0, 0.5 - 0.5 * cfl * cfl) : std::min(1.0, 0.5 + cfl * cfl);
+    return std::min(1.0, 0.5 + cfl * cfl);
   }
 };
 

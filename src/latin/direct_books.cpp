@@ -7,6 +7,12 @@
 
 namespace dygita {
 
+namespace {
+
+constexpr int few_points = 1000;  // that one thread has done before others are awake
+
+}  // namespace
+
 void DirectPoints::find_released() {
   for (const Point& point : model_->exchange.points)
     for (const Member& member : point.members)
@@ -15,18 +21,21 @@ void DirectPoints::find_released() {
   released_.erase(std::unique(released_.begin(), released_.end()), released_.end());
 }
 
-void DirectPoints::begin_interval(int increment) {
+void DirectPoints::begin_interval(int increment, int most_threads) {
   interval_ = 0.0;
   i_interval_ = increment;
-  for (OwnPoint& p : points_) {
+  const int n = static_cast<int>(points_.size());
+  const auto begin = [&](int at) {
+    OwnPoint& p = points_[static_cast<size_t>(at)];
     p.impulse.setZero();
     p.work = {};
     p.on_pieces = 0.0;
     for (int i = p.side_1.first; i < p.side_2.end; ++i) ports_[i].impulse.setZero();
-    if (!p.point->law) continue;
+    if (!p.point->law) return;
     const Interface* interface = (*model_->surfaces)[p.point->members.front().surface].interface;
     if (interface && !p.record.is_released) p.record.is_released = model_->loads->is_released(interface, increment);
-  }
+  };
+  parallel_for(n, begin, Schedule::evenly, n > few_points ? most_threads : 1);
 }
 
 void DirectPoints::add_held_force(const OwnPoint& p, const OwnPort& port) {
@@ -68,32 +77,31 @@ void DirectPoints::book(const OwnPoint& p, IncrementEnergy& energy) {
 void DirectPoints::show(State& state, std::vector<IncrementEnergy>& energy, int most_threads) {
   for (const int s : released_)
     if (model_->loads->is_released((*model_->surfaces)[s].interface, i_interval_)) state.released[s] = 1;
-  const auto shown_of = [&](const OwnPoint& p) {
+  for (const OwnPoint& p : points_) {
+    if (p.is_booked_here) book(p, energy[model_->exchange.ports[p.point->first_port].piece]);
+    if (p.point->law) show_record(*p.point, p.record, state);
+  }
+  // What each point writes alone.
+  const int n = static_cast<int>(points_.size());
+  const auto show_point = [&](int i) {
+    const OwnPoint& p = points_[static_cast<size_t>(i)];
     PointRecord shown = p.record;
     shown.law.force = p.impulse / interval_;
-    return shown;
-  };
-  for (OwnPoint& p : points_) {
-    if (p.is_booked_here) book(p, energy[model_->exchange.ports[p.point->first_port].piece]);
     if (p.point->law) {
       book_on_surfaces(*p.point, p.work, state);
-      show_point(*p.point, shown_of(p), state);
+      show_law(*p.point, shown.law, state);
     }
     for (const Member& member : p.point->members) state.surfaces[member.surface].residual[member.point] = 0.0;
+    if (p.point->first_tie == p.point->end_tie) return;
     for (int t = p.point->first_tie; t < p.point->end_tie; ++t) {
       const Tie& tie = model_->exchange.ties[t];
       state.surfaces[tie.surface].residual[tie.surface_point] = 0.0;
     }
-  }
-  const int n = static_cast<int>(points_.size());
-  const auto show_ties_of = [&](int i) {
-    const OwnPoint& p = points_[static_cast<size_t>(i)];
-    if (p.point->first_tie == p.point->end_tie) return;
     std::vector<Vec3> port_force;
     for (int k = p.side_1.first; k < p.side_2.end; ++k) port_force.push_back(ports_[k].impulse / interval_);
-    show_ties(*model_, *p.point, shown_of(p), port_force, state);
+    show_ties(*model_, *p.point, shown, port_force, state);
   };
-  parallel_for(n, show_ties_of, Schedule::evenly, n > 1000 ? most_threads : 1);
+  parallel_for(n, show_point, Schedule::evenly, n > few_points ? most_threads : 1);
 }
 
 Vec3 DirectPoints::end_displacement(const OwnPoint& p, const OwnPort& port) const {

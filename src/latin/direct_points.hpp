@@ -18,7 +18,7 @@ class DirectPoints {
   DirectPoints(const StepModel& model, const State& start);
 
   // A time step of the deck begins: what has let go by its middle has let go for all of it.
-  void begin_interval(int increment);
+  void begin_interval(int increment, int most_threads);
   // Pieces whose nodes other ranks solve points at: once these have begun the increment, `tell` sends their motions.
   const std::vector<int>& border_pieces() const { return border_pieces_; }
   void tell();

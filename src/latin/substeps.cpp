@@ -118,9 +118,10 @@ void StepRun::show_mean_forces() {
 }
 
 void StepRun::solve_interval(int increment) {
-  for (const auto& piece : model_.pieces)
-    if (piece->is_explicit() || model_.n_substeps() > 1) piece->begin_interval();
-  direct_.begin_interval(increment);
+  for_each_piece([&](Piece& piece, int) {
+    if (piece.is_explicit() || model_.n_substeps() > 1) piece.begin_interval();
+  });
+  direct_.begin_interval(increment, piece_threads_.threads());
   books_.energy.assign(model_.pieces.size(), {});
   books_.of_points.assign(model_.pieces.size(), {});
   const int n = model_.n_substeps();
@@ -146,14 +147,14 @@ void StepRun::solve_interval(int increment) {
     eta = std::max(eta, change);
     note_missed({increment, iterations, change, settings_.tolerance, false, {}});
   }
-  for (size_t i = 0; i < explicit_.size(); ++i) {
-    if (!explicit_[i]) continue;
-    const IncrementEnergy stored = explicit_[i]->stored_energy();
-    books_.energy[i].kinetic = stored.kinetic;
-    books_.energy[i].strain = stored.strain;
-  }
   {
     const Stopwatch watch(books_.seconds.accept);
+    for_each_piece([&](Piece&, int i) {
+      if (!explicit_[i]) return;
+      const IncrementEnergy stored = explicit_[i]->stored_energy();
+      books_.energy[i].kinetic = stored.kinetic;
+      books_.energy[i].strain = stored.strain;
+    });
     show_mean_forces();
     direct_.show(files_.state, books_.energy, piece_threads_.threads());
     if (distant_) distant_->forget();

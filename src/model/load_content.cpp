@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <set>
 #include <string>
 
 #include "base/error.hpp"
@@ -77,6 +79,45 @@ bool meet_at_speed(const Problem& problem) {
                      [&](const SubstructurePtr& part) { return part->velocity != ground; });
 }
 
+size_t number_of(const Problem& problem, const Substructure& part) {
+  return static_cast<size_t>(index_of(problem.substructures, &part));
+}
+
+// Which substructures belong together by laws that pull: the first of each group.
+std::vector<size_t> groups_that_pull(const Problem& problem) {
+  std::vector<size_t> first(problem.substructures.size());
+  std::iota(first.begin(), first.end(), size_t{0});
+  for (const InterfacePtr& interface : problem.interfaces) {
+    if (interface->law->tension_limit().traction <= 0.0) continue;
+    const size_t a = first[number_of(problem, *interface->side_1.part)],
+                 b = first[number_of(problem, *interface->side_2.part)];
+    std::replace(first.begin(), first.end(), std::max(a, b), std::min(a, b));
+  }
+  return first;
+}
+
+// Something that nothing holds and that touches nothing has a gap before it, and may close it at speed.
+bool flies_towards_something(const Problem& problem, const Step& step) {
+  const std::vector<size_t> group = groups_that_pull(problem);
+  std::set<size_t> stays, has_gap;
+  const auto is_before = [&](const Substructure& part, bool is_open) {
+    (is_open ? has_gap : stays).insert(group[number_of(problem, part)]);
+  };
+  for (const SupportPtr& support : supports_of(problem, step))
+    for (const FaceOrRegion& on : support->on) {
+      const LawPtr law = support->kind->law();
+      is_before(*std::visit([](const auto& place) { return place.part; }, on), law && law->initial().gap > 0.0);
+    }
+  for (const InterfacePtr& interface : problem.interfaces) {
+    if (interface->law->tension_limit().traction > 0.0) continue;
+    const bool is_open = !interface->has_gap_of_geometry && interface->law->initial().gap > 0.0;
+    is_before(*interface->side_1.part, is_open);
+    is_before(*interface->side_2.part, is_open);
+  }
+  return !step.loads.empty() &&
+         std::any_of(has_gap.begin(), has_gap.end(), [&](size_t i) { return !stays.contains(i); });
+}
+
 bool begins_with_a_jump(const Problem& problem, const Step& step) {
   if (is_first_in_motion(step) && meet_at_speed(problem)) return true;
   const Step* before = step.after.get();
@@ -133,7 +174,7 @@ double load_frequency(const Load& load, const Step& step) {
 // What is there from the start is at rest.
 double brought_frequency(const Problem& problem, const Step& step) {
   constexpr double without_bound = std::numeric_limits<double>::infinity();
-  if (begins_with_a_jump(problem, step)) return without_bound;
+  if (begins_with_a_jump(problem, step) || flies_towards_something(problem, step)) return without_bound;
   double highest = 0.0;
   for (const LoadPtr& load : step.loads) {
     const bool acts_at_once = has_effect<NodalForces>(*load) || is_of_velocity(*load);

@@ -24,14 +24,6 @@ EigenPairs generalized_symmetric_eigen(const Mat& k, const Mat& m) {
   return {eigen.eigenvalues(), eigen.eigenvectors()};
 }
 
-EigenPairs tridiagonal_eigen(const std::vector<double>& diagonal, const std::vector<double>& subdiagonal) {
-  const auto n = static_cast<Eigen::Index>(diagonal.size());
-  Eigen::SelfAdjointEigenSolver<Mat> eigen;
-  eigen.computeFromTridiagonal(Eigen::Map<const Vec>(diagonal.data(), n),
-                               Eigen::Map<const Vec>(subdiagonal.data(), n - 1));
-  return {eigen.eigenvalues(), eigen.eigenvectors()};
-}
-
 Mat solve_dense(const Mat& a, const Mat& b) { return a.fullPivLu().solve(b); }
 
 LuFactor::LuFactor(Mat a) : lu_(std::move(a)), pivots_(static_cast<size_t>(lu_.rows())) {

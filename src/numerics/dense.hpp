@@ -18,9 +18,6 @@ EigenPairs symmetric_eigen(const Mat& a);
 // K x = lambda M x with M positive definite; vectors are orthonormal in M.
 EigenPairs generalized_symmetric_eigen(const Mat& k, const Mat& m);
 
-// Of the symmetric tridiagonal matrix with this diagonal (n) and subdiagonal (n - 1 at least).
-EigenPairs tridiagonal_eigen(const std::vector<double>& diagonal, const std::vector<double>& subdiagonal);
-
 // X of A X = B, by elimination with full pivoting; A square and regular, B with as many rows.
 Mat solve_dense(const Mat& a, const Mat& b);
 

@@ -17,9 +17,6 @@ constexpr double operations_for_threads = 2e7;  // operations: some hundred time
 
 int blocks_of(int n) { return (n + block_columns - 1) / block_columns; }
 double* entry(double* a, int stride, int row, int column) { return a + static_cast<size_t>(column) * stride + row; }
-const double* entry(const double* a, int stride, int row, int column) {
-  return a + static_cast<size_t>(column) * stride + row;
-}
 int threads_for(double operations) { return operations < operations_for_threads ? 1 : 0; }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-#include "numerics/dense.hpp"
+#include "numerics/tridiagonal.hpp"
 
 namespace dygita {
 
@@ -33,22 +33,22 @@ double highest_frequency(InternalForce& internal, const PenaltySprings& springs,
   const double norm = std::sqrt(inner(q, q));
   if (norm == 0.0) return 0.0;
   q /= norm;
-  std::vector<double> alpha, beta;
+  TopOfTridiagonal top;
+  double beta = 0.0;
   for (int k = 0; k < most_iterations; ++k) {
     internal.elastic(q, next);
     springs.add_closed_force(q, next);
     accelerate(next);
-    if (k > 0) next -= beta.back() * before;
-    alpha.push_back(inner(next, q));
-    next -= alpha.back() * q;
-    beta.push_back(std::sqrt(inner(next, next)));
-    const EigenPairs tridiagonal = tridiagonal_eigen(alpha, beta);
-    const double eigenvalue = tridiagonal.values[k];
-    const double residual = beta.back() * std::abs(tridiagonal.vectors(k, k));
-    if (residual <= close_enough * eigenvalue || k + 1 == most_iterations)
-      return std::sqrt(std::max(0.0, eigenvalue + residual));
+    if (k > 0) next -= beta * before;
+    const double alpha = inner(next, q);
+    top.add(alpha, beta);
+    next -= alpha * q;
+    beta = std::sqrt(inner(next, next));
+    const double residual = beta * top.last_entry();
+    if (residual <= close_enough * top.value() || k + 1 == most_iterations)
+      return std::sqrt(std::max(0.0, top.value() + residual));
     before.swap(q);
-    q = next / beta.back();
+    q = next / beta;
   }
   return 0.0;
 }

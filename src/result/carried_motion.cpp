@@ -46,7 +46,7 @@ Vec3 CarriedMotion::at(const Instant& instant, const std::function<Vec3()>& mome
     const double all = v.dot(square_ * v), together = pulled.dot(held_inverse_ * pulled);
     if (together > 0.99 * all) carried = held_inverse_ * pulled;  // all that is held moves alike
   }
-  if (free_.trace() > 0.5 && mass_ > 0.0) carried += free_ * momentum() / mass_;
+  if (asks_for_momentum()) carried += free_ * momentum() / mass_;
   return carried;
 }
 

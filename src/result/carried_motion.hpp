@@ -13,7 +13,9 @@ namespace dygita {
 class CarriedMotion {
  public:
   explicit CarriedMotion(const Instant& start);
-  // momentum: kg m/s, of the whole assembly; asked for only where something is free to move.
+  // Something is free to move.
+  bool asks_for_momentum() const { return free_.trace() > 0.5 && mass_ > 0.0; }
+  // momentum: kg m/s, of the whole assembly; called only where it is asked for.
   Vec3 at(const Instant& instant, const std::function<Vec3()>& momentum) const;
 
  private:

@@ -89,6 +89,7 @@ void ErrorEstimator::take_velocities(const Instant& instant) {
     PieceMotion& own = pieces_[static_cast<size_t>(i)];
     own.old = std::move(own.velocity);
     own.velocity = velocity_of(instant, own.piece);
+    if (carried_->asks_for_momentum()) own.momentum.noalias() = own.directions * own.mass.cwiseProduct(own.velocity);
   };
   Eigen::Index n_unknowns = 0;
   for (const PieceMotion& own : pieces_) n_unknowns += own.velocity.size();
@@ -96,10 +97,8 @@ void ErrorEstimator::take_velocities(const Instant& instant) {
   parallel_for(static_cast<int>(pieces_.size()), renew, Schedule::as_free, n_threads);
   size_t next = 0;  // of pieces_, whose order is that of the cut
   const Vec3 carried = carried_->at(instant, [&] {
-    const std::vector<double> momenta = of_all_pieces(cut, 3, [&](int, double* to) {
-      const PieceMotion& own = pieces_[next++];
-      Eigen::Map<Vec3>(to).noalias() = own.directions * own.mass.cwiseProduct(own.velocity);
-    });
+    const std::vector<double> momenta =
+        of_all_pieces(cut, 3, [&](int, double* to) { std::copy_n(pieces_[next++].momentum.data(), 3, to); });
     Vec3 sum = Vec3::Zero();
     for (size_t i = 0; i < momenta.size(); i += 3) sum += Eigen::Map<const Vec3>(&momenta[i]);
     return sum;
@@ -182,7 +181,8 @@ void ErrorEstimator::begin_step(const Instant& start) {
   if (start.is_static()) return;
   for (int i = 0; i < start.model.cut->n_pieces(); ++i)
     if (start.model.cut->is_here(i))
-      pieces_.push_back({i, masses_of(start, i), directions_of(start, i), {}, {}, start.piece_displacement(i), {}});
+      pieces_.push_back(
+          {i, masses_of(start, i), directions_of(start, i), {}, {}, Vec3::Zero(), start.piece_displacement(i), {}});
   carried_.emplace(start);
   has_old_ = false;
   bank_.emplace(start.model.is_tuned());

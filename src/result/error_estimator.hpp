@@ -77,10 +77,11 @@ class ErrorEstimator {
   // What a piece that is here has of a dynamic step.
   struct PieceMotion {
     int piece;
-    Vec mass;           // kg, of its unknowns
-    Points directions;  // 3 x n, of the same
-    Vec velocity, old;  // m/s, of the same; relative (Q0)
-    Points start;       // m, displacements at the start of the step
+    Vec mass;                      // kg, of its unknowns
+    Points directions;             // 3 x n, of the same
+    Vec velocity, old;             // m/s, of the same; relative (Q0)
+    Vec3 momentum = Vec3::Zero();  // kg m/s, where the carried motion asks for it
+    Points start;                  // m, displacements at the start of the step
     OctaveSamples octaves;
   };
 

@@ -195,7 +195,7 @@ Mass mass_of(const Problem& problem, const Body& body, const Vec& lumped, const 
   const bool has_massless = std::find(marked.begin(), marked.end(), 1) != marked.end();
   Mass mass{lumped, {}, {}};
   if (problem.mass().is_tuned && dt > 0.0)
-    mass.matrix = tuned_mass(mesh, m, {m.p_wave_speed(), dt, false}, has_massless ? marked : std::vector<char>());
+    mass.matrix = tuned_mass(mesh, m, {m.p_wave_speed(), dt}, has_massless ? marked : std::vector<char>());
   if (has_consistent_mass(mesh)) {
     CHECK(!has_massless && !problem.mass().is_tuned, "refused by check_problem");
     if (dt >= 0.0) mass.matrix = consistent_mass(mesh, m);

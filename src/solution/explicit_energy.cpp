@@ -244,8 +244,9 @@ Points ExplicitPiece::absorbing_force() const {
 
 double explicit_bytes(const PieceSetup& setup, bool shares) {
   const double n = setup.n_nodes(), blocks = setup.body->matrices->stiffness.nonZeros() / 9.0;
-  const double tuning = setup.tuned_speed > 0.0 ? 1.0 : 0.0;
-  return 8.0 * (29.0 + 16.0 * tuning) * n + (shares ? 0.0 : 4.0 * n + (40.0 + 8.0 * tuning) * 0.5 * (blocks - n));
+  const bool is_tuned = setup.tuned_speed > 0.0;
+  return 8.0 * (is_tuned ? 45.0 : 29.0) * n +
+         (shares ? 0.0 : 4.0 * n + 20.0 * (blocks - n) + (is_tuned ? MassEdges::bytes_of(n) : 0.0));
 }
 
 PieceFigures ExplicitPiece::figures() const {

@@ -10,7 +10,7 @@ namespace dygita {
 ExplicitOperator::ExplicitOperator(const PieceSetup& setup) : stiffness(setup.body->matrices->stiffness) {
   const Substructure& part = *setup.body->part;
   if (setup.tuned_speed > 0.0)
-    tuning = MassEdges(*part.mesh, part.material, {setup.tuned_speed, setup.scheme.dt, true}, setup.keeps_lumped);
+    tuning = MassEdges(CellEdges(*part.mesh, part.material, setup.keeps_lumped), setup.tuned_speed, setup.scheme.dt);
 }
 
 ExplicitPiece::ExplicitPiece(PieceSetup setup, std::shared_ptr<const ExplicitOperator> op)

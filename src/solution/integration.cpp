@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
+#include <tuple>
 
 #include "base/name_list.hpp"
 #include "base/parallel.hpp"
@@ -238,6 +240,36 @@ void choose_mass(const Problem& problem, const std::vector<Size>& sizes, std::ve
   }
 }
 
+// Longest stable increments of the pieces that are here and may be explicit. Equal ones that nothing holds have the
+// same.
+void longest_steps(const Problem& problem, const std::vector<Body>& bodies, const Cut& cut,
+                   const Conditions& conditions, const std::vector<Integration::Part>& parts,
+                   std::vector<double>& longest) {
+  std::map<std::tuple<const BodyMatrices*, const Mass*, double, bool>, int> free_ones;
+  std::vector<int> first(bodies.size(), -1);  // equal to it; itself: asked
+  std::vector<std::unordered_map<int, Held>> held(bodies.size());
+  for (int p = 0; p < static_cast<int>(bodies.size()); ++p) {
+    const int part = cut.piece(p).part;
+    if (!cut.is_here(p) || !parts[part].why_not.empty() ||
+        asked_of(problem, *problem.substructures[part]) == IntegrationChoice::implicitly)
+      continue;
+    held[p] = held_of(cut, p, conditions);
+    const double beta = problem.substructures[part]->material.damping.stiffness;
+    first[p] =
+        held[p].empty()
+            ? free_ones.try_emplace({bodies[p].matrices.get(), bodies[p].mass.get(), beta, parts[part].is_tuned}, p)
+                  .first->second
+            : p;
+  }
+  parallel_for(static_cast<int>(bodies.size()), [&](int p) {
+    if (first[p] == p)
+      longest[p] =
+          safety * (parts[cut.piece(p).part].is_tuned ? longest_tuned_step : longest_explicit_step)(bodies[p], held[p]);
+  });
+  for (size_t p = 0; p < first.size(); ++p)
+    if (first[p] >= 0) longest[p] = longest[first[p]];
+}
+
 void refuse(const Problem& problem, const std::vector<Integration::Part>& parts) {
   for (size_t i = 0; i < parts.size(); ++i) {
     const Substructure& part = *problem.substructures[i];
@@ -285,13 +317,7 @@ Integration choose_integration(const Problem& problem, const Step& step, const s
   refuse(problem, parts);
   const std::vector<Size> sizes = sizes_of(problem, step, surfaces, pairs_of_neighbours(cut, bodies));
   choose_mass(problem, sizes, parts);
-  parallel_for(static_cast<int>(bodies.size()), [&](int p) {
-    const int part = cut.piece(p).part;
-    if (!cut.is_here(p)) return;
-    if (parts[part].why_not.empty() && asked_of(problem, *problem.substructures[part]) != IntegrationChoice::implicitly)
-      longest[p] = safety * (parts[part].is_tuned ? longest_tuned_step : longest_explicit_step)(
-                                bodies[p], held_of(cut, p, conditions));
-  });
+  longest_steps(problem, bodies, cut, conditions, parts, longest);
   longest = of_all_pieces(cut, 1, [&](int p, double* to) { *to = longest[p]; });
   for (size_t i = 0; i < n; ++i) {
     const int first = cut.first(static_cast<int>(i));

@@ -1,11 +1,13 @@
 // The longest stable increment of a piece: that of its highest frequency with its interfaces free, since ties, contact
 // and friction only join such pieces (manual, eq. S11).
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "fem/edge_blocks.hpp"
 #include "fem/mass_edges.hpp"
-#include "numerics/dense.hpp"
+#include "numerics/tridiagonal.hpp"
 #include "solution/integration.hpp"
 
 namespace dygita {
@@ -17,89 +19,85 @@ constexpr double close_enough = 0.01;  // of the eigenvalue: half of that of the
 
 using HeldNodes = std::unordered_map<int, Held>;
 
-// Fields of three numbers a node in those of four.
-void put(const Vec& x, std::vector<double>& padded) {
-  Eigen::Map<Points, 0, Eigen::OuterStride<4>>(padded.data(), 3, x.size() / 3) = x.reshaped(3, x.size() / 3);
-}
-
-// K and the inverse of the mass, M^-1 + M^-1 C M^-1 (manual, eq. S13), on the free directions.
+// K and the inverse of the mass, M^-1 + M^-1 C M^-1 (manual, eq. S13), on the free directions; by the products that an
+// increment takes, on fields of four numbers a node.
 class FreeBody {
  public:
-  FreeBody(const Body& body, const HeldNodes& held, const MassEdges& edges)
-      : body_(body),
-        held_(held),
-        edges_(edges),
-        mass_(body.mass->lumped.replicate(1, 3).transpose().reshaped()),
-        from_(edges.empty() ? 0 : 4 * body.mass->lumped.size(), 0.0),
-        to_(from_) {}
+  FreeBody(const Body& body, const HeldNodes& held)
+      : held_(held),
+        stiffness_(body.matrices->stiffness),
+        mass_(body.mass->lumped.replicate(1, 4).transpose().reshaped()) {}
 
-  const Vec& mass() const { return mass_; }
+  // Lanczos on forces, in the inner product of the inverse mass, residual added. more: C, or nothing.
+  double longest_step(const MassEdges& more) const;
+
+ private:
+  Vec start() const;
   void rest(Vec& x) const {
     for (const auto& [node, h] : held_)
       for (int j = 0; j < h.n; ++j)
-        x.segment<3>(3 * node) -= h.directions.col(j).dot(x.segment<3>(3 * node)) * h.directions.col(j);
+        x.segment<3>(4 * node) -= h.directions.col(j).dot(x.segment<3>(4 * node)) * h.directions.col(j);
   }
-  Vec force(const Vec& x) const {
-    Vec y = body_.matrices->stiffness * x;
+  void add_force(const Vec& x, Vec& y) const {
+    stiffness_.add_product(x.data(), y.data());
     rest(y);
-    return y;
   }
-  Vec answer(const Vec& force) {
-    Vec x = force.cwiseQuotient(mass_);
-    if (edges_.empty()) return x;
-    put(x, from_);
-    std::fill(to_.begin(), to_.end(), 0.0);
-    edges_.add_product(from_.data(), to_.data());
-    const Eigen::Index n = x.size() / 3;
-    Vec more = Eigen::Map<const Points, 0, Eigen::OuterStride<4>>(to_.data(), 3, n).reshaped();
-    rest(more);
-    return x + more.cwiseQuotient(mass_);
+  void answer(const Vec& force, const MassEdges& more, Vec& x) const {
+    x = force.cwiseQuotient(mass_);
+    if (more.empty()) return;
+    Vec coupled = Vec::Zero(x.size());
+    more.add_product(x.data(), coupled.data());
+    rest(coupled);
+    x += coupled.cwiseQuotient(mass_);
   }
 
- private:
-  const Body& body_;
   const HeldNodes& held_;
-  const MassEdges& edges_;
+  EdgeBlocks stiffness_;
   Vec mass_;
-  std::vector<double> from_, to_;
 };
+
+Vec FreeBody::start() const {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Vec q = Vec::Zero(mass_.size());
+  for (Eigen::Index i = 0; i < q.size(); i += 4)
+    for (Eigen::Index c = i; c < i + 3; ++c) q[c] = uniform(random);
+  rest(q);
+  return q.cwiseProduct(mass_);
+}
+
+double FreeBody::longest_step(const MassEdges& more) const {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  Vec q = start(), before = Vec::Zero(q.size()), next, v;
+  answer(q, more, v);
+  const double norm = std::sqrt(v.dot(q));
+  if (norm == 0.0) return none;
+  q /= norm;
+  v /= norm;
+  TopOfTridiagonal top;
+  double beta = 0.0;
+  for (int i = 0; i < most_products; ++i) {
+    next = -beta * before;
+    add_force(v, next);
+    const double alpha = next.dot(v);
+    top.add(alpha, beta);
+    next -= alpha * q;
+    answer(next, more, v);
+    beta = std::sqrt(std::max(0.0, v.dot(next)));
+    const double residual = beta * top.last_entry();
+    if (residual <= close_enough * top.value() || i + 1 == most_products)
+      return top.value() + residual > 0.0 ? 2.0 / std::sqrt(top.value() + residual) : none;
+    before.swap(q);
+    q = next / beta;
+    v /= beta;
+  }
+  return none;
+}
 
 // With stiffness damping taken at the velocity of the increment's start (manual, eq. S14).
 double damped(double longest, const Body& body) {
   const double beta = body.part->material.damping.stiffness;
   return std::isfinite(longest) ? std::sqrt(beta * beta + longest * longest) - beta : longest;
-}
-
-// Lanczos on forces, in the inner product of the inverse mass, residual added.
-double longest_step(FreeBody&& body) {
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  Vec q(body.mass().size()), before = Vec::Zero(q.size()), next;
-  for (double& value : q) value = uniform(random);
-  body.rest(q);
-  q = q.cwiseProduct(body.mass());
-  Vec answer = body.answer(q);
-  const double norm = std::sqrt(answer.dot(q));
-  if (norm == 0.0) return std::numeric_limits<double>::infinity();
-  q /= norm;
-  answer /= norm;
-  std::vector<double> alpha, beta;
-  for (int i = 0; i < most_products; ++i) {
-    next = body.force(answer);
-    if (i > 0) next -= beta.back() * before;
-    alpha.push_back(next.dot(answer));
-    next -= alpha.back() * q;
-    answer = body.answer(next);
-    beta.push_back(std::sqrt(std::max(0.0, answer.dot(next))));
-    const EigenPairs pairs = tridiagonal_eigen(alpha, beta);
-    const double value = pairs.values[i], residual = beta.back() * std::abs(pairs.vectors(i, i));
-    if (residual <= close_enough * value || i + 1 == most_products)
-      return value + residual > 0.0 ? 2.0 / std::sqrt(value + residual) : std::numeric_limits<double>::infinity();
-    before.swap(q);
-    q = next / beta.back();
-    answer /= beta.back();
-  }
-  return 0.0;
 }
 
 // Where supports leave one direction alone and the body is long in it, no other waves travel than those along it.
@@ -129,18 +127,27 @@ double tuned_wave_speed(const Body& body, const HeldNodes& held) {
 }
 
 double longest_explicit_step(const Body& body, const HeldNodes& held) {
-  const MassEdges none;
-  return damped(longest_step(FreeBody(body, held, none)), body);
+  return damped(FreeBody(body, held).longest_step({}), body);
 }
 
-// The mass is tuned to the step that it allows: in a few rounds, each of which moves it by a tenth of the one before.
+// The mass is tuned to the step that it allows, which depends on it by a tenth to a third: where the two meet, from
+// that of the shortest edge by secants.
 double longest_tuned_step(const Body& body, const HeldNodes& held) {
-  constexpr int rounds = 3;
-  double longest = longest_explicit_step(body, held);
+  constexpr int most_rounds = 6;
+  constexpr double near = 0.01, usual_slope = 0.1;
+  const Elastic& material = body.part->material;
+  const CellEdges edges(*body.part->mesh, material, {});
+  if (edges.lengths.empty()) return longest_explicit_step(body, held);
+  const FreeBody free(body, held);
   const double speed = tuned_wave_speed(body, held);
-  for (int i = 0; i < rounds && std::isfinite(longest); ++i) {
-    const MassEdges edges(*body.part->mesh, body.part->material, {speed, longest, true}, {});
-    longest = damped(longest_step(FreeBody(body, held, edges)), body);
+  double tuned_to = *std::min_element(edges.lengths.begin(), edges.lengths.end()) / material.p_wave_speed();
+  double longest = 0.0, slope = usual_slope;
+  for (int i = 0; i < most_rounds; ++i) {
+    const double before = longest, tuned_before = i > 0 ? tuned_to : 0.0;
+    if (i > 0) tuned_to = std::max(0.5 * longest, (longest - slope * tuned_to) / (1.0 - slope));
+    longest = damped(free.longest_step({edges, speed, tuned_to}), body);
+    if (!(std::abs(longest - tuned_to) > near * longest)) break;
+    if (i > 0) slope = std::clamp((longest - before) / (tuned_to - tuned_before), 0.0, 0.5);
   }
   return longest;
 }

@@ -129,13 +129,21 @@ void book_work(const Point& point, const PointRecord& record, const LawState& en
   state.energies.scheme += energy.scheme;
 }
 
-void show_point(const Point& point, const PointRecord& record, State& state) {
+void show_law(const Point& point, const LawState& law, State& state) {
+  for (const Member& member : point.members)
+    state.surfaces[member.surface].points[member.point] = law.member(member.share, point.frame);
+}
+
+void show_record(const Point& point, const PointRecord& record, State& state) {
   for (const Member& member : point.members) {
-    LawState& shown = state.surfaces[member.surface].points[member.point];
-    shown = record.law.member(member.share, point.frame);
     state.shortening[member.surface] = record.trial.shortening;
     state.released[member.surface] = record.is_released;
   }
+}
+
+void show_point(const Point& point, const PointRecord& record, State& state) {
+  show_law(point, record.law, state);
+  show_record(point, record, state);
 }
 
 void show_ties(const StepModel& model, const Point& point, const PointRecord& record, std::span<const Vec3> port_force,

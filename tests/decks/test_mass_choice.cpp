@@ -43,6 +43,36 @@ TEST(MassChoice, is_tuned_where_loads_bring_waves_that_the_mesh_would_keep_back)
   EXPECT_EQ(tuned({{"load", "1"}, {"speed", "5"}}), both);  // halves that meet at speed
 }
 
+// A bar that falls on a wall, or on a block that is held, from `gap`; by `tied` held itself.
+const std::string falling = R"(
+local p = param{ gap = 0.1, on = 1, tied = 0 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local function half(name, z) return substructure{ name = name, material = steel,
+  mesh = mesh.box{ origin = { 0, 0, z }, size = { 5*mm, 5*mm, 50*mm }, cells = { 4, 4, 20 } } } end
+local a, b = half("a", 0), half("b", 50*mm)
+local pair = { a:face "zmax", b:face "zmin" }
+local tie = p.on == 1 and interface.bonded{ name = "tie", between = pair }
+  or interface.contact{ name = "tie", between = pair, gap = p.gap*mm }
+local supports = { p.on == 1 and support.wall{ name = "wall", on = a:face "zmin", gap = p.gap*mm }
+  or support.fixed{ name = "base", on = a:face "zmin" } }
+if p.tied == 1 then supports[2] = support.fixed{ name = "held", on = b:face "zmax" } end
+local fall = step.dynamic{ name = "fall", duration = 100*us, dt = 0.4*us, loads = { load.gravity{ z = -9.81 } } }
+problem{ name = "falling", substructures = { a, b }, interfaces = { tie }, supports = supports, steps = { fall },
+  solver = solver.latin{ integration = "explicit" }, outputs = { output.energy{} } }:run{}
+)";
+
+TEST(MassChoice, foresees_what_flies_towards_a_wall_or_a_part) {
+  const auto fallen = [](const Settings& settings) {
+    return run_text(falling, settings).at(0).result->steps.at(0).tuned_parts;
+  };
+  EXPECT_EQ(fallen({}), both);
+  EXPECT_EQ(fallen({{"gap", "0"}}), none);   // it stands there
+  EXPECT_EQ(fallen({{"tied", "1"}}), none);  // it hangs above
+  EXPECT_EQ(fallen({{"on", "2"}}), both);
+  EXPECT_EQ(fallen({{"on", "2"}, {"gap", "0"}}), none);
+  EXPECT_EQ(fallen({{"on", "2"}, {"tied", "1"}}), none);
+}
+
 TEST(MassChoice, is_the_deck_s_where_it_says) {
   EXPECT_EQ(tuned({{"load", "2"}, {"mass", "1"}}), none);
   EXPECT_EQ(tuned({{"load", "1"}, {"mass", "2"}}), both);
