@@ -9,7 +9,7 @@ namespace dygita {
 
 namespace {
 
-constexpr int few_points = 1000;  // that one thread has done before others are awake
+constexpr int few_shown = 1000;  // that one thread has done before others are awake
 
 }  // namespace
 
@@ -35,7 +35,7 @@ void DirectPoints::begin_interval(int increment, int most_threads) {
     const Interface* interface = (*model_->surfaces)[p.point->members.front().surface].interface;
     if (interface && !p.record.is_released) p.record.is_released = model_->loads->is_released(interface, increment);
   };
-  parallel_for(n, begin, Schedule::evenly, n > few_points ? most_threads : 1);
+  parallel_for(n, begin, Schedule::evenly, n > few_shown ? most_threads : 1);
 }
 
 void DirectPoints::add_held_force(const OwnPoint& p, const OwnPort& port) {
@@ -66,7 +66,7 @@ void DirectPoints::end_point(OwnPoint& p) {
 
 // By the rank that has the piece of the first port.
 void DirectPoints::book(const OwnPoint& p, IncrementEnergy& energy) {
-  if (p.point->law) gap_difference_ = std::max(gap_difference_, difference_of_gaps(p));
+  gap_difference_ = std::max(gap_difference_, p.gap_difference);
   energy.loads += p.work.given;
   energy.friction += p.work.friction;
   energy.plastic += p.work.plastic;
@@ -77,14 +77,11 @@ void DirectPoints::book(const OwnPoint& p, IncrementEnergy& energy) {
 void DirectPoints::show(State& state, std::vector<IncrementEnergy>& energy, int most_threads) {
   for (const int s : released_)
     if (model_->loads->is_released((*model_->surfaces)[s].interface, i_interval_)) state.released[s] = 1;
-  for (const OwnPoint& p : points_) {
-    if (p.is_booked_here) book(p, energy[model_->exchange.ports[p.point->first_port].piece]);
-    if (p.point->law) show_record(*p.point, p.record, state);
-  }
   // What each point writes alone.
   const int n = static_cast<int>(points_.size());
   const auto show_point = [&](int i) {
-    const OwnPoint& p = points_[static_cast<size_t>(i)];
+    OwnPoint& p = points_[static_cast<size_t>(i)];
+    p.gap_difference = p.is_booked_here && p.point->law ? difference_of_gaps(p) : 0.0;
     PointRecord shown = p.record;
     shown.law.force = p.impulse / interval_;
     if (p.point->law) {
@@ -101,7 +98,11 @@ void DirectPoints::show(State& state, std::vector<IncrementEnergy>& energy, int 
     for (int k = p.side_1.first; k < p.side_2.end; ++k) port_force.push_back(ports_[k].impulse / interval_);
     show_ties(*model_, *p.point, shown, port_force, state);
   };
-  parallel_for(n, show_point, Schedule::evenly, n > few_points ? most_threads : 1);
+  parallel_for(n, show_point, Schedule::evenly, n > few_shown ? most_threads : 1);
+  for (const OwnPoint& p : points_) {
+    if (p.is_booked_here) book(p, energy[model_->exchange.ports[p.point->first_port].piece]);
+    if (p.point->law) show_record(*p.point, p.record, state);
+  }
 }
 
 Vec3 DirectPoints::end_displacement(const OwnPoint& p, const OwnPort& port) const {

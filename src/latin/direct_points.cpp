@@ -14,7 +14,8 @@ namespace dygita {
 namespace {
 
 constexpr int most_rounds = 20000;
-constexpr int chunk = 256;  // points a thread takes at a time
+constexpr int chunk = 64;              // points a thread takes at a time
+constexpr int few_points = 8 * chunk;  // are solved before threads have met
 
 // Of what a point would change, in a round: laws with friction that share a node may go round in circles otherwise.
 double share_of(int round) { return round < 400 ? 1.0 : round < 3000 ? 0.5 : 0.2; }
@@ -227,16 +228,16 @@ void DirectPoints::solve_some(const std::vector<int>& alone, const std::vector<d
       [&](int c) {
         for (int i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) solve_alone(points_[alone[i]], motions);
       },
-      Schedule::evenly, n_chunks > 4 ? most_threads : 1);
+      Schedule::evenly, n > few_points ? most_threads : 1);
 }
 
 void DirectPoints::solve_some_clusters(const std::vector<int>& clusters, const std::vector<double>& motions,
                                        int most_threads) {
-  const size_t n_shared = points_.size() - alone_.size();
+  const auto n_shared = static_cast<int>(points_.size() - alone_.size());
   parallel_for(
       static_cast<int>(clusters.size()),
       [&](int i) { solve_cluster(clusters_[clusters[static_cast<size_t>(i)]], motions); }, Schedule::as_free,
-      n_shared > 4 * chunk ? most_threads : 1);
+      n_shared > few_points ? most_threads : 1);
 }
 
 void DirectPoints::solve(const std::vector<double>& motions, int most_threads) {

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/fnv1a.hpp"
+#include "base/parallel.hpp"
 #include "mesh/jacobian.hpp"
 
 namespace dygita {
@@ -164,9 +165,17 @@ std::string mesh_digest(const Mesh& mesh) {
 }
 
 double volume(const Mesh& mesh) {
+  constexpr int chunk = 1024;  // cells that are added up by themselves, whatever the number of threads
   double total = 0;
-  for (const CellBlock& block : mesh.blocks)
-    for (int i = 0; i < block.n_cells(); ++i) total += cell_volume(block.type, cell_nodes(mesh.nodes, block, i));
+  for (const CellBlock& block : mesh.blocks) {
+    std::vector<double> sums(static_cast<size_t>((block.n_cells() + chunk - 1) / chunk), 0.0);
+    parallel_for(static_cast<int>(sums.size()), [&](int k) {
+      const int end = std::min(block.n_cells(), (k + 1) * chunk);
+      for (int i = k * chunk; i < end; ++i)
+        sums[static_cast<size_t>(k)] += cell_volume(block.type, cell_nodes(mesh.nodes, block, i));
+    });
+    for (const double sum : sums) total += sum;
+  }
   return total;
 }
 
