@@ -560,6 +560,7 @@ words[9] = {
       { "numerical_damping", type = "number", range = { 0, 1 }, default = 0, doc = "of the time scheme; 0: none" },
       { "mass", type = "choice", choices = { "tuned", "lumped" }, default = "lumped",
         doc = "of the cells: tuned to dt so that waves keep their speed, or all at the nodes" },
+      { "plain", type = "boolean", default = false, doc = "factorises each tangent of the interfaces, to check those that are solved with the factor of another" },
     },
   },
 }

@@ -81,6 +81,7 @@ Content build_monolithic(const Declaration& d) {
   settings->max_iterations = a.integer("max_iterations");
   settings->numerical_damping = a.number("numerical_damping");
   settings->mass.is_tuned = a.text("mass") == "tuned";
+  settings->plain = a.boolean("plain");
   return std::shared_ptr<const MonolithicSettings>(settings);
 }
 

@@ -131,6 +131,7 @@ struct MonolithicSettings {
   int max_iterations = 50;  // of an increment
   double numerical_damping = 0.0;
   MassSettings mass;
+  bool plain = false;  // a factor for every tangent (the plain path)
 };
 
 // solver.explicit: central differences with lumped mass, penalty contact.

@@ -7,13 +7,12 @@
 
 #include "base/error.hpp"
 #include "law/law_slope.hpp"
+#include "numerics/gmres.hpp"
 
 namespace dygita {
 
 namespace {
 
-// A tangent is kept, over iterations and increments, while it brings the residual down at least this fast.
-constexpr double fast_enough = 0.2;
 // Newton steps in vain before Gauss-Seidel sweeps take over for a while, and how many of them.
 constexpr int most_in_vain = 3, n_sweeps = 20;
 // A step that raises the residual by more than this is not taken.
@@ -31,70 +30,99 @@ void InterfaceNewton::start(const std::vector<PointRecord>& records) {
       if (const int i = assembly_->row(p, d); i >= 0) f_[i] = records[p].law.force[d];
 }
 
-// J = F' - D s', with rate' = -W, F' = 1 - R W and s' = rate' + Y F'. Rows of points without force and tangent say f =
-// 0 and are left out where R is zero.
-void InterfaceNewton::factorise(const Fields& fields, const std::vector<PointRecord>& records,
-                                const Increment& increment) {
+InterfaceNewton::Tangents InterfaceNewton::tangents_at(const Fields& fields, const std::vector<PointRecord>& records,
+                                                       const Increment& increment) const {
+  const double least = 1e-9 * rows_->extent() / increment.dt;
+  Tangents tangents(records.size(), Mat3::Zero());
+  for (size_t p = 0; p < records.size(); ++p) {
+    const Point& point = rows_->model().exchange.points[p];
+    if (!point.law || records[p].is_released) continue;
+    if (std::max({assembly_->row(p, 0), assembly_->row(p, 1), assembly_->row(p, 2)}) < 0) continue;
+    tangents[p] = slope_of(*point.law, rows_->trial_of(p, fields.rate, fields.force, records[p]), increment,
+                           records[p].law, nullptr, least);
+  }
+  return tangents;
+}
+
+// J x, J = F' - D s', with rate' = -W, F' = 1 - R W and s' = rate' + Y F'.
+Vec InterfaceNewton::times(const Tangents& tangents, const Vec& x) const {
+  const Vec rate = -assembly_->compliance() * x;
+  Vec force = x + assembly_->softening().cwiseProduct(rate);
+  const Vec search = rate + rows_->y().cwiseProduct(force);
+  for (size_t p = 0; p < tangents.size(); ++p)
+    for (int d = 0; d < 3; ++d) {
+      const int i = assembly_->row(p, d);
+      if (i < 0) continue;
+      for (int e = 0; e < 3; ++e)
+        if (const int k = assembly_->row(p, e); k >= 0) force[i] -= tangents[p](d, e) * search[k];
+    }
+  return force;
+}
+
+// Rows of points without force and tangent say f = 0 and are left out where R is zero.
+void InterfaceNewton::factorise(const Tangents& tangents) {
   const Vec &r = assembly_->softening(), &y = rows_->y();
   const Mat& w = assembly_->compliance();
-  const double least = 1e-9 * rows_->extent() / increment.dt;
   const int n = assembly_->n_rows();
-  std::vector<Mat3> tangents(records.size(), Mat3::Zero());
-  std::vector<std::pair<int, int>> place(n);  // point and direction of a row
+  std::vector<std::pair<size_t, int>> place(static_cast<size_t>(n));  // point and direction of a row
   active_.clear();
   passive_.clear();
-  for (size_t p = 0; p < records.size(); ++p) {
-    const std::array rows{assembly_->row(p, 0), assembly_->row(p, 1), assembly_->row(p, 2)};
-    if (std::max({rows[0], rows[1], rows[2]}) < 0) continue;
-    const Point& point = rows_->model().exchange.points[p];
-    if (point.law && !records[p].is_released)
-      tangents[p] = slope_of(*point.law, rows_->trial_of(p, fields.rate, fields.force, records[p]), increment,
-                             records[p].law, nullptr, least);
+  for (size_t p = 0; p < tangents.size(); ++p)
     for (int d = 0; d < 3; ++d) {
-      if (rows[d] < 0) continue;
-      place[rows[d]] = {static_cast<int>(p), d};
-      (tangents[p].isZero(0.0) && r[rows[d]] == 0.0 ? passive_ : active_).push_back(rows[d]);
+      const int i = assembly_->row(p, d);
+      if (i < 0) continue;
+      place[static_cast<size_t>(i)] = {p, d};
+      (tangents[p].isZero(0.0) && r[i] == 0.0 ? passive_ : active_).push_back(i);
     }
-  }
   const int n_active = static_cast<int>(active_.size());
-  Mat j(n_active, n);
-  Eigen::RowVectorXd force_row(n);
-  std::vector<int> order = active_;
-  order.insert(order.end(), passive_.begin(), passive_.end());
+  // The transpose by its columns, which lie in one piece, as those of W do, which is symmetric.
+  Mat transposed(n_active, n_active);
+  tangent_passive_.resize(static_cast<Eigen::Index>(passive_.size()), n_active);
+  Vec row(n);
   for (int a = 0; a < n_active; ++a) {
-    const int i = active_[a];
-    const auto [p, d] = place[i];
-    const auto derivative_of_force = [&](int row) {
-      force_row = -r[row] * w.col(row).transpose();  // W is symmetric
-      force_row[row] += 1.0;
-    };
-    derivative_of_force(i);
-    Eigen::RowVectorXd row = force_row;
+    const int i = active_[static_cast<size_t>(a)];
+    const auto [p, d] = place[static_cast<size_t>(i)];
+    row = -r[i] * w.col(i);
+    row[i] += 1.0;
     for (int e = 0; e < 3; ++e) {
       const int k = assembly_->row(p, e);
-      if (k < 0 || tangents[p](d, e) == 0.0) continue;
-      derivative_of_force(k);
-      row -= tangents[p](d, e) * (y[k] * force_row - w.col(k).transpose());
+      const double slope = k < 0 ? 0.0 : tangents[p](d, e);
+      if (slope == 0.0) continue;
+      row += slope * (y[k] * r[k] + 1.0) * w.col(k);
+      row[k] -= slope * y[k];
     }
-    for (int c = 0; c < n; ++c) j(a, c) = row[order[c]];
+    transposed.col(a) = row(active_);
+    tangent_passive_.col(a) = row(passive_);
   }
-  tangent_passive_ = j.rightCols(n - n_active);
-  Mat square = j.leftCols(n_active);
   // Laws in a loop share forces in more than one way, which makes J singular; the residual has no part there.
-  square.diagonal().array() += regularisation;
-  lu_ = LuFactor(std::move(square));
+  transposed.diagonal().array() += regularisation;
+  transposed_ = LuFactor(std::move(transposed));
   has_factor_ = true;
 }
 
-Vec InterfaceNewton::direction(const Vec& phi) const {
-  Vec step(phi.size()), rhs(active_.size()), known(passive_.size());
-  for (size_t i = 0; i < passive_.size(); ++i) step[passive_[i]] = known[i] = -phi[passive_[i]];
-  for (size_t i = 0; i < active_.size(); ++i) rhs[i] = -phi[active_[i]];
-  if (active_.empty()) return step;
-  if (!passive_.empty()) rhs -= tangent_passive_ * known;
-  const Vec x = lu_.solve(rhs);
-  for (size_t i = 0; i < active_.size(); ++i) step[active_[i]] = x[i];
-  return step;
+// x of J x = b, with the tangents that were factorised.
+Vec InterfaceNewton::factor_solve(const Vec& b) const {
+  Vec x(b.size()), rhs(active_.size()), known(passive_.size());
+  for (size_t i = 0; i < passive_.size(); ++i) x[passive_[i]] = known[i] = b[passive_[i]];
+  for (size_t i = 0; i < active_.size(); ++i) rhs[i] = b[active_[i]];
+  if (active_.empty()) return x;
+  if (!passive_.empty()) rhs -= tangent_passive_.transpose() * known;
+  const Vec solved = transposed_.solve_transposed(std::move(rhs));
+  for (size_t i = 0; i < active_.size(); ++i) x[active_[i]] = solved[i];
+  return x;
+}
+
+Vec InterfaceNewton::direction(const Tangents& tangents, const Fields& now) {
+  const Vec phi = now.phi();
+  if (has_factor_ && !settings_.plain) {
+    const GmresSystem system{[&](const Vec& x) { return times(tangents, x); },
+                             [&](const Vec& x) { return factor_solve(x); }};
+    if (auto step = gmres(system, -phi, KeptFactor::close_enough(rows_->relative(now)),
+                          KeptFactor::most_products(assembly_->n_rows())))
+      return std::move(*step);
+  }
+  factorise(tangents);
+  return factor_solve(-phi);
 }
 
 // Point by point, the others held: slow, but it cannot cycle as Newton's method can where contacts open and close.
@@ -142,12 +170,8 @@ InterfaceNewton::Outcome InterfaceNewton::solve(std::vector<PointRecord>& record
   int in_vain = 0;
   while (rows_->relative(now) > settings_.tolerance && outcome.iterations < settings_.max_iterations) {
     ++outcome.iterations;
-    const bool is_fresh = !has_factor_;
-    if (is_fresh) factorise(now, records, increment);
-    Fields next = fields_of(now.f + direction(now.phi()));
+    Fields next = fields_of(now.f + direction(tangents_at(now, records, increment), now));
     const double ratio = std::sqrt(next.distance / now.distance);
-    if (ratio > fast_enough) has_factor_ = false;
-    if (!is_fresh && ratio >= 1.0) continue;  // the old tangent misleads
     if (ratio >= 1.0) ++in_vain;
     if (ratio < too_bad)
       now = std::move(next);

@@ -29,17 +29,22 @@ class InterfaceNewton {
 
  private:
   using Fields = InterfaceRows::Fields;
-  void factorise(const Fields& fields, const std::vector<PointRecord>& records, const Increment& increment);
-  Vec direction(const Vec& phi) const;
+  using Tangents = std::vector<Mat3>;  // of the law at each point: force by trial
+  Tangents tangents_at(const Fields& fields, const std::vector<PointRecord>& records, const Increment& increment) const;
+  void factorise(const Tangents& tangents);
+  Vec times(const Tangents& tangents, const Vec& x) const;
+  Vec factor_solve(const Vec& phi) const;
+  Vec direction(const Tangents& tangents, const Fields& now);
   void sweep(Vec& f, const std::vector<PointRecord>& records, const Increment& increment) const;
 
   InterfaceRows* rows_;
   const MergedAssembly* assembly_;
   MonolithicSettings settings_;
   Vec f_;
-  std::vector<int> active_, passive_;  // rows in and out of the factorised tangent
-  Mat tangent_passive_;                // (active x passive)
-  LuFactor lu_;
+  // Of the tangents that were factorised: rows in the factor, and out of it.
+  std::vector<int> active_, passive_;
+  Mat tangent_passive_;  // passive x active, transposed as the factor is
+  LuFactor transposed_;
   bool has_factor_ = false;
 };
 

@@ -3,10 +3,20 @@
 // Unknown: the reduced forces f. rate = free - W f, F = f + R (rate - held), and at every point F = law(rate + Y F).
 #pragma once
 
+#include <algorithm>
+
 #include "reference/merged_assembly.hpp"
 #include "solution/point_record.hpp"
 
 namespace dygita {
+
+// A factor is kept, over iterations and increments, while other tangents are solved with it by products that cost less
+// than another factor, which is worth some n / 80 of them. Far from the solution that need not be close (S. C.
+// Eisenstat, H. F. Walker, SIAM J. Sci. Comput. 17, 1996).
+struct KeptFactor {
+  static double close_enough(double residual) { return std::clamp(residual, 1e-8, 1e-3); }
+  static int most_products(int n_rows) { return std::min(40, n_rows / 80); }
+};
 
 class InterfaceRows {
  public:

@@ -34,7 +34,8 @@ class MonolithicRun {
     start_step(model, state);
     const std::vector<PortMotion> motions = port_motions(model, state);
     for (const Point& point : model.exchange.points) records_.push_back(start_point(model, point, state, motions));
-    preload_ = std::make_unique<PreloadNewton>(rows_, records_, std::max(10 * settings.tolerance, 1e-12));
+    preload_ =
+        std::make_unique<PreloadNewton>(rows_, records_, std::max(10 * settings.tolerance, 1e-12), settings.plain);
     energy_.resize(model.pieces.size());
     observer_.begin_step(instant(-1, {}));
   }

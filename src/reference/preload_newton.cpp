@@ -10,10 +10,11 @@ constexpr double near_enough = 1e-7;  // relative: from there on Newton's own sl
 
 }  // namespace
 
-PreloadNewton::PreloadNewton(const InterfaceRows& rows, const std::vector<PointRecord>& records, double tolerance)
+PreloadNewton::PreloadNewton(const InterfaceRows& rows, const std::vector<PointRecord>& records, double tolerance,
+                             bool plain)
     : model_(&rows.model()),
       preloads_(make_preloads(rows.model(), records)),
-      approach_(rows, preloads_),
+      approach_(rows, preloads_, plain),
       stiffest_(Vec::Zero(static_cast<Eigen::Index>(preloads_.size()))),
       extent_(rows.extent()),
       tolerance_(tolerance) {

@@ -10,7 +10,7 @@ namespace dygita {
 class PreloadNewton {
  public:
   // rows outlives this object. records: of all points, as the step starts; tolerance: of the forces, relative.
-  PreloadNewton(const InterfaceRows& rows, const std::vector<PointRecord>& records, double tolerance);
+  PreloadNewton(const InterfaceRows& rows, const std::vector<PointRecord>& records, double tolerance, bool plain);
 
   // Solves the increment; without preloads, just the interfaces. The records' shortenings are those found.
   InterfaceNewton::Outcome solve(InterfaceNewton& newton, std::vector<PointRecord>& records, const Increment& increment,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "law/law_slope.hpp"
+#include "numerics/gmres.hpp"
 
 namespace dygita {
 
@@ -21,7 +22,7 @@ StaticApproach::Fields StaticApproach::fields(const Vec& f, std::vector<PointRec
   return rows_->fields(f, records, increment_, limits);
 }
 
-// The slopes at these fields; how many have changed by a tenth since the factor, or -1 where the factor still holds.
+// The slopes at these fields; how many have changed by a tenth, or -1 where none has.
 int StaticApproach::take_slopes(const Fields& now, const std::vector<PointRecord>& records) {
   TangentBounds bounds;
   bounds.softest = steps_.softest();
@@ -43,9 +44,9 @@ int StaticApproach::take_slopes(const Fields& now, const std::vector<PointRecord
     n_other += change > 1e-3 * size;
   }
   if (slopes_.empty()) n_changed = n_other = static_cast<int>(records.size());
-  if (n_other == 0 && bounds.softest == factorised_softest_) return -1;
+  if (n_other == 0 && bounds.softest == slopes_softest_) return -1;
   slopes_ = std::move(slopes);
-  factorised_softest_ = bounds.softest;
+  slopes_softest_ = bounds.softest;
   return n_changed;
 }
 
@@ -105,14 +106,32 @@ void StaticApproach::factorise() {
         if (const int i = assembly.row(p, d); i >= 0) system.col(i) -= slopes_[p](d, 0) / stiffness * force;
   }
   transposed_ = LuFactor(std::move(system));
+  factor_ = Factor::of_these;
 }
 
-// f of  F = F_hat + M (rate - rate_hat).
-Vec StaticApproach::solve(const Fields& now) const {
+// (1 + (M - R) W) x
+Vec StaticApproach::times(const Vec& x) const {
+  const MergedAssembly& assembly = rows_->assembly();
+  const Vec moved = assembly.compliance() * x;
+  return x + times_slopes(moved) - assembly.softening().cwiseProduct(moved);
+}
+
+// From f to that of  F = F_hat + M (rate - rate_hat).
+Vec StaticApproach::step(const Fields& now) {
   const MergedAssembly& assembly = rows_->assembly();
   const Vec asked_rate = now.rate + rows_->y().cwiseProduct(now.force - now.asked);
-  return transposed_.solve_transposed(now.asked + times_slopes(assembly.free_rate() - asked_rate) -
-                                      assembly.softening().cwiseProduct(assembly.free_rate() - assembly.held_rate()));
+  const Vec rhs = now.asked + times_slopes(assembly.free_rate() - asked_rate) -
+                  assembly.softening().cwiseProduct(assembly.free_rate() - assembly.held_rate());
+  const Vec left = rhs - times(now.f);
+  if (factor_ == Factor::of_other_slopes && !plain_) {
+    const GmresSystem system{[&](const Vec& x) { return times(x); },
+                             [&](const Vec& x) { return transposed_.solve_transposed(x); }};
+    if (auto found = gmres(system, left, KeptFactor::close_enough(rows_->relative(now)),
+                           KeptFactor::most_products(assembly.n_rows())))
+      return std::move(*found);
+  }
+  if (factor_ != Factor::of_these) factorise();
+  return transposed_.solve_transposed(left);
 }
 
 int StaticApproach::approach(Vec& f, std::vector<PointRecord>& records, const Increment& increment, int i_increment,
@@ -148,8 +167,8 @@ int StaticApproach::approach(Vec& f, std::vector<PointRecord>& records, const In
     };
     const double before = steps_.begin_step(distance, trials);
     const int n_changed = take_slopes(now, records);
-    if (n_changed >= 0) factorise();
-    const Vec step = solve(now) - f;
+    if (n_changed >= 0 && factor_ == Factor::of_these) factor_ = Factor::of_other_slopes;
+    const Vec step = this->step(now);
     const auto that_far = [&](double share) { return fields(f + share * step, records, steps_.limits()).distance; };
     f += steps_.end_step(before, that_far, std::max(n_changed, 0), eta) * step;
   }

@@ -14,8 +14,9 @@ namespace dygita {
 class StaticApproach {
  public:
   // All outlive this object.
-  StaticApproach(const InterfaceRows& rows, const std::vector<Preload>& preloads)
-      : rows_(&rows), preloads_(&preloads) {}
+  // plain: a factor for every set of slopes.
+  StaticApproach(const InterfaceRows& rows, const std::vector<Preload>& preloads, bool plain)
+      : rows_(&rows), preloads_(&preloads), plain_(plain) {}
 
   // From reduced forces f to those closer to a solution: to `near`, relative, or as near as `most` iterations come.
   // Gives the records the shortenings that go with them. Returns the number of iterations.
@@ -27,7 +28,8 @@ class StaticApproach {
   Fields fields(const Vec& f, std::vector<PointRecord>& records, const std::vector<double>& limits);
   int take_slopes(const Fields& now, const std::vector<PointRecord>& records);
   void factorise();
-  Vec solve(const Fields& now) const;
+  Vec times(const Vec& x) const;
+  Vec step(const Fields& now);
   Vec times_slopes(const Vec& x) const;
 
   const InterfaceRows* rows_;
@@ -35,9 +37,11 @@ class StaticApproach {
   Increment increment_;
   int i_increment_ = 0;
   TangentSteps steps_;
-  std::vector<Mat3> slopes_;       // M of each point, N/m
-  double factorised_softest_ = 0;  // of the factor
+  bool plain_;
+  std::vector<Mat3> slopes_;  // M of each point, N/m
+  double slopes_softest_ = 0;
   LuFactor transposed_;
+  enum class Factor { none, of_other_slopes, of_these } factor_ = Factor::none;
 };
 
 }  // namespace dygita

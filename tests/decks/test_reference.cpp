@@ -241,5 +241,19 @@ problem{ name = "pulled", substructures = { block }, supports = { wall }, steps 
   EXPECT_FALSE(run_text(pulled, {{"monolithic", "1"}}).at(0).result->converged);
 }
 
+// Tangents that are solved with the factor of another against a factor for each: bolts that are tightened one after the
+// other, then a shock in which contacts open and slide.
+TEST(Reference, with_kept_factors_is_what_a_factor_for_each_tangent_gives) {
+  const auto run = [](const std::string& solver) {
+    return run_file(deck("bolted_flanges.lua"), {{"size", "6*mm"}, {"duration", "80*us"}}, 1, solver).at(0);
+  };
+  const DeckRun kept = run("monolithic"), plain = run("monolithic{ plain = true }");
+  const Pair runs{plain, kept};
+  EXPECT_TRUE(kept.result->converged);
+  EXPECT_TRUE(plain.result->converged);
+  EXPECT_LT(differ(runs, "bolt", {"normal"}), agreement);
+  EXPECT_LT(differ(runs, "energy", {"kinetic", "strain", "loads", "friction"}), agreement);
+}
+
 }  // namespace
 }  // namespace dygita::test::reference_tests
