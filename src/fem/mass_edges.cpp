@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <utility>
 
 #include "fem/cell_loop.hpp"
 #include "numerics/panel_choice.hpp"
@@ -66,18 +66,39 @@ CellEdges::CellEdges(const Mesh& mesh, const Elastic& material, const std::vecto
 
 // Linear cells with lumped mass turn a wave by (k h)^2 / 24 too little along an edge, those with consistent mass by as
 // much too much, an explicit increment by (w dt)^2 / 24 too much.
-MassEdges::MassEdges(const CellEdges& edges, double speed, double dt) : starts_(edges.starts), others_(edges.others) {
-  values_.reserve(others_.size());
-  for (size_t e = 0; e < others_.size(); ++e) {
+MassEdges::MassEdges(const CellEdges& edges, double speed, double dt) {
+  const size_t n = edges.starts.size() - 1;
+  starts_.assign(n + 1, 0);
+  const auto for_each_edge = [&](auto&& visit) {
+    for (size_t a = 0; a < n; ++a)
+      for (int e = edges.starts[a]; e < edges.starts[a + 1]; ++e)
+        visit(static_cast<int>(a), edges.others[static_cast<size_t>(e)], static_cast<size_t>(e));
+  };
+  for_each_edge([&](int a, int b, size_t) {
+    ++starts_[static_cast<size_t>(a) + 1];
+    ++starts_[static_cast<size_t>(b) + 1];
+  });
+  for (size_t a = 0; a < n; ++a) starts_[a + 1] += starts_[a];
+  others_.resize(2 * edges.others.size());
+  values_.resize(others_.size());
+  std::vector<int> next(starts_.begin(), starts_.end() - 1);
+  for_each_edge([&](int a, int b, size_t e) {
     const double cfl = speed * dt / edges.lengths[e];
-    values_.push_back(static_cast<float>(std::max(0.0, 0.5 - 0.5 * cfl * cfl) * edges.masses[e]));
-  }
+    const auto value = static_cast<float>(std::max(0.0, 0.5 - 0.5 * cfl * cfl) * edges.masses[e]);
+    for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, a}}) {
+      const auto at = static_cast<size_t>(next[static_cast<size_t>(from)]++);
+      others_[at] = to;
+      values_[at] = value;
+    }
+  });
 }
 
 void MassEdges::add_product(const double* x, double* y) const {
-  if (empty()) return;
-  panel_kernels().add_scalar_edge_product(
-      {starts_.data(), others_.data(), values_.data(), static_cast<int>(starts_.size()) - 1}, x, y);
+  if (!empty()) panel_kernels().add_scalar_edge_product(view(), x, y);
+}
+
+void MassEdges::move_nodes(const NodeMotion& motion, const double* x, double* product) const {
+  panel_kernels().move_nodes(motion, view(), x, product);
 }
 
 }  // namespace dygita

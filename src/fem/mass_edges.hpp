@@ -6,6 +6,7 @@
 
 #include "material/elastic.hpp"
 #include "mesh/mesh.hpp"
+#include "numerics/panel_kernels.hpp"
 
 namespace dygita {
 
@@ -28,11 +29,18 @@ class MassEdges {
   bool empty() const { return others_.empty(); }
   // y += C x, both 4 n long.
   void add_product(const double* x, double* y) const;
+  // Moves the nodes by it, too: in one pass over them. product: C x.
+  void move_nodes(const NodeMotion& motion, const double* x, double* product) const;
   double bytes() const { return 4.0 * static_cast<double>(starts_.size() + others_.size() + values_.size()); }
   // For about as many edges as a mesh of hexahedra has.
-  static double bytes_of(double n_nodes) { return 4.0 * (1.0 + 2.0 * 3.0) * n_nodes; }
+  static double bytes_of(double n_nodes) { return 4.0 * (1.0 + 2.0 * 6.0) * n_nodes; }
 
  private:
+  NodeEdgeView view() const {
+    return {starts_.data(), others_.data(), values_.data(), static_cast<int>(starts_.size()) - 1};
+  }
+
+  // Each edge at both of its nodes.
   std::vector<int> starts_, others_;
   std::vector<float> values_;  // kg
 };

@@ -35,6 +35,22 @@ struct EdgeView {
   int n_nodes;
 };
 
+// The same with one number an edge for a block, and each edge at both of its nodes.
+struct NodeEdgeView {
+  const int* starts;
+  const int* others;
+  const float* values;
+  int n_nodes;
+};
+
+// Velocities and displacements of nodes in an increment, four numbers each: V = keep V - (pull + C x) / D, U += dt V.
+struct NodeMotion {
+  double keep, dt;
+  const double* inverse;  // of D, one number a node
+  const double* pull;
+  double *v, *d;
+};
+
 // What is done with a panel; see the functions of Panels for what each means.
 struct PanelKernels {
   const char* name;  // "avx512", "avx2" or "generic"
@@ -47,8 +63,10 @@ struct PanelKernels {
   void (*multiply_single)(const panel::View&, const float* x, double* y);
   // y += K x, four numbers a node, of which the last of x is zero and of y is left alone
   void (*add_edge_product)(const EdgeView&, const double* x, double* y);
-  // y += C x, the same with one number an edge for a block, of which the differences of both nodes' x are taken
-  void (*add_scalar_edge_product)(const EdgeView&, const double* x, double* y);
+  // y += C x, of a matrix of one number an edge
+  void (*add_scalar_edge_product)(const NodeEdgeView&, const double* x, double* y);
+  // the same with nodes that move by it, in one pass; product: C x
+  void (*move_nodes)(const NodeMotion&, const NodeEdgeView&, const double* x, double* product);
 };
 
 }  // namespace dygita

@@ -167,23 +167,21 @@ void ExplicitPiece::advance(const std::vector<double>& motion_velocity) {
   op_->stiffness.add_product(d_.data(), y_.data());
   if (has_stiffness_damping()) add_stiffness_damping();
   const size_t n = inverse_.size();
-  if (is_tuned()) couple_masses();
   const double *const y = y_.data(), *const inverse = inverse_.data();
   double *const v = v_.data(), *const d = d_.data();
-  const auto move = [&](auto&& pull) {
+  if (is_tuned()) {
+    take_momenta();
+    op_->tuning.move_nodes({keep, dt, inverse, y, v, d}, free_pull_.data(), coupled_.data());
+  } else {
     for (size_t i = 0; i < n; ++i) {
       const double w = inverse[i];
 #pragma omp simd
       for (size_t c = 4 * i; c < 4 * i + 4; ++c) {
-        v[c] = keep * v[c] - w * pull(c);
+        v[c] = keep * v[c] - w * y[c];
         d[c] += dt * v[c];
       }
     }
-  };
-  if (is_tuned())
-    move([y, more = coupled_.data()](size_t c) { return y[c] + more[c]; });
-  else
-    move([y](size_t c) { return y[c]; });
+  }
   const double mass_factor = keep_ * setup_.mass_share();
   for (Special& s : specials_) {
     const Vec3 own = s.free * (s.free.transpose() * s.v_old);
@@ -211,8 +209,9 @@ void ExplicitPiece::add_stiffness_damping() {
   }
 }
 
-// The inverse of a tuned mass is M^-1 + M^-1 C M^-1 (manual, eq. S13): what its second part makes of K X - f.
-void ExplicitPiece::couple_masses() {
+// The inverse of a tuned mass is M^-1 + M^-1 C M^-1 (manual, eq. S13): M^-1 (K X - f), and what it takes of the
+// momenta.
+void ExplicitPiece::take_momenta() {
   const double share = setup_.mass_share(), keep = keep_;
   if (is_damped()) p_old_ = p_;
   const double *const y = y_.data(), *const inverse = inverse_.data();
@@ -230,8 +229,6 @@ void ExplicitPiece::couple_masses() {
     Eigen::Map<Vec3> own(a + 4 * static_cast<size_t>(s.node));
     own = (s.free * (s.free.transpose() * own)).eval();
   }
-  std::fill(coupled_.begin(), coupled_.end(), 0.0);
-  op_->tuning.add_product(a, coupled_.data());
 }
 
 void ExplicitPiece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) {

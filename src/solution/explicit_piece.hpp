@@ -101,7 +101,7 @@ class ExplicitPiece final : public Piece, public ExplicitNodes {
   void make_compliance(Special& special);
   Special& special_at(int node) { return specials_[index_.at(node)]; }
   void advance(const std::vector<double>& motion_velocity);
-  void couple_masses();
+  void take_momenta();
   void look_back();
   void start_momentum();
   bool is_tuned() const { return !op_->tuning.empty(); }

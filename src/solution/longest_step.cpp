@@ -130,26 +130,32 @@ double longest_explicit_step(const Body& body, const HeldNodes& held) {
   return damped(FreeBody(body, held).longest_step({}), body);
 }
 
-// The mass is tuned to the step that it allows, which depends on it by a tenth to a third: where the two meet, from
-// that of the shortest edge by secants.
+// The mass is tuned to the step that it allows, which depends on it: by a tenth at most where shear waves keep their
+// speed, by a third where those of compression do. Where the two meet, by secants from a share of what a wave takes
+// along the shortest edge.
 double longest_tuned_step(const Body& body, const HeldNodes& held) {
   constexpr int most_rounds = 6;
-  constexpr double near = 0.01, usual_slope = 0.1;
+  constexpr double most_slope = 0.5, usual_share = 0.9;
   const Elastic& material = body.part->material;
   const CellEdges edges(*body.part->mesh, material, {});
   if (edges.lengths.empty()) return longest_explicit_step(body, held);
   const FreeBody free(body, held);
   const double speed = tuned_wave_speed(body, held);
-  double tuned_to = *std::min_element(edges.lengths.begin(), edges.lengths.end()) / material.p_wave_speed();
-  double longest = 0.0, slope = usual_slope;
+  const bool is_of_compression = speed == material.p_wave_speed();
+  double slope = is_of_compression ? 0.3 : 0.07;
+  const double near = is_of_compression ? 0.01 : 0.06;  // leaves half a percent, at most
+  double tuned_to = (is_of_compression ? 1.0 : usual_share) / material.p_wave_speed() *
+                    *std::min_element(edges.lengths.begin(), edges.lengths.end());
+  double longest = 0.0, meeting = 0.0;
   for (int i = 0; i < most_rounds; ++i) {
-    const double before = longest, tuned_before = i > 0 ? tuned_to : 0.0;
-    if (i > 0) tuned_to = std::max(0.5 * longest, (longest - slope * tuned_to) / (1.0 - slope));
+    const double before = longest, tuned_before = tuned_to;
+    if (i > 0) tuned_to = meeting;
     longest = damped(free.longest_step({edges, speed, tuned_to}), body);
+    if (i > 0) slope = std::clamp((longest - before) / (tuned_to - tuned_before), 0.0, most_slope);
+    meeting = std::max(0.5 * longest, (longest - slope * tuned_to) / (1.0 - slope));
     if (!(std::abs(longest - tuned_to) > near * longest)) break;
-    if (i > 0) slope = std::clamp((longest - before) / (tuned_to - tuned_before), 0.0, 0.5);
   }
-  return longest;
+  return meeting;
 }
 
 }  // namespace dygita

@@ -89,6 +89,19 @@ TEST_P(Edges, of_masses_are_what_consistent_mass_takes_along_the_edges_of_hexahe
   for (int i = 0; i < n; ++i)
     for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(y[4 * i + c] - expected(c, i)));
   EXPECT_LT(worst, 1e-7 * expected.cwiseAbs().maxCoeff());
+  // Nodes that move by it in one pass.
+  std::vector<double> inverse(n), pull(4 * n, 0.0), v(4 * n, 0.0), d(4 * n, 0.0), product(4 * n, 0.0);
+  for (double& w : inverse) w = 2.0 + uniform(random);
+  for (int i = 0; i < 4 * n; ++i)
+    if (i % 4 < 3) pull[i] = y[i] + uniform(random), v[i] = uniform(random), d[i] = uniform(random);
+  const std::vector<double> v_old = v, d_old = d;
+  edges.move_nodes({0.9, 0.1, inverse.data(), pull.data(), v.data(), d.data()}, x.data(), product.data());
+  const double size = expected.cwiseAbs().maxCoeff();
+  for (int i = 0; i < 4 * n; ++i) {
+    EXPECT_NEAR(product[i], y[i], 1e-14 * size);
+    EXPECT_NEAR(v[i], 0.9 * v_old[i] - inverse[i / 4] * (pull[i] + y[i]), 1e-13 * (1.0 + size));
+    EXPECT_NEAR(d[i], d_old[i] + 0.1 * v[i], 1e-14);
+  }
 }
 
 TEST_P(Edges, leave_a_translation_without_force_and_the_whole_without_a_resultant) {

@@ -1,4 +1,4 @@
-// The product of a matrix given by edges: a force for each difference of two nodes. Part of panel_arithmetic.hpp: the
+// The product of matrices given by edges: a force for each difference of two nodes. Part of panel_arithmetic.hpp: the
 // same rules hold.
 #pragma once
 
@@ -44,18 +44,34 @@ void add_edge_product(const EdgeView& edges, const double* x, double* y) {
   }
 }
 
-void add_scalar_edge_product(const EdgeView& edges, const double* x, double* y) {
+inline __m256d scalar_product_at(const NodeEdgeView& edges, const double* x, int a) {
+  const __m256d xa = _mm256_loadu_pd(x + 4 * (std::size_t)a);
+  __m256d sum = _mm256_setzero_pd();
+  for (int e = edges.starts[a]; e < edges.starts[a + 1]; ++e) {
+    const __m256d apart = _mm256_sub_pd(xa, _mm256_loadu_pd(x + 4 * (std::size_t)edges.others[e]));
+    sum = _mm256_fmadd_pd(_mm256_set1_pd(edges.values[e]), apart, sum);
+  }
+  return sum;
+}
+
+void add_scalar_edge_product(const NodeEdgeView& edges, const double* x, double* y) {
   for (int a = 0; a < edges.n_nodes; ++a) {
-    const __m256d xa = _mm256_loadu_pd(x + 4 * (std::size_t)a);
-    __m256d sum = _mm256_setzero_pd();
-    for (int e = edges.starts[a]; e < edges.starts[a + 1]; ++e) {
-      const std::size_t b = 4 * (std::size_t)edges.others[e];
-      const __m256d force = _mm256_mul_pd(_mm256_set1_pd(edges.blocks[e]), _mm256_sub_pd(xa, _mm256_loadu_pd(x + b)));
-      sum = _mm256_add_pd(sum, force);
-      _mm256_storeu_pd(y + b, _mm256_sub_pd(_mm256_loadu_pd(y + b), force));
-    }
     double* const own = y + 4 * (std::size_t)a;
-    _mm256_storeu_pd(own, _mm256_add_pd(_mm256_loadu_pd(own), sum));
+    _mm256_storeu_pd(own, _mm256_add_pd(_mm256_loadu_pd(own), scalar_product_at(edges, x, a)));
+  }
+}
+
+void move_nodes(const NodeMotion& motion, const NodeEdgeView& edges, const double* x, double* product) {
+  const __m256d keep = _mm256_set1_pd(motion.keep), dt = _mm256_set1_pd(motion.dt);
+  for (int a = 0; a < edges.n_nodes; ++a) {
+    const std::size_t at = 4 * (std::size_t)a;
+    const __m256d own = scalar_product_at(edges, x, a);
+    _mm256_storeu_pd(product + at, own);
+    const __m256d pull =
+        _mm256_mul_pd(_mm256_set1_pd(motion.inverse[a]), _mm256_add_pd(_mm256_loadu_pd(motion.pull + at), own));
+    const __m256d v = _mm256_fmsub_pd(keep, _mm256_loadu_pd(motion.v + at), pull);
+    _mm256_storeu_pd(motion.v + at, v);
+    _mm256_storeu_pd(motion.d + at, _mm256_fmadd_pd(dt, v, _mm256_loadu_pd(motion.d + at)));
   }
 }
 #else
@@ -81,17 +97,34 @@ void add_edge_product(const EdgeView& edges, const double* x, double* y) {
   }
 }
 
-void add_scalar_edge_product(const EdgeView& edges, const double* x, double* y) {
+struct Three {
+  double at[3];
+};
+inline Three scalar_product_at(const NodeEdgeView& edges, const double* x, int a) {
+  const double* const xa = x + 4 * (std::size_t)a;
+  Three sum{{0.0, 0.0, 0.0}};
+  for (int e = edges.starts[a]; e < edges.starts[a + 1]; ++e) {
+    const double* const xb = x + 4 * (std::size_t)edges.others[e];
+    for (int c = 0; c < 3; ++c) sum.at[c] += (double)edges.values[e] * (xa[c] - xb[c]);
+  }
+  return sum;
+}
+
+void add_scalar_edge_product(const NodeEdgeView& edges, const double* x, double* y) {
   for (int a = 0; a < edges.n_nodes; ++a) {
-    const double* const xa = x + 4 * (std::size_t)a;
-    double* const own = y + 4 * (std::size_t)a;
-    for (int e = edges.starts[a]; e < edges.starts[a + 1]; ++e) {
-      const std::size_t b = 4 * (std::size_t)edges.others[e];
-      for (int c = 0; c < 3; ++c) {
-        const double force = (double)edges.blocks[e] * (xa[c] - x[b + c]);
-        own[c] += force;
-        y[b + c] -= force;
-      }
+    const Three own = scalar_product_at(edges, x, a);
+    for (int c = 0; c < 3; ++c) y[4 * (std::size_t)a + c] += own.at[c];
+  }
+}
+
+void move_nodes(const NodeMotion& motion, const NodeEdgeView& edges, const double* x, double* product) {
+  for (int a = 0; a < edges.n_nodes; ++a) {
+    const Three own = scalar_product_at(edges, x, a);
+    for (int c = 0; c < 3; ++c) {
+      const std::size_t at = 4 * (std::size_t)a + c;
+      product[at] = own.at[c];
+      motion.v[at] = motion.keep * motion.v[at] - motion.inverse[a] * (motion.pull[at] + own.at[c]);
+      motion.d[at] += motion.dt * motion.v[at];
     }
   }
 }

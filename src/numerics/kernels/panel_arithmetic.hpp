@@ -40,7 +40,7 @@ void multiply_single(const View& view, const float* x, double* y) {
 #define DYGITA_TEXT(name) DYGITA_TEXT_OF(name)
 const PanelKernels kernels{DYGITA_TEXT(DYGITA_ISA), forward,         backward,        forward_many,
                            backward_many,           multiply_double, multiply_single, add_edge_product,
-                           add_scalar_edge_product};
+                           add_scalar_edge_product, move_nodes};
 
 }  // namespace
 
