@@ -83,12 +83,17 @@ size_t number_of(const Problem& problem, const Substructure& part) {
   return static_cast<size_t>(index_of(problem.substructures, &part));
 }
 
-// Which substructures belong together by laws that pull: the first of each group.
-std::vector<size_t> groups_that_pull(const Problem& problem) {
+// Across a gap of its own; one of the geometry may be closed here and there.
+bool is_open(const Interface& interface) {
+  return !interface.has_gap_of_geometry && interface.law->initial().gap > 0.0;
+}
+
+// Which substructures hang together or touch: the first of each group.
+std::vector<size_t> groups_in_touch(const Problem& problem) {
   std::vector<size_t> first(problem.substructures.size());
   std::iota(first.begin(), first.end(), size_t{0});
   for (const InterfacePtr& interface : problem.interfaces) {
-    if (interface->law->tension_limit().traction <= 0.0) continue;
+    if (is_open(*interface)) continue;
     const size_t a = first[number_of(problem, *interface->side_1.part)],
                  b = first[number_of(problem, *interface->side_2.part)];
     std::replace(first.begin(), first.end(), std::max(a, b), std::min(a, b));
@@ -96,26 +101,24 @@ std::vector<size_t> groups_that_pull(const Problem& problem) {
   return first;
 }
 
-// Something that nothing holds and that touches nothing has a gap before it, and may close it at speed.
+// Something that nothing holds has a wall, or something that it does not touch, across a gap before it, and may meet it
+// at speed.
 bool flies_towards_something(const Problem& problem, const Step& step) {
-  const std::vector<size_t> group = groups_that_pull(problem);
+  if (step.loads.empty()) return false;
+  const std::vector<size_t> group = groups_in_touch(problem);
+  const auto group_of = [&](const Substructure& part) { return group[number_of(problem, part)]; };
   std::set<size_t> stays, has_gap;
-  const auto is_before = [&](const Substructure& part, bool is_open) {
-    (is_open ? has_gap : stays).insert(group[number_of(problem, part)]);
-  };
   for (const SupportPtr& support : supports_of(problem, step))
     for (const FaceOrRegion& on : support->on) {
       const LawPtr law = support->kind->law();
-      is_before(*std::visit([](const auto& place) { return place.part; }, on), law && law->initial().gap > 0.0);
+      const bool is_away = law && law->initial().gap > 0.0;
+      (is_away ? has_gap : stays).insert(group_of(*std::visit([](const auto& place) { return place.part; }, on)));
     }
   for (const InterfacePtr& interface : problem.interfaces) {
-    if (interface->law->tension_limit().traction > 0.0) continue;
-    const bool is_open = !interface->has_gap_of_geometry && interface->law->initial().gap > 0.0;
-    is_before(*interface->side_1.part, is_open);
-    is_before(*interface->side_2.part, is_open);
+    const size_t a = group_of(*interface->side_1.part), b = group_of(*interface->side_2.part);
+    if (a != b) has_gap.insert({a, b});
   }
-  return !step.loads.empty() &&
-         std::any_of(has_gap.begin(), has_gap.end(), [&](size_t i) { return !stays.contains(i); });
+  return std::any_of(has_gap.begin(), has_gap.end(), [&](size_t i) { return !stays.contains(i); });
 }
 
 bool begins_with_a_jump(const Problem& problem, const Step& step) {

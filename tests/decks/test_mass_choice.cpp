@@ -43,7 +43,8 @@ TEST(MassChoice, is_tuned_where_loads_bring_waves_that_the_mesh_would_keep_back)
   EXPECT_EQ(tuned({{"load", "1"}, {"speed", "5"}}), both);  // halves that meet at speed
 }
 
-// A bar that falls on a wall, or on a block that is held, from `gap`; by `tied` held itself.
+// A bar that falls on a wall, or on a block that is held, from `gap`, whole or (3) in two that touch; by `tied` held
+// itself.
 const std::string falling = R"(
 local p = param{ gap = 0.1, on = 1, tied = 0 }
 local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
@@ -52,8 +53,8 @@ local function half(name, z) return substructure{ name = name, material = steel,
 local a, b = half("a", 0), half("b", 50*mm)
 local pair = { a:face "zmax", b:face "zmin" }
 local tie = p.on == 1 and interface.bonded{ name = "tie", between = pair }
-  or interface.contact{ name = "tie", between = pair, gap = p.gap*mm }
-local supports = { p.on == 1 and support.wall{ name = "wall", on = a:face "zmin", gap = p.gap*mm }
+  or interface.contact{ name = "tie", between = pair, gap = p.on == 2 and p.gap*mm or 0 }
+local supports = { p.on ~= 2 and support.wall{ name = "wall", on = a:face "zmin", gap = p.gap*mm }
   or support.fixed{ name = "base", on = a:face "zmin" } }
 if p.tied == 1 then supports[2] = support.fixed{ name = "held", on = b:face "zmax" } end
 local fall = step.dynamic{ name = "fall", duration = 100*us, dt = 0.4*us, loads = { load.gravity{ z = -9.81 } } }
@@ -71,6 +72,8 @@ TEST(MassChoice, foresees_what_flies_towards_a_wall_or_a_part) {
   EXPECT_EQ(fallen({{"on", "2"}}), both);
   EXPECT_EQ(fallen({{"on", "2"}, {"gap", "0"}}), none);
   EXPECT_EQ(fallen({{"on", "2"}, {"tied", "1"}}), none);
+  EXPECT_EQ(fallen({{"on", "3"}}), both);  // one on the other
+  EXPECT_EQ(fallen({{"on", "3"}, {"tied", "1"}}), none);
 }
 
 TEST(MassChoice, is_the_deck_s_where_it_says) {
