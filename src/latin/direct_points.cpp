@@ -1,6 +1,7 @@
 #include "latin/direct_points.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -19,6 +20,25 @@ constexpr int few_points = 8 * chunk;  // are solved before threads have met
 
 // Of what a point would change, in a round: laws with friction that share a node may go round in circles otherwise.
 double share_of(int round) { return round < 400 ? 1.0 : round < 3000 ? 0.5 : 0.2; }
+
+// Rounds that no longer bring the forces closer. Ties in a loop whose jumps do not quite add up to zero have forces
+// that drift for ever, by as little in each round as the jumps are off, while the velocities stay.
+class RoundsInVain {
+ public:
+  bool are_too_many(double change, double small) {
+    constexpr int rounds_where_small = 50, rounds_anywhere = 2000;
+    ++n_;
+    if (change < 0.5 * least_) {
+      least_ = change;
+      n_ = 0;
+    }
+    return n_ >= (change <= small ? rounds_where_small : rounds_anywhere);
+  }
+
+ private:
+  double least_ = std::numeric_limits<double>::infinity();
+  int n_ = 0;
+};
 
 }  // namespace
 
@@ -153,37 +173,45 @@ void DirectPoints::solve_alone(OwnPoint& p, const std::vector<double>& motions) 
 
 // One round: each point against the velocities that the others have left. The largest change of a force, and the
 // largest force.
-std::pair<double, double> DirectPoints::take_turns(const std::vector<int>& members, double share, Turns& turns) {
+std::pair<double, double> DirectPoints::take_turns(const std::vector<int>& members, double share) {
   double change = 0.0, size = 0.0;
-  size_t at = 0;
+  std::vector<Vec3> before;
   for (const int i : members) {
     OwnPoint& p = points_[i];
-    at = turns.change.size();
-    for (int j = p.side_1.first; j < p.side_2.end; ++j) turns.change.push_back(ports_[j].force);
+    before.clear();
+    for (int j = p.side_1.first; j < p.side_2.end; ++j) before.push_back(ports_[j].force);
     find_force(p);
-    for (int j = p.side_1.first; j < p.side_2.end; ++j, ++at) {
-      turns.change[at] = ports_[j].force - turns.change[at];
-      change = std::max(change, turns.change[at].cwiseAbs().maxCoeff());
+    for (int j = p.side_1.first; j < p.side_2.end; ++j) {
+      const Vec3 own = ports_[j].force - before[static_cast<size_t>(j - p.side_1.first)];
+      change = std::max(change, own.cwiseAbs().maxCoeff());
       size = std::max(size, ports_[j].force.cwiseAbs().maxCoeff());
-      if (share < 1.0) push(p, ports_[j], ports_[j].force - (1.0 - share) * turns.change[at]);
+      if (share < 1.0) push(p, ports_[j], ports_[j].force - (1.0 - share) * own);
     }
   }
   return {change, size};
 }
 
-// Rounds that creep are shortened: what they go on to change is the sum of a geometric series.
-void DirectPoints::leap(const std::vector<int>& members, const Turns& turns, const Turns& before) {
-  double together = 0.0, own = 0.0;
-  for (size_t i = 0; i < turns.change.size(); ++i) {
-    together += turns.change[i].dot(before.change[i]);
-    own += before.change[i].squaredNorm();
-  }
-  const double ratio = own > 0.0 ? together / own : 0.0;
-  if (ratio < 0.3 || ratio > 0.9999) return;
-  size_t at = 0;
+void DirectPoints::take_forces(const std::vector<int>& members, Vec& forces) const {
+  Eigen::Index at = 0;
   for (const int i : members)
-    for (int j = points_[i].side_1.first; j < points_[i].side_2.end; ++j, ++at)
-      push(points_[i], ports_[j], ports_[j].force + ratio / (1.0 - ratio) * turns.change[at]);
+    for (int j = points_[i].side_1.first; j < points_[i].side_2.end; ++j, at += 3)
+      forces.segment<3>(at) = ports_[j].force;
+}
+
+void DirectPoints::give_forces(const std::vector<int>& members, const Vec& forces) {
+  Eigen::Index at = 0;
+  for (const int i : members)
+    for (int j = points_[i].side_1.first; j < points_[i].side_2.end; ++j, at += 3)
+      push(points_[i], ports_[j], forces.segment<3>(at));
+}
+
+// Squares of forces count as the power that they change.
+Vec DirectPoints::weights_of(const std::vector<int>& members) const {
+  std::vector<double> weights;
+  for (const int i : members)
+    for (int j = points_[i].side_1.first; j < points_[i].side_2.end; ++j)
+      for (const double inverse : ports_[j].inverse) weights.push_back(inverse);
+  return Eigen::Map<const Vec>(weights.data(), static_cast<Eigen::Index>(weights.size()));
 }
 
 // Between meshes that do not match forces are as many as the points, and change little from one increment to the next.
@@ -192,23 +220,47 @@ void DirectPoints::start_from_last(OwnPoint& p) {
   for (int i = p.side_1.first; i < p.side_2.end; ++i) push(p, ports_[i], ports_[i].last);
 }
 
+// Rounding of what would stop the nodes, or bring them back to where the step began, in one increment: where all move
+// alike forces are nothing but that, and change by their own size in each round.
+double DirectPoints::least_force(const std::vector<int>& members) const {
+  constexpr double share = 1e-4;  // of which `close_enough_` is some fifty times rounding
+  double least = 0.0;
+  for (const int i : members) {
+    const OwnPoint& p = points_[i];
+    for (int j = p.side_1.first; j < p.side_2.end; ++j) {
+      const OwnPort& port = ports_[j];
+      const double v = velocity(p, port).norm() + start_displacement(p, port).norm() / increment_.dt;
+      for (int d = 0; d < 3; ++d)
+        if (port.inverse[d] > 0.0) least = std::max(least, share * v / port.inverse[d]);
+    }
+  }
+  return least;
+}
+
 // Block Gauss-Seidel.
 void DirectPoints::solve_cluster(const std::vector<int>& members, const std::vector<double>& motions) {
-  constexpr int rounds_between_leaps = 6;
   for (const int i : members) begin_point(points_[i], motions);
   const auto is_spread = [&](int i) { return ports_[points_[i].side_1.first].is_spread(); };
   if (std::any_of(members.begin(), members.end(), is_spread))
     for (const int i : members) start_from_last(points_[i]);
   Swept& swept = swept_[&members - clusters_.data()];
-  Turns &turns = swept.turns, &before = swept.before;
+  const double least = least_force(members);
+  const bool mixes = !model_->problem->solver.plain;
+  const double tolerance = model_->problem->solver.tolerance;
+  if (swept.weight.size() == 0) swept.weight = weights_of(members);
+  Vec before(swept.weight.size()), after(before.size());
+  swept.mixing.begin();
+  RoundsInVain in_vain;
+  take_forces(members, before);
   for (swept.sweeps = 1; swept.sweeps <= most_rounds; ++swept.sweeps) {
-    std::swap(turns, before);
-    turns.change.clear();
     const double share = share_of(swept.sweeps);
-    const auto [change, size] = take_turns(members, share, turns);
-    swept.change = size > 0.0 ? change / std::max(size, 1e-6 * largest_force_) : 0.0;
-    if (swept.change <= close_enough_) break;
-    if (share == 1.0 && swept.sweeps % rounds_between_leaps == 0) leap(members, turns, before);
+    const auto [change, size] = take_turns(members, share);
+    swept.change = size > 0.0 ? change / std::max({size, 1e-6 * largest_force_, least}) : 0.0;
+    if (swept.change <= close_enough_ || (mixes && in_vain.are_too_many(swept.change, 0.1 * tolerance))) break;
+    if (!mixes || share < 1.0) continue;
+    take_forces(members, after);
+    before = swept.mixing.next(before, after, swept.weight);
+    give_forces(members, before);
   }
   // Rates are those of the velocities found.
   for (const int i : members) {

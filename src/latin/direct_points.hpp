@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "latin/force_mixing.hpp"
 #include "ranks/neighbours.hpp"
 #include "solution/direct_links.hpp"
 #include "solution/distant_piece.hpp"
@@ -40,9 +41,6 @@ class DirectPoints {
   double bytes() const;
 
  private:
-  struct Turns {
-    std::vector<Vec3> change;  // N, of the ports' forces in a round, one after the other
-  };
   // Where faces do not match: one of the nodes that a port moves with.
   struct Share {
     int node = 0;  // of the port's nodes
@@ -121,9 +119,12 @@ class DirectPoints {
   void add_held_force(const OwnPoint& p, const OwnPort& port);
   double difference_of_gaps(const OwnPoint& p) const;
   void solve_alone(OwnPoint& p, const std::vector<double>& motions);
-  std::pair<double, double> take_turns(const std::vector<int>& members, double share, Turns& turns);
-  void leap(const std::vector<int>& members, const Turns& turns, const Turns& before);
+  std::pair<double, double> take_turns(const std::vector<int>& members, double share);
+  void take_forces(const std::vector<int>& members, Vec& forces) const;
+  void give_forces(const std::vector<int>& members, const Vec& forces);
+  Vec weights_of(const std::vector<int>& members) const;
   void start_from_last(OwnPoint& p);
+  double least_force(const std::vector<int>& members) const;
   void solve_cluster(const std::vector<int>& members, const std::vector<double>& motions);
 
   const StepModel* model_;
@@ -146,7 +147,8 @@ class DirectPoints {
   struct Swept {
     double change = 0.0;
     int sweeps = 0;
-    Turns turns, before;  // of the last two rounds
+    ForceMixing mixing;
+    Vec weight;  // s/kg, of the forces on its ports
   };
   std::vector<Swept> swept_;  // of each cluster in the last increment
   double interval_ = 0.0;

@@ -46,8 +46,8 @@ void book_work(const Point& point, const PointRecord& record, const LawState& en
 // What a law has dissipated, into its surfaces; and into the energies.
 void book_on_surfaces(const Point& point, const Work& work, State& state);
 void book_dissipation(const Point& point, const Work& work, State& state);
-// A point with a law into the surfaces' state, once record.law is that of the end: forces, gaps and slips, which no other
-// point writes; what a surface has of its bolt and its release, which all its points write; both.
+// A point with a law into the surfaces' state, once record.law is that of the end: forces, gaps and slips, which no
+// other point writes; what a surface has of its bolt and its release, which all its points write; both.
 void show_law(const Point& point, const LawState& law, State& state);
 void show_record(const Point& point, const PointRecord& record, State& state);
 void show_point(const Point& point, const PointRecord& record, State& state);
