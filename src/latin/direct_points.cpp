@@ -49,9 +49,17 @@ DirectPoints::DirectPoints(const StepModel& model, const State& start)
   const NearDirect near = ranks::is_alone() ? NearDirect() : near_direct(*model.cut, model.exchange);
   if (model.has_explicit() && !ranks::is_alone()) find_motions(model, near);
   const std::vector<PortMotion> motions = port_motions(model, start);
-  for (size_t i = 0; i < model.exchange.points.size(); ++i)
-    if (model.exchange.points[i].is_direct && (ranks::is_alone() || near.points[i]))
-      add_point(model, static_cast<int>(i), start, motions);
+  std::vector<int> kept;
+  size_t n_ports = 0;
+  for (size_t i = 0; i < model.exchange.points.size(); ++i) {
+    const Point& point = model.exchange.points[i];
+    if (!point.is_direct || !(ranks::is_alone() || near.points[i])) continue;
+    kept.push_back(static_cast<int>(i));
+    n_ports += static_cast<size_t>(point.end_port - point.first_port);
+  }
+  points_.reserve(kept.size());
+  ports_.reserve(n_ports);
+  for (const int i : kept) add_point(model, i, start, motions);
   find_released();
   find_clusters();
   has_clusters_ = ranks::any(!clusters_.empty());

@@ -10,10 +10,11 @@ bool OwnFields::read(size_t increment, Eigen::Index n_own, Vec& q) const {
   const AssembledRuns& runs = fields->runs(i_step);
   Vec kept;
   if (runs.is_whole()) {
-    const bool is_kept = ranks::is_first() && fields->read(i_step, increment, near->n_assembled(), kept);
-    if (!ranks::any(is_kept)) return false;
-    const std::vector<double> all = ranks::shared(std::vector<double>(kept.begin(), kept.end()));
-    q = near->part(Eigen::Map<const Vec>(all.data(), static_cast<Eigen::Index>(all.size()))).head(n_own);
+    // A file, which every rank reads: what it has of the step.
+    const bool is_kept = near->is_all() ? fields->read(i_step, increment, near->n_assembled(), kept)
+                                        : fields->read_some(i_step, increment, near->kept_runs(), kept);
+    if (ranks::any(!is_kept)) return false;
+    q = kept;
     return true;
   }
   const bool is_kept = runs.n_all == near->n_assembled() && increment < fields->n_increments(i_step) &&

@@ -191,6 +191,13 @@ fs::path RunWriter::path_of(const std::string& file_name) {
   return directory_ / file_name;
 }
 
+fs::path RunWriter::folder_of(const std::string& folder, int n_files) {
+  refuse_links(directory_, folder);
+  make_directory(directory_ / folder);
+  for (int i = 0; i < n_files; ++i) index_->manifest.add(fs::path(folder) / std::to_string(i));
+  return directory_ / folder;
+}
+
 void RunWriter::write(const std::string& file_name, const std::string& text) { write_text(path_of(file_name), text); }
 
 }  // namespace dygita

@@ -65,6 +65,8 @@ class RunWriter {
 
   // The path for a file that somebody else writes here (state): run.json names it, the next run removes it.
   std::filesystem::path path_of(const std::string& file_name);
+  // The folder for files called 0, 1, ..., n - 1 that others write here; throws InputError where it is a link.
+  std::filesystem::path folder_of(const std::string& folder, int n_files);
 
   const std::filesystem::path& directory() const { return directory_; }
   const std::vector<FrameSummary>& frames() const;  // those written

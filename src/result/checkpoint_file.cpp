@@ -23,17 +23,6 @@ constexpr std::uint32_t format_version = 1, byte_order = 0x01020304;
 constexpr size_t buffer_bytes = size_t{1} << 20;
 
 template <class Coder>
-void code_vector(Coder& code, Vec& vector) {
-  std::uint64_t n = static_cast<std::uint64_t>(vector.size());
-  code(n);
-  if constexpr (std::is_same_v<Coder, Decoder>) {
-    if (n > code.room_for(8)) throw InputError("an entry is truncated");
-    vector.resize(static_cast<Eigen::Index>(n));
-  }
-  for (Eigen::Index i = 0; i < vector.size(); ++i) code(vector[i]);
-}
-
-template <class Coder>
 void code_missed(Coder& code, Missed& missed) {
   code_number(code, missed.increment), code_number(code, missed.iterations);
   code(missed.indicator), code(missed.tolerance), code_number(code, missed.is_falling);
@@ -43,17 +32,9 @@ void code_missed(Coder& code, Missed& missed) {
   if (has_halving) missed.halving = halving;
 }
 
-template <class Coder>
-void code_runs(Coder& code, TrailEntry& entry) {
-  code_number(code, entry.runs.n_all);
-  code_list(code, entry.runs.runs, [&](auto& run) {
-    auto first = run.first, n = run.n;
-    code_number(code, first), code_number(code, n);
-    if constexpr (std::is_same_v<Coder, Decoder>) run = {first, n};
-  });
-  if constexpr (std::is_same_v<Coder, Decoder>)
-    if (!entry.runs.fit(entry.q.size()) || (entry.uncorrected.size() > 0 && entry.uncorrected.size() != entry.q.size()))
-      throw InputError("an entry does not fit together");
+bool is_sound(const TrailEntry& entry) {
+  return entry.runs.fit(entry.q.size()) &&
+         (entry.uncorrected.size() == 0 || entry.uncorrected.size() == entry.q.size());
 }
 
 template <class Coder>
@@ -73,7 +54,9 @@ void code_entry(Coder& code, TrailEntry& entry) {
     if (!entry.missed) entry.missed.emplace();
     code_missed(code, *entry.missed);
   }
-  if ((flags & 4) != 0) code_runs(code, entry);
+  if ((flags & 4) == 0) return;
+  code_runs(code, entry.runs);
+  if (std::is_same_v<Coder, Decoder> && !is_sound(entry)) throw InputError("an entry does not fit together");
 }
 
 template <class Coder>

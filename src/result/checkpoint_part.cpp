@@ -23,26 +23,10 @@ namespace {
 constexpr char part_magic[] = "DYGITACQ";  // 8 bytes
 
 template <class Coder>
-void code_numbers(Coder& code, Vec& vector) {
-  std::uint64_t n = static_cast<std::uint64_t>(vector.size());
-  code(n);
-  if constexpr (std::is_same_v<Coder, Decoder>) {
-    if (n > code.room_for(8)) throw InputError("an entry is truncated");
-    vector.resize(static_cast<Eigen::Index>(n));
-  }
-  for (Eigen::Index i = 0; i < vector.size(); ++i) code(vector[i]);
-}
-
-template <class Coder>
 void code_share(Coder& code, EntryShare& share) {
   code(share.number);
-  code_number(code, share.runs.n_all);
-  code_list(code, share.runs.runs, [&](auto& run) {
-    auto first = run.first, n = run.n;
-    code_number(code, first), code_number(code, n);
-    if constexpr (std::is_same_v<Coder, Decoder>) run = {first, n};
-  });
-  code_numbers(code, share.q), code_numbers(code, share.uncorrected);
+  code_runs(code, share.runs);
+  code_vector(code, share.q), code_vector(code, share.uncorrected);
   code_list(code, share.moved, [&](auto& piece) { code(piece); });
 }
 

@@ -3,22 +3,16 @@
 #pragma once
 
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <vector>
 
+#include "result/open_file.hpp"
 #include "result/state_coder.hpp"
 #include "solution/trail.hpp"
 
 namespace dygita {
 
 std::filesystem::path parts_folder(const std::filesystem::path& checkpoint);
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
 
 // A rank's share of an entry: number of the entry in the run, runs of unknowns and their q, moved pieces.
 struct EntryShare {

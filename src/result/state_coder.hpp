@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "base/error.hpp"
+#include "numerics/types.hpp"
 
 namespace dygita {
 
@@ -69,6 +70,27 @@ void code_list(Coder& code, List& items, Item&& item) {
   } else {
     for (const auto& value : items) item(value);
   }
+}
+
+template <class Coder>
+void code_vector(Coder& code, Vec& vector) {
+  std::uint64_t n = static_cast<std::uint64_t>(vector.size());
+  code(n);
+  if constexpr (std::is_same_v<Coder, Decoder>) {
+    if (n > code.room_for(8)) throw InputError("an entry is truncated");
+    vector.resize(static_cast<Eigen::Index>(n));
+  }
+  for (Eigen::Index i = 0; i < vector.size(); ++i) code(vector[i]);
+}
+
+template <class Coder, class Runs>
+void code_runs(Coder& code, Runs& runs) {
+  code_number(code, runs.n_all);
+  code_list(code, runs.runs, [&](auto& run) {
+    auto first = run.first, n = run.n;
+    code_number(code, first), code_number(code, n);
+    if constexpr (std::is_same_v<Coder, Decoder>) run = {first, n};
+  });
 }
 
 }  // namespace dygita

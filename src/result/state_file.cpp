@@ -9,6 +9,8 @@
 #include "base/error.hpp"
 #include "base/fnv1a.hpp"
 #include "base/plain_file.hpp"
+#include "ranks/ranks.hpp"
+#include "result/open_file.hpp"
 #include "result/state_coder.hpp"
 
 namespace dygita {
@@ -16,10 +18,8 @@ namespace dygita {
 namespace {
 
 constexpr char magic[] = "DYGITAST";  // 8 bytes
-constexpr std::uint32_t format_version = 1, byte_order = 0x01020304;
+constexpr std::uint32_t format_version = 1, version_of_parts = 2, byte_order = 0x01020304;
 constexpr std::int64_t start_of_header = 24;  // magic, version, byte order, length of the header
-
-using Sizes = std::vector<std::vector<Eigen::Index>>;
 
 template <class Coder, class State, class SizesOf>
 void visit(Coder& code, State& state, SizesOf& sizes) {
@@ -41,16 +41,22 @@ void visit(Coder& code, State& state, SizesOf& sizes) {
   code_list(code, sizes, [&](auto& step) { code_list(code, step, [&](auto& size) { code_number(code, size); }); });
 }
 
-struct Close {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, Close>;
-
-Sizes sizes_of(const InterfaceFields& fields) {
-  Sizes sizes(fields.n_steps());
+FieldSizes sizes_of(const InterfaceFields& fields) {
+  FieldSizes sizes(fields.n_steps());
   for (size_t s = 0; s < sizes.size(); ++s)
     for (size_t i = 0; i < fields.n_increments(s); ++i) sizes[s].push_back(fields.size(s, i));
   return sizes;
+}
+
+// Behind the rest of the header, in version 2.
+template <class Coder, class Parts>
+void visit_parts(Coder& code, Parts& parts) {
+  code_list(code, parts, [&](auto& part) {
+    std::string bytes;
+    if constexpr (std::is_same_v<Coder, Encoder>) bytes = bytes_of(part);
+    code(bytes);
+    if constexpr (std::is_same_v<Coder, Decoder>) part = state_part_of(bytes);
+  });
 }
 
 bool write_all(std::FILE* file, const RunState& state) {
@@ -61,14 +67,18 @@ bool write_all(std::FILE* file, const RunState& state) {
     const std::uint64_t value = sum.value();
     return put(&value, 8);
   };
-  const Sizes sizes = sizes_of(*state.fields);
+  const bool has_parts = !state.parts.is_empty();
+  const FieldSizes sizes = has_parts ? state.parts.sizes : sizes_of(*state.fields);
+  const std::uint32_t version = has_parts ? version_of_parts : format_version;
   Encoder header;
   visit(header, state, sizes);
+  if (has_parts) visit_parts(header, state.parts.of_ranks);
   const std::uint64_t length = header.bytes.size();
   Checksum of_header, of_fields;
   of_header.add(header.bytes.data(), header.bytes.size());
-  bool is_good = put(magic, 8) && put(&format_version, 4) && put(&byte_order, 4) && put(&length, 8) &&
+  bool is_good = put(magic, 8) && put(&version, 4) && put(&byte_order, 4) && put(&length, 8) &&
                  put(header.bytes.data(), header.bytes.size()) && put_sum(of_header);
+  if (has_parts) return is_good && std::fflush(file) == 0;
   Vec q;
   for (size_t s = 0; s < sizes.size() && is_good; ++s) {
     for (size_t i = 0; i < sizes[s].size() && is_good; ++i) {
@@ -99,7 +109,7 @@ void check_fields(std::FILE* file, std::int64_t begin, std::int64_t bytes) {
   if (expected != sum.value()) throw InputError("its checksum does not match");
 }
 
-RunState read_all(File file) {
+RunState read_all(OpenFile file, const std::filesystem::path& path) {
   char found[8];
   std::uint32_t version = 0, order = 0;
   std::uint64_t length = 0, expected = 0;
@@ -110,9 +120,9 @@ RunState read_all(File file) {
   if (std::memcmp(found, magic, 8) != 0) throw InputError("it is not a state file of dygita");
   get(&version, 4), get(&order, 4), get(&length, 8);
   if (order != byte_order) throw InputError("it comes from a machine with another byte order");
-  if (version != format_version)
-    throw InputError(
-        fmt::format("it has version {} of the format, this program reads version {}", version, format_version));
+  if (version != format_version && version != version_of_parts)
+    throw InputError(fmt::format("it has version {} of the format, this program reads versions {} and {}", version,
+                                 format_version, version_of_parts));
   fseeko(file.get(), 0, SEEK_END);
   const std::int64_t file_length = ftello(file.get());
   if (length > (std::uint64_t{1} << 40) || file_length < start_of_header + static_cast<std::int64_t>(length))
@@ -125,9 +135,16 @@ RunState read_all(File file) {
   if (sum.value() != expected) throw InputError("its checksum does not match");
 
   RunState state;
-  Sizes sizes;
+  FieldSizes sizes;
   Decoder decoder(std::move(header));
   visit(decoder, state, sizes);
+  if (version == version_of_parts) {
+    StateParts parts{sizes, {}};
+    visit_parts(decoder, parts.of_ranks);
+    if (std::fgetc(file.get()) != EOF) throw InputError("it has the wrong length");
+    state.fields = fields_of_parts(path, parts);
+    return state;
+  }
   const std::int64_t begin = start_of_header + static_cast<std::int64_t>(length) + 8;
   std::vector<std::vector<InterfaceFields::Place>> places(sizes.size());
   std::int64_t at = begin;
@@ -138,7 +155,7 @@ RunState read_all(File file) {
       at += 8 * static_cast<std::int64_t>(size);
     }
   }
-  check_fields(file.get(), begin, at - begin);
+  if (ranks::is_first()) check_fields(file.get(), begin, at - begin);
   state.fields = std::make_shared<InterfaceFields>(file.release(), places);
   return state;
 }
@@ -147,14 +164,14 @@ RunState read_all(File file) {
 
 std::string identity_bytes(const RunState& state) {
   Encoder header;
-  const Sizes none;
+  const FieldSizes none;
   visit(header, state, none);
   return header.bytes;
 }
 
 RunState state_of_identity(std::string bytes) {
   RunState state;
-  Sizes sizes;
+  FieldSizes sizes;
   Decoder decoder(std::move(bytes));
   visit(decoder, state, sizes);
   return state;
@@ -194,10 +211,10 @@ void write_state(const std::filesystem::path& path, const RunState& state) {
 
 RunState read_state(const std::filesystem::path& path) {
   require_file(path);
-  File file(std::fopen(path.c_str(), "rb"));
+  OpenFile file(std::fopen(path.c_str(), "rb"));
   if (!file) throw InputError(fmt::format("cannot read '{}': {}", path.string(), std::strerror(errno)));
   try {
-    return read_all(std::move(file));
+    return read_all(std::move(file), path);
   } catch (const InputError& error) {
     throw InputError(fmt::format("'{}' cannot be used: {}\n    run the deck again", path.string(), error.what()));
   }

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "solution/interface_fields.hpp"
+#include "result/state_parts.hpp"
 
 namespace dygita {
 
@@ -40,6 +40,7 @@ struct RunState {
   std::vector<Effort> efforts;  // oldest first; the last is that of the fields kept
   bool converged = true, interrupted = false;
   std::shared_ptr<const InterfaceFields> fields;
+  StateParts parts;  // where ranks have written the fields; none: they go to the state file
 
   long n_increments() const;  // kept
 };
@@ -52,7 +53,8 @@ RunState state_of_identity(std::string bytes);
 // with the system's reason, and where the fields cannot be read back.
 void write_state(const std::filesystem::path& path, const RunState& state);
 
-// Reads a state; its fields stay in the file, which is left open. Throws InputError: no state file, another version or
+// Reads a state; its fields stay in the file, which is left open, or in those of its parts. Of several ranks the first
+// looks whether the fields are whole, of parts each at some. Throws InputError: no state file, another version or
 // machine, damaged.
 RunState read_state(const std::filesystem::path& path);
 

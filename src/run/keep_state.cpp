@@ -7,6 +7,7 @@
 
 #include "base/log.hpp"
 #include "model/load.hpp"
+#include "ranks/ranks.hpp"
 #include "run/share_plan.hpp"
 
 namespace dygita {
@@ -142,17 +143,72 @@ void check_room(const RunState& state, const std::filesystem::path& folder, cons
                                  state_file_name, bytes / 1e6, static_cast<double>(space.available) / 1e6));
 }
 
+// Increments of each step that all ranks have, and their unknowns.
+FieldSizes common_sizes(const InterfaceFields& fields) {
+  FieldSizes sizes;
+  for (size_t s = 0; s < fields.n_steps(); ++s) {
+    const double n = -ranks::largest(-static_cast<double>(fields.n_increments(s)));
+    sizes.emplace_back(static_cast<size_t>(n), fields.runs(s).n_all);
+  }
+  return sizes;
+}
+
+double bytes_of_files(const std::filesystem::path& folder) {
+  double bytes = 0.0;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+    if (entry.is_regular_file(ignored)) bytes += static_cast<double>(entry.file_size(ignored));
+  return bytes;
+}
+
+// Where the parts go, as the first rank says; nothing: none are written.
+std::filesystem::path folder_of_parts(const RunState& state, RunWriter* writer, const RunResult& result,
+                                      std::string& error) {
+  if (!writer || !state.fields) return {};
+  try {
+    check_room(state, writer->directory(), result);
+    return writer->folder_of(state_parts_folder(state_file_name).string(), ranks::count());
+  } catch (const InputError& failed) {
+    error = failed.what();
+    return {};
+  }
+}
+
 }  // namespace
 
-void keep_state(const RunState& state, RunWriter& writer, bool has_checkpoint, RunResult& result) {
+KeptParts keep_parts(const RunState& state, RunWriter* writer, const RunResult& result) {
+  KeptParts kept;
+  if (ranks::is_alone()) return kept;
+  const std::filesystem::path folder = ranks::shared(folder_of_parts(state, writer, result, kept.error).string());
+  if (folder.empty()) return kept;
+  kept.parts.sizes = common_sizes(*result.interface_fields);
+  std::string part, error;
+  try {
+    part = bytes_of(write_state_part(folder / std::to_string(ranks::me()), *result.interface_fields, kept.parts.sizes));
+  } catch (const InputError& failed) {
+    error = failed.what();
+  }
+  const std::vector<std::string> errors = ranks::gathered(error);
+  for (const std::string& bytes : ranks::gathered(part))
+    if (!bytes.empty()) kept.parts.of_ranks.push_back(state_part_of(bytes));
+  for (const std::string& one : errors)
+    if (kept.error.empty()) kept.error = one;
+  return kept;
+}
+
+void keep_state(RunState& state, KeptParts kept, RunWriter& writer, bool has_checkpoint, RunResult& result) {
   if (!state.fields) return;
   const auto start = std::chrono::steady_clock::now();
+  const std::filesystem::path path = writer.path_of(state_file_name), parts = state_parts_folder(path);
   try {
-    const std::filesystem::path path = writer.path_of(state_file_name);
-    check_room(state, writer.directory(), result);
+    if (!kept.error.empty()) throw InputError(kept.error);
+    state.parts = std::move(kept.parts);
+    if (state.parts.is_empty()) check_room(state, writer.directory(), result);
     write_state(path, state);
-    result.figures.state_file = static_cast<double>(std::filesystem::file_size(path)) / 1e6;
+    result.figures.state_file = (static_cast<double>(std::filesystem::file_size(path)) + bytes_of_files(parts)) / 1e6;
   } catch (const InputError& error) {
+    std::error_code ignored;
+    std::filesystem::remove_all(parts, ignored);
     warn(fmt::format(
         "{}\n    {}; its results are not touched", error.what(),
         has_checkpoint ? "what continues this run is its checkpoint" : "this run cannot be continued later"));

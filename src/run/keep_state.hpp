@@ -24,9 +24,19 @@ RunState state_of(const Problem& problem, const RunRequest& request, const RunRe
 // Are as many increments of every step known as before?
 bool reaches_as_far(const RunState& state, const RunState& before);
 
+// What several ranks have written of a state's fields, or why they could not.
+struct KeptParts {
+  StateParts parts;
+  std::string error;
+};
+
+// Collective. Of several ranks each writes its fields; the first gets what all have written. writer: the first rank's;
+// null: nothing is kept.
+KeptParts keep_parts(const RunState& state, RunWriter* writer, const RunResult& result);
+
 // Writes the state file; where that fails the run goes on, with a warning. has_checkpoint: it can be continued all the
 // same.
-void keep_state(const RunState& state, RunWriter& writer, bool has_checkpoint, RunResult& result);
+void keep_state(RunState& state, KeptParts parts, RunWriter& writer, bool has_checkpoint, RunResult& result);
 
 // "  continued: 812 iterations more; ..."
 std::string continuation_line(const RunState& before, const RunResult& result);

@@ -227,14 +227,12 @@ void write_results(const Problem& problem, const RunRequest& request, RunSite& s
   } else if (site.replacement && site.checkpoint) {
     site.is_kept = site.checkpoint->n_left() == 0;
   }
-  if (ranks::any(site.writer && request.write_state)) {
-    auto whole = whole_on_first(result.interface_fields, problem.solver.history_memory);
-    if (ranks::is_first() && state.fields) state.fields = std::move(whole);
-  }
+  const bool keeps_state = site.writer && request.write_state && site.is_kept;  // of the first rank
+  KeptParts parts = keep_parts(state, keeps_state ? site.writer.get() : nullptr, result);
   collect_warnings();
   if (!ranks::is_first()) return;
-  const bool keeps_state = site.writer && request.write_state && site.is_kept;
-  if (keeps_state) site.unwritten.attempt([&] { keep_state(state, *site.writer, site.can_go_on(result), result); });
+  if (keeps_state)
+    site.unwritten.attempt([&] { keep_state(state, std::move(parts), *site.writer, site.can_go_on(result), result); });
   warn_of_run(problem, result, keeps_state ? site.directory : std::filesystem::path());
   warn_of_stresses(problem, result);
   const std::vector<std::string> warnings = take_warnings();

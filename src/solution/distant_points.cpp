@@ -106,17 +106,29 @@ void DistantPoints::complete(int surface) const {
   is_known_[s] = 1;
 }
 
+// Some surfaces at a time: what is under way stays small beside what is kept.
 void DistantPoints::complete_all() {
+  constexpr size_t enough = 1 << 16;  // numbers in one message
+  for (size_t first = 0, end = 0; first < booked_.size(); first = end) {
+    size_t n = 0;
+    for (end = first; end < booked_.size() && n < enough; ++end)
+      for (const auto& [rank, points] : booked_[end]) n += n_point * points.size();
+    complete_some(first, end);
+  }
+  is_known_.assign(is_known_.size(), 1);
+}
+
+void DistantPoints::complete_some(size_t first, size_t end) {
   std::vector<int> owner, offset{0};
-  for (const auto& booked : booked_)
-    for (const auto& [rank, points] : booked) {
+  for (size_t s = first; s < end; ++s)
+    for (const auto& [rank, points] : booked_[s]) {
       owner.push_back(rank);
       offset.push_back(offset.back() + static_cast<int>(n_point * points.size()));
     }
   std::vector<double> values(static_cast<size_t>(offset.back()));
   const auto for_each_point = [&](auto&& visit) {
     double* at = values.data();
-    for (size_t s = 0; s < booked_.size(); ++s)
+    for (size_t s = first; s < end; ++s)
       for (const auto& [rank, points] : booked_[s])
         for (const int point : points) {
           visit(rank, state_->surfaces[s], point, at);
@@ -130,7 +142,6 @@ void DistantPoints::complete_all() {
   for_each_point([](int rank, SurfaceState& surface, int point, double* at) {
     if (rank != ranks::me()) read(at, point, surface);
   });
-  is_known_.assign(is_known_.size(), 1);
 }
 
 void share_first(State& state) {

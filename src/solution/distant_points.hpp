@@ -31,6 +31,8 @@ class DistantPoints {
   void complete_all();
 
  private:
+  void complete_some(size_t first, size_t end);
+
   State* state_;
   std::vector<std::vector<int>> here_;
   std::vector<std::map<int, std::vector<int>>> booked_;  // of each surface, the points of each rank

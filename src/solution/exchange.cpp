@@ -325,7 +325,11 @@ void spread(const Cut& cut, const Port& port, const Vec3& force, Points& on_piec
 
 Exchange make_exchange(const Problem& problem, const Step& step, const Cut& cut, const std::vector<Surface>& surfaces,
                        const Conditions& conditions, const std::vector<char>& explicit_pieces) {
-  return Builder(problem, step, cut, surfaces, conditions, explicit_pieces).build();
+  Exchange exchange = Builder(problem, step, cut, surfaces, conditions, explicit_pieces).build();
+  exchange.ports.shrink_to_fit();
+  exchange.points.shrink_to_fit();
+  exchange.ties.shrink_to_fit();
+  return exchange;
 }
 
 }  // namespace dygita

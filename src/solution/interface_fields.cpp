@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "base/log.hpp"
-#include "ranks/ranks.hpp"
 
 namespace dygita {
 
@@ -23,6 +22,21 @@ InterfaceFields::InterfaceFields(std::FILE* file, const std::vector<std::vector<
       file_end_ = std::max(file_end_, place.at + 8 * static_cast<std::int64_t>(place.size));
     }
   }
+}
+
+InterfaceFields::InterfaceFields(std::vector<FieldPart> parts, const std::vector<std::vector<Eigen::Index>>& sizes)
+    : budget_(0.0) {
+  std::vector<size_t> n_increments;
+  for (const std::vector<Eigen::Index>& of_step : sizes) {
+    begin_step({});
+    n_increments.push_back(of_step.size());
+    for (const Eigen::Index size : of_step) {
+      Kept kept;
+      kept.size = size;
+      steps_.back().push_back(std::move(kept));
+    }
+  }
+  parts_ = std::make_unique<FieldParts>(std::move(parts), std::move(n_increments));
 }
 
 void InterfaceFields::append(const Vec& q) {
@@ -66,52 +80,33 @@ bool InterfaceFields::write(const Vec& q) {
 }
 
 bool InterfaceFields::read(size_t i_step, size_t increment, Eigen::Index size, Vec& q) const {
-  if (i_step >= steps_.size() || increment >= steps_[i_step].size()) return false;
-  const Kept& kept = steps_[i_step][increment];
-  if (kept.size != size) return false;
-  if (kept.at < 0 || size == 0) {
-    q = kept.q;
-    return true;
-  }
-  Vec from_file(size);
-  const auto n = static_cast<size_t>(size);
-  if (fseeko(file_.get(), kept.at, SEEK_SET) != 0 || std::fread(from_file.data(), sizeof(double), n, file_.get()) != n)
-    return false;
-  q = std::move(from_file);
-  return true;
+  AssembledRuns all{static_cast<long>(size), {}};
+  if (size > 0) all.runs.push_back({0, all.n_all});
+  return read_some(i_step, increment, all, q);
 }
 
-std::shared_ptr<const InterfaceFields> whole_on_first(const std::shared_ptr<const InterfaceFields>& kept,
-                                                      double memory_bytes) {
-  if (ranks::is_alone() || !kept) return kept;
-  auto whole = std::make_shared<InterfaceFields>(memory_bytes);
-  for (size_t s = 0; s < kept->n_steps(); ++s) {
-    whole->begin_step();
-    const AssembledRuns& runs = kept->runs(s);
-    std::vector<double> of_runs;
-    for (const AssembledRuns::Run& run : runs.runs)
-      of_runs.insert(of_runs.end(), {static_cast<double>(run.first), static_cast<double>(run.n)});
-    std::vector<AssembledRuns> of_ranks;
-    for (int rank = 0; rank < ranks::count(); ++rank) {
-      const std::vector<double> numbers = ranks::to_first(rank, of_runs);
-      AssembledRuns& of_rank = of_ranks.emplace_back();
-      for (size_t i = 0; i < numbers.size(); i += 2)
-        of_rank.runs.push_back({static_cast<long>(numbers[i]), static_cast<long>(numbers[i + 1])});
-    }
-    const auto n_increments = -ranks::largest(-static_cast<double>(kept->n_increments(s)));
-    for (size_t i = 0; i < static_cast<size_t>(n_increments); ++i) {
-      Vec own, all(ranks::is_first() ? runs.n_all : 0);
-      kept->read(s, i, kept->size(s, i), own);
-      for (int rank = 0; rank < ranks::count(); ++rank) {
-        const std::vector<double> brought = ranks::to_first(rank, {own.begin(), own.end()});
-        if (ranks::is_first())
-          of_ranks[static_cast<size_t>(rank)].place(
-              Eigen::Map<const Vec>(brought.data(), static_cast<Eigen::Index>(brought.size())), all);
-      }
-      if (ranks::is_first()) whole->append(all);
-    }
+bool InterfaceFields::read_some(size_t i_step, size_t increment, const AssembledRuns& asked, Vec& q) const {
+  if (i_step >= steps_.size() || increment >= steps_[i_step].size()) return false;
+  const Kept& kept = steps_[i_step][increment];
+  if (kept.size != asked.n_all) return false;
+  Vec found(asked.n_kept());
+  if (parts_) {
+    if (!parts_->read(i_step, increment, asked, found)) return false;
+    q = std::move(found);
+    return true;
   }
-  return ranks::is_first() ? whole : nullptr;
+  long at = 0;
+  for (const AssembledRuns::Run& run : asked.runs) {
+    const auto n = static_cast<size_t>(run.n);
+    if (kept.at < 0)
+      found.segment(at, run.n) = kept.q.segment(run.first, run.n);
+    else if (fseeko(file_.get(), kept.at + 8 * static_cast<std::int64_t>(run.first), SEEK_SET) != 0 ||
+             std::fread(found.data() + at, sizeof(double), n, file_.get()) != n)
+      return false;
+    at += run.n;
+  }
+  q = std::move(found);
+  return true;
 }
 
 }  // namespace dygita

@@ -6,40 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "numerics/types.hpp"
+#include "solution/field_parts.hpp"
 
 namespace dygita {
-
-// Which of the unknowns of an assembled q a rank keeps, in their order.
-struct AssembledRuns {
-  struct Run {
-    long first, n;
-    bool operator==(const Run&) const = default;
-  };
-  long n_all = -1;  // unknowns of the assembled q; -1: it is kept whole
-  std::vector<Run> runs{};
-
-  bool is_whole() const { return n_all < 0; }
-  bool operator==(const AssembledRuns&) const = default;
-  // Are they runs of so many unknowns in all, in their order, within the assembled q?
-  bool fit(Eigen::Index n_kept) const {
-    long n = 0, end = 0;
-    for (const Run& run : runs) {
-      if (run.first < end || run.n < 1 || run.n > n_all || run.first > n_all - run.n) return false;
-      end = run.first + run.n;
-      n += run.n;
-    }
-    return n_kept == n;
-  }
-  // Puts what is kept in its places among all.
-  void place(const Vec& kept, Vec& assembled) const {
-    long at = 0;
-    for (const Run& run : runs) {
-      assembled.segment(run.first, run.n) = kept.segment(at, run.n);
-      at += run.n;
-    }
-  }
-};
 
 // q of every increment of every step (assembled order of the step's exchange; N), for another case to start from. Up to
 // a budget they stay in memory, what comes after goes to a file that has no name and vanishes with this object.
@@ -55,6 +24,8 @@ class InterfaceFields {
   // Fields that an earlier run left in a file: they stay there. `file` is open for reading; one list of places per
   // step.
   InterfaceFields(std::FILE* file, const std::vector<std::vector<Place>>& steps);
+  // Fields that several ranks left, of which each step's increments have so many unknowns each.
+  InterfaceFields(std::vector<FieldPart> parts, const std::vector<std::vector<Eigen::Index>>& sizes);
   InterfaceFields(const InterfaceFields&) = delete;
   InterfaceFields& operator=(const InterfaceFields&) = delete;
 
@@ -68,6 +39,8 @@ class InterfaceFields {
 
   // The kept q of an increment if it has `size` unknowns, into q: another case may have other contacts. False: none.
   bool read(size_t i_step, size_t increment, Eigen::Index size, Vec& q) const;
+  // Of fields that are kept whole: the unknowns that are asked for alone, if there are as many in all.
+  bool read_some(size_t i_step, size_t increment, const AssembledRuns& asked, Vec& q) const;
 
   size_t n_steps() const { return steps_.size(); }
   const AssembledRuns& runs(size_t i_step) const { return runs_.at(i_step); }
@@ -94,11 +67,8 @@ class InterfaceFields {
   std::vector<AssembledRuns> runs_;  // of each step
   std::unique_ptr<std::FILE, Close> file_;
   std::int64_t file_end_ = 0;
+  std::unique_ptr<FieldParts> parts_;  // then nothing else is kept
   bool has_failed_ = false;
 };
-
-// Collective. On the first rank the fields of which each has some, as whole ones; on the others none (null).
-std::shared_ptr<const InterfaceFields> whole_on_first(const std::shared_ptr<const InterfaceFields>& kept,
-                                                      double memory_bytes);
 
 }  // namespace dygita

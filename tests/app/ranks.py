@@ -27,6 +27,7 @@ asked.add_argument("folder", type=pathlib.Path)
 asked.add_argument("--ranks", type=int, nargs="*", default=[2])
 asked = asked.parse_args()
 FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="dygita_ranks_"))
+PARTS = "state.dygita.parts"
 failures = []
 
 
@@ -48,8 +49,11 @@ def dygita(ranks, *words, expected, says=(), never=()):
 def contents(run):
     # The state has seconds in its header, records and pages tell times.
     told_apart = {"run.json", "report.html", "state.dygita", "view.py"}
-    return {str(p.relative_to(run)): hashlib.sha256(p.read_bytes()).hexdigest() for p in sorted(run.rglob("*"))
-            if p.is_file() and p.name not in told_apart}
+    found = {str(p.relative_to(run)): p.read_bytes() for p in sorted(run.rglob("*"))
+             if p.is_file() and p.name not in told_apart and p.parent.name != PARTS}
+    if ".dygita-files" in found:    # the state of several ranks is in parts
+        found[".dygita-files"] = b"".join(line for line in found[".dygita-files"].splitlines(True) if not line.startswith(PARTS.encode()))
+    return {name: hashlib.sha256(data).hexdigest() for name, data in found.items()}
 
 
 def arrays(file):
@@ -229,14 +233,48 @@ def go_on(name, killed, then, *solver, deck=stopped, problem="stopped", us=300, 
     same(name, whole / problem / "base", run)
 
 
-def go_further(name, *words):
-    """A run that has come to its end, to a tighter tolerance or further in time: all ranks start from its fields."""
-    runs = {}
-    for ranks in 1, 2:
-        runs[ranks] = FOLDER / f"{name}_{ranks}" / "stopped" / "base"
-        dygita(1, "run", stopped, "--quiet", "--threads", 1, "--out", FOLDER / f"{name}_{ranks}", expected=0)
-        dygita(ranks, "continue", runs[ranks], *words, "--quiet", "--threads", 1, expected=0)
-    same(name, runs[1], runs[2])
+def go_further(name, *words, deck=stopped, problem="stopped", written_by=(1, 3), continued_by=(1, 2), setting=()):
+    """A run that has come to its end, to a tighter tolerance or further in time: any number of ranks goes on with what each of any number has left of its fields."""
+    alone = None
+    for writers in written_by:
+        whole = FOLDER / f"{name}_by_{writers}"
+        dygita(writers, "run", deck, "--quiet", "--threads", 1, "--out", whole, *setting, expected=0)
+        check_parts(f"{name}, written by {writers}", whole / problem / "base", writers)
+        for ranks in continued_by:
+            run = shutil.copytree(whole, FOLDER / f"{name}_by_{writers}_on_{ranks}") / problem / "base"
+            dygita(ranks, "continue", run, *words, "--quiet", "--threads", 1, expected=0)
+            check_parts(f"{name}, written by {writers}, continued by {ranks}", run, ranks)
+            alone = alone or run
+            if run != alone:
+                same(f"{name}, written by {writers}, continued by {ranks}", alone, run)
+
+
+def check_parts(name, run, writers):
+    """Each rank has left its own fields, and together they have as much as one process leaves."""
+    parts = sorted(run.glob(f"{PARTS}/*"))
+    record = json.loads((run / "run.json").read_text())
+    fields = [part.stat().st_size - 8 for part in parts]
+    if writers == 1:
+        wrong = bool(parts) or f"{PARTS}/0" in record["files"]
+    else:
+        whole = 8 * record["size"]["interface_unknowns"] * sum(step["increments"] for step in record["steps"])
+        wrong = len(parts) != writers or not 0.9 * whole <= sum(fields) <= whole or max(fields) > 0.7 * whole or f"{PARTS}/1" not in record["files"]
+    if wrong:
+        failures.append(f"{name}: bytes of the parts of the state: {fields}, {record['size']}, {record['steps']}")
+
+
+def spoil_part():
+    """A part that is gone, cut off or of another run is told, and nothing is touched."""
+    run = FOLDER / "tighter_by_3" / "stopped" / "base"
+    part, before = run / PARTS / "2", contents(run)
+    kept = part.read_bytes()
+    for spoiled in None, kept[:-8], kept[:-1] + bytes([kept[-1] ^ 1]), kept + b"12345678":
+        part.unlink() if spoiled is None else part.write_bytes(spoiled)
+        for ranks in 1, 2:
+            dygita(ranks, "continue", run, "--tolerance", "1e-8", "--quiet", expected=2, says=["its part '"])
+        part.write_bytes(kept)
+    if contents(run) != before:
+        failures.append("a spoiled part: the run's folder has changed")
 
 
 def largest_difference(alone, shared):
@@ -310,6 +348,9 @@ go_on("iterated_three_then_one", 3, 1, deck=implicit, problem="implicit", us=150
 go_on("cut_three_then_one", 3, 1, "--set", "bodies=1", "--set", "implicit=1", deck=uneven, problem="uneven", us=200, whole_on=3)
 go_further("further", "--until", "80*us")
 go_further("tighter", "--tolerance", "1e-8")
+go_further("tighter_implicit", "--tolerance", "1e-8", deck=implicit, problem="implicit", continued_by=(1, 3, 4))
+go_further("assembled_further", "--until", "80*us", setting=ASSEMBLED)
+spoil_part()
 dygita(2, "continue", FOLDER / "none", expected=2, says=["no folder"])
 dygita(7, "run", stopped, "--quiet", "--solver", "latin{ pieces = 1 }", "--out", FOLDER / "many", expected=2, says=["7 MPI ranks for 6 substructures"])
 dygita(2, "run", stopped, "--quiet", "--solver", "monolithic", "--out", FOLDER / "one", expected=2, says=["solver.monolithic is one system"])

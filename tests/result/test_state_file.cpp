@@ -95,6 +95,105 @@ TEST_F(StateFile, gives_back_what_was_written_to_the_last_bit) {
   }
 }
 
+// The state of two ranks, that have unknowns by turns.
+class StateInParts : public StateFile {
+ protected:
+  ~StateInParts() override { fs::remove_all(state_parts_folder(path_)); }
+
+  static Vec whole(int step, int i) {
+    const int n = step == 0 ? 7 : 11;
+    return Vec::LinSpaced(n, 0.5 * i, 0.5 * i + n - 1);
+  }
+  RunState write() const {
+    const std::vector<std::vector<AssembledRuns>> runs = {{{7, {{0, 2}, {5, 2}}}, {11, {{0, 11}}}},
+                                                          {{7, {{2, 3}}}, {11, {}}}};
+    RunState state = some_state(1e9);
+    state.parts.sizes = {{7}, {11, 11, 11}};
+    for (size_t rank = 0; rank < runs.size(); ++rank) {
+      InterfaceFields own(60.0);  // bytes: some in memory, some in a file
+      for (int step = 0; step < 2; ++step) {
+        const AssembledRuns& of_step = runs[rank][static_cast<size_t>(step)];
+        own.begin_step(of_step);
+        for (int i = 0; i < (step == 0 ? 1 : 4); ++i) {  // one more than all have
+          Vec q(of_step.n_kept());
+          long at = 0;
+          for (const auto& run : of_step.runs)
+            q.segment(at, run.n) = whole(step, i).segment(run.first, run.n), at += run.n;
+          own.append(q);
+        }
+      }
+      const fs::path file = state_parts_folder(path_) / std::to_string(rank);
+      state.parts.of_ranks.push_back(write_state_part(file, own, state.parts.sizes));
+    }
+    write_state(path_, state);
+    return state;
+  }
+};
+
+TEST_F(StateInParts, gives_back_what_each_rank_has_written_whole_or_what_is_asked_for) {
+  write();
+  const RunState read = read_state(path_);
+  EXPECT_EQ(read.problem, "p");
+  EXPECT_EQ(read.n_increments(), 4);
+  Vec q;
+  for (const auto& [step, n] : {std::pair{0, 1}, {1, 3}})
+    for (int i = 0; i < n; ++i) {
+      const Vec all = whole(step, i);
+      ASSERT_TRUE(read.fields->read(step, i, all.size(), q));
+      EXPECT_EQ(q, all);
+    }
+  EXPECT_FALSE(read.fields->read(1, 3, 11, q));
+  EXPECT_FALSE(read.fields->read(0, 0, 8, q));
+  for (const AssembledRuns& asked : {AssembledRuns{7, {{0, 7}}},
+                                     {7, {{1, 1}}},
+                                     {7, {{1, 5}}},
+                                     {7, {{0, 1}, {2, 1}, {4, 3}}},
+                                     {7, {{5, 1}, {6, 1}}},
+                                     {7, {}}}) {
+    ASSERT_TRUE(read.fields->read_some(0, 0, asked, q));
+    Vec placed = Vec::Zero(7), expected = Vec::Zero(7);
+    asked.place(q, placed);
+    for (const auto& run : asked.runs) expected.segment(run.first, run.n) = whole(0, 0).segment(run.first, run.n);
+    EXPECT_EQ(placed, expected);
+  }
+  // One process writes them whole again.
+  write_state(path_, read_state(path_));
+  fs::remove_all(state_parts_folder(path_));
+  ASSERT_TRUE(read_state(path_).fields->read(1, 2, 11, q));
+  EXPECT_EQ(q, whole(1, 2));
+}
+
+TEST_F(StateInParts, that_has_lost_or_changed_a_byte_or_a_part_is_refused) {
+  const RunState state = write();
+  ASSERT_EQ(refusal(), "");
+  for (const fs::path& file : {path_, state_parts_folder(path_) / "0", state_parts_folder(path_) / "1"}) {
+    std::ifstream in(file, std::ios::binary);
+    const std::string good{std::istreambuf_iterator<char>(in), {}};
+    const auto spoil = [&](const std::string& bad) {
+      std::ofstream(file, std::ios::binary) << bad;
+      EXPECT_NE(refusal(), "") << file;
+      std::ofstream(file, std::ios::binary) << good;
+    };
+    for (size_t i = 0; i < good.size(); ++i) {
+      std::string bad = good;
+      bad[i] = static_cast<char>(bad[i] ^ 0x40);
+      spoil(bad);
+    }
+    spoil(good.substr(0, good.size() - 8)), spoil(good + "12345678"), spoil("");
+    fs::remove(file);
+    EXPECT_NE(refusal(), "");
+    std::ofstream(file, std::ios::binary) << good;
+  }
+  ASSERT_EQ(refusal(), "");
+  // Checksums that are right do not make up for unknowns that two ranks have, or none.
+  for (const AssembledRuns& wrong : {AssembledRuns{7, {{1, 3}}}, {7, {{2, 2}}}, {8, {{2, 3}}}, {7, {{2, 1L << 62}}}}) {
+    RunState other = state;
+    other.parts.of_ranks[1].runs[0] = wrong;
+    write_state(path_, other);
+    EXPECT_NE(refusal(), "");
+  }
+}
+
 TEST_F(StateFile, that_has_lost_or_changed_a_byte_is_refused) {
   write_state(path_, some_state(1e9));
   const std::string good = bytes();
@@ -136,10 +235,9 @@ TEST_F(StateFile, of_another_version_or_program_says_so) {
   std::string other = bytes();
   other[8] = 7;
   put(other);
-  EXPECT_EQ(
-      refusal(),
-      "'" + path_.string() +
-          "' cannot be used: it has version 7 of the format, this program reads version 1\n    run the deck again");
+  EXPECT_EQ(refusal(), "'" + path_.string() +
+                           "' cannot be used: it has version 7 of the format, this program reads versions 1 and 2\n    "
+                           "run the deck again");
   put("something else altogether, and long enough to be read");
   EXPECT_EQ(refusal(),
             "'" + path_.string() + "' cannot be used: it is not a state file of dygita\n    run the deck again");
