@@ -59,10 +59,14 @@ Manifest::Manifest(fs::path directory) : directory_(std::move(directory)) {
   write_text(directory_ / file_name, title);
 }
 
-void Manifest::add(const fs::path& relative) {
-  if (!known_.insert(relative.generic_string()).second) return;
+void Manifest::check_there() const {
   if (std::error_code error; !fs::exists(directory_ / file_name, error))
     throw InputError("'" + directory_.string() + "' was removed or emptied while the run wrote there");
+}
+
+void Manifest::add(const fs::path& relative) {
+  if (!known_.insert(relative.generic_string()).second) return;
+  check_there();
   errno = 0;
   std::ofstream list(directory_ / file_name, std::ios::app | std::ios::binary);
   list << relative.generic_string() << '\n';

@@ -20,6 +20,9 @@ class Manifest {
   // To be called before a file is written, so that a run which is killed leaves nothing unlisted. `relative` to the
   // directory.
   void add(const std::filesystem::path& relative);
+  // Throws InputError where the folder has been taken away, or emptied: what could not be written there has that
+  // reason.
+  void check_there() const;
 
   const std::vector<std::filesystem::path>& files() const { return files_; }
 

@@ -91,7 +91,12 @@ void RunWriter::begin_frame(const Frame& frame) {
     index_->manifest.add(part_file(part, index_->frames.size()));
     for (const int rank : part.ranks) index_->manifest.add(piece_file(part, index_->frames.size(), rank));
   }
-  write_parts(frame, index_->frames.size(), directory_);
+  try {
+    write_parts(frame, index_->frames.size(), directory_);
+  } catch (const InputError&) {
+    index_->manifest.check_there();
+    throw;
+  }
 }
 
 // The frame's files first, then the lists that name them: a list never names what is not there.
