@@ -308,8 +308,6 @@ void DirectPoints::solve(const std::vector<double>& motions, int most_threads) {
   solve_some(points_in_turn_[1], motions, most_threads);
   solve_some_clusters(clusters_in_turn_[1], motions, most_threads);
   for (size_t c = 0; c < clusters_.size(); ++c) {
-    n_sweeps_ += swept_[c].sweeps;
-    most_sweeps_ = std::max(most_sweeps_, swept_[c].sweeps);
     largest_change_ = std::max(largest_change_, swept_[c].change);
     for (const int i : clusters_[c])
       largest_force_ = std::max(largest_force_, points_[i].record.force.cwiseAbs().maxCoeff());

@@ -34,9 +34,6 @@ class DirectPoints {
   // Largest part of a force, relative to the largest, that points sharing nodes have left to each other since this was
   // last asked.
   double take_change();
-  // Rounds over points that share nodes, of all increments, and of the worst.
-  long n_sweeps() const { return n_sweeps_; }
-  int most_sweeps() const { return most_sweeps_; }
   double gap_difference() const { return gap_difference_; }  // as LocalStage's
   double bytes() const;
 
@@ -155,8 +152,6 @@ class DirectPoints {
   int i_interval_ = 0;
   ranks::LaterLargest largest_of_all_;
   double largest_force_ = 0.0, largest_change_ = 0.0, gap_difference_ = 0.0;
-  long n_sweeps_ = 0;
-  int most_sweeps_ = 0;
 };
 
 }  // namespace dygita
