@@ -53,6 +53,7 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
     if (ranks::any(interrupt_requested())) break;  // the factorisation may have taken long
     const StepSettings settings = step_settings(problem, model, start_from != nullptr);
     start_step(model, state);
+    if (step == problem.steps.back()) give_up_matrices(bodies);
     const Vec k = search_directions(model, problem.solver.search_direction, settings.window);
     fix_search_directions(model, k);
     StepRun run(settings, model, k, {state, observer, start_from, *kept, trail});

@@ -68,11 +68,12 @@ void ExplicitRun::start(const std::vector<Body>& bodies, const ExplicitMemory& m
   for (int part = 0; part < internal_.n_parts(); ++part) {
     const int first = internal_.first(part), size = internal_.first(part + 1) - first;
     const Eigen::Map<const Vec> displacement(state_.displacement[part].data(), size);
-    if (memory.internal.size() == 0) prestress_.segment(first, size) = bodies[part].matrices->stiffness * displacement;
+    if (memory.internal.size() == 0)
+      prestress_.segment(first, size) = *bodies[part].matrices->stiffness() * displacement;
     velocity_.segment(first, size) = Eigen::Map<const Vec>(state_.velocity[part].data(), size);
     anchor_.segment(first, size).setZero();
     for (const auto& [node, held] : state_.anchor[part]) anchor_.segment<3>(first + 3 * node) = held;
-    for (int i = 0; i < size; ++i) mass_[first + i] = bodies[part].matrices->mass[i / 3];
+    for (int i = 0; i < size; ++i) mass_[first + i] = bodies[part].matrices->mass()[i / 3];
   }
   base_external_ = -prestress_;
   inverse_mass_ = mass_.cwiseInverse();

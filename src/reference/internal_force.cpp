@@ -42,7 +42,7 @@ InternalForce::InternalForce(const std::vector<Body>& bodies, const ExplicitSett
       if (settings.one_point && !is_uniform)
         part.stiffness = std::make_unique<SymmetricBlocks>(assemble(only(mesh, block), material).stiffness);
     }
-    if (!settings.one_point) part.stiffness = std::make_unique<SymmetricBlocks>(body.matrices->stiffness);
+    if (!settings.one_point) part.stiffness = std::make_unique<SymmetricBlocks>(*body.matrices->stiffness());
     parts_.push_back(std::move(part));
   }
 }

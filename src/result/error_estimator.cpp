@@ -154,7 +154,7 @@ ErrorEstimator::StressEnergies ErrorEstimator::stress_energies(const Instant& in
     const auto k = static_cast<size_t>(i);
     Points u = instant.piece_displacement(here[k]);
     if (!start_.empty()) u -= pieces_[k].start;
-    const Points force = instant.model.pieces[static_cast<size_t>(here[k])]->elastic_force(u);
+    const Points force = instant.model.pieces[static_cast<size_t>(here[k])]->quick_elastic_force(u);
     own_strains[k] = 0.5 * u.reshaped().dot(force.reshaped());
   });
   size_t next = 0;

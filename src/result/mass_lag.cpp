@@ -21,7 +21,7 @@ double mass_lag(const Piece& piece, const Substructure& body) {
     Points next = residual * inverse.asDiagonal(), along = next;
     double size = residual.cwiseProduct(next).sum();
     for (int i = 0; i < rounds && size > 0.0; ++i) {
-      const Points image = piece.elastic_force(along);
+      const Points image = piece.quick_elastic_force(along);
       const double length = size / along.cwiseProduct(image).sum();
       sum += length * size;  // twice the energy that this direction adds
       residual -= length * image;

@@ -2,6 +2,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <set>
 
 #include "model/check.hpp"
 #include "reference/explicit.hpp"
@@ -56,7 +57,9 @@ std::string check_report(const Problem& problem) {
     bytes = std::max(bytes, size.bytes);
   }
   double matrices = 0.0;
-  for (const Body& body : bodies) matrices += 12.0 * static_cast<double>(body.matrices->stiffness.nonZeros());
+  std::set<const StoredMatrices*> known;
+  for (const Body& body : bodies)
+    if (known.insert(body.matrices.get()).second) matrices += body.matrices->bytes();
   return text + fmt::format(
                     "  {} degrees of freedom, {} increments in all, {:.4g} MB for factors and interface operators, "
                     "{:.4g} MB for "

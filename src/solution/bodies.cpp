@@ -18,6 +18,7 @@
 #include "law/law.hpp"
 #include "model/load.hpp"
 #include "solution/all_pieces.hpp"
+#include "solution/integration.hpp"
 
 namespace dygita {
 
@@ -164,7 +165,7 @@ bool has_body_forces(const Problem& problem) {
 std::vector<Vec> lumped_masses(const std::vector<Body>& bodies, const Cut& cut) {
   std::vector<Vec> masses;
   if (ranks::is_alone()) {
-    for (const Body& body : bodies) masses.push_back(body.matrices->mass);
+    for (const Body& body : bodies) masses.push_back(body.matrices->mass());
     return masses;
   }
   std::vector<int> sizes;
@@ -172,7 +173,7 @@ std::vector<Vec> lumped_masses(const std::vector<Body>& bodies, const Cut& cut) 
   Vec all(std::accumulate(sizes.begin(), sizes.end(), Eigen::Index{0}));
   Eigen::Index at = 0;
   for (int i = 0; i < cut.n_pieces(); at += sizes[i++])
-    if (cut.is_here(i)) all.segment(at, sizes[i]) = bodies[i].matrices->mass;
+    if (cut.is_here(i)) all.segment(at, sizes[i]) = bodies[i].matrices->mass();
   segments_of(cut, sizes).complete(all.data());
   at = 0;
   for (const int size : sizes) masses.emplace_back(all.segment(at, size)), at += size;
@@ -208,27 +209,35 @@ Mass mass_of(const Problem& problem, const Body& body, const Vec& lumped, const 
   return mass;
 }
 
-// Equal bodies share theirs.
-void add_matrices(const std::vector<char>& to, std::vector<Body>& bodies) {
-  std::map<BodyKey, std::shared_ptr<const BodyMatrices>> known;
+// Does nothing but explicit increments have to do with the body, as far as that can be said before they are chosen?
+bool may_do_without_matrix(const Problem& problem, const Substructure& part) {
+  return !problem.monolithic && !problem.explicit_dynamics && problem.numerical_damping() == 0.0 &&
+         !problem.mass().is_moved_from_contact && asked_of(problem, part) != IntegrationChoice::implicitly &&
+         std::none_of(problem.steps.begin(), problem.steps.end(), [](const StepPtr& step) { return step->is_static; });
+}
+
+// Equal bodies share theirs; keeps: whose matrix stays.
+void add_matrices(const std::vector<char>& to, const std::vector<char>& keeps, std::vector<Body>& bodies) {
+  std::map<BodyKey, std::shared_ptr<const StoredMatrices>> known;
   const auto key = [](const Body& body) {
     const Elastic& m = body.part->material;
     return BodyKey{body.part->mesh->digest, m.young, m.poisson, m.density};
   };
   for (const Body& body : bodies)
     if (body.matrices) known[key(body)] = body.matrices;
-  std::vector<std::pair<const Substructure*, std::shared_ptr<const BodyMatrices>*>> wanted;
+  std::vector<std::pair<size_t, std::shared_ptr<const StoredMatrices>*>> wanted;
   std::vector<double> cost;
   for (size_t i = 0; i < bodies.size(); ++i) {
     if (!to[i]) continue;
     const auto [at, is_new] = known.try_emplace(key(bodies[i]));
     if (!is_new) continue;
-    wanted.emplace_back(bodies[i].part, &at->second);
+    wanted.emplace_back(i, &at->second);
     cost.push_back(bodies[i].part->mesh->n_cells());
   }
   parallel_by_cost(cost, [&](int i) {
-    const auto& [part, matrices] = wanted[static_cast<size_t>(i)];
-    *matrices = std::make_shared<const BodyMatrices>(assemble(*part->mesh, part->material));
+    const auto& [first, matrices] = wanted[static_cast<size_t>(i)];
+    const Substructure& part = *bodies[first].part;
+    *matrices = std::make_shared<const StoredMatrices>(part.mesh, part.material, keeps[first]);
   });
   for (size_t i = 0; i < bodies.size(); ++i)
     if (to[i]) bodies[i].matrices = known.at(key(bodies[i]));
@@ -237,8 +246,14 @@ void add_matrices(const std::vector<char>& to, std::vector<Body>& bodies) {
 }  // namespace
 
 std::vector<Body> with_all_matrices(std::vector<Body> bodies) {
-  add_matrices(std::vector<char>(bodies.size(), 1), bodies);
+  const std::vector<char> all(bodies.size(), 1);
+  add_matrices(all, all, bodies);
   return bodies;
+}
+
+void give_up_matrices(const std::vector<Body>& bodies) {
+  for (const Body& body : bodies)
+    if (body.matrices) body.matrices->give_up();
 }
 
 std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>& surfaces) {
@@ -258,12 +273,13 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
     if (lays_loads || cut.is_here(i)) with_matrix.insert(mass_key(*cut.piece(i).body));
   const bool moves_mass = problem.mass().is_moved_from_contact && dt > 0.0;
   std::vector<Body> bodies;
-  std::vector<char> is_here;
+  std::vector<char> is_here, keeps;
   for (const CutPiece& piece : cut.pieces()) {
     bodies.push_back({piece.body.get(), nullptr, nullptr});
     is_here.push_back(piece.rank == ranks::me());
+    keeps.push_back(!may_do_without_matrix(problem, *problem.substructures[piece.part]));
   }
-  add_matrices(is_here, bodies);
+  add_matrices(is_here, keeps, bodies);
   std::vector<std::vector<char>> marked(bodies.size());
   if (moves_mass) {
     tell_those_that_keep_mass(problem);

@@ -4,8 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "fem/assembly.hpp"
-#include "model/model.hpp"
+#include "solution/stored_matrices.hpp"
 
 namespace dygita {
 
@@ -26,7 +25,7 @@ struct Mass {
 // A substructure's matrices; shared by equal substructures and by all steps.
 struct Body {
   const Substructure* part = nullptr;
-  std::shared_ptr<const BodyMatrices> matrices;
+  std::shared_ptr<const StoredMatrices> matrices;
   std::shared_ptr<const Mass> mass;
 };
 

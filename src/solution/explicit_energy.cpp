@@ -32,10 +32,18 @@ Points ExplicitPiece::unknown_directions() const {
 }
 
 Points ExplicitPiece::elastic_force(const Points& displacement) const {
-  Points force(3, displacement.cols());
+  Points force = Points::Zero(3, displacement.cols());
+  if (displacement.isZero(0.0)) return force;  // the matrix may have to be assembled
   Eigen::Map<Vec>(force.data(), force.size()) =
-      setup_.body->matrices->stiffness * Eigen::Map<const Vec>(displacement.data(), displacement.size());
+      *setup_.body->matrices->stiffness() * Eigen::Map<const Vec>(displacement.data(), displacement.size());
   return force;
+}
+
+Points ExplicitPiece::quick_elastic_force(const Points& displacement) const {
+  std::vector<double> u(d_.size(), 0.0), force(d_.size(), 0.0);
+  put(displacement, u);
+  op_->stiffness->add_product(u.data(), force.data());
+  return nodal(force);
 }
 
 void ExplicitPiece::set_state(const Points& displacement, const Points& velocity, const Points& force,
@@ -64,7 +72,7 @@ void ExplicitPiece::look_back() {
   std::vector<double> before(d_.size());
   for (size_t c = 0; c < d_.size(); ++c) before[c] = d_[c] - dt * v_[c];
   y_ = base_;
-  op_->stiffness.add_product(before.data(), y_.data());
+  op_->stiffness->add_product(before.data(), y_.data());
   for (size_t c = 0; c < elastic_.size(); ++c) elastic_[c] = y_[c] - base_[c];
 }
 
@@ -243,16 +251,16 @@ Points ExplicitPiece::absorbing_force() const {
 }
 
 double explicit_bytes(const PieceSetup& setup, bool shares) {
-  const double n = setup.n_nodes(), blocks = setup.body->matrices->stiffness.nonZeros() / 9.0;
+  const double n = setup.n_nodes(), pairs = setup.body->matrices->n_pairs();
   const bool is_tuned = setup.tuned_speed > 0.0;
   return 8.0 * (is_tuned ? 45.0 : 29.0) * n +
-         (shares ? 0.0 : 4.0 * n + 20.0 * (blocks - n) + (is_tuned ? MassEdges::bytes_of(n) : 0.0));
+         (shares ? 0.0 : 4.0 * n + 40.0 * pairs + (is_tuned ? MassEdges::bytes_of(n) : 0.0));
 }
 
 PieceFigures ExplicitPiece::figures() const {
   PieceFigures figures;
   figures.bytes =
-      op_->stiffness.bytes() + (is_tuned() ? op_->tuning.bytes() : 0.0) +
+      op_->stiffness->bytes() + (is_tuned() ? op_->tuning.bytes() : 0.0) +
       8.0 * (29.0 + (is_damped() ? 4.0 : 0.0) + (has_stiffness_damping() ? 8.0 : 0.0) + (is_tuned() ? 16.0 : 0.0)) *
           inverse_.size();
   return figures;

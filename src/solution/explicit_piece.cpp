@@ -7,7 +7,7 @@
 
 namespace dygita {
 
-ExplicitOperator::ExplicitOperator(const PieceSetup& setup) : stiffness(setup.body->matrices->stiffness) {
+ExplicitOperator::ExplicitOperator(const PieceSetup& setup) : stiffness(setup.body->matrices->edges()) {
   const Substructure& part = *setup.body->part;
   if (setup.tuned_speed > 0.0)
     tuning = MassEdges(CellEdges(*part.mesh, part.material, setup.keeps_lumped), setup.tuned_speed, setup.scheme.dt);
@@ -164,7 +164,7 @@ void ExplicitPiece::advance(const std::vector<double>& motion_velocity) {
   for (Special& s : specials_) s.v_old = velocity_of(s.node);
   if (is_damped()) v_old_ = v_;
   std::copy(base_.begin(), base_.end(), y_.begin());
-  op_->stiffness.add_product(d_.data(), y_.data());
+  op_->stiffness->add_product(d_.data(), y_.data());
   if (has_stiffness_damping()) add_stiffness_damping();
   const size_t n = inverse_.size();
   const double *const y = y_.data(), *const inverse = inverse_.data();

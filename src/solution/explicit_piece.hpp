@@ -2,7 +2,6 @@
 // answers to a force on it at once, and to no other.
 #pragma once
 
-#include "fem/edge_blocks.hpp"
 #include "fem/mass_edges.hpp"
 #include "solution/explicit_nodes.hpp"
 #include "solution/loads.hpp"
@@ -12,7 +11,7 @@ namespace dygita {
 
 // Its stiffness, and what tunes its mass: shared by equal bodies.
 struct ExplicitOperator {
-  EdgeBlocks stiffness;
+  std::shared_ptr<const EdgeBlocks> stiffness;
   MassEdges tuning;  // empty: the mass is lumped
   explicit ExplicitOperator(const PieceSetup& setup);
 };
@@ -34,6 +33,7 @@ class ExplicitPiece final : public Piece, public ExplicitNodes {
   bool has_motions() const override { return has_motions_; }
   bool is_explicit() const override { return true; }
   Points elastic_force(const Points& displacement) const override;
+  Points quick_elastic_force(const Points& displacement) const override;
   const Vec& schur_diagonal() const override { return schur_diagonal_; }
   void set_search_directions(const Vec& k) override;
   const Vec& k() const override { return k_; }

@@ -56,10 +56,8 @@ double implicit_cost(const Size& size, double tolerance, int n_increments) {
 }
 
 std::vector<double> pairs_of_neighbours(const Cut& cut, const std::vector<Body>& bodies) {
-  const std::vector<double> of_pieces = of_all_pieces(cut, 1, [&](int p, double* to) {
-    const SparseMatrix& stiffness = bodies[static_cast<size_t>(p)].matrices->stiffness;
-    *to = 0.5 * (stiffness.nonZeros() / 9.0 - stiffness.rows() / 3.0);
-  });
+  const std::vector<double> of_pieces =
+      of_all_pieces(cut, 1, [&](int p, double* to) { *to = bodies[static_cast<size_t>(p)].matrices->n_pairs(); });
   std::vector<double> pairs;
   for (size_t p = 0; p < of_pieces.size(); ++p) {
     const size_t part = static_cast<size_t>(cut.piece(static_cast<int>(p)).part);
@@ -99,11 +97,6 @@ std::unordered_map<int, Held> held_of(const Cut& cut, int piece, const Condition
   for (size_t i = 0; i < own.nodes.size(); ++i)
     if (const Held* h = conditions.at(own.part, own.nodes[i])) held.emplace(static_cast<int>(i), *h);
   return held;
-}
-
-// What the deck says of a substructure: implicit, as the program chooses, or explicit.
-IntegrationChoice asked_of(const Problem& problem, const Substructure& part) {
-  return part.integration.value_or(problem.solver.integration);
 }
 
 // Cells of order two without nodes in the middle of quadrangles, whose scaled diagonal is three times as far off as
@@ -245,7 +238,7 @@ void choose_mass(const Problem& problem, const std::vector<Size>& sizes, std::ve
 void longest_steps(const Problem& problem, const std::vector<Body>& bodies, const Cut& cut,
                    const Conditions& conditions, const std::vector<Integration::Part>& parts,
                    std::vector<double>& longest) {
-  std::map<std::tuple<const BodyMatrices*, const Mass*, double, bool>, int> free_ones;
+  std::map<std::tuple<const StoredMatrices*, const Mass*, double, bool>, int> free_ones;
   std::vector<int> first(bodies.size(), -1);  // equal to it; itself: asked
   std::vector<std::unordered_map<int, Held>> held(bodies.size());
   for (int p = 0; p < static_cast<int>(bodies.size()); ++p) {
@@ -291,6 +284,10 @@ void refuse_mixed_window(const Problem& problem, const Integration& chosen) {
 }
 
 }  // namespace
+
+IntegrationChoice asked_of(const Problem& problem, const Substructure& part) {
+  return part.integration.value_or(problem.solver.integration);
+}
 
 std::string why_not_explicit(const Body& body, double numerical_damping) {
   if (numerical_damping != 0.0) return "'numerical_damping' belongs to the implicit scheme";

@@ -35,6 +35,9 @@ struct Integration {
 Integration choose_integration(const Problem& problem, const Step& step, const std::vector<Body>& bodies,
                                const Cut& cut, const Conditions& conditions, const std::vector<Surface>& surfaces);
 
+// What the deck says of a substructure: implicit, as the program chooses, or explicit.
+IntegrationChoice asked_of(const Problem& problem, const Substructure& part);
+
 // Why a body cannot be integrated explicitly: "it has a node without mass"; empty: it can.
 std::string why_not_explicit(const Body& body, double numerical_damping);
 

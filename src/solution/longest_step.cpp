@@ -5,7 +5,6 @@
 #include <limits>
 #include <random>
 
-#include "fem/edge_blocks.hpp"
 #include "fem/mass_edges.hpp"
 #include "numerics/tridiagonal.hpp"
 #include "solution/integration.hpp"
@@ -25,7 +24,7 @@ class FreeBody {
  public:
   FreeBody(const Body& body, const HeldNodes& held)
       : held_(held),
-        stiffness_(body.matrices->stiffness),
+        stiffness_(body.matrices->edges()),
         mass_(body.mass->lumped.replicate(1, 4).transpose().reshaped()) {}
 
   // Lanczos on forces, in the inner product of the inverse mass, residual added. more: C, or nothing.
@@ -39,7 +38,7 @@ class FreeBody {
         x.segment<3>(4 * node) -= h.directions.col(j).dot(x.segment<3>(4 * node)) * h.directions.col(j);
   }
   void add_force(const Vec& x, Vec& y) const {
-    stiffness_.add_product(x.data(), y.data());
+    stiffness_->add_product(x.data(), y.data());
     rest(y);
   }
   void answer(const Vec& force, const MassEdges& more, Vec& x) const {
@@ -52,7 +51,7 @@ class FreeBody {
   }
 
   const HeldNodes& held_;
-  EdgeBlocks stiffness_;
+  std::shared_ptr<const EdgeBlocks> stiffness_;
   Vec mass_;
 };
 

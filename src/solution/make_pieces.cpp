@@ -153,7 +153,7 @@ struct EqualTo {
 
 // Explicit ones are equal by their stiffness as it is, and by what tunes their mass.
 std::vector<EqualTo> twins_of(const StepModel& model, const std::vector<PieceSetup>& setups) {
-  std::map<std::tuple<const BodyMatrices*, double, std::vector<char>>, int> known_explicit;
+  std::map<std::tuple<const StoredMatrices*, double, std::vector<char>>, int> known_explicit;
   std::map<const Mass*, std::vector<std::pair<int, FreeUnknowns>>> known;
   std::vector<EqualTo> twins(setups.size());
   for (const int i : model.here) {

@@ -75,6 +75,8 @@ class Piece {
   virtual bool is_explicit() const { return false; }
   virtual bool has_motions() const = 0;                                // of supports and prescribed ones
   virtual Points elastic_force(const Points& displacement) const = 0;  // K u, 3 x n_nodes, N
+  // The same to some 1e-7 of the largest difference between neighbours, from what increments have at hand.
+  virtual Points quick_elastic_force(const Points& displacement) const { return elastic_force(displacement); }
   // Diagonal of the interface's own Schur complement in the rows' directions, shared between their laws (N s/m; static
   // N/m). Empty where it is not formed: search directions then follow from rows and masses.
   virtual const Vec& schur_diagonal() const = 0;

@@ -43,7 +43,8 @@ void PieceMass::make_matrix(const FreeUnknowns& unknowns) {
 }
 
 void PieceMass::make_massless(const Body& body, const Scheme& scheme, const FreeUnknowns& unknowns) {
-  const SparseMatrix& k = body.matrices->stiffness;
+  const StiffnessPtr stiffness = body.matrices->stiffness();
+  const SparseMatrix& k = *stiffness;
   std::vector<Eigen::Triplet<double>> entries;
   for (int node = 0; node < unknowns.n_nodes(); ++node) {
     if (mass_->is_massless.empty() || !mass_->is_massless[node]) continue;

@@ -48,7 +48,8 @@ SparseMatrix coupling_of_rows(const PieceSetup& setup, const FreeUnknowns& unkno
 }
 
 SparseMatrix matrix_without_rows(const PieceSetup& setup, const FreeUnknowns& unknowns) {
-  const SparseMatrix& k = setup.body->matrices->stiffness;
+  const StiffnessPtr stiffness = setup.body->matrices->stiffness();
+  const SparseMatrix& k = *stiffness;
   const Scheme& scheme = setup.scheme;
   const Mass& mass = *setup.body->mass;
   const double mass_factor = setup.mass_share(), c1 = scheme.c1(setup.body->part->material.damping);
@@ -129,6 +130,7 @@ SparseMatrix matrix_with_reference(const PieceSetup& setup, const FreeUnknowns& 
 
 PieceOperator::PieceOperator(PieceSetup setup, FreeUnknowns unknowns)
     : setup_(std::move(setup)),
+      stiffness_(setup_.body->matrices->stiffness()),
       unknowns_(std::move(unknowns)),
       mass_(*setup_.body, setup_.scheme, unknowns_),
       absorbing_(by_node(setup_.absorbing)),
@@ -173,13 +175,12 @@ Vec PieceOperator::held_at_rows(const std::vector<double>& held) const {
 
 Points PieceOperator::elastic_force(const Points& nodal) const {
   Points result(3, nodal.cols());
-  Eigen::Map<Vec>(result.data(), result.size()) =
-      setup_.body->matrices->stiffness * Eigen::Map<const Vec>(nodal.data(), nodal.size());
+  Eigen::Map<Vec>(result.data(), result.size()) = *stiffness_ * Eigen::Map<const Vec>(nodal.data(), nodal.size());
   return result;
 }
 
 std::vector<double> PieceOperator::stiffness_times_held(const Points& nodal) const {
-  const SparseMatrix& k = setup_.body->matrices->stiffness;
+  const SparseMatrix& k = *stiffness_;
   const Eigen::Map<const Vec> flat(nodal.data(), nodal.size());
   const std::vector<HeldDirection>& held = unknowns_.held();
   std::vector<double> values(held.size(), 0.0);

@@ -87,6 +87,7 @@ class PieceOperator {
   void make_couplings();
 
   PieceSetup setup_;
+  StiffnessPtr stiffness_;
   FreeUnknowns unknowns_;
   PieceMass mass_;
   std::vector<std::pair<int, Mat3>> absorbing_;

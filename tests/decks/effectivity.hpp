@@ -107,8 +107,8 @@ inline std::vector<Points> relative(const Problem& problem, const std::vector<Bo
   Vec3 momentum = Vec3::Zero();
   double mass = 0.0;
   for (size_t p = 0; p < bodies.size(); ++p) {
-    momentum += velocity[p] * bodies[p].matrices->mass;
-    mass += bodies[p].matrices->mass.sum();
+    momentum += velocity[p] * bodies[p].matrices->mass();
+    mass += bodies[p].matrices->mass().sum();
   }
   for (int d = 0; d < 3; ++d)
     if (!is_free_along(problem, d)) momentum[d] = 0.0;
@@ -122,10 +122,10 @@ inline double true_error(const EstimatedRun& a, const EstimatedRun& reference, i
   double worst = 0.0, kinetic = 0.0, stored = 0.0;
   const auto strain = [&](size_t p, const Points& u) {
     const Eigen::Map<const Vec> flat(u.data(), u.size());
-    return 0.5 * flat.dot(bodies[p].matrices->stiffness * flat);
+    return 0.5 * flat.dot(*bodies[p].matrices->stiffness() * flat);
   };
   const auto motion = [&](size_t p, const Points& v) {
-    return 0.5 * bodies[p].matrices->mass.dot(v.colwise().squaredNorm().transpose());
+    return 0.5 * bodies[p].matrices->mass().dot(v.colwise().squaredNorm().transpose());
   };
   for (size_t i = 0; i < reference.fields.velocity.size(); ++i) {
     const std::vector<Points> own = relative(reference.problem, bodies, reference.fields.velocity[i]);

@@ -105,7 +105,7 @@ class ShakenBar : public Pulse {
   // %, at the worst instants.
   static double true_error_of(const EstimatedRun& coarse, const EstimatedRun& fine) {
     const Substructure &a = *coarse.problem.substructures[0], &b = *fine.problem.substructures[0];
-    const Vec mass = make_bodies(coarse.problem, make_surfaces(coarse.problem))[0].matrices->mass;
+    const Vec mass = make_bodies(coarse.problem, make_surfaces(coarse.problem))[0].matrices->mass();
     std::vector<int> same;
     for (int i = 0; i < a.mesh->n_nodes(); ++i) {
       Eigen::Index at = 0;

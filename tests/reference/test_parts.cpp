@@ -24,7 +24,7 @@ struct Whole {
     n = n_one + 3 * of.problem.substructures[1]->mesh->n_nodes();
     stiffness = mass = Mat::Zero(n, n);
     for (int part = 0, at = 0; part < 2; at = n_one, ++part) {
-      const Mat k = Mat(of.bodies[part].matrices->stiffness);
+      const Mat k = Mat(*of.bodies[part].matrices->stiffness());
       stiffness.block(at, at, k.rows(), k.rows()) = k;
       for (int i = 0; i < k.rows(); ++i) mass(at + i, at + i) = of.bodies[part].mass->lumped[i / 3];
     }

@@ -15,7 +15,7 @@ void PieceCase::make() {
   part->material = steel();
   part->material.damping = damping;
   body.part = part.get();
-  body.matrices = std::make_shared<const BodyMatrices>(assemble(*part->mesh, part->material));
+  body.matrices = std::make_shared<const StoredMatrices>(part->mesh, part->material, true);
   make_mass();
   setup = {};
   setup.body = &body;
@@ -31,7 +31,7 @@ void PieceCase::turn(const Mat3& by) {
   mesh->shape = mesh->shape_digest();
   mesh->turn = by * mesh->turn;
   part->mesh = mesh;
-  body.matrices = std::make_shared<const BodyMatrices>(assemble(*mesh, part->material));
+  body.matrices = std::make_shared<const StoredMatrices>(mesh, part->material, true);
   for (auto& [node, held] : setup.held) held.directions = by * held.directions;
   for (auto& [node, impedance] : setup.absorbing) impedance = by * impedance * by.transpose();
   for (InterfaceRow& row : setup.rows)
@@ -50,7 +50,7 @@ std::unique_ptr<ImplicitPiece> PieceCase::piece(bool is_plain) const {
 }
 
 void PieceCase::make_mass() {
-  Mass mass{body.matrices->mass, {}, {}};
+  Mass mass{body.matrices->mass(), {}, {}};
   if (has_massless) mass.is_massless.assign(n_nodes(), 0);
   if (has_massless)
     for (const int node : nodes("zmax")) mass.is_massless[node] = 1;
@@ -112,7 +112,7 @@ void PieceCase::spread_rows() {
 
 DensePiece::DensePiece(const PieceCase& of)
     : scheme(of.setup.scheme), damping(of.damping), n(3 * of.n_nodes()), rows(Mat::Zero(n, of.n_rows())) {
-  k = Mat(of.body.matrices->stiffness);
+  k = Mat(*of.body.matrices->stiffness());
   mass = z = Mat::Zero(n, n);
   for (int i = 0; i < of.n_nodes() && !scheme.is_static; ++i)
     for (int j = 0; j < of.n_nodes(); ++j)

@@ -81,7 +81,7 @@ TEST(Cut, the_pieces_stiffness_and_masses_add_up_to_those_of_the_whole) {
     const Points u = Points::Random(3, mesh.n_nodes());
     const auto times_stiffness = [](const Body& body, const Points& x) {
       Points f(3, x.cols());
-      Eigen::Map<Vec>(f.data(), f.size()) = body.matrices->stiffness * Eigen::Map<const Vec>(x.data(), x.size());
+      Eigen::Map<Vec>(f.data(), f.size()) = *body.matrices->stiffness() * Eigen::Map<const Vec>(x.data(), x.size());
       return f;
     };
     const auto times_mass = [](const Body& body, const Points& x) {

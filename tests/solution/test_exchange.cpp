@@ -279,9 +279,8 @@ TEST(StepModel, tells_which_substructure_cannot_be_factorised) {
   problem.steps = {dynamic_step("test", 1, exchange_dt, {})};
   const std::vector<Surface> surfaces = make_surfaces(problem);
   std::vector<Body> bodies = make_bodies(problem, surfaces);
-  BodyMatrices broken = *bodies[2].matrices;
-  broken.stiffness *= -1e3;
-  bodies[2].matrices = std::make_shared<const BodyMatrices>(broken);
+  BodyMatrices broken{-1e3 * *bodies[2].matrices->stiffness(), bodies[2].matrices->mass()};
+  bodies[2].matrices = std::make_shared<const StoredMatrices>(std::move(broken));
   const State state = initial_state(problem, surfaces);
   const int before = omp_get_max_threads();
   omp_set_num_threads(2);

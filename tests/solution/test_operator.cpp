@@ -167,9 +167,8 @@ TEST(PieceOperator, of_a_piece_that_is_held_everywhere_has_nothing_to_find) {
 TEST(PieceOperator, that_cannot_be_factorised_is_named) {
   PieceCase c;
   c.make();
-  BodyMatrices negative = *c.body.matrices;
-  negative.stiffness *= -1.0;
-  c.body.matrices = std::make_shared<const BodyMatrices>(negative);
+  BodyMatrices negative{-*c.body.matrices->stiffness(), c.body.matrices->mass()};
+  c.body.matrices = std::make_shared<const StoredMatrices>(std::move(negative));
   try {
     make_piece(c.setup, false, {});
     FAIL() << "a negative definite matrix was factorised";
