@@ -24,7 +24,8 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 
 MOTION = 48     # bytes of a node's motion; or of data and velocities of a point, three unknowns
-MESH = 64                                   # bytes of mesh and mass a node: coordinates, a cell's nodes, a mass
+MESH = 24 + 32      # bytes of mesh a node, once on a machine: coordinates, a cell's nodes
+MASS, POINT = 8, 1200   # bytes of a mass, a node, and of an interface point, on every rank: what 32 ranks of 64 bricks of 943,000 unknowns hold beyond what their own brick takes
 
 
 @dataclass(frozen=True)
@@ -207,7 +208,8 @@ def predict_rings(measured, quick=False):
             bound = max((k for k in times if k not in ("all", "bytes")), key=times.get)
             rows.append({"scaling": scaling, "unknowns": size, "ranks": ranks, "pieces": how, "increments per step": own.increments, "s per step": times["all"],
                          "speed-up": one / times["all"], "efficiency": one / times["all"] / ranks, "most in": bound, "share of it": times[bound] / times["all"],
-                         "GB per step": 1e-9 * times["bytes"], "meshes on every rank [GB]": 1e-9 * MESH * size / 3})
+                         "GB per step": 1e-9 * times["bytes"], "meshes on every machine [GB]": 1e-9 * MESH * size / 3,
+                         "points and masses on every rank [GB]": 1e-9 * (MASS * size / 3 + POINT * sum(n for _, _, n in refined.links))})
     return rows
 
 

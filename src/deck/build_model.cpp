@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "base/names.hpp"
+#include "mesh/machine_copies.hpp"
 #include "model/load.hpp"
 
 namespace dygita {
@@ -27,6 +28,7 @@ Builder builder_of(const std::string& path) {
 
 Content build(const Declaration& declaration) {
   const Builder builder = builder_of(declaration.path);
+  const LikePages like;
   try {
     return builder(declaration);
   } catch (const InputError& error) {

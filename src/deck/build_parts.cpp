@@ -9,6 +9,7 @@
 #include "mesh/bolt.hpp"
 #include "mesh/box.hpp"
 #include "mesh/geo_script.hpp"
+#include "mesh/machine_copies.hpp"
 #include "mesh/mesh_limits.hpp"
 #include "model/found_faces.hpp"
 
@@ -168,6 +169,7 @@ Content build_substructure(const Declaration& d) {
   part->material = *material;
   part->yield = material->yield;
   set_place(d.arguments.numbers("place"), *part);
+  share_on_machine(part->mesh);
   part->velocity = d.arguments.vector("velocity");
   if (d.arguments.has("integration")) part->integration = integration_of(d.arguments.text("integration"));
   doubt_size(*part);

@@ -6,6 +6,7 @@
 
 #include "base/log.hpp"
 #include "base/memory.hpp"
+#include "mesh/machine_copies.hpp"
 #include "solution/all_pieces.hpp"
 #include "solution/share_out.hpp"
 
@@ -13,9 +14,10 @@ namespace dygita {
 
 namespace {
 
-// Of the ranks, one after the other: messages, bytes, seconds, and memory now and at most.
+// Of the ranks, one after the other: messages, bytes, seconds, memory now and at most, and of it what is
+// there once on a machine.
 std::vector<double> traffic_of_all(const ranks::Traffic& before) {
-  constexpr size_t n = 2 * ranks::n_receivers + 3;
+  constexpr size_t n = 2 * ranks::n_receivers + 4;
   const ranks::Traffic now = ranks::traffic();
   std::vector<double> all(n * static_cast<size_t>(ranks::count()), 0.0);
   double* const own = all.data() + n * static_cast<size_t>(ranks::me());
@@ -23,9 +25,10 @@ std::vector<double> traffic_of_all(const ranks::Traffic& before) {
     own[i] = now.messages[i] - before.messages[i];
     own[ranks::n_receivers + i] = now.bytes[i] - before.bytes[i];
   }
-  own[n - 3] = now.seconds_waited - before.seconds_waited;
-  own[n - 2] = resident_memory();
-  own[n - 1] = peak_memory();
+  own[n - 4] = now.seconds_waited - before.seconds_waited;
+  own[n - 3] = resident_memory();
+  own[n - 2] = peak_memory();
+  own[n - 1] = bytes_shared_on_machine();
   return ranks::sums(all);
 }
 
@@ -76,6 +79,7 @@ void tell_ranks(const std::vector<Surface>& surfaces, const Cut& cut, const rank
     rank.seconds_waited = *at++;
     rank.memory = *at++;
     rank.peak_memory = *at++;
+    rank.shared_meshes = *at++;
     say_rank(i, rank);
   }
   figures.seconds["waiting for other ranks"] += sharing.ranks[static_cast<size_t>(ranks::me())].seconds_waited;

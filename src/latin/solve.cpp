@@ -7,6 +7,7 @@
 #include "latin/shared_trail.hpp"
 #include "latin/sharing.hpp"
 #include "latin/step_run.hpp"
+#include "mesh/machine_copies.hpp"
 #include "numerics/factor.hpp"
 #include "solution/step_ends.hpp"
 #include "solution/stopped_run.hpp"
@@ -26,6 +27,18 @@ void tell_run(const std::shared_ptr<const InterfaceFields>& kept, SolverFigures&
   figures.own.shared_factors = figures.n_equal;
 }
 
+CutPtr cut_into_pieces(const Problem& problem, const std::vector<Surface>& surfaces, const SharePlan& plan) {
+  const LikePages like;
+  return make_cut(problem, surfaces, plan);
+}
+
+std::vector<MeshPtr> meshes_of(const Problem& problem, const Cut& cut) {
+  std::vector<MeshPtr> meshes;
+  for (const SubstructurePtr& part : problem.substructures) meshes.push_back(part->mesh);
+  for (const CutPiece& piece : cut.pieces()) meshes.push_back(piece.body->mesh);
+  return meshes;
+}
+
 }  // namespace
 
 SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceFields* start_from, Trail* kept_trail,
@@ -40,7 +53,8 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
   Trail* const trail = ranks::is_alone() ? kept_trail : ranks::any(kept_trail) ? &shared_trail : nullptr;
   const ranks::Traffic traffic_before = ranks::traffic();
   const std::vector<Surface> surfaces = make_surfaces(problem);
-  const CutPtr cut = make_cut(problem, surfaces, plan);
+  const CutPtr cut = cut_into_pieces(problem, surfaces, plan);
+  share_on_machine(meshes_of(problem, *cut));
   const std::vector<Body> bodies = make_bodies(problem, surfaces, *cut);
   State state = initial_state(problem, surfaces, *cut);
   auto kept = std::make_shared<InterfaceFields>(problem.solver.history_memory);

@@ -107,12 +107,14 @@ Json sharing(const Sharing& shared) {
     return Json{{"neighbours", of[0]}, {"all", of[1]}, {"results", of[2]}};
   };
   for (const RankFigures& rank : shared.ranks)
-    of_each.push_back({{"pieces", rank.pieces},
-                       {"unknowns", rank.unknowns},
-                       {"messages", kinds(rank.messages)},
-                       {"bytes", kinds(rank.bytes)},
-                       {"seconds_waited", rank.seconds_waited},
-                       {"memory", {{"now", rank.memory}, {"peak", rank.peak_memory}}}});
+    of_each.push_back(
+        {{"pieces", rank.pieces},
+         {"unknowns", rank.unknowns},
+         {"messages", kinds(rank.messages)},
+         {"bytes", kinds(rank.bytes)},
+         {"seconds_waited", rank.seconds_waited},
+         {"memory",
+          {{"now", rank.memory}, {"peak", rank.peak_memory}, {"meshes_once_on_machine", rank.shared_meshes}}}});
   for (const SharedPiece& piece : shared.pieces)
     pieces.push_back({{"substructure", piece.part},
                       {"rank", piece.rank},

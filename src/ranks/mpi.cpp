@@ -1,6 +1,8 @@
 // The ranks of MPI. Whoever waits looks out for errors of others meanwhile, so that one of them ends all.
 #ifdef DYGITA_HAS_MPI
 #include <mpi.h>
+#include <spdlog/fmt/fmt.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -20,9 +22,11 @@ namespace {
 enum Tag { failed = 1, asked, answered, passed, brought };
 
 int n_ranks = 1, own_rank = 0, n_on_machine = 1;
+std::string job = "alone";
 Traffic so_far;
 std::mutex asking;
 Say say_error = nullptr;
+void (*tidy_up)() = nullptr;
 
 // Rank 0 hears that another has failed: its exit code, four bytes, and its message.
 void look_out() {
@@ -122,6 +126,8 @@ void start(Say say) {
   MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &on_machine);
   MPI_Comm_size(on_machine, &n_on_machine);
   MPI_Comm_free(&on_machine);
+  const long now = std::chrono::system_clock::now().time_since_epoch().count();
+  job = shared(fmt::format("{:x}_{}", now, getpid()));
 }
 
 void finish() {
@@ -138,7 +144,12 @@ int me() { return own_rank; }
 
 int count_on_machine() { return n_on_machine; }
 
+const std::string& name_of_job() { return job; }
+
+void before_stop(void (*tidy)()) { tidy_up = tidy; }
+
 void stop_all(const std::string& message, int code) {
+  if (tidy_up) tidy_up();
   if (own_rank == 0) {
     say_error(message);
     MPI_Abort(MPI_COMM_WORLD, code);

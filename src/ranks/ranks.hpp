@@ -24,12 +24,15 @@ void finish();
 
 int count();
 int me();
-int count_on_machine();  // those that share this machine's memory
+int count_on_machine();            // those that share this machine's memory
+const std::string& name_of_job();  // the same on all ranks, and that of no other job of this machine
 inline bool is_first() { return me() == 0; }
 inline bool is_alone() { return count() == 1; }
 
 // Ends all ranks with an exit code and one message: rank 0 says it, whoever has failed. Called by a rank alone, where
 // there are several.
+// What a rank does before it does so, to leave nothing behind.
+void before_stop(void (*tidy)());
 [[noreturn]] void stop_all(const std::string& message, int code);
 
 // Rank 0's bytes, on all.

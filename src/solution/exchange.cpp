@@ -42,7 +42,9 @@ class Builder {
   Exchange build() {
     make_groups();
     make_clusters();
-    for (const LawCluster& cluster : clusters_) add_law_point(cluster);
+    reserve();
+    for (LawCluster& cluster : clusters_) add_law_point(cluster);
+    clusters_ = {};
     SpreadPoints spread_points(problem_, step_, cut_, conditions_, axes_, exchange_);
     for (size_t s = 0; s < surfaces_.size(); ++s)
       if (is_in_force(surfaces_[s]) && !surfaces_[s].facing.matches())
@@ -86,6 +88,21 @@ class Builder {
     tie_copies();
     for (const NodeKey& key : groups_.keys()) members_[groups_.of(key)].push_back(key);
     for (auto& [group, keys] : members_) std::sort(keys.begin(), keys.end());
+  }
+
+  // Of points between meshes that match; there is one of each group and law, or less.
+  void reserve() {
+    size_t n_points = clusters_.size(), n_ports = 0;
+    for (const LawCluster& cluster : clusters_)
+      for (const int group : {cluster.group_1, cluster.group_2})
+        if (group >= 0) n_ports += n_laws_[group] == 1 ? members_[group].size() : 1;
+    for (const auto& [group, ports] : members_) {
+      if (ports.size() < 2 || n_laws_[group] == 1) continue;
+      ++n_points;
+      n_ports += ports.size();
+    }
+    exchange_.points.reserve(n_points);
+    exchange_.ports.reserve(n_ports);
   }
 
   // What a cut has made of one node stays together.
@@ -167,26 +184,27 @@ class Builder {
     return keys;
   }
 
-  void add_law_point(const LawCluster& cluster) {
+  void add_law_point(LawCluster& cluster) {
     const bool is_wall = cluster.group_2 < 0;
     const std::vector<NodeKey> ports_1 = ports_of(cluster, cluster.group_1, 1);
     const std::vector<NodeKey> ports_2 = is_wall ? std::vector<NodeKey>{} : ports_of(cluster, cluster.group_2, 2);
-    add_point(cluster.law, ports_1, ports_2, is_wall, cluster.normal.normalized(), cluster.area, cluster.members);
+    add_point(cluster.law, ports_1, ports_2, is_wall, cluster.normal.normalized(), cluster.area,
+              std::move(cluster.members));
     const int index = static_cast<int>(exchange_.points.size()) - 1;
     for (const int group : {cluster.group_1, cluster.group_2})
       if (group >= 0 && n_laws_[group] == 1) point_of_group_[group] = index;
   }
 
   void add_point(const Law* law, const std::vector<NodeKey>& ports_1, const std::vector<NodeKey>& ports_2, bool is_wall,
-                 const Vec3& normal, double area, const std::vector<Member>& members) {
+                 const Vec3& normal, double area, std::vector<Member> members) {
     Point point;
     point.law = law;
     point.area = area;
     point.is_wall = is_wall;
-    point.members = members;
     std::vector<NodeKey> keys = ports_1;
     keys.insert(keys.end(), ports_2.begin(), ports_2.end());
     point.frame = make_frame(normal, keys, law != nullptr, members);
+    point.members = std::move(members);
     point.first_port = static_cast<int>(exchange_.ports.size());
     point.first_port_2 = point.first_port + static_cast<int>(ports_1.size());
     point.end_port = point.first_port + static_cast<int>(keys.size());

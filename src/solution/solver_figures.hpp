@@ -57,6 +57,7 @@ struct RankFigures {
   std::array<double, 3> messages{}, bytes{};
   double seconds_waited = 0.0;
   double memory = 0.0, peak_memory = 0.0;  // bytes, resident: when the last step ended, and at most
+  double shared_meshes = 0.0;              // bytes of nodes and cells that all ranks of the machine have in common
 };
 struct SharedPiece {
   int part = 0, rank = 0;  // its substructure; who has it

@@ -35,9 +35,9 @@ def under_mpi(ranks):
     return [asked.mpirun, "--allow-run-as-root", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
 
 
-def dygita(ranks, *words, expected, says=(), never=()):
+def dygita(ranks, *words, expected, says=(), never=(), setting=None):
     start = under_mpi(ranks)
-    environment = {**os.environ, "OMP_NUM_THREADS": "1"}
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", **(setting or {})}
     done = subprocess.run([*start, asked.program, *map(str, words)], capture_output=True, text=True, timeout=280, check=False, env=environment)
     said = done.stdout + done.stderr
     wrong = [text for text in says if said.count(text) != 1] + [f"not: {text}" for text in never if text in said]
@@ -337,6 +337,34 @@ def measured(name):
         failures.append(f"{name}: the piece that took most is not alone: {ranks}; or other bits")
 
 
+def once_on_machine(name):
+    """Nodes and cells are in memory once for the ranks of a machine, by files that have no name once the run begins, nor after an error of the deck; where they cannot be written each rank keeps its own."""
+    deck = DECKS / "bench" / "blocks.lua"
+    words = ["run", deck, "--quiet", "--threads", 1, "--set", "cells=32", "--set", "steps=2"]
+    temporary = FOLDER / f"{name}_temporary"
+    temporary.mkdir()
+    runs = {key: FOLDER / f"{name}_{key}" for key in ("alone", "shared", "apart", "late")}
+    session = {"OMPI_MCA_orte_tmpdir_base": tempfile.gettempdir()}    # of mpirun itself
+    dygita(1, *words, "--out", runs["alone"], expected=0)
+    dygita(3, *words, "--out", runs["shared"], expected=0, setting={**session, "TMPDIR": str(temporary)}, never=["cannot be shared"])
+    # Two of three ranks hold what the third has written: of 8 bricks the nodes of each, and cells that they have in common.
+    of_each = [rank["memory"]["meshes_once_on_machine"] for rank in json.loads((runs["shared"] / "blocks" / "base" / "run.json").read_text())["ranks"]["of_each"]]
+    if min(of_each) < 8 * 24 * 17**3 - 8 * 8192 or list(temporary.iterdir()):
+        failures.append(f"{name}: bytes of meshes in common {of_each}; files {list(temporary.iterdir())}")
+    nowhere = {**session, "TMPDIR": str(FOLDER / "nowhere")}
+    dygita(3, *words, "--out", runs["apart"], expected=0, setting=nowhere, says=["meshes cannot be shared"])
+    same(f"{name}, shared", runs["alone"] / "blocks" / "base", runs["shared"] / "blocks" / "base")
+    if contents(runs["alone"] / "blocks" / "base") != contents(runs["apart"] / "blocks" / "base"):
+        failures.append(f"{name}: other bits where each rank keeps its own meshes")
+    (FOLDER / "after_meshes.lua").write_text(deck.read_text() + "error('after all')\n")
+    dygita(3, "run", FOLDER / "after_meshes.lua", *words[2:], "--out", runs["late"], expected=2, says=["after all"], setting={**session, "TMPDIR": str(temporary)})
+    (FOLDER / "before_runs.lua").write_text(deck.read_text().replace("problem{", "error('not now') problem{"))
+    dygita(3, "run", FOLDER / "before_runs.lua", *words[2:], "--out", runs["late"], expected=2, says=["not now"], setting={**session, "TMPDIR": str(temporary)})
+    if left := [p.name for p in temporary.iterdir()]:
+        failures.append(f"{name}: left after an error: {left}")
+
+
+once_on_machine("once")
 measured("measured")
 to_all("iterated_4")
 go_on("two_then_one", 2, 1)
