@@ -15,6 +15,7 @@ void wait_passively(char** argv, const char* blas_kernels) {
   // But for some 20 us: increments of explicit bodies are as short, and to wake a thread takes longer.
   setenv("GOMP_SPINCOUNT", "1000", 0);
   setenv("OPENBLAS_NUM_THREADS", "1", 0);
+  setenv("VTK_SMP_BACKEND_IN_USE", "Sequential", 0);  // VTK's threads beside ours
   // Where /proc is missing the program goes on as it is, only slower on a busy machine.
   execv("/proc/self/exe", argv);
 }

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/parallel_by_cost.hpp"
 #include "output/bolt_table.hpp"
 #include "output/collection.hpp"
 #include "output/csv.hpp"
@@ -74,9 +75,17 @@ RunWriter::~RunWriter() {
 void write_parts(const Frame& frame, size_t i, const fs::path& directory) {
   refuse_links(directory, interface_frames);
   make_directory(directory / interface_frames);
-  for (const PartFrame& part : frame.parts)
-    if (part.displacement.cols() > 0)
-      write_part(part, frame, directory / (part.is_in_pieces() ? piece_file(part, i, part.rank) : part_file(part, i)));
+  std::vector<const PartFrame*> here;
+  std::vector<double> cost;
+  for (const PartFrame& part : frame.parts) {
+    if (part.displacement.cols() == 0) continue;
+    here.push_back(&part);
+    cost.push_back(part.displacement.cols());
+  }
+  parallel_by_cost(cost, [&](int k) {
+    const PartFrame& part = *here[static_cast<size_t>(k)];
+    write_part(part, frame, directory / (part.is_in_pieces() ? piece_file(part, i, part.rank) : part_file(part, i)));
+  });
 }
 
 void RunWriter::write_frame(const Frame& frame) {

@@ -1,5 +1,6 @@
 // The output directory of a run: frames read back with VTK's own reader, tables, record, a second run over the first.
 #include <gtest/gtest.h>
+#include <omp.h>
 #include <sys/resource.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
@@ -257,6 +258,26 @@ TEST(RunWriter, writes_binary_data_inline_and_compressed_because_paraview_cannot
     EXPECT_NE(text.find("vtkZLibDataCompressor"), std::string::npos) << entry.path();
   }
   EXPECT_EQ(n_files, 3);
+}
+
+TEST(RunWriter, writes_the_same_bytes_with_any_number_of_threads) {
+  const Scratch scratch;
+  Scene scene;
+  for (int i = 0; i < 20; ++i) scene.parts.push_back(part("part " + std::to_string(i), {10.0 + i, 0.0, 0.0}));
+  const int before = omp_get_max_threads();
+  for (const int n : {1, 3}) {
+    omp_set_num_threads(n);
+    RunWriter writer(scratch.path() / std::to_string(n), "crush");
+    for (const double time : {0.0, 1e-6}) writer.write_frame(scene.frame(time, 1.0 + time));
+  }
+  omp_set_num_threads(before);
+  int n_files = 0;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(scratch.path() / "1" / "frames")) {
+    if (!entry.is_regular_file()) continue;
+    ++n_files;
+    EXPECT_EQ(text_of(entry.path()), text_of(scratch.path() / "3" / fs::relative(entry.path(), scratch.path() / "1")));
+  }
+  EXPECT_EQ(n_files, 2 * 23);
 }
 
 TEST(RunWriter, of_a_substructure_called_interfaces_keeps_both) {
