@@ -37,7 +37,8 @@ Factor::Factor(const SparseMatrix& matrix, const std::vector<int>& node_of_dof, 
   for (int i = 0; i < size(); ++i) largest_error[i] = error * std::sqrt(matrix.coeff(order_[i], order_[i]));
   interior_ = PackedFactor(precision, std::move(largest_error));
   Eliminated left = eliminate(matrix, order_, n_interior_, interior_supernodes(cholmod, n_interior_),
-                              [&](const SupernodeView& supernode) { interior_.add(supernode); });
+                              [&](const SupernodeView& supernode, int place) { interior_.add(supernode, place); });
+  interior_.arrange();
   if (left.not_positive >= 0)
     throw NumericalError(
         fmt::format("{}: the matrix is not positive definite (node {}): an unconstrained rigid motion, "

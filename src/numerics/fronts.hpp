@@ -16,12 +16,15 @@ struct Eliminated {
   int not_positive = -1;  // position of the first pivot that is not positive, or -1; then schur is of no use
 };
 
+// Is given each supernode of L once, never two at a time, with its place in one order for any number of threads, in
+// which each follows those below it in the tree; its values are valid during the call.
+using KeepSupernode = std::function<void(const SupernodeView&, int place)>;
+
 // Eliminates the first n_interior unknowns of `matrix` (symmetric, both triangles stored) taken in `order`.
 // supernodes: columns before n_interior and the rows below them, as an ordering in which rows are increasing gives
-// them; their values are not read. keep: is given each supernode of L once, after those below it in the tree; its
-// values are valid during the call. The order of operations hangs on the pattern alone.
+// them; their values are not read. Threads take subtrees, and share the large fronts above them; which operations go
+// into an entry, and in which order, hangs on the pattern alone.
 Eliminated eliminate(const SparseMatrix& matrix, const std::vector<int>& order, int n_interior,
-                     const std::vector<SupernodeView>& supernodes,
-                     const std::function<void(const SupernodeView&)>& keep);
+                     const std::vector<SupernodeView>& supernodes, const KeepSupernode& keep);
 
 }  // namespace dygita

@@ -27,9 +27,20 @@ double supernode_bytes(int n_columns, int n_below) {
 PackedFactor::PackedFactor(Precision precision, Vec largest_error)
     : panels_(precision), tolerance_(std::move(largest_error)) {}
 
-void PackedFactor::add(const SupernodeView& s) {
+void PackedFactor::arrange() {
+  std::sort(blocks_.begin(), blocks_.end(), [](const Block& a, const Block& b) { return a.place < b.place; });
+}
+
+void PackedFactor::clear() {
+  blocks_.clear();
+  below_.clear();
+  panels_.clear();
+  nonzeros_ = 0.0;
+}
+
+void PackedFactor::add(const SupernodeView& s, int place) {
   const int n_rows = s.n_columns + s.n_below;
-  blocks_.push_back({s.first, s.n_columns, s.n_below, below_.size(), panels_.size()});
+  blocks_.push_back({s.first, s.n_columns, s.n_below, below_.size(), panels_.size(), place});
   below_.insert(below_.end(), s.below, s.below + s.n_below);
   std::vector<double> tolerance(n_rows, 0.0);
   for (int i = 0; i < n_rows && tolerance_.size() > 0; ++i)

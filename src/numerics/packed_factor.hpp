@@ -21,8 +21,12 @@ class PackedFactor {
  public:
   // largest_error: of an entry in each row, in single precision.
   explicit PackedFactor(Precision precision = Precision::double_precision, Vec largest_error = {});
-  // Adds a supernode; in order of columns.
-  void add(const SupernodeView& supernode);
+  // Adds a supernode, which has a place among all of them: after those whose rows below are its columns.
+  void add(const SupernodeView& supernode, int place);
+  // All have been added.
+  void arrange();
+  // Forgets all of them, and keeps the memory for as many.
+  void clear();
   // x: all unknowns in factor order, a column a right-hand side. L x' = x over the packed columns; the rows below take
   // their share.
   void forward(Eigen::Ref<Mat> x) const;
@@ -39,6 +43,7 @@ class PackedFactor {
   struct Block {
     int first, n_columns, n_below;
     size_t below, first_panel;
+    int place;
   };
   void forward_one(double* x) const;
   void backward_one(double* x) const;

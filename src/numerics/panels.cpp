@@ -92,6 +92,21 @@ std::byte* Chunks::room(size_t n) {
   return chunks_.back().data() + used_;
 }
 
+void Chunks::clear() {
+  if (chunks_.size() > 1) {
+    chunks_.clear();
+    capacity_ = taken_;
+    chunks_.emplace_back(capacity_);
+  }
+  used_ = taken_ = 0;
+}
+
+void Panels::clear() {
+  panels_.clear();
+  tiles_.clear();
+  data_.clear();
+}
+
 void Panels::add(const double* top, const double* values, int stride, int n_rows, int n_columns,
                  const double* tolerance) {
   const bool is_double = precision_ == Precision::double_precision;

@@ -17,6 +17,8 @@ class Chunks {
   std::byte* room(size_t n);
   void take(size_t n) { used_ += n, taken_ += n; }
   size_t size() const { return taken_; }  // bytes taken
+  // Gives all back, but for room for as much in one piece.
+  void clear();
 
  private:
   std::vector<UntouchedPages> chunks_;
@@ -38,6 +40,7 @@ class Panels {
   // which are not read in `values`. tolerance: largest error allowed in each row (single precision).
   void add(const double* top, const double* values, int stride, int n_rows, int n_columns, const double* tolerance);
   size_t size() const { return panels_.size(); }
+  void clear();
   Precision precision() const { return precision_; }
   double bytes() const;
 

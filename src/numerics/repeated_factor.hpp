@@ -5,13 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "numerics/packed_factor.hpp"
+#include "numerics/scratch_pages.hpp"
 #include "numerics/types.hpp"
 
 namespace dygita {
 
 struct Cholmod;
 
-// The same bits for any number of threads: the factorisation runs on one.
+// The same bits for any number of threads, which share the large fronts.
 class RepeatedFactor {
  public:
   // pattern: n x n, both triangles, unknowns of a node contiguous (node_of_dof). Throws NumericalError naming `what`
@@ -28,7 +30,11 @@ class RepeatedFactor {
   Mat solve(const Mat& b) const;
 
  private:
-  std::unique_ptr<Cholmod> cholmod_;
+  std::unique_ptr<Cholmod> cholmod_;  // the pattern of the factor
+  std::vector<int> order_;
+  std::vector<SupernodeView> supernodes_;
+  PackedFactor factor_;
+  std::unique_ptr<KeepScratch> scratch_ = std::make_unique<KeepScratch>();
   std::string what_;
 };
 

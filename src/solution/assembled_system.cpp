@@ -89,6 +89,18 @@ void AssembledSystem::make_pattern() {
       matrix_.valuePtr()[at] = entry.value();
     }
   }
+  for (PointTraces& point : points_) {
+    const size_t n_own = point.unknowns.size();
+    point.entries.resize(n_own * n_own);
+    for (size_t r = 0; r < n_own; ++r) {
+      auto at = columns.begin() + starts[point.unknowns[r]];
+      const auto end = columns.begin() + starts[point.unknowns[r] + 1];
+      for (size_t c = 0; c < n_own; ++c) {
+        at = std::lower_bound(at, end, point.unknowns[c]);
+        point.entries[c * n_own + r] = static_cast<int>(at - columns.begin());
+      }
+    }
+  }
   stiffness_values_.assign(matrix_.valuePtr(), matrix_.valuePtr() + columns.size());
   for (const AssembledPiece* piece : pieces_) {
     const int before = nodes.empty() ? 0 : nodes.back() + 1;
@@ -99,7 +111,9 @@ void AssembledSystem::make_pattern() {
 
 double AssembledSystem::bytes() const {
   const double entries = static_cast<double>(matrix_.nonZeros()), own = static_cast<double>(stiffness_.nonZeros());
-  return (factor_ ? factor_->bytes() : 0.0) + 20.0 * entries + 12.0 * own;
+  double of_points = 0.0;
+  for (const PointTraces& point : points_) of_points += static_cast<double>(point.entries.size());
+  return (factor_ ? factor_->bytes() : 0.0) + 20.0 * entries + 12.0 * own + 4.0 * of_points;
 }
 
 void AssembledSystem::add_tangents() {
@@ -108,16 +122,7 @@ void AssembledSystem::add_tangents() {
   for (size_t i = 0; i < points_.size(); ++i) {
     const PointTraces& point = points_[i];
     block.noalias() = point.rows.transpose() * tangents_.points[i].matrix * point.rows;
-    for (size_t r = 0; r < point.unknowns.size(); ++r) {
-      const int row = point.unknowns[r];
-      const int* at = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[row];
-      const int* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[row + 1];
-      for (size_t c = 0; c < point.unknowns.size(); ++c) {
-        at = std::lower_bound(at, end, point.unknowns[c]);
-        matrix_.valuePtr()[at - matrix_.innerIndexPtr()] +=
-            block(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c));
-      }
-    }
+    for (size_t e = 0; e < point.entries.size(); ++e) matrix_.valuePtr()[point.entries[e]] += block.data()[e];
   }
 }
 

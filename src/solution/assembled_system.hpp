@@ -35,6 +35,7 @@ class AssembledSystem {
   struct PointTraces {
     std::vector<int> unknowns;
     Mat rows;
+    std::vector<int> entries;  // of the matrix, where rows^T M rows goes, column by column
   };
 
   void put_pieces_together();

@@ -1,0 +1,132 @@
+// Factors of matrices so large that threads share them: the same bits for any number of threads.
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "base/error.hpp"
+#include "numerics/factor.hpp"
+#include "numerics/repeated_factor.hpp"
+
+namespace dygita {
+namespace {
+
+struct Lattice {
+  SparseMatrix matrix;
+  std::vector<int> node_of_dof;
+  std::vector<char> is_interface;
+
+  int size() const { return static_cast<int>(node_of_dof.size()); }
+};
+
+// Springs along the edges of an n x n x n lattice, a little more on the diagonal; the plane i = 0 is the interface.
+Lattice lattice(int n) {
+  Lattice of;
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto index = [&](int i, int j, int k) { return (i * n + j) * n + k; };
+  const auto join = [&](int a, int b, double stiffness) {
+    for (const auto& [r, c, sign] : {std::tuple{a, a, 1.0}, {b, b, 1.0}, {a, b, -1.0}, {b, a, -1.0}})
+      entries.emplace_back(r, c, sign * stiffness);
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) {
+        const int a = index(i, j, k);
+        of.node_of_dof.push_back(a);
+        of.is_interface.push_back(i == 0);
+        entries.emplace_back(a, a, 0.01 + 0.001 * (a % 7));
+        if (i + 1 < n) join(a, index(i + 1, j, k), 1.0 + 0.1 * (a % 3));
+        if (j + 1 < n) join(a, index(i, j + 1, k), 2.0);
+        if (k + 1 < n) join(a, index(i, j, k + 1), 1.5);
+      }
+  of.matrix.resize(of.size(), of.size());
+  of.matrix.setFromTriplets(entries.begin(), entries.end());
+  return of;
+}
+
+class Threads {
+ public:
+  ~Threads() { omp_set_num_threads(before_); }
+  void use(int n) { omp_set_num_threads(n); }
+
+ private:
+  const int before_ = omp_get_max_threads();
+};
+
+constexpr int large = 22;  // 5e8 operations
+
+TEST(Fronts, of_many_threads_have_the_bits_of_one) {
+  const Lattice of = lattice(large);
+  Threads threads;
+  Mat schur;
+  Vec forward, backward;
+  for (const int n : {1, 2, 5}) {
+    threads.use(n);
+    Factor factor(of.matrix, of.node_of_dof, of.is_interface, "lattice");
+    Mat x = Vec::LinSpaced(of.size(), -1.0, 1.0);
+    factor.forward(x);
+    const Vec ahead = x;
+    factor.backward(x);
+    if (n == 1) {
+      schur = factor.take_schur(), forward = ahead, backward = x;
+      continue;
+    }
+    EXPECT_EQ(factor.take_schur(), schur);
+    EXPECT_EQ(ahead, forward);
+    EXPECT_EQ(Vec(x), backward);
+  }
+}
+
+TEST(Fronts, of_many_threads_tell_the_pivot_that_one_meets_first) {
+  Lattice of = lattice(large);
+  for (const int at : {4000, 9000}) of.matrix.coeffRef(at, at) = -1.0;
+  Threads threads;
+  std::string said;
+  for (const int n : {1, 3}) {
+    threads.use(n);
+    try {
+      const Factor factor(of.matrix, of.node_of_dof, of.is_interface, "lattice");
+      ADD_FAILURE() << "an indefinite matrix was factorised";
+    } catch (const NumericalError& error) {
+      if (n == 1) said = error.what();
+      EXPECT_EQ(error.what(), said);
+    }
+  }
+}
+
+TEST(RepeatedFactor, solves_one_matrix_after_the_other_with_the_same_bits_on_any_number_of_threads) {
+  const Lattice of = lattice(large);
+  SparseMatrix other = of.matrix;
+  for (int i = 0; i < of.size(); i += 5) other.coeffRef(i, i) += 3.0;
+  const Mat b = Mat::Random(of.size(), 3);
+  Threads threads;
+  Mat first, second;
+  for (const int n : {1, 2}) {
+    threads.use(n);
+    RepeatedFactor factor(of.matrix, of.node_of_dof, "lattice");
+    ASSERT_TRUE(factor.factorise(of.matrix));
+    const Mat x = factor.solve(b);
+    EXPECT_LT((of.matrix * x - b).norm(), 1e-12 * b.norm());
+    ASSERT_TRUE(factor.factorise(other));
+    const Mat y = factor.solve(b);
+    EXPECT_LT((other * y - b).norm(), 1e-12 * b.norm());
+    ASSERT_TRUE(factor.factorise(of.matrix));
+    EXPECT_EQ(factor.solve(b), x) << "nothing stays of the matrix before";
+    if (n == 1)
+      first = x, second = y;
+    else
+      EXPECT_TRUE(x == first && y == second);
+  }
+}
+
+TEST(RepeatedFactor, says_that_a_matrix_is_not_positive_definite_and_takes_the_next_one) {
+  const Lattice of = lattice(6);
+  SparseMatrix broken = of.matrix;
+  broken.coeffRef(7, 7) = -1.0;
+  RepeatedFactor factor(of.matrix, of.node_of_dof, "lattice");
+  EXPECT_FALSE(factor.factorise(broken));
+  ASSERT_TRUE(factor.factorise(of.matrix));
+  const Vec b = Vec::Ones(of.size());
+  EXPECT_LT((of.matrix * Vec(factor.solve(b)) - b).norm(), 1e-12 * b.norm());
+}
+
+}  // namespace
+}  // namespace dygita
