@@ -6,7 +6,6 @@
 #include <fstream>
 #include <set>
 
-#include "base/error.hpp"
 #include "base/plain_file.hpp"
 #include "output/files.hpp"
 

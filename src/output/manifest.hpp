@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
+
 namespace dygita {
 
 class Manifest {
@@ -20,9 +22,18 @@ class Manifest {
   // To be called before a file is written, so that a run which is killed leaves nothing unlisted. `relative` to the
   // directory.
   void add(const std::filesystem::path& relative);
-  // Throws InputError where the folder has been taken away, or emptied: what could not be written there has that
-  // reason.
+  // Throws InputError where the folder has been taken away, or emptied.
   void check_there() const;
+  // write(); where that throws an InputError and the folder is no more, that is the reason to be told.
+  template <class Write>
+  void while_there(const Write& write) const {
+    try {
+      write();
+    } catch (const InputError&) {
+      check_there();
+      throw;
+    }
+  }
 
   const std::vector<std::filesystem::path>& files() const { return files_; }
 

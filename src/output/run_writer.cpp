@@ -100,12 +100,7 @@ void RunWriter::begin_frame(const Frame& frame) {
     index_->manifest.add(part_file(part, index_->frames.size()));
     for (const int rank : part.ranks) index_->manifest.add(piece_file(part, index_->frames.size(), rank));
   }
-  try {
-    write_parts(frame, index_->frames.size(), directory_);
-  } catch (const InputError&) {
-    index_->manifest.check_there();
-    throw;
-  }
+  index_->manifest.while_there([&] { write_parts(frame, index_->frames.size(), directory_); });
 }
 
 // The frame's files first, then the lists that name them: a list never names what is not there.
@@ -114,14 +109,15 @@ void RunWriter::end_frame(const Frame& frame, const FrameSummary& summary) {
   if (!frame.interfaces.empty()) {
     const fs::path file = fs::path(interface_frames) / ("interfaces" + number_of(i));
     index_->manifest.add(file);
-    write_interfaces(frame, directory_ / file);
+    index_->manifest.while_there([&] { write_interfaces(frame, directory_ / file); });
     index_->interfaces.add(frame.label_time, 0, "interfaces", file);
   }
   int i_part = 0;
   for (const PartFrame& part : frame.parts) {
     std::vector<fs::path> pieces;  // names beside the list's own
     for (const int rank : part.ranks) pieces.push_back(piece_file(part, i, rank).filename());
-    if (part.is_in_pieces()) write_pieces(part, frame, pieces, directory_ / part_file(part, i));
+    if (part.is_in_pieces())
+      index_->manifest.while_there([&] { write_pieces(part, frame, pieces, directory_ / part_file(part, i)); });
     index_->parts.add(frame.label_time, i_part++, part.part->name, part_file(part, i));
   }
   index_->frames.push_back(summary);
@@ -181,7 +177,7 @@ void RunWriter::write_record(const Problem& problem, const RunResult& result, co
     if (*file.begin() != frames_folder && (directory_ / file == record || fs::exists(directory_ / file)))
       files.push_back(file.generic_string());
   }
-  write_text(record, run_record(problem, result, identity, warnings, files));
+  index_->manifest.while_there([&] { write_text(record, run_record(problem, result, identity, warnings, files)); });
 }
 
 // A .pvd of its own, whose time is what the frames are labelled with.
@@ -193,7 +189,7 @@ void RunWriter::write_field(const std::string& name, const std::vector<Frame>& f
   for (size_t i = 0; i < frames.size(); ++i) {
     const fs::path file = folder / fmt::format("{}_{:05}.vtu", name, i);
     index_->manifest.add(file);
-    write_interfaces(frames[i], directory_ / file);
+    index_->manifest.while_there([&] { write_interfaces(frames[i], directory_ / file); });
     collection.add(frames[i].label_time, 0, name, file);
   }
   if (!collection.is_empty()) write(name + ".pvd", collection.text());
@@ -212,6 +208,9 @@ fs::path RunWriter::folder_of(const std::string& folder, int n_files) {
   return directory_ / folder;
 }
 
-void RunWriter::write(const std::string& file_name, const std::string& text) { write_text(path_of(file_name), text); }
+void RunWriter::write(const std::string& file_name, const std::string& text) {
+  const fs::path path = path_of(file_name);
+  index_->manifest.while_there([&] { write_text(path, text); });
+}
 
 }  // namespace dygita

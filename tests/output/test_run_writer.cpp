@@ -417,6 +417,27 @@ TEST(RunWriter, where_nothing_can_be_written_is_an_input_error) {
   EXPECT_THROW(writer.write_frame(Scene().frame(0.0, 1.0)), InputError);
 }
 
+TEST(RunWriter, says_that_its_folder_was_taken_away_whichever_file_meets_it_first) {
+  const Scratch scratch;
+  RunWriter writer(scratch.path() / "out", "crush");
+  writer.write_frame(Scene().frame(0.0, 1.0));
+  writer.write("known.csv", "1\n");
+  fs::rename(scratch.path() / "out", scratch.path() / "elsewhere");
+  const auto said_by = [](const auto& write) {
+    try {
+      write();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  const std::string removed = "was removed or emptied while the run wrote there";
+  for (const std::string& said : {said_by([&] { writer.write("known.csv", "2\n"); }),  // a list rewritten, as of frames
+                                  said_by([&] { writer.write("new.csv", "1\n"); }),
+                                  said_by([&] { writer.write_frame(Scene().frame(1.0, 1.0)); })})
+    EXPECT_NE(said.find(removed), std::string::npos) << said;
+}
+
 // As a full disk is met: no file grows beyond a thousand bytes, and the system says so.
 class FullDisk {
  public:
