@@ -76,8 +76,9 @@ class LocalStage {
   std::vector<double> normal_trials() const;
   void limit_friction(std::vector<double> trials) { limits_ = std::move(trials); }
   // How the forces of the last iteration answer to the velocities (manual, eq. U1-U3). sticks: what touches does not
-  // slide, as where nothing is known yet. least: velocity (m/s; static m) below which differences tell nothing.
-  Tangents tangents(bool sticks, double least, const TangentBounds& bounds) const;
+  // slide, as where nothing is known yet. follows: with how friction follows the normal force (eq. U6). least: velocity
+  // (m/s; static m) below which differences tell nothing.
+  Tangents tangents(bool sticks, bool follows, double least, const TangentBounds& bounds) const;
 
  private:
   struct PortState {
@@ -107,9 +108,14 @@ class LocalStage {
   void run_point(size_t i_point, const Vec& velocity, const Vec& q, Vec& image);
   const double* limit_at(size_t i_point) const { return limits_.empty() ? nullptr : &limits_[i_point]; }
   std::vector<PortRow> port_rows(const Point& point) const;
-  PointTangent point_tangent(const Point& point, const Mat3& of_law, double tie) const;
-  PreloadTangent preload_tangent(const Preload& preload, const std::vector<Mat3>& of_law) const;
-  Mat3 law_tangent(size_t i_point, bool sticks, double least, const TangentBounds& bounds) const;
+  PointTangent point_tangent(const Point& point, const Mat3& of_law, const Vec3& following, double tie) const;
+  // Of the law at a point: its stiffness, and how tangential forces follow the normal one.
+  struct LawTangent {
+    Mat3 stiffness = Mat3::Zero();
+    Vec3 following = Vec3::Zero();
+  };
+  PreloadTangent preload_tangent(const Preload& preload, const std::vector<LawTangent>& of_law) const;
+  LawTangent law_tangent(size_t i_point, bool sticks, bool follows, double least, const TangentBounds& bounds) const;
   Vec3 mean_displacement(int first, int end) const;
   double work_on_pieces(const Point& point) const;
   void show_residuals(const Point& point, State& state) const;

@@ -4,12 +4,19 @@
 
 namespace dygita {
 
-Mat3 LocalStage::law_tangent(size_t i_point, bool sticks, double least, const TangentBounds& bounds) const {
+LocalStage::LawTangent LocalStage::law_tangent(size_t i_point, bool sticks, bool follows, double least,
+                                               const TangentBounds& bounds) const {
   const Point& point = model_->exchange.points[i_point];
   const PointRecord& record = points_[i_point];
-  if (!point.law || record.is_released) return Mat3::Zero();
-  const Mat3 slope = slope_of(*point.law, record.trial, increment_at(point), record.law, limit_at(i_point), least);
-  return stiffness_of(slope, record.trial.y, sticks, bounds);
+  if (!point.law || record.is_released) return {};
+  const auto slope = [&](const double* limit) {
+    return slope_of(*point.law, record.trial, increment_at(point), record.law, limit, least);
+  };
+  const double* limit = follows ? &record.trial.s[0] : limit_at(i_point);
+  LawTangent tangent;
+  tangent.stiffness = stiffness_of(slope(limit), record.trial.y, sticks, bounds);
+  if (follows) tangent.following = following_of(slope(nullptr), tangent.stiffness, record.trial.y);
+  return tangent;
 }
 
 std::vector<LocalStage::PortRow> LocalStage::port_rows(const Point& point) const {
@@ -35,13 +42,19 @@ std::vector<LocalStage::PortRow> LocalStage::port_rows(const Point& point) const
 }
 
 // The law between the means of both sides, and the ties of each side to its mean.
-PointTangent LocalStage::point_tangent(const Point& point, const Mat3& of_law, double tie) const {
+PointTangent LocalStage::point_tangent(const Point& point, const Mat3& of_law, const Vec3& following,
+                                       double tie) const {
   const std::vector<PortRow> rows = port_rows(point);
   const auto n = static_cast<Eigen::Index>(rows.size());
-  PointTangent tangent{{}, Mat::Zero(n, n)};
+  PointTangent tangent{{}, Mat::Zero(n, n), {}, {}, of_law(0, 0)};
+  if (!following.isZero()) tangent.normal = tangent.following = Vec::Zero(n);
   for (Eigen::Index r = 0; r < n; ++r) {
     const PortRow& a = rows[r];
     tangent.unknowns.push_back(a.unknown);
+    if (tangent.following.size() > 0) {
+      tangent.normal[r] = a.sign * a.share * of_law(0, a.direction);
+      tangent.following[r] = a.sign * a.share * following[a.direction];
+    }
     for (Eigen::Index c = 0; c < n; ++c) {
       const PortRow& b = rows[c];
       tangent.matrix(r, c) = a.sign * b.sign * a.share * b.share * of_law(a.direction, b.direction);
@@ -52,23 +65,25 @@ PointTangent LocalStage::point_tangent(const Point& point, const Mat3& of_law, d
   return tangent;
 }
 
-PreloadTangent LocalStage::preload_tangent(const Preload& preload, const std::vector<Mat3>& of_law) const {
+PreloadTangent LocalStage::preload_tangent(const Preload& preload, const std::vector<LawTangent>& of_law) const {
   PreloadTangent tangent;
+  tangent.points = preload.points;
   for (const int i : preload.points) {
-    tangent.stiffness += of_law[i](0, 0);
+    tangent.stiffness += of_law[i].stiffness(0, 0);
     for (const PortRow& row : port_rows(model_->exchange.points[i]))
-      if (row.share > 0.0) tangent.column.emplace_back(row.unknown, row.sign * row.share * of_law[i](row.direction, 0));
+      if (row.share > 0.0)
+        tangent.column.emplace_back(row.unknown, row.sign * row.share * of_law[i].stiffness(row.direction, 0));
   }
   return tangent;
 }
 
-Tangents LocalStage::tangents(bool sticks, double least, const TangentBounds& bounds) const {
+Tangents LocalStage::tangents(bool sticks, bool follows, double least, const TangentBounds& bounds) const {
   const std::vector<Point>& points = model_->exchange.points;
   Tangents tangents;
-  std::vector<Mat3> of_law(points.size(), Mat3::Zero());
+  std::vector<LawTangent> of_law(points.size());
   for (size_t i = 0; i < points.size(); ++i) {
-    of_law[i] = law_tangent(i, sticks, least, bounds);
-    tangents.points.push_back(point_tangent(points[i], of_law[i], bounds.stiffest));
+    of_law[i] = law_tangent(i, sticks, follows, least, bounds);
+    tangents.points.push_back(point_tangent(points[i], of_law[i].stiffness, of_law[i].following, bounds.stiffest));
   }
   if (prescribed_.size() > 0) return tangents;
   for (const Preload& preload : preloads_)

@@ -8,17 +8,24 @@ namespace dygita {
 
 namespace {
 
-// How many points answer otherwise than before, by so much of their search directions.
-int count_changed(const Tangents& now, const Tangents& before, const Vec& k, double share) {
-  if (before.points.empty()) return static_cast<int>(now.points.size());
-  int n = 0;
+// How many points answer otherwise than before: by a thousandth of their search directions, which a factor must know;
+// by a tenth of what they answer, as where contact opens or closes.
+struct Changed {
+  int other = 0, turned = 0;
+};
+
+Changed changed(const Tangents& now, const Tangents& before, const Vec& k) {
+  const int n = static_cast<int>(now.points.size());
+  if (before.points.empty()) return {n, n};
+  Changed count;
   for (size_t i = 0; i < now.points.size(); ++i) {
     const PointTangent &a = now.points[i], &b = before.points[i];
     if (a.unknowns.empty()) continue;
-    const double size = std::max({a.matrix.norm(), b.matrix.norm(), k[a.unknowns.front()]});
-    if ((a.matrix - b.matrix).norm() > share * size) ++n;
+    const double own = k[a.unknowns.front()], change = (a.matrix - b.matrix).norm();
+    count.other += change > 1e-3 * own;
+    count.turned += change > 0.1 * std::max({a.matrix.norm(), b.matrix.norm(), own});
   }
-  return n;
+  return count;
 }
 
 }  // namespace
@@ -49,27 +56,31 @@ double TangentIteration::distance(const Vec& velocity, const Vec& q, const std::
   return sums.force_distance + sums.velocity_distance;
 }
 
+// How many points have turned since the last factor.
 int TangentIteration::take_tangents() {
   TangentBounds bounds;
   bounds.softest = steps_.softest();
-  Tangents now = local_->tangents(steps_.is_first(), least_, bounds);
-  const int n_changed = count_changed(now, tangents_, k_, 0.1);
-  if (bounds.softest == factorised_softest_ && count_changed(now, tangents_, k_, 1e-3) == 0) return 0;
+  Tangents now = local_->tangents(steps_.is_first(), steps_.follows(), least_, bounds);
+  const Changed count = changed(now, tangents_, k_);
+  if (bounds.softest == factorised_softest_ && count.other == 0) {
+    system_.set_following(now);
+    return 0;
+  }
   factorised_softest_ = bounds.softest;
   system_.set_tangents(now);
   tangents_ = std::move(now);
-  return n_changed;
+  return count.turned;
 }
 
 void TangentIteration::advance(const Outcome& outcome, Vec& velocity, Vec& q) {
   const double before =
       steps_.begin_step([&](const std::vector<double>& limits) { return distance(velocity, q, limits); },
-                        [&] { return local_->normal_trials(); });
+                        [&] { return local_->normal_trials(); }, outcome.eta);
   const int n_changed = take_tangents();
   // W_hat and F_hat, from the image.
   Vec to_velocity = velocity + (image_ - q).cwiseQuotient(2.0 * k_);
   Vec force = image_ - k_.cwiseProduct(to_velocity);
-  system_.solve(to_velocity, force);
+  if (!system_.solve(to_velocity, force)) return steps_.cannot_follow(outcome.eta);
   const Vec to_q = force + k_.cwiseProduct(to_velocity);
   const auto that_far = [&](double share) {
     return distance(velocity + share * (to_velocity - velocity), q + share * (to_q - q), steps_.limits());
@@ -82,6 +93,7 @@ void TangentIteration::advance(const Outcome& outcome, Vec& velocity, Vec& q) {
 
 void TangentIteration::finish(const Vec& velocity, const Vec& q) {
   Vec own = velocity, force = q - k_.cwiseProduct(velocity);
+  system_.stop_following();
   system_.solve(own, force);
   system_.set_velocities();
 }

@@ -9,8 +9,8 @@
 
 namespace dygita {
 
-// Newton's method on the interfaces, damped, with the limits of friction a step behind: what is solved in between is
-// convex.
+// Newton's method on the interfaces, damped. Far from the solution the limits of friction are a step behind: what is
+// solved in between is convex. Near it they follow.
 class TangentIteration {
  public:
   // k: search directions, length n_q. The step's pieces are assembled ones. size: of the assembly, m.

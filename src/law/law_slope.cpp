@@ -60,4 +60,14 @@ Mat3 stiffness_of(const Mat3& slope, const Vec3& y, bool sticks, const TangentBo
   return half * stiffness.asDiagonal() * half.transpose();
 }
 
+// d F_t = a d s_n + G (d rate_t + Y d F_t), and d s_n = d F_n / g where g = d F_n / d s_n.
+Vec3 following_of(const Mat3& slope, const Mat3& stiffness, const Vec3& y) {
+  if (slope(0, 0) * y[0] < 0.5) return Vec3::Zero();
+  const Vec3 own(0.0, slope(1, 0), slope(2, 0));
+  const Vec3 way = (y.cwiseProduct(own) / slope(0, 0)).eval();
+  Vec3 following = own / slope(0, 0) + stiffness.col(1) * way[1] + stiffness.col(2) * way[2];
+  following[0] = 0.0;
+  return following;
+}
+
 }  // namespace dygita

@@ -21,6 +21,11 @@ Vec3 limited_force(const Law& law, const Trial& trial, const Increment& incremen
 Mat3 slope_of(const Law& law, const Trial& trial, const Increment& increment, const LawState& start,
               const double* limit, double least);
 
+// How tangential forces follow the normal one where the limit of friction does: d F_t / d F_n at fixed tangential
+// motion (0 first, then both tangents). slope: d force / d s, without a limit; stiffness: of the same point, as
+// stiffness_of has it.
+Vec3 following_of(const Mat3& slope, const Mat3& stiffness, const Vec3& y);
+
 // From d force / d s at fixed F + s/y to d force / d rate (N s/m; static N/m), symmetric, its eigenvalues times y
 // between the bounds. sticks: what carries a normal force holds the tangents too.
 Mat3 stiffness_of(const Mat3& slope, const Vec3& y, bool sticks, const TangentBounds& bounds);

@@ -165,7 +165,8 @@ int StaticApproach::approach(Vec& f, std::vector<PointRecord>& records, const In
         normal.push_back(rows_->trial_of(p, now.rate, now.force, records[p]).s[0]);
       return normal;
     };
-    const double before = steps_.begin_step(distance, trials);
+    // The slopes here do not know how friction follows, which InterfaceNewton's do.
+    const double before = steps_.begin_step(distance, trials, std::numeric_limits<double>::infinity());
     const int n_changed = take_slopes(now, records);
     if (n_changed >= 0 && factor_ == Factor::of_these) factor_ = Factor::of_other_slopes;
     const Vec step = this->step(now);

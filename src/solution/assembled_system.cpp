@@ -4,9 +4,21 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "numerics/gmres.hpp"
 #include "solution/make_pieces.hpp"
 
 namespace dygita {
+
+namespace {
+
+// The motion (m) by which a preload gives way.
+double way_of(const PreloadTangent& preload, const Vec& velocity) {
+  double amount = 0.0;
+  for (const auto& [unknown, value] : preload.column) amount += value * velocity[unknown];
+  return amount / preload.stiffness;
+}
+
+}  // namespace
 
 AssembledSystem::AssembledSystem(const StepModel& model) : model_(&model), first_{0} {
   for (size_t i = 0; i < model.pieces.size(); ++i) pieces_.push_back(&assembled_piece(model, static_cast<int>(i)));
@@ -144,6 +156,8 @@ void AssembledSystem::answer_preloads() {
 
 void AssembledSystem::set_tangents(Tangents tangents) {
   tangents_ = std::move(tangents);
+  is_following_ = std::any_of(tangents_.points.begin(), tangents_.points.end(),
+                              [](const PointTangent& point) { return point.following.size() > 0; });
   if (!factor_) return;
   add_tangents();
   if (!factor_->factorise(matrix_))
@@ -187,12 +201,37 @@ Vec AssembledSystem::tangent_times(const Vec& velocity) const {
     force(point.unknowns) += answer;
   }
   for (const PreloadTangent& preload : tangents_.preloads) {
-    double amount = 0.0;
-    for (const auto& [unknown, value] : preload.column) amount += value * velocity[unknown];
-    amount /= preload.stiffness;
-    for (const auto& [unknown, value] : preload.column) force[unknown] -= amount * value;
+    const double way = way_of(preload, velocity);
+    for (const auto& [unknown, value] : preload.column) force[unknown] -= way * value;
   }
   return force;
+}
+
+// What friction adds to it.
+Vec AssembledSystem::following_times(const Vec& velocity) const {
+  std::vector<double> way(tangents_.points.size(), 0.0);
+  for (const PreloadTangent& preload : tangents_.preloads)
+    for (const int i : preload.points) way[i] = way_of(preload, velocity);
+  Vec force = Vec::Zero(velocity.size()), own;
+  for (size_t i = 0; i < way.size(); ++i) {
+    const PointTangent& point = tangents_.points[i];
+    if (point.following.size() == 0) continue;
+    own = velocity(point.unknowns);
+    own = point.following * (point.normal.dot(own) - point.normal_stiffness * way[i]);
+    force(point.unknowns) += own;
+  }
+  return force;
+}
+
+void AssembledSystem::set_following(const Tangents& tangents) {
+  is_following_ = false;
+  for (size_t i = 0; i < tangents.points.size(); ++i) {
+    PointTangent& point = tangents_.points[i];
+    point.normal = tangents.points[i].normal;
+    point.following = tangents.points[i].following;
+    point.normal_stiffness = tangents.points[i].normal_stiffness;
+    is_following_ = is_following_ || point.following.size() > 0;
+  }
 }
 
 Vec AssembledSystem::balanced(const Vec& right_hand_side) const {
@@ -201,14 +240,28 @@ Vec AssembledSystem::balanced(const Vec& right_hand_side) const {
   return x;
 }
 
-void AssembledSystem::solve(Vec& velocity, Vec& force) {
-  if (!factor_) return;
+// z = N (V - W_hat). to_image: V - W_hat as it is without (manual, eq. U7).
+std::optional<Vec> AssembledSystem::what_follows(const Vec& to_image) const {
+  constexpr double precision = 1e-3;
+  constexpr int most = 30;
+  const GmresSystem system = {[&](const Vec& z) { return Vec(z + following_times(at_rows(balanced(from_rows(z))))); },
+                              [](const Vec& z) { return z; }};
+  return gmres(system, following_times(to_image), precision, most);
+}
+
+bool AssembledSystem::solve(Vec& velocity, Vec& force) {
+  if (!factor_) return true;
   Vec held = Vec::Zero(model_->n_q()), loads(first_.back());
   for (size_t i = 0; i < pieces_.size(); ++i) {
     loads.segment(first_[i], pieces_[i]->op().n_free()) = pieces_[i]->right_hand_side();
     if (const Vec* own = pieces_[i]->moved_rows()) held.segment(model_->offset[i], own->size()) = *own;
   }
-  const Vec at_rest = force + tangent_times(velocity - held);
+  Vec at_rest = force + tangent_times(velocity - held);
+  if (is_following_) {
+    const std::optional<Vec> more = what_follows(at_rows(balanced(loads + from_rows(at_rest))) + held - velocity);
+    if (!more) return false;
+    at_rest -= *more;
+  }
   const auto missing = [&] {
     velocity = at_rows(x_) + held;
     force = at_rest - tangent_times(velocity - held);
@@ -221,6 +274,7 @@ void AssembledSystem::solve(Vec& velocity, Vec& force) {
   const double moved = 1e-5 * stiffness_.diagonal().cwiseProduct(x_).cwiseAbs().maxCoeff();
   const double size = std::max({from_rows(force).cwiseAbs().maxCoeff(), loads.cwiseAbs().maxCoeff(), moved});
   imbalance_ = size > 0.0 ? left.cwiseAbs().maxCoeff() / size : 0.0;
+  return true;
 }
 
 void AssembledSystem::set_velocities() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "numerics/repeated_factor.hpp"
 #include "solution/full_piece.hpp"
@@ -22,9 +23,12 @@ class AssembledSystem {
 
   // Takes these tangents from now on, and factorises. Throws NumericalError where they leave a motion free.
   void set_tangents(Tangents tangents);
+  // How friction follows the normal forces, as in these tangents, which are nearly those of the factor; no more.
+  void set_following(const Tangents& tangents);
+  void stop_following() { is_following_ = false; }
   // From V and F: those in balance with the loads of the increment where F changes with V as the tangents say; lengths
-  // n_q.
-  void solve(Vec& velocity, Vec& force);
+  // n_q. False: they were not found beside the factor, which knows nothing of how friction follows.
+  bool solve(Vec& velocity, Vec& force);
   // What rounding left of the last balance, largest over the unknowns, of the largest force there.
   double imbalance() const { return imbalance_; }
   // The free unknowns found last, to the pieces.
@@ -47,6 +51,8 @@ class AssembledSystem {
   Vec at_rows(const Vec& x) const;
   Vec from_rows(const Vec& values) const;
   Vec tangent_times(const Vec& velocity) const;  // less what preloads give way
+  Vec following_times(const Vec& velocity) const;
+  std::optional<Vec> what_follows(const Vec& to_image) const;
   Vec balanced(const Vec& right_hand_side) const;
 
   const StepModel* model_;
@@ -58,7 +64,8 @@ class AssembledSystem {
   std::vector<std::vector<int>> unknowns_of_points_;
   std::vector<PointTraces> points_;
   std::unique_ptr<RepeatedFactor> factor_;
-  Tangents tangents_;
+  Tangents tangents_;  // of the factor
+  bool is_following_ = false;
   Mat columns_, answers_;  // of the preloads: T^T g and what the system answers to it
   Mat yielding_;           // c - g^T T A^-1 T^T g
   Vec x_;

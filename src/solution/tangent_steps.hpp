@@ -1,5 +1,6 @@
 // How Newton's method on the interfaces of a static step proceeds, whatever its unknowns are: friction limited a step
-// behind, steps cut, loose parts held until it is known what they rest on (manual, eq. U2 and below U5).
+// behind until the solution is near, steps cut, loose parts held until it is known what they rest on (manual, eq. U2
+// and below U6).
 #pragma once
 
 #include <functional>
@@ -17,8 +18,12 @@ class TangentSteps {
   void begin();
   bool is_first() const { return n_ == 0; }
   // Distance at the start of an iteration, with the limits that it shall have. trials: normal trials of the fields, as
-  // of the last distance.
-  double begin_step(const Distance& distance, const std::function<std::vector<double>()>& trials);
+  // of the last distance; eta: their indicator.
+  double begin_step(const Distance& distance, const std::function<std::vector<double>()>& trials, double eta);
+  // Is friction limited by each point's own normal force, so that the slopes are to know how it follows?
+  bool follows() const { return follows_; }
+  // What follows has not been solved: limits are a step behind again until the indicator is a tenth of this.
+  void cannot_follow(double eta);
   const std::vector<double>& limits() const { return limits_; }
   // Least stiffness of what is open or slides, for TangentBounds.
   double softest() const { return softest_; }
@@ -29,6 +34,8 @@ class TangentSteps {
   void choose_softest(double share, int n_changed, double eta);
 
   int n_ = 0;
+  bool follows_ = false;
+  double follows_below_ = 0.0;  // of the indicator
   double softest_ = 0.0;
   std::vector<double> limits_;  // empty: none yet
 };

@@ -10,9 +10,13 @@ namespace dygita {
 
 // Of one point of the exchange: F = F_hat - matrix (V - W_hat) on its unknowns in the assembled q, port by port (N s/m;
 // static N/m). Symmetric, positive semidefinite.
+// Where tangential forces follow the normal one (eq. U6), they change by another `following` (normal . (V - W_hat)
+// less what a preload's shortening takes of it, normal_stiffness a metre); lengths 0: they do not.
 struct PointTangent {
   std::vector<int> unknowns;
   Mat matrix;
+  Vec normal, following;
+  double normal_stiffness = 0.0;
 };
 
 // A preload's shortening gives way so that the sum of its normal forces stays: the tangents less
@@ -20,6 +24,7 @@ struct PointTangent {
 struct PreloadTangent {
   std::vector<std::pair<int, double>> column;  // unknown in the assembled q, N s/m
   double stiffness = 0.0;
+  std::vector<int> points;
 };
 
 struct Tangents {

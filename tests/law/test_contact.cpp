@@ -3,6 +3,7 @@
 
 #include "law/friction_disc.hpp"
 #include "law/law_checks.hpp"
+#include "law/law_slope.hpp"
 
 namespace dygita {
 namespace {
@@ -113,6 +114,37 @@ TEST(Contact, has_the_slope_of_its_state) {
   EXPECT_NEAR(slip(1, 1), 0.0, 1e-6 / y);
   EXPECT_NEAR(slip(2, 2), 0.3 * 1.0 / (5.0 * y), 1e-6 / y);  // the force turns with s
   EXPECT_EQ(slope(*law, trial({1.0, 5.0, 0.0}), dynamic_step, {}, 1e-6), Mat3(Mat3::Zero()));
+}
+
+// To first order  dF = C d rate + following dF_N,  d rate = d s - Y dF, with tangents that differ; nothing follows
+// where it sticks or is open.
+TEST(Contact, tells_how_its_friction_follows_the_normal_force) {
+  const LawPtr law = contact(0.3);
+  const Increment increment = static_step;
+  const Vec3 y(2e-3, 3e-3, 3e-3);
+  const auto limited_slope = [&](const Trial& t) { return slope_of(*law, t, increment, {}, &t.s[0], 1e-6); };
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> in(-1.0, 1.0);
+  int n_slip = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Trial t = trial(Vec3(in(random), in(random), in(random)), y);
+    const Vec3 force = law->force(t, increment, {});
+    const Mat3 stiffness = stiffness_of(limited_slope(t), y, false, {1e9, 1e-12});
+    const Vec3 following = following_of(slope_of(*law, t, increment, {}, nullptr, 1e-6), stiffness, y);
+    if (force[0] == 0.0 || force.tail<2>().norm() < 0.3 * std::abs(force[0]) * (1 - 1e-9)) {
+      EXPECT_EQ(following.cwiseAbs().maxCoeff(), 0.0);
+      continue;
+    }
+    ++n_slip;
+    Trial moved = t;
+    moved.s += 1e-7 * Vec3(in(random), in(random), in(random));
+    const Vec3 change = law->force(moved, increment, {}) - force;
+    const Vec3 rate = moved.s - t.s - y.cwiseProduct(change);
+    const Vec3 told = stiffness * rate + following * change[0];
+    // The normal rate of what is closed is zero, and its stiffness as large as one likes.
+    EXPECT_LT((told - change).tail<2>().norm(), 1e-3 * change.norm()) << i;
+  }
+  EXPECT_GT(n_slip, 50);
 }
 
 TEST(Contact, is_for_small_motions_what_its_state_is) {
