@@ -69,6 +69,25 @@ TEST(AssembledStatics, follow_a_shank_that_yields) {
   expect_same(together, run_text(clamps, {{"yield", "70e6"}, {"assembled", "0"}}).at(0), 1e-5);
 }
 
+// Limits of friction that stay a step behind come closer by the same factor each time.
+TEST(AssembledStatics, find_the_last_eight_digits_of_a_block_that_slides_in_a_few_iterations) {
+  const std::string slide = R"(
+local p = param{ tolerance = 1e-4 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local low = substructure{ name = "low", material = steel, mesh = mesh.box{ size = { 20*mm, 10*mm, 5*mm }, cells = { 8, 4, 2 } } }
+local high = substructure{ name = "high", material = steel, mesh = mesh.box{ origin = { 2*mm, 1*mm, 5*mm }, size = { 16*mm, 8*mm, 5*mm }, cells = { 7, 3, 2 } } }
+local seam = interface.contact{ name = "seam", between = { low:face "zmax", high:face "zmin" }, friction = 0.4 }
+problem{ name = "slide", substructures = { low, high }, interfaces = { seam }, supports = { support.fixed{ name = "floor", on = low:face "zmin" } },
+  steps = { step.static{ name = "push", loads = { load.pressure{ on = high:face "zmax", history = 50*MPa }, load.traction{ on = high:face "xmin", x = 56*MPa } } } },
+  solver = solver.latin{ static_steps = "assembled", static_tolerance = p.tolerance },
+  outputs = { output.energy{}, output.joint{ name = "seam", on = seam } } }:run{}
+)";
+  const DeckRun near = run_text(slide).at(0), far = run_text(slide, {{"tolerance", "1e-12"}}).at(0);
+  EXPECT_TRUE(far.result->converged);
+  EXPECT_GT(far.column("seam", "slip").at(0), 0.0);
+  EXPECT_LE(far.result->mean_iterations, near.result->mean_iterations + 4.0);
+}
+
 // Four clamps are more loose parts than Newton's method settles alone.
 TEST(AssembledStatics, are_those_of_the_monolithic_reference) {
   for (const char* yield : {"1e9", "70e6"}) {
