@@ -36,7 +36,7 @@ class CheckDrawings {
       : problem_(problem),
         names_(named_facets(problem)),
         mesh_(make_turning_mesh(problem.substructures, names_.of_part, most_nodes)),
-        axes_(view_of(problem.substructures).axes) {
+        axes_(whole_view_of(problem.substructures).axes) {
     for (size_t p = 0; p < mesh_.parts.size(); ++p) part_.insert(part_.end(), mesh_.parts[p].n_triangles, int(p));
   }
 

@@ -12,28 +12,43 @@ ItemBuffer::ItemBuffer(int width, int height)
       depth_(static_cast<size_t>(width) * height, -std::numeric_limits<double>::infinity()),
       item_(depth_.size(), -1) {}
 
+// Shares of the corners are linear along a row of pixels: of each row the stretch where none is negative.
 void ItemBuffer::draw(int item, const double (&x)[3], const double (&y)[3], const double (&depth)[3]) {
   const double area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
   if (!(std::abs(area) > 1e-12)) return;
-  const auto first = [](const double(&v)[3]) {
-    return static_cast<int>(std::max(0.0, std::floor(std::min({v[0], v[1], v[2]}))));
-  };
-  const auto last = [](const double(&v)[3], int n) {
-    return static_cast<int>(std::min(n - 1.0, std::ceil(std::max({v[0], v[1], v[2]}))));
-  };
-  for (int j = first(y); j <= last(y, height_); ++j)
-    for (int i = first(x); i <= last(x, width_); ++i) {
-      const double px = i + 0.5, py = j + 0.5;
-      const double a = ((x[1] - px) * (y[2] - py) - (x[2] - px) * (y[1] - py)) / area;
-      const double b = ((x[2] - px) * (y[0] - py) - (x[0] - px) * (y[2] - py)) / area;
-      const double c = 1.0 - a - b;
-      if (a < 0.0 || b < 0.0 || c < 0.0) continue;
-      const double z = a * depth[0] + b * depth[1] + c * depth[2];
-      const size_t pixel = static_cast<size_t>(j) * width_ + i;
-      if (z <= depth_[pixel]) continue;
-      depth_[pixel] = z;
-      item_[pixel] = item;
+  constexpr double rounding = 1e-9;  // px: what two triangles share is not left to neither of them
+  const auto [low, high] = std::minmax({y[0], y[1], y[2]});
+  const int first_row = static_cast<int>(std::max(0.0, std::ceil(low - 0.5 - rounding)));
+  const int last_row = static_cast<int>(std::min(height_ - 1.0, std::floor(high - 0.5 + rounding)));
+  const auto [left, right] = std::minmax({x[0], x[1], x[2]});
+  const double slope[3] = {(y[1] - y[2]) / area, (y[2] - y[0]) / area, (y[0] - y[1]) / area};  // of the shares, per px
+  const double depth_slope = slope[0] * depth[0] + slope[1] * depth[1] + slope[2] * depth[2];
+  for (int j = first_row; j <= last_row; ++j) {
+    const double py = j + 0.5;
+    double share[3];  // at x = 0.5
+    double from = left - 0.5, to = right - 0.5, z = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const int a = (k + 1) % 3, b = (k + 2) % 3;
+      share[k] = ((x[a] - 0.5) * (y[b] - py) - (x[b] - 0.5) * (y[a] - py)) / area;
+      z += share[k] * depth[k];
+      if (slope[k] > 0.0)
+        from = std::max(from, -share[k] / slope[k]);
+      else if (slope[k] < 0.0)
+        to = std::min(to, -share[k] / slope[k]);
+      else if (share[k] < 0.0)
+        to = from - 1.0;
     }
+    const int first = static_cast<int>(std::clamp(std::ceil(from - rounding), 0.0, 1.0 * width_));
+    const int last = static_cast<int>(std::clamp(std::floor(to + rounding), -1.0, width_ - 1.0));
+    double* const nearest = depth_.data() + static_cast<size_t>(j) * width_;
+    int* const items = item_.data() + static_cast<size_t>(j) * width_;
+    for (int i = first; i <= last; ++i) {
+      const double at = z + i * depth_slope;
+      if (at <= nearest[i]) continue;
+      nearest[i] = at;
+      items[i] = item;
+    }
+  }
 }
 
 std::vector<char> ItemBuffer::seen(int n_items) const {

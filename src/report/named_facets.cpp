@@ -18,7 +18,8 @@ using NamesOfPart = std::unordered_map<FacetKey, Names, FacetKeyHash>;
 
 class Naming {
  public:
-  explicit Naming(const Problem& problem) : problem_(problem), names_(problem.substructures.size()) {
+  explicit Naming(const Problem& problem)
+      : problem_(problem), within_(default_within(problem)), names_(problem.substructures.size()) {
     for (size_t p = 0; p < names_.size(); ++p)
       for (const auto& [group, facets] : problem.substructures[p]->mesh->faces)
         for (const Facet& facet : facets) {
@@ -59,7 +60,7 @@ class Naming {
   void add(const Interface& interface) {
     const std::string name = "interface '" + interface.name + "'";
     try {
-      const Meeting meeting = meeting_of(problem_, interface);
+      const Meeting meeting = meeting_of(interface, within_);
       result_.joints.push_back({name, true, true});
       mark(interface.side_1, meeting.facets_1());
       mark(interface.side_2, meeting.facets_2());
@@ -77,6 +78,7 @@ class Naming {
   }
 
   const Problem& problem_;
+  double within_;  // m
   std::vector<NamesOfPart> names_;
   NamedFacets result_;
 };

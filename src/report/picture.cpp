@@ -27,6 +27,14 @@ Box box_of(const std::vector<SubstructurePtr>& parts) {
   return box;
 }
 
+// Along which axis something is long and thin; -1: it is not.
+int long_axis(const Box& box) {
+  const Vec3 extent = box.high - box.low;
+  int longest = 0;
+  const double length = extent.maxCoeff(&longest);
+  return length > 2.5 * std::max(extent[(longest + 1) % 3], extent[(longest + 2) % 3]) ? longest : -1;
+}
+
 // Rows: right, up, towards the reader; `right_hand`, `up` are axes of the assembly, angles in degrees.
 Mat3 turned(int right_hand, int up, double azimuth, double elevation) {
   const double a = azimuth * M_PI / 180.0, e = elevation * M_PI / 180.0;
@@ -104,18 +112,12 @@ int n_seen(const std::vector<char>& seen) { return static_cast<int>(std::count(s
 
 }  // namespace
 
-View view_of(const std::vector<SubstructurePtr>& parts) {
+View whole_view_of(const std::vector<SubstructurePtr>& parts) {
   View view;
   const Box box = box_of(parts);
-  const Vec3 extent = box.high - box.low;
   view.centre = 0.5 * (box.low + box.high);
-  int longest = 0;
-  const double length = extent.maxCoeff(&longest);
-  const double second = std::max(extent[(longest + 1) % 3], extent[(longest + 2) % 3]);
-  if (length > 2.5 * second)
-    view.axes = turned(longest, longest == 2 ? 1 : 2, 20.0, 22.0);
-  else
-    view.axes = turned(0, 2, 45.0, 35.264);
+  const int along = long_axis(box);
+  view.axes = along >= 0 ? turned(along, along == 2 ? 1 : 2, 20.0, 22.0) : turned(0, 2, 45.0, 35.264);
   // The eight corners of the box fit in.
   Vec3 low = Vec3::Constant(1e300), high = -low;
   for (int i = 0; i < 8; ++i) {
@@ -135,18 +137,22 @@ View view_of(const std::vector<SubstructurePtr>& parts) {
     height = highest;
   }
   view.height = static_cast<int>(std::lround(height));
-  if (!all_parts_are_seen(make_skin(parts, view, {}, {}, 0.0), view, parts.size())) {
-    view.is_cut = true;
-    // The horizontal axis that looks most towards the reader.
-    const int up_axis = length > 2.5 * second && longest == 2 ? 1 : 2;
-    int axis = 0;
-    Vec3 towards = view.axes.row(2).transpose().cwiseAbs();
-    towards[up_axis] = 0.0;
-    if (length > 2.5 * second) towards[longest] = 0.0;
-    towards.maxCoeff(&axis);
-    view.cut_at = view.centre;
-    view.cut = Vec3::Unit(axis) * (view.axes(2, axis) > 0.0 ? 1.0 : -1.0);
-  }
+  return view;
+}
+
+View view_of(const std::vector<SubstructurePtr>& parts) {
+  View view = whole_view_of(parts);
+  if (all_parts_are_seen(make_skin(parts, view, {}, {}, 0.0), view, parts.size())) return view;
+  view.is_cut = true;
+  // The horizontal axis that looks most towards the reader.
+  const int along = long_axis(box_of(parts));
+  Vec3 towards = view.axes.row(2).transpose().cwiseAbs();
+  towards[along == 2 ? 1 : 2] = 0.0;
+  if (along >= 0) towards[along] = 0.0;
+  int axis = 0;
+  towards.maxCoeff(&axis);
+  view.cut_at = view.centre;
+  view.cut = Vec3::Unit(axis) * (view.axes(2, axis) > 0.0 ? 1.0 : -1.0);
   return view;
 }
 

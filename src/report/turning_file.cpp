@@ -140,7 +140,7 @@ std::string motion_text(const Problem& problem, const SkinMotion& motion) {
   const TurningMesh mesh =
       make_turning_mesh(problem.substructures, {},
                         static_cast<int>(std::clamp<double>(most_bytes / bytes_of_node, fewest_nodes, most_nodes)));
-  const View view = view_of(problem.substructures);
+  const View view = whole_view_of(problem.substructures);
   Json json = still(problem, mesh, view);
   json["frames"] = Json::array();
   for (const SkinFrame& frame : motion.frames) json["frames"].push_back(frame_of(frame, mesh));
@@ -154,7 +154,7 @@ std::string motion_text(const Problem& problem, const SkinMotion& motion) {
 std::string assembly_text(const Problem& problem, const std::vector<FacetLabels>& labels,
                           const std::vector<TurningLabel>& names, const std::string& coloring) {
   const TurningMesh mesh = make_turning_mesh(problem.substructures, labels, 3 * most_nodes);
-  Json json = still(problem, mesh, view_of(problem.substructures));
+  Json json = still(problem, mesh, whole_view_of(problem.substructures));
   json["frames"] = Json::array();
   std::vector<std::array<int, 1>> of_triangle;
   for (const int label : mesh.label) of_triangle.push_back({label});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <set>
 
 #include "report/item_buffer.hpp"
@@ -57,6 +58,41 @@ TEST(ItemBuffer, keeps_the_nearest) {
   EXPECT_EQ(buffer.seen(3), (std::vector<char>{1, 0, 1}));
   EXPECT_TRUE(buffer.is_in_front(8.0, 8.0, 1.0, 0.1));
   EXPECT_FALSE(buffer.is_in_front(3.0, 3.0, 0.5, 0.1));
+}
+
+// Rows of pixels at once are what each pixel by itself would be, but for centres on a side to rounding; triangles that
+// share a side leave no pixel between them.
+TEST(ItemBuffer, has_each_pixel_whose_centre_lies_in_a_triangle) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-8.0, 38.0);
+  constexpr int width = 30, height = 24;
+  int n_on_side = 0;
+  for (int k = 0; k < 400; ++k) {
+    double x[4], y[4];
+    for (int a = 0; a < 4; ++a) x[a] = k % 4 ? place(random) : std::round(2.0 * place(random)) / 2.0;
+    for (int a = 0; a < 4; ++a) y[a] = k % 4 ? place(random) : std::round(2.0 * place(random)) / 2.0;
+    ItemBuffer buffer(width, height);
+    const double flat[3] = {1.0, 1.0, 1.0};
+    buffer.draw(0, {x[0], x[1], x[2]}, {y[0], y[1], y[2]}, flat);
+    buffer.draw(0, {x[0], x[2], x[3]}, {y[0], y[2], y[3]}, flat);
+    const auto least_share = [&](double px, double py, int b, int c) {
+      const auto cross = [&](double x1, double y1, double x2, double y2) {
+        return (x1 - px) * (y2 - py) - (x2 - px) * (y1 - py);
+      };
+      const double area = cross(x[b], y[b], x[c], y[c]) + cross(x[c], y[c], x[0], y[0]) + cross(x[0], y[0], x[b], y[b]);
+      return std::min({cross(x[b], y[b], x[c], y[c]) / area, cross(x[c], y[c], x[0], y[0]) / area,
+                       cross(x[0], y[0], x[b], y[b]) / area});
+    };
+    for (int j = 0; j < height; ++j)
+      for (int i = 0; i < width; ++i) {
+        const double least = std::max(least_share(i + 0.5, j + 0.5, 1, 2), least_share(i + 0.5, j + 0.5, 2, 3));
+        if (std::abs(least) < 1e-8)
+          ++n_on_side;
+        else if (std::isfinite(least))
+          EXPECT_EQ(buffer.item(i, j), least > 0.0 ? 0 : -1) << k << ": " << i << ", " << j;
+      }
+  }
+  EXPECT_GT(n_on_side, 10);
 }
 
 TEST(Picture, shows_the_three_sides_of_a_box_that_face_the_reader) {
