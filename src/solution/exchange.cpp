@@ -309,6 +309,7 @@ class Builder {
       tie = std::find_if(tie, exchange_.ties.end(), [i](const Tie& t) { return t.point != i; });
       exchange_.points[i].end_tie = static_cast<int>(tie - exchange_.ties.begin());
     }
+    exchange_.splits = TieSplits(exchange_.points, exchange_.ties, surfaces_);
   }
 
   const Problem& problem_;

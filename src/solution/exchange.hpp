@@ -66,10 +66,26 @@ struct Tie {
   int surface, surface_point;
 };
 
+// How the forces on a group's ports are split over its ties: least norm, weighted with the ties' areas. Many groups
+// share theirs.
+class TieSplits {
+ public:
+  TieSplits() = default;
+  TieSplits(const std::vector<Point>& points, const std::vector<Tie>& ties, const std::vector<Surface>& surfaces);
+
+  // n_ties x n_ports, force of each tie of the point by those on its ports.
+  const Mat& of(const Point& point) const { return splits_[static_cast<size_t>(of_tie_[point.first_tie])]; }
+
+ private:
+  std::vector<int> of_tie_;  // of a point's first tie
+  std::vector<Mat> splits_;
+};
+
 struct Exchange {
   std::vector<Port> ports;
   std::vector<Point> points;
   std::vector<Tie> ties;        // one point's after another's
+  TieSplits splits;             // of points with ties
   std::vector<int> n_unknowns;  // of each piece
 };
 

@@ -152,16 +152,16 @@ void show_ties(const StepModel& model, const Point& point, const PointRecord& re
   const std::span ties(exchange.ties.data() + point.first_tie, exchange.ties.data() + point.end_tie);
   if (ties.empty()) return;
   const int n_ports = point.end_port - point.first_port, n_ties = static_cast<int>(ties.size());
-  Eigen::Matrix3Xd net(3, n_ports);
-  for (int p = 0; p < n_ports; ++p) net.col(p) = port_force[p];
+  thread_local std::vector<Vec3> net;  // called for every point of every time step
+  net.assign(port_force.begin(), port_force.begin() + n_ports);
   // A tie holds a substructure, wherever that is cut: what its copies take goes to the owner.
   for (int p = 0; p < n_ports; ++p) {
     const Port& port = exchange.ports[point.first_port + p];
     for (int o = 0; o < n_ports && !port.is_owner; ++o) {
       const Port& owner = exchange.ports[point.first_port + o];
       if (!owner.is_owner || owner.part != port.part || owner.node != port.node) continue;
-      net.col(o) += net.col(p);
-      net.col(p).setZero();
+      net[o] += net[p];
+      net[p].setZero();
       break;
     }
   }
@@ -172,22 +172,15 @@ void show_ties(const StepModel& model, const Point& point, const PointRecord& re
       const Port& port = exchange.ports[point.first_port + p];
       if (!port.is_owner) continue;
       if (port.part == surface.part_1 && port.node == surface.facing.side_1.main_node(member.point))
-        net.col(p) -= member.share * record.law.force;
+        net[p] -= member.share * record.law.force;
       if (port.part == surface.part_2 && port.node == surface.facing.side_2.main_node(member.point))
-        net.col(p) += member.share * record.law.force;
+        net[p] += member.share * record.law.force;
     }
   }
-  Mat incidence = Mat::Zero(n_ports, n_ties);
-  Vec root_area(n_ties);
+  const Mat& split = exchange.splits.of(point);
   for (int t = 0; t < n_ties; ++t) {
-    root_area[t] = std::sqrt((*model.surfaces)[ties[t].surface].facing.areas[ties[t].surface_point]);
-    incidence(ties[t].port_1 - point.first_port, t) = root_area[t];
-    incidence(ties[t].port_2 - point.first_port, t) = -root_area[t];
-  }
-  const Mat split = n_ties == 1 ? Mat(net.col(ties[0].port_1 - point.first_port).transpose() / root_area[0])
-                                : Mat(incidence.completeOrthogonalDecomposition().solve(Mat(net.transpose())));
-  for (int t = 0; t < n_ties; ++t) {
-    const Vec3 force = root_area[t] * split.row(t).transpose();
+    Vec3 force = Vec3::Zero();
+    for (int p = 0; p < n_ports; ++p) force += split(t, p) * net[p];
     LawState& shown = state.surfaces[ties[t].surface].points[ties[t].surface_point];
     shown.force = point.frame * force;
     shown.status = PointState::stick;

@@ -4,10 +4,21 @@
 
 namespace dygita {
 
+namespace {
+
+// Eigen's matrices are copied where they are moved.
+StiffnessPtr taken(SparseMatrix&& matrix) {
+  auto own = std::make_shared<SparseMatrix>();
+  own->swap(matrix);
+  return own;
+}
+
+}  // namespace
+
 StoredMatrices::StoredMatrices(BodyMatrices matrices)
     : mass_(std::move(matrices.mass)),
       n_pairs_(0.5 * (static_cast<double>(matrices.stiffness.nonZeros()) / 9.0 - static_cast<double>(mass_.size()))),
-      held_(std::make_shared<const SparseMatrix>(std::move(matrices.stiffness))) {}
+      held_(taken(std::move(matrices.stiffness))) {}
 
 StoredMatrices::StoredMatrices(MeshPtr mesh, const Elastic& material, bool keeps)
     : StoredMatrices(assemble(*mesh, material)) {
@@ -29,7 +40,7 @@ StiffnessPtr StoredMatrices::stiffness() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (held_) return held_;
   StiffnessPtr stiffness = last_.lock();
-  if (!stiffness) stiffness = std::make_shared<const SparseMatrix>(assemble(*mesh_, material_).stiffness);
+  if (!stiffness) stiffness = taken(assemble(*mesh_, material_).stiffness);
   last_ = stiffness;
   return stiffness;
 }
