@@ -1,5 +1,6 @@
 // What direct points keep and tell: the laws' memory, works, forces over the time step of the deck.
 #include <algorithm>
+#include <map>
 
 #include "base/parallel.hpp"
 #include "latin/direct_points.hpp"
@@ -64,14 +65,35 @@ void DirectPoints::end_point(OwnPoint& p) {
   p.impulse += increment_.dt * p.record.force;
 }
 
-// By the rank that has the piece of the first port.
-void DirectPoints::book(const OwnPoint& p, IncrementEnergy& energy) {
-  gap_difference_ = std::max(gap_difference_, p.gap_difference);
-  energy.loads += p.work.given;
-  energy.friction += p.work.friction;
-  energy.plastic += p.work.plastic;
-  energy.damping += p.work.damping;
-  energy.scheme += p.work.given - p.on_pieces - p.work.dissipated();
+// Works are booked by the rank that has the piece of the first port. What belongs to a surface is told by its last
+// point.
+void DirectPoints::find_books() {
+  std::map<int, std::vector<int>> of_piece;
+  std::map<int, int> last;
+  for (int i = 0; i < static_cast<int>(points_.size()); ++i) {
+    const OwnPoint& p = points_[static_cast<size_t>(i)];
+    if (p.is_booked_here) of_piece[model_->exchange.ports[p.point->first_port].piece].push_back(i);
+    if (!p.point->law) continue;
+    for (const Member& member : p.point->members) last[member.surface] = i;
+  }
+  for (auto& [piece, points] : of_piece) books_.push_back({piece, std::move(points)});
+  for (const auto& [surface, i] : last) last_of_surfaces_.push_back(i);
+  std::sort(last_of_surfaces_.begin(), last_of_surfaces_.end());
+  last_of_surfaces_.erase(std::unique(last_of_surfaces_.begin(), last_of_surfaces_.end()), last_of_surfaces_.end());
+}
+
+// In the order of the points, whatever the number of threads.
+void DirectPoints::book(Book& book, IncrementEnergy& energy) const {
+  book.gap_difference = 0.0;
+  for (const int i : book.points) {
+    const OwnPoint& p = points_[static_cast<size_t>(i)];
+    book.gap_difference = std::max(book.gap_difference, p.gap_difference);
+    energy.loads += p.work.given;
+    energy.friction += p.work.friction;
+    energy.plastic += p.work.plastic;
+    energy.damping += p.work.damping;
+    energy.scheme += p.work.given - p.on_pieces - p.work.dissipated();
+  }
 }
 
 void DirectPoints::show(State& state, std::vector<IncrementEnergy>& energy, int most_threads) {
@@ -94,15 +116,18 @@ void DirectPoints::show(State& state, std::vector<IncrementEnergy>& energy, int 
       const Tie& tie = model_->exchange.ties[t];
       state.surfaces[tie.surface].residual[tie.surface_point] = 0.0;
     }
-    std::vector<Vec3> port_force;
+    thread_local std::vector<Vec3> port_force;
+    port_force.clear();
     for (int k = p.side_1.first; k < p.side_2.end; ++k) port_force.push_back(ports_[k].impulse / interval_);
     show_ties(*model_, *p.point, shown, port_force, state);
   };
-  parallel_for(n, show_point, Schedule::evenly, n > few_shown ? most_threads : 1);
-  for (const OwnPoint& p : points_) {
-    if (p.is_booked_here) book(p, energy[model_->exchange.ports[p.point->first_port].piece]);
-    if (p.point->law) show_record(*p.point, p.record, state);
-  }
+  const int n_threads = n > few_shown ? most_threads : 1;
+  shown_shares_.run(n, n_threads, show_point);
+  parallel_for(
+      static_cast<int>(books_.size()), [&](int i) { book(books_[i], energy[books_[i].piece]); }, Schedule::evenly,
+      n_threads);
+  for (const Book& book : books_) gap_difference_ = std::max(gap_difference_, book.gap_difference);
+  for (const int i : last_of_surfaces_) show_record(*points_[i].point, points_[i].record, state);
 }
 
 Vec3 DirectPoints::end_displacement(const OwnPoint& p, const OwnPort& port) const {

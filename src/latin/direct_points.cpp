@@ -15,8 +15,7 @@ namespace dygita {
 namespace {
 
 constexpr int most_rounds = 20000;
-constexpr int chunk = 64;              // points a thread takes at a time
-constexpr int few_points = 8 * chunk;  // are solved before threads have met
+constexpr int few_points = 512;  // are solved before threads have met
 
 // Of what a point would change, in a round: laws with friction that share a node may go round in circles otherwise.
 double share_of(int round) { return round < 400 ? 1.0 : round < 3000 ? 0.5 : 0.2; }
@@ -57,37 +56,44 @@ DirectPoints::DirectPoints(const StepModel& model, const State& start)
     kept.push_back(static_cast<int>(i));
     n_ports += static_cast<size_t>(point.end_port - point.first_port);
   }
-  points_.reserve(kept.size());
-  ports_.reserve(n_ports);
-  for (const int i : kept) add_point(model, i, start, motions);
+  points_.resize(kept.size());
+  ports_.resize(n_ports);
+  bool is_spread = false;
+  int first = 0;
+  for (size_t k = 0; k < kept.size(); ++k) {
+    const Point& point = model.exchange.points[kept[k]];
+    points_[k].side_1.first = first;
+    points_[k].side_1.end = points_[k].side_2.first = first + point.first_port_2 - point.first_port;
+    points_[k].side_2.end = first += point.end_port - point.first_port;
+    for (int i = point.first_port; i < point.end_port; ++i) is_spread |= model.exchange.ports[i].trace != nullptr;
+  }
+  // Nodes that a port moves with are listed in the order of the points.
+  parallel_for(
+      static_cast<int>(kept.size()), [&](int k) { set_point(model, points_[k], kept[k], start, motions); },
+      Schedule::evenly, is_spread ? 1 : 0);
   find_released();
+  find_books();
   find_clusters();
   has_clusters_ = ranks::any(!clusters_.empty());
   split_points();
 }
 
-void DirectPoints::add_point(const StepModel& model, int index, const State& start,
+void DirectPoints::set_point(const StepModel& model, OwnPoint& p, int index, const State& start,
                              const std::vector<PortMotion>& motions) {
   const Point& point = model.exchange.points[index];
-  OwnPoint p;
   p.point = &point;
   p.index = index;
   p.is_booked_here = DistantPoints::booking(model, point) == ranks::me();
   p.record = start_point(model, point, start, motions);
   p.record.trial.shortening = p.record.shortening_old;
-  const int first = static_cast<int>(ports_.size()) - point.first_port;
-  p.side_1.first = first + point.first_port;
-  p.side_1.end = p.side_2.first = first + point.first_port_2;
-  p.side_2.end = first + point.end_port;
-  for (int i = point.first_port; i < point.end_port; ++i) {
-    ports_.push_back(make_port(model, point, i));
-    ports_.back().v_old = velocity(p, ports_.back());
+  for (int i = p.side_1.first; i < p.side_2.end; ++i) {
+    ports_[i] = make_port(model, point, point.first_port + i - p.side_1.first);
+    ports_[i].v_old = velocity(p, ports_[i]);
   }
   const bool has_group = point.first_port_2 - point.first_port > 1 || point.end_port - point.first_port_2 > 1;
   p.keeps_gap = point.law && point.law->shown().gap;
   if (p.keeps_gap) p.first_gap = point.law->initial().gap;
   p.needs_place = has_group || (point.law && !p.keeps_gap);
-  points_.push_back(std::move(p));
 }
 
 // Points that share a node, or whose nodes answer along several axes at once, take turns until they agree.
@@ -281,14 +287,11 @@ void DirectPoints::solve_cluster(const std::vector<int>& members, const std::vec
   }
 }
 
-void DirectPoints::solve_some(const std::vector<int>& alone, const std::vector<double>& motions, int most_threads) {
-  const int n = static_cast<int>(alone.size()), n_chunks = (n + chunk - 1) / chunk;
-  parallel_for(
-      n_chunks,
-      [&](int c) {
-        for (int i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) solve_alone(points_[alone[i]], motions);
-      },
-      Schedule::evenly, n > few_points ? most_threads : 1);
+void DirectPoints::solve_some(int turn, const std::vector<double>& motions, int most_threads) {
+  const std::vector<int>& alone = points_in_turn_[turn];
+  const int n = static_cast<int>(alone.size());
+  solved_shares_[turn].run(n, n > few_points ? most_threads : 1,
+                           [&](int i) { solve_alone(points_[alone[i]], motions); });
 }
 
 void DirectPoints::solve_some_clusters(const std::vector<int>& clusters, const std::vector<double>& motions,
@@ -301,11 +304,11 @@ void DirectPoints::solve_some_clusters(const std::vector<int>& clusters, const s
 }
 
 void DirectPoints::solve(const std::vector<double>& motions, int most_threads) {
-  solve_some(points_in_turn_[0], motions, most_threads);
+  solve_some(0, motions, most_threads);
   if (largest_of_all_.is_begun()) largest_force_ = largest_of_all_.end();
   solve_some_clusters(clusters_in_turn_[0], motions, most_threads);
   hear();
-  solve_some(points_in_turn_[1], motions, most_threads);
+  solve_some(1, motions, most_threads);
   solve_some_clusters(clusters_in_turn_[1], motions, most_threads);
   for (size_t c = 0; c < clusters_.size(); ++c) {
     largest_change_ = std::max(largest_change_, swept_[c].change);

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "base/fair_shares.hpp"
 #include "latin/force_mixing.hpp"
 #include "ranks/neighbours.hpp"
 #include "solution/direct_links.hpp"
@@ -81,6 +82,13 @@ class DirectPoints {
     bool is_booked_here = true;
   };
 
+  // Points whose works a piece's energies take.
+  struct Book {
+    int piece = 0;
+    std::vector<int> points;
+    double gap_difference = 0.0;  // m, the largest of theirs
+  };
+
   struct Motions {
     int piece, index;  // index: among the nodes
     ExplicitNodes* nodes = nullptr;
@@ -90,10 +98,12 @@ class DirectPoints {
   void hear();
   void complete_starts(const ranks::Neighbours& of_starts);
   void split_points();
-  void solve_some(const std::vector<int>& alone, const std::vector<double>& motions, int most_threads);
+  void solve_some(int turn, const std::vector<double>& motions, int most_threads);
   void solve_some_clusters(const std::vector<int>& clusters, const std::vector<double>& motions, int most_threads);
-  void book(const OwnPoint& p, IncrementEnergy& energy);
-  void add_point(const StepModel& model, int index, const State& start, const std::vector<PortMotion>& motions);
+  void find_books();
+  void book(Book& book, IncrementEnergy& energy) const;
+  void set_point(const StepModel& model, OwnPoint& p, int index, const State& start,
+                 const std::vector<PortMotion>& motions);
   OwnPort make_port(const StepModel& model, const Point& point, int index);
   Mat3 spread_port(const StepModel& model, const Point& point, const Port& port, OwnPort& own);
   void find_clusters();
@@ -141,6 +151,10 @@ class DirectPoints {
   std::vector<std::vector<int>> clusters_;
   std::array<std::vector<int>, 2> points_in_turn_, clusters_in_turn_;
   std::vector<int> border_pieces_;
+  std::array<FairShares, 2> solved_shares_;  // of points_in_turn_
+  FairShares shown_shares_;
+  std::vector<Book> books_;
+  std::vector<int> last_of_surfaces_;  // points with a law
   struct Swept {
     double change = 0.0;
     int sweeps = 0;

@@ -15,11 +15,11 @@ double default_within(const Problem& problem) {
   return 1e-4 * (high - low).norm();
 }
 
-Meeting meeting_of(const Problem& problem, const Interface& interface) {
+Meeting meeting_of(const Interface& interface, double within) {
   const auto impedance = [](const Face& face) {
     return face.part->material.density * face.part->material.p_wave_speed();
   };
-  const MeetingOptions options{interface.within.value_or(default_within(problem)), interface.points,
+  const MeetingOptions options{interface.within.value_or(within), interface.points,
                                impedance(interface.side_2) < impedance(interface.side_1), !interface.law->is_tie()};
   try {
     return {placed(interface.side_1), placed(interface.side_2), options};

@@ -13,6 +13,7 @@ PlacedFace placed(const Face& face);
 double default_within(const Problem& problem);
 
 // Throws InputError naming the interface where its faces do not meet.
-Meeting meeting_of(const Problem& problem, const Interface& interface);
+// within (m): where the interface does not say itself how far apart its faces may be.
+Meeting meeting_of(const Interface& interface, double within);
 
 }  // namespace dygita

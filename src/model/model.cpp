@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/parallel.hpp"
+
 namespace dygita {
 
 std::string label(const Target& target) {
@@ -19,6 +21,12 @@ int Step::n_increments() const {
 
 const std::vector<SupportPtr>& supports_of(const Problem& problem, const Step& step) {
   return step.supports ? *step.supports : problem.supports;
+}
+
+std::vector<double> volumes(const Problem& problem) {
+  std::vector<double> volumes(problem.substructures.size());
+  parallel_for(static_cast<int>(volumes.size()), [&](int i) { volumes[i] = volume(*problem.substructures[i]->mesh); });
+  return volumes;
 }
 
 }  // namespace dygita

@@ -168,6 +168,9 @@ struct Problem : Named {
   }
 };
 
+// Volume (m^3) of each substructure.
+std::vector<double> volumes(const Problem& problem);
+
 // Supports in force in a step.
 const std::vector<SupportPtr>& supports_of(const Problem& problem, const Step& step);
 

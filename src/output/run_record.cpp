@@ -34,16 +34,13 @@ Json libraries(const RunIdentity& identity) {
 }
 
 // What a unit slip shows in: mass (kg), bounding box (m), material (SI).
-Json body(const Substructure& part) {
+Json body(const Substructure& part, double volume) {
   const Elastic& material = part.material;
   const Points& nodes = part.mesh->nodes;
   const Vec3 low = nodes.rowwise().minCoeff() + part.place, high = nodes.rowwise().maxCoeff() + part.place;
-  Json json = {{"mass", material.density * volume(*part.mesh)},
-               {"low", {low[0], low[1], low[2]}},
-               {"high", {high[0], high[1], high[2]}},
-               {"young", material.young},
-               {"poisson", material.poisson},
-               {"density", material.density}};
+  Json json = {{"mass", material.density * volume},   {"low", {low[0], low[1], low[2]}},
+               {"high", {high[0], high[1], high[2]}}, {"young", material.young},
+               {"poisson", material.poisson},         {"density", material.density}};
   if (part.yield) json["yield"] = *part.yield;
   return json;
 }
@@ -59,6 +56,7 @@ Json stress(const PartStress& peak, const Problem& problem) {
 
 Json substructures(const Problem& problem, const RunResult& result, const RunIdentity& identity) {
   Json list = Json::array();
+  const std::vector<double> volume = volumes(problem);
   for (size_t i = 0; i < problem.substructures.size(); ++i) {
     const SubstructurePtr& part = problem.substructures[i];
     Json json = {{"name", part->name},
@@ -67,7 +65,7 @@ Json substructures(const Problem& problem, const RunResult& result, const RunIde
                  {"nodes", part->mesh->n_nodes()},
                  {"cells", part->mesh->n_cells()},
                  {"material", part->material.name}};
-    json.update(body(*part));
+    json.update(body(*part, volume[i]));
     for (const auto& [name, digest] : identity.mesh_digests) {
       if (name == part->name) json["digest"] = digest;
     }

@@ -68,8 +68,9 @@ namespace {
 // What a scene at rest has of rounding and of what an iteration leaves: shares of it say nothing.
 double energy_at_rest(const Problem& problem) {
   double energy = 0.0;
-  for (const SubstructurePtr& part : problem.substructures)
-    energy += 0.5 * part->material.young * std::pow(limit::strain_at_rest, 2) * volume(*part->mesh);
+  const std::vector<double> volume = volumes(problem);
+  for (size_t i = 0; i < volume.size(); ++i)
+    energy += 0.5 * problem.substructures[i]->material.young * std::pow(limit::strain_at_rest, 2) * volume[i];
   return energy;
 }
 

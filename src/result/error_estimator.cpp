@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/parallel.hpp"
+#include "base/parallel_by_cost.hpp"
 #include "fem/mass.hpp"
 #include "fem/stress_error.hpp"
 #include "result/mass_lag.hpp"
@@ -135,15 +135,20 @@ ErrorEstimator::StressEnergies ErrorEstimator::stress_energies(const Instant& in
   const Problem& problem = *instant.model.problem;
   views_->take(instant);
   std::vector<double> own(static_cast<size_t>(cut.n_pieces()), 0.0);
+  std::vector<double> cost;
   for (size_t part = 0; part < problem.substructures.size(); ++part) {
     const PartView& view = views_->of(static_cast<int>(part));
-    if (view.is_empty()) continue;
-    Points u = views_->field(static_cast<int>(part));
-    if (!start_.empty()) u -= start_[part];
-    const std::vector<double> of_pieces =
-        view.sums(stress_error(view.mesh(), problem.substructures[part]->material, u).of_cells);
-    for (size_t k = 0; k < of_pieces.size(); ++k) own[static_cast<size_t>(view.pieces()[k])] = of_pieces[k];
+    cost.push_back(view.is_empty() ? 0.0 : view.mesh().n_cells());
   }
+  parallel_by_cost(cost, [&](int part) {
+    const PartView& view = views_->of(part);
+    if (view.is_empty()) return;
+    Points u = views_->field(part);
+    if (!start_.empty()) u -= start_[static_cast<size_t>(part)];
+    const std::vector<double> of_pieces =
+        view.sums(stress_error(view.mesh(), problem.substructures[static_cast<size_t>(part)]->material, u).of_cells);
+    for (size_t k = 0; k < of_pieces.size(); ++k) own[static_cast<size_t>(view.pieces()[k])] = of_pieces[k];
+  });
   const std::vector<double> errors =
       of_all_pieces(cut, 1, [&](int piece, double* to) { *to = own[static_cast<size_t>(piece)]; });
   std::vector<int> here;

@@ -47,15 +47,18 @@ void SkinRecorder::prepare(const Instant& instant) {
   is_ready_ = true;
   views_.prepare(instant.model.cut);
   double n_nodes = 1.0;
-  std::vector<std::vector<int>> of_layers;
-  for (size_t i = 0; i < problem_.substructures.size(); ++i) {
-    const PartView& view = views_.of(static_cast<int>(i));
-    motion_.nodes.push_back(boundary_nodes(*problem_.substructures[i]->mesh));
-    layers_.push_back(view.is_empty() ? Layer{} : layer_of(view, motion_.nodes.back()));
-    std::vector<int>& nodes = of_layers.emplace_back();
-    for (const int node : layers_.back().in_view) nodes.push_back(view.node(node));
-    n_nodes += static_cast<double>(motion_.nodes.back().size());
-  }
+  const size_t n_parts = problem_.substructures.size();
+  std::vector<std::vector<int>> of_layers(n_parts);
+  motion_.nodes.resize(n_parts);
+  layers_.resize(n_parts);
+  parallel_for(static_cast<int>(n_parts), [&](int part) {
+    const auto i = static_cast<size_t>(part);
+    const PartView& view = views_.of(part);
+    motion_.nodes[i] = boundary_nodes(*problem_.substructures[i]->mesh);
+    if (!view.is_empty()) layers_[i] = layer_of(view, motion_.nodes[i]);
+    for (const int node : layers_[i].in_view) of_layers[i].push_back(view.node(node));
+  });
+  for (const std::vector<int>& nodes : motion_.nodes) n_nodes += static_cast<double>(nodes.size());
   nodes_ = WatchedNodes(views_.cut(), std::move(of_layers));
   const double affordable = std::floor(most_bytes / (4.0 * sizeof(float) * n_nodes));
   std::vector<bool> is_static;
@@ -127,8 +130,10 @@ void SkinRecorder::add(const AssemblyScene& scene) {
     if (before.i_step == frame.i_step && (frame.is_static || before.time == frame.time)) return;
   }
   std::vector<PartFrame> parts(layers_.size());
-  for (size_t i = 0; i < parts.size(); ++i)
-    if (layers_[i].mesh) parts[i] = drawn(static_cast<int>(i), scene.displacement[i](Eigen::all, layers_[i].in_view));
+  parallel_for(static_cast<int>(parts.size()), [&](int part) {
+    const auto i = static_cast<size_t>(part);
+    if (layers_[i].mesh) parts[i] = drawn(part, scene.displacement[i](Eigen::all, layers_[i].in_view));
+  });
   drawn_.insert(drawn_.begin() + (at - motion_.frames.begin()), std::move(parts));
   motion_.frames.insert(at, std::move(frame));
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/parallel.hpp"
+
 namespace dygita {
 
 WatchedNodes::WatchedNodes(const Cut& cut, std::vector<std::vector<int>> nodes)
@@ -93,13 +95,15 @@ Points of_piece(const Instant& instant, int piece, const std::vector<int>& nodes
 }  // namespace
 
 void WatchedNodes::take(const Instant& instant, NodalField field) {
-  for (size_t i = 0; i < nodes_.size(); ++i) {
-    if (nodes_[i].empty()) continue;
-    const int part = static_cast<int>(i), n_nodes = instant.model.problem->substructures[i]->mesh->n_nodes();
+  const auto take_part = [&](int part) {
+    const auto i = static_cast<size_t>(part);
+    if (nodes_[i].empty()) return;
+    const int n_nodes = instant.model.problem->substructures[i]->mesh->n_nodes();
     const bool is_all =
         static_cast<int>(nodes_[i].size()) == n_nodes && std::is_sorted(nodes_[i].begin(), nodes_[i].end());
     taken_[i] = is_all ? of_part(instant, part, field) : of_nodes(instant, part, nodes_[i], field);
-  }
+  };
+  parallel_for(static_cast<int>(nodes_.size()), take_part, Schedule::as_free, instant.fields ? 1 : 0);
   if (ranks::is_alone()) return;
   Eigen::Map<Points> all(passing_.data(), 3, static_cast<Eigen::Index>(passing_.size() / 3));
   for (const auto& [piece, asked] : asked_) all(Eigen::all, asked.at) = of_piece(instant, piece, asked.nodes, field);

@@ -27,7 +27,8 @@ std::string list_pieces(const Problem& problem, const std::vector<int>& pieces) 
 
 std::string mass_line(const Problem& problem) {
   double mass = 0.0;
-  for (const SubstructurePtr& part : problem.substructures) mass += part->material.density * volume(*part->mesh);
+  const std::vector<double> volume = volumes(problem);
+  for (size_t i = 0; i < volume.size(); ++i) mass += problem.substructures[i]->material.density * volume[i];
   return fmt::format("  {:.4g} kg in all\n", mass);
 }
 

@@ -80,11 +80,13 @@ void Cut::add_cut(int part, const SubstructurePtr& body, const std::vector<int>&
   // A piece may touch another in an edge or a corner alone: an area as of a cell's side.
   for (size_t p = first; p < pieces_.size(); ++p) {
     CutPiece& piece = pieces_[p];
-    const double side = std::pow(volume(*piece.body->mesh) / piece.body->mesh->n_nodes(), 2.0 / 3.0);
-    for (size_t i = 0; i < piece.nodes.size(); ++i)
-      if (double& area = piece.cut_areas[static_cast<Eigen::Index>(i)];
-          area == 0.0 && others_[part].contains(piece.nodes[i]))
-        area = side;
+    double side = 0.0;
+    for (size_t i = 0; i < piece.nodes.size(); ++i) {
+      double& area = piece.cut_areas[static_cast<Eigen::Index>(i)];
+      if (area != 0.0 || !others_[part].contains(piece.nodes[i])) continue;
+      if (side == 0.0) side = std::pow(volume(*piece.body->mesh) / piece.body->mesh->n_nodes(), 2.0 / 3.0);
+      area = side;
+    }
   }
 }
 

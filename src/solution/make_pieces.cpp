@@ -58,32 +58,43 @@ std::vector<NodePairImpedance> absorbing_pairs_of_piece(const Cut& cut, int piec
   return own;
 }
 
-std::vector<InterfaceRow> rows_of(const StepModel& model, int piece, const std::unordered_map<int, Held>& held) {
+struct PortAt {
+  int point, port;
+};
+
+// Of each piece.
+std::vector<std::vector<PortAt>> ports_of_pieces(const StepModel& model) {
+  std::vector<std::vector<PortAt>> ports(static_cast<size_t>(model.cut->n_pieces()));
+  const Exchange& exchange = model.exchange;
+  for (int i = 0; i < static_cast<int>(exchange.points.size()); ++i)
+    for (int p = exchange.points[i].first_port; p < exchange.points[i].end_port; ++p)
+      ports[static_cast<size_t>(exchange.ports[p].piece)].push_back({i, p});
+  return ports;
+}
+
+std::vector<InterfaceRow> rows_of(const StepModel& model, int piece, const std::vector<PortAt>& ports,
+                                  const std::unordered_map<int, Held>& held) {
   std::vector<InterfaceRow> rows(model.exchange.n_unknowns[piece]);
   const Substructure& body = *model.cut->piece(piece).body;
   double total_area = 0.0;
-  for (const Port& port : model.exchange.ports)
-    if (port.piece == piece) total_area += port.area;
+  for (const PortAt& at : ports) total_area += model.exchange.ports[at.port].area;
   const bool needs_reference = model.scheme.is_static && is_floating(body, held);
   const double length = total_area > 0.0 ? volume(*body.mesh) / total_area : 1.0;
-  for (const Point& point : model.exchange.points)
-    for (int p = point.first_port; p < point.end_port; ++p) {
-      const Port& port = model.exchange.ports[p];
-      if (port.piece != piece) continue;
-      for (int d = 0; d < 3; ++d) {
-        if (port.unknown[d] < 0) continue;
-        const double modulus = d == 0 ? body.material.young : body.material.shear_modulus();
-        const double stiffness = modulus * port.area / length;
-        InterfaceRow& row = rows[port.unknown[d]];
-        row = {{}, needs_reference ? stiffness : 0.0, stiffness, 1.0, port.side};
-        port.for_each_node([&](int node, const Mat3& block) {
-          const Vec3 along = block.transpose() * point.frame.col(d);
-          if (!along.isZero(0.0))
-            row.nodes.push_back({port.trace ? model.cut->owner(port.part, node).node : port.piece_node, along});
-        });
-      }
+  for (const PortAt& at : ports) {
+    const Port& port = model.exchange.ports[at.port];
+    for (int d = 0; d < 3; ++d) {
+      if (port.unknown[d] < 0) continue;
+      const double modulus = d == 0 ? body.material.young : body.material.shear_modulus();
+      const double stiffness = modulus * port.area / length;
+      InterfaceRow& row = rows[port.unknown[d]];
+      row = {{}, needs_reference ? stiffness : 0.0, stiffness, 1.0, port.side};
+      port.for_each_node([&](int node, const Mat3& block) {
+        const Vec3 along = block.transpose() * model.exchange.points[at.point].frame.col(d);
+        if (!along.isZero(0.0))
+          row.nodes.push_back({port.trace ? model.cut->owner(port.part, node).node : port.piece_node, along});
+      });
     }
-  std::unordered_map<int, std::vector<int>> at_node;
+  }
   share_nodes(rows);
   return rows;
 }
@@ -101,12 +112,12 @@ Precision precision_of(const StepModel& model, int part, const Body& body) {
 }
 
 // Laws, non-reflecting supports and moving ones act on nodes that have a mass of their own.
-void tune_explicitly(const StepModel& model, int piece, PieceSetup& setup) {
+void tune_explicitly(const StepModel& model, const std::vector<PortAt>& ports, PieceSetup& setup) {
   setup.tuned_speed = tuned_wave_speed(*setup.body, setup.held);
   setup.keeps_lumped.assign(static_cast<size_t>(setup.n_nodes()), 0);
-  for (const Port& port : model.exchange.ports)
-    if (port.piece == piece)
-      for (const int node : piece_nodes(*model.cut, port)) setup.keeps_lumped[static_cast<size_t>(node)] = 1;
+  for (const PortAt& at : ports)
+    for (const int node : piece_nodes(*model.cut, model.exchange.ports[at.port]))
+      setup.keeps_lumped[static_cast<size_t>(node)] = 1;
   for (const auto& [node, impedance] : setup.absorbing) setup.keeps_lumped[static_cast<size_t>(node)] = 1;
   for (const auto& [node, held] : setup.held)
     for (int j = 0; j < held.n; ++j)
@@ -121,8 +132,10 @@ std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body
   std::vector<AbsorbingImpedance> absorbing;
   for (size_t part = 0; part < model.problem->substructures.size(); ++part)
     absorbing.push_back(absorbing_impedance(model, static_cast<int>(part)));
+  const std::vector<std::vector<PortAt>> ports = ports_of_pieces(model);
   std::vector<PieceSetup> setups(n);
-  for (const int i : model.here) {
+  const auto set_up = [&](int at) {
+    const int i = model.here[at];
     const int part = model.cut->piece(i).part, n_cut = model.cut->n_pieces(part);
     PieceSetup& setup = setups[i];
     setup.body = &bodies[i];
@@ -130,18 +143,19 @@ std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body
     setup.held = held_of_piece(model, i);
     setup.absorbing = absorbing_of_piece(*model.cut, i, absorbing[part].of_nodes);
     setup.absorbing_pairs = absorbing_pairs_of_piece(*model.cut, i, absorbing[part].of_pairs);
-    setup.rows = rows_of(model, i, setup.held);
+    setup.rows = rows_of(model, i, ports[static_cast<size_t>(i)], setup.held);
     setup.n_motions = static_cast<int>(model.conditions.motions.size());
     setup.what = (n_cut > 1 ? fmt::format("piece {} of {} of ", i - model.cut->first(part) + 1, n_cut) : "") +
                  "substructure '" + bodies[i].part->name + "' in step '" + model.step->name + "'";
     if (model.integration.is_explicit_piece(i) && model.integration.parts[static_cast<size_t>(part)].is_tuned)
-      tune_explicitly(model, i, setup);
+      tune_explicitly(model, ports[static_cast<size_t>(i)], setup);
     setup.precision = precision_of(model, part, bodies[i]);
     if (model.scheme.is_static) setup.n_products = usual_iterations * model.step->increments;
     // Far below what the tolerance leaves of a step; what is stored of an entry follows.
     if (model.has_inner_iterations()) setup.rough_error = rough_error;
     setup.storage_error = std::clamp(model.problem->solver.tolerance / 64.0, 0x1p-27, 0x1p-21);
-  }
+  };
+  parallel_for(static_cast<int>(model.here.size()), set_up);
   return setups;
 }
 
@@ -178,7 +192,7 @@ std::vector<EqualTo> twins_of(const StepModel& model, const std::vector<PieceSet
 }  // namespace
 
 Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies) {
-  const std::vector<PieceSetup> setups = setups_of(model, bodies);
+  std::vector<PieceSetup> setups = setups_of(model, bodies);
   const std::vector<EqualTo> twins = twins_of(model, setups);
   const int n = static_cast<int>(setups.size());
   std::vector<std::unique_ptr<ImplicitPiece>> built(n);
@@ -201,8 +215,9 @@ Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies) {
                               has_twin ? Twin{built[twins[i].piece].get(), twins[i].turn} : Twin());
     });
   Pieces pieces(std::make_move_iterator(built.begin()), std::make_move_iterator(built.end()));
-  for (int i = 0; i < n; ++i)
-    if (operators[i]) pieces[i] = std::make_unique<ExplicitPiece>(setups[i], operators[i]);
+  parallel_for(n, [&](int i) {
+    if (operators[i]) pieces[i] = std::make_unique<ExplicitPiece>(std::move(setups[i]), operators[i]);
+  });
   add_distant(model, bodies, pieces);
   return pieces;
 }

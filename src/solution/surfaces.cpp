@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 
+#include "base/parallel.hpp"
 #include "law/law.hpp"
 #include "mesh/mortar.hpp"
 #include "solution/preload.hpp"
@@ -86,11 +87,11 @@ void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces
 // Points of the other interfaces' facets that a body has.
 class FacetsOfOthers {
  public:
-  FacetsOfOthers(const Problem& problem, const std::vector<Meeting>& meetings) {
+  FacetsOfOthers(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings) {
     for (size_t i = 0; i < meetings.size(); ++i) {
       const Interface& interface = *problem.interfaces[i];
-      add(problem, static_cast<int>(i), interface.side_1, meetings[i].facets_1());
-      add(problem, static_cast<int>(i), interface.side_2, meetings[i].facets_2());
+      add(problem, static_cast<int>(i), interface.side_1, meetings[i]->facets_1());
+      add(problem, static_cast<int>(i), interface.side_2, meetings[i]->facets_2());
     }
   }
 
@@ -159,10 +160,11 @@ void check_gap_of_geometry(const Interface& interface, const Facing& facing) {
 
 // The points of an interface. Where three bodies are tied along a line, one of the ties leaves it to the others: tied
 // once too often, it would not converge well (manual, eq. J5).
-Facing facing_of(const Problem& problem, int i, const std::vector<Meeting>& meetings, const FacetsOfOthers& others) {
+Facing facing_of(const Problem& problem, int i, const std::vector<std::optional<Meeting>>& meetings,
+                 const FacetsOfOthers& others) {
   const Interface& interface = *problem.interfaces[i];
   const auto is_taken = [&](const Vec3& x) { return others.take(problem, i, x); };
-  Facing facing = meetings[i].facing(interface.law->is_tie() ? is_taken : std::function<bool(const Vec3&)>());
+  Facing facing = meetings[i]->facing(interface.law->is_tie() ? is_taken : std::function<bool(const Vec3&)>());
   if (interface.has_gap_of_geometry) check_gap_of_geometry(interface, facing);
   return facing;
 }
@@ -172,16 +174,20 @@ Facing facing_of(const Problem& problem, int i, const std::vector<Meeting>& meet
 std::vector<Surface> make_surfaces(const Problem& problem) {
   std::vector<Surface> surfaces;
   SharedLaws laws;
-  std::vector<Meeting> meetings;
-  for (const InterfacePtr& interface : problem.interfaces) meetings.push_back(meeting_of(problem, *interface));
+  const int n = static_cast<int>(problem.interfaces.size());
+  std::vector<std::optional<Meeting>> meetings(static_cast<size_t>(n));
+  const double within = n > 0 ? default_within(problem) : 0.0;
+  parallel_for(n, [&](int i) { meetings[i].emplace(meeting_of(*problem.interfaces[i], within)); });
   const FacetsOfOthers others(problem, meetings);
+  std::vector<Facing> facings(static_cast<size_t>(n));
+  parallel_for(n, [&](int i) { facings[i] = facing_of(problem, i, meetings, others); });
   for (size_t i = 0; i < problem.interfaces.size(); ++i) {
     const InterfacePtr& interface = problem.interfaces[i];
     Surface surface;
     surface.interface = interface.get();
     surface.part_1 = index_of(problem.substructures, interface->side_1.part.get());
     surface.part_2 = index_of(problem.substructures, interface->side_2.part.get());
-    surface.facing = facing_of(problem, static_cast<int>(i), meetings, others);
+    surface.facing = std::move(facings[i]);
     // A tie between meshes that do not match is a law of its own.
     if (has_load(problem, interface.get()) || (interface->law->is_tie() && !surface.facing.matches()))
       surface.law = interface->law;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/parallel.hpp"
 #include "law/law.hpp"
 #include "mesh/face_nodes.hpp"
 #include "model/check.hpp"
@@ -155,26 +156,32 @@ std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Su
   const std::vector<PlacedBody> bodies = bodies_with_ties(problem, surfaces);
   std::vector<Box> boxes;
   for (int i = 0; i < n; ++i) boxes.push_back(body_of(problem, i).box());
-  std::vector<Unjoined> found;
+  std::vector<Unjoined> pairs;
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j) {
       const double size = std::min(boxes[i].size().norm(), boxes[j].size().norm());
-      if (!boxes[i].grown(reach * size).meets(boxes[j].grown(reach * size))) continue;
-      PlacedBody body_1 = bodies[static_cast<size_t>(i)], body_2 = bodies[static_cast<size_t>(j)];
-      for (const Surface& surface : surfaces) {
-        if (surface.part_1 == i && surface.part_2 == j) {
-          join(body_1, surface.facing.facets_1);
-          join(body_2, surface.facing.facets_2);
-        } else if (surface.part_1 == j && surface.part_2 == i) {
-          join(body_2, surface.facing.facets_1);
-          join(body_1, surface.facing.facets_2);
-        }
-      }
-      Neighbours neighbours = find_neighbours(body_1, body_2, reach * size);
-      if (neighbours.touch || neighbours.intrusion || neighbours.are_near())
-        found.push_back({i, j, size, std::move(neighbours)});
+      if (boxes[i].grown(reach * size).meets(boxes[j].grown(reach * size))) pairs.push_back({i, j, size, {}});
     }
-  return found;
+  parallel_for(static_cast<int>(pairs.size()), [&](int k) {
+    Unjoined& pair = pairs[static_cast<size_t>(k)];
+    const int i = pair.part_1, j = pair.part_2;
+    PlacedBody body_1 = bodies[static_cast<size_t>(i)], body_2 = bodies[static_cast<size_t>(j)];
+    for (const Surface& surface : surfaces) {
+      if (surface.part_1 == i && surface.part_2 == j) {
+        join(body_1, surface.facing.facets_1);
+        join(body_2, surface.facing.facets_2);
+      } else if (surface.part_1 == j && surface.part_2 == i) {
+        join(body_2, surface.facing.facets_1);
+        join(body_1, surface.facing.facets_2);
+      }
+    }
+    pair.neighbours = find_neighbours(body_1, body_2, reach * pair.size);
+  });
+  std::erase_if(pairs, [](const Unjoined& pair) {
+    const Neighbours& found = pair.neighbours;
+    return !found.touch && !found.intrusion && !found.are_near();
+  });
+  return pairs;
 }
 
 namespace {

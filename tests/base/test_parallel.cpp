@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/fair_shares.hpp"
 #include "base/parallel_by_cost.hpp"
 #include "base/thread_choice.hpp"
 
@@ -163,6 +164,42 @@ TEST(ParallelByCost, throws_what_a_body_throws) {
   EXPECT_THROW(parallel_by_cost({1.0, 50.0, 1.0}, [](int i) { CHECK(i != 1, "not this one"); }), ContractError);
   EXPECT_THROW(parallel_by_cost({1.0, 1.0, 1.0, 1.0}, [](int i) { CHECK(i != 1, "not this one"); }), ContractError);
   parallel_by_cost({}, [](int) { FAIL(); });
+}
+
+TEST(FairShares, move_towards_equal_times) {
+  FairShares shares;
+  shares.divide_evenly(1000, 2);
+  EXPECT_EQ(shares.bounds(), (std::vector<int>{0, 500, 1000}));
+  shares.follow({1.0, 1.02});
+  EXPECT_EQ(shares.bounds(), (std::vector<int>{0, 500, 1000})) << "as near as the next run is";
+  // The last hundred cost nineteen times as much as the others: 900 and 1900, and a fair bound at 926.
+  const auto seconds = [&] {
+    const int at = shares.bounds()[1];
+    const double first = std::min(at, 900) + 19.0 * std::max(0, at - 900);
+    return std::vector<double>{1e-6 * first, 1e-6 * (2800.0 - first)};
+  };
+  for (int i = 0; i < 20; ++i) shares.follow(seconds());
+  const std::vector<double> end = seconds();
+  EXPECT_LT(std::abs(end[0] - end[1]), 0.1 * (end[0] + end[1]));
+  // Nothing known of a share that took no time.
+  shares.follow({0.0, 0.0});
+  shares.follow({0.0, 1.0});
+  EXPECT_TRUE(std::is_sorted(shares.bounds().begin(), shares.bounds().end()));
+}
+
+TEST_F(ParallelFor, of_fair_shares_runs_every_index_once_wherever_their_bounds_are) {
+  FairShares shares;
+  for (const int n : {0, 1, 2, 3, 700, 701}) {
+    for (int round = 0; round < 5; ++round) {
+      std::vector<int> count(static_cast<size_t>(n), 0);
+      shares.run(n, 0, [&](int i) {
+        for (volatile int k = 0; k < (i < n / 4 ? 400 : 0);) k = k + 1;
+        ++count[static_cast<size_t>(i)];
+      });
+      EXPECT_EQ(count, std::vector<int>(static_cast<size_t>(n), 1));
+    }
+  }
+  EXPECT_THROW(shares.run(100, 2, [](int i) { CHECK(i != 70, "not this one"); }), ContractError);
 }
 
 }  // namespace
