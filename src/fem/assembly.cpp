@@ -147,11 +147,11 @@ void see_cells(const Mesh& mesh, const CellBlock& block, const Elastic& material
 
 }  // namespace
 
-BodyMatrices assemble(const Mesh& mesh, const Elastic& material) {
+BodyMatrices assemble(const Mesh& mesh, const Elastic& material, SparseMatrix* memory) {
   CellSlots slots;
   const NodePattern pattern = node_pattern(mesh, &slots);
   const NodeOwners owners = node_owners(mesh);
-  BodyMatrices body{block_matrix(pattern), Vec::Zero(mesh.n_nodes())};
+  BodyMatrices body{block_matrix(pattern, memory), Vec::Zero(mesh.n_nodes())};
   std::vector<char> is_begun(mesh.n_nodes(), 0);
   for (size_t k = 0; k < mesh.blocks.size(); ++k)
     with_cell(mesh.blocks[k].type, [&](auto cell) {

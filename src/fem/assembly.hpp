@@ -11,8 +11,9 @@ struct BodyMatrices {
 };
 
 // Assembles by node pattern and 3x3 blocks, no triplets; columns increasing in each row; the same to the bit for any
-// number of threads. Throws InputError when the matrix would have more than 2^31 entries.
-BodyMatrices assemble(const Mesh& mesh, const Elastic& material);
+// number of threads. memory: of a matrix that is done with, and empty afterwards: new pages take their time.
+// Throws InputError when the matrix would have more than 2^31 entries.
+BodyMatrices assemble(const Mesh& mesh, const Elastic& material, SparseMatrix* memory = nullptr);
 
 // rad/s: at least the highest frequency of the elements, at most 1.2 times it; 2 / it is a safe step of central
 // differences.

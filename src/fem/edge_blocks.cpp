@@ -6,7 +6,10 @@ namespace dygita {
 
 EdgeBlocks::EdgeBlocks(const SparseMatrix& stiffness) {
   const int n = static_cast<int>(stiffness.rows()) / 3;
+  const size_t n_edges = (static_cast<size_t>(stiffness.nonZeros()) / 9 - static_cast<size_t>(n)) / 2;
   starts_.reserve(static_cast<size_t>(n) + 1);
+  others_.reserve(n_edges);
+  blocks_.reserve(9 * n_edges + 2);
   starts_.push_back(0);
   for (int a = 0; a < n; ++a) {
     const int begin = stiffness.outerIndexPtr()[3 * a], count = stiffness.outerIndexPtr()[3 * a + 1] - begin;

@@ -90,10 +90,12 @@ NodePattern node_pattern(const Mesh& mesh, CellSlots* slots) {
   return pattern;
 }
 
-SparseMatrix block_matrix(const NodePattern& pattern) {
+SparseMatrix block_matrix(const NodePattern& pattern, SparseMatrix* memory) {
   const int n = pattern.n_nodes();
   const auto n_entries = static_cast<Eigen::Index>(9 * pattern.neighbours.size());
-  SparseMatrix matrix(3 * n, 3 * n);
+  SparseMatrix matrix;
+  if (memory) matrix.swap(*memory);
+  matrix.resize(3 * n, 3 * n);
   matrix.resizeNonZeros(n_entries);
   prefer_huge_pages(matrix.valuePtr(), n_entries * sizeof(double));
   prefer_huge_pages(matrix.innerIndexPtr(), n_entries * sizeof(int));

@@ -26,6 +26,7 @@ struct CellSlots {
 NodePattern node_pattern(const Mesh& mesh, CellSlots* slots = nullptr);
 
 // Matrix (3n x 3n) with a 3x3 block for each pair of the pattern; columns increasing in each row; values not set.
-SparseMatrix block_matrix(const NodePattern& pattern);
+// memory: of a matrix that is done with, and empty afterwards.
+SparseMatrix block_matrix(const NodePattern& pattern, SparseMatrix* memory = nullptr);
 
 }  // namespace dygita

@@ -28,8 +28,9 @@ Points directions_of(const Instant& instant, int piece) {
 }
 
 Vec velocity_of(const Instant& instant, int piece) {
-  return instant.fields ? Vec(instant.velocity(piece).reshaped())
-                        : instant.model.pieces[static_cast<size_t>(piece)]->state().v;
+  if (instant.fields) return instant.velocity(piece).reshaped();
+  const Piece& of = *instant.model.pieces[static_cast<size_t>(piece)];
+  return of.is_explicit() ? Vec(of.velocity().reshaped()) : of.state().v;  // whose state is put together when asked for
 }
 
 double ratio(double energy, double of) { return of > 0.0 ? std::sqrt(std::max(0.0, energy) / of) : 0.0; }
@@ -37,30 +38,26 @@ double ratio(double energy, double of) { return of > 0.0 ? std::sqrt(std::max(0.
 }  // namespace
 
 int OctaveSamples::add(const Vec& mass, const Vec& velocity, double* content2) {
-  Vec sample = velocity;
+  const Vec* sample = &velocity;
   int n = 0;
   for (size_t i = 0;; ++i) {
     if (i == octaves_.size()) octaves_.emplace_back();
     Octave& octave = octaves_[i];
-    std::vector<Vec>& last = octave.last;
-    if (last.size() == 3) {
-      // The third difference passes what turns by a right angle a sample, the middle of the octave, with the factor
-      // 2^(3/2), the square root of 8.
-      double sum = 0.0;
-      for (Eigen::Index k = 0; k < sample.size(); ++k) {
-        const double difference = sample[k] - last[2][k] - 3.0 * (last[0][k] - last[1][k]);
-        sum += mass[k] * difference * difference;
-      }
-      content2[n++] = sum / 8.0;
-    }
+    std::array<Vec, 3>& last = octave.last;
+    // The third difference passes what turns by a right angle a sample, the middle of the octave, with the factor
+    // 2^(3/2), the square root of 8.
+    if (octave.n_samples >= 3)
+      content2[n++] = (mass.array() * (*sample - last[2] - 3.0 * (last[0] - last[1])).array().square()).sum() / 8.0;
     // Every other sample, smoothed, goes to the octave below.
-    const bool goes_on = octave.n_samples++ % 2 == 1 && last.size() >= 2 && i + 1 < most_octaves;
-    Vec smooth;
-    if (goes_on) smooth = 0.25 * (sample + 2.0 * last[0] + last[1]);
-    if (last.size() == 3) last.pop_back();
-    last.insert(last.begin(), std::move(sample));
+    const bool goes_on = octave.n_samples % 2 == 1 && octave.n_samples >= 2 && i + 1 < most_octaves;
+    Vec& smooth = smooth_[i % 2];
+    if (goes_on) smooth = 0.25 * (*sample + 2.0 * last[0] + last[1]);
+    ++octave.n_samples;
+    last[2].swap(last[1]);
+    last[1].swap(last[0]);
+    last[0] = *sample;
     if (!goes_on) return n;
-    sample = std::move(smooth);
+    sample = &smooth;
   }
 }
 
@@ -87,7 +84,6 @@ void ErrorEstimator::take_velocities(const Instant& instant) {
   const Cut& cut = *instant.model.cut;
   const auto renew = [&](int i) {
     PieceMotion& own = pieces_[static_cast<size_t>(i)];
-    own.old = std::move(own.velocity);
     own.velocity = velocity_of(instant, own.piece);
     if (carried_->asks_for_momentum()) own.momentum.noalias() = own.directions * own.mass.cwiseProduct(own.velocity);
   };
@@ -111,9 +107,8 @@ void ErrorEstimator::take_velocities(const Instant& instant) {
     double* sums = own_sums[static_cast<size_t>(i)].data();
     if (!carried.isZero(0.0)) own.velocity.noalias() -= own.directions.transpose() * carried;
     sums[0] = own.velocity.dot(own.mass.cwiseProduct(own.velocity));
-    sums[1] = 0.0;
-    for (Eigen::Index k = 0; k < own.old.size(); ++k)
-      sums[1] += own.mass[k] * std::pow((own.velocity[k] - own.old[k]) / dt_, 2);
+    const Vec* const old = own.octaves.latest();
+    sums[1] = old ? (own.mass.array() * (own.velocity - *old).array().square()).sum() / (dt_ * dt_) : 0.0;
     n_octaves[static_cast<size_t>(i)] = own.octaves.add(own.mass, own.velocity, sums + 2);
   };
   parallel_for(static_cast<int>(pieces_.size()), take, Schedule::as_free, n_threads);
@@ -185,9 +180,13 @@ void ErrorEstimator::begin_step(const Instant& start) {
   still_ = {start.state.energies.loads, start.state.energies.strain, start.state.energies.balance()};
   if (start.is_static()) return;
   for (int i = 0; i < start.model.cut->n_pieces(); ++i)
-    if (start.model.cut->is_here(i))
-      pieces_.push_back(
-          {i, masses_of(start, i), directions_of(start, i), {}, {}, Vec3::Zero(), start.piece_displacement(i), {}});
+    if (start.model.cut->is_here(i)) pieces_.emplace_back().piece = i;
+  parallel_for(static_cast<int>(pieces_.size()), [&](int i) {
+    PieceMotion& own = pieces_[static_cast<size_t>(i)];
+    own.mass = masses_of(start, own.piece);
+    own.directions = directions_of(start, own.piece);
+    own.start = start.piece_displacement(own.piece);
+  });
   carried_.emplace(start);
   has_old_ = false;
   bank_.emplace(start.model.is_tuned());

@@ -4,6 +4,7 @@
 // Each is the square root of the energy of the estimated error over that of the shock, at its worst instant.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -18,14 +19,17 @@ class OctaveSamples {
   // Samples the velocities. Writes the square of the content of each octave that it completes, from octave 0 on, and
   // says how many these are: the same for pieces that have been given as many samples. mass: kg, weights.
   int add(const Vec& mass, const Vec& velocity, double* content2);
+  // The velocities last added; null: none yet.
+  const Vec* latest() const { return octaves_.empty() ? nullptr : &octaves_.front().last[0]; }
   static constexpr int most_octaves = 32;
 
  private:
   struct Octave {
-    std::vector<Vec> last;  // up to three samples, the latest first
+    std::array<Vec, 3> last;  // samples, the latest first
     long n_samples = 0;
   };
   std::vector<Octave> octaves_;
+  std::array<Vec, 2> smooth_;  // on its way to the octave below
 };
 
 // Content of the velocities of the assembly by octave of frequency, and the phase error that the time scheme gives each
@@ -76,10 +80,10 @@ class ErrorEstimator {
   };
   // What a piece that is here has of a dynamic step.
   struct PieceMotion {
-    int piece;
+    int piece = 0;
     Vec mass;                      // kg, of its unknowns
     Points directions;             // 3 x n, of the same
-    Vec velocity, old;             // m/s, of the same; relative (Q0)
+    Vec velocity;                  // m/s, of the same; relative (Q0)
     Vec3 momentum = Vec3::Zero();  // kg m/s, where the carried motion asks for it
     Points start;                  // m, displacements at the start of the step
     OctaveSamples octaves;

@@ -234,10 +234,11 @@ void add_matrices(const std::vector<char>& to, const std::vector<char>& keeps, s
     wanted.emplace_back(i, &at->second);
     cost.push_back(bodies[i].part->mesh->n_cells());
   }
+  SpareMatrices spares;
   parallel_by_cost(cost, [&](int i) {
     const auto& [first, matrices] = wanted[static_cast<size_t>(i)];
     const Substructure& part = *bodies[first].part;
-    *matrices = std::make_shared<const StoredMatrices>(part.mesh, part.material, keeps[first]);
+    *matrices = std::make_shared<const StoredMatrices>(part.mesh, part.material, keeps[first], &spares);
   });
   for (size_t i = 0; i < bodies.size(); ++i)
     if (to[i]) bodies[i].matrices = known.at(key(bodies[i]));

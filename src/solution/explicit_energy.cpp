@@ -9,8 +9,10 @@ namespace {
 
 // Three of every four numbers.
 Points nodal(const std::vector<double>& field) {
-  return Eigen::Map<const Points, 0, Eigen::OuterStride<4>>(field.data(), 3,
-                                                            static_cast<Eigen::Index>(field.size() / 4));
+  Points nodal(3, static_cast<Eigen::Index>(field.size() / 4));
+  double* to = nodal.data();
+  for (size_t i = 0; i < field.size(); i += 4) to = std::copy_n(&field[i], 3, to);
+  return nodal;
 }
 
 // The same of some nodes alone.
@@ -197,7 +199,14 @@ void ExplicitPiece::begin_interval() {
   }
 }
 
-Points ExplicitPiece::displacement() const { return nodal(start_) + nodal(d_) - 0.5 * setup_.scheme.dt * nodal(v_); }
+Points ExplicitPiece::displacement() const {
+  Points u(3, static_cast<Eigen::Index>(inverse_.size()));
+  double* to = u.data();
+  const double half = 0.5 * setup_.scheme.dt;
+  for (size_t i = 0; i < d_.size(); i += 4)
+    for (size_t c = i; c < i + 3; ++c) *to++ = start_[c] + d_[c] - half * v_[c];
+  return u;
+}
 
 Points ExplicitPiece::velocity() const { return nodal(v_); }
 

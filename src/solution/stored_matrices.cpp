@@ -15,20 +15,42 @@ StiffnessPtr taken(SparseMatrix&& matrix) {
 
 }  // namespace
 
-StoredMatrices::StoredMatrices(BodyMatrices matrices)
-    : mass_(std::move(matrices.mass)),
-      n_pairs_(0.5 * (static_cast<double>(matrices.stiffness.nonZeros()) / 9.0 - static_cast<double>(mass_.size()))),
-      held_(taken(std::move(matrices.stiffness))) {}
+std::unique_ptr<SparseMatrix> SpareMatrices::take() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (spare_.empty()) return std::make_unique<SparseMatrix>();
+  std::unique_ptr<SparseMatrix> matrix = std::move(spare_.back());
+  spare_.pop_back();
+  return matrix;
+}
 
-StoredMatrices::StoredMatrices(MeshPtr mesh, const Elastic& material, bool keeps)
-    : StoredMatrices(assemble(*mesh, material)) {
-  mesh_ = std::move(mesh);
-  material_ = material;
-  last_ = held_;
-  if (keeps) return;
-  held_edges_ = std::make_shared<const EdgeBlocks>(*held_);
-  last_edges_ = held_edges_;
-  held_.reset();
+void SpareMatrices::give(std::unique_ptr<SparseMatrix> matrix) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  spare_.push_back(std::move(matrix));
+}
+
+void StoredMatrices::take_sizes(BodyMatrices& matrices) {
+  mass_ = std::move(matrices.mass);
+  n_pairs_ = 0.5 * (static_cast<double>(matrices.stiffness.nonZeros()) / 9.0 - static_cast<double>(mass_.size()));
+}
+
+StoredMatrices::StoredMatrices(BodyMatrices matrices) {
+  take_sizes(matrices);
+  held_ = taken(std::move(matrices.stiffness));
+}
+
+StoredMatrices::StoredMatrices(MeshPtr mesh, const Elastic& material, bool keeps, SpareMatrices* spares)
+    : mesh_(std::move(mesh)), material_(material) {
+  std::unique_ptr<SparseMatrix> memory = keeps || !spares ? nullptr : spares->take();
+  BodyMatrices matrices = assemble(*mesh_, material, memory.get());
+  take_sizes(matrices);
+  if (keeps) {
+    last_ = held_ = taken(std::move(matrices.stiffness));
+    return;
+  }
+  last_edges_ = held_edges_ = std::make_shared<const EdgeBlocks>(matrices.stiffness);
+  if (!memory) return;
+  memory->swap(matrices.stiffness);
+  spares->give(std::move(memory));
 }
 
 double StoredMatrices::bytes() const {

@@ -13,13 +13,25 @@ namespace dygita {
 
 using StiffnessPtr = std::shared_ptr<const SparseMatrix>;
 
+// Memory of matrices that nobody keeps, for who assembles the next one.
+class SpareMatrices {
+ public:
+  std::unique_ptr<SparseMatrix> take();
+  void give(std::unique_ptr<SparseMatrix> matrix);
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<SparseMatrix>> spare_;
+};
+
 // Shared by equal substructures, and read by several threads.
 class StoredMatrices {
  public:
   // Matrices that stay.
   explicit StoredMatrices(BodyMatrices matrices);
-  // Of a mesh. keeps: the matrix is held here until it is given up; otherwise only its edges are.
-  StoredMatrices(MeshPtr mesh, const Elastic& material, bool keeps);
+  // Of a mesh. keeps: the matrix is held here until it is given up; otherwise only its edges are, and its memory
+  // spared.
+  StoredMatrices(MeshPtr mesh, const Elastic& material, bool keeps, SpareMatrices* spares = nullptr);
 
   const Vec& mass() const { return mass_; }    // kg, n_nodes, as assembled
   double n_pairs() const { return n_pairs_; }  // of nodes that share a cell
@@ -32,6 +44,8 @@ class StoredMatrices {
   void give_up() const;
 
  private:
+  void take_sizes(BodyMatrices& matrices);
+
   MeshPtr mesh_;
   Elastic material_;
   Vec mass_;

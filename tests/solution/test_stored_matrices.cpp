@@ -57,6 +57,29 @@ TEST(StoredMatrices, have_the_edges_of_the_matrix_before_and_after) {
   EXPECT_EQ(times(*stored.edges()), times(plain)) << "made of a matrix that was assembled for them";
 }
 
+TEST(StoredMatrices, in_memory_of_others_are_the_same_to_the_bit) {
+  SpareMatrices spares;
+  for (const int n : {5, 3, 4, 7, 2}) {
+    const MeshPtr mesh = box_mesh(Vec3::Zero(), {0.01, 0.02, 0.03}, {2, n, 4});
+    const BodyMatrices plain = assemble(*mesh, steel());
+    const std::unique_ptr<SparseMatrix> memory = spares.take();
+    const BodyMatrices again = assemble(*mesh, steel(), memory.get());
+    expect_same_bits(again.stiffness, plain.stiffness);
+    EXPECT_EQ(again.mass, plain.mass);
+    EXPECT_EQ(memory->nonZeros(), 0);
+    const StoredMatrices stored(mesh, steel(), false, &spares);
+    const EdgeBlocks edges(plain.stiffness);
+    const Vec x = Vec::Random(4 * mesh->n_nodes());
+    Vec y = Vec::Zero(x.size()), y_plain = y;
+    stored.edges()->add_product(x.data(), y.data());
+    edges.add_product(x.data(), y_plain.data());
+    EXPECT_EQ(y, y_plain);
+    const std::unique_ptr<SparseMatrix> spared = spares.take();
+    EXPECT_EQ(spared->nonZeros(), plain.stiffness.nonZeros()) << "what it was made of, for the next";
+    spares.give(std::make_unique<SparseMatrix>(*spared));
+  }
+}
+
 TEST(StoredMatrices, given_as_they_are_stay) {
   const MeshPtr mesh = stored_mesh();
   BodyMatrices own = assemble(*mesh, steel());
