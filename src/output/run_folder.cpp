@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <limits>
 
 #include "base/error.hpp"
@@ -23,7 +22,13 @@ std::optional<std::string> text_of(const fs::path& path) {
   require_file(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) return std::nullopt;
-  return std::string{std::istreambuf_iterator<char>(file), {}};
+  std::error_code error;
+  std::string text;
+  const auto size = fs::file_size(path, error);
+  if (!error) text.resize(size);
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<size_t>(file.gcount()));
+  return text;
 }
 
 }  // namespace

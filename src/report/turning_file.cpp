@@ -168,7 +168,12 @@ std::string assembly_text(const Problem& problem, const std::vector<FacetLabels>
 std::string turning_figure(const std::string& json, const std::string& title, const std::string& caption) {
   // "</script>" in a name would end the data.
   std::string data;
-  for (const char c : json) data += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  data.reserve(json.size());
+  for (const char c : json)
+    if (c == '<')
+      data += "\\u003c";
+    else
+      data += c;
   return "<figure class=\"turn\" hidden data-title=\"" + escaped(title) + "\">\n<script type=\"application/json\">" +
          data + "</script>\n<figcaption>" + escaped(caption) + "</figcaption>\n</figure>\n";
 }
