@@ -6,53 +6,73 @@ from page import table
 
 FLANGES, BLOCKS = "decks/bench/even_flanges.lua", "decks/bench/blocks.lua"
 MOST_BYTES = 20 * 2**30
+MOST_RUNS, LONG_ENOUGH = 7, 20     # of a scene on each number of threads; seconds of all of them
 COLOURS = ["#cfd8dc", "#90a4ae", "#0b5394", "#c75b12", "#2e7d32", "#8e24aa", "#00a0c6", "#6d4c41", "#ad1457"]
 
 
 def asked(machine, quick):
-    """[(scene, deck, settings, solver, threads, limit)]; a scene of a few steps says so in its settings."""
+    """[(scene, deck, settings, solver, numbers of threads, limit)]; a scene of a few steps says so in its settings."""
     many = {"bx": 4, "by": 4, "bz": 4}
     few = {"bx": 2, "by": 2, "bz": 2}
     if quick:
-        return [("bolted flanges", FLANGES, {"size": "4*mm"}, None, t, 60) for t in machine.threads] + [
-            ("blocks, 8", BLOCKS, {"cells": 12, "steps": 20} | few, None, t, 60) for t in machine.threads]
+        return [("bolted flanges", FLANGES, {"size": "4*mm"}, None, machine.threads, 60),
+                ("blocks, 8", BLOCKS, {"cells": 12, "steps": 20} | few, None, machine.threads, 60)]
     cut = 'latin{ integration = "implicit", pieces = 8 }' if machine.cuts else None
     found = []
     for size, duration in (("4*mm", "200*us"), ("2.12*mm", "200*us"), ("1.4*mm", "40*us")):
         for name, solver in (("bolted flanges", None), ("bolted flanges, implicit", 'latin{ integration = "implicit" }')):
-            found += [(name, FLANGES, {"size": size, "duration": duration}, solver, t, 300) for t in machine.threads]
+            found.append((name, FLANGES, {"size": size, "duration": duration}, solver, machine.threads, 300))
     if machine.cuts:
-        found += [("bolted flanges, 8 pieces per part", FLANGES, {"size": "1.4*mm", "duration": "40*us"}, cut, t, 300) for t in machine.threads]
-    found += [("bolted flanges", FLANGES, {"size": size, "duration": duration}, None, machine.threads[-1], 600)
+        found.append(("bolted flanges, 8 pieces per part", FLANGES, {"size": "1.4*mm", "duration": "40*us"}, cut, machine.threads, 300))
+    found += [("bolted flanges", FLANGES, {"size": size, "duration": duration}, None, machine.threads[-1:], 600)
               for size, duration in (("0.96*mm", "20*us"), ("0.64*mm", "10*us"))]
     for cells, bricks, steps in ((12, few, 200), (20, few, 200), (32, few, 200), (32, many, 200), (46, many, 20), (69, many, 10)):
         threads = machine.threads if cells < 46 else machine.threads[-1:]
-        found += [(f"blocks, {bricks['bx']**3}", BLOCKS, {"cells": cells, "steps": steps} | bricks, None, t, 600) for t in threads]
+        found.append((f"blocks, {bricks['bx']**3}", BLOCKS, {"cells": cells, "steps": steps} | bricks, None, threads, 600))
     return found
 
 
+def runs_of(machine, deck, settings, solver, threads, limit, quick):
+    """{threads: DeckRun}, the fastest of several where they are short: one and two threads in turn, since machines change their speed."""
+    best, spent = {}, 0.0
+    for _ in range(1 if quick or len(threads) < 2 else MOST_RUNS):
+        for t in threads:
+            run = machine.deck(deck, settings, solver, t, limit)
+            took = run.record["seconds"]["all"]
+            spent += took
+            if t not in best or took < best[t].record["seconds"]["all"]:
+                best[t] = run
+        if spent > LONG_ENOUGH:
+            break
+    return best
+
+
 def measure(machine, folder, quick):
-    """Writes scenes.csv: one row per run."""
+    """Writes scenes.csv: one row per scene and number of threads."""
     rows = []
     for scene, deck, settings, solver, threads, limit in asked(machine, quick):
-        machine.say(f"Scene: {scene} {settings}, {threads} thread(s)")
+        machine.say(f"Scene: {scene} {settings}, {' and '.join(map(str, threads))} thread(s)")
         try:
-            run = machine.deck(deck, settings, solver, threads, limit)
+            runs = runs_of(machine, deck, settings, solver, threads, limit, quick)
         except RuntimeError as failure:
             machine.say(f"  left out: {failure}")
             continue
-        shock, record = run.shock, run.record
-        every = sum(step["iterations"] for step in record["steps"])
-        iterated = record["size"]["interface_unknowns"]     # of the shock: none where it is explicit
-        local = record["seconds"]["local stage"] / every / iterated * 3e9 if iterated else ""
-        rows.append({"scene": scene, "settings": " ".join(f"{k}={v}" for k, v in settings.items()), "dofs": run.dofs,
-                     "interface unknowns": iterated, "threads": threads, "steps": shock["increments"],
-                     "not converged": sum(step["increments_not_converged"] for step in record["steps"]),
-                     "iterations per step": shock["iterations"] / shock["increments"], "shock [s]": shock["seconds"], "all [s]": record["seconds"]["all"],
-                     "static [s]": sum(step["seconds"] for step in record["steps"][:-1]), "local stage [ns per point]": local,
-                     "factors [MB]": record["figures"]["memory of factors and interface operators [MB]"], "peak [MB]": run.peak_bytes / 1e6,
-                     "share of the processor": run.share} | {phase: record["seconds"].get(phase, 0.0) for phase in PHASES})
+        rows += [row_of(scene, settings, t, run) for t, run in runs.items()]
     write_rows(folder / "scenes.csv", rows)
+
+
+def row_of(scene, settings, threads, run):
+    shock, record = run.shock, run.record
+    every = sum(step["iterations"] for step in record["steps"])
+    iterated = record["size"]["interface_unknowns"]     # of the shock: none where it is explicit
+    local = record["seconds"]["local stage"] / every / iterated * 3e9 if iterated else ""
+    return {"scene": scene, "settings": " ".join(f"{k}={v}" for k, v in settings.items()), "dofs": run.dofs,
+            "interface unknowns": iterated, "threads": threads, "steps": shock["increments"],
+            "not converged": sum(step["increments_not_converged"] for step in record["steps"]),
+            "iterations per step": shock["iterations"] / shock["increments"], "shock [s]": shock["seconds"], "all [s]": record["seconds"]["all"],
+            "static [s]": sum(step["seconds"] for step in record["steps"][:-1]), "local stage [ns per point]": local,
+            "factors [MB]": record["figures"]["memory of factors and interface operators [MB]"], "peak [MB]": run.peak_bytes / 1e6,
+            "share of the processor": run.share} | {phase: record["seconds"].get(phase, 0.0) for phase in PHASES}
 
 
 def speed_up(rows):
@@ -106,7 +126,7 @@ def section(rows):
     failed = [f"{r['scene']} at {r['dofs']:.0f}: {r['not converged']:.0f} steps" for r in rows if r["not converged"]]
     return "\n\n".join(filter(None, [
         "## Scenes", f"`{FLANGES}` and `{BLOCKS}` (a cube in 8 or 64 bricks, contact across its middle, CFL 1). *Steps*: of the shock as run here; "
-        "the largest take few. *Factors*: of the last step, with interface operators. *Peak*: memory of the whole program. *Local stage*: nanoseconds an iteration "
+        "the largest take few. One thread and two ran in turn, up to seven times where they are short, and the fastest of each counts. *Factors*: of the last step, with interface operators. *Peak*: memory of the whole program. *Local stage*: nanoseconds an iteration "
         "and three interface unknowns, where the shock is not explicit. *Processor had*: processor time over elapsed time and threads.",
         "![Where the time goes](performance/scenes.svg)",
         table(["scene", "unknowns", "threads", "steps", "iterations per step", "static s", "shock s", "ms per step", "assembly and factor s", "all s", "factors MB",
