@@ -2,10 +2,10 @@
 // hold what it had before, and its length follows what it took.
 #pragma once
 
-#include <ctime>
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "base/thread_time.hpp"
 
 namespace dygita {
 
@@ -24,9 +24,9 @@ class FairShares {
     parallel_for(
         n_threads,
         [&](int t) {
-          const double start = now();
+          const double start = thread_seconds();
           for (int i = bounds_[t]; i < bounds_[t + 1]; ++i) body(i);
-          seconds[static_cast<size_t>(t)] = now() - start;
+          seconds[static_cast<size_t>(t)] = thread_seconds() - start;
         },
         Schedule::evenly, n_threads);
     follow(seconds);
@@ -39,11 +39,6 @@ class FairShares {
   const std::vector<int>& bounds() const { return bounds_; }
 
  private:
-  static double now() {
-    std::timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-  }
   int n_ = 0;
   std::vector<int> bounds_;
 };

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/progress.hpp"
+#include "base/thread_time.hpp"
 
 namespace dygita {
 
@@ -46,10 +47,7 @@ std::string to_text(lua_State* L, int index) {
 }
 
 LuaState::Times LuaState::now() {
-  timespec own{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &own);
-  return {static_cast<double>(own.tv_sec) + 1e-9 * static_cast<double>(own.tv_nsec),
-          std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count()};
+  return {thread_seconds(), std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count()};
 }
 
 LuaState::LuaState(std::string deck_name, const LuaLimits& limits)
