@@ -148,7 +148,6 @@ void forget_on_machine() {
 
 Shared& shared_here() {
   static Shared shared;
-  ranks::before_stop(forget_on_machine);
   return shared;
 }
 
@@ -179,6 +178,7 @@ void share_on_machine(const MeshPtr& mesh) {
   std::weak_ptr<const Mesh>& known = here.known[mesh.get()];
   if (!here.copies || known.lock() == mesh) return;
   known = mesh;
+  ranks::before_stop(forget_on_machine);
   const auto share = [&](const void* at, size_t n_bytes) {
     if (here.copies->share(at, n_bytes) == MachineCopies::Outcome::being_written)
       here.waiting.push_back({mesh, at, n_bytes});
@@ -201,6 +201,7 @@ void share_on_machine(const std::vector<MeshPtr>& meshes) {
     warn(fmt::format("meshes cannot be shared in {}: each rank keeps its own (TMPDIR names another folder)",
                      folder_of_files()));
   if (ranks::count_on_machine() > 1 && shared_here().copies) shared_here().copies->forget_files();
+  ranks::before_stop(nullptr);
 }
 
 double bytes_shared_on_machine() {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <mutex>
@@ -24,21 +25,39 @@ std::mutex asking;
 Say say_error = nullptr;
 void (*tidy_up)() = nullptr;
 
-// Rank 0 hears that another has failed: its exit code, four bytes, and its message.
-void look_out() {
-  if (own_rank != 0) return;
+// What another rank says that has failed: its exit code, four bytes, and its message; empty: none has.
+std::string word_of_failed() {
   int is_there = 0;
   MPI_Status status;
   MPI_Iprobe(MPI_ANY_SOURCE, failed, MPI_COMM_WORLD, &is_there, &status);
-  if (!is_there) return;
+  if (!is_there) return "";
   int n = 0;
   MPI_Get_count(&status, MPI_BYTE, &n);
   std::string bytes(static_cast<size_t>(n), '\0');
   MPI_Recv(bytes.data(), n, MPI_BYTE, status.MPI_SOURCE, failed, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-  int code = 0;
-  std::memcpy(&code, bytes.data(), sizeof code);
-  say_error(bytes.substr(sizeof code));
+  return bytes;
+}
+
+// On rank 0. Errors of a deck are found by all ranks, of which the slowest may still be at work on what is tidied up.
+[[noreturn]] void end_all(const std::string& message, int code, int n_failed) {
+  constexpr std::chrono::seconds patience(2);
+  say_error(message);
+  const auto start = std::chrono::steady_clock::now();
+  while (tidy_up && n_failed < n_ranks && std::chrono::steady_clock::now() - start < patience)
+    n_failed += !word_of_failed().empty();
+  if (tidy_up) tidy_up();
   MPI_Abort(MPI_COMM_WORLD, code);
+  std::abort();
+}
+
+// Does rank 0 hear that another has failed?
+void look_out() {
+  if (own_rank != 0) return;
+  const std::string word = word_of_failed();
+  if (word.empty()) return;
+  int code = 0;
+  std::memcpy(&code, word.data(), sizeof code);
+  end_all(word.substr(sizeof code), code, 2);  // that one, and this, which is at work on nothing else
 }
 
 // Rank 0's values to all, which know how many: meshes are larger than what one call takes.
@@ -146,10 +165,7 @@ void before_stop(void (*tidy)()) { tidy_up = tidy; }
 
 void stop_all(const std::string& message, int code) {
   if (tidy_up) tidy_up();
-  if (own_rank == 0) {
-    say_error(message);
-    MPI_Abort(MPI_COMM_WORLD, code);
-  }
+  if (own_rank == 0) end_all(message, code, 1);
   std::string bytes(sizeof code, '\0');
   std::memcpy(bytes.data(), &code, sizeof code);
   bytes += message;

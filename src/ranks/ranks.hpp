@@ -29,10 +29,11 @@ const std::string& name_of_job();  // the same on all ranks, and that of no othe
 inline bool is_first() { return me() == 0; }
 inline bool is_alone() { return count() == 1; }
 
+// What a rank does before it ends all, to leave nothing behind; null: nothing. Rank 0 does it once more when the others
+// have, or had two seconds for it.
+void before_stop(void (*tidy)());
 // Ends all ranks with an exit code and one message: rank 0 says it, whoever has failed. Called by a rank alone, where
 // there are several.
-// What a rank does before it does so, to leave nothing behind.
-void before_stop(void (*tidy)());
 [[noreturn]] void stop_all(const std::string& message, int code);
 
 // Rank 0's bytes, on all.
