@@ -9,6 +9,7 @@
 #include "fem/shape.hpp"
 #include "fem/wave_tuning.hpp"
 #include "material/elastic.hpp"
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -68,12 +69,12 @@ template <CellType cell_type>
 auto ShapedCell<cell_type>::to_nodes() -> const Eigen::Matrix<double, n_recovery_points, n_nodes>& {
   static const Eigen::Matrix<double, n_recovery_points, n_nodes> matrix = [] {
     const ShapeFunctions functions(row.recovery);
-    Eigen::Matrix<double, n_recovery_points, n_recovery_points> at_points;
+    Mat at_points(n_recovery_points, n_recovery_points);
     for (int i = 0; i < n_recovery_points; ++i)
       at_points.col(i) = functions.values(vector_of(row.at_recovery.points[i].at));
-    Eigen::Matrix<double, n_recovery_points, n_nodes> at_nodes;
+    Mat at_nodes(n_recovery_points, n_nodes);
     for (int a = 0; a < n_nodes; ++a) at_nodes.col(a) = functions.values(vector_of(row.shape.nodes[a]));
-    return (at_points.inverse() * at_nodes).eval();
+    return Mat(inverse(at_points) * at_nodes);
   }();
   return matrix;
 }

@@ -1,10 +1,10 @@
 #include "fem/patch_recovery.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 
 #include "fem/cell_loop.hpp"
 #include "mesh/raise_order.hpp"
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -109,18 +109,17 @@ bool fit_to(const std::vector<int>& cells, const Samples& samples, Patch& patch)
         visit(k);
   };
   each([&](int k) { patch.size = std::max(patch.size, (samples.places.col(k) - patch.at).norm()); });
-  Eigen::Matrix<double, n_terms, n_terms> normal = Eigen::Matrix<double, n_terms, n_terms>::Zero();
+  using Normal = Eigen::Matrix<double, n_terms, n_terms>;
+  Normal normal = Normal::Zero();
   Fit right = Fit::Zero();
   each([&](int k) {
     const Terms t = terms((samples.places.col(k) - patch.at) / patch.size);
     normal += t * t.transpose();
     right += samples.stress.col(k) * t.transpose();
   });
-  Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, n_terms, n_terms>> solver;
-  solver.setThreshold(least_pivot);
-  solver.compute(normal);
-  patch.fit = solver.solve(right.transpose()).transpose();
-  return solver.rank() == n_terms;
+  const LeastNorm found = solve_least_norm(normal, right.transpose(), least_pivot);
+  patch.fit = found.x.transpose();
+  return found.rank == n_terms;
 }
 
 std::vector<Patch> fit_patches(const Mesh& mesh, const Samples& samples) {

@@ -1,9 +1,9 @@
 #include "fem/uniform_strain.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "fem/cell_loop.hpp"
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -63,7 +63,7 @@ MeanCell<Cell::n_nodes> mean_cell(const Nodes<Cell::n_nodes>& x) {
   mean.gradient /= mean.volume;
   // A plane wave across a brick of thickness L has the gradient's square 4 / (n L^2).
   const Mat3 square = mean.gradient.transpose() * mean.gradient;
-  const double largest = Eigen::SelfAdjointEigenSolver<Mat3>(square, Eigen::EigenvaluesOnly).eigenvalues()[2];
+  const double largest = principal_axes(square).values[2];
   mean.thickness = 2.0 / std::sqrt(n * largest);
   mean.hourglass_scale = mean.volume * square.trace();
   return mean;

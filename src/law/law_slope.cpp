@@ -1,8 +1,9 @@
 #include "law/law_slope.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -46,17 +47,17 @@ Mat3 stiffness_of(const Mat3& slope, const Vec3& y, bool sticks, const TangentBo
       scaled.col(d).setZero();
       scaled(d, d) = y[d] > 0.0 ? 1.0 : 0.0;
     }
-  const Eigen::SelfAdjointEigenSolver<Mat3> modes(scaled);
+  const PrincipalAxes modes = principal_axes(scaled);
   Vec3 stiffness;
   for (int i = 0; i < 3; ++i) {
-    const double g = modes.eigenvalues()[i];
+    const double g = modes.values[i];
     stiffness[i] =
         g >= bounds.stiffest / (1.0 + bounds.stiffest) ? bounds.stiffest : std::max(bounds.softest, g / (1.0 - g));
   }
   Vec3 inverse_root = Vec3::Zero();
   for (int d = 0; d < 3; ++d)
     if (root[d] > 0.0) inverse_root[d] = 1.0 / root[d];
-  const Mat3 half = inverse_root.asDiagonal() * modes.eigenvectors();
+  const Mat3 half = inverse_root.asDiagonal() * modes.vectors;
   return half * stiffness.asDiagonal() * half.transpose();
 }
 

@@ -1,11 +1,11 @@
 #include "mesh/pick_facets.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "mesh/face_nodes.hpp"
 #include "mesh/smooth_patches.hpp"
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -43,10 +43,10 @@ Cylinder cylinder_through(const Boundary& b, const std::vector<int>& facets) {
     normals += b.normals[f] * b.normals[f].transpose() / static_cast<double>(facets.size());
     patch.push_back(b.facets[f]);
   }
-  const Eigen::SelfAdjointEigenSolver<Mat3> axes(normals);
-  Cylinder cylinder{axes.eigenvectors().col(0)};
-  if (axes.eigenvalues()[0] > 1e-3 || axes.eigenvalues()[1] < 1e-3) return cylinder;  // bent twice, or flat
-  const Vec3 u = axes.eigenvectors().col(1), v = axes.eigenvectors().col(2);
+  const PrincipalAxes axes = principal_axes(normals);
+  Cylinder cylinder{axes.vectors.col(0)};
+  if (axes.values[0] > 1e-3 || axes.values[1] < 1e-3) return cylinder;  // bent twice, or flat
+  const Vec3 u = axes.vectors.col(1), v = axes.vectors.col(2);
   const std::vector<int> nodes = nodes_of(patch);
   Mat system(nodes.size(), 3);
   Vec squares(nodes.size());
@@ -56,7 +56,7 @@ Cylinder cylinder_through(const Boundary& b, const std::vector<int>& facets) {
     system.row(row) << u.dot(x), v.dot(x), 1.0;
     squares[row] = std::pow(u.dot(x), 2) + std::pow(v.dot(x), 2);
   }
-  const Vec3 circle = system.colPivHouseholderQr().solve(squares);
+  const Vec3 circle = solve_least_norm(system, squares, 1e-15).x;
   const double p = 0.5 * circle[0], q = 0.5 * circle[1];
   cylinder.radius = std::sqrt(std::max(0.0, circle[2] + p * p + q * q));
   double off = 0.0;

@@ -1,9 +1,9 @@
 #include "mesh/shape_functions.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -26,7 +26,7 @@ Mat coefficients_of(const ShapeFactor& factor) {
       for (int axis = 0; axis < factor.n_axes; ++axis)
         vandermonde(m, a) *= power(factor.nodes[a][axis], factor.monomials[m][axis]);
     }
-  return vandermonde.inverse();
+  return inverse(vandermonde);
 }
 
 // The factor's node at the place of a node of the element.

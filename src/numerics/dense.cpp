@@ -19,12 +19,28 @@ EigenPairs symmetric_eigen(const Mat& a) {
   return {eigen.eigenvalues(), eigen.eigenvectors()};
 }
 
+PrincipalAxes principal_axes(const Mat3& a) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(a);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
 EigenPairs generalized_symmetric_eigen(const Mat& k, const Mat& m) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Mat> eigen(k, m);
   return {eigen.eigenvalues(), eigen.eigenvectors()};
 }
 
 Mat solve_dense(const Mat& a, const Mat& b) { return a.fullPivLu().solve(b); }
+
+Mat inverse(const Mat& a) { return a.partialPivLu().inverse(); }
+
+Mat pseudo_inverse(const Mat& a) { return a.completeOrthogonalDecomposition().pseudoInverse(); }
+
+LeastNorm solve_least_norm(const Mat& a, const Mat& b, double threshold) {
+  Eigen::CompleteOrthogonalDecomposition<Mat> solver;
+  solver.setThreshold(threshold);
+  solver.compute(a);
+  return {solver.solve(b), static_cast<int>(solver.rank())};
+}
 
 LuFactor::LuFactor(Mat a) : lu_(std::move(a)), pivots_(static_cast<size_t>(lu_.rows())) {
   const int n = static_cast<int>(lu_.rows());

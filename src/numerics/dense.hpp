@@ -15,11 +15,32 @@ struct EigenPairs {
 // Of a symmetric matrix; the lower triangle is read.
 EigenPairs symmetric_eigen(const Mat& a);
 
+// The same of 3 x 3.
+struct PrincipalAxes {
+  Vec3 values;   // increasing
+  Mat3 vectors;  // one column a value
+};
+PrincipalAxes principal_axes(const Mat3& a);
+
 // K x = lambda M x with M positive definite; vectors are orthonormal in M.
 EigenPairs generalized_symmetric_eigen(const Mat& k, const Mat& m);
 
 // X of A X = B, by elimination with full pivoting; A square and regular, B with as many rows.
 Mat solve_dense(const Mat& a, const Mat& b);
+
+// Of a square and regular matrix.
+Mat inverse(const Mat& a);
+
+// Moore and Penrose's, of any matrix.
+Mat pseudo_inverse(const Mat& a);
+
+// X of least norm among those of least squares of A X - B, and the rank of A: pivots below `threshold` of the largest
+// are zero.
+struct LeastNorm {
+  Mat x;
+  int rank = 0;
+};
+LeastNorm solve_least_norm(const Mat& a, const Mat& b, double threshold);
 
 // P A = L U of a square matrix, by LAPACK. Where it is singular, solutions are not finite.
 class LuFactor {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "numerics/dense.hpp"
+
 namespace dygita {
 
 namespace {
@@ -95,7 +97,7 @@ InterfaceNewton::Outcome PreloadNewton::solve(InterfaceNewton& newton, std::vect
     }
     if (slope.size() == 0) slope = slopes(d, force);
     const Vec old = d;
-    d += slope.fullPivLu().solve(target_ - force);
+    d += solve_dense(slope, target_ - force);
     force = forces(d);
     if (error() > 0.1 * before) slope.resize(0, 0);
     if (error() < before) continue;

@@ -1,10 +1,11 @@
 #include "reference/shared_nodes.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <map>
 #include <numeric>
+
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -148,7 +149,7 @@ void SharedNodes::make_split(const StepModel& model, Group& group) {
       row += static_cast<int>(free.cols());
     }
   }
-  group.split = balance.completeOrthogonalDecomposition().pseudoInverse();
+  group.split = pseudo_inverse(balance);
 }
 
 void SharedNodes::average(Vec& field) const {

@@ -1,8 +1,7 @@
 #include "result/carried_motion.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include "law/law.hpp"
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -27,11 +26,11 @@ CarriedMotion::CarriedMotion(const Instant& start) {
       held += surface.facing.normals * surface.facing.normals.transpose();
   for (const SupportPtr& support : supports_of(*model.problem, *model.step))
     if (support->kind->absorbs()) held += Mat3::Identity();
-  const Eigen::SelfAdjointEigenSolver<Mat3> axes(held);
+  const PrincipalAxes axes = principal_axes(held);
   for (int d = 0; d < 3; ++d) {
-    const Vec3 axis = axes.eigenvectors().col(d);
-    if (axes.eigenvalues()[d] < 1e-6) continue;
-    held_inverse_ += axis * axis.transpose() / axes.eigenvalues()[d];
+    const Vec3 axis = axes.vectors.col(d);
+    if (axes.values[d] < 1e-6) continue;
+    held_inverse_ += axis * axis.transpose() / axes.values[d];
     free_ -= axis * axis.transpose();
   }
   for (const auto& piece : model.pieces) mass_ += piece->node_masses().sum();

@@ -1,11 +1,11 @@
 #include <spdlog/fmt/fmt.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <map>
 #include <set>
 
+#include "numerics/dense.hpp"
 #include "result/craig_bampton.hpp"
 #include "result/weighted_nodes.hpp"
 
@@ -50,7 +50,7 @@ std::vector<NodeSum> mean_rows(const PlacedNodes& on) {
     const Mat3 c = cross_matrix(on.places[i] - on.centre);
     inertia += on.weights[i] * c.transpose() * c;
   }
-  const bool turns = Eigen::SelfAdjointEigenSolver<Mat3>(inertia).eigenvalues()[0] > 1e-9 * inertia.trace();
+  const bool turns = principal_axes(inertia).values[0] > 1e-9 * inertia.trace();
   std::vector<NodeSum> rows(turns ? 6 : 3);
   const Mat3 inverse = turns ? Mat3(inertia.inverse()) : Mat3(Mat3::Zero());
   for (size_t i = 0; i < on.nodes.size(); ++i) {

@@ -2,11 +2,11 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <numeric>
 
 #include "law/law.hpp"
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -80,9 +80,9 @@ void add_part(const Instant& instant, int part, Group& group) {
 
 // Without what goes along held directions.
 Vec3 free_part(const Group& group, Vec3 force) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> held(group.held);
+  const PrincipalAxes held = principal_axes(group.held);
   for (int d = 0; d < 3; ++d)
-    if (held.eigenvalues()[d] > 1e-9) force -= held.eigenvectors().col(d).dot(force) * held.eigenvectors().col(d);
+    if (held.values[d] > 1e-9) force -= held.vectors.col(d).dot(force) * held.vectors.col(d);
   return force;
 }
 

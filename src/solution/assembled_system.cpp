@@ -1,9 +1,9 @@
 #include "solution/assembled_system.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "numerics/dense.hpp"
 #include "numerics/gmres.hpp"
 #include "solution/make_pieces.hpp"
 
@@ -236,7 +236,7 @@ void AssembledSystem::set_following(const Tangents& tangents) {
 
 Vec AssembledSystem::balanced(const Vec& right_hand_side) const {
   Vec x = factor_->solve(right_hand_side);
-  if (yielding_.size() > 0) x += answers_ * yielding_.fullPivLu().solve(columns_.transpose() * x);
+  if (yielding_.size() > 0) x += answers_ * solve_dense(yielding_, columns_.transpose() * x);
   return x;
 }
 

@@ -1,6 +1,5 @@
 #include "solution/point_record.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 
 #include "law/law.hpp"

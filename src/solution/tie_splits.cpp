@@ -1,7 +1,7 @@
-#include <Eigen/QR>
 #include <cmath>
 #include <map>
 
+#include "numerics/dense.hpp"
 #include "solution/exchange.hpp"
 
 namespace dygita {
@@ -19,7 +19,7 @@ Mat split_of(std::span<const Tie> ties, int first_port, int n_ports, const std::
     incidence(tie.port_1 - first_port, t) = root_area[t];
     incidence(tie.port_2 - first_port, t) = -root_area[t];
   }
-  return root_area.asDiagonal() * incidence.completeOrthogonalDecomposition().pseudoInverse();
+  return root_area.asDiagonal() * pseudo_inverse(incidence);
 }
 
 }  // namespace
