@@ -1,7 +1,9 @@
 """Runs the program and the benchmark programs on this machine and reads back what they measured."""
 
+import concurrent.futures
 import csv
 import io
+import itertools
 import json
 import os
 import platform
@@ -44,7 +46,7 @@ class Machine:
     def __init__(self, build, root, scratch, say):
         self.build, self.root, self.scratch, self.say = Path(build), Path(root), Path(scratch), say
         self.threads = [1, 2] if (os.cpu_count() or 1) > 1 else [1]
-        self.count = 0
+        self.numbers = itertools.count(1)    # of runs, which may be side by side
         schema = subprocess.run([self.build / "dygita", "schema"], capture_output=True, text=True, check=True).stdout
         latin = schema[schema.index("`solver.latin{"):]
         self.cuts = "| `pieces` " in latin[:latin.index("\n### ")]      # solver.latin cuts substructures itself
@@ -74,8 +76,7 @@ class Machine:
 
     def deck(self, deck, settings=None, solver=None, threads=1, limit=600):
         """Computes a deck with parameters `settings`, no frames written."""
-        self.count += 1
-        out = self.scratch / f"run_{self.count}"
+        out = self.scratch / f"run_{next(self.numbers)}"
         command = [self.build / "dygita", "run", self.root / deck, "--quiet", "--no-frames", "--threads", threads, "--out", out]
         for name, value in (settings or {}).items():
             command += ["--set", f"{name}={value}"]
@@ -87,6 +88,12 @@ class Machine:
         record = next(out.glob("*/*/run.json"))
         return DeckRun(json.loads(record.read_text()), record.parent, peak, used / elapsed / threads)
 
+    def side_by_side(self, n, deck, settings=None, solver=None, limit=600):
+        """Seconds until n processes of one thread have all computed a deck: what the machine has for n threads in these minutes."""
+        with concurrent.futures.ThreadPoolExecutor(n) as pool:
+            runs = [pool.submit(self.deck, deck, settings, solver, 1, limit) for _ in range(n)]
+            return max(run.result().record["seconds"]["all"] for run in runs)
+
     def linear(self, deck, settings=None, threads=(1,), steps=0, limit=900):
         """Rows of bench_linear by (threads, form)."""
         command = [self.build / "tests/bench_linear", self.root / deck, "--threads", ",".join(map(str, threads)), "--steps", steps]
@@ -97,8 +104,7 @@ class Machine:
 
     def kernels(self, pattern, min_time):
         """Google Benchmark's results by name."""
-        self.count += 1
-        out = self.scratch / f"kernels_{self.count}.json"
+        out = self.scratch / f"kernels_{next(self.numbers)}.json"
         self.run([self.build / "tests/bench_kernels", f"--benchmark_filter={pattern}", f"--benchmark_min_time={min_time}",
                   f"--benchmark_out={out}", "--benchmark_out_format=json"], 900)
         return {b["name"].replace("/real_time", "").replace("/manual_time", "").replace("/iterations:1", ""): b

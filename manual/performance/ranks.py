@@ -34,8 +34,7 @@ def difference(folder, other):
 
 def run(machine, ranks, solver, settings, deck=RING):
     """run.json and folder of a deck on so many ranks of one thread."""
-    out = machine.scratch / f"ranks_{machine.count}"
-    machine.count += 1
+    out = machine.scratch / f"ranks_{next(machine.numbers)}"
     command = [shutil.which("mpirun"), "--allow-run-as-root", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
     command += [machine.build / "dygita", "run", machine.root / deck, "--quiet", "--no-frames", "--threads", "1", "--out", out, "--solver", solver]
     for name, value in settings.items():

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/markup.hpp"
+#include "base/parallel.hpp"
 #include "report/part_color.hpp"
 #include "report/picture.hpp"
 
@@ -25,6 +26,7 @@ std::string base64(const std::vector<T>& values) {
   std::vector<unsigned char> bytes(values.size() * sizeof(T));
   if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
   std::string text;
+  text.reserve(4 * (bytes.size() + 2) / 3);
   for (size_t i = 0; i < bytes.size(); i += 3) {
     const size_t n = std::min<size_t>(3, bytes.size() - i);
     uint32_t word = 0;
@@ -142,8 +144,10 @@ std::string motion_text(const Problem& problem, const SkinMotion& motion) {
                         static_cast<int>(std::clamp<double>(most_bytes / bytes_of_node, fewest_nodes, most_nodes)));
   const View view = whole_view_of(problem.substructures);
   Json json = still(problem, mesh, view);
-  json["frames"] = Json::array();
-  for (const SkinFrame& frame : motion.frames) json["frames"].push_back(frame_of(frame, mesh));
+  Json::array_t frames(motion.frames.size());
+  parallel_for(static_cast<int>(frames.size()),
+               [&](int i) { frames[static_cast<size_t>(i)] = frame_of(motion.frames[static_cast<size_t>(i)], mesh); });
+  json["frames"] = std::move(frames);
   Points u = Points::Zero(3, 1);
   u(0, 0) = largest_displacement(motion);
   json["warp"] = picture_scale(view, {u});

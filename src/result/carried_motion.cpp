@@ -39,7 +39,7 @@ CarriedMotion::CarriedMotion(const Instant& start) {
 Vec3 CarriedMotion::at(const Instant& instant, const std::function<Vec3()>& momentum) const {
   Vec3 carried = Vec3::Zero();
   if (pull_.cols() > 0) {
-    const std::vector<double> motions = instant.model.motion_velocities(std::max(instant.increment, 0));
+    const std::vector<double> motions = instant.model.motion_velocities(std::max(instant.last_substep(), 0));
     const Eigen::Map<const Vec> v(motions.data(), static_cast<Eigen::Index>(motions.size()));
     const Vec3 pulled = pull_ * v;
     const double all = v.dot(square_ * v), together = pulled.dot(held_inverse_ * pulled);

@@ -29,6 +29,8 @@ struct Instant {
   const DistantPoints* distant = nullptr;  // null: all points of the interfaces are here
 
   double time() const { return state.time; }
+  // Increment of the scheme that ends the time step of the deck; negative at the step's start.
+  int last_substep() const { return (increment + 1) * model.n_substeps() - 1; }
   double interval() const { return is_static() ? model.scheme.dt : model.step->dt; }  // s, of the deck
   bool is_static() const { return model.scheme.is_static; }
   // Fields of an interface or wall at this instant; on several ranks those of the first may ask.

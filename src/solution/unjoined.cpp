@@ -16,7 +16,7 @@ namespace dygita {
 
 namespace {
 
-constexpr double reach = 0.05;  // of the smaller part's size
+constexpr double reach = 0.05, longest_flight = 0.5;  // of the smaller part's size
 
 std::string at(const Vec3& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]); }
 
@@ -30,6 +30,15 @@ void join(PlacedBody& body, const std::vector<Facet>& facets) {
 PlacedBody body_of(const Problem& problem, int part) {
   const Substructure& body = *problem.substructures[static_cast<size_t>(part)];
   return {body.mesh.get(), body.place};
+}
+
+// m, that two parts come nearer to each other, or farther away, as they fly at first.
+double flight_of(const Problem& problem, int part_1, int part_2) {
+  double duration = 0.0;
+  for (const StepPtr& step : problem.steps)
+    if (!step->is_static) duration += step->duration;
+  const auto velocity = [&](int part) { return problem.substructures[static_cast<size_t>(part)]->velocity; };
+  return duration * (velocity(part_1) - velocity(part_2)).norm();
 }
 
 double area_of(const Substructure& part, const std::vector<Facet>& facets) {
@@ -62,6 +71,28 @@ void doubt_shift(const Problem& problem, const Surface& surface) {
                   "by {}",
                   check::describe(*surface.interface), face_1.label(), face_2.label(),
                   100.0 * surface.facing.areas.sum() / area_1, at(shift)));
+}
+
+// 'within' lets faces meet across a distance that the law then knows nothing of.
+void doubt_distance(const Problem& problem, const Surface& surface) {
+  const Interface& interface = *surface.interface;
+  const Facing& facing = surface.facing;
+  if (!interface.within || interface.has_gap_of_geometry || interface.law->initial().gap != 0.0) return;
+  double largest = 0.0;
+  for (int i = 0; i < facing.n_points(); ++i) {
+    const Substructure &a = *interface.side_1.part, &b = *interface.side_2.part;
+    const auto apart = [&] {
+      return (a.mesh->nodes.col(facing.side_1.main_node(i)) + a.place - b.mesh->nodes.col(facing.side_2.main_node(i)) -
+              b.place)
+          .norm();
+    };
+    largest = std::max(largest, facing.matches() ? apart() : std::abs(facing.gaps[i]));
+  }
+  if (largest <= std::max(default_within(problem), 2.0 * facing.sagitta)) return;
+  check::doubt(
+      problem, interface.origin,
+      fmt::format("{} joins faces that are up to {:.3g} mm apart as if they touched{}", check::describe(interface),
+                  1e3 * largest, interface.law->is_tie() ? "" : ": gap = \"geometry\" has the law know the distance"));
 }
 
 // How many facets have all their nodes among those that a support holds.
@@ -160,7 +191,8 @@ std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Su
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j) {
       const double size = std::min(boxes[i].size().norm(), boxes[j].size().norm());
-      if (boxes[i].grown(reach * size).meets(boxes[j].grown(reach * size))) pairs.push_back({i, j, size, {}});
+      const double near = reach * size + std::min(flight_of(problem, i, j), longest_flight * size);
+      if (boxes[i].grown(near).meets(boxes[j].grown(near))) pairs.push_back({i, j, size, near, {}});
     }
   parallel_for(static_cast<int>(pairs.size()), [&](int k) {
     Unjoined& pair = pairs[static_cast<size_t>(k)];
@@ -175,7 +207,7 @@ std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Su
         join(body_1, surface.facing.facets_2);
       }
     }
-    pair.neighbours = find_neighbours(body_1, body_2, reach * pair.size);
+    pair.neighbours = find_neighbours(body_1, body_2, pair.reach);
   });
   std::erase_if(pairs, [](const Unjoined& pair) {
     const Neighbours& found = pair.neighbours;
@@ -243,6 +275,7 @@ void doubt_surfaces(const Problem& problem, const std::vector<Surface>& surfaces
     if (!surface.interface) continue;
     doubt_shift(problem, surface);
     doubt_points(problem, surface);
+    doubt_distance(problem, surface);
     doubt_held_side(problem, surface, surface.interface->side_1.part, surface.facing.facets_1);
     doubt_held_side(problem, surface, surface.interface->side_2.part, surface.facing.facets_2);
   }

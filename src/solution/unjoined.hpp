@@ -11,11 +11,13 @@ namespace dygita {
 struct Unjoined {
   int part_1, part_2;  // index in problem.substructures, part_1 < part_2
   double size;         // m, diagonal of the smaller part's bounding box
+  double reach;        // m, how far apart they may be to be near
   Neighbours neighbours;
 };
 
-// Pairs of parts that touch, overlap or are near (within a twentieth of the smaller one's size) where no interface
-// joins them. Parts whose bounding boxes are farther apart cost nothing.
+// Pairs of parts that touch, overlap or are near where no interface joins them: within a twentieth of the smaller one's
+// size, and what their velocities at the start bring them together in the dynamic steps, half of that size at most.
+// Parts whose bounding boxes are farther apart cost nothing.
 std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Surface>& surfaces);
 
 // Says with warn() which of them touch or overlap, and what an interface hardly means: faces of one size shifted by a

@@ -53,11 +53,12 @@ struct EstimatedRun {
 };
 
 inline EstimatedRun run_estimated(const std::filesystem::path& path, const Settings& settings, double tolerance = 0.0,
-                                  bool is_tuned = false) {
+                                  bool is_tuned = false,
+                                  IntegrationChoice integration = IntegrationChoice::implicitly) {
   set_progress_enabled(false);
   EstimatedRun done;
   const Engine engine{[&](Problem problem, const RunRequest&) {
-                        problem.solver.integration = IntegrationChoice::implicitly;
+                        problem.solver.integration = integration;
                         if (tolerance > 0.0) problem.solver.tolerance = tolerance;
                         problem.solver.mass.is_tuned = is_tuned;
                         Recorder recorder(problem);

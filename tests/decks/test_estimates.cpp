@@ -139,6 +139,15 @@ TEST_F(ShakenBar, of_tetrahedra_that_lock_is_told_to_be_poor_and_of_hexahedra_to
   EXPECT_LT(good.figures.mesh_error.value(), limit::discretisation_error);
 }
 
+// Several explicit increments make a time step of the deck: what carries the bar along is taken off at its end.
+TEST_F(ShakenBar, is_judged_alike_with_explicit_increments) {
+  const EstimatedRun trapezoidal = run_estimated(path_, {});
+  const EstimatedRun substeps = run_estimated(path_, {}, 0.0, false, IntegrationChoice::explicitly);
+  const double expected = trapezoidal.figures.mesh_error.value();
+  EXPECT_NEAR(substeps.figures.mesh_error.value(), expected, 0.1 * expected);
+  EXPECT_LT(substeps.figures.time_step_error.value(), 0.5 * trapezoidal.figures.time_step_error.value());
+}
+
 TEST_F(ShakenBar, has_no_band_for_the_motion_of_its_foot) {
   const SpectraRun run = run_spectra(path_, {}, {}, 0.0, 0.0);
   for (const OutputPtr& output : run.problem.outputs) {

@@ -77,6 +77,32 @@ TEST(Unjoined, parts_that_touch_and_pass_through_each_other_are_named) {
   EXPECT_NE(through[0].find("in step 'fall' at 0.1 ms: an interface.contact would keep them apart"), std::string::npos);
 }
 
+// 40 m/s for 100 us, across more than a twentieth of the block's size.
+TEST(Unjoined, parts_that_fly_into_each_other_from_afar_are_named) {
+  std::string text = blocks_at("{ 10*mm, 10*mm, 12.4*mm }", "");
+  EXPECT_TRUE(said_of_run(text, "into each other").empty());
+  text.replace(text.find("0, 0, -1 }"), 10, "0, 0, -40 }");
+  const std::vector<std::string> through = said_of_run(text, "into each other");
+  ASSERT_EQ(through.size(), 1u);
+  EXPECT_EQ(through[0].substr(0, through[0].find(" into each other")), "substructures 'plate' and 'block' pass 1.6 mm");
+}
+
+TEST(Unjoined, faces_apart_that_meet_as_if_they_touched_are_named) {
+  const auto said = [](const std::string& more) {
+    return said_of_check(blocks_at("{ 10*mm, 10*mm, 11*mm }",
+                                   "interfaces = { interface.contact{ name = \"lid\", between = { block:face \"zmin\", "
+                                   "plate:face \"zmax\" }, within = 2*mm" +
+                                       more + " } }"),
+                         "as if they touched");
+  };
+  ASSERT_EQ(said("").size(), 1u);
+  EXPECT_NE(said("")[0].find("'lid' joins faces that are up to 1 mm apart as if they touched: gap = \"geometry\" has"),
+            std::string::npos)
+      << said("")[0];
+  EXPECT_TRUE(said(", gap = \"geometry\"").empty());
+  EXPECT_TRUE(said(", gap = 1*mm").empty());
+}
+
 TEST(Unjoined, parts_are_watched_across_a_gap_and_where_cells_differ) {
   const std::vector<std::string> through = said_of_run(blocks_at("{ 9*mm, 8*mm, 10.04*mm }", ""), "into each other");
   ASSERT_EQ(through.size(), 1u);
