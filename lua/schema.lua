@@ -276,7 +276,7 @@ words[4] = {
     arguments = {
       name_unless_all(), between(all_touching), of_parts, except, friction,
       { "gap", type = "number", unit = "m", range = { -0.01, 0.01 }, usual = usual_gap, default = 0, or_word = "geometry",
-        doc = "initial gap; a negative one is an interference; that of the places, point by point, where the meshes do not match" },
+        doc = "initial gap; a negative one is an interference; \"geometry\": that of the places, point by point, where the meshes do not match" },
       { "closed", type = "boolean", default = false, doc = "says that the faces touch, whatever lies between their facets: the gap is 0" },
       within(), points(),
     },

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 #include "base/log.hpp"
 #include "law/law.hpp"
@@ -123,6 +124,13 @@ void warn_of_losses(const Problem& problem, const RunResult& result) {
                      result.converged ? cure_of_balance(problem) : "some increments have not converged"));
 }
 
+// Bands of spectra are made of errors that are small.
+std::string doubt_of_bands(const RunResult& result) {
+  const bool has_bands = std::any_of(result.findings.begin(), result.findings.end(),
+                                     [](const auto& of) { return of.second.band.n_rows() > 0; });
+  return has_bands ? "; with so much, spectra may be off by far more than their bands say" : "";
+}
+
 // The run's own estimates, where they are too large to build on.
 void warn_of_errors(const Problem& problem, const RunResult& result) {
   const Figures& figures = result.figures;
@@ -139,15 +147,15 @@ void warn_of_errors(const Problem& problem, const RunResult& result) {
   if (const double e = figures.time_step_error.value_or(0.0); e > limit::discretisation_error)
     warn(
         fmt::format("the time step leaves an error of about {:.2g} % (energy norm) in the shock, which moves at {:.3g} "
-                    "kHz on average: use a smaller dt",
-                    e, figures.mean_frequency.value() / 1e3));
-  for (const auto& [error, text] :
-       {std::pair{figures.mesh_error, "in the shock"}, {figures.static_mesh_error, "in the static steps"}})
+                    "kHz on average: use a smaller dt{}",
+                    e, figures.mean_frequency.value() / 1e3, doubt_of_bands(result)));
+  for (const auto& [error, text, of_bands] : {std::tuple{figures.mesh_error, "in the shock", doubt_of_bands(result)},
+                                              {figures.static_mesh_error, "in the static steps", std::string()}})
     if (const double e = error.value_or(0.0); e > limit::discretisation_error)
       warn(
           fmt::format("the mesh leaves an error of about {:.2g} % (energy norm) {}: use smaller cells; "
-                      "'stress_error' shows where",
-                      e, text));
+                      "'stress_error' shows where{}",
+                      e, text, of_bands));
 }
 
 // Of the parts on both sides of a bolt's interface the least that is known.

@@ -148,6 +148,17 @@ TEST_F(ShakenBar, is_judged_alike_with_explicit_increments) {
   EXPECT_LT(substeps.figures.time_step_error.value(), 0.5 * trapezoidal.figures.time_step_error.value());
 }
 
+TEST_F(ShakenBar, of_poor_cells_has_bands_that_are_said_not_to_hold) {
+  const auto said_with = [&](const char* hexahedra) {
+    testing::internal::CaptureStderr();
+    run_file(path_, {{"n", "20"}, {"hexahedra", hexahedra}});
+    return testing::internal::GetCapturedStderr();
+  };
+  const std::string held = "spectra may be off by far more than their bands say";
+  EXPECT_NE(said_with("0").find(held), std::string::npos);
+  EXPECT_EQ(said_with("1").find(held), std::string::npos);
+}
+
 TEST_F(ShakenBar, has_no_band_for_the_motion_of_its_foot) {
   const SpectraRun run = run_spectra(path_, {}, {}, 0.0, 0.0);
   for (const OutputPtr& output : run.problem.outputs) {
