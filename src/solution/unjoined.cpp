@@ -77,17 +77,9 @@ void doubt_shift(const Problem& problem, const Surface& surface) {
 void doubt_distance(const Problem& problem, const Surface& surface) {
   const Interface& interface = *surface.interface;
   const Facing& facing = surface.facing;
-  if (!interface.within || interface.has_gap_of_geometry || interface.law->initial().gap != 0.0) return;
-  double largest = 0.0;
-  for (int i = 0; i < facing.n_points(); ++i) {
-    const Substructure &a = *interface.side_1.part, &b = *interface.side_2.part;
-    const auto apart = [&] {
-      return (a.mesh->nodes.col(facing.side_1.main_node(i)) + a.place - b.mesh->nodes.col(facing.side_2.main_node(i)) -
-              b.place)
-          .norm();
-    };
-    largest = std::max(largest, facing.matches() ? apart() : std::abs(facing.gaps[i]));
-  }
+  const bool knows = interface.has_gap_of_geometry || interface.law->initial().gap != 0.0;
+  if (!interface.within || knows || facing.matches() || facing.n_points() == 0) return;
+  const double largest = facing.gaps.cwiseAbs().maxCoeff();
   if (largest <= std::max(default_within(problem), 2.0 * facing.sagitta)) return;
   check::doubt(
       problem, interface.origin,
