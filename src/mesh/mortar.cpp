@@ -195,12 +195,21 @@ std::vector<int> Mortar::targets(const std::vector<Raw>& raw,
     return std::tuple(is_whole[a], !is_taken[a], size_of(a), -a) >
            std::tuple(is_whole[b], !is_taken[b], size_of(b), -b);
   };
+  // Of whole ones as large as each other the nearest, else a face and its mirror image would have different points.
+  const double edge2 = std::pow(carrier().smallest_edge(), 2);
+  const auto is_better_for = [&](int i, int a, int b) {
+    if (!is_whole[a] || !is_whole[b] || size_of(a) != size_of(b)) return is_better(a, b);
+    const auto far = [&](int j) {
+      return std::floor(7236.0679775 * (carrier().x.col(j) - carrier().x.col(i)).squaredNorm() / edge2);
+    };
+    return std::pair(-far(a), -a) > std::pair(-far(b), -b);
+  };
   std::vector<int> best(n, -1);
   for (const Coupling& coupling : couplings_)
     for (const int i : coupling.points) {
       if (raw[i].opposite.empty()) continue;
       for (const int j : coupling.points)
-        if (j != i && !raw[j].opposite.empty() && (best[i] < 0 || is_better(j, best[i]))) best[i] = j;
+        if (j != i && !raw[j].opposite.empty() && (best[i] < 0 || is_better_for(i, j, best[i]))) best[i] = j;
     }
   std::vector<int> target(n, -1);
   for (int i = 0; i < n; ++i) {

@@ -92,9 +92,12 @@ void ErrorEstimator::take_velocities(const Instant& instant) {
   const int threads_for_few = 1, n_threads = n_unknowns < 20000 ? threads_for_few : 0;
   parallel_for(static_cast<int>(pieces_.size()), renew, Schedule::as_free, n_threads);
   size_t next = 0;  // of pieces_, whose order is that of the cut
+  const auto momenta_of_all = [&] {
+    next = 0;
+    return of_all_pieces(cut, 3, [&](int, double* to) { std::copy_n(pieces_[next++].momentum.data(), 3, to); });
+  };
   const Vec3 carried = carried_->at(instant, [&] {
-    const std::vector<double> momenta =
-        of_all_pieces(cut, 3, [&](int, double* to) { std::copy_n(pieces_[next++].momentum.data(), 3, to); });
+    const std::vector<double> momenta = momenta_of_all();
     Vec3 sum = Vec3::Zero();
     for (size_t i = 0; i < momenta.size(); i += 3) sum += Eigen::Map<const Vec3>(&momenta[i]);
     return sum;
@@ -106,7 +109,9 @@ void ErrorEstimator::take_velocities(const Instant& instant) {
     PieceMotion& own = pieces_[static_cast<size_t>(i)];
     double* sums = own_sums[static_cast<size_t>(i)].data();
     if (!carried.isZero(0.0)) own.velocity.noalias() -= own.directions.transpose() * carried;
-    sums[0] = own.velocity.dot(own.mass.cwiseProduct(own.velocity));
+    const Vec momenta = own.mass.cwiseProduct(own.velocity);
+    sums[0] = own.velocity.dot(momenta);
+    if (!linked_.are_one()) own.momentum.noalias() = own.directions * momenta;
     const Vec* const old = own.octaves.latest();
     sums[1] = old ? (own.mass.array() * (own.velocity - *old).array().square()).sum() / (dt_ * dt_) : 0.0;
     n_octaves[static_cast<size_t>(i)] = own.octaves.add(own.mass, own.velocity, sums + 2);
@@ -119,6 +124,7 @@ void ErrorEstimator::take_velocities(const Instant& instant) {
   std::vector<double> sums(static_cast<size_t>(n), 0.0);
   for (size_t i = 0; i < all.size(); ++i) sums[i % sums.size()] += all[i];
   kinetic_now_ = 0.5 * sums[0];
+  if (!linked_.are_one()) kinetic_now_ -= linked_.energy_as_wholes(instant, momenta_of_all(), carried_->free());
   rate_ += sums[1];
   n_rates_ += has_old_;
   has_old_ = true;
@@ -188,6 +194,7 @@ void ErrorEstimator::begin_step(const Instant& start) {
     own.start = start.piece_displacement(own.piece);
   });
   carried_.emplace(start);
+  linked_.begin_step(start);
   has_old_ = false;
   bank_.emplace(start.model.is_tuned());
   dt_ = start.interval();
@@ -235,6 +242,7 @@ void ErrorEstimator::accept(const Instant& instant) {
   phase_factor_ = instant.fields ? 0.5 / std::pow(std::max(1, instant.iterations), 2) : instant.model.phase_factor();
   dynamic_.interface_energy += instant.interface_energy;
   const Energies& energies = instant.state.energies;
+  linked_.accept(instant);
   take_velocities(instant);
   kinetic_ = std::max(kinetic_, kinetic_now_);
   stored_ = std::max(stored_, energies.kinetic + energies.strain);

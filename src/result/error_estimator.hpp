@@ -9,6 +9,7 @@
 #include <span>
 
 #include "result/carried_motion.hpp"
+#include "result/linked_parts.hpp"
 #include "result/part_views.hpp"
 
 namespace dygita {
@@ -58,7 +59,7 @@ class OctaveBank {
 // taken piece by piece, in their order.
 class ErrorEstimator {
  public:
-  explicit ErrorEstimator(PartViews& views) : views_(&views) {}
+  ErrorEstimator(const Problem& problem, PartViews& views) : linked_(problem), views_(&views) {}
   // Both are collective.
   void begin_step(const Instant& start);
   void accept(const Instant& instant);
@@ -84,7 +85,7 @@ class ErrorEstimator {
     Vec mass;                      // kg, of its unknowns
     Points directions;             // 3 x n, of the same
     Vec velocity;                  // m/s, of the same; relative (Q0)
-    Vec3 momentum = Vec3::Zero();  // kg m/s, where the carried motion asks for it
+    Vec3 momentum = Vec3::Zero();  // kg m/s, where the carried motion asks for it, or parts that are not linked
     Points start;                  // m, displacements at the start of the step
     OctaveSamples octaves;
   };
@@ -94,8 +95,9 @@ class ErrorEstimator {
   void sample_stress(const Instant& instant);
   StressEnergies stress_energies(const Instant& instant);
 
-  // Of the shock, J, relative to which errors are: twice the kinetic energy, as of a wave; of a slow motion, what is
-  // stored in it; at rest, next to nothing of what was there before.
+  // Of the shock, J, relative to which errors are: twice the kinetic energy, as of a wave, without that of parts which
+  // fly as a whole and have touched nothing; of a slow motion, what is stored in it; at rest, next to nothing of what
+  // was there before.
   double energy() const { return std::max({2.0 * kinetic_, shock_energy_, 1e-8 * stored_}); }
 
   // Of a static step so far.
@@ -111,11 +113,12 @@ class ErrorEstimator {
   double before_ = 0.0, before_mesh_ = 0.0;  // phase errors (norms, sqrt of J) of the dynamic steps before
   std::vector<PieceMotion> pieces_;          // that are here, in a dynamic step
   std::optional<CarriedMotion> carried_;     // of the step
+  LinkedParts linked_;
   double dt_ = 0.0, phase_factor_ = 1.0;
   PartViews* views_;
   std::vector<Points> start_;            // displacements of the views at the start of the dynamic step: what it adds is
                                          // the shock; empty in static ones
-  double kinetic_now_ = 0.0;             // J, of the relative velocities
+  double kinetic_now_ = 0.0;             // J, of the relative velocities, without parts in flight
   double kinetic_ = 0.0, stored_ = 0.0;  // J, largest so far: kinetic of the relative velocities; kinetic + strain
   double shock_energy_ = 0.0;            // J, largest of the samples: kinetic, and strain of the shock
   double stress_energy_ = 0.0;           // J, largest of the samples

@@ -12,7 +12,7 @@ namespace dygita {
 
 class PartWatch : public Observer {
  public:
-  explicit PartWatch(const Problem& problem) : views_(problem), errors_(views_), stresses_(problem, views_) {}
+  explicit PartWatch(const Problem& problem) : views_(problem), errors_(problem, views_), stresses_(problem, views_) {}
   PartWatch(const PartWatch&) = delete;
   PartWatch& operator=(const PartWatch&) = delete;
 

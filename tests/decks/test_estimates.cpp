@@ -191,6 +191,43 @@ TEST_F(Pulse, is_estimated_alike_in_any_frame) {
         << label(figure);
 }
 
+// A bar that is pulled, and beside it what flies towards it: across `gap`, 100 m/s.
+const std::string flown_at = R"(
+local p = param{ flies = 1, gap = 50*mm }
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 8000 }
+local bar = substructure{ name = "bar", material = steel, mesh = mesh.box{ size = { 10*mm, 10*mm, 100*mm }, cells = { 2, 2, 20 } } }
+local foot = support.fixed{ name = "foot", on = bar:face "zmin" }
+local parts, interfaces = { bar }, {}
+if p.flies == 1 then
+  parts[2] = substructure{ name = "cube", material = steel, velocity = { 0, 0, -100 },
+    mesh = mesh.box{ origin = { 0, 0, 100*mm + p.gap }, size = { 10*mm, 10*mm, 10*mm }, cells = { 2, 2, 2 } } }
+  interfaces[1] = interface.contact{ name = "touch", between = { bar:face "zmax", parts[2]:face "zmin" }, gap = "geometry", within = 60*mm }
+end
+local hit = step.dynamic{ name = "hit", duration = 100*us, dt = 0.5*us,
+  loads = { load.traction{ on = bar:face "xmax", z = history.half_sine{ peak = 10*MPa, duration = 20*us } } } }
+problem{ name = "flown at", substructures = parts, interfaces = interfaces, supports = { foot }, steps = { hit } }:run{}
+)";
+
+// What flies by has an energy that is no part of the shock, until it touches.
+TEST_F(Pulse, is_held_against_the_energy_of_what_touches_alone) {
+  std::ofstream(path_) << flown_at;
+  for (const IntegrationChoice integration : {IntegrationChoice::implicitly, IntegrationChoice::explicitly}) {
+    const auto estimates = [&](const char* gap, const char* flies) {
+      const Figures figures = run_estimated(path_, {{"gap", gap}, {"flies", flies}}, 0.0, false, integration).figures;
+      return std::pair(figures.time_step_error.value(), figures.mesh_error.value());
+    };
+    const auto [step, mesh] = estimates("50*mm", "0");
+    const auto [step_beside, mesh_beside] = estimates("50*mm", "1");
+    // The mass of explicit cells is another where a law acts.
+    EXPECT_NEAR(step_beside, step, 0.02 * step);
+    EXPECT_NEAR(mesh_beside, mesh, 0.02 * mesh);
+    // The front of an impact is sharper than the pulse, and that is seen since it is all of the energy.
+    const auto [step_hit, mesh_hit] = estimates("1*mm", "1");
+    EXPECT_GT(step_hit, 2.0 * step);
+    EXPECT_GT(mesh_hit, 2.0 * mesh);
+  }
+}
+
 // A bar under a half-sine; what the run warned of.
 std::string warnings(const Settings& settings) {
   testing::internal::CaptureStderr();

@@ -1,6 +1,8 @@
 // Points between faces whose meshes do not match: rows, areas, and what they must keep.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <ctime>
 #include <numbers>
@@ -283,6 +285,28 @@ TEST(Mortar, leaves_points_that_are_taken_away_to_their_neighbours) {
   EXPECT_EQ(facing.n_merged, 4);
   EXPECT_NEAR(facing.areas.sum(), 1.0, 1e-12);
   expect_balanced(facing, side_1, side_2, 1e-12);
+}
+
+// Four feet in the corners of a plate, whose slivers could go to either of two points as large as each other.
+TEST(Mortar, of_mirror_images_are_mirror_images) {
+  const Mesh plate = *box_mesh(Vec3(-8, -5, -1), Vec3(16, 10, 1), {16, 10, 1});
+  const auto foot_at = [&](double x, double y) {
+    const Mesh foot = *box_mesh(Vec3(x - 0.75, y - 0.75, 0), Vec3(1.5, 1.5, 1), {2, 2, 1});
+    const Facing facing = points_between(face(plate, "zmax"), face(foot, "zmin"));
+    EXPECT_EQ(facing.carrier, 1);
+    EXPECT_EQ(facing.n_points(), 4);
+    std::vector<std::array<double, 3>> points;
+    for (int i = 0; i < facing.n_points(); ++i)
+      points.push_back({std::abs(facing.places(0, i)), std::abs(facing.places(1, i)), facing.areas[i]});
+    std::sort(points.begin(), points.end());
+    return points;
+  };
+  const auto first = foot_at(3.5, 2.5);
+  for (const auto& [x, y] : {std::pair(-3.5, 2.5), {3.5, -2.5}, {-3.5, -2.5}}) {
+    const auto other = foot_at(x, y);
+    for (size_t i = 0; i < first.size(); ++i)
+      for (size_t d = 0; d < 3; ++d) EXPECT_NEAR(other[i][d], first[i][d], 1e-12) << x << " " << y;
+  }
 }
 
 TEST(Mortar, of_bodies_on_the_same_side_is_refused) {
