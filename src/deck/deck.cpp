@@ -311,6 +311,6 @@ std::string deck_definitions() { return text_of_module("definitions"); }
 
 std::string version() { return program_version(); }
 
-void prepare_process(char** argv) { wait_passively(argv, better_blas_kernels()); }
+void prepare_process(char** argv) { set_up_process(argv, better_blas_kernels()); }
 
 }  // namespace dygita

@@ -68,7 +68,7 @@ std::string deck_definitions();
 std::string version();
 
 // Call first in main: threads that wait must not spin, and OpenBLAS must not take the kernels of an old processor
-// (wait_passively, better_blas_kernels).
+// (set_up_process, better_blas_kernels).
 void prepare_process(char** argv);
 
 }  // namespace dygita

@@ -301,7 +301,7 @@ BENCHMARK(assembly)
     ->Unit(benchmark::kMillisecond);
 
 int main(int argc, char** argv) {
-  dygita::wait_passively(argv, dygita::better_blas_kernels());
+  dygita::set_up_process(argv, dygita::better_blas_kernels());
   dygita::prepare_thread();
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
