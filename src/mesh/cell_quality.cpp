@@ -14,7 +14,7 @@ namespace {
 Mat3 ideal_edges(int n_corners) {
   Mat3 edges = Mat3::Identity();
   const double height = std::sqrt(3.0) / 2.0;
-  if (n_corners == 6) edges << 0.5, 1.0, 0.0, height, 0.0, 0.0, 0.0, 0.0, 0.5;  // nodes 1 and 2 turn the other way
+  if (n_corners == 6) edges << 1.0, 0.5, 0.0, 0.0, height, 0.0, 0.0, 0.0, 0.5;
   if (n_corners == 4) edges << 1.0, 0.5, 0.5, 0.0, height, height / 3.0, 0.0, 0.0, std::sqrt(2.0 / 3.0);
   return edges;
 }
