@@ -98,6 +98,13 @@ void StepRun::iterate(int increment, const Goal& goal, Best& best) {
 
 // The same where all pieces are in one system: V and F are in balance after every iteration but the first.
 void StepRun::iterate_assembled(int increment, const Goal& goal, Best& best) {
+  constexpr double nearly = 1e-6;  // of the indicator: rounding of what loose parts are carried along ends it there
+  struct Carried {
+    Vec velocity, q;
+    Outcome outcome;
+  };
+  std::optional<Carried> carried;  // a solution with loose parts carried along
+  bool has_left = false;
   best.outcome = {};
   if (at_.velocity.size() != at_.q.size()) at_.velocity = Vec::Zero(at_.q.size());
   assembled_->begin();
@@ -119,14 +126,45 @@ void StepRun::iterate_assembled(int increment, const Goal& goal, Best& best) {
       best.outcome = outcome;
       best.q = at_.q;
     }
+    if (!has_left && outcome.eta <= std::max(goal.tolerance, nearly)) {
+      has_left = true;
+      Carried now{at_.velocity, at_.q, outcome};
+      if (leave_loose_parts()) {
+        if (outcome.eta <= goal.tolerance) carried = std::move(now);
+        best.outcome = {};
+        continue;
+      }
+    }
     const bool is_lost = goal.furthest > 0.0 && model_.n_q() > 0 && !(largest_velocity() <= goal.furthest);
-    if (outcome.eta <= goal.tolerance || is_lost || persistence.ends(i + 1, best.outcome.eta)) {
+    const bool is_solved = outcome.eta <= goal.tolerance;
+    if (is_solved || is_lost || persistence.ends(i + 1, best.outcome.eta)) {
       best.missed = persistence.missed(increment, settings_.tolerance);
+      if (is_solved || !carried) return;
+      at_.velocity = carried->velocity;
+      best.q = at_.q = carried->q;
+      best.outcome = carried->outcome;
+      at_.sums = local_stage(at_.velocity, at_.q, at_.image);
       return;
     }
     const Stopwatch watch(books_.seconds.interface);
     assembled_->advance(outcome, at_.velocity, at_.q);
   }
+}
+
+// The system knows where loose parts are by what they are near to, and carries them along with it: they rest, as far as
+// nothing is in their way there. False: there are none.
+bool StepRun::leave_loose_parts() {
+  const auto moved = [&](int p, int d) {
+    return at_.velocity[model_.unknown(model_.exchange.ports[static_cast<size_t>(p)], d)];
+  };
+  const std::vector<Vec3> motions = loose_->find({[&](int point) { return local_.carries(point); }, moved});
+  for (size_t p = 0; p < motions.size(); ++p)
+    for (int d = 0; d < 3; ++d)
+      if (const int i = model_.unknown(model_.exchange.ports[p], d); i >= 0) {
+        at_.velocity[i] -= motions[p][d];
+        at_.q[i] -= assembled_->k()[i] * motions[p][d];  // the same force
+      }
+  return !motions.empty();
 }
 
 // Right-hand sides of an increment, and all that it changes on the interfaces before any iteration.

@@ -66,6 +66,8 @@ class LocalStage {
   // Largest difference so far between a contact law's gap and that of the displacements, m.
   double gap_difference() const { return gap_difference_; }
   bool has_preloads() const { return !preloads_.empty(); }
+  // Does a force of the law pass between the sides of a point, in the last iteration?
+  bool carries(int i_point) const { return !points_[static_cast<size_t>(i_point)].force.isZero(0.0); }
   // Prescribes the shortenings of all preloads (m) from now on; empty: they are found again.
   void prescribe_shortenings(Vec d) { prescribed_ = std::move(d); }
   PreloadFigures preload_figures() const;  // of the last iteration

@@ -17,6 +17,7 @@
 #include "latin/tangent_iteration.hpp"
 #include "latin/warm_start.hpp"
 #include "solution/distant_points.hpp"
+#include "solution/loose_motions.hpp"
 #include "solution/trail.hpp"
 
 namespace dygita {
@@ -78,6 +79,7 @@ class StepRun {
   void inner_iterations();
   void iterate(int increment, const Goal& goal, Best& best);
   // The same with all pieces in one system.
+  bool leave_loose_parts();
   void iterate_assembled(int increment, const Goal& goal, Best& best);
   void begin_increment(int increment, bool starts_window);
   std::vector<double> begin_pieces(int increment);
@@ -199,6 +201,7 @@ class StepRun {
   int n_inner_;  // iterations by the pieces' rough operators after each
   LocalStage local_;
   std::optional<TangentIteration> assembled_;  // static steps with all pieces in one system
+  std::optional<LooseMotions> loose_;          // of these
   bool is_answered_ = false;                   // the velocities at hand are the linear stage's answer to q
   DirectPoints direct_;
   std::optional<DistantPoints> distant_;  // where there are several ranks

@@ -29,6 +29,7 @@ class TangentIteration {
   // Gives the pieces the velocities of fields in balance.
   void finish(const Vec& velocity, const Vec& q);
   double bytes() const { return system_.bytes(); }
+  const Vec& k() const { return k_; }
 
  private:
   double distance(const Vec& velocity, const Vec& q, const std::vector<double>& limits);

@@ -289,15 +289,16 @@ void MergedAssembly::begin(const std::vector<double>& motions, const std::vector
 }
 
 void MergedAssembly::finish(const Vec& reduced_force) {
+  Vec solved = rhs_;
   if (const int n_interface = made_->factor->n_interface(); n_interface > 0) {
     const Vec rhs = rhs_.tail(n_interface) - made_->g.transpose() * reduced_force;
     Vec velocity(n_interface);
     multiply_symmetric(made_->inverse, rhs, velocity);
-    rhs_.tail(n_interface) = velocity;
+    solved.tail(n_interface) = velocity;
   }
-  made_->factor->backward(rhs_);
+  made_->factor->backward(solved);
   Vec z(n_);
-  for (int i = 0; i < n_; ++i) z[i] = rhs_[made_->position[i]];
+  for (int i = 0; i < n_; ++i) z[i] = solved[made_->position[i]];
   for (size_t part = 0; part < map_.size(); ++part) {
     velocity_[part] = map_[part] * z + prescribed_[part];
     pieces_[part]->set_velocity(velocity_[part]);

@@ -11,6 +11,7 @@
 #include "reference/merged_assembly.hpp"
 #include "reference/preload_newton.hpp"
 #include "solution/finite_energies.hpp"
+#include "solution/loose_motions.hpp"
 #include "solution/step_ends.hpp"
 #include "solution/stopped_run.hpp"
 
@@ -36,6 +37,7 @@ class MonolithicRun {
     for (const Point& point : model.exchange.points) records_.push_back(start_point(model, point, state, motions));
     preload_ =
         std::make_unique<PreloadNewton>(rows_, records_, std::max(10 * settings.tolerance, 1e-12), settings.plain);
+    if (model.scheme.is_static) loose_.emplace(model);
     energy_.resize(model.pieces.size());
     observer_.begin_step(instant(-1, {}));
   }
@@ -49,6 +51,7 @@ class MonolithicRun {
   void solve_increment(int increment);
   void begin_increment(int increment);
   void finish_increment();
+  void leave_loose_parts(InterfaceNewton::Outcome& outcome);
   void accept_increment(int increment, const InterfaceNewton::Outcome& outcome);
   Vec3 side_displacement(const Point& point, int first, int end, const std::vector<Points>& displacement) const;
   Instant instant(int increment, const InterfaceNewton::Outcome& outcome) const {
@@ -72,6 +75,7 @@ class MonolithicRun {
   InterfaceNewton newton_;
   std::unique_ptr<PreloadNewton> preload_;
   std::vector<PointRecord> records_;
+  std::optional<LooseMotions> loose_;  // of a static step
   std::vector<IncrementEnergy> energy_;
   std::vector<Vec3> port_force_;
   StepFigures figures_;
@@ -118,6 +122,47 @@ void MonolithicRun::begin_increment(int increment) {
     begin_point(model_, point, jump, increment, records_[i]);
   }
   assembly_.begin(motions, displacement);
+}
+
+// Where loose parts are is known by springs across the law rows alone, which carry them along: they rest, as far as
+// nothing is in their way there (manual, loose parts).
+void MonolithicRun::leave_loose_parts(InterfaceNewton::Outcome& outcome) {
+  assembly_.finish(newton_.reduced_force());
+  std::vector<Points> moved;
+  for (const auto& piece : model_.pieces) moved.push_back(piece->velocity());
+  std::vector<int> point_of(model_.exchange.ports.size());
+  for (size_t i = 0; i < model_.exchange.points.size(); ++i)
+    for (int p = model_.exchange.points[i].first_port; p < model_.exchange.points[i].end_port; ++p)
+      point_of[static_cast<size_t>(p)] = static_cast<int>(i);
+  const std::vector<Vec3> motions =
+      loose_->find({[&](int i) { return !records_[static_cast<size_t>(i)].force.isZero(0.0); },
+                    [&](int p, int d) {
+                      const Port& port = model_.exchange.ports[static_cast<size_t>(p)];
+                      const Point& point =
+                          model_.exchange.points[static_cast<size_t>(point_of[static_cast<size_t>(p)])];
+                      return point.frame.col(d).dot(port.motion(moved[static_cast<size_t>(port.part)]));
+                    }});
+  if (motions.empty()) return;
+  const Vec found = newton_.reduced_force();
+  const std::vector<PointRecord> records = records_;
+  for (size_t i = 0; i < records_.size(); ++i) {
+    const Point& point = model_.exchange.points[i];
+    if (!point.law) continue;
+    Vec3 change = -motions[static_cast<size_t>(point.first_port)];
+    if (!point.is_wall) change += motions[static_cast<size_t>(point.first_port_2)];
+    for (int d = 0; d < 3; ++d)
+      if (const int row = assembly_.row(i, d); row >= 0)
+        newton_.reduced_force()[row] += assembly_.softening()[row] * change[d];  // the same force
+  }
+  const InterfaceNewton::Outcome at_rest = newton_.solve(records_, increment_);
+  const int n_iterations = outcome.iterations + at_rest.iterations;
+  if (at_rest.converged) {
+    outcome = at_rest;
+  } else {
+    newton_.reduced_force() = found;
+    records_ = records;
+  }
+  outcome.iterations = n_iterations;
 }
 
 // Velocities of the whole assembly, then every substructure's own update with the forces that act on it.
@@ -177,7 +222,8 @@ void MonolithicRun::solve_increment(int increment) {
   };
   begin_increment(increment);
   lap(seconds_.forward);
-  const InterfaceNewton::Outcome outcome = preload_->solve(newton_, records_, increment_, increment);
+  InterfaceNewton::Outcome outcome = preload_->solve(newton_, records_, increment_, increment);
+  if (loose_ && outcome.converged) leave_loose_parts(outcome);
   lap(seconds_.newton);
   finish_increment();
   lap(seconds_.backward);
