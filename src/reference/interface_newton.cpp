@@ -13,8 +13,9 @@ namespace dygita {
 
 namespace {
 
-// Newton steps in vain before Gauss-Seidel sweeps take over for a while, and how many of them.
-constexpr int most_in_vain = 3, n_sweeps = 20;
+// Newton steps in vain before Gauss-Seidel sweeps take over for a while, and how many of them: at first, and where that
+// was in vain, too.
+constexpr int most_in_vain = 3, n_sweeps = 20, sweeps_at_last = 1280;
 // A step that raises the residual by more than this is not taken.
 constexpr double too_bad = 10.0;
 constexpr double regularisation = 1e-8;
@@ -167,7 +168,7 @@ InterfaceNewton::Outcome InterfaceNewton::solve(std::vector<PointRecord>& record
   Fields now = fields_of(f_);
   Outcome outcome;
   Fields best = now;
-  int in_vain = 0;
+  int in_vain = 0, sweeps = n_sweeps;
   while (rows_->relative(now) > settings_.tolerance && outcome.iterations < settings_.max_iterations) {
     ++outcome.iterations;
     Fields next = fields_of(now.f + direction(tangents_at(now, records, increment), now));
@@ -180,10 +181,14 @@ InterfaceNewton::Outcome InterfaceNewton::solve(std::vector<PointRecord>& record
     if (in_vain >= most_in_vain) {
       in_vain = 0;
       Vec f = best.f;
-      for (int i = 0; i < n_sweeps; ++i) sweep(f, records, increment);
+      for (int i = 0; i < sweeps; ++i) sweep(f, records, increment);
       now = fields_of(std::move(f));
+      sweeps = std::min(2 * sweeps, sweeps_at_last);
     }
-    if (now.distance < best.distance) best = now;
+    if (now.distance < best.distance) {
+      best = now;
+      sweeps = n_sweeps;
+    }
   }
   if (now.distance > best.distance) now = best;  // not converged: the best there was is what is shown
   outcome.residual = rows_->relative(now);
