@@ -34,6 +34,15 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+// Length that is exceeded by the points (3 x n) across the line that is nearest to them: in the plane that they lie
+// on, root of the mean of squares.
+double width_of(const Points& x) {
+  if (x.cols() < 2) return 0.0;
+  const Points arms = x.colwise() - Vec3(x.rowwise().mean());
+  return std::sqrt(std::max(0.0, symmetric_eigen(Mat3(arms * arms.transpose())).values[1]) /
+                   static_cast<double>(x.cols()));
+}
+
 // covered: m^2, of each part.
 Census census_of(const FaceInSpace& face, const std::vector<double>& covered) {
   std::vector<double> sizes, of_node(face.nodes.size(), 0.0), all_of_node(face.nodes.size(), 0.0);
@@ -118,6 +127,8 @@ struct Mortar::Raw {
   Vec3 normal = Vec3::Zero();
   Weights own, opposite;
 
+  // Enough of its function is covered.
+  bool is_whole() const { return area >= least_share * full && area > 0.0; }
   void add(const Raw& other) {
     area += other.area;
     normal += other.normal;
@@ -133,11 +144,38 @@ Mortar::Mortar(const PlacedFace& side_1, const PlacedFace& side_2, const Meeting
              face_1_.sagitta() + face_2_.sagitta()) {
   const auto [first, second] = take_census(face_1_, face_2_, reach_);
   if (first.size == 0.0) return;
-  is_second_ = is_second_chosen(first, second, options);
+  couple_from(is_second_chosen(first, second, options));
+  if (options.points == Carrier::coarser && !can_carry()) {
+    std::vector<Coupling> coarser = couplings_;
+    couple_from(!is_second_);
+    if (!can_carry()) {
+      couplings_ = std::move(coarser);
+      is_second_ = !is_second_;
+    }
+  }
   ratio_ = is_second_ ? second.size / first.size : first.size / second.size;
-  couplings_ = couple(carrier(), other(), reach_);
   for (const Coupling& coupling : couplings_) covered_ += coupling.covered;
   find_facets(is_second_ ? side_2 : side_1, is_second_ ? side_1 : side_2);
+}
+
+void Mortar::couple_from(bool is_second) {
+  is_second_ = is_second;
+  couplings_ = couple(carrier(), other(), reach_);
+}
+
+// Fewer than four points, or points in a row, let the bodies tilt as the face does not.
+bool Mortar::can_carry() const {
+  constexpr size_t few = 4;
+  constexpr double narrow = 0.25;  // of what is touched
+  std::vector<int> whole, touched;
+  const std::vector<Raw> raw = raw_points();
+  for (size_t i = 0; i < raw.size(); ++i) {
+    if (raw[i].opposite.empty()) continue;
+    touched.push_back(static_cast<int>(i));
+    if (raw[i].is_whole()) whole.push_back(static_cast<int>(i));
+  }
+  return whole.size() >= few &&
+         width_of(carrier().x(Eigen::all, whole)) >= narrow * width_of(carrier().x(Eigen::all, touched));
 }
 
 void Mortar::find_facets(const PlacedFace& carrier, const PlacedFace& other) {
@@ -183,7 +221,7 @@ std::vector<int> Mortar::targets(const std::vector<Raw>& raw,
   std::vector<char> is_whole(n, 0), is_taken(n, 0);
   for (int i = 0; i < n; ++i) {
     is_taken[i] = is_taken_away && !raw[i].opposite.empty() && is_taken_away(carrier().x.col(i));
-    is_whole[i] = !is_taken[i] && raw[i].area >= least_share * raw[i].full && raw[i].area > 0.0;
+    is_whole[i] = !is_taken[i] && raw[i].is_whole();
   }
   // Areas that are alike but for rounding are equal, wherever the faces stand: in steps of about a millionth of the
   // largest, whose bounds no simple ratio of areas falls on.

@@ -26,6 +26,8 @@ class Mortar {
 
  private:
   struct Raw;  // a point before division by its area
+  void couple_from(bool is_second);
+  bool can_carry() const;
   std::vector<Raw> raw_points() const;
   std::vector<int> targets(const std::vector<Raw>& raw, const std::function<bool(const Vec3&)>& is_taken_away) const;
   void add_point(const Raw& raw, SideTrace& own, SideTrace& opposite, Facing& facing) const;

@@ -84,52 +84,89 @@ void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces
   }
 }
 
-// Points of the other interfaces' facets that a body has.
-class FacetsOfOthers {
+// Where bodies are joined in a ring around a line, the last of the ties that would close it.
+class Rings {
  public:
-  FacetsOfOthers(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings) {
+  Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings) : problem_(problem) {
     for (size_t i = 0; i < meetings.size(); ++i) {
       const Interface& interface = *problem.interfaces[i];
-      add(problem, static_cast<int>(i), interface.side_1, meetings[i]->facets_1());
-      add(problem, static_cast<int>(i), interface.side_2, meetings[i]->facets_2());
+      add(static_cast<int>(i), interface.side_1, meetings[i]->facets_1());
+      add(static_cast<int>(i), interface.side_2, meetings[i]->facets_2());
     }
   }
 
-  // Does x lie on a facet of a body that this interface has too, where a contact is, or a bond declared before?
-  bool take(const Problem& problem, int i, const Vec3& x) const {
+  // At x, are both sides of a tie joined by interfaces that come before it?
+  std::function<bool(const Vec3&)> closed_by(int i) const {
+    const Entry& own =
+        *std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.interface == i; });
+    std::vector<const Entry*> near;
     for (const Entry& entry : entries_) {
-      if (entry.interface == i) continue;
-      const Interface &own = *problem.interfaces[i], &other = *problem.interfaces[entry.interface];
-      if (other.law->is_tie() && entry.interface > i) continue;
-      if (entry.body != own.side_1.part.get() && entry.body != own.side_2.part.get()) continue;
-      if ((x - entry.low).minCoeff() < -entry.tolerance || (entry.high - x).minCoeff() < -entry.tolerance) continue;
-      for (const Polygon& polygon : entry.polygons)
-        if (lies_on(x, polygon, entry.tolerance)) return true;
+      const double apart = std::max((entry.low - own.high).maxCoeff(), (own.low - entry.high).maxCoeff());
+      if (apart <= entry.tolerance && entry.interface != i && comes_before(entry.interface, i)) near.push_back(&entry);
     }
-    return false;
+    return [this, i, near = std::move(near)](const Vec3& x) { return are_joined(i, near, x); };
   }
 
  private:
   struct Entry {
     int interface;
-    const Substructure* body;
     std::vector<Polygon> polygons;
     double tolerance;  // m
     Vec3 low, high;
   };
 
-  void add(const Problem&, int i, const Face& face, const std::vector<Facet>& facets) {
+  void add(int i, const Face& face, const std::vector<Facet>& facets) {
     PlacedFace own = placed(face);
     own.facets = facets;
     const FaceInSpace in_space(own);
-    Entry entry{i,
-                face.part.get(),
-                {},
-                1e-6 * in_space.smallest_edge(),
-                in_space.x.rowwise().minCoeff(),
-                in_space.x.rowwise().maxCoeff()};
-    for (const FaceInSpace::Part& part : in_space.parts) entry.polygons.push_back(part.x);
+    Entry entry{
+        i, {}, 1e-6 * in_space.smallest_edge(), in_space.x.rowwise().minCoeff(), in_space.x.rowwise().maxCoeff()};
+    double area = 0.0;
+    for (const FaceInSpace::Part& part : in_space.parts) {
+      entry.polygons.push_back(part.x);
+      area += part.area;
+    }
     entries_.push_back(std::move(entry));
+    sizes_.resize(problem_.interfaces.size());
+    Size& size = sizes_[static_cast<size_t>(i)];
+    size.area = std::max(size.area, area);
+    size.middle = 0.5 * (entries_.back().low + entries_.back().high);
+  }
+
+  bool are_joined(int i, const std::vector<const Entry*>& by, const Vec3& x) const {
+    const Interface& own = *problem_.interfaces[static_cast<size_t>(i)];
+    std::vector<std::pair<const Substructure*, const Substructure*>> joined;
+    for (const Entry* entry : by) {
+      if (!has(*entry, x)) continue;
+      const Interface& other = *problem_.interfaces[static_cast<size_t>(entry->interface)];
+      joined.emplace_back(other.side_1.part.get(), other.side_2.part.get());
+    }
+    std::vector<const Substructure*> reached{own.side_1.part.get()};
+    for (size_t k = 0; k < reached.size(); ++k)
+      for (const auto& [a, b] : joined)
+        for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)})
+          if (from == reached[k] && std::find(reached.begin(), reached.end(), to) == reached.end())
+            reached.push_back(to);
+    return std::find(reached.begin(), reached.end(), own.side_2.part.get()) != reached.end();
+  }
+
+  // What is no tie, and of ties the larger; of those as large the one that lies first along x, y or z: in whatever
+  // order they are declared.
+  bool comes_before(int i, int j) const {
+    constexpr double alike = 1e-6;
+    const auto is_tie = [&](int k) { return problem_.interfaces[static_cast<size_t>(k)]->law->is_tie(); };
+    if (is_tie(i) != is_tie(j)) return is_tie(j);
+    const Size &a = sizes_[static_cast<size_t>(i)], &b = sizes_[static_cast<size_t>(j)];
+    if (std::abs(a.area - b.area) > alike * std::max(a.area, b.area)) return a.area > b.area;
+    for (int d = 0; d < 3; ++d)
+      if (std::abs(a.middle[d] - b.middle[d]) > alike * std::sqrt(a.area)) return a.middle[d] < b.middle[d];
+    return i < j;
+  }
+
+  static bool has(const Entry& entry, const Vec3& x) {
+    if ((x - entry.low).minCoeff() < -entry.tolerance || (entry.high - x).minCoeff() < -entry.tolerance) return false;
+    return std::any_of(entry.polygons.begin(), entry.polygons.end(),
+                       [&](const Polygon& polygon) { return lies_on(x, polygon, entry.tolerance); });
   }
 
   static bool lies_on(const Vec3& x, const Polygon& polygon, double tolerance) {
@@ -142,7 +179,14 @@ class FacetsOfOthers {
     return true;
   }
 
-  std::vector<Entry> entries_;
+  struct Size {
+    double area = 0.0;  // m^2, of the larger of both sides
+    Vec3 middle = Vec3::Zero();
+  };
+
+  const Problem& problem_;
+  std::vector<Entry> entries_;  // side after side of the interfaces, in their order
+  std::vector<Size> sizes_;     // of each interface
 };
 
 // Gaps of the places mean nothing where facets of round faces are as far off.
@@ -158,13 +202,13 @@ void check_gap_of_geometry(const Interface& interface, const Facing& facing) {
           interface.name, interface.side_1.label(), interface.side_2.label(), 1e3 * facing.sagitta, 1e3 * largest));
 }
 
-// The points of an interface. Where three bodies are tied along a line, one of the ties leaves it to the others: tied
-// once too often, it would not converge well (manual, eq. J5).
+// The points of an interface. Where bodies are tied in a ring around a line, one of the ties leaves it to the others:
+// tied once too often, it would not converge well (manual, eq. J5).
 Facing facing_of(const Problem& problem, int i, const std::vector<std::optional<Meeting>>& meetings,
-                 const FacetsOfOthers& others) {
+                 const Rings& rings) {
   const Interface& interface = *problem.interfaces[i];
-  const auto is_taken = [&](const Vec3& x) { return others.take(problem, i, x); };
-  Facing facing = meetings[i]->facing(interface.law->is_tie() ? is_taken : std::function<bool(const Vec3&)>());
+  Facing facing =
+      meetings[i]->facing(interface.law->is_tie() ? rings.closed_by(i) : std::function<bool(const Vec3&)>());
   if (interface.has_gap_of_geometry) check_gap_of_geometry(interface, facing);
   return facing;
 }
@@ -178,9 +222,9 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
   std::vector<std::optional<Meeting>> meetings(static_cast<size_t>(n));
   const double within = n > 0 ? default_within(problem) : 0.0;
   parallel_for(n, [&](int i) { meetings[i].emplace(meeting_of(*problem.interfaces[i], within)); });
-  const FacetsOfOthers others(problem, meetings);
+  const Rings rings(problem, meetings);
   std::vector<Facing> facings(static_cast<size_t>(n));
-  parallel_for(n, [&](int i) { facings[i] = facing_of(problem, i, meetings, others); });
+  parallel_for(n, [&](int i) { facings[i] = facing_of(problem, i, meetings, rings); });
   for (size_t i = 0; i < problem.interfaces.size(); ++i) {
     const InterfacePtr& interface = problem.interfaces[i];
     Surface surface;

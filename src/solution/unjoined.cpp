@@ -11,6 +11,7 @@
 #include "law/law.hpp"
 #include "mesh/face_nodes.hpp"
 #include "model/check.hpp"
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -249,17 +250,33 @@ void doubt_unjoined(const Problem& problem, const std::vector<Unjoined>& unjoine
   doubt_touches(problem, unjoined);
 }
 
-// Contact that a few points carry tilts as it will.
+// m, root of the mean of squares across the line that is nearest to the points (3 x n), in the plane that they lie on.
+double width_of(const Points& x) {
+  const Points arms = x.colwise() - Vec3(x.rowwise().mean());
+  return std::sqrt(std::max(0.0, principal_axes(arms * arms.transpose()).values[1]) / static_cast<double>(x.cols()));
+}
+
+double width_of(const Face& face, const std::vector<Facet>& facets) {
+  return width_of(face.part->mesh->nodes(Eigen::all, nodes_of(facets)));
+}
+
+// What a few points carry, or points in a row, tilts as it will.
 void doubt_points(const Problem& problem, const Surface& surface) {
   constexpr int few = 4;
-  if (!surface.interface || surface.facing.matches() || surface.n_points() >= few) return;
-  const bool is_first = surface.facing.carrier == 1;
-  const Face& carrier = is_first ? surface.interface->side_1 : surface.interface->side_2;
+  constexpr double narrow = 0.25;
+  const Facing& facing = surface.facing;
+  if (!surface.interface || facing.matches() || facing.n_points() == 0) return;
+  const Face &face_1 = surface.interface->side_1, &face_2 = surface.interface->side_2;
+  const double width = std::min(width_of(face_1, facing.facets_1), width_of(face_2, facing.facets_2));
+  const bool is_row = facing.n_points() > 2 && width_of(facing.places) < narrow * width;
+  if (facing.n_points() >= few && !is_row) return;
+  const Face& carrier = facing.carrier == 1 ? face_1 : face_2;
   check::doubt(problem, surface.interface->origin,
-               fmt::format("{} has {} point{} only, since the facets of {} are large for its {:.4g} mm^2: a finer mesh "
-                           "there",
-                           check::describe(*surface.interface), surface.n_points(), surface.n_points() == 1 ? "" : "s",
-                           carrier.label(), 1e6 * surface.facing.areas.sum()));
+               fmt::format("{} has {} point{} only{}, since the facets of {} are large for its {:.4g} mm^2: a finer "
+                           "mesh there",
+                           check::describe(*surface.interface), facing.n_points(), facing.n_points() == 1 ? "" : "s",
+                           is_row ? ", in a row, so that it gives way like a hinge" : "", carrier.label(),
+                           1e6 * facing.areas.sum()));
 }
 
 void doubt_surfaces(const Problem& problem, const std::vector<Surface>& surfaces) {
