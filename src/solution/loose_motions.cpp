@@ -3,6 +3,7 @@
 #include <map>
 #include <numeric>
 
+#include "law/law.hpp"
 #include "numerics/dense.hpp"
 
 namespace dygita {
@@ -82,7 +83,7 @@ std::vector<Vec3> LooseMotions::find(const Increment& increment) const {
     const Point& point = exchange.points[i];
     for (int p = point.first_port + 1; p < point.first_port_2; ++p) linked.link(part_of(p), part_of(point.first_port));
     for (int p = point.first_port_2 + 1; p < point.end_port; ++p) linked.link(part_of(p), part_of(point.first_port_2));
-    if (point.law && increment.carries(static_cast<int>(i)))
+    if (point.law && (point.law->is_tie() || increment.carries(static_cast<int>(i))))
       linked.link(part_of(point.first_port), point.is_wall ? ground : part_of(point.first_port_2));
   }
   struct Group {
