@@ -34,15 +34,6 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Length that is exceeded by the points (3 x n) across the line that is nearest to them: in the plane that they lie
-// on, root of the mean of squares.
-double width_of(const Points& x) {
-  if (x.cols() < 2) return 0.0;
-  const Points arms = x.colwise() - Vec3(x.rowwise().mean());
-  return std::sqrt(std::max(0.0, symmetric_eigen(Mat3(arms * arms.transpose())).values[1]) /
-                   static_cast<double>(x.cols()));
-}
-
 // covered: m^2, of each part.
 Census census_of(const FaceInSpace& face, const std::vector<double>& covered) {
   std::vector<double> sizes, of_node(face.nodes.size(), 0.0), all_of_node(face.nodes.size(), 0.0);
@@ -121,6 +112,12 @@ Mat3 cross_matrix(const Vec3& a) {
 }
 
 }  // namespace
+
+double width_of(const Points& x) {
+  if (x.cols() < 2) return 0.0;
+  const Points arms = x.colwise() - Vec3(x.rowwise().mean());
+  return std::sqrt(std::max(0.0, principal_axes(arms * arms.transpose()).values[1]) / static_cast<double>(x.cols()));
+}
 
 struct Mortar::Raw {
   double area = 0.0, full = 0.0;

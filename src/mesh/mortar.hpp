@@ -9,6 +9,10 @@
 
 namespace dygita {
 
+// m, of points (3 x n) across the line that is nearest to them, in the plane that they lie on: root of the mean of
+// squares. Next to nothing where they are in a row.
+double width_of(const Points& x);
+
 // Multipliers of one face, the carrier of the points, before any is taken away.
 class Mortar {
  public:

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "base/union_find.hpp"
 #include "solution/observer.hpp"
 
 namespace dygita {
@@ -17,18 +18,17 @@ class LinkedParts {
   void begin_step(const Instant& start);
   void accept(const Instant& instant);
   // All parts are linked: there is nothing to ask for.
-  bool are_one() const { return n_groups_ == 1; }
+  bool are_one() const { return sets_.n_sets() == 1; }
   // Kinetic energy (J) of the motions as a whole of groups of linked parts: of those that something holds along `free`
   // alone, of the others along all directions. momenta: kg m/s, three numbers of each piece of the cut.
   double energy_as_wholes(const Instant& instant, std::span<const double> momenta, const Mat3& free) const;
 
  private:
-  int root(int i) const;
-  void link(int i, int j);
   void find_forces(const Instant& instant);
 
-  mutable std::vector<int> parent_;  // of each substructure; the last entry is what holds them
-  int n_groups_ = 0;
+  UnionFind sets_;              // of the substructures, and of what holds them
+  int ground_;                  // the latter
+  std::vector<double> masses_;  // kg, of the step's pieces
 };
 
 }  // namespace dygita

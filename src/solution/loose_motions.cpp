@@ -1,8 +1,8 @@
 #include "solution/loose_motions.hpp"
 
 #include <map>
-#include <numeric>
 
+#include "base/union_find.hpp"
 #include "law/law.hpp"
 #include "numerics/dense.hpp"
 
@@ -11,20 +11,6 @@ namespace dygita {
 namespace {
 
 using Gram = Eigen::Matrix<double, 6, 6>;
-
-class Linked {
- public:
-  explicit Linked(int n) : parent_(static_cast<size_t>(n)) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int i) {
-    while (at(i) != i) i = at(i) = at(at(i));
-    return i;
-  }
-  void link(int i, int j) { at(root(i)) = root(j); }
-
- private:
-  int& at(int i) { return parent_[static_cast<size_t>(i)]; }
-  std::vector<int> parent_;
-};
 
 // What the sum of squares leaves free, one column a motion.
 Mat null_space(const Gram& gram) {
@@ -77,14 +63,14 @@ std::vector<Vec3> LooseMotions::find(const Increment& increment) const {
   constexpr double nothing = 1e-9;  // of the largest motion
   const Exchange& exchange = model_->exchange;
   const int ground = static_cast<int>(held_.size());
-  Linked linked(ground + 1);
+  UnionFind linked(ground + 1);
   const auto part_of = [&](int p) { return exchange.ports[static_cast<size_t>(p)].part; };
   for (size_t i = 0; i < exchange.points.size(); ++i) {
     const Point& point = exchange.points[i];
-    for (int p = point.first_port + 1; p < point.first_port_2; ++p) linked.link(part_of(p), part_of(point.first_port));
-    for (int p = point.first_port_2 + 1; p < point.end_port; ++p) linked.link(part_of(p), part_of(point.first_port_2));
+    for (int p = point.first_port + 1; p < point.first_port_2; ++p) linked.join(part_of(p), part_of(point.first_port));
+    for (int p = point.first_port_2 + 1; p < point.end_port; ++p) linked.join(part_of(p), part_of(point.first_port_2));
     if (point.law && (point.law->is_tie() || increment.carries(static_cast<int>(i))))
-      linked.link(part_of(point.first_port), point.is_wall ? ground : part_of(point.first_port_2));
+      linked.join(part_of(point.first_port), point.is_wall ? ground : part_of(point.first_port_2));
   }
   struct Group {
     Gram held = Gram::Zero(), square = Gram::Zero();

@@ -11,7 +11,6 @@
 #include "law/law.hpp"
 #include "mesh/face_nodes.hpp"
 #include "model/check.hpp"
-#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -250,13 +249,7 @@ void doubt_unjoined(const Problem& problem, const std::vector<Unjoined>& unjoine
   doubt_touches(problem, unjoined);
 }
 
-// m, root of the mean of squares across the line that is nearest to the points (3 x n), in the plane that they lie on.
-double width_of(const Points& x) {
-  const Points arms = x.colwise() - Vec3(x.rowwise().mean());
-  return std::sqrt(std::max(0.0, principal_axes(arms * arms.transpose()).values[1]) / static_cast<double>(x.cols()));
-}
-
-double width_of(const Face& face, const std::vector<Facet>& facets) {
+double width_of_face(const Face& face, const std::vector<Facet>& facets) {
   return width_of(face.part->mesh->nodes(Eigen::all, nodes_of(facets)));
 }
 
@@ -267,7 +260,7 @@ void doubt_points(const Problem& problem, const Surface& surface) {
   const Facing& facing = surface.facing;
   if (!surface.interface || facing.matches() || facing.n_points() == 0) return;
   const Face &face_1 = surface.interface->side_1, &face_2 = surface.interface->side_2;
-  const double width = std::min(width_of(face_1, facing.facets_1), width_of(face_2, facing.facets_2));
+  const double width = std::min(width_of_face(face_1, facing.facets_1), width_of_face(face_2, facing.facets_2));
   const bool is_row = facing.n_points() > 2 && width_of(facing.places) < narrow * width;
   if (facing.n_points() >= few && !is_row) return;
   const Face& carrier = facing.carrier == 1 ? face_1 : face_2;
