@@ -10,7 +10,8 @@ namespace dygita {
 
 namespace {
 
-constexpr int few_shown = 1000;  // that one thread has done before others are awake
+// That one thread has done before others are awake.
+constexpr int few_shown = 1000, few_booked = 10000;
 
 }  // namespace
 
@@ -22,21 +23,19 @@ void DirectPoints::find_released() {
   released_.erase(std::unique(released_.begin(), released_.end()), released_.end());
 }
 
-void DirectPoints::begin_interval(int increment, int most_threads) {
+void DirectPoints::begin_interval(int increment) {
   interval_ = 0.0;
   i_interval_ = increment;
-  const int n = static_cast<int>(points_.size());
-  const auto begin = [&](int at) {
-    OwnPoint& p = points_[static_cast<size_t>(at)];
-    p.impulse.setZero();
-    p.work = {};
-    p.on_pieces = 0.0;
-    for (int i = p.side_1.first; i < p.side_2.end; ++i) ports_[i].impulse.setZero();
-    if (!p.point->law) return;
-    const Interface* interface = (*model_->surfaces)[p.point->members.front().surface].interface;
-    if (interface && !p.record.is_released) p.record.is_released = model_->loads->is_released(interface, increment);
-  };
-  parallel_for(n, begin, Schedule::evenly, n > few_shown ? most_threads : 1);
+}
+
+void DirectPoints::begin_interval_of(OwnPoint& p) {
+  p.impulse.setZero();
+  p.work = {};
+  p.on_pieces = 0.0;
+  for (int i = p.side_1.first; i < p.side_2.end; ++i) ports_[i].impulse.setZero();
+  if (!p.point->law) return;
+  const Interface* interface = (*model_->surfaces)[p.point->members.front().surface].interface;
+  if (interface && !p.record.is_released) p.record.is_released = model_->loads->is_released(interface, i_interval_);
 }
 
 void DirectPoints::add_held_force(const OwnPoint& p, const OwnPort& port) {
@@ -121,11 +120,10 @@ void DirectPoints::show(State& state, std::vector<IncrementEnergy>& energy, int 
     for (int k = p.side_1.first; k < p.side_2.end; ++k) port_force.push_back(ports_[k].impulse / interval_);
     show_ties(*model_, *p.point, shown, port_force, state);
   };
-  const int n_threads = n > few_shown ? most_threads : 1;
-  shown_shares_.run(n, n_threads, show_point);
+  shown_shares_.run(n, n > few_shown ? most_threads : 1, show_point);
   parallel_for(
       static_cast<int>(books_.size()), [&](int i) { book(books_[i], energy[books_[i].piece]); }, Schedule::evenly,
-      n_threads);
+      n > few_booked ? most_threads : 1);
   for (const Book& book : books_) gap_difference_ = std::max(gap_difference_, book.gap_difference);
   for (const int i : last_of_surfaces_) show_record(*points_[i].point, points_[i].record, state);
 }

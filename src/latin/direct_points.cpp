@@ -150,6 +150,7 @@ void DirectPoints::begin_places(OwnPoint& p) {
 }
 
 void DirectPoints::begin_point(OwnPoint& p, const std::vector<double>& motions) {
+  if (interval_ == 0.0) begin_interval_of(p);
   for (int i = p.side_1.first; i < p.side_2.end; ++i) {
     OwnPort& port = ports_[i];
     port.last = port.force;

@@ -20,7 +20,7 @@ class DirectPoints {
   DirectPoints(const StepModel& model, const State& start);
 
   // A time step of the deck begins: what has let go by its middle has let go for all of it.
-  void begin_interval(int increment, int most_threads);
+  void begin_interval(int increment);
   // Pieces whose nodes other ranks solve points at: once these have begun the increment, `tell` sends their motions.
   const std::vector<int>& border_pieces() const { return border_pieces_; }
   void tell();
@@ -116,6 +116,7 @@ class DirectPoints {
   Vec3 velocity(const OwnPoint& p, const OwnPort& port) const;            // m/s, in the frame
   Vec3 start_displacement(const OwnPoint& p, const OwnPort& port) const;  // m, in the frame
   Vec3 end_displacement(const OwnPoint& p, const OwnPort& port) const;
+  void begin_interval_of(OwnPoint& p);
   void begin_point(OwnPoint& p, const std::vector<double>& motions);
   void begin_places(OwnPoint& p);
   void gather(const OwnPoint& p, Side& side);
@@ -162,7 +163,7 @@ class DirectPoints {
     Vec weight;  // s/kg, of the forces on its ports
   };
   std::vector<Swept> swept_;  // of each cluster in the last increment
-  double interval_ = 0.0;
+  double interval_ = 0.0;     // s, of the time step that increments have gone through
   int i_interval_ = 0;
   ranks::LaterLargest largest_of_all_;
   double largest_force_ = 0.0, largest_change_ = 0.0, gap_difference_ = 0.0;

@@ -103,6 +103,7 @@ class StepRun {
   void begin_substep(int increment, int substep);
   Best solve_substep(int increment, int substep, bool is_led);
   void finish_piece(Piece& piece, int i);
+  void book_stored_energy(int i);
   void finish_substep(int substep);
   void add_forces();
   void show_mean_forces();

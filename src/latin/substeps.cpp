@@ -29,7 +29,8 @@ void StepRun::begin_substep(int increment, int substep) {
   direct_.solve(motions, piece_threads_.threads());
 }
 
-// Increments in which nothing is iterated: a piece ends one and begins the next before the threads meet.
+// A time step in which nothing is iterated: a piece ends one increment and begins the next, and does what else there is
+// to it, before the threads meet.
 void StepRun::run_through(int increment) {
   const int n = model_.n_substeps();
   for (int i = 0; i <= n; ++i) {
@@ -40,8 +41,12 @@ void StepRun::run_through(int increment) {
     {
       const Stopwatch watch(books_.seconds.forward);
       const auto pass = [&](Piece& piece, int at) {
+        if (i == 0) piece.begin_interval();
         if (i > 0) finish_piece(piece, at);
-        if (begins) explicit_[at]->begin(model_.loads->values(), motions);
+        if (begins)
+          explicit_[at]->begin(model_.loads->values(), motions);
+        else
+          book_stored_energy(at);
       };
       for_each_piece(telling_.border, pass);
       if (begins) direct_.tell();
@@ -78,6 +83,12 @@ void StepRun::finish_piece(Piece& piece, int i) {
   sum.scheme += energy.scheme;
   sum.kinetic = energy.kinetic;
   sum.strain = energy.strain;
+}
+
+void StepRun::book_stored_energy(int i) {
+  const IncrementEnergy stored = explicit_[i]->stored_energy();
+  books_.energy[i].kinetic = stored.kinetic;
+  books_.energy[i].strain = stored.strain;
 }
 
 void StepRun::finish_substep(int substep) {
@@ -118,10 +129,11 @@ void StepRun::show_mean_forces() {
 }
 
 void StepRun::solve_interval(int increment) {
-  for_each_piece([&](Piece& piece, int) {
-    if (piece.is_explicit() || model_.n_substeps() > 1) piece.begin_interval();
-  });
-  direct_.begin_interval(increment, piece_threads_.threads());
+  if (!is_all_direct_)
+    for_each_piece([&](Piece& piece, int) {
+      if (piece.is_explicit() || model_.n_substeps() > 1) piece.begin_interval();
+    });
+  direct_.begin_interval(increment);
   books_.energy.assign(model_.pieces.size(), {});
   books_.of_points.assign(model_.pieces.size(), {});
   const int n = model_.n_substeps();
@@ -149,12 +161,10 @@ void StepRun::solve_interval(int increment) {
   }
   {
     const Stopwatch watch(books_.seconds.accept);
-    for_each_piece([&](Piece&, int i) {
-      if (!explicit_[i]) return;
-      const IncrementEnergy stored = explicit_[i]->stored_energy();
-      books_.energy[i].kinetic = stored.kinetic;
-      books_.energy[i].strain = stored.strain;
-    });
+    if (!is_all_direct_)
+      for_each_piece([&](Piece&, int i) {
+        if (explicit_[i]) book_stored_energy(i);
+      });
     show_mean_forces();
     direct_.show(files_.state, books_.energy, piece_threads_.threads());
     if (distant_) distant_->forget();

@@ -37,7 +37,9 @@ void TangentIteration::linear_stage(const Vec& q, Vec& velocity) {
   Tangents tangents;
   for (const std::vector<int>& unknowns : system_.unknowns_of_points()) {
     const Vec own = k_(unknowns);
-    tangents.points.push_back({unknowns, own.asDiagonal()});
+    PointTangent& tangent = tangents.points.emplace_back();
+    tangent.unknowns = unknowns;
+    tangent.matrix = own.asDiagonal();
   }
   system_.set_tangents(std::move(tangents));
   velocity = Vec::Zero(q.size());

@@ -82,15 +82,16 @@ double OctaveBank::phase_error(double factor) const {
 // Relative to the assembly's motion as a whole, which bends no cell and turns no phase (eq. Q0).
 void ErrorEstimator::take_velocities(const Instant& instant) {
   const Cut& cut = *instant.model.cut;
+  const bool asks_for_momentum = carried_->asks_for_momentum();
   const auto renew = [&](int i) {
     PieceMotion& own = pieces_[static_cast<size_t>(i)];
     own.velocity = velocity_of(instant, own.piece);
-    if (carried_->asks_for_momentum()) own.momentum.noalias() = own.directions * own.mass.cwiseProduct(own.velocity);
+    if (asks_for_momentum) own.momentum.noalias() = own.directions * own.mass.cwiseProduct(own.velocity);
   };
   Eigen::Index n_unknowns = 0;
   for (const PieceMotion& own : pieces_) n_unknowns += own.velocity.size();
   const int threads_for_few = 1, n_threads = n_unknowns < 20000 ? threads_for_few : 0;
-  parallel_for(static_cast<int>(pieces_.size()), renew, Schedule::as_free, n_threads);
+  if (asks_for_momentum) parallel_for(static_cast<int>(pieces_.size()), renew, Schedule::as_free, n_threads);
   size_t next = 0;  // of pieces_, whose order is that of the cut
   const auto momenta_of_all = [&] {
     next = 0;
@@ -106,6 +107,7 @@ void ErrorEstimator::take_velocities(const Instant& instant) {
   std::vector<std::array<double, width>> own_sums(pieces_.size());
   std::vector<int> n_octaves(pieces_.size());
   const auto take = [&](int i) {
+    if (!asks_for_momentum) renew(i);
     PieceMotion& own = pieces_[static_cast<size_t>(i)];
     double* sums = own_sums[static_cast<size_t>(i)].data();
     if (!carried.isZero(0.0)) own.velocity.noalias() -= own.directions.transpose() * carried;
