@@ -36,7 +36,9 @@ std::string trimmed(const std::string& text) {
 }
 
 std::vector<std::string> cells_of(const std::string& line) {
-  const char separator = line.find(',') != std::string::npos ? ',' : line.find(';') != std::string::npos ? ';' : ' ';
+  char separator = ' ';
+  for (const char other : {'\t', ';', ','})
+    if (line.find(other) != std::string::npos) separator = other;
   std::vector<std::string> cells;
   size_t start = 0;
   while (start <= line.size()) {
@@ -115,18 +117,28 @@ void note_convergence(const std::vector<std::string>& header, const std::vector<
   signal.n_missed = std::max(signal.n_missed, 0) + (cells.back() == "0" ? 1 : 0);
 }
 
+bool has_units(const std::vector<std::string>& titles) {
+  return std::any_of(titles.begin(), titles.end(), [](const std::string& title) { return !unit_in(title).empty(); });
+}
+
 Signal read_signal(const SrsCommand& command) {
   std::ifstream file(command.signal);
   if (!file) throw InputError(fmt::format("no file '{}'", command.signal));
   Signal signal;
-  std::vector<std::string> header;
+  std::vector<std::string> header, comment;  // comment: written as a header, which counts where there is no other
   size_t column = 0;
   std::string line, first_step;
   double seconds = 1.0;  // of the unit of time
   for (int n = 1; std::getline(file, line); ++n) {
+    if (n == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte order mark of spreadsheets
+    if (line.starts_with('#') && signal.time.empty()) comment = cells_of(line.substr(line.find_first_not_of('#')));
     const auto cells = cells_of(line);
     if (cells.empty() || trimmed(line).empty() || line[0] == '#') continue;
     auto time = number_in(cells[0]);
+    if (time && signal.time.empty() && header.empty() && has_units(comment) && comment.size() == cells.size()) {
+      header = comment;
+      seconds = seconds_of(header[0], {command.signal, n});
+    }
     if (time) *time *= seconds;
     if (!time && signal.time.empty() && header.empty()) {
       header = cells;

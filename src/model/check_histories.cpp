@@ -99,8 +99,9 @@ class InStep {
   void lasts_in_a_dynamic_step() const {
     const double length = profile_->end - profile_->begin;
     if (is_pulse() && !chain_.before && length < step_.dt * (1.0 - rounding))
-      say(fmt::format("lasts {}, shorter than 'dt' = {}: only its impulse is left of it", time(length),
-                      time(step_.dt)));
+      say(fmt::format("lasts {}, shorter than 'dt' = {}: {}", time(length), time(step_.dt),
+                      prescribes_a_motion() ? "a prescribed motion is taken where time steps meet, and may miss it"
+                                            : "only its impulse is left of it"));
     if (profile_->is_record) is_whole();
     if (!reaches_its_peak()) return;
     const double left = history_.value(end());
@@ -108,6 +109,12 @@ class InStep {
         std::abs(left) > near_zero * profile_->largest())
       say(fmt::format("lasts until {} and is cut off at the end of the step, {}, where it is {:.3g} {}",
                       time(profile_->end), time(end()), left, load_.unit()));
+  }
+
+  bool prescribes_a_motion() const {
+    const std::vector<Effect> effects = load_.effects();
+    return std::any_of(effects.begin(), effects.end(),
+                       [](const Effect& effect) { return std::holds_alternative<PrescribedMotion>(effect); });
   }
 
   bool reaches_its_peak() const {

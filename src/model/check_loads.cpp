@@ -1,5 +1,8 @@
 // Loads of each step: on what they can act, in steps where they mean something, nothing given twice. What one load asks
 // is its own to say (loads/); what two of them do to each other is told by their effects.
+#include <spdlog/fmt/fmt.h>
+
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -174,6 +177,40 @@ void supports_leave_motions_free(const Problem& problem, const Step& step, const
                  effect);
 }
 
+// A support that holds along its normals alone is moved along them alone.
+void support_follows(const Problem& problem, const Load& load, const BaseMotion& motion) {
+  if (motion.on->kind->holds(false) != Directions::normal) return;
+  Mat3 normals = Mat3::Zero();
+  for (const FaceOrRegion& place : motion.on->on) {
+    const Face& face = std::get<Face>(place);
+    for (const Facet& facet : face.facets()) {
+      const Vec3 n = facet_area_vector(face.part->mesh->nodes, facet);
+      normals += n * n.transpose() / n.norm();
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(normals);
+  Vec3 followed = Vec3::Zero();
+  for (int i = 0; i < 3; ++i)
+    if (axes.eigenvalues()[i] > 1e-6 * normals.trace())
+      followed += axes.eigenvectors().col(i).dot(motion.direction) * axes.eigenvectors().col(i);
+  const std::string what = fmt::format("{} moves {} along ({:.3g}, {:.3g}, {:.3g})", load.path, describe(*motion.on),
+                                       motion.direction[0], motion.direction[1], motion.direction[2]);
+  const std::string hint =
+      "it holds along the normals of its faces alone; a support.fixed is moved along any direction";
+  if (followed.norm() < 1e-3) fail(problem, load.origin, what + ", where it holds nothing", hint);
+  if (followed.norm() < 0.999)
+    doubt(problem, load.origin,
+          what +
+              fmt::format(", of which only the part ({:.3g}, {:.3g}, {:.3g}) moves it: ", followed[0], followed[1],
+                          followed[2]) +
+              hint);
+}
+
+void supports_follow(const Problem& problem, const Load& load) {
+  for (const Effect& effect : load.effects())
+    if (const auto* motion = std::get_if<BaseMotion>(&effect)) support_follows(problem, load, *motion);
+}
+
 // Is every node of a face held or moved along an axis, and by what? Empty: not.
 std::string driver_of(const Problem& problem, const Step& step, const Face& face, int axis) {
   const auto covers = [&](const FaceOrRegion& place) {
@@ -251,6 +288,7 @@ void loads(const Problem& problem) {
         Competition(problem, *step, *step->loads[j], load).check();
       }
       supports_leave_motions_free(problem, *step, load);
+      supports_follow(problem, load);
     }
     interfaces_have_a_free_side(problem, *step);
   }

@@ -226,7 +226,9 @@ void ErrorEstimator::accept_static(const Instant& instant) {
   if (const double work = std::max(still_.work, 1e-8 * energies.strain); work > 0.0)
     static_.iteration = std::max({static_.iteration, still_.left / std::sqrt(work), still_.missing / work});
   const StressEnergies energies_now = stress_energies(instant);
-  static_.mesh = std::max(static_.mesh, ratio(energies_now.error, energies_now.strain));
+  // What is left of nothing is rounding.
+  most_strain_ = std::max({most_strain_, energies_now.strain, still_.strain});
+  static_.mesh = std::max(static_.mesh, ratio(energies_now.error, std::max(energies_now.strain, 1e-8 * most_strain_)));
 }
 
 void ErrorEstimator::sample_stress(const Instant& instant) {

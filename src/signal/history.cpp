@@ -257,6 +257,15 @@ double History::integral(double t0, double t1) const {
   return shape_->integral(t0, t1);
 }
 
+double RunningIntegral::over(int n, double dt) {
+  if (dt != dt_) sums_.clear();
+  dt_ = dt;
+  if (sums_.empty()) sums_.push_back(0.0);
+  for (int i = static_cast<int>(sums_.size()) - 1; i < n; ++i)
+    sums_.push_back(sums_.back() + history_.integral(dt * i, dt * (i + 1)));
+  return sums_[static_cast<size_t>(n)];
+}
+
 bool History::is_constant() const { return shape_->is_constant(); }
 
 std::string History::description() const { return shape_->description(); }

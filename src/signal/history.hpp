@@ -49,7 +49,7 @@ class History {
 
   double value(double t) const;
   // Integral from t0 to t1 (s, t0 <= t1): closed form for the named histories; Simpson's rule on four equal parts of
-  // the interval for functions (exact for cubics).
+  // the interval for functions (exact for cubics), which is made for a time step and for no longer interval.
   double integral(double t0, double t1) const;
   bool is_constant() const;  // the same value at all times, as far as can be told (never for a function)
   // None of a function, nor of what is made of one.
@@ -64,6 +64,19 @@ class History {
  private:
   explicit History(std::shared_ptr<const Shape> shape) : shape_(std::move(shape)) {}
   std::shared_ptr<const Shape> shape_;
+};
+
+// The integral from 0 over more and more time steps, each of which is integrated once.
+class RunningIntegral {
+ public:
+  explicit RunningIntegral(History history) : history_(std::move(history)) {}
+  // Over n steps of dt (s). One thread only.
+  double over(int n, double dt);
+
+ private:
+  History history_;
+  double dt_ = 0.0;
+  std::vector<double> sums_;
 };
 
 // A value as the deck gives it: a number (ramped in a static step), a history or a function of time.

@@ -2,9 +2,14 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <map>
+
+#include "base/fnv1a.hpp"
 #include "base/log.hpp"
 #include "base/overloaded.hpp"
 #include "mesh/facing.hpp"
+#include "mesh/smooth_patches.hpp"
 
 namespace dygita {
 
@@ -37,20 +42,55 @@ double LoadValue::at_static(int i, int n) const {
   return is_number ? from + s * (history.value(1.0) - from) : history.value(s);
 }
 
-std::string load_key(const std::string& value, const FaceOrRegion& on) {
-  if (const auto* face = std::get_if<Face>(&on)) return value + " " + face->label();
-  const Region& region = std::get<Region>(on);
-  std::string key = value + " " + region.part->name;
-  for (const int node : region.nodes) key += " " + std::to_string(node);
-  return key;
+namespace {
+
+std::vector<int> nodes_on(const FaceOrRegion& on) {
+  if (const auto* face = std::get_if<Face>(&on)) return nodes_of(face->facets());
+  return std::get<Region>(on).nodes;
+}
+
+int part_on(const Problem& problem, const FaceOrRegion& on) {
+  return std::visit([&](const auto& o) { return index_of(problem.substructures, o.part.get()); }, on);
+}
+
+}  // namespace
+
+std::string motion_key(const std::string& value, const FaceOrRegion& on) {
+  std::vector<int> nodes = nodes_on(on);
+  std::sort(nodes.begin(), nodes.end());
+  Fnv1a digest;
+  digest.add(nodes.size());
+  for (const int node : nodes) digest.add(node);
+  return value + " " + std::visit([](const auto& o) { return o.part->name; }, on) + " " + digest.hexadecimal();
+}
+
+std::string force_key(const std::string& value, const FaceOrRegion& on) {
+  return motion_key(value, on) + (std::holds_alternative<Face>(on) ? " face" : " region");
+}
+
+std::vector<std::vector<int>> prescribed_nodes(const Problem& problem, const Step& step) {
+  std::vector<std::vector<int>> all(problem.substructures.size());
+  for (const LoadPtr& load : step.loads)
+    for (const Effect& effect : load->effects()) {
+      const auto* motion = std::get_if<PrescribedMotion>(&effect);
+      if (!motion || motion->is_velocity || !step.is_static) continue;
+      const std::vector<int> nodes = nodes_on(motion->on);
+      std::vector<int>& of_part = all[static_cast<size_t>(part_on(problem, motion->on))];
+      of_part.insert(of_part.end(), nodes.begin(), nodes.end());
+    }
+  for (std::vector<int>& nodes : all) {
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  }
+  return all;
 }
 
 namespace {
 
 class ConditionsBuilder {
  public:
-  ConditionsBuilder(const Problem& problem, const Step& step, const State& start)
-      : problem_(problem), step_(step), start_(start) {
+  ConditionsBuilder(const Problem& problem, const Step& step, const State& start, const NodeMotions& moved)
+      : problem_(problem), step_(step), start_(start), moved_(moved) {
     result_.held.resize(problem.substructures.size());
   }
 
@@ -83,10 +123,19 @@ class ConditionsBuilder {
       }
   }
 
+  // Where planes of one face meet at an edge, along the normal of each.
   void hold_normals(const Support& support, const Face& face, const std::vector<std::pair<Vec3, int>>& moves) {
-    const FaceNodes on_face = face_nodes(*face.part->mesh, face.facets());
-    for (size_t i = 0; i < on_face.nodes.size(); ++i)
-      hold(part_of(face), on_face.nodes[i], on_face.normals.col(i), moves, &support, support.name, support.origin);
+    const Mesh& mesh = *face.part->mesh;
+    std::vector<Vec3> normals;
+    for (const Facet& facet : face.facets()) normals.push_back(facet_area_vector(mesh.nodes, facet).normalized());
+    const std::vector<int> patch = smooth_patches(face.facets(), normals);
+    std::map<int, std::vector<Facet>> patches;
+    for (size_t i = 0; i < patch.size(); ++i) patches[patch[i]].push_back(face.facets()[i]);
+    for (const auto& [root, facets] : patches) {
+      const FaceNodes on_patch = face_nodes(mesh, facets);
+      for (size_t i = 0; i < on_patch.nodes.size(); ++i)
+        hold(part_of(face), on_patch.nodes[i], on_patch.normals.col(i), moves, &support, support.name, support.origin);
+    }
   }
 
   // Motion of an accelerated support: absolute velocity = what it has + integral of a.
@@ -101,10 +150,10 @@ class ConditionsBuilder {
       for (const Effect& effect : load->effects())
         std::visit(overloaded{[&](const BaseMotion& base) {
                                 if (base.on.get() != &support) return;
-                                const History history = base.acceleration;
+                                const auto gained = std::make_shared<RunningIntegral>(base.acceleration);
                                 moves.emplace_back(
                                     base.direction,
-                                    add({[history](int i, double dt) { return history.integral(0.0, dt * (i + 1)); }}));
+                                    add({[gained](int i, double dt) { return gained->over(i + 1, dt); }}));
                               },
                               Ignored<NodalForces, BodyForce, PrescribedMotion, Shortening, PreloadForce, Release>()},
                    effect);
@@ -114,16 +163,37 @@ class ConditionsBuilder {
   void add_motion(const PrescribedMotion& prescribed, const Load& load) {
     for (int axis = 0; axis < 3; ++axis) {
       if (!prescribed.along[axis]) continue;
-      const int motion = add(motion_of(prescribed, load, axis));
-      for (const int node : nodes_on(prescribed.on))
-        hold(part_of(prescribed.on), node, Vec3::Unit(axis), {{Vec3::Unit(axis), motion}}, nullptr, load.path,
-             load.origin);
+      const double from = reached(prescribed, axis);
+      const int motion = add(motion_of(prescribed, load, axis, from));
+      int ramp = -1;
+      for (const int node : nodes_on(prescribed.on)) {
+        std::vector<std::pair<Vec3, int>> moves = {{Vec3::Unit(axis), motion}};
+        if (const double away = from - moved(part_of(prescribed.on), node)[axis];
+            std::abs(away) > 1e-9 * std::abs(from) && step_.is_static && !prescribed.is_velocity) {
+          if (ramp < 0) ramp = add({[n = step_.n_increments()](int, double) { return 1.0 / n; }});
+          moves.emplace_back(away * Vec3::Unit(axis), ramp);
+        }
+        hold(part_of(prescribed.on), node, Vec3::Unit(axis), moves, nullptr, load.path, load.origin);
+      }
     }
   }
 
-  Motion motion_of(const PrescribedMotion& prescribed, const Load& load, int axis) const {
-    const auto reached = start_.reached.find(load_key(prescribed.name_along(axis), prescribed.on));
-    const LoadValue value{*prescribed.along[axis], reached == start_.reached.end() ? 0.0 : reached->second};
+  // What the same load has brought these nodes to, m.
+  double reached(const PrescribedMotion& prescribed, int axis) const {
+    const auto found = start_.reached.find(motion_key(prescribed.name_along(axis), prescribed.on));
+    return found == start_.reached.end() ? 0.0 : found->second;
+  }
+
+  // Where a node is when a static step begins that prescribes its displacement, m: not where the same load would have
+  // it where another has moved it.
+  Vec3 moved(int part, int node) const {
+    if (moved_.empty()) return Vec3::Zero();
+    const auto found = moved_[static_cast<size_t>(part)].find(node);
+    return found == moved_[static_cast<size_t>(part)].end() ? Vec3(Vec3::Zero()) : found->second;
+  }
+
+  Motion motion_of(const PrescribedMotion& prescribed, const Load& load, int axis, double from) const {
+    const LoadValue value{*prescribed.along[axis], from};
     const int n = step_.n_increments();
     if (step_.is_static) {
       if (prescribed.is_velocity)
@@ -157,6 +227,7 @@ class ConditionsBuilder {
   void hold(int part, int node, const Vec3& direction, const std::vector<std::pair<Vec3, int>>& moves,
             const Support* support, const std::string& name, const Origin& origin) {
     Held& held = result_.held[part][node];
+    if (support && support->kind->absorbs()) held.is_absorbed = true;
     Vec3 rest = direction;
     std::vector<std::pair<int, double>> motion;
     for (const auto& [along, index] : moves)
@@ -167,6 +238,7 @@ class ConditionsBuilder {
       for (const auto& [index, factor] : held.motion[j]) motion.emplace_back(index, -projection * factor);
     }
     if (held.n == 3 || rest.norm() < 1e-6) {
+      if (support && !motion.empty()) moves_alike(std::move(motion), held, *support, part, node, direction);
       if (!moves.empty() && !support)
         throw InputError(
             origin, fmt::format("{} moves node {} of substructure '{}', which is already held in that direction", name,
@@ -180,25 +252,47 @@ class ConditionsBuilder {
     ++held.n;
   }
 
-  int part_of(const FaceOrRegion& on) const {
-    return std::visit([&](const auto& o) { return index_of(problem_.substructures, o.part.get()); }, on);
+  // Throws unless the node has the velocity along a direction that a support asks for, others having given it one.
+  void moves_alike(std::vector<std::pair<int, double>> difference, const Held& held, const Support& support, int part,
+                   int node, const Vec3& direction) {
+    std::sort(difference.begin(), difference.end());
+    const auto [known, is_new] = agreed_.try_emplace(difference, true);
+    for (int i = 0; i < step_.n_increments() && is_new; ++i) {
+      double sum = 0.0, size = 0.0;
+      for (const auto& [index, factor] : difference) {
+        const double v = factor * result_.motions[static_cast<size_t>(index)].velocity(i, step_.dt);
+        sum += v;
+        size = std::max(size, std::abs(v));
+      }
+      if (std::abs(sum) > 1e-9 * size) known->second = false;
+    }
+    if (known->second) return;
+    std::string other;
+    for (int j = 0; j < held.n && other.empty(); ++j)
+      if (held.support[j] && std::abs(held.directions.col(j).dot(direction)) > 1e-6) other = held.support[j]->name;
+    throw InputError(
+        support.origin,
+        fmt::format("step '{}': supports '{}' and '{}' both hold node {} of substructure '{}' along ({:.3g}, "
+                    "{:.3g}, {:.3g}), and load.base_acceleration moves them there in two ways\n    shake "
+                    "both alike, with one load on both, or take one of them off the nodes that they share",
+                    step_.name, other, support.name, node, problem_.substructures[part]->name, direction[0],
+                    direction[1], direction[2]));
   }
 
-  static std::vector<int> nodes_on(const FaceOrRegion& on) {
-    if (const auto* face = std::get_if<Face>(&on)) return nodes_of(face->facets());
-    return std::get<Region>(on).nodes;
-  }
+  int part_of(const FaceOrRegion& on) const { return part_on(problem_, on); }
 
   const Problem& problem_;
   const Step& step_;
   const State& start_;
+  const NodeMotions& moved_;
   Conditions result_;
+  std::map<std::vector<std::pair<int, double>>, bool> agreed_;  // differences of two supports' motions: are they zero?
 };
 
 }  // namespace
 
-Conditions make_conditions(const Problem& problem, const Step& step, const State& start) {
-  return ConditionsBuilder(problem, step, start).build();
+Conditions make_conditions(const Problem& problem, const Step& step, const State& start, const NodeMotions& moved) {
+  return ConditionsBuilder(problem, step, start, moved).build();
 }
 
 }  // namespace dygita

@@ -24,6 +24,7 @@ struct Held {
   Mat3 directions = Mat3::Zero();                             // first n columns
   std::array<std::vector<std::pair<int, double>>, 3> motion;  // (index in Conditions::motions, factor)
   std::array<const Support*, 3> support{};                    // who holds it, null for a load
+  bool is_absorbed = false;                                   // an absorbing support is among those that stand here
 
   // An orthonormal basis of what is left free: 3 x (3 - n).
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> free_basis() const;
@@ -36,9 +37,16 @@ struct Conditions {
   const Held* at(int part, int node) const;
 };
 
-// Supports in force and prescribed motions of a step. Throws InputError when a motion is prescribed where something
-// else already holds the node.
-Conditions make_conditions(const Problem& problem, const Step& step, const State& start);
+// Displacements (m) of some nodes of each substructure.
+using NodeMotions = std::vector<std::unordered_map<int, Vec3>>;
+
+// Supports in force and prescribed motions of a step. moved: where nodes whose displacement it prescribes are when it
+// begins, of static steps (none: where the deck has put them). Throws InputError when a motion is prescribed where
+// something else already holds the node, and when two supports move a node in two ways.
+Conditions make_conditions(const Problem& problem, const Step& step, const State& start, const NodeMotions& moved = {});
+
+// Nodes of each substructure whose displacement the loads of a step prescribe; empty in a dynamic step.
+std::vector<std::vector<int>> prescribed_nodes(const Problem& problem, const Step& step);
 
 // A value over a step: what the number or history means in a static and in a dynamic step.
 struct LoadValue : TimeValue {
@@ -50,7 +58,9 @@ struct LoadValue : TimeValue {
   double mean(double t0, double t1) const { return history.integral(t0, t1) / (t1 - t0); }
 };
 
-// Key in State::reached of a value of a load (its name, and where).
-std::string load_key(const std::string& value, const FaceOrRegion& on);
+// Key in State::reached of a value of a load: its name and the nodes that it is on, whatever these are called. Forces
+// on the nodes of a face are others than those on a region of the same nodes; a motion is the same.
+std::string force_key(const std::string& value, const FaceOrRegion& on);
+std::string motion_key(const std::string& value, const FaceOrRegion& on);
 
 }  // namespace dygita

@@ -1,6 +1,7 @@
 #include "solution/loads.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "base/overloaded.hpp"
 #include "mesh/facing.hpp"
@@ -16,6 +17,16 @@ int part_of(const Problem& problem, const FaceOrRegion& on) {
 double value_reached(const State& state, const std::string& key) {
   const auto it = state.reached.find(key);
   return it == state.reached.end() ? 0.0 : it->second;
+}
+
+// Key of the size of the forces that a value of one has been.
+std::string size_key(const std::string& key) { return key + " size"; }
+
+// The value that brings the forces of a load whose forces for a value of one are now of this size.
+double value_reached(const State& state, const std::string& key, double size) {
+  const auto before = state.reached.find(size_key(key));
+  const double share = before == state.reached.end() || before->second == size ? 1.0 : before->second / size;
+  return share * value_reached(state, key);
 }
 
 }  // namespace
@@ -61,10 +72,11 @@ Loads::Loads(const Problem& problem, const Step& step, const State& start, const
 }
 
 void Loads::add(const NodalForces& forces, const TimeValue& value, const State& start) {
-  const std::string key = load_key(forces.name, forces.on);
+  const std::string key = force_key(forces.name, forces.on);
   const NodesUnderLoad on = nodes_under_load(forces.on);
   const Points unit = forces.unit(on.loaded);
-  LoadPattern pattern{part_of(problem_, forces.on), {}, {value, value_reached(start, key)}, key};
+  const double size = unit.colwise().norm().sum();
+  LoadPattern pattern{part_of(problem_, forces.on), {}, {value, value_reached(start, key, size)}, key, size};
   for (size_t i = 0; i < on.nodes.size(); ++i) pattern.nodes.emplace_back(on.nodes[i], unit.col(static_cast<int>(i)));
   patterns_.push_back(std::move(pattern));
 }
@@ -72,7 +84,7 @@ void Loads::add(const NodalForces& forces, const TimeValue& value, const State& 
 void Loads::add(const BodyForce& force, const LoadValue& value, const std::string& key, const InertiaForce& inertia) {
   for (size_t i = 0; i < problem_.substructures.size(); ++i) {
     const Substructure& part = *problem_.substructures[i];
-    LoadPattern pattern{static_cast<int>(i), {}, value, key};
+    LoadPattern pattern{static_cast<int>(i), {}, value, key, 0.0};
     Points acceleration(3, part.mesh->n_nodes());
     for (int node = 0; node < part.mesh->n_nodes(); ++node)
       acceleration.col(node) = force.unit(part.mesh->nodes.col(node) + part.place);
@@ -95,7 +107,7 @@ void Loads::note_reached(const PrescribedMotion& motion, const State& start) {
   if (motion.is_velocity) return;
   for (int axis = 0; axis < 3; ++axis) {
     if (!motion.along[axis]) continue;
-    const std::string key = load_key(motion.name_along(axis), motion.on);
+    const std::string key = motion_key(motion.name_along(axis), motion.on);
     const LoadValue value{*motion.along[axis], value_reached(start, key)};
     motions_reached_[key] =
         step_.is_static ? value.at_static(step_.increments - 1, step_.increments) : value.history.value(step_.duration);
@@ -120,24 +132,27 @@ void Loads::add_vanished(const State& start, const InertiaForce& inertia) {
                             Ignored<PrescribedMotion, BaseMotion, Shortening, PreloadForce, Release>()},
                  effect);
   for (const NodalForces& forces : nodal_forces)
-    if (has_vanished(load_key(forces.name, forces.on))) add(forces, nothing, start);
+    if (has_vanished(force_key(forces.name, forces.on))) add(forces, nothing, start);
   for (const BodyForce& force : body_forces)
     if (has_vanished(force.name)) add(force, {nothing, value_reached(start, force.name)}, force.name, inertia);
 }
 
-// What the last static step has balanced cell by cell stays in balance where this one's mass is spread in another way.
+// What the last static step has balanced cell by cell stays in balance where this one's mass is spread in another way,
+// and goes as gravity goes.
 void Loads::keep_as_laid(const InertiaForce& inertia, const InertiaForce& of_static_steps) {
   int last = index_of(problem_.steps, &step_) - 1;
   while (last >= 0 && !problem_.steps[static_cast<size_t>(last)]->is_static) --last;
   if (last < 0) return;
+  std::set<std::string> laid;
   for (const LoadPtr& load : problem_.steps[static_cast<size_t>(last)]->loads)
     for (const Effect& effect : load->effects())
-      if (const auto* force = std::get_if<BodyForce>(&effect)) {
-        const LoadValue laid{{History::constant(force->value.history.value(1.0)), false}, 0.0};
-        add(*force, laid, "", [&](int part, const Points& acceleration) {
+      if (const auto* force = std::get_if<BodyForce>(&effect)) laid.insert(force->name);
+  for (const LoadPtr& load : step_.loads)
+    for (const Effect& effect : load->effects())
+      if (const auto* force = std::get_if<BodyForce>(&effect); force && laid.count(force->name) > 0)
+        add(*force, {force->value, 0.0}, "", [&](int part, const Points& acceleration) {
           return Points(of_static_steps(part, acceleration) - inertia(part, acceleration));
         });
-      }
 }
 
 void Loads::evaluate(int increment) {
@@ -182,12 +197,19 @@ bool Loads::is_released(const Interface* interface, int increment) const {
   return false;
 }
 
+bool Loads::is_released_in_step(const Interface* interface) const {
+  return std::any_of(releases_.begin(), releases_.end(),
+                     [&](const auto& release) { return release.first == interface; });
+}
+
 std::map<std::string, double> Loads::reached() const {
   std::map<std::string, double> values = motions_reached_;
-  for (const LoadPattern& pattern : patterns_)
-    if (!pattern.key.empty())
-      values[pattern.key] = step_.is_static ? pattern.value.at_static(step_.increments - 1, step_.increments)
-                                            : pattern.value.history.value(step_.duration);
+  for (const LoadPattern& pattern : patterns_) {
+    if (pattern.key.empty()) continue;
+    values[pattern.key] = step_.is_static ? pattern.value.at_static(step_.increments - 1, step_.increments)
+                                          : pattern.value.history.value(step_.duration);
+    if (pattern.size > 0.0) values[size_key(pattern.key)] = pattern.size;
+  }
   return values;
 }
 

@@ -10,7 +10,8 @@ struct LoadPattern {
   int part = -1;
   std::vector<std::pair<int, Vec3>> nodes;  // force at a node for a value of one, N
   LoadValue value;
-  std::string key;  // in State::reached; empty: of no load of the step's own
+  std::string key;    // in State::reached; empty: of no load of the step's own
+  double size = 0.0;  // N, of the forces for a value of one: those on one of two faces are half of those on both
 };
 
 // Nodes of a substructure's mesh under a load, and what a load asks of them.
@@ -45,6 +46,8 @@ class Loads {
   const LoadValue* preload(const Interface* interface) const;
   // Has the interface let go by the middle of this increment?
   bool is_released(const Interface* interface, int increment) const;
+  // Has it let go when the step ends?
+  bool is_released_in_step(const Interface* interface) const;
 
   // Values reached at the end of the step, for the next one.
   std::map<std::string, double> reached() const;

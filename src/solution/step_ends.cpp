@@ -5,6 +5,7 @@
 
 #include "base/overloaded.hpp"
 #include "law/law.hpp"
+#include "model/check.hpp"
 #include "solution/all_pieces.hpp"
 #include "solution/copies.hpp"
 #include "solution/explicit_piece.hpp"
@@ -110,6 +111,27 @@ void give_loads(StepModel& model, const State& state) {
   }
 }
 
+// What absorbing supports have held in static steps acts on as long as they are supports of the step.
+void let_go_of_absorbed(const StepModel& model, State& state) {
+  if (model.scheme.is_static) return;
+  const Problem& problem = *model.problem;
+  std::vector<std::vector<int>> kept(problem.substructures.size());
+  for (const SupportPtr& support : supports_of(problem, *model.step)) {
+    if (!support->kind->absorbs()) continue;
+    for (const FaceOrRegion& on : support->on) {
+      const std::vector<int> nodes = check::nodes_at(on);
+      std::vector<int>& of_part = kept[static_cast<size_t>(index_of(problem.substructures, &check::part_of(on)))];
+      of_part.insert(of_part.end(), nodes.begin(), nodes.end());
+    }
+  }
+  for (size_t part = 0; part < kept.size(); ++part) {
+    std::sort(kept[part].begin(), kept[part].end());
+    std::erase_if(state.anchor[part], [&](const auto& held) {
+      return !std::binary_search(kept[part].begin(), kept[part].end(), held.first);
+    });
+  }
+}
+
 }  // namespace
 
 void start_step(StepModel& model, State& state) {
@@ -124,6 +146,7 @@ void start_step(StepModel& model, State& state) {
       point.status = surface.declared_law().initial().status;
     }
   }
+  let_go_of_absorbed(model, state);
   if (model.is_assembled && !ranks::is_alone()) complete(*model.cut, state);
   for (const int i : model.here) {
     Points& velocity = state.velocity[i];
@@ -160,7 +183,7 @@ void keep_reactions(const StepModel& model, State& state) {
   std::vector<std::pair<int, int>> held_nodes;  // substructure and node
   for (int part = 0; part < cut.n_parts(); ++part)
     for (const auto& [node, held] : model.conditions.held[part])
-      if (held.n > 0 && held.support[0] && held.support[0]->kind->absorbs()) held_nodes.emplace_back(part, node);
+      if (held.is_absorbed) held_nodes.emplace_back(part, node);
   std::sort(held_nodes.begin(), held_nodes.end());
   std::map<int, Points> reactions;  // of the pieces here that have such nodes
   std::vector<double> values;
@@ -199,6 +222,11 @@ void end_step(const StepModel& model, State& state) {
   if (model.scheme.is_static) keep_reactions(model, state);
   if (model.is_assembled) leave_to_others(cut, state);
   state.reached = model.loads->reached();
+  // What was to let go after the middle of the last increment has not acted yet.
+  for (size_t s = 0; s < model.surfaces->size(); ++s)
+    if (const Interface* interface = (*model.surfaces)[s].interface;
+        interface && model.loads->is_released_in_step(interface))
+      state.released[s] = 1;
   if (model.scheme.is_static) {
     state.base_velocity.clear();  // at rest
     return;
@@ -207,7 +235,9 @@ void end_step(const StepModel& model, State& state) {
     for (const Effect& effect : load->effects())
       std::visit(overloaded{[&](const BaseMotion& base) {
                               auto [it, is_new] = state.base_velocity.emplace(base.on.get(), Vec3::Zero());
-                              it->second += base.direction * base.acceleration.integral(0.0, model.step->duration);
+                              it->second +=
+                                  base.direction *
+                                  RunningIntegral(base.acceleration).over(model.step->n_increments(), model.step->dt);
                             },
                             Ignored<NodalForces, BodyForce, PrescribedMotion, Shortening, PreloadForce, Release>()},
                  effect);

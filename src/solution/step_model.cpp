@@ -149,6 +149,31 @@ bool is_preloaded(const StepModel& model, const Point& point) {
   return interface && model.loads->preload(interface);
 }
 
+// Collective. Where the nodes are whose displacement a step prescribes.
+NodeMotions moved_nodes(const Problem& problem, const Step& step, const State& start, const Cut& cut) {
+  const std::vector<std::vector<int>> nodes = prescribed_nodes(problem, step);
+  std::vector<double> values;
+  std::vector<int> owner, offset{0};
+  for (size_t part = 0; part < nodes.size(); ++part)
+    for (const int node : nodes[part]) {
+      const Copy copy = cut.owner(static_cast<int>(part), node);
+      const Points& u = start.displacement[static_cast<size_t>(copy.piece)];
+      values.resize(values.size() + 3, 0.0);
+      if (u.cols() > 0) Eigen::Map<Vec3>(values.data() + values.size() - 3) = u.col(copy.node);
+      owner.push_back(cut.piece(copy.piece).rank);
+      offset.push_back(static_cast<int>(values.size()));
+    }
+  if (!ranks::is_alone()) ranks::Segments(owner, offset).complete(values.data());
+  NodeMotions moved(nodes.size());
+  const double* next = values.data();
+  for (size_t part = 0; part < nodes.size(); ++part)
+    for (const int node : nodes[part]) {
+      moved[part].emplace(node, Eigen::Map<const Vec3>(next));
+      next += 3;
+    }
+  return moved;
+}
+
 StepModel make_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                      const std::vector<Body>& bodies, const State& start, const CutPtr& cut, bool chooses_integration) {
   StepModel model;
@@ -157,7 +182,7 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
   model.step = &step;
   model.surfaces = &surfaces;
   if (!step.is_static) model.scheme = {false, step.dt, 0.5 * (1.0 - problem.numerical_damping())};
-  model.conditions = make_conditions(problem, step, start);
+  model.conditions = make_conditions(problem, step, start, moved_nodes(problem, step, start, *cut));
   if (chooses_integration && !step.is_static) {
     model.integration = choose_integration(problem, step, bodies, *cut, model.conditions, surfaces);
     model.scheme.dt = step.dt / model.integration.n_substeps;

@@ -119,6 +119,13 @@ class HistoryOutput final : public Output {
 
   void check(const Problem& problem) const override {
     check::is_on(problem, *this, request_.on, [this](const Target& target) { return refused(target); });
+    const auto n_faces = std::count_if(request_.on.begin(), request_.on.end(), is_face);
+    const auto n_regions = std::count_if(request_.on.begin(), request_.on.end(),
+                                         [](const Target& target) { return std::holds_alternative<Region>(target); });
+    if (n_faces > 0 && n_regions > 0)
+      check::fail(problem, origin,
+                  known_as() + " is a mean over the area of faces or over the volume of regions, not over both",
+                  "an output of its own for each kind");
     if (request_.direction && (request_.what.quantity == Quantity::von_mises || request_.is_of_surfaces()))
       check::fail(problem, origin, known_as() + ": quantity '" + request_.what.name + "' has no direction");
   }

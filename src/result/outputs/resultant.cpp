@@ -1,4 +1,6 @@
 // output.resultant: the force through an interface or a support (manual, instants and means).
+#include <algorithm>
+
 #include "model/check.hpp"
 #include "result/output_table.hpp"
 #include "result/recorder.hpp"
@@ -31,6 +33,19 @@ class ResultantOutput final : public Output {
     check::is_on(problem, *this, on_, [](const Target& target) {
       return check::place_of(target) ? "output.resultant takes an interface or a support" : "";
     });
+  }
+
+  void doubt(const Problem& problem) const override {
+    for (const Target& target : on_) {
+      const auto* support = std::get_if<SupportPtr>(&target);
+      if (support && std::any_of((*support)->on.begin(), (*support)->on.end(),
+                                 [](const FaceOrRegion& on) { return std::holds_alternative<Region>(on); }))
+        check::doubt(
+            problem, origin,
+            known_as() + ": " + check::describe(**support) +
+                " is on a region, which has no normal: 'normal' is 0 and 'shear' the whole force there; put it "
+                "on a face, or read x, y, z");
+    }
   }
 
   Columns columns() const override {

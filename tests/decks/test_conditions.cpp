@@ -1,0 +1,247 @@
+// What steps hold, move and load, and what one of them leaves to the next: every case was a wrong number at some time.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "decks/engine.hpp"
+
+namespace dygita::test::conditions_tests {
+namespace {
+
+const std::string metal = R"(
+local p = param{ kind = 0 }
+local metal = material.elastic{ name = "metal", young = 200*GPa, poisson = 0, density = 8000 }
+)";
+
+DeckRun run_kind(const std::string& text, int kind, const std::string& solver = "") {
+  return run_text(metal + text, {{"kind", std::to_string(kind)}}, 0, solver).at(0);
+}
+
+std::string error_of(const std::string& text, int kind = 0) {
+  try {
+    run_kind(text, kind);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+class FunctionOfTime : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Solvers, FunctionOfTime, testing::Values("latin{}", "monolithic{}", "explicit{}"));
+
+// Kind 0: a half-sine; 1: the same as a function; 2: a sum that has the function in it. 500 time steps, of which the
+// pulse takes 50.
+const std::string shaken = R"(
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 20*mm, 20*mm, 10*mm }, cells = { 1, 1, 1 } } }
+local base = support.fixed{ name = "base", on = b:face "zmin" }
+local shot = history.half_sine{ peak = 1000, duration = 0.5*ms }
+local function as_function(t) return t < 0.5*ms and 1000 * math.sin(math.pi * t / (0.5*ms)) or 0 end
+local signal = ({ [0] = shot, as_function, 0.5 * shot + function(t) return 0.5 * as_function(t) end })[p.kind]
+local shock = step.dynamic{ name = "shock", duration = 5*ms, dt = 10*us, loads = { load.base_acceleration{ on = base, direction = { 0, 0, 1 }, history = signal } } }
+local after = step.dynamic{ name = "after", after = shock, duration = 100*us, dt = 10*us }
+problem{ name = "p", substructures = { b }, supports = { base }, steps = { shock, after },
+  outputs = { output.history{ name = "v", on = b:face "zmin", quantity = "velocity", direction = { 0, 0, 1 } } } }:run{}
+)";
+
+TEST_P(FunctionOfTime, shakes_a_base_as_the_same_signal_does) {
+  const std::vector<double> exact = run_kind(shaken, 0, GetParam()).column("v", "velocity");
+  const double reached = 2.0 / M_PI * 1000.0 * 0.5e-3;
+  EXPECT_NEAR(exact.back(), reached, 1e-9 * reached);
+  for (const int kind : {1, 2}) {
+    const std::vector<double> v = run_kind(shaken, kind, GetParam()).column("v", "velocity");
+    ASSERT_EQ(v.size(), exact.size());
+    for (size_t i = 0; i < v.size(); ++i) EXPECT_NEAR(v[i], exact[i], 1e-6 * reached) << i;
+  }
+}
+
+// Kind 0 and 1: the order in which two supports are listed that share nodes; 2: the absorbing one leaves.
+const std::string absorbed = R"(
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 10*mm, 10*mm, 50*mm }, cells = { 2, 2, 5 } } }
+local foot = support.absorbing{ name = "foot", on = b:face "zmin" }
+local guide = support.symmetry{ name = "guide", on = { b:face "xmin", b:face "ymin", b:face "xmax", b:face "ymax" } }
+local press = load.pressure{ on = b:face "zmax", history = 5*MPa }
+local pre = step.static{ name = "pre", loads = { press } }
+local go = step.dynamic{ name = "go", after = pre, duration = 60*us, dt = 1*us, loads = { press }, supports = p.kind == 2 and { guide } or nil }
+problem{ name = "p", substructures = { b }, supports = p.kind == 1 and { guide, foot } or { foot, guide }, steps = { pre, go },
+  outputs = { output.momentum{ name = "m" }, output.history{ name = "v", on = b:face "zmax", quantity = "velocity", direction = { 0, 0, 1 } } } }:run{}
+)";
+
+class AbsorbingSupport : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Solvers, AbsorbingSupport, testing::Values("latin{}", "monolithic{}", "explicit{}"));
+
+TEST_P(AbsorbingSupport, keeps_its_static_reaction_whatever_else_holds_its_nodes) {
+  for (const int kind : {0, 1}) {
+    const DeckRun run = run_kind(absorbed, kind, GetParam());
+    EXPECT_NEAR(run.column("v", "velocity").back(), 0.0, 1e-6) << kind;
+  }
+}
+
+TEST_P(AbsorbingSupport, pushes_no_more_where_a_step_leaves_it_out) {
+  const DeckRun run = run_kind(absorbed, 2, GetParam());
+  EXPECT_NEAR(run.column("m", "z").back(), -500.0 * 60e-6, 1e-6 * 500.0 * 60e-6);
+}
+
+// Two faces that were picked by a function each have the same label.
+TEST(PickedFaces, each_remember_what_loads_on_them_have_reached) {
+  const std::string text = R"(
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 30*mm, 10*mm, 20*mm }, cells = { 3, 1, 2 } } }
+local base = support.fixed{ name = "base", on = b:face "zmin" }
+local left = b:face{ normal = { 0, 0, 1 }, where = function(x) return x < 10.1*mm end }
+local right = b:face{ normal = { 0, 0, 1 }, where = function(x) return x > 19.9*mm end }
+local function to(face) return p.kind == 0 and load.displacement{ on = face, z = 20*um } or load.force{ on = face, z = 1*kN } end
+local on_left, on_right = to(left), to(right)
+local one = step.static{ name = "one", loads = { on_left } }
+local two = step.static{ name = "two", after = one, increments = 4, loads = { on_left, on_right } }
+local function moved(name, face) return output.history{ name = name, on = face, quantity = "displacement", direction = { 0, 0, 1 } } end
+problem{ name = "p", substructures = { b }, supports = { base }, steps = { one, two },
+  outputs = { moved("left", left), moved("right", right), output.resultant{ name = "r", on = base } } }:run{}
+)";
+  const DeckRun moved = run_kind(text, 0);
+  EXPECT_NEAR(moved.column("right", "displacement").back(), 20e-6, 1e-12);
+  EXPECT_NEAR(moved.column("left", "displacement").back(), 20e-6, 1e-12);
+  const DeckRun pulled = run_kind(text, 1);
+  const std::vector<double>& z = pulled.column("r", "z");
+  ASSERT_EQ(z.size(), 5u);
+  for (size_t i = 0; i < z.size(); ++i) EXPECT_NEAR(z[i], -1000.0 * (1.0 + 0.25 * static_cast<double>(i)), 1e-5) << i;
+}
+
+// Kind 0: a force has stretched the bar before; 1: the same nodes, as a region; 2: they are to come back to where they
+// began; 3: a signal.
+TEST(PrescribedDisplacement, of_a_static_step_is_where_the_nodes_end) {
+  const std::string text = R"(
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 10*mm, 10*mm, 100*mm }, cells = { 1, 1, 10 } } }
+local base = support.fixed{ name = "base", on = b:face "zmin" }
+local top = b:face "zmax"
+local same = b:where(function(x, y, z) return near(z, 100*mm) end)
+local first = p.kind == 1 and load.displacement{ on = top, z = 20*um } or load.force{ on = top, z = 10*kN }
+local drive = load.displacement{ on = p.kind == 1 and same or top, z = ({ [0] = 20*um, 20*um, 0, function(t) return 20*um * t * t end })[p.kind] }
+local one = step.static{ name = "one", loads = { first } }
+local two = step.static{ name = "two", after = one, increments = 4, loads = { drive } }
+problem{ name = "p", substructures = { b }, supports = { base }, steps = { one, two },
+  outputs = { output.history{ name = "u", on = top, quantity = "displacement", direction = { 0, 0, 1 } }, output.resultant{ name = "r", on = base } } }:run{}
+)";
+  for (const int kind : {0, 1, 2, 3})
+    for (const char* solver : {"latin{}", "monolithic{}"}) {
+      const DeckRun run = run_kind(text, kind, solver);
+      const double end = kind == 2 ? 0.0 : 20e-6;
+      EXPECT_NEAR(run.column("u", "displacement").back(), end, 1e-11) << kind << solver;
+      EXPECT_NEAR(run.column("r", "z").back(), -end * 200e9 * 1e-4 / 0.1, 1e-2) << kind << solver;
+      if (kind != 0) continue;
+      EXPECT_NEAR(run.column("u", "displacement").end()[-2], 0.25 * 50e-6 + 0.75 * 20e-6, 1e-11);
+    }
+}
+
+// Kind 0: a list of two faces; 1: one face with both planes.
+TEST(SymmetrySupport, holds_the_edge_of_two_planes_along_both) {
+  const std::string text = R"(
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 20*mm, 20*mm, 40*mm }, cells = { 2, 2, 4 } } }
+local planes = p.kind == 0 and { b:face "xmin", b:face "ymin" } or b:face{ where = function(x, y) return x < 1*um or y < 1*um end }
+local held = { support.symmetry{ name = "bottom", on = b:face "zmin" }, support.symmetry{ name = "planes", on = planes } }
+local edge = b:where(function(x, y, z) return near(x, 0) and near(y, 0) and near(z, 40*mm) end)
+local pull = step.static{ name = "pull", loads = { load.traction{ on = b:face "xmax", y = 10*MPa }, load.traction{ on = b:face "ymax", y = 50*MPa } } }
+problem{ name = "p", substructures = { b }, supports = held, steps = { pull },
+  outputs = { output.history{ name = "edge", on = edge, quantity = "displacement" }, output.history{ name = "u", on = b:face "ymax", quantity = "displacement" } } }:run{}
+)";
+  const DeckRun list = run_kind(text, 0), one = run_kind(text, 1);
+  for (const char* axis : {"x", "y"}) EXPECT_NEAR(one.column("edge", axis).back(), 0.0, 1e-15) << axis;
+  EXPECT_NEAR(one.column("u", "y").back(), list.column("u", "y").back(), 1e-12);
+}
+
+// Gravity of a static step that a dynamic one takes away, value 0 (kind 0) or left out (kind 1), or keeps (kind 2).
+TEST(Gravity, of_cells_of_order_two_goes_as_it_is_told) {
+  const std::string text = R"(
+local soft = material.elastic{ name = "soft", young = 10*GPa, poisson = 0.3, density = 8000, damping = 5e-6 }
+local b = substructure{ name = "b", material = soft, integration = "explicit", mesh = mesh.box{ size = { 20*mm, 20*mm, 20*mm }, cells = { 2, 2, 2 }, order = 2, cell = "tet10" } }
+local base = support.fixed{ name = "base", on = b:face "zmin" }
+local weight = step.static{ name = "weight", loads = { load.gravity{ z = -1e5 } } }
+local go = step.dynamic{ name = "go", after = weight, duration = 1*ms, dt = 2*us, supports = p.kind < 2 and {} or nil,
+  loads = ({ [0] = { load.gravity{ z = 0 } }, {}, { load.gravity{ z = -1e5 } } })[p.kind] }
+problem{ name = "p", substructures = { b }, supports = { base }, steps = { weight, go }, outputs = { output.energy{} } }:run{}
+)";
+  for (const int kind : {0, 1, 2}) {
+    const DeckRun run = run_kind(text, kind);
+    const std::vector<double>&strain = run.column("energy", "strain"), &loads = run.column("energy", "loads");
+    const double stored = strain.at(1);
+    EXPECT_GT(stored, 1e-4);
+    EXPECT_NEAR(strain.back(), kind == 2 ? stored : 0.0, 1e-6 * stored) << kind;
+    EXPECT_NEAR(loads.back(), loads.at(1), 1e-6 * stored) << kind;
+  }
+}
+
+// The force on one of two faces was half of the load.
+TEST(Force, on_fewer_faces_than_before_goes_on_from_what_they_had) {
+  const DeckRun run = run_kind(R"(
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 10*mm, 10*mm, 50*mm }, cells = { 1, 1, 5 } } }
+local base = support.fixed{ name = "base", on = b:face "zmin" }
+local one = step.static{ name = "one", loads = { load.force{ on = { b:face "xmin", b:face "xmax" }, z = 1000 } } }
+local two = step.static{ name = "two", after = one, increments = 4, loads = { load.force{ on = b:face "xmax", z = 1000 } } }
+problem{ name = "p", substructures = { b }, supports = { base }, steps = { one, two }, outputs = { output.resultant{ name = "r", on = base } } }:run{}
+)",
+                               0);
+  for (const double z : run.column("r", "z")) EXPECT_NEAR(z, -1000.0, 1e-5);
+}
+
+TEST(Supports, that_share_nodes_are_shaken_alike_or_not_at_all) {
+  const std::string text = R"(
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 30*mm, 20*mm, 40*mm }, cells = { 3, 2, 4 } } }
+local fix = support.fixed{ name = "fix", on = b:face "zmin" }
+local plane = support.symmetry{ name = "plane", on = b:face "xmin" }
+local shake = load.base_acceleration{ on = p.kind == 0 and fix or p.kind == 3 and plane or { fix, plane }, direction = p.kind == 3 and { 0, 0, 1 } or { 1, 0, 0 },
+  history = history.half_sine{ peak = 1000, duration = 0.2*ms } }
+local shock = step.dynamic{ name = "shock", duration = 20*us, dt = 1*us, loads = { shake } }
+problem{ name = "p", substructures = { b }, supports = p.kind == 1 and { plane, fix } or { fix, plane }, steps = { shock }, outputs = { output.energy{} } }:run{}
+)";
+  EXPECT_NE(error_of(text, 0).find("moves them there in two ways"), std::string::npos);
+  EXPECT_NE(error_of(text, 0).find("supports 'fix' and 'plane'"), std::string::npos);
+  EXPECT_EQ(error_of(text, 1), "");
+  EXPECT_EQ(error_of(text, 2), "");
+  EXPECT_NE(error_of(text, 3).find("where it holds nothing"), std::string::npos);
+}
+
+TEST(Release, at_the_end_of_a_step_has_let_go_in_the_next) {
+  const DeckRun run = run_kind(R"(
+local function block(name, z) return substructure{ name = name, material = metal, mesh = mesh.box{ origin = { 0, 0, z }, size = { 10*mm, 10*mm, 20*mm }, cells = { 1, 1, 4 } } } end
+local a, b = block("a", 0), block("b", 20*mm)
+local weld = interface.bonded{ name = "weld", between = { a:face "zmax", b:face "zmin" } }
+local ends = support.fixed{ name = "ends", on = { a:face "zmin", b:face "zmax" } }
+local pull = load.force{ on = a:where(function(x, y, z) return near(z, 10*mm) end), z = 1000 }
+local one = step.static{ name = "one", loads = { pull } }
+local two = step.dynamic{ name = "two", after = one, duration = 10*us, dt = 1*us, loads = { pull, load.release{ on = weld, at = 10*us } } }
+local three = step.dynamic{ name = "three", after = two, duration = 20*us, dt = 1*us, loads = { pull } }
+problem{ name = "p", substructures = { a, b }, interfaces = { weld }, supports = { ends }, steps = { one, two, three },
+  outputs = { output.resultant{ name = "r", on = weld } } }:run{}
+)",
+                               0);
+  const std::vector<double>& z = run.column("r", "z");
+  EXPECT_NEAR(z.at(10), -250.0, 1e-3);
+  EXPECT_EQ(z.back(), 0.0);
+}
+
+TEST(History, is_a_mean_over_faces_or_over_regions) {
+  const std::string text = R"(
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 10*mm, 10*mm, 20*mm }, cells = { 1, 1, 2 } } }
+local base = support.fixed{ name = "base", on = b:face "zmin" }
+local pull = step.static{ name = "pull", loads = { load.force{ on = b:face "zmax", z = 1000 } } }
+problem{ name = "p", substructures = { b }, supports = { base }, steps = { pull },
+  outputs = { output.history{ name = "u", on = { b:face "zmax", b:where(function() return true end) }, quantity = "displacement" } } }:run{}
+)";
+  EXPECT_NE(error_of(text).find("not over both"), std::string::npos);
+}
+
+// A bar without load after it was loaded: both its strain energy and its stress error are rounding.
+TEST(StaticEstimates, are_not_those_of_nothing) {
+  const DeckRun run = run_kind(R"(
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 10*mm, 10*mm, 50*mm }, cells = { 1, 1, 5 } } }
+local base = support.fixed{ name = "base", on = b:face "zmin" }
+local function pull(z) return { load.force{ on = b:face "zmax", z = z } } end
+local one = step.static{ name = "one", loads = pull(8000) }
+local two = step.static{ name = "two", after = one, loads = pull(4000) }
+local three = step.static{ name = "three", after = two, loads = pull(0) }
+problem{ name = "p", substructures = { b }, supports = { base }, steps = { one, two, three }, outputs = { output.energy{} } }:run{}
+)",
+                               0);
+  EXPECT_LT(run.result->figures.static_mesh_error.value(), 1e-3);
+}
+
+}  // namespace
+}  // namespace dygita::test::conditions_tests
