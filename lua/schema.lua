@@ -620,7 +620,7 @@ words[10] = {
     },
   },
   {
-    "resultant", makes = "output", doc = "The force through an interface or a support, of a list their sum (x, y, z: on the first part that each names). Columns: normal, shear, x, y, z (N).",
+    "resultant", makes = "output", doc = "The force through an interface or a support, of a list their sum (x, y, z: on the first part that each names). Where two supports hold a node along one direction, the first listed has its reaction. Columns: normal, shear, x, y, z (N).",
     arguments = { name_of "output", on({ "interface", "support" }, "what transmits the force") },
   },
   {

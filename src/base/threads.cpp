@@ -4,6 +4,9 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <string>
+
+#include "base/memory.hpp"
 
 namespace dygita {
 
@@ -20,10 +23,10 @@ void set_up_process(char** argv, const char* blas_kernels) {
   setenv("VTK_SMP_BACKEND_IN_USE", "Sequential", 0);  // VTK's threads beside ours
   // Large pages under all of the heap, which grows by many of them at a time and keeps what comes back: a short run
   // spends a fifth of its time on clearing small ones (glibc 2.35).
-  setenv("GLIBC_TUNABLES",
-         "glibc.malloc.hugetlb=1:glibc.malloc.top_pad=33554432:glibc.malloc.mmap_threshold=33554432:"
-         "glibc.malloc.trim_threshold=67108864",
-         0);
+  const std::string growth = std::to_string(heap_growth), kept = std::to_string(2 * heap_growth);
+  const std::string tunables = "glibc.malloc.hugetlb=1:glibc.malloc.top_pad=" + growth +
+                               ":glibc.malloc.mmap_threshold=" + growth + ":glibc.malloc.trim_threshold=" + kept;
+  setenv("GLIBC_TUNABLES", tunables.c_str(), 0);
   // Where /proc is missing the program goes on as it is, only slower on a busy machine.
   execv("/proc/self/exe", argv);
 }

@@ -1,23 +1,13 @@
 #include "latin/step_settings.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "latin/coarse_correction.hpp"
+#include "model/extent.hpp"
 
 namespace dygita {
 
 namespace {
-
-// Length of the diagonal of the box around all substructures, m.
-double assembly_size(const Problem& problem) {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const SubstructurePtr& part : problem.substructures) {
-    low = low.cwiseMin(part->mesh->nodes.rowwise().minCoeff() + part->place);
-    high = high.cwiseMax(part->mesh->nodes.rowwise().maxCoeff() + part->place);
-  }
-  return (high - low).norm();
-}
 
 bool is_single(const StepModel& model) {
   return ranks::any(std::any_of(model.pieces.begin(), model.pieces.end(),
@@ -40,7 +30,7 @@ StepSettings step_settings(const Problem& problem, const StepModel& model, bool 
   settings.more_iterations = has_start ? asked.more_iterations : 0;
   settings.round_off = is_single(model) ? 1e-8 : 1e-13;
   settings.window = is_static || model.has_explicit() ? 1 : asked.window == 0 ? n : std::min(asked.window, n);
-  settings.assembly_size = assembly_size(problem);
+  settings.assembly_size = extent_of(problem.substructures).size().norm();
   settings.is_assembled = is_static && model.is_assembled;
   settings.has_correction = model.n_q() > 0 && !settings.is_assembled && settings.window == 1 && asked.anderson != 0 &&
                             needs_coarse_correction(model);

@@ -1,19 +1,13 @@
 #include "model/meeting.hpp"
 
 #include "law/law.hpp"
+#include "model/extent.hpp"
 
 namespace dygita {
 
 PlacedFace placed(const Face& face) { return {face.part->mesh.get(), face.facets(), face.part->place, face.label()}; }
 
-double default_within(const Problem& problem) {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::max()), high = -low;
-  for (const SubstructurePtr& part : problem.substructures) {
-    low = low.cwiseMin(part->mesh->nodes.rowwise().minCoeff() + part->place);
-    high = high.cwiseMax(part->mesh->nodes.rowwise().maxCoeff() + part->place);
-  }
-  return 1e-4 * (high - low).norm();
-}
+double default_within(const Problem& problem) { return 1e-4 * extent_of(problem.substructures).size().norm(); }
 
 Meeting meeting_of(const Interface& interface, double within) {
   const auto impedance = [](const Face& face) {

@@ -111,7 +111,7 @@ void add_instant(vtkUnstructuredGrid* grid, const Frame& frame) {
 // By way of a text: VTK 9.1 ends in a segmentation fault where a disk is full, and leaves half a file behind; and where
 // memory is, so that it is asked for before.
 void write(vtkUnstructuredGrid* grid, const std::filesystem::path& path) {
-  require_memory(4 * 1024 * static_cast<std::size_t>(grid->GetActualMemorySize()) + (std::size_t{8} << 20));
+  require_memory(4 * 1024 * static_cast<std::size_t>(grid->GetActualMemorySize()) + 2 * heap_growth);
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetWriteToOutputString(true);
   writer->SetInputData(grid);

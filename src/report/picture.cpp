@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "model/extent.hpp"
 #include "report/item_buffer.hpp"
 #include "report/picture_mesh.hpp"
 
@@ -13,19 +14,6 @@ namespace dygita {
 namespace {
 
 constexpr double picture_margin = 24.0;  // px
-
-struct Box {
-  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
-};
-
-Box box_of(const std::vector<SubstructurePtr>& parts) {
-  Box box;
-  for (const SubstructurePtr& part : parts) {
-    box.low = box.low.cwiseMin(part->mesh->nodes.rowwise().minCoeff() + part->place);
-    box.high = box.high.cwiseMax(part->mesh->nodes.rowwise().maxCoeff() + part->place);
-  }
-  return box;
-}
 
 // Along which axis something is long and thin; -1: it is not.
 int long_axis(const Box& box) {
@@ -114,7 +102,7 @@ int n_seen(const std::vector<char>& seen) { return static_cast<int>(std::count(s
 
 View whole_view_of(const std::vector<SubstructurePtr>& parts) {
   View view;
-  const Box box = box_of(parts);
+  const Box box = extent_of(parts);
   view.centre = 0.5 * (box.low + box.high);
   const int along = long_axis(box);
   view.axes = along >= 0 ? turned(along, along == 2 ? 1 : 2, 20.0, 22.0) : turned(0, 2, 45.0, 35.264);
@@ -145,7 +133,7 @@ View view_of(const std::vector<SubstructurePtr>& parts) {
   if (all_parts_are_seen(make_skin(parts, view, {}, {}, 0.0), view, parts.size())) return view;
   view.is_cut = true;
   // The horizontal axis that looks most towards the reader.
-  const int along = long_axis(box_of(parts));
+  const int along = long_axis(extent_of(parts));
   Vec3 towards = view.axes.row(2).transpose().cwiseAbs();
   towards[along == 2 ? 1 : 2] = 0.0;
   if (along >= 0) towards[along] = 0.0;

@@ -32,8 +32,10 @@ void Collector::accept(const Instant& instant) {
   for (auto& [output, recorder] : recorders_) recorder->accept(instant);
   const double row[] = {instant.time(), static_cast<double>(instant.iterations), instant.indicator,
                         instant.converged ? 1.0 : 0.0};
-  for (int i = 0; i < 4; ++i) convergence_.columns[i].push_back(row[i]);
-  convergence_.step.push_back(instant.i_step);
+  convergence_.whole_or_none([&] {
+    for (int i = 0; i < 4; ++i) convergence_.columns[i].push_back(row[i]);
+    convergence_.step.push_back(instant.i_step);
+  });
   missed_ += !instant.converged;
   if (!instant.is_static()) missed_in_motion_ = missed_;
   if (instant.is_static() && !instant.converged && !is_overloaded(instant.i_step)) note_overload(instant);

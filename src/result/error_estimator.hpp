@@ -109,7 +109,7 @@ class ErrorEstimator {
 
   Estimate static_, dynamic_;
   StaticStep still_;
-  double most_strain_ = 0.0;  // J, when static steps began and ended
+  double most_strain_ = 0.0;                 // J, when static steps began and ended
   std::optional<OctaveBank> bank_;           // of the step
   double before_ = 0.0, before_mesh_ = 0.0;  // phase errors (norms, sqrt of J) of the dynamic steps before
   std::vector<PieceMotion> pieces_;          // that are here, in a dynamic step

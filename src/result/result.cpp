@@ -23,6 +23,12 @@ bool Table::has_column(const std::string& name) const {
   return std::find(names.begin(), names.end(), name) != names.end() || (name == "converged" && !converged.empty());
 }
 
+void Table::cut_to(size_t n_rows) {
+  for (std::vector<double>& column : columns) column.resize(std::min(column.size(), n_rows));
+  step.resize(std::min(step.size(), n_rows));
+  converged.resize(std::min(converged.size(), n_rows));
+}
+
 void Table::mark(bool has_converged) {
   if (!has_column("converged")) converged.assign(static_cast<size_t>(n_rows()), has_converged ? 1.0 : 0.0);
 }

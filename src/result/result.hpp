@@ -31,6 +31,21 @@ struct Table {
   bool has_column(const std::string& name) const;                    // `converged` too
   const std::vector<double>& column(const std::string& name) const;  // CHECKs that it exists
   void mark(bool has_converged);                                     // all rows, where they do not tell themselves
+
+  // add() appends a row; where memory ends within it the table is what it was, and that is thrown on.
+  template <class Add>
+  void whole_or_none(Add&& add) {
+    const auto n = static_cast<size_t>(n_rows());
+    try {
+      add();
+    } catch (...) {
+      cut_to(n);
+      throw;
+    }
+  }
+
+ private:
+  void cut_to(size_t n_rows);
 };
 
 // With these columns, and no row.

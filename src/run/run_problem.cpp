@@ -116,7 +116,7 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
 }
 
 // Set aside while a run computes; what each thread takes in BLAS, where OpenBLAS waits for ever if it cannot have it.
-constexpr std::size_t memory_for_results = std::size_t{64} << 20, memory_of_thread = std::size_t{136} << 20;
+constexpr std::size_t memory_for_results = 4 * heap_growth, memory_of_thread = std::size_t{136} << 20;
 
 // What LATIN is given besides the problem.
 struct Given {

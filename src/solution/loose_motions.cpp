@@ -23,23 +23,14 @@ Mat null_space(const Gram& gram) {
 
 }  // namespace
 
-LooseMotions::LooseMotions(const StepModel& model) : model_(&model) {
+LooseMotions::LooseMotions(const StepModel& model) : model_(&model), frame_(extent_of(model.problem->substructures)) {
   const Problem& problem = *model.problem;
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::max()), high = -low;
-  for (const SubstructurePtr& part : problem.substructures) {
-    low = low.cwiseMin(part->mesh->nodes.rowwise().minCoeff() + part->place);
-    high = high.cwiseMax(part->mesh->nodes.rowwise().maxCoeff() + part->place);
-  }
-  centre_ = 0.5 * (low + high);
-  size_ = (high - low).norm();
   for (size_t part = 0; part < problem.substructures.size(); ++part) {
     Gram& gram = held_.emplace_back(Gram::Zero());
     const Substructure& body = *problem.substructures[part];
     for (const auto& [node, held] : model.conditions.held[part])
       for (int j = 0; j < held.n; ++j) {
-        Motion row;
-        row.head<3>() = held.directions.col(j);
-        row.tail<3>() = (body.mesh->nodes.col(node) + body.place - centre_).cross(Vec3(held.directions.col(j))) / size_;
+        const RigidMotion row = frame_.row(RigidFrame::place_of_node(body, node), held.directions.col(j));
         gram += row * row.transpose();
       }
   }
@@ -47,15 +38,8 @@ LooseMotions::LooseMotions(const StepModel& model) : model_(&model) {
 
 LooseMotions::Motions LooseMotions::motions_of(const Point& point, const Port& port) const {
   const Substructure& body = *model_->problem->substructures[static_cast<size_t>(port.part)];
-  Motions motions = Motions::Zero();
-  port.for_each_node([&](int node, const Mat3& block) {
-    const Mat3 along = block.transpose() * point.frame;
-    const Vec3 arm = (body.mesh->nodes.col(node) + body.place - centre_) / size_;
-    for (int d = 0; d < 3; ++d) {
-      motions.row(d).head<3>() += along.col(d);
-      motions.row(d).tail<3>() += arm.cross(Vec3(along.col(d)));
-    }
-  });
+  Motions motions;
+  for (int d = 0; d < 3; ++d) motions.row(d) = frame_.row(body, port, point.frame.col(d));
   return motions;
 }
 
@@ -74,8 +58,8 @@ std::vector<Vec3> LooseMotions::find(const Increment& increment) const {
   }
   struct Group {
     Gram held = Gram::Zero(), square = Gram::Zero();
-    Motion moved = Motion::Zero();
-    Motion motion = Motion::Zero();
+    RigidMotion moved = RigidMotion::Zero();
+    RigidMotion motion = RigidMotion::Zero();
   };
   std::map<int, Group> groups;
   for (int part = 0; part < ground; ++part) groups[linked.root(part)].held += held_[static_cast<size_t>(part)];
@@ -99,7 +83,7 @@ std::vector<Vec3> LooseMotions::find(const Increment& increment) const {
     const Motions motions = motions_of(point, port);
     for (int d = 0; d < 3; ++d) {
       if (port.unknown[d] < 0) continue;
-      const Motion row = motions.row(d);
+      const RigidMotion row = motions.row(d);
       group.square += row * row.transpose();
       group.moved += increment.moved(p, d) * row;
     }

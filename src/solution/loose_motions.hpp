@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "solution/rigid_frame.hpp"
 #include "solution/step_model.hpp"
 
 namespace dygita {
@@ -25,13 +26,11 @@ class LooseMotions {
   std::vector<Vec3> find(const Increment& increment) const;
 
  private:
-  using Motion = Eigen::Matrix<double, 6, 1>;   // translation, then rotation times the size of the assembly
   using Motions = Eigen::Matrix<double, 3, 6>;  // of a port, in its point's frame
   Motions motions_of(const Point& point, const Port& port) const;
 
   const StepModel* model_;
-  double size_ = 1.0;  // m, of the assembly
-  Vec3 centre_ = Vec3::Zero();
+  RigidFrame frame_;                               // of the assembly
   std::vector<Eigen::Matrix<double, 6, 6>> held_;  // of each part, sum of squares of what holds its motions
 };
 

@@ -2,42 +2,17 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <Eigen/Geometry>
 #include <map>
 #include <set>
 
 #include "base/log.hpp"
 #include "law/law.hpp"
 #include "numerics/pairs_below.hpp"
+#include "solution/rigid_frame.hpp"
 
 namespace dygita {
 
 namespace {
-
-using RigidMotion = Eigen::Matrix<double, 6, 1>;  // translation, then rotation times the size of the body
-
-struct Frame6 {
-  Vec3 centre;
-  double size;
-
-  // Displacement along d of a point under a rigid motion, as a row.
-  RigidMotion row(const Vec3& x, const Vec3& d) const {
-    RigidMotion r;
-    r.head<3>() = d;
-    r.tail<3>() = (x - centre).cross(d) / size;
-    return r;
-  }
-  Vec3 displacement(const RigidMotion& motion, const Vec3& x) const {
-    return motion.head<3>() + Vec3(motion.tail<3>()).cross(x - centre) / size;
-  }
-};
-
-Frame6 frame_of(const Substructure& part) {
-  const Vec3 low = part.mesh->nodes.rowwise().minCoeff(), high = part.mesh->nodes.rowwise().maxCoeff();
-  return {0.5 * (low + high) + part.place, (high - low).norm()};
-}
-
-Vec3 position(const Substructure& part, int node) { return part.mesh->nodes.col(node) + part.place; }
 
 std::string describe(const RigidMotion& motion) {
   const char* names[] = {"translation along x", "translation along y", "translation along z",
@@ -52,7 +27,7 @@ using Blocks = std::map<std::pair<int, int>, Eigen::Matrix<double, 6, 6>>;
 
 // Sum of squares of all constraints on the rigid motions of all substructures: 6 n x 6 n.
 Blocks constraint_gram(const Problem& problem, const Exchange& exchange, const Conditions& conditions,
-                       const std::vector<Frame6>& frames) {
+                       const std::vector<RigidFrame>& frames) {
   const int n = static_cast<int>(frames.size());
   Blocks gram;
   const auto block = [&gram](int i, int j) -> Eigen::Matrix<double, 6, 6>& {
@@ -62,18 +37,14 @@ Blocks constraint_gram(const Problem& problem, const Exchange& exchange, const C
   for (int part = 0; part < n; ++part)
     for (const auto& [node, held] : conditions.held[part])
       for (int j = 0; j < held.n; ++j) {
-        const RigidMotion r = frames[part].row(position(*problem.substructures[part], node), held.directions.col(j));
+        const RigidMotion r =
+            frames[part].row(RigidFrame::place_of_node(*problem.substructures[part], node), held.directions.col(j));
         block(part, part) += r * r.transpose();
       }
   for (const Point& point : exchange.points) {
     const auto row_of = [&](int p, int d) {
       const Port& port = exchange.ports[p];
-      RigidMotion sum = RigidMotion::Zero();
-      port.for_each_node([&](int node, const Mat3& share) {
-        sum += frames[port.part].row(position(*problem.substructures[port.part], node),
-                                     share.transpose() * point.frame.col(d));
-      });
-      return sum;
+      return frames[port.part].row(*problem.substructures[port.part], port, point.frame.col(d));
     };
     const auto tie = [&](int p, int other, int d) {
       const RigidMotion a = row_of(p, d);
@@ -142,12 +113,12 @@ void warn_of_unconstrained(const Problem& problem, const Step& step,
 }  // namespace
 
 bool is_floating(const Substructure& part, const std::unordered_map<int, Held>& held) {
-  const Frame6 frame = frame_of(part);
+  const RigidFrame frame(extent_of(part));
   Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();
   double scale = 0.0;
   for (const auto& [node, conditions] : held)
     for (int j = 0; j < conditions.n; ++j) {
-      const RigidMotion r = frame.row(position(part, node), conditions.directions.col(j));
+      const RigidMotion r = frame.row(RigidFrame::place_of_node(part, node), conditions.directions.col(j));
       gram += r * r.transpose();
       scale += 1.0;
     }
@@ -158,8 +129,8 @@ bool is_floating(const Substructure& part, const std::unordered_map<int, Held>& 
 void pin_free_motions(const Problem& problem, const Step& step, const Exchange& exchange,
                       const std::vector<Points>& force, Conditions& conditions) {
   const int n = static_cast<int>(problem.substructures.size());
-  std::vector<Frame6> frames;
-  for (const SubstructurePtr& part : problem.substructures) frames.push_back(frame_of(*part));
+  std::vector<RigidFrame> frames;
+  for (const SubstructurePtr& part : problem.substructures) frames.emplace_back(extent_of(*part));
   const Blocks gram = constraint_gram(problem, exchange, conditions, frames);
   // Each body's scale: how often it is constrained; a motion nothing resists has a vanishing eigenvalue.
   Vec weight(6 * n);
@@ -187,7 +158,8 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
     double work = 0.0, scale = 0.0;
     for (int i = 0; i < n; ++i)
       for (int node = 0; node < force[i].cols(); ++node) {
-        const Vec3 u = frames[i].displacement(motion.segment<6>(6 * i), position(*problem.substructures[i], node));
+        const Vec3 u = frames[i].displacement(motion.segment<6>(6 * i),
+                                              RigidFrame::place_of_node(*problem.substructures[i], node));
         work += force[i].col(node).dot(u);
         scale += force[i].col(node).norm() * largest;
       }
@@ -202,7 +174,7 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
     double best = 0.0;
     for (int node = 0; node < body.mesh->n_nodes(); ++node) {
       if (conditions.held[part].count(node)) continue;
-      const Vec3 u = frames[part].displacement(motion.segment<6>(6 * part), position(body, node));
+      const Vec3 u = frames[part].displacement(motion.segment<6>(6 * part), RigidFrame::place_of_node(body, node));
       int axis = 0;
       const double reach = u.cwiseAbs().maxCoeff(&axis) * (on_interface.count({part, node}) ? 1e-3 : 1.0);
       if (reach > best) {
@@ -217,7 +189,7 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
     held.n = 1;
     // What is left of the other free motions once this one is pinned.
     const auto at_pin = [&](const Vec& z) {
-      return frames[part].displacement(z.segment<6>(6 * part), position(body, best_node))[best_axis];
+      return frames[part].displacement(z.segment<6>(6 * part), RigidFrame::place_of_node(body, best_node))[best_axis];
     };
     const Vec pinned = motion;
     free_motions.pop_back();

@@ -161,7 +161,7 @@ problem{ name = "long", substructures = { low, high }, interfaces = { seam }, su
     if process.returncode != 0 or most > 4e6:  # kB; a build with sanitizers asks for terabytes of addresses
         print(f"little memory: not tried, exit {process.returncode}, {most} kB")
         return
-    limit = 1024 * most + (25 << 20)
+    limit = 1024 * most + (40 << 20)  # the heap grows by 32 MB at a time
     done = subprocess.run([*words, "--set", "n=1000000"], capture_output=True, text=True, check=False,
                           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
     output = done.stdout + done.stderr

@@ -92,13 +92,15 @@ TEST(Build, makes_regions_of_the_nodes_in_place) {
   const Problem problem = built(R"(
 local s = hold
 local top = high:where(function(x, y, z) return near(z, 20*mm) end)
-local h = output.history{ name = "h", on = { top, high:face "xmin" }, quantity = "velocity", direction = { 0, 3, 4 } })",
+local top_too = high:where(function(x, y, z) return near(z, 20*mm) and near(x, 0) end)
+local h = output.history{ name = "h", on = { top, top_too }, quantity = "velocity", direction = { 0, 3, 4 } })",
                                 "outputs = { h }");
   const Notes notes = problem.outputs.at(0)->record({}, {});
   const auto noted = [&](const std::string& name) {
     return std::find_if(notes.begin(), notes.end(), [&](const Note& note) { return note.name == name; })->value;
   };
-  EXPECT_EQ(std::get<std::vector<std::string>>(noted("on")), (std::vector<std::string>{"high (4 nodes)", "high.xmin"}));
+  EXPECT_EQ(std::get<std::vector<std::string>>(noted("on")),
+            (std::vector<std::string>{"high (4 nodes)", "high (2 nodes)"}));
   const auto direction = std::get<std::vector<double>>(noted("direction"));
   EXPECT_NEAR((Vec3(direction.at(0), direction.at(1), direction.at(2)) - Vec3(0, 0.6, 0.8)).norm(), 0.0, 1e-15);
   EXPECT_EQ(std::get<std::string>(noted("quantity")), "velocity");

@@ -1,0 +1,22 @@
+#include "model/extent.hpp"
+
+namespace dygita {
+
+Box extent_of(const Substructure& part) {
+  Box box;
+  box.add(part.mesh->nodes.rowwise().minCoeff() + part.place);
+  box.add(part.mesh->nodes.rowwise().maxCoeff() + part.place);
+  return box;
+}
+
+Box extent_of(const std::vector<SubstructurePtr>& parts) {
+  Box box;
+  for (const SubstructurePtr& part : parts) {
+    const Box own = extent_of(*part);
+    box.add(own.low);
+    box.add(own.high);
+  }
+  return box;
+}
+
+}  // namespace dygita

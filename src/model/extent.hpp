@@ -1,0 +1,12 @@
+// The box around substructures where they are placed.
+#pragma once
+
+#include "mesh/box_grid.hpp"
+#include "model/model.hpp"
+
+namespace dygita {
+
+Box extent_of(const Substructure& part);
+Box extent_of(const std::vector<SubstructurePtr>& parts);  // of all of them
+
+}  // namespace dygita
