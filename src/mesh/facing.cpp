@@ -5,12 +5,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <unordered_map>
 #include <utility>
 
 #include "base/error.hpp"
 #include "mesh/overlap.hpp"
+#include "mesh/smooth_patches.hpp"
 
 namespace dygita {
 
@@ -205,6 +207,49 @@ std::vector<Facet> renumbered(const std::vector<Facet>& facets, const std::unord
 }
 
 }  // namespace
+
+std::vector<PlacedFace> smooth_parts(const PlacedFace& face) {
+  std::vector<Vec3> normals;
+  for (const Facet& facet : face.facets) normals.push_back(facet_area_vector(face.mesh->nodes, facet).normalized());
+  const std::vector<int> patch = smooth_patches(face.facets, normals);
+  std::map<int, PlacedFace> parts;
+  for (size_t i = 0; i < patch.size(); ++i)
+    parts.try_emplace(patch[i], PlacedFace{face.mesh, {}, face.place, face.name})
+        .first->second.facets.push_back(face.facets[i]);
+  std::vector<PlacedFace> all;
+  for (auto& [root, part] : parts) all.push_back(std::move(part));
+  return all;
+}
+
+Facing joined(const std::vector<Facing>& parts) {
+  Eigen::Index n = 0;
+  for (const Facing& part : parts) n += part.n_points();
+  Facing all;
+  all.places = all.normals = Points(3, n);
+  all.areas = all.gaps = Vec(n);
+  all.carrier = parts.front().carrier;
+  int first = 0;
+  for (const Facing& part : parts) {
+    const int n_own = part.n_points();
+    all.facets_1.insert(all.facets_1.end(), part.facets_1.begin(), part.facets_1.end());
+    all.facets_2.insert(all.facets_2.end(), part.facets_2.begin(), part.facets_2.end());
+    all.side_1.append(part.side_1);
+    all.side_2.append(part.side_2);
+    all.places.middleCols(first, n_own) = part.places;
+    all.normals.middleCols(first, n_own) = part.normals;
+    all.areas.segment(first, n_own) = part.areas;
+    all.gaps.segment(first, n_own) = part.gaps;
+    for (Facet facet : part.facets) {
+      for (int& node : facet.nodes()) node += first;
+      all.facets.push_back(facet);
+    }
+    all.size_ratio = std::max(all.size_ratio, part.size_ratio);
+    all.sagitta = std::max(all.sagitta, part.sagitta);
+    all.n_merged += part.n_merged;
+    first += n_own;
+  }
+  return all;
+}
 
 void refuse_apart(const PlacedFace& side_1, const PlacedFace& side_2) {
   const Points x_1 = FaceByNode(side_1).x, x_2 = FaceByNode(side_2).x;

@@ -38,6 +38,12 @@ struct Facing {
 // Points at the nodes of a face by itself.
 Facing facing_of(const PlacedFace& face);
 
+// A face's smooth surfaces, between sharp edges.
+std::vector<PlacedFace> smooth_parts(const PlacedFace& face);
+
+// All points of several, none of them merged: at an edge of two parts each has its own. At least one.
+Facing joined(const std::vector<Facing>& parts);
+
 // Matches facets whose nodes coincide (tolerance 1e-6 of the smallest facet edge, found with a grid hash: n log n).
 // Facets without partner are simply outside the interface. Nothing when no facet matches, or when unmatched facets of
 // the two faces overlap (their projections intersect on nearly the same plane). Throws InputError where a face has no

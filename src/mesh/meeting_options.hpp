@@ -13,6 +13,9 @@ struct MeetingOptions {
   // The law acts on the area of each point: facets whose nodes have none of their own (tri6, quad8) take the points of
   // their sub-facets even where they match node for node.
   bool acts_by_area = false;
+  // The law has a normal of its own: where faces turn around a sharp edge each smooth surface has points there with its
+  // own normal, not one point with the mean.
+  bool splits_at_edges = false;
 };
 
 }  // namespace dygita

@@ -20,6 +20,7 @@ class Mortar {
   Mortar(const PlacedFace& side_1, const PlacedFace& side_2, const MeetingOptions& options);
 
   bool is_empty() const { return covered_ == 0.0; }
+  bool is_second() const { return is_second_; }  // does the second side carry the points?
   // Facets of each side that take part, with the meshes' node numbers.
   const std::vector<Facet>& facets_1() const { return is_second_ ? of_other_ : of_carrier_; }
   const std::vector<Facet>& facets_2() const { return is_second_ ? of_carrier_ : of_other_; }
@@ -60,13 +61,16 @@ class Meeting {
   bool matches() const { return !mortar_; }
   const std::vector<Facet>& facets_1() const { return mortar_ ? mortar_->facets_1() : matched_->facets_1; }
   const std::vector<Facet>& facets_2() const { return mortar_ ? mortar_->facets_2() : matched_->facets_2; }
-  Facing facing(const std::function<bool(const Vec3&)>& is_taken_away) const {
-    return mortar_ ? mortar_->facing(is_taken_away) : *matched_;
-  }
+  Facing facing(const std::function<bool(const Vec3&)>& is_taken_away) const;
 
  private:
+  void split(const PlacedFace& side_1, const PlacedFace& side_2, const MeetingOptions& options);
+
   std::optional<Facing> matched_;
   std::optional<Mortar> mortar_;
+  // Of smooth surfaces that meet, where a side has several; else empty.
+  std::vector<Facing> matched_parts_;
+  std::vector<Mortar> mortar_parts_;
 };
 
 }  // namespace dygita

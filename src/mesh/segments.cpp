@@ -62,6 +62,7 @@ double FaceInSpace::smallest_edge() const {
   return smallest;
 }
 
+// The curvature across an edge is the angle between its facets over the distance of their middles.
 double FaceInSpace::sagitta() const {
   std::map<std::pair<int, int>, int> known;
   double largest = 0.0;
@@ -75,8 +76,13 @@ double FaceInSpace::sagitta() const {
       const double cosine = one.normal.dot(other.normal);
       if (cosine < sharp) continue;
       const double angle = one.normal.cross(other.normal).norm();
-      if (angle > 1e-7)
-        largest = std::max(largest, std::max(one.area, other.area) / (x.col(i) - x.col(j)).norm() * angle / 8.0);
+      if (angle <= 1e-7) continue;
+      const Vec3 start = x.col(i), along = (x.col(j) - start).normalized();
+      const auto across = [&](const Vec3& place) { return (place - start).cross(along).norm(); };
+      double widest = 0.0;
+      for (const Part* part : {&one, &other})
+        for (int b = 0; b < part->x.cols(); ++b) widest = std::max(widest, across(part->x.col(b)));
+      largest = std::max(largest, angle / (across(one.centre) + across(other.centre)) * widest * widest / 8.0);
     }
   }
   return largest;

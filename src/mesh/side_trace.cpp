@@ -18,6 +18,14 @@ void SideTrace::add(const std::vector<Share>& shares, const Mat3& turn) {
   turns_.push_back(turn);
 }
 
+void SideTrace::append(const SideTrace& other) {
+  const auto n_shares = static_cast<int>(shares_.size()), n_turns = static_cast<int>(turns_.size());
+  for (size_t i = 1; i < other.first_.size(); ++i) first_.push_back(other.first_[i] + n_shares);
+  shares_.insert(shares_.end(), other.shares_.begin(), other.shares_.end());
+  for (const int turn : other.turn_of_) turn_of_.push_back(turn < 0 ? -1 : turn + n_turns);
+  turns_.insert(turns_.end(), other.turns_.begin(), other.turns_.end());
+}
+
 int SideTrace::main_node(int i) const {
   int best = 0;
   for (int k = 1; k < n_shares(i); ++k)

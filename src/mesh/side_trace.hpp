@@ -27,6 +27,9 @@ class SideTrace {
   // A further point; turn: 3 x 3 (1/m), zero for no arms.
   void add(const std::vector<Share>& shares, const Mat3& turn = Mat3::Zero());
 
+  // All points of another.
+  void append(const SideTrace& other);
+
   int n_points() const { return static_cast<int>(turn_of_.size()); }
   int n_shares(int i) const { return first_[i + 1] - first_[i]; }
   const Share& share(int i, int k) const { return shares_[first_[i] + k]; }

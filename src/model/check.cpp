@@ -1,6 +1,7 @@
 #include "model/check.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "base/log.hpp"
 #include "base/names.hpp"
@@ -77,6 +78,20 @@ bool one_in_other(const FaceOrRegion& a, const FaceOrRegion& b) {
   const std::vector<int> nodes_a = nodes_at(a), nodes_b = nodes_at(b);
   return std::includes(nodes_a.begin(), nodes_a.end(), nodes_b.begin(), nodes_b.end()) ||
          std::includes(nodes_b.begin(), nodes_b.end(), nodes_a.begin(), nodes_a.end());
+}
+
+bool overlap(const FaceOrRegion& a, const FaceOrRegion& b) {
+  if (&part_of(a) != &part_of(b) || a.index() != b.index()) return false;
+  const Face* face = std::get_if<Face>(&a);
+  if (!face) {
+    const std::vector<int> nodes_a = nodes_at(a), nodes_b = nodes_at(b);
+    return std::find_first_of(nodes_a.begin(), nodes_a.end(), nodes_b.begin(), nodes_b.end()) != nodes_a.end();
+  }
+  std::set<FacetKey> keys;
+  for (const Facet& facet : face->facets()) keys.insert(facet_key(facet));
+  const std::vector<Facet>& others = std::get<Face>(b).facets();
+  return std::any_of(others.begin(), others.end(),
+                     [&](const Facet& facet) { return keys.count(facet_key(facet)) > 0; });
 }
 
 bool coincide(const FaceOrRegion& a, const FaceOrRegion& b) {

@@ -80,6 +80,8 @@ std::vector<int> nodes_at(const FaceOrRegion& place);  // of the part's mesh, in
 bool one_in_other(const FaceOrRegion& a, const FaceOrRegion& b);
 // On one part with the same nodes.
 bool coincide(const FaceOrRegion& a, const FaceOrRegion& b);
+// Two faces with a facet, or two regions with a node in common.
+bool overlap(const FaceOrRegion& a, const FaceOrRegion& b);
 
 // "face 'punch.zmin'", "a region of 'punch'", "interface.contact 'touch'", "support.wall 'wall'".
 std::string describe(const Target& target);

@@ -36,6 +36,12 @@ void targets_fit(const Problem& problem, const Step& step, const Load& load) {
     for (size_t j = 0; j < i; ++j)
       if (same_target(load.on[j], target))
         fail(problem, load.origin, who + ": " + load.path + " is twice on " + describe(target));
+      else if (const auto place = place_of(target), other = place_of(load.on[j]);
+               place && other && overlap(*place, *other))
+        fail(problem, load.origin,
+             who + ": " + load.path + " is on " + describe(load.on[j]) + " and on " + describe(target) +
+                 ", which have facets or nodes in common: it would act there twice",
+             "a load of its own for what one of them is to have besides");
   }
 }
 

@@ -14,7 +14,8 @@ Meeting meeting_of(const Interface& interface, double within) {
     return face.part->material.density * face.part->material.p_wave_speed();
   };
   const MeetingOptions options{interface.within.value_or(within), interface.points,
-                               impedance(interface.side_2) < impedance(interface.side_1), !interface.law->is_tie()};
+                               impedance(interface.side_2) < impedance(interface.side_1), !interface.law->is_tie(),
+                               !interface.law->is_tie()};
   try {
     return {placed(interface.side_1), placed(interface.side_2), options};
   } catch (const InputError& error) {

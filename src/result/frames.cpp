@@ -28,9 +28,10 @@ InterfaceFrame interface_frame(const Instant& instant, int s, const FollowedMoti
     const Vec3 t = state[i].force / surface.facing.areas[i];
     pressure(0, i) = -t.dot(normal);
     traction.col(i) = t - t.dot(normal) * normal;
-    gap(0, i) = shown.gap                                      ? state[i].gap
-                : shown.followed == Followed::opening_and_slip ? motion.opening(instant, s, i)
-                                                               : 0.0;
+    if (shown.followed == Followed::opening_and_slip)
+      gap(0, i) = motion.opening(instant, s, i);
+    else
+      gap(0, i) = (shown.gap ? state[i].gap : 0.0) + motion.parted(instant, s, i);
     plastic(0, i) = state[i].plastic_opening;
     slips.col(i) = motion.slip(instant, s, i);
     status(0, i) = static_cast<double>(state[i].status);

@@ -1,5 +1,6 @@
 #include "result/surface_sums.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <set>
 
@@ -28,12 +29,21 @@ void add(Resultant& r, Vec3& tangential, const Vec3& force, const Vec3& normal) 
   tangential += force - force.dot(normal) * normal;
 }
 
-// Directions that a support holds at a node, of those that are held.
-Vec3 part_of_reaction(const Held& held, const Support* support, const Vec3& reaction) {
-  Vec3 force = Vec3::Zero();
-  for (int j = 0; j < held.n; ++j)
-    if (held.support[j] == support) force += held.directions.col(j).dot(reaction) * held.directions.col(j);
-  return force;
+// The reaction of a node as forces along the directions in which it is held, of which some are the support's.
+void add_reaction(Resultant& r, Vec3& tangential, const Held& held, const Support& support, const Vec3& reaction,
+                  const Vec3& normal) {
+  const Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> given = held.given.leftCols(held.n);
+  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> forces =
+      (given.transpose() * given).ldlt().solve(given.transpose() * reaction);
+  const bool holds_normals = support.kind->claims() == Directions::normal;
+  Vec3 sum = Vec3::Zero();
+  for (int j = 0; j < held.n; ++j) {
+    if (held.support[j] != &support) continue;
+    // Each plane has a normal of its own where several meet.
+    if (holds_normals) add(r, tangential, forces[j] * given.col(j), given.col(j));
+    sum += forces[j] * given.col(j);
+  }
+  if (!holds_normals) add(r, tangential, sum, normal);
 }
 
 void add_support(Resultant& r, Vec3& tangential, const Instant& instant, const Problem& problem,
@@ -62,7 +72,7 @@ void add_support(Resultant& r, Vec3& tangential, const Instant& instant, const P
       if (is_absorbing)
         add(r, tangential, force.col(nodes[i]), normals.col(i));
       else if (held)
-        add(r, tangential, part_of_reaction(*held, &support, force.col(nodes[i])), normals.col(i));
+        add_reaction(r, tangential, *held, support, force.col(nodes[i]), normals.col(i));
     }
   }
 }

@@ -12,16 +12,39 @@ namespace {
 
 const std::vector<std::string> words = {"max", "min", "last", "mean"};
 
-double reduced(const std::vector<double>& values, const std::string& word) {
+// Of each row, how long it stands for: as long as the other rows of its step. Rows of static steps for nothing, where
+// there are others.
+std::vector<double> durations(const Table& table) {
+  const auto n = static_cast<size_t>(table.n_rows());
+  std::vector<double> lasts(n, 0.0);
+  if (table.names.empty() || table.names.front() != "time" || table.step.size() != n) return std::vector(n, 1.0);
+  const std::vector<double>& time = table.columns.front();
+  for (size_t first = 0, end = 0; first < n; first = end) {
+    while (end < n && table.step[end] == table.step[first]) ++end;
+    if (end - first > 1)
+      std::fill(lasts.begin() + static_cast<long>(first), lasts.begin() + static_cast<long>(end),
+                (time[end - 1] - time[first]) / static_cast<double>(end - first - 1));
+  }
+  const bool has_motion = std::any_of(lasts.begin(), lasts.end(), [](double t) { return t > 0.0; });
+  return has_motion ? lasts : std::vector(n, 1.0);
+}
+
+double reduced(const Table& table, const std::vector<double>& values, const std::string& word) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   if (word == "last") return values.back();
   if (word == "min") return *std::min_element(values.begin(), values.end());
-  double largest = 0.0, sum = 0.0;
-  for (const double value : values) {
-    largest = std::max(largest, std::abs(value));
-    sum += value;
+  if (word == "mean") {
+    const std::vector<double> lasts = durations(table);
+    double sum = 0.0, all = 0.0;
+    for (size_t i = 0; i < values.size(); ++i) {
+      sum += lasts[i] * values[i];
+      all += lasts[i];
+    }
+    return sum / all;
   }
-  return word == "mean" ? sum / static_cast<double>(values.size()) : largest;
+  double largest = 0.0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
 }
 
 bool is_spectrum(const Output& output) {
@@ -90,7 +113,7 @@ std::optional<WatchedFigure> WatchedName::of(const RunResult& result) const {
   if (!is_spectrum_) {
     const std::vector<double>& values = table.column(column_);
     const auto i = std::find(table.names.begin(), table.names.end(), column_) - table.names.begin();
-    return WatchedFigure{text_, table.units[static_cast<size_t>(i)], {reduced(values, word_)}};
+    return WatchedFigure{text_, table.units[static_cast<size_t>(i)], {reduced(table, values, word_)}};
   }
   WatchedFigure figure{text_, "dB", {}};
   for (const double level : table.columns[1]) figure.values.push_back(20.0 * std::log10(std::max(level, 1e-300)));

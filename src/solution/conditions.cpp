@@ -9,7 +9,6 @@
 #include "base/log.hpp"
 #include "base/overloaded.hpp"
 #include "mesh/facing.hpp"
-#include "mesh/smooth_patches.hpp"
 
 namespace dygita {
 
@@ -126,13 +125,8 @@ class ConditionsBuilder {
   // Where planes of one face meet at an edge, along the normal of each.
   void hold_normals(const Support& support, const Face& face, const std::vector<std::pair<Vec3, int>>& moves) {
     const Mesh& mesh = *face.part->mesh;
-    std::vector<Vec3> normals;
-    for (const Facet& facet : face.facets()) normals.push_back(facet_area_vector(mesh.nodes, facet).normalized());
-    const std::vector<int> patch = smooth_patches(face.facets(), normals);
-    std::map<int, std::vector<Facet>> patches;
-    for (size_t i = 0; i < patch.size(); ++i) patches[patch[i]].push_back(face.facets()[i]);
-    for (const auto& [root, facets] : patches) {
-      const FaceNodes on_patch = face_nodes(mesh, facets);
+    for (const PlacedFace& part : smooth_parts({&mesh, face.facets(), Vec3::Zero(), ""})) {
+      const FaceNodes on_patch = face_nodes(mesh, part.facets);
       for (size_t i = 0; i < on_patch.nodes.size(); ++i)
         hold(part_of(face), on_patch.nodes[i], on_patch.normals.col(i), moves, &support, support.name, support.origin);
     }
@@ -247,6 +241,7 @@ class ConditionsBuilder {
     }
     for (auto& [index, factor] : motion) factor /= rest.norm();
     held.directions.col(held.n) = rest.normalized();
+    held.given.col(held.n) = direction;
     held.motion[held.n] = std::move(motion);
     held.support[held.n] = support;
     ++held.n;

@@ -22,6 +22,7 @@ struct Motion {
 struct Held {
   int n = 0;
   Mat3 directions = Mat3::Zero();                             // first n columns
+  Mat3 given = Mat3::Zero();                                  // likewise, as whoever holds it has them: not orthogonal
   std::array<std::vector<std::pair<int, double>>, 3> motion;  // (index in Conditions::motions, factor)
   std::array<const Support*, 3> support{};                    // who holds it, null for a load
   bool is_absorbed = false;                                   // an absorbing support is among those that stand here

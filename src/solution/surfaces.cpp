@@ -9,6 +9,7 @@
 #include "base/parallel.hpp"
 #include "law/law.hpp"
 #include "mesh/mortar.hpp"
+#include "mesh/segments.hpp"
 #include "solution/preload.hpp"
 
 namespace dygita {
@@ -19,8 +20,6 @@ bool takes_part(const Problem& problem, const Step& step, const Surface& surface
 }
 
 namespace {
-
-constexpr int any_part = -2;
 
 // What some load acts on is a law of its own, never part of a group nor one with its neighbours.
 bool has_load(const Problem& problem, const Interface* interface) {
@@ -60,22 +59,55 @@ Facing facing_of_wall(const Face& face) {
   const bool has_shared = std::any_of(facets.begin(), facets.end(), [](const Facet& facet) {
     return facet_shape(facet.type()).is_shared_by_sub_facets;
   });
-  return has_shared ? facing_on_rigid(placed(face)) : facing_of(placed(face));
+  std::vector<Facing> parts;
+  for (const PlacedFace& part : smooth_parts(placed(face)))
+    parts.push_back(has_shared ? facing_on_rigid(part) : facing_of(part));
+  return joined(parts);
+}
+
+// Of a facet on one side of an interface between meshes that do not match, the share that the other side covers.
+double covered_share(const Surface& surface, int part, const Facet& facet) {
+  const bool is_first = surface.part_1 == part;
+  PlacedFace own = placed(is_first ? surface.interface->side_1 : surface.interface->side_2),
+             other = placed(is_first ? surface.interface->side_2 : surface.interface->side_1);
+  own.facets = {facet};
+  other.facets = is_first ? surface.facing.facets_2 : surface.facing.facets_1;
+  const FaceInSpace in_space(own), there(other);
+  double all = 0.0, covered = 0.0;
+  for (const FaceInSpace::Part& of_facet : in_space.parts) all += of_facet.area;
+  const SegmentFinder finder(in_space, there, std::sqrt(all));
+  for (size_t p = 0; p < in_space.parts.size(); ++p)
+    for (const Segment& segment : finder.segments(static_cast<int>(p))) covered += segment.area;
+  return covered / all;
 }
 
 // Facets named by two interfaces would carry their forces twice. Where meshes do not match, a facet may lie under
-// several bodies, but under each only once.
+// several bodies, but under each only once, and under none where a wall or a mesh that matches has all of it.
 void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces) {
-  std::map<std::tuple<int, FacetKey, int>, const Surface*> owner;
+  constexpr double next_to_nothing = 0.01;  // of a facet: what a face reaches over an edge by rounding
+  struct Claim {
+    const Surface* surface;
+    int other;
+  };
+  std::map<std::pair<int, FacetKey>, std::vector<Claim>> claims;
+  const auto has_all = [](const Surface& surface) { return surface.facing.matches() || surface.wall; };
+  const auto covers = [&](const Surface& surface, int part, const Facet& facet) {
+    return has_all(surface) || covered_share(surface, part, facet) > next_to_nothing;
+  };
   const auto claim = [&](const Surface& surface, int part, const std::vector<Facet>& facets, int other) {
     for (const Facet& facet : facets) {
-      const auto [it, is_new] =
-          owner.emplace(std::tuple{part, facet_key(facet), surface.facing.matches() ? any_part : other}, &surface);
-      if (is_new || it->second == &surface) continue;
-      const Origin& origin = surface.interface ? surface.interface->origin : surface.wall->origin;
-      throw InputError(origin, "'" + surface.name() + "' and '" + it->second->name() +
-                                   "' share facets of substructure '" + problem.substructures[part]->name +
-                                   "': a facet can be in one interface or wall only");
+      std::vector<Claim>& of_facet = claims[{part, facet_key(facet)}];
+      for (const Claim& before : of_facet) {
+        if (before.surface == &surface) continue;
+        const bool is_alike = !has_all(surface) && !has_all(*before.surface);
+        if (is_alike ? before.other != other : !(covers(surface, part, facet) && covers(*before.surface, part, facet)))
+          continue;
+        const Origin& origin = surface.interface ? surface.interface->origin : surface.wall->origin;
+        throw InputError(origin, "'" + surface.name() + "' and '" + before.surface->name() +
+                                     "' share facets of substructure '" + problem.substructures[part]->name +
+                                     "': a facet can be in one interface or wall only");
+      }
+      of_facet.push_back({&surface, other});
     }
   };
   for (const Surface& surface : surfaces) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "decks/engine.hpp"
+#include "result/watched_figures.hpp"
 
 namespace dygita::test::conditions_tests {
 namespace {
@@ -215,6 +216,120 @@ problem{ name = "p", substructures = { a, b }, interfaces = { weld }, supports =
   const std::vector<double>& z = run.column("r", "z");
   EXPECT_NEAR(z.at(10), -250.0, 1e-3);
   EXPECT_EQ(z.back(), 0.0);
+}
+
+// A block in a pocket with a corner, another mesh, one interface: pressed along x, then along y as well.
+TEST(Contact, around_a_corner_pushes_along_the_normal_of_each_face) {
+  const std::filesystem::path geo =
+      std::filesystem::temp_directory_path() / ("dygita_test_pocket_" + std::to_string(getpid()) + ".geo");
+  std::ofstream(geo) << R"(
+L = 0.01;
+Point(1) = {-L, -L, 0}; Point(2) = {L, -L, 0}; Point(3) = {L, 0, 0}; Point(4) = {0, 0, 0}; Point(5) = {0, L, 0}; Point(6) = {-L, L, 0};
+For i In {1:6}
+  Line(i) = {i, (i % 6) + 1};
+EndFor
+Curve Loop(1) = {1:6};
+Plane Surface(1) = {1};
+out[] = Extrude {0, 0, L} { Surface{1}; };
+Physical Volume("pocket") = {out[1]};
+Mesh.MeshSizeMax = 0.005;
+)";
+  const std::string text = "local file = mesh.gmsh{ file = \"" + geo.string() + R"(" }
+local block = substructure{ name = "block", material = metal, mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 3, 3, 3 } } }
+local pocket = substructure{ name = "pocket", material = metal, mesh = file:volume "pocket" }
+local touch = interface.contact{ name = "touch", between = { block, pocket }, friction = 0 }
+local base = support.fixed{ name = "base", on = { pocket:face{ normal = { -1, 0, 0 }, at = 10*mm }, pocket:face{ normal = { 0, -1, 0 }, at = 10*mm } } }
+local flat = support.symmetry{ name = "flat", on = block:face "zmin" }
+local loads = { load.pressure{ on = block:face "xmax", history = 1*MPa } }
+if p.kind == 1 then loads[2] = load.pressure{ on = block:face "ymax", history = 2*MPa } end
+problem{ name = "p", substructures = { block, pocket }, interfaces = { touch }, supports = { base, flat },
+  steps = { step.static{ name = "press", loads = loads } }, outputs = { output.resultant{ name = "r", on = touch }, output.footprint{ name = "f", on = touch } } }:run{}
+)";
+  const DeckRun one = run_kind(text, 0), two = run_kind(text, 1);
+  EXPECT_NEAR(one.column("r", "normal").back(), -100.0, 1e-4);
+  EXPECT_NEAR(one.column("r", "shear").back(), 0.0, 1e-4);
+  EXPECT_NEAR(one.column("f", "area").back(), 1e-4, 1e-9);
+  EXPECT_NEAR(two.column("r", "normal").back(), -300.0, 1e-3);
+  EXPECT_NEAR(two.column("f", "area").back(), 2e-4, 1e-9);
+  std::filesystem::remove(geo);
+}
+
+// Kind 0: a wall, 1: a plane of symmetry, each on one face around an edge; 2: a plane of symmetry on two faces.
+TEST(Resultant, of_planes_that_meet_at_an_edge_has_no_shear) {
+  const std::string text = R"(
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 2, 2, 2 } } }
+local around = b:face{ where = function(x, y) return x < 1*um or y < 1*um end }
+local held = p.kind == 0 and support.wall{ name = "held", on = around } or support.symmetry{ name = "held", on = p.kind == 1 and around or { b:face "xmin", b:face "ymin" } }
+local flat = support.symmetry{ name = "flat", on = b:face "zmin" }
+local press = step.static{ name = "press", loads = { load.pressure{ on = b:face "xmax", history = 1*MPa }, load.pressure{ on = b:face "ymax", history = 2*MPa } } }
+problem{ name = "p", substructures = { b }, supports = { held, flat }, steps = { press }, outputs = { output.resultant{ name = "r", on = held } } }:run{}
+)";
+  for (const int kind : {0, 1, 2}) {
+    const DeckRun run = run_kind(text, kind);
+    EXPECT_NEAR(run.column("r", "normal").back(), -300.0, 1e-4) << kind;
+    EXPECT_NEAR(run.column("r", "shear").back(), 0.0, 1e-4) << kind;
+    EXPECT_NEAR(run.column("r", "y").back(), 200.0, 1e-4) << kind;
+  }
+}
+
+// Kind 0: bonded, 1: plastic; 2: what lies on a wall that the next step leaves out.
+TEST(Joint, opens_and_slides_on_when_it_has_let_go) {
+  const std::string text = R"(
+local a = substructure{ name = "a", material = metal, mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 1, 1, 1 } } }
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ origin = { 0, 0, 10*mm }, size = { 10*mm, 10*mm, 10*mm }, cells = { 1, 1, 1 } } }
+local between = { a:face "zmax", b:face "zmin" }
+local weld = p.kind == 1 and interface.plastic{ name = "weld", between = between, yield = 500*MPa } or interface.bonded{ name = "weld", between = between }
+local wall = support.wall{ name = "wall", on = b:face "zmax" }
+local base = support.fixed{ name = "base", on = a:face "zmin" }
+local pull = load.force{ on = b:face "zmax", z = 80 }
+local hold = step.static{ name = "hold", loads = { pull } }
+local fly = step.dynamic{ name = "fly", after = hold, duration = 100*us, dt = 1*us, supports = { base }, loads = { pull, load.release{ on = weld, at = 0 } } }
+local function z(name, on) return output.history{ name = name, on = on, quantity = "displacement", direction = { 0, 0, 1 } } end
+problem{ name = "p", substructures = { a, b }, interfaces = { weld }, supports = p.kind == 2 and { base, wall } or { base }, steps = { hold, fly },
+  outputs = { output.joint{ name = "joint", on = p.kind == 2 and wall or weld }, z("top", b:face "zmin"), z("roof", b:face "zmax"), z("low", a:face "zmax") } }:run{}
+)";
+  for (const int kind : {0, 1, 2}) {
+    const DeckRun run = run_kind(text, kind);
+    const auto last = [&](const char* name) {
+      const std::vector<double>& u = run.column(name, "displacement");
+      return 0.5 * (u.back() + u.end()[-2]);  // joints tell means over a time step
+    };
+    const double opening = kind == 2 ? -last("roof") : last("top") - last("low");
+    EXPECT_GT(std::abs(opening), 40e-6) << kind;
+    EXPECT_NEAR(run.column("joint", "opening").back(), opening, 1e-3 * std::abs(opening)) << kind;
+    EXPECT_NEAR(run.column("joint", "slip").back(), 0.0, 1e-9) << kind;
+  }
+}
+
+TEST(Facets, are_in_one_interface_or_wall_alone_and_once_in_a_list) {
+  const std::string text = R"(
+local function plate(name, z, n) return substructure{ name = name, material = metal, mesh = mesh.box{ origin = { 0, 0, z }, size = { 20*mm, 20*mm, 10*mm }, cells = { n, n, 1 } } } end
+local a, b = plate("a", 0, 4), plate("b", 10*mm, 5)
+local weld = interface.bonded{ name = "weld", between = { a:face "zmax", b:face "zmin" } }
+local supports = { support.fixed{ name = "base", on = a:face "zmin" } }
+if p.kind == 1 then supports[2] = support.wall{ name = "wall", on = a:face "zmax" } end
+local half = b:face{ normal = { 0, 0, 1 }, where = function(x) return x < 9*mm end }
+local pull = step.static{ name = "pull", loads = { load.pressure{ on = p.kind == 2 and { b:face "zmax", half } or b:face "zmax", history = -1e5 } } }
+local u = output.history{ name = "u", on = p.kind == 3 and { b:face "zmax", half } or b:face "zmax", quantity = "displacement" }
+problem{ name = "p", substructures = { a, b }, interfaces = { weld }, supports = supports, steps = { pull }, outputs = { u } }:run{}
+)";
+  EXPECT_EQ(error_of(text, 0), "");
+  EXPECT_NE(error_of(text, 1).find("share facets of substructure 'a'"), std::string::npos);
+  EXPECT_NE(error_of(text, 2).find("it would act there twice"), std::string::npos);
+  EXPECT_NE(error_of(text, 3).find("would count twice in the mean"), std::string::npos);
+}
+
+TEST(Mean, of_a_watched_column_is_over_the_time_of_motion) {
+  const DeckRun run = run_kind(R"(
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 10*mm, 10*mm, 20*mm }, cells = { 1, 1, 2 } } }
+local base = support.fixed{ name = "base", on = b:face "zmin" }
+local function pull(z) return { load.force{ on = b:face "zmax", z = z } } end
+local one = step.static{ name = "one", increments = 3, loads = pull(200) }
+local two = step.dynamic{ name = "two", after = one, duration = 8*us, dt = 1*us, loads = pull(200) }
+problem{ name = "p", substructures = { b }, supports = { base }, steps = { one, two }, outputs = { output.resultant{ name = "r", on = base } } }:run{}
+)",
+                               0);
+  EXPECT_NEAR(WatchedName(run.problem, "r.z.mean", "--output").of(*run.result)->values.at(0), -200.0, 1e-6);
 }
 
 TEST(History, is_a_mean_over_faces_or_over_regions) {

@@ -252,6 +252,34 @@ TEST(Mortar, of_faceted_rings_keeps_rigid_motions_and_moments) {
   }
 }
 
+// A quarter of a ring of tetrahedra, its rows of nodes shifted against one another: triangles that are as long around
+// as they are high.
+Mesh ring_of_triangles(int n, double radius_in) {
+  Mesh mesh = in_tetrahedra(*box_mesh(Vec3(0, 0, radius_in), Vec3(1, 1, 1), {n, n, 1}));
+  for (int i = 0; i < mesh.n_nodes(); ++i) {
+    auto x = mesh.nodes.col(i);
+    const bool is_inside = x[0] > 1e-9 && x[0] < 1.0 - 1e-9, is_odd = std::lround(x[1] * n) % 2 == 1;
+    const double angle = 0.5 * std::numbers::pi * (x[0] + (is_inside && is_odd ? 0.5 / n : 0.0));
+    x = Vec3(x[2] * std::cos(angle), x[1], x[2] * std::sin(angle)).eval();
+  }
+  for (CellBlock& block : mesh.blocks)
+    for (int c = 0; c < block.n_cells(); ++c)
+      std::swap(block.nodes[static_cast<size_t>(4 * c)], block.nodes[static_cast<size_t>(4 * c + 1)]);
+  for (auto& [name, facets] : mesh.faces)
+    for (Facet& facet : facets) std::swap(facet.nodes()[0], facet.nodes()[1]);
+  check_mesh(mesh, "ring");
+  return mesh;
+}
+
+TEST(Mortar, of_round_faces_of_triangles_has_all_of_their_area) {
+  for (const auto& [n_in, n_out] : {std::pair{4, 5}, {5, 7}, {6, 9}, {9, 4}}) {
+    const Mesh inner = ring_of_triangles(n_in, 1), outer = ring_of_triangles(n_out, 2);
+    const Facing facing = points_between(face(inner, "zmax"), face(outer, "zmin"));
+    EXPECT_GT(facing.areas.sum(), 0.97 * std::numbers::pi) << n_in << ':' << n_out;
+    EXPECT_LT(facing.areas.sum(), 1.05 * std::numbers::pi) << n_in << ':' << n_out;
+  }
+}
+
 // An edge anywhere in the facets that carry the points: nothing of the pressure is lost, and no row grows.
 TEST(Mortar, of_a_face_whose_edge_cuts_facets_merges_what_is_hardly_covered) {
   const Mesh table = box(4, 0.0);

@@ -126,6 +126,14 @@ class HistoryOutput final : public Output {
       check::fail(problem, origin,
                   known_as() + " is a mean over the area of faces or over the volume of regions, not over both",
                   "an output of its own for each kind");
+    for (size_t i = 0; i < request_.on.size(); ++i)
+      for (size_t j = 0; j < i; ++j)
+        if (const auto one = check::place_of(request_.on[j]), other = check::place_of(request_.on[i]);
+            one && other && check::overlap(*one, *other))
+          check::fail(problem, origin,
+                      known_as() + " is on " + check::describe(request_.on[j]) + " and on " +
+                          check::describe(request_.on[i]) +
+                          ", which have facets or nodes in common: these would count twice in the mean");
     if (request_.direction && (request_.what.quantity == Quantity::von_mises || request_.is_of_surfaces()))
       check::fail(problem, origin, known_as() + ": quantity '" + request_.what.name + "' has no direction");
   }
