@@ -14,7 +14,9 @@ namespace dygita {
 namespace {
 
 std::string ratio_text(double value) {
-  return std::isfinite(value) ? fmt::format("{}{:.1f} dB", value < 0.0 ? "−" : "+", std::abs(value)) : "nothing enters";
+  return std::isfinite(value) ? fmt::format("{}{:.1f} dB", value < 0.0 ? "−" : "+", std::abs(value))
+         : std::isinf(value)  ? "nothing leaves"
+                              : "nothing enters";
 }
 
 std::string attenuation_part(const RunFolder& run, const Json& output, const FrequencyRange& judged) {

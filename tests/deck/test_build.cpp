@@ -92,7 +92,7 @@ TEST(Build, makes_regions_of_the_nodes_in_place) {
   const Problem problem = built(R"(
 local s = hold
 local top = high:where(function(x, y, z) return near(z, 20*mm) end)
-local top_too = high:where(function(x, y, z) return near(z, 20*mm) and near(x, 0) end)
+local top_too = high:where(function(x, y, z) return not near(z, 20*mm) and near(x, 0) end)
 local h = output.history{ name = "h", on = { top, top_too }, quantity = "velocity", direction = { 0, 3, 4 } })",
                                 "outputs = { h }");
   const Notes notes = problem.outputs.at(0)->record({}, {});

