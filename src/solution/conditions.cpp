@@ -241,7 +241,8 @@ class ConditionsBuilder {
     }
     for (auto& [index, factor] : motion) factor /= rest.norm();
     held.directions.col(held.n) = rest.normalized();
-    held.given.col(held.n) = direction;
+    // Nearly along those before, it would share a reaction with them in large forces that cancel.
+    held.given.col(held.n) = rest.norm() > 0.1 ? direction : Vec3(rest.normalized());
     held.motion[held.n] = std::move(motion);
     held.support[held.n] = support;
     ++held.n;

@@ -185,7 +185,7 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
     }
     CHECK(best_node >= 0, "no node can be pinned against a free rigid motion");
     Held& held = conditions.held[part][best_node];
-    held.directions.col(0) = Vec3::Unit(best_axis);
+    held.directions.col(0) = held.given.col(0) = Vec3::Unit(best_axis);
     held.n = 1;
     // What is left of the other free motions once this one is pinned.
     const auto at_pin = [&](const Vec& z) {

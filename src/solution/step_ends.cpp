@@ -235,9 +235,9 @@ void end_step(const StepModel& model, State& state) {
     for (const Effect& effect : load->effects())
       std::visit(overloaded{[&](const BaseMotion& base) {
                               auto [it, is_new] = state.base_velocity.emplace(base.on.get(), Vec3::Zero());
-                              it->second +=
-                                  base.direction *
-                                  RunningIntegral(base.acceleration).over(model.step->n_increments(), model.step->dt);
+                              it->second += base.direction *
+                                            RunningIntegral(base.acceleration)
+                                                .over(model.step->n_increments() * model.n_substeps(), model.scheme.dt);
                             },
                             Ignored<NodalForces, BodyForce, PrescribedMotion, Shortening, PreloadForce, Release>()},
                  effect);
