@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "mesh/facet_parts.hpp"
+#include "mesh/sagitta.hpp"
 #include "numerics/dense.hpp"
 
 namespace dygita {
@@ -16,11 +17,10 @@ constexpr double least_share = 0.499;    // of a point's function that must be c
 constexpr double coarser = 1.3;          // of two sizes, to count as different
 constexpr double fewer_points = 0.02;    // of the smaller number, likewise
 constexpr double better_covered = 0.01;  // of two shares, likewise
-constexpr double unsure = 1.5;     // sagittas of triangles, of which some are longer around the face than across edges
-constexpr double rounding = 1e-6;  // of the smallest edge: touching faces are not farther apart
-constexpr double nothing = 1e-14;  // a weight
-constexpr double on_the_spot = 1e-10;  // of a size: no offset between two places
-constexpr double flat = 1e-9;          // of the largest: an inertia without a direction
+constexpr double rounding = 1e-6;        // of the smallest edge: touching faces are not farther apart
+constexpr double nothing = 1e-14;        // a weight
+constexpr double on_the_spot = 1e-10;    // of a size: no offset between two places
+constexpr double flat = 1e-9;            // of the largest: an inertia without a direction
 
 // A side of the overlap by itself.
 struct Census {
@@ -139,7 +139,7 @@ Mortar::Mortar(const PlacedFace& side_1, const PlacedFace& side_2, const Meeting
     : face_1_(side_1),
       face_2_(side_2),
       reach_(std::max(options.within, rounding * std::min(face_1_.smallest_edge(), face_2_.smallest_edge())) +
-             unsure * (face_1_.sagitta() + face_2_.sagitta())) {
+             sagitta_margin * (face_1_.sagitta() + face_2_.sagitta())) {
   const auto [first, second] = take_census(face_1_, face_2_, reach_);
   if (first.size == 0.0) return;
   couple_from(is_second_chosen(first, second, options));

@@ -3,9 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <span>
 
 #include "mesh/face_nodes.hpp"
 #include "mesh/overlap.hpp"
+#include "mesh/sagitta.hpp"
 
 namespace dygita {
 
@@ -42,6 +45,7 @@ struct SurfaceInBox {
   std::vector<Box> boxes;        // of the facets
   std::vector<Vec3> normals;     // unit, of the facets
   std::vector<double> sizes;     // m, square root of the facets' area
+  std::vector<double> sagittas;  // m, how far the facets may be off the round face that they stand for
 
   SurfaceInBox(const PlacedBody& of, const Box& box) : body(of) {
     for (const CellBlock& block : body.mesh->blocks) {
@@ -64,6 +68,26 @@ struct SurfaceInBox {
       boxes.push_back(extent);
       normals.push_back(area.normalized());
       sizes.push_back(std::sqrt(area.norm()));
+    }
+    find_sagittas();
+  }
+
+  void find_sagittas() {
+    sagittas.assign(facets.size(), 0.0);
+    std::map<std::pair<int, int>, size_t> known;
+    for (size_t f = 0; f < facets.size(); ++f) {
+      const std::span<const int> corners = facets[f].corners();
+      for (size_t a = 0; a < corners.size(); ++a) {
+        const int i = corners[a], j = corners[(a + 1) % corners.size()];
+        const auto [at, is_new] = known.try_emplace(std::minmax(i, j), f);
+        if (is_new) continue;
+        const Polygon one = polygon(facets[f]), other = polygon(facets[at->second]);
+        const double sagitta =
+            sagitta_margin * sagitta_of({one, one.rowwise().mean(), normals[f]},
+                                        {other, other.rowwise().mean(), normals[at->second]}, body.at(i), body.at(j));
+        for (double* known_sagitta : {&sagittas[f], &sagittas[at->second]})
+          *known_sagitta = std::max(*known_sagitta, sagitta);
+      }
     }
   }
 
@@ -164,14 +188,17 @@ class Inside {
 
 struct Probe {
   Vec3 x, normal;
+  double sagitta;  // m, of its facet
 };
 
 // Points of a facet: its corners and its middle, a little inwards so that an edge on an edge is not inside.
 void add_probes(const SurfaceInBox& surface, size_t i, std::vector<Probe>& probes) {
   const Polygon corners = surface.polygon(surface.facets[i]);
   const Vec3 middle = corners.rowwise().mean();
-  probes.push_back({middle, surface.normals[i]});
-  for (long a = 0; a < corners.cols(); ++a) probes.push_back({0.9 * corners.col(a) + 0.1 * middle, surface.normals[i]});
+  const double sagitta = surface.sagittas[i];
+  probes.push_back({middle, surface.normals[i], sagitta});
+  for (long a = 0; a < corners.cols(); ++a)
+    probes.push_back({0.9 * corners.col(a) + 0.1 * middle, surface.normals[i], sagitta});
 }
 
 // Adds what of `a`'s surface lies in `b`; `whole`: how deep what lies in it far from its surface is at least.
@@ -183,14 +210,14 @@ void find_intrusion(const SurfaceInBox& a, const SurfaceInBox& b, double whole, 
     if (body.has(probe.x)) inside.push_back(probe);
   const size_t stride = std::max<size_t>(1, inside.size() / most_depths);
   for (size_t p = 0; p < inside.size(); p += stride) {
-    const auto& [x, normal] = inside[p];
+    const auto& [x, normal, sagitta] = inside[p];
     double depth = 1e300, allowed = 0.0;
     for (size_t i = 0; i < b.facets.size(); ++i) {
       if ((x - b.boxes[i].low.cwiseMax(x.cwiseMin(b.boxes[i].high))).norm() >= depth) continue;
       const double distance = nearest_on(b, b.facets[i], x).distance;
       if (distance >= depth) continue;
       depth = distance;
-      allowed = b.sizes[i] * (1e-3 + 0.5 * normal.cross(b.normals[i]).norm());
+      allowed = b.sizes[i] * (1e-3 + 0.5 * normal.cross(b.normals[i]).norm()) + sagitta + b.sagittas[i];
     }
     if (b.facets.empty()) depth = whole;
     if (depth <= allowed) continue;

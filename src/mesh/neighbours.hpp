@@ -53,7 +53,7 @@ struct Neighbours {
 
 // What two bodies are to each other where their bounding boxes, grown by `reach` (m), meet; nothing where these do not.
 // Only cells there are looked at. Chords of curved faces that cross are no intrusion: what counts is deeper than half a
-// facet times the sine of the angle between both facets.
+// facet times the sine of the angle between both facets, and than the facets of both are off their round faces.
 Neighbours find_neighbours(const PlacedBody& body_1, const PlacedBody& body_2, double reach);
 
 }  // namespace dygita

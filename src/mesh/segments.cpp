@@ -6,13 +6,13 @@
 #include <map>
 
 #include "mesh/facet_parts.hpp"
+#include "mesh/sagitta.hpp"
 
 namespace dygita {
 
 namespace {
 
 constexpr double least_cosine = 0.5;     // between a normal and the opposite of the other
-constexpr double sharp = 0.7;            // cosine of the angle between neighbours that make an edge, no round face
 constexpr double least_segment = 1e-10;  // of the smaller part's area
 
 std::vector<Polygon> polygons_of(const FaceInSpace& face) {
@@ -62,7 +62,6 @@ double FaceInSpace::smallest_edge() const {
   return smallest;
 }
 
-// The curvature across an edge is the angle between its facets over the distance of their middles.
 double FaceInSpace::sagitta() const {
   std::map<std::pair<int, int>, int> known;
   double largest = 0.0;
@@ -73,16 +72,8 @@ double FaceInSpace::sagitta() const {
       const auto [at, is_new] = known.try_emplace(std::minmax(i, j), static_cast<int>(p));
       if (is_new) continue;
       const Part &one = parts[p], &other = parts[at->second];
-      const double cosine = one.normal.dot(other.normal);
-      if (cosine < sharp) continue;
-      const double angle = one.normal.cross(other.normal).norm();
-      if (angle <= 1e-7) continue;
-      const Vec3 start = x.col(i), along = (x.col(j) - start).normalized();
-      const auto across = [&](const Vec3& place) { return (place - start).cross(along).norm(); };
-      double widest = 0.0;
-      for (const Part* part : {&one, &other})
-        for (int b = 0; b < part->x.cols(); ++b) widest = std::max(widest, across(part->x.col(b)));
-      largest = std::max(largest, angle / (across(one.centre) + across(other.centre)) * widest * widest / 8.0);
+      largest = std::max(largest, sagitta_of({one.x, one.centre, one.normal}, {other.x, other.centre, other.normal},
+                                             x.col(i), x.col(j)));
     }
   }
   return largest;

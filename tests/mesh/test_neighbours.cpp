@@ -81,6 +81,12 @@ TEST(Neighbours, that_overlap_are_told_with_depth_and_extent) {
 TEST(Neighbours, whose_chords_cross_on_a_curved_face_do_not_overlap) {
   const MeshPtr tube = ring(1.0, 2.0, 24, 0.0), rod = ring(0.2, 1.0, 16, 0.3);
   EXPECT_FALSE(find_neighbours({tube.get(), Vec3::Zero()}, {rod.get(), Vec3::Zero()}, 0.05).intrusion);
+  // Nodes of the finer one are before the middles of the other's chords, where facets are parallel.
+  for (const auto& [n_tube, n_rod] : {std::pair{8, 64}, {64, 8}, {12, 36}}) {
+    const MeshPtr around = ring(1.0, 2.0, n_tube, 0.0), within = ring(0.2, 1.0, n_rod, 0.0);
+    EXPECT_FALSE(find_neighbours({around.get(), Vec3::Zero()}, {within.get(), Vec3::Zero()}, 0.05).intrusion)
+        << n_tube << " cells around " << n_rod;
+  }
   const MeshPtr thick = ring(0.2, 1.3, 16, 0.3);
   const Neighbours pressed = find_neighbours({tube.get(), Vec3::Zero()}, {thick.get(), Vec3::Zero()}, 0.05);
   ASSERT_TRUE(pressed.intrusion);
