@@ -67,15 +67,6 @@ void Collector::watch(const Instant& instant) {
 
 namespace {
 
-// What a scene at rest has of rounding and of what an iteration leaves: shares of it say nothing.
-double energy_at_rest(const Problem& problem) {
-  double energy = 0.0;
-  const std::vector<double> volume = volumes(problem);
-  for (size_t i = 0; i < volume.size(); ++i)
-    energy += 0.5 * problem.substructures[i]->material.young * std::pow(limit::strain_at_rest, 2) * volume[i];
-  return energy;
-}
-
 void add_error_figures(const ErrorEstimator& errors, const Problem& problem, RunResult& result) {
   const auto has = [&](bool is_static) {
     return std::any_of(problem.steps.begin(), problem.steps.end(),
@@ -135,7 +126,7 @@ void Collector::finish(RunResult& result) {
     if (!least || std::isnan(stress.margin()) || stress.margin() < *least) least = stress.margin();
     if (std::isnan(*least)) break;
   }
-  const double percent = extremes_.energy > energy_at_rest(problem_) ? 100.0 / extremes_.energy : 0.0;
+  const double percent = extremes_.energy > parts_.errors().energy_at_rest() ? 100.0 / extremes_.energy : 0.0;
   result.figures.largest_energy = extremes_.energy;
   result.figures.energy_imbalance = percent * extremes_.imbalance;
   result.figures.numerical_dissipation = percent * extremes_.scheme_loss;

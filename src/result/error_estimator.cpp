@@ -8,6 +8,8 @@
 #include "base/parallel_by_cost.hpp"
 #include "fem/mass.hpp"
 #include "fem/stress_error.hpp"
+#include "model/extent.hpp"
+#include "result/limits.hpp"
 #include "result/mass_lag.hpp"
 
 namespace dygita {
@@ -133,6 +135,12 @@ void ErrorEstimator::take_velocities(const Instant& instant) {
   bank_->add(std::span(sums).subspan(2));
 }
 
+ErrorEstimator::ErrorEstimator(const Problem& problem, PartViews& views)
+    : volume_(volumes(problem)), linked_(problem), views_(&views) {
+  for (size_t i = 0; i < volume_.size(); ++i)
+    at_rest_ += 0.5 * problem.substructures[i]->material.young * std::pow(limit::strain_at_rest, 2) * volume_[i];
+}
+
 ErrorEstimator::StressEnergies ErrorEstimator::stress_energies(const Instant& instant) {
   const Cut& cut = *instant.model.cut;
   const Problem& problem = *instant.model.problem;
@@ -212,6 +220,25 @@ void ErrorEstimator::begin_step(const Instant& start) {
     start_.push_back(views_->field(static_cast<int>(i)));
 }
 
+// Collective.
+double ErrorEstimator::energy_when_carried(const Instant& instant) const {
+  const Problem& problem = *instant.model.problem;
+  const Cut& cut = *instant.model.cut;
+  const std::vector<double> moved2 = of_all_pieces(
+      cut, 1, [&](int i, double* to) { *to = instant.piece_displacement(i).colwise().squaredNorm().maxCoeff(); });
+  double energy = 0.0;
+  for (size_t i = 0; i < volume_.size(); ++i) {
+    if (volume_[i] == 0.0) continue;  // of matrices alone
+    const auto part = static_cast<int>(i);
+    const auto first = moved2.begin() + cut.first(part);
+    const double most2 = *std::max_element(first, first + cut.n_pieces(part));
+    const double size2 = extent_of(*problem.substructures[i]).size().squaredNorm();
+    energy += 0.5 * problem.substructures[i]->material.young * volume_[i] * most2 / size2 *
+              std::pow(limit::strain_of_carrying, 2);
+  }
+  return energy;
+}
+
 // What increments leave adds up along a static path: friction keeps it. It is held against the work that the step's own
 // loads do, or what it gives back of the strain energy, since what an earlier step has stored says nothing of this one;
 // and it is no less than what the energy balance misses in the step (eq. Q9).
@@ -223,7 +250,9 @@ void ErrorEstimator::accept_static(const Instant& instant) {
       std::max({still_.work, std::abs(energies.loads - still_.loads), std::abs(energies.strain - still_.strain)});
   still_.missing = std::max(still_.missing, std::abs(energies.balance() - still_.balance));
   if (instant.increment + 1 < instant.model.step->n_increments()) return;
-  if (const double work = std::max(still_.work, 1e-8 * energies.strain); work > 0.0)
+  const double carried = energy_when_carried(instant);
+  at_rest_ = std::max(at_rest_, carried);
+  if (const double work = std::max(still_.work, 1e-8 * energies.strain); work > carried)
     static_.iteration = std::max({static_.iteration, still_.left / std::sqrt(work), still_.missing / work});
   const StressEnergies energies_now = stress_energies(instant);
   // What is left of nothing is rounding.

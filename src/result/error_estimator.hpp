@@ -59,7 +59,7 @@ class OctaveBank {
 // taken piece by piece, in their order.
 class ErrorEstimator {
  public:
-  ErrorEstimator(const Problem& problem, PartViews& views) : linked_(problem), views_(&views) {}
+  ErrorEstimator(const Problem& problem, PartViews& views);
   // Both are collective.
   void begin_step(const Instant& start);
   void accept(const Instant& instant);
@@ -72,6 +72,9 @@ class ErrorEstimator {
   };
   Estimate static_steps() const { return static_; }
   Estimate dynamic_steps() const;
+  // J, what a scene at rest, or carried along by a static step, has of rounding and of what an iteration leaves: shares
+  // of less say nothing.
+  double energy_at_rest() const { return at_rest_; }
 
  private:
   // Energies (J) of the stress error of all substructures, of those of linear cells alone, and the strain energy of the
@@ -94,6 +97,7 @@ class ErrorEstimator {
   void take_velocities(const Instant& instant);
   void sample_stress(const Instant& instant);
   StressEnergies stress_energies(const Instant& instant);
+  double energy_when_carried(const Instant& instant) const;
 
   // Of the shock, J, relative to which errors are: twice the kinetic energy, as of a wave, without that of parts which
   // fly as a whole and have touched nothing; of a slow motion, what is stored in it; at rest, next to nothing of what
@@ -109,6 +113,8 @@ class ErrorEstimator {
 
   Estimate static_, dynamic_;
   StaticStep still_;
+  std::vector<double> volume_;               // m^3, of the substructures
+  double at_rest_ = 0.0;                     // J
   double most_strain_ = 0.0;                 // J, when static steps began and ended
   std::optional<OctaveBank> bank_;           // of the step
   double before_ = 0.0, before_mesh_ = 0.0;  // phase errors (norms, sqrt of J) of the dynamic steps before
