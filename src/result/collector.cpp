@@ -120,6 +120,7 @@ void Collector::finish(RunResult& result) {
   result.overloaded_steps = std::move(overloaded_);
   parts_.motion().finish(result);
   parts_.turned().finish(problem_, result);
+  parts_.gaps().finish(result);
   result.stresses = parts_.stresses().take();
   for (const PartStress& stress : result.stresses) {
     std::optional<double>& least = result.figures.yield_margin;
@@ -131,7 +132,6 @@ void Collector::finish(RunResult& result) {
   result.figures.energy_imbalance = percent * extremes_.imbalance;
   result.figures.numerical_dissipation = percent * extremes_.scheme_loss;
   result.figures.energy_gain = percent * extremes_.scheme_gain;
-  result.figures.largest_penetration = parts_.gaps().deepest();
   add_error_figures(parts_.errors(), problem_, result);
   // What the springs of a penalty hold is what the sides overlap: its interfaces' constitutive-relation error.
   if (problem_.explicit_dynamics) result.figures.penalty_error = limit::penalty_error_of(percent * extremes_.springs);

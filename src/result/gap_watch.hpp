@@ -1,28 +1,34 @@
-// Watches a run for how deep contacts penetrate each other by their laws' own gaps: each rank the points that it keeps.
+// Watches a run for how deep contacts penetrate each other by their laws' own gaps, and for walls that appear where a
+// part already is: each rank the points that it keeps.
 #pragma once
 
-#include <algorithm>
+#include <vector>
 
-#include "law/law.hpp"
-#include "ranks/ranks.hpp"
+#include "result/result.hpp"
 #include "solution/observer.hpp"
 
 namespace dygita {
 
 class GapWatch {
  public:
-  void accept(const Instant& instant) {
-    for (size_t s = 0; s < instant.model.surfaces->size(); ++s)
-      if ((*instant.model.surfaces)[s].declared_law().shown().gap)
-        instant.for_each_point_here(static_cast<int>(s),
-                                    [&](const LawState& point) { deepest_ = std::max(deepest_, -point.gap); });
-  }
+  void begin_step(const Instant& start);
+  void accept(const Instant& instant);
   // Collective.
-  void settle() { deepest_ = ranks::largest(deepest_); }
-  double deepest() const { return deepest_; }  // m
+  void settle();
+  // Adds a warning for each wall that a dynamic step puts where a part is, and the figure.
+  void finish(RunResult& result) const;
 
  private:
-  double deepest_ = 0.0;
+  // A wall in a dynamic step that the step before did not have.
+  struct New {
+    const Support* wall;
+    const Step* step;
+    const Substructure* part;
+    double depth;  // m, of the part behind it when the step begins
+    double least;  // m, that says something of it
+  };
+  double deepest_ = 0.0;  // m
+  std::vector<New> walls_;
 };
 
 }  // namespace dygita

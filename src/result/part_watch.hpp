@@ -21,6 +21,7 @@ class PartWatch : public Observer {
     errors_.begin_step(start);
     motion_.begin_step(start);
     turned_.begin_step(start);
+    gaps_.begin_step(start);
   }
   void accept(const Instant& instant) override {
     errors_.accept(instant);

@@ -332,6 +332,28 @@ problem{ name = "p", substructures = { b }, supports = { base }, steps = { one, 
   EXPECT_NEAR(WatchedName(run.problem, "r.z.mean", "--output").of(*run.result)->values.at(0), -200.0, 1e-6);
 }
 
+// 0.1 mm of flight towards a wall 0.05 mm away that only the second step has.
+TEST(Wall, that_appears_where_a_part_is_says_so) {
+  const auto warned = [](const std::string& of_flight) {
+    const DeckRun run = run_kind(R"(
+local b = substructure{ name = "b", material = metal, velocity = { 0, 0, -1 }, mesh = mesh.box{ size = { 20*mm, 20*mm, 20*mm }, cells = { 2, 2, 2 } } }
+local wall = support.wall{ name = "wall", on = b:face "zmin", gap = 0.05*mm }
+local fly = step.dynamic{ name = "fly", duration = 100*us, dt = 2*us, supports = { )" +
+                                     of_flight +
+                                     R"( } }
+local hit = step.dynamic{ name = "hit", after = fly, duration = 4*us, dt = 2*us, supports = { wall } }
+problem{ name = "p", substructures = { b }, supports = { wall }, steps = { fly, hit }, outputs = { output.energy{} } }:run{}
+)",
+                                 0);
+    for (const std::string& warning : run.result->warnings)
+      if (warning.find("'wall' appears where 'b' already is, up to 0.05 mm behind it") != std::string::npos)
+        return true;
+    return false;
+  };
+  EXPECT_TRUE(warned(""));
+  EXPECT_FALSE(warned("wall"));
+}
+
 TEST(History, is_a_mean_over_faces_or_over_regions) {
   const std::string text = R"(
 local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 10*mm, 10*mm, 20*mm }, cells = { 1, 1, 2 } } }
