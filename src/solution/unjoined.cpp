@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string_view>
+#include <unordered_set>
 
 #include "base/parallel.hpp"
 #include "law/law.hpp"
 #include "mesh/face_nodes.hpp"
 #include "model/check.hpp"
+#include "model/load.hpp"
 
 namespace dygita {
 
@@ -111,6 +114,28 @@ void doubt_held_side(const Problem& problem, const Surface& surface, const Subst
                                check::label_of(place)));
     }
   }
+}
+
+// Pressures and tractions act on free faces; gas in a joint that can open is one of them, in a bond it has no place.
+void doubt_pressed_bond(const Problem& problem, const Surface& surface, const SubstructurePtr& part,
+                        const std::vector<Facet>& facets, const SubstructurePtr& other) {
+  std::unordered_set<FacetKey, FacetKeyHash> bonded;
+  for (const Facet& facet : facets) bonded.insert(facet_key(facet));
+  for (const StepPtr& step : problem.steps)
+    for (const LoadPtr& load : step->loads)
+      for (const Target& target : load->on) {
+        const Face* face = std::get_if<Face>(&target);
+        if (!face || face->part != part || std::string_view(load->unit()) != "Pa") continue;
+        const std::vector<Facet>& pressed = face->facets();
+        const auto n = std::count_if(pressed.begin(), pressed.end(),
+                                     [&](const Facet& facet) { return bonded.contains(facet_key(facet)); });
+        if (n > 0)
+          check::doubt(problem, load->origin,
+                       fmt::format("{} acts on {}, of whose {} facets {} {} bonded to '{}' by {}: nothing acts between "
+                                   "bonded faces; is another face meant?",
+                                   load->path, face->label(), pressed.size(), n, n == 1 ? "is" : "are", other->name,
+                                   check::describe(*surface.interface)));
+      }
 }
 
 // What is tied to another part is no longer a face that a third one could come through: the sectors of a ring that
@@ -280,6 +305,10 @@ void doubt_surfaces(const Problem& problem, const std::vector<Surface>& surfaces
     doubt_distance(problem, surface);
     doubt_held_side(problem, surface, surface.interface->side_1.part, surface.facing.facets_1);
     doubt_held_side(problem, surface, surface.interface->side_2.part, surface.facing.facets_2);
+    if (!surface.declared_law().is_tie()) continue;
+    const SubstructurePtr &part_1 = surface.interface->side_1.part, &part_2 = surface.interface->side_2.part;
+    doubt_pressed_bond(problem, surface, part_1, surface.facing.facets_1, part_2);
+    doubt_pressed_bond(problem, surface, part_2, surface.facing.facets_2, part_1);
   }
 }
 

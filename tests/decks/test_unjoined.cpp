@@ -196,6 +196,24 @@ TEST(Unjoined, a_face_in_an_interface_and_under_a_support_is_named) {
       << both[0];
 }
 
+TEST(Unjoined, a_pressure_on_a_bonded_face_is_named_and_one_in_a_joint_is_not) {
+  const auto said = [](const std::string& kind) {
+    std::string text = blocks_at(
+        "{ 10*mm, 10*mm, 10*mm }",
+        "interfaces = { interface." + kind + "{ name = 'seat', between = { plate:face 'zmax', block:face 'zmin' } } }");
+    text.replace(text.find("dt = 1*us"), 9,
+                 "dt = 1*us, loads = { load.pressure{ on = plate:face 'zmax', history = 1*MPa } }");
+    return said_of_check(text, "load.pressure");
+  };
+  const std::vector<std::string> bonded = said("bonded");
+  ASSERT_EQ(bonded.size(), 1u);
+  EXPECT_NE(bonded[0].find("load.pressure acts on plate.zmax, of whose 64 facets 16 are bonded to 'block' by "
+                           "interface.bonded 'seat'"),
+            std::string::npos)
+      << bonded[0];
+  EXPECT_TRUE(said("contact").empty());
+}
+
 TEST(Unjoined, two_laws_on_one_pair_of_faces_are_refused) {
   const std::string two = R"(interfaces = {
   interface.contact{ name = 'seat', between = { plate:face 'zmax', block:face 'zmin' } },
