@@ -101,13 +101,11 @@ FaceNodes face_nodes(const Mesh& mesh, const std::vector<Facet>& facets) {
   const auto n = static_cast<long>(result.nodes.size());
   result.areas = result.weights = Vec::Zero(n);
   result.normals = result.vectors = Points::Zero(3, n);
-  bool is_linear = true;
   for (const Facet& facet : facets) {
     const FacetPoints& points = points_of(facet.type());
     const FacetIntegrals own = facet_integrals(mesh.nodes, facet, points.own);
     const FacetIntegrals shared =
         points.by_sub_facets.empty() ? own : facet_integrals(mesh.nodes, facet, points.by_sub_facets);
-    is_linear &= facet.nodes().size() == facet.corners().size();
     for (Eigen::Index a = 0; a < own.areas.size(); ++a) {
       const int node = facet.nodes()[static_cast<size_t>(a)];
       const long i = std::lower_bound(result.nodes.begin(), result.nodes.end(), node) - result.nodes.begin();
@@ -118,7 +116,6 @@ FaceNodes face_nodes(const Mesh& mesh, const std::vector<Facet>& facets) {
     }
   }
   result.normals.colwise().normalize();
-  if (is_linear) result.vectors = result.normals * result.weights.asDiagonal();
   return result;
 }
 

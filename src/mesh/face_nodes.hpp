@@ -13,7 +13,7 @@ struct FaceNodes {
   Vec areas;       // m^2, positive
   Points normals;  // unit, outward, mean by area
   Vec weights;     // m^2, integral of the node's shape function
-  Points vectors;  // m^2, integral of that times the normal; on linear facets weight times mean normal
+  Points vectors;  // m^2, integral of that times the normal
 };
 FaceNodes face_nodes(const Mesh& mesh, const std::vector<Facet>& facets);
 

@@ -22,7 +22,7 @@ double depth_of(const Instant& instant, int surface) {
 }  // namespace
 
 void GapWatch::begin_step(const Instant& start) {
-  constexpr double something = 1e-6;  // of the part's size
+  constexpr double something = 1e-6;                   // of the part's size
   if (start.i_step == 0 || start.is_static()) return;  // a static step pushes it out
   const Problem& problem = *start.model.problem;
   const Step& before = *problem.steps[static_cast<size_t>(start.i_step) - 1];

@@ -138,7 +138,9 @@ class ConditionsBuilder {
     if (step_.is_static) return moves;
     if (const auto it = start_.base_velocity.find(&support); it != start_.base_velocity.end()) {
       const double speed = it->second.norm();
-      if (speed > 0.0) moves.emplace_back(it->second / speed, add({[speed](int, double) { return speed; }, speed}));
+      if (speed > 0.0)
+        moves.emplace_back(it->second / speed,
+                           add({[speed](int, double) { return speed; }, [speed](double) { return speed; }}));
     }
     for (const LoadPtr& load : step_.loads)
       for (const Effect& effect : load->effects())
@@ -196,7 +198,8 @@ class ConditionsBuilder {
       return {[value, n](int i, double) { return value.at_static(i, n) - value.at_static(i - 1, n); }};
     }
     if (prescribed.is_velocity)
-      return {[value](int i, double dt) { return value.history.value(dt * (i + 1)); }, value.history.value(0.0)};
+      return {[value](int i, double dt) { return value.history.value(dt * (i + 1)); },
+              [value](double) { return value.history.value(0.0); }, true};
     const double start = value.history.value(0.0);
     if (std::abs(start - value.from) > 1e-9 + 1e-6 * std::abs(start))
       warn(
@@ -204,12 +207,12 @@ class ConditionsBuilder {
                       "only its changes in the "
                       "step move the nodes; start the history from there, or bring it there in a static step",
                       load.origin.prefix(), load.path, step_.name, start, value.from));
-    // U is then the two-point mean of the prescribed displacement and nothing alternates (manual, prescribed
-    // displacement).
-    const auto mean = [value](double i, double dt) {
-      return (value.history.value(dt * (i + 0.5)) - value.history.value(dt * (i - 0.5))) / dt;
-    };
-    return {[mean](int i, double dt) { return mean(i + 1.0, dt); }, mean(0.5, step_.dt)};
+    // U is then the two-point mean of the prescribed displacement and nothing alternates (manual, eq. S5a).
+    return {[value](int i, double dt) {
+              return (value.history.value(dt * (i + 1.5)) - value.history.value(dt * (i + 0.5))) / dt;
+            },
+            [value](double dt) { return (value.history.value(0.5 * dt) - value.history.value(0.0)) / (0.5 * dt); },
+            true};
   }
 
   int add(Motion motion) {

@@ -15,7 +15,10 @@ struct Motion {
   // Velocity at the end of increment i, of increments of dt (m/s). In a static step the displacement of the increment,
   // m.
   std::function<double(int increment, double dt)> velocity;
-  double at_start = 0.0;  // m/s, at the start of a dynamic step, for solvers that divide its increments
+  // Velocity (m/s) that a dynamic step of increments of dt starts with; empty: rest.
+  std::function<double(double dt)> at_start = nullptr;
+  // Nodes have that velocity at once when the step starts, whatever they had before.
+  bool is_taken_up = false;
 };
 
 // Held directions of one node: orthonormal; each moves as a combination of motions (none: it rests).

@@ -132,6 +132,43 @@ void let_go_of_absorbed(const StepModel& model, State& state) {
   }
 }
 
+// J, of the pieces as they are.
+double kinetic_energy(const StepModel& model) {
+  double energy = 0.0;
+  for (const double own :
+       of_all_pieces(*model.cut, 1, [&](int i, double*to) { *to = model.pieces[i]->stored_energy().kinetic; }))
+    energy += own;
+  return energy;
+}
+
+// Nodes that a load moves have its velocity from the start on: increments add changes of velocity, and would never make
+// up for the first one (manual, eq. S5a). Collective. False: nothing changes.
+bool take_up_motions(const StepModel& model, State& state) {
+  const Cut& cut = *model.cut;
+  bool has_changed = false;
+  for (int part = 0; part < cut.n_parts() && !model.scheme.is_static; ++part)
+    for (const auto& [node, held] : model.conditions.held[part])
+      for (int j = 0; j < held.n; ++j) {
+        double velocity = 0.0;
+        bool is_taken_up = !held.motion[j].empty();
+        for (const auto& [index, factor] : held.motion[j]) {
+          const Motion& motion = model.conditions.motions[static_cast<size_t>(index)];
+          is_taken_up &= motion.is_taken_up;
+          if (is_taken_up) velocity += factor * motion.at_start(model.scheme.dt);
+        }
+        if (!is_taken_up) continue;
+        const Vec3 direction = held.directions.col(j);
+        for (const Copy& copy : cut.copies(part, node)) {
+          if (!model.solves(copy.piece)) continue;
+          Points& of_piece = state.velocity[copy.piece];
+          const double change = velocity - direction.dot(of_piece.col(copy.node));
+          of_piece.col(copy.node) += change * direction;
+          has_changed |= change != 0.0;
+        }
+      }
+  return ranks::any(has_changed);
+}
+
 }  // namespace
 
 void start_step(StepModel& model, State& state) {
@@ -153,8 +190,17 @@ void start_step(StepModel& model, State& state) {
     if (is_static) velocity.setZero();
     if (first_dynamic) velocity.colwise() += model.problem->substructures[model.cut->piece(i).part]->velocity;
   }
-  set_pieces(model, state);
-  for (const int i : model.here) state.velocity[i] = model.pieces[i]->velocity();
+  const auto give_to_pieces = [&] {
+    set_pieces(model, state);
+    for (const int i : model.here) state.velocity[i] = model.pieces[i]->velocity();
+  };
+  give_to_pieces();
+  double given = 0.0;  // J, by the loads at once
+  if (take_up_motions(model, state)) {
+    given = -kinetic_energy(model);
+    give_to_pieces();
+    given += kinetic_energy(model);
+  }
   give_to_copies(*model.cut, model.is_assembled, state.velocity);
   give_loads(model, state);
   place_returning_walls(model, state);
@@ -170,7 +216,8 @@ void start_step(StepModel& model, State& state) {
     energies.kinetic += stored[i];
     energies.strain += stored[i + 1];
   }
-  const double jump = energies.kinetic + energies.strain - before;
+  energies.loads += given;
+  const double jump = energies.kinetic + energies.strain - before - given;
   (first_dynamic ? energies.start : energies.scheme) += first_dynamic ? jump : -jump;
   if (first_dynamic) state.has_moved = true;
 }

@@ -1,6 +1,7 @@
 // What steps hold, move and load, and what one of them leaves to the next: every case was a wrong number at some time.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "decks/engine.hpp"
@@ -133,6 +134,50 @@ problem{ name = "p", substructures = { b }, supports = { base }, steps = { one, 
 }
 
 // Kind 0: a list of two faces; 1: one face with both planes.
+// 100 MPa on sides of 20 x 20 mm: 40 kN each, whether they are one face around an edge or a list.
+TEST(Pressure, on_a_face_around_an_edge_is_that_on_each_of_its_sides) {
+  for (const char* cells : {"order = 1", "order = 2"}) {
+    const DeckRun run = run_kind(std::string(R"(
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 20*mm, 20*mm, 20*mm }, cells = { 2, 2, 2 }, )") +
+                                     cells + R"( } }
+local three = b:face{ where = function(x, y, z) return near(x, 20*mm) or near(y, 20*mm) or near(z, 20*mm) end }
+local base = support.fixed{ name = "base", on = b:face "zmin" }
+local press = step.static{ name = "press", loads = { load.pressure{ on = three, history = 100*MPa } } }
+problem{ name = "p", substructures = { b }, supports = { base }, steps = { press }, outputs = { output.resultant{ name = "r", on = base } } }:run{}
+)",
+                                 0);
+    for (const char* along : {"x", "y", "z"})
+      EXPECT_NEAR(run.column("r", along).back(), 40000.0, 1e-3) << cells << along;
+  }
+}
+
+class MovedEnd : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Solvers, MovedEnd,
+                         testing::Values("latin{ integration = 'implicit' }", "latin{ integration = 'explicit' }",
+                                         "monolithic{}", "explicit{}"));
+
+// A half-sine of 10 um in 20 us, whose speed jumps at its start; 0.5 m/s from the first instant on.
+TEST_P(MovedEnd, is_where_its_load_has_it) {
+  const std::string bar = R"(
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 5*mm, 5*mm, 50*mm }, cells = { 1, 1, 10 } } }
+local top = b:face "zmax"
+local base = support.fixed{ name = "base", on = b:face "zmin" }
+local by = ({ [0] = load.displacement{ on = top, z = history.half_sine{ peak = 10*um, duration = 20*us } }, load.velocity{ on = top, z = 0.5 } })[p.kind]
+local move = step.dynamic{ name = "move", duration = 40*us, dt = 1*us, loads = { by } }
+problem{ name = "p", substructures = { b }, supports = { base }, steps = { move },
+  outputs = { output.history{ name = "u", on = top, quantity = "displacement", direction = { 0, 0, 1 } }, output.energy{} } }:run{}
+)";
+  for (const int kind : {0, 1}) {
+    const DeckRun run = run_kind(bar, kind, GetParam());
+    const std::vector<double> u = run.column("u", "displacement");
+    EXPECT_NEAR(u.back(), kind == 0 ? 0.0 : 20e-6, 1e-11) << kind;
+    if (kind == 0) {
+      EXPECT_NEAR(*std::max_element(u.begin(), u.end()), 10e-6, 0.05e-6);
+    }
+    EXPECT_LT(run.result->figures.energy_imbalance.value(), GetParam()[0] == 'e' ? 1.0 : 1e-6) << kind;
+  }
+}
+
 TEST(SymmetrySupport, holds_the_edge_of_two_planes_along_both) {
   const std::string text = R"(
 local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 20*mm, 20*mm, 40*mm }, cells = { 2, 2, 4 } } }

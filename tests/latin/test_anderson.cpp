@@ -3,7 +3,6 @@
 #include <Eigen/QR>
 #include <cmath>
 #include <limits>
-#include <limits>
 
 #include "latin/anderson.hpp"
 
