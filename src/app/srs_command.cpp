@@ -188,18 +188,28 @@ Signal read_signal(const SrsCommand& command) {
   return signal;
 }
 
-// Even samples by linear interpolation; answers the time step.
+// Even samples by linear interpolation; answers the time step. It is the shortest of the signal's, so that none of its
+// pulses falls between two samples, unless that makes too many of them.
 double make_even(Signal& signal, const std::string& file) {
+  constexpr double most_samples = 5e6;
   const size_t n = signal.time.size();
-  const double start = signal.time.front(), dt = (signal.time.back() - start) / static_cast<double>(n - 1);
-  double worst = 0.0;
-  for (size_t i = 1; i < n; ++i) worst = std::max(worst, std::abs(signal.time[i] - signal.time[i - 1] - dt) / dt);
-  if (worst < uneven_sampling) return dt;
-  warn(fmt::format("{}: the time steps differ by up to {:.0f} %; values are interpolated every {:g} s", file,
-                   100.0 * worst, dt));
-  std::vector<double> even(n);
+  const double start = signal.time.front(), span = signal.time.back() - start, mean = span / static_cast<double>(n - 1);
+  double worst = 0.0, shortest = mean;
+  for (size_t i = 1; i < n; ++i) {
+    const double step = signal.time[i] - signal.time[i - 1];
+    worst = std::max(worst, std::abs(step - mean) / mean);
+    shortest = std::min(shortest, step);
+  }
+  if (worst < uneven_sampling) return mean;
+  const double n_steps = std::max(std::min(std::ceil(span / shortest * (1.0 - 1e-6)), most_samples), double(n - 1));
+  const double dt = span / n_steps;
+  warn(fmt::format(
+      "{}: the time steps differ by up to {:.0f} % of their mean; values are interpolated every {:g} s{}", file,
+      100.0 * worst, dt,
+      dt > 1.01 * shortest ? fmt::format(", the shortest step is {:g} s: shorter pulses are lost", shortest) : ""));
+  std::vector<double> even(static_cast<size_t>(n_steps) + 1);
   size_t j = 0;
-  for (size_t i = 0; i < n; ++i) {
+  for (size_t i = 0; i < even.size(); ++i) {
     const double t = start + static_cast<double>(i) * dt;
     while (j + 2 < n && signal.time[j + 1] < t) ++j;
     const double share = (t - signal.time[j]) / (signal.time[j + 1] - signal.time[j]);

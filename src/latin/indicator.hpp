@@ -32,7 +32,7 @@ class Indicator {
     double eta = std::sqrt((sums.force_distance + sums.velocity_distance) / std::max({largest_, size, floor_, tiny}));
     if (largest_motion_ > 0.0) {
       const double forces = std::max(
-          {largest_force_, sums.force_size, 1e-16 * std::min(sums.velocity_size, largest_motion_), floor_, tiny});
+          {largest_force_, sums.force_size, 4e-15 * std::min(sums.velocity_size, largest_motion_), floor_, tiny});
       eta = std::max(eta, force_share_ * std::sqrt(sums.force_distance / forces));
     }
     return {eta, size, sums.force_size};

@@ -151,22 +151,6 @@ void StepRun::iterate_assembled(int increment, const Goal& goal, Best& best) {
   }
 }
 
-// The system knows where loose parts are by what they are near to, and carries them along with it: they rest, as far as
-// nothing is in their way there. False: there are none.
-bool StepRun::leave_loose_parts() {
-  const auto moved = [&](int p, int d) {
-    return at_.velocity[model_.unknown(model_.exchange.ports[static_cast<size_t>(p)], d)];
-  };
-  const std::vector<Vec3> motions = loose_->find({[&](int point) { return local_.carries(point); }, moved});
-  for (size_t p = 0; p < motions.size(); ++p)
-    for (int d = 0; d < 3; ++d)
-      if (const int i = model_.unknown(model_.exchange.ports[p], d); i >= 0) {
-        at_.velocity[i] -= motions[p][d];
-        at_.q[i] -= assembled_->k()[i] * motions[p][d];  // the same force
-      }
-  return !motions.empty();
-}
-
 // Right-hand sides of an increment, and all that it changes on the interfaces before any iteration.
 void StepRun::begin_increment(int increment, bool starts_window) {
   const std::vector<double> motions = begin_pieces(increment);
@@ -208,8 +192,14 @@ StepRun::Best StepRun::answer(int increment, const Goal& goal, bool goes_over_ag
   BoltStart bolts;
   if (local_.has_preloads()) bolts = {at_.q, local_.preload_figures().shortening};
   iterate(increment, goal, best);
+  // So many more iterations on what was solved before: where increments before it are others now, that may be too few.
+  if (settings_.more_iterations > 0 && best.outcome.eta > settings_.tolerance) {
+    at_.q = best.q;
+    iterate(increment, {settings_.tolerance, settings_.limit, goal.furthest}, best);
+  }
   if (best.outcome.eta > settings_.tolerance && local_.has_preloads()) seat_bolts(increment, bolts, best);
   const bool is_solved = best.outcome.eta <= goal.tolerance;
+  if (is_solved) rest_loose_parts(increment, goal, best);
   anderson_.end(own(at_.q), own(at_.image), is_solved);
   if (is_solved) {
     // The pieces have not heard of the last correction.

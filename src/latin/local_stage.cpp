@@ -174,6 +174,20 @@ std::vector<double> LocalStage::normal_trials() const {
   return trials;
 }
 
+bool LocalStage::links(int i_point) const {
+  const Point& point = model_->exchange.points[static_cast<size_t>(i_point)];
+  const PointRecord& record = points_[static_cast<size_t>(i_point)];
+  return carries(i_point) || (point.law && point.has_law[0] && !point.law->shown().gap && !record.is_released);
+}
+
+double LocalStage::gap(int i_point) const {
+  const Point& point = model_->exchange.points[static_cast<size_t>(i_point)];
+  const PointRecord& record = points_[static_cast<size_t>(i_point)];
+  if (!point.law || !point.has_law[0] || !point.law->shown().gap || record.is_released)
+    return std::numeric_limits<double>::infinity();
+  return point.law->opening(end_of_point(point, record, increment_at(point)));
+}
+
 void LocalStage::run_point(size_t i_point, const Vec& velocity, const Vec& q, Vec& image) {
   const Point& point = model_->exchange.points[i_point];
   PointRecord& state = points_[i_point];

@@ -79,8 +79,11 @@ class StepRun {
   void inner_iterations();
   void iterate(int increment, const Goal& goal, Best& best);
   // The same with all pieces in one system.
-  bool leave_loose_parts();
   void iterate_assembled(int increment, const Goal& goal, Best& best);
+  // Loose parts (loose_parts.cpp), where all pieces are in one system and where they are not.
+  bool leave_loose_parts();
+  std::vector<Vec3> loose_motions() const;
+  void rest_loose_parts(int increment, const Goal& goal, Best& best);
   void begin_increment(int increment, bool starts_window);
   std::vector<double> begin_pieces(int increment);
   void finish_increment(const Vec& q);
@@ -202,7 +205,7 @@ class StepRun {
   int n_inner_;  // iterations by the pieces' rough operators after each
   LocalStage local_;
   std::optional<TangentIteration> assembled_;  // static steps with all pieces in one system
-  std::optional<LooseMotions> loose_;          // of these
+  std::optional<LooseMotions> loose_;          // of static steps
   bool is_answered_ = false;                   // the velocities at hand are the linear stage's answer to q
   DirectPoints direct_;
   std::optional<DistantPoints> distant_;  // where there are several ranks

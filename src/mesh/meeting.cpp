@@ -1,6 +1,8 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <iterator>
+#include <unordered_set>
 
 #include "base/error.hpp"
 #include "mesh/mortar.hpp"
@@ -29,6 +31,16 @@ void refuse_same_side(const PlacedFace& side_1, const PlacedFace& side_2) {
       side_1.name, side_2.name, x[0], x[1], x[2]));
 }
 
+// Those of a face's facets that are among these, whose corners may go round the other way.
+std::vector<Facet> facets_among(const std::vector<Facet>& of_face, const std::vector<Facet>& these) {
+  std::unordered_set<FacetKey, FacetKeyHash> keys;
+  for (const Facet& facet : these) keys.insert(facet_key(facet));
+  std::vector<Facet> found;
+  std::copy_if(of_face.begin(), of_face.end(), std::back_inserter(found),
+               [&](const Facet& facet) { return keys.contains(facet_key(facet)); });
+  return found;
+}
+
 }  // namespace
 
 Meeting::Meeting(const PlacedFace& side_1, const PlacedFace& side_2, const MeetingOptions& options)
@@ -46,8 +58,10 @@ Meeting::Meeting(const PlacedFace& side_1, const PlacedFace& side_2, const Meeti
 
 // All parts match or none, and one side carries the points of all: as of the faces as a whole.
 void Meeting::split(const PlacedFace& side_1, const PlacedFace& side_2, const MeetingOptions& options) {
-  const std::vector<PlacedFace> parts_1 = smooth_parts({side_1.mesh, facets_1(), side_1.place, side_1.name}),
-                                parts_2 = smooth_parts({side_2.mesh, facets_2(), side_2.place, side_2.name});
+  const std::vector<PlacedFace> parts_1 = smooth_parts(
+                                    {side_1.mesh, facets_among(side_1.facets, facets_1()), side_1.place, side_1.name}),
+                                parts_2 = smooth_parts(
+                                    {side_2.mesh, facets_among(side_2.facets, facets_2()), side_2.place, side_2.name});
   if (parts_1.size() < 2 && parts_2.size() < 2) return;
   MeetingOptions of_parts = options;
   if (mortar_) of_parts.points = mortar_->is_second() ? Carrier::second : Carrier::first;

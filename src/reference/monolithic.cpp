@@ -3,6 +3,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/clock.hpp"
@@ -54,6 +55,7 @@ class MonolithicRun {
   void leave_loose_parts(InterfaceNewton::Outcome& outcome);
   void accept_increment(int increment, const InterfaceNewton::Outcome& outcome);
   Vec3 side_displacement(const Point& point, int first, int end, const std::vector<Points>& displacement) const;
+  Vec3 jump(const Point& point, const std::vector<Points>& displacement) const;
   Instant instant(int increment, const InterfaceNewton::Outcome& outcome) const {
     return {model_,
             state_,
@@ -105,6 +107,12 @@ Vec3 MonolithicRun::side_displacement(const Point& point, int first, int end,
   return place;
 }
 
+Vec3 MonolithicRun::jump(const Point& point, const std::vector<Points>& displacement) const {
+  const Vec3 side_1 = side_displacement(point, point.first_port, point.first_port_2, displacement);
+  if (point.is_wall) return -side_1;
+  return side_displacement(point, point.first_port_2, point.end_port, displacement) - side_1;
+}
+
 // Right-hand side of the assembly, and all that an increment changes on the interfaces before any force is known.
 void MonolithicRun::begin_increment(int increment) {
   const std::vector<double> motions = model_.motion_velocities(increment);
@@ -114,13 +122,9 @@ void MonolithicRun::begin_increment(int increment) {
     displacement.push_back(model_.pieces[i]->displacement());
     model_.pieces[i]->begin(model_.external_force(static_cast<int>(i), state_), motions, 0.0);
   }
-  for (size_t i = 0; i < records_.size(); ++i) {
-    const Point& point = model_.exchange.points[i];
-    if (!point.law) continue;
-    Vec3 jump = -side_displacement(point, point.first_port, point.first_port_2, displacement);
-    if (!point.is_wall) jump += side_displacement(point, point.first_port_2, point.end_port, displacement);
-    begin_point(model_, point, jump, increment, records_[i]);
-  }
+  for (size_t i = 0; i < records_.size(); ++i)
+    if (const Point& point = model_.exchange.points[i]; point.law)
+      begin_point(model_, point, jump(point, displacement), increment, records_[i]);
   assembly_.begin(motions, displacement);
 }
 
@@ -191,13 +195,19 @@ void MonolithicRun::finish_increment() {
 }
 
 void MonolithicRun::accept_increment(int increment, const InterfaceNewton::Outcome& outcome) {
+  std::vector<Points> displacement;
+  if (std::any_of(records_.begin(), records_.end(), [](const PointRecord& record) { return record.is_released; }))
+    for (const auto& piece : model_.pieces) displacement.push_back(piece->displacement());
   for (size_t i = 0; i < records_.size(); ++i) {
     const Point& point = model_.exchange.points[i];
     if (!point.law) continue;
     PointRecord& record = records_[i];
     const LawState end = end_of_point(point, record, increment_);
     gap_difference_ = std::max(gap_difference_, gap_difference(point, record));
-    const Vec3 force = working_force(record.law, end, increment_), motion = motion_of(record.law, end, increment_);
+    // What has been released moves as its sides do, not as its law has it.
+    const Vec3 force = working_force(record.law, end, increment_),
+               motion = record.is_released ? Vec3(jump(point, displacement) - record.trial.jump)
+                                           : motion_of(record.law, end, increment_);
     book_work(point, record, end, increment_, -force.dot(motion), state_);
     record.law = end;
     show_point(point, record, state_);

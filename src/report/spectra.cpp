@@ -14,7 +14,16 @@ namespace {
 constexpr size_t most_ranges = 4;  // in a sentence
 
 std::shared_ptr<const Specification> specification_of(const Json& output, const ReportRequest& request) {
-  if (request.specification) return request.specification;
+  if (request.specification) {
+    if (const std::string quantity = text(output, "quantity"); quantity != "acceleration") {
+      warn(
+          fmt::format("spectrum '{}' is of {} and is not held against the specification, which is of absolute "
+                      "acceleration",
+                      text(output, "name"), quantity));
+      return nullptr;
+    }
+    return request.specification;
+  }
   if (!output.contains("specification")) return nullptr;
   const Json& json = output["specification"];
   auto found = std::make_shared<Specification>();

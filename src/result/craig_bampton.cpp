@@ -217,7 +217,9 @@ Superelement condense(const LinearAssembly& assembly, const Problem& problem, co
   }
 
   const EigenPairs eigen = generalized_symmetric_eigen(element.stiffness, element.mass);
-  element.frequencies = eigen.values.unaryExpr([](double lambda) { return hertz(lambda); });
+  // Motions as a whole store nothing but rounding.
+  const double nothing = eigen.values.size() > 0 ? 1e-13 * eigen.values.cwiseAbs().maxCoeff() : 0.0;
+  element.frequencies = eigen.values.unaryExpr([&](double lambda) { return lambda <= nothing ? 0.0 : hertz(lambda); });
   element.fixed_frequencies = modes.values.unaryExpr([](double lambda) { return hertz(lambda); });
   element.n_residual = n_m - n_kept;
   element.valid_to = request.up_to > 0.0 ? request.up_to

@@ -253,7 +253,8 @@ void ErrorEstimator::accept_static(const Instant& instant) {
   const double carried = energy_when_carried(instant);
   at_rest_ = std::max(at_rest_, carried);
   if (const double work = std::max(still_.work, 1e-8 * energies.strain); work > carried)
-    static_.iteration = std::max({static_.iteration, still_.left / std::sqrt(work), still_.missing / work});
+    static_.iteration = std::max(
+        {static_.iteration, still_.left / std::sqrt(work), still_.missing / std::max(work, 1e-4 * energies.strain)});
   const StressEnergies energies_now = stress_energies(instant);
   // What is left of nothing is rounding.
   most_strain_ = std::max({most_strain_, energies_now.strain, still_.strain});

@@ -111,7 +111,7 @@ void warn_of_losses(const Problem& problem, const RunResult& result) {
   }
   if (lost > limit::numerical_dissipation)
     warn(
-        fmt::format("numerical dissipation takes {:.1f} % of the energy (impacts; static increments that close a gap): "
+        fmt::format("numerical dissipation takes {:.1f} % of the energy (impacts; releases; static increments that close a gap): "
                     "a smaller dt, smaller elements or more static increments reduce it",
                     lost));
   if (gained > limit::energy_gain)

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <vector>
 
+#include "base/union_find.hpp"
 #include "solution/rigid_frame.hpp"
 #include "solution/step_model.hpp"
 
@@ -20,18 +22,36 @@ class LooseMotions {
   struct Increment {
     std::function<bool(int point)> carries;
     std::function<double(int port, int d)> moved;
+    // How far (m) the sides of a point that carries nothing may come together, infinite where nothing keeps them apart;
+    // empty: the caller sees himself to what is in the way of parts at rest.
+    std::function<double(int point)> gap = nullptr;
   };
+  // Could a part be loose at all, if contacts carry nothing?
+  bool may_be() const { return may_be_; }
   // Of each port, in its point's frame (m), the motion as a whole of the parts that forces link to its own, where no
-  // support and no force holds these; empty: there is none.
+  // support and no force holds these, as far as they may be taken back; empty: there is none.
   std::vector<Vec3> find(const Increment& increment) const;
 
  private:
+  using Mat6 = Eigen::Matrix<double, 6, 6>;
   using Motions = Eigen::Matrix<double, 3, 6>;  // of a port, in its point's frame
   Motions motions_of(const Point& point, const Port& port) const;
+  // Parts that move as one.
+  struct Group {
+    Mat6 held = Mat6::Zero(), square = Mat6::Zero();
+    RigidMotion moved = RigidMotion::Zero();
+    Mat free, inverse;  // 6 x n, motions that supports leave; of their squares at the ports
+    Vec taken;          // of the free motions, taken back
+  };
+  using Groups = std::map<int, Group>;  // by the root of their parts
+  UnionFind linked_parts(const std::function<bool(int point)>& carries) const;
+  Groups loose_groups(UnionFind& linked) const;
+  void keep_apart(const Increment& increment, UnionFind& linked, double precision, Groups& groups) const;
 
   const StepModel* model_;
-  RigidFrame frame_;                               // of the assembly
-  std::vector<Eigen::Matrix<double, 6, 6>> held_;  // of each part, sum of squares of what holds its motions
+  RigidFrame frame_;        // of the assembly
+  std::vector<Mat6> held_;  // of each part, sum of squares of what holds its motions
+  bool may_be_ = false;
 };
 
 }  // namespace dygita

@@ -89,7 +89,7 @@ void shorten(const StepModel& model, const Preload& preload, double target, cons
 void check_reached(const Step& step, int increment, const std::vector<const Interface*>& interfaces, const Vec& force,
                    const Vec& target) {
   for (size_t i = 0; i < interfaces.size(); ++i) {
-    if (force[i] >= 0.5 * target[i]) continue;
+    if (target[i] <= 0.0 || force[i] >= 0.5 * target[i]) continue;
     throw NumericalError(
         fmt::format("step '{}', increment {}: load.preload asks for {:.6g} N through interface.{} '{}', and no "
                     "shortening gives more than {:.3g} N; likely "

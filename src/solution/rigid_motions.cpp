@@ -170,26 +170,36 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
                                         what_lets_go(problem, *problem.substructures[part]));
     unconstrained[part].push_back(describe(motion.segment<6>(6 * part)));
     const Substructure& body = *problem.substructures[part];
-    int best_node = -1, best_axis = 0;
+    // Rather where no support and no interface is: what a pin adds to them is theirs no more.
+    constexpr double at_support = 1e-2, at_interface = 1e-3;
+    int best_node = -1;
+    Vec3 best_direction = Vec3::Zero();
     double best = 0.0;
     for (int node = 0; node < body.mesh->n_nodes(); ++node) {
-      if (conditions.held[part].count(node)) continue;
-      const Vec3 u = frames[part].displacement(motion.segment<6>(6 * part), RigidFrame::place_of_node(body, node));
+      Vec3 u = frames[part].displacement(motion.segment<6>(6 * part), RigidFrame::place_of_node(body, node));
+      const auto held = conditions.held[part].find(node);
+      const bool is_held = held != conditions.held[part].end() && held->second.n > 0;
+      if (is_held && held->second.n == 3) continue;
+      if (is_held) u = held->second.free_basis() * (held->second.free_basis().transpose() * u);
       int axis = 0;
-      const double reach = u.cwiseAbs().maxCoeff(&axis) * (on_interface.count({part, node}) ? 1e-3 : 1.0);
-      if (reach > best) {
-        best = reach;
-        best_node = node;
-        best_axis = axis;
-      }
+      const double reach = u.cwiseAbs().maxCoeff(&axis) * (is_held ? at_support : 1.0) *
+                           (on_interface.count({part, node}) ? at_interface : 1.0);
+      if (reach <= best) continue;
+      best = reach;
+      best_node = node;
+      best_direction = Vec3::Unit(axis);
+      if (is_held)
+        best_direction =
+            (held->second.free_basis() * (held->second.free_basis().transpose() * best_direction)).normalized();
     }
     CHECK(best_node >= 0, "no node can be pinned against a free rigid motion");
     Held& held = conditions.held[part][best_node];
-    held.directions.col(0) = held.given.col(0) = Vec3::Unit(best_axis);
-    held.n = 1;
+    held.directions.col(held.n) = held.given.col(held.n) = best_direction;
+    ++held.n;
     // What is left of the other free motions once this one is pinned.
     const auto at_pin = [&](const Vec& z) {
-      return frames[part].displacement(z.segment<6>(6 * part), RigidFrame::place_of_node(body, best_node))[best_axis];
+      return best_direction.dot(
+          frames[part].displacement(z.segment<6>(6 * part), RigidFrame::place_of_node(body, best_node)));
     };
     const Vec pinned = motion;
     free_motions.pop_back();

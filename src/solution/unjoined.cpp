@@ -215,7 +215,11 @@ std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Su
     Unjoined& pair = pairs[static_cast<size_t>(k)];
     const int i = pair.part_1, j = pair.part_2;
     PlacedBody body_1 = bodies[static_cast<size_t>(i)], body_2 = bodies[static_cast<size_t>(j)];
+    double interference = 0.0;  // m, that their interfaces know of
     for (const Surface& surface : surfaces) {
+      if (std::min(surface.part_1, surface.part_2) == i && std::max(surface.part_1, surface.part_2) == j &&
+          surface.interface->has_gap_of_geometry && surface.n_points() > 0)
+        interference = std::max(interference, -surface.facing.gaps.minCoeff());
       if (surface.part_1 == i && surface.part_2 == j) {
         join(body_1, surface.facing.facets_1);
         join(body_2, surface.facing.facets_2);
@@ -225,6 +229,8 @@ std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Su
       }
     }
     pair.neighbours = find_neighbours(body_1, body_2, pair.reach);
+    if (pair.neighbours.intrusion && pair.neighbours.intrusion->depth <= 1.5 * interference)
+      pair.neighbours.intrusion = {};
   });
   std::erase_if(pairs, [](const Unjoined& pair) {
     const Neighbours& found = pair.neighbours;

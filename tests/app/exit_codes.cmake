@@ -7,6 +7,7 @@ function(expect code)
     message(SEND_ERROR "dygita ${command}: exit code ${found}, expected ${code}\n${output}${error}")
   endif()
   set(err "${error}" PARENT_SCOPE)
+  set(out "${output}" PARENT_SCOPE)
 endfunction()
 
 set(wrong ${SOURCE_DIR}/tests/wrong_decks)
@@ -49,6 +50,14 @@ file(WRITE ${signal} "time [ms]\tacceleration [g]\n0\t0\n0.5e-3\t1\n1e-3\t2\n1.5
 expect(0 srs ${signal} --from 500000 --to 600000)
 file(WRITE ${signal} "time [weeks],acceleration [g]\n0,0\n1,1\n")
 expect(2 srs ${signal})
+# A pulse in steps of 1 us, then a millisecond in steps of 100 us: what is sampled once is in the spectrum.
+file(WRITE ${signal} "time [s],acceleration [m/s^2]\n0,0\n1e-6,100\n2e-6,200\n3e-6,100\n4e-6,0\n1e-4,0\n2e-4,0\n3e-4,0\n1e-3,0\n")
+expect(0 srs ${signal} --from 200000 --to 250000 --per-octave 1)
+if(NOT err MATCHES "interpolated every 1e-06 s" OR NOT out MATCHES "200000,([0-9.]+)")
+  message(SEND_ERROR "srs of a signal of two sampling rates: ${err}${out}")
+elseif(CMAKE_MATCH_1 LESS 300)
+  message(SEND_ERROR "srs loses a pulse of a signal of two sampling rates: ${out}")
+endif()
 file(REMOVE ${signal})
 
 # A picture of what is checked, also of what the check refuses.

@@ -263,11 +263,9 @@ problem{ name = "p", substructures = { a, b }, interfaces = { weld }, supports =
   EXPECT_EQ(z.back(), 0.0);
 }
 
-// A block in a pocket with a corner, another mesh, one interface: pressed along x, then along y as well.
-TEST(Contact, around_a_corner_pushes_along_the_normal_of_each_face) {
-  const std::filesystem::path geo =
-      std::filesystem::temp_directory_path() / ("dygita_test_pocket_" + std::to_string(getpid()) + ".geo");
-  std::ofstream(geo) << R"(
+// A block in a pocket with a corner, one interface: pressed along x, then along y as well. The pocket of tetrahedra,
+// and of hexahedra whose nodes are those of the block.
+constexpr const char* pockets[] = {R"(
 L = 0.01;
 Point(1) = {-L, -L, 0}; Point(2) = {L, -L, 0}; Point(3) = {L, 0, 0}; Point(4) = {0, 0, 0}; Point(5) = {0, L, 0}; Point(6) = {-L, L, 0};
 For i In {1:6}
@@ -278,7 +276,31 @@ Plane Surface(1) = {1};
 out[] = Extrude {0, 0, L} { Surface{1}; };
 Physical Volume("pocket") = {out[1]};
 Mesh.MeshSizeMax = 0.005;
-)";
+)",
+                                   R"(
+L = 0.01;
+For i In {0:2}
+  For j In {0:2}
+    Point(1 + 3 * i + j) = {(i - 1) * L, (j - 1) * L, 0};
+  EndFor
+EndFor
+Line(1) = {1, 4}; Line(2) = {4, 5}; Line(3) = {5, 2}; Line(4) = {2, 1};
+Line(5) = {4, 7}; Line(6) = {7, 8}; Line(7) = {8, 5};
+Line(8) = {5, 6}; Line(9) = {6, 3}; Line(10) = {3, 2};
+Curve Loop(1) = {1, 2, 3, 4}; Curve Loop(2) = {5, 6, 7, -2}; Curve Loop(3) = {-3, 8, 9, 10};
+Plane Surface(1) = {1}; Plane Surface(2) = {2}; Plane Surface(3) = {3};
+Transfinite Curve{1:10} = 4; Transfinite Surface{1:3}; Recombine Surface{1:3};
+out[] = Extrude {0, 0, L} { Surface{1:3}; Layers{3}; Recombine; };
+Physical Volume("pocket") = Volume{:};
+)"};
+
+class Pocket : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Meshes, Pocket, testing::ValuesIn(pockets));
+
+TEST_P(Pocket, pushes_along_the_normal_of_each_face) {
+  const std::filesystem::path geo =
+      std::filesystem::temp_directory_path() / ("dygita_test_pocket_" + std::to_string(getpid()) + ".geo");
+  std::ofstream(geo) << GetParam();
   const std::string text = "local file = mesh.gmsh{ file = \"" + geo.string() + R"(" }
 local block = substructure{ name = "block", material = metal, mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 3, 3, 3 } } }
 local pocket = substructure{ name = "pocket", material = metal, mesh = file:volume "pocket" }
@@ -314,6 +336,68 @@ problem{ name = "p", substructures = { b }, supports = { held, flat }, steps = {
     EXPECT_NEAR(run.column("r", "normal").back(), -300.0, 1e-4) << kind;
     EXPECT_NEAR(run.column("r", "shear").back(), 0.0, 1e-4) << kind;
     EXPECT_NEAR(run.column("r", "y").back(), 200.0, 1e-4) << kind;
+  }
+}
+
+// A bar one cell across in guides: every node carries a support, and its motion along the guides is free.
+TEST(FreeMotion, is_pinned_at_a_node_with_supports_where_there_is_no_other) {
+  const std::string bar = R"(
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 5*mm, 5*mm, 100*mm }, cells = { 1, 1, 10 } } }
+local guides = support.symmetry{ name = "guides", on = { b:face "xmin", b:face "xmax", b:face "ymin", b:face "ymax" } }
+local pull = step.static{ name = "pull", loads = { load.force{ on = b:face "zmin", z = -1000 }, load.force{ on = b:face "zmax", z = 1000 } } }
+local function moved(face) return output.history{ name = face, on = b:face(face), quantity = "displacement" } end
+problem{ name = "p", substructures = { b }, supports = { guides }, steps = { pull }, outputs = { moved "zmin", moved "zmax" } }:run{}
+)";
+  for (const char* solver : {"latin{}", "monolithic{}"}) {
+    const DeckRun run = run_kind(bar, 0, solver);
+    EXPECT_NEAR(run.column("zmax", "z").back() - run.column("zmin", "z").back(), 20e-6, 1e-12) << solver;
+  }
+}
+
+// Two glued blocks pulled by 19 um, then the glue lets go: what they had stored is lost, and booked.
+TEST(Release, in_a_static_step_closes_the_balance_with_every_solver) {
+  const std::string glued = R"(
+local function block(name, z) return substructure{ name = name, material = metal, mesh = mesh.box{ origin = { 0, 0, z }, size = { 10*mm, 10*mm, 20*mm }, cells = { 2, 2, 4 } } } end
+local low, high = block("low", 0), block("high", 20*mm)
+local glue = interface.bonded{ name = "glue", between = { low:face "zmax", high:face "zmin" } }
+local base = support.fixed{ name = "base", on = low:face "zmin" }
+local pull = load.displacement{ on = high:face "zmax", x = 0, y = 0, z = 19*um }
+local one = step.static{ name = "one", increments = 2, loads = { pull } }
+local two = step.static{ name = "two", after = one, increments = 2, loads = { pull, load.release{ on = glue, at = 0.5 } } }
+problem{ name = "p", substructures = { low, high }, interfaces = { glue }, supports = { base }, steps = { one, two }, outputs = { output.energy{} } }:run{}
+)";
+  for (const char* solver :
+       {"latin{ static_steps = 'iterated' }", "latin{ static_steps = 'assembled' }", "monolithic{}"}) {
+    const DeckRun run = run_kind(glued, 0, solver);
+    EXPECT_NEAR(run.column("energy", "scheme").back(), 0.5 * 200e9 * 1e-4 / 40e-3 * 19e-6 * 19e-6, 1e-7) << solver;
+    EXPECT_LT(run.figure("energy imbalance [%]"), 1e-4) << solver;
+  }
+}
+
+// A bolt through a sleeve: tightened, once more by the same force, and loosened.
+TEST(Preload, of_nothing_loosens_and_of_the_same_force_raises_no_alarm) {
+  const std::string bolted = R"(
+local function block(name, x, z, w, h, n) return substructure{ name = name, material = metal, mesh = mesh.box{ origin = { x*mm, 0, z*mm }, size = { w*mm, 10*mm, h*mm }, cells = { n, 1, 3 } } } end
+local foot, rod, left, right, head = block("foot", -10, -20, 30, 20, 3), block("rod", 0, 0, 10, 30, 1), block("left", -10, 0, 10, 30, 1), block("right", 10, 0, 10, 30, 1), block("head", -10, 30, 30, 20, 3)
+local function glued(name, low, high) return interface.bonded{ name = name, between = { low:face "zmax", high:face "zmin" } } end
+local shank = glued("shank", rod, head)
+local function seat(name, low) return interface.contact{ name = name, between = { low:face "zmax", head:face "zmin" }, friction = 0.2 } end
+local base = support.fixed{ name = "base", on = foot:face "zmin" }
+local steps = {}
+for i, force in ipairs{ 5000, 5000, 0 } do
+  steps[i] = step.static{ name = "pass" .. i, after = steps[i - 1], increments = 2, loads = { load.preload{ on = shank, force = force } } }
+end
+problem{ name = "p", substructures = { foot, rod, left, right, head }, supports = { base }, steps = steps,
+  interfaces = { glued("thread", foot, rod), shank, glued("feet", foot, left), glued("feet2", foot, right), seat("seat", left), seat("seat2", right) },
+  outputs = { output.joint{ name = "shank", on = shank } } }:run{}
+)";
+  for (const char* solver : {"latin{}", "monolithic{}"}) {
+    const DeckRun run = run_kind(bolted, 0, solver);
+    const std::vector<double>& force = run.column("shank", "normal");
+    EXPECT_NEAR(force.at(1), 5000.0, 1e-2) << solver;
+    EXPECT_NEAR(force.at(3), 5000.0, 1e-2) << solver;
+    EXPECT_NEAR(force.back(), 0.0, 1e-2) << solver;
+    EXPECT_LT(run.result->figures.static_iteration_error.value(), 0.1) << solver;
   }
 }
 

@@ -39,6 +39,39 @@ TEST(LoosePart, rests_where_what_is_under_it_goes_away) {
       }
 }
 
+// Two blocks pressed together at 100 MPa and let go, beside one that stays under load; then the base is shaken.
+const std::string let_go = R"(
+local p = param{ increments = 2, on_wall = 0 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local function block(name, x, z) return substructure{ name = name, material = steel, mesh = mesh.box{ origin = { x, 0, z }, size = { 10*mm, 10*mm, 20*mm }, cells = { 2, 2, 4 } } } end
+local low, high, other = block("low", 0, 0), block("high", 0, 20*mm), block("other", 50*mm, 0)
+local seat = interface.contact{ name = "seat", between = { low:face "zmax", high:face "zmin" }, friction = 0.3 }
+local wall = support.wall{ name = "wall", on = low:face "zmin", friction = 0.3 }
+local held = support.fixed{ name = "held", on = p.on_wall == 1 and { other:face "zmin" } or { low:face "zmin", other:face "zmin" } }
+local function loads(pressure) return { load.pressure{ on = high:face "zmax", history = pressure }, load.pressure{ on = other:face "zmax", history = 300*MPa } } end
+local press = step.static{ name = "press", increments = 2, loads = loads(100*MPa) }
+local let_go = step.static{ name = "let_go", after = press, increments = p.increments, loads = loads(0) }
+local steps = { press, let_go }
+if p.on_wall == 0 then
+  steps[3] = step.dynamic{ name = "shock", after = let_go, duration = 40*us, dt = 0.5*us, loads = { load.pressure{ on = other:face "zmax", history = 300*MPa },
+    load.base_acceleration{ on = held, direction = { 0, 0, 1 }, history = history.half_sine{ peak = 2000, duration = 20*us } } } }
+end
+problem{ name = "let_go", substructures = { low, high, other }, interfaces = { seat }, supports = { held, p.on_wall == 1 and wall or nil }, steps = steps,
+  outputs = { output.joint{ name = "seat", on = seat }, output.momentum{ name = "high", of = high } } }:run{}
+)";
+
+TEST(LoosePart, rests_where_a_load_is_taken_off) {
+  const double momentum = run_text(let_go, {}, 0, "monolithic")[0].column("high", "z").back();
+  EXPECT_GT(momentum, 5e-4);
+  for (const char* n : {"1", "2", "4"}) {
+    const DeckRun shaken = run_text(let_go, {{"increments", n}}, 0, solvers[0])[0];
+    EXPECT_NEAR(shaken.column("high", "z").back(), momentum, 0.03 * momentum) << n;
+    const DeckRun on_wall = run_text(let_go, {{"increments", n}, {"on_wall", "1"}}, 0, solvers[0])[0];
+    EXPECT_NEAR(on_wall.column("seat", "opening").back(), 0.0, 1e-12) << n;
+    EXPECT_LT(on_wall.result->figures.energy_gain.value(), 0.5) << n;
+  }
+}
+
 TEST(LoosePart, is_pushed_by_what_comes) {
   for (const char* solver : solvers) {
     const DeckRun run = run_text(lidded, {{"pull", "4000"}}, 0, solver)[0];
