@@ -81,7 +81,8 @@ void ExplicitRun::start(const std::vector<Body>& bodies, const ExplicitMemory& m
     if (shared_.is_shared(i)) inverse_mass_[i] = 0.0;
   shared_.average(velocity_);
   find_mass_damping(bodies);
-  for (const Motion& motion : model_.conditions.motions) motions_new_.push_back(motion.at_start ? motion.at_start(model_.step->dt) : 0.0);
+  for (const Motion& motion : model_.conditions.motions)
+    motions_new_.push_back(motion.at_start ? motion.at_start(model_.step->dt) : 0.0);
   start_strain_ = state_.energies.strain;
   supplied_ = state_.energies.kinetic + state_.energies.strain;
 }

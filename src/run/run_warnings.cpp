@@ -110,10 +110,10 @@ void warn_of_losses(const Problem& problem, const RunResult& result) {
     return;
   }
   if (lost > limit::numerical_dissipation)
-    warn(
-        fmt::format("numerical dissipation takes {:.1f} % of the energy (impacts; releases; static increments that close a gap): "
-                    "a smaller dt, smaller elements or more static increments reduce it",
-                    lost));
+    warn(fmt::format(
+        "numerical dissipation takes {:.1f} % of the energy (impacts; releases; static increments that close a gap): "
+        "a smaller dt, smaller elements or more static increments reduce it",
+        lost));
   if (gained > limit::energy_gain)
     warn(
         fmt::format("the numerical energy gain is {:.2f} % of the energy: take a smaller dt or tolerance, or more "
