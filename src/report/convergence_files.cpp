@@ -77,12 +77,14 @@ std::string setting_text(const ConvergenceStudy& study, const Levels& levels) {
 }
 
 std::string convergence_text(const ConvergenceStudy& study, const std::vector<FigureConvergence>& figures) {
+  const bool is_tested = study.variations().size() < 2 || study.runs().contains(study.finest());
   std::string text;
   for (const FigureConvergence& figure : figures) {
     text += "  " + figure.name;
     if (figure.limit.size() == 1) text += ": in the limit " + with_unit(figure.limit[0], figure.unit, 5);
-    text += fmt::format(", the finest of each together within {}\n",
-                        certainty(figure, figure.at(study.variations(), study.finest())));
+    text += fmt::format(", the finest of each together within {}{}\n",
+                        certainty(figure, figure.at(study.variations(), study.finest())),
+                        is_tested ? "" : " (their errors added: no run has tested that)");
     for (size_t i = 0; i < study.variations().size(); ++i) text += line_of(study, figure, i);
   }
   return text;
