@@ -188,10 +188,10 @@ Signal read_signal(const SrsCommand& command) {
   return signal;
 }
 
-// Even samples by linear interpolation; answers the time step. It is the shortest of the signal's, so that none of its
-// pulses falls between two samples, unless that makes too many of them.
+// Even samples by linear interpolation; answers the time step. Several to the shortest of the signal's, so that its
+// corners are at samples or next to them, unless that makes too many.
 double make_even(Signal& signal, const std::string& file) {
-  constexpr double most_samples = 5e6;
+  constexpr double most_samples = 5e6, to_shortest = 16.0;
   const size_t n = signal.time.size();
   const double start = signal.time.front(), span = signal.time.back() - start, mean = span / static_cast<double>(n - 1);
   double worst = 0.0, shortest = mean;
@@ -201,11 +201,13 @@ double make_even(Signal& signal, const std::string& file) {
     shortest = std::min(shortest, step);
   }
   if (worst < uneven_sampling) return mean;
-  const double n_steps = std::max(std::min(std::ceil(span / shortest * (1.0 - 1e-6)), most_samples), double(n - 1));
+  const double n_steps =
+      std::max(std::min(std::ceil(to_shortest * span / shortest * (1.0 - 1e-6)), most_samples), double(n - 1));
   const double dt = span / n_steps;
   warn(fmt::format(
-      "{}: the time steps differ by up to {:.0f} % of their mean; values are interpolated every {:g} s{}", file,
-      100.0 * worst, dt,
+      "{}: the time steps differ by up to {:.0f} % of their mean; values are interpolated along straight lines, every "
+      "{:g} s{}",
+      file, 100.0 * worst, dt,
       dt > 1.01 * shortest ? fmt::format(", the shortest step is {:g} s: shorter pulses are lost", shortest) : ""));
   std::vector<double> even(static_cast<size_t>(n_steps) + 1);
   size_t j = 0;

@@ -39,6 +39,7 @@ class Indicator {
   }
   // Changes below this (W) are far below what the indicator sees: a hundredth of the tolerance.
   double quiet(double tolerance) const { return std::pow(1e-2 * tolerance, 2) * largest_; }
+  double largest() const { return largest_; }
   void accept(const Outcome& outcome) {
     largest_ = std::max(largest_, outcome.size);
     largest_force_ = std::max(largest_force_, outcome.force_size);

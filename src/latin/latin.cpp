@@ -198,8 +198,8 @@ StepRun::Best StepRun::answer(int increment, const Goal& goal, bool goes_over_ag
     iterate(increment, {settings_.tolerance, settings_.limit, goal.furthest}, best);
   }
   if (best.outcome.eta > settings_.tolerance && local_.has_preloads()) seat_bolts(increment, bolts, best);
+  rest_loose_parts(increment, goal, best);
   const bool is_solved = best.outcome.eta <= goal.tolerance;
-  if (is_solved) rest_loose_parts(increment, goal, best);
   anderson_.end(own(at_.q), own(at_.image), is_solved);
   if (is_solved) {
     // The pieces have not heard of the last correction.

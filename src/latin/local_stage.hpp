@@ -68,8 +68,9 @@ class LocalStage {
   bool has_preloads() const { return !preloads_.empty(); }
   // Does a force of the law pass between the sides of a point, in the last iteration?
   bool carries(int i_point) const { return !points_[static_cast<size_t>(i_point)].force.isZero(0.0); }
-  // Do the sides of a point hold each other, in the last iteration: by a force, or by a law that would pull?
-  bool links(int i_point) const;
+  // Do the sides of a point hold each other, in the last iteration: by a force, or by a law that would pull? least: W,
+  // of forces that tell something.
+  bool links(int i_point, double least) const;
   // How far (m) its sides may come together; infinite where nothing keeps them apart.
   double gap(int i_point) const;
   const Vec& k() const { return k_; }  // search directions of the near unknowns

@@ -1,5 +1,8 @@
 // Parts that nothing touches at the end of a static increment have been carried along by whatever the iteration came
 // through; they rest (manual, loose parts).
+#include <algorithm>
+#include <cmath>
+
 #include "latin/step_run.hpp"
 
 namespace dygita {
@@ -21,13 +24,15 @@ bool StepRun::leave_loose_parts() {
 }
 
 // What loose parts are carried along in the last iteration, of each port; collective.
-std::vector<Vec3> StepRun::loose_motions() const {
+std::vector<Vec3> StepRun::loose_motions(double size) const {
+  // What the tolerance leaves of forces holds nothing.
+  const double least = std::pow(settings_.tolerance, 2) * std::max(size, indicator_.largest());
   const std::vector<Point>& points = model_.exchange.points;
   constexpr int width = 2;
   std::vector<double> said(width * points.size());  // of each point: is it linked, its gap
   for (const int i : model_.near.points()) {
     double* to = said.data() + width * static_cast<size_t>(i);
-    to[0] = local_.links(i) ? 1.0 : 0.0;
+    to[0] = local_.links(i, least) ? 1.0 : 0.0;
     to[1] = local_.gap(i);
   }
   if (!model_.near.is_all()) {
@@ -47,37 +52,62 @@ std::vector<Vec3> StepRun::loose_motions() const {
                        [&](int point) { return of(point)[1]; }});
 }
 
-// The same where substructures are iterated: any place at which nothing presses is in balance. They rest as far as
-// nothing is in their way; what was to the tolerance beside a large motion may need more iterations without it.
+// Any place at which nothing presses is in balance: loose parts are wherever the iteration has come through, and beside
+// how far they have flown nothing else may count any more. They rest as far as nothing is in their way; what was to the
+// tolerance beside a large motion may need more iterations without it.
 void StepRun::rest_loose_parts(int increment, const Goal& goal, Best& best) {
   constexpr int most = 3;
-  if (!loose_ || assembled_ || !loose_->may_be()) return;
-  const Vec carried = at_.q, uncorrected = at_.uncorrected;
-  const Best before = best;
-  const auto answer = [&] {
+  constexpr double nearly = 1e-6;     // of the indicator: a solution but for loose parts
+  constexpr double rounding = 1e-25;  // of the size of a motion, squares both
+  const double enough = std::max(goal.tolerance, settings_.tolerance);
+  if (!loose_ || !loose_->may_be() || !(best.outcome.eta <= std::max(enough, nearly))) return;
+  const bool was_solved = best.outcome.eta <= enough;
+  if (!was_solved || best.outcome.eta > goal.tolerance) {
+    at_.q = best.q;
+    at_.uncorrected.resize(0);
     linear_stage(at_.q, at_.velocity, true);
+    at_.sums = local_stage(at_.velocity, at_.q, at_.image, true);
+  }
+  const Vec carried = at_.q, velocity = at_.velocity, uncorrected = at_.uncorrected;
+  const Best before = best;
+  const double moved_size = at_.sums.velocity_size;
+  // In one system V is at hand; pieces answer to q.
+  const auto answer = [&] {
+    if (!assembled_) linear_stage(at_.q, at_.velocity, true);
     at_.sums = local_stage(at_.velocity, at_.q, at_.image, true);
   };
   for (int n = 0; n < most; ++n) {
-    const std::vector<Vec3> motions = loose_motions();
+    const std::vector<Vec3> motions = loose_motions(best.outcome.size);
     if (motions.empty()) return;
     for (size_t p = 0; p < motions.size(); ++p)
       for (int d = 0; d < 3; ++d)
-        if (const int i = model_.unknown(model_.exchange.ports[p], d); i >= 0)
+        if (const int i = model_.unknown(model_.exchange.ports[p], d); i >= 0) {
+          at_.velocity[i] -= motions[p][d];
           at_.q[i] -= local_.k()[i] * motions[p][d];  // the same force
+        }
     at_.uncorrected.resize(0);
     answer();
-    if (const Outcome outcome = indicator_.measure(at_.sums); outcome.eta <= goal.tolerance) {
+    Outcome outcome = indicator_.measure(at_.sums);
+    // In one system the same fields but for a motion: what they lack is what rounding leaves of it.
+    const IndicatorSums& sums = at_.sums;
+    if (assembled_ && was_solved && sums.force_distance + sums.velocity_distance <= rounding * moved_size)
+      outcome.eta = std::min(outcome.eta, before.outcome.eta);
+    if (outcome.eta <= enough || (!was_solved && outcome.eta <= before.outcome.eta)) {
       best.outcome = outcome;
       best.q = at_.q;
+      if (outcome.eta <= enough) return;
+    }
+    if (!assembled_) iterate(increment, {enough, settings_.limit, goal.furthest}, best);
+    if (!assembled_ && (best.outcome.eta <= enough || !was_solved)) {
+      if (best.outcome.eta <= enough) continue;
       return;
     }
-    iterate(increment, goal, best);
-    if (best.outcome.eta <= goal.tolerance) continue;
+    if (!was_solved) return;
     const int iterations = best.iterations;
     best = before;
     best.iterations = iterations;
     at_.q = carried;
+    at_.velocity = velocity;
     at_.uncorrected = uncorrected;
     answer();
     return;

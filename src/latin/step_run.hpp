@@ -82,7 +82,7 @@ class StepRun {
   void iterate_assembled(int increment, const Goal& goal, Best& best);
   // Loose parts (loose_parts.cpp), where all pieces are in one system and where they are not.
   bool leave_loose_parts();
-  std::vector<Vec3> loose_motions() const;
+  std::vector<Vec3> loose_motions(double size) const;  // size: W, of the increment's fields
   void rest_loose_parts(int increment, const Goal& goal, Best& best);
   void begin_increment(int increment, bool starts_window);
   std::vector<double> begin_pieces(int increment);

@@ -258,7 +258,9 @@ void ErrorEstimator::accept_static(const Instant& instant) {
   const StressEnergies energies_now = stress_energies(instant);
   // What is left of nothing is rounding.
   most_strain_ = std::max({most_strain_, energies_now.strain, still_.strain});
-  static_.mesh = std::max(static_.mesh, ratio(energies_now.error, std::max(energies_now.strain, 1e-8 * most_strain_)));
+  if (energies_now.strain > carried)
+    static_.mesh =
+        std::max(static_.mesh, ratio(energies_now.error, std::max(energies_now.strain, 1e-8 * most_strain_)));
 }
 
 void ErrorEstimator::sample_stress(const Instant& instant) {

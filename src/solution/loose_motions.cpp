@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "law/law.hpp"
 #include "numerics/dense.hpp"
@@ -65,7 +66,7 @@ LooseMotions::Groups LooseMotions::loose_groups(UnionFind& linked) const {
 // Of what was to be taken back as much as leaves no side inside another one: the nearest by the squares at the ports
 // (Hildreth 1957, one contact after the other).
 void LooseMotions::keep_apart(const Increment& increment, UnionFind& linked, double precision, Groups& groups) const {
-  constexpr int most_sweeps = 2000;
+  constexpr int most_sweeps = 5000, some_sweeps = 100;
   struct Contact {
     double gap, pressed = 0.0, inverse = 0.0;
     struct End {
@@ -79,7 +80,8 @@ void LooseMotions::keep_apart(const Increment& increment, UnionFind& linked, dou
   for (size_t i = 0; i < exchange.points.size(); ++i) {
     const Point& point = exchange.points[i];
     if (!point.law) continue;
-    Contact contact{increment.gap(static_cast<int>(i)), 0.0, 0.0, {}};
+    // Apart by more than the sweeps leave: a force would answer to what is left of a penetration.
+    Contact contact{increment.gap(static_cast<int>(i)) - 2.0 * precision, 0.0, 0.0, {}};
     if (!std::isfinite(contact.gap)) continue;
     for (const auto& [p, sign] : {std::pair{point.first_port, -1.0}, {point.first_port_2, 1.0}}) {
       if (p == point.end_port) continue;  // a wall
@@ -93,8 +95,9 @@ void LooseMotions::keep_apart(const Increment& increment, UnionFind& linked, dou
     for (const Contact::End& end : contact.ends) contact.inverse += end.closing.dot(end.answer);
     if (contact.inverse > 0.0 && !is_one) contacts.push_back(std::move(contact));
   }
-  double worst = std::numeric_limits<double>::infinity();
+  double worst = std::numeric_limits<double>::infinity(), earlier = worst;
   for (int sweep = 0; sweep < most_sweeps && worst > precision; ++sweep) {
+    if (sweep % some_sweeps == 0 && worst > 0.9 * std::exchange(earlier, worst)) break;
     worst = 0.0;
     for (Contact& contact : contacts) {
       double closed = -contact.gap;

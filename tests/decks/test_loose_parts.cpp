@@ -72,6 +72,58 @@ TEST(LoosePart, rests_where_a_load_is_taken_off) {
   }
 }
 
+// Blocks in a row, a micrometre apart: the first one is moved by 5 um and back to -5 um, or drawn away at once.
+TEST(LoosePart, in_a_row_moves_as_far_as_it_is_pushed) {
+  const std::string row = R"(
+local p = param{ first = 5, second = -5 }
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 8000 }
+local blocks, seats, sides, outputs = {}, {}, {}, {}
+for i = 1, 4 do
+  blocks[i] = substructure{ name = "b" .. i, material = steel, mesh = mesh.box{ size = { 5*mm, 5*mm, 10*mm }, cells = { 1, 1, 2 }, origin = { 0, 0, (i - 1) * 10*mm } } }
+  sides[#sides + 1], sides[#sides + 2] = blocks[i]:face "xmin", blocks[i]:face "ymin"
+  if i > 1 then seats[i - 1] = interface.contact{ name = "c" .. i, between = { blocks[i - 1]:face "zmax", blocks[i]:face "zmin" }, gap = 1*um } end
+  outputs[i] = output.history{ name = "u" .. i, on = blocks[i]:face "zmax", quantity = "displacement", direction = { 0, 0, 1 } }
+end
+local guide = support.symmetry{ name = "guide", on = sides }
+local function move(name, after, z) return step.static{ name = name, after = after, loads = { load.displacement{ on = blocks[1]:face "zmin", z = z*um } } } end
+local one = move("one", nil, p.first)
+problem{ name = "row", substructures = blocks, interfaces = seats, supports = { guide }, steps = { one, move("two", one, p.second) }, outputs = outputs }:run{}
+)";
+  for (const char* solver : {solvers[0], solvers[1]}) {
+    const DeckRun pushed = run_text(row, {}, 0, solver)[0], drawn = run_text(row, {{"first", "-5"}}, 0, solver)[0];
+    const std::vector<double> ends = {-5e-6, 4e-6, 3e-6, 2e-6};
+    for (int i = 0; i < 4; ++i) {
+      const std::string name = "u" + std::to_string(i + 1);
+      EXPECT_NEAR(pushed.column(name, "displacement").back(), ends[static_cast<size_t>(i)], 1e-12) << solver << name;
+      EXPECT_NEAR(drawn.column(name, "displacement").back(), i == 0 ? -5e-6 : 0.0, 1e-12) << solver << name;
+    }
+  }
+}
+
+// Plates pressed at 100 MPa and let go, whose meshes do not match: a lid must not fly.
+TEST(LoosePart, between_unlike_meshes_stays_where_it_was) {
+  const std::string plates = R"(
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 8000 }
+local parts, seats, outputs = {}, {}, {}
+for i = 1, 3 do
+  local n = i % 2 == 0 and 2 or 3
+  parts[i] = substructure{ name = "p" .. i, material = steel, mesh = mesh.box{ size = { 20*mm, 20*mm, 5*mm }, cells = { n, n, 2 }, origin = { 0, 0, (i - 1) * 5*mm } } }
+  if i > 1 then seats[i - 1] = interface.contact{ name = "c" .. i, between = { parts[i - 1]:face "zmax", parts[i]:face "zmin" } } end
+  outputs[i] = output.history{ name = "u" .. i, on = parts[i]:face "zmax", quantity = "displacement", direction = { 0, 0, 1 } }
+end
+local base = support.fixed{ name = "base", on = parts[1]:face "zmin" }
+local function press(name, after, p) return step.static{ name = name, after = after, loads = { load.pressure{ on = parts[3]:face "zmax", history = p } } } end
+local on = press("on", nil, 100*MPa)
+problem{ name = "plates", substructures = parts, interfaces = seats, supports = { base }, steps = { on, press("off", on, 0) }, outputs = outputs }:run{}
+)";
+  for (const char* solver : solvers) {
+    const DeckRun run = run_text(plates, {}, 0, solver)[0];
+    EXPECT_TRUE(run.result->converged) << solver;
+    for (const char* name : {"u1", "u2", "u3"})
+      EXPECT_NEAR(run.column(name, "displacement").back(), 0.0, 1e-8) << solver << name;
+  }
+}
+
 TEST(LoosePart, is_pushed_by_what_comes) {
   for (const char* solver : solvers) {
     const DeckRun run = run_text(lidded, {{"pull", "4000"}}, 0, solver)[0];
