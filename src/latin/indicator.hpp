@@ -26,6 +26,9 @@ class Indicator {
       : largest_motion_(largest_motion), force_share_(force_share) {}
   // energy: kinetic + strain + |work of loads| seen so far, J.
   void raise_floor(double energy, double dt) { floor_ = std::max(floor_, 1e-12 * energy / dt); }
+  // The same when a static step starts: one that does nothing has not to settle what the tolerance has left of those
+  // before. Its forces are right to the tolerance of a thousandth of theirs.
+  void start_from(double energy) { floor_ = std::max(floor_, 1e-6 * energy); }
   Outcome measure(const IndicatorSums& sums) const {
     constexpr double tiny = std::numeric_limits<double>::min();
     const double size = sums.force_size + sums.velocity_size;
