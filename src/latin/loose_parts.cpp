@@ -92,17 +92,18 @@ void StepRun::rest_loose_parts(int increment, const Goal& goal, Best& best) {
     const IndicatorSums& sums = at_.sums;
     if (assembled_ && was_solved && sums.force_distance + sums.velocity_distance <= rounding * moved_size)
       outcome.eta = std::min(outcome.eta, before.outcome.eta);
-    if (outcome.eta <= enough || (!was_solved && outcome.eta <= before.outcome.eta)) {
+    const bool is_enough = outcome.eta <= enough;
+    if (is_enough || (!was_solved && outcome.eta <= before.outcome.eta)) {
       best.outcome = outcome;
       best.q = at_.q;
-      if (outcome.eta <= enough) return;
     }
-    if (!assembled_) iterate(increment, {enough, settings_.limit, goal.furthest}, best);
-    if (!assembled_ && (best.outcome.eta <= enough || !was_solved)) {
+    if (is_enough) return;
+    if (!assembled_) {
+      iterate(increment, {enough, settings_.limit, goal.furthest}, best);
       if (best.outcome.eta <= enough) continue;
-      return;
     }
     if (!was_solved) return;
+    // It was a solution as it was.
     const int iterations = best.iterations;
     best = before;
     best.iterations = iterations;
