@@ -56,6 +56,7 @@ void CoarseCorrection::make_shapes(const StepModel& model, const Vec& k, const s
     const Substructure& part = *model.cut->piece(ports[tied.port].piece).body;
     return Vec3(part.mesh->nodes.col(ports[tied.port].piece_node) + part.place);
   };
+  // Middle and reach of the tied nodes of each piece: who has it knows them all.
   std::vector<Vec3> centre(n, Vec3::Zero());
   std::vector<double> count(n, 0.0), length(n, 0.0);
   for (const Side& side : sides)
@@ -63,12 +64,16 @@ void CoarseCorrection::make_shapes(const StepModel& model, const Vec& k, const s
       centre[ports[tied.port].piece] += place(tied);
       ++count[ports[tied.port].piece];
     }
-  for (size_t i = 0; i < n; ++i) centre[i] /= std::max(count[i], 1.0);
+  const std::vector<double> centres = of_all_pieces(*model.cut, 3, [&](int i, double* to) {
+    Eigen::Map<Vec3>{to} = centre[static_cast<size_t>(i)] / std::max(count[static_cast<size_t>(i)], 1.0);
+  });
+  for (size_t i = 0; i < n; ++i) centre[i] = Eigen::Map<const Vec3>(centres.data() + 3 * i);
   for (const Side& side : sides)
     for (const Tied& tied : side) {
       double& reach = length[ports[tied.port].piece];
       reach = std::max(reach, (place(tied) - centre[ports[tied.port].piece]).norm());
     }
+  length = of_all_pieces(*model.cut, 1, [&](int i, double* to) { *to = length[static_cast<size_t>(i)]; });
 
   struct Entry {
     int row, motion;
@@ -78,6 +83,7 @@ void CoarseCorrection::make_shapes(const StepModel& model, const Vec& k, const s
   for (const Side& side : sides)
     for (const Tied& tied : side) {
       const int own = ports[tied.port].piece;
+      if (!model.cut->is_here(own)) continue;
       Local& local = pieces_[own];
       const int row = static_cast<int>(local.tied.size());
       local.tied.push_back(tied.unknown);
@@ -93,7 +99,7 @@ void CoarseCorrection::make_shapes(const StepModel& model, const Vec& k, const s
         }
       }
     }
-  for (size_t i = 0; i < n; ++i) {
+  for (const int i : model.here) {
     Local& local = pieces_[i];
     std::map<int, int> columns;
     for (const Entry& entry : entries[i]) columns[entry.motion] = 0;
@@ -106,6 +112,24 @@ void CoarseCorrection::make_shapes(const StepModel& model, const Vec& k, const s
     local.k.resize(local.tied.size());
     for (size_t r = 0; r < local.tied.size(); ++r) local.k[r] = local.balances[r] ? k[local.tied[r]] : 0.0;
   }
+  complete_motions(*model.cut);
+}
+
+// Which coarse motions reach each piece is known everywhere.
+void CoarseCorrection::complete_motions(const Cut& cut) {
+  if (ranks::is_alone()) return;
+  const std::vector<double> n_motions =
+      of_all_pieces(cut, 1, [&](int i, double* to) { *to = static_cast<double>(pieces_[i].motions.size()); });
+  const std::vector<int> sizes(n_motions.begin(), n_motions.end());
+  std::vector<double> all;
+  for (size_t i = 0; i < pieces_.size(); ++i) {
+    pieces_[i].motions.resize(static_cast<size_t>(sizes[i]), 0);
+    all.insert(all.end(), pieces_[i].motions.begin(), pieces_[i].motions.end());
+  }
+  segments_of(cut, sizes).complete(all.data());
+  const double* motion = all.data();
+  for (Local& local : pieces_)
+    for (int& own : local.motions) own = static_cast<int>(*motion++);
 }
 
 Mat CoarseCorrection::respond(const Piece& piece, int offset, Local& local) {
@@ -131,7 +155,7 @@ Mat CoarseCorrection::respond(const Piece& piece, int offset, Local& local) {
 
 CoarseCorrection::CoarseCorrection(const StepModel& model, const Vec& k) {
   const std::vector<Side> sides = find_sides(model, k);
-  if (sides.empty()) return;
+  if (!ranks::any(!sides.empty())) return;
   const int n = static_cast<int>(model.pieces.size());
   pieces_.resize(n);
   make_shapes(model, k, sides);
@@ -143,12 +167,8 @@ CoarseCorrection::CoarseCorrection(const StepModel& model, const Vec& k) {
   complete_shares(model, share);
   here_ = model.here;
   for (int i = 0; i < n; ++i) {
-    const bool is_here = model.cut->is_here(i);
-    for (std::vector<int>* unknowns : {&pieces_[i].tied, &pieces_[i].rest}) {
-      if (!is_here) unknowns->clear();
+    for (std::vector<int>* unknowns : {&pieces_[i].tied, &pieces_[i].rest})
       for (int& unknown : *unknowns) unknown = model.near.at(unknown);
-    }
-    if (!is_here) pieces_[i].shape.resize(0, 0);
   }
   std::vector<int> sizes;
   for (const Local& local : pieces_) sizes.push_back(static_cast<int>(local.motions.size()));
@@ -169,13 +189,13 @@ CoarseCorrection::CoarseCorrection(const StepModel& model, const Vec& k) {
   amount_.resize(6 * n);
 }
 
-// Those of pieces elsewhere; how many coarse motions reach each is known everywhere.
+// Those of pieces elsewhere.
 void CoarseCorrection::complete_shares(const StepModel& model, std::vector<Mat>& share) const {
   if (ranks::is_alone()) return;
   std::vector<int> sizes;
   Eigen::Index n = 0;
   for (size_t i = 0; i < share.size(); ++i) {
-    const auto c = static_cast<Eigen::Index>(pieces_[i].tied.empty() ? 0 : pieces_[i].motions.size());
+    const auto c = static_cast<Eigen::Index>(pieces_[i].motions.size());
     if (!model.cut->is_here(static_cast<int>(i))) share[i].resize(c, c);
     sizes.push_back(static_cast<int>(c * c));
     n += c * c;

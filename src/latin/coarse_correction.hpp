@@ -43,6 +43,7 @@ class CoarseCorrection {
   // Data and answers of a piece; returns its share of the coarse stiffness (c x c).
   static Mat respond(const Piece& piece, int offset, Local& local);
 
+  void complete_motions(const Cut& cut);
   void complete_shares(const StepModel& model, std::vector<Mat>& share) const;
 
   std::vector<Local> pieces_;

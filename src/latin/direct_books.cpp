@@ -15,12 +15,15 @@ constexpr int few_shown = 1000, few_booked = 10000;
 
 }  // namespace
 
+// On any rank.
 void DirectPoints::find_released() {
+  std::vector<double> is_direct(model_->surfaces->size(), 0.0);
   for (const Point& point : model_->exchange.points)
     for (const Member& member : point.members)
-      if (point.is_direct && (*model_->surfaces)[member.surface].interface) released_.push_back(member.surface);
-  std::sort(released_.begin(), released_.end());
-  released_.erase(std::unique(released_.begin(), released_.end()), released_.end());
+      if (point.is_direct) is_direct[static_cast<size_t>(member.surface)] = 1.0;
+  if (!model_->near.is_all()) is_direct = ranks::sums(is_direct);
+  for (size_t s = 0; s < is_direct.size(); ++s)
+    if (is_direct[s] > 0.0 && (*model_->surfaces)[s].interface) released_.push_back(static_cast<int>(s));
 }
 
 void DirectPoints::begin_interval(int increment) {

@@ -6,13 +6,19 @@
 
 namespace dygita {
 
-// Those whose laws are iterated, anywhere, by the interface that loads act on.
+// Those whose laws are iterated, on any rank, by the interface that loads act on.
 void LocalStage::find_surfaces() {
-  for (const Point& point : model_->exchange.points) {
-    if (point.is_direct || !point.law) continue;
-    const Interface* interface = (*model_->surfaces)[point.members.front().surface].interface;
+  std::vector<double> is_iterated(model_->surfaces->size(), 0.0);
+  for (const int i : model_->near.points()) {
+    const Point& point = model_->exchange.points[i];
     for (const Member& member : point.members)
-      if (interface && !model_->loads->preload(interface)) interfaces_[member.surface] = interface;
+      if (point.law) is_iterated[static_cast<size_t>(member.surface)] = 1.0;
+  }
+  if (!model_->near.is_all()) is_iterated = ranks::sums(is_iterated);
+  for (size_t s = 0; s < is_iterated.size(); ++s) {
+    const Interface* interface = (*model_->surfaces)[s].interface;
+    if (is_iterated[s] > 0.0 && interface && !model_->loads->preload(interface))
+      interfaces_[static_cast<int>(s)] = interface;
   }
 }
 

@@ -184,9 +184,7 @@ bool LocalStage::links(int i_point, double least) const {
 double LocalStage::gap(int i_point) const {
   const Point& point = model_->exchange.points[static_cast<size_t>(i_point)];
   const PointRecord& record = points_[static_cast<size_t>(i_point)];
-  if (!point.law || !point.has_law[0] || !point.law->shown().gap || record.is_released)
-    return std::numeric_limits<double>::infinity();
-  return point.law->opening(end_of_point(point, record, increment_at(point)));
+  return gap_of(point, record, increment_at(point));
 }
 
 void LocalStage::run_point(size_t i_point, const Vec& velocity, const Vec& q, Vec& image) {

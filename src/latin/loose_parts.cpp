@@ -27,29 +27,10 @@ bool StepRun::leave_loose_parts() {
 std::vector<Vec3> StepRun::loose_motions(double size) const {
   // What the tolerance leaves of forces holds nothing.
   const double least = std::pow(settings_.tolerance, 2) * std::max(size, indicator_.largest());
-  const std::vector<Point>& points = model_.exchange.points;
-  constexpr int width = 2;
-  std::vector<double> said(width * points.size());  // of each point: is it linked, its gap
-  for (const int i : model_.near.points()) {
-    double* to = said.data() + width * static_cast<size_t>(i);
-    to[0] = local_.links(i, least) ? 1.0 : 0.0;
-    to[1] = local_.gap(i);
-  }
-  if (!model_.near.is_all()) {
-    std::vector<int> owner, offset{0};
-    for (const Point& point : points) {
-      owner.push_back(DistantPoints::booking(model_, point));
-      offset.push_back(offset.back() + 1);
-    }
-    ranks::Segments(owner, offset).complete(said.data(), width);
-  }
-  const Vec velocity = model_.near.assembled(at_.velocity);
-  const auto of = [&](int point) { return said.data() + width * static_cast<size_t>(point); };
-  return loose_->find({[&](int point) { return of(point)[0] != 0.0; },
-                       [&](int p, int d) {
-                         return velocity[model_.assembled_unknown(model_.exchange.ports[static_cast<size_t>(p)], d)];
-                       },
-                       [&](int point) { return of(point)[1]; }});
+  return loose_->find(
+      {[&](int point) { return local_.links(point, least); },
+       [&](int p, int d) { return at_.velocity[model_.unknown(model_.exchange.ports[static_cast<size_t>(p)], d)]; },
+       [&](int point) { return local_.gap(point); }});
 }
 
 // Any place at which nothing presses is in balance: loose parts are wherever the iteration has come through, and beside

@@ -209,28 +209,34 @@ void StepRun::check_finite(const Outcome& outcome, int increment) const {
                   model_.step->name, increment + 1, files_.state.time, place_of_divergence()));
 }
 
-// " at substructure 'rod', interface 'thread'": where a velocity is not a number, or else is largest.
+// " at substructure 'rod', interface 'thread'": where a velocity is not a number, or else is largest; collective.
 std::string StepRun::place_of_divergence() const {
   const Exchange& exchange = model_.exchange;
-  const Vec velocity = model_.near.assembled(at_.velocity);
   const Port* worst = nullptr;
   const Point* at = nullptr;
   double largest = -1.0;
-  for (const Point& point : exchange.points)
+  for (const int i : model_.near.points()) {
+    const Point& point = exchange.points[static_cast<size_t>(i)];
     for (int p = point.first_port; p < point.end_port && std::isfinite(largest); ++p)
       for (int d = 0; d < 3; ++d) {
-        const int i = model_.assembled_unknown(exchange.ports[p], d);
-        const double size = i < 0 || i >= velocity.size() ? -1.0 : std::abs(velocity[i]);
+        const int unknown = model_.unknown(exchange.ports[p], d);
+        const double size = unknown < 0 || unknown >= at_.velocity.size() ? -1.0 : std::abs(at_.velocity[unknown]);
         if (size <= largest) continue;
         largest = std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
         worst = &exchange.ports[p];
         at = &point;
       }
-  if (!worst) return "";
-  std::string place = fmt::format(" at substructure '{}'", model_.problem->substructures[worst->part]->name);
-  if (!at->members.empty())
+  }
+  std::string place;
+  if (worst) place = fmt::format(" at substructure '{}'", model_.problem->substructures[worst->part]->name);
+  if (worst && !at->members.empty())
     place += fmt::format(", interface '{}'", (*model_.surfaces)[at->members.front().surface].name());
-  return place;
+  if (model_.near.is_all()) return place;
+  // Of the first rank where it is largest.
+  const std::vector<std::vector<double>> of_all = ranks::of_all({largest});
+  const auto first = std::max_element(of_all.begin(), of_all.end());
+  const std::vector<std::string> places = ranks::gathered(place);
+  return ranks::shared(places.empty() ? "" : places[static_cast<size_t>(first - of_all.begin())]);
 }
 
 std::string StepRun::describe_progress() const {

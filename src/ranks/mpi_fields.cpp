@@ -61,6 +61,27 @@ void Segments::collect(double* values, int width, bool on_all) const {
   }
 }
 
+std::vector<std::vector<double>> of_all(const std::vector<double>& own) {
+  if (count() == 1) return {own};
+  std::vector<int> ranks, each{0}, starts{0};
+  for (int rank = 0; rank < count(); ++rank) {
+    ranks.push_back(rank);
+    each.push_back(rank + 1);
+  }
+  std::vector<double> sizes(ranks.size());
+  sizes[static_cast<size_t>(me())] = static_cast<double>(own.size());
+  Segments(ranks, each).complete(sizes.data());
+  for (const double size : sizes)
+    starts.push_back(as_count(static_cast<size_t>(starts.back()) + static_cast<size_t>(size)));
+  std::vector<double> values(static_cast<size_t>(starts.back()));
+  std::copy(own.begin(), own.end(), values.begin() + starts[static_cast<size_t>(me())]);
+  Segments(ranks, starts).complete(values.data());
+  std::vector<std::vector<double>> of_all;
+  for (size_t rank = 0; rank < ranks.size(); ++rank)
+    of_all.emplace_back(values.begin() + starts[rank], values.begin() + starts[rank + 1]);
+  return of_all;
+}
+
 Neighbours::Neighbours(const std::vector<int>& owner, const std::vector<std::vector<int>>& readers, int width)
     : width_(width) {
   std::vector<Peer> of_rank(static_cast<size_t>(count()));

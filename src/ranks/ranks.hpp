@@ -41,6 +41,8 @@ std::string shared(std::string bytes);
 std::vector<double> shared(std::vector<double> values);
 // Every rank's bytes, on rank 0 in their order; empty on the others.
 std::vector<std::string> gathered(const std::string& bytes);
+// Every rank's numbers, on all in the ranks' order.
+std::vector<std::vector<double>> of_all(const std::vector<double>& own);
 // Numbers for each rank; returns what each has for this one.
 std::vector<std::vector<int>> swapped(const std::vector<std::vector<int>>& to_each);
 // Values of rank `owner`, on rank 0; on the others as they were given.

@@ -145,6 +145,10 @@ void MonolithicRun::leave_loose_parts(InterfaceNewton::Outcome& outcome) {
                       const Point& point =
                           model_.exchange.points[static_cast<size_t>(point_of[static_cast<size_t>(p)])];
                       return point.frame.col(d).dot(port.motion(moved[static_cast<size_t>(port.part)]));
+                    },
+                    [&](int i) {
+                      const Point& point = model_.exchange.points[static_cast<size_t>(i)];
+                      return gap_of(point, records_[static_cast<size_t>(i)], increment_);
                     }});
   if (motions.empty()) return;
   const Vec found = newton_.reduced_force();

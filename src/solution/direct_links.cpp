@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include "base/error.hpp"
 #include "solution/node_groups.hpp"
 
 namespace dygita {
@@ -69,6 +70,13 @@ NearDirect near_direct(const Cut& cut, const Exchange& exchange) {
       near.nodes.push_back({at.first, at.second, {readers.begin(), readers.end()}});
     }
   return near;
+}
+
+const std::vector<int>& NearDirect::readers_at(int piece, int node) const {
+  const auto at = std::lower_bound(nodes.begin(), nodes.end(), std::pair(piece, node),
+                                   [](const Node& a, const auto& b) { return std::pair(a.piece, a.node) < b; });
+  CHECK(at != nodes.end() && at->piece == piece && at->node == node, "a node at a point that this rank solves");
+  return at->readers;
 }
 
 std::vector<int> NearDirect::nodes_of(int piece) const {

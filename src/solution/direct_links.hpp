@@ -20,6 +20,8 @@ struct NearDirect {
   std::vector<Node> nodes;   // that near points act on, by piece and node
 
   std::vector<int> nodes_of(int piece) const;
+  // Of such a node.
+  const std::vector<int>& readers_at(int piece, int node) const;
 };
 NearDirect near_direct(const Cut& cut, const Exchange& exchange);
 

@@ -2,7 +2,6 @@
 // where an output reads its fields.
 #pragma once
 
-#include <map>
 #include <vector>
 
 #include "solution/step_model.hpp"
@@ -14,7 +13,7 @@ class DistantPoints {
   // Question::what, of a surface; those that are asked of pieces are not negative.
   static constexpr int asked = -1;
 
-  // state: of all surfaces, known to all ranks at the start of a step.
+  // state: of all surfaces, known to all ranks at the start of a step. Collective.
   DistantPoints(const StepModel& model, State& state);
 
   // Rank that books a point: who has the piece of its first port.
@@ -31,11 +30,16 @@ class DistantPoints {
   void complete_all();
 
  private:
+  // Do other ranks book points of a surface?
+  bool has_others(size_t surface) const {
+    return n_ranks_[surface] > 1 || (n_ranks_[surface] == 1 && own_[surface].empty());
+  }
   void complete_some(size_t first, size_t end);
 
   State* state_;
-  std::vector<std::vector<int>> here_;
-  std::vector<std::map<int, std::vector<int>>> booked_;  // of each surface, the points of each rank
+  std::vector<std::vector<int>> here_, own_;
+  std::vector<int> n_ranks_;               // of each surface, those that book points of it
+  std::vector<std::vector<int>> booking_;  // on rank 0, of each surface: which ranks these are, but itself
   mutable std::vector<char> is_known_;
 };
 

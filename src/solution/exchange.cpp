@@ -9,6 +9,7 @@
 
 #include "law/law.hpp"
 #include "solution/direct_links.hpp"
+#include "solution/near_points.hpp"
 #include "solution/node_groups.hpp"
 #include "solution/point_frames.hpp"
 #include "solution/spread_points.hpp"
@@ -28,13 +29,14 @@ struct LawCluster {
 class Builder {
  public:
   Builder(const Problem& problem, const Step& step, const Cut& cut, const std::vector<Surface>& surfaces,
-          const Conditions& conditions, const std::vector<char>& explicit_pieces)
+          const Conditions& conditions, const std::vector<char>& explicit_pieces, const Reach& reach)
       : problem_(problem),
         step_(step),
         cut_(cut),
         surfaces_(surfaces),
         conditions_(conditions),
         explicit_pieces_(explicit_pieces),
+        reach_(reach),
         axes_(problem) {
     exchange_.n_unknowns.assign(cut.n_pieces(), 0);
   }
@@ -48,7 +50,7 @@ class Builder {
     SpreadPoints spread_points(problem_, step_, cut_, conditions_, axes_, exchange_);
     for (size_t s = 0; s < surfaces_.size(); ++s)
       if (is_in_force(surfaces_[s]) && !surfaces_[s].facing.matches())
-        spread_points.add(surfaces_[s], static_cast<int>(s));
+        spread_points.add(surfaces_[s], static_cast<int>(s), reach_);
     for (const auto& [group, ports] : members_) {
       // A group under one law is tied by that law's point; otherwise it needs a point of its own.
       if (ports.size() < 2 || n_laws_[group] == 1) continue;
@@ -57,7 +59,11 @@ class Builder {
     }
     add_ties();
     if (!explicit_pieces_.empty()) find_direct(cut_, explicit_pieces_, exchange_);
-    number_unknowns();
+    for (Point& point : exchange_.points)
+      point.is_everywhere = point.law && reach_.is_everywhere(point.members.front().surface);
+    if (!reach_.is_all()) keep_near(cut_, exchange_);
+    number_unknowns(cut_, reach_.is_all(), exchange_);
+    exchange_.splits = TieSplits(exchange_.points, exchange_.ties, surfaces_);
     return std::move(exchange_);
   }
 
@@ -75,8 +81,10 @@ class Builder {
   int node_of(const NodeKey& key) const { return cut_.piece(key.first).node(key.second); }
 
   void make_groups() {
-    for (const Surface& surface : surfaces_)
+    for (size_t s = 0; s < surfaces_.size(); ++s) {
+      const Surface& surface = surfaces_[s];
       for (int i = 0; i < surface.n_points() && matches(surface); ++i) {
+        if (!reach_.has(static_cast<int>(s), i)) continue;
         if (!surface.law && surface.part_2 >= 0) groups_.tie(side(surface, i, 1), side(surface, i, 2));
         for (int which = 1; which <= (surface.part_2 >= 0 ? 2 : 1); ++which) {
           const NodeKey owner = side(surface, i, which);
@@ -85,6 +93,7 @@ class Builder {
             area_[{copy.piece, copy.node}] += copy.share * surface.facing.areas[i];
         }
       }
+    }
     tie_copies();
     for (const NodeKey& key : groups_.keys()) members_[groups_.of(key)].push_back(key);
     for (auto& [group, keys] : members_) std::sort(keys.begin(), keys.end());
@@ -109,9 +118,9 @@ class Builder {
   void tie_copies() {
     for (int part = 0; part < static_cast<int>(problem_.substructures.size()); ++part) {
       if (!cut_.is_cut(part)) continue;
-      for (int node = 0; node < problem_.substructures[part]->mesh->n_nodes(); ++node) {
+      for (const auto& [node, others] : cut_.on_cuts(part)) {
         const std::vector<Copy> copies = cut_.copies(part, node);
-        if (copies.size() < 2) continue;
+        if (!reach_.has({copies[0].piece, copies[0].node})) continue;
         for (const Copy& copy : copies) {
           area_[{copy.piece, copy.node}] += cut_.piece(copy.piece).cut_areas[copy.node];
           groups_.tie({copies[0].piece, copies[0].node}, {copy.piece, copy.node});
@@ -128,6 +137,7 @@ class Builder {
       const Surface& surface = surfaces_[s];
       if (!surface.law || !matches(surface)) continue;
       for (int i = 0; i < surface.n_points(); ++i) {
+        if (!reach_.has(static_cast<int>(s), i)) continue;
         const int group_1 = groups_.of(side(surface, i, 1));
         const int group_2 = surface.part_2 >= 0 ? groups_.of(side(surface, i, 2)) : -1;
         if (group_1 == group_2) fail_same_group(surface, i);
@@ -215,17 +225,6 @@ class Builder {
     exchange_.points.push_back(std::move(point));
   }
 
-  void number_unknowns() {
-    for (const Point& point : exchange_.points)
-      for (int d = 0; d < 3; ++d) {
-        if (!point.is_active[d] || point.is_direct) continue;
-        for (int p = point.first_port; p < point.end_port; ++p) {
-          Port& port = exchange_.ports[p];
-          if (!port.is_held[d]) port.unknown[d] = exchange_.n_unknowns[port.piece]++;
-        }
-      }
-  }
-
   Port make_port(const NodeKey& key, const Mat3& frame) const {
     Port port;
     std::tie(port.piece, port.piece_node) = key;
@@ -290,6 +289,7 @@ class Builder {
       const Surface& surface = surfaces_[s];
       if (surface.law || surface.part_2 < 0 || !matches(surface)) continue;
       for (int i = 0; i < surface.n_points(); ++i) {
+        if (!reach_.has(static_cast<int>(s), i)) continue;
         const int index = point_of_group_.at(groups_.of(side(surface, i, 1)));
         const Point& point = exchange_.points[index];
         const auto port_of = [&](const NodeKey& key) {
@@ -309,7 +309,6 @@ class Builder {
       tie = std::find_if(tie, exchange_.ties.end(), [i](const Tie& t) { return t.point != i; });
       exchange_.points[i].end_tie = static_cast<int>(tie - exchange_.ties.begin());
     }
-    exchange_.splits = TieSplits(exchange_.points, exchange_.ties, surfaces_);
   }
 
   const Problem& problem_;
@@ -318,6 +317,7 @@ class Builder {
   const std::vector<Surface>& surfaces_;
   const Conditions& conditions_;
   const std::vector<char>& explicit_pieces_;
+  const Reach& reach_;
   const FrameAxes axes_;
   Exchange exchange_;
   NodeGroups groups_;
@@ -343,8 +343,8 @@ void spread(const Cut& cut, const Port& port, const Vec3& force, Points& on_piec
 }
 
 Exchange make_exchange(const Problem& problem, const Step& step, const Cut& cut, const std::vector<Surface>& surfaces,
-                       const Conditions& conditions, const std::vector<char>& explicit_pieces) {
-  Exchange exchange = Builder(problem, step, cut, surfaces, conditions, explicit_pieces).build();
+                       const Conditions& conditions, const std::vector<char>& explicit_pieces, const Reach& reach) {
+  Exchange exchange = Builder(problem, step, cut, surfaces, conditions, explicit_pieces, reach).build();
   exchange.ports.shrink_to_fit();
   exchange.points.shrink_to_fit();
   exchange.ties.shrink_to_fit();

@@ -10,6 +10,7 @@
 
 #include "solution/conditions.hpp"
 #include "solution/cut.hpp"
+#include "solution/reach.hpp"
 #include "solution/surfaces.hpp"
 
 namespace dygita {
@@ -56,6 +57,7 @@ struct Point {
   std::array<bool, 3> has_law{};                       // directions on which the law acts in this step
   std::array<bool, 3> is_active{};                     // directions that carry an unknown
   bool is_direct = false;                              // solved in closed form, without unknowns (manual, eq. G4-G6)
+  bool is_everywhere = false;                          // solved by all ranks (a bolt whose shortening is searched for)
   std::vector<Member> members;
 };
 
@@ -81,6 +83,7 @@ class TieSplits {
   std::vector<Mat> splits_;
 };
 
+// Of several ranks each has the points that it solves, in the order that they have where one process has all.
 struct Exchange {
   std::vector<Port> ports;
   std::vector<Point> points;
@@ -94,8 +97,9 @@ struct Exchange {
 //
 // Builds the points of a step from the surfaces that have a part in it and what the step holds. Throws InputError when
 // both sides of a law belong to one group (a bolt shortened between bodies that are tied), or a held direction lies
-// oblique to a law's normal.
+// oblique to a law's normal. Within a reach that is not all: collective.
 Exchange make_exchange(const Problem& problem, const Step& step, const Cut& cut, const std::vector<Surface>& surfaces,
-                       const Conditions& conditions, const std::vector<char>& explicit_pieces = {});
+                       const Conditions& conditions, const std::vector<char>& explicit_pieces = {},
+                       const Reach& reach = {});
 
 }  // namespace dygita

@@ -6,7 +6,6 @@
 #include <map>
 #include <vector>
 
-#include "base/union_find.hpp"
 #include "solution/rigid_frame.hpp"
 #include "solution/step_model.hpp"
 
@@ -14,11 +13,12 @@ namespace dygita {
 
 class LooseMotions {
  public:
-  // Of a static step. model outlives this object.
+  // Of a static step. model outlives this object. Collective, as `find`.
   explicit LooseMotions(const StepModel& model);
 
-  // What an increment says of the exchange. carries: does a force pass between the sides of a point? moved: by how much
-  // (m) a port moves along a direction of its point's frame; where the direction has no unknown it is not asked for.
+  // What an increment says of the points of the exchange. carries: does a force pass between the sides of a point?
+  // moved: by how much (m) a port of a piece that is solved here moves along a direction of its point's frame; where
+  // the direction has no unknown it is not asked for.
   struct Increment {
     std::function<bool(int point)> carries;
     std::function<double(int port, int d)> moved;
@@ -43,10 +43,17 @@ class LooseMotions {
     Mat free, inverse;  // 6 x n, motions that supports leave; of their squares at the ports
     Vec taken;          // of the free motions, taken back
   };
-  using Groups = std::map<int, Group>;  // by the root of their parts
-  UnionFind linked_parts(const std::function<bool(int point)>& carries) const;
-  Groups loose_groups(UnionFind& linked) const;
-  void keep_apart(const Increment& increment, UnionFind& linked, double precision, Groups& groups) const;
+  using Groups = std::map<int, Group>;  // by the first of their parts
+  // Of each part, and of the ground after them, the first of those that move with it.
+  using Linked = std::vector<int>;
+  struct Contact;
+  Linked linked_parts(const std::function<bool(int point)>& carries) const;
+  Groups loose_groups(const Linked& linked) const;
+  void add_motions(const Increment& increment, const Linked& linked, Groups& groups) const;
+  std::vector<Contact> contacts_of(const Increment& increment, const Linked& linked, double precision,
+                                   Groups& groups) const;
+  void keep_apart(std::vector<Contact> contacts, double precision) const;
+  bool is_shared_out() const { return !model_->near.is_all(); }
 
   const StepModel* model_;
   RigidFrame frame_;        // of the assembly

@@ -2,21 +2,14 @@
 
 #include <algorithm>
 #include <set>
+#include <unordered_map>
 
 #include "solution/all_pieces.hpp"
+#include "solution/near_points.hpp"
 
 namespace dygita {
 
 namespace {
-
-// Increasing.
-std::vector<int> ranks_at(const Cut& cut, const Exchange& exchange, const Point& point, bool everywhere) {
-  std::set<int> touching;
-  for (int p = point.first_port; p < point.end_port; ++p)
-    touching.insert(cut.piece(exchange.ports[static_cast<size_t>(p)].piece).rank);
-  for (int rank = 0; rank < ranks::count() && everywhere; ++rank) touching.insert(rank);
-  return {touching.begin(), touching.end()};
-}
 
 // Who has and who reads an unknown of the assembled q.
 struct Passing {
@@ -26,14 +19,15 @@ struct Passing {
 
 // Notes who reads the unknowns of a point; returns those of pieces elsewhere.
 std::vector<int> note_readers(const Cut& cut, const Exchange& exchange, const std::vector<int>& offset,
-                              const Point& point, const std::vector<int>& readers, std::vector<Passing>& passing) {
+                              const Point& point, const std::vector<int>& readers,
+                              std::unordered_map<int, Passing>& passing) {
   std::vector<int> elsewhere;
   for (int p = point.first_port; p < point.end_port; ++p) {
     const Port& port = exchange.ports[static_cast<size_t>(p)];
     for (const int of_piece : port.unknown) {
       if (of_piece < 0) continue;
       const int unknown = offset[static_cast<size_t>(port.piece)] + of_piece;
-      passing[static_cast<size_t>(unknown)] = {cut.piece(port.piece).rank, readers};
+      passing[unknown] = {cut.piece(port.piece).rank, readers};
       if (!cut.is_here(port.piece)) elsewhere.push_back(unknown);
     }
   }
@@ -48,8 +42,7 @@ NearUnknowns::NearUnknowns(const Exchange& exchange, const std::vector<int>& off
     if (!exchange.points[static_cast<size_t>(i)].is_direct) points_.push_back(i);
 }
 
-NearUnknowns::NearUnknowns(const Cut& cut, const Exchange& exchange, const std::vector<int>& offset,
-                           const std::function<bool(const Point&)>& everywhere)
+NearUnknowns::NearUnknowns(const Cut& cut, const Exchange& exchange, const std::vector<int>& offset)
     : is_all_(false), n_assembled_(offset.back()), of_pieces_(segments_of(cut, exchange.n_unknowns)) {
   start_.assign(static_cast<size_t>(cut.n_pieces()), -1);
   for (int i = 0; i < cut.n_pieces(); ++i) {
@@ -59,12 +52,11 @@ NearUnknowns::NearUnknowns(const Cut& cut, const Exchange& exchange, const std::
   }
   n_own_ = static_cast<int>(assembled_.size());
   std::set<int> told;
-  std::vector<Passing> passing(static_cast<size_t>(n_assembled_), {ranks::me(), {}});
+  std::unordered_map<int, Passing> passing;
   for (int i = 0; i < static_cast<int>(exchange.points.size()); ++i) {
     const Point& point = exchange.points[static_cast<size_t>(i)];
     if (point.is_direct) continue;
-    const std::vector<int> touching = ranks_at(cut, exchange, point, everywhere(point));
-    if (std::find(touching.begin(), touching.end(), ranks::me()) == touching.end()) continue;
+    const std::vector<int> touching = ranks_at(cut, exchange, point);
     points_.push_back(i);
     const std::vector<int> elsewhere = note_readers(cut, exchange, offset, point, touching, passing);
     assembled_.insert(assembled_.end(), elsewhere.begin(), elsewhere.end());
@@ -80,10 +72,10 @@ NearUnknowns::NearUnknowns(const Cut& cut, const Exchange& exchange, const std::
   std::vector<int> owner;
   std::vector<std::vector<int>> readers;
   for (int i = 0; i < n_; ++i) {
-    const auto unknown = static_cast<size_t>(assembled_[static_cast<size_t>(i)]);
-    at_[unknown] = i;
-    owner.push_back(passing[unknown].owner);
-    readers.push_back(std::move(passing[unknown].readers));
+    const int unknown = assembled_[static_cast<size_t>(i)];
+    at_[static_cast<size_t>(unknown)] = i;
+    owner.push_back(passing.at(unknown).owner);
+    readers.push_back(std::move(passing.at(unknown).readers));
   }
   passing_ = ranks::Neighbours(owner, readers, 1);
 }

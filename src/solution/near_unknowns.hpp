@@ -2,7 +2,6 @@
 // after them those of others at points that both touch.
 #pragma once
 
-#include <functional>
 #include <initializer_list>
 #include <vector>
 
@@ -19,9 +18,8 @@ class NearUnknowns {
   // All of them, in the assembled order: one process, or ranks that each solve all pieces. offset: of each piece's
   // unknowns in the assembled q, and its length.
   NearUnknowns(const Exchange& exchange, const std::vector<int>& offset);
-  // Those of this rank. Points that are `everywhere` are near on all ranks.
-  NearUnknowns(const Cut& cut, const Exchange& exchange, const std::vector<int>& offset,
-               const std::function<bool(const Point&)>& everywhere);
+  // Those of this rank.
+  NearUnknowns(const Cut& cut, const Exchange& exchange, const std::vector<int>& offset);
 
   // Of the exchange, increasing; none in closed form.
   const std::vector<int>& points() const { return points_; }

@@ -1,8 +1,10 @@
 #include "solution/point_record.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "law/law.hpp"
+#include "solution/near_points.hpp"
 
 namespace dygita {
 
@@ -21,14 +23,11 @@ double first_gap(const Surface& surface, int point) {
 
 std::vector<PortMotion> port_motions(const StepModel& model, const State& start) {
   const Cut& cut = *model.cut;
-  const std::vector<Port>& ports = model.exchange.ports;
-  constexpr int n_motion = 6;
-  std::vector<double> values(n_motion * ports.size(), 0.0);
-  std::vector<int> owner, offset{0};
-  for (size_t p = 0; p < ports.size(); ++p) {
-    const Port& port = ports[p];
-    owner.push_back(cut.piece(port.piece).rank);
-    offset.push_back(static_cast<int>(n_motion * (p + 1)));
+  const Exchange& exchange = model.exchange;
+  constexpr size_t n_motion = 6;
+  std::vector<double> values(n_motion * exchange.ports.size(), 0.0);
+  for (size_t p = 0; p < exchange.ports.size(); ++p) {
+    const Port& port = exchange.ports[p];
     if (!model.solves(port.piece)) continue;
     const auto motion = [&](const Points& field) -> Vec3 {
       if (!port.trace) return field.col(port.piece_node);
@@ -37,9 +36,9 @@ std::vector<PortMotion> port_motions(const StepModel& model, const State& start)
     Eigen::Map<Vec3>(values.data() + n_motion * p) = motion(start.displacement[port.piece]);
     Eigen::Map<Vec3>(values.data() + n_motion * p + 3) = motion(start.velocity[port.piece]);
   }
-  if (!model.is_assembled) ranks::Segments(owner, offset).complete(values.data());
-  std::vector<PortMotion> motions(ports.size());
-  for (size_t p = 0; p < ports.size(); ++p)
+  if (!model.near.is_all()) hear_ports(cut, exchange, static_cast<int>(n_motion), values.data());
+  std::vector<PortMotion> motions(exchange.ports.size());
+  for (size_t p = 0; p < motions.size(); ++p)
     motions[p] = {Eigen::Map<const Vec3>(values.data() + n_motion * p),
                   Eigen::Map<const Vec3>(values.data() + n_motion * p + 3)};
   return motions;
@@ -83,6 +82,12 @@ LawState end_of_point(const Point& point, const PointRecord& record, const Incre
   end.force.setZero();
   end.status = PointState::open;
   return end;
+}
+
+double gap_of(const Point& point, const PointRecord& record, const Increment& increment) {
+  if (!point.law || !point.has_law[0] || !point.law->shown().gap || record.is_released)
+    return std::numeric_limits<double>::infinity();
+  return point.law->opening(end_of_point(point, record, increment));
 }
 
 double gap_difference(const Point& point, const PointRecord& record) {

@@ -14,8 +14,9 @@ constexpr double least_free = 1e-3;
 
 }  // namespace
 
-void SpreadPoints::add(const Surface& surface, int s) {
-  for (int i = 0; i < surface.n_points(); ++i) add_point(surface, s, i);
+void SpreadPoints::add(const Surface& surface, int s, const Reach& reach) {
+  for (int i = 0; i < surface.n_points(); ++i)
+    if (reach.has(s, i)) add_point(surface, s, i);
 }
 
 void SpreadPoints::add_point(const Surface& surface, int s, int i) {

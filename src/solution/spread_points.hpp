@@ -12,8 +12,8 @@ class SpreadPoints {
                const FrameAxes& axes, Exchange& exchange)
       : problem_(problem), step_(step), cut_(cut), conditions_(conditions), axes_(axes), exchange_(exchange) {}
 
-  // Those of a surface, the s-th of all.
-  void add(const Surface& surface, int s);
+  // Those of a surface, the s-th of all, within reach.
+  void add(const Surface& surface, int s, const Reach& reach);
 
  private:
   void add_point(const Surface& surface, int s, int i);

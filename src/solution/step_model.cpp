@@ -143,10 +143,12 @@ void split_loads(StepModel& model) {
 }
 
 // All ranks look for the shortening of a bolt, which its points share.
-bool is_preloaded(const StepModel& model, const Point& point) {
-  if (!model.scheme.is_static || !point.law) return false;
-  const Interface* interface = (*model.surfaces)[point.members.front().surface].interface;
-  return interface && model.loads->preload(interface);
+std::vector<char> solved_everywhere(const StepModel& model) {
+  std::vector<char> everywhere;
+  for (const Surface& surface : *model.surfaces)
+    everywhere.push_back(model.scheme.is_static && surface.law && surface.interface &&
+                         model.loads->preload(surface.interface));
+  return everywhere;
 }
 
 // Collective. Where the nodes are whose displacement a step prescribes.
@@ -175,7 +177,8 @@ NodeMotions moved_nodes(const Problem& problem, const Step& step, const State& s
 }
 
 StepModel make_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
-                     const std::vector<Body>& bodies, const State& start, const CutPtr& cut, bool chooses_integration) {
+                     const std::vector<Body>& bodies, const State& start, const CutPtr& cut, bool chooses_integration,
+                     bool solves_all) {
   StepModel model;
   model.cut = cut;
   model.problem = &problem;
@@ -198,16 +201,18 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
     pin_free_motions(problem, step, make_exchange(problem, step, *no_cut(problem), surfaces, model.conditions), force,
                      model.conditions);
   }
-  model.exchange = make_exchange(problem, step, *cut, surfaces, model.conditions, model.integration.is_explicit);
+  const std::vector<char>& is_explicit = model.integration.is_explicit;
+  const Reach reach =
+      solves_all ? Reach() : Reach(problem, step, *cut, surfaces, is_explicit, solved_everywhere(model));
+  model.exchange = make_exchange(problem, step, *cut, surfaces, model.conditions, is_explicit, reach);
   split_loads(model);
   model.offset.assign(1, 0);
   for (const int n : model.exchange.n_unknowns) model.offset.push_back(model.offset.back() + n);
   for (int i = 0; i < cut->n_pieces(); ++i)
     if (cut->is_here(i)) model.here.push_back(i);
   model.unknowns = segments_of(*cut, model.exchange.n_unknowns);
-  model.near = ranks::is_alone() ? NearUnknowns(model.exchange, model.offset)
-                                 : NearUnknowns(*cut, model.exchange, model.offset,
-                                                [&](const Point& point) { return is_preloaded(model, point); });
+  model.near =
+      solves_all ? NearUnknowns(model.exchange, model.offset) : NearUnknowns(*cut, model.exchange, model.offset);
   return model;
 }
 
@@ -228,8 +233,7 @@ bool is_assembled(const Problem& problem, const Step& step) {
 }
 
 // Every rank holds such a system and solves it: what one process does is done as often, and passes nowhere.
-bool fits_every_rank(const StepModel& model) {
-  const Problem& problem = *model.problem;
+bool fits_every_rank(const Problem& problem, const Step& step) {
   if (ranks::is_alone() || problem.solver.static_steps == StaticSteps::assembled) return true;
   double n = 0.0;
   for (const SubstructurePtr& part : problem.substructures) n += 3.0 * part->mesh->n_nodes();
@@ -241,7 +245,7 @@ bool fits_every_rank(const StepModel& model) {
       fmt::format("static step '{}' is iterated substructure by substructure: as one system of all, which one process "
                   "would solve, it would take some {:.1f} GB on each of the MPI ranks; the forces of both agree to "
                   "'static_tolerance'",
-                  model.step->name, 1e-9 * bytes));
+                  step.name, 1e-9 * bytes));
   return false;
 }
 
@@ -269,13 +273,13 @@ void tell_equal_apart(const StepModel& model) {
 
 StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                           const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
-  StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true);
-  model.is_assembled = is_assembled(problem, step) && fits_every_rank(model);
+  const bool is_in_one = is_assembled(problem, step) && fits_every_rank(problem, step);
+  StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true, is_in_one || ranks::is_alone());
+  model.is_assembled = is_in_one;
   if (model.is_assembled && !ranks::is_alone()) {
     model.here.resize(static_cast<size_t>(cut->n_pieces()));
     std::iota(model.here.begin(), model.here.end(), 0);
     model.unknowns = {};
-    model.near = NearUnknowns(model.exchange, model.offset);
     model.assembled_bodies = with_all_matrices(bodies);
   }
   model.pieces = !model.is_assembled ? make_pieces(model, bodies)
@@ -288,7 +292,7 @@ StepModel make_step_model(const Problem& problem, const Step& step, const std::v
 
 StepModel make_assembled_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                                const std::vector<Body>& bodies, const State& start) {
-  StepModel model = make_model(problem, step, surfaces, bodies, start, no_cut(problem), false);
+  StepModel model = make_model(problem, step, surfaces, bodies, start, no_cut(problem), false, true);
   model.pieces = make_assembled_pieces(model, bodies);
   model.equal = group_equal(model.pieces);
   return model;
@@ -296,7 +300,7 @@ StepModel make_assembled_model(const Problem& problem, const Step& step, const s
 
 StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                       const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
-  StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true);
+  StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true, true);
   if (is_assembled(problem, step)) {
     model.pieces = make_assembled_pieces(model, bodies);
     return {AssembledSystem(model).bytes(), model.n_q(), model.integration};
