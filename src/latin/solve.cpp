@@ -54,7 +54,7 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
   const ranks::Traffic traffic_before = ranks::traffic();
   const std::vector<Surface> surfaces = make_surfaces(problem);
   const CutPtr cut = cut_into_pieces(problem, surfaces, plan);
-  share_on_machine(meshes_of(problem, *cut));
+  share_on_machine(meshes_of(problem, *cut), cut->arrays());
   const std::vector<Body> bodies = make_bodies(problem, surfaces, *cut);
   State state = initial_state(problem, surfaces, *cut);
   auto kept = std::make_shared<InterfaceFields>(problem.solver.history_memory);

@@ -122,17 +122,20 @@ struct Shared {
   fs::path folder;
   std::unique_ptr<MachineCopies> copies;  // null: no folder for temporary files
   std::map<const Mesh*, std::weak_ptr<const Mesh>> known;
-  struct Array {
-    MeshPtr mesh;
-    const void* at;
-    size_t n_bytes;
+  struct Waiting {
+    MachineArray array;
+    MeshPtr mesh;  // that it is of, or null
   };
-  std::vector<Array> waiting;  // being written by others
+  std::vector<Waiting> waiting;  // being written by others
 
   Shared() {
     std::error_code error;
     folder = fs::temp_directory_path(error);
     if (!error) copies = std::make_unique<MachineCopies>(folder.string(), prefix());
+  }
+  void share(const MachineArray& array, const MeshPtr& mesh) {
+    if (copies->share(array.at, array.n_bytes) == MachineCopies::Outcome::being_written)
+      waiting.push_back({array, mesh});
   }
   static std::string prefix() { return "dygita_meshes_" + ranks::name_of_job() + "_"; }
 };
@@ -179,22 +182,22 @@ void share_on_machine(const MeshPtr& mesh) {
   if (!here.copies || known.lock() == mesh) return;
   known = mesh;
   ranks::before_stop(forget_on_machine);
-  const auto share = [&](const void* at, size_t n_bytes) {
-    if (here.copies->share(at, n_bytes) == MachineCopies::Outcome::being_written)
-      here.waiting.push_back({mesh, at, n_bytes});
-  };
-  share(mesh->nodes.data(), sizeof(double) * static_cast<size_t>(mesh->nodes.size()));
-  for (const CellBlock& block : mesh->blocks) share(block.nodes.data(), sizeof(int) * block.nodes.size());
+  here.share(machine_array(mesh->nodes), mesh);
+  for (const CellBlock& block : mesh->blocks) here.share(machine_array(block.nodes), mesh);
 }
 
-void share_on_machine(const std::vector<MeshPtr>& meshes) {
+void share_on_machine(const std::vector<MeshPtr>& meshes, const std::vector<MachineArray>& arrays) {
   if (ranks::is_alone()) return;
   for (const MeshPtr& mesh : meshes) share_on_machine(mesh);
+  if (ranks::count_on_machine() > 1 && shared_here().copies) {
+    ranks::before_stop(forget_on_machine);
+    for (const MachineArray& array : arrays) shared_here().share(array, nullptr);
+  }
   ranks::any(false);  // all are written
   bool is_impossible = false;
   if (ranks::count_on_machine() > 1) {
     Shared& here = shared_here();
-    for (const Shared::Array& array : std::exchange(here.waiting, {})) here.copies->share(array.at, array.n_bytes);
+    for (const auto& [array, mesh] : std::exchange(here.waiting, {})) here.copies->share(array.at, array.n_bytes);
     is_impossible = !here.copies || here.copies->is_impossible();
   }
   if (ranks::any(is_impossible))

@@ -52,9 +52,18 @@ class LikePages {
 
 // Where several ranks are on this machine: the mesh's nodes and cells as one of them has them. Not collective.
 void share_on_machine(const MeshPtr& mesh);
+// Heap memory that nobody changes any more.
+struct MachineArray {
+  const void* at;
+  size_t n_bytes;
+};
+template <class Array>
+MachineArray machine_array(const Array& array) {
+  return {array.data(), sizeof(*array.data()) * static_cast<size_t>(array.size())};
+}
 // Collective. All of these and what could not be shared when it was made; afterwards no file has a name. Warns where
 // the folder of temporary files does not take them: then each rank keeps its own.
-void share_on_machine(const std::vector<MeshPtr>& meshes);
+void share_on_machine(const std::vector<MeshPtr>& meshes, const std::vector<MachineArray>& arrays);
 double bytes_shared_on_machine();
 
 }  // namespace dygita

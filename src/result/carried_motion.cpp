@@ -33,7 +33,7 @@ CarriedMotion::CarriedMotion(const Instant& start) {
     held_inverse_ += axis * axis.transpose() / axes.values[d];
     free_ -= axis * axis.transpose();
   }
-  for (const auto& piece : model.pieces) mass_ += piece->node_masses().sum();
+  for (const auto& piece : model.pieces) mass_ += piece->mass();
 }
 
 Vec3 CarriedMotion::at(const Instant& instant, const std::function<Vec3()>& momentum) const {

@@ -209,7 +209,7 @@ void ErrorEstimator::begin_step(const Instant& start) {
   bank_.emplace(start.model.is_tuned());
   dt_ = start.interval();
   total_mass_ = 0.0;
-  for (const auto& piece : start.model.pieces) total_mass_ += piece->node_masses().sum();
+  for (const auto& piece : start.model.pieces) total_mass_ += piece->mass();
   lag_ = 0.0;
   for (const double own : of_all_pieces(*start.model.cut, 1, [&](int i, double*to) {
          *to = mass_lag(*start.model.pieces[static_cast<size_t>(i)], *start.model.cut->piece(i).body);

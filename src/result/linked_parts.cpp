@@ -19,7 +19,7 @@ void LinkedParts::begin_step(const Instant& start) {
       for (const FaceOrRegion& on : support->on)
         sets_.join(index_of(model.problem->substructures, std::get<Face>(on).part.get()), ground_);
   masses_.clear();
-  for (const auto& piece : model.pieces) masses_.push_back(piece->node_masses().sum());
+  for (const auto& piece : model.pieces) masses_.push_back(piece->mass());
   find_forces(start);
 }
 

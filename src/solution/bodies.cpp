@@ -161,31 +161,46 @@ bool has_body_forces(const Problem& problem) {
   return false;
 }
 
-// As assembled, wherever that is.
-std::vector<Vec> lumped_masses(const std::vector<Body>& bodies, const Cut& cut) {
-  std::vector<Vec> masses;
-  if (ranks::is_alone()) {
-    for (const Body& body : bodies) masses.push_back(body.matrices->mass());
-    return masses;
-  }
-  std::vector<int> sizes;
-  for (const CutPiece& piece : cut.pieces()) sizes.push_back(piece.body->mesh->n_nodes());
-  Vec all(std::accumulate(sizes.begin(), sizes.end(), Eigen::Index{0}));
-  Eigen::Index at = 0;
-  for (int i = 0; i < cut.n_pieces(); at += sizes[i++])
-    if (cut.is_here(i)) all.segment(at, sizes[i]) = bodies[i].matrices->mass();
-  segments_of(cut, sizes).complete(all.data());
-  at = 0;
-  for (const int size : sizes) masses.emplace_back(all.segment(at, size)), at += size;
-  return masses;
-}
-
 using BodyKey = std::tuple<std::string, double, double, double>;
 
 // A mass has no directions: turned copies have the same.
 BodyKey mass_key(const Substructure& part) {
   const Elastic& m = part.material;
   return {part.mesh->shape_digest(), m.young, m.poisson, m.density};
+}
+
+// Of which pieces the masses are known on all ranks: all where loads are laid on them; else those that give theirs to
+// equal ones of other ranks, in one process the first of them. moves_mass: of each piece, are there nodes whose mass
+// moves inside?
+std::vector<char> with_known_masses(const Cut& cut, bool are_all, const std::vector<char>& moves_mass) {
+  std::vector<char> known(static_cast<size_t>(cut.n_pieces()), are_all);
+  std::map<BodyKey, int> first;
+  for (int i = 0; i < cut.n_pieces(); ++i) {
+    if (moves_mass[static_cast<size_t>(i)]) continue;
+    const int giving = first.try_emplace(mass_key(*cut.piece(i).body), i).first->second;
+    if (cut.piece(giving).rank != cut.piece(i).rank) known[static_cast<size_t>(giving)] = 1;
+  }
+  return known;
+}
+
+// As assembled; of other pieces elsewhere nothing.
+std::vector<Vec> lumped_masses(const std::vector<Body>& bodies, const Cut& cut, bool are_all_asked_for,
+                               const std::vector<char>& moves_mass) {
+  std::vector<Vec> masses;
+  for (const Body& body : bodies) masses.push_back(body.matrices ? body.matrices->mass() : Vec());
+  if (ranks::is_alone()) return masses;
+  const std::vector<char> is_known = with_known_masses(cut, are_all_asked_for, moves_mass);
+  std::vector<int> sizes;
+  for (int i = 0; i < cut.n_pieces(); ++i) sizes.push_back(is_known[i] ? cut.piece(i).body->mesh->n_nodes() : 0);
+  Vec all(std::accumulate(sizes.begin(), sizes.end(), Eigen::Index{0}));
+  Eigen::Index at = 0;
+  for (int i = 0; i < cut.n_pieces(); at += sizes[i++])
+    if (is_known[i] && cut.is_here(i)) all.segment(at, sizes[i]) = masses[i];
+  segments_of(cut, sizes).complete(all.data());
+  at = 0;
+  for (size_t i = 0; i < masses.size(); at += sizes[i++])
+    if (is_known[i]) masses[i] = all.segment(at, sizes[i]);
+  return masses;
 }
 
 // marked: nodes whose mass moves inside, empty: none. dt (s): of the shortest dynamic step, 0: there is none, negative:
@@ -203,8 +218,12 @@ Mass mass_of(const Problem& problem, const Body& body, const Vec& lumped, const 
     mass.is_consistent = true;
   }
   if (has_massless) {
-    move_inside(mesh, marked, mass);
+    if (lumped.size() > 0) move_inside(mesh, marked, mass);
     mass.is_massless = marked;
+  }
+  if (lumped.size() > 0) {
+    mass.all = mass.lumped.sum();
+    mass.least = mass.lumped.minCoeff();
   }
   return mass;
 }
@@ -249,6 +268,12 @@ void add_matrices(const std::vector<char>& to, const std::vector<char>& keeps, s
 std::vector<Body> with_all_matrices(std::vector<Body> bodies) {
   const std::vector<char> all(bodies.size(), 1);
   add_matrices(all, all, bodies);
+  for (Body& body : bodies) {
+    if (body.mass->lumped.size() > 0) continue;
+    Mass mass = *body.mass;
+    mass.lumped = body.matrices->mass();
+    body.mass = std::make_shared<const Mass>(std::move(mass));
+  }
   return bodies;
 }
 
@@ -290,18 +315,34 @@ std::vector<Body> make_bodies(const Problem& problem, const std::vector<Surface>
     agree(surfaces, marked);
     keep_where_there_is_no_inside(problem, surfaces, marked);
   }
-  const std::vector<Vec> lumped = lumped_masses(bodies, cut);
-  for (size_t i = 0; i < bodies.size(); ++i) {
-    const bool has_massless = std::find(marked[i].begin(), marked[i].end(), 1) != marked[i].end();
+  std::vector<char> has_massless;
+  for (const std::vector<char>& own : marked) has_massless.push_back(std::find(own.begin(), own.end(), 1) != own.end());
+  const std::vector<Vec> lumped = lumped_masses(bodies, cut, lays_loads, has_massless);
+  std::vector<double> known;  // of the pieces, all and least
+  const auto add_mass = [&](size_t i) {
     const BodyKey key = mass_key(*bodies[i].part);
     std::shared_ptr<const Mass>& equal = known_mass[key];
-    if (has_massless || !equal)
-      bodies[i].mass = std::make_shared<const Mass>(
-          mass_of(problem, bodies[i], lumped[i], marked[i], with_matrix.contains(key) ? dt : -1.0));
-    else
+    if (has_massless[i] || !equal) {
+      Mass mass = mass_of(problem, bodies[i], lumped[i], marked[i], with_matrix.contains(key) ? dt : -1.0);
+      if (lumped[i].size() == 0) {
+        mass.all = known[2 * i];
+        mass.least = known[2 * i + 1];
+      }
+      bodies[i].mass = std::make_shared<const Mass>(std::move(mass));
+    } else {
       bodies[i].mass = equal;
-    if (!has_massless) equal = bodies[i].mass;
-  }
+    }
+    if (!has_massless[i]) equal = bodies[i].mass;
+  };
+  for (size_t i = 0; i < bodies.size(); ++i)
+    if (lumped[i].size() > 0) add_mass(i);
+  known = of_all_pieces(cut, 2, [&](int i, double* to) {
+    const Mass& mass = *bodies[static_cast<size_t>(i)].mass;
+    to[0] = mass.all;
+    to[1] = mass.least;
+  });
+  for (size_t i = 0; i < bodies.size(); ++i)
+    if (lumped[i].size() == 0) add_mass(i);
   return bodies;
 }
 

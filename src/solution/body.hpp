@@ -8,12 +8,14 @@
 
 namespace dygita {
 
-// The mass of a substructure in dynamic steps.
+// The mass of a substructure in dynamic steps. Of one that another rank has the sum and the least are known, and no
+// others where nothing asks for them.
 struct Mass {
   Vec lumped;                     // kg, of each node, positive but where it has been moved
   SparseMatrix matrix;            // n_nodes x n_nodes, kg, of the same total; empty: lumped
   std::vector<char> is_massless;  // nodes whose mass has been moved inside (manual, eq. S7); empty: none
   bool is_consistent = false;     // row sums of the matrix are not the lumped masses
+  double all = 0.0, least = 0.0;  // kg, of all nodes; of that which has least
 
   // Forces (N) of an acceleration, both 3 x n_nodes; in explicit steps by the lumped mass, whatever the cells.
   Points times(const Points& acceleration, bool is_explicit) const {

@@ -96,6 +96,16 @@ std::vector<int> Cut::counts() const {
   return counts;
 }
 
+std::vector<MachineArray> Cut::arrays() const {
+  std::vector<MachineArray> arrays;
+  for (const std::vector<Copy>& owners : owner_) arrays.push_back(machine_array(owners));
+  for (const CutPiece& piece : pieces_)
+    for (const MachineArray& array :
+         {machine_array(piece.nodes), machine_array(piece.is_owner), machine_array(piece.cut_areas)})
+      arrays.push_back(array);
+  return arrays;
+}
+
 std::vector<Copy> Cut::copies(int part, int node) const {
   std::vector<Copy> copies{owner(part, node)};
   if (const auto others = others_[part].find(node); others != others_[part].end())

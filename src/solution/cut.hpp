@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "mesh/machine_copies.hpp"
 #include "model/model.hpp"
 #include "ranks/ranks.hpp"
 
@@ -55,6 +56,8 @@ class Cut {
   const std::map<int, std::vector<Copy>>& on_cuts(int part) const { return others_[part]; }
   // Copies of a node of a substructure, the owner first.
   std::vector<Copy> copies(int part, int node) const;
+  // The large ones of what is known of pieces wherever they are.
+  std::vector<MachineArray> arrays() const;
   Copy owner(int part, int node) const { return is_cut(part) ? owner_[part][node] : Copy{first_[part], node, 1.0}; }
 
   // Some nodes of a substructure on the pieces that own them: their numbers there, and their places among all.

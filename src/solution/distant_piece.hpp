@@ -19,7 +19,8 @@ class DistantPiece : public Piece {
   DistantPiece(int piece, int rank, const Mass& mass, bool has_motions);
 
   const std::vector<InterfaceRow>& rows() const override { return rows_; }
-  const Vec& node_masses() const override { return mass_->lumped; }
+  const Vec& node_masses() const override { return none_; }  // nobody asks for those of a piece elsewhere
+  double mass() const override { return mass_->all; }
   const Vec& unknown_masses() const override;
   Points unknown_directions() const override;
   bool is_massless(int node) const override { return !mass_->is_massless.empty() && mass_->is_massless[node] != 0; }

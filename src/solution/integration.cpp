@@ -290,7 +290,7 @@ IntegrationChoice asked_of(const Problem& problem, const Substructure& part) {
 std::string why_not_explicit(const Body& body, double numerical_damping) {
   if (numerical_damping != 0.0) return "'numerical_damping' belongs to the implicit scheme";
   if (!body.mass->is_massless.empty()) return "'massless_contact' leaves nodes without mass";
-  if (body.mass->lumped.minCoeff() <= 0.0) return "it has a node without mass";
+  if (body.mass->least <= 0.0) return "it has a node without mass";
   return "";
 }
 

@@ -66,9 +66,10 @@ class Piece {
   // The operator.
   virtual const std::vector<InterfaceRow>& rows() const = 0;
   int n_rows() const { return static_cast<int>(rows().size()); }
-  virtual const Vec& node_masses() const = 0;     // kg
-  virtual const Vec& unknown_masses() const = 0;  // kg, of the entries of the state's velocity
-  virtual Points unknown_directions() const = 0;  // 3 x n, unit, of the same entries
+  virtual const Vec& node_masses() const = 0;                  // kg
+  virtual double mass() const { return node_masses().sum(); }  // kg
+  virtual const Vec& unknown_masses() const = 0;               // kg, of the entries of the state's velocity
+  virtual Points unknown_directions() const = 0;               // 3 x n, unit, of the same entries
   // Has the node given its mass away in this step (manual, eq. S7)?
   virtual bool is_massless(int node) const = 0;
   // Does a node answer to a force on it at once, and to no other (explicit_piece.hpp)?
