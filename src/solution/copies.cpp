@@ -38,18 +38,25 @@ class Passing {
   size_t next_ = 0;
 };
 
-// visit(owner, others) of every node on a cut, in one order on all ranks.
+// visit(owner, others) of every node on a cut of which a copy is here, or of all, in one order on all ranks.
 template <class Visit>
-void for_each_on_cuts(const Cut& cut, Visit&& visit) {
-  for (int part = 0; part < cut.n_parts(); ++part)
-    for (const auto& [node, others] : cut.on_cuts(part)) visit(cut.owner(part, node), others);
+void for_each_on_cuts(const Cut& cut, bool has_all, Visit&& visit) {
+  for (int part = 0; part < cut.n_parts(); ++part) {
+    const NodesOnCuts& on_cuts = cut.on_cuts(part);
+    for (size_t i = 0; i < on_cuts.nodes().size(); ++i) {
+      const Copy owner = cut.owner(part, on_cuts.nodes()[i]);
+      const std::span<const Copy> others = on_cuts.others(i);
+      const auto is_here = [&](const Copy& copy) { return cut.is_here(copy.piece); };
+      if (has_all || is_here(owner) || std::any_of(others.begin(), others.end(), is_here)) visit(owner, others);
+    }
+  }
 }
 
 }  // namespace
 
 void give_to_copies(const Cut& cut, bool has_all, std::vector<Points>& fields) {
   Passing passing(cut, has_all, fields);
-  for_each_on_cuts(cut, [&](const Copy& owner, const std::vector<Copy>& others) {
+  for_each_on_cuts(cut, has_all, [&](const Copy& owner, std::span<const Copy> others) {
     std::vector<int> readers;
     for (const Copy& other : others) readers.push_back(passing.rank(other));
     std::sort(readers.begin(), readers.end());
@@ -57,7 +64,7 @@ void give_to_copies(const Cut& cut, bool has_all, std::vector<Points>& fields) {
     passing.add(owner, std::move(readers));
   });
   passing.exchange();
-  for_each_on_cuts(cut, [&](const Copy&, const std::vector<Copy>& others) {
+  for_each_on_cuts(cut, has_all, [&](const Copy&, std::span<const Copy> others) {
     const Vec3 value = passing.next();
     for (const Copy& other : others)
       if (passing.has(other)) passing.at(other) = value;
@@ -66,11 +73,11 @@ void give_to_copies(const Cut& cut, bool has_all, std::vector<Points>& fields) {
 
 void sum_on_owners(const Cut& cut, bool has_all, std::vector<Points>& fields) {
   Passing passing(cut, has_all, fields);
-  for_each_on_cuts(cut, [&](const Copy& owner, const std::vector<Copy>& others) {
+  for_each_on_cuts(cut, has_all, [&](const Copy& owner, std::span<const Copy> others) {
     for (const Copy& other : others) passing.add(other, {passing.rank(owner)});
   });
   passing.exchange();
-  for_each_on_cuts(cut, [&](const Copy& owner, const std::vector<Copy>& others) {
+  for_each_on_cuts(cut, has_all, [&](const Copy& owner, std::span<const Copy> others) {
     for (size_t i = 0; i < others.size(); ++i) {
       const Vec3 value = passing.next();
       if (passing.has(owner)) passing.at(owner) += value;

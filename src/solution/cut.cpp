@@ -34,10 +34,31 @@ std::vector<std::vector<int>> together(const std::vector<Surface>* surfaces, int
 
 }  // namespace
 
+NodesOnCuts::NodesOnCuts(std::vector<std::pair<int, Copy>> copies) {
+  std::stable_sort(copies.begin(), copies.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  nodes_.reserve(copies.size());
+  first_.clear();
+  copies_.reserve(copies.size());
+  for (const auto& [node, copy] : copies) {
+    if (nodes_.empty() || nodes_.back() != node) {
+      nodes_.push_back(node);
+      first_.push_back(copies_.size());
+    }
+    copies_.push_back(copy);
+  }
+  first_.push_back(copies_.size());
+}
+
+std::span<const Copy> NodesOnCuts::others_of(int node) const {
+  const auto at = std::lower_bound(nodes_.begin(), nodes_.end(), node);
+  if (at == nodes_.end() || *at != node) return {};
+  return others(static_cast<size_t>(at - nodes_.begin()));
+}
+
 Cut::Cut(const Problem& problem, const std::vector<int>& n_pieces, const std::vector<Surface>* surfaces) {
   const int n = static_cast<int>(problem.substructures.size());
   owner_.resize(n);
-  others_.resize(n);
+  on_cuts_.resize(n);
   for (int part = 0; part < n; ++part) {
     first_.push_back(static_cast<int>(pieces_.size()));
     const SubstructurePtr& body = problem.substructures[part];
@@ -58,6 +79,7 @@ void Cut::add_cut(int part, const SubstructurePtr& body, const std::vector<int>&
   for (const CellBlock& block : body->mesh->blocks)
     for (const int node : block.nodes) n_cells[node] += 1.0;
   owner_[part].assign(n_nodes, Copy{-1, -1, 0.0});
+  std::vector<std::pair<int, Copy>> others;
   for (size_t m = 0; m < meshes.size(); ++m) {
     MeshPiece& mesh = meshes[m];
     auto own = std::make_shared<Substructure>(*body);
@@ -73,17 +95,18 @@ void Cut::add_cut(int part, const SubstructurePtr& body, const std::vector<int>&
       if (is_owner[i])
         owner = copy;
       else
-        others_[part][mesh.nodes[i]].push_back(copy);
+        others.emplace_back(mesh.nodes[i], copy);
     }
     pieces_.push_back({part, std::move(own), std::move(mesh.nodes), std::move(is_owner), std::move(mesh.cut_areas)});
   }
+  on_cuts_[part] = NodesOnCuts(std::move(others));
   // A piece may touch another in an edge or a corner alone: an area as of a cell's side.
   for (size_t p = first; p < pieces_.size(); ++p) {
     CutPiece& piece = pieces_[p];
     double side = 0.0;
     for (size_t i = 0; i < piece.nodes.size(); ++i) {
       double& area = piece.cut_areas[static_cast<Eigen::Index>(i)];
-      if (area != 0.0 || !others_[part].contains(piece.nodes[i])) continue;
+      if (area != 0.0 || on_cuts_[part].others_of(piece.nodes[i]).empty()) continue;
       if (side == 0.0) side = std::pow(volume(*piece.body->mesh) / piece.body->mesh->n_nodes(), 2.0 / 3.0);
       area = side;
     }
@@ -103,13 +126,15 @@ std::vector<MachineArray> Cut::arrays() const {
     for (const MachineArray& array :
          {machine_array(piece.nodes), machine_array(piece.is_owner), machine_array(piece.cut_areas)})
       arrays.push_back(array);
+  for (const NodesOnCuts& nodes : on_cuts_)
+    for (const MachineArray& array : nodes.arrays()) arrays.push_back(array);
   return arrays;
 }
 
 std::vector<Copy> Cut::copies(int part, int node) const {
   std::vector<Copy> copies{owner(part, node)};
-  if (const auto others = others_[part].find(node); others != others_[part].end())
-    copies.insert(copies.end(), others->second.begin(), others->second.end());
+  const std::span<const Copy> others = on_cuts_[part].others_of(node);
+  copies.insert(copies.end(), others.begin(), others.end());
   return copies;
 }
 

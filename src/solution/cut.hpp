@@ -4,6 +4,8 @@
 
 #include <map>
 #include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "mesh/machine_copies.hpp"
@@ -35,13 +37,37 @@ struct Copy {
   double share;  // of the node's cells: how areas are split
 };
 
+// The nodes of a substructure on a cut, and their copies but the owner, in the order of the pieces: none comes before
+// the owner.
+class NodesOnCuts {
+ public:
+  NodesOnCuts() = default;
+  // Node and copy, those of a node in the order of the pieces.
+  explicit NodesOnCuts(std::vector<std::pair<int, Copy>> copies);
+
+  // Increasing.
+  const std::vector<int>& nodes() const { return nodes_; }
+  // Of the i-th of them.
+  std::span<const Copy> others(size_t i) const { return {copies_.data() + first_[i], copies_.data() + first_[i + 1]}; }
+  // Of any node; none of one that is not on a cut.
+  std::span<const Copy> others_of(int node) const;
+  std::vector<MachineArray> arrays() const {
+    return {machine_array(nodes_), machine_array(first_), machine_array(copies_)};
+  }
+
+ private:
+  std::vector<int> nodes_;
+  std::vector<size_t> first_{0};
+  std::vector<Copy> copies_;
+};
+
 class Cut {
  public:
   // surfaces: no point of one whose faces do not match is on two pieces of a side; null: there is none.
   Cut(const Problem& problem, const std::vector<int>& n_pieces, const std::vector<Surface>* surfaces = nullptr);
 
   int n_pieces() const { return static_cast<int>(pieces_.size()); }
-  int n_parts() const { return static_cast<int>(others_.size()); }
+  int n_parts() const { return static_cast<int>(on_cuts_.size()); }
   const CutPiece& piece(int i) const { return pieces_[i]; }
   const std::vector<CutPiece>& pieces() const { return pieces_; }
   bool is_here(int i) const { return pieces_[i].rank == ranks::me(); }
@@ -51,9 +77,7 @@ class Cut {
   int n_pieces(int part) const { return first_[part + 1] - first_[part]; }
   std::vector<int> counts() const;  // of the pieces of each substructure
   bool is_cut(int part) const { return n_pieces(part) > 1; }
-  // The nodes of a substructure on a cut, and their copies but the owner, in the order of the pieces: none comes before
-  // the owner.
-  const std::map<int, std::vector<Copy>>& on_cuts(int part) const { return others_[part]; }
+  const NodesOnCuts& on_cuts(int part) const { return on_cuts_[part]; }
   // Copies of a node of a substructure, the owner first.
   std::vector<Copy> copies(int part, int node) const;
   // The large ones of what is known of pieces wherever they are.
@@ -111,8 +135,7 @@ class Cut {
   std::vector<CutPiece> pieces_;
   std::vector<int> first_;
   std::vector<std::vector<Copy>> owner_;  // of each node of the substructures that are cut
-  std::vector<std::map<int, std::vector<Copy>>>
-      others_;  // the other copies of the nodes on a cut, of each substructure
+  std::vector<NodesOnCuts> on_cuts_;      // of each substructure
 };
 
 using CutPtr = std::shared_ptr<const Cut>;

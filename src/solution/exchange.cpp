@@ -118,7 +118,7 @@ class Builder {
   void tie_copies() {
     for (int part = 0; part < static_cast<int>(problem_.substructures.size()); ++part) {
       if (!cut_.is_cut(part)) continue;
-      for (const auto& [node, others] : cut_.on_cuts(part)) {
+      for (const int node : cut_.on_cuts(part).nodes()) {
         const std::vector<Copy> copies = cut_.copies(part, node);
         if (!reach_.has({copies[0].piece, copies[0].node})) continue;
         for (const Copy& copy : copies) {

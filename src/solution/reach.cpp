@@ -21,10 +21,7 @@ template <class Visit>
 void Reach::for_each_copy(int part, int node, Visit&& visit) const {
   const Copy owner = cut_->owner(part, node);
   visit(NodeKey{owner.piece, owner.node});
-  if (!cut_->is_cut(part)) return;
-  const auto others = cut_->on_cuts(part).find(node);
-  if (others == cut_->on_cuts(part).end()) return;
-  for (const Copy& copy : others->second) visit(NodeKey{copy.piece, copy.node});
+  for (const Copy& copy : cut_->on_cuts(part).others_of(node)) visit(NodeKey{copy.piece, copy.node});
 }
 
 // visit(key, hangs): a node that the point acts on, and whether what else acts on it hangs on the point. Where faces
@@ -70,7 +67,7 @@ bool Reach::grow(const Surface& surface, int s, const std::vector<char>& explici
 
 bool Reach::grow_over_cuts(int part) {
   bool grows = false;
-  for (const auto& [node, others] : cut_->on_cuts(part)) {
+  for (const int node : cut_->on_cuts(part).nodes()) {
     bool is_touched = false;
     for_each_copy(part, node, [&](const NodeKey& key) { is_touched = is_touched || has(key); });
     if (is_touched) for_each_copy(part, node, [&](const NodeKey& key) { grows = take(key) || grows; });
