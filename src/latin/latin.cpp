@@ -97,14 +97,14 @@ void StepRun::iterate(int increment, const Goal& goal, Best& best) {
 }
 
 // The same where all pieces are in one system: V and F are in balance after every iteration but the first.
-void StepRun::iterate_assembled(int increment, const Goal& goal, Best& best) {
+void StepRun::iterate_assembled(int increment, const Goal& goal, Best& best, bool leaves) {
   constexpr double nearly = 1e-6;  // of the indicator: rounding of what loose parts are carried along ends it there
   struct Carried {
     Vec velocity, q;
     Outcome outcome;
   };
   std::optional<Carried> carried;  // a solution with loose parts carried along
-  bool has_left = false;
+  bool has_left = !leaves;
   best.outcome = {};
   if (at_.velocity.size() != at_.q.size()) at_.velocity = Vec::Zero(at_.q.size());
   assembled_->begin();

@@ -175,10 +175,8 @@ std::vector<double> LocalStage::normal_trials() const {
 }
 
 bool LocalStage::links(int i_point, double least) const {
-  const Point& point = model_->exchange.points[static_cast<size_t>(i_point)];
-  const PointRecord& record = points_[static_cast<size_t>(i_point)];
-  const double force = record.force.cwiseAbs2().dot(record.trial.y);
-  return force > least || (point.law && point.has_law[0] && !point.law->shown().gap && !record.is_released);
+  return dygita::links(model_->exchange.points[static_cast<size_t>(i_point)], points_[static_cast<size_t>(i_point)],
+                       least);
 }
 
 double LocalStage::gap(int i_point) const {

@@ -79,10 +79,13 @@ void StepRun::rest_loose_parts(int increment, const Goal& goal, Best& best) {
       best.q = at_.q;
     }
     if (is_enough) return;
-    if (!assembled_) {
-      iterate(increment, {enough, settings_.limit, goal.furthest}, best);
-      if (best.outcome.eta <= enough) continue;
-    }
+    const Goal again{enough, settings_.limit, goal.furthest};
+    is_answered_ = assembled_.has_value();
+    if (assembled_)
+      iterate_assembled(increment, again, best, false);
+    else
+      iterate(increment, again, best);
+    if (best.outcome.eta <= enough) continue;
     if (!was_solved) return;
     // It was a solution as it was.
     const int iterations = best.iterations;

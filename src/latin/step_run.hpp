@@ -78,8 +78,8 @@ class StepRun {
   void coarse_correction(Vec& q, Vec& velocity);
   void inner_iterations();
   void iterate(int increment, const Goal& goal, Best& best);
-  // The same with all pieces in one system.
-  void iterate_assembled(int increment, const Goal& goal, Best& best);
+  // The same with all pieces in one system; leaves: loose parts once, near the solution.
+  void iterate_assembled(int increment, const Goal& goal, Best& best, bool leaves = true);
   // Loose parts (loose_parts.cpp), where all pieces are in one system and where they are not.
   bool leave_loose_parts();
   std::vector<Vec3> loose_motions(double size) const;  // size: W, of the increment's fields

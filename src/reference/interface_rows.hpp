@@ -42,6 +42,7 @@ class InterfaceRows {
   double relative(const Fields& fields) const;
   // What `relative` compares with: fields of increments that are solved, and energy seen so far (J), which keeps
   // increments where nothing happens from iterating on round-off.
+  double largest() const { return std::max(largest_, floor_); }
   void note_size(double size) { largest_ = std::max(largest_, size); }
   void raise_floor(double energy, double dt) { floor_ = std::max(floor_, 1e-12 * energy / dt); }
 

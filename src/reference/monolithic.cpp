@@ -138,8 +138,13 @@ void MonolithicRun::leave_loose_parts(InterfaceNewton::Outcome& outcome) {
   for (size_t i = 0; i < model_.exchange.points.size(); ++i)
     for (int p = model_.exchange.points[i].first_port; p < model_.exchange.points[i].end_port; ++p)
       point_of[static_cast<size_t>(p)] = static_cast<int>(i);
+  // What the tolerance leaves of forces holds nothing.
+  const double least = std::pow(newton_.settings().tolerance, 2) * rows_.largest();
   const std::vector<Vec3> motions =
-      loose_->find({[&](int i) { return !records_[static_cast<size_t>(i)].force.isZero(0.0); },
+      loose_->find({[&](int i) {
+                      const auto at = static_cast<size_t>(i);
+                      return links(model_.exchange.points[at], records_[at], least);
+                    },
                     [&](int p, int d) {
                       const Port& port = model_.exchange.ports[static_cast<size_t>(p)];
                       const Point& point =

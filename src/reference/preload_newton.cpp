@@ -62,16 +62,25 @@ Mat PreloadNewton::slopes(const Vec& d, const Vec& force) {
 
 InterfaceNewton::Outcome PreloadNewton::solve(InterfaceNewton& newton, std::vector<PointRecord>& records,
                                               const Increment& increment, int i_increment) {
+  constexpr double nearer = 1e-2;  // where Newton's method has lost its way
   newton.start(records);
   n_iterations_ = 0;
+  InterfaceNewton::Outcome outcome = attempt(newton, records, increment, i_increment, near_enough);
+  if (increment.is_static && !outcome.converged)
+    outcome = attempt(newton, records, increment, i_increment, nearer * near_enough);
+  newton.check_together(outcome);
+  return outcome;
+}
+
+InterfaceNewton::Outcome PreloadNewton::attempt(InterfaceNewton& newton, std::vector<PointRecord>& records,
+                                                const Increment& increment, int i_increment, double near) {
   if (increment.is_static)
-    n_iterations_ =
+    n_iterations_ +=
         approach_.approach(newton.reduced_force(), records, increment, i_increment,
-                           std::max(near_enough, newton.settings().tolerance), 2 * newton.settings().max_iterations);
+                           std::max(near, newton.settings().tolerance), 2 * newton.settings().max_iterations);
   if (preloads_.empty()) {
     InterfaceNewton::Outcome outcome = newton.solve(records, increment);
-    newton.check_together(outcome);
-    outcome.iterations += n_iterations_;
+    outcome.iterations = n_iterations_ += outcome.iterations;
     return outcome;
   }
   records_ = &records;
@@ -108,7 +117,6 @@ InterfaceNewton::Outcome PreloadNewton::solve(InterfaceNewton& newton, std::vect
   std::vector<const Interface*> interfaces;
   for (const Preload& preload : preloads_) interfaces.push_back(preload.interface);
   check_reached(*model_->step, i_increment, interfaces, force, target_);  // says more than that a part has come off
-  newton.check_together(outcome_);
   outcome_.iterations = n_iterations_;
   outcome_.residual = std::max(outcome_.residual, error());
   outcome_.converged = outcome_.converged && error() <= tolerance_;

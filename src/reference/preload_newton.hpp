@@ -17,6 +17,9 @@ class PreloadNewton {
                                  int i_increment);
 
  private:
+  // From as near to the solution as `near`, relative.
+  InterfaceNewton::Outcome attempt(InterfaceNewton& newton, std::vector<PointRecord>& records,
+                                   const Increment& increment, int i_increment, double near);
   Vec forces(const Vec& d);
   void one_by_one(Vec& d);
   Mat slopes(const Vec& d, const Vec& force);

@@ -84,6 +84,11 @@ LawState end_of_point(const Point& point, const PointRecord& record, const Incre
   return end;
 }
 
+bool links(const Point& point, const PointRecord& record, double least) {
+  const double force = record.force.cwiseAbs2().dot(record.trial.y);
+  return force > least || (point.law && point.has_law[0] && !point.law->shown().gap && !record.is_released);
+}
+
 double gap_of(const Point& point, const PointRecord& record, const Increment& increment) {
   if (!point.law || !point.has_law[0] || !point.law->shown().gap || record.is_released)
     return std::numeric_limits<double>::infinity();
