@@ -21,20 +21,20 @@ void Anderson::begin() {
 }
 
 void Anderson::hear(const Field& q, const Field& image) {
-  if (depth_ == 0) return;
+  if (!accelerates()) return;
   q_first_ = q;
   residual_first_ = (image - q).cwiseProduct(weight_);
   has_before_ = true;
 }
 
 InterfaceSums::ToCome Anderson::first_sums(const Field& q, const Field& image) {
-  if (depth_ == 0) return {};
+  if (!accelerates()) return {};
   residual_ = (image - q).cwiseProduct(weight_);
   return has_before_ ? recent_.sums_to_add(residual_, residual_before_) : past_.sums_to_hear(residual_);
 }
 
 void Anderson::advance(Eigen::Ref<Vec> q, const Field& image) {
-  if (depth_ == 0) {
+  if (!accelerates()) {
     q += relaxation_ * (image - q);
     return;
   }

@@ -29,6 +29,9 @@ class Anderson {
   InterfaceSums::ToCome first_sums(const Field& q, const Field& image);
   void tell_first_sums(const double* sums, int n) { first_sums_.assign(sums, sums + n); }
   int n_problems() const { return n_problems_; }
+  // Relaxation alone while it is so.
+  void pause(bool is_paused) { is_paused_ = is_paused; }
+  bool accelerates() const { return depth_ > 0 && !is_paused_; }
   // The problem ends with q. If it is solved, what it changed helps to predict the next; if not, nothing past does.
   void end(const Field& q, const Field& image, bool is_solved);
 
@@ -40,7 +43,7 @@ class Anderson {
   Vec q_first_, q_before_, residual_first_, residual_before_, residual_;
   InterfaceSums sums_;
   std::vector<double> first_sums_;  // of the next `advance`; empty: they are not known
-  bool has_before_ = false;
+  bool has_before_ = false, is_paused_ = false;
   double best_ = 0.0;
 };
 

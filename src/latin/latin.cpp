@@ -189,6 +189,7 @@ void StepRun::finish_increment(const Vec& q) {
 // Iterates, and leaves pieces and laws with the answer: the last one, or the best where none is good enough.
 StepRun::Best StepRun::answer(int increment, const Goal& goal, bool goes_over_again) {
   Best best{at_.q, {}};
+  const Vec start = model_.scheme.is_static && !assembled_ && anderson_.accelerates() ? at_.q : Vec();
   BoltStart bolts;
   if (local_.has_preloads()) bolts = {at_.q, local_.preload_figures().shortening};
   iterate(increment, goal, best);
@@ -198,6 +199,7 @@ StepRun::Best StepRun::answer(int increment, const Goal& goal, bool goes_over_ag
     iterate(increment, {settings_.tolerance, settings_.limit, goal.furthest}, best);
   }
   if (best.outcome.eta > settings_.tolerance && local_.has_preloads()) seat_bolts(increment, bolts, best);
+  if (start.size() > 0) iterate_plainly(increment, goal, start, best);
   rest_loose_parts(increment, goal, best);
   const bool is_solved = best.outcome.eta <= goal.tolerance;
   anderson_.end(own(at_.q), own(at_.image), is_solved);
@@ -213,6 +215,21 @@ StepRun::Best StepRun::answer(int increment, const Goal& goal, bool goes_over_ag
   indicator_.accept(best.outcome);
   if (files_.trail && !goes_over_again) leave(best, is_solved);
   return best;
+}
+
+// Parts that contact alone holds, and that an iteration has let off, come back by the same small way each time, which
+// tells the acceleration nothing: it sends them anywhere. Where it has lost its way, once more without it.
+void StepRun::iterate_plainly(int increment, const Goal& goal, const Vec& start, Best& best) {
+  constexpr double lost = 1e-5;  // of the indicator
+  if (settings_.limit.least == settings_.limit.most) return;  // as many as the deck allows have been
+  if (!(best.outcome.eta > std::max(lost, settings_.tolerance))) return;
+  Best plain{start, {}, best.iterations};
+  at_.q = start;
+  anderson_.pause(true);
+  iterate(increment, goal, plain);
+  anderson_.pause(false);
+  best.iterations = plain.iterations;
+  if (plain.outcome.eta < best.outcome.eta) best = std::move(plain);
 }
 
 // One time step: forward once, iterate on the interfaces alone, backward once.

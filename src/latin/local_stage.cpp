@@ -206,7 +206,7 @@ void LocalStage::run_points(const std::vector<int>& points, const Vec& velocity,
   const auto run_chunk = [&](int c) {
     for (int i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) run_point(points[i], velocity, q, image);
   };
-  parallel_for(n_chunks, run_chunk, Schedule::evenly, n_chunks > 8 ? 0 : 1);
+  parallel_for(n_chunks, run_chunk, Schedule::evenly, n_chunks > 3 ? 0 : 1);
 }
 
 // Shortenings need all points of their interface.

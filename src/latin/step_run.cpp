@@ -20,6 +20,9 @@ namespace {
 // unknown gets would depend on where it stands among those of its rank.
 double inverse_root(double k) { return 1.0 / std::sqrt(k); }
 
+// Times the assembly's size, of a static increment.
+constexpr double too_far = 10.0;
+
 }  // namespace
 
 StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, const RunFiles& files)
@@ -91,7 +94,9 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
 
 // The first iteration only hears what the kept fields are worth.
 StepRun::Goal StepRun::goal_of(bool has_start) const {
-  const double furthest = local_.has_preloads() ? settings_.assembly_size : 0.0;
+  const double furthest = local_.has_preloads()     ? settings_.assembly_size
+                          : model_.scheme.is_static ? too_far * settings_.assembly_size
+                                                    : 0.0;
   if (settings_.more_iterations == 0 || !has_start) return {settings_.tolerance, settings_.limit, furthest};
   const int most = 1 + settings_.more_iterations;
   return {settings_.round_off, {most, most}, furthest};
@@ -193,7 +198,7 @@ double StepRun::largest_velocity() const {
 bool StepRun::has_flown_off() const {
   if (!model_.scheme.is_static || model_.n_q() == 0) return false;
   const double moved = largest_velocity(), size = settings_.assembly_size;
-  if (moved <= 10.0 * size) return false;
+  if (moved <= too_far * size) return false;
   warn(fmt::format(
       "static step '{}': an increment moves a substructure by {:.3g} m, {:.0f} times the size of the assembly: it is "
       "unconstrained, a limit load is exceeded, or the iteration failed to converge",

@@ -78,7 +78,9 @@ class StepRun {
   void coarse_correction(Vec& q, Vec& velocity);
   void inner_iterations();
   void iterate(int increment, const Goal& goal, Best& best);
-  // The same with all pieces in one system; leaves: loose parts once, near the solution.
+  // The same without acceleration, from where the increment began, where what is best is no solution at all.
+  void iterate_plainly(int increment, const Goal& goal, const Vec& start, Best& best);
+  // With all pieces in one system; leaves: loose parts once, near the solution.
   void iterate_assembled(int increment, const Goal& goal, Best& best, bool leaves = true);
   // Loose parts (loose_parts.cpp), where all pieces are in one system and where they are not.
   bool leave_loose_parts();

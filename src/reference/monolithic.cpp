@@ -242,6 +242,7 @@ void MonolithicRun::solve_increment(int increment) {
   begin_increment(increment);
   lap(seconds_.forward);
   InterfaceNewton::Outcome outcome = preload_->solve(newton_, records_, increment_, increment);
+  if (interrupt_requested() && !outcome.converged) return;  // an increment that was left half solved does not count
   if (loose_ && outcome.converged) leave_loose_parts(outcome);
   lap(seconds_.newton);
   finish_increment();

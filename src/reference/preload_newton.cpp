@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/progress.hpp"
 #include "numerics/dense.hpp"
 
 namespace dygita {
@@ -9,6 +10,10 @@ namespace dygita {
 namespace {
 
 constexpr double near_enough = 1e-7;  // relative: from there on Newton's own slopes are right
+
+// The search of the shortenings ends: forces that are no solution lead nowhere, or the user wishes so.
+struct GivenUp {};
+constexpr int most_in_vain = 4;  // solutions that have not converged, one after the other
 
 }  // namespace
 
@@ -31,8 +36,11 @@ Vec PreloadNewton::forces(const Vec& d) {
   Vec force = Vec::Zero(d.size());
   for (int i = 0; i < d.size(); ++i)
     for (const int p : preloads_[i].points) (*records_)[p].trial.shortening = d[i];
+  if (interrupt_requested()) throw GivenUp();
   outcome_ = solve_();
   n_iterations_ += outcome_.iterations;
+  n_in_vain_ = outcome_.converged ? 0 : n_in_vain_ + 1;
+  if (n_in_vain_ == most_in_vain) throw GivenUp();
   for (int i = 0; i < d.size(); ++i)
     for (const int p : preloads_[i].points) force[i] += (*records_)[p].force[0];
   return force;
@@ -60,13 +68,43 @@ Mat PreloadNewton::slopes(const Vec& d, const Vec& force) {
   return slope;
 }
 
+double PreloadNewton::error(const Vec& force) const {
+  return scale_ > 0.0 ? (target_ - force).cwiseAbs().maxCoeff() / scale_ : 0.0;
+}
+
+// From shortenings d to those that bring the target; returns the forces there.
+Vec PreloadNewton::search(Vec& d) {
+  Vec force = forces(d);
+  scale_ = std::max(target_.cwiseAbs().maxCoeff(), force.cwiseAbs().maxCoeff());
+  Mat slope;
+  for (int k = 0; k < 30 && error(force) > tolerance_; ++k) {
+    const double before = error(force);
+    if (d.size() == 1 || k == 0) {
+      one_by_one(d);
+      force = forces(d);
+      slope.resize(0, 0);
+      continue;
+    }
+    if (slope.size() == 0) slope = slopes(d, force);
+    const Vec old = d;
+    d += solve_dense(slope, target_ - force);
+    force = forces(d);
+    if (error(force) > 0.1 * before) slope.resize(0, 0);
+    if (error(force) < before) continue;
+    d = old;
+    one_by_one(d);
+    force = forces(d);
+  }
+  return force;
+}
+
 InterfaceNewton::Outcome PreloadNewton::solve(InterfaceNewton& newton, std::vector<PointRecord>& records,
                                               const Increment& increment, int i_increment) {
   constexpr double nearer = 1e-2;  // where Newton's method has lost its way
   newton.start(records);
   n_iterations_ = 0;
   InterfaceNewton::Outcome outcome = attempt(newton, records, increment, i_increment, near_enough);
-  if (increment.is_static && !outcome.converged)
+  if (increment.is_static && !outcome.converged && !interrupt_requested())
     outcome = attempt(newton, records, increment, i_increment, nearer * near_enough);
   newton.check_together(outcome);
   return outcome;
@@ -92,34 +130,24 @@ InterfaceNewton::Outcome PreloadNewton::attempt(InterfaceNewton& newton, std::ve
     target_[i] = preloads_[i].target(i_increment, model_->step->increments);
     d[i] = preloads_[i].points.empty() ? 0.0 : records[preloads_[i].points.front()].trial.shortening;
   }
-  Vec force = forces(d);
-  scale_ = std::max(target_.cwiseAbs().maxCoeff(), force.cwiseAbs().maxCoeff());
-  const auto error = [&] { return scale_ > 0.0 ? (target_ - force).cwiseAbs().maxCoeff() / scale_ : 0.0; };
-  Mat slope;
-  for (int k = 0; k < 30 && error() > tolerance_; ++k) {
-    const double before = error();
-    if (n == 1 || k == 0) {
-      one_by_one(d);
-      force = forces(d);
-      slope.resize(0, 0);
-      continue;
-    }
-    if (slope.size() == 0) slope = slopes(d, force);
-    const Vec old = d;
-    d += solve_dense(slope, target_ - force);
-    force = forces(d);
-    if (error() > 0.1 * before) slope.resize(0, 0);
-    if (error() < before) continue;
-    d = old;
-    one_by_one(d);
-    force = forces(d);
+  Vec force = Vec::Zero(n);
+  n_in_vain_ = 0;
+  bool is_given_up = false;
+  try {
+    force = search(d);
+  } catch (const GivenUp&) {
+    is_given_up = true;
   }
   std::vector<const Interface*> interfaces;
   for (const Preload& preload : preloads_) interfaces.push_back(preload.interface);
-  check_reached(*model_->step, i_increment, interfaces, force, target_);  // says more than that a part has come off
   outcome_.iterations = n_iterations_;
-  outcome_.residual = std::max(outcome_.residual, error());
-  outcome_.converged = outcome_.converged && error() <= tolerance_;
+  if (is_given_up) {
+    outcome_.converged = false;
+    return outcome_;
+  }
+  check_reached(*model_->step, i_increment, interfaces, force, target_);  // says more than that a part has come off
+  outcome_.residual = std::max(outcome_.residual, error(force));
+  outcome_.converged = outcome_.converged && error(force) <= tolerance_;
   return outcome_;
 }
 

@@ -20,6 +20,8 @@ class PreloadNewton {
   // From as near to the solution as `near`, relative.
   InterfaceNewton::Outcome attempt(InterfaceNewton& newton, std::vector<PointRecord>& records,
                                    const Increment& increment, int i_increment, double near);
+  Vec search(Vec& d);
+  double error(const Vec& force) const;  // relative
   Vec forces(const Vec& d);
   void one_by_one(Vec& d);
   Mat slopes(const Vec& d, const Vec& force);
@@ -36,7 +38,7 @@ class PreloadNewton {
   std::function<InterfaceNewton::Outcome()> solve_;
   std::vector<PointRecord>* records_ = nullptr;
   InterfaceNewton::Outcome outcome_;
-  int n_iterations_ = 0;
+  int n_iterations_ = 0, n_in_vain_ = 0;
 };
 
 }  // namespace dygita

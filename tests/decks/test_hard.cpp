@@ -203,5 +203,36 @@ TEST(StaticYield, creates_no_energy_in_one_increment) {
   }
 }
 
+// A block that a force presses on a base, driven to and fro: where it turns round in one large increment the iteration
+// lets it off the base, and acceleration would send it anywhere.
+TEST(Slider, turns_round_in_one_increment) {
+  const std::string slider = R"(
+local p = param{ m = 8, way = 0.2*mm, beside = 0 }
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0, density = 8000 }
+local base = substructure{ name = "base", material = steel, mesh = mesh.box{ size = { 30*mm, 30*mm, 5*mm }, cells = { 3, 3, 1 } } }
+local block = substructure{ name = "block", material = steel, mesh = mesh.box{ origin = { 5*mm, 5*mm, 5*mm }, size = { 20*mm, 20*mm, 5*mm }, cells = { 3, 2, 1 } } }
+local other = substructure{ name = "other", material = steel, mesh = mesh.box{ origin = { 50*mm, 0, 0 }, size = { 20*mm, 20*mm, 10*mm }, cells = { 2, 2, 1 } } }
+local seat = interface.contact{ name = "seat", between = { base:face "zmax", block:face "zmin" }, friction = 0.25 }
+local floor = support.fixed{ name = "floor", on = p.beside == 1 and { base:face "zmin", other:face "zmin" } or base:face "zmin" }
+local loads = { load.force{ on = block:face "zmax", z = -3*kN } }
+if p.beside == 1 then loads[2] = load.pressure{ on = other:face "zmax", history = 200*MPa } end
+local press = step.static{ name = "press", loads = loads }
+local drive = load.displacement{ on = block:face "zmax", y = 0, x = history.piecewise{ times = { 0, 0.2, 0.4, 0.6, 0.8, 1 }, values = { 0, p.way, -p.way, p.way, -p.way, 0 } } }
+local cycle = step.static{ name = "cycle", after = press, increments = 5*p.m, loads = { drive, table.unpack(loads) } }
+problem{ name = "slider", substructures = p.beside == 1 and { base, block, other } or { base, block }, interfaces = { seat }, supports = { floor }, steps = { press, cycle },
+  outputs = { output.joint{ name = "seat", on = seat } } }:run{}
+)";
+  for (const char* m : {"4", "8", "40"})
+    for (const char* beside : {"0", "1"}) {
+      const Settings settings = {{"m", m}, {"beside", beside}};
+      const DeckRun run = run_text(slider, settings, 0, "latin{ static_steps = 'iterated' }")[0],
+                    asked = run_text(slider, settings, 0, "monolithic")[0];
+      EXPECT_TRUE(run.result->converged) << m << beside;
+      const double work = asked.column("seat", "friction_work").back();
+      EXPECT_GT(work, 0.9);
+      EXPECT_NEAR(run.column("seat", "friction_work").back(), work, 1e-5 * work) << m << beside;
+    }
+}
+
 }  // namespace
 }  // namespace dygita::test::hard_tests
