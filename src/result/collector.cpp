@@ -127,7 +127,11 @@ void Collector::finish(RunResult& result) {
     if (!least || std::isnan(stress.margin()) || stress.margin() < *least) least = stress.margin();
     if (std::isnan(*least)) break;
   }
-  const double percent = extremes_.energy > parts_.errors().energy_at_rest() ? 100.0 / extremes_.energy : 0.0;
+  // Where nothing is stored but the balance is open (an iteration that has run away), it is open altogether.
+  const double at_rest = parts_.errors().energy_at_rest();
+  const double percent = extremes_.energy > at_rest      ? 100.0 / extremes_.energy
+                         : extremes_.imbalance > at_rest ? 100.0 / extremes_.imbalance
+                                                         : 0.0;
   result.figures.largest_energy = extremes_.energy;
   result.figures.energy_imbalance = percent * extremes_.imbalance;
   result.figures.numerical_dissipation = percent * extremes_.scheme_loss;
