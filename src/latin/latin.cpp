@@ -66,7 +66,7 @@ void StepRun::inner_iterations() {
 
 // Both stages in turn, until the goal is reached.
 void StepRun::iterate(int increment, const Goal& goal, Best& best) {
-  if (assembled_) return iterate_assembled(increment, goal, best);
+  if (assembled_ && !goes_part_by_part_) return iterate_assembled(increment, goal, best);
   anderson_.begin();
   at_.uncorrected.resize(0);
   best.outcome = {};
@@ -189,7 +189,7 @@ void StepRun::finish_increment(const Vec& q) {
 // Iterates, and leaves pieces and laws with the answer: the last one, or the best where none is good enough.
 StepRun::Best StepRun::answer(int increment, const Goal& goal, bool goes_over_again) {
   Best best{at_.q, {}};
-  const Vec start = model_.scheme.is_static && !assembled_ && anderson_.accelerates() ? at_.q : Vec();
+  const Vec start = model_.scheme.is_static && (assembled_ || anderson_.accelerates()) ? at_.q : Vec();
   BoltStart bolts;
   if (local_.has_preloads()) bolts = {at_.q, local_.preload_figures().shortening};
   iterate(increment, goal, best);
@@ -199,7 +199,7 @@ StepRun::Best StepRun::answer(int increment, const Goal& goal, bool goes_over_ag
     iterate(increment, {settings_.tolerance, settings_.limit, goal.furthest}, best);
   }
   if (best.outcome.eta > settings_.tolerance && local_.has_preloads()) seat_bolts(increment, bolts, best);
-  if (start.size() > 0) iterate_plainly(increment, goal, start, best);
+  if (start.size() > 0) iterate_again(increment, goal, start, best);
   rest_loose_parts(increment, goal, best);
   const bool is_solved = best.outcome.eta <= goal.tolerance;
   anderson_.end(own(at_.q), own(at_.image), is_solved);
@@ -218,18 +218,26 @@ StepRun::Best StepRun::answer(int increment, const Goal& goal, bool goes_over_ag
 }
 
 // Parts that contact alone holds, and that an iteration has let off, come back by the same small way each time, which
-// tells the acceleration nothing: it sends them anywhere. Where it has lost its way, once more without it.
-void StepRun::iterate_plainly(int increment, const Goal& goal, const Vec& start, Best& best) {
+// tells the acceleration nothing: it sends them anywhere. Newton's method in one system may go round in circles where
+// all points slide back at once. Where either has lost its way, once more from the start: part by part, and without
+// acceleration.
+void StepRun::iterate_again(int increment, const Goal& goal, const Vec& start, Best& best) {
   constexpr double lost = 1e-5;  // of the indicator
+  constexpr IterationLimit part_by_part{400, 5000};
   if (settings_.limit.least == settings_.limit.most) return;  // as many as the deck allows have been
-  if (!(best.outcome.eta > std::max(lost, settings_.tolerance))) return;
-  Best plain{start, {}, best.iterations};
-  at_.q = start;
-  anderson_.pause(true);
-  iterate(increment, goal, plain);
-  anderson_.pause(false);
-  best.iterations = plain.iterations;
-  if (plain.outcome.eta < best.outcome.eta) best = std::move(plain);
+  for (const bool accelerates : {true, false}) {
+    if (accelerates && !(assembled_ && anderson_.accelerates())) continue;
+    if (!(best.outcome.eta > std::max(lost, settings_.tolerance))) return;
+    Best again{start, {}, best.iterations};
+    at_.q = start;
+    anderson_.pause(!accelerates);
+    goes_part_by_part_ = true;
+    iterate(increment, {goal.tolerance, part_by_part, goal.furthest}, again);
+    goes_part_by_part_ = false;
+    anderson_.pause(false);
+    best.iterations = again.iterations;
+    if (again.outcome.eta < best.outcome.eta) best = std::move(again);
+  }
 }
 
 // One time step: forward once, iterate on the interfaces alone, backward once.

@@ -78,8 +78,8 @@ class StepRun {
   void coarse_correction(Vec& q, Vec& velocity);
   void inner_iterations();
   void iterate(int increment, const Goal& goal, Best& best);
-  // The same without acceleration, from where the increment began, where what is best is no solution at all.
-  void iterate_plainly(int increment, const Goal& goal, const Vec& start, Best& best);
+  // The same in other ways, from where the increment began, where what is best is no solution at all.
+  void iterate_again(int increment, const Goal& goal, const Vec& start, Best& best);
   // With all pieces in one system; leaves: loose parts once, near the solution.
   void iterate_assembled(int increment, const Goal& goal, Best& best, bool leaves = true);
   // Loose parts (loose_parts.cpp), where all pieces are in one system and where they are not.
@@ -208,6 +208,7 @@ class StepRun {
   LocalStage local_;
   std::optional<TangentIteration> assembled_;  // static steps with all pieces in one system
   std::optional<LooseMotions> loose_;          // of static steps
+  bool goes_part_by_part_ = false;             // though all pieces are in one system
   bool is_answered_ = false;                   // the velocities at hand are the linear stage's answer to q
   DirectPoints direct_;
   std::optional<DistantPoints> distant_;  // where there are several ranks

@@ -34,6 +34,15 @@ TangentIteration::TangentIteration(const StepModel& model, LocalStage& local, co
     : local_(&local), system_(model), k_(k), least_(1e-9 * size) {}
 
 void TangentIteration::linear_stage(const Vec& q, Vec& velocity) {
+  if (!has_usual_factor_) take_usual_factor();
+  system_.stop_following();
+  velocity = Vec::Zero(q.size());
+  Vec force = q;
+  system_.solve(velocity, force);
+}
+
+// With the search directions in place of tangents.
+void TangentIteration::take_usual_factor() {
   Tangents tangents;
   for (const std::vector<int>& unknowns : system_.unknowns_of_points()) {
     const Vec own = k_(unknowns);
@@ -42,9 +51,8 @@ void TangentIteration::linear_stage(const Vec& q, Vec& velocity) {
     tangent.matrix = own.asDiagonal();
   }
   system_.set_tangents(std::move(tangents));
-  velocity = Vec::Zero(q.size());
-  Vec force = q;
-  system_.solve(velocity, force);
+  has_usual_factor_ = true;
+  tangents_ = {};
 }
 
 void TangentIteration::begin() {
@@ -69,6 +77,7 @@ int TangentIteration::take_tangents() {
     return 0;
   }
   factorised_softest_ = bounds.softest;
+  has_usual_factor_ = false;
   system_.set_tangents(now);
   tangents_ = std::move(now);
   return count.turned;

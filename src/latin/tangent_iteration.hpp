@@ -34,6 +34,7 @@ class TangentIteration {
  private:
   double distance(const Vec& velocity, const Vec& q, const std::vector<double>& limits);
   int take_tangents();
+  void take_usual_factor();
 
   LocalStage* local_;
   AssembledSystem system_;
@@ -41,7 +42,8 @@ class TangentIteration {
   double least_;
   double factorised_softest_ = 0.0;
   TangentSteps steps_;
-  Tangents tangents_;  // of the factor
+  Tangents tangents_;  // of the factor, of none where it is the usual one
+  bool has_usual_factor_ = false;
 };
 
 }  // namespace dygita
