@@ -119,6 +119,8 @@ class InStep {
 
   bool reaches_its_peak() const {
     if (chain_.after || profile_->peak <= end() * (1.0 + rounding)) return true;
+    // A plateau has as much before.
+    if (std::abs(largest_in_step()) >= 0.999 * std::abs(history_.value(profile_->peak))) return true;
     say(fmt::format(
         "reaches its largest value, {:.4g} {}, at {}, after the end of the step at {}: within the step it is "
         "{:.4g} {} at most",

@@ -49,14 +49,14 @@ Srs spectrum_of(const Problem& problem, const SrsSettings& settings, const Table
 }
 
 FrequencyRange judged_by(const Problem& problem, const Table& history) {
-  double record = 0.0, shortest = std::numeric_limits<double>::infinity();
+  double record = 0.0, longest = 0.0;
   for (const int i_step : history.step) {  // of each row, one an increment
     const Step& step = *problem.steps[static_cast<size_t>(i_step)];
     if (step.is_static) continue;
     record += step.dt;
-    shortest = std::min(shortest, step.dt);
+    longest = std::max(longest, step.dt);
   }
-  return reliable_range(record, shortest);
+  return reliable_range(record, longest);
 }
 
 std::vector<double> evenly(const std::vector<double>& time, const std::vector<double>& value, double dt) {

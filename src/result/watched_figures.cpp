@@ -12,19 +12,15 @@ namespace {
 
 const std::vector<std::string> words = {"max", "min", "last", "mean"};
 
-// Of each row, how long it stands for: as long as the other rows of its step. Rows of static steps for nothing, where
-// there are others.
+// Of each row, how long it stands for: half of the time to its neighbours on both sides. Where time does not pass, all
+// rows for as long.
 std::vector<double> durations(const Table& table) {
   const auto n = static_cast<size_t>(table.n_rows());
   std::vector<double> lasts(n, 0.0);
-  if (table.names.empty() || table.names.front() != "time" || table.step.size() != n) return std::vector(n, 1.0);
+  if (table.names.empty() || table.names.front() != "time") return std::vector(n, 1.0);
   const std::vector<double>& time = table.columns.front();
-  for (size_t first = 0, end = 0; first < n; first = end) {
-    while (end < n && table.step[end] == table.step[first]) ++end;
-    if (end - first > 1)
-      std::fill(lasts.begin() + static_cast<long>(first), lasts.begin() + static_cast<long>(end),
-                (time[end - 1] - time[first]) / static_cast<double>(end - first - 1));
-  }
+  for (size_t i = 0; i + 1 < n; ++i)
+    for (const size_t end : {i, i + 1}) lasts[end] += 0.5 * (time[i + 1] - time[i]);
   const bool has_motion = std::any_of(lasts.begin(), lasts.end(), [](double t) { return t > 0.0; });
   return has_motion ? lasts : std::vector(n, 1.0);
 }

@@ -464,6 +464,18 @@ problem{ name = "p", substructures = { b }, supports = { base }, steps = { one, 
   EXPECT_NEAR(WatchedName(run.problem, "r.z.mean", "--output").of(*run.result)->values.at(0), -200.0, 1e-6);
 }
 
+// A block in flight at 1 m/s for 10 us, in five time steps: 5 um in the mean, its ends counted for half.
+TEST(Mean, of_a_watched_column_counts_the_ends_of_the_motion_for_half) {
+  const DeckRun run = run_kind(R"(
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 10*mm, 10*mm, 20*mm }, cells = { 1, 1, 2 } }, velocity = { 0, 0, 1 } }
+local fly, on = step.dynamic{ name = "fly", duration = 6*us, dt = 2*us }, nil
+on = step.dynamic{ name = "on", after = fly, duration = 4*us, dt = 2*us }
+problem{ name = "p", substructures = { b }, steps = { fly, on }, outputs = { output.history{ name = "u", on = b:face "zmax", quantity = "displacement", direction = { 0, 0, 1 } } } }:run{}
+)",
+                               0);
+  EXPECT_NEAR(WatchedName(run.problem, "u.displacement.mean", "--output").of(*run.result)->values.at(0), 5e-6, 1e-12);
+}
+
 // 0.1 mm of flight towards a wall 0.05 mm away that only the second step has.
 TEST(Wall, that_appears_where_a_part_is_says_so) {
   const auto warned = [](const std::string& of_flight) {

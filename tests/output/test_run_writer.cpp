@@ -309,7 +309,13 @@ struct Done {
     add_output(make_history("spread", {}, "displacement"), "displacement", "m");
     add_output(make_output(given_output("energy", "")), "kinetic", "J");
     result.convergence = {{"time", "iterations"}, {"s", ""}, {{1e-6}, {5.0}}, {0}};
-    result.steps = {{"shock", false, 10, 1, 50, 2e-6, 0.25, {}, {}}};
+    StepSummary& shock = result.steps.emplace_back();
+    shock.name = "shock";
+    shock.increments = 10;
+    shock.increments_not_converged = 1;
+    shock.iterations = 50;
+    shock.worst_indicator = 2e-6;
+    shock.seconds = 0.25;
     result.iterations = 50;
     result.figures.largest_penetration = 1e-9;
     result.figures.mesh_error = std::nan("");
