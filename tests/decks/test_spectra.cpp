@@ -22,6 +22,24 @@ void expect_band(const BandWorth& worth, double least_covered, double largest_ra
   EXPECT_LT(worth.band, largest_ratio * worth.truth);
 }
 
+// A shock sampled at 100 kHz and what follows at 1 MHz: the spectrum is of both.
+TEST(Spectrum, is_judged_to_half_of_the_coarsest_sampling_rate) {
+  for (const char* later : {"1", "10", "40"}) {
+    const DeckRun run = run_text(R"(
+local p = param{ later = 1 }
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 8000 }
+local bar = substructure{ name = "bar", material = steel, mesh = mesh.box{ size = { 10*mm, 10*mm, 50*mm }, cells = { 1, 1, 5 } } }
+local shock = step.dynamic{ name = "shock", duration = 1*ms, dt = 10*us, loads = { load.pressure{ on = bar:face "zmax", history = history.half_sine{ peak = 1*MPa, duration = 200*us } } } }
+local ring = step.dynamic{ name = "ring", after = shock, duration = 400*us, dt = p.later*us }
+local a = output.history{ name = "a", on = bar:face "zmin", quantity = "acceleration", direction = { 0, 0, 1 } }
+problem{ name = "bar", substructures = { bar }, supports = {}, steps = { shock, ring }, outputs = { a, output.srs{ name = "s", of = a, from = 1*kHz, to = 10*kHz } } }:run{}
+)",
+                                 {{"later", later}})[0];
+    const double coarsest = std::max(10.0, std::stod(later)) * 1e-6;
+    EXPECT_NEAR(run.findings("s").values.at("judged_to"), 0.5 / coarsest, 1e-6 / coarsest) << later;
+  }
+}
+
 TEST(SpectrumBand, holds_what_the_tolerance_leaves) {
   const SpectraRun loose = crush({}, 1e-3), tight = crush({}, 1e-9);
   for (size_t i = 0; i < 2; ++i) expect_band(band_worth(loose.spectra[i], tight.spectra[i], "iteration"), 0.9, 50.0);
