@@ -35,6 +35,18 @@ SubstructurePtr tetrahedron(const std::string& name, double z) {
   return part;
 }
 
+StepSummary summary(const std::string& name, bool is_static, int increments, long iterations, double indicator,
+                    double seconds) {
+  StepSummary step;
+  step.name = name;
+  step.is_static = is_static;
+  step.increments = increments;
+  step.iterations = iterations;
+  step.worst_indicator = indicator;
+  step.seconds = seconds;
+  return step;
+}
+
 // A bolted pair, tightened and shocked, with every kind of output.
 struct Example {
   Problem problem;
@@ -52,7 +64,7 @@ struct Example {
     touch->side_2 = {problem.substructures[1], "bottom"};
     problem.interfaces = {touch};
     problem.steps = {step("tighten", true), step("shock", false)};
-    result.steps = {{"tighten", true, 2, 0, 30, 5e-9, 0.1, {}, {}}, {"shock", false, 3, 0, 12, 8e-7, 0.2, {}, {}}};
+    result.steps = {summary("tighten", true, 2, 30, 5e-9, 0.1), summary("shock", false, 3, 12, 8e-7, 0.2)};
     const std::vector<int> rows = {0, 0, 1, 1, 1};
     const std::vector<double> time = {0, 0, 1e-6, 2e-6, 3e-6};
     const OutputPtr history = add(make_history("above", {}, "acceleration"),
