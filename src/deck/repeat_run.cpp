@@ -27,8 +27,10 @@ DeckOutcome repeat_run(DeckOptions options, const std::filesystem::path& record)
   if (!repetition.is_done() && !outcome.interrupted)
     throw InputError(fmt::format("the deck does not run {} any more", repetition.label()));
   if (!repetition.differing().empty())
-    outcome.differing = fmt::format("deck, parameters and meshes are those of {}, and these tables differ: {}",
-                                    repetition.label(), repetition.differing());
+    outcome.differing = fmt::format(
+        "deck, parameters and meshes are those of {} (files of histories are not compared: one that has "
+        "changed gives other tables), and these tables differ: {}",
+        repetition.label(), repetition.differing());
   return outcome;
 }
 
