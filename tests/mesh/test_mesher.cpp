@@ -132,7 +132,7 @@ Mesh.Algorithm = 8; Mesh.RecombineAll = 1; Mesh.RecombinationAlgorithm = 1; Mesh
 MeshSize{ PointsOf{ Volume{1}; } } = 0.002;
 )"));
   if (said.empty()) GTEST_SKIP() << "this gmsh meshes it";
-  EXPECT_NE(said.find("crash.geo: gmsh came to an end by signal"), std::string::npos) << said;
+  EXPECT_NE(said.find("crash.geo: gmsh came to an end "), std::string::npos) << said;  // by signal, or its sanitizer
 }
 
 TEST_F(Mesher, that_cannot_read_a_file_says_so_without_what_a_terminal_obeys) {

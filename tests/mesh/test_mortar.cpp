@@ -326,7 +326,11 @@ TEST(Mortar, of_mirror_images_are_mirror_images) {
     std::vector<std::array<double, 3>> points;
     for (int i = 0; i < facing.n_points(); ++i)
       points.push_back({std::abs(facing.places(0, i)), std::abs(facing.places(1, i)), facing.areas[i]});
-    std::sort(points.begin(), points.end());
+    // Last digits put no point before another.
+    const auto order = [](const std::array<double, 3>& p) {
+      return std::pair(std::llround(1e9 * p[0]), std::llround(1e9 * p[1]));
+    };
+    std::sort(points.begin(), points.end(), [&](const auto& a, const auto& b) { return order(a) < order(b); });
     return points;
   };
   const auto first = foot_at(3.5, 2.5);
