@@ -223,7 +223,7 @@ void find_intrusion(const SurfaceInBox& a, const SurfaceInBox& b, double whole, 
     if (depth <= allowed) continue;
     if (!deepest) deepest = Intrusion{0.0, x, {}, 0.0};
     deepest->extent.add(x);
-    if (depth <= deepest->depth) continue;
+    if (depth <= (1.0 + 1e-9) * deepest->depth) continue;  // of equal ones the first, whatever their last digits
     deepest->depth = depth;
     deepest->place = x;
   }
