@@ -219,15 +219,15 @@ StepRun::Best StepRun::answer(int increment, const Goal& goal, bool goes_over_ag
 
 // Parts that contact alone holds, and that an iteration has let off, come back by the same small way each time, which
 // tells the acceleration nothing: it sends them anywhere. Newton's method in one system may go round in circles where
-// all points slide back at once. Where either has lost its way, once more from the start: part by part, and without
+// all points slide back at once. Where either has diverged, once more from the start: part by part, and without
 // acceleration.
 void StepRun::iterate_again(int increment, const Goal& goal, const Vec& start, Best& best) {
-  constexpr double lost = 1e-5;  // of the indicator
+  constexpr double diverged = 1e-5;  // of the indicator
   constexpr IterationLimit part_by_part{400, 5000};
   if (settings_.limit.least == settings_.limit.most) return;  // as many as the deck allows have been
   for (const bool accelerates : {true, false}) {
     if (accelerates && !(assembled_ && anderson_.accelerates())) continue;
-    if (!(best.outcome.eta > std::max(lost, settings_.tolerance))) return;
+    if (!(best.outcome.eta > std::max(diverged, settings_.tolerance))) return;
     Best again{start, {}, best.iterations};
     at_.q = start;
     anderson_.pause(!accelerates);

@@ -100,7 +100,7 @@ Vec PreloadNewton::search(Vec& d) {
 
 InterfaceNewton::Outcome PreloadNewton::solve(InterfaceNewton& newton, std::vector<PointRecord>& records,
                                               const Increment& increment, int i_increment) {
-  constexpr double nearer = 1e-2;  // where Newton's method has lost its way
+  constexpr double nearer = 1e-2;  // where Newton's method has diverged
   newton.start(records);
   n_iterations_ = 0;
   InterfaceNewton::Outcome outcome = attempt(newton, records, increment, i_increment, near_enough);
