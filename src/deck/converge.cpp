@@ -260,7 +260,11 @@ class Converge {
     double apart = 0.0;
     for (size_t k = 0; k < found.size() && k < coarsest.size(); ++k) {
       double sum = coarsest[k];
-      for (size_t i = 0; i < levels.size(); ++i) sum += values_of(study_.along(i, levels[i])).at(k) - coarsest[k];
+      for (size_t i = 0; i < levels.size(); ++i) {
+        const std::vector<double> alone = values_of(study_.along(i, levels[i]));
+        if (alone.size() != found.size()) return std::numeric_limits<double>::infinity();
+        sum += alone[k] - coarsest[k];
+      }
       apart = std::max(apart, std::abs(found[k] - sum) / figure.scale);
     }
     return apart;

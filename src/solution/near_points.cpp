@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <set>
 
 #include "ranks/neighbours.hpp"
 #include "solution/all_pieces.hpp"
