@@ -110,6 +110,21 @@ local function put_constructor(path, entry)
   put("function %s(arguments) end\n", path)
 end
 
+-- A word that is called itself and has members.
+local function put_callable(word)
+  local path = word.name
+  put("---@class (exact) %s", arguments_of(path))
+  put_fields(word.call.arguments)
+  put ""
+  put("---@class %s: %s", class_of(path), arguments_of(path))
+  put ""
+  put_doc(word.call)
+  put("---@class %s", class_of("word." .. path))
+  put("---@overload fun(arguments: %s): %s", arguments_of(path), class_of(path))
+  put("%s = {}\n", path)
+  for _, entry in ipairs(word) do put_constructor(path .. "." .. entry[1], entry) end
+end
+
 -- Classes that only methods and constructors name: a part's face, and whatever several constructors make.
 local function put_kinds()
   local known, own = {}, {}
@@ -213,8 +228,10 @@ put "---@operator div(number): dygita.history"
 put "---@operator unm: dygita.history\n"
 
 for _, word in ipairs(schema.words) do
-  if word.call then
+  if word.call and #word == 0 then
     put_constructor(word.name, word.call)
+  elseif word.call then
+    put_callable(word)
   else
     put("--- %s", word.doc)
     put("%s = {}\n", word.name)

@@ -103,8 +103,9 @@ local function ordered_pairs(t)
   return in_order(t)
 end
 
--- A table that can be read and not written; `what` opens the message.
-local function read_only(members, what)
+-- A table that can be read and not written; `what` opens the message. call: what it does when it is called itself; nil:
+-- nothing.
+local function read_only(members, what, call)
   return setmetatable({}, {
     __index = function(_, key)
       local member = members[key]
@@ -115,7 +116,7 @@ local function read_only(members, what)
         native.did_you_mean(tostring(key), known)))
     end,
     __newindex = function(_, key) native.fail(native.line(), ("%s.%s cannot be changed"):format(what, tostring(key))) end,
-    __call = function()
+    __call = call and function(_, ...) return (call(...)) end or function()
       local known = {}
       for name in pairs(members) do known[#known + 1] = name end
       table.sort(known)

@@ -210,6 +210,26 @@ words[3] = {
   },
 }
 
+-- Beside the call: parts that are no mesh.
+local part_arguments = words[3].call.arguments
+words[3][1] = {
+  "superelement", makes = "substructure",
+  doc = "A part that is known by its matrices: what output.superelement has condensed, or matrices of another program, in SI. It takes part "
+    .. "in interfaces, supports and all steps; it has no stress, and no joint inside it opens or slides. Its faces are those that it was condensed "
+    .. "with. `file`, or `stiffness`, `mass` and `points`.",
+  arguments = {
+    name_of "part",
+    { "file", type = "file", doc = "the `<name>.json` that output.superelement has written, beside its matrices" },
+    { "stiffness", type = "file", doc = "N/m, in Matrix Market format: first the rows of the points, then those of modes" },
+    { "mass", type = "file", doc = "kg, the same rows" },
+    { "damping", type = "file", doc = "N s/m, the same rows; left out: none" },
+    { "points", type = "file", doc = "table (CSV) of the interface's points with a line of titles: face, x, y, z in metres; row_x, row_y, row_z, the numbers of their "
+      .. "rows, where these are not in the order of the table" },
+    part_arguments[4], part_arguments[5],
+  },
+  one_of = { "file", "stiffness" },
+}
+
 local function pattern_of(n_doc)
   return { "of", type = "object", kinds = { "substructure" }, or_bolt = true, required = true,
            doc = "the part, or a bolt with all its parts; the first of the list stands where it does" },

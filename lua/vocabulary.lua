@@ -46,7 +46,7 @@ local function copied(of, arguments, name, place, line)
   for key, value in pairs(arguments) do copy[key] = value end
   copy.name, copy.place = name, placement.shortest(place)
   copy.of = of  -- which is used so
-  local part = native.make("substructure", "substructure", copy, line)
+  local part = native.make(select(2, native.kind(of)), "substructure", copy, line)
   interfaces.note_part(part)
   return part
 end
@@ -84,8 +84,8 @@ end
 local words = {}
 for _, word in ipairs(schema.words) do
   local name = word.name
-  if word.call then
-    word.call.path = name
+  if word.call then word.call.path = name end
+  if word.call and #word == 0 then
     words[name] = constructor(word.call)
   else
     local members = {}
@@ -94,7 +94,7 @@ for _, word in ipairs(schema.words) do
       members[entry[1]] = entry.expands and expanded(entry) or entry.is_bolt and bolts.constructor(entry, check.call) or constructor(entry)
     end
     for _, later in ipairs(word.later or {}) do members[later] = not_built(name .. "." .. later) end
-    words[name] = environment.read_only(members, name)
+    words[name] = environment.read_only(members, name, word.call and constructor(word.call))
   end
 end
 

@@ -49,9 +49,13 @@ MeshPtr volume_of(const GmshMeshes& file, const std::string& name, const Origin&
 
 Face face_of(const SubstructurePtr& part, const std::string& group, const Origin& origin) {
   const auto& faces = part->mesh->faces;
-  if (faces.count(group)) return {part, group};
+  if (faces.count(group) || part->mesh->point_groups.count(group)) return {part, group};
   std::vector<std::string> known;
+  for (const auto& [name, nodes] : part->mesh->point_groups) known.push_back(name);
   for (const auto& [name, facets] : faces) known.push_back(name);
+  if (part->mesh->condensed)
+    throw InputError(origin, fmt::format("superelement '{}' was condensed without a face '{}'\n    {}", part->name,
+                                         group, did_you_mean(group, known)));
   throw InputError(origin, fmt::format("substructure '{}' has no face '{}' in its mesh\n    {}", part->name, group,
                                        did_you_mean(group, known)));
 }

@@ -1,6 +1,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "base/log.hpp"
 #include "deck/build_model.hpp"
@@ -11,7 +12,9 @@
 #include "mesh/geo_script.hpp"
 #include "mesh/machine_copies.hpp"
 #include "mesh/mesh_limits.hpp"
+#include "mesh/superelement_file.hpp"
 #include "model/found_faces.hpp"
+#include "model/point_faces.hpp"
 
 namespace dygita {
 
@@ -177,6 +180,76 @@ Content build_substructure(const Declaration& d) {
   return SubstructurePtr(part);
 }
 
+// What a mesh of matrices has in the place of a material: what search directions and comparisons of stiffness go by.
+Elastic material_like(const Mesh& mesh) {
+  constexpr double poisson = 0.3, bar_speed = 5200.0;  // m/s, as metals have it
+  Elastic like;
+  like.name = "superelement";
+  like.young = mesh.condensed->modulus(mesh.nodes);
+  like.poisson = poisson;
+  like.density = like.young / (bar_speed * bar_speed);
+  return like;
+}
+
+MeshPtr superelement_of(const LuaArguments& a) {
+  if (a.has("file")) {
+    for (const char* other : {"stiffness", "mass", "damping", "points"})
+      if (a.has(other))
+        throw InputError(
+            fmt::format("'file' names all that belongs to it: '{}' is for matrices of other programs, "
+                        "without 'file'",
+                        other));
+    return read_superelement(a.file("file"));
+  }
+  for (const char* needed : {"mass", "points"})
+    if (!a.has(needed))
+      throw InputError(fmt::format("'stiffness' goes with 'mass' and 'points': '{}' is missing", needed));
+  MatrixFiles files{a.file("stiffness"), a.file("mass"), {}, a.file("points")};
+  if (a.has("damping")) files.damping = a.file("damping");
+  return read_matrices(files);
+}
+
+// Nothing is known of its inside where it is held there.
+void check_free(const Substructure& part) {
+  if (part.velocity.isZero() || !part.mesh->condensed->resists(part.mesh->nodes, part.velocity)) return;
+  throw InputError(
+      fmt::format("'velocity' of '{}': it was condensed with a support inside, which holds it", part.name));
+}
+
+// Matrices are kept dense and sparse, about as large as their texts each.
+size_t bytes_of_superelement(const LuaArguments& a) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const auto size = [&](const fs::path& file) {
+    const std::uintmax_t own = fs::file_size(file, ignored);
+    return ignored ? std::uintmax_t{0} : own;
+  };
+  std::uintmax_t bytes = 0;
+  for (const char* key : {"stiffness", "mass", "damping"})
+    if (a.has(key)) bytes += size(a.file(key));
+  if (a.has("file"))
+    for (const char* what : {"stiffness", "mass", "damping"})
+      bytes += size(fs::path(a.file("file")).replace_extension().string() + "_" + what + ".mtx");
+  return static_cast<size_t>(2 * bytes);
+}
+
+Content build_superelement(const Declaration& d) {
+  auto part = new_named<Substructure>(d);
+  const size_t bytes = bytes_of_superelement(d.arguments);
+  d.lua.reserve("substructure.superelement", bytes);
+  {
+    const LuaState::Pause pause(d.lua);
+    part->mesh = superelement_of(d.arguments);
+  }
+  d.lua.hold_reserved(part->mesh, bytes);
+  part->material = material_like(*part->mesh);
+  set_place(d.arguments.numbers("place"), *part);
+  part->velocity = d.arguments.vector("velocity");
+  check_free(*part);
+  doubt_size(*part);
+  return SubstructurePtr(part);
+}
+
 InterfaceSide side_of(const Object& object) {
   if (object.kind == "substructure") return {object.as<SubstructurePtr>(), {}};
   const Face& face = object.as<Face>();
@@ -193,10 +266,14 @@ void set_sides(const Declaration& d, Interface& interface) {
   const std::vector<const Object*> sides = d.arguments.objects("between");
   const InterfaceSide one = side_of(*sides[0]), other = side_of(*sides[1]);
   if (one.face && other.face) {
-    interface.side_1 = *one.face;
-    interface.side_2 = *other.face;
+    interface.side_1 = with_facets(*one.face, *other.face, interface.within);
+    interface.side_2 = with_facets(*other.face, *one.face, interface.within);
     return;
   }
+  for (const auto& [own, opposite] : {std::pair(&one, &other), std::pair(&other, &one)})
+    if (own->face && is_of_points(*own->face))
+      throw InputError(fmt::format("'{}' is given by points alone: give the face of '{}' that lies on them",
+                                   own->label(), opposite->label()));
   const FoundFaces found = find_faces(one, other, interface.within);
   interface.side_1 = found.side_1;
   interface.side_2 = found.side_2;
@@ -253,8 +330,13 @@ Content build_parameters(const Declaration&) { return std::monostate(); }
 const Builders& part_builders() {
   static const Builders builders = [] {
     Builders all = {
-        {"mesh.box", build_box},        {"mesh.gmsh", build_gmsh},           {"bolt.mesh", build_bolt_mesh},
-        {"mesh.step", build_step_mesh}, {"material.elastic", build_elastic}, {"substructure", build_substructure},
+        {"mesh.box", build_box},
+        {"mesh.gmsh", build_gmsh},
+        {"bolt.mesh", build_bolt_mesh},
+        {"mesh.step", build_step_mesh},
+        {"material.elastic", build_elastic},
+        {"substructure", build_substructure},
+        {"substructure.superelement", build_superelement},
         {"param", build_parameters},
     };
     for (const LawEntry& law : law_table()) all.emplace("interface." + law.word, build_interface);

@@ -7,6 +7,7 @@
 #include "deck/arguments.hpp"
 #include "deck/deck_state.hpp"
 #include "deck/histories.hpp"
+#include "model/point_faces.hpp"
 #include "signal/unit.hpp"
 
 namespace dygita {
@@ -25,7 +26,11 @@ void tell(DeckState& state, const Specification& s) {
 }
 
 Target target_of(const Object& object) {
-  if (object.kind == "face") return object.as<Face>();
+  if (object.kind == "face") {
+    const Face& face = object.as<Face>();
+    if (is_of_points(face)) return region_of_points(face);
+    return face;
+  }
   if (object.kind == "region") return object.as<Region>();
   if (object.kind == "interface") return object.as<InterfacePtr>();
   return object.as<SupportPtr>();

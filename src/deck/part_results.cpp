@@ -21,13 +21,16 @@ int read_part(lua_State* L, const PartData& data, const Origin& origin) {
   const Substructure& part = *data.result->problem->substructures[static_cast<size_t>(data.part)];
   const std::string key = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : luaL_typename(L, 2);
   if (key == "mass") {
-    lua_pushnumber(L, part.material.density * volume(*part.mesh));
+    lua_pushnumber(L, mass_of(part, volume(*part.mesh)));
     return 1;
   }
   const std::vector<std::string> of_stress = {"von_mises", "margin", "volume_above_yield"};
   if (std::find(of_stress.begin(), of_stress.end(), key) == of_stress.end())
     throw InputError(origin, fmt::format("result of substructure '{}' has no '{}'\n    {}", part.name, key,
                                          did_you_mean(key, {"mass", "von_mises", "margin", "volume_above_yield"})));
+  if (part.mesh->condensed)
+    throw InputError(origin,
+                     fmt::format("superelement '{}' has no '{}': it has no cells, and no stress", part.name, key));
   if (!part.yield)
     throw InputError(origin, fmt::format("substructure '{}' has no '{}': its stress was not watched\n    give its "
                                          "material '{}' a 'yield'",

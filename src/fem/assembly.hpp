@@ -7,11 +7,12 @@ namespace dygita {
 
 struct BodyMatrices {
   SparseMatrix stiffness;  // 3n x 3n, N/m, both triangles, before any support
-  Vec mass;                // n, kg, lumped, positive
+  Vec mass;                // n, kg, lumped, positive where the node is of cells
 };
 
 // Assembles by node pattern and 3x3 blocks, no triplets; columns increasing in each row; the same to the bit for any
-// number of threads. memory: of a matrix that is done with, and empty afterwards: new pages take their time.
+// number of threads. memory: of a matrix that is done with, and empty afterwards: new pages take their time. Of a body
+// without cells its own stiffness, and masses that stand for its mass matrix.
 // Throws InputError when the matrix would have more than 2^31 entries.
 BodyMatrices assemble(const Mesh& mesh, const Elastic& material, SparseMatrix* memory = nullptr);
 

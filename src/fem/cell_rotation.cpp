@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "fem/cell_loop.hpp"
+#include "numerics/dense.hpp"
 
 namespace dygita {
 
@@ -26,7 +27,36 @@ Vec3 mean_rotation(const Nodes<Cell::n_nodes>& x, const Nodes<Cell::n_nodes>& u)
 
 }  // namespace
 
+namespace {
+
+// The rotation of its points as a whole, by least squares; at their middle.
+CellRotation rotation_of_points(const Mesh& mesh, const Points& displacement) {
+  Vec3 middle = Vec3::Zero(), moved = Vec3::Zero();
+  const int n = mesh.condensed->n_nodes();
+  double n_places = 0.0;
+  for (int node = 0; node < n; ++node)
+    if (mesh.condensed->is_place(node)) {
+      middle += mesh.nodes.col(node);
+      moved += displacement.col(node);
+      n_places += 1.0;
+    }
+  middle /= n_places;
+  moved /= n_places;
+  Mat3 inertia = Mat3::Zero();
+  Vec3 moment = Vec3::Zero();
+  for (int node = 0; node < n; ++node) {
+    if (!mesh.condensed->is_place(node)) continue;
+    const Vec3 arm = mesh.nodes.col(node) - middle;
+    inertia += arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose();
+    moment += arm.cross(displacement.col(node) - moved);
+  }
+  return {std::atan((pseudo_inverse(inertia) * moment).norm()), middle};
+}
+
+}  // namespace
+
 CellRotation largest_rotation(const Mesh& mesh, const Points& displacement) {
+  if (mesh.condensed) return rotation_of_points(mesh, displacement);
   CellRotation worst;
   for (const CellBlock& block : mesh.blocks)
     with_cell(block.type, [&](auto cell) {
@@ -46,6 +76,7 @@ CellRotation largest_rotation(const Mesh& mesh, const Points& displacement) {
 }
 
 double smallest_cell(const Mesh& mesh) {
+  if (mesh.condensed) return 0.0;
   double smallest = std::numeric_limits<double>::infinity();
   for (const CellBlock& block : mesh.blocks)
     for (int i = 0; i < block.n_cells(); ++i) {

@@ -10,10 +10,11 @@ struct CellRotation {
   Vec3 place = Vec3::Zero();  // m, middle of the cell in the mesh
 };
 
-// The cell that turns most: of 1/2 curl u, its mean over the cell. displacement: 3 x n_nodes, m.
+// The cell that turns most: of 1/2 curl u, its mean over the cell; a body without cells as a whole. displacement:
+// 3 x n_nodes, m.
 CellRotation largest_rotation(const Mesh& mesh, const Points& displacement);
 
-// m, length of the shortest edge of the box around a cell, of all cells.
+// m, length of the shortest edge of the box around a cell, of all cells; 0 where there are none.
 double smallest_cell(const Mesh& mesh);
 
 }  // namespace dygita

@@ -85,6 +85,7 @@ SparseMatrix consistent_mass(const Mesh& mesh, const Elastic& material) {
 }
 
 bool has_consistent_mass(const Mesh& mesh) {
+  if (mesh.condensed) return true;
   return std::any_of(mesh.blocks.begin(), mesh.blocks.end(),
                      [](const CellBlock& block) { return cell_shape(block.type).inertia == Inertia::consistent; });
 }

@@ -17,7 +17,7 @@ SparseMatrix tuned_mass(const Mesh& mesh, const Elastic& material, const WaveTun
 // n x n, kg: consistent in cells whose row says so, lumped in others.
 SparseMatrix consistent_mass(const Mesh& mesh, const Elastic& material);
 
-// Does the mesh have cells of consistent mass?
+// Does the mesh have cells of consistent mass, or a mass matrix of its own?
 bool has_consistent_mass(const Mesh& mesh);
 
 }  // namespace dygita

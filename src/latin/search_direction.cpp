@@ -11,7 +11,16 @@ namespace dygita {
 namespace {
 
 // Areas (m^2) of the nodes of each side of interfaces whose faces do not match, by the port's side.
-using NodeAreas = std::map<int, std::unordered_map<int, double>>;
+struct SideAreas {
+  std::unordered_map<int, double> of_nodes;
+  double all = 0.0;
+  // The point of a rigid face has all of it.
+  double at(int node) const {
+    const auto found = of_nodes.find(node);
+    return found == of_nodes.end() ? all : found->second;
+  }
+};
+using NodeAreas = std::map<int, SideAreas>;
 
 NodeAreas node_areas(const StepModel& model) {
   NodeAreas areas;
@@ -23,8 +32,10 @@ NodeAreas node_areas(const StepModel& model) {
       if (part < 0) continue;
       const FaceNodes nodes = face_nodes(*model.problem->substructures[part]->mesh,
                                          which == 0 ? surface.facing.facets_1 : surface.facing.facets_2);
+      SideAreas& side = areas[2 * static_cast<int>(s) + which];
+      side.all = nodes.areas.sum();
       for (size_t i = 0; i < nodes.nodes.size(); ++i)
-        areas[2 * static_cast<int>(s) + which][nodes.nodes[i]] = nodes.areas[static_cast<Eigen::Index>(i)];
+        side.of_nodes[nodes.nodes[i]] = nodes.areas[static_cast<Eigen::Index>(i)];
     }
   }
   return areas;

@@ -263,6 +263,57 @@ void refuse_apart(const PlacedFace& side_1, const PlacedFace& side_2) {
                   name_1, name_2, distance, name_1, at(low_1), at(high_1), name_2, at(low_2), at(high_2)));
 }
 
+namespace {
+
+// All nodes of a point are of one rigid face or of none: a face's facets are.
+const CondensedBody::Follower* follower_at(const CondensedBody& body, const SideTrace& trace, int i) {
+  const CondensedBody::Follower* first = body.follower(trace.share(i, 0).node);
+  for (int k = 0; k < trace.n_shares(i); ++k) {
+    const CondensedBody::Follower* own = body.follower(trace.share(i, k).node);
+    if ((own ? own->point : -1) != (first ? first->point : -1))
+      throw InputError(
+          "a point of it would move with two faces that a superelement has as a whole each\n    condense "
+          "the body with motion = \"nodes\"");
+  }
+  return first;
+}
+
+bool follow(const Mesh& mesh, const Vec3& place, const Points& places, SideTrace& trace) {
+  const CondensedBody& body = *mesh.condensed;
+  SideTrace followed;
+  bool has_followers = false;
+  for (int i = 0; i < trace.n_points(); ++i) {
+    const CondensedBody::Follower* own = follower_at(body, trace, i);
+    if (!own) {
+      std::vector<SideTrace::Share> shares;
+      for (int k = 0; k < trace.n_shares(i); ++k) shares.push_back(trace.share(i, k));
+      followed.add(shares, trace.turn(i));
+      continue;
+    }
+    has_followers = true;
+    // Rotation x arm is -arm x rotation.
+    const Vec3 arm = (places.col(i) - place - mesh.nodes.col(own->point)) / own->size;
+    if (own->turn < 0)
+      followed.add({{own->point, 1.0}});
+    else
+      followed.add({{own->point, 1.0}, {own->turn, 0.0, arm}}, -Mat3::Identity());
+  }
+  if (has_followers) trace = std::move(followed);
+  return has_followers;
+}
+
+}  // namespace
+
+void follow_rigid_faces(const Mesh* mesh_1, const Vec3& place_1, const Mesh* mesh_2, const Vec3& place_2,
+                        Facing& facing) {
+  const bool first = mesh_1 && mesh_1->condensed && follow(*mesh_1, place_1, facing.places, facing.side_1);
+  const bool second = mesh_2 && mesh_2->condensed && follow(*mesh_2, place_2, facing.places, facing.side_2);
+  if (!first && !second) return;
+  // Points that were nodes of both sides are those of the side that still has them.
+  if (facing.carrier == 0 || (facing.carrier == 1 && first && !second) || (facing.carrier == 2 && second && !first))
+    facing.carrier = first && mesh_2 ? 2 : 1;
+}
+
 Facing facing_of(const PlacedFace& face) {
   FaceNodes points = face_nodes(*face.mesh, face.facets);
   Facing facing;

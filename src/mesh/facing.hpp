@@ -35,6 +35,11 @@ struct Facing {
   bool matches() const { return carrier == 0; }
 };
 
+// The same points where nodes of a side move with rigid faces of a body without cells: they then move with the face's
+// own unknowns, and the faces match no more. mesh_1, mesh_2: of the sides, null for a wall's.
+void follow_rigid_faces(const Mesh* mesh_1, const Vec3& place_1, const Mesh* mesh_2, const Vec3& place_2,
+                        Facing& facing);
+
 // Points at the nodes of a face by itself.
 Facing facing_of(const PlacedFace& face);
 

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/error.hpp"
 #include "base/fnv1a.hpp"
@@ -94,6 +95,16 @@ std::vector<Facet> boundary_facets(const std::vector<CellBlock>& blocks) {
   return boundary;
 }
 
+std::vector<Facet> boundary_facets(const Mesh& mesh) {
+  if (!mesh.condensed) return boundary_facets(mesh.blocks);
+  std::vector<Facet> boundary;
+  std::set<FacetKey> known;
+  for (const auto& [name, facets] : mesh.faces)
+    for (const Facet& facet : facets)
+      if (known.insert(facet_key(facet)).second) boundary.push_back(facet);
+  return boundary;
+}
+
 FacetKey facet_key(std::span<const int> corners) {
   FacetKey key;
   key.fill(-1);
@@ -139,6 +150,8 @@ MeshPtr turned_mesh(const Mesh& mesh, const Mat3& turn, const Vec3& shift) {
   turned->shape = mesh.shape_digest();
   turned->turn = turn * mesh.turn;
   turned->shift = turn * mesh.shift + shift;
+  if (mesh.condensed)
+    turned->condensed = std::make_shared<const CondensedBody>(mesh.condensed->turned(turn, turned->nodes));
   turned->digest = mesh_digest(*turned);
   return turned;
 }
@@ -161,6 +174,13 @@ std::string mesh_digest(const Mesh& mesh) {
       for (size_t a = facet.nodes().size(); a < least_in_digest; ++a) digest.add(-1);
     }
   }
+  for (const auto& [name, nodes] : mesh.point_groups) {
+    digest.add(name);
+    digest.add(nodes.data(), sizeof(int) * nodes.size());
+  }
+  if (mesh.condensed)
+    for (const SparseMatrix* matrix : {&mesh.condensed->stiffness, &mesh.condensed->mass, &mesh.condensed->damping})
+      digest.add(matrix->valuePtr(), sizeof(double) * static_cast<size_t>(matrix->nonZeros()));
   return digest.hexadecimal();
 }
 

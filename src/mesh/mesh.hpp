@@ -1,4 +1,4 @@
-// Nodes, cells and named faces of one substructure. Immutable once made.
+// Nodes, cells and named faces of one substructure; or matrices in the place of cells. Immutable once made.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/cell_types.hpp"
+#include "mesh/condensed_body.hpp"
 #include "numerics/types.hpp"
 
 namespace dygita {
@@ -40,13 +41,16 @@ class Facet {
 struct Mesh {
   Points nodes;  // 3 x n_nodes, metres
   std::vector<CellBlock> blocks;
-  std::map<std::string, std::vector<Facet>> faces;  // every named face of this body
-  std::string source;                               // "box" or the file's path, for messages and the run record
-  std::string digest;                               // changes when the nodes, cells or faces change
+  std::map<std::string, std::vector<Facet>> faces;       // every named face of this body
+  std::map<std::string, std::vector<int>> point_groups;  // of a body without cells: named nodes that have no facets
+  std::string source;                                    // "box" or the file's path, for messages and the run record
+  std::string digest;                                    // changes when the nodes, cells or faces change
   // Of a copy, x = turn x0 + shift: the digest of the mesh whose nodes are x0; empty: it is none.
   std::string shape;
   Mat3 turn = Mat3::Identity();
   Vec3 shift = Vec3::Zero();  // m
+  // Of a body that has matrices and no cells; null: of cells.
+  std::shared_ptr<const CondensedBody> condensed = nullptr;
 
   // Equal for meshes that are one mesh, turned and moved.
   const std::string& shape_digest() const { return shape.empty() ? digest : shape; }
@@ -76,6 +80,9 @@ inline int facets_per_cell(CellType type) { return static_cast<int>(cell_shape(t
 
 // Facets of the cells that belong to one cell only, normals outward.
 std::vector<Facet> boundary_facets(const std::vector<CellBlock>& blocks);
+
+// The same of a mesh; of a body without cells those of all its faces, each once.
+std::vector<Facet> boundary_facets(const Mesh& mesh);
 
 // Nodes of the facets, each once, in increasing order.
 std::vector<int> nodes_of(const std::vector<Facet>& facets);

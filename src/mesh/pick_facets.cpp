@@ -22,7 +22,7 @@ struct Boundary {
 };
 
 Boundary boundary_of(const Mesh& mesh, const Vec3& place) {
-  Boundary b{mesh.nodes.colwise() + place, boundary_facets(mesh.blocks), {}, 0.0};
+  Boundary b{mesh.nodes.colwise() + place, boundary_facets(mesh), {}, 0.0};
   for (const Facet& facet : b.facets) b.normals.push_back(facet_area_vector(b.x, facet).normalized());
   b.tolerance = relative_tolerance * (b.x.rowwise().maxCoeff() - b.x.rowwise().minCoeff()).norm();
   return b;

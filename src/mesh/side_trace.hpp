@@ -34,6 +34,8 @@ class SideTrace {
   int n_shares(int i) const { return first_[i + 1] - first_[i]; }
   const Share& share(int i, int k) const { return shares_[first_[i] + k]; }
   bool is_of_one_node(int i) const { return n_shares(i) == 1; }
+  // Of the arms of a point's shares; zero for none.
+  Mat3 turn(int i) const { return turn_of_[i] < 0 ? Mat3(Mat3::Zero()) : turns_[turn_of_[i]]; }
   // The node that counts most at a point.
   int main_node(int i) const;
   // What the velocity of the k-th node adds to that of the point (3 x 3).

@@ -233,7 +233,7 @@ void find_nearer(const Outside& of_nodes, const Outside& of_facets, bool swapped
 
 }  // namespace
 
-Outside::Outside(const Mesh& body, const Vec3& at) : Outside(body, at, boundary_facets(body.blocks)) {}
+Outside::Outside(const Mesh& body, const Vec3& at) : Outside(body, at, boundary_facets(body)) {}
 
 Outside::Outside(const Mesh& body, const Vec3& at, std::vector<Facet> of)
     : mesh(&body), place(at), facets(std::move(of)), low(facets.size()), high(facets.size()), sizes(facets.size()) {

@@ -14,12 +14,38 @@ const CellShape* consistent_cells(const Substructure& part) {
 
 }  // namespace
 
+namespace {
+
+// A non-reflecting support is made of the material behind it.
+void materials(const Problem& problem) {
+  for (const SupportPtr& support : all_supports(problem)) {
+    if (!support->kind->absorbs()) continue;
+    for (const FaceOrRegion& place : support->on)
+      if (part_of(place).mesh->condensed)
+        fail(problem, support->origin,
+             describe(*support) + " is on superelement '" + part_of(place).name +
+                 "', and what waves meet there follows from a material, which it has not",
+             "condense the body without that face, or let it have a mesh");
+  }
+}
+
+}  // namespace
+
 void cells(const Problem& problem) {
+  materials(problem);
   const char* what = problem.explicit_dynamics              ? "solver.explicit"
                      : problem.mass().is_tuned              ? "mass = \"tuned\""
                      : problem.mass().is_moved_from_contact ? "massless_contact = true"
                                                             : nullptr;
   if (!what || !has_dynamic_step(problem)) return;
+  for (const SubstructurePtr& part : problem.substructures)
+    if (part->mesh->condensed)
+      fail(
+          problem, part->origin,
+          std::string(what) + " is for meshes: substructure '" + part->name + "' is a superelement, with a mass matrix",
+          problem.explicit_dynamics ? "an explicit step divides by the mass of each node: solver.latin and "
+                                      "solver.monolithic take superelements"
+                                    : "leave it out");
   for (const SubstructurePtr& part : problem.substructures)
     if (const CellShape* cell = consistent_cells(*part))
       fail(problem, part->origin,

@@ -280,6 +280,20 @@ void preloads_hold(const Problem& problem) {
   }
 }
 
+// How a body force loads the inside of a condensed body follows from its mass where it can move with it alone.
+void superelements_feel(const Problem& problem, const Load& load) {
+  for (const Effect& effect : load.effects()) {
+    const auto* force = std::get_if<BodyForce>(&effect);
+    if (!force) continue;
+    for (const SubstructurePtr& part : problem.substructures)
+      if (part->mesh->condensed && part->mesh->condensed->resists(part->mesh->nodes, force->unit(part->place)))
+        fail(problem, load.origin,
+             force->name + ": what it does to the inside of superelement '" + part->name +
+                 "' is not known, since a support that was condensed with it holds it there",
+             "condense it without the support, with the supported face in 'on', and hold it in the deck");
+  }
+}
+
 }  // namespace
 
 void loads(const Problem& problem) {
@@ -295,6 +309,7 @@ void loads(const Problem& problem) {
       }
       supports_leave_motions_free(problem, *step, load);
       supports_follow(problem, load);
+      superelements_feel(problem, load);
     }
     interfaces_have_a_free_side(problem, *step);
   }

@@ -86,6 +86,7 @@ void doubt_damping(const Problem& problem, const Step& step, double highest) {
   for (const SubstructurePtr& part : problem.substructures) {
     if (!told.insert(part->material.name).second) continue;
     const Damping& damping = part->material.damping;
+    if (part->mesh->condensed) continue;
     const double at = damping.ratio(f);
     if (at <= most_damping) continue;
     doubt(problem, part->origin,
@@ -95,6 +96,17 @@ void doubt_damping(const Problem& problem, const Step& step, double highest) {
                       part->material.name, 100.0 * at, in_unit(f),
                       highest > 0.0 ? ", which step '" + step.name + "' is to show"
                                     : ", the lowest of step '" + step.name + "'"));
+  }
+}
+
+void doubt_superelements(const Problem& problem, const Content& content) {
+  for (const SubstructurePtr& part : problem.substructures) {
+    const double valid_to = part->mesh->condensed ? part->mesh->condensed->valid_to : 0.0;
+    if (valid_to > 0.0 && content.frequency > valid_to)
+      say(problem, content,
+          fmt::format("superelement '{}' was made to be used up to {}: what it does above is not that of the body "
+                      "it stands for",
+                      part->name, in_unit(valid_to)));
   }
 }
 
@@ -116,10 +128,13 @@ void resolution(const Problem& problem) {
                                           [](const Content& a, const Content& b) { return a.frequency < b.frequency; });
     doubt_damping(problem, *step, highest == all.end() ? 0.0 : highest->frequency);
     if (highest == all.end()) continue;
+    doubt_superelements(problem, *highest);
     if (size.empty())
-      for (const SubstructurePtr& part : problem.substructures) size.push_back(cell_size(*part));
+      for (const SubstructurePtr& part : problem.substructures)
+        size.push_back(part->mesh->condensed ? 0.0 : cell_size(*part));
     size_t worst = 0;
     const auto cells = [&](size_t i) {
+      if (size[i] == 0.0) return std::numeric_limits<double>::infinity();
       return problem.substructures[i]->material.s_wave_speed() / highest->frequency / size[i];
     };
     for (size_t i = 1; i < size.size(); ++i)

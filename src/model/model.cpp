@@ -29,4 +29,8 @@ std::vector<double> volumes(const Problem& problem) {
   return volumes;
 }
 
+double mass_of(const Substructure& part, double volume) {
+  return part.mesh->condensed ? part.mesh->condensed->mass_of_parts : part.material.density * volume;
+}
+
 }  // namespace dygita

@@ -41,7 +41,12 @@ struct Face {
   std::string group;                                      // or what they were picked by
   std::shared_ptr<const std::vector<Facet>> picked = {};  // null: the mesh's group
 
-  const std::vector<Facet>& facets() const { return picked ? *picked : part->mesh->faces.at(group); }
+  // None where the group is of points alone.
+  const std::vector<Facet>& facets() const {
+    static const std::vector<Facet> none;
+    if (picked) return *picked;
+    return part->mesh->point_groups.contains(group) ? none : part->mesh->faces.at(group);
+  }
   std::string label() const { return part->name + "." + group; }
 };
 
@@ -168,8 +173,10 @@ struct Problem : Named {
   }
 };
 
-// Volume (m^3) of each substructure.
+// Volume (m^3) of each substructure; 0 of those without cells.
 std::vector<double> volumes(const Problem& problem);
+// Mass (kg) of a substructure of that volume.
+double mass_of(const Substructure& part, double volume);
 
 // Supports in force in a step.
 const std::vector<SupportPtr>& supports_of(const Problem& problem, const Step& step);

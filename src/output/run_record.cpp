@@ -38,6 +38,11 @@ Json body(const Substructure& part, double volume) {
   const Elastic& material = part.material;
   const Points& nodes = part.mesh->nodes;
   const Vec3 low = nodes.rowwise().minCoeff() + part.place, high = nodes.rowwise().maxCoeff() + part.place;
+  if (part.mesh->condensed)
+    return {{"mass", mass_of(part, volume)},
+            {"low", {low[0], low[1], low[2]}},
+            {"high", {high[0], high[1], high[2]}},
+            {"condensed", {{"rows", part.mesh->condensed->n_rows()}, {"valid_to", part.mesh->condensed->valid_to}}}};
   Json json = {{"mass", material.density * volume},   {"low", {low[0], low[1], low[2]}},
                {"high", {high[0], high[1], high[2]}}, {"young", material.young},
                {"poisson", material.poisson},         {"density", material.density}};

@@ -159,7 +159,7 @@ Skin make_skin(const std::vector<SubstructurePtr>& parts, const View& view, cons
     const int i_part = static_cast<int>(p);
     nodes.begin(part, displacement.empty() ? nullptr : &displacement[p], values.empty() ? nullptr : &values[p], scale);
     const Vec front = view.is_cut ? in_front_of_cut(part, view) : Vec::Constant(part.mesh->n_nodes(), -1.0);
-    for (const Facet& facet : boundary_facets(part.mesh->blocks))
+    for (const Facet& facet : boundary_facets(*part.mesh))
       for (const SubFacet& sub : facet_shape(facet.type()).sub_facets)
         if (const std::vector<int> kept = behind(corners_of(facet, sub), front, nodes); kept.size() >= 3)
           add_polygon(kept, i_part, skin);

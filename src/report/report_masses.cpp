@@ -89,6 +89,7 @@ std::string table_of_materials(const Json& parts) {
   Cells rows;
   std::vector<Json> seen;
   for (const Json& part : parts) {
+    if (part.contains("condensed")) continue;
     Json key = {text(part, "material")};
     for (const char* value : {"young", "poisson", "density", "yield"}) key.push_back(part.value(value, Json()));
     if (std::find(seen.begin(), seen.end(), key) != seen.end()) continue;

@@ -183,13 +183,19 @@ std::string by_part(const Json& picture, const Json& parts) {
   return result + "</svg>\n";
 }
 
-std::string by_stress(const Json& picture, const std::string& title) {
+// Superelements have no stress.
+bool has_no_stress(const Json& parts, size_t part) { return part < parts.size() && parts[part].contains("condensed"); }
+
+std::string by_stress(const Json& picture, const Json& parts, const std::string& title) {
   const std::vector<DrawnFacet> facets = facets_of(picture);
   const int highest = top_of_scale(facets);
   const auto color_of_level = [](int level) { return scale_color((level + 0.5) / n_picture_levels); };
   std::vector<std::string> colors;
   for (const DrawnFacet& facet : facets)
-    colors.push_back(color_of_level(std::clamp(n_picture_levels * facet.value / highest, 0, n_picture_levels - 1)));
+    colors.push_back(
+        has_no_stress(parts, static_cast<size_t>(facet.part))
+            ? "#bbbbbb"
+            : color_of_level(std::clamp(n_picture_levels * facet.value / highest, 0, n_picture_levels - 1)));
   const double width = number(picture, "width"), height = number(picture, "height"),
                largest = number(picture, "largest");
   std::string result = open_svg(width, height + 40.0, title);
@@ -222,7 +228,7 @@ std::string cut_of(const Json& picture) {
   return told.empty() ? "through the middle" : told;
 }
 
-std::string caption_of(const Json& picture) {
+std::string caption_of(const Json& picture, const Json& parts) {
   const double moved = number(picture, "largest_displacement"), scale = number(picture, "scale");
   std::string caption = picture.value("static", false)
                             ? "End of step '" + text(picture, "step") + "'"
@@ -237,6 +243,11 @@ std::string caption_of(const Json& picture) {
   if (const double missed = number(picture, "missed"); missed > 0)
     caption += fmt::format(" NOT CONVERGED: {:.0f} increment{} up to here.", missed, missed == 1 ? "" : "s");
   if (picture.value("cut", false)) caption += " Cut " + cut_of(picture) + ".";
+  for (size_t i = 0; i < parts.size(); ++i)
+    if (has_no_stress(parts, i)) {
+      caption += " Grey: superelements, which have no stress.";
+      break;
+    }
   return caption + (scale > 0.0 ? " Dashed: undeformed." : "");
 }
 
@@ -245,13 +256,15 @@ std::string caption_of(const Json& picture) {
 std::string picture_section(const RunFolder& run) {
   if (!run.scenes().is_object() || !run.scenes().contains("assembly")) return "";
   std::vector<std::string> figures;
+  const Json parts = run.record().value("substructures", Json::array());
   for (const Json& picture : run.scenes()["assembly"]) {
     if (text(picture, "colour") == "part")
-      figures.push_back(html::figure(
-          by_part(picture, run.record().value("substructures", Json::array())),
-          picture.value("cut", false) ? "The same, cut " + cut_of(picture) + "." : "The assembly, undeformed."));
+      figures.push_back(html::figure(by_part(picture, parts), picture.value("cut", false)
+                                                                  ? "The same, cut " + cut_of(picture) + "."
+                                                                  : "The assembly, undeformed."));
     else
-      figures.push_back(html::figure(by_stress(picture, caption_of(picture)), caption_of(picture)));
+      figures.push_back(
+          html::figure(by_stress(picture, parts, caption_of(picture, parts)), caption_of(picture, parts)));
   }
   return html::section("The assembly", html::row(figures));
 }

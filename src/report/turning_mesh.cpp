@@ -65,7 +65,7 @@ void find_edges(Boundary& b) {
 
 Boundary boundary_of(const Substructure& part, const FacetLabels* labels) {
   Boundary b;
-  const std::vector<Facet> facets = boundary_facets(part.mesh->blocks);
+  const std::vector<Facet> facets = boundary_facets(*part.mesh);
   for (const Facet& facet : facets) b.nodes.insert(b.nodes.end(), facet.nodes().begin(), facet.nodes().end());
   std::sort(b.nodes.begin(), b.nodes.end());
   b.nodes.erase(std::unique(b.nodes.begin(), b.nodes.end()), b.nodes.end());

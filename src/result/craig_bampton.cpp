@@ -126,6 +126,8 @@ class HeldInterface {
 double hertz(double lambda) { return std::sqrt(std::max(0.0, lambda)) / (2 * std::numbers::pi); }
 
 Modes fixed_modes(const HeldInterface& held, const LinearAssembly& assembly, const SuperelementRequest& request) {
+  // All of the assembly is on its faces.
+  if (held.n_held() == assembly.n()) return {Vec(0), Mat(assembly.n(), 0), false};
   ModeRequest wanted;
   wanted.n = request.modes;
   wanted.up_to = std::pow(2 * 2 * std::numbers::pi * request.up_to, 2);
@@ -139,10 +141,15 @@ Mat symmetric(const Mat& m) { return 0.5 * (m + m.transpose()); }
 // What the modes left out would follow the faces with at first order, as modes of their own (eq. D7): orthogonal to
 // those kept, in M and K. motions: of the assembly, static, that they are driven by.
 Modes residual_modes(const HeldInterface& held, const LinearAssembly& assembly, const Mat& motions, const Modes& kept) {
+  constexpr double nothing_left = 1e-9;
   Mat r = assembly.mass * motions;
   held.solve(r);
+  const Vec whole = r.colwise().norm();
   for (int pass = 0; pass < 2; ++pass) r -= kept.vectors * (kept.vectors.transpose() * (assembly.mass * r));
-  const Vec scale = r.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+  // Nothing is left where the modes kept are all there are.
+  Vec scale = r.colwise().norm();
+  for (Eigen::Index i = 0; i < scale.size(); ++i) scale[i] = scale[i] > nothing_left * whole[i] ? 1.0 / scale[i] : 0.0;
+  if (scale.size() == 0 || scale.isZero(0.0)) return {Vec(0), Mat(assembly.n(), 0), false};
   r = r * scale.asDiagonal();
   const EigenPairs gram = symmetric_eigen(symmetric(r.transpose() * (assembly.mass * r)));
   const double largest = gram.values.size() > 0 ? gram.values.tail(1)[0] : 0.0;
@@ -199,6 +206,7 @@ Superelement condense(const LinearAssembly& assembly, const Problem& problem, co
 
   Superelement element;
   element.rows = coordinates.rows;
+  element.dependent = coordinates.dependent;
   element.on = request.on;
   for (int i = 0; i < n_m; ++i) element.rows.push_back({-1, -1, i, Vec3::Zero()});
   // Static and fixed-interface modes are orthogonal in K.

@@ -8,10 +8,11 @@ namespace dygita {
 
 // The interface coordinates of some faces: q = W u on the nodes of the faces.
 struct InterfaceCoordinates {
-  std::vector<Superelement::Row> rows;  // of q
-  SparseMatrix w;                       // what is held for the fixed-interface modes, on the assembly's unknowns
-  Mat of_rows;                          // motion of what is held for a unit of each row: identity but for rigid faces
-  std::vector<int> nodes;               // of the faces, counted through all substructures
+  std::vector<Superelement::Row> rows;       // of q
+  std::vector<Superelement::Row> dependent;  // motions that are no rows, since rows before have them
+  SparseMatrix w;                            // what is held for the fixed-interface modes, on the assembly's unknowns
+  Mat of_rows;             // motion of what is held for a unit of each row: identity but for rigid faces
+  std::vector<int> nodes;  // of the faces, counted through all substructures
 };
 
 // Motions of the faces as the request asks: six means (fewer where a support holds them, or the face is a line), rigid,

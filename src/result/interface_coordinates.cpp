@@ -66,7 +66,9 @@ class IndependentRows {
  public:
   explicit IndependentRows(const SparseMatrix& map) : map_(map) {}
 
-  bool take(const NodeSum& row) {
+  // Is the row one more? What supports hold has no unknowns, what depends on rows before has nothing new.
+  enum class Taken { yes, is_held, depends };
+  Taken try_to_take(const NodeSum& row) {
     std::map<int, double> entries;
     double scale = 0.0;
     for (const auto& [node, coefficient] : row)
@@ -76,6 +78,9 @@ class IndependentRows {
         for (SparseMatrix::InnerIterator e(map_, 3 * node + d); e; ++e)
           entries[static_cast<int>(e.col())] += coefficient[d] * e.value();
       }
+    double size = 0.0;
+    for (const auto& [unknown, value] : entries) size += value * value;
+    if (size <= 1e-12 * scale) return Taken::is_held;
     std::map<int, double> rest = entries;
     // Twice, for round-off; rows that share no unknown are orthogonal.
     for (int pass = 0; pass < 2; ++pass) {
@@ -92,7 +97,7 @@ class IndependentRows {
     }
     double norm = 0.0;
     for (const auto& [unknown, value] : rest) norm += value * value;
-    if (norm <= 1e-12 * scale) return false;
+    if (norm <= 1e-12 * scale) return Taken::depends;
     const int index = static_cast<int>(orthonormal_.size());
     for (auto& [unknown, value] : rest) {
       value /= std::sqrt(norm);
@@ -101,7 +106,7 @@ class IndependentRows {
     orthonormal_.push_back(std::move(rest));
     for (const auto& [unknown, value] : entries)
       if (value != 0.0) triplets_.emplace_back(index, unknown, value);
-    return true;
+    return Taken::yes;
   }
 
   SparseMatrix matrix() const {
@@ -141,7 +146,10 @@ InterfaceCoordinates interface_coordinates(const LinearAssembly& assembly, const
     if (motion == FaceMotion::mean) {
       const std::vector<NodeSum> rows = mean_rows(on);
       for (size_t d = 0; d < rows.size(); ++d) {
-        if (!independent.take(rows[d])) continue;
+        const IndependentRows::Taken taken = independent.try_to_take(rows[d]);
+        if (taken == IndependentRows::Taken::depends)
+          coordinates.dependent.push_back({on_index, -1, static_cast<int>(d), on.centre});
+        if (taken != IndependentRows::Taken::yes) continue;
         coordinates.rows.push_back({on_index, -1, static_cast<int>(d), on.centre});
         of_rows.emplace_back(n_held++, static_cast<int>(coordinates.rows.size()) - 1, 1.0);
       }
@@ -151,7 +159,10 @@ InterfaceCoordinates interface_coordinates(const LinearAssembly& assembly, const
       const int part = index_of(problem.substructures, std::visit([](const auto& o) { return o.part.get(); }, place));
       for (size_t i = 0; i < on.nodes.size(); ++i)
         for (int d = 0; d < 3; ++d) {
-          const bool is_free = independent.take({{on.nodes[i], Vec3::Unit(d)}});
+          const IndependentRows::Taken taken = independent.try_to_take({{on.nodes[i], Vec3::Unit(d)}});
+          const bool is_free = taken == IndependentRows::Taken::yes;
+          if (taken == IndependentRows::Taken::depends)
+            coordinates.dependent.push_back({on_index, on.nodes[i] - assembly.first_node[part], d, on.places[i]});
           if (!is_rigid && is_free) {
             coordinates.rows.push_back({on_index, on.nodes[i] - assembly.first_node[part], d, on.places[i]});
             of_rows.emplace_back(n_held, static_cast<int>(coordinates.rows.size()) - 1, 1.0);

@@ -239,11 +239,18 @@ void add_matrices(const Problem& problem, LinearAssembly& assembly) {
     const BodyMatrices& own = it->second;
     const SparseMatrix map = assembly.map.middleRows(3 * assembly.first_node[part], 3 * body.mesh->n_nodes());
     const SparseMatrix transposed = map.transpose();
-    const SparseMatrix k_map = own.stiffness * map, m_map = by_axis(nodal_mass(body, own)) * map;
+    const CondensedBody* condensed = body.mesh->condensed.get();
+    const SparseMatrix k_map = own.stiffness * map,
+                       m_map = (condensed ? condensed->mass : by_axis(nodal_mass(body, own))) * map;
     const SparseMatrix k = transposed * k_map, m = transposed * m_map;
     assembly.stiffness += k;
     assembly.mass += m;
     assembly.mass_of_parts += own.mass.sum();
+    if (condensed && condensed->damping.size() > 0) {
+      if (assembly.damping.rows() == 0) assembly.damping.resize(n, n);
+      const SparseMatrix c_map = condensed->damping * map;
+      assembly.damping += SparseMatrix(transposed * c_map);
+    }
     const Damping& damping = material.damping;
     if (damping.mass == 0.0 && damping.stiffness == 0.0) continue;
     if (assembly.damping.rows() == 0) assembly.damping.resize(n, n);

@@ -13,7 +13,10 @@ LinkedParts::LinkedParts(const Problem& problem)
 void LinkedParts::begin_step(const Instant& start) {
   const StepModel& model = start.model;
   for (int part = 0; part < ground_; ++part)
-    if (!model.conditions.held[static_cast<size_t>(part)].empty()) sets_.join(part, ground_);
+    if (const Mesh& mesh = *model.problem->substructures[static_cast<size_t>(part)]->mesh;
+        !model.conditions.held[static_cast<size_t>(part)].empty() ||
+        (mesh.condensed && mesh.condensed->resisted_motions(mesh.nodes).cols() > 0))
+      sets_.join(part, ground_);
   for (const SupportPtr& support : supports_of(*model.problem, *model.step))
     if (support->kind->absorbs())
       for (const FaceOrRegion& on : support->on)

@@ -86,7 +86,7 @@ void doubt_lumped_inertia(const Problem& problem) {
   if (!moves || (is_tuned && !problem.explicit_dynamics)) return;
   std::set<const Mesh*> told;
   for (const SubstructurePtr& part : problem.substructures) {
-    if (!told.insert(part->mesh.get()).second) continue;
+    if (part->mesh->condensed || !told.insert(part->mesh.get()).second) continue;
     const LumpedInertia lumped = lumped_inertia(*part->mesh);
     if (lumped.ratio < most || !is_slender(*part->mesh, lumped.axis) ||
         is_kept_from_turning(problem, part, lumped.axis))

@@ -55,7 +55,7 @@ class PartViews {
   explicit PartViews(const Problem& problem) : problem_(problem) {}
   // Collective.
   void take(const Instant& instant, NodalField field = NodalField::displacement);
-  // Of a part, as last taken: 3 x nodes of its view.
+  // Of a part, as last taken: 3 x nodes of its view; 0 at what is no place.
   const Points& field(int part) const { return nodes_.field(part); }
   // Known where something was taken, or the cut has been told.
   const PartView& of(int part) const { return views_[static_cast<size_t>(part)]; }

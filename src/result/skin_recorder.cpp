@@ -15,7 +15,7 @@ constexpr double most_bytes = 64e6;
 
 std::vector<int> boundary_nodes(const Mesh& mesh) {
   std::vector<int> nodes;
-  for (const Facet& facet : boundary_facets(mesh.blocks))
+  for (const Facet& facet : boundary_facets(mesh))
     nodes.insert(nodes.end(), facet.nodes().begin(), facet.nodes().end());
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -70,6 +70,14 @@ void SkinRecorder::prepare(const Instant& instant) {
 SkinRecorder::Layer SkinRecorder::layer_of(const PartView& view, const std::vector<int>& boundary) {
   Layer layer;
   const Mesh& mesh = view.mesh();
+  if (mesh.condensed) {  // never cut: its nodes as they are
+    auto some = std::make_shared<Mesh>();
+    some->nodes = mesh.nodes(Eigen::all, boundary);
+    layer.mesh = some;
+    layer.in_view = boundary;
+    for (size_t i = 0; i < boundary.size(); ++i) layer.boundary.push_back(static_cast<int>(i));
+    return layer;
+  }
   std::vector<char> is_boundary(static_cast<size_t>(mesh.n_nodes()), 0);
   for (int i = 0; i < mesh.n_nodes(); ++i)
     is_boundary[static_cast<size_t>(i)] =

@@ -32,6 +32,7 @@ struct Superelement {
     Vec3 place = Vec3::Zero();  // m, of the node, or the point about which the face turns
   };
   std::vector<Row> rows;
+  std::vector<Row> dependent;    // motions of the faces that rows before have: tied to another face of `on`
   std::vector<Target> on;        // faces and regions that rows refer to
   Mat mass, stiffness, damping;  // n_rows x n_rows; damping empty where no material has any
   Vec fixed_frequencies;         // Hz, of the modes: with the interface coordinates held

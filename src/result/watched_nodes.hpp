@@ -16,6 +16,10 @@ class WatchedNodes {
   WatchedNodes(const Cut& cut, std::vector<std::vector<int>> nodes);
   // Collective.
   void take(const Instant& instant, NodalField field = NodalField::displacement);
+  // Forgets what was taken at some of them, which are no places: 0.
+  void clear(int part, const std::vector<int>& at) {
+    for (const int i : at) taken_[static_cast<size_t>(part)].col(i).setZero();
+  }
   // Of a part, as last taken: 3 x nodes, m; or what else was taken.
   const Points& displacement(int part) const { return field(part); }
   const Points& field(int part) const { return taken_[static_cast<size_t>(part)]; }

@@ -16,7 +16,8 @@ WeightedNodes weighted_nodes(const Problem& problem, const FaceOrRegion& place) 
     const Region& region = std::get<Region>(place);
     on.part = index_of(problem.substructures, region.part.get());
     on.nodes = region.nodes;
-    const Vec volumes = nodal_volumes(*region.part->mesh);
+    const Mesh& mesh = *region.part->mesh;
+    const Vec volumes = mesh.condensed ? Vec(Vec::Ones(mesh.n_nodes())) : nodal_volumes(mesh);
     for (const int node : region.nodes) on.weights.push_back(volumes[node]);
   }
   return on;

@@ -8,9 +8,26 @@
 
 namespace dygita {
 
+namespace {
+
+// "  substructure 'launcher': superelement of 312 rows, 100 points and 4 modes, to be used up to 30 kHz, 2.1 kg".
+std::string condensed_line(const Substructure& part, const Vec3& size) {
+  const CondensedBody& body = *part.mesh->condensed;
+  return fmt::format(
+      "  substructure '{}': superelement of {} rows, {} points on {} faces{}{}, {:.4g} kg, {:.4g} x {:.4g} x "
+      "{:.4g} mm\n",
+      part.name, body.n_rows(), body.n_places(), part.mesh->faces.size() + part.mesh->point_groups.size(),
+      body.valid_to > 0.0 ? fmt::format(", to be used up to {:.4g} Hz", body.valid_to) : "",
+      body.resisted_motions(part.mesh->nodes).cols() > 0 ? ", held inside" : "", body.mass_of_parts, size[0], size[1],
+      size[2]);
+}
+
+}  // namespace
+
 std::string part_line(const Substructure& part) {
   const Points& nodes = part.mesh->nodes;
   const Vec3 size = 1e3 * (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff());
+  if (part.mesh->condensed) return condensed_line(part, size);
   return fmt::format(
       "  substructure '{}': {} nodes, {} cells (worst shape {:.2g}), {}, {:.4g} kg, {:.4g} x {:.4g} x {:.4g} mm\n",
       part.name, part.mesh->n_nodes(), part.mesh->n_cells(), worst_shape(*part.mesh), part.material.name,
@@ -28,7 +45,7 @@ std::string list_pieces(const Problem& problem, const std::vector<int>& pieces) 
 std::string mass_line(const Problem& problem) {
   double mass = 0.0;
   const std::vector<double> volume = volumes(problem);
-  for (size_t i = 0; i < volume.size(); ++i) mass += problem.substructures[i]->material.density * volume[i];
+  for (size_t i = 0; i < volume.size(); ++i) mass += mass_of(*problem.substructures[i], volume[i]);
   return fmt::format("  {:.4g} kg in all\n", mass);
 }
 

@@ -210,6 +210,13 @@ Mass mass_of(const Problem& problem, const Body& body, const Vec& lumped, const 
   const Elastic& m = body.part->material;
   const bool has_massless = std::find(marked.begin(), marked.end(), 1) != marked.end();
   Mass mass{lumped, {}, {}};
+  if (mesh.condensed) {
+    CHECK(!has_massless && !problem.mass().is_tuned, "refused by check_problem");
+    if (dt >= 0.0) mass.full = mesh.condensed->mass;
+    mass.is_consistent = true;
+    if (lumped.size() > 0) mass.all = mass.lumped.sum();
+    return mass;
+  }
   if (problem.mass().is_tuned && dt > 0.0)
     mass.matrix = tuned_mass(mesh, m, {m.p_wave_speed(), dt}, has_massless ? marked : std::vector<char>());
   if (has_consistent_mass(mesh)) {

@@ -16,9 +16,15 @@ struct Mass {
   std::vector<char> is_massless;  // nodes whose mass has been moved inside (manual, eq. S7); empty: none
   bool is_consistent = false;     // row sums of the matrix are not the lumped masses
   double all = 0.0, least = 0.0;  // kg, of all nodes; of that which has least
+  SparseMatrix full = {};         // 3n x 3n, kg, in the place of the others, of a body without cells; else empty
 
   // Forces (N) of an acceleration, both 3 x n_nodes; in explicit steps by the lumped mass, whatever the cells.
   Points times(const Points& acceleration, bool is_explicit) const {
+    if (full.size() > 0) {
+      Points force(3, acceleration.cols());
+      force.reshaped() = full * acceleration.reshaped();
+      return force;
+    }
     if (is_consistent && !is_explicit) return (matrix * acceleration.transpose()).transpose();
     return acceleration * lumped.asDiagonal();
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "base/fnv1a.hpp"
 #include "base/log.hpp"
@@ -94,6 +95,10 @@ class ConditionsBuilder {
   }
 
   Conditions build() {
+    for (size_t part = 0; part < problem_.substructures.size(); ++part)
+      if (const CondensedBody* condensed = problem_.substructures[part]->mesh->condensed.get())
+        for (const auto& [node, direction] : condensed->held)
+          hold(static_cast<int>(part), node, direction, {}, nullptr, "", {});
     for (const SupportPtr& support : supports_of(problem_, step_)) add_support(*support);
     for (const LoadPtr& load : step_.loads)
       for (const Effect& effect : load->effects())
@@ -115,11 +120,31 @@ class ConditionsBuilder {
           hold_normals(support, std::get<Face>(on), moves);
           break;
         case Directions::all:
-          for (const int node : nodes_on(on))
+          for (const int node : nodes_on(on)) {
+            const int moving = hold_turn(part_of(on), node, &support);
             for (int axis = 0; axis < 3; ++axis)
-              hold(part_of(on), node, Vec3::Unit(axis), moves, &support, support.name, support.origin);
+              hold(part_of(on), moving, Vec3::Unit(axis), moves, &support, support.name, support.origin);
+          }
           break;
       }
+  }
+
+  // A node of a rigid face is held at the face's point, and the face then does not turn. Answers the node that moves.
+  int hold_turn(int part, int node, const Support* support) {
+    const CondensedBody* condensed = problem_.substructures[static_cast<size_t>(part)]->mesh->condensed.get();
+    const CondensedBody::Follower* own = condensed ? condensed->follower(node) : nullptr;
+    if (!own) return node;
+    for (int axis = 0; axis < 3 && own->turn >= 0; ++axis) hold(part, own->turn, Vec3::Unit(axis), {}, support, "", {});
+    return own->point;
+  }
+
+  static void check_whole(const PrescribedMotion& prescribed, const Load& load) {
+    if (std::all_of(prescribed.along.begin(), prescribed.along.end(), [](const auto& own) { return own.has_value(); }))
+      return;
+    throw InputError(load.origin,
+                     load.path +
+                         " on a face that a superelement has as a whole gives all three components: x, y and "
+                         "z, 0 where it is to rest\n    or condense the body with motion = \"nodes\"");
   }
 
   // Where planes of one face meet at an edge, along the normal of each.
@@ -127,6 +152,11 @@ class ConditionsBuilder {
     const Mesh& mesh = *face.part->mesh;
     for (const PlacedFace& part : smooth_parts({&mesh, face.facets(), Vec3::Zero(), ""})) {
       const FaceNodes on_patch = face_nodes(mesh, part.facets);
+      if (mesh.condensed && mesh.condensed->follower(on_patch.nodes.front()))
+        throw InputError(support.origin,
+                         "support." + support.kind->word() + " '" + support.name +
+                             "' holds along normals, and its face is one that a superelement has as a whole\n    take "
+                             "support.fixed, or condense the body with motion = \"nodes\"");
       for (size_t i = 0; i < on_patch.nodes.size(); ++i)
         hold(part_of(face), on_patch.nodes[i], on_patch.normals.col(i), moves, &support, support.name, support.origin);
     }
@@ -162,14 +192,18 @@ class ConditionsBuilder {
       const double from = reached(prescribed, axis);
       const int motion = add(motion_of(prescribed, load, axis, from));
       int ramp = -1;
+      std::set<int> moving;  // nodes of a rigid face move as one
       for (const int node : nodes_on(prescribed.on)) {
+        const int own = hold_turn(part_of(prescribed.on), node, nullptr);
+        if (own != node) check_whole(prescribed, load);
+        if (!moving.insert(own).second) continue;
         std::vector<std::pair<Vec3, int>> moves = {{Vec3::Unit(axis), motion}};
         if (const double away = from - moved(part_of(prescribed.on), node)[axis];
             std::abs(away) > 1e-9 * std::abs(from) && step_.is_static && !prescribed.is_velocity) {
           if (ramp < 0) ramp = add({[n = step_.n_increments()](int, double) { return 1.0 / n; }});
           moves.emplace_back(away * Vec3::Unit(axis), ramp);
         }
-        hold(part_of(prescribed.on), node, Vec3::Unit(axis), moves, nullptr, load.path, load.origin);
+        hold(part_of(prescribed.on), own, Vec3::Unit(axis), moves, nullptr, load.path, load.origin);
       }
     }
   }

@@ -1,5 +1,6 @@
 #include "solution/free_unknowns.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -7,15 +8,29 @@
 namespace dygita {
 
 FreeUnknowns::FreeUnknowns(int n_nodes, const std::vector<InterfaceRow>& rows,
-                           const std::unordered_map<int, Held>& held)
-    : special_(n_nodes, -1), count_(n_nodes, 3), first_(n_nodes) {
+                           const std::unordered_map<int, Held>& held, const CondensedBody* condensed)
+    : special_(n_nodes, -1), count_(n_nodes, 3), first_(n_nodes), condensed_(condensed) {
   std::unordered_map<int, std::vector<Vec3>> wanted;
   for (const InterfaceRow& row : rows)
     if (row.is_of_one_node()) wanted[row.nodes[0].node].push_back(row.nodes[0].along);
   for (const auto& [node, conditions] : held) wanted[node];
+  std::unordered_map<int, std::vector<Vec3>> absent;  // directions without an unknown
+  if (condensed)
+    for (const auto& [node, direction] : condensed->absent) absent[node].push_back(direction);
+  for (const auto& [node, directions] : absent) wanted[node];
+  if (condensed)
+    for (const CondensedBody::Follower& own : condensed->followers) {
+      wanted[own.node];
+      for (int d = 0; d < 3; ++d) absent[own.node].push_back(Vec3::Unit(d));
+    }
   for (const auto& [node, directions] : wanted) {
     Held basis;
     if (const auto it = held.find(node); it != held.end()) basis = it->second;
+    if (const auto it = absent.find(node); it != absent.end())
+      for (const Vec3& d : it->second) {
+        const Vec3 rest = d - basis.directions.leftCols(basis.n) * (basis.directions.leftCols(basis.n).transpose() * d);
+        if (basis.n < 3 && rest.norm() > 1e-6) basis.directions.col(basis.n++) = rest.normalized();
+      }
     const int n_held = basis.n, n_free = 3 - n_held;
     for (const Vec3& d : directions)
       if (basis.n < 3 && (basis.directions.leftCols(basis.n).transpose() * d).norm() < 1e-9)
@@ -100,6 +115,18 @@ Vec FreeUnknowns::restrict_nodal(const Points& nodal) const {
   return free;
 }
 
+SparseMatrix FreeUnknowns::restrict_matrix(const SparseMatrix& nodal) const {
+  SparseMatrix basis(3 * n_nodes(), size());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int node = 0; node < n_nodes(); ++node)
+    for (int j = 0; j < count_[node]; ++j)
+      for (int d = 0; d < 3; ++d)
+        if (const double value = axes(node)(d, j); value != 0.0) entries.emplace_back(3 * node + d, at(node, j), value);
+  basis.setFromTriplets(entries.begin(), entries.end());
+  const SparseMatrix transposed = basis.transpose(), times_basis = nodal * basis;
+  return transposed * times_basis;
+}
+
 Points FreeUnknowns::directions() const {
   Points along(3, size());
   for (int node = 0; node < n_nodes(); ++node) {
@@ -121,10 +148,19 @@ Points FreeUnknowns::expand(const Vec& free, const std::vector<double>& held) co
     nodal.col(node) = value;
   }
   for (size_t i = 0; i < held_.size(); ++i) nodal.col(held_[i].node) += held[i] * held_[i].direction;
+  if (condensed_) add_followers(nodal);
   return nodal;
 }
 
+void FreeUnknowns::add_followers(Points& nodal) const {
+  for (const CondensedBody::Follower& own : condensed_->followers) {
+    nodal.col(own.node) = nodal.col(own.point);
+    if (own.turn >= 0) nodal.col(own.node) += Vec3(nodal.col(own.turn)).cross(own.arm) / own.size;
+  }
+}
+
 Points FreeUnknowns::expand(const Vec& free, const std::vector<double>& held, const std::vector<int>& nodes) const {
+  if (condensed_ && !condensed_->followers.empty()) return expand(free, held)(Eigen::all, nodes);
   Points nodal(3, static_cast<Eigen::Index>(nodes.size()));
   for (size_t i = 0; i < nodes.size(); ++i) {
     const int node = nodes[i];
@@ -143,7 +179,7 @@ Points FreeUnknowns::expand(const Vec& free, const std::vector<double>& held, co
 }
 
 std::vector<HeldDirection>::const_iterator FreeUnknowns::first_held(int node) const {
-  if (count_[node] == 3) return held_.end();
+  if (count_[node] == 3 || held_.empty()) return held_.end();
   return std::lower_bound(held_.begin(), held_.end(), node,
                           [](const HeldDirection& one, int at) { return one.node < at; });
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/condensed_body.hpp"
 #include "solution/conditions.hpp"
 #include "solution/piece.hpp"
 
@@ -55,8 +56,10 @@ class Traces {
 class FreeUnknowns {
  public:
   // Of a node they are numbered from first(node) on, along the columns of its basis: the directions of rows of this
-  // node alone where they are orthonormal, so that such a row is one unknown.
-  FreeUnknowns(int n_nodes, const std::vector<InterfaceRow>& rows, const std::unordered_map<int, Held>& held);
+  // node alone where they are orthonormal, so that such a row is one unknown. condensed: of a body without cells, which
+  // outlives this object; else null.
+  FreeUnknowns(int n_nodes, const std::vector<InterfaceRow>& rows, const std::unordered_map<int, Held>& held,
+               const CondensedBody* condensed = nullptr);
   // Those of a turned copy of the piece that `equal` belongs to, along the turned directions and in the same order, so
   // that matrices have the same entries (manual, equal substructures). held: of the copy, the turned ones.
   FreeUnknowns(const FreeUnknowns& equal, const Mat3& turn, const std::unordered_map<int, Held>& held);
@@ -86,6 +89,8 @@ class FreeUnknowns {
   // Of each free unknown, 3 x size.
   Points directions() const;
 
+  // B^T A B of a matrix on the nodes (3n x 3n), in the order of the unknowns.
+  SparseMatrix restrict_matrix(const SparseMatrix& nodal) const;
   // Nodal field (3 x n_nodes) to the free unknowns, and back with values of the held directions; back at some nodes
   // alone, 3 x nodes.
   Vec restrict_nodal(const Points& nodal) const;
@@ -97,6 +102,7 @@ class FreeUnknowns {
   std::vector<HeldDirection>::const_iterator first_held(int node) const;
   const Mat3& axes(int node) const { return special_[node] < 0 ? axes_ : bases_[special_[node]]; }
   void set_held(const std::unordered_map<int, Held>& held);
+  void add_followers(Points& nodal) const;
 
   bool is_turned_ = false;
   Mat3 axes_ = Mat3::Identity();
@@ -104,6 +110,7 @@ class FreeUnknowns {
   std::vector<Mat3> bases_;
   std::vector<int> position_;
   std::vector<HeldDirection> held_;
+  const CondensedBody* condensed_ = nullptr;
 };
 
 }  // namespace dygita

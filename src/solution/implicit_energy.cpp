@@ -56,6 +56,10 @@ IncrementEnergy ImplicitPiece::dynamic_works(const Vec& v_mean) {
   if (alpha > 0.0) energy.damping += dt * alpha * v_mean.dot(mass.times(v_mean));
   energy.damping += dt * beta * flow;
   if (op_.has_motions() && alpha + beta > 0.0) energy.damping = damped_energy(v_mean);
+  if (op_.has_damping_matrix()) {
+    const Points nodal = op_.unknowns().expand(v_mean, held_mean_velocities());
+    energy.damping += dt * nodal.cwiseProduct(op_.damping_force(nodal)).sum();
+  }
   if (op_.absorbs()) {
     Vec drag = Vec::Zero(s.v.size());
     op_.apply_absorbing(v_mean, 1.0, drag);
@@ -182,6 +186,10 @@ std::vector<double> ImplicitPiece::held_forces(const Points& interface_force, co
     const std::vector<double> inertia =
         op_.mass().times_held(means.acceleration + op_.scheme().alpha(op_.damping()) * means.velocity, directions);
     for (size_t i = 0; i < values.size(); ++i) values[i] += inertia[i];
+    if (op_.has_damping_matrix()) {
+      const Points drag = op_.damping_force(means.velocity);
+      for (size_t i = 0; i < values.size(); ++i) values[i] += directions[i].direction.dot(drag.col(directions[i].node));
+    }
   }
   for (size_t i = 0; i < values.size(); ++i)
     values[i] -=

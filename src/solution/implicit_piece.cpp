@@ -27,6 +27,7 @@ void ImplicitPiece::set_state(const Points& displacement, const Points& velocity
     s.held_u.push_back(direction.direction.dot(displacement.col(direction.node)));
     s.held_v.push_back(direction.motion.empty() ? 0.0 : direction.direction.dot(velocity.col(direction.node)));
   }
+  if (op_.mass().is_full()) catch_up(velocity);
   s.w = op_.c1() * op_.stiffness_times(this->velocity());
   s.p = op_.stiffness_times(displacement);
   s.imbalance = s.p - s.force - unknowns.restrict_nodal(interface_force);
@@ -42,6 +43,18 @@ void ImplicitPiece::set_state(const Points& displacement, const Points& velocity
     s.held_reaction[i] -= held[i].direction.dot(force.col(held[i].node) + interface_force.col(held[i].node));
   work_ = {};
   work_.nodal_force = force;
+}
+
+// What held directions had of the velocity is taken by an impulse of whatever holds them: through a mass matrix others
+// feel it. velocity: of all nodes, before.
+void ImplicitPiece::catch_up(const Points& velocity) {
+  if (op_.scheme().is_static) return;
+  const FreeUnknowns& unknowns = op_.unknowns();
+  const Points lost = velocity - unknowns.expand(state_.v, state_.held_v);
+  const Vec pull = unknowns.restrict_nodal(op_.mass().times_nodal(lost));
+  if (pull.lpNorm<Eigen::Infinity>() <= 1e-14 * op_.mass().times(state_.v).lpNorm<Eigen::Infinity>()) return;
+  if (pull.isZero(0.0)) return;
+  state_.v += op_.mass().solve(pull);
 }
 
 void ImplicitPiece::begin(const Points& force, const std::vector<double>& motion_velocity, double quiet) {
@@ -62,7 +75,7 @@ void ImplicitPiece::begin(const Points& force, const std::vector<double>& motion
   work.residual = new_force - state_.p;
   if (!scheme.is_static) {
     work.residual += mass_factor * state_.momentum;
-    op_.apply_absorbing(state_.v, -scheme.g, work.residual);
+    op_.apply_rates(state_.v, state_.held_v, -scheme.g, work.residual);
   }
   // Loads work with the mean force of the increment: that of the step in dynamics, of both ends in statics.
   work.force_old = op_.mass().has_massless() ? state_.force : Vec();
@@ -70,7 +83,7 @@ void ImplicitPiece::begin(const Points& force, const std::vector<double>& motion
   work.x = work.residual;
   if (solves_for_change()) {  // less A V0, known without a product: W0 is c1 K V0
     work.x -= state_.w + op_.mass_share() * state_.momentum;
-    op_.apply_absorbing(state_.v, -(1 - scheme.g), work.x);
+    op_.apply_rates(state_.v, state_.held_v, -(1 - scheme.g), work.x);
     if (op_.has_motions()) work.x += state_.held_pull;
   }
   work.held_v_old = state_.held_v;
@@ -114,7 +127,7 @@ void ImplicitPiece::advance_forces(Eigen::Ref<const Vec> q, bool is_moved) {
   if (!scheme.is_static && is_moved) {
     s.momentum = op_.momentum(s.v, s.held_v);
     s.w -= op_.mass_share() * s.momentum;
-    op_.apply_absorbing(s.v, -(1 - g), s.w);
+    op_.apply_rates(s.v, s.held_v, -(1 - g), s.w);
   }
   if (op_.mass().has_massless())
     advance_massless();

@@ -87,6 +87,7 @@ class ImplicitPiece : public Piece {
   void start_massless();
   void advance_massless();
   void advance_forces(Eigen::Ref<const Vec> q, bool is_moved);
+  void catch_up(const Points& velocity);
   void resynchronise();
   bool has_past() const;
   std::vector<double> held_acceleration() const;  // m/s^2, mean over the last increment

@@ -101,6 +101,7 @@ std::unordered_map<int, Held> held_of(const Cut& cut, int piece, const Condition
 // that of tetrahedra: at equal cost their consistent mass is more accurate in implicit increments (manual, explicit
 // substructures).
 bool loses_by_diagonal(const Mesh& mesh) {
+  if (mesh.condensed) return false;
   const auto has_no_middle = [](const LocalFacet& facet) {
     const FacetShape& shape = facet_shape(facet.type);
     return shape.n_corners == 4 && nodes_per_facet(facet.type) == 2 * shape.n_corners;
@@ -288,6 +289,7 @@ IntegrationChoice asked_of(const Problem& problem, const Substructure& part) {
 }
 
 std::string why_not_explicit(const Body& body, double numerical_damping) {
+  if (body.part->mesh->condensed) return "a superelement has no mass of its own at each node";
   if (numerical_damping != 0.0) return "'numerical_damping' belongs to the implicit scheme";
   if (!body.mass->is_massless.empty()) return "'massless_contact' leaves nodes without mass";
   if (body.mass->least <= 0.0) return "it has a node without mass";

@@ -1,5 +1,6 @@
 #include "solution/loads.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <set>
 
@@ -77,7 +78,13 @@ void Loads::add(const NodalForces& forces, const TimeValue& value, const State& 
   const Points unit = forces.unit(on.loaded);
   const double size = unit.colwise().norm().sum();
   LoadPattern pattern{part_of(problem_, forces.on), {}, {value, value_reached(start, key, size)}, key, size};
-  for (size_t i = 0; i < on.nodes.size(); ++i) pattern.nodes.emplace_back(on.nodes[i], unit.col(static_cast<int>(i)));
+  const CondensedBody* condensed = problem_.substructures[static_cast<size_t>(pattern.part)]->mesh->condensed.get();
+  for (size_t i = 0; i < on.nodes.size(); ++i) {
+    const Vec3 f = unit.col(static_cast<int>(i));
+    const CondensedBody::Follower* own = condensed ? condensed->follower(on.nodes[i]) : nullptr;
+    pattern.nodes.emplace_back(own ? own->point : on.nodes[i], f);
+    if (own && own->turn >= 0) pattern.nodes.emplace_back(own->turn, own->arm.cross(f) / own->size);
+  }
   patterns_.push_back(std::move(pattern));
 }
 
@@ -88,6 +95,9 @@ void Loads::add(const BodyForce& force, const LoadValue& value, const std::strin
     Points acceleration(3, part.mesh->n_nodes());
     for (int node = 0; node < part.mesh->n_nodes(); ++node)
       acceleration.col(node) = force.unit(part.mesh->nodes.col(node) + part.place);
+    // Gravity is uniform, and a motion as a whole is all that a body without cells knows of its inside.
+    if (const CondensedBody* condensed = part.mesh->condensed.get())
+      acceleration = condensed->rigid_motion(part.mesh->nodes, acceleration.col(0), Vec3::Zero());
     const Points unit = inertia(static_cast<int>(i), acceleration);
     if (unit.isZero(0.0)) continue;
     for (int node = 0; node < part.mesh->n_nodes(); ++node) pattern.nodes.emplace_back(node, unit.col(node));

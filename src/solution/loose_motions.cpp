@@ -36,6 +36,8 @@ LooseMotions::LooseMotions(const StepModel& model) : model_(&model), frame_(exte
         const RigidMotion row = frame_.row(RigidFrame::place_of_node(body, node), held.directions.col(j));
         gram += row * row.transpose();
       }
+    const auto resisted = frame_.resisted(body);
+    gram += resisted * resisted.transpose();
   }
   may_be_ = !loose_groups(linked_parts([](int) { return false; })).empty();
 }

@@ -15,9 +15,7 @@ struct Layout {
   std::vector<char> is_interface, none;  // of the free unknowns
 
   explicit Layout(const PieceSetup& setup)
-      : unknowns(setup.n_nodes(), setup.rows, setup.held),
-        is_interface(unknowns.at_rows(setup.rows)),
-        none(unknowns.size(), 0) {}
+      : unknowns(unknowns_of(setup)), is_interface(unknowns.at_rows(setup.rows)), none(unknowns.size(), 0) {}
   double n_interface() const { return static_cast<double>(std::count(is_interface.begin(), is_interface.end(), 1)); }
 };
 

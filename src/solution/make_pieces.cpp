@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/parallel_by_cost.hpp"
 #include "mesh/facing.hpp"
+#include "model/extent.hpp"
 #include "numerics/scratch_pages.hpp"
 #include "solution/absorbing_impedance.hpp"
 #include "solution/distant_piece.hpp"
@@ -79,7 +80,9 @@ std::vector<InterfaceRow> rows_of(const StepModel& model, int piece, const std::
   double total_area = 0.0;
   for (const PortAt& at : ports) total_area += model.exchange.ports[at.port].area;
   const bool needs_reference = model.scheme.is_static && is_floating(body, held);
-  const double length = total_area > 0.0 ? volume(*body.mesh) / total_area : 1.0;
+  const double length = body.mesh->condensed ? extent_of(body).size().norm()
+                        : total_area > 0.0   ? volume(*body.mesh) / total_area
+                                             : 1.0;
   for (const PortAt& at : ports) {
     const Port& port = model.exchange.ports[at.port];
     for (int d = 0; d < 3; ++d) {
@@ -104,7 +107,8 @@ std::vector<InterfaceRow> rows_of(const StepModel& model, int piece, const std::
 // of their own.
 Precision precision_of(const StepModel& model, int part, const Body& body) {
   constexpr int large = 4000;  // unknowns
-  if (model.scheme.is_static || !body.mass->is_massless.empty()) return Precision::double_precision;
+  if (model.scheme.is_static || !body.mass->is_massless.empty() || body.part->mesh->condensed)
+    return Precision::double_precision;
   if (const auto& asked = model.problem->solver.precision) return *asked;
   if (model.problem->solver.tolerance < 1e-7) return Precision::double_precision;
   return 3 * model.problem->substructures[part]->mesh->n_nodes() > large ? Precision::single_precision
@@ -184,7 +188,7 @@ std::vector<EqualTo> twins_of(const StepModel& model, const std::vector<PieceSet
         twins[i] = {first, *turn};
         break;
       }
-    if (twins[i].piece < 0) before.emplace_back(i, FreeUnknowns(setup.n_nodes(), setup.rows, setup.held));
+    if (twins[i].piece < 0) before.emplace_back(i, unknowns_of(setup));
   }
   return twins;
 }
@@ -225,8 +229,7 @@ Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies) {
 Pieces make_assembled_pieces(const StepModel& model, const std::vector<Body>& bodies) {
   Pieces pieces;
   for (const PieceSetup& setup : setups_of(model, bodies))
-    pieces.push_back(
-        std::make_unique<AssembledPiece>(PieceOperator(setup, FreeUnknowns(setup.n_nodes(), setup.rows, setup.held))));
+    pieces.push_back(std::make_unique<AssembledPiece>(PieceOperator(setup, unknowns_of(setup))));
   return pieces;
 }
 

@@ -1,5 +1,7 @@
 #include "solution/piece_mass.hpp"
 
+#include "numerics/dense.hpp"
+
 namespace dygita {
 
 PieceMass::PieceMass(const Body& body, const Scheme& scheme, const FreeUnknowns& unknowns)
@@ -8,7 +10,10 @@ PieceMass::PieceMass(const Body& body, const Scheme& scheme, const FreeUnknowns&
     lumped_[unknowns.position(i)] = mass_->lumped[unknowns.node_of_unknown()[i]];
   if (scheme.is_static) return;
   make_massless(body, scheme, unknowns);
-  if (mass_->matrix.size() > 0) make_matrix(unknowns);
+  if (mass_->full.size() > 0)
+    matrix_ = unknowns.restrict_matrix(mass_->full);
+  else if (mass_->matrix.size() > 0)
+    make_matrix(unknowns);
 }
 
 // Rows of B^T M B: nodes with the same axes have one entry a neighbour and direction, others a block.
@@ -75,7 +80,10 @@ Vec PieceMass::times(const Vec& v) const {
   return lumped_.cwiseProduct(v);
 }
 
+Vec PieceMass::solve(const Vec& momentum) const { return solve_least_norm(Mat(matrix_), momentum, 1e-12).x; }
+
 Points PieceMass::times_nodal(const Points& nodal) const {
+  if (mass_->full.size() > 0) return mass_->times(nodal, false);
   if (mass_->matrix.size() == 0) return nodal * mass_->lumped.asDiagonal();
   return (mass_->matrix * nodal.transpose()).transpose();
 }
@@ -83,6 +91,11 @@ Points PieceMass::times_nodal(const Points& nodal) const {
 std::vector<double> PieceMass::times_held(const Points& nodal, const std::vector<HeldDirection>& held) const {
   const SparseMatrix& matrix = mass_->matrix;
   std::vector<double> values(held.size(), 0.0);
+  if (mass_->full.size() > 0) {
+    const Points force = times_nodal(nodal);
+    for (size_t i = 0; i < held.size(); ++i) values[i] = held[i].direction.dot(force.col(held[i].node));
+    return values;
+  }
   for (size_t i = 0; i < held.size(); ++i) {
     const int node = held[i].node;
     if (matrix.size() == 0) {

@@ -20,6 +20,10 @@ double PieceSetup::mass_share() const {
   return scheme.inverse_dt() + (1 - scheme.g) * scheme.alpha(body->part->material.damping);
 }
 
+FreeUnknowns unknowns_of(const PieceSetup& setup) {
+  return {setup.n_nodes(), setup.rows, setup.held, setup.condensed()};
+}
+
 namespace {
 
 void add_block(const FreeUnknowns& unknowns, int node, int other, const Mat3& block, SparseMatrix& a) {
@@ -47,12 +51,22 @@ SparseMatrix coupling_of_rows(const PieceSetup& setup, const FreeUnknowns& unkno
   return coupling;
 }
 
+// The block of a node that begins at entry e of its rows; all matrices of a body without cells have one pattern.
+Mat3 block_at(const SparseMatrix& matrix, int node, int e) {
+  Mat3 block;
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) block(r, c) = matrix.valuePtr()[matrix.outerIndexPtr()[3 * node + r] + e + c];
+  return block;
+}
+
 SparseMatrix matrix_without_rows(const PieceSetup& setup, const FreeUnknowns& unknowns) {
   const StiffnessPtr stiffness = setup.body->matrices->stiffness();
   const SparseMatrix& k = *stiffness;
   const Scheme& scheme = setup.scheme;
   const Mass& mass = *setup.body->mass;
   const double mass_factor = setup.mass_share(), c1 = scheme.c1(setup.body->part->material.damping);
+  const SparseMatrix* const full = !scheme.is_static && mass.full.size() > 0 ? &mass.full : nullptr;
+  const SparseMatrix* const damping = setup.damping();
   SparseMatrix a(unknowns.size(), unknowns.size());
   std::vector<int> count(unknowns.size());
   const auto neighbours = [&](int node) {  // blocks of three columns
@@ -78,10 +92,13 @@ SparseMatrix matrix_without_rows(const PieceSetup& setup, const FreeUnknowns& un
       for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c) block(r, c) = c1 * k.valuePtr()[k.outerIndexPtr()[3 * node + r] + e + c];
       block *= scale(node) * scale(other);
-      if (!scheme.is_static && mass.matrix.size() > 0)
+      if (full)
+        block += mass_factor * block_at(*full, node, e);
+      else if (!scheme.is_static && mass.matrix.size() > 0)
         block.diagonal().array() += mass_factor * mass.matrix.valuePtr()[mass.matrix.outerIndexPtr()[node] + e / 3];
       else if (!scheme.is_static && other == node)
         block.diagonal().array() += mass_factor * mass.lumped[node];
+      if (damping) block += (1.0 - scheme.g) * block_at(*damping, node, e);
       if (!unknowns.is_plain(node)) block = (unknowns.basis(node).transpose() * block).eval();
       if (!unknowns.is_plain(other)) block = (block * unknowns.basis(other)).eval();
       for (int r = 0; r < unknowns.count(node); ++r)
@@ -145,6 +162,7 @@ PieceOperator::PieceOperator(PieceSetup setup, FreeUnknowns unknowns)
 void PieceOperator::make_couplings() {
   coupling_.resize(setup_.n_motions);
   mass_coupling_.resize(setup_.n_motions);
+  damping_coupling_.resize(setup_.n_motions);
   std::vector<Points> unit(setup_.n_motions);
   for (const HeldDirection& held : unknowns_.held())
     for (const auto& [motion, factor] : held.motion) {
@@ -156,6 +174,7 @@ void PieceOperator::make_couplings() {
     if (unit[m].size() == 0) continue;
     coupling_[m] = stiffness_times(unit[m]);
     for (const int i : mass_.massless()) coupling_[m][i] /= 1.0 - scheme().g;  // their force is that of the step's end
+    if (setup_.damping()) damping_coupling_[m] = unknowns_.restrict_nodal(damping_force(unit[m]));
     if (mass_.is_matrix()) mass_coupling_[m] = unknowns_.restrict_nodal(mass_.times_nodal(unit[m]));
   }
 }
@@ -200,6 +219,7 @@ Vec PieceOperator::momentum(const Vec& v, const std::vector<double>& held_v) con
 Vec PieceOperator::pull_of_held(const std::vector<double>& held_v) const {
   const Points nodal = unknowns_.expand(Vec::Zero(n_free()), held_v);
   Vec pull = c1_ * stiffness_times(nodal);
+  if (setup_.damping()) pull += (1 - scheme().g) * unknowns_.restrict_nodal(damping_force(nodal));
   if (mass_.is_matrix()) pull += mass_share() * unknowns_.restrict_nodal(mass_.times_nodal(nodal));
   return pull;
 }
@@ -209,8 +229,20 @@ Vec PieceOperator::pull_of_motions(const std::vector<double>& motion_velocity) c
   for (size_t m = 0; m < coupling_.size(); ++m) {
     if (coupling_[m].size() > 0) pull += c1_ * motion_velocity[m] * coupling_[m];
     if (mass_coupling_[m].size() > 0) pull += mass_share() * motion_velocity[m] * mass_coupling_[m];
+    if (damping_coupling_[m].size() > 0) pull += (1 - scheme().g) * motion_velocity[m] * damping_coupling_[m];
   }
   return pull;
+}
+
+Points PieceOperator::damping_force(const Points& nodal) const {
+  Points force(3, nodal.cols());
+  force.reshaped() = *setup_.damping() * nodal.reshaped();
+  return force;
+}
+
+void PieceOperator::apply_rates(const Vec& v, const std::vector<double>& held_v, double factor, Vec& out) const {
+  apply_absorbing(v, factor, out);
+  if (setup_.damping()) out += factor * unknowns_.restrict_nodal(damping_force(unknowns_.expand(v, held_v)));
 }
 
 void PieceOperator::apply_absorbing(const Vec& v, double factor, Vec& out) const {

@@ -35,7 +35,15 @@ struct PieceSetup {
 
   int n_nodes() const { return body->part->mesh->n_nodes(); }
   double mass_share() const;  // of M V1 in the equation of an increment, 1/s
+  const CondensedBody* condensed() const { return body->part->mesh->condensed.get(); }
+  // N s/m, 3n x 3n: that of a body without cells in a dynamic step; null: there is none.
+  const SparseMatrix* damping() const {
+    const CondensedBody* own = condensed();
+    return own && !scheme.is_static && own->damping.size() > 0 ? &own->damping : nullptr;
+  }
 };
+
+FreeUnknowns unknowns_of(const PieceSetup& setup);
 
 // (M/dt (1 + ...) + c1 K + absorbing) on the free unknowns, in the order of their numbers.
 // With T^T k T, k (N s/m) one per row; or with the rows' reference stiffness, as springs on their nodes that couple
@@ -78,8 +86,12 @@ class PieceOperator {
   // A times velocities of held directions, of all motions, on the free unknowns.
   Vec pull_of_held(const std::vector<double>& held_v) const;
   Vec pull_of_motions(const std::vector<double>& motion_velocity) const;
-  // out += factor Z v, at non-reflecting supports.
+  // out += factor Z v, at non-reflecting supports; with C V of a body without cells, held directions included.
   void apply_absorbing(const Vec& v, double factor, Vec& out) const;
+  void apply_rates(const Vec& v, const std::vector<double>& held_v, double factor, Vec& out) const;
+  // C times a nodal velocity (3 x n_nodes), where there is a C.
+  bool has_damping_matrix() const { return setup_.damping() != nullptr; }
+  Points damping_force(const Points& nodal) const;
   bool absorbs() const { return !setup_.absorbing.empty() || !setup_.absorbing_pairs.empty(); }
   const std::vector<std::pair<int, Mat3>>& absorbing() const { return absorbing_; }  // node, impedance (N s/m), by node
 
@@ -92,8 +104,8 @@ class PieceOperator {
   PieceMass mass_;
   std::vector<std::pair<int, Mat3>> absorbing_;
   Traces traces_, held_traces_;
-  // B^T K, B^T M of a unit velocity of each motion; empty where the motion is elsewhere.
-  std::vector<Vec> coupling_, mass_coupling_;
+  // B^T K, B^T M, B^T C of a unit velocity of each motion; empty where the motion is elsewhere.
+  std::vector<Vec> coupling_, mass_coupling_, damping_coupling_;
   bool has_motions_ = false, has_held_rows_ = false;
   double c0_, c1_;
 };

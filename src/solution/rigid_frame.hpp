@@ -34,6 +34,30 @@ struct RigidFrame {
     return motion.head<3>() + Vec3(motion.tail<3>()).cross(x - centre) / size;
   }
 
+  // The same of what resists motions as a whole from inside a body without cells; 6 x how many.
+  Eigen::Matrix<double, 6, Eigen::Dynamic> resisted(const Substructure& body) const {
+    if (!body.mesh->condensed) return {6, 0};
+    Eigen::Matrix<double, 6, Eigen::Dynamic> rows = body.mesh->condensed->resisted_motions(body.mesh->nodes);
+    for (Eigen::Index i = 0; i < rows.cols(); ++i) {
+      const Vec3 a = rows.col(i).head<3>(), b = rows.col(i).tail<3>();
+      rows.col(i) << a, (b + (body.place - centre).cross(a)) / size;
+    }
+    return rows;
+  }
+  // Displacements (3 x nodes) of a body's nodes under a rigid motion.
+  Points displacements(const RigidMotion& motion, const Substructure& body) const {
+    const Vec3 rotation = motion.tail<3>() / size;
+    const Points x = body.mesh->nodes.colwise() + (body.place - centre);
+    if (!body.mesh->condensed) {
+      Points moved(3, x.cols());
+      for (Eigen::Index i = 0; i < x.cols(); ++i) moved.col(i) = motion.head<3>() + rotation.cross(x.col(i));
+      return moved;
+    }
+    // Of the mesh's own coordinates.
+    const Vec3 at_origin = motion.head<3>() + rotation.cross(body.place - centre);
+    return body.mesh->condensed->rigid_motion(body.mesh->nodes, at_origin, rotation);
+  }
+
   static Vec3 place_of_node(const Substructure& body, int node) { return body.mesh->nodes.col(node) + body.place; }
 };
 

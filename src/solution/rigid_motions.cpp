@@ -34,6 +34,10 @@ Blocks constraint_gram(const Problem& problem, const Exchange& exchange, const C
     return gram.try_emplace({i, j}, Eigen::Matrix<double, 6, 6>::Zero()).first->second;
   };
   for (int part = 0; part < n; ++part) block(part, part);
+  for (int part = 0; part < n; ++part) {
+    const auto resisted = frames[part].resisted(*problem.substructures[part]);
+    block(part, part) += resisted * resisted.transpose();
+  }
   for (int part = 0; part < n; ++part)
     for (const auto& [node, held] : conditions.held[part])
       for (int j = 0; j < held.n; ++j) {
@@ -122,6 +126,9 @@ bool is_floating(const Substructure& part, const std::unordered_map<int, Held>& 
       gram += r * r.transpose();
       scale += 1.0;
     }
+  const auto resisted = frame.resisted(part);
+  gram += resisted * resisted.transpose();
+  scale += static_cast<double>(resisted.cols());
   if (scale == 0.0) return true;
   return symmetric_eigen(gram).values[0] < 1e-8 * scale;
 }
@@ -156,13 +163,10 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
         part = i;
       }
     double work = 0.0, scale = 0.0;
-    for (int i = 0; i < n; ++i)
-      for (int node = 0; node < force[i].cols(); ++node) {
-        const Vec3 u = frames[i].displacement(motion.segment<6>(6 * i),
-                                              RigidFrame::place_of_node(*problem.substructures[i], node));
-        work += force[i].col(node).dot(u);
-        scale += force[i].col(node).norm() * largest;
-      }
+    for (int i = 0; i < n; ++i) {
+      work += frames[i].displacements(motion.segment<6>(6 * i), *problem.substructures[i]).cwiseProduct(force[i]).sum();
+      scale += force[i].colwise().norm().sum() * largest;
+    }
     const std::string what = fmt::format("static step '{}': {} of substructure '{}'", step.name,
                                          describe(motion.segment<6>(6 * part)), problem.substructures[part]->name);
     if (std::abs(work) > 1e-7 * scale && scale > 0.0)
@@ -176,6 +180,7 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
     Vec3 best_direction = Vec3::Zero();
     double best = 0.0;
     for (int node = 0; node < body.mesh->n_nodes(); ++node) {
+      if (body.mesh->condensed && body.mesh->condensed->kinds[static_cast<size_t>(node)] != NodeKind::point) continue;
       Vec3 u = frames[part].displacement(motion.segment<6>(6 * part), RigidFrame::place_of_node(body, node));
       const auto held = conditions.held[part].find(node);
       const bool is_held = held != conditions.held[part].end() && held->second.n > 0;

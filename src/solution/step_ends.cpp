@@ -169,6 +169,11 @@ bool take_up_motions(const StepModel& model, State& state) {
   return ranks::any(has_changed);
 }
 
+Points start_velocity(const Substructure& body) {
+  if (body.mesh->condensed) return body.mesh->condensed->rigid_motion(body.mesh->nodes, body.velocity, Vec3::Zero());
+  return body.velocity.replicate(1, body.mesh->n_nodes());
+}
+
 }  // namespace
 
 void start_step(StepModel& model, State& state) {
@@ -188,7 +193,7 @@ void start_step(StepModel& model, State& state) {
   for (const int i : model.here) {
     Points& velocity = state.velocity[i];
     if (is_static) velocity.setZero();
-    if (first_dynamic) velocity.colwise() += model.problem->substructures[model.cut->piece(i).part]->velocity;
+    if (first_dynamic) velocity += start_velocity(*model.cut->piece(i).body);
   }
   const auto give_to_pieces = [&] {
     set_pieces(model, state);

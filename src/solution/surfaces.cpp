@@ -245,6 +245,15 @@ Facing facing_of(const Problem& problem, int i, const std::vector<std::optional<
   return facing;
 }
 
+void follow(const Face& side_1, const Face* side_2, const Origin& origin, const std::string& who, Facing& facing) {
+  try {
+    follow_rigid_faces(side_1.part->mesh.get(), side_1.part->place, side_2 ? side_2->part->mesh.get() : nullptr,
+                       side_2 ? side_2->part->place : Vec3(Vec3::Zero()), facing);
+  } catch (const InputError& error) {
+    throw InputError(origin, who + error.what());
+  }
+}
+
 }  // namespace
 
 std::vector<Surface> make_surfaces(const Problem& problem) {
@@ -264,6 +273,8 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
     surface.part_1 = index_of(problem.substructures, interface->side_1.part.get());
     surface.part_2 = index_of(problem.substructures, interface->side_2.part.get());
     surface.facing = std::move(facings[i]);
+    follow(interface->side_1, &interface->side_2, interface->origin,
+           "interface '" + interface->name + "': ", surface.facing);
     // A tie between meshes that do not match is a law of its own.
     if (has_load(problem, interface.get()) || (interface->law->is_tie() && !surface.facing.matches()))
       surface.law = interface->law;
@@ -283,6 +294,7 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
       surface.wall = wall;
       surface.part_1 = index_of(problem.substructures, face.part.get());
       surface.facing = facing_of_wall(face);
+      follow(face, nullptr, wall->origin, "support.wall '" + wall->name + "': ", surface.facing);
       surface.law = laws.of(wall->kind->law());
       surfaces.push_back(std::move(surface));
     }

@@ -59,7 +59,9 @@ TEST(Definitions, are_lua_that_loads_and_defines_every_word) {
   for (const Entry& entry : entries_of_reference()) {
     if (entry.path.find(':') != std::string::npos) continue;
     ASSERT_EQ(luaL_dostring(state.get(), ("return " + entry.path).c_str()), LUA_OK) << entry.path;
-    EXPECT_TRUE(lua_isfunction(state.get(), -1)) << entry.path;
+    // A word that is called itself and has members is a table.
+    EXPECT_TRUE(lua_isfunction(state.get(), -1) || (entry.path == "substructure" && lua_istable(state.get(), -1)))
+        << entry.path;
     ++n;
   }
   EXPECT_GT(n, 40);

@@ -18,6 +18,9 @@ TEST(SuperelementFiles, are_matrices_and_a_page_that_names_their_rows) {
   auto part = std::make_shared<Substructure>();
   part->name = "flange";
   part->mesh = mesh;
+  mesh->nodes = Points::Zero(3, 3);
+  mesh->nodes(0, 1) = mesh->nodes(1, 2) = 1.0;
+  mesh->faces["top"] = {Facet(FacetType::tri3, {0, 1, 2})};
   const SuperelementRequest request{"element", {}, {}};
   Superelement element;
   element.on = {Face{part, "top"}};
@@ -28,11 +31,12 @@ TEST(SuperelementFiles, are_matrices_and_a_page_that_names_their_rows) {
   element.valid_to = 600.0;
   element.step = "tighten";
   const auto files = superelement_files("p", request, element);
-  ASSERT_EQ(files.size(), 3u);
+  ASSERT_EQ(files.size(), 4u);
   EXPECT_EQ(files[0].first, "_mass.mtx");
   EXPECT_EQ(files[1].first, "_stiffness.mtx");
-  EXPECT_EQ(files[2].first, ".md");
-  const std::string& page = files[2].second;
+  EXPECT_EQ(files[2].first, ".json");
+  EXPECT_EQ(files[3].first, ".md");
+  const std::string& page = files[3].second;
   EXPECT_NE(page.find("| 1 | flange.top | all | rz | 1 | 2 | 0 |\n"), std::string::npos) << page;
   EXPECT_NE(page.find("| 2 | 1234.5 |\n"), std::string::npos) << page;
   EXPECT_NE(page.find("**To be used up to 600 Hz**"), std::string::npos) << page;

@@ -134,6 +134,14 @@ class HistoryOutput final : public Output {
                       known_as() + " is on " + check::describe(request_.on[j]) + " and on " +
                           check::describe(request_.on[i]) +
                           ", which have facets or nodes in common: these would count twice in the mean");
+    const bool is_of_stress =
+        request_.what.quantity == Quantity::stress || request_.what.quantity == Quantity::von_mises;
+    for (const Target& target : request_.on)
+      if (const auto place = check::place_of(target); place && is_of_stress && check::part_of(*place).mesh->condensed)
+        check::fail(
+            problem, origin,
+            known_as() + ": superelement '" + check::part_of(*place).name + "' has no stress, since it has no cells",
+            "take its displacement, velocity or acceleration, or the pressure of an interface");
     if (request_.direction && (request_.what.quantity == Quantity::von_mises || request_.is_of_surfaces()))
       check::fail(problem, origin, known_as() + ": quantity '" + request_.what.name + "' has no direction");
   }

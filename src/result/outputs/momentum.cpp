@@ -1,5 +1,6 @@
 // output.momentum: linear momentum of parts (manual, instants and means).
 #include <algorithm>
+#include <array>
 
 #include "fem/assembly.hpp"
 #include "model/check.hpp"
@@ -15,6 +16,7 @@ struct WeighedPart {
   Vec masses;  // kg, the integral of density times each node's shape function: exact for the sum, whatever the mass
                // matrix
   Vec lumped;  // kg, what explicit increments have instead: the same but in cells of order two
+  std::array<Points, 3> of_matrix = {};  // kg, of a body without cells, instead: its mass times each translation
 };
 
 class MomentumRecorder : public TableRecorder {
@@ -29,6 +31,11 @@ class MomentumRecorder : public TableRecorder {
     Vec3 momentum = Vec3::Zero();
     const std::vector<Integration::Part>& how = instant.model.integration.parts;
     for (const WeighedPart& part : parts_) {
+      if (part.of_matrix[0].size() > 0) {
+        const Points velocity = instant.velocity(part.index);
+        for (int d = 0; d < 3; ++d) momentum[d] += part.of_matrix[static_cast<size_t>(d)].cwiseProduct(velocity).sum();
+        continue;
+      }
       const bool is_explicit = !how.empty() && how[static_cast<size_t>(part.index)].is_explicit;
       momentum += instant.velocity(part.index) * (is_explicit ? part.lumped : part.masses);
     }
@@ -49,6 +56,16 @@ class MomentumOutput final : public Output {
       for (size_t j = 0; j < i; ++j)
         if (of_[i] == of_[j])
           check::fail(problem, origin, known_as() + ": substructure '" + of_[i]->name + "' stands in 'of' twice");
+    }
+    for (const SubstructurePtr& part : problem.substructures) {
+      const bool is_asked = of_.empty() || std::find(of_.begin(), of_.end(), part) != of_.end();
+      if (!is_asked || !part->mesh->condensed) continue;
+      for (int axis = 0; axis < 3; ++axis)
+        if (part->mesh->condensed->resists(part->mesh->nodes, Vec3::Unit(axis)))
+          check::fail(problem, origin,
+                      known_as() + ": superelement '" + part->name +
+                          "' was condensed with a support inside: what moves behind its faces is not known",
+                      "name the other parts in 'of', or condense it without the support and hold it in the deck");
     }
   }
 
@@ -76,7 +93,15 @@ class MomentumOutput final : public Output {
       const SubstructurePtr& part = problem.substructures[i];
       const bool is_asked = of_.empty() || std::find(of_.begin(), of_.end(), part) != of_.end();
       const double density = part->material.density;
-      if (is_asked)
+      if (is_asked && part->mesh->condensed) {
+        const CondensedBody& body = *part->mesh->condensed;
+        WeighedPart& own = parts.emplace_back(WeighedPart{static_cast<int>(i), {}, {}});
+        for (int d = 0; d < 3; ++d) {
+          const Points moved = body.rigid_motion(part->mesh->nodes, Vec3::Unit(d), Vec3::Zero());
+          own.of_matrix[static_cast<size_t>(d)].resize(3, moved.cols());
+          own.of_matrix[static_cast<size_t>(d)].reshaped() = body.mass * moved.reshaped();
+        }
+      } else if (is_asked)
         parts.push_back(
             {static_cast<int>(i), density * nodal_integrals(*part->mesh), density * nodal_volumes(*part->mesh)});
     }

@@ -1,5 +1,6 @@
 // output.superelement: the assembly condensed about the end of a step.
 #include "base/log.hpp"
+#include "base/names.hpp"
 #include "model/check.hpp"
 #include "result/craig_bampton.hpp"
 #include "result/output_table.hpp"
@@ -91,6 +92,9 @@ class SuperelementOutput final : public Output {
   // It is taken about the end of a step, with that step's supports.
   void check(const Problem& problem) const override {
     const std::string who = known_as();
+    if (file_name_of(request_.name) == "run")
+      check::fail(problem, origin, who + ": its description would be run.json, which is the record of the run",
+                  "take another name");
     check::is_on(problem, *this, request_.on, [](const Target& target) {
       return check::place_of(target) ? ""
                                      : "output.superelement takes faces or regions: where something is to be attached";
@@ -100,6 +104,13 @@ class SuperelementOutput final : public Output {
     if (!step)
       check::fail(problem, origin, who + ": the problem has no static step",
                   "it is taken about the state after one; or name another step with 'after'");
+    for (const SubstructurePtr& part : problem.substructures)
+      if (part->mesh->condensed && !part->mesh->condensed->followers.empty())
+        check::fail(problem, origin,
+                    who + ": superelement '" + part->name +
+                        "' has faces that move as a whole, which cannot be condensed "
+                        "once more",
+                    "condense it with motion = \"nodes\"");
     for (const SupportPtr& support : supports_of(problem, *step))
       if (support->kind->absorbs())
         check::fail(problem, origin,

@@ -1,0 +1,2 @@
+local low = substructure.superelement{ name = "low", file = "element.json" }
+local top = low:face "zmin"

@@ -1,0 +1,1 @@
+local low = substructure.superelement{ name = "low", file = "elements.json" }
