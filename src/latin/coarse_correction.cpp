@@ -53,8 +53,11 @@ void CoarseCorrection::make_shapes(const StepModel& model, const Vec& k, const s
   const std::vector<Port>& ports = model.exchange.ports;
   const size_t n = model.pieces.size();
   const auto place = [&](const Tied& tied) {
-    const Substructure& part = *model.cut->piece(ports[tied.port].piece).body;
-    return Vec3(part.mesh->nodes.col(ports[tied.port].piece_node) + part.place);
+    const Port& port = ports[tied.port];
+    const Substructure& part = *model.cut->piece(port.piece).body;
+    if (port.trace && part.mesh->condensed)  // a rigid face has all its points at one node
+      return Vec3((*model.surfaces)[static_cast<size_t>(port.side / 2)].facing.places.col(port.point));
+    return Vec3(part.mesh->nodes.col(port.piece_node) + part.place);
   };
   // Middle and reach of the tied nodes of each piece: who has it knows them all.
   std::vector<Vec3> centre(n, Vec3::Zero());

@@ -39,6 +39,12 @@ const CondensedBody::Follower* CondensedBody::follower(int node) const {
                             [](const Follower& own, int at) { return own.node < at; });
 }
 
+double CondensedBody::size_of_turn(int node) const {
+  const auto own =
+      std::find_if(followers.begin(), followers.end(), [&](const Follower& one) { return one.turn == node; });
+  return own == followers.end() ? 1.0 : own->size;
+}
+
 int CondensedBody::n_rows() const {
   const auto n = 3 * (kinds.size() - followers.size()) - held.size() - absent.size();
   return static_cast<int>(n);
@@ -117,11 +123,11 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> CondensedBody::resisted_motions(const P
   // Rotations about the middle, times the size, so that all six are lengths.
   const Vec3 centre = 0.5 * (low + high);
   const double size = std::max((high - low).norm(), std::numeric_limits<double>::min());
-  const Points arms = x.colwise() - centre;
   Mat motions(3 * n_nodes(), 6);
   for (int m = 0; m < 3; ++m) {
-    motions.col(m) = flat(rigid_motion(arms, Vec3::Unit(m), Vec3::Zero()));
-    motions.col(3 + m) = flat(rigid_motion(arms, Vec3::Zero(), Vec3::Unit(m) / size));
+    const Vec3 rotation = Vec3::Unit(m) / size;
+    motions.col(m) = flat(rigid_motion(x, Vec3::Unit(m), Vec3::Zero()));
+    motions.col(3 + m) = flat(rigid_motion(x, -rotation.cross(centre), rotation));
   }
   Mat6 gram = motions.transpose() * (stiffness * motions);
   const double most =

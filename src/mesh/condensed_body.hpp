@@ -42,6 +42,7 @@ struct CondensedBody {
   int n_nodes() const { return static_cast<int>(kinds.size()); }
   bool is_place(int node) const { return kinds[node] == NodeKind::point || kinds[node] == NodeKind::follower; }
   const Follower* follower(int node) const;  // null: the node is none
+  double size_of_turn(int node) const;       // m, of the rigid face that turns
 
   // Fills `carried`, which the other members count on; x: 3 x n, m, of the nodes.
   void find_carried(const Points& x);

@@ -142,6 +142,7 @@ std::string motion_text(const Problem& problem, const SkinMotion& motion) {
   const TurningMesh mesh =
       make_turning_mesh(problem.substructures, {},
                         static_cast<int>(std::clamp<double>(most_bytes / bytes_of_node, fewest_nodes, most_nodes)));
+  if (mesh.nodes.cols() == 0) return "";  // bodies of points alone
   const View view = whole_view_of(problem.substructures);
   Json json = still(problem, mesh, view);
   Json::array_t frames(motion.frames.size());
@@ -158,6 +159,8 @@ std::string motion_text(const Problem& problem, const SkinMotion& motion) {
 std::string assembly_text(const Problem& problem, const std::vector<FacetLabels>& labels,
                           const std::vector<TurningLabel>& names, const std::string& coloring) {
   const TurningMesh mesh = make_turning_mesh(problem.substructures, labels, 3 * most_nodes);
+  if (mesh.nodes.cols() == 0)
+    throw InputError("nothing to draw: all its parts are superelements of points without facets");
   Json json = still(problem, mesh, whole_view_of(problem.substructures));
   json["frames"] = Json::array();
   std::vector<std::array<int, 1>> of_triangle;

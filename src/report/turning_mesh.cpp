@@ -118,6 +118,7 @@ int in_cubes(const Boundary& b, double size, std::vector<int>& cube) {
 
 // One cube around everything still tells the sides of the part apart, however few nodes it was to have.
 std::vector<int> clusters(const Boundary& b, int quota, int& n) {
+  if (b.nodes.empty()) return {};  // a body of points alone has no skin
   const double largest = 4.0 * (b.x.rowwise().maxCoeff() - b.x.rowwise().minCoeff()).norm();
   std::vector<int> cube(b.nodes.size());
   std::iota(cube.begin(), cube.end(), 0);

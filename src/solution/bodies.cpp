@@ -163,10 +163,10 @@ bool has_body_forces(const Problem& problem) {
 
 using BodyKey = std::tuple<std::string, double, double, double>;
 
-// A mass has no directions: turned copies have the same.
+// A mass has no directions: turned copies have the same. A mass matrix of its own has some.
 BodyKey mass_key(const Substructure& part) {
   const Elastic& m = part.material;
-  return {part.mesh->shape_digest(), m.young, m.poisson, m.density};
+  return {part.mesh->condensed ? part.mesh->digest : part.mesh->shape_digest(), m.young, m.poisson, m.density};
 }
 
 // Of which pieces the masses are known on all ranks: all where loads are laid on them; else those that give theirs to

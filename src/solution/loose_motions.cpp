@@ -33,7 +33,7 @@ LooseMotions::LooseMotions(const StepModel& model) : model_(&model), frame_(exte
     const Substructure& body = *problem.substructures[part];
     for (const auto& [node, held] : model.conditions.held[part])
       for (int j = 0; j < held.n; ++j) {
-        const RigidMotion row = frame_.row(RigidFrame::place_of_node(body, node), held.directions.col(j));
+        const RigidMotion row = frame_.row(body, node, held.directions.col(j));
         gram += row * row.transpose();
       }
     const auto resisted = frame_.resisted(body);

@@ -23,12 +23,25 @@ struct RigidFrame {
     r.tail<3>() = (x - centre).cross(d) / size;
     return r;
   }
+  // The same of a node of the body: where that is the turn of a rigid face, of its value.
+  RigidMotion row(const Substructure& body, int node, const Vec3& d) const {
+    const CondensedBody* condensed = body.mesh->condensed.get();
+    if (!condensed || condensed->is_place(node)) return row(place_of_node(body, node), d);
+    RigidMotion r = RigidMotion::Zero();
+    if (condensed->kinds[static_cast<size_t>(node)] == NodeKind::turn)
+      r.tail<3>() = condensed->size_of_turn(node) / size * d;
+    return r;
+  }
   // The same of a port of the body along a direction of its point's frame.
   RigidMotion row(const Substructure& body, const Port& port, const Vec3& d) const {
     RigidMotion sum = RigidMotion::Zero();
-    port.for_each_node(
-        [&](int node, const Mat3& block) { sum += row(place_of_node(body, node), block.transpose() * d); });
+    port.for_each_node([&](int node, const Mat3& block) { sum += row(body, node, block.transpose() * d); });
     return sum;
+  }
+  Vec3 value(const RigidMotion& motion, const Substructure& body, int node) const {
+    if (!body.mesh->condensed) return displacement(motion, place_of_node(body, node));
+    return Vec3(row(body, node, Vec3::UnitX()).dot(motion), row(body, node, Vec3::UnitY()).dot(motion),
+                row(body, node, Vec3::UnitZ()).dot(motion));
   }
   Vec3 displacement(const RigidMotion& motion, const Vec3& x) const {
     return motion.head<3>() + Vec3(motion.tail<3>()).cross(x - centre) / size;

@@ -41,8 +41,7 @@ Blocks constraint_gram(const Problem& problem, const Exchange& exchange, const C
   for (int part = 0; part < n; ++part)
     for (const auto& [node, held] : conditions.held[part])
       for (int j = 0; j < held.n; ++j) {
-        const RigidMotion r =
-            frames[part].row(RigidFrame::place_of_node(*problem.substructures[part], node), held.directions.col(j));
+        const RigidMotion r = frames[part].row(*problem.substructures[part], node, held.directions.col(j));
         block(part, part) += r * r.transpose();
       }
   for (const Point& point : exchange.points) {
@@ -122,7 +121,7 @@ bool is_floating(const Substructure& part, const std::unordered_map<int, Held>& 
   double scale = 0.0;
   for (const auto& [node, conditions] : held)
     for (int j = 0; j < conditions.n; ++j) {
-      const RigidMotion r = frame.row(RigidFrame::place_of_node(part, node), conditions.directions.col(j));
+      const RigidMotion r = frame.row(part, node, conditions.directions.col(j));
       gram += r * r.transpose();
       scale += 1.0;
     }
@@ -180,8 +179,8 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
     Vec3 best_direction = Vec3::Zero();
     double best = 0.0;
     for (int node = 0; node < body.mesh->n_nodes(); ++node) {
-      if (body.mesh->condensed && body.mesh->condensed->kinds[static_cast<size_t>(node)] != NodeKind::point) continue;
-      Vec3 u = frames[part].displacement(motion.segment<6>(6 * part), RigidFrame::place_of_node(body, node));
+      if (body.mesh->condensed && body.mesh->condensed->follower(node)) continue;  // it has no unknowns
+      Vec3 u = frames[part].value(motion.segment<6>(6 * part), body, node);
       const auto held = conditions.held[part].find(node);
       const bool is_held = held != conditions.held[part].end() && held->second.n > 0;
       if (is_held && held->second.n == 3) continue;
@@ -203,8 +202,7 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
     ++held.n;
     // What is left of the other free motions once this one is pinned.
     const auto at_pin = [&](const Vec& z) {
-      return best_direction.dot(
-          frames[part].displacement(z.segment<6>(6 * part), RigidFrame::place_of_node(body, best_node)));
+      return best_direction.dot(frames[part].value(z.segment<6>(6 * part), body, best_node));
     };
     const Vec pinned = motion;
     free_motions.pop_back();
