@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -201,6 +202,7 @@ class CondensedBuilder {
 
   // Amplitudes for the rows that no node has yet, and all entries. what: of the files, for messages.
   MeshPtr finish(const Mat& stiffness, const Mat& mass, const Mat& damping, std::shared_ptr<Mesh> mesh) {
+    check_rows_once(mesh->source);
     add_amplitudes(stiffness.rows());
     mesh->nodes.resize(3, n_nodes());
     for (int node = 0; node < n_nodes(); ++node) mesh->nodes.col(node) = places_[static_cast<size_t>(node)];
@@ -209,7 +211,6 @@ class CondensedBuilder {
     body_->mass = on_nodes(mass, pattern);
     if (damping.size() > 0) body_->damping = on_nodes(damping, pattern);
     body_->find_carried(mesh->nodes);
-    check_inertia(mass, mesh->source);
     if (body_->mass_of_parts <= 0.0) body_->mass_of_parts = mass_of_translation(mesh->nodes);
     mesh->condensed = body_;
     mesh->digest = mesh_digest(*mesh);
@@ -267,11 +268,12 @@ class CondensedBuilder {
     return entries;
   }
 
-  void check_inertia(const Mat& mass, const std::string& source) const {
-    for (Eigen::Index i = 0; i < mass.rows(); ++i)
-      if (mass(i, i) < 0.0)
-        throw InputError(
-            fmt::format("'{}': row {} of the mass has a negative diagonal entry, {:.6g}", source, i + 1, mass(i, i)));
+  void check_rows_once(const std::string& source) const {
+    std::set<int> taken;
+    for (const auto& rows : rows_)
+      for (const int row : rows)
+        if (row != no_row && !taken.insert(row).second)
+          throw InputError(fmt::format("'{}' has row {} twice", source, row + 1));
   }
 
   double mass_of_translation(const Points& x) const {
@@ -304,9 +306,9 @@ class Description {
     } catch (const Json::exception&) {
       refuse("it is no JSON");
     }
-    if (!json_.is_object() || json_.value("what", "") != "dygita superelement")
-      refuse("its 'what' is not \"dygita superelement\"");
-    if (json_.value("version", 0) != 1)
+    const Json what = json_.is_object() ? json_.value("what", Json()) : Json();
+    if (what != "dygita superelement") refuse("its 'what' is not \"dygita superelement\"");
+    if (json_.value("version", Json()) != 1)
       refuse("it is of a later version of the program: condense the body again with this one, or take the later one");
   }
 
@@ -433,7 +435,6 @@ class Description {
         mesh->point_groups[name] = has_points ? numbered(face.at("points"), node_of) : node_of;
     }
     if (builder.n_nodes() == 0) refuse("it has no node");
-    const std::string of_stiffness = json_.at("stiffness").at("file");
     Mat stiffness = matrix("stiffness"), mass = matrix("mass");
     Mat damping = json_.contains("damping") ? matrix("damping") : Mat();
     for (Mat* one : {&stiffness, &mass, &damping})
@@ -565,6 +566,26 @@ class PointTable {
   std::vector<PointLine> points_;
 };
 
+// Positive semidefinite but for rounding, by the Cholesky factors of the matrix scaled to a diagonal of ones.
+void check_definite(const Mat& matrix, const std::string& file, const char* what) {
+  constexpr double rounding = 1e-9;
+  Vec scale = matrix.diagonal();
+  for (Eigen::Index i = 0; i < scale.size(); ++i) {
+    if (scale[i] < 0.0 || (scale[i] == 0.0 && !matrix.row(i).isZero(0.0)))
+      throw InputError(
+          fmt::format("'{}' is no {} matrix: its diagonal entry in row {} is {:.6g}", file, what, i + 1, scale[i]));
+    scale[i] = scale[i] > 0.0 ? 1.0 / std::sqrt(scale[i]) : 1.0;
+  }
+  Mat scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
+  scaled.diagonal().array() += rounding * static_cast<double>(matrix.rows());
+  const Eigen::LLT<Eigen::Ref<Mat>> factor(scaled);
+  if (factor.info() != Eigen::Success)
+    throw InputError(
+        fmt::format("'{}' is no {} matrix: it is not positive semidefinite, some motion would have a "
+                    "negative energy",
+                    file, what));
+}
+
 void check_rows(const std::vector<PointLine>& points, Eigen::Index n_rows, const MatrixFiles& files) {
   std::set<int> taken;
   for (const PointLine& point : points)
@@ -591,6 +612,9 @@ MeshPtr read_matrices(const MatrixFiles& files) {
     check_sizes(stiffness.matrix, files.stiffness, damping.matrix, *files.damping);
   }
   check_rows(table.points(), stiffness.matrix.rows(), files);
+  check_definite(stiffness.matrix, files.stiffness, "stiffness");
+  check_definite(mass.matrix, files.mass, "mass");
+  if (files.damping) check_definite(damping.matrix, *files.damping, "damping");
   CondensedBuilder builder;
   auto mesh = std::make_shared<Mesh>();
   mesh->source = files.stiffness;
