@@ -25,11 +25,6 @@ size_t edit_distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-std::string in_lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 // "M", 7 of "M7"; nothing where it does not end with a number.
 std::optional<std::pair<std::string, long>> numbered(const std::string& name) {
   constexpr size_t most_digits = 9;
@@ -117,6 +112,11 @@ std::string file_name_of(const std::string& name) {
   }
   if (file_name.front() == '.') file_name.front() = '_';
   return file_name;
+}
+
+std::string in_lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
 }
 
 }  // namespace dygita

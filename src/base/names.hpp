@@ -21,4 +21,7 @@ std::string printable(const std::string& text);
 // "unnamed". A name that check_problem lets through is unchanged.
 std::string file_name_of(const std::string& name);
 
+// The text with small letters.
+std::string in_lower_case(std::string text);
+
 }  // namespace dygita

@@ -32,6 +32,11 @@ Content build(const Declaration& declaration);
 MeshPtr volume_of(const GmshMeshes& file, const std::string& name, const Origin& origin);
 Face face_of(const SubstructurePtr& part, const std::string& group, const Origin& origin);
 
+// What all kinds of substructures have: their place, and doubts of a size that tells a wrong unit.
+void set_place(const std::vector<double>& place, Substructure& part);
+void doubt_size(const Substructure& part);
+Content build_superelement(const Declaration& declaration);
+
 template <class T>
 std::shared_ptr<T> new_named(const Declaration& declaration) {
   auto object = std::make_shared<T>();

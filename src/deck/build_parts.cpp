@@ -1,7 +1,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "base/log.hpp"
 #include "deck/build_model.hpp"
@@ -12,7 +11,6 @@
 #include "mesh/geo_script.hpp"
 #include "mesh/machine_copies.hpp"
 #include "mesh/mesh_limits.hpp"
-#include "mesh/superelement_file.hpp"
 #include "model/found_faces.hpp"
 #include "model/point_faces.hpp"
 
@@ -20,8 +18,7 @@ namespace dygita {
 
 namespace {
 
-constexpr double bytes_per_cell = 100.0;                  // of a box: coordinates, connectivity, facets
-constexpr double smallest_part = 1e-6, largest_part = 5;  // m, beyond them a unit is probably wrong
+constexpr double bytes_per_cell = 100.0;  // of a box: coordinates, connectivity, facets
 constexpr double locking_poisson = 0.45;
 
 // The type by its name, else by the order.
@@ -133,15 +130,6 @@ Content build_elastic(const Declaration& d) {
   return std::shared_ptr<const Material>(material);
 }
 
-void doubt_size(const Substructure& part) {
-  const Points& nodes = part.mesh->nodes;
-  if (nodes.cols() == 0) return;
-  const double size = (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).maxCoeff();
-  if (size >= smallest_part && size <= largest_part) return;
-  warn(fmt::format("{}substructure '{}' measures {:g} m; coordinates are metres unless mesh.gmsh says unit = mm",
-                   part.origin.prefix(), part.name, size));
-}
-
 void doubt_locking(const Substructure& part) {
   for (const CellBlock& block : part.mesh->blocks) {
     const std::string_view cells = cell_shape(block.type).locks_as;
@@ -157,14 +145,6 @@ void doubt_locking(const Substructure& part) {
   }
 }
 
-// A translation, or a rotation row by row and a translation: what turns is a mesh of its own.
-void set_place(const std::vector<double>& place, Substructure& part) {
-  part.place = Eigen::Map<const Vec3>(place.data() + place.size() - 3);
-  if (place.size() == 3) return;
-  const Mat3 rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(place.data());
-  part.mesh = turned_mesh(*part.mesh, rotation, Vec3::Zero());
-}
-
 Content build_substructure(const Declaration& d) {
   auto part = new_named<Substructure>(d);
   part->mesh = d.arguments.object("mesh").as<MeshPtr>();
@@ -177,76 +157,6 @@ Content build_substructure(const Declaration& d) {
   if (d.arguments.has("integration")) part->integration = integration_of(d.arguments.text("integration"));
   doubt_size(*part);
   doubt_locking(*part);
-  return SubstructurePtr(part);
-}
-
-// What a mesh of matrices has in the place of a material: what search directions and comparisons of stiffness go by.
-Elastic material_like(const Mesh& mesh) {
-  constexpr double poisson = 0.3, bar_speed = 5200.0;  // m/s, as metals have it
-  Elastic like;
-  like.name = "superelement";
-  like.young = mesh.condensed->modulus(mesh.nodes);
-  like.poisson = poisson;
-  like.density = like.young / (bar_speed * bar_speed);
-  return like;
-}
-
-MeshPtr superelement_of(const LuaArguments& a) {
-  if (a.has("file")) {
-    for (const char* other : {"stiffness", "mass", "damping", "points"})
-      if (a.has(other))
-        throw InputError(
-            fmt::format("'file' names all that belongs to it: '{}' is for matrices of other programs, "
-                        "without 'file'",
-                        other));
-    return read_superelement(a.file("file"));
-  }
-  for (const char* needed : {"mass", "points"})
-    if (!a.has(needed))
-      throw InputError(fmt::format("'stiffness' goes with 'mass' and 'points': '{}' is missing", needed));
-  MatrixFiles files{a.file("stiffness"), a.file("mass"), {}, a.file("points")};
-  if (a.has("damping")) files.damping = a.file("damping");
-  return read_matrices(files);
-}
-
-// Nothing is known of its inside where it is held there.
-void check_free(const Substructure& part) {
-  if (part.velocity.isZero() || !part.mesh->condensed->resists(part.mesh->nodes, part.velocity)) return;
-  throw InputError(
-      fmt::format("'velocity' of '{}': it was condensed with a support inside, which holds it", part.name));
-}
-
-// Matrices are kept dense and sparse, about as large as their texts each.
-size_t bytes_of_superelement(const LuaArguments& a) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  const auto size = [&](const fs::path& file) {
-    const std::uintmax_t own = fs::file_size(file, ignored);
-    return ignored ? std::uintmax_t{0} : own;
-  };
-  std::uintmax_t bytes = 0;
-  for (const char* key : {"stiffness", "mass", "damping"})
-    if (a.has(key)) bytes += size(a.file(key));
-  if (a.has("file"))
-    for (const char* what : {"stiffness", "mass", "damping"})
-      bytes += size(fs::path(a.file("file")).replace_extension().string() + "_" + what + ".mtx");
-  return static_cast<size_t>(2 * bytes);
-}
-
-Content build_superelement(const Declaration& d) {
-  auto part = new_named<Substructure>(d);
-  const size_t bytes = bytes_of_superelement(d.arguments);
-  d.lua.reserve("substructure.superelement", bytes);
-  {
-    const LuaState::Pause pause(d.lua);
-    part->mesh = superelement_of(d.arguments);
-  }
-  d.lua.hold_reserved(part->mesh, bytes);
-  part->material = material_like(*part->mesh);
-  set_place(d.arguments.numbers("place"), *part);
-  part->velocity = d.arguments.vector("velocity");
-  check_free(*part);
-  doubt_size(*part);
   return SubstructurePtr(part);
 }
 

@@ -71,17 +71,10 @@ Points CondensedBody::rigid_motion(const Points& x, const Vec3& translation, con
 
 void CondensedBody::find_carried(const Points& x) {
   carried.resize(0, 0);
-  std::vector<int> own, of_places;
-  const auto is_absent = [&](int row) {
-    return std::any_of(absent.begin(), absent.end(), [&](const auto& entry) { return entry.first == row / 3; });
-  };
-  // Amplitudes are the last nodes; of one with an axis that is absent none counts: it is the last, of modes.
-  for (int row = 0; row < 3 * n_nodes(); ++row) {
-    if (kinds[row / 3] != NodeKind::amplitude)
-      of_places.push_back(row);
-    else if (!is_absent(row))
-      own.push_back(row);
-  }
+  std::vector<int> own;
+  // An axis of the last node that has no amplitude has no stiffness either: least norm leaves it alone.
+  for (int row = 0; row < 3 * n_nodes(); ++row)
+    if (kinds[row / 3] == NodeKind::amplitude) own.push_back(row);
   if (own.empty()) return;
   Mat places(3 * n_nodes(), 6);
   for (int m = 0; m < 3; ++m) {

@@ -23,12 +23,4 @@ struct MatrixFiles {
 MeshPtr read_superelement(const std::string& file);
 MeshPtr read_matrices(const MatrixFiles& files);
 
-// A symmetric matrix of a Matrix Market file, real or integer, an array or by coordinates, one triangle or both. The
-// text is the file's, `digest` of it in hexadecimal. Throws InputError.
-struct MatrixFile {
-  Mat matrix;
-  std::string digest;
-};
-MatrixFile read_matrix_market(const std::string& file);
-
 }  // namespace dygita

@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "decks/engine.hpp"
+#include "mesh/matrix_market.hpp"
 #include "mesh/superelement_file.hpp"
 #include "result/superelement_files.hpp"
 

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/error.hpp"
+#include "mesh/matrix_market.hpp"
 #include "mesh/superelement_file.hpp"
 
 namespace dygita::superelement_file_tests {

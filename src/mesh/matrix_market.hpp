@@ -1,0 +1,22 @@
+// Matrices of files.
+#pragma once
+
+#include <string>
+
+#include "numerics/types.hpp"
+
+namespace dygita {
+
+// A symmetric matrix of a Matrix Market file, real or integer, an array or by coordinates, one triangle or both;
+// digest: of the file's text, in hexadecimal. Throws InputError: a file that is missing or of something else, too many
+// rows, a matrix that is not square, symmetric and finite. Source: Boisvert, Pozo, Remington, NISTIR 5935 (1996).
+struct MatrixFile {
+  Mat matrix;
+  std::string digest;
+};
+MatrixFile read_matrix_market(const std::string& file);
+
+// The text of a file. Throws InputError where it cannot be read, or is larger than 2 GB.
+std::string text_of_file(const std::string& file);
+
+}  // namespace dygita
