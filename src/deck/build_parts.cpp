@@ -180,6 +180,12 @@ void set_sides(const Declaration& d, Interface& interface) {
     interface.side_2 = with_facets(*other.face, *one.face, interface.within);
     return;
   }
+  for (const InterfaceSide* side : {&one, &other})
+    if (!side->face && side->part->mesh->condensed && side->part->mesh->faces.empty())
+      throw InputError(
+          fmt::format("superelement '{}' has points and no facets: name its face, and the face that lies on "
+                      "its points",
+                      side->part->name));
   for (const auto& [own, opposite] : {std::pair(&one, &other), std::pair(&other, &one)})
     if (own->face && is_of_points(*own->face))
       throw InputError(fmt::format("'{}' is given by points alone: give the face of '{}' that lies on them",

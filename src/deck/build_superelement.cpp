@@ -62,7 +62,7 @@ MeshPtr superelement_of(const LuaArguments& a) {
 void check_free(const Substructure& part) {
   if (part.velocity.isZero() || !part.mesh->condensed->resists(part.mesh->nodes, part.velocity)) return;
   throw InputError(
-      fmt::format("'velocity' of '{}': it was condensed with a support inside, which holds it", part.name));
+      fmt::format("'velocity' of '{}': its matrices resist that motion: a support was condensed with it", part.name));
 }
 
 // Matrices are kept dense and sparse, about as large as their texts each.

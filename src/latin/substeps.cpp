@@ -21,10 +21,9 @@ void StepRun::begin_substep(int increment, int substep) {
   for_each_piece(telling_.border, begin);
   direct_.tell();
   for_each_piece(telling_.interior, begin);
-  if (model_.n_q() > 0) {
-    for_each_group([&](const std::vector<Piece*>& group, const std::vector<int>&) { group.front()->forward(group); });
-    local_.begin(increment, motions, true);
-  }
+  // Implicit pieces are solved for though no interface asks them.
+  for_each_group([&](const std::vector<Piece*>& group, const std::vector<int>&) { group.front()->forward(group); });
+  if (model_.n_q() > 0) local_.begin(increment, motions, true);
   const Stopwatch laws(books_.seconds.local);
   direct_.solve(motions, piece_threads_.threads());
 }
@@ -94,9 +93,7 @@ void StepRun::book_stored_energy(int i) {
 void StepRun::finish_substep(int substep) {
   {
     const Stopwatch watch(books_.seconds.backward);
-    if (model_.n_q() > 0)
-      for_each_group(
-          [&](const std::vector<Piece*>& group, const std::vector<int>&) { group.front()->backward(group); });
+    for_each_group([&](const std::vector<Piece*>& group, const std::vector<int>&) { group.front()->backward(group); });
     for_each_piece([&](Piece& piece, int i) { finish_piece(piece, i); });
   }
   const Stopwatch watch(books_.seconds.accept);

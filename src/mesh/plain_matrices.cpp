@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/log.hpp"
 #include "base/names.hpp"
 #include "mesh/condensed_builder.hpp"
 #include "mesh/matrix_market.hpp"
@@ -160,6 +161,23 @@ void check_rows(const std::vector<PointLine>& points, Eigen::Index n_rows, const
     }
 }
 
+// A body that moves freely weighs the same along all axes.
+void doubt_masses(const Mesh& mesh, const std::string& file) {
+  constexpr double unlike = 0.01;
+  const CondensedBody& body = *mesh.condensed;
+  Vec3 masses;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (body.resists(mesh.nodes, Vec3::Unit(axis))) return;
+    const Vec moved = body.rigid_motion(mesh.nodes, Vec3::Unit(axis), Vec3::Zero()).reshaped();
+    masses[axis] = moved.dot(body.mass * moved);
+  }
+  if (masses.maxCoeff() - masses.minCoeff() > unlike * masses.maxCoeff())
+    warn(fmt::format(
+        "'{}': the body weighs {:.4g} kg along x, {:.4g} along y and {:.4g} along z: are rows and points in "
+        "the same order?",
+        file, masses[0], masses[1], masses[2]));
+}
+
 }  // namespace
 
 MeshPtr read_matrices(const MatrixFiles& files) {
@@ -182,7 +200,9 @@ MeshPtr read_matrices(const MatrixFiles& files) {
     const int node = builder.add(NodeKind::point, point.place, point.rows);
     mesh->point_groups[point.face].push_back(node);
   }
-  return builder.finish(stiffness.matrix, mass.matrix, damping.matrix, std::move(mesh));
+  const MeshPtr made = builder.finish(stiffness.matrix, mass.matrix, damping.matrix, std::move(mesh));
+  doubt_masses(*made, files.mass);
+  return made;
 }
 
 }  // namespace dygita

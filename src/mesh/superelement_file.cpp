@@ -38,7 +38,9 @@ class Description {
     try {
       return read_body();
     } catch (const Json::exception& error) {
-      refuse(fmt::format("something is missing in it or of another kind ({})", error.what()));
+      const std::string text = error.what();  // "[json.exception.out_of_range.403] key 'rows' not found"
+      refuse("something is missing in it or of another kind, " +
+             text.substr(std::min(text.find("] ") + 2, text.size())));
     }
   }
 
@@ -66,8 +68,11 @@ class Description {
     return std::move(read.matrix);
   }
 
-  static Vec3 vector(const Json& json) {
-    return Vec3(json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>());
+  Vec3 vector(const Json& json) const {
+    constexpr double farthest = 1e6;  // m
+    const Vec3 x(json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>());
+    if (!(x.cwiseAbs().maxCoeff() < farthest)) refuse("a place is out of this world");
+    return x;
   }
 
   int row_of(const Json& json) const {

@@ -212,9 +212,21 @@ void support_follows(const Problem& problem, const Load& load, const BaseMotion&
               hint);
 }
 
+// What was condensed with a support stands on ground that does not move.
+void doubt_inner_supports(const Problem& problem, const Load& load, const BaseMotion& motion) {
+  for (const SubstructurePtr& part : problem.substructures)
+    if (part->mesh->condensed && part->mesh->condensed->resists(part->mesh->nodes, motion.direction))
+      doubt(problem, load.origin,
+            load.path + " moves " + describe(*motion.on) + ", and the support that was condensed with superelement '" +
+                part->name + "' stands still");
+}
+
 void supports_follow(const Problem& problem, const Load& load) {
   for (const Effect& effect : load.effects())
-    if (const auto* motion = std::get_if<BaseMotion>(&effect)) support_follows(problem, load, *motion);
+    if (const auto* motion = std::get_if<BaseMotion>(&effect)) {
+      support_follows(problem, load, *motion);
+      doubt_inner_supports(problem, load, *motion);
+    }
 }
 
 // Is every node of a face held or moved along an axis, and by what? Empty: not.
@@ -289,7 +301,7 @@ void superelements_feel(const Problem& problem, const Load& load) {
       if (part->mesh->condensed && part->mesh->condensed->resists(part->mesh->nodes, force->unit(part->place)))
         fail(problem, load.origin,
              force->name + ": what it does to the inside of superelement '" + part->name +
-                 "' is not known, since a support that was condensed with it holds it there",
+                 "' is not known, since its matrices resist that motion: a support was condensed with it",
              "condense it without the support, with the supported face in 'on', and hold it in the deck");
   }
 }

@@ -90,6 +90,7 @@ std::vector<TouchingPair> all_touching(const std::vector<SubstructurePtr>& parts
     for (int j = i + 1; j < n; ++j) {
       const double smaller = std::min(boxes[i].size().norm(), boxes[j].size().norm());
       if (!boxes[i].grown(within.value_or(0.0) + 0.05 * smaller).meets(boxes[j])) continue;
+      if (outside(i).facets.empty() || outside(j).facets.empty()) continue;  // superelements of points alone
       FacetKeys taken_1, taken_2;
       for (const InterfacePtr& interface : interfaces) {
         if (interface->side_1.part == parts[i] && interface->side_2.part == parts[j])

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/log.hpp"
 
 namespace dygita {
 
@@ -79,6 +80,12 @@ Face with_facets(const Face& face, const Face& other, const std::optional<double
                     "check 'place' and the units, 'within' says how far apart they may be",
                     face.label(), face.part->mesh->point_groups.at(face.group).size(), other.label(), n_found,
                     nodes.size(), 1e3 * reach, 1e3 * closest.distance));
+  const size_t n_points = face.part->mesh->point_groups.at(face.group).size(), n_joined = nodes_of(*facets).size();
+  if (n_joined < n_points || facets->size() < other.facets().size())
+    warn(
+        fmt::format("'{}' and '{}': {} of {} points lie at nodes of {} of {} facets; what has no point at each of its "
+                    "nodes is not joined",
+                    face.label(), other.label(), n_joined, n_points, facets->size(), other.facets().size()));
   return {face.part, face.group, facets};
 }
 

@@ -10,6 +10,11 @@ namespace dygita {
 
 namespace {
 
+// How many of the six motions as a whole something inside resists.
+std::string held_inside(Eigen::Index n) {
+  return n == 0 ? ", free" : n == 6 ? ", held inside" : fmt::format(", held inside against {} of 6 rigid motions", n);
+}
+
 // "  substructure 'launcher': superelement of 312 rows, 100 points and 4 modes, to be used up to 30 kHz, 2.1 kg".
 std::string condensed_line(const Substructure& part, const Vec3& size) {
   const CondensedBody& body = *part.mesh->condensed;
@@ -18,8 +23,7 @@ std::string condensed_line(const Substructure& part, const Vec3& size) {
       "{:.4g} mm\n",
       part.name, body.n_rows(), body.n_places(), part.mesh->faces.size() + part.mesh->point_groups.size(),
       body.valid_to > 0.0 ? fmt::format(", to be used up to {:.4g} Hz", body.valid_to) : "",
-      body.resisted_motions(part.mesh->nodes).cols() > 0 ? ", held inside" : "", body.mass_of_parts, size[0], size[1],
-      size[2]);
+      held_inside(body.resisted_motions(part.mesh->nodes).cols()), body.mass_of_parts, size[0], size[1], size[2]);
 }
 
 }  // namespace

@@ -27,7 +27,6 @@ void ImplicitPiece::set_state(const Points& displacement, const Points& velocity
     s.held_u.push_back(direction.direction.dot(displacement.col(direction.node)));
     s.held_v.push_back(direction.motion.empty() ? 0.0 : direction.direction.dot(velocity.col(direction.node)));
   }
-  if (op_.mass().is_full()) catch_up(velocity);
   s.w = op_.c1() * op_.stiffness_times(this->velocity());
   s.p = op_.stiffness_times(displacement);
   s.imbalance = s.p - s.force - unknowns.restrict_nodal(interface_force);
@@ -45,16 +44,16 @@ void ImplicitPiece::set_state(const Points& displacement, const Points& velocity
   work_.nodal_force = force;
 }
 
-// What held directions had of the velocity is taken by an impulse of whatever holds them: through a mass matrix others
-// feel it. velocity: of all nodes, before.
-void ImplicitPiece::catch_up(const Points& velocity) {
-  if (op_.scheme().is_static) return;
+Points ImplicitPiece::after_jump(const Points& before, const Points& held) const {
+  if (op_.scheme().is_static || !op_.mass().is_full()) return held;
   const FreeUnknowns& unknowns = op_.unknowns();
-  const Points lost = velocity - unknowns.expand(state_.v, state_.held_v);
-  const Vec pull = unknowns.restrict_nodal(op_.mass().times_nodal(lost));
-  if (pull.lpNorm<Eigen::Infinity>() <= 1e-14 * op_.mass().times(state_.v).lpNorm<Eigen::Infinity>()) return;
-  if (pull.isZero(0.0)) return;
-  state_.v += op_.mass().solve(pull);
+  const Vec pull = unknowns.restrict_nodal(op_.mass().times_nodal(before - held));
+  if (pull.isZero(0.0)) return held;
+  Vec free = unknowns.restrict_nodal(held) + op_.mass().solve(pull);
+  std::vector<double> held_velocity;
+  for (const HeldDirection& direction : op_.held())
+    held_velocity.push_back(direction.direction.dot(held.col(direction.node)));
+  return unknowns.expand(free, held_velocity);
 }
 
 void ImplicitPiece::begin(const Points& force, const std::vector<double>& motion_velocity, double quiet) {

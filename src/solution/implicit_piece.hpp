@@ -23,6 +23,7 @@ class ImplicitPiece : public Piece {
   Points unknown_directions() const override { return op_.unknowns().directions(); }
   bool is_massless(int node) const override;
   bool has_motions() const override { return op_.has_motions(); }
+  Points after_jump(const Points& before, const Points& held) const override;
   Points elastic_force(const Points& displacement) const override { return op_.elastic_force(displacement); }
   const Vec& schur_diagonal() const override { return schur_diagonal_; }
   void set_search_directions(const Vec& k) override;
@@ -87,7 +88,6 @@ class ImplicitPiece : public Piece {
   void start_massless();
   void advance_massless();
   void advance_forces(Eigen::Ref<const Vec> q, bool is_moved);
-  void catch_up(const Points& velocity);
   void resynchronise();
   bool has_past() const;
   std::vector<double> held_acceleration() const;  // m/s^2, mean over the last increment

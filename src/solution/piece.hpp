@@ -96,6 +96,9 @@ class Piece {
   // balance with them; or as it was at another time.
   virtual void set_state(const Points& displacement, const Points& velocity, const Points& force,
                          const Points& interface_force) = 0;
+  // Velocities after a jump: `held` has those of held directions after it, `before` all as they were. What holds them
+  // gives an impulse, which others feel through a mass matrix.
+  virtual Points after_jump(const Points& /*before*/, const Points& held) const { return held; }
   virtual const PieceState& state() const = 0;
   virtual void restore(const PieceState& state) = 0;
   virtual IncrementEnergy stored_energy() const = 0;  // kinetic and strain now

@@ -1,6 +1,6 @@
 #include "solution/piece_mass.hpp"
 
-#include "numerics/dense.hpp"
+#include <Eigen/IterativeLinearSolvers>
 
 namespace dygita {
 
@@ -80,7 +80,13 @@ Vec PieceMass::times(const Vec& v) const {
   return lumped_.cwiseProduct(v);
 }
 
-Vec PieceMass::solve(const Vec& momentum) const { return solve_least_norm(Mat(matrix_), momentum, 1e-12).x; }
+Vec PieceMass::solve(const Vec& momentum) const {
+  Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper, Eigen::DiagonalPreconditioner<double>> solver;
+  solver.setTolerance(1e-14);
+  solver.setMaxIterations(10 * matrix_.rows());
+  solver.compute(matrix_);
+  return solver.solve(momentum);
+}
 
 Points PieceMass::times_nodal(const Points& nodal) const {
   if (mass_->full.size() > 0) return mass_->times(nodal, false);

@@ -195,15 +195,28 @@ void start_step(StepModel& model, State& state) {
     if (is_static) velocity.setZero();
     if (first_dynamic) velocity += start_velocity(*model.cut->piece(i).body);
   }
+  std::vector<Points> had = state.velocity;
   const auto give_to_pieces = [&] {
     set_pieces(model, state);
     for (const int i : model.here) state.velocity[i] = model.pieces[i]->velocity();
   };
+  const auto jump_to_held = [&] {
+    bool has_jumped = false;
+    for (const int i : model.here) {
+      const Points after = model.pieces[i]->after_jump(had[i], state.velocity[i]);
+      has_jumped |= after != state.velocity[i];
+      state.velocity[i] = after;
+    }
+    if (ranks::any(has_jumped)) give_to_pieces();
+    had = state.velocity;
+  };
   give_to_pieces();
+  jump_to_held();
   double given = 0.0;  // J, by the loads at once
   if (take_up_motions(model, state)) {
     given = -kinetic_energy(model);
     give_to_pieces();
+    jump_to_held();
     given += kinetic_energy(model);
   }
   give_to_copies(*model.cut, model.is_assembled, state.velocity);

@@ -254,6 +254,27 @@ TEST(Integration, a_block_that_slides_is_held_back_by_nothing) {
   }
 }
 
+// An implicit block beside an explicit one, no interface anywhere: each moves as if the other were not there.
+TEST(Integration, what_no_interface_touches_is_solved_beside_explicit_parts) {
+  const std::string deck = R"(
+local p = param{ beside = 0 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local function block(name, z, how) return substructure{ name = name, mesh = mesh.box{ size = { 20*mm, 20*mm, 20*mm }, cells = { 3, 3, 3 } }, material = steel, place = { 0, 0, z }, integration = how } end
+local own, other = block("own", 0, "implicit"), block("other", 100*mm, "explicit")
+local base = support.fixed{ name = "base", on = own:face "zmin" }
+local push = step.dynamic{ name = "push", duration = 40*us, dt = 0.4*us, loads = { load.pressure{ on = own:face "zmax", history = history.half_sine{ peak = 20*MPa, duration = 15*us } } } }
+problem{ name = "apart", substructures = p.beside == 1 and { own, other } or { own }, supports = { base }, steps = { push },
+         outputs = { output.history{ name = "top", on = own:face "zmax", quantity = "displacement", direction = { 0, 0, 1 } } } }:run{}
+)";
+  const DeckRun alone = run_text(deck).at(0), beside = run_text(deck, {{"beside", "1"}}).at(0);
+  const std::vector<double>&u = alone.column("top", "displacement"), &v = beside.column("top", "displacement");
+  ASSERT_EQ(u.size(), v.size());
+  const double most = -*std::min_element(u.begin(), u.end());
+  ASSERT_GT(most, 1e-7);
+  for (const auto& step : beside.result->steps) EXPECT_EQ(step.substeps, 1);  // of the same increments
+  for (size_t i = 0; i < u.size(); ++i) EXPECT_NEAR(v[i], u[i], 1e-9 * most) << i;
+}
+
 std::string complaint(const std::string& text, const Settings& settings, const std::string& solver) {
   try {
     run_text(text, settings, 1, solver);

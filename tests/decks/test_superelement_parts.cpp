@@ -59,7 +59,7 @@ double difference(const DeckRun& a, const DeckRun& b, const std::string& output,
 // --- two blocks, the lower one with all its modes: the same model in other coordinates
 
 const std::string header = R"(
-local p = param{ condensed = 0, law = 1, held = 0, turned = 0, gravity = 0, velocity = 0, shaken = 0, n = 27 }
+local p = param{ condensed = 0, law = 1, held = 0, turned = 0, gravity = 0, velocity = 0, shaken = 0, jump = 0, n = 27 }
 local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800, damping = { mass = 40, stiffness = 2e-7 } }
 local function block(z) return mesh.box{ origin = { 0, 0, z }, size = { 30*mm, 20*mm, 10*mm }, cells = { 2, 2, 2 } } end
 )";
@@ -87,7 +87,7 @@ local joint = p.law == 1 and interface.contact{ name = "joint", between = betwee
   or p.law == 2 and interface.bonded{ name = "joint", between = between }
   or interface.plastic{ name = "joint", between = between, yield = 15*MPa }
 local supports = {}
-if p.held == 0 or p.held == 1 and p.condensed == 0 then supports = { support.fixed{ name = "base", on = low:face "zmin" } } end
+if p.jump == 0 and p.held == 0 or p.held == 1 and p.condensed == 0 then supports = { support.fixed{ name = "base", on = low:face "zmin" } } end
 if p.held == 2 and p.condensed == 0 then supports = { support.symmetry{ name = "symmetry", on = low:face "xmin" } } end
 local press = step.static{ name = "press", increments = 2, loads = { load.pressure{ on = up:face "zmax", history = 20*MPa } } }
 local loads = {}
@@ -97,7 +97,8 @@ if p.held < 2 then loads[2] = load.pressure{ on = up:face "zmax", history = 20*M
 if p.held == 2 and p.turned == 0 then loads[2] = load.gravity{ y = 5e5, z = -9e5 } end
 if p.gravity == 1 then loads[#loads + 1] = load.gravity{ x = 9e5, z = -5e5 } end
 if p.shaken == 1 then loads[#loads + 1] = load.base_acceleration{ on = supports[1], direction = { 0, 0.3, 1 }, history = history.half_sine{ peak = 1e5, duration = 20*us } } end
-local is_free = p.velocity == 1 or p.held == 2
+if p.jump == 1 then loads = { load.velocity{ on = low:face "zmin", z = -1, x = 0.2 } } end
+local is_free = p.jump == 1 or p.velocity == 1 or p.held == 2
 local shock = step.dynamic{ name = "shock", after = not is_free and press or nil, duration = 30*us, dt = 0.5*us, loads = loads }
 local outputs = {
   output.history{ name = "top", on = up:face "zmax", quantity = "displacement" },
@@ -166,6 +167,8 @@ TEST(SuperelementPart, turns_moves_and_weighs_as_the_mesh) {
   expect_the_same(deck, {{"shaken", "1"}, {"turned", "1"}}, "monolithic");
   expect_the_same(deck, {{"velocity", "1"}});  // and is stopped by its support at once
   expect_the_same(deck, {{"velocity", "1"}, {"turned", "1"}}, "monolithic");
+  expect_the_same(deck, {{"jump", "1"}, {"law", "2"}});  // a face that moves at once gives the inside no momentum
+  expect_the_same(deck, {{"jump", "1"}, {"law", "2"}, {"turned", "1"}}, "monolithic");
 }
 
 TEST(SuperelementPart, keeps_the_support_that_was_condensed_with_it) {
@@ -390,6 +393,42 @@ problem{ name = "circle", substructures = all, supports = supports, steps = { st
   for (const char* other : {"top 2", "top 3"})
     for (size_t i = 0; i < run.column(other, "acceleration").size(); ++i)
       EXPECT_NEAR(run.column(other, "acceleration")[i], run.column("top 1", "acceleration")[i], 1e-9 * scale);
+}
+
+// Its surface is not there to be searched.
+TEST(SuperelementPart, of_points_alone_is_attached_by_the_names_of_faces) {
+  const Folder folder;
+  folder.condense(condensing);
+  const MeshPtr mesh = read_superelement(folder.of("low.json"));
+  folder.write("k.mtx", matrix_text(mesh->condensed->stiffness, true));
+  folder.write("m.mtx", matrix_text(mesh->condensed->mass, true));
+  std::string points = "face,x,y,z\n";
+  for (int node = 0; node < 18; ++node)
+    points += std::string(mesh->nodes(2, node) > 0.005 ? "zmax" : "zmin") + "," + std::to_string(mesh->nodes(0, node)) +
+              "," + std::to_string(mesh->nodes(1, node)) + "," + std::to_string(mesh->nodes(2, node)) + "\n";
+  folder.write("points.csv", points);
+  const std::string parts = header + "local low = substructure.superelement{ name = \"low\", stiffness = \"" +
+                            folder.of("k.mtx") + "\", mass = \"" + folder.of("m.mtx") + "\", points = \"" +
+                            folder.of("points.csv") + R"(" }
+local up = substructure{ name = "up", mesh = block(10*mm), material = steel }
+)";
+  const auto refusal = [&](const std::string& rest) -> std::string {
+    try {
+      run_text(parts + rest);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refusal(R"(local i = interface.bonded{ name = "i", between = { low, up } })")
+                .find("name its face, and the face that lies on its points"),
+            std::string::npos);
+  EXPECT_NE(refusal(R"(local i = interface.bonded{ name = "i", between = { low:face "zmax", up } })")
+                .find("give the face of 'up' that lies on them"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal(R"(local i = interface.bonded{ name = "i", between = "all touching" })").find("no two of 2 parts touch"),
+      std::string::npos);
 }
 
 // --- one flange of the bolted flanges

@@ -147,6 +147,12 @@ class HistoryOutput final : public Output {
   }
 
   void doubt(const Problem& problem) const override {
+    for (const Target& target : request_.on)
+      if (const auto* region = std::get_if<Region>(&target);
+          region && region->part->mesh->condensed && !region->part->mesh->faces.empty())
+        check::doubt(problem, origin,
+                     known_as() + " is a mean over nodes of superelement '" + region->part->name +
+                         "', which counts each alike: over those of a mesh it goes by their volumes");
     const Quantity quantity = request_.what.quantity;
     const bool is_rate = quantity == Quantity::velocity || quantity == Quantity::acceleration;
     if (is_rate && !check::has_dynamic_step(problem))

@@ -62,10 +62,11 @@ class MomentumOutput final : public Output {
       if (!is_asked || !part->mesh->condensed) continue;
       for (int axis = 0; axis < 3; ++axis)
         if (part->mesh->condensed->resists(part->mesh->nodes, Vec3::Unit(axis)))
-          check::fail(problem, origin,
-                      known_as() + ": superelement '" + part->name +
-                          "' was condensed with a support inside: what moves behind its faces is not known",
-                      "name the other parts in 'of', or condense it without the support and hold it in the deck");
+          check::fail(
+              problem, origin,
+              known_as() + ": superelement '" + part->name +
+                  "' is held inside, by a support that was condensed with it: what moves behind its faces is not known",
+              "name the other parts in 'of', or condense it without the support and hold it in the deck");
     }
   }
 
