@@ -195,12 +195,17 @@ void start_step(StepModel& model, State& state) {
     if (is_static) velocity.setZero();
     if (first_dynamic) velocity += start_velocity(*model.cut->piece(i).body);
   }
-  std::vector<Points> had = state.velocity;
+  // Superelements alone feel what stops or moves others of their rows.
+  const bool may_jump =
+      !is_static && std::any_of(model.problem->substructures.begin(), model.problem->substructures.end(),
+                                [](const SubstructurePtr& part) { return part->mesh->condensed; });
+  std::vector<Points> had = may_jump ? state.velocity : std::vector<Points>();
   const auto give_to_pieces = [&] {
     set_pieces(model, state);
     for (const int i : model.here) state.velocity[i] = model.pieces[i]->velocity();
   };
   const auto jump_to_held = [&] {
+    if (!may_jump) return;
     bool has_jumped = false;
     for (const int i : model.here) {
       const Points after = model.pieces[i]->after_jump(had[i], state.velocity[i]);

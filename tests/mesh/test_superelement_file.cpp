@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include "base/error.hpp"
 #include "mesh/matrix_market.hpp"
@@ -196,6 +197,44 @@ TEST_F(SuperelementFile, reads_a_description_and_refuses_what_has_been_changed) 
       told(write("later.json", "{\"what\": \"dygita superelement\", \"version\": \"2\"}")).find("of a later version"),
       std::string::npos);
   EXPECT_NE(told(write("none.json", "[[[")).find("it is no JSON"), std::string::npos);
+}
+
+// Bytes changed, left out or doubled: it is read, or refused with a message, and nothing else.
+TEST_F(SuperelementFile, reads_or_refuses_what_has_been_spoiled) {
+  const MatrixFiles files = spring();
+  const std::string good =
+      "{\"what\": \"dygita superelement\", \"version\": 1, \"motion\": \"mean\", \"n_rows\": 6, \"valid_to\": 10, "
+      "\"mass_of_parts\": 4, \"increments_not_converged\": 0, \"mass\": {\"file\": \"m.mtx\", \"digest\": \"" +
+      read_matrix_market(files.mass).digest + "\"}, \"stiffness\": {\"file\": \"k.mtx\", \"digest\": \"" +
+      read_matrix_market(files.stiffness).digest +
+      "\"}, \"faces\": [{\"name\": \"end\", \"centre\": [0.3, 0.3, 0], \"rows\": [1, 2, 3, 4, 5, 6], \"nodes\": [[0, "
+      "0, 0], [1, 0, 0], "
+      "[0, 1, 0]], \"facets\": [{\"type\": 5, \"nodes\": [1, 2, 3]}]}]}";
+  ASSERT_EQ(read_superelement(write("good.json", good))->faces.at("end").size(), 1u);
+  const std::string alphabet = "{}[],:\"0123456789-+.eE xn";
+  std::mt19937 random(3);
+  int n_read = 0, n_refused = 0;
+  for (int round = 0; round < 3000; ++round) {
+    std::string text = good;
+    for (int k = 0; k <= round % 3; ++k) {
+      const size_t at = random() % text.size();
+      const char with = alphabet[random() % alphabet.size()];
+      if (round % 4 == 0)
+        text.erase(at, 1 + random() % 20);
+      else if (round % 4 == 1)
+        text.insert(at, text.substr(at, random() % 30));
+      else
+        text[at] = with;
+    }
+    try {
+      read_superelement(write("spoiled.json", text));
+      ++n_read;
+    } catch (const InputError&) {
+      ++n_refused;
+    }
+  }
+  EXPECT_GT(n_read, 50);
+  EXPECT_GT(n_refused, 1000);
 }
 
 }  // namespace
