@@ -61,6 +61,11 @@ Face with_facets(const Face& face, const Face& other, const std::optional<double
     const Nearest nearest = nearest_point(face, x.col(node) + other.part->place);
     if (nearest.distance < closest.distance) closest = nearest;
     if (nearest.distance > reach) continue;
+    if (std::find(point_of.begin(), point_of.end(), nearest.point) != point_of.end())
+      throw InputError(
+          fmt::format("'{}' and '{}': two nodes lie within {:.3g} mm of one point\n    a smaller 'within' tells "
+                      "them apart",
+                      face.label(), other.label(), 1e3 * reach));
     point_of[static_cast<size_t>(node)] = nearest.point;
     ++n_found;
   }

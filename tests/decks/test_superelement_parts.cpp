@@ -426,6 +426,11 @@ local up = substructure{ name = "up", mesh = block(10*mm), material = steel }
   EXPECT_NE(refusal(R"(local i = interface.bonded{ name = "i", between = { low:face "zmax", up } })")
                 .find("give the face of 'up' that lies on them"),
             std::string::npos);
+  EXPECT_NE(refusal(R"(
+local fine = substructure{ name = "fine", mesh = mesh.box{ origin = { 0, 0, 10*mm }, size = { 30*mm, 20*mm, 10*mm }, cells = { 4, 4, 2 } }, material = steel }
+local i = interface.bonded{ name = "i", between = { low:face "zmax", fine:face "zmin" }, within = 16*mm })")
+                .find("two nodes lie within 16 mm of one point"),
+            std::string::npos);
   EXPECT_NE(
       refusal(R"(local i = interface.bonded{ name = "i", between = "all touching" })").find("no two of 2 parts touch"),
       std::string::npos);
