@@ -81,7 +81,9 @@ void PackedFactor::backward_one(double* x) const {
     for (int i = 0; i < b.n_below; ++i) y[b.n_columns + i] = x[below[i]];
     std::fill_n(y + n_rows, Panels::height, 0.0);
     const int last = (b.n_columns - 1) / Panels::width;
-    for (int p = last; p >= 0; --p) panels_.backward(b.first_panel + p, y + p * Panels::width);
+    const size_t after = s > 0 ? last_panel(blocks_[s - 1]) : b.first_panel;
+    for (int p = last; p >= 0; --p)
+      panels_.backward(b.first_panel + p, y + p * Panels::width, p > 0 ? b.first_panel + p - 1 : after);
     std::copy_n(y, b.n_columns, x + b.first);
   }
 }

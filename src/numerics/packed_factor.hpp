@@ -45,6 +45,7 @@ class PackedFactor {
     size_t below, first_panel;
     int place;
   };
+  static size_t last_panel(const Block& b) { return b.first_panel + (b.n_columns - 1) / Panels::width; }
   void forward_one(double* x) const;
   void backward_one(double* x) const;
   // Up to 16 columns side by side.

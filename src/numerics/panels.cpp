@@ -161,7 +161,11 @@ double Panels::bytes() const {
 }
 
 void Panels::forward(size_t i, double* y) const { panel_kernels().forward(view(panels_[i]), y); }
-void Panels::backward(size_t i, double* y) const { panel_kernels().backward(view(panels_[i]), y); }
+void Panels::backward(size_t i, double* y, size_t next) const {
+  View read = view(panels_[i]);
+  read.next = panels_[next].data;
+  panel_kernels().backward(read, y);
+}
 void Panels::forward(size_t i, double* y, int n) const { panel_kernels().forward_many(view(panels_[i]), y, n); }
 void Panels::backward(size_t i, double* y, int n) const { panel_kernels().backward_many(view(panels_[i]), y, n); }
 void Panels::multiply_symmetric(size_t i, const double* x, double* y) const {

@@ -48,8 +48,8 @@ class Panels {
   // Forward substitution: solves with the triangle for the first n_columns of y (pivots are stored inverted), takes the
   // rows below off.
   void forward(size_t panel, double* y) const;
-  // Backward substitution: the first n_columns of y from the rows below.
-  void backward(size_t panel, double* y) const;
+  // Backward substitution: the first n_columns of y from the rows below. next: the panel that is read after this one.
+  void backward(size_t panel, double* y, size_t next) const;
   // The same for 8 n right-hand sides at once (n = 1 or 2): y holds 8 n values per row.
   void forward(size_t panel, double* y, int n) const;
   void backward(size_t panel, double* y, int n) const;

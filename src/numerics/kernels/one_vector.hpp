@@ -75,10 +75,21 @@ struct ColumnSums {
   }
 };
 
+// Asks for as much of the panel that comes next as a tile takes: panels come from the last to the first here, each from
+// its start, which no processor takes for one stream. Into the second cache: the first one is full of the panel at hand.
+template <size_t bytes>
+inline void fetch_next(const View& view, const void* tile) {
+  constexpr size_t line = 64;
+  const char* const at = reinterpret_cast<const char*>(view.next) +
+                         (static_cast<const char*>(tile) - reinterpret_cast<const char*>(view.data));
+  for (size_t i = 0; i < bytes; i += line) __builtin_prefetch(at + i, 0, 2);
+}
+
 template <int columns>
 inline void backward_panel(const View& view, double* y) {
   ColumnSums<columns> sums;
   for_each_below<columns>(view, [&](const auto* entries, const Tile& tile) {
+    fetch_next<sizeof(*entries) * height * columns>(view, entries);
     const double* rows = y + tile.row;
     if constexpr (std::is_same_v<decltype(entries), const double*>) {
       for (int h = 0; h < height; h += n_doubles) {
@@ -94,6 +105,7 @@ inline void backward_panel(const View& view, double* y) {
     }
   });
   with_first(view, [&](const auto* triangle) {
+    fetch_next<sizeof(*triangle) * height * columns>(view, triangle);
     // Its rows below the triangle; what stands above them is multiplied by zero.
     double rows[height] = {};
     for (int r = columns; r < height; ++r) rows[r] = y[r];
