@@ -30,7 +30,8 @@ double peak_memory();
 // Throws std::bad_alloc where so many bytes cannot be had now.
 void require_memory(std::size_t bytes);
 
-// By how much the heap grows at a time (set_up_process); it fails where there is not as much, however little is asked.
-inline constexpr std::size_t heap_growth = std::size_t{32} << 20;
+// By how much the heap grows at a time (set_up_process), as large as glibc makes that of a thread; it fails where there
+// is not as much, however little is asked.
+inline constexpr std::size_t heap_growth = std::size_t{64} << 20;
 
 }  // namespace dygita

@@ -4,7 +4,9 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <exception>
 #include <limits>
 #include <mutex>
@@ -71,6 +73,22 @@ void parallel_for(int n, Body&& body, Schedule schedule = Schedule::as_free, int
     }
   }
   error.rethrow();
+}
+
+// body(first, n) for ranges that together are [0, n_all): ranges of the same length for any number of threads, on the
+// caller's thread alone where there are few of them.
+template <class Body>
+void parallel_for_ranges(std::ptrdiff_t n_all, Body&& body) {
+  constexpr std::ptrdiff_t length = 1024;
+  constexpr int few = 4;
+  const int n_ranges = static_cast<int>((n_all + length - 1) / length);
+  parallel_for(
+      n_ranges,
+      [&](int i) {
+        const std::ptrdiff_t first = i * length;
+        body(first, std::min(length, n_all - first));
+      },
+      Schedule::evenly, n_ranges < few ? 1 : 0);
 }
 
 }  // namespace dygita

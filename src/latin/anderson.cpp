@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.hpp"
+
 namespace dygita {
 
 Anderson::Anderson(int depth, int n_problems, double relaxation, Vec weight, const InterfaceSums& sums)
@@ -29,7 +31,11 @@ void Anderson::hear(const Field& q, const Field& image) {
 
 InterfaceSums::ToCome Anderson::first_sums(const Field& q, const Field& image) {
   if (!accelerates()) return {};
-  residual_ = (image - q).cwiseProduct(weight_);
+  residual_.resize(q.size());
+  parallel_for_ranges(q.size(), [&](Eigen::Index first, Eigen::Index n) {
+    residual_.segment(first, n) =
+        (image.segment(first, n) - q.segment(first, n)).cwiseProduct(weight_.segment(first, n));
+  });
   return has_before_ ? recent_.sums_to_add(residual_, residual_before_) : past_.sums_to_hear(residual_);
 }
 
@@ -60,7 +66,9 @@ void Anderson::advance(Eigen::Ref<Vec> q, const Field& image) {
   q_before_ = q;
   residual_before_ = residual_;
   (is_first ? past_ : recent_).take_off(q, residual_);
-  q += relaxation_ * residual_.cwiseQuotient(weight_);
+  parallel_for_ranges(q.size(), [&](Eigen::Index first, Eigen::Index n) {
+    q.segment(first, n) += relaxation_ * residual_.segment(first, n).cwiseQuotient(weight_.segment(first, n));
+  });
 }
 
 void Anderson::end(const Field& q, const Field& image, bool is_solved) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/parallel.hpp"
+
 namespace dygita {
 
 namespace {
@@ -57,7 +59,9 @@ InterfaceSums::ToCome Differences::sums_to_add(const Vec& residual, const Vec& r
   const int at = (last_ + 1) % static_cast<int>(gamma_.size());
   std::erase(newest_first_, at);
   last_ = at;
-  df_.col(at) = residual - residual_before;
+  parallel_for_ranges(residual.size(), [&](Eigen::Index first, Eigen::Index size) {
+    df_.col(at).segment(first, size) = residual.segment(first, size) - residual_before.segment(first, size);
+  });
   const int n = static_cast<int>(newest_first_.size());
   return {2 * n + 3, [this, n, at, &residual](Eigen::Index first, Eigen::Index size, double* to) {
             const auto own = residual.segment(first, size);
@@ -84,8 +88,10 @@ double Differences::add(const Eigen::Ref<const Vec>& q, const Vec& q_before, con
   if (length == 0.0) return residual_size;
   along_[at] = sums[2 * n] / length;
   gram_(at, at) = 1.0;
-  df_.col(at) /= length;
-  dq_.col(at) = (q - q_before) / length;
+  parallel_for_ranges(q.size(), [&](Eigen::Index first, Eigen::Index size) {
+    df_.col(at).segment(first, size) /= length;
+    dq_.col(at).segment(first, size) = (q.segment(first, size) - q_before.segment(first, size)) / length;
+  });
   newest_first_.insert(newest_first_.begin(), at);
   return residual_size;
 }
@@ -96,21 +102,24 @@ double Differences::add(const Eigen::Ref<const Vec>& q, const Vec& q_before, con
   return add(q, q_before, sums_.add(needed.n, needed.share).data());
 }
 
-void Differences::subtract(Eigen::Ref<Vec> q, Vec& residual) const {
-  for (const int at : used_) {
-    q -= gamma_[at] * dq_.col(at);
-    residual -= gamma_[at] * df_.col(at);
-  }
+// Range by range: each column is read once, what it is taken off stays in the nearest cache.
+void Differences::subtract(const Mat& columns, const Vec& factors, Eigen::Ref<Vec> from) const {
+  parallel_for_ranges(from.size(), [&](Eigen::Index first, Eigen::Index n) {
+    auto range = from.segment(first, n);
+    for (const int at : used_) range -= factors[at] * columns.col(at).segment(first, n);
+  });
 }
 
 void Differences::take_off(Eigen::Ref<Vec> q, Vec& residual) {
   if (newest_first_.empty()) return;
   solve();
-  subtract(q, residual);
-  // Once more: normal equations leave behind what their rounding errors hide.
+  subtract(df_, gamma_, residual);
+  const Vec first = gamma_;
+  // Once more: normal equations leave behind what their rounding errors hide. They use the same pairs.
   hear(residual);
   solve();
-  subtract(q, residual);
+  subtract(df_, gamma_, residual);
+  subtract(dq_, first + gamma_, q);
 }
 
 // Normal equations, by Cholesky's factor built row by row.

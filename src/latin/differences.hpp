@@ -9,7 +9,7 @@
 namespace dygita {
 
 // The last `depth` pairs stand in fixed columns beside the Gram matrix of the residuals' differences: a pair costs one
-// product with each of the others, a solve two passes over them. Runs on one thread: the same bits for any number.
+// product with each of the others, a solve two passes over them. The same bits for any number of threads.
 // Collective where the sums are.
 class Differences {
  public:
@@ -33,7 +33,7 @@ class Differences {
 
  private:
   void solve();
-  void subtract(Eigen::Ref<Vec> q, Vec& residual) const;
+  void subtract(const Mat& columns, const Vec& factors, Eigen::Ref<Vec> from) const;
 
   InterfaceSums sums_;
   int last_ = -1;

@@ -75,6 +75,21 @@ Vec3 LocalStage::mean_displacement(int first, int end) const {
   return mean;
 }
 
+namespace {
+
+// f(i) for the points i, on so many threads at most (0: all), where there are enough of them.
+template <class Function>
+void for_points(const std::vector<int>& points, Function&& f, int most_threads = 0) {
+  constexpr int chunk = 128, few = 4;
+  const int n = static_cast<int>(points.size()), n_chunks = (n + chunk - 1) / chunk;
+  const auto run_chunk = [&](int c) {
+    for (int i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) f(points[i]);
+  };
+  parallel_for(n_chunks, run_chunk, Schedule::evenly, n_chunks < few ? 1 : most_threads);
+}
+
+}  // namespace
+
 void LocalStage::begin(int increment, const std::vector<double>& motions, bool starts_window) {
   const Exchange& exchange = model_->exchange;
   i_increment_ = increment;
@@ -84,7 +99,7 @@ void LocalStage::begin(int increment, const std::vector<double>& motions, bool s
     displacement.segment(model_->near.start(model_->here[i]), piece.n_rows()) = piece.row_displacements();
   }
   if (starts_window) model_->near.exchange({displacement.data()});
-  for (const int i : model_->near.points()) {
+  const auto begin_at = [&](int i) {
     const Point& point = exchange.points[i];
     for (int p = point.first_port; p < point.end_port; ++p) {
       const Port& port = exchange.ports[p];
@@ -100,9 +115,11 @@ void LocalStage::begin(int increment, const std::vector<double>& motions, bool s
     const Vec3 mean_2 = mean_displacement(point.first_port_2, point.end_port);
     for (int p = point.first_port; p < point.end_port; ++p)
       ports_[p].offset = (ports_[p].u - (p < point.first_port_2 ? mean_1 : mean_2)) / model_->scheme.dt;
-    if (!point.law) continue;
+    if (!point.law) return;
     begin_point(*model_, point, (point.is_wall ? Vec3(Vec3::Zero()) : mean_2) - mean_1, increment, points_[i]);
-  }
+  };
+  // A shortening in statics may be a function of the deck.
+  for_points(model_->near.points(), begin_at, model_->scheme.is_static ? 1 : 0);
 }
 
 // r and 1/k of one side of a point: a group is one body with k = sum k, r = sum k r / sum k.
@@ -201,12 +218,7 @@ void LocalStage::run_point(size_t i_point, const Vec& velocity, const Vec& q, Ve
 }
 
 void LocalStage::run_points(const std::vector<int>& points, const Vec& velocity, const Vec& q, Vec& image) {
-  constexpr int chunk = 128;
-  const int n = static_cast<int>(points.size()), n_chunks = (n + chunk - 1) / chunk;
-  const auto run_chunk = [&](int c) {
-    for (int i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) run_point(points[i], velocity, q, image);
-  };
-  parallel_for(n_chunks, run_chunk, Schedule::evenly, n_chunks > 3 ? 0 : 1);
+  for_points(points, [&](int i) { run_point(static_cast<size_t>(i), velocity, q, image); });
 }
 
 // Shortenings need all points of their interface.

@@ -83,7 +83,7 @@ void PackedFactor::backward_one(double* x) const {
     const int last = (b.n_columns - 1) / Panels::width;
     const size_t after = s > 0 ? last_panel(blocks_[s - 1]) : b.first_panel;
     for (int p = last; p >= 0; --p)
-      panels_.backward(b.first_panel + p, y + p * Panels::width, p > 0 ? b.first_panel + p - 1 : after);
+      panels_.backward(b.first_panel + p, p > 0 ? b.first_panel + p - 1 : after, y + p * Panels::width);
     std::copy_n(y, b.n_columns, x + b.first);
   }
 }

@@ -22,7 +22,7 @@ struct View {
   const std::byte* data;
   const Tile* tiles;
   int n_columns;
-  const int* count;  // tiles of each kind, in this order; the first tile of the panel leads
+  const int* count;                 // tiles of each kind, in this order; the first tile of the panel leads
   const std::byte* next = nullptr;  // of the panel that is read after this one, where that is not the one behind it
 };
 }  // namespace panel

@@ -161,7 +161,7 @@ double Panels::bytes() const {
 }
 
 void Panels::forward(size_t i, double* y) const { panel_kernels().forward(view(panels_[i]), y); }
-void Panels::backward(size_t i, double* y, size_t next) const {
+void Panels::backward(size_t i, size_t next, double* y) const {
   View read = view(panels_[i]);
   read.next = panels_[next].data;
   panel_kernels().backward(read, y);

@@ -49,7 +49,7 @@ class Panels {
   // rows below off.
   void forward(size_t panel, double* y) const;
   // Backward substitution: the first n_columns of y from the rows below. next: the panel that is read after this one.
-  void backward(size_t panel, double* y, size_t next) const;
+  void backward(size_t panel, size_t next, double* y) const;
   // The same for 8 n right-hand sides at once (n = 1 or 2): y holds 8 n values per row.
   void forward(size_t panel, double* y, int n) const;
   void backward(size_t panel, double* y, int n) const;

@@ -83,7 +83,7 @@ void SpdInverse::multiply(const Vec& x, Vec& y) const {
   for (size_t p = 0; p < n_panels; ++p) factor_.forward(p, work.data() + p * Panels::width);
   // What forward substitution left behind the last row is not part of the sums.
   std::fill_n(work.data() + n_, Panels::height, 0.0);
-  for (size_t p = n_panels; p-- > 0;) factor_.backward(p, work.data() + p * Panels::width, p > 0 ? p - 1 : 0);
+  for (size_t p = n_panels; p-- > 0;) factor_.backward(p, p > 0 ? p - 1 : 0, work.data() + p * Panels::width);
   y = Eigen::Map<const Vec>(work.data(), n_);
 }
 

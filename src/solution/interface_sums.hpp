@@ -18,8 +18,8 @@ class InterfaceSums {
 
   // Adds what a run of unknowns [first, first + n) has to the sums of its piece.
   using Share = std::function<void(Eigen::Index first, Eigen::Index n, double* sums)>;
-  // Collective. share: called for the unknowns of every piece that is here. Returns n_sums sums over all pieces, which
-  // are valid until the next call.
+  // Collective. share: called for the unknowns of every piece that is here, of several pieces at once. Returns n_sums
+  // sums over all pieces, which are valid until the next call.
   const std::vector<double>& add(int n_sums, const Share& share);
 
   // Sums that somebody needs at a time when others are taken.
@@ -29,11 +29,14 @@ class InterfaceSums {
   };
 
  private:
+  void find_starts();
   struct Run {
     int piece;
     Eigen::Index first, n;
   };
   std::vector<Run> runs_;
+  std::vector<size_t> starts_;  // in runs_, of each piece that has any, and the end
+  Eigen::Index n_unknowns_ = 0;
   int n_pieces_ = 1;
   bool is_shared_out_ = false;
   ranks::Segments of_pieces_;

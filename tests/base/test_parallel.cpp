@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <mutex>
 #include <new>
 #include <set>
 #include <string>
@@ -90,6 +91,29 @@ TEST_F(ParallelFor, shares_the_work_among_as_many_threads_as_it_may) {
   };
   EXPECT_EQ(threads_of(0), (std::set<int>{0, 1}));
   EXPECT_EQ(threads_of(1), (std::set<int>{0}));
+}
+
+TEST_F(ParallelFor, of_ranges_has_the_same_ones_on_any_number_of_threads) {
+  for (const std::ptrdiff_t n : {0, 1, 1024, 1025, 9000}) {
+    const auto ranges_of = [n](int threads) {
+      omp_set_num_threads(threads);
+      std::mutex mutex;
+      std::set<std::pair<std::ptrdiff_t, std::ptrdiff_t>> ranges;
+      parallel_for_ranges(n, [&](std::ptrdiff_t first, std::ptrdiff_t length) {
+        const std::scoped_lock lock(mutex);
+        ranges.emplace(first, length);
+      });
+      return ranges;
+    };
+    const auto on_one = ranges_of(1);
+    std::ptrdiff_t end = 0;
+    for (const auto& [first, length] : on_one) {
+      EXPECT_EQ(first, end);
+      end += length;
+    }
+    EXPECT_EQ(end, n);
+    EXPECT_EQ(ranges_of(3), on_one);
+  }
 }
 
 TEST_F(ParallelFor, inside_another_runs_on_one_thread_and_passes_its_error_on) {

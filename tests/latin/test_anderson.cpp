@@ -1,5 +1,7 @@
 // Anderson's acceleration against the textbook: a QR of the differences at each iteration.
 
+#include <omp.h>
+
 #include <Eigen/QR>
 #include <cmath>
 #include <limits>
@@ -143,6 +145,29 @@ TEST(Anderson, past_problems_predict_the_next) {
   }
   EXPECT_LE(n_with, 3);
   EXPECT_GE(n_without, 8);
+}
+
+// Fields long enough to be shared out among threads.
+TEST(Anderson, iterates_to_the_same_bits_on_any_number_of_threads) {
+  const int n = 9000;
+  const Vec slope = 0.9 * random_vector(n, 3), start = random_vector(n, 4), weight = Vec::Constant(n, 0.3);
+  const int before = omp_get_max_threads();
+  const auto iterated_on = [&](int threads) {
+    omp_set_num_threads(threads);
+    Anderson anderson(5, 3, 0.9, weight);
+    Vec q = Vec::Zero(n);
+    for (int problem = 1; problem < 4; ++problem) {
+      anderson.begin();
+      const auto image = [&] { return Vec(slope.cwiseProduct(q) + problem * start); };
+      for (int i = 0; i < 9; ++i) anderson.advance(q, image());
+      anderson.end(q, image(), true);
+    }
+    return q;
+  };
+  const Vec on_one = iterated_on(1), on_three = iterated_on(3);
+  omp_set_num_threads(before);
+  EXPECT_TRUE((on_one.array() == on_three.array()).all());
+  EXPECT_LT((slope.cwiseProduct(on_one) + 3.0 * start - on_one).norm(), 1e-2 * on_one.norm());
 }
 
 TEST(Anderson, depth_zero_is_relaxation) {

@@ -97,7 +97,7 @@ TEST_P(Kernels, substitute_as_plain_loops_do) {
     expect_close(y.head(c.n_rows), c.forward(c.vector()).head(c.n_rows), c.tolerance());
     y = c.vector();
     y.tail(room).setZero();
-    c.panels.backward(0, y.data(), 0);
+    c.panels.backward(0, 0, y.data());
     expect_close(y.head(c.n_rows), c.backward(c.vector()).head(c.n_rows), c.tolerance());
   });
 }

@@ -76,7 +76,8 @@ struct ColumnSums {
 };
 
 // Asks for as much of the panel that comes next as a tile takes: panels come from the last to the first here, each from
-// its start, which no processor takes for one stream. Into the second cache: the first one is full of the panel at hand.
+// its start, which no processor takes for one stream. Into the second cache: the first one is full of the panel at
+// hand.
 template <size_t bytes>
 inline void fetch_next(const View& view, const void* tile) {
   constexpr size_t line = 64;
