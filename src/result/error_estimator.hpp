@@ -113,13 +113,13 @@ class ErrorEstimator {
 
   Estimate static_, dynamic_;
   StaticStep still_;
-  std::vector<double> volume_;               // m^3, of the substructures
-  double at_rest_ = 0.0;                     // J
-  double most_strain_ = 0.0;                 // J, when static steps began and ended
-  std::optional<OctaveBank> bank_;           // of the step
-  double before_ = 0.0, before_mesh_ = 0.0;  // phase errors (norms, sqrt of J) of the dynamic steps before
-  std::vector<PieceMotion> pieces_;          // that are here, in a dynamic step
-  std::optional<CarriedMotion> carried_;     // of the step
+  std::vector<double> volume_;            // m^3, of the substructures
+  double at_rest_ = 0.0;                  // J
+  double most_strain_ = 0.0;              // J, when static steps began and ended
+  std::optional<OctaveBank> bank_;        // of the step
+  double before_ = 0.0;                   // phase error (norm, sqrt of J) of the dynamic steps before
+  std::vector<PieceMotion> pieces_;       // that are here, in a dynamic step
+  std::optional<CarriedMotion> carried_;  // of the step
   LinkedParts linked_;
   double dt_ = 0.0, phase_factor_ = 1.0;
   PartViews* views_;
