@@ -80,12 +80,13 @@ namespace {
 // f(i) for the points i, on so many threads at most (0: all), where there are enough of them.
 template <class Function>
 void for_points(const std::vector<int>& points, Function&& f, int most_threads = 0) {
-  constexpr int chunk = 128, few = 4;
-  const int n = static_cast<int>(points.size()), n_chunks = (n + chunk - 1) / chunk;
-  const auto run_chunk = [&](int c) {
-    for (int i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) f(points[i]);
-  };
-  parallel_for(n_chunks, run_chunk, Schedule::evenly, n_chunks < few ? 1 : most_threads);
+  constexpr std::ptrdiff_t together = 128;
+  parallel_for_ranges(
+      static_cast<std::ptrdiff_t>(points.size()),
+      [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+        for (std::ptrdiff_t i = first; i < first + n; ++i) f(points[static_cast<size_t>(i)]);
+      },
+      together, most_threads);
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ class Description {
   Vec3 vector(const Json& json) const {
     constexpr double farthest = 1e6;  // m
     const Vec3 x(json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>());
-    if (!(x.cwiseAbs().maxCoeff() < farthest)) refuse("a place is out of this world");
+    if (!(x.cwiseAbs().maxCoeff() < farthest)) refuse("a place lies 1000 km or more from the origin");
     return x;
   }
 
