@@ -555,7 +555,7 @@ words[9] = {
         doc = "nodes in contact give their mass to those behind them: an impact then costs no energy" },
       { "integration", type = "choice", choices = { "implicit", "automatic", "explicit" }, default = "automatic",
         doc = "of substructures in dynamic steps; \"automatic\": explicit where that costs less; \"explicit\": wherever it is possible" },
-      { "precision", type = "choice", choices = { "single", "double" }, default_doc = "single in substructures of more than 4000 unknowns, unless tolerance is below 1e-7",
+      { "precision", type = "choice", choices = { "single", "double" }, default_doc = "single in substructures of more than 1000 unknowns, unless tolerance is below 1e-7",
         doc = "of the stored factors in dynamic steps; arithmetic is in double precision either way" },
       { "pieces", type = "integer", range = { 1, 100000 }, default = "auto", or_word = "auto",
         doc = "into how many bonded pieces each substructure is cut; 1: none is; \"auto\": large ones are, and for several MPI ranks what would leave them uneven" },

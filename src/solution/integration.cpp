@@ -14,6 +14,7 @@
 #include "solution/alike_parts.hpp"
 #include "solution/all_pieces.hpp"
 #include "solution/mass_choice.hpp"
+#include "solution/stored_precision.hpp"
 
 namespace dygita {
 
@@ -45,8 +46,8 @@ double explicit_cost(const Size& size, bool is_tuned) {
          spread_point * size.spread_points;
 }
 // n_increments: of the step, which the factor is made for.
-double implicit_cost(const Size& size, double tolerance, int n_increments) {
-  const bool is_single = size.unknowns > 4000 && tolerance >= 1e-7;
+double implicit_cost(const Size& size, const LatinSettings& solver, int n_increments) {
+  const bool is_single = stored_precision(solver, size.unknowns) == Precision::single_precision;
   const double n = size.unknowns, n_b = std::min(size.interface_unknowns, n);
   return 2.0 * fill * std::pow(n, 1.5) * (is_single ? single_factor : double_factor) +
          iterations * (0.5 * n_b * n_b * (is_single ? single_h : double_h) + rest_of_iteration * n_b) +
@@ -183,8 +184,7 @@ class Chooser {
     bool is_mixed = false;
     for (size_t i = 0; i < set.size(); ++i) {
       cost += set[i] ? substeps(set) * explicit_cost(sizes_[i], parts_[i].is_tuned)
-                     : substeps(set) *
-                           implicit_cost(sizes_[i], problem_.solver.tolerance, substeps(set) * step_.n_increments());
+                     : substeps(set) * implicit_cost(sizes_[i], problem_.solver, substeps(set) * step_.n_increments());
       is_mixed |= set[i] != set[0];
     }
     const bool has_must = std::find(must_.begin(), must_.end(), 1) != must_.end();

@@ -18,6 +18,7 @@
 #include "solution/explicit_piece.hpp"
 #include "solution/rigid_motions.hpp"
 #include "solution/row_stiffness.hpp"
+#include "solution/stored_precision.hpp"
 
 namespace dygita {
 
@@ -102,17 +103,12 @@ std::vector<InterfaceRow> rows_of(const StepModel& model, int piece, const std::
   return rows;
 }
 
-// Single precision takes a third of what a solve reads from memory, and less of what an interface product reads. A
-// static step has no mass that would bound what rounding does to soft motions, and nodes without mass have a recurrence
-// of their own.
+// A static step has no mass that would bound what rounding does to soft motions, and nodes without mass have a
+// recurrence of their own.
 Precision precision_of(const StepModel& model, int part, const Body& body) {
-  constexpr int large = 4000;  // unknowns
   if (model.scheme.is_static || !body.mass->is_massless.empty() || body.part->mesh->condensed)
     return Precision::double_precision;
-  if (const auto& asked = model.problem->solver.precision) return *asked;
-  if (model.problem->solver.tolerance < 1e-7) return Precision::double_precision;
-  return 3 * model.problem->substructures[part]->mesh->n_nodes() > large ? Precision::single_precision
-                                                                         : Precision::double_precision;
+  return stored_precision(model.problem->solver, 3.0 * model.problem->substructures[part]->mesh->n_nodes());
 }
 
 // Laws, non-reflecting supports and moving ones act on nodes that have a mass of their own.

@@ -12,6 +12,7 @@
 #include "fem/mass.hpp"
 #include "numerics/partition.hpp"
 #include "solution/mass_choice.hpp"
+#include "solution/stored_precision.hpp"
 
 namespace dygita {
 
@@ -29,11 +30,9 @@ bool is_surely_implicit(const Problem& problem, const Substructure& part) {
 // 200 to 15,000 unknowns, where explicit and implicit pieces then agree to about a third. Of an implicit one factor and
 // iterations, the interface operator of which has no zeros (integration.cpp has the same terms).
 double cost_of(const Problem& problem, const Substructure& whole, double n, double n_b) {
-  constexpr double explicit_unknown = 500.0, fill = 1.4, iterations = 4.5, rest_of_iteration = 1000.0, large = 4000.0;
+  constexpr double explicit_unknown = 500.0, fill = 1.4, iterations = 4.5, rest_of_iteration = 1000.0;
   if (!is_surely_implicit(problem, whole)) return explicit_unknown * n;
-  const bool is_single = problem.solver.precision
-                             ? *problem.solver.precision == Precision::single_precision
-                             : 3.0 * whole.mesh->n_nodes() > large && problem.solver.tolerance >= 1e-7;
+  const bool is_single = stored_precision(problem.solver, 3.0 * whole.mesh->n_nodes()) == Precision::single_precision;
   n_b = std::min(n, n_b);
   return 2.0 * fill * std::pow(n, 1.5) * (is_single ? 9.0 : 12.0) +
          iterations * (0.5 * n_b * n_b * (is_single ? 4.0 : 12.0) + rest_of_iteration * n_b);

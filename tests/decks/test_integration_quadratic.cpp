@@ -213,7 +213,8 @@ local bar = substructure{ name = "bar", material = steel, integration = ({ "impl
 local supports = { support.symmetry{ name = "y", on = { bar:face "ymin", bar:face "ymax" } }, support.symmetry{ name = "z", on = { bar:face "zmin", bar:face "zmax" } } }
 if p.out == 1 then supports[3] = support.absorbing{ name = "out", on = bar:face "xmax" } end
 local push = load.pressure{ on = bar:face "xmin", history = history.haversine{ peak = 100*MPa, duration = 15*us } }
-problem{ name = "bar", substructures = { bar }, supports = supports, steps = { step.dynamic{ name = "hit", duration = p.duration*us, dt = 0.25*us, loads = { push } } },
+problem{ name = "bar", substructures = { bar }, supports = supports, solver = solver.latin{ precision = "double" },
+  steps = { step.dynamic{ name = "hit", duration = p.duration*us, dt = 0.25*us, loads = { push } } },
   outputs = { output.energy{}, output.history{ name = "end", on = bar:face "xmax", quantity = "velocity", direction = { 1, 0, 0 } } } }:run{}
 )";
 

@@ -138,6 +138,25 @@ problem{ name = "flight", substructures = { bar }, steps = { knock }, outputs = 
             1e-2);  // between two products by K the recurrence follows the stored factor
 }
 
+TEST(SinglePrecision, is_what_a_substructure_of_more_than_a_thousand_unknowns_is_stored_in) {
+  const std::string block = R"(
+local p = param{ n = 4, single = -1, tolerance = 1e-6 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local cube = substructure{ name = "cube", material = steel, mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { p.n, p.n, p.n } } }
+local hit = step.dynamic{ name = "hit", duration = 1*us, dt = 0.25*us, loads = { load.pressure{ on = cube:face "zmax", history = 50*MPa } } }
+problem{ name = "block", substructures = { cube }, supports = { support.wall{ name = "wall", on = cube:face "zmin" } }, steps = { hit }, outputs = { output.energy{} },
+  solver = solver.latin{ integration = "implicit", tolerance = p.tolerance, precision = ({ [0] = "double", [1] = "single" })[p.single] } }:run{}
+)";
+  const auto megabytes = [&](const char* n, const char* single, const char* tolerance = "1e-6") {
+    const Settings settings{{"n", n}, {"single", single}, {"tolerance", tolerance}};
+    return run_text(block, settings).at(0).figure("memory of factors and interface operators [MB]");
+  };
+  EXPECT_EQ(megabytes("5", "-1"), megabytes("5", "0"));  // 648 unknowns
+  EXPECT_EQ(megabytes("6", "-1"), megabytes("6", "1"));  // 1029
+  EXPECT_LT(megabytes("6", "1"), 0.8 * megabytes("6", "0"));
+  EXPECT_EQ(megabytes("6", "-1", "1e-8"), megabytes("6", "0", "1e-8"));
+}
+
 // The last line of the report: "... degrees of freedom, ... increments in all, X MB for factors and interface
 // operators, ...".
 double predicted_megabytes(const Problem& problem) {
