@@ -43,7 +43,8 @@ usage() {
                           'decks': these and a minute of the fuzzers, which needs the program and them alone
 ./run.sh fuzz [NAME [MINUTES]]  tests/fuzz with libFuzzer under sanitizers (clang): NAME or 'all', a minute each; finds are in build/fuzz/found
 ./run.sh bench [...]      measure speed, rewrite manual/performance.md and its figures: all, or of the parts headline kernels
-                          scenes scaling ranks those that are named; --quick: small sizes. Full: 25 minutes on a machine left alone
+                          scenes scaling ranks those that are named; --quick: small sizes. Full: 25 minutes on a machine left alone.
+                          Elsewhere, --up-to UNKNOWNS --into DIR; put beside as manual/performance/others/NAME, --page shows it
 ./run.sh report [...]     run all verification, rewrite manual/verification.md and its figures (--quick, --only CASE)
 ./run.sh build            install what is missing, build
 ./run.sh install          install what is missing, no more; no package is ever removed

@@ -43,8 +43,9 @@ class DeckRun:
 class Machine:
     """The programs of a build folder, run one at a time from the repository's root."""
 
-    def __init__(self, build, root, scratch, say):
+    def __init__(self, build, root, scratch, say, most_unknowns=float("inf")):
         self.build, self.root, self.scratch, self.say = Path(build), Path(root), Path(scratch), say
+        self.most_unknowns = most_unknowns    # of scenes
         self.threads = [1, 2] if (os.cpu_count() or 1) > 1 else [1]
         self.numbers = itertools.count(1)    # of runs, which may be side by side
         schema = subprocess.run([self.build / "dygita", "schema"], capture_output=True, text=True, check=True).stdout

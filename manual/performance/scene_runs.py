@@ -17,16 +17,20 @@ def asked(machine, quick):
     if quick:
         return [("bolted flanges", FLANGES, {"size": "4*mm"}, None, machine.threads, 60),
                 ("blocks, 8", BLOCKS, {"cells": 12, "steps": 20} | few, None, machine.threads, 60)]
+    most = machine.most_unknowns
     cut = 'latin{ integration = "implicit", pieces = 8 }' if machine.cuts else None
     found = []
-    for size, duration in (("4*mm", "200*us"), ("2.12*mm", "200*us"), ("1.4*mm", "40*us")):
+    for size, unknowns, duration in (("4*mm", 6618, "200*us"), ("2.12*mm", 33480, "200*us"), ("1.4*mm", 100128, "40*us")):
         for name, solver in (("bolted flanges", None), ("bolted flanges, implicit", 'latin{ integration = "implicit" }')):
-            found.append((name, FLANGES, {"size": size, "duration": duration}, solver, machine.threads, 300))
-    if machine.cuts:
+            if unknowns <= most:
+                found.append((name, FLANGES, {"size": size, "duration": duration}, solver, machine.threads, 300))
+    if machine.cuts and most > 1e5:
         found.append(("bolted flanges, 8 pieces per part", FLANGES, {"size": "1.4*mm", "duration": "40*us"}, cut, machine.threads, 300))
     found += [("bolted flanges", FLANGES, {"size": size, "duration": duration}, None, machine.threads[-1:], 600)
-              for size, duration in (("0.96*mm", "20*us"), ("0.64*mm", "10*us"))]
+              for size, unknowns, duration in (("0.96*mm", 321504, "20*us"), ("0.64*mm", 964884, "10*us")) if unknowns <= most]
     for cells, bricks, steps in ((12, few, 200), (20, few, 200), (32, few, 200), (32, many, 200), (46, many, 20), (69, many, 10)):
+        if 3 * (cells + bricks["bx"])**3 > most:
+            continue
         threads = machine.threads if cells < 46 else machine.threads[-1:]
         found.append((f"blocks, {bricks['bx']**3}", BLOCKS, {"cells": cells, "steps": steps} | bricks, None, threads, 600))
     return found
@@ -90,14 +94,15 @@ def goals(rows):
     done = []
     paper = min((r for r in rows if r["scene"] == "bolted flanges"), key=lambda r: r["dofs"])
     best = min(r["all [s]"] for r in rows if r["scene"] == "bolted flanges" and r["dofs"] == paper["dofs"])
-    done.append((f"the paper's example ({paper['dofs']:.0f} unknowns, {paper['steps']:.0f} steps; 30 minutes there): under 3 s in all", f"{best:.2f} s", best < 3,
-                 "the phases below"))
+    if paper["dofs"] < 1e4:
+        done.append((f"the paper's example ({paper['dofs']:.0f} unknowns, {paper['steps']:.0f} steps; 30 minutes there): under 3 s in all", f"{best:.2f} s", best < 3,
+                     "the phases below"))
     speeds = speed_up(rows)
     if speeds:
         large = [s for s in speeds if s[1] > 3e4] or speeds
         scene, dofs, value, most = min(large, key=lambda s: s[2])
         done.append((f"two threads at least 1.7 x one on the whole run, in every scene above 30k unknowns (least: {scene}, {dofs / 1e3:.0f}k; "
-                     f"most of all: {max(s[2] for s in speeds):.2f})", f"{value:.2f}", value >= 1.7,
+                     f"most of all: {max(s[2] for s in speeds):.2f})", f"{value:.3f}", value >= 1.7,
                      f"what one thread does (mesh, collecting results), and the machine: two *processes* of one thread side by side, with nothing in common, got {most:.2f} there"))
         scene, dofs, value, most = min(large, key=lambda s: s[2] / s[3])
         done.append((f"two threads at least 0.85 of what two processes of one thread get done side by side, in every such scene (least: {scene}, {dofs / 1e3:.0f}k, "
@@ -108,7 +113,7 @@ def goals(rows):
         done.append((f"1M unknowns within 20 GiB ({largest['scene']}, {largest['dofs'] / 1e6:.2f}M; {largest['steps']:.0f} steps run; more of them add the interface fields kept, 512 MB at most)",
                      f"{largest['peak [MB]'] * 1e6 / 2**30:.1f} GiB", largest["peak [MB]"] * 1e6 < MOST_BYTES, "factors and interface operators"))
     else:
-        done.append(("1M unknowns within 20 GiB", "", None, "the quick version stops at smaller sizes"))
+        done.append(("1M unknowns within 20 GiB", "", None, "no scene of that size was run"))
     return done
 
 
