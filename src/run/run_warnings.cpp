@@ -8,6 +8,7 @@
 #include "base/log.hpp"
 #include "law/law.hpp"
 #include "result/limits.hpp"
+#include "solution/stored_precision.hpp"
 
 namespace dygita {
 
@@ -44,11 +45,17 @@ std::string cure_of_stall(const Problem& problem, const StepSummary& step, const
   if (problem.solver.max_iterations > 0 && problem.solver.max_iterations < 1000)
     return "leave out 'max_iterations': the iteration then goes on as long as it helps";
   std::string text = "the indicator stands still: more iterations will not help; ";
+  const bool is_stored_in_single =
+      !step.is_static && std::any_of(problem.substructures.begin(), problem.substructures.end(), [&](const auto& part) {
+        return stored_precision(problem.solver, 3.0 * part->mesh->n_nodes()) == Precision::single_precision;
+      });
+  const std::string stored =
+      is_stored_in_single ? ", or solver.latin{ precision = \"double\" }, where the stored factors hold it up" : "";
   if (worst.indicator < 30.0 * worst.tolerance)
-    return text + fmt::format("it is within {:.0f} times the tolerance: {} = {:.0e} accepts it",
+    return text + fmt::format("it is within {:.0f} times the tolerance: {} = {:.0e} accepts it{}",
                               std::ceil(worst.indicator / worst.tolerance),
-                              step.is_static ? "static_tolerance" : "tolerance", 2.0 * worst.indicator);
-  if (!step.is_static) return text + "take half of dt";
+                              step.is_static ? "static_tolerance" : "tolerance", 2.0 * worst.indicator, stored);
+  if (!step.is_static) return text + "take half of dt" + stored;
   const bool has_friction =
       std::any_of(problem.interfaces.begin(), problem.interfaces.end(),
                   [](const InterfacePtr& i) { return i->law->shown().gap && i->law->shown().slip; });

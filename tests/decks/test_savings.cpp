@@ -157,6 +157,26 @@ problem{ name = "block", substructures = { cube }, supports = { support.wall{ na
   EXPECT_EQ(megabytes("6", "-1", "1e-8"), megabytes("6", "0", "1e-8"));
 }
 
+TEST(SinglePrecision, is_not_for_long_windows_and_the_warning_of_a_stall_says_so) {
+  const std::string pressed = R"(
+local p = param{ single = -1 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local function block(name, z) return substructure{ name = name, material = steel,
+  mesh = mesh.box{ origin = { 0, 0, z }, size = { 24*mm, 24*mm, 12*mm }, cells = { 8, 8, 5 } } } end
+local a, b = block("a", 0), block("b", 12*mm)
+local joint = interface.contact{ name = "joint", between = { a:face "zmax", b:face "zmin" }, friction = 0.2 }
+local hit = step.dynamic{ name = "hit", duration = 60*us, dt = 1*us, loads = { load.pressure{ on = b:face "zmax", history = history.half_sine{ peak = 40*MPa, duration = 20*us } } } }
+problem{ name = "pressed", substructures = { a, b }, interfaces = { joint }, supports = { support.fixed{ name = "base", on = a:face "zmin" } }, steps = { hit }, outputs = { output.energy{} },
+  solver = solver.latin{ integration = "implicit", window = "whole", precision = ({ [1] = "single" })[p.single] } }:run{}
+)";
+  const DeckRun usual = run_text(pressed).at(0);
+  EXPECT_TRUE(usual.result->converged);
+  EXPECT_LT(usual.figure("energy imbalance [%]"), 1e-4);
+  testing::internal::CaptureStderr();
+  EXPECT_FALSE(run_text(pressed, {{"single", "1"}}).at(0).result->converged);
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("precision = \"double\""), std::string::npos);
+}
+
 // The last line of the report: "... degrees of freedom, ... increments in all, X MB for factors and interface
 // operators, ...".
 double predicted_megabytes(const Problem& problem) {
