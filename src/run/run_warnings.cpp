@@ -46,7 +46,8 @@ std::string cure_of_stall(const Problem& problem, const StepSummary& step, const
     return "leave out 'max_iterations': the iteration then goes on as long as it helps";
   std::string text = "the indicator stands still: more iterations will not help; ";
   const bool is_stored_in_single =
-      !step.is_static && std::any_of(problem.substructures.begin(), problem.substructures.end(), [&](const auto& part) {
+      !step.is_static && step.explicit_parts.size() < problem.substructures.size() &&
+      std::any_of(problem.substructures.begin(), problem.substructures.end(), [&](const auto& part) {
         return stored_precision(problem.solver, 3.0 * part->mesh->n_nodes()) == Precision::single_precision;
       });
   const std::string stored =
