@@ -68,7 +68,7 @@ def chapter(folder, measured):
         table(["part", "machine", "date", "minutes", "version"], told),
         f"Of {len(goals)} goals {', '.join(f'{n} {words}' for words, n in counts.items() if n)}. Goals are those of the project's design.",
         table(["goal", "measured", "", "what bounds it"], lines), *(section_of(part, folder, rows) for part, rows in found.items()),
-        *(["## On other processors", "The same command there (`--into`), whose tables were put beside these (`performance/others/`)."] if others else []),
+        *(["## On other processors", "The same parts of the bench, run there (`--up-to`, `--into`) in the minutes for which the machine was lent, so with fewer repetitions; its tables lie beside these (`performance/others/`)."] if others else []),
         *(other(record, verdicts) for record in others)]) + "\n"
 
 
