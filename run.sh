@@ -31,7 +31,7 @@ test_packages=(
   python3                 # runs are killed and continued by scripts
   chromium                # a report is opened in it; 350 MB
 )
-fuzz_packages=(clang libclang-rt-dev libomp-dev llvm)    # of ./run.sh fuzz and ./run.sh sanitize threads
+fuzz_packages=(clang libclang-rt-dev llvm)    # of ./run.sh fuzz and ./run.sh sanitize threads
 report_packages=(python3 python3-numpy python3-matplotlib)  # of ./run.sh report and ./run.sh bench
 
 usage() {

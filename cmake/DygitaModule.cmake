@@ -6,7 +6,6 @@ option(DYGITA_SANITIZE "Stop at memory errors, leaks and undefined behaviour" OF
 # Without the checks of each dereferenced pointer: the address sanitizer stops there too, and a quarter of the compile time is theirs.
 set(dygita_sanitizers -fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,vptr -fno-sanitize-recover=undefined
   -fno-omit-frame-pointer)
-# The OpenMP of clang tells the sanitizer of threads what its barriers order (Archer); that of g++ does not.
 option(DYGITA_SANITIZE_THREADS "Stop at data races (clang)" OFF)
 # For libFuzzer, which is clang's: with the sanitizers, and every branch counted.
 option(DYGITA_FUZZ "Build the programs of tests/fuzz with libFuzzer (clang)" OFF)
@@ -55,7 +54,8 @@ function(dygita_target_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic ${shadow} -Wnon-virtual-dtor
     -Woverloaded-virtual "$<$<CXX_COMPILER_ID:GNU>:${dygita_gnu_false_alarms}>"
     $<$<BOOL:${DYGITA_WARNINGS_AS_ERRORS}>:-Werror>)
-  target_link_libraries(${target} PRIVATE OpenMP::OpenMP_CXX)
+  target_compile_options(${target} PRIVATE -fopenmp-simd)
+  target_link_libraries(${target} PRIVATE Threads::Threads)
   if(DYGITA_NATIVE)
     target_compile_options(${target} PRIVATE -march=native)
   endif()

@@ -53,7 +53,7 @@ class Machine:
         self.cuts = "| `pieces` " in latin[:latin.index("\n### ")]      # solver.latin cuts substructures itself
 
     def environment(self):
-        return dict(os.environ, OMP_WAIT_POLICY="passive", GOMP_SPINCOUNT="1000", OPENBLAS_NUM_THREADS="1")
+        return dict(os.environ, OPENBLAS_NUM_THREADS="1")
 
     def run(self, command, limit):
         """Standard output, peak memory (bytes) and processor seconds of a program; RuntimeError where it fails or takes too long."""

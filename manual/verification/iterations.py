@@ -22,7 +22,7 @@ def iterations(program, deck, settings, solver=None):
             command += ["--set", f"{name}={value}"]
         if solver:
             command += ["--solver", solver]
-        environment = dict(os.environ, OMP_WAIT_POLICY="passive", GOMP_SPINCOUNT="1000", OPENBLAS_NUM_THREADS="1")
+        environment = dict(os.environ, OPENBLAS_NUM_THREADS="1")
         subprocess.run([str(c) for c in command], env=environment, capture_output=True)
         record = json.loads(next(Path(out).glob("*/*/run.json")).read_text())
     told = []

@@ -126,7 +126,7 @@ class Program:
             command += ["--solver", solver]
         if self.takes_no_frames:
             command.append("--no-frames")
-        environment = dict(os.environ, OMP_WAIT_POLICY="passive", GOMP_SPINCOUNT="1000", OPENBLAS_NUM_THREADS="1")
+        environment = dict(os.environ, OPENBLAS_NUM_THREADS="1")
         began, used = time.monotonic(), processor_seconds()
         try:
             done = subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=limit, env=environment)

@@ -14,7 +14,7 @@ class FairShares {
   // body(i) for i = 0 .. n - 1, as parallel_for has it; n_threads: 0: all.
   template <class Body>
   void run(int n, int n_threads, Body&& body) {
-    if (n_threads == 0) n_threads = omp_get_max_threads();
+    if (n_threads == 0) n_threads = thread_limit();
     if (n_threads < 2 || n < n_threads) {
       parallel_for(n, body, Schedule::evenly, 1);
       return;

@@ -2,15 +2,15 @@
 // its thread and reaches the caller.
 #pragma once
 
-#include <omp.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <limits>
 #include <mutex>
 
+#include "base/team.hpp"
 #include "base/threads.hpp"
 
 namespace dygita {
@@ -46,8 +46,8 @@ enum class Schedule { evenly, as_free };
 // lowest failing index has thrown, once all threads are back; indices above it may not have run.
 template <class Body>
 void parallel_for(int n, Body&& body, Schedule schedule = Schedule::as_free, int most_threads = 0) {
-  const int n_threads = n < 2 ? 1 : most_threads > 0 ? most_threads : omp_get_max_threads();
-  if (n_threads == 1) {
+  const int n_threads = is_in_team() ? 1 : std::min(n, most_threads > 0 ? most_threads : thread_limit());
+  if (n_threads < 2) {
     flush_denormals();
     for (int i = 0; i < n; ++i) body(i);
     return;
@@ -61,17 +61,16 @@ void parallel_for(int n, Body&& body, Schedule schedule = Schedule::as_free, int
       error.keep(i);
     }
   };
-#pragma omp parallel num_threads(n_threads)
-  {
+  std::atomic<int> next = 0;
+  run_on_team(n_threads, [&](int t) noexcept {
     flush_denormals();
     if (schedule == Schedule::evenly) {
-#pragma omp for schedule(static)
-      for (int i = 0; i < n; ++i) guarded(i);
+      const auto bound = [&](int share) { return static_cast<int>(std::int64_t{n} * share / n_threads); };
+      for (int i = bound(t); i < bound(t + 1); ++i) guarded(i);
     } else {
-#pragma omp for schedule(dynamic)
-      for (int i = 0; i < n; ++i) guarded(i);
+      for (int i; (i = next.fetch_add(1, std::memory_order_relaxed)) < n;) guarded(i);
     }
-  }
+  });
   error.rethrow();
 }
 

@@ -20,9 +20,9 @@ void parallel_by_cost(const std::vector<double>& cost, Body&& body) {
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return cost[a] > cost[b]; });
   double rest = std::accumulate(cost.begin(), cost.end(), 0.0);
   size_t first = 0;
-  for (; first < order.size() && omp_get_max_threads() > 1; ++first) {
+  for (; first < order.size() && thread_limit() > 1; ++first) {
     const double own = cost[order[first]];
-    if (own * omp_get_max_threads() <= share_of_serial * rest) break;
+    if (own * thread_limit() <= share_of_serial * rest) break;
     body(order[first]);
     rest -= own;
   }

@@ -12,13 +12,8 @@ namespace dygita {
 
 void set_up_process(char** argv, const char* blas_kernels) {
   const bool has_kernels = !blas_kernels || std::getenv("OPENBLAS_CORETYPE");
-  if (std::getenv("OMP_WAIT_POLICY") && std::getenv("OPENBLAS_NUM_THREADS") && std::getenv("GLIBC_TUNABLES") &&
-      has_kernels)
-    return;
+  if (std::getenv("OPENBLAS_NUM_THREADS") && std::getenv("GLIBC_TUNABLES") && has_kernels) return;
   if (!has_kernels) setenv("OPENBLAS_CORETYPE", blas_kernels, 0);
-  setenv("OMP_WAIT_POLICY", "passive", 0);
-  // But for some 20 us: increments of explicit bodies are as short, and to wake a thread takes longer.
-  setenv("GOMP_SPINCOUNT", "1000", 0);
   setenv("OPENBLAS_NUM_THREADS", "1", 0);
   setenv("VTK_SMP_BACKEND_IN_USE", "Sequential", 0);  // VTK's threads beside ours
   // Large pages under all of the heap, which grows by many of them at a time and keeps what comes back: a short run

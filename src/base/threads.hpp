@@ -1,12 +1,11 @@
-// How threads wait (a program on a shared machine must not spin) and count.
+// What each thread, and the process before its first one, is set to.
 #pragma once
 
 namespace dygita {
 
-// OpenMP's threads spin at every barrier unless told otherwise before the program starts, and OpenBLAS and VTK start
-// threads of their own: on a busy machine that costs several times the work itself. Starts the program once more with
-// OMP_WAIT_POLICY=passive, a short spin before that, OPENBLAS_NUM_THREADS=1, VTK_SMP_BACKEND_IN_USE=Sequential, and
-// GLIBC_TUNABLES (large pages under the heap) where the user has not set them. Call first in main. blas_kernels: the
+// OpenBLAS and VTK start threads of their own unless told otherwise before the program starts: on a busy machine that
+// costs several times the work itself. Starts the program once more with OPENBLAS_NUM_THREADS=1,
+// VTK_SMP_BACKEND_IN_USE=Sequential and GLIBC_TUNABLES (large pages under the heap) where the user has not set them. Call first in main. blas_kernels: the
 // kernels that OpenBLAS is to use, where its own choice is poor (better_blas_kernels); null: its own choice.
 void set_up_process(char** argv, const char* blas_kernels = nullptr);
 

@@ -1,14 +1,14 @@
 #include "fem/cell_loop.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
+
+#include "base/team.hpp"
 
 namespace dygita {
 
 NodeOwners node_owners(const Mesh& mesh) {
   constexpr int fewest_cells = 500, most_owners = 64;  // of an owner; of a mesh
-  const int n_threads = omp_in_parallel() ? 1 : omp_get_max_threads();
+  const int n_threads = is_in_team() ? 1 : thread_limit();
   NodeOwners owners;
   owners.n_owners = std::clamp(std::min(n_threads, mesh.n_cells() / fewest_cells), 1, most_owners);
   owners.owner.assign(mesh.n_nodes(), 0);

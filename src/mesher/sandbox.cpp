@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <linux/landlock.h>
-#include <omp.h>
 #include <poll.h>
 #include <sched.h>
 #include <seccomp.h>
@@ -156,7 +155,6 @@ bool is_orphan() {
 }  // namespace
 
 void confine(double memory, const std::vector<std::string>& readable) {
-  omp_get_max_threads();  // clang's runtime writes shared memory where it is first used
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (is_orphan()) _exit(1);
   limit(RLIMIT_CORE, 0);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cholmod.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <string>
@@ -37,23 +36,6 @@ struct Cholmod {
     const double* values = l->x ? static_cast<const double*>(l->x) + px[s] : nullptr;
     return {super[s], m, n_rows - m, static_cast<const int*>(l->s) + pi[s] + m, values, n_rows};
   }
-};
-
-// CHOLMOD opens a team of threads at every supernode, which costs more than it gains and far more on a busy machine.
-// Inside our own team that is off already; outside it is switched off here.
-class SerialRegion {
- public:
-  SerialRegion() : levels_(omp_get_max_active_levels()) {
-    if (omp_get_active_level() == 0) omp_set_max_active_levels(0);
-  }
-  ~SerialRegion() {
-    if (omp_get_active_level() == 0) omp_set_max_active_levels(levels_);
-  }
-  SerialRegion(const SerialRegion&) = delete;
-  SerialRegion& operator=(const SerialRegion&) = delete;
-
- private:
-  int levels_;
 };
 
 // A symmetric matrix by rows is the same by columns: CHOLMOD reads the upper triangle in place.

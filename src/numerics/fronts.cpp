@@ -240,7 +240,7 @@ std::optional<Mat> eliminate_side_by_side(Whole& whole, const KeepSupernode& kee
 
 Eliminated eliminate(const SparseMatrix& matrix, const std::vector<int>& order, int n_interior,
                      const std::vector<SupernodeView>& supernodes, const KeepSupernode& keep) {
-  if (omp_get_max_threads() > 1 && !omp_in_parallel()) {
+  if (thread_limit() > 1 && !is_in_team()) {
     Whole whole(matrix, order, n_interior, supernodes);
     if (std::optional<Mat> schur = eliminate_side_by_side(whole, keep)) return {std::move(*schur), -1};
     // Which pivot one thread meets first is what is to be told.

@@ -1,6 +1,5 @@
 #include "run/run_problem.hpp"
 
-#include <omp.h>
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "base/memory.hpp"
 #include "base/name_list.hpp"
 #include "base/progress.hpp"
+#include "base/team.hpp"
 #include "latin/latin.hpp"
 #include "output/bolt_table.hpp"
 #include "output/replacement.hpp"
@@ -141,7 +141,7 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const Given& given, Fra
   if (files) observers.add(frames);
   if (keeps_scenes) observers.add(scenes);
   auto result = std::make_shared<RunResult>();
-  require_memory(memory_for_results + static_cast<std::size_t>(omp_get_max_threads()) * memory_of_thread);
+  require_memory(memory_for_results + static_cast<std::size_t>(thread_limit()) * memory_of_thread);
   MemoryReserve reserve(memory_for_results);
   const SolverFigures figures = problem.explicit_dynamics ? solve_explicit(problem, observers)
                                 : problem.monolithic
@@ -237,7 +237,7 @@ void write_results(const Problem& problem, const RunRequest& request, RunSite& s
   warn_of_stresses(problem, result);
   const std::vector<std::string> warnings = take_warnings();
   RunIdentity identity = request.identity;
-  identity.threads = omp_get_max_threads();
+  identity.threads = thread_limit();
   identity.case_name = request.case_name;
   if (!site.writer) return;
   site.unwritten.attempt([&] {
@@ -293,7 +293,7 @@ void tell_stop(const RunResult& result, const RunSite& site) {
 
 std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunRequest& asked) {
   const auto start = std::chrono::steady_clock::now();
-  if (asked.threads > 0) omp_set_num_threads(asked.threads);
+  if (asked.threads > 0) set_thread_limit(asked.threads);
   check_ranks(declared);
   check_problem(declared);
   check_ranks_agree(declared);

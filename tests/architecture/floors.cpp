@@ -37,7 +37,7 @@ const std::map<std::string, std::set<std::string>> may_use = {
 };
 
 // Third-party headers that everybody may include; the others belong to one module.
-const std::regex everybody("^((unsupported/)?Eigen/|spdlog/|omp\\.h$)");
+const std::regex everybody("^((unsupported/)?Eigen/|spdlog/)");
 const std::vector<std::pair<std::string, std::regex>> owners = {
     {"ranks", std::regex("^mpi\\.h$")},
     {"numerics", std::regex("^(cholmod|SuiteSparse|metis|cblas|lapack|openblas)[A-Za-z_]*\\.h$")},

@@ -125,14 +125,22 @@ TEST(Sources, over_the_aimed_length_are_listed_and_none_is_twice_as_long) {
   }
 }
 
-// An exception that leaves a parallel region by itself ends the program without a message: base/parallel.hpp is the one
-// place that opens them, and hands on what is thrown.
-TEST(Sources, open_parallel_regions_in_one_place) {
-  const std::regex region("#\\s*pragma\\s+omp\\s+(?!simd\\b)|_Pragma|\\bstd::(thread|jthread|async)\\b");
+std::vector<std::string> sources_with(const std::string& pattern) {
+  const std::regex sought(pattern);
   std::vector<std::string> found;
   for (const Source& source : sources())
-    if (std::regex_search(source.text, region)) found.push_back(source.path);
-  EXPECT_EQ(found, std::vector<std::string>{"src/base/parallel.hpp"});
+    if (std::regex_search(source.text, sought)) found.push_back(source.path);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+// An exception that leaves a thread by itself ends the program without a message: base/parallel.hpp is the one place
+// that shares work among threads, and hands on what is thrown.
+TEST(Sources, share_work_among_threads_in_one_place) {
+  EXPECT_EQ(sources_with("#\\s*pragma\\s+omp\\s+(?!simd\\b)|_Pragma|\\bstd::(thread|jthread|async)\\b"),
+            std::vector<std::string>{"src/base/team.cpp"});
+  EXPECT_EQ(sources_with("\\brun_on_team\\b"),
+            (std::vector<std::string>{"src/base/parallel.hpp", "src/base/team.cpp", "src/base/team.hpp"}));
 }
 
 TEST(Sources, are_all_in_a_module) {

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <limits>
 #include <mutex>
 #include <new>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "base/error.hpp"
@@ -21,8 +23,8 @@ namespace {
 // Two threads, whatever the machine has.
 class ParallelFor : public ::testing::Test {
  protected:
-  ParallelFor() : before_(omp_get_max_threads()) { omp_set_num_threads(2); }
-  ~ParallelFor() override { omp_set_num_threads(before_); }
+  ParallelFor() : before_(thread_limit()) { set_thread_limit(2); }
+  ~ParallelFor() override { set_thread_limit(before_); }
 
  private:
   int before_;
@@ -77,26 +79,24 @@ TEST_F(ParallelFor, runs_every_index_once) {
 }
 
 TEST_F(ParallelFor, shares_the_work_among_as_many_threads_as_it_may) {
-  const auto threads_of = [](int most_threads) {
-    std::vector<int> thread(40, -1), team(40, 0);
+  const auto threads_of = [](int n, int most_threads) {
+    std::vector<std::thread::id> thread(n);
     parallel_for(
-        40,
-        [&](int i) {
-          thread[i] = omp_get_thread_num();
-          team[i] = omp_get_num_threads();
-        },
-        Schedule::evenly, most_threads);
-    EXPECT_EQ(std::set<int>(team.begin(), team.end()).size(), 1U);
-    return std::set<int>(thread.begin(), thread.end());
+        n, [&](int i) { thread[i] = std::this_thread::get_id(); }, Schedule::evenly, most_threads);
+    EXPECT_EQ(thread[0], std::this_thread::get_id());
+    return std::set<std::thread::id>(thread.begin(), thread.end()).size();
   };
-  EXPECT_EQ(threads_of(0), (std::set<int>{0, 1}));
-  EXPECT_EQ(threads_of(1), (std::set<int>{0}));
+  EXPECT_EQ(threads_of(40, 0), 2U);
+  EXPECT_EQ(threads_of(40, 1), 1U);
+  EXPECT_EQ(threads_of(40, 5), 5U);
+  EXPECT_EQ(threads_of(3, 5), 3U);
+  EXPECT_EQ(threads_of(40, 0), 2U);
 }
 
 TEST_F(ParallelFor, of_ranges_has_the_same_ones_on_any_number_of_threads) {
   for (const std::ptrdiff_t n : {0, 1, 1024, 1025, 9000}) {
     const auto ranges_of = [n](int threads) {
-      omp_set_num_threads(threads);
+      set_thread_limit(threads);
       std::mutex mutex;
       std::set<std::pair<std::ptrdiff_t, std::ptrdiff_t>> ranges;
       parallel_for_ranges(n, [&](std::ptrdiff_t first, std::ptrdiff_t length) {
@@ -117,15 +117,60 @@ TEST_F(ParallelFor, of_ranges_has_the_same_ones_on_any_number_of_threads) {
 }
 
 TEST_F(ParallelFor, inside_another_runs_on_one_thread_and_passes_its_error_on) {
-  std::vector<int> team(2, 0);
+  std::vector<int> n_elsewhere(2, 0);
   const auto inner = [&](int outer) {
+    const std::thread::id own = std::this_thread::get_id();
     parallel_for(4, [&](int i) {
-      team[outer] = std::max(team[outer], omp_get_num_threads());
+      n_elsewhere[outer] += std::this_thread::get_id() != own;
       if (outer == 1 && i == 2) throw InputError("inside");
     });
   };
   EXPECT_THROW(parallel_for(2, inner, Schedule::evenly), InputError);
-  EXPECT_EQ(team, std::vector<int>(2, 1));
+  EXPECT_EQ(n_elsewhere, std::vector<int>(2, 0));
+}
+
+TEST_F(ParallelFor, has_every_thread_s_work_done_when_it_is_back) {
+  set_thread_limit(3);
+  std::vector<int> sums(3, 0);
+  for (int repetition = 0; repetition < 20000; ++repetition)
+    parallel_for(
+        3, [&](int i) { sums[i] += repetition; }, Schedule::evenly);
+  EXPECT_EQ(sums, std::vector<int>(3, 20000 / 2 * 19999));
+}
+
+TEST_F(ParallelFor, wakes_threads_that_have_gone_to_sleep) {
+  for (int repetition = 0; repetition < 20; ++repetition) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    std::vector<int> count(2, 0);
+    parallel_for(
+        2, [&](int i) { ++count[i]; }, Schedule::evenly);
+    EXPECT_EQ(count, std::vector<int>(2, 1));
+  }
+}
+
+TEST_F(ParallelFor, waits_for_a_thread_that_is_late) {
+  std::atomic<bool> is_done = false;
+  parallel_for(
+      2,
+      [&](int i) {
+        if (i == 0) return;
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        is_done = true;
+      },
+      Schedule::evenly);
+  EXPECT_TRUE(is_done);
+}
+
+TEST_F(ParallelFor, of_two_threads_at_once_is_complete_in_both) {
+  std::vector<std::vector<int>> counts(2, std::vector<int>(500, 0));
+  const auto count = [&](int who) {
+    for (int repetition = 0; repetition < 200; ++repetition)
+      parallel_for(500, [&](int i) { ++counts[static_cast<size_t>(who)][static_cast<size_t>(i)]; });
+  };
+  std::thread other(count, 1);
+  count(0);
+  other.join();
+  EXPECT_EQ(counts, std::vector<std::vector<int>>(2, std::vector<int>(500, 200)));
 }
 
 TEST_F(ParallelFor, flushes_denormals_in_every_thread) {
@@ -164,20 +209,21 @@ TEST(ThreadChoice, may_be_none) {
 }
 
 TEST(ParallelByCost, runs_what_outweighs_the_rest_first_and_with_all_threads_within) {
-  const int threads = omp_get_max_threads();
-  omp_set_num_threads(4);
+  const int threads = thread_limit();
+  set_thread_limit(4);
   std::vector<int> within(6, 0), count(6, 0);
   std::atomic<int> n_ended = 0;
   int ended_before_largest = -1;
   parallel_by_cost({1.0, 2.0, 100.0, 0.0, 1.0, 2.0}, [&](int i) {
     if (i == 2) ended_before_largest = n_ended;
-    std::atomic<int> most = 0;
-    parallel_for(8, [&](int) { most = std::max(most.load(), omp_get_num_threads()); });
-    within[i] = most;
+    std::vector<std::thread::id> thread(8);
+    parallel_for(
+        8, [&](int l) { thread[l] = std::this_thread::get_id(); }, Schedule::evenly);
+    within[i] = static_cast<int>(std::set<std::thread::id>(thread.begin(), thread.end()).size());
     ++count[i];
     ++n_ended;
   });
-  omp_set_num_threads(threads);
+  set_thread_limit(threads);
   EXPECT_EQ(count, std::vector<int>(6, 1));
   EXPECT_EQ(ended_before_largest, 0);
   EXPECT_EQ(within[2], 4);

@@ -6,12 +6,12 @@
 #include <benchmark/benchmark.h>
 #include <cblas.h>
 #include <cholmod.h>
-#include <omp.h>
 
 #include <ctime>
 #include <map>
 #include <numeric>
 
+#include "base/team.hpp"
 #include "base/threads.hpp"
 #include "fem/assembly.hpp"
 #include "fem/lanes.hpp"
@@ -234,14 +234,14 @@ void assembly(benchmark::State& state) {
   Mesh mesh = test::box_of(types[state.range(0)], Vec3::Constant(n), {n, n, n});
   if (state.range(0) != boxes) test::distort(mesh, Vec3::Constant(n), 0.1);
   const Elastic steel = test::material_of(1.0, 0.3);
-  omp_set_num_threads(static_cast<int>(state.range(2)));
+  set_thread_limit(static_cast<int>(state.range(2)));
   assemble(mesh,
            steel);  // the first touch of memory that a virtual machine has not yet got from its host is no kernel's
   for (auto _ : state) {
     const BodyMatrices body = assemble(mesh, steel);
     benchmark::DoNotOptimize(body.mass.data());
   }
-  omp_set_num_threads(1);
+  set_thread_limit(1);
   state.SetLabel(shape_names[state.range(0)]);
   state.counters["cells"] = mesh.n_cells();
   state.counters["s/Mcell"] = benchmark::Counter(

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <cstring>
 #include <iostream>
 
+#include "base/team.hpp"
 #include "fem/assembly.hpp"
 #include "fem/meshes.hpp"
 #include "numerics/dense.hpp"
@@ -78,12 +78,12 @@ TEST(Assembly, is_the_same_to_the_bit_with_any_number_of_threads) {
   Mesh mesh = mixed_box(brick, {16, 12, 12});
   distort(mesh, brick, 0.01);
   const Elastic material = material_of(1.0, 0.3, 2.0);
-  const int n_threads = omp_get_max_threads();
-  omp_set_num_threads(1);
+  const int n_threads = thread_limit();
+  set_thread_limit(1);
   const BodyMatrices alone = assemble(mesh, material);
   const Tensors stress_alone = nodal_stress(mesh, material, mesh.nodes);
   for (const int n : {2, 3, 5}) {
-    omp_set_num_threads(n);
+    set_thread_limit(n);
     const BodyMatrices together = assemble(mesh, material);
     EXPECT_EQ(std::memcmp(together.stiffness.valuePtr(), alone.stiffness.valuePtr(),
                           alone.stiffness.nonZeros() * sizeof(double)),
@@ -91,7 +91,7 @@ TEST(Assembly, is_the_same_to_the_bit_with_any_number_of_threads) {
     EXPECT_EQ(together.mass, alone.mass);
     EXPECT_EQ(nodal_stress(mesh, material, mesh.nodes), stress_alone);
   }
-  omp_set_num_threads(n_threads);
+  set_thread_limit(n_threads);
 }
 
 TEST(Assembly, hands_back_the_error_of_a_thread) {

@@ -1,11 +1,10 @@
 // Anderson's acceleration against the textbook: a QR of the differences at each iteration.
 
-#include <omp.h>
-
 #include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
+#include "base/team.hpp"
 #include "latin/anderson.hpp"
 
 namespace dygita {
@@ -151,9 +150,9 @@ TEST(Anderson, past_problems_predict_the_next) {
 TEST(Anderson, iterates_to_the_same_bits_on_any_number_of_threads) {
   const int n = 9000;
   const Vec slope = 0.9 * random_vector(n, 3), start = random_vector(n, 4), weight = Vec::Constant(n, 0.3);
-  const int before = omp_get_max_threads();
+  const int before = thread_limit();
   const auto iterated_on = [&](int threads) {
-    omp_set_num_threads(threads);
+    set_thread_limit(threads);
     Anderson anderson(5, 3, 0.9, weight);
     Vec q = Vec::Zero(n);
     for (int problem = 1; problem < 4; ++problem) {
@@ -165,7 +164,7 @@ TEST(Anderson, iterates_to_the_same_bits_on_any_number_of_threads) {
     return q;
   };
   const Vec on_one = iterated_on(1), on_three = iterated_on(3);
-  omp_set_num_threads(before);
+  set_thread_limit(before);
   EXPECT_TRUE((on_one.array() == on_three.array()).all());
   EXPECT_LT((slope.cwiseProduct(on_one) + 3.0 * start - on_one).norm(), 1e-2 * on_one.norm());
 }

@@ -1,10 +1,10 @@
 // Explicit pieces in LATIN's steps: against implicit ones, alone and mixed; balances; the limit of stability.
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <cmath>
 #include <random>
 
+#include "base/team.hpp"
 #include "latin/latin.hpp"
 #include "law/law.hpp"
 #include "solution/blocks.hpp"
@@ -297,12 +297,12 @@ TEST(ExplicitPieces, that_are_cut_are_the_uncut_ones) {
 }
 
 TEST(ExplicitPieces, give_the_same_bits_on_any_number_of_threads) {
-  const int before = omp_get_max_threads();
-  omp_set_num_threads(1);
+  const int before = thread_limit();
+  set_thread_limit(1);
   const Watcher one = solved(corner(explicitly, 2e-7, 2, 12));
-  omp_set_num_threads(3);
+  set_thread_limit(3);
   const Watcher three = solved(corner(explicitly, 2e-7, 2, 12));
-  omp_set_num_threads(before);
+  set_thread_limit(before);
   EXPECT_EQ(displacement_difference(one, three), 0.0);
   EXPECT_EQ(one.rows.back().energies.friction, three.rows.back().energies.friction);
   EXPECT_EQ(one.rows.back().energies.scheme, three.rows.back().energies.scheme);

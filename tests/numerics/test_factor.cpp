@@ -1,11 +1,11 @@
 // The factor with the interface last, against dense algebra.
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <limits>
 #include <random>
 
 #include "base/error.hpp"
+#include "base/team.hpp"
 #include "numerics/dense.hpp"
 #include "numerics/dense_blocks.hpp"
 #include "numerics/factor.hpp"
@@ -216,14 +216,14 @@ TEST(SpdInverse, is_the_same_as_a_matrix_and_by_substitution) {
 
 // Sizes beside those of blocks; large enough to be shared among threads.
 TEST(DenseBlocks, give_the_same_bits_on_any_number_of_threads_and_what_dense_algebra_does) {
-  const int threads = omp_get_max_threads();
+  const int threads = thread_limit();
   for (const int n : {191, 192, 193, 500}) {
     const Mat random = Mat::Random(n, n);
     const Mat spd = random * random.transpose() + Mat::Identity(n, n);
     const int n_columns = 2 * n / 3, n_below = n - n_columns;
     std::vector<Mat> results;
     for (const int n_threads : {1, 3}) {
-      omp_set_num_threads(n_threads);
+      set_thread_limit(n_threads);
       Mat a = spd;
       ASSERT_EQ(factorise_columns(n, n_columns, a.data(), n), -1);
       subtract_square(n_below, n_columns, a.data() + n_columns, n, 1.0, &a(n_columns, n_columns), n);
@@ -245,7 +245,7 @@ TEST(DenseBlocks, give_the_same_bits_on_any_number_of_threads_and_what_dense_alg
     EXPECT_EQ(results[0], results[2]) << n;
     EXPECT_EQ(results[1], results[3]) << n;
   }
-  omp_set_num_threads(threads);
+  set_thread_limit(threads);
 }
 
 TEST(SpdInverse, is_a_matrix_where_many_products_pay_for_it) {

@@ -1,8 +1,8 @@
 // Factors of matrices so large that threads share them: the same bits for any number of threads.
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include "base/error.hpp"
+#include "base/team.hpp"
 #include "numerics/factor.hpp"
 #include "numerics/repeated_factor.hpp"
 
@@ -44,11 +44,11 @@ Lattice lattice(int n) {
 
 class Threads {
  public:
-  ~Threads() { omp_set_num_threads(before_); }
-  void use(int n) { omp_set_num_threads(n); }
+  ~Threads() { set_thread_limit(before_); }
+  void use(int n) { set_thread_limit(n); }
 
  private:
-  const int before_ = omp_get_max_threads();
+  const int before_ = thread_limit();
 };
 
 constexpr int large = 22;  // 5e8 operations

@@ -1,6 +1,5 @@
 // The output directory of a run: frames read back with VTK's own reader, tables, record, a second run over the first.
 #include <gtest/gtest.h>
-#include <omp.h>
 #include <sys/resource.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
@@ -18,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "base/team.hpp"
 #include "model/load.hpp"
 #include "output/run_writer.hpp"
 #include "result/given_output.hpp"
@@ -264,13 +264,13 @@ TEST(RunWriter, writes_the_same_bytes_with_any_number_of_threads) {
   const Scratch scratch;
   Scene scene;
   for (int i = 0; i < 20; ++i) scene.parts.push_back(part("part " + std::to_string(i), {10.0 + i, 0.0, 0.0}));
-  const int before = omp_get_max_threads();
+  const int before = thread_limit();
   for (const int n : {1, 3}) {
-    omp_set_num_threads(n);
+    set_thread_limit(n);
     RunWriter writer(scratch.path() / std::to_string(n), "crush");
     for (const double time : {0.0, 1e-6}) writer.write_frame(scene.frame(time, 1.0 + time));
   }
-  omp_set_num_threads(before);
+  set_thread_limit(before);
   int n_files = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(scratch.path() / "1" / "frames")) {
     if (!entry.is_regular_file()) continue;

@@ -282,8 +282,8 @@ TEST(StepModel, tells_which_substructure_cannot_be_factorised) {
   BodyMatrices broken{-1e3 * *bodies[2].matrices->stiffness(), bodies[2].matrices->mass()};
   bodies[2].matrices = std::make_shared<const StoredMatrices>(std::move(broken));
   const State state = initial_state(problem, surfaces);
-  const int before = omp_get_max_threads();
-  omp_set_num_threads(2);
+  const int before = thread_limit();
+  set_thread_limit(2);
   try {
     make_step_model(problem, *problem.steps[0], surfaces, bodies, state, no_cut(problem));
     ADD_FAILURE() << "a negative definite matrix was factorised";
@@ -291,7 +291,7 @@ TEST(StepModel, tells_which_substructure_cannot_be_factorised) {
     EXPECT_NE(std::string(error.what()).find("substructure 'cube 2' in step 'test'"), std::string::npos)
         << error.what();
   }
-  omp_set_num_threads(before);
+  set_thread_limit(before);
 }
 
 }  // namespace

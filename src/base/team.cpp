@@ -1,0 +1,133 @@
+#include "base/team.hpp"
+
+#include <immintrin.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "base/log.hpp"
+
+namespace dygita {
+namespace {
+
+// How long a thread stays awake: longer than what one thread does alone between two loops of a time step.
+constexpr std::chrono::microseconds awake(500);
+constexpr int n_looks = 64;  // before it gives way for the first time
+
+// Returns once the value is another than `old`.
+void wait_while(const std::atomic<unsigned>& value, unsigned old) {
+  for (int look = 0; look < n_looks; ++look) {
+    if (value.load(std::memory_order_acquire) != old) return;
+    _mm_pause();
+  }
+  const auto end = std::chrono::steady_clock::now() + awake;
+  do {
+    sched_yield();
+    if (value.load(std::memory_order_acquire) != old) return;
+  } while (std::chrono::steady_clock::now() < end);
+  value.wait(old, std::memory_order_acquire);
+}
+
+thread_local bool is_member = false;
+
+class Team {
+ public:
+  // False where another thread has the team.
+  bool run(int n, TeamWork work, void* context) {
+    const std::unique_lock lock(busy_, std::try_to_lock);
+    if (!lock) return false;
+    const int n_members = grow(n - 1);
+    job_ = {work, context};
+    n_at_work_.store(static_cast<unsigned>(n_members), std::memory_order_relaxed);
+    for (int i = 0; i < n_members; ++i) members_[static_cast<size_t>(i)]->call();
+    is_member = true;
+    work(context, 0);
+    for (int t = n_members + 1; t < n; ++t) work(context, t);
+    is_member = false;
+    for (unsigned left; (left = n_at_work_.load(std::memory_order_acquire)) != 0;) wait_while(n_at_work_, left);
+    return true;
+  }
+
+ private:
+  struct Job {
+    TeamWork work;
+    void* context;
+  };
+  // On a cache line of its own: a thread looks at its number all the time.
+  struct alignas(64) Member {
+    std::atomic<unsigned> n_calls = 0;
+    void call() {
+      n_calls.fetch_add(1, std::memory_order_release);
+      n_calls.notify_one();
+    }
+  };
+
+  // As many members as wanted, or as the system gives.
+  int grow(int wanted) {
+    while (static_cast<int>(members_.size()) < wanted) {
+      auto member = std::make_unique<Member>();
+      const int t = static_cast<int>(members_.size()) + 1;
+      try {
+        std::thread([this, own = member.get(), t] { serve(*own, t); }).detach();
+      } catch (const std::system_error&) {
+        break;
+      }
+      members_.push_back(std::move(member));
+    }
+    return std::min(wanted, static_cast<int>(members_.size()));
+  }
+
+  void serve(Member& own, int t) {
+    is_member = true;
+    for (unsigned seen = 0;; ++seen) {
+      wait_while(own.n_calls, seen);
+      const Job job = job_;
+      job.work(job.context, t);
+      if (n_at_work_.fetch_sub(1, std::memory_order_acq_rel) == 1) n_at_work_.notify_one();
+    }
+  }
+
+  std::mutex busy_;
+  Job job_{};
+  alignas(64) std::atomic<unsigned> n_at_work_ = 0;
+  std::vector<std::unique_ptr<Member>> members_;
+};
+
+int limit_at_start() {
+  if (const char* asked = std::getenv("OMP_NUM_THREADS")) {
+    if (const int n = std::atoi(asked); n > 0) return n;
+    warn(fmt::format("OMP_NUM_THREADS='{}' is no number of threads: as many are taken as there are processors", asked));
+  }
+  cpu_set_t allowed;
+  if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return std::max(1, CPU_COUNT(&allowed));
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+std::atomic<int>& limit() {
+  static std::atomic<int> n = limit_at_start();
+  return n;
+}
+
+}  // namespace
+
+int thread_limit() { return limit().load(std::memory_order_relaxed); }
+
+void set_thread_limit(int n) { limit().store(std::max(1, n), std::memory_order_relaxed); }
+
+bool is_in_team() { return is_member; }
+
+void run_on_team(int n, TeamWork work, void* context) {
+  static Team& team = *new Team;  // its members wait there until the process ends
+  if (n > 1 && !is_in_team() && team.run(n, work, context)) return;
+  for (int t = 0; t < n; ++t) work(context, t);
+}
+
+}  // namespace dygita
