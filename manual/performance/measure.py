@@ -89,10 +89,10 @@ class Machine:
         record = next(out.glob("*/*/run.json"))
         return DeckRun(json.loads(record.read_text()), record.parent, peak, used / elapsed / threads)
 
-    def side_by_side(self, n, deck, settings=None, solver=None, limit=600):
-        """Seconds until n processes of one thread have all computed a deck: what the machine has for n threads in these minutes."""
+    def side_by_side(self, n, deck, settings=None, solver=None, limit=600, threads=1):
+        """Seconds until n processes have all computed a deck; of one thread: what the machine has for n threads in these minutes."""
         with concurrent.futures.ThreadPoolExecutor(n) as pool:
-            runs = [pool.submit(self.deck, deck, settings, solver, 1, limit) for _ in range(n)]
+            runs = [pool.submit(self.deck, deck, settings, solver, threads, limit) for _ in range(n)]
             return max(run.result().record["seconds"]["all"] for run in runs)
 
     def linear(self, deck, settings=None, threads=(1,), steps=0, limit=900):
