@@ -6,7 +6,8 @@ from page import table
 
 FLANGES, BLOCKS = "decks/bench/even_flanges.lua", "decks/bench/blocks.lua"
 MOST_BYTES = 20 * 2**30
-MOST_RUNS, LONG_ENOUGH = 15, 45    # of a scene on each number of threads; seconds of all of them
+MOST_RUNS, LONG_ENOUGH = 15, 60    # of a scene on each number of threads; seconds of all of them
+MOST_CROWDED = 5e4                # unknowns up to which two runs of two threads share two processors
 COLOURS = ["#cfd8dc", "#90a4ae", "#0b5394", "#c75b12", "#2e7d32", "#8e24aa", "#00a0c6", "#6d4c41", "#ad1457"]
 
 
