@@ -74,11 +74,10 @@ void parallel_for(int n, Body&& body, Schedule schedule = Schedule::as_free, int
   error.rethrow();
 }
 
-// body(first, n) for ranges that together are [0, n_all): ranges of the same length for any number of threads, on the
-// caller's thread alone where there are few of them. most_threads: as parallel_for has it.
+// body(first, n) for ranges that together are [0, n_all): ranges of the same length for any number of threads.
+// most_threads: as parallel_for has it.
 template <class Body>
 void parallel_for_ranges(std::ptrdiff_t n_all, Body&& body, std::ptrdiff_t length = 1024, int most_threads = 0) {
-  constexpr int few = 4;
   const int n_ranges = static_cast<int>((n_all + length - 1) / length);
   parallel_for(
       n_ranges,
@@ -86,7 +85,7 @@ void parallel_for_ranges(std::ptrdiff_t n_all, Body&& body, std::ptrdiff_t lengt
         const std::ptrdiff_t first = i * length;
         body(first, std::min(length, n_all - first));
       },
-      Schedule::evenly, n_ranges < few ? 1 : most_threads);
+      Schedule::evenly, most_threads);
 }
 
 }  // namespace dygita

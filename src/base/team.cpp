@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/log.hpp"
+#include "base/threads.hpp"
 
 namespace dygita {
 namespace {
@@ -46,13 +47,14 @@ class Team {
     if (!lock) return false;
     const int n_members = grow(n - 1);
     job_ = {work, context};
-    n_at_work_.store(static_cast<unsigned>(n_members), std::memory_order_relaxed);
     for (int i = 0; i < n_members; ++i) members_[static_cast<size_t>(i)]->call();
     is_member = true;
     work(context, 0);
     for (int t = n_members + 1; t < n; ++t) work(context, t);
+    for (int i = 0; i < n_members; ++i)
+      if (members_[static_cast<size_t>(i)]->takes_over()) work(context, i + 1);
     is_member = false;
-    for (unsigned left; (left = n_at_work_.load(std::memory_order_acquire)) != 0;) wait_while(n_at_work_, left);
+    for (int i = 0; i < n_members; ++i) members_[static_cast<size_t>(i)]->wait();
     return true;
   }
 
@@ -61,13 +63,46 @@ class Team {
     TeamWork work;
     void* context;
   };
-  // On a cache line of its own: a thread looks at its number all the time.
-  struct alignas(64) Member {
-    std::atomic<unsigned> n_calls = 0;
+
+  // A share of each job and the thread for it. Whoever comes first computes it: the caller, once it is through with its
+  // own, does not wait for a thread that still sleeps or has no processor. Counters of jobs, on a cache line of their
+  // own: the thread looks at the first all the time.
+  class alignas(64) Member {
+   public:
+    // Of the caller.
     void call() {
-      n_calls.fetch_add(1, std::memory_order_release);
-      n_calls.notify_one();
+      n_called_.store(++n_, std::memory_order_release);
+      n_called_.notify_one();
     }
+    bool takes_over() { return is_own_ = take(n_); }
+    void wait() const {
+      if (is_own_) return;
+      for (unsigned done; (done = n_done_.load(std::memory_order_acquire)) != n_;) wait_while(n_done_, done);
+    }
+
+    // Of the thread.
+    [[noreturn]] void serve(const Job& job, int t) {
+      flush_denormals();
+      is_member = true;
+      for (unsigned seen = 0;;) {
+        wait_while(n_called_, seen);
+        seen = n_called_.load(std::memory_order_acquire);
+        if (!take(seen)) continue;
+        job.work(job.context, t);
+        n_done_.store(seen, std::memory_order_release);
+        n_done_.notify_one();
+      }
+    }
+
+   private:
+    bool take(unsigned job) {
+      unsigned before = job - 1;
+      return n_taken_.compare_exchange_strong(before, job, std::memory_order_acq_rel);
+    }
+
+    std::atomic<unsigned> n_called_ = 0, n_taken_ = 0, n_done_ = 0;
+    unsigned n_ = 0;       // the caller's
+    bool is_own_ = false;  // has the caller done the last one?
   };
 
   // As many members as wanted, or as the system gives.
@@ -76,7 +111,7 @@ class Team {
       auto member = std::make_unique<Member>();
       const int t = static_cast<int>(members_.size()) + 1;
       try {
-        std::thread([this, own = member.get(), t] { serve(*own, t); }).detach();
+        std::thread([this, own = member.get(), t] { own->serve(job_, t); }).detach();
       } catch (const std::system_error&) {
         break;
       }
@@ -85,19 +120,8 @@ class Team {
     return std::min(wanted, static_cast<int>(members_.size()));
   }
 
-  void serve(Member& own, int t) {
-    is_member = true;
-    for (unsigned seen = 0;; ++seen) {
-      wait_while(own.n_calls, seen);
-      const Job job = job_;
-      job.work(job.context, t);
-      if (n_at_work_.fetch_sub(1, std::memory_order_acq_rel) == 1) n_at_work_.notify_one();
-    }
-  }
-
   std::mutex busy_;
   Job job_{};
-  alignas(64) std::atomic<unsigned> n_at_work_ = 0;
   std::vector<std::unique_ptr<Member>> members_;
 };
 

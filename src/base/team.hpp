@@ -1,6 +1,7 @@
 // The threads that share the program's loops. Between two loops they stay awake for a while and give their processor
 // to whoever asks for it meanwhile; then they sleep. A time step opens loops every few microseconds: to wake a thread
-// for each costs as much as many of them, and one that waits without giving way ruins the program beside it.
+// for each costs as much as many of them, and one that waits without giving way ruins the program beside it. Nor is
+// anybody waited for who has not begun: where other programs have the processors, the caller does what is left.
 #pragma once
 
 #include <type_traits>
@@ -17,8 +18,8 @@ bool is_in_team();
 
 using TeamWork = void (*)(void* work, int t);
 // work(t) for t = 0 .. n - 1, which must not throw nor wait for another t: 0 by the caller, each of the others by a
-// thread of its own, where the system gives as many; back when all are done. One team at a time: within another, and
-// while another thread of the program has one, the caller does it all.
+// thread of its own or, where that one comes too late, by the caller; back when all are done. One team at a time:
+// within another, and while another thread of the program has one, the caller does it all.
 void run_on_team(int n, TeamWork work, void* context);
 
 template <class Work>

@@ -11,7 +11,7 @@ namespace dygita {
 namespace {
 
 // That one thread has done before others are awake.
-constexpr int few_shown = 1000, few_booked = 10000;
+constexpr int few_shown = 64, few_booked = 1000;
 
 }  // namespace
 

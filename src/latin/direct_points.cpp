@@ -15,7 +15,7 @@ namespace dygita {
 namespace {
 
 constexpr int most_rounds = 20000;
-constexpr int few_points = 512;  // are solved before threads have met
+constexpr int few_points = 32;  // are solved before threads have met
 
 // Of what a point would change, in a round: laws with friction that share a node may go round in circles otherwise.
 double share_of(int round) { return round < 400 ? 1.0 : round < 3000 ? 0.5 : 0.2; }

@@ -55,11 +55,7 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
     books_.piece_seconds.resize(model.pieces.size());
     if (!model.is_assembled) distant_.emplace(model, files.state);
   }
-  long n_explicit = 0;
-  for (const auto& piece : model.pieces) {
-    explicit_.push_back(dynamic_cast<ExplicitPiece*>(piece.get()));
-    if (explicit_.back()) n_explicit += piece->node_masses().size();
-  }
+  for (const auto& piece : model.pieces) explicit_.push_back(dynamic_cast<ExplicitPiece*>(piece.get()));
   StepFigures& figures = books_.figures;
   figures.substeps = model.n_substeps();
   for (size_t i = 0; i < model.integration.parts.size(); ++i) {
@@ -72,10 +68,7 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
     if (model.problem->mass().is_chosen) figures.phases.emplace_back(body.name, part.phase);
     figures.stable_step = figures.stable_step > 0.0 ? std::min(figures.stable_step, part.longest) : part.longest;
   }
-  // An increment of less is over before threads have met.
-  constexpr long few_nodes = 4000;
-  if (model.has_explicit())
-    piece_threads_ = n_explicit < few_nodes ? ThreadChoice(ThreadChoice::one) : ThreadChoice::measured();
+  if (model.has_explicit()) piece_threads_ = ThreadChoice::measured();
   is_all_direct_ = model.has_explicit() && model.n_q() == 0 && !model.problem->solver.plain &&
                    std::all_of(model.here.begin(), model.here.end(), [&](int i) { return explicit_[i] != nullptr; });
   largest_first_ = model.here;
