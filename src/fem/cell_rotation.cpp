@@ -1,5 +1,6 @@
 #include "fem/cell_rotation.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 
