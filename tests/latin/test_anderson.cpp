@@ -1,5 +1,7 @@
 // Anderson's acceleration against the textbook: a QR of the differences at each iteration.
 
+#include <gtest/gtest.h>
+
 #include <Eigen/QR>
 #include <cmath>
 #include <limits>
