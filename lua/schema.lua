@@ -57,7 +57,7 @@ local function within()
 end
 
 local function points()
-  return { "points", type = "choice", choices = { "first", "second" }, default_doc = "the face with the larger facets, unless these are too few to hold the bodies against tilting",
+  return { "points", type = "choice", choices = { "first", "second" }, default_doc = "the face within the other, else the one with fewer points",
            doc = "which face has the interface's points at its nodes, where the two meshes do not match" }
 end
 

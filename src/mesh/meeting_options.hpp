@@ -3,13 +3,13 @@
 
 namespace dygita {
 
-// Which side carries the points of faces that do not match: the one with the larger facets, or as declared.
-enum class Carrier { coarser, first, second };
+// Which side carries the points of faces that do not match: as the faces lie on each other, or as declared.
+enum class Carrier { automatic, first, second };
 
 struct MeetingOptions {
   double within = 0.0;  // m, how far apart faces may be that touch, beside their sagittas
-  Carrier points = Carrier::coarser;
-  bool is_second_softer = false;  // decides where neither face is coarser nor covered more completely
+  Carrier points = Carrier::automatic;
+  bool is_second_preferred = false;  // decides where the faces are alike in all else
   // The law acts on the area of each point: facets whose nodes have none of their own (tri6, quad8) take the points of
   // their sub-facets even where they match node for node.
   bool acts_by_area = false;

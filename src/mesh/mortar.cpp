@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "mesh/facet_parts.hpp"
@@ -13,14 +13,13 @@ namespace dygita {
 
 namespace {
 
-constexpr double least_share = 0.499;    // of a point's function that must be covered: an edge along nodes covers half
-constexpr double coarser = 1.3;          // of two sizes, to count as different
-constexpr double fewer_points = 0.02;    // of the smaller number, likewise
-constexpr double better_covered = 0.01;  // of two shares, likewise
-constexpr double rounding = 1e-6;        // of the smallest edge: touching faces are not farther apart
-constexpr double nothing = 1e-14;        // a weight
-constexpr double on_the_spot = 1e-10;    // of a size: no offset between two places
-constexpr double flat = 1e-9;            // of the largest: an inertia without a direction
+constexpr double least_share = 0.05;   // of a point's function that must be covered
+constexpr double fewer_points = 0.02;  // of two numbers of points, of the smaller, to count as different
+constexpr double lies_within = 0.99;   // of the area of the facets that take part: the face lies within the other
+constexpr double rounding = 1e-6;      // of the smallest edge: touching faces are not farther apart
+constexpr double nothing = 1e-14;      // a weight
+constexpr double on_the_spot = 1e-10;  // of a size: no offset between two places
+constexpr double flat = 1e-9;          // of the largest: an inertia without a direction
 
 // A side of the overlap by itself.
 struct Census {
@@ -35,8 +34,12 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// covered: m^2, of each part.
-Census census_of(const FaceInSpace& face, const std::vector<double>& covered) {
+Census take_census(const FaceInSpace& face, const FaceInSpace& other, double reach) {
+  const SegmentFinder finder(face, other, reach);
+  std::vector<double> covered(face.parts.size(), 0.0);  // m^2, of each part
+  parallel_for(static_cast<int>(covered.size()), [&](int i) {
+    for (const Segment& segment : finder.segments(i)) covered[i] += segment.area;
+  });
   std::vector<double> sizes, of_node(face.nodes.size(), 0.0), all_of_node(face.nodes.size(), 0.0);
   double sum = 0.0, touched = 0.0;
   for (size_t i = 0; i < face.parts.size(); ++i) {
@@ -58,27 +61,15 @@ Census census_of(const FaceInSpace& face, const std::vector<double>& covered) {
   return census;
 }
 
-std::pair<Census, Census> take_census(const FaceInSpace& one, const FaceInSpace& other, double reach) {
-  const SegmentFinder finder(one, other, reach);
-  std::vector<std::vector<Segment>> segments(one.parts.size());
-  parallel_for(static_cast<int>(segments.size()), [&](int i) { segments[i] = finder.segments(i); });
-  std::vector<double> of_one(one.parts.size(), 0.0), of_other(other.parts.size(), 0.0);
-  for (size_t i = 0; i < segments.size(); ++i)
-    for (const Segment& segment : segments[i]) {
-      of_one[i] += segment.area;
-      of_other[segment.other] += segment.area;
-    }
-  return {census_of(one, of_one), census_of(other, of_other)};
-}
-
+// Points on a face that lies within the other see all of the mesh that moves there. Else each face has points where it
+// is covered; the fewer they are, the fewer patterns of forces meet a side that cannot answer them.
 bool is_second_chosen(const Census& first, const Census& second, const MeetingOptions& options) {
-  if (options.points != Carrier::coarser) return options.points == Carrier::second;
-  if (std::max(first.size, second.size) >= coarser * std::min(first.size, second.size)) return second.size > first.size;
-  // With more points than the other side has nodes, that side could not answer them all.
+  if (options.points != Carrier::automatic) return options.points == Carrier::second;
+  const bool is_first_within = first.coverage >= lies_within, is_second_within = second.coverage >= lies_within;
+  if (is_first_within != is_second_within) return is_second_within;
   if (std::abs(first.n_points - second.n_points) > fewer_points * std::min(first.n_points, second.n_points))
     return second.n_points < first.n_points;
-  if (std::abs(first.coverage - second.coverage) > better_covered) return second.coverage > first.coverage;
-  return options.is_second_softer;
+  return options.is_second_preferred;
 }
 
 using Weights = std::vector<std::pair<int, double>>;  // (node, weight), by node
@@ -125,13 +116,17 @@ struct Mortar::Raw {
   Vec3 normal = Vec3::Zero();
   Weights own, opposite;
 
-  // Enough of its function is covered.
-  bool is_whole() const { return area >= least_share * full && area > 0.0; }
-  void add(const Raw& other) {
-    area += other.area;
-    normal += other.normal;
-    own.insert(own.end(), other.own.begin(), other.own.end());
-    opposite.insert(opposite.end(), other.opposite.begin(), other.opposite.end());
+  bool is_covered() const { return !opposite.empty() && area > 0.0; }
+  Vec3 place(const Points& x) const {
+    Vec3 sum = Vec3::Zero();
+    for (const auto& [node, weight] : own) sum += weight / area * x.col(node);
+    return sum;
+  }
+  void add(const Raw& other, double share) {
+    area += share * other.area;
+    normal += share * other.normal;
+    for (const auto& [node, weight] : other.own) own.emplace_back(node, share * weight);
+    for (const auto& [node, weight] : other.opposite) opposite.emplace_back(node, share * weight);
   }
 };
 
@@ -140,40 +135,13 @@ Mortar::Mortar(const PlacedFace& side_1, const PlacedFace& side_2, const Meeting
       face_2_(side_2),
       reach_(std::max(options.within, rounding * std::min(face_1_.smallest_edge(), face_2_.smallest_edge())) +
              sagitta_margin * (face_1_.sagitta() + face_2_.sagitta())) {
-  const auto [first, second] = take_census(face_1_, face_2_, reach_);
+  const Census first = take_census(face_1_, face_2_, reach_), second = take_census(face_2_, face_1_, reach_);
   if (first.size == 0.0) return;
-  couple_from(is_second_chosen(first, second, options));
-  if (options.points == Carrier::coarser && !can_carry()) {
-    std::vector<Coupling> coarser = couplings_;
-    couple_from(!is_second_);
-    if (!can_carry()) {
-      couplings_ = std::move(coarser);
-      is_second_ = !is_second_;
-    }
-  }
+  is_second_ = is_second_chosen(first, second, options);
+  couplings_ = couple(carrier(), other(), reach_);
   ratio_ = is_second_ ? second.size / first.size : first.size / second.size;
   for (const Coupling& coupling : couplings_) covered_ += coupling.covered;
   find_facets(is_second_ ? side_2 : side_1, is_second_ ? side_1 : side_2);
-}
-
-void Mortar::couple_from(bool is_second) {
-  is_second_ = is_second;
-  couplings_ = couple(carrier(), other(), reach_);
-}
-
-// Fewer than four points, or points in a row, let the bodies tilt as the face does not.
-bool Mortar::can_carry() const {
-  constexpr size_t few = 4;
-  constexpr double narrow = 0.25;  // of what is touched
-  std::vector<int> whole, touched;
-  const std::vector<Raw> raw = raw_points();
-  for (size_t i = 0; i < raw.size(); ++i) {
-    if (raw[i].opposite.empty()) continue;
-    touched.push_back(static_cast<int>(i));
-    if (raw[i].is_whole()) whole.push_back(static_cast<int>(i));
-  }
-  return whole.size() >= few &&
-         width_of(carrier().x(Eigen::all, whole)) >= narrow * width_of(carrier().x(Eigen::all, touched));
 }
 
 void Mortar::find_facets(const PlacedFace& carrier, const PlacedFace& other) {
@@ -212,59 +180,97 @@ std::vector<Mortar::Raw> Mortar::raw_points() const {
   return raw;
 }
 
-// Where each node's point goes: to itself, to the neighbour that it is merged into, or nowhere (-1).
-std::vector<int> Mortar::targets(const std::vector<Raw>& raw,
-                                 const std::function<bool(const Vec3&)>& is_taken_away) const {
-  const auto n = static_cast<int>(raw.size());
-  std::vector<char> is_whole(n, 0), is_taken(n, 0);
-  for (int i = 0; i < n; ++i) {
-    is_taken[i] = is_taken_away && !raw[i].opposite.empty() && is_taken_away(carrier().x.col(i));
-    is_whole[i] = !is_taken[i] && raw[i].is_whole();
-  }
-  // Areas that are alike but for rounding are equal, wherever the faces stand: in steps of about a millionth of the
-  // largest, whose bounds no simple ratio of areas falls on.
-  double largest = 0.0;
-  for (const Raw& one : raw) largest = std::max(largest, one.area);
-  const auto size_of = [&](int i) { return largest > 0.0 ? std::floor(723606.79775 * raw[i].area / largest) : 0.0; };
-  // The better of two: whole ones first, then the larger; the lower number last, so that none goes in a circle.
-  const auto is_better = [&](int a, int b) {
-    return std::tuple(is_whole[a], !is_taken[a], size_of(a), -a) >
-           std::tuple(is_whole[b], !is_taken[b], size_of(b), -b);
-  };
-  // Of whole ones as large as each other the nearest, else a face and its mirror image would have different points.
-  const double edge2 = std::pow(carrier().smallest_edge(), 2);
-  const auto is_better_for = [&](int i, int a, int b) {
-    if (!is_whole[a] || !is_whole[b] || size_of(a) != size_of(b)) return is_better(a, b);
-    const auto far = [&](int j) {
-      return std::floor(7236.0679775 * (carrier().x.col(j) - carrier().x.col(i)).squaredNorm() / edge2);
-    };
-    return std::pair(-far(a), -a) > std::pair(-far(b), -b);
-  };
-  std::vector<int> best(n, -1);
+// Points of each node's facets that face something.
+std::vector<std::vector<int>> Mortar::neighbours(const std::vector<Raw>& raw) const {
+  std::vector<std::vector<int>> near(raw.size());
   for (const Coupling& coupling : couplings_)
-    for (const int i : coupling.points) {
-      if (raw[i].opposite.empty()) continue;
+    for (const int i : coupling.points)
       for (const int j : coupling.points)
-        if (j != i && !raw[j].opposite.empty() && (best[i] < 0 || is_better_for(i, j, best[i]))) best[i] = j;
-    }
-  std::vector<int> target(n, -1);
-  for (int i = 0; i < n; ++i) {
-    if (raw[i].opposite.empty()) continue;
-    const bool stays = is_whole[i] || best[i] < 0 || !is_better(best[i], i);
-    target[i] = stays ? i : best[i];
+        if (i != j && raw[i].is_covered() && raw[j].is_covered()) near[i].push_back(j);
+  for (std::vector<int>& of_node : near) {
+    std::sort(of_node.begin(), of_node.end());
+    of_node.erase(std::unique(of_node.begin(), of_node.end()), of_node.end());
   }
-  for (int i = 0; i < n; ++i)
-    while (target[i] >= 0 && target[target[i]] != target[i]) target[i] = target[target[i]];
-  return target;
+  return near;
+}
+
+// How many neighbours lie between a node and the nearest whose point stays, 0 for those that stay; -1: no point.
+// Where no point of a connected region would stay, the largest do.
+std::vector<int> Mortar::distances(const std::vector<Raw>& raw, const std::vector<std::vector<int>>& near,
+                                   const std::function<bool(const Vec3&)>& is_taken_away) const {
+  std::vector<int> distance(raw.size(), -1), reached;
+  const auto spread = [&] {
+    for (size_t k = 0; k < reached.size(); ++k)
+      for (const int j : near[reached[k]])
+        if (distance[j] < 0) {
+          distance[j] = distance[reached[k]] + 1;
+          reached.push_back(j);
+        }
+    reached.clear();
+  };
+  for (size_t i = 0; i < raw.size(); ++i)
+    if (raw[i].is_covered() && raw[i].area >= least_share * raw[i].full &&
+        !(is_taken_away && is_taken_away(raw[i].place(carrier().x)))) {
+      distance[i] = 0;
+      reached.push_back(static_cast<int>(i));
+    }
+  spread();
+  for (size_t i = 0; i < raw.size(); ++i) {
+    if (distance[i] >= 0 || !raw[i].is_covered()) continue;
+    std::vector<int> region{static_cast<int>(i)};
+    double largest = 0.0;
+    std::vector<char> is_in(raw.size(), 0);
+    is_in[i] = 1;
+    for (size_t k = 0; k < region.size(); ++k) {
+      largest = std::max(largest, raw[region[k]].area);
+      for (const int j : near[region[k]])
+        if (!std::exchange(is_in[j], 1)) region.push_back(j);
+    }
+    for (const int j : region)
+      if (raw[j].area >= (1.0 - 1e-6) * largest) {
+        distance[j] = 0;
+        reached.push_back(j);
+      }
+    spread();
+  }
+  return distance;
+}
+
+// Gives the functions of points that do not stay to neighbours that are nearer to one that does, by their areas: all of
+// them, so that no order of the nodes and no axis decides. Returns for each node where most of its point has gone.
+std::vector<int> Mortar::merge(const std::function<bool(const Vec3&)>& is_taken_away, std::vector<Raw>& raw) const {
+  const std::vector<std::vector<int>> near = neighbours(raw);
+  const std::vector<int> distance = distances(raw, near, is_taken_away);
+  std::vector<double> areas(raw.size());
+  std::vector<int> order, heir(raw.size(), -1);
+  for (size_t i = 0; i < raw.size(); ++i) {
+    areas[i] = raw[i].area;
+    if (distance[i] > 0) order.push_back(static_cast<int>(i));
+    if (distance[i] == 0) heir[i] = static_cast<int>(i);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return distance[a] > distance[b]; });
+  for (const int i : order) {
+    double sum = 0.0;
+    for (const int j : near[i])
+      if (distance[j] == distance[i] - 1) sum += areas[j];
+    for (const int j : near[i])
+      if (distance[j] == distance[i] - 1) {
+        raw[j].add(raw[i], areas[j] / sum);
+        if (heir[i] < 0 || areas[j] > areas[heir[i]]) heir[i] = j;
+      }
+  }
+  for (size_t i = 0; i < heir.size(); ++i)
+    while (heir[i] >= 0 && distance[heir[i]] > 0) heir[i] = heir[heir[i]];
+  return heir;
 }
 
 // Divides by the area; on the other side, whose mean place may be off, adds what makes it exact in rigid motions.
 void Mortar::add_point(const Raw& raw, SideTrace& own, SideTrace& opposite, Facing& facing) const {
   std::vector<SideTrace::Share> of_own, of_opposite;
-  Vec3 place = Vec3::Zero(), there = Vec3::Zero(), mean = Vec3::Zero();
+  Vec3 there = Vec3::Zero(), mean = Vec3::Zero();
+  const Vec3 place = raw.place(carrier().x);
   for (const auto& [node, weight] : raw.own) {
     const double share = weight / raw.area;
-    place += share * carrier().x.col(node);
     if (std::abs(share) > nothing) of_own.push_back({carrier().nodes[node], share});
   }
   if (of_own.size() == 1) of_own[0].weight = 1.0;
@@ -300,18 +306,15 @@ void Mortar::add_point(const Raw& raw, SideTrace& own, SideTrace& opposite, Faci
 
 Facing Mortar::facing(const std::function<bool(const Vec3&)>& is_taken_away) const {
   std::vector<Raw> raw = raw_points();
-  const std::vector<int> target = targets(raw, is_taken_away);
+  const std::vector<int> heir = merge(is_taken_away, raw);
   std::vector<int> point_of(raw.size(), -1), kept;
   for (size_t i = 0; i < raw.size(); ++i)
-    if (target[i] == static_cast<int>(i)) {
+    if (heir[i] == static_cast<int>(i)) {
       point_of[i] = static_cast<int>(kept.size());
       kept.push_back(static_cast<int>(i));
     }
-  for (size_t i = 0; i < raw.size(); ++i) {
-    if (target[i] < 0 || target[i] == static_cast<int>(i)) continue;
-    raw[target[i]].add(raw[i]);
-    point_of[i] = point_of[target[i]];
-  }
+  for (size_t i = 0; i < raw.size(); ++i)
+    if (heir[i] >= 0) point_of[i] = point_of[heir[i]];
   Facing facing;
   const auto n = static_cast<Eigen::Index>(kept.size());
   facing.normals = facing.places = Points(3, n);
@@ -340,7 +343,7 @@ Facing Mortar::facing(const std::function<bool(const Vec3&)>& is_taken_away) con
   facing.carrier = is_second_ ? 2 : 1;
   facing.size_ratio = ratio_;
   facing.sagitta = std::max(face_1_.sagitta(), face_2_.sagitta());
-  facing.n_merged = static_cast<int>(std::count_if(target.begin(), target.end(), [](int i) { return i >= 0; })) -
+  facing.n_merged = static_cast<int>(std::count_if(heir.begin(), heir.end(), [](int i) { return i >= 0; })) -
                     static_cast<int>(kept.size());
   return facing;
 }

@@ -25,16 +25,17 @@ class Mortar {
   const std::vector<Facet>& facets_1() const { return is_second_ ? of_other_ : of_carrier_; }
   const std::vector<Facet>& facets_2() const { return is_second_ ? of_carrier_ : of_other_; }
 
-  // The points; those at nodes of the carrier that `is_taken_away` says are merged into their neighbours, as are points
-  // of which less than half is covered.
+  // The points; those that `is_taken_away` says of their places are merged into their neighbours, as are points of
+  // which next to nothing is covered.
   Facing facing(const std::function<bool(const Vec3&)>& is_taken_away) const;
 
  private:
   struct Raw;  // a point before division by its area
-  void couple_from(bool is_second);
-  bool can_carry() const;
   std::vector<Raw> raw_points() const;
-  std::vector<int> targets(const std::vector<Raw>& raw, const std::function<bool(const Vec3&)>& is_taken_away) const;
+  std::vector<std::vector<int>> neighbours(const std::vector<Raw>& raw) const;
+  std::vector<int> distances(const std::vector<Raw>& raw, const std::vector<std::vector<int>>& near,
+                             const std::function<bool(const Vec3&)>& is_taken_away) const;
+  std::vector<int> merge(const std::function<bool(const Vec3&)>& is_taken_away, std::vector<Raw>& raw) const;
   void add_point(const Raw& raw, SideTrace& own, SideTrace& opposite, Facing& facing) const;
   void find_facets(const PlacedFace& carrier, const PlacedFace& other);
 

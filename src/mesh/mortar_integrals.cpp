@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <span>
 
 #include "base/parallel.hpp"
 #include "mesh/facet_map.hpp"
-#include "mesh/facet_parts.hpp"
+#include "mesh/part_functions.hpp"
 #include "numerics/dense.hpp"
 
 namespace dygita {
@@ -69,30 +71,8 @@ Points nodes_of_facet(const FaceInSpace& face, int facet) {
   return x;
 }
 
-// Linear functions of a part at reference coordinates of its facet: a triangle, or a parallelogram there.
-class PartFunctions {
- public:
-  PartFunctions(FacetType type, const FacetPart& part) : n_(part.n) {
-    const auto corner = [&](int a) {
-      const Place& at = facet_shape(type).shape.nodes[part.nodes[a]];
-      return Vec2(at[0], at[1]);
-    };
-    origin_ = corner(0);
-    Eigen::Matrix2d edges;
-    edges.col(0) = corner(1) - corner(0);
-    edges.col(1) = corner(part.n - 1) - corner(0);
-    back_ = edges.inverse();
-  }
-  FacetValues values(const Vec2& xi) const {
-    const Vec2 at = back_ * (xi - origin_);
-    return n_ == 3 ? facet_values(FacetType::tri3, at) : facet_values(FacetType::quad4, 2.0 * at - Vec2(1, 1));
-  }
-
- private:
-  int n_;
-  Vec2 origin_;
-  Eigen::Matrix2d back_;
-};
+constexpr double all_covered = 1.0 - 1e-6;  // of a part's area: covered altogether
+constexpr double filled = 1.0 - 1e-6;       // of a window: as good as all
 
 class Integrator {
  public:
@@ -102,40 +82,86 @@ class Integrator {
   std::vector<Coupling> of_facet(int facet) const {
     const FacetParts shape = facet_parts(face_.types[facet]);
     const int first = face_.first_part[facet], end = face_.first_part[facet + 1];
-    if (shape.has_own_multipliers) return {of_parts(facet, first, end, nullptr, face_.facets[facet])};
+    std::vector<PartOfFacet> parts;
+    for (int part = first; part < end; ++part) parts.push_back(part_of_facet(part));
+    const auto is_whole = [](const PartOfFacet& part) { return part.is_whole || part.segments.empty(); };
+    if (shape.has_own_multipliers && std::all_of(parts.begin(), parts.end(), is_whole))
+      return {of_parts(facet, parts, {}, face_.facets[facet])};
     std::vector<Coupling> couplings;
-    for (int part = first; part < end; ++part) {
-      const FacetPart& own = shape.parts[part - first];
-      const PartFunctions functions(face_.types[facet], own);
+    for (int k = 0; k < end - first; ++k) {
+      const FacetPart& own = shape.parts[k];
+      const PartOfFacet& part = parts[static_cast<size_t>(k)];
+      const PartFunctions all(face_.types[facet], own);
+      const PartFunctions covered = part.is_whole || part.segments.empty() ? all : all.within(part.corners);
       std::vector<int> points;
       for (int a = 0; a < own.n; ++a) points.push_back(face_.facets[facet][own.nodes[a]]);
-      couplings.push_back(of_parts(facet, part, part + 1, &functions, points));
+      couplings.push_back(of_parts(facet, {&part, 1}, Functions{all, covered}, points));
     }
     return couplings;
   }
 
  private:
+  // A part and what is covered of it: corners in reference coordinates of its facet.
+  struct PartOfFacet {
+    int index;
+    Eigen::Matrix<double, 3, 2> along;
+    FacetMap map;
+    std::vector<Segment> segments;
+    std::vector<Vec2> corners;
+    bool is_whole;
+  };
   // Sums over quadrature points, with lambda in place of psi.
   struct Sums {
     Vec areas, full_areas;
     Mat square;  // of lambda lambda
     Coupling with_lambda;
+    double fill = 1.0;  // share of a window's function that is covered, the least of all
   };
 
-  // functions: lambda, those of the facet itself where null.
-  Coupling of_parts(int facet, int first, int end, const PartFunctions* functions,
+  PartOfFacet part_of_facet(int index) const {
+    const FaceInSpace::Part& part = face_.parts[index];
+    const Eigen::Matrix<double, 3, 2> along = SegmentFinder::axes(part);
+    PartOfFacet own{index,
+                    along,
+                    FacetMap(face_.types[part.facet], nodes_of_facet(face_, part.facet), part.centre, along),
+                    finder_.segments(index),
+                    {},
+                    false};
+    double covered = 0.0;
+    for (const Segment& segment : own.segments) covered += segment.area;
+    own.is_whole = covered >= all_covered * signed_area(outline(part, along));
+    if (!own.is_whole)
+      for (const Segment& segment : own.segments)
+        for (const Vec2& corner : segment.region) own.corners.push_back(own.map.inverse(corner));
+    return own;
+  }
+
+  static Polygon2 outline(const FaceInSpace::Part& part, const Eigen::Matrix<double, 3, 2>& along) {
+    Polygon2 outline;
+    for (int a = 0; a < part.x.cols(); ++a) outline.push_back(along.transpose() * (part.x.col(a) - part.centre));
+    return outline;
+  }
+
+  // lambda, of the part as a whole and of what is covered of it; those of the facet itself where there are none.
+  struct Functions {
+    PartFunctions of_part, covered;
+  };
+
+  Coupling of_parts(int facet, std::span<const PartOfFacet> parts, const std::optional<Functions>& functions,
                     const std::vector<int>& points) const {
     const auto n = static_cast<Eigen::Index>(points.size());
-    Sums sums{Vec::Zero(n), Vec::Zero(n), Mat::Zero(n, n), {}};
+    Sums sums{Vec::Zero(n), Vec::Zero(n), Mat::Zero(n, n), {}, 1.0};
     Coupling& coupling = sums.with_lambda;
     coupling.points = points;
     coupling.facet = facet;
     coupling.normals = Points::Zero(3, n);
     coupling.own = Mat::Zero(n, static_cast<Eigen::Index>(face_.facets[facet].size()));
-    const Points x = nodes_of_facet(face_, facet);
-    for (int part = first; part < end; ++part) add_part(part, x, functions, sums);
+    for (const PartOfFacet& part : parts) add_part(part, functions, sums);
+    if (functions && !parts[0].is_whole && !coupling.others.empty())
+      sums.fill = sums.areas.cwiseQuotient(areas_of_window(parts[0], functions->covered)).minCoeff();
     coupling.full_areas = sums.full_areas;
-    make_dual(functions == nullptr, sums);
+    coupling.areas = sums.areas;
+    if (!coupling.others.empty()) make_dual(!functions, sums);
     return std::move(coupling);
   }
 
@@ -153,25 +179,23 @@ class Integrator {
     }
   }
 
-  void add_part(int index, const Points& x, const PartFunctions* functions, Sums& sums) const {
-    const FaceInSpace::Part& part = face_.parts[index];
-    const Eigen::Matrix<double, 3, 2> along = SegmentFinder::axes(part);
-    const FacetMap own(face_.types[part.facet], x, part.centre, along);
-    const auto lambda_at = [&](const Vec2& xi) { return functions ? functions->values(xi) : own.values(xi); };
-    Polygon2 whole;
-    for (int a = 0; a < part.x.cols(); ++a) whole.push_back(along.transpose() * (part.x.col(a) - part.centre));
-    over(whole, rule_for(own, own), [&](const Vec2& p, double weight) {
+  void add_part(const PartOfFacet& own_part, const std::optional<Functions>& functions, Sums& sums) const {
+    const FaceInSpace::Part& part = face_.parts[own_part.index];
+    const Eigen::Matrix<double, 3, 2>& along = own_part.along;
+    const FacetMap& own = own_part.map;
+    over(outline(part, along), rule_for(own, own), [&](const Vec2& p, double weight) {
       const Vec2 xi = own.inverse(p);
-      sums.full_areas += weight / own.normal(xi).dot(part.normal) * lambda_at(xi);
+      sums.full_areas +=
+          weight / own.normal(xi).dot(part.normal) * (functions ? functions->of_part.values(xi) : own.values(xi));
     });
     Coupling& coupling = sums.with_lambda;
-    for (const Segment& segment : finder_.segments(index)) {
+    for (const Segment& segment : own_part.segments) {
       const int facet = other_.parts[segment.other].facet;
       const FacetMap map(other_.types[facet], nodes_of_facet(other_, facet), part.centre, along);
       Mat& values = values_of(facet, coupling);
       over(segment.region, rule_for(own, map), [&](const Vec2& p, double weight) {
         const Vec2 xi = own.inverse(p);
-        const FacetValues shape = own.values(xi), lambda = functions ? functions->values(xi) : shape;
+        const FacetValues shape = own.values(xi), lambda = functions ? functions->covered.values(xi) : shape;
         const Vec3 normal = own.normal(xi);
         weight /= normal.dot(part.normal);
         const FacetValues weighted = weight * lambda;
@@ -193,12 +217,27 @@ class Integrator {
     return coupling.others.back().values;
   }
 
-  // psi = D M^-1 lambda; by least squares where next to nothing is covered.
+  // Integrals of its functions over all of a window.
+  Vec areas_of_window(const PartOfFacet& own, const PartFunctions& window) const {
+    const FaceInSpace::Part& part = face_.parts[own.index];
+    const Points x = nodes_of_facet(face_, part.facet);
+    Polygon2 region;
+    for (const Vec2& xi : window.corners())
+      region.push_back(own.along.transpose() * (x * own.map.values(xi) - part.centre));
+    Vec areas = Vec::Zero(static_cast<Eigen::Index>(region.size()));
+    over(region, rule_for(own.map, own.map), [&](const Vec2& p, double weight) {
+      const Vec2 xi = own.map.inverse(p);
+      areas += weight / own.map.normal(xi).dot(part.normal) * window.values(xi);
+    });
+    return areas;
+  }
+
+  // psi = D M^-1 lambda, by least squares where next to nothing is covered. Of a window that is filled in part such a
+  // function grows without bound and puts its point beyond what is covered, lambda itself keeps it too far within;
+  // their mean by the root of what is missing puts it about where the covered region ends.
   static void make_dual(bool has_own_functions, Sums& sums) {
     Coupling& coupling = sums.with_lambda;
     const Eigen::Index n = sums.areas.size();
-    coupling.areas = sums.areas;
-    if (coupling.others.empty()) return;
     const EigenPairs eigen = symmetric_eigen(sums.square);
     Mat inverse = Mat::Zero(n, n);
     bool is_regular = true;
@@ -208,7 +247,11 @@ class Integrator {
       else
         is_regular = false;
     }
-    const Mat dual = sums.areas.asDiagonal() * inverse;
+    Mat dual = sums.areas.asDiagonal() * inverse;
+    if (sums.fill < filled) {
+      const double missing = std::sqrt(1.0 - std::max(sums.fill, 0.0));
+      dual = (1.0 - missing) * dual + missing * Mat::Identity(n, n);
+    }
     if (!has_own_functions)
       coupling.own = dual * coupling.own;
     else

@@ -1,5 +1,7 @@
 #include "model/meeting.hpp"
 
+#include <utility>
+
 #include "law/law.hpp"
 #include "model/extent.hpp"
 
@@ -10,11 +12,12 @@ PlacedFace placed(const Face& face) { return {face.part->mesh.get(), face.facets
 double default_within(const Problem& problem) { return 1e-4 * extent_of(problem.substructures).size().norm(); }
 
 Meeting meeting_of(const Interface& interface, double within) {
-  const auto impedance = [](const Face& face) {
-    return face.part->material.density * face.part->material.p_wave_speed();
+  // The softer one; of equal ones the first by name, so that the order in which they are declared decides nothing.
+  const auto rank = [](const Face& face) {
+    return std::pair(face.part->material.density * face.part->material.p_wave_speed(), face.label());
   };
   const MeetingOptions options{interface.within.value_or(within), interface.points,
-                               impedance(interface.side_2) < impedance(interface.side_1), !interface.law->is_tie(),
+                               rank(interface.side_2) < rank(interface.side_1), !interface.law->is_tie(),
                                !interface.law->is_tie()};
   try {
     return {placed(interface.side_1), placed(interface.side_2), options};

@@ -61,7 +61,7 @@ struct Interface : Named {
   Face side_1, side_2;
   LawPtr law;  // its own
   // Where the meshes do not match.
-  Carrier points = Carrier::coarser;
+  Carrier points = Carrier::automatic;
   std::optional<double> within;      // m, how far apart the faces may be; else by the size of the assembly
   bool has_gap_of_geometry = false;  // the initial gap is that of the places, else the law's
 };

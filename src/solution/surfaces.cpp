@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <deque>
 #include <map>
+#include <string>
+#include <tuple>
 
 #include "base/parallel.hpp"
 #include "law/law.hpp"
@@ -159,10 +161,8 @@ class Rings {
       area += part.area;
     }
     entries_.push_back(std::move(entry));
-    sizes_.resize(problem_.interfaces.size());
-    Size& size = sizes_[static_cast<size_t>(i)];
-    size.area = std::max(size.area, area);
-    size.middle = 0.5 * (entries_.back().low + entries_.back().high);
+    areas_.resize(problem_.interfaces.size());
+    areas_[static_cast<size_t>(i)] = std::max(areas_[static_cast<size_t>(i)], area);
   }
 
   bool are_joined(int i, const std::vector<const Entry*>& by, const Vec3& x) const {
@@ -182,17 +182,20 @@ class Rings {
     return std::find(reached.begin(), reached.end(), own.side_2.part.get()) != reached.end();
   }
 
-  // What is no tie, and of ties the larger; of those as large the one that lies first along x, y or z: in whatever
-  // order they are declared.
+  // What is no tie, and of ties the larger; of those as large the first by the names of what it joins: in whatever
+  // order they are declared, and wherever the assembly stands.
   bool comes_before(int i, int j) const {
     constexpr double alike = 1e-6;
     const auto is_tie = [&](int k) { return problem_.interfaces[static_cast<size_t>(k)]->law->is_tie(); };
     if (is_tie(i) != is_tie(j)) return is_tie(j);
-    const Size &a = sizes_[static_cast<size_t>(i)], &b = sizes_[static_cast<size_t>(j)];
-    if (std::abs(a.area - b.area) > alike * std::max(a.area, b.area)) return a.area > b.area;
-    for (int d = 0; d < 3; ++d)
-      if (std::abs(a.middle[d] - b.middle[d]) > alike * std::sqrt(a.area)) return a.middle[d] < b.middle[d];
-    return i < j;
+    const double a = areas_[static_cast<size_t>(i)], b = areas_[static_cast<size_t>(j)];
+    if (std::abs(a - b) > alike * std::max(a, b)) return a > b;
+    const auto names = [&](int k) {
+      const Interface& own = *problem_.interfaces[static_cast<size_t>(k)];
+      const auto sides = std::minmax({own.side_1.label(), own.side_2.label()});
+      return std::tuple(sides.first, sides.second, k);
+    };
+    return names(i) < names(j);
   }
 
   static bool has(const Entry& entry, const Vec3& x) {
@@ -211,14 +214,9 @@ class Rings {
     return true;
   }
 
-  struct Size {
-    double area = 0.0;  // m^2, of the larger of both sides
-    Vec3 middle = Vec3::Zero();
-  };
-
   const Problem& problem_;
   std::vector<Entry> entries_;  // side after side of the interfaces, in their order
-  std::vector<Size> sizes_;     // of each interface
+  std::vector<double> areas_;   // m^2, of each interface: of the larger of both sides
 };
 
 // Gaps of the places mean nothing where facets of round faces are as far off.
