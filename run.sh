@@ -42,6 +42,8 @@ usage() {
                           'threads': small decks on three threads under the sanitizer of threads (clang, build/threads)
                           'decks': these and a minute of the fuzzers, which needs the program and them alone
 ./run.sh fuzz [NAME [MINUTES]]  tests/fuzz with libFuzzer under sanitizers (clang): NAME or 'all', a minute each; finds are in build/fuzz/found
+./run.sh random MINUTES [--seed S]  random scenes against what must be so of any (tests/random): turned, mirrored, cut, continued, by another solver, ...;
+                          what fails is shrunk to a small deck in build/random
 ./run.sh bench [...]      measure speed, rewrite manual/performance.md and its figures: all, or of the parts headline kernels
                           scenes scaling ranks those that are named; --quick: small sizes. Full: 25 minutes on a machine left alone.
                           Elsewhere, --up-to UNKNOWNS --into DIR; put beside as manual/performance/others/NAME, --page shows it
@@ -209,6 +211,15 @@ run_fuzz() {
   ((${#failed[@]} == 0)) || fail "found by: ${failed[*]}" "the inputs are in build/fuzz/found/NAME, the reports above"
 }
 
+run_random() {
+  local minutes="${1:-}" mpirun=()
+  [[ "$minutes" =~ ^[0-9]+([.][0-9]+)?$ ]] || fail "'random' takes minutes and options of tests/random/random_scenes.py, got: $*" "./run.sh random 10 --seed 7"
+  shift
+  ! command -v mpirun >/dev/null || mpirun=(--mpirun "$(command -v mpirun)")
+  (cd "$root" && python3 -B tests/random/random_scenes.py "$build/dygita" --minutes "$minutes" "${mpirun[@]}" "$@") ||
+    fail "relations failed; their decks are named above"
+}
+
 run_bench() {
   local python=/usr/bin/python3 # Debian's has the packages; another one in PATH may not
   [[ -x "$python" ]] || python=python3
@@ -270,6 +281,12 @@ main() {
       install_packages
       run_fuzz "$@"
       ;;
+    random)
+      packages+=(python3)
+      install_packages
+      build_engine
+      run_random "$@"
+      ;;
     report | bench)
       packages+=("${report_packages[@]}")
       install_packages
@@ -284,7 +301,7 @@ main() {
       say "Running $1"
       exec "$build/dygita" run "$@"
       ;;
-    *) fail "unknown command '$command'; known: bench, build, fuzz, help, install, report, run, sanitize, test" "./run.sh help" ;;
+    *) fail "unknown command '$command'; known: bench, build, fuzz, help, install, random, report, run, sanitize, test" "./run.sh help" ;;
   esac
 }
 

@@ -1,0 +1,117 @@
+"""What scenes have, and what is not drawn or not compared at present, each with its reason: the one place to switch it on again.
+
+A row is (trait, relation or "*" for all, reason). `random_scenes.py --with TRAIT` ignores the rows of a trait.
+"""
+
+import itertools
+
+import compare
+import geometry
+
+SWITCHED_OFF = [
+    ("left free in a static step", "*", "where a free motion is left depends on the place and the orientation of the scene, and what holds it carries force"),
+    ("on the verge of tipping", "*", "no answer is the right one; for good"),
+    ("friction in a ring", "*", "three parts joined in a ring: laws that meet there share their force in a way that is not unique, and friction's limit with it; for good"),
+    ("driven at a joint", "*", "a tie whose one side a load sets in motion at once gains energy; friction between held and driven nodes vanishes"),
+    ("tie between unlike velocities", "*", "a tie between parts thrown apart gains energy"),
+    ("faint motion about a preload", "*", "the tolerance of a dynamic step is measured against the energy of the preload"),
+    ("overhang", "*", "interface points are merged until too few are left; which ones depends on order and orientation"),
+    ("unlike meshes", "swapped", "the side with the interface's points depends on the order where facets are of equal size"),
+    ("unlike meshes", "turned by quarters", "ties between facets of equal size are decided along global axes"),
+    ("unlike meshes", "turned obliquely", "ties between facets of equal size are decided along global axes"),
+    ("unlike meshes", "mirrored", "ties between facets of equal size are decided along global axes"),
+    ("unlike meshes", "points", "points on the coarser face where the finer lies within it"),
+]
+
+
+def meets(parts, part, face, joint):
+    """Have a face of a part and a joint on that part nodes in common?"""
+    if part not in (joint["a"][0], joint["b"][0]):
+        return False
+    low, high = geometry.in_common(parts, joint)
+    own_low = [geometry.ends(parts[part], i)[0] for i in range(3)]
+    own_high = [geometry.ends(parts[part], i)[1] for i in range(3)]
+    own_low[geometry.axis_of(face)] = own_high[geometry.axis_of(face)] = geometry.place_of_face(parts[part], face)
+    return all(min(high[k], own_high[k]) - max(low[k], own_low[k]) > -1e-9 for k in range(3))
+
+
+def traits(scene):
+    parts, joints = scene["parts"], scene["joints"]
+    loads = [load for step in scene["steps"] for load in step["loads"]]
+    statics = [step for step in scene["steps"] if step["kind"] == "static"]
+    found = {f"law {joint['law']}" for joint in joints} | {f"load {load['kind']}" for load in loads} | {f"cell {part['cell']}" for part in parts}
+    found |= {f"support {support['kind']}" for support in scene["supports"]}
+    matching = all(geometry.nodes_coincide(parts, joint) for joint in joints)
+    conditions = {
+        "unlike meshes": not matching,
+        "overhang": any(not geometry.nodes_coincide(parts, joint) and not inner(parts, joint) for joint in joints),
+        "order two": any(part["cell"] in geometry.QUADRATIC for part in parts),
+        "oblique": any(min(abs(abs(x) - k) for k in (0, 1)) > 1e-9 for row in scene["orientation"] for x in row),
+        "friction": any(joint["args"].get("friction") for joint in joints + scene["supports"]),
+        "interference": any(joint["args"].get("gap", 0) < 0 for joint in joints),
+        "gap in a static step": bool(statics) and any(joint["args"].get("gap", 0) > 0 for joint in joints),
+        "static": bool(statics),
+        "faint motion about a preload": scene["style"].get("faint", False),
+        "dragged over friction": any(load["kind"] == "displacement" for step in statics for load in step["loads"]),
+        "motion about a preload": bool(statics) and len(statics) < len(scene["steps"]),
+        "on the verge of tipping": bool(statics) and any(verges(scene, load) for load in loads),
+        "left free in a static step": bool(statics) and is_left_free(scene),
+        "tie between unlike velocities": any(parts[joint["a"][0]]["velocity"] != parts[joint["b"][0]]["velocity"] for joint in joints if joint["law"] != "contact"),
+        "driven at a joint": any(meets(parts, *load["on"], joint) for load in loads if load["kind"] in ("velocity", "displacement") for joint in joints),
+        "held at a joint with friction": any(meets(parts, part, face, joint) for support in scene["supports"] for part, face in support["on"]
+                                             for joint in joints if joint["args"].get("friction")),
+        "friction in a ring": any(is_ring(parts, ring) and any(joint["args"].get("friction") for joint in ring) for ring in itertools.combinations(joints, 3)),
+        "joints that meet": len(joints) > 1 and bool(compare.sharing_joints(scene)),
+    }
+    return found | {name for name, has in conditions.items() if has}
+
+
+def inner(parts, joint):
+    (a, face), (b, _) = joint["a"], joint["b"]
+    return geometry.lies_within(parts[a], parts[b], face) or geometry.lies_within(parts[b], parts[a], face)
+
+
+def is_ring(parts, joints):
+    """Do three joints join three parts with each other, and meet?"""
+    places = [geometry.in_common(parts, joint) for joint in joints]
+    low, high = ([pick(place[end][i] for place in places) for i in range(3)] for end, pick in ((0, max), (1, min)))
+    return len({side[0] for joint in joints for side in (joint["a"], joint["b"])}) == 3 and len({frozenset((joint["a"][0], joint["b"][0])) for joint in joints}) == 3 \
+        and all(high[i] - low[i] > -1e-9 for i in range(3))
+
+
+def verges(scene, load):
+    """Does a pressure hold its part on a contact by a force whose line passes the contact's rectangle by, or runs along its rim?"""
+    if load["kind"] != "pressure":
+        return False
+    part, face = load["on"]
+    for joint in scene["joints"]:
+        sides = {joint["a"][0]: joint["a"][1], joint["b"][0]: joint["b"][1]}
+        if joint["law"] == "contact" and sides.get(part) == geometry.opposite(face):
+            (low, high), centre = geometry.in_common(scene["parts"], joint), geometry.centre_of_face(scene["parts"][part], face)
+            if any(not low[i] + 0.2 * (high[i] - low[i]) < centre[i] < high[i] - 0.2 * (high[i] - low[i]) for i in range(3) if i != geometry.axis_of(face)):
+                return True
+    return False
+
+
+def is_pressed(scene, joint):
+    """Does a pressure from behind one of its parts close a contact in all static steps?"""
+    behind = [[side[0], geometry.opposite(side[1])] for side in (joint["a"], joint["b"])]
+    return all(any(load["kind"] == "pressure" and load["on"] in behind and load["value"] > 0 for load in step["loads"]) for step in scene["steps"] if step["kind"] == "static")
+
+
+def is_left_free(scene):
+    """Is a part, or are several together, held by no more than contact that is smooth or not pressed, dampers and smooth walls?"""
+    held = {side[0] for support in scene["supports"] for side in support["on"] if support["kind"] != "wall" or support["args"]["friction"]}
+    holding = [{joint["a"][0], joint["b"][0]} for joint in scene["joints"] if joint["law"] in ("bonded", "plastic")
+               or joint["law"] == "contact" and joint["args"]["friction"] and is_pressed(scene, joint)]
+    while any(len(pair & held) == 1 for pair in holding):
+        held |= set().union(*(pair for pair in holding if pair & held))
+    return len(held) < len(scene["parts"])
+
+
+def why_off(scene_traits, relation, switched_on=()):
+    """The reason not to try a relation ("*": any) on a scene with these traits; empty where it is tried."""
+    for trait, of, reason in SWITCHED_OFF:
+        if trait in scene_traits and trait not in switched_on and of in (relation, "*"):
+            return f"{trait}: {reason}"
+    return ""
