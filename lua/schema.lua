@@ -497,9 +497,14 @@ words[7] = {
   },
   {
     "file", makes = "history",
-    doc = "Two columns, time and value, separated by a comma, a semicolon or blanks, linear in between; beyond its ends the first and the last value "
-      .. "hold. Its header may give units in brackets, `time [ms], acceleration (g)`; without, values are in SI.",
-    arguments = { { "file", type = "file", required = true, doc = "path, relative to the deck's folder" } },
+    doc = "Two columns, time and value, separated by semicolons, tabs, commas or blanks, linear in between; beyond its ends the first and the last value "
+      .. "hold. Decimals take a point, or a comma where commas do not separate columns. Its titles may give units, `time [ms], acceleration (g)`, or a line below "
+      .. "them; without, times are seconds, and an acceleration needs `unit`.",
+    arguments = {
+      { "file", type = "file", required = true, doc = "path, relative to the deck's folder" },
+      { "column", type = "text", doc = "title of the values' column, without its unit, in a file of several; the first column is the time" },
+      { "unit", type = "number", range = { 1e-12, 1e12 }, doc = "what one of the file's values is in SI, where the file does not say: `unit = g0`, `unit = kN`, `unit = 1`" },
+    },
   },
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <vector>
@@ -15,7 +14,7 @@
 #include "base/log.hpp"
 #include "base/names.hpp"
 #include "output/csv.hpp"
-#include "signal/unit.hpp"
+#include "signal/signal_file.hpp"
 
 namespace dygita {
 
@@ -28,163 +27,115 @@ struct Signal {
   std::string unit;
   int n_rows = 0, n_missed = -1;       // rows, and those whose increment has not converged; -1: the file does not tell
   bool starts_in_static_step = false;  // time stood still at its first instant, or another step follows it
+  std::string first_step;
 };
 
-std::string trimmed(const std::string& text) {
-  const size_t first = text.find_first_not_of(" \t\r\""), last = text.find_last_not_of(" \t\r\"");
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-  char separator = ' ';
-  for (const char other : {'\t', ';', ','})
-    if (line.find(other) != std::string::npos) separator = other;
-  std::vector<std::string> cells;
-  size_t start = 0;
-  while (start <= line.size()) {
-    const size_t end = std::min(line.find(separator, start), line.size());
-    const std::string cell = trimmed(line.substr(start, end - start));
-    if (separator != ' ' || !cell.empty()) cells.push_back(cell);
-    start = end + 1;
+// The column of values, from the titles and the first row of numbers.
+size_t column_of(const SrsCommand& command, TextTable& table, const TableRow& row) {
+  if (!command.column.empty()) return column_named(table.titles(), command.column, command.signal);
+  for (size_t i = 1; i < row.cells.size(); ++i) {
+    if (table.number(row.cells[i], row.origin)) return i;
   }
-  return cells;
-}
-
-std::optional<double> number_in(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0' && std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
-
-// "acceleration [m/s^2]", "acceleration (g)" without its unit, and the unit.
-std::string name_in(const std::string& header) { return trimmed(header.substr(0, header.find_first_of("[("))); }
-
-std::string unit_in(const std::string& header) {
-  const size_t open = header.find_first_of("[("), close = header.find_first_of("])");
-  return open < close && close != std::string::npos ? trimmed(header.substr(open + 1, close - open - 1)) : "";
-}
-
-// The column of values, from the header and the first row of numbers.
-size_t column_of(const SrsCommand& command, const std::vector<std::string>& header,
-                 const std::vector<std::string>& row) {
-  if (command.column.empty()) {
-    for (size_t i = 1; i < row.size(); ++i) {
-      if (number_in(row[i])) return i;
-    }
-    throw InputError(fmt::format("{}: no second column of numbers", command.signal));
-  }
-  std::vector<std::string> known;
-  for (size_t i = 1; i < header.size(); ++i) {
-    known.push_back(name_in(header[i]));
-    if (known.back() == command.column) return i;
-  }
-  throw InputError(
-      fmt::format("{}: no column '{}'\n    {}", command.signal, command.column, did_you_mean(command.column, known)));
-}
-
-double seconds_of(const std::string& title, const Origin& origin) {
-  const std::optional<Unit> unit = unit_of({name_in(title), unit_in(title)}, origin, "s");
-  return unit ? unit->factor : 1.0;
+  throw InputError(fmt::format("{}: no second column of numbers", command.signal));
 }
 
 // As spectra name it: what is an acceleration in m/s^2 or g stays so, another unit is told.
-std::string value_unit(const std::string& title, const Origin& origin) {
-  const std::optional<Unit> unit = unit_of({name_in(title), unit_in(title)}, origin);
+std::string value_unit(const Title& title, const Origin& origin) {
+  const std::optional<Unit> unit = unit_of(title, origin);
   if (unit && unit->si != "m/s^2")
     throw InputError(origin,
                      fmt::format("'{}' is in {}: a shock response spectrum is taken of an acceleration, in m/s^2 or g",
-                                 name_in(title), unit_in(title)));
-  return unit_in(title);
+                                 title.name, *title.unit));
+  return title.unit.value_or("");
 }
 
 // The signal without a column's name, where the file has several.
-void say_choice(const SrsCommand& command, const std::vector<std::string>& header, size_t column) {
-  std::vector<std::string> others;
-  for (size_t i = 1; i < header.size(); ++i)
-    if (i != column && name_in(header[i]) != "step" && name_in(header[i]) != "converged")
-      others.push_back(name_in(header[i]));
+void say_choice(const SrsCommand& command, const std::vector<Title>& titles, size_t column) {
+  std::string others;
+  for (size_t i = 1; i < titles.size(); ++i)
+    if (i != column && titles[i].name != "step" && titles[i].name != "converged")
+      others += (others.empty() ? "" : ", ") + titles[i].name;
   if (!command.column.empty() || others.empty()) return;
-  std::string list;
-  for (const std::string& name : others) list += (list.empty() ? "" : ", ") + name;
   warn(fmt::format("{}: the spectrum is of column '{}'; --column takes another: {}", command.signal,
-                   name_in(header[column]), list));
+                   titles[column].name, others));
 }
 
 // A table of a run tells of each row whether its increment has converged.
-void note_convergence(const std::vector<std::string>& header, const std::vector<std::string>& cells, Signal& signal) {
+void note_convergence(const std::vector<Title>& titles, const TableRow& row, Signal& signal) {
   ++signal.n_rows;
-  if (header.empty() || header.back() != "converged" || cells.size() != header.size()) return;
-  signal.n_missed = std::max(signal.n_missed, 0) + (cells.back() == "0" ? 1 : 0);
+  if (titles.empty() || titles.back().name != "converged" || row.cells.size() != titles.size()) return;
+  signal.n_missed = std::max(signal.n_missed, 0) + (row.cells.back() == "0" ? 1 : 0);
 }
 
-bool has_units(const std::vector<std::string>& titles) {
-  return std::any_of(titles.begin(), titles.end(), [](const std::string& title) { return !unit_in(title).empty(); });
+std::optional<size_t> column_of_steps(const std::vector<Title>& titles) {
+  for (size_t i = 0; i < titles.size(); ++i)
+    if (titles[i].name == "step") return i;
+  return std::nullopt;
+}
+
+// Of rows of the same time the last counts: time stands still in static steps. step: the row's; none: it has none.
+void take_sample(double time, double value, const std::optional<std::string>& step, const Origin& origin,
+                 Signal& signal) {
+  if (!signal.time.empty() && time < signal.time.back())
+    throw InputError(origin, fmt::format("time {:g} s comes after {:g} s", time, signal.time.back()));
+  if (!signal.time.empty() && time == signal.time.back()) {
+    if (!step) throw InputError(origin, fmt::format("time {:g} s comes twice", time));
+    signal.values.back() = value;
+    signal.starts_in_static_step |= signal.time.size() == 1;
+    return;
+  }
+  if (signal.time.empty()) signal.first_step = step.value_or("");
+  signal.starts_in_static_step |= signal.time.size() == 1 && step.value_or("") != signal.first_step;
+  signal.time.push_back(time);
+  signal.values.push_back(value);
+}
+
+// Means over a step start half a step after the static rows: those are no sample of the signal.
+void drop_static_rows(Signal& signal) {
+  if (!signal.starts_in_static_step || signal.time.size() <= 3) return;
+  const double first = signal.time[1] - signal.time[0], dt = signal.time[2] - signal.time[1];
+  if (std::abs(first - dt) <= uneven_sampling * dt) return;
+  signal.time.erase(signal.time.begin());
+  signal.values.erase(signal.values.begin());
+}
+
+std::pair<double, double> numbers_in(TextTable& table, const TableRow& row, size_t column) {
+  if (row.cells.size() > table.n_columns())
+    throw InputError(row.origin, fmt::format("'{}': {} cells, where the first row has {}", row.text, row.cells.size(),
+                                             table.n_columns()));
+  const auto number = [&](size_t i) {
+    return i < row.cells.size() ? table.number(row.cells[i], row.origin).value_or(NAN) : NAN;
+  };
+  const std::pair<double, double> both{number(0), number(column)};
+  if (!std::isfinite(both.first) || !std::isfinite(both.second))
+    throw InputError(row.origin, fmt::format("no numbers in '{}'{}", row.text, doubt_of_number(row.cells.back())));
+  return both;
 }
 
 Signal read_signal(const SrsCommand& command) {
-  std::ifstream file(command.signal);
-  if (!file) throw InputError(fmt::format("no file '{}'", command.signal));
+  TextTable table(command.signal, "signal");
+  const std::vector<Title>& titles = table.titles();
+  const std::optional<size_t> steps = column_of_steps(titles);
   Signal signal;
-  std::vector<std::string> header, comment;  // comment: written as a header, which counts where there is no other
   size_t column = 0;
-  std::string line, first_step;
   double seconds = 1.0;  // of the unit of time
-  for (int n = 1; std::getline(file, line); ++n) {
-    if (n == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte order mark of spreadsheets
-    if (line.starts_with('#') && signal.time.empty()) comment = cells_of(line.substr(line.find_first_not_of('#')));
-    const auto cells = cells_of(line);
-    if (cells.empty() || trimmed(line).empty() || line[0] == '#') continue;
-    auto time = number_in(cells[0]);
-    if (time && signal.time.empty() && header.empty() && has_units(comment) && comment.size() == cells.size()) {
-      header = comment;
-      seconds = seconds_of(header[0], {command.signal, n});
+  for (TableRow row; table.next(row);) {
+    if (signal.n_rows == 0) {
+      column = column_of(command, table, row);
+      if (!titles.empty()) {
+        if (const std::optional<Unit> unit = unit_of(titles[0], table.title_origin(), "s")) seconds = unit->factor;
+        signal.unit = value_unit(titles[column], table.title_origin());
+        say_choice(command, titles, column);
+      }
     }
-    if (time) *time *= seconds;
-    if (!time && signal.time.empty() && header.empty()) {
-      header = cells;
-      seconds = seconds_of(cells[0], {command.signal, n});
-      continue;
-    }
-    if (signal.time.empty()) {
-      column = column_of(command, header, cells);
-      if (column < header.size()) signal.unit = value_unit(header[column], {command.signal, n});
-      if (column < header.size()) say_choice(command, header, column);
-    }
-    const auto value = column < cells.size() ? number_in(cells[column]) : std::nullopt;
-    if (!time || !value) throw InputError(fmt::format("{}:{}: no numbers in '{}'", command.signal, n, line));
-    if (!signal.time.empty() && *time < signal.time.back()) {
-      throw InputError(
-          fmt::format("{}:{}: time {:g} s comes after {:g} s", command.signal, n, *time, signal.time.back()));
-    }
-    note_convergence(header, cells, signal);
-    const bool has_steps = std::find(header.begin(), header.end(), "step") != header.end();
-    if (!signal.time.empty() && *time == signal.time.back() && !has_steps)
-      throw InputError(fmt::format("{}:{}: time {:g} s comes twice", command.signal, n, *time));
-    if (!signal.time.empty() && *time == signal.time.back()) {
-      signal.values.back() = *value;  // time stands still in static steps
-      signal.starts_in_static_step |= signal.time.size() == 1;
-      continue;
-    }
-    const auto names_step = std::find(header.begin(), header.end(), "step");
-    if (const auto i = static_cast<size_t>(names_step - header.begin());
-        i < cells.size() && names_step != header.end()) {
-      const std::string& step = cells[i];
-      if (signal.time.empty()) first_step = step;
-      signal.starts_in_static_step |= signal.time.size() == 1 && step != first_step;
-    }
-    signal.time.push_back(*time);
-    signal.values.push_back(*value);
+    const auto [time, value] = numbers_in(table, row, column);
+    note_convergence(titles, row, signal);
+    std::optional<std::string> step;
+    if (steps) step = *steps < row.cells.size() ? row.cells[*steps] : "";
+    take_sample(seconds * time, value, step, row.origin, signal);
   }
-  // Means over a step start half a step after the static rows: those are no sample of the signal.
-  if (signal.starts_in_static_step && signal.time.size() > 3) {
-    const double first = signal.time[1] - signal.time[0], dt = signal.time[2] - signal.time[1];
-    if (std::abs(first - dt) > uneven_sampling * dt) {
-      signal.time.erase(signal.time.begin());
-      signal.values.erase(signal.values.begin());
-    }
-  }
-  if (signal.time.size() < 2)
-    throw InputError(fmt::format("{}: fewer than two instants (decimals take a point)", command.signal));
+  drop_static_rows(signal);
+  if (signal.time.size() < 2) throw InputError(fmt::format("{}: fewer than two instants", command.signal));
   return signal;
 }
 

@@ -66,17 +66,30 @@ std::string description(const std::string& file, const SampledSignal& signal) {
       fmt::format("signal '{}': {} points from {:.4g} to {:.4g} ms, peak {} at {:.4g} ms", file, signal.times.size(),
                   1e3 * signal.times.front(), 1e3 * signal.times.back(), in_written_unit(signal, *peak),
                   1e3 * signal.times[static_cast<size_t>(peak - signal.values.begin())]);
-  if (signal.unit_written.empty())
-    text += ", taken as SI (its header gives no unit)";
+  if (!signal.has_unit)
+    text += ", of no unit";
   else if (signal.unit_factor != 1.0)
     text += fmt::format(" ({:.4g} {})", *peak, signal.unit);
   return text + fmt::format("; before them {} holds, after them {}", in_written_unit(signal, signal.values.front()),
                             in_written_unit(signal, signal.values.back()));
 }
 
+// One of the file's values in SI, as the deck has it.
+void take_unit(double factor, SampledSignal& signal) {
+  if (signal.has_unit)
+    throw InputError(fmt::format("the file gives the unit of its values, [{}]: leave out 'unit'", signal.unit_written));
+  for (double& value : signal.values) {
+    value *= factor;
+    if (!std::isfinite(value))
+      throw InputError(fmt::format("a value of the file times 'unit' = {:g} is no finite number", factor));
+  }
+  signal.has_unit = true;
+}
+
 Content build_file(const Declaration& d) {
   const std::string path = d.arguments.file("file");
-  SampledSignal signal = read_signal(path);
+  SampledSignal signal = read_signal(path, d.arguments.has("column") ? d.arguments.text("column") : "");
+  if (d.arguments.has("unit")) take_unit(d.arguments.number("unit"), signal);
   const std::string text = description(d.arguments.text("file"), signal);
   DeckState& state = DeckState::of(d.lua);
   if (state.signals_told.insert(text).second) say(text);

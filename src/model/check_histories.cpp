@@ -6,6 +6,7 @@
 
 #include "model/check.hpp"
 #include "model/load.hpp"
+#include "signal/unit.hpp"
 
 namespace dygita::check {
 
@@ -74,11 +75,33 @@ class InStep {
 
  private:
   void has_its_unit() const {
+    if (const std::optional<double> factor = history_.factor_without_unit()) return doubt_missing_unit(*factor);
     const std::string unit = history_.unit();
     if (unit.empty() || unit == load_.unit()) return;
     fail(problem_, load_.origin,
          fmt::format("{} takes {}, and the file of its history is in {}", who(), load_.unit(), unit),
          "a number times the signal, as in 7.2*signal for a mass of 7.2 kg, counts as a plain number");
+  }
+
+  // A file without a unit: g taken for m/s^2 is a tenth of the shock. A factor may be that of a unit, and may not.
+  void doubt_missing_unit(double factor) const {
+    const bool is_acceleration = load_.unit() == std::string("m/s^2");
+    const std::string what = fmt::format("{} takes {}, and the file of its history gives no unit", who(), load_.unit());
+    if (std::abs(std::abs(factor) - 1.0) < 1e-9) {
+      if (is_acceleration)
+        fail(problem_, load_.origin, what,
+             "history.file{ ..., unit = g0 } where its values are in g, unit = 1 where they are in m/s^2; or titles in "
+             "the file: time [s], acceleration [g]");
+      doubt(problem_, load_.origin,
+            what + fmt::format(": its values are taken as {}; history.file{{ ..., unit = 1 }} "
+                               "says so, another number that one of them is worth more",
+                               load_.unit()));
+    } else if (is_acceleration && std::abs(std::abs(factor) / standard_gravity - 1.0) > 0.01) {
+      doubt(problem_, load_.origin,
+            what + fmt::format(": times {:g} they are taken as m/s^2; history.file{{ ..., unit = g0 }} or unit = 1 "
+                               "says what they are",
+                               factor));
+    }
   }
 
   // Zero, then a value, both for good.

@@ -27,6 +27,10 @@ class Scaled final : public History::Shape {
     profile->high = std::max(a, b);
     return profile;
   }
+  std::optional<double> factor_without_unit() const override {
+    const std::optional<double> factor = of_.factor_without_unit();
+    return factor ? std::optional(factor_ * *factor) : factor;
+  }
 
  private:
   History of_;
@@ -42,6 +46,10 @@ class Sum final : public History::Shape {
   bool is_constant() const override { return a_.is_constant() && b_.is_constant(); }
   std::string description() const override { return fmt::format("({} + {})", a_.description(), b_.description()); }
   std::string unit() const override { return a_.unit() == b_.unit() ? a_.unit() : ""; }
+  std::optional<double> factor_without_unit() const override {
+    const std::optional<double> factor = a_.factor_without_unit();
+    return factor ? factor : b_.factor_without_unit();
+  }
   std::optional<Profile> profile() const override;
 
  private:
@@ -89,6 +97,7 @@ class Moved final : public History::Shape {
                           : fmt::format("{} {} times as long", of_.description(), factor_);
   }
   std::string unit() const override { return of_.unit(); }
+  std::optional<double> factor_without_unit() const override { return of_.factor_without_unit(); }
   std::optional<Profile> profile() const override {
     std::optional<Profile> profile = of_.profile();
     if (!profile) return profile;

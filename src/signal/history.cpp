@@ -156,9 +156,11 @@ class Record final : public Polyline {
  public:
   Record(SampledSignal signal, std::string description)
       : Polyline(std::move(signal.times), std::move(signal.values), std::move(description)),
-        unit_(std::move(signal.unit)) {}
+        unit_(std::move(signal.unit)),
+        has_unit_(signal.has_unit) {}
 
   std::string unit() const override { return unit_; }
+  std::optional<double> factor_without_unit() const override { return has_unit_ ? std::nullopt : std::optional(1.0); }
   std::optional<Profile> profile() const override {
     std::optional<Profile> profile = Polyline::profile();
     profile->is_record = true;
@@ -167,6 +169,7 @@ class Record final : public Polyline {
 
  private:
   std::string unit_;
+  bool has_unit_;
 };
 
 template <class Kind, class... Arguments>
@@ -273,5 +276,7 @@ std::string History::description() const { return shape_->description(); }
 std::optional<Profile> History::profile() const { return shape_->profile(); }
 
 std::string History::unit() const { return shape_->unit(); }
+
+std::optional<double> History::factor_without_unit() const { return shape_->factor_without_unit(); }
 
 }  // namespace dygita

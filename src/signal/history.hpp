@@ -56,6 +56,8 @@ class History {
   std::optional<Profile> profile() const;
   // SI, of its values, where its file gives one ("m/s^2"); else empty.
   std::string unit() const;
+  // What multiplies the values of a file for which neither it nor the deck gives a unit; none of any other history.
+  std::optional<double> factor_without_unit() const;
   // "half_sine(peak 1e+08, duration 4e-05)": for the run record.
   std::string description() const;
 

@@ -13,6 +13,7 @@ struct History::Shape {
   virtual std::string description() const = 0;
   virtual std::optional<Profile> profile() const { return std::nullopt; }
   virtual std::string unit() const { return ""; }
+  virtual std::optional<double> factor_without_unit() const { return std::nullopt; }
 };
 
 }  // namespace dygita

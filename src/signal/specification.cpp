@@ -4,44 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 #include "base/error.hpp"
 #include "base/log.hpp"
-#include "base/plain_file.hpp"
-#include "signal/unit.hpp"
+#include "signal/text_table.hpp"
 
 namespace dygita {
-
-namespace {
-
-std::string trimmed(const std::string& text) {
-  const size_t first = text.find_first_not_of(" \t\r\""), last = text.find_last_not_of(" \t\r\"");
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-  const char separator = line.find(',') != std::string::npos ? ',' : line.find(';') != std::string::npos ? ';' : '\t';
-  std::string plain = line;
-  if (separator == '\t') std::replace(plain.begin(), plain.end(), ' ', '\t');
-  std::vector<std::string> cells;
-  for (size_t start = 0; start <= plain.size();) {
-    const size_t end = std::min(plain.find(separator, start), plain.size());
-    const std::string cell = trimmed(plain.substr(start, end - start));
-    if (separator != '\t' || !cell.empty()) cells.push_back(cell);
-    start = end + 1;
-  }
-  return cells;
-}
-
-bool read_number(const std::string& text, double& value) {
-  char* end = nullptr;
-  value = std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0' && std::isfinite(value);
-}
-
-}  // namespace
 
 double Specification::level_at(double f) const {
   if (frequency.empty() || !(f >= frequency.front() * (1 - 1e-9)) || f > frequency.back() * (1 + 1e-9))
@@ -72,33 +41,28 @@ void check_specification(const Specification& s, const std::vector<std::string>&
 }
 
 Specification read_specification(const std::string& path) {
-  require_file(path);
-  std::ifstream file(path);
-  if (!file) throw InputError(fmt::format("no file '{}'", path));
+  TextTable table(path, "specification");
   Specification s;
   s.source = path;
   std::vector<std::string> where;
-  TwoColumns columns("Hz", "m/s^2");
-  std::string line;
-  for (int n = 1; std::getline(file, line); ++n) {
-    if (n == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte order mark of spreadsheets
-    const Origin origin{path, n};
-    if (trimmed(line).empty()) continue;
-    if (trimmed(line).front() == '#') {
-      if (where.empty()) columns.comment(line, origin);
-      continue;
-    }
-    const std::vector<std::string> cells = cells_of(line);
-    double frequency = 0.0, level = 0.0;
-    const bool are_numbers = cells.size() == 2 && read_number(cells[0], frequency) && read_number(cells[1], level);
-    if (where.empty() && !read_number(cells[0], frequency) && columns.take(line, origin)) continue;
-    if (!are_numbers)
-      throw InputError(fmt::format("{}:{}: '{}' is not a frequency (Hz) and a level", path, n, trimmed(line)));
-    s.frequency.push_back(columns.factor(0) * frequency);
-    s.level.push_back(columns.factor(1) * level);
-    where.push_back(fmt::format("{}:{}", path, n));
+  const std::vector<Title>& titles = table.titles();
+  double factors[2] = {1.0, 1.0};
+  for (size_t i = 0; i < 2 && titles.size() == 2; ++i) {
+    doubt_name(titles[i], table.title_origin());
+    const std::optional<Unit> unit = unit_of(titles[i], table.title_origin(), i == 0 ? "Hz" : "m/s^2");
+    if (unit) factors[i] = unit->factor;
+    if (unit && i == 1) s.unit = *titles[i].unit;
   }
-  s.unit = columns.text(1);
+  for (TableRow row; table.next(row);) {
+    const auto number = [&](size_t i) { return table.number(row.cells[i], row.origin).value_or(NAN); };
+    const bool are_two = row.cells.size() == 2;
+    if (!are_two || !std::isfinite(number(0)) || !std::isfinite(number(1)))
+      throw InputError(row.origin, fmt::format("'{}' is not a frequency (Hz) and a level{}", row.text,
+                                               are_two ? doubt_of_number(row.cells[1]) : ""));
+    s.frequency.push_back(factors[0] * number(0));
+    s.level.push_back(factors[1] * number(1));
+    where.push_back(fmt::format("{}:{}", path, row.origin.line));
+  }
   if (s.unit.empty())
     warn(
         fmt::format("{} gives no unit: its levels are taken as m/s^2\n    its first line may say otherwise: "

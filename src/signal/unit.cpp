@@ -103,49 +103,76 @@ std::string without_quotes(const std::string& text) {
   return first == std::string::npos || last < first ? "" : text.substr(first, last - first + 1);
 }
 
+// "acceleration, g", "acceleration in g": a known unit behind the name.
+Title title_without_bracket(const std::string& text) {
+  for (const char* between : {", ", ",", " in "}) {
+    const size_t at = text.rfind(between);
+    if (at == std::string::npos || at == 0) continue;
+    const std::string unit = without_quotes(text.substr(at + std::string(between).size()));
+    if (unit_named(unit)) return {without_quotes(text.substr(0, at)), unit};
+  }
+  return {text, std::nullopt};
+}
+
 // The last bracket of a text, or rather the last that holds a known unit.
 Title title_of(const std::string& text) {
   Title title{without_quotes(text), std::nullopt};
   bool is_known = false;
-  for (size_t open = text.find_first_of("[("); open != std::string::npos; open = text.find_first_of("[(", open + 1)) {
-    const size_t close = text.find(text[open] == '[' ? ']' : ')', open);
+  for (size_t open = text.find_first_of("[({"); open != std::string::npos; open = text.find_first_of("[({", open + 1)) {
+    const size_t close = text.find(text[open] == '[' ? ']' : text[open] == '(' ? ')' : '}', open);
     if (close == std::string::npos) break;
     const std::string inside = without_quotes(text.substr(open + 1, close - open - 1));
     if (is_known && !unit_named(inside)) continue;
     is_known = unit_named(inside).has_value();
     title = {without_quotes(text.substr(0, open)), inside};
   }
-  return title;
+  return title.unit ? title : title_without_bracket(title.name);
 }
 
-// Pieces of a line between separators that stand outside of brackets.
+// Pieces of a line between separators that stand outside of brackets and straight quotes.
 std::vector<std::string> split(const std::string& line, const std::string& separators) {
   std::vector<std::string> pieces(1);
   int depth = 0;
+  bool is_quoted = false;
   for (const char c : line) {
-    depth += c == '[' || c == '(' ? 1 : c == ']' || c == ')' ? -1 : 0;
-    if (depth <= 0 && separators.find(c) != std::string::npos)
+    is_quoted ^= c == '"';
+    depth += c == '[' || c == '(' || c == '{' ? 1 : c == ']' || c == ')' || c == '}' ? -1 : 0;
+    if (depth <= 0 && !is_quoted && separators.find(c) != std::string::npos)
       pieces.emplace_back();
     else
       pieces.back() += c;
   }
+  while (pieces.size() > 1 && without_quotes(pieces.back()).empty()) pieces.pop_back();
   return pieces;
 }
 
 // Words; where brackets are used, those up to a bracket are one title.
 std::vector<Title> titles_between_blanks(const std::string& line) {
-  const bool has_units = line.find_first_of("[(") != std::string::npos;
+  const bool has_units = line.find_first_of("[({") != std::string::npos;
   std::vector<Title> titles;
   std::string words;
   const auto close = [&] {
     if (!without_quotes(words).empty()) titles.push_back(title_of(words));
     words.clear();
   };
-  for (const std::string& word : split(line, " \r")) {
+  for (const std::string& word : split(line, " \t\r")) {
     words += (words.empty() ? "" : " ") + word;
-    if (!has_units || word.ends_with(']') || word.ends_with(')')) close();
+    if (!has_units || word.ends_with(']') || word.ends_with(')') || word.ends_with('}')) close();
   }
   close();
+  return titles;
+}
+
+// "time, s, acceleration, g": units between the same commas as their names.
+std::vector<Title> with_units_behind(const std::vector<Title>& pieces) {
+  std::vector<Title> titles;
+  for (const Title& piece : pieces) {
+    const bool is_unit = !piece.unit && unit_named(piece.name) && !titles.empty() && !titles.back().unit;
+    if (is_unit)
+      titles.back().unit = piece.name;
+    else
+      titles.push_back(piece);
+  }
   return titles;
 }
 
@@ -158,15 +185,26 @@ std::optional<Unit> unit_named(const std::string& text) {
   return std::nullopt;
 }
 
-std::vector<Title> titles_of(const std::string& line) {
-  for (const char* separator : {",", ";", "\t"}) {
-    const std::vector<std::string> pieces = split(line, separator);
-    if (pieces.size() == 1) continue;
+std::vector<Title> titles_of(const std::string& line, size_t n_columns, char separator) {
+  std::vector<Title> first;
+  for (const char c : {separator, ',', ';', '\t'}) {
+    if (c == ' ') continue;
     std::vector<Title> titles;
-    for (const std::string& piece : pieces) titles.push_back(title_of(piece));
-    return titles;
+    for (const std::string& piece : split(line, std::string(1, c))) titles.push_back(title_of(piece));
+    if (titles.size() == 1 && n_columns != 1) continue;
+    if (titles.size() > n_columns && with_units_behind(titles).size() == n_columns) return with_units_behind(titles);
+    if (titles.size() == n_columns) return titles;
+    if (first.empty()) first = titles;
   }
-  return titles_between_blanks(line);
+  std::vector<Title> words = titles_between_blanks(line);
+  return words.size() == n_columns || first.empty() ? words : first;
+}
+
+bool are_units(const std::vector<Title>& titles) {
+  const auto text = [](const Title& title) { return title.unit.value_or(title.name); };
+  return !titles.empty() && unit_named(text(titles.front())) &&
+         std::all_of(titles.begin(), titles.end(),
+                     [&](const Title& title) { return text(title).empty() || unit_named(text(title)); });
 }
 
 std::optional<Unit> unit_of(const Title& title, const Origin& origin, const std::string& si) {
@@ -193,48 +231,8 @@ std::string unit_in_name(const std::string& name) {
   return unit && unit->factor != 1.0 ? end : "";
 }
 
-void TwoColumns::comment(const std::string& line, const Origin& origin) {
-  if (has_titles_ && !is_from_comment_) return;
-  const std::vector<Title> titles = titles_of(line);
-  const auto is_known = [](const Title& title) { return title.unit && unit_named(*title.unit); };
-  if (titles.size() != 2 || !std::all_of(titles.begin(), titles.end(), is_known)) return;
-  has_titles_ = false;
-  take(line, origin);
-  is_from_comment_ = true;
-}
-
-bool TwoColumns::take(const std::string& line, const Origin& origin) {
-  const std::vector<Title> titles = titles_of(line);
-  if (has_titles_ && !is_from_comment_) return take_units_alone(titles);
-  has_titles_ = true;
-  is_from_comment_ = false;
-  const bool has_unit =
-      std::any_of(titles.begin(), titles.end(), [](const Title& title) { return title.unit.has_value(); });
-  if (titles.size() != 2 && has_unit)
-    throw InputError(origin, fmt::format("{} title{} with units where there are two columns: separate them by a comma",
-                                         titles.size(), titles.size() == 1 ? "" : "s"));
-  if (titles.size() != 2) return true;  // words
-  for (int i = 0; i < 2; ++i) {
-    units_[i] = unit_of(titles[i], origin, wanted_[i]);
-    texts_[i] = units_[i] ? *titles[i].unit : "";
-    if (!units_[i]) doubt_name(titles[i], origin);
-  }
-  return true;
-}
-
-bool TwoColumns::take_units_alone(const std::vector<Title>& titles) {
-  if (titles.size() != 2 || units_[0] || units_[1]) return false;
-  for (int i = 0; i < 2; ++i) {
-    texts_[i] = titles[i].unit ? *titles[i].unit : titles[i].name;
-    units_[i] = unit_named(texts_[i]);
-    if (!units_[i] || (!wanted_[i].empty() && units_[i]->si != wanted_[i])) return false;
-  }
-  is_from_comment_ = false;
-  return true;
-}
-
-void TwoColumns::doubt_name(const Title& title, const Origin& origin) const {
-  const std::string unit = unit_in_name(title.name);
+void doubt_name(const Title& title, const Origin& origin) {
+  const std::string unit = title.unit ? "" : unit_in_name(title.name);
   if (unit.empty()) return;
   warn(fmt::format("{}column '{}' is read in SI: a unit is read where it stands in brackets, [{}]", origin.prefix(),
                    title.name, unit));

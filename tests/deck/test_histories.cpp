@@ -92,11 +92,42 @@ TEST(DeckHistory, from_a_file_is_told_with_its_peak_and_what_holds_beyond_its_en
   EXPECT_EQ(said,
             "signal 'shot.csv': 3 points from 0 to 0.004 ms, peak -100 g at 0.001 ms (-980.7 m/s^2); before them 0 g "
             "holds, after them 1 g\n");
-  const std::string plain = said_with("0,0\n1e-6,5\n4e-6,0\n", "history.file{ file = 'shot.csv' }").first;
+  const std::string plain = said_with("0,0\n1e-6,5\n4e-6,0\n", "g0*history.file{ file = 'shot.csv' }").first;
   EXPECT_EQ(
       plain,
-      "signal 'shot.csv': 3 points from 0 to 0.004 ms, peak 5 at 0.001 ms, taken as SI (its header gives no unit); "
-      "before them 0 holds, after them 0\n");
+      "signal 'shot.csv': 3 points from 0 to 0.004 ms, peak 5 at 0.001 ms, of no unit; before them 0 holds, after "
+      "them 0\n");
+}
+
+bool says(const std::string& message, const std::string& part) { return message.find(part) != std::string::npos; }
+
+// g taken for m/s^2 in silence is a tenth of the shock.
+TEST(DeckHistory, of_an_acceleration_has_a_unit_in_the_file_or_the_deck) {
+  const std::string plain = "t,a\n0,0\n1e-6,100\n4e-6,0\n", in_g = "t [s],a [g]\n0,0\n1e-6,100\n4e-6,0\n";
+  const auto refused = [](const std::string& csv, const std::string& history) -> std::string {
+    try {
+      said_with(csv, history);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const char* history :
+       {"history.file{ file = 'shot.csv' }", "-history.file{ file = 'shot.csv' }:shifted(1e-6)"}) {
+    EXPECT_TRUE(says(refused(plain, history), "takes m/s^2, and the file of its history gives no unit")) << history;
+    EXPECT_TRUE(says(refused(plain, history), "history.file{ ..., unit = g0 } where its values are in g")) << history;
+  }
+  const auto doubts = [](const std::string& csv, const std::string& history) {
+    int n = 0;
+    for (const std::string& warning : said_with(csv, history).second) n += says(warning, "gives no unit");
+    return n;
+  };
+  EXPECT_EQ(doubts(plain, "g0*history.file{ file = 'shot.csv' }"), 0);
+  EXPECT_EQ(doubts(plain, "history.file{ file = 'shot.csv', unit = g0 }"), 0);
+  EXPECT_EQ(doubts(plain, "0.5*history.file{ file = 'shot.csv', unit = 1 }"), 0);
+  EXPECT_EQ(doubts(plain, "0.5*history.file{ file = 'shot.csv' }"), 1);
+  EXPECT_TRUE(says(refused(in_g, "history.file{ file = 'shot.csv', unit = g0 }"),
+                   "history.file: the file gives the unit of its values, [g]: leave out 'unit'"));
 }
 
 TEST(DeckHistory, in_g_that_is_multiplied_by_g0_is_doubted) {

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "signal/history.hpp"
+#include "signal/signal_file.hpp"
 
 namespace dygita {
 namespace {
@@ -175,6 +176,71 @@ TEST_F(HistoryFile, is_read_in_the_units_of_its_titles) {
   EXPECT_EQ(read("t, v\n0,0\n1,2\n").unit(), "");
 }
 
+TEST_F(HistoryFile, has_decimal_commas_where_commas_do_not_separate_columns) {
+  for (const char* text :
+       {"Zeit [s];Beschleunigung [g]\n0,0;0,0\n0,5;1,5e1\n1;30\n", "Zeit [s]\ta [g]\n0\t0\n0,5\t15\n1,0\t30\n",
+        "t [s] a [g]\r\n0 0\r\n 0,5  15,0\r\n1 30\r\n", "t [s],a [g]\n\"0,0\",\"0,0\"\n\"0,5\",\"15,0\"\n1,30\n",
+        "t [s],a [g]\n0,0\n0.5,15\n1,30\n"}) {
+    const History history = read(text);
+    EXPECT_NEAR(history.value(0.5), 15.0 * 9.80665, 1e-12) << text;
+    EXPECT_NEAR(history.value(0.75), 22.5 * 9.80665, 1e-12) << text;
+  }
+  EXPECT_EQ(message("t;a\n0,5;1\n1.5;2\n"), ":3: '1.5' has a decimal point, and a number in line 2 a decimal comma");
+  EXPECT_EQ(message("t;a\n0;1.234,5\n"), ":2: '1.234,5' is not a finite number: thousands are not separated");
+}
+
+TEST_F(HistoryFile, whose_commas_may_separate_columns_or_decimals_is_refused) {
+  const std::string doubt = "': commas separate columns here, or decimals, and nothing tells which\n";
+  for (const char* text : {"0,0,00\n1,0,26\n", "t,a\n0,0,00\n1,0,26\n"})
+    EXPECT_TRUE(message(text).find("'0,0,00" + doubt) != std::string::npos) << message(text);
+  EXPECT_TRUE(message("0,000,0,000\n0,001,3,141\n").starts_with(":1: '0,000,0,000" + doubt));
+  EXPECT_EQ(message("0,0\n1,0,26\n"), ":2: 3 columns where two are expected: time (s) and value");
+  // Titles or a point tell.
+  EXPECT_EQ(message("t,a,b\n0,0,1\n1,0,26\n"),
+            ":2: 3 columns where two are expected: time (s) and value\n    'column' takes one: a, b");
+  EXPECT_EQ(message("0,0,0\n0.1,0,26\n"), ":1: 3 columns where two are expected: time (s) and value");
+}
+
+TEST_F(HistoryFile, is_read_in_units_however_its_titles_give_them) {
+  for (const char* titles :
+       {"time {ms};acceleration {g}", "time, ms;acceleration, g", "time, ms, acceleration, g", "\"time, ms\",\"a, g\"",
+        "Zeit in ms;Beschleunigung in g", "t;a\nms;g", "ms;g", "t;a\n(ms);(g)", "# t [ms]; a [g]\nt;a"}) {
+    const History history = read(std::string(titles) + "\n0;0\n2;10\n");
+    EXPECT_NEAR(history.value(2e-3), 10.0 * 9.80665, 1e-12) << titles;
+    EXPECT_FALSE(history.factor_without_unit()) << titles;
+  }
+  const History plain = read("t;a\n0;0\n2;10\n");
+  EXPECT_EQ(plain.factor_without_unit(), 1.0);
+  EXPECT_EQ(plain.shifted(1.0).scaled(-3.0).plus(History::constant(1.0)).factor_without_unit(), -3.0);
+  EXPECT_FALSE(History::half_sine(1.0, 1.0).factor_without_unit());
+}
+
+TEST_F(HistoryFile, of_several_columns_is_read_by_title) {
+  std::ofstream(path_) << "t [ms];step;a x [g];F [kN];remark\n0;shock;0;1;first\n2;shock;10;3;\n";
+  const SampledSignal g = read_signal(path_.string(), "a x"), force = read_signal(path_.string(), "F");
+  EXPECT_NEAR(g.values[1], 98.0665, 1e-9);
+  EXPECT_NEAR(force.values[1], 3000.0, 1e-9);
+  EXPECT_EQ(force.times, (std::vector<double>{0.0, 2e-3}));
+  EXPECT_NE(message_of([&] { read_signal(path_.string(), "a y"); }).find("no column 'a y'\n    did you mean 'a x'?"),
+            std::string::npos);
+  EXPECT_EQ(message_of([&] { read_signal(path_.string(), "step"); }),
+            path_.string() + ":2: 'shock' is not a finite number");
+}
+
+TEST_F(HistoryFile, in_characters_of_typography_or_in_UTF_16_is_named) {
+  EXPECT_EQ(message("t;a\n0;\xE2\x80\x9C"
+                    "1\xE2\x80\x9D\n"),
+            ":2: '\xE2\x80\x9C"
+            "1\xE2\x80\x9D' is not a finite number: it has typographic quotes, where none or straight "
+            "ones stand");
+  EXPECT_EQ(message("t;a\n0;\xE2\x88\x92"
+                    "1\n"),
+            ":2: '\xE2\x88\x92"
+            "1' is not a finite number: its minus is not the plain '-'");
+  for (const std::string& start : {std::string("\xFF\xFE", 2), std::string("\xFE\xFF", 2), std::string("0\0;\0", 4)})
+    EXPECT_NE(message(start + "0;1\n1;2\n").find("is text in UTF-16\n    save it as UTF-8"), std::string::npos);
+}
+
 TEST_F(HistoryFile, in_a_unit_that_is_not_known_is_refused) {
   EXPECT_TRUE(
       message("time [ms], acceleration [furlong]\n0,1\n")
@@ -248,8 +314,8 @@ TEST_F(HistoryFile, that_is_wrong_is_named_with_its_line) {
   EXPECT_EQ(message("t v\nagain titles\n"), ":2: 'again' is not a finite number");
   EXPECT_EQ(message("0 1\n1 nan\n"), ":2: 'nan' is not a finite number");
   EXPECT_EQ(message("t [ms], a [kN]\n0,1\n1,1e306\n"), ":3: '1e306' is not a finite number in SI");
-  EXPECT_EQ(message("0,5 1,5 3\n"), ":1: 5 columns where two are expected: time (s) and value; decimals take a point");
-  EXPECT_EQ(message("7\n"), ":1: 1 number where two are expected: time (s) and value; decimals take a point");
+  EXPECT_EQ(message("0,5 1,5 3\n"), ":1: 3 columns where two are expected: time (s) and value");
+  EXPECT_EQ(message("7\n"), ":1: 1 number where two are expected: time (s) and value");
   EXPECT_NE(message("time value\n").find("has no points"), std::string::npos);
   EXPECT_EQ(message_of([] { History::from_file("no/such/file.csv"); }),
             "cannot read the signal file 'no/such/file.csv'");

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/log.hpp"
 #include "signal/specification.hpp"
 
 namespace dygita {
@@ -91,6 +92,16 @@ TEST_F(SpecificationFile, takes_commas_semicolons_blanks_and_a_header_with_a_uni
   EXPECT_NEAR(read("frequency (kHz),level (m/s2)\n0.1,20\n1,500\n").frequency[0], 100.0, 1e-12);
 }
 
+TEST_F(SpecificationFile, takes_decimal_commas_and_a_line_of_units) {
+  for (const char* text : {"Frequenz [Hz];Pegel [g]\n100,5;20,25\n1000;500\n", "f\tl\nHz\tg\n100,5\t20,25\n1000\t500\n",
+                           "f in Hz; level, g\n100.5;20.25\n1000;500\n"}) {
+    const Specification s = read(text);
+    EXPECT_EQ(s.frequency[0], 100.5) << text;
+    EXPECT_NEAR(s.level[0], 20.25 * 9.80665, 1e-9) << text;
+    EXPECT_EQ(s.unit, "g") << text;
+  }
+}
+
 TEST_F(SpecificationFile, without_a_unit_is_warned_of) {
   take_warnings();
   read("frequency [Hz], level [m/s^2]\n100,20\n1000,500\n");
@@ -115,7 +126,8 @@ TEST_F(SpecificationFile, says_where_it_is_wrong) {
   EXPECT_TRUE(
       fault("f (Hz),level (dB)\n100,200\n").starts_with(":1: 'dB' is not a unit that is known, in the title 'level'"));
   EXPECT_EQ(fault("100,2oo\n1000,200\n"), ":1: '100,2oo' is not a frequency (Hz) and a level");
-  EXPECT_EQ(fault("f,l\n100,200,3\n"), ":2: '100,200,3' is not a frequency (Hz) and a level");
+  EXPECT_EQ(fault("f,l,m\n100,200,3\n"), ":2: '100,200,3' is not a frequency (Hz) and a level");
+  EXPECT_TRUE(fault("f,l\n100,200,3\n").starts_with(":2: '100,200,3': commas separate columns here, or decimals"));
   EXPECT_EQ(fault("f (Hz),level (g)\n100,200\n1000,1e308\n"), ":3: the level inf is not above zero and finite");
   EXPECT_THROW(read_specification("nowhere.csv"), InputError);
 }

@@ -1,0 +1,1 @@
+local h = history.file{ file = "decimals_or_columns.csv" }
