@@ -4,6 +4,7 @@
 
 #include "base/fnv1a.hpp"
 #include "base/log.hpp"
+#include "base/names.hpp"
 #include "base/threads.hpp"
 #include "deck/arguments.hpp"
 #include "deck/deck_state.hpp"
@@ -11,6 +12,7 @@
 #include "deck/results.hpp"
 #include "deck/syntax_hint.hpp"
 #include "mesh/mesher_process.hpp"
+#include "model/own_files.hpp"
 #include "numerics/factor.hpp"
 #include "numerics/panel_choice.hpp"
 #include "ranks/ranks.hpp"
@@ -235,6 +237,9 @@ int run_from_deck(DeckState& state, lua_State* L) {
   const std::string case_name = lua_tostring(L, -1);
   const Origin origin = state.origin(static_cast<int>(lua_tointeger(L, 4)));
   const std::string label = fmt::format("problem '{}', case '{}'", problem->name, case_name);
+  if (const char* what = own_file_called(file_name_of(case_name), true))
+    throw InputError(
+        origin, fmt::format("{}: its folder would stand in the place of {}\n    give it another name", label, what));
   if (!state.cases.emplace(problem->name, case_name).second) {
     throw InputError(origin,
                      fmt::format("{} has run before in this deck and would be overwritten\n    give each run its "

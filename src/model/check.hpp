@@ -65,6 +65,9 @@ void is_on(const Problem& problem, const Output& output, const std::vector<Targe
 // Throws where another output is called as files of this one are: its own name and one of the suffixes.
 void names_are_free(const Problem& problem, const Output& output, const std::vector<std::string>& suffixes);
 
+// Throws InputError where a file of the output, its name and one of `suffixes` (".json"), is one of the program's own.
+void files_are_free(const Problem& problem, const Output& output, const std::vector<std::string>& suffixes);
+
 // Every support in force in some step, each once, the problem's own first.
 std::vector<SupportPtr> all_supports(const Problem& problem);
 

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <set>
 
+#include "base/names.hpp"
 #include "model/check.hpp"
 #include "model/load.hpp"
 #include "model/output.hpp"
+#include "model/own_files.hpp"
 
 namespace dygita::check {
 
@@ -75,6 +77,10 @@ void outputs_keep_apart(const Problem& problem) {
 
 void names(const Problem& problem) {
   has_name(problem, problem, "the problem");
+  const std::string frames = file_name_of(problem.name) + ".pvd";
+  if (const char* what = own_file_called(frames))
+    fail(problem, problem.origin, "the list of its frames would be " + frames + ", which is " + what,
+         "take another name");
   if (problem.substructures.empty()) fail(problem, problem.origin, "'substructures' is empty");
   if (problem.steps.empty()) {
     fail(problem, problem.origin, "'steps' is empty", "at least one step.static or step.dynamic is needed");

@@ -1,7 +1,9 @@
 #include <spdlog/fmt/fmt.h>
 
+#include "base/names.hpp"
 #include "model/check.hpp"
 #include "model/output.hpp"
+#include "model/own_files.hpp"
 
 namespace dygita::check {
 
@@ -21,6 +23,15 @@ void names_are_free(const Problem& problem, const Output& output, const std::vec
       if (other->name == output.name + suffix)
         fail(problem, other->origin,
              fmt::format("output '{}' would overwrite {}.csv of {}", other->name, other->name, output.known_as()));
+}
+
+void files_are_free(const Problem& problem, const Output& output, const std::vector<std::string>& suffixes) {
+  for (const std::string& suffix : suffixes) {
+    const std::string file = file_name_of(output.name) + suffix;
+    if (const char* what = own_file_called(file))
+      fail(problem, output.origin, fmt::format("{} would overwrite {}, which is {}", output.known_as(), file, what),
+           "take another name");
+  }
 }
 
 void outputs(const Problem& problem) {

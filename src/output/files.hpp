@@ -5,11 +5,12 @@
 #include <string>
 
 #include "base/names.hpp"
+#include "model/own_files.hpp"
 
 namespace dygita {
 
 // What a report draws of a run, already projected, in the run's folder.
-inline constexpr const char* scene_file = "scenes.json";
+inline constexpr const char* scene_file = own_file::scenes;
 
 // Writes a file whole or not at all: into <path>.tmp, then renamed. Throws InputError with the system's reason.
 void write_text(const std::filesystem::path& path, const std::string& text);

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/parallel_by_cost.hpp"
+#include "model/own_files.hpp"
 #include "output/bolt_table.hpp"
 #include "output/collection.hpp"
 #include "output/csv.hpp"
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* interfaces_file = "interfaces.pvd";
+constexpr const char* interfaces_file = own_file::interfaces;
 constexpr const char* frames_folder = "frames";
 constexpr const char* interface_frames = "frames/interfaces";
 
@@ -149,8 +150,9 @@ void RunWriter::write_tables(const Problem& problem, const RunResult& result) {
     CHECK(written.insert(name).second && name != "convergence", "two tables are called '" + name + "'");
     write(name + ".csv", csv_text(table->second, steps));
     if (findings.files)
-      for (const auto& [suffix, text] : findings.files()) write(name + suffix, text);
-    for (const auto& [part, of_part] : findings.parts) write(name + "_" + part + ".csv", csv_text(of_part, steps));
+      for (const auto& [suffix, text] : findings.files()) write_of_output(name + suffix, text);
+    for (const auto& [part, of_part] : findings.parts)
+      write_of_output(name + "_" + part + ".csv", csv_text(of_part, steps));
   }
   for (const OutputPtr& output : problem.outputs)
     if (const Findings& findings = result.findings_of(*output); !findings.frames.empty())
@@ -161,17 +163,17 @@ void RunWriter::write_tables(const Problem& problem, const RunResult& result) {
     if (findings.band.n_rows() > 0 && written.insert(name).second)
       write(name + ".csv", csv_text(findings.band, steps));  // else an output of the deck has the name
   }
-  if (!result.convergence.columns.empty()) write("convergence.csv", csv_text(result.convergence, steps));
+  if (!result.convergence.columns.empty()) write(own_file::convergence, csv_text(result.convergence, steps));
   if (!result.bolts.empty()) {
     CHECK(!written.contains("bolts"), "an output is called 'bolts'");
-    write("bolts.csv", bolts_csv(problem, result));
+    write(own_file::bolts, bolts_csv(problem, result));
   }
 }
 
 void RunWriter::write_record(const Problem& problem, const RunResult& result, const RunIdentity& identity,
                              const std::vector<std::string>& warnings) {
   // Name the files but for the frames, which the .pvd list.
-  const fs::path record = path_of("run.json");
+  const fs::path record = path_of(own_file::record);
   std::vector<std::string> files;
   for (const fs::path& file : index_->manifest.files()) {
     if (*file.begin() != frames_folder && (directory_ / file == record || fs::exists(directory_ / file)))
@@ -206,6 +208,11 @@ fs::path RunWriter::folder_of(const std::string& folder, int n_files) {
   make_directory(directory_ / folder);
   for (int i = 0; i < n_files; ++i) index_->manifest.add(fs::path(folder) / std::to_string(i));
   return directory_ / folder;
+}
+
+void RunWriter::write_of_output(const std::string& file_name, const std::string& text) {
+  CHECK(!own_file_called(file_name), "an output writes " + file_name + ", which is the run's");
+  write(file_name, text);
 }
 
 void RunWriter::write(const std::string& file_name, const std::string& text) {

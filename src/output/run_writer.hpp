@@ -74,6 +74,7 @@ class RunWriter {
  private:
   struct Index;  // the frames written so far
   void write_lists();
+  void write_of_output(const std::string& file_name, const std::string& text);  // never over a file of the run
   void write_field(const std::string& name, const std::vector<Frame>& frames);
 
   std::filesystem::path directory_;

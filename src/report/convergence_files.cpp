@@ -135,8 +135,8 @@ std::string convergence_svg(const std::string& title, const ConvergenceStudy& st
 void write_convergence(const std::filesystem::path& folder, const std::string& title, const ConvergenceStudy& study,
                        const std::vector<FigureConvergence>& figures) {
   std::filesystem::create_directories(folder);
-  write_text(folder / "converge.csv", convergence_csv(study));
-  write_text(folder / "converge.svg", convergence_svg(title, study, figures));
+  write_text(folder / own_file::converge_table, convergence_csv(study));
+  write_text(folder / own_file::converge_figure, convergence_svg(title, study, figures));
 }
 
 }  // namespace dygita

@@ -244,8 +244,8 @@ std::string study_summary(const std::string& name, const std::vector<StudyCase>&
 
 void write_study(const std::filesystem::path& folder, const std::string& name, const std::vector<StudyCase>& cases) {
   make_directory(folder);
-  write_text(folder / "study.csv", study_csv(cases));
-  write_text(folder / "study.svg", study_svg("Study of " + name, cases));
+  write_text(folder / own_file::study_table, study_csv(cases));
+  write_text(folder / own_file::study_figure, study_svg("Study of " + name, cases));
 }
 
 }  // namespace dygita

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "model/own_files.hpp"
 #include "report/turning_mesh.hpp"
 #include "result/skin_motion.hpp"
 
 namespace dygita {
 
-inline constexpr const char* motion_file = "motion.json";
+inline constexpr const char* motion_file = own_file::motion;
 
 // JSON as embedded/turn.js reads it; numbers are little-endian in base64. Displacements to 1/32767 of the frame's
 // largest component, stresses to 1/255 of the frame's largest. Displacements and stresses that are not finite become

@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "model/model.hpp"
+#include "model/own_files.hpp"
 #include "output/frame_summary.hpp"
 
 namespace dygita {
 
-inline constexpr const char* view_file = "view.py";
+inline constexpr const char* view_file = own_file::view;
 
 // A script for paraview --script and pvpython: parts and interfaces side by side, warped, coloured over the range of
 // all frames, clipped, at the instant of largest stress (displacement, where there is none) of the motion. `folder` is

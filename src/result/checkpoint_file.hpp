@@ -14,7 +14,7 @@
 
 namespace dygita {
 
-inline constexpr const char* checkpoint_file_name = "checkpoint.dygita";
+inline constexpr const char* checkpoint_file_name = own_file::checkpoint;
 
 // Whose checkpoint it is.
 struct CheckpointIdentity {

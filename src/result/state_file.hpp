@@ -8,11 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "model/own_files.hpp"
 #include "result/state_parts.hpp"
 
 namespace dygita {
 
-inline constexpr const char* state_file_name = "state.dygita";
+inline constexpr const char* state_file_name = own_file::state;
 
 // One run over all increments: the first, or one that continued it.
 struct Effort {

@@ -17,7 +17,7 @@ void write_run_files(RunWriter& writer, const Problem& problem, const RunResult&
     if (const std::string motion = result.scenes ? motion_text(problem, result.scenes->motion) : ""; !motion.empty())
       writer.write(motion_file, motion);
     const std::string record = run_record(problem, result, identity, warnings, {});
-    writer.write("report.html", report_html(writer.directory(), {.record = record}));
+    writer.write(own_file::report, report_html(writer.directory(), {.record = record}));
   } catch (const std::exception& error) {
     warn(std::string("no report.html: ") + error.what());
   }

@@ -92,9 +92,7 @@ class SuperelementOutput final : public Output {
   // It is taken about the end of a step, with that step's supports.
   void check(const Problem& problem) const override {
     const std::string who = known_as();
-    if (file_name_of(request_.name) == "run")
-      check::fail(problem, origin, who + ": its description would be run.json, which is the record of the run",
-                  "take another name");
+    check::files_are_free(problem, *this, {".json", ".md", "_mass.mtx", "_stiffness.mtx", "_damping.mtx"});
     check::is_on(problem, *this, request_.on, [](const Target& target) {
       return check::place_of(target) ? ""
                                      : "output.superelement takes faces or regions: where something is to be attached";
