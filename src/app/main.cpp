@@ -1,4 +1,5 @@
-// Does what the command line asks: messages, exit codes. The only file that ends the program.
+// Does what the command line asks: messages, exit codes. The only file that ends the program, but for
+// base/watchdog.cpp.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>

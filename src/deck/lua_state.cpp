@@ -11,12 +11,15 @@
 
 #include "base/progress.hpp"
 #include "base/thread_time.hpp"
+#include "ranks/ranks.hpp"
 
 namespace dygita {
 
 namespace {
 
 constexpr int hook_period = 1000;                // instructions
+constexpr double grace = 2.0;                    // s, that the hook has to end the deck itself
+constexpr int exit_code = 2;                     // main's for an InputError
 constexpr size_t large_block = size_t{1} << 20;  // bytes
 
 // Gives messages without a place (assert, error with level 0) the deck's line.
@@ -51,11 +54,14 @@ LuaState::Times LuaState::now() {
 }
 
 LuaState::LuaState(std::string deck_name, const LuaLimits& limits)
-    : deck_name_(std::move(deck_name)), source_("@" + deck_name_), limits_(limits) {
+    : deck_name_(std::move(deck_name)),
+      source_("@" + deck_name_),
+      limits_(limits),
+      watchdog_([this] { return ranks::is_first() ? std::string(out_of_time().what()) : ""; }, exit_code) {
   L_ = lua_newstate(allocate, this);
   if (!L_) throw InputError("not enough memory for Lua itself (--memory-limit)");
   *static_cast<LuaState**>(lua_getextraspace(L_)) = this;
-  section_start_ = now();
+  begin_section();
   lua_pushcfunction(L_, open_libraries);
   call(0, 0);
   watch();
@@ -64,6 +70,7 @@ LuaState::LuaState(std::string deck_name, const LuaLimits& limits)
 void LuaState::watch() { lua_sethook(L_, hook, LUA_MASKLINE | LUA_MASKRET | LUA_MASKCOUNT, hook_period); }
 
 LuaState::~LuaState() {
+  watchdog_.rest();
   *alive_ = false;
   lua_sethook(L_, nullptr, 0, 0);
   lua_close(L_);
@@ -121,6 +128,13 @@ int LuaState::line(lua_State* L) const {
     if (frame.istailcall) return last_line_;
   }
   return last_line_;
+}
+
+// The deck's clock goes on. Of several ranks the first has the word before another ends all of them.
+void LuaState::begin_section() {
+  section_start_ = now();
+  watchdog_.expect_end_by(section_start_.elapsed + limits_.seconds - spent_.elapsed +
+                          (ranks::is_first() ? 1.0 : 1.5) * grace);
 }
 
 LuaState::Times LuaState::time_in_deck() const { return spent_ + (now() - section_start_); }
@@ -189,13 +203,14 @@ void LuaState::reserve(const std::string& what, size_t bytes) {
 }
 
 LuaState::Pause::Pause(LuaState& state) : state_(state) {
+  state_.watchdog_.rest();
   state_.spent_ = state_.time_in_deck();
   state_.is_paused_ = true;
   lua_sethook(state_.L_, hook, LUA_MASKCOUNT, hook_period);
 }
 
 LuaState::Pause::~Pause() {
-  state_.section_start_ = now();
+  state_.begin_section();
   state_.is_paused_ = false;
   state_.watch();
 }
@@ -203,10 +218,12 @@ LuaState::Pause::~Pause() {
 // The deck's clock while the engine asks one of its functions; a function may ask a history, and so another one.
 struct LuaState::FunctionClock {
   explicit FunctionClock(LuaState& state) : state_(state) {
-    if (state_.function_depth_++ == 0 && state_.is_paused_) state_.section_start_ = now();
+    if (state_.function_depth_++ == 0 && state_.is_paused_) state_.begin_section();
   }
   ~FunctionClock() {
-    if (--state_.function_depth_ == 0 && state_.is_paused_) state_.spent_ = state_.time_in_deck();
+    if (--state_.function_depth_ != 0 || !state_.is_paused_) return;
+    state_.watchdog_.rest();
+    state_.spent_ = state_.time_in_deck();
   }
   FunctionClock(const FunctionClock&) = delete;
   FunctionClock& operator=(const FunctionClock&) = delete;

@@ -2,6 +2,7 @@
 // C++ without loss. Link Lua's C++ build only, so that its errors unwind C++ frames as exceptions do.
 #pragma once
 
+#include <atomic>
 #include <ctime>
 #include <exception>
 #include <functional>
@@ -14,6 +15,7 @@
 
 #include "base/error.hpp"
 #include "base/progress.hpp"
+#include "base/watchdog.hpp"
 
 namespace dygita {
 
@@ -104,6 +106,7 @@ class LuaState {
   InputError out_of_time() const;
   bool is_out_of_time() const;
   Times time_in_deck() const;
+  void begin_section();
   bool is_deck(const lua_Debug& frame) const;
 
   std::string deck_name_, source_;
@@ -111,12 +114,14 @@ class LuaState {
   lua_State* L_ = nullptr;
   size_t used_bytes_ = 0;
   Times spent_, section_start_;
-  int last_line_ = 0, function_depth_ = 0;
+  std::atomic<int> last_line_ = 0;
+  int function_depth_ = 0;
   bool is_paused_ = false;
   std::vector<std::pair<std::weak_ptr<const void>, size_t>> outside_;
   std::exception_ptr held_;
   std::recursive_mutex function_mutex_;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
+  Watchdog watchdog_;  // of what the hook does not stop: one call of C that takes as long as it likes
 };
 
 // Wraps a C++ function as a Lua one: what it throws unwinds Lua and comes out of LuaState::call.

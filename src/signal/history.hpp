@@ -58,6 +58,8 @@ class History {
   std::string unit() const;
   // What multiplies the values of a file for which neither it nor the deck gives a unit; none of any other history.
   std::optional<double> factor_without_unit() const;
+  // Adds the profiles of what it is a sum of, itself where it is none; false where one has none.
+  bool add_terms(std::vector<Profile>& terms) const;
   // "half_sine(peak 1e+08, duration 4e-05)": for the run record.
   std::string description() const;
 

@@ -308,6 +308,33 @@ TEST(ComposedHistory, tells_its_course) {
   EXPECT_FALSE(History::half_sine(1.0, 1.0).plus(History::function([](double t) { return t; })).profile());
 }
 
+TEST(ComposedHistory, that_is_doubled_again_and_again_answers_at_once) {
+  History h = History::half_sine(1.0, 1.0);
+  for (int i = 0; i < 60; ++i) h = h.plus(h);
+  EXPECT_EQ(h.value(0.5), std::ldexp(1.0, 60));
+  EXPECT_NEAR(h.integral(0.0, 1.0), std::ldexp(2.0 / std::numbers::pi, 60), 1e4);
+  EXPECT_EQ(h.profile().value().high, std::ldexp(1.0, 60));
+  EXPECT_FALSE(h.is_constant());
+  EXPECT_LT(h.description().size(), 1000u);
+  History sum = History::constant(0.0);
+  for (int i = 0; i < 2000; ++i) sum = sum.plus(History::half_sine(1.0, 1.0).shifted(1e-3 * i));
+  EXPECT_NEAR(sum.profile().value().end, 2.999, 1e-12);
+  EXPECT_NEAR(sum.profile().value().high, 2000.0 / std::numbers::pi, 1.0);  // one whole half sine under 1000 of them
+}
+
+TEST(ComposedHistory, of_too_many_terms_is_refused) {
+  History h = History::half_sine(1.0, 1.0);
+  const auto more_and_more = [&] {
+    for (int i = 0; i < 60; ++i) h = h.plus(h.shifted(1e-6));
+  };
+  EXPECT_EQ(message_of(more_and_more), "a history of 1.31e+05 terms: 100000 are allowed");
+  History deep = History::constant(1.0);
+  EXPECT_EQ(message_of([&] {
+              for (int i = 0; i < 20000; ++i) deep = deep.plus(History::constant(1.0));
+            }),
+            "a history that is made of others in 10001 steps, one of the other: 10000 are allowed");
+}
+
 TEST_F(HistoryFile, that_is_wrong_is_named_with_its_line) {
   EXPECT_EQ(message("0 1\n1 2\n1 3\n"), ":3: time 1 s does not come after 1 s: times must increase");
   EXPECT_EQ(message("t v\n0 1\n1 x\n"), ":3: 'x' is not a finite number");
