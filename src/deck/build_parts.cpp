@@ -18,7 +18,8 @@ namespace dygita {
 
 namespace {
 
-constexpr double bytes_per_cell = 100.0;  // of a box: coordinates, connectivity, facets
+constexpr double bytes_per_cell = 100.0;  // of a box or a bolt: coordinates, connectivity, facets
+constexpr double bytes_per_quadratic_cell = 400.0;
 constexpr double locking_poisson = 0.45;
 
 // The type by its name, else by the order.
@@ -92,10 +93,20 @@ Content build_step_mesh(const Declaration& d) {
 Content build_bolt_mesh(const Declaration& d) {
   const LuaArguments& a = d.arguments;
   const int around = a.integer("around"), order = a.integer("order");
+  const auto made = [&](const auto& shape, auto make) -> Content {
+    const double cells = n_cells(shape), bytes = cells * (order == 2 ? bytes_per_quadratic_cell : bytes_per_cell);
+    d.lua.reserve(fmt::format("bolt.hex: {:.3g} cells of a part", cells), static_cast<size_t>(std::min(bytes, 1e18)));
+    const MeshPtr mesh = make(shape);
+    d.lua.hold_reserved(mesh, static_cast<size_t>(bytes));
+    return mesh;
+  };
   if (a.has("inner"))
-    return washer_mesh({a.number("inner"), a.number("outer"), a.number("low"), a.number("thickness"), around, order});
-  return bolt_end_mesh({a.number("diameter"), a.number("flats"), a.number("height"), a.number("shank"),
-                        a.number("bearing"), a.boolean("above"), around, order});
+    return made(
+        WasherShape{a.number("inner"), a.number("outer"), a.number("low"), a.number("thickness"), around, order},
+        washer_mesh);
+  return made(BoltEnd{a.number("diameter"), a.number("flats"), a.number("height"), a.number("shank"),
+                      a.number("bearing"), a.boolean("above"), around, order},
+              bolt_end_mesh);
 }
 
 Damping damping_by_ratio(const LuaArguments& a) {

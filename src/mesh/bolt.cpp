@@ -186,8 +186,14 @@ MeshPtr with_faces(std::shared_ptr<Mesh> mesh, const std::vector<int>& round, in
   return whole;
 }
 
-int layers(double length, double width) {
-  return std::max(1, static_cast<int>(std::lround(length / (flatness * width))));
+double n_layers(double length, double width) { return std::max(1.0, std::round(length / (flatness * width))); }
+
+int layers(double length, double width) { return static_cast<int>(n_layers(length, width)); }
+
+int rings_of_washer(const WasherShape& washer) {
+  const double inner = polygon_radius(0.5 * washer.inner, washer.around, washer.order),
+               outer = polygon_radius(0.5 * washer.outer, washer.around, washer.order);
+  return std::max(2, static_cast<int>(std::lround((outer - inner) / (pi * washer.inner / washer.around))));
 }
 
 }  // namespace
@@ -222,7 +228,7 @@ MeshPtr washer_mesh(const WasherShape& washer) {
     section.nodes.push_back(at(inner, angle_of(k, washer.around)));
   }
   const double width = pi * washer.inner / washer.around;
-  const int n_rings = std::max(2, static_cast<int>(std::lround((outer - inner) / width)));
+  const int n_rings = rings_of_washer(washer);
   mark_round(rim, 1, section);
   rim = add_rings(
       rim, n_rings, [&](int k) { return at(outer, angle_of(k, washer.around)); }, section);
@@ -236,6 +242,16 @@ MeshPtr washer_mesh(const WasherShape& washer) {
     if (std::abs(normal[2]) > 0.5) return normal[2] > 0.0 ? "upper" : "lower";
     return middle.head<2>().norm() < between ? "inside" : "outside";
   });
+}
+
+double n_cells(const BoltEnd& bolt) {
+  const double n = bolt.around, width = pi * bolt.diameter / n, rings = std::max(1.0, std::floor(n / 12));
+  const double inside = n * n / 16 + n * rings;
+  return inside * n_layers(bolt.shank, width) + (inside + n * (rings + 1)) * n_layers(bolt.height, width);
+}
+
+double n_cells(const WasherShape& washer) {
+  return washer.around * rings_of_washer(washer) * n_layers(washer.thickness, pi * washer.inner / washer.around);
 }
 
 }  // namespace dygita

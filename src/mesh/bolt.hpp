@@ -30,4 +30,8 @@ struct WasherShape {
 // Faces: lower, upper, inside, outside.
 MeshPtr washer_mesh(const WasherShape& washer);
 
+// Cells of those meshes, before they are made.
+double n_cells(const BoltEnd& bolt);
+double n_cells(const WasherShape& washer);
+
 }  // namespace dygita

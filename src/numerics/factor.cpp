@@ -8,9 +8,16 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/threads.hpp"
+#include "numerics/blas_buffers.hpp"
 #include "numerics/cholmod_workspace.hpp"
 #include "numerics/fronts.hpp"
 #include "numerics/spd_inverse.hpp"
+
+// OpenBLAS's own, which it exports without a header; not every build does.
+extern "C" {
+void* blas_memory_alloc(int) __attribute__((weak));
+void blas_memory_free(void*) __attribute__((weak));
+}
 
 namespace dygita {
 
@@ -89,6 +96,13 @@ Mat Factor::take_schur() {
 void prepare_thread() {
   flush_denormals();
   openblas_set_num_threads(1);
+}
+
+void take_blas_buffers(int n_threads) {
+  if (!blas_memory_alloc || !blas_memory_free) return;
+  std::vector<void*> buffers;  // taken together: one that is given back serves the next
+  for (int i = 0; i < n_threads; ++i) buffers.push_back(blas_memory_alloc(0));
+  for (void* buffer : buffers) blas_memory_free(buffer);
 }
 
 const char* better_blas_kernels() {

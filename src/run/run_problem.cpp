@@ -14,6 +14,7 @@
 #include "base/progress.hpp"
 #include "base/team.hpp"
 #include "latin/latin.hpp"
+#include "numerics/blas_buffers.hpp"
 #include "output/bolt_table.hpp"
 #include "output/replacement.hpp"
 #include "reference/explicit.hpp"
@@ -142,6 +143,7 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const Given& given, Fra
   if (keeps_scenes) observers.add(scenes);
   auto result = std::make_shared<RunResult>();
   require_memory(memory_for_results + static_cast<std::size_t>(thread_limit()) * memory_of_thread);
+  take_blas_buffers(thread_limit());
   MemoryReserve reserve(memory_for_results);
   const SolverFigures figures = problem.explicit_dynamics ? solve_explicit(problem, observers)
                                 : problem.monolithic
