@@ -1,8 +1,8 @@
 #include "output/files.hpp"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
-#include <fstream>
 
 #include "base/error.hpp"
 
@@ -15,11 +15,11 @@ void write_text(const fs::path& path, const std::string& text) {
   std::error_code error;
   fs::remove(temporary, error);  // a link there would lead to a file of somebody's
   errno = 0;
-  std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  const int reason = errno;
-  if (!file) {
+  std::FILE* file = std::fopen(temporary.c_str(), "wbx");  // new, or not at all
+  bool is_good = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  int reason = errno;
+  if (file && std::fclose(file) != 0 && is_good) is_good = false, reason = errno;
+  if (!is_good) {
     fs::remove(temporary, error);
     throw InputError("cannot write '" + path.string() + "': " + std::strerror(reason));
   }

@@ -48,6 +48,11 @@ bool carry_over(const fs::path& from, const fs::path& to) {
 
 Replacement::Replacement(const fs::path& directory) : directory_(fs::canonical(directory)) {
   work_ = directory_.parent_path() / ("." + directory_.filename().string() + ".continued");
+  // What a killed run has left there is a folder; a link would lead to the old results, or anywhere.
+  std::error_code ignored;
+  const fs::file_status there = fs::symlink_status(work_, ignored);
+  if (fs::exists(there) && !fs::is_directory(there))
+    throw InputError("'" + work_.string() + "' is a link or a file, where new results are to be written: remove it");
 }
 
 Replacement::~Replacement() {

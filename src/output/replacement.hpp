@@ -8,7 +8,8 @@ namespace dygita {
 
 class Replacement {
  public:
-  // `directory`: of the results to be replaced. Nothing is made yet.
+  // `directory`: of the results to be replaced. Nothing is made yet. Throws InputError where something other than a
+  // folder has the place of the new ones, a link too.
   explicit Replacement(const std::filesystem::path& directory);
   // Without `commit`: the old results are as they were, the new ones are gone.
   ~Replacement();

@@ -49,6 +49,15 @@ bool may_live(const Holder& holder) {
   return holder.host != host_name() || kill(static_cast<pid_t>(holder.pid), 0) == 0 || errno == EPERM;
 }
 
+// A second name of a file of somebody's, or a pipe, would be emptied or waited for.
+void require_own(int descriptor, const std::filesystem::path& path) {
+  struct stat found {};
+  if (fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode) && found.st_nlink <= 1) return;
+  close(descriptor);
+  throw InputError(fmt::format("'{}' is no file of its own, but {}, and not a lock of dygita: remove it", path.string(),
+                               S_ISREG(found.st_mode) ? "a second name of another" : "something else"));
+}
+
 bool is_same_file(int descriptor, const std::filesystem::path& path) {
   struct stat opened {
   }, named{};
@@ -88,6 +97,7 @@ RunLock::RunLock(const std::filesystem::path& folder) {
     if (descriptor_ < 0 && errno == ELOOP)
       throw InputError(fmt::format("'{}' is a link, and not a lock of dygita: remove it", path_.string()));
     if (descriptor_ < 0) throw InputError(fmt::format("cannot write '{}': {}", path_.string(), std::strerror(errno)));
+    require_own(descriptor_, path_);
     found = attempt(descriptor_, path_);
     if (found == Attempt::by_another) {
       try {

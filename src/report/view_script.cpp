@@ -1,8 +1,12 @@
 #include "report/view_script.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/names.hpp"
 #include "report/embedded.hpp"
@@ -60,6 +64,34 @@ std::string text(const std::string& value) {
   return nlohmann::json(value).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+enum class Literal { text, file, file_or_none, number, vector, truth };
+
+// What the script starts with.
+constexpr std::pair<const char*, Literal> constants[] = {
+    {"PROBLEM", Literal::text},       {"PROBLEM_FILE", Literal::file}, {"INTERFACES_FILE", Literal::file_or_none},
+    {"WARP", Literal::number},        {"TITLE", Literal::text},        {"TIME", Literal::number},
+    {"FIELD", Literal::text},         {"FIELD_TITLE", Literal::text},  {"TOP", Literal::number},
+    {"PRESSURE", Literal::number},    {"CENTRE", Literal::vector},     {"SIZE", Literal::number},
+    {"HALF_HEIGHT", Literal::number}, {"HALF_WIDTH", Literal::number}, {"EYE", Literal::vector},
+    {"UP", Literal::vector},          {"NORMAL", Literal::vector},     {"IS_CUT", Literal::truth}};
+
+bool is_number(const nlohmann::json& value) { return value.is_number() && std::isfinite(value.get<double>()); }
+
+// As Python has it; nothing where it is no such literal.
+std::string python(const std::string& written, Literal literal) {
+  if (literal == Literal::truth) return written == "True" || written == "False" ? written : "";
+  if (literal == Literal::file_or_none && written == "None") return written;
+  const nlohmann::json value = nlohmann::json::parse(written, nullptr, false);
+  if (literal == Literal::number) return is_number(value) ? fmt::format("{}", value.get<double>()) : "";
+  if (literal == Literal::vector) {
+    if (!value.is_array() || value.size() != 3 || !std::all_of(value.begin(), value.end(), is_number)) return "";
+    return fmt::format("[{}, {}, {}]", value[0].get<double>(), value[1].get<double>(), value[2].get<double>());
+  }
+  if (!value.is_string()) return "";
+  const std::string plain = value.get<std::string>();
+  return literal == Literal::text || plain == file_name_of(plain) ? value.dump() : "";
+}
+
 std::string vector(const Vec3& v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
 
 }  // namespace
@@ -101,6 +133,27 @@ std::string view_script(const Problem& problem, const std::vector<FrameSummary>&
   put("NORMAL", vector(clip_normal(view)));
   put("IS_CUT", view.is_cut ? "True" : "False");
   return script + "\n" + embedded_text("view.py");
+}
+
+std::string view_script_again(const std::string& kept, const std::filesystem::path& folder,
+                              const std::filesystem::path& own) {
+  std::map<std::string, std::string> written;
+  std::istringstream lines(kept);
+  for (std::string line; std::getline(lines, line);)
+    if (const size_t at = line.find(" = "); at != std::string::npos)
+      written.emplace(line.substr(0, at), line.substr(at + 3));
+  std::string script = fmt::format("RUN = {}\n", text(folder.string()));
+  for (const auto& [name, literal] : constants) {
+    const std::string value = python(written[name], literal);
+    if (value.empty())
+      throw InputError(
+          fmt::format("'{}' is not as a run of dygita writes it, or damaged: it gives no {}\n    run the "
+                      "deck again",
+                      (folder / view_file).string(), name));
+    script += fmt::format("{} = {}\n", name, value);
+  }
+  return script + "\n" + embedded_text("view.py") +
+         fmt::format("\nimport shutil\n\nshutil.rmtree({}, ignore_errors=True)\n", text(own.string()));
 }
 
 }  // namespace dygita

@@ -19,4 +19,10 @@ inline constexpr const char* view_file = own_file::view;
 std::string view_script(const Problem& problem, const std::vector<FrameSummary>& frames,
                         const std::filesystem::path& folder);
 
+// The same written afresh for a run that lies in `folder` now, from the values in the text of its view.py: what else
+// stands there is left behind, so that no program of a stranger's runs. Throws InputError where a value is missing or
+// is no plain number, text or list. At its end it takes the folder `own` away, where it lies itself.
+std::string view_script_again(const std::string& kept, const std::filesystem::path& folder,
+                              const std::filesystem::path& own);
+
 }  // namespace dygita

@@ -192,7 +192,7 @@ void write_state(const std::filesystem::path& path, const RunState& state) {
     std::filesystem::remove(temporary, ignored);
     throw InputError(fmt::format("cannot write '{}': {}", path.string(), reason));
   };
-  std::FILE* file = std::fopen(temporary.c_str(), "wb");
+  std::FILE* file = std::fopen(temporary.c_str(), "wbx");
   if (!file) fail(std::strerror(errno));
   bool is_good = false;
   try {

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "output/files.hpp"
+#include "output/replacement.hpp"
 #include "output/run_lock.hpp"
 #include "output/run_writer.hpp"
 #include "scratch.hpp"
@@ -39,6 +40,42 @@ TEST(Links, in_the_place_of_a_lock_are_refused) {
   }
   EXPECT_EQ(message, "'" + lock.string() + "' is a link, and not a lock of dygita: remove it");
   EXPECT_EQ(text_of(others), "precious");
+}
+
+TEST(Links, of_a_lock_to_another_file_are_refused) {
+  const Scratch scratch;
+  const fs::path others = scratch.path() / "others", lock = scratch.path() / ".base.lock";
+  put(others, "precious");
+  fs::create_hard_link(others, lock);
+  std::string message;
+  try {
+    const RunLock held(scratch.path() / "base");
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  EXPECT_EQ(message, "'" + lock.string() +
+                         "' is no file of its own, but a second name of another, and not a lock of dygita: remove it");
+  EXPECT_EQ(text_of(others), "precious");
+  fs::remove(lock);
+  const RunLock held(scratch.path() / "base");
+}
+
+TEST(Links, in_the_place_of_new_results_are_refused) {
+  const Scratch scratch;
+  const fs::path base = scratch.path() / "base", work = scratch.path() / ".base.continued";
+  fs::create_directories(base);
+  fs::create_directory_symlink(base, work);
+  std::string message;
+  try {
+    const Replacement replacement(base);
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  EXPECT_EQ(message, "'" + work.string() + "' is a link or a file, where new results are to be written: remove it");
+  EXPECT_TRUE(fs::is_symlink(work));
+  fs::remove(work);
+  fs::create_directory(work);  // as a killed run leaves it
+  const Replacement replacement(base);
 }
 
 TEST(Links, in_the_place_of_the_folders_of_frames_are_refused_before_a_run) {

@@ -4,8 +4,11 @@ import sys
 import paraview.simple
 from paraview.simple import *
 
-# pvpython tells a script where it is, ParaView's window does not: then `dygita view` does, or it is where the run wrote it.
-folder = os.path.dirname(os.path.abspath(__file__)) if "__file__" in globals() else os.environ.get("DYGITA_RUN", FOLDER)
+# `dygita view` tells where the run is; pvpython tells a script where it is, ParaView's window does not: then it is where the run wrote it.
+if "RUN" in globals():
+    folder = RUN
+else:
+    folder = os.path.dirname(os.path.abspath(__file__)) if "__file__" in globals() else os.environ.get("DYGITA_RUN", FOLDER)
 if not os.path.exists(os.path.join(folder, PROBLEM_FILE)):
     raise RuntimeError("no %s in %s: the run has been moved; open it with dygita view RUN" % (PROBLEM_FILE, folder))
 
