@@ -10,6 +10,7 @@
 #include "base/log.hpp"
 #include "base/names.hpp"
 #include "base/progress.hpp"
+#include "base/warnings.hpp"
 #include "deck/repeat_run.hpp"
 #include "ranks/ranks.hpp"
 
@@ -36,6 +37,7 @@ int say_error(const char* message, int code) {
 
 // An error of one rank ends all.
 int fail(const char* message, int code) {
+  tell_warnings();
   if (!ranks::is_alone()) ranks::stop_all(message, code);
   return say_error(message, code);
 }
@@ -140,6 +142,7 @@ int main(int argc, char** argv) {
   try {
     join_ranks(argc, argv);
     const int code = command_line(argc, argv);
+    tell_warnings();
     ranks::finish();
     return code;
   } catch (const InputError& error) {

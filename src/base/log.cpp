@@ -6,13 +6,59 @@
 #include <utility>
 
 #include "base/names.hpp"
+#include "base/warnings.hpp"
 
 namespace dygita {
 
 namespace {
 std::mutex log_mutex;
 std::vector<std::string> kept_warnings;
+size_t n_serious = 0;  // of them, at the front
 bool is_silent = false;
+
+struct Waiting {
+  KindOfWarning of;
+  std::string message;
+};
+std::vector<Waiting> waiting;
+
+// With the mutex held.
+void keep(const std::string& message, bool is_serious) {
+  if (std::find(kept_warnings.begin(), kept_warnings.end(), message) != kept_warnings.end()) return;
+  kept_warnings.insert(
+      is_serious ? kept_warnings.begin() + static_cast<std::ptrdiff_t>(n_serious++) : kept_warnings.end(), message);
+  if (is_silent) return;
+  std::fputs(("warning: " + printable(message) + "\n").c_str(), stderr);
+}
+
+// The worst of a kind, and the subjects of the others.
+std::string merged(const std::vector<Waiting>& kind) {
+  constexpr size_t most_named = 5;
+  const auto worst = std::max_element(kind.begin(), kind.end(),
+                                      [](const Waiting& a, const Waiting& b) { return a.of.rank < b.of.rank; });
+  const size_t n_others = kind.size() - 1;
+  if (n_others == 0) return worst->message;
+  std::string names;
+  size_t n_named = 0;
+  for (const Waiting& other : kind)
+    if (&other != &*worst && n_named < most_named) names += (n_named++ ? ", " : "") + other.of.subject;
+  if (n_others > n_named) names += fmt::format(" and {} others", n_others - n_named);
+  return fmt::format("{}\n    the worst of {} of this kind; the other{}: {}", worst->message, kind.size(),
+                     n_others == 1 ? "" : "s", names);
+}
+
+void tell(bool is_serious) {
+  std::vector<std::string> kinds;
+  for (const Waiting& one : waiting)
+    if (one.of.is_serious == is_serious && std::find(kinds.begin(), kinds.end(), one.of.kind) == kinds.end())
+      kinds.push_back(one.of.kind);
+  for (const std::string& kind : kinds) {
+    std::vector<Waiting> all;
+    for (const Waiting& one : waiting)
+      if (one.of.kind == kind && one.of.is_serious == is_serious) all.push_back(one);
+    keep(merged(all), is_serious);
+  }
+}
 }  // namespace
 
 void say(const std::string& line) {
@@ -24,10 +70,19 @@ void say(const std::string& line) {
 
 void warn(const std::string& message) {
   const std::scoped_lock lock(log_mutex);
-  if (std::find(kept_warnings.begin(), kept_warnings.end(), message) != kept_warnings.end()) return;
-  kept_warnings.push_back(message);
-  if (is_silent) return;
-  std::fputs(("warning: " + printable(message) + "\n").c_str(), stderr);
+  keep(message, false);
+}
+
+void warn(const std::string& message, const KindOfWarning& of) {
+  const std::scoped_lock lock(log_mutex);
+  const auto is_same = [&](const Waiting& one) { return one.message == message; };
+  if (std::none_of(waiting.begin(), waiting.end(), is_same)) waiting.push_back({of, message});
+}
+
+void tell_warnings() {
+  const std::scoped_lock lock(log_mutex);
+  for (const bool is_serious : {true, false}) tell(is_serious);
+  waiting.clear();
 }
 
 void be_silent() {
@@ -36,7 +91,9 @@ void be_silent() {
 }
 
 std::vector<std::string> take_warnings() {
+  tell_warnings();
   const std::scoped_lock lock(log_mutex);
+  n_serious = 0;
   return std::exchange(kept_warnings, {});
 }
 

@@ -17,7 +17,7 @@ void warn(const std::string& message);
 // From now on nothing is printed; warnings are kept as before.
 void be_silent();
 
-// The warnings since the last call, oldest first; clears them.
+// The warnings since the last call, serious kinds (base/warnings.hpp) first, else oldest first; clears them.
 std::vector<std::string> take_warnings();
 
 }  // namespace dygita

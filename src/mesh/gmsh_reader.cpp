@@ -8,6 +8,7 @@
 #include "base/fnv1a.hpp"
 #include "base/log.hpp"
 #include "base/names.hpp"
+#include "base/warnings.hpp"
 #include "mesh/mesh_file.hpp"
 #include "mesh/mesher_process.hpp"
 #include "mesh/straighten.hpp"
@@ -36,7 +37,8 @@ TaggedModel mesh_file(const GmshOptions& options) {
 GmshMeshes::GmshMeshes(const GmshOptions& options) : file_(options.file) {
   check_options(options);
   TaggedModel model = mesh_file(options);
-  for (const Straightened& one : straighten(model)) warn(text_of(one, file_));
+  for (const Straightened& one : straighten(model))
+    warn(text_of(one, file_), {"tangled cells of " + file_, std::abs(one.volume_change), one.volume});
   Fnv1a digest;
   for (const TaggedVolume& volume : model.volumes) {
     const MeshPtr mesh = build_mesh(model, volume);

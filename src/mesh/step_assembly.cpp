@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/names.hpp"
+#include "base/warnings.hpp"
 #include "mesh/cell_quality.hpp"
 #include "mesh/gmsh_reader.hpp"
 #include "mesh/mesh_file.hpp"
@@ -103,7 +104,8 @@ StepAssembly::StepAssembly(const StepOptions& options) : file_(options.file) {
     throw InputError(
         fmt::format("mesh file '{}': mesh.step takes .step (or .stp) and .brep; mesh.gmsh reads a .{}", file_, kind));
   MesherAnswer answer = ask_mesher({.options = options, .path = file_}, file_);
-  for (const Straightened& one : straighten(answer.model)) warn(text_of(one, file_));
+  for (const Straightened& one : straighten(answer.model))
+    warn(text_of(one, file_), {"tangled cells of " + file_, std::abs(one.volume_change), one.volume});
   parts_ = build_parts(answer);
   say_parts(file_, parts_);
 }

@@ -31,8 +31,20 @@ void fail(const Problem& problem, const Origin& origin, const std::string& text,
                    "problem '" + problem.name + "': " + text + (hint.empty() ? "" : "\n    " + hint));
 }
 
+namespace {
+
+std::string placed(const Problem& problem, const Origin& origin, const std::string& text) {
+  return (origin.file.empty() ? problem.origin : origin).prefix() + "problem '" + problem.name + "': " + text;
+}
+
+}  // namespace
+
 void doubt(const Problem& problem, const Origin& origin, const std::string& text) {
-  warn((origin.file.empty() ? problem.origin : origin).prefix() + "problem '" + problem.name + "': " + text);
+  warn(placed(problem, origin, text));
+}
+
+void doubt(const Problem& problem, const Origin& origin, const std::string& text, const KindOfWarning& of) {
+  warn(placed(problem, origin, text), of);
 }
 
 bool has_dynamic_step(const Problem& problem) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/warnings.hpp"
 #include "model/model.hpp"
 
 namespace dygita::check {
@@ -53,6 +54,7 @@ void histories(const Problem& problem);
 
 // Warns of it: "<origin>: problem '<name>': <text>".
 void doubt(const Problem& problem, const Origin& origin, const std::string& text);
+void doubt(const Problem& problem, const Origin& origin, const std::string& text, const KindOfWarning& of);
 
 bool has_dynamic_step(const Problem& problem);
 bool is_wall(const Target& target);

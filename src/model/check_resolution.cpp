@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "base/log.hpp"
+#include "base/warnings.hpp"
 #include "model/check.hpp"
 #include "model/load_content.hpp"
 #include "model/output.hpp"
@@ -21,7 +21,7 @@ constexpr double most_damping = 0.2;      // of critical
 
 struct Content {
   double frequency = 0.0;  // Hz
-  std::string of;          // "load.pressure on face 'rod.zmax'"
+  std::string who, of;     // "load.pressure on face 'rod.zmax'", and what it asks for
   Origin origin;
 };
 
@@ -40,10 +40,10 @@ std::vector<Content> contents(const Problem& problem, const Step& step) {
   std::vector<Content> list;
   for (const LoadPtr& load : step.loads)
     if (const double f = load_frequency(*load, step); f > 0.0)
-      list.push_back({f, "95 % of the energy of " + label(*load) + " lies below", load->origin});
+      list.push_back({f, label(*load), "95 % of the energy of " + label(*load) + " lies below", load->origin});
   for (const OutputPtr& output : problem.outputs)
     if (const std::optional<double> f = output->highest_frequency())
-      list.push_back({*f, output->known_as() + " asks for", output->origin});
+      list.push_back({*f, output->known_as(), output->known_as() + " asks for", output->origin});
   return list;
 }
 
@@ -72,10 +72,9 @@ double cell_size(const Substructure& part) {
   return sum / mesh.n_cells();
 }
 
-void say(const Problem& problem, const Content& content, const std::string& text) {
-  const Origin& origin = content.origin.file.empty() ? problem.origin : content.origin;
-  warn(fmt::format("{}problem '{}': {} {}; {}", origin.prefix(), problem.name, content.of, in_unit(content.frequency),
-                   text));
+void say(const Problem& problem, const Content& content, const std::string& what, const std::string& text) {
+  doubt(problem, content.origin, fmt::format("{} {}; {}", content.of, in_unit(content.frequency), text),
+        {what, content.frequency, content.who});
 }
 
 // Materials whose damping takes most of the motion that the step is to show. Where nothing says which frequencies
@@ -103,7 +102,7 @@ void doubt_superelements(const Problem& problem, const Content& content) {
   for (const SubstructurePtr& part : problem.substructures) {
     const double valid_to = part->mesh->condensed ? part->mesh->condensed->valid_to : 0.0;
     if (valid_to > 0.0 && content.frequency > valid_to)
-      say(problem, content,
+      say(problem, content, "superelement " + part->name,
           fmt::format("superelement '{}' was made to be used up to {}: what it does above is not that of the body "
                       "it stands for",
                       part->name, in_unit(valid_to)));
@@ -120,7 +119,7 @@ void resolution(const Problem& problem) {
     for (const Content& content : all) {
       const double steps = 1.0 / (content.frequency * step->dt);
       if (steps < steps_a_period)
-        say(problem, content,
+        say(problem, content, "dt of " + step->name,
             fmt::format("step '{}' makes {:.2g} time steps per period there: {:.0f} are wanted, dt = {:.2g} us",
                         step->name, steps, steps_a_period, 1e6 / (steps_a_period * content.frequency)));
     }
@@ -140,7 +139,7 @@ void resolution(const Problem& problem) {
     for (size_t i = 1; i < size.size(); ++i)
       if (cells(i) < cells(worst)) worst = i;
     if (cells(worst) < cells_a_wavelength)
-      say(problem, *highest,
+      say(problem, *highest, "mesh for " + step->name,
           fmt::format("the {} of substructure '{}', {:.3g} mm {}, are {:.2g} to the "
                       "wavelength of shear "
                       "waves there, {:.3g} mm: {:.0f} "

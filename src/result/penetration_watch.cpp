@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/log.hpp"
+#include "base/warnings.hpp"
 
 namespace dygita {
 
@@ -29,6 +30,7 @@ std::string length_text(double length) {
 void PenetrationWatch::begin_step(const Instant& start) {
   if (std::exchange(has_begun_, true)) return;
   pairs_ = doubt_neighbours(problem_, *start.model.surfaces);
+  tell_warnings();
   std::erase_if(pairs_, [](const Unjoined& pair) { return !pair.neighbours.are_near(); });
   deepest_.resize(pairs_.size());
   displacement_.resize(problem_.substructures.size());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/warnings.hpp"
 #include "model/check.hpp"
 #include "reference/explicit.hpp"
 #include "result/lumped_inertia.hpp"
@@ -19,6 +20,7 @@ std::string check_report(const Problem& problem) {
   const std::vector<Surface> surfaces = make_surfaces(problem);
   doubt_neighbours(problem, surfaces);
   doubt_lumped_inertia(problem);
+  tell_warnings();
   State state = initial_state(problem, surfaces);
   long n_dofs = 0;
   std::string text = fmt::format("problem '{}'\n", problem.name);

@@ -10,6 +10,7 @@
 #include <unordered_set>
 
 #include "base/parallel.hpp"
+#include "base/warnings.hpp"
 #include "law/law.hpp"
 #include "mesh/face_nodes.hpp"
 #include "model/check.hpp"
@@ -87,7 +88,8 @@ void doubt_distance(const Problem& problem, const Surface& surface) {
   check::doubt(
       problem, interface.origin,
       fmt::format("{} joins faces that are up to {:.3g} mm apart as if they touched{}", check::describe(interface),
-                  1e3 * largest, interface.law->is_tie() ? "" : ": gap = \"geometry\" has the law know the distance"));
+                  1e3 * largest, interface.law->is_tie() ? "" : ": gap = \"geometry\" has the law know the distance"),
+      {"joined apart", largest, "'" + interface.name + "'"});
 }
 
 // How many facets have all their nodes among those that a support holds.
@@ -217,6 +219,8 @@ std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Su
     PlacedBody body_1 = bodies[static_cast<size_t>(i)], body_2 = bodies[static_cast<size_t>(j)];
     double interference = 0.0;  // m, that their interfaces know of
     for (const Surface& surface : surfaces) {
+      if (std::min(surface.part_1, surface.part_2) == i && std::max(surface.part_1, surface.part_2) == j)
+        pair.offset = std::max(pair.offset, 2.0 * surface.facing.sagitta);
       if (std::min(surface.part_1, surface.part_2) == i && std::max(surface.part_1, surface.part_2) == j &&
           surface.interface->has_gap_of_geometry && surface.n_points() > 0)
         interference = std::max(interference, -surface.facing.gaps.minCoeff());
@@ -259,7 +263,8 @@ void doubt_touches(const Problem& problem, const std::vector<Unjoined>& unjoined
         fmt::format("substructures '{}' and {} touch on {:.4g} mm^2{} where no interface joins them, at {} ({} on "
                     "{}): they pass through each other there; an interface.contact keeps them apart",
                     a.name, others, 1e6 * touch.area, pairs.size() > 1 ? " each" : "", at(touch.place),
-                    face_with(a, touch.facet_1), face_with(b, touch.facet_2)));
+                    face_with(a, touch.facet_1), face_with(b, touch.facet_2)),
+        {"touch", touch.area, fmt::format("'{}' and {} ({:.3g} mm^2)", a.name, others, 1e6 * touch.area), true});
   }
 }
 
@@ -270,11 +275,16 @@ void doubt_unjoined(const Problem& problem, const std::vector<Unjoined>& unjoine
     const std::string who = fmt::format("substructures '{}' and '{}'", a.name, b.name);
     if (const auto& intrusion = pair.neighbours.intrusion) {
       const Box& box = intrusion->extent;
-      check::doubt(problem, b.origin,
-                   fmt::format("{} overlap, up to {:.3g} mm deep at {}, in about {:.3g} mm^3 between {} and {}: check "
-                               "'place', 'origin' and 'unit'",
-                               who, 1e3 * intrusion->depth, at(intrusion->place), 1e9 * intrusion->volume, at(box.low),
-                               at(box.high)));
+      const bool is_of_facets = intrusion->depth <= pair.offset;
+      check::doubt(
+          problem, b.origin,
+          fmt::format("{} overlap, up to {:.3g} mm deep at {}, in about {:.3g} mm^3 between {} and {}: {}", who,
+                      1e3 * intrusion->depth, at(intrusion->place), 1e9 * intrusion->volume, at(box.low), at(box.high),
+                      is_of_facets ? "no more than the facets of their round faces are off; 'round', or cells "
+                                     "of order two, make it less"
+                                   : "check 'place', 'origin' and 'unit'"),
+          {is_of_facets ? "overlap of facets" : "overlap", intrusion->depth,
+           fmt::format("'{}' and '{}' ({:.3g} mm)", a.name, b.name, 1e3 * intrusion->depth), !is_of_facets});
     }
   }
   doubt_touches(problem, unjoined);
@@ -300,7 +310,8 @@ void doubt_points(const Problem& problem, const Surface& surface) {
                            "mesh there",
                            check::describe(*surface.interface), facing.n_points(), facing.n_points() == 1 ? "" : "s",
                            is_row ? ", in a row, so that it gives way like a hinge" : "", carrier.label(),
-                           1e6 * facing.areas.sum()));
+                           1e6 * facing.areas.sum()),
+               {"few points", (is_row ? 1.0 : 0.0) - facing.n_points(), "'" + surface.interface->name + "'", true});
 }
 
 void doubt_surfaces(const Problem& problem, const std::vector<Surface>& surfaces) {

@@ -13,6 +13,7 @@ struct Unjoined {
   double size;         // m, diagonal of the smaller part's bounding box
   double reach;        // m, how far apart they may be to be near
   Neighbours neighbours;
+  double offset = 0.0;  // m, by which the facets of its joined round faces are off them
 };
 
 // Pairs of parts that touch, overlap or are near where no interface joins them: within a twentieth of the smaller one's
