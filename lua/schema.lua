@@ -95,6 +95,7 @@ local function share_of_bolt(of)
 end
 
 local friction = { "friction", type = "number", range = { 0, 1000 }, usual = { 0, 2, "metals have 0.05 to 1" }, default = 0, doc = "Coulomb's coefficient" }
+local friction_of_contact = { "friction", type = "number", range = friction.range, usual = friction.usual, default_doc = "0, which is warned of where bolts are tightened", doc = friction.doc }
 local duration = { 1e-9, 100 }  -- s
 local any_value = { -1e15, 1e15 }
 local usual_gap = { -0.0005, 0.002, "between faces whose meshes coincide gaps are tenths of a millimetre" }
@@ -294,7 +295,7 @@ words[4] = {
   {
     "contact", makes = "interface", doc = "Unilateral contact with Coulomb friction.",
     arguments = {
-      name_unless_all(), between(all_touching), of_parts, except, friction,
+      name_unless_all(), between(all_touching), of_parts, except, friction_of_contact,
       { "gap", type = "number", unit = "m", range = { -0.01, 0.01 }, usual = usual_gap, default = 0, or_word = "geometry",
         doc = "initial gap; a negative one is an interference; \"geometry\": that of the places, point by point, where the meshes do not match" },
       { "closed", type = "boolean", default = false, doc = "says that the faces touch, whatever lies between their facets: the gap is 0" },

@@ -4,6 +4,7 @@
 
 #include "base/log.hpp"
 #include "deck/build_model.hpp"
+#include "deck/deck_state.hpp"
 #include "deck/integration.hpp"
 #include "law/law.hpp"
 #include "mesh/bolt.hpp"
@@ -239,6 +240,10 @@ Content build_interface(const Declaration& d) {
       (interface->has_gap_of_geometry || d.arguments.number("gap") != 0.0))
     throw InputError(d.origin,
                      fmt::format("{} '{}': 'closed' and 'gap' contradict each other", d.path, interface->name));
+  const auto entry = std::find_if(law_table().begin(), law_table().end(),
+                                  [&](const LawEntry& law) { return law.word == d.arguments.word(); });
+  const bool rubs = std::find(entry->arguments.begin(), entry->arguments.end(), "friction") != entry->arguments.end();
+  if (rubs && of_law.try_emplace("friction", 0.0).second) DeckState::of(d.lua).without_friction.emplace_back(interface);
   interface->law = make_law(d.arguments.word(), of_law);
   return InterfacePtr(interface);
 }

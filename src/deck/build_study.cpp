@@ -1,7 +1,12 @@
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+
 #include "deck/build_model.hpp"
+#include "deck/deck_state.hpp"
 #include "deck/integration.hpp"
+#include "model/check.hpp"
+#include "model/load.hpp"
 #include "result/output_table.hpp"
 
 namespace dygita {
@@ -98,6 +103,28 @@ Content build_explicit(const Declaration& d) {
 
 Content build_output(const Declaration& d) { return make_output(d.arguments); }
 
+// What bolts clamp is held by friction: left out it is 0, and nothing holds.
+void doubt_friction(const Problem& problem, const DeckState& state) {
+  const bool tightens = std::any_of(problem.steps.begin(), problem.steps.end(), [](const StepPtr& step) {
+    return std::any_of(step->loads.begin(), step->loads.end(), [](const LoadPtr& load) {
+      const std::vector<Effect> effects = load->effects();
+      return std::any_of(effects.begin(), effects.end(), [](const Effect& effect) { return bool(tightening(effect)); });
+    });
+  });
+  if (!tightens) return;
+  for (const std::weak_ptr<const Interface>& left_out : state.without_friction) {
+    const InterfacePtr interface = left_out.lock();
+    if (!interface ||
+        std::find(problem.interfaces.begin(), problem.interfaces.end(), interface) == problem.interfaces.end())
+      continue;
+    check::doubt(problem, interface->origin,
+                 fmt::format("{} has no 'friction' and slides freely, where bolts are tightened that hold by friction: "
+                             "friction = 0 says that it is meant",
+                             check::describe(*interface)),
+                 {"no friction", 0.0, "'" + interface->name + "'", true});
+  }
+}
+
 Content build_problem(const Declaration& d) {
   const LuaArguments& a = d.arguments;
   auto problem = new_named<Problem>(d);
@@ -116,6 +143,7 @@ Content build_problem(const Declaration& d) {
       problem->solver = *solver.as<std::shared_ptr<const LatinSettings>>();
   }
   check_problem(*problem);
+  doubt_friction(*problem, DeckState::of(d.lua));
   return std::shared_ptr<const Problem>(problem);
 }
 

@@ -30,6 +30,7 @@ struct DeckState : LuaState {
   Study study;
   std::set<std::string> parameters_read, signals_told;
   std::map<std::shared_ptr<const StepAssembly>, std::set<std::string>> parts_taken;  // by the deck, names
+  std::vector<std::weak_ptr<const Interface>> without_friction;  // contacts for which the deck gives none
   Origin parameters_origin;
   bool has_parameters = false;   // param{} was called
   bool has_read_hollow = false;  // the deck has read a value that was not computed

@@ -144,6 +144,32 @@ problem{ name = "p", substructures = { low, high }, interfaces = { glue }, suppo
   EXPECT_DOUBLE_EQ(fake.problems.at(0).steps[0]->loads[0]->values[0]->history.value(0.5e-6), 5.0);
 }
 
+// What bolts clamp slides freely where friction is left out, and nothing shows it in a green report.
+TEST(Build, doubts_a_contact_without_friction_where_bolts_are_tightened) {
+  const auto doubts = [](const std::string& friction, const std::string& load) {
+    FakeEngine fake;
+    take_warnings();
+    run_text(std::string(two_blocks) + R"(
+local third = substructure{ name = "third", mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 1, 1, 1 } }, material = steel, place = { 0, 0, 20*mm } }
+local touch = interface.contact{ name = "touch", between = { high:face "zmax", third:face "zmin" })" +
+                 friction + R"( }
+local s = step.static{ name = "s", loads = { )" +
+                 load + R"( } }
+problem{ name = "p", substructures = { low, high, third }, interfaces = { glue, touch }, supports = { base }, steps = { s } }:run{})",
+             fake);
+    int n = 0;
+    for (const std::string& warning : take_warnings())
+      n += warning.find("interface.contact 'touch' has no 'friction' and slides freely") != std::string::npos;
+    return n;
+  };
+  const std::string bolt = "load.shortening{ on = glue, by = 1*um }",
+                    push = "load.pressure{ on = third:face 'zmax', history = 1*MPa }";
+  EXPECT_EQ(doubts("", bolt), 1);
+  EXPECT_EQ(doubts(", friction = 0", bolt), 0);
+  EXPECT_EQ(doubts(", friction = 0.2", bolt), 0);
+  EXPECT_EQ(doubts("", push), 0);
+}
+
 TEST(Build, makes_the_other_loads) {
   const LoadPtr shake = load_built("load.base_acceleration{ on = base, direction = { 0, 0, 2 }, history = 100*g0 }");
   const std::vector<Effect> shaken = shake->effects();
