@@ -36,6 +36,7 @@ std::string unit_hint(const std::string& line) {
 
 std::string sign_hint(const std::string& near) {
   if (near == "!") return "'not equal' is ~=, 'not' is the word not";
+  if (near.starts_with("<\\255") || near.starts_with("<\\254")) return "the deck is text in UTF-16: save it as UTF-8";
   if (near.starts_with("<\\")) return "text stands between straight quotes, \"\", and minus is the plain -";
   if (near == "&" || near == "|") return "write 'and', 'or'";
   if (near == "#" || near == "//" || near == "%") return "a comment starts with --";

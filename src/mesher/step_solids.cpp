@@ -25,6 +25,8 @@ void read_names(Solid& solid) {
   for (const char c : path) c == '/' ? levels.emplace_back() : levels.back() += c;
   solid.part.product = levels.back();
   if (levels.size() > 2) solid.part.instance = levels[levels.size() - 2];
+  // Several solids of one product, as NX writes them, are instances that OpenCASCADE calls by a label: "=>[0:1:1:3]".
+  if (solid.part.instance.starts_with("=>[")) solid.part.instance.clear();
 }
 
 // Unique names: the product's; where that repeats the instance's; where that repeats or is missing, with the number.

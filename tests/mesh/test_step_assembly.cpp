@@ -56,6 +56,25 @@ TEST(StepAssembly, has_curved_cells_whose_volume_is_that_of_the_solids) {
   }
 }
 
+// As NX writes them: OpenCASCADE calls the two by labels of its own, "=>[0:1:1:3]".
+TEST(StepAssembly, has_names_for_several_solids_of_one_product) {
+  std::ifstream joint_file(joint().file);
+  std::string text{std::istreambuf_iterator<char>(joint_file), {}};
+  const std::string one_solid = "(#11,#45),#543", two_solids = "(#11,#45,#562),#543";
+  ASSERT_NE(text.find(one_solid), std::string::npos);
+  text.replace(text.find(one_solid), one_solid.size(), two_solids);
+  StepOptions options = joint();
+  options.size = 50e-3;
+  options.order = 1;
+  options.file = (std::filesystem::temp_directory_path() / "dygita_two_solids.step").string();
+  std::ofstream(options.file) << text;
+  const StepAssembly assembly(options);
+  std::filesystem::remove(options.file);
+  std::vector<std::string> names;
+  for (const StepPart* part : assembly.parts("*")) names.push_back(part->name);
+  EXPECT_EQ(names, (std::vector<std::string>{"SOLID", "plate 8 mm 2", "upper", "bolt1", "bolt2"}));
+}
+
 // One face of the first plate is gone: OpenCASCADE leaves the plate out and says nothing.
 TEST(StepAssembly, of_a_spoiled_file_says_that_solids_are_missing) {
   std::ifstream whole(joint().file);
