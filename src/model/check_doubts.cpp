@@ -147,6 +147,47 @@ void doubt_shortenings(const Problem& problem) {
       }
 }
 
+// Substructures on either side of what is tightened.
+std::vector<SubstructurePtr> tightened_parts(const Problem& problem) {
+  std::vector<SubstructurePtr> parts;
+  for (const StepPtr& step : problem.steps)
+    for (const LoadPtr& load : step->loads)
+      for (const Effect& effect : load->effects())
+        if (const Tightening* bolt = tightening(effect))
+          for (const SubstructurePtr& part : {bolt->on->side_1.part, bolt->on->side_2.part})
+            if (std::find(parts.begin(), parts.end(), part) == parts.end()) parts.push_back(part);
+  return parts;
+}
+
+// A whole bolt in half a model carries twice what it should, or is tightened to half of it.
+void doubt_whole_bolts(const Problem& problem, const Support& support, const Face& face) {
+  constexpr double beyond = 0.1;  // of what lies on one side
+  Vec3 area = Vec3::Zero();
+  for (const Facet& facet : face.facets()) area += facet_area_vector(face.part->mesh->nodes, facet);
+  const Vec3 outwards = area.normalized();
+  const Vec3 place = face.part->mesh->nodes.col(face.facets().front().nodes()[0]) + face.part->place;
+  for (const SubstructurePtr& part : tightened_parts(problem)) {
+    const Eigen::RowVectorXd out =
+        (outwards.transpose() * part->mesh->nodes).array() + outwards.dot(part->place - place);
+    const double far = out.maxCoeff(), near = -out.minCoeff();
+    if (part == face.part || far <= beyond * near || near <= beyond * far) continue;
+    doubt(problem, support.origin,
+          fmt::format(
+              "'{}', which a load tightens, lies on both sides of the plane of {}, {:.3g} mm beyond it: in half a "
+              "model a bolt on the plane is half a bolt with half its preload",
+              part->name, describe(support), 1e3 * far),
+          {"whole bolt", far, "'" + part->name + "'", true});
+  }
+}
+
+void doubt_symmetry(const Problem& problem) {
+  for (const SupportPtr& support : all_supports(problem)) {
+    if (support->kind->holds(true) != Directions::normal || support->kind->law()) continue;
+    for (const FaceOrRegion& place : support->on)
+      if (const Face* face = std::get_if<Face>(&place)) doubt_whole_bolts(problem, *support, *face);
+  }
+}
+
 // What moves when a static step begins stops in no time.
 void doubt_sudden_rest(const Problem& problem) {
   for (size_t i = 1; i < problem.steps.size(); ++i)
@@ -232,6 +273,7 @@ void doubts(const Problem& problem) {
   doubt_mass_damping(problem);
   doubt_moduli(problem);
   doubt_shortenings(problem);
+  doubt_symmetry(problem);
   doubt_sudden_rest(problem);
   for (const InterfacePtr& interface : problem.interfaces) doubt_hardening(problem, *interface);
   for (size_t i = 1; i < problem.steps.size(); ++i)

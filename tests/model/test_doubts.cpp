@@ -53,6 +53,21 @@ TEST_F(Doubts, are_said_of_a_hardening_without_a_length) {
   }
 }
 
+TEST_F(Doubts, are_said_of_a_whole_bolt_in_half_a_model) {
+  auto cut = declared<Support>("cut", 21);
+  cut->kind = make_support("symmetry");
+  cut->on = {Face{lower, "ymin"}};
+  problem.supports.push_back(cut);
+  EXPECT_EQ(complaint(), "");
+  EXPECT_TRUE(take_warnings().empty());
+  upper->mesh = box_mesh(Vec3(0, -0.3, 1), Vec3::Ones(), {2, 2, 2});
+  EXPECT_EQ(
+      only_warning(),
+      "deck.lua:21: problem 'bolted': 'upper', which a load tightens, lies on both sides of the plane of "
+      "support.symmetry 'cut', 300 mm beyond it: in half a model a bolt on the plane is half a bolt with half its "
+      "preload");
+}
+
 TEST_F(Doubts, are_said_of_a_load_that_a_dynamic_step_drops) {
   const Face top{upper, "zmax"};
   tighten->loads.push_back(load("pressure", {top}, 2e5));
