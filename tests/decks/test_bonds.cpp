@@ -2,6 +2,9 @@
 // they hold.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
+
 #include "decks/engine.hpp"
 
 namespace dygita::test::bonds_tests {
@@ -84,6 +87,134 @@ TEST(Bonds, on_large_cells_are_no_hinges_or_are_said_to_be) {
   EXPECT_GT(right({{"cells", "6"}, {"on_plate", "1"}}), 3.0 * fine);
   EXPECT_NE(testing::internal::GetCapturedStderr().find("in a row, so that it gives way like a hinge"),
             std::string::npos);
+}
+
+// Two cubes in a row that nothing holds, joined face to face, the second one thrown.
+const std::string thrown = R"(
+local p = param{ joint = 1, cells = 2, order = 1, how = 1, tuned = 0, pieces = 1, x = 0, y = 1, z = -5, dt = 0.5, base = 0, speed = 0 }
+local m = material.elastic{ name = "m", young = 200*GPa, poisson = 0, density = 8000 }
+local function cube(name, n, x, v) return substructure{ name = name, material = m, velocity = v, place = { x, 0, 0 },
+  mesh = mesh.box{ size = { 8*mm, 8*mm, 8*mm }, cells = { n, n, n }, order = p.order } } end
+local a, b = cube("a", 2, 0, { 0, 0, 0 }), cube("b", p.cells, 8*mm, { p.x, p.y, p.z })
+local sides = { a:face "xmax", b:face "xmin" }
+local tie = p.joint == 1 and interface.bonded{ name = "tie", between = sides }
+  or interface.plastic{ name = "tie", between = sides, yield = p.joint == 2 and 1e10 or 30*MPa, hardening = p.joint == 4 and 1e12 or 0 }
+local fly = step.dynamic{ name = "fly", duration = 20*us, dt = p.dt*us,
+  loads = p.speed ~= 0 and { load.velocity{ on = a:face "zmin", x = p.speed } } or {} }
+problem{ name = "thrown", substructures = { a, b }, interfaces = { tie }, steps = { fly },
+  supports = p.base == 1 and { support.fixed{ name = "base", on = a:face "zmin" } } or {},
+  solver = solver.latin{ integration = p.how == 1 and "implicit" or "explicit", mass = p.tuned == 1 and "tuned" or "lumped", pieces = p.pieces, tolerance = 1e-9 },
+  outputs = { output.energy{}, output.momentum{ name = "pa", of = a }, output.momentum{ name = "pb", of = b },
+              output.resultant{ name = "through", on = tie }, output.joint{ name = "joint", on = tie } } }:run{}
+)";
+
+// The energy books of a flight: what was given, what the impact at its start took, what was left then, the largest that
+// there is later.
+struct Flight {
+  double given, lost, left, most;
+};
+
+// Central differences exchange energy with what they themselves store.
+double closes_within(const std::string& solver) { return solver == "explicit" ? 0.04 : 1e-6; }
+
+Flight books_of(const DeckRun& run, const std::string& solver) {
+  const std::vector<double>&kinetic = run.column("energy", "kinetic"), &strain = run.column("energy", "strain"),
+        &scheme = run.column("energy", "scheme"), &balance = run.column("energy", "balance");
+  Flight flight{kinetic[0] + scheme[0], scheme[0], kinetic[0] + strain[0], 0.0};
+  for (size_t i = 0; i < kinetic.size(); ++i) {
+    flight.most = std::max(flight.most, kinetic[i] + strain[i]);
+    EXPECT_NEAR(balance[i], 0.0, closes_within(solver) * flight.given) << solver << i;
+  }
+  return flight;
+}
+
+constexpr double energy_given = 0.5 * 8000 * 512e-9 * 26;  // J, of v = (0, 1, -5)
+
+// Everything that can join them, by every solver: energy is never more than there was, and momentum is handed on.
+TEST(Thrown, parts_that_are_joined_gain_no_energy_and_keep_their_momentum) {
+  const std::vector<Settings> joints = {{},
+                                        {{"cells", "3"}},
+                                        {{"joint", "2"}},
+                                        {{"joint", "2"}, {"cells", "3"}},
+                                        {{"pieces", "3"}, {"cells", "4"}},
+                                        {{"how", "2"}},
+                                        {{"how", "2"}, {"cells", "3"}},
+                                        {{"how", "2"}, {"cells", "4"}, {"tuned", "1"}},
+                                        {{"cells", "3"}, {"tuned", "1"}},
+                                        {{"order", "2"}, {"cells", "3"}},
+                                        {{"order", "2"}}};
+  for (const char* solver : {"", "monolithic", "explicit"})
+    for (const char* dt : {"0.1", "0.5"})
+      for (Settings settings : joints) {
+        const bool is_latin = std::string(solver).empty();
+        std::string what = std::string(solver) + " " + dt;
+        for (const auto& [name, value] : settings) what += " " + name + " " + value;
+        const bool is_quadratic = what.find("order") != std::string::npos;
+        if (!is_latin && (what.find("how") != std::string::npos || what.find("pieces") != std::string::npos)) continue;
+        if (std::string(solver) == "explicit" && is_quadratic) continue;
+        settings.emplace_back("dt", dt);
+        testing::internal::CaptureStderr();
+        const DeckRun run = run_text(thrown, settings, 1, solver)[0];
+        EXPECT_NE(testing::internal::GetCapturedStderr().find("begin with unlike velocities ('tie')"),
+                  std::string::npos)
+            << what;
+        const Flight flight = books_of(run, solver);
+        std::printf("%-45s lost %.3f %% at once, at most %.4f of what there was\n", what.c_str(),
+                    100 * flight.lost / flight.given, flight.most / flight.given);
+        EXPECT_NEAR(flight.given, energy_given, 1e-9 * energy_given) << what;
+        EXPECT_GT(flight.lost, 0.01 * energy_given) << what;
+        EXPECT_LT(flight.most, (1 + closes_within(solver)) * flight.left) << what;
+        const std::vector<double>&a = run.column("pa", "z"), &b = run.column("pb", "z"),
+              &f = run.column("through", "z");
+        const double all = -5 * 8000 * 512e-9;
+        EXPECT_NEAR(a.front() + b.front(), all, 1e-9 * -all) << what;
+        EXPECT_NEAR(a.back() + b.back(), all, 1e-6 * -all) << what;
+        double impulse = 0.0;
+        for (const double force : f) impulse += force * std::stod(dt) * 1e-6;
+        EXPECT_NEAR(a.back() - a.front(), impulse, 1e-5 * -all) << what;
+      }
+}
+
+// Of two equal layers of nodes that meet as one, half of the relative energy goes: of cubes of two cells, an eighth.
+TEST(Thrown, parts_lose_what_the_layer_of_nodes_between_them_had) {
+  for (const char* solver : {"", "monolithic", "explicit"}) {
+    const Flight flight = books_of(run_text(thrown, {}, 1, solver)[0], solver);
+    EXPECT_NEAR(flight.lost, energy_given / 8, 1e-9 * energy_given) << solver;
+  }
+}
+
+// A tie that yields at less than would stop the parts lets them go on: at rho c v/2 > R it opens at v - 2 R/(rho c)
+// until the waves are back.
+TEST(Thrown, parts_whose_tie_yields_open_at_the_rate_that_it_leaves) {
+  const double impedance = std::sqrt(200e9 * 8000), rate = 10 - 2 * 30e6 / impedance;
+  for (const char* solver : {"", "monolithic"})
+    for (const char* dt : {"0.1", "0.4"}) {
+      const DeckRun run =
+          run_text(thrown, {{"joint", "3"}, {"x", "10"}, {"y", "0"}, {"z", "0"}, {"dt", dt}}, 1, solver)[0];
+      const Flight flight = books_of(run, solver);
+      EXPECT_NEAR(flight.lost, 0.0, 1e-12);
+      EXPECT_LT(flight.most, (1 + 1e-9) * flight.given);
+      const std::vector<double>& opening = run.column("joint", "opening");
+      const double time = 2e-6;  // of 3.2 us there and back
+      const auto n = static_cast<size_t>(std::lround(time / (std::stod(dt) * 1e-6)));
+      const double middle = time - 0.5e-6 * std::stod(dt);
+      EXPECT_NEAR(opening[n - 1], rate * middle, 0.03 * rate * middle) << solver << dt;
+    }
+}
+
+// What moves or holds one side at once takes the other along, and what that takes is work of the load.
+TEST(Thrown, parts_joined_to_what_a_support_or_a_load_moves_go_along) {
+  for (const char* solver : {"", "monolithic", "explicit"}) {
+    const DeckRun held = run_text(thrown, {{"base", "1"}}, 1, solver)[0];
+    const Flight flight = books_of(held, solver);
+    EXPECT_LT(flight.most, (1 + closes_within(solver)) * flight.left) << solver;
+    const DeckRun moved = run_text(thrown, {{"speed", "3"}, {"y", "0"}, {"z", "0"}, {"cells", "3"}}, 1, solver)[0];
+    const std::vector<double>&kinetic = moved.column("energy", "kinetic"), &loads = moved.column("energy", "loads");
+    EXPECT_NEAR(loads[0], kinetic[0], 1e-9 * kinetic[0]) << solver;
+    const std::vector<double>& balance = moved.column("energy", "balance");
+    const double all = largest(loads);
+    for (const double open : balance) EXPECT_NEAR(open, 0.0, closes_within(solver) * all) << solver;
+  }
 }
 
 }  // namespace
