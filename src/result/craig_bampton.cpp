@@ -16,8 +16,6 @@ namespace dygita {
 
 namespace {
 
-// Dense matrices of this many unknowns of the faces take about 1 GB in all.
-constexpr int most_unknowns = 6000;
 // Added to the diagonal of the faces while the assembly is factorised, and taken off its Schur complement: nothing else
 // may hold it.
 constexpr double reference_share = 0.1;
@@ -35,11 +33,11 @@ class HeldInterface {
         for (SparseMatrix::InnerIterator e(assembly.map, 3 * node + d); e; ++e) is_interface[e.col()] = 1;
     // All unknowns of a place, tied copies that are not on the face included.
     const int n_b = static_cast<int>(std::count(is_interface.begin(), is_interface.end(), 1));
-    if (n_b > most_unknowns)
+    if (n_b > most_face_unknowns)
       throw InputError(request.origin, fmt::format("output.superelement '{}': the faces of 'on' have {} unknowns, at "
                                                    "most {} are allowed: take smaller faces or "
                                                    "larger cells there",
-                                                   request.name, n_b, most_unknowns));
+                                                   request.name, n_b, most_face_unknowns));
     if (const std::string motion = free_motion(assembly, problem, coordinates.nodes); !motion.empty())
       throw InputError(request.origin,
                        fmt::format("output.superelement '{}': {} is unconstrained ({})\n    hold it by a "
@@ -155,7 +153,7 @@ Modes residual_modes(const HeldInterface& held, const LinearAssembly& assembly, 
   const double largest = gram.values.size() > 0 ? gram.values.tail(1)[0] : 0.0;
   const int rank = static_cast<int>((gram.values.array() > 1e-8 * largest).count());
   const Mat basis = r * (gram.vectors.rightCols(rank) * gram.values.tail(rank).cwiseSqrt().cwiseInverse().asDiagonal());
-  const EigenPairs eigen = symmetric_eigen(symmetric(basis.transpose() * (assembly.stiffness * basis)));
+  const EigenPairs eigen = symmetric_eigen(symmetric(assembly.energies(basis)));
   return {eigen.values, basis * eigen.vectors, false};
 }
 
@@ -171,7 +169,7 @@ Mat slow_motions(const LinearAssembly& assembly, const Mat& psi, const Modes& ke
   const int n_q = static_cast<int>(psi.cols()), n_m = static_cast<int>(kept.values.size());
   Mat k = Mat::Zero(n_q + n_m, n_q + n_m), m = Mat::Identity(n_q + n_m, n_q + n_m);
   const Mat m_psi = assembly.mass * psi;
-  k.topLeftCorner(n_q, n_q) = symmetric(psi.transpose() * (assembly.stiffness * psi));
+  k.topLeftCorner(n_q, n_q) = symmetric(assembly.energies(psi));
   k.diagonal().tail(n_m) = kept.values;
   m.topLeftCorner(n_q, n_q) = symmetric(psi.transpose() * m_psi);
   m.bottomLeftCorner(n_m, n_q) = kept.vectors.transpose() * m_psi;
@@ -211,7 +209,7 @@ Superelement condense(const LinearAssembly& assembly, const Problem& problem, co
   for (int i = 0; i < n_m; ++i) element.rows.push_back({-1, -1, i, Vec3::Zero()});
   // Static and fixed-interface modes are orthogonal in K.
   element.stiffness = Mat::Zero(n_q + n_m, n_q + n_m);
-  element.stiffness.topLeftCorner(n_q, n_q) = symmetric(psi.transpose() * (assembly.stiffness * psi));
+  element.stiffness.topLeftCorner(n_q, n_q) = symmetric(assembly.energies(psi));
   element.stiffness.diagonal().tail(n_m) = modes.values;
   element.mass = Mat::Identity(n_q + n_m, n_q + n_m);
   const Mat m_psi = assembly.mass * psi;

@@ -155,7 +155,8 @@ InterfaceCoordinates interface_coordinates(const LinearAssembly& assembly, const
       }
     } else {
       const bool is_rigid = motion == FaceMotion::rigid;
-      for (int d = 0; d < 6 && is_rigid; ++d) coordinates.rows.push_back({on_index, -1, d, on.centre});
+      const int n_motions = on.nodes.size() > 1 ? 6 : 3;  // a node turns about itself
+      for (int d = 0; d < n_motions && is_rigid; ++d) coordinates.rows.push_back({on_index, -1, d, on.centre});
       const int part = index_of(problem.substructures, std::visit([](const auto& o) { return o.part.get(); }, place));
       for (size_t i = 0; i < on.nodes.size(); ++i)
         for (int d = 0; d < 3; ++d) {
@@ -174,7 +175,7 @@ InterfaceCoordinates interface_coordinates(const LinearAssembly& assembly, const
           } else if (is_rigid) {
             const Vec3 arm = on.places[i] - on.centre;
             of_rows.emplace_back(n_held, first_row + d, 1.0);
-            for (int turn = 0; turn < 3; ++turn)
+            for (int turn = 0; turn + 3 < n_motions; ++turn)
               if (const double way = Vec3::Unit(turn).cross(arm)[d]; way != 0.0)
                 of_rows.emplace_back(n_held, first_row + 3 + turn, way);
           }

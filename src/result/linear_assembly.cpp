@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -166,6 +167,12 @@ void add_dampers(LinearAssembly& assembly) {
   assembly.damping += SparseMatrix(transposed * c_map);
 }
 
+SparseMatrix sparse_of(Eigen::Index n_rows, Eigen::Index n_columns, const Triplets& entries) {
+  SparseMatrix matrix(n_rows, n_columns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
 // n x n, kg: as the cells of the body have it in a step.
 SparseMatrix nodal_mass(const Substructure& body, const BodyMatrices& matrices) {
   if (has_consistent_mass(*body.mesh)) return consistent_mass(*body.mesh, body.material);
@@ -189,40 +196,47 @@ SparseMatrix by_axis(const SparseMatrix& nodal) {
   return all;
 }
 
-// Sum of factor(row) row row^T over the sums, on the unknowns.
+// A sum on the unknowns.
+std::map<int, double> row_of(const LinearAssembly& assembly, const SpreadSum& sum) {
+  std::map<int, double> row;
+  for (const auto& [node, coefficient] : sum.nodes)
+    for (int d = 0; d < 3; ++d)
+      for (SparseMatrix::InnerIterator e(assembly.map, 3 * node + d); e; ++e)
+        row[static_cast<int>(e.col())] += coefficient[d] * e.value();
+  return row;
+}
+
+// Rows times the root of their factor, of the sums that have one.
 template <typename Factor>
-SparseMatrix products_of_sums(const LinearAssembly& assembly, Factor&& factor) {
+SparseMatrix rooted_sums(const LinearAssembly& assembly, Factor&& factor) {
   Triplets entries;
+  int n = 0;
   for (const SpreadSum& sum : assembly.sums) {
-    std::map<int, double> row;
-    for (const auto& [node, coefficient] : sum.nodes)
-      for (int d = 0; d < 3; ++d)
-        for (SparseMatrix::InnerIterator e(assembly.map, 3 * node + d); e; ++e)
-          row[static_cast<int>(e.col())] += coefficient[d] * e.value();
-    const double value = factor(sum, row);
-    for (const auto& [i, a] : row)
-      for (const auto& [j, b] : row)
-        if (value != 0.0) entries.emplace_back(i, j, value * a * b);
+    const std::map<int, double> row = row_of(assembly, sum);
+    const double root = std::sqrt(factor(sum, row));
+    if (root == 0.0) continue;
+    for (const auto& [i, a] : row) entries.emplace_back(n, i, root * a);
+    ++n;
   }
-  SparseMatrix products(assembly.map.cols(), assembly.map.cols());
-  products.setFromTriplets(entries.begin(), entries.end());
-  return products;
+  return sparse_of(n, assembly.map.cols(), entries);
 }
 
 void add_sums(LinearAssembly& assembly) {
   constexpr double stiff = 1e6;
   if (assembly.sums.empty()) return;
   const Vec diagonal = assembly.stiffness.diagonal();
-  const SparseMatrix springs = products_of_sums(assembly, [&](const SpreadSum& sum, const std::map<int, double>& row) {
+  assembly.cells = assembly.stiffness;
+  assembly.springs = rooted_sums(assembly, [&](const SpreadSum& sum, const std::map<int, double>& row) {
     double stiffest = 0.0;
     for (const auto& [i, a] : row) stiffest = std::max(stiffest, diagonal[i]);
     return sum.is_held ? stiff * stiffest : 0.0;
   });
-  assembly.stiffness += springs;
+  assembly.stiffness += SparseMatrix(SparseMatrix(assembly.springs.transpose()) * assembly.springs);
   if (std::none_of(assembly.sums.begin(), assembly.sums.end(), [](const SpreadSum& sum) { return sum.damping > 0.0; }))
     return;
   if (assembly.damping.rows() == 0) assembly.damping.resize(assembly.map.cols(), assembly.map.cols());
-  assembly.damping += products_of_sums(assembly, [](const SpreadSum& sum, const auto&) { return sum.damping; });
+  const SparseMatrix dampers = rooted_sums(assembly, [](const SpreadSum& sum, const auto&) { return sum.damping; });
+  assembly.damping += SparseMatrix(SparseMatrix(dampers.transpose()) * dampers);
 }
 
 void add_matrices(const Problem& problem, LinearAssembly& assembly) {
@@ -264,6 +278,12 @@ void add_matrices(const Problem& problem, LinearAssembly& assembly) {
 }
 
 }  // namespace
+
+Mat LinearAssembly::energies(const Mat& x) const {
+  if (springs.rows() == 0) return x.transpose() * (stiffness * x);
+  const Mat felt = springs * x;
+  return x.transpose() * (cells * x) + felt.transpose() * felt;
+}
 
 LinearAssembly linearise(const Instant& instant, bool ties_sliding) {
   const Problem& problem = *instant.model.problem;

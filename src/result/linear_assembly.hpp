@@ -30,8 +30,11 @@ struct SpreadSum {
 };
 
 struct LinearAssembly {
-  SparseMatrix stiffness, mass;       // n x n; N/m, kg
-  SparseMatrix damping;               // n x n, N s/m; empty where no material and no interface has any
+  SparseMatrix stiffness, mass;  // n x n; N/m, kg
+  SparseMatrix damping;          // n x n, N s/m; empty where no material and no interface has any
+  // Where sums are held, else empty: the stiffness without the springs that hold them, and of each spring the row whose
+  // square is its energy.
+  SparseMatrix cells, springs;
   SparseMatrix map;                   // 3 x (all nodes) rows: displacements of the nodes from the unknowns
   std::vector<int> first_node;        // of each substructure, and the number of all nodes
   std::vector<int> place_of_unknown;  // unknowns of one place are contiguous
@@ -42,6 +45,9 @@ struct LinearAssembly {
   double mass_of_parts = 0.0;                // kg
 
   int n() const { return static_cast<int>(stiffness.rows()); }
+  // x^T K x. Springs are that stiff that a motion which they do not feel must not be multiplied with them: their
+  // rounding would be stiffness.
+  Mat energies(const Mat& x) const;
 };
 
 // The assembly at an instant: bonded and plastic interfaces are tied, unless released; contact points that stick are

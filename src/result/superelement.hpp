@@ -9,6 +9,9 @@
 
 namespace dygita {
 
+// Dense matrices of this many unknowns of the faces take about 1 GB in all.
+inline constexpr int most_face_unknowns = 6000;
+
 // What of a face moves with the interface of a superelement (manual, eq. D2).
 enum class FaceMotion { mean, rigid, nodes };
 

@@ -42,10 +42,44 @@ TEST(SuperelementFaces, have_no_row_for_a_motion_that_a_support_holds) {
 }
 
 TEST(SuperelementFaces, of_one_node_have_its_three_displacements) {
-  for (const char* motion : {"mean", "nodes"}) {
+  for (const char* motion : {"mean", "nodes", "rigid"}) {
     const DeckRun run = block("on = corner, modes = 10, motion = '" + std::string(motion) + "'");
     EXPECT_EQ(n_interface(element_of(run)), 3) << motion;
   }
+}
+
+// A node has no rotation: what would be its rows moves nothing, has no mass, and would make every frequency zero.
+TEST(SuperelementFaces, of_one_node_give_one_model_whatever_the_motion) {
+  const Superelement nodes = element_of(block("on = corner, modes = 10, motion = 'nodes'"));
+  const Superelement rigid = element_of(block("on = corner, modes = 10, motion = 'rigid'"));
+  ASSERT_EQ(rigid.frequencies.size(), nodes.frequencies.size());
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(rigid.frequencies[i], nodes.frequencies[i], 1e-6 * nodes.frequencies[5]) << i;
+  EXPECT_GT(rigid.frequencies[5], 100.0);
+}
+
+// Two bars on each other, free in space: as springs hold points between faces that do not match, a rounding of them
+// must not be stiffness.
+TEST(SuperelementFaces, of_free_bodies_have_six_motions_at_zero) {
+  for (const char* order : {"1", "2"})
+    for (const char* gap : {"0", "1"}) {
+      const DeckRun run = run_text(R"(
+local p = param{ order = 2, gap = 0 }
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7800 }
+local function bar(name, z) return substructure{ name = name, material = steel, place = { 0, 0, z },
+  mesh = mesh.box{ size = { 720*mm, 25.4*mm, 12.7*mm }, cells = { 24, 2, 1 }, order = p.order } } end
+local a, b = bar("a", 0), bar("b", 12.7*mm + (p.gap == 1 and 0.1*mm or 0))
+local lap = interface.contact{ name = "lap", between = { a:face "zmax", b:face "zmin" }, friction = 0.2, within = 0.2*mm, gap = p.gap == 1 and "geometry" or 0 }
+local squeeze = step.static{ name = "squeeze", increments = 2, loads = { load.pressure{ on = { a:face "zmin", b:face "zmax" }, history = 10*MPa } } }
+problem{ name = "f2", substructures = { a, b }, interfaces = { lap }, steps = { squeeze },
+  outputs = { output.superelement{ name = "element", on = { a:face "xmin", b:face "xmax" }, up_to = 1*kHz } } }:run{}
+)",
+                                   {{"order", order}, {"gap", gap}})[0];
+      const Vec& frequencies = element_of(run).frequencies;
+      std::printf("order %s, gap %s: %.5f ... %.5f, %.3f Hz\n", order, gap, frequencies[0], frequencies[5],
+                  frequencies[6]);
+      EXPECT_EQ(frequencies[5], 0.0);
+      EXPECT_GT(frequencies[6], 100.0);
+    }
 }
 
 TEST(SuperelementFaces, by_nodes_leave_out_what_is_held) {

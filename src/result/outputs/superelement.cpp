@@ -1,7 +1,11 @@
 // output.superelement: the assembly condensed about the end of a step.
+#include <map>
+#include <set>
+
 #include "base/log.hpp"
 #include "base/names.hpp"
 #include "model/check.hpp"
+#include "numerics/dense.hpp"
 #include "result/craig_bampton.hpp"
 #include "result/output_table.hpp"
 #include "result/recorder.hpp"
@@ -85,6 +89,43 @@ SuperelementRequest request_of(const ModelArguments& a) {
   return request;
 }
 
+// Do the nodes lie on a line, which does not turn about itself? A node alone does not count.
+bool is_line(const FaceOrRegion& place) {
+  constexpr double flat = 1e-12;  // of squares
+  const std::vector<int> nodes = check::nodes_at(place);
+  if (nodes.size() < 2) return false;
+  const Points places = check::part_of(place).mesh->nodes(Eigen::all, nodes);
+  const Points arms = places.colwise() - places.rowwise().mean();
+  const Vec sizes = symmetric_eigen(arms * arms.transpose()).values;
+  return sizes[1] <= flat * sizes[2];
+}
+
+// Of the faces, at the least: what supports hold has none, tied nodes of several parts have them together.
+size_t least_unknowns(const Problem& problem, const Step& step, const std::vector<Target>& on) {
+  std::map<const Substructure*, std::set<int>> held, joined, free;
+  const auto add = [](const FaceOrRegion& place, auto& nodes) {
+    const std::vector<int> own = check::nodes_at(place);
+    nodes[&check::part_of(place)].insert(own.begin(), own.end());
+  };
+  for (const SupportPtr& support : supports_of(problem, step))
+    for (const FaceOrRegion& place : support->on) add(place, held);
+  for (const InterfacePtr& interface : problem.interfaces) {
+    add(interface->side_1, joined);
+    add(interface->side_2, joined);
+  }
+  for (const Target& target : on) add(*check::place_of(target), free);
+  size_t n_free = 0, n_joined = 0;
+  for (const auto& [part, nodes] : free) {
+    size_t of_part = 0;
+    for (const int node : nodes) {
+      if (held[part].contains(node)) continue;
+      ++(joined[part].contains(node) ? of_part : n_free);
+    }
+    n_joined = std::max(n_joined, of_part);
+  }
+  return 3 * (n_free + n_joined);
+}
+
 class SuperelementOutput final : public Output {
  public:
   explicit SuperelementOutput(const ModelArguments& a) : Output(a), request_(request_of(a)), after_(a.step("after")) {}
@@ -102,6 +143,7 @@ class SuperelementOutput final : public Output {
     if (!step)
       check::fail(problem, origin, who + ": the problem has no static step",
                   "it is taken about the state after one; or name another step with 'after'");
+    check_faces(problem, *step);
     for (const SubstructurePtr& part : problem.substructures)
       if (part->mesh->condensed && !part->mesh->condensed->followers.empty())
         check::fail(problem, origin,
@@ -132,6 +174,22 @@ class SuperelementOutput final : public Output {
   }
 
  private:
+  // What would else be found when the steps have been solved.
+  void check_faces(const Problem& problem, const Step& step) const {
+    const std::string who = known_as();
+    if (const size_t n = least_unknowns(problem, step, request_.on); n > most_face_unknowns)
+      check::fail(problem, origin,
+                  who + fmt::format(": the faces of 'on' have {} unknowns or more, at most {} are allowed", n,
+                                    most_face_unknowns),
+                  "take smaller faces or larger cells there");
+    for (const Target& target : request_.on)
+      if (request_.motion == FaceMotion::rigid && is_line(*check::place_of(target)))
+        check::fail(problem, origin,
+                    who + ": the nodes of " + check::describe(target) +
+                        " lie on a line, which does not turn about itself: it has no six motions of a rigid body",
+                    "take motion = \"nodes\", or name a face, or a region whose nodes are on no line");
+  }
+
   // The last static step where none is named; null: there is none.
   const Step* step_of(const Problem& problem) const {
     const Step* step = after_.get();
