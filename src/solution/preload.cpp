@@ -2,8 +2,10 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/error.hpp"
 #include "base/log.hpp"
@@ -110,15 +112,38 @@ namespace {
 
 constexpr double smallest_preload = 1e6;  // Pa, mean stress: below it hardly anyone tightens a bolt
 
+// A preload adds up forces along the normals of its points: where these turn, that is no force of a bolt.
+void check_direction(const Facing& facing, const Load& load, const std::string& who) {
+  constexpr double one_way = 0.99;  // of the area, seen along the mean normal: a dome of 11 degrees either way
+  const Vec3 sum = facing.normals * facing.areas;
+  const double share = sum.norm() / facing.areas.sum();
+  if (share >= one_way) return;
+  const Vec along = facing.normals.transpose() * sum.normalized();
+  const double turn = std::acos(std::clamp(along.minCoeff(), -1.0, 1.0)) * 180.0 / std::numbers::pi;
+  throw InputError(
+      load.origin,
+      fmt::format(
+          "{}, whose faces turn: {}; the forces along the normals, which a preload adds up, pull against each "
+          "other\n    tighten the bolt where a flat face crosses its shank: two parts bonded there, the preload "
+          "on that interface, and this one bonded without a load",
+          who,
+          share > 0.01 ? fmt::format("normals are up to {:.0f} degrees off their mean, along which {:.3g} % of "
+                                     "the area are seen",
+                                     turn, 100.0 * share)
+                       : "all around, so that their normals have no mean"));
+}
+
 void check_preload(const Problem& problem, const Step& step, const Load& load, const PreloadForce& preload,
                    const std::vector<Surface>& surfaces) {
   const Interface& interface = *preload.on;
-  const double area = surfaces.at(index_of(problem.interfaces, &interface)).facing.areas.sum();
+  const Facing& facing = surfaces.at(index_of(problem.interfaces, &interface)).facing;
+  const double area = facing.areas.sum();
   double most = 0.0;
   for (int i = 0; i < step.increments; ++i)
     most = std::max(most, LoadValue{preload.value, 0.0}.at_static(i, step.increments));
   const std::string who = fmt::format("problem '{}': step '{}': {} asks for {:.6g} N through interface.{} '{}'",
                                       problem.name, step.name, load.path, most, interface.law->word(), interface.name);
+  check_direction(facing, load, who);
   if (most > 0.0 && most < smallest_preload * area)
     warn(fmt::format("{}{}, a mean stress of {:.2g} MPa: was a unit forgotten, as in {:.6g}*kN?", load.origin.prefix(),
                      who, 1e-6 * most / area, most));

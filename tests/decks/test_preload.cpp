@@ -324,5 +324,30 @@ TEST(Preload, keeps_its_energy_balance) {
     EXPECT_LT(run_bolt(settings).figure("energy imbalance [%]"), 1e-4);
 }
 
+// The forces along the normals of a cylinder add up to nothing that a bolt could carry; of half of one, to 64 %.
+TEST(Preload, of_a_thread_bonded_along_its_cylinder_is_refused_with_the_cure) {
+  const std::string screw = "local file = '" DYGITA_SOURCE_DIR R"(/meshes/pin_in_hole.geo'
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local function body(name, k) return substructure{ name = name, material = steel, mesh = mesh.gmsh{ file = file, set = { body = k, n = 6, rim = 30*mm } }:volume(name) } end
+local pin, plate = body("pin", 1), body("plate", 2)
+local thread = interface.bonded{ name = "thread", between = { pin:face "round", plate:face "hole" } }
+local rim, head = support.fixed{ name = "rim", on = plate:face "rim" }, support.wall{ name = "head", on = pin:face "lower" }
+local tighten = step.static{ name = "tighten", loads = { load.preload{ on = thread, force = 5*kN } } }
+problem{ name = "screw", substructures = { pin, plate }, interfaces = { thread }, supports = { rim, head }, steps = { tighten } }:run{}
+)";
+  try {
+    run_text(screw);
+    FAIL() << "not refused";
+  } catch (const InputError& error) {
+    const std::string said = error.what();
+    EXPECT_NE(
+        said.find("through interface.bonded 'thread', whose faces turn: normals are up to 83 degrees off their mean, "
+                  "along which 64.4 % of the area are seen"),
+        std::string::npos)
+        << said;
+    EXPECT_NE(said.find("tighten the bolt where a flat face crosses its shank"), std::string::npos) << said;
+  }
+}
+
 }  // namespace
 }  // namespace dygita::test::preload_tests
