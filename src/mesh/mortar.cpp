@@ -13,13 +13,15 @@ namespace dygita {
 
 namespace {
 
-constexpr double least_share = 0.05;   // of a point's function that must be covered
-constexpr double fewer_points = 0.02;  // of two numbers of points, of the smaller, to count as different
-constexpr double lies_within = 0.99;   // of the area of the facets that take part: the face lies within the other
-constexpr double rounding = 1e-6;      // of the smallest edge: touching faces are not farther apart
-constexpr double nothing = 1e-14;      // a weight
-constexpr double on_the_spot = 1e-10;  // of a size: no offset between two places
-constexpr double flat = 1e-9;          // of the largest: an inertia without a direction
+constexpr double least_share = 0.05;    // of a point's function that must be covered
+constexpr double fewer_points = 0.02;   // of two numbers of points, of the smaller, to count as different
+constexpr double lies_within = 0.99;    // of the area of the facets that take part: the face lies within the other
+constexpr double enough_points = 64.0;  // of a face: they carry what a finer one would, nearly
+constexpr double many_more = 1.5;       // of two numbers of points
+constexpr double rounding = 1e-6;       // of the smallest edge: touching faces are not farther apart
+constexpr double nothing = 1e-14;       // a weight
+constexpr double on_the_spot = 1e-10;   // of a size: no offset between two places
+constexpr double flat = 1e-9;           // of the largest: an inertia without a direction
 
 // A side of the overlap by itself.
 struct Census {
@@ -62,11 +64,16 @@ Census take_census(const FaceInSpace& face, const FaceInSpace& other, double rea
 }
 
 // Points on a face that lies within the other see all of the mesh that moves there. Else each face has points where it
-// is covered; the fewer they are, the fewer patterns of forces meet a side that cannot answer them.
+// is covered; the fewer they are, the fewer patterns of forces meet a side that cannot answer them, if they are enough
+// to carry what there is.
 bool is_second_chosen(const Census& first, const Census& second, const MeetingOptions& options) {
   if (options.points != Carrier::automatic) return options.points == Carrier::second;
   const bool is_first_within = first.coverage >= lies_within, is_second_within = second.coverage >= lies_within;
-  if (is_first_within != is_second_within) return is_second_within;
+  if (is_first_within != is_second_within) {
+    const Census &inner = is_second_within ? second : first, &outer = is_second_within ? first : second;
+    const bool is_outer_enough = outer.n_points >= enough_points && inner.n_points > many_more * outer.n_points;
+    return is_second_within != is_outer_enough;
+  }
   if (std::abs(first.n_points - second.n_points) > fewer_points * std::min(first.n_points, second.n_points))
     return second.n_points < first.n_points;
   return options.is_second_preferred;

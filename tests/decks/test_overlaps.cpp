@@ -104,7 +104,7 @@ TEST(Overlaps, have_the_refined_answer_in_a_shock) {
     SCOPED_TRACE(testing::Message() << plate << ' ' << foot);
     const Answer coarse = answer_of(with(shock, {{"plate", plate}, {"foot", foot}}));
     EXPECT_NEAR(coarse.shift, refined.shift, 0.05 * refined.shift);
-    EXPECT_NEAR(coarse.force, refined.force, 0.09 * refined.force);  // what is missing is the foot's mesh
+    EXPECT_NEAR(coarse.force, refined.force, 0.1 * refined.force);  // what is missing is the plate's mesh
   }
 }
 
