@@ -29,6 +29,11 @@ class Indicator {
   // The same when a static step starts: one that does nothing has not to settle what the tolerance has left of those
   // before. Its forces are right to the tolerance of a thousandth of theirs.
   void start_from(double energy) { floor_ = std::max(floor_, 1e-6 * energy); }
+  // The same when a dynamic step starts, on what steps before have stored (J): of that, rounding leaves about 1e-12.
+  void start_motion(double energy, double dt, double tolerance) {
+    const double finest = std::max(1e-6, 1e-12 / tolerance);
+    floor_ = std::max(floor_, finest * finest * energy / dt);
+  }
   Outcome measure(const IndicatorSums& sums) const {
     constexpr double tiny = std::numeric_limits<double>::min();
     const double size = sums.force_size + sums.velocity_size;

@@ -1,5 +1,7 @@
 // What the local stage keeps and tells of an increment: the laws' memory, works, forces, gaps and residuals.
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "latin/local_stage.hpp"
 #include "law/law.hpp"
@@ -33,6 +35,8 @@ void LocalStage::accept(State* state, std::vector<IncrementEnergy>* energy) {
     if (state)
       book_work(point, p, end, increment, work_on_pieces(point), *state,
                 (*energy)[model_->exchange.ports[point.first_port].piece]);
+    const double left = increment_.is_static ? 0.0 : work_of_found(i);
+    if (state) (*energy)[model_->exchange.ports[point.first_port].piece].loads += left;
     p.law = end;
     if (state && point.law) show_point(point, p, *state);
   }
@@ -77,6 +81,48 @@ void LocalStage::show_residuals(const Point& point, State& state) const {
 bool LocalStage::is_massless(const Point& point) const {
   const Port& port = model_->exchange.ports[point.first_port];
   return model_->pieces[port.piece]->is_massless(port.piece_node);
+}
+
+// What a dynamic step finds on its unknowns: a motion is solved to the tolerance of what it adds to that, however much
+// a preload has left there. Forces across a cut are no part of the state: they are what keeps the pieces in balance.
+Vec LocalStage::found_forces(const State& start) const {
+  Vec found = Vec::Zero(model_->near.n());
+  if (model_->scheme.is_static) return found;
+  std::vector<Points> across_cuts(model_->pieces.size());
+  for (const int i : model_->here)
+    if (model_->cut->is_cut(model_->cut->piece(i).part) && !start.displacement[i].isZero(0.0))
+      across_cuts[i] = model_->pieces[i]->elastic_force(start.displacement[i]) - start.force[i];
+  std::set<std::pair<int, int>> nodes;
+  for (const int at : model_->near.points()) {
+    const Point& point = model_->exchange.points[at];
+    for (int p = point.first_port; p < point.end_port; ++p) {
+      const Port& port = model_->exchange.ports[p];
+      const Points& balance = across_cuts[port.piece];
+      // All of it under the first law of a node.
+      const bool is_balance = balance.cols() > 0 && !port.trace;
+      const bool is_first = is_balance && nodes.emplace(port.piece, port.piece_node).second;
+      for (int d = 0; d < 3; ++d)
+        if (const int i = model_->unknown(port, d); i >= 0)
+          found[i] = !is_balance ? ports_[p].f[d]
+                     : is_first  ? point.frame.col(d).dot(balance.col(port.piece_node))
+                                 : 0.0;
+    }
+  }
+  model_->near.exchange({found.data()});
+  return found;
+}
+
+// Work (J) of these forces on what the iteration leaves between V and W_hat in an increment. It stands for a shortening
+// of as much, and without it the books of a small motion would miss it.
+double LocalStage::work_of_found(int i_point) {
+  const Point& point = model_->exchange.points[static_cast<size_t>(i_point)];
+  double power = 0.0;
+  for (int p = point.first_port; p < point.end_port; ++p)
+    for (int d = 0; d < 3; ++d)
+      if (const int i = model_->unknown(model_->exchange.ports[p], d); i >= 0)
+        power += found_[i] * ports_[p].residual[d] / k_[i];
+  const double g = increment_at(point).g, before = std::exchange(points_left_[static_cast<size_t>(i_point)], power);
+  return increment_.dt * (g * before + (1 - g) * power);
 }
 
 double LocalStage::work_on_pieces(const Point& point) const {

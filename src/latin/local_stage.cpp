@@ -49,6 +49,8 @@ LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k)
       ports_[tie.port_1].f += force;
       ports_[tie.port_2].f -= force;
     }
+  found_ = found_forces(start);
+  points_left_.assign(points_.size(), 0.0);
 }
 
 Vec LocalStage::initial_q() const {
@@ -240,7 +242,8 @@ InterfaceSums::ToCome LocalStage::distance_sums(const Vec& velocity, const Vec& 
   return {n_sums, [this, &velocity, &q, &image](Eigen::Index first, Eigen::Index n, double* to) {
             for (Eigen::Index i = first; i < first + n; ++i) {
               const double k = k_[i], inverse = 1.0 / k, change = 0.5 * (q[i] - image[i]);
-              const double f = q[i] - k * velocity[i], f_hat = f - change, w_hat = velocity[i] - inverse * change;
+              const double f = q[i] - k * velocity[i] - found_[i], f_hat = f - change;
+              const double w_hat = velocity[i] - inverse * change;
               to[distance] += inverse * (change * change);
               to[force] += 0.5 * inverse * (f * f + f_hat * f_hat);
               to[motion] += 0.5 * k * (velocity[i] * velocity[i] + w_hat * w_hat);

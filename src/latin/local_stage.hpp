@@ -13,7 +13,8 @@ namespace dygita {
 // Sums of the indicator over the points (manual, eq. I1), W.
 struct IndicatorSums {
   double force_distance = 0.0, velocity_distance = 0.0;  // sum (F - F_hat)^2 / k,  sum k (V - W_hat)^2
-  double force_size = 0.0, velocity_size = 0.0;          // sum (F^2 + F_hat^2) / 2k,  sum k (V^2 + W_hat^2) / 2
+  // sum (F^2 + F_hat^2) / 2k,  sum k (V^2 + W_hat^2) / 2; forces of a dynamic step are what it adds to those it found.
+  double force_size = 0.0, velocity_size = 0.0;
 };
 
 // Of each preload in an increment: shortening (m), force through it and force asked for (N), stiffness of its search
@@ -127,6 +128,8 @@ class LocalStage {
   Vec3 mean_displacement(int first, int end) const;
   double work_on_pieces(const Point& point) const;
   void show_residuals(const Point& point, State& state) const;
+  Vec found_forces(const State& start) const;
+  double work_of_found(int i_point);
   void find_surfaces();
   void follow_loads(State& state) const;
   // Points between nodes without mass take the force and the gap of the step's end (manual, eq. S7).
@@ -139,11 +142,13 @@ class LocalStage {
 
   const StepModel* model_;
   Vec k_;
+  Vec found_;  // N, on the near unknowns when a dynamic step begins, a static one: zero
   InterfaceSums sums_;
   std::vector<PortState> ports_;
   std::vector<PointRecord> points_;
   std::vector<Preload> preloads_;
   std::map<int, const Interface*> interfaces_;  // of surfaces whose laws are iterated on any rank, not preloaded
+  std::vector<double> points_left_;             // W, of found_ on what is left at each point, in the last increment
   std::vector<double> limits_;                  // normal trials that limit tangential forces; empty: each point's own
   Vec prescribed_;                              // shortenings of the preloads; empty: found
   Increment increment_;

@@ -45,10 +45,13 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
       indicator_(model.scheme.is_static ? k.sum() * settings.assembly_size * settings.assembly_size : 0.0,
                  settings.is_assembled ? 1e-1 : 1e-2) {
   if (settings.is_assembled) assembled_.emplace(model, local_, k, settings.assembly_size);
+  const Energies& energies = files.state.energies;
+  const double before = energies.kinetic + energies.strain + std::abs(energies.loads);
   if (model.scheme.is_static) {
     loose_.emplace(model);
-    const Energies& energies = files.state.energies;
-    indicator_.start_from(energies.kinetic + energies.strain + std::abs(energies.loads));
+    indicator_.start_from(before);
+  } else if (before > energies.kinetic) {
+    indicator_.start_motion(before, model.scheme.dt, settings.tolerance);
   }
   books_.energy.resize(model.pieces.size());
   if (!ranks::is_alone()) {

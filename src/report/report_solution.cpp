@@ -113,11 +113,23 @@ std::string energy_section(const RunFolder& run, const TimeAxis& time) {
       const double value = run.figure(figure);
       return value < 0.01 ? "less than 0.01 %" : with_unit(value, "%", 2);
     };
-    body +=
-        html::paragraph(fmt::format("Largest energy {}: the top of the chart, all that is stored and dissipated. The "
-                                    "balance closes within {} of it; numerical dissipation {}, energy gain {}.",
-                                    with_unit(most, "J"), percent(&Figures::energy_imbalance),
-                                    percent(&Figures::numerical_dissipation), percent(&Figures::energy_gain)));
+    // Records of older versions hold all against the largest energy.
+    const bool has_motion = run.has_figure(&Figures::energy_of_motion),
+               has_both = run.has_figure(&Figures::static_gain);
+    std::string told = fmt::format("Largest energy {}: the top of the chart, all that is stored and dissipated. ",
+                                   with_unit(most, "J"));
+    told += has_motion ? fmt::format("The motion has {}. The balance closes within {} of that",
+                                     with_unit(run.figure(&Figures::energy_of_motion), "J"),
+                                     percent(&Figures::energy_imbalance))
+                       : fmt::format("The balance closes within {} of it", percent(&Figures::energy_imbalance));
+    told += fmt::format("; numerical dissipation {}, energy gain {}.", percent(&Figures::numerical_dissipation),
+                        percent(&Figures::energy_gain));
+    if (has_both)
+      told += fmt::format(
+          " In static steps it closes within {} of what they store; numerical dissipation {}, energy "
+          "gain {}.",
+          percent(&Figures::static_imbalance), percent(&Figures::static_dissipation), percent(&Figures::static_gain));
+    body += html::paragraph(told);
   }
   return html::section("Energy", body);
 }

@@ -100,6 +100,20 @@ struct Judged {
   double good, limit;
 };
 
+// Static steps of a run with motion are mostly in order: only what matters has a card.
+void add_static_books(const RunFolder& run, std::vector<Card>& cards) {
+  const Judged of_statics[] = {
+      {&Figures::static_imbalance, "energy balance, static", "of the static steps", 0.0, limit::energy_imbalance},
+      {&Figures::static_dissipation, "numerical dissipation, static", "gaps that close; lower with more increments",
+       0.0, limit::numerical_dissipation},
+      {&Figures::static_gain, "numerical energy gain, static", "of the static steps", 0.0, limit::energy_gain}};
+  for (const Judged& one : of_statics)
+    if (run.has_figure(one.figure) && !(run.figure(one.figure) <= one.limit))
+      cards.push_back({one.name,
+                       std::isfinite(run.figure(one.figure)) ? percent(run.figure(one.figure)) : "not a number",
+                       one.note, Grade::poor});
+}
+
 std::vector<Card> cards_of(const RunFolder& run) {
   const Json& steps = run.record().at("steps");
   const bool has_motion =
@@ -107,8 +121,10 @@ std::vector<Card> cards_of(const RunFolder& run) {
   const char* shock = "estimate, of the shock";
   const char* still = "estimate, of static steps";
   const double penalty = limit::penalty_error_of(limit::penalty_energy);
+  const char* whose =
+      run.has_figure(&Figures::energy_of_motion) ? "of the energy of the motion" : "of the largest energy";
   const Judged all[] = {
-      {&Figures::energy_imbalance, "energy balance closes within", "of the largest energy", limit::energy_imbalance,
+      {&Figures::energy_imbalance, "energy balance closes within", whose, limit::energy_imbalance,
        limit::energy_imbalance},
       {&Figures::numerical_dissipation, "numerical dissipation",
        has_motion ? "impacts; lower with dt and mesh" : "gaps that close, yielding; lower with more increments",
@@ -128,7 +144,8 @@ std::vector<Card> cards_of(const RunFolder& run) {
   }
   // A gain is mostly none: only one that matters has a card.
   if (const double gain = run.figure(&Figures::energy_gain); gain > limit::energy_gain)
-    cards.push_back({"numerical energy gain", percent(gain), "of the largest energy", Grade::poor});
+    cards.push_back({"numerical energy gain", percent(gain), whose, Grade::poor});
+  add_static_books(run, cards);
   add_margin(run, cards);
   return cards;
 }

@@ -24,7 +24,7 @@ Collector::Collector(const Problem& problem, PartWatch& parts, const FrameSink& 
 void Collector::begin_step(const Instant& start) {
   for (auto& [output, recorder] : recorders_) recorder->begin_step(start);
   bolts_.begin_step(start);
-  extremes_.before_springs = start.state.energies.scheme;
+  before_springs_ = start.state.energies.scheme;
 }
 
 void Collector::accept(const Instant& instant) {
@@ -53,16 +53,71 @@ void Collector::note_overload(const Instant& instant) {
   warnings_.insert(warnings_.end(), lines.begin(), lines.end());
 }
 
+// What the rest is held against, J. Of static steps all that is stored, and dissipated in them, which is what was given
+// as far as the balance closes. Of a motion what is in it: where it starts from a strained state, its own strain energy
+// is that of the displacements since, at the instants where that is known; the change of the whole would be mostly the
+// work of forces that were there before.
+double Collector::energy_of(const Instant& instant) const {
+  const Energies& e = instant.state.energies;
+  const double dissipated = e.friction + e.plastic + e.damping + e.scheme -
+                            (before_.friction + before_.plastic + before_.damping + before_.scheme);
+  if (!instant.is_static() && before_.strain > 0.0)
+    return e.kinetic + std::max(0.0, dissipated) + parts_.errors().strain_of_motion().value_or(0.0);
+  return std::max(e.kinetic + e.strain + dissipated, std::abs(e.start + e.loads - before_.start - before_.loads));
+}
+
 void Collector::watch(const Instant& instant) {
   const Energies& e = instant.state.energies;
-  // The top of the report's chart: all that is stored and dissipated, which is what was given as far as the balance
-  // closes.
+  if (kind_ != instant.is_static()) {
+    if (kind_) books(*kind_).end(parts_.errors().energy_at_rest());
+    kind_ = instant.is_static();
+    before_ = last_;
+  }
+  last_ = e;
+  // The top of the report's chart: all that is stored and dissipated.
   const double accounted = e.kinetic + e.strain + e.friction + e.plastic + e.damping + e.scheme;
-  extremes_.energy = std::max({extremes_.energy, accounted, std::abs(e.start + e.loads)});
-  extremes_.imbalance = std::max(extremes_.imbalance, std::abs(e.balance()));
-  extremes_.scheme_loss = std::max(extremes_.scheme_loss, e.scheme);
-  extremes_.scheme_gain = std::max(extremes_.scheme_gain, -e.scheme);
-  if (instant.fields) extremes_.springs = std::max(extremes_.springs, e.scheme - extremes_.before_springs);
+  largest_energy_ = std::max({largest_energy_, accounted, std::abs(e.start + e.loads)});
+  EnergyBooks& now = books(instant.is_static());
+  // Of nearly nothing beside what is stored rounding alone would tell.
+  constexpr double rounding = 1e-10;
+  now.energy = std::max({now.energy, energy_of(instant), rounding * before_.strain});
+  now.imbalance = std::max(now.imbalance, std::abs(e.balance() - before_.balance()));
+  now.loss = std::max(now.loss, e.scheme - before_.scheme);
+  now.gain = std::max(now.gain, before_.scheme - e.scheme);
+  if (instant.fields) now.springs = std::max(now.springs, e.scheme - before_springs_);
+}
+
+void EnergyBooks::end(double at_rest) {
+  // Where nothing is stored but the balance is open (an iteration that has run away), it is open altogether.
+  const double percent = energy > at_rest ? 100.0 / energy : imbalance > at_rest ? 100.0 / imbalance : 0.0;
+  worst_imbalance = std::max(worst_imbalance, percent * imbalance);
+  most_lost = std::max(most_lost, percent * loss);
+  most_gained = std::max(most_gained, percent * gain);
+  most_in_springs = std::max(most_in_springs, percent * springs);
+  largest = std::max(largest, energy);
+  energy = imbalance = loss = gain = springs = 0.0;
+}
+
+void Collector::finish_books(RunResult& result) {
+  if (kind_) books(*kind_).end(parts_.errors().energy_at_rest());
+  const auto has = [&](bool is_static) {
+    return std::any_of(problem_.steps.begin(), problem_.steps.end(),
+                       [&](const StepPtr& s) { return s->is_static == is_static; });
+  };
+  Figures& figures = result.figures;
+  const EnergyBooks& told = books(!has(false));
+  figures.largest_energy = largest_energy_;
+  figures.energy_imbalance = told.worst_imbalance;
+  figures.numerical_dissipation = told.most_lost;
+  figures.energy_gain = told.most_gained;
+  // What the springs of a penalty hold is what the sides overlap: its interfaces' constitutive-relation error.
+  if (problem_.explicit_dynamics) figures.penalty_error = limit::penalty_error_of(of_motion_.most_in_springs);
+  if (!has(false)) return;
+  figures.energy_of_motion = of_motion_.largest;
+  if (!has(true)) return;
+  figures.static_imbalance = of_statics_.worst_imbalance;
+  figures.static_dissipation = of_statics_.most_lost;
+  figures.static_gain = of_statics_.most_gained;
 }
 
 namespace {
@@ -127,18 +182,8 @@ void Collector::finish(RunResult& result) {
     if (!least || std::isnan(stress.margin()) || stress.margin() < *least) least = stress.margin();
     if (std::isnan(*least)) break;
   }
-  // Where nothing is stored but the balance is open (an iteration that has run away), it is open altogether.
-  const double at_rest = parts_.errors().energy_at_rest();
-  const double percent = extremes_.energy > at_rest      ? 100.0 / extremes_.energy
-                         : extremes_.imbalance > at_rest ? 100.0 / extremes_.imbalance
-                                                         : 0.0;
-  result.figures.largest_energy = extremes_.energy;
-  result.figures.energy_imbalance = percent * extremes_.imbalance;
-  result.figures.numerical_dissipation = percent * extremes_.scheme_loss;
-  result.figures.energy_gain = percent * extremes_.scheme_gain;
+  finish_books(result);
   add_error_figures(parts_.errors(), problem_, result);
-  // What the springs of a penalty hold is what the sides overlap: its interfaces' constitutive-relation error.
-  if (problem_.explicit_dynamics) result.figures.penalty_error = limit::penalty_error_of(percent * extremes_.springs);
 }
 
 }  // namespace dygita

@@ -268,11 +268,13 @@ void ErrorEstimator::sample_stress(const Instant& instant) {
   stress_energy_ = std::max(stress_energy_, error);
   stress_sum_ += of_linear;
   strain_sum_ += strain;
+  strain_now_ = strain;
   shock_energy_ = std::max(shock_energy_, kinetic_now_ + strain);
   ++n_stress_;
 }
 
 void ErrorEstimator::accept(const Instant& instant) {
+  strain_now_.reset();
   if (instant.is_static()) return accept_static(instant);
   // Central differences of n substeps turn a motion by (w dt / n)^2 / 24 too much.
   phase_factor_ = instant.fields ? 0.5 / std::pow(std::max(1, instant.iterations), 2) : instant.model.phase_factor();

@@ -75,6 +75,8 @@ class ErrorEstimator {
   // J, what a scene at rest, or carried along by a static step, has of rounding and of what an iteration leaves: shares
   // of less say nothing.
   double energy_at_rest() const { return at_rest_; }
+  // J, of the displacements since the start of a dynamic step, where the last increment has been sampled.
+  const std::optional<double>& strain_of_motion() const { return strain_now_; }
 
  private:
   // Energies (J) of the stress error of all substructures, of those of linear cells alone, and the strain energy of the
@@ -129,6 +131,7 @@ class ErrorEstimator {
   double kinetic_ = 0.0, stored_ = 0.0;  // J, largest so far: kinetic of the relative velocities; kinetic + strain
   double shock_energy_ = 0.0;            // J, largest of the samples: kinetic, and strain of the shock
   double stress_energy_ = 0.0;           // J, largest of the samples
+  std::optional<double> strain_now_;     // J, of the shock, where the increment was sampled
   // Of the samples: stress error of the parts of linear cells (eq. Q6), and strain energy of the shock.
   double stress_sum_ = 0.0, strain_sum_ = 0.0;
   int n_stress_ = 0;

@@ -10,9 +10,12 @@ namespace dygita {
 
 // Empty: the run has none of it.
 struct Figures : OwnFigures {
-  // %, of the largest energy.
+  // %, of the energy of the motion; where there is none, of the largest energy of the static steps.
   std::optional<double> energy_imbalance, numerical_dissipation, energy_gain;
-  std::optional<double> largest_energy;       // J
+  // The same of the static steps of a run with both.
+  std::optional<double> static_imbalance, static_dissipation, static_gain;
+  std::optional<double> largest_energy;       // J, with what static steps have stored
+  std::optional<double> energy_of_motion;     // J
   std::optional<double> largest_penetration;  // m
   std::optional<double> gap_difference;       // m, between the interfaces' gaps and the displacements'
   std::optional<double> factor_memory;        // MB

@@ -102,6 +102,9 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
       (problem.explicit_dynamics
            ? fmt::format("penalty springs hold up to {:.3g} %", lost)
            : fmt::format("numerical dissipation {:.3g} %, energy gain {:.3g} %", lost, figures.energy_gain.value())));
+  if (figures.static_imbalance)
+    say(fmt::format("  that of static steps within {:.3g} %, numerical dissipation {:.3g} %, energy gain {:.3g} %",
+                    *figures.static_imbalance, figures.static_dissipation.value(), figures.static_gain.value()));
   if (figures.mesh_error)
     say(fmt::format(
         "  estimated errors (energy norm, {:.3g} kHz on average): {} {:.2g} %, time step {:.2g} %, mesh {:.2g} %",

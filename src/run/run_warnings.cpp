@@ -84,8 +84,16 @@ void warn_of_missed(const Problem& problem, const RunResult& result, const std::
   }
 }
 
-// What a loose tolerance leaves adds up from increment to increment, and the balance shows it.
-std::string cure_of_balance(const Problem& problem) {
+// What a loose tolerance leaves adds up from increment to increment, and the balance shows it; a preload's forces work
+// on it.
+std::string cure_of_balance(const Problem& problem, const Figures& figures, bool is_motion) {
+  constexpr double small = 1e-3;
+  const double motion = figures.energy_of_motion.value_or(0.0), all = figures.largest_energy.value_or(0.0);
+  if (!problem.monolithic && is_motion && motion < small * all)
+    return fmt::format(
+        "the motion has {:.2g} J beside {:.2g} J that were stored before it, whose forces work on what the tolerance "
+        "leaves between the sides of interfaces: 'tolerance = {:.1g}' closes it",
+        motion, all, 0.1 * problem.solver.tolerance);
   const LatinSettings usual;
   const LatinSettings& asked = problem.solver;
   if (!problem.monolithic && (asked.static_tolerance > usual.static_tolerance || asked.tolerance > usual.tolerance))
@@ -97,8 +105,28 @@ std::string cure_of_balance(const Problem& problem) {
          "program: please report it with the deck";
 }
 
-// Numerical dissipation and energy gain are the price of dt and mesh at impacts: above a few percent the answer is not
-// to be trusted.
+// %, of the motion or of the static steps.
+struct Shares {
+  double lost, gained, open;
+};
+
+// Numerical dissipation and energy gain are the price of dt and mesh at impacts, of increments where gaps close: above
+// a few percent the answer is not to be trusted.
+void warn_of_books(const Problem& problem, const RunResult& result, const Shares& shares, bool is_motion) {
+  const char* const what = is_motion ? "the energy of the motion" : "the energy of the static steps";
+  if (shares.lost > limit::numerical_dissipation)
+    warn(fmt::format("numerical dissipation takes {:.1f} % of {} ({} reduce it", shares.lost, what,
+                     is_motion ? "impacts; releases): a smaller dt or smaller elements"
+                               : "increments that close a gap, parts that stop): more static increments"));
+  if (shares.gained > limit::energy_gain)
+    warn(fmt::format("the numerical energy gain is {:.2f} % of {}: take {}", shares.gained, what,
+                     is_motion ? "a smaller dt or tolerance" : "more static increments"));
+  if (shares.open > limit::energy_imbalance)
+    warn(fmt::format(
+        "the energy balance is open by {:.2f} % of {}: {}", shares.open, what,
+        result.converged ? cure_of_balance(problem, result.figures, is_motion) : "some increments have not converged"));
+}
+
 void warn_of_losses(const Problem& problem, const RunResult& result) {
   const double lost = result.figures.numerical_dissipation.value(), gained = result.figures.energy_gain.value(),
                open = result.figures.energy_imbalance.value();
@@ -117,19 +145,13 @@ void warn_of_losses(const Problem& problem, const RunResult& result) {
       warn(fmt::format("the energy balance is open by {:.2f} %: take a smaller 'safety' of solver.explicit", open));
     return;
   }
-  if (lost > limit::numerical_dissipation)
-    warn(fmt::format(
-        "numerical dissipation takes {:.1f} % of the energy (impacts; releases; static increments that close a gap): "
-        "a smaller dt, smaller elements or more static increments reduce it",
-        lost));
-  if (gained > limit::energy_gain)
-    warn(
-        fmt::format("the numerical energy gain is {:.2f} % of the energy: take a smaller dt or tolerance, or more "
-                    "static increments",
-                    gained));
-  if (open > limit::energy_imbalance)
-    warn(fmt::format("the energy balance is open by {:.2f} %: {}", open,
-                     result.converged ? cure_of_balance(problem) : "some increments have not converged"));
+  const bool has_motion = result.figures.energy_of_motion.has_value();
+  warn_of_books(problem, result, {lost, gained, open}, has_motion);
+  if (result.figures.static_imbalance)
+    warn_of_books(problem, result,
+                  {result.figures.static_dissipation.value(), result.figures.static_gain.value(),
+                   *result.figures.static_imbalance},
+                  false);
 }
 
 // Bands of spectra are made of errors that are small.
