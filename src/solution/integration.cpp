@@ -45,9 +45,10 @@ double explicit_cost(const Size& size, bool is_tuned) {
          explicit_pair * size.pairs + explicit_point * size.interface_unknowns / 6.0 +
          spread_point * size.spread_points;
 }
-// n_increments: of the step, which the factor is made for.
-double implicit_cost(const Size& size, const LatinSettings& solver, int n_increments) {
-  const bool is_single = stored_precision(solver, size.unknowns) == Precision::single_precision;
+// n_increments: of the step, which the factor is made for. With the settings that nobody has asked for: what is
+// discretised in which way is no matter of how it is solved.
+double implicit_cost(const Size& size, int n_increments) {
+  const bool is_single = stored_precision(LatinSettings(), size.unknowns) == Precision::single_precision;
   const double n = size.unknowns, n_b = std::min(size.interface_unknowns, n);
   return 2.0 * fill * std::pow(n, 1.5) * (is_single ? single_factor : double_factor) +
          iterations * (0.5 * n_b * n_b * (is_single ? single_h : double_h) + rest_of_iteration * n_b) +
@@ -184,7 +185,7 @@ class Chooser {
     bool is_mixed = false;
     for (size_t i = 0; i < set.size(); ++i) {
       cost += set[i] ? substeps(set) * explicit_cost(sizes_[i], parts_[i].is_tuned)
-                     : substeps(set) * implicit_cost(sizes_[i], problem_.solver, substeps(set) * step_.n_increments());
+                     : substeps(set) * implicit_cost(sizes_[i], substeps(set) * step_.n_increments());
       is_mixed |= set[i] != set[0];
     }
     const bool has_must = std::find(must_.begin(), must_.end(), 1) != must_.end();

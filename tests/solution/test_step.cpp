@@ -1,6 +1,9 @@
 // What a step holds, moves and loads, and what it takes over and leaves.
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <set>
+
 #include "base/error.hpp"
 #include "base/progress.hpp"
 #include "solution/blocks.hpp"
@@ -52,6 +55,27 @@ TEST(Conditions, hold_what_absorbs_in_a_static_step_and_let_it_go_in_a_dynamic_o
   const double across = 7800.0 * material.s_wave_speed() * 1e-4, along = 7800.0 * material.p_wave_speed() * 1e-4;
   EXPECT_LT((sum - Mat3(Vec3(across, across, along).asDiagonal())).norm(), 1e-9 * along);
   EXPECT_TRUE(dynamic_cast<const ImplicitPiece&>(*at_rest.model.pieces[0]).op().absorbing().empty());
+}
+
+// How closely an increment is iterated and how its factors are stored is no matter of what is computed.
+TEST(Integration, is_chosen_whatever_the_tolerance_and_the_precision) {
+  const auto is_explicit = [](double dt, const std::function<void(LatinSettings&)>& ask) {
+    Problem problem = two_cubes(contact(0.2), {dynamic_step("shock", 100000, dt, {})}, 8);
+    problem.solver.integration = IntegrationChoice::as_cheapest;
+    ask(problem.solver);
+    const Modelled of(std::move(problem));
+    std::vector<bool> parts;
+    for (const Integration::Part& part : of.model.integration.parts) parts.push_back(part.is_explicit);
+    return parts;
+  };
+  std::set<std::vector<bool>> seen;
+  for (const double dt : {0.5e-6, 1e-6, 1.25e-6, 1.5e-6, 1.75e-6, 2e-6, 3e-6, 6e-6}) {
+    const std::vector<bool> usual = is_explicit(dt, [](LatinSettings&) {});
+    seen.insert(usual);
+    EXPECT_EQ(is_explicit(dt, [](LatinSettings& s) { s.tolerance = 1e-9; }), usual) << dt;
+    EXPECT_EQ(is_explicit(dt, [](LatinSettings& s) { s.precision = Precision::double_precision; }), usual) << dt;
+  }
+  EXPECT_GE(seen.size(), 2U);  // near where the choice turns
 }
 
 TEST(Conditions, move_a_face_by_its_velocity_at_the_end_of_an_increment) {
