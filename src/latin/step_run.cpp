@@ -29,6 +29,7 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
     : settings_(settings),
       files_(files),
       model_(model),
+      start_time_(files.state.time),
       weight_(model.near.part(k).head(model.near.n_own()).unaryExpr(&inverse_root)),
       coarse_(settings.has_correction ? CoarseCorrection(model, k) : CoarseCorrection()),
       n_inner_(ranks::any(std::any_of(model.here.begin(), model.here.end(),
@@ -117,7 +118,7 @@ void StepRun::accept_increment(int increment, int iterations, double eta) {
     books_.of_points.assign(model_.pieces.size(), {});
     local_.accept(files_.state, books_.of_points);
   }
-  if (!model_.scheme.is_static) files_.state.time += model_.scheme.dt;
+  if (!model_.scheme.is_static) files_.state.time = time_of(increment);
   keep(at_.q);
   if (distant_) distant_->forget();
   accept_interval(increment, iterations, eta, model_.scheme.dt * at_.sums.force_distance);

@@ -137,6 +137,8 @@ class StepRun {
   // Of the pieces that are here.
   Eigen::VectorBlock<Vec> own(Vec& near) const { return near.head(model_.near.n_own()); }
   double largest_velocity() const;
+  // s, at the end of a time step of the deck: sums of many short ones would be off by rounding.
+  double time_of(int increment) const { return start_time_ + (increment + 1) * model_.step->dt; }
   void keep(const Vec& q);
   void accept_increment(int increment, int iterations, double eta);
   void accept_interval(int increment, int iterations, double eta, double interface_energy);
@@ -202,7 +204,8 @@ class StepRun {
   RunFiles files_;
   // Operators, and the laws with what they remember.
   StepModel& model_;
-  Vec weight_;  // 1/sqrt(k): of the components of q in norms, of the pieces here
+  const double start_time_;  // s
+  Vec weight_;               // 1/sqrt(k): of the components of q in norms, of the pieces here
   CoarseCorrection coarse_;
   int n_inner_;  // iterations by the pieces' rough operators after each
   LocalStage local_;

@@ -134,7 +134,6 @@ void StepRun::solve_interval(int increment) {
   books_.energy.assign(model_.pieces.size(), {});
   books_.of_points.assign(model_.pieces.size(), {});
   const int n = model_.n_substeps();
-  const double start = files_.state.time;
   int iterations = 0;
   double eta = 0.0, interface_energy = 0.0;
   const auto begun = std::chrono::steady_clock::now();
@@ -166,7 +165,7 @@ void StepRun::solve_interval(int increment) {
     direct_.show(files_.state, books_.energy, piece_threads_.threads());
     if (distant_) distant_->forget();
   }
-  files_.state.time = start + model_.step->dt;
+  files_.state.time = time_of(increment);
   accept_interval(increment, iterations, eta, interface_energy);
 }
 

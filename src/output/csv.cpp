@@ -118,10 +118,13 @@ std::string csv_text(const Table& table, const std::vector<std::string>& step_na
   text += table.converged.empty() ? "\n" : ",converged\n";
   std::vector<std::string> steps;
   for (const std::string& name : step_names) steps.push_back(quoted(name));
+  // The time of a long record goes on by far less than its ninth digit.
+  std::vector<const char*> formats;
+  for (const std::string& name : table.names) formats.push_back(name == "time" ? "{:.15g}" : "{:.9g}");
   for (size_t row = 0; row < static_cast<size_t>(table.n_rows()); ++row) {
     for (size_t i = 0; i < table.columns.size(); ++i) {
       if (i > 0) text += ',';
-      fmt::format_to(out, "{:.9g}", table.columns[i][row] + 0.0);  // + 0: no "-0"
+      fmt::format_to(out, fmt::runtime(formats[i]), table.columns[i][row] + 0.0);  // + 0: no "-0"
       if (i == 0 && !table.step.empty()) text += ',' + steps[static_cast<size_t>(table.step[row])];
     }
     text += table.converged.empty() ? "\n" : table.converged[row] != 0.0 ? ",1\n" : ",0\n";

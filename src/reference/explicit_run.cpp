@@ -41,6 +41,7 @@ ExplicitRun::ExplicitRun(StepModel& model, const std::vector<Body>& bodies, Inte
     : model_(model),
       internal_(internal),
       state_(state),
+      start_time_(state.time),
       observer_(observer),
       i_step_(index_of(model.problem->steps, model.step)),
       records_(start_records(model, state)),
@@ -242,7 +243,7 @@ void ExplicitRun::accept(int increment) {
   inertial_.show(model_, model_.step->dt, records_, state_);
   check_stability(increment);
   shared_.end_increment(velocity_old_, velocity_, model_.step->dt, state_);
-  state_.time += model_.step->dt;
+  state_.time = start_time_ + (increment + 1) * model_.step->dt;
   ++figures_.increments;
   figures_.iterations += n_substeps_;
   observer_.accept(instant(increment));

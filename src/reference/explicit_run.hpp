@@ -58,6 +58,7 @@ class ExplicitRun : public NodalFields {
   StepModel& model_;
   InternalForce& internal_;
   State& state_;
+  const double start_time_;  // s
   Observer& observer_;
   int i_step_;
   std::vector<PointRecord> records_;

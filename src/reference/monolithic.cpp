@@ -27,6 +27,7 @@ class MonolithicRun {
                 Observer& observer, const std::shared_ptr<const AssemblyFactor>& before)
       : model_(model),
         state_(state),
+        start_time_(state.time),
         observer_(observer),
         i_step_(index_of(problem.steps, model.step)),
         increment_(increment_of(model.scheme, 0.0)),
@@ -69,6 +70,7 @@ class MonolithicRun {
 
   StepModel& model_;
   State& state_;
+  const double start_time_;  // s
   Observer& observer_;
   int i_step_;
   Increment increment_;
@@ -225,7 +227,7 @@ void MonolithicRun::accept_increment(int increment, const InterfaceNewton::Outco
   Energies& energies = state_.energies;
   book_increment(energy_, energies);
   rows_.raise_floor(energies.kinetic + energies.strain + std::abs(energies.loads), model_.scheme.dt);
-  if (!increment_.is_static) state_.time += increment_.dt;
+  if (!increment_.is_static) state_.time = start_time_ + (increment + 1) * increment_.dt;
   check_energies(model_, state_, energy_, increment);
   ++figures_.increments;
   figures_.iterations += outcome.iterations;

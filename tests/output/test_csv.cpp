@@ -24,6 +24,19 @@ TEST(Csv, has_a_title_with_units_and_the_step_as_second_column) {
             "0.3,shock,1e+300,0.333333333\n");
 }
 
+TEST(Csv, tells_the_times_of_short_steps_after_a_long_while) {
+  const double dt = 10e-9;
+  Table table;
+  table.names = {"time", "force"};
+  table.units = {"s", "N"};
+  table.columns = {{1.0 + dt, 1.0 + 1.5 * dt, 1.0 + 2.0 * dt}, {1.0, 2.0, 1.0 / 3.0}};
+  const std::string text = csv_text(table, {});
+  EXPECT_EQ(text, "time [s],force [N]\n1.00000001,1\n1.000000015,2\n1.00000002,0.333333333\n");
+  std::istringstream stream(text);
+  const Table read = parse_csv(stream, {});
+  for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(read.columns[0][i], table.columns[0][i], 1e-6 * dt);
+}
+
 TEST(Csv, of_a_spectrum_has_no_step) {
   Table table;
   table.names = {"frequency", "maximax"};
