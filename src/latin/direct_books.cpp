@@ -147,7 +147,7 @@ double DirectPoints::difference_of_gaps(const OwnPoint& p) const {
     for (int i = side.first; i < side.end; ++i)
       mean[which] += end_displacement(p, ports_[i])[0] / (side.end - side.first);
   }
-  return std::abs(p.first_gap + mean[1] - mean[0] - p.record.law.gap);
+  return std::abs(p.record.first_gap + mean[1] - mean[0] - p.record.law.gap);
 }
 
 double DirectPoints::bytes() const {

@@ -92,7 +92,6 @@ void DirectPoints::set_point(const StepModel& model, OwnPoint& p, int index, con
   }
   const bool has_group = point.first_port_2 - point.first_port > 1 || point.end_port - point.first_port_2 > 1;
   p.keeps_gap = point.law && point.law->shown().gap;
-  if (p.keeps_gap) p.first_gap = point.law->initial().gap;
   p.needs_place = has_group || (point.law && !p.keeps_gap);
 }
 

@@ -73,7 +73,6 @@ class DirectPoints {
     PointRecord record;
     Side side_1, side_2;
     bool keeps_gap = false;       // its law does, from this on
-    double first_gap = 0.0;       // m
     double gap_difference = 0.0;  // m, of the gap that the law keeps from that of the displacements, as last shown
     bool needs_place = false;     // it needs displacements: its law holds the jump, or a side is a group
     Vec3 impulse = Vec3::Zero();

@@ -64,6 +64,8 @@ void expect_same(const DeckRun& one, const DeckRun& other, double within) {
 TEST(GapOfGeometry, is_the_same_in_windows_pieces_and_every_solver) {
   const std::string close = "tolerance = 1e-9, static_tolerance = 1e-10, mass = 'lumped'";
   const DeckRun usual = run_text(cylinder_on_block()).at(0);
+  EXPECT_FALSE(usual.result->steps.at(1).explicit_parts.empty());
+  EXPECT_LT(usual.figure("largest difference between the interface gap and the displacements' [m]"), 1e-12);
   {
     SCOPED_TRACE("explicit pieces");
     expect_same(usual, run_text(cylinder_on_block(), {}, 0, "latin{ pieces = 3, " + close + " }").at(0), 2e-5);
