@@ -124,6 +124,7 @@ class StepRun {
     LocalStage local;
   };
   void solve_window(int first, int last);
+  void check_window(std::pair<int, int> steps, int n, const Outcome& worst, double grown, bool ends) const;
   Outcome sweep(int first, std::vector<Vec>& q, std::vector<Vec>& image);
   Outcome sweep_at_once(int first, std::vector<Vec>& q, std::vector<Vec>& image);
   bool sweeps_at_once() const;

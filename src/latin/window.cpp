@@ -1,6 +1,10 @@
 // Windows of several time steps, as the paper has the whole interval: each iteration sweeps all of a window.
-#include <algorithm>
+#include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
 #include "latin/step_run.hpp"
 
 namespace dygita {
@@ -28,6 +32,7 @@ Outcome StepRun::sweep(int first, std::vector<Vec>& q, std::vector<Vec>& image) 
     const Outcome outcome = indicator_.measure(local_stage(at_.velocity, q[i], image[i], true));
     indicator_.accept(outcome);
     worst.eta = std::max(worst.eta, outcome.eta);
+    worst.size = std::max(worst.size, outcome.size);
     check_finite(outcome, increment);
     finish_increment(q[i]);
     local_.accept();
@@ -69,6 +74,7 @@ Outcome StepRun::sweep_at_once(int first, std::vector<Vec>& q, std::vector<Vec>&
     const Outcome outcome = indicator_.measure(LocalStage::distance_of(sums.data() + n_each * i));
     indicator_.accept(outcome);
     worst.eta = std::max(worst.eta, outcome.eta);
+    worst.size = std::max(worst.size, outcome.size);
     check_finite(outcome, first + static_cast<int>(i));
   }
   indicator_ = before;
@@ -80,6 +86,25 @@ bool StepRun::sweeps_at_once() const {
   return !model_.problem->solver.plain && !assembled_ &&
          std::none_of(model_.pieces.begin(), model_.pieces.end(),
                       [](const auto& piece) { return piece->has_motions(); });
+}
+
+// A window longer than waves take to cross a substructure and back may send its fields away, further in each iteration.
+// Where that ends nothing is an answer. grown: the fields, of the largest of the first iterations; ends: no more
+// iterations.
+void StepRun::check_window(std::pair<int, int> steps, int n, const Outcome& worst, double grown, bool ends) const {
+  constexpr double most_grown = 1e6, least_answer = 1e-2;  // of the indicator
+  const bool is_lost = grown > most_grown;
+  if (!is_lost && !(ends && worst.eta > least_answer)) return;
+  throw NumericalError(fmt::format(
+      "step '{}', time steps {} to {}, which 'window' iterates together: {}\n    leave 'window' out: each time step is "
+      "then solved by itself; or take a shorter one{}",
+      model_.step->name, steps.first + 1, steps.second,
+      is_lost
+          ? fmt::format("the iteration has diverged: after {} iterations motions and forces are {:.0e} times those "
+                        "of the first",
+                        n, grown)
+          : fmt::format("the iteration has not come near an answer: the indicator is at {:.2g} after {}", worst.eta, n),
+      is_lost ? "" : ", or more 'max_iterations'"));
 }
 
 void StepRun::solve_window(int first, int last) {
@@ -103,10 +128,15 @@ void StepRun::solve_window(int first, int last) {
                     InterfaceSums(model_, n_steps));
   Persistence persistence(goal.limit);
   const bool at_once = sweeps_at_once();
+  double usual = indicator_.largest();  // W, of fields before the iteration may have sent them anywhere
   for (int n = 1;; ++n) {
     const Outcome worst = at_once ? sweep_at_once(first, q, image) : sweep(first, q, image);
     go_back(start);
-    if (worst.eta <= goal.tolerance || persistence.ends(n, worst.eta)) {
+    constexpr int early = 3;
+    if (n <= early) usual = std::max(usual, worst.size);
+    const bool is_solved = worst.eta <= goal.tolerance, ends = !is_solved && persistence.ends(n, worst.eta);
+    if (n_steps > 1) check_window({first, last}, n, worst, std::sqrt(worst.size / usual), ends);
+    if (is_solved || ends) {
       std::optional<Missed> missed;
       if (worst.eta > settings_.tolerance) missed = persistence.missed(first, settings_.tolerance);
       if (missed) note_missed(*missed);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/error.hpp"
 #include "decks/engine.hpp"
 
 namespace dygita::test::cutting_tests {
@@ -98,6 +99,32 @@ TEST(Window, the_whole_interval_gives_the_yielding_beam_too) {
   EXPECT_LT(difference(steps.column("yielding", "plastic_opening"), whole.column("yielding", "plastic_opening")), 1e-4);
   std::cout << whole.result->mean_iterations << " sweeps of 240 steps, step by step " << steps.result->mean_iterations
             << " iterations\n";
+}
+
+// Over so many crossings the iteration sends the fields away.
+TEST(Window, that_finds_no_answer_stops_and_says_so) {
+  const std::string text = R"(
+    local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7800 }
+    local below = substructure{ name = "below", material = steel, mesh = mesh.box{ size = { 240*mm, 20*mm, 10*mm }, cells = { 12, 2, 2 } } }
+    local above = substructure{ name = "above", material = steel, mesh = mesh.box{ origin = { 0, 0, 10*mm }, size = { 240*mm, 20*mm, 10*mm }, cells = { 12, 2, 2 } } }
+    local lap = interface.contact{ name = "lap", between = { below:face "zmax", above:face "zmin" }, friction = 0.5 }
+    local held = support.fixed{ name = "held", on = { below:face "xmin", above:face "xmin" } }
+    local push = step.dynamic{ name = "push", duration = 2*ms, dt = 20*us, loads = { load.pressure{ on = above:face "zmax", history = 1*MPa } } }
+    problem{ name = "long", substructures = { below, above }, interfaces = { lap }, supports = { held }, steps = { push },
+      outputs = { output.history{ name = "tip", on = above:face "xmax", quantity = "displacement" } },
+      solver = solver.latin{ integration = "implicit", window = "whole", max_iterations = 60 } }:run{}
+  )";
+  try {
+    run_text(text);
+    ADD_FAILURE() << "an answer";
+  } catch (const NumericalError& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find("step 'push', time steps 1 to 100, which 'window' iterates together: the iteration has"),
+              std::string::npos)
+        << what;
+    EXPECT_NE(what.find("leave 'window' out"), std::string::npos) << what;
+  }
+  EXPECT_TRUE(run_text(text, {}, 0, "latin{ integration = 'implicit' }").at(0).result->converged);
 }
 
 // The interface fields are the solution: a case that starts from them is solved before it begins.
