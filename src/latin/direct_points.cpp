@@ -160,6 +160,7 @@ void DirectPoints::begin_point(OwnPoint& p, const std::vector<double>& motions) 
       if (of.is_held[d]) port.held_velocity[d] = model_->held_velocity(of, p.point->frame.col(d), motions);
   }
   if (p.needs_place) begin_places(p);
+  if (p.record.trial.is_given != std::array<bool, 3>{}) give_rates(*model_, *p.point, motions, 0.0, p.record);
 }
 
 void DirectPoints::find_force(OwnPoint& p) {
@@ -169,8 +170,8 @@ void DirectPoints::find_force(OwnPoint& p) {
   if (p.point->law) {
     Trial& trial = p.record.trial;
     for (int d = 0; d < 3; ++d) {
-      const bool acts = p.point->is_active[d] && p.point->has_law[d];
-      trial.s[d] = acts ? p.side_2.r[d] - p.side_1.r[d] : 0.0;
+      const bool acts = p.point->is_active[d] && p.point->has_law[d] && !trial.is_given[d];
+      trial.s[d] = acts ? p.side_2.r[d] - p.side_1.r[d] : p.record.given_rate[d];
       trial.y[d] = acts ? p.side_1.inverse_k[d] + p.side_2.inverse_k[d] : 0.0;
     }
     if (!p.record.is_released) p.record.force = p.point->law->force(trial, increment_, p.record.law);

@@ -83,7 +83,6 @@ void DirectPoints::gather(const OwnPoint& p, Side& side) {
     OwnPort& port = ports_[i];
     port.free = velocity(p, port) - port.inverse.cwiseProduct(port.force);
     for (int d = 0; d < 3; ++d) {
-      if (!p.point->is_active[d]) continue;
       if (port.inverse[d] == 0.0) {
         is_held[d] = true;
         side.r[d] = port.held_velocity[d];
@@ -124,7 +123,6 @@ void DirectPoints::scatter(const OwnPoint& p, const Side& side, const Vec3& forc
     OwnPort& port = ports_[i];
     Vec3 f = Vec3::Zero();
     for (int d = 0; d < 3; ++d) {
-      if (!p.point->is_active[d]) continue;
       if (port.inverse[d] == 0.0) {
         held_port[d] = i;
         continue;

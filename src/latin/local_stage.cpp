@@ -120,6 +120,7 @@ void LocalStage::begin(int increment, const std::vector<double>& motions, bool s
       ports_[p].offset = (ports_[p].u - (p < point.first_port_2 ? mean_1 : mean_2)) / model_->scheme.dt;
     if (!point.law) return;
     begin_point(*model_, point, (point.is_wall ? Vec3(Vec3::Zero()) : mean_2) - mean_1, increment, points_[i]);
+    give_rates(*model_, point, motions, mean_1.norm() + mean_2.norm(), points_[i]);
   };
   // A shortening in statics may be a function of the deck.
   for_points(model_->near.points(), begin_at, model_->scheme.is_static ? 1 : 0);
@@ -179,7 +180,7 @@ void LocalStage::scatter(int first, int end, const Side& side, const Vec3& force
 }
 
 void LocalStage::set_trial(const Point& point, const Side& side_1, const Side& side_2, PointRecord& record) const {
-  record.trial.s.setZero();
+  record.trial.s = record.given_rate;
   record.trial.y.setZero();
   for (int d = 0; d < 3; ++d) {
     if (!point.is_active[d] || !point.has_law[d]) continue;

@@ -73,7 +73,8 @@ class Law {
   virtual bool acts_on(int direction, bool is_static) const = 0;
   // State before anything has happened.
   virtual LawState initial() const = 0;
-  // Force of the increment (N), a pure function of the trial and the state at its start; zero where y is.
+  // Force of the increment (N), a pure function of the trial and the state at its start; zero where y is, unless the
+  // rate is given there and the law makes a force of it.
   virtual Vec3 force(const Trial& trial, const Increment& increment, const LawState& start) const = 0;
   // State at the end of the increment, once `force` is accepted.
   virtual LawState advance(const Trial& trial, const Increment& increment, const LawState& start,

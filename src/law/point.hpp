@@ -36,10 +36,12 @@ struct Increment {
   double push_out = 0.0;  // b: share of a penetration thrown back per step
 };
 
-// The search problem of a point. y is zero in directions that both sides have held: they carry no law.
+// The search problem of a point. y is zero where the law does not act, and where supports or prescribed motions have
+// both sides: the rate is given there, and s is that.
 struct Trial {
-  Vec3 s = Vec3::Zero();     // m/s, r' - r with r = V - F/k
-  Vec3 y = Vec3::Zero();     // m/(N s), 1/k + 1/k'
+  Vec3 s = Vec3::Zero();  // m/s, r' - r with r = V - F/k
+  Vec3 y = Vec3::Zero();  // m/(N s), 1/k + 1/k'
+  std::array<bool, 3> is_given{};
   Vec3 jump = Vec3::Zero();  // m, u' - u at the start of the increment
   double shortening = 0.0;   // m, reached at the end of the increment
   double area = 0.0;         // m^2

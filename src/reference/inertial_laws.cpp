@@ -43,7 +43,8 @@ InertialLaws::InertialLaws(const StepModel& model, const std::vector<PointRecord
     at.point = static_cast<int>(i);
     at.side_1 = mover_of(point.first_port);
     if (!point.is_wall) at.side_2 = mover_of(point.first_port_2);
-    for (int d = 0; d < 3; ++d) at.is_active[d] = point.has_law[d] && point.is_active[d];
+    at.is_given = start[i].trial.is_given;
+    for (int d = 0; d < 3; ++d) at.is_active[d] = point.has_law[d] && point.is_active[d] && !at.is_given[d];
     at.start = start[i].law;
   }
 }
@@ -96,7 +97,9 @@ double InertialLaws::sweep(const Increment& increment) {
     const Vec3 now = rate(at, &Mover::now);
     Trial trial;
     trial.area = point.area;
+    trial.is_given = at.is_given;
     for (int d = 0; d < 3; ++d) {
+      if (at.is_given[d]) trial.s[d] = now[d];
       if (!at.is_active[d]) continue;
       trial.y[d] = point.frame.col(d).dot(mobility * point.frame.col(d));
       trial.s[d] = now[d] + trial.y[d] * at.force[d];

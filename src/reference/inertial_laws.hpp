@@ -36,7 +36,7 @@ class InertialLaws {
   };
   struct InertialPoint {
     int point = -1, side_1 = -1, side_2 = -1;  // movers; side_2 < 0: a wall
-    std::array<bool, 3> is_active{};
+    std::array<bool, 3> is_active{}, is_given{};
     LawState start;
     Vec3 force = Vec3::Zero(), impulse = Vec3::Zero();  // N now; N s in the increment
     Work work;                                          // in the increment

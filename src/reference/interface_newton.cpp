@@ -134,7 +134,7 @@ void InterfaceNewton::sweep(Vec& f, const std::vector<PointRecord>& records, con
     const Point& point = rows_->model().exchange.points[p];
     if (!point.law) continue;
     Trial trial = records[p].trial;
-    trial.s.setZero();
+    trial.s = records[p].given_rate;
     trial.y.setZero();
     Vec3 force = Vec3::Zero(), share = Vec3::Ones();
     for (int d = 0; d < 3; ++d) {

@@ -22,7 +22,7 @@ InterfaceRows::InterfaceRows(const StepModel& model, const MergedAssembly& assem
 
 Trial InterfaceRows::trial_of(size_t i_point, const Vec& rate, const Vec& force, const PointRecord& record) const {
   Trial trial = record.trial;
-  trial.s.setZero();
+  trial.s = record.given_rate;
   trial.y.setZero();
   for (int d = 0; d < 3; ++d)
     if (const int i = assembly_->row(i_point, d); i >= 0) {

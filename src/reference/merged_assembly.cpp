@@ -137,7 +137,7 @@ SparseMatrix MergedAssembly::make_rows() {
   for (const Point& point : model_->exchange.points) {
     std::array<int, 3>& rows = rows_.emplace_back(std::array{-1, -1, -1});
     for (int d = 0; d < 3; ++d) {
-      if (!point.has_law[d]) continue;
+      if (!point.has_law[d] || !point.is_active[d]) continue;
       std::map<int, double> jump;
       const auto add = [&](const Port& port, double sign) {
         port.for_each_node([&](int at, const Mat3& block) {

@@ -124,9 +124,14 @@ void MonolithicRun::begin_increment(int increment) {
     displacement.push_back(model_.pieces[i]->displacement());
     model_.pieces[i]->begin(model_.external_force(static_cast<int>(i), state_), motions, 0.0);
   }
-  for (size_t i = 0; i < records_.size(); ++i)
-    if (const Point& point = model_.exchange.points[i]; point.law)
-      begin_point(model_, point, jump(point, displacement), increment, records_[i]);
+  for (size_t i = 0; i < records_.size(); ++i) {
+    const Point& point = model_.exchange.points[i];
+    if (!point.law) continue;
+    const Vec3 apart = jump(point, displacement);
+    begin_point(model_, point, apart, increment, records_[i]);
+    const double moved = side_displacement(point, point.first_port, point.first_port_2, displacement).norm();
+    give_rates(model_, point, motions, apart.norm() + moved, records_[i]);
+  }
   assembly_.begin(motions, displacement);
 }
 

@@ -1,5 +1,6 @@
 #include "solution/point_record.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -17,6 +18,14 @@ namespace {
 double first_gap(const Surface& surface, int point) {
   return surface.interface && surface.interface->has_gap_of_geometry ? surface.facing.gaps[point]
                                                                      : surface.declared_law().initial().gap;
+}
+
+// The port that has one side of a point held along a direction, or null.
+const Port* holder_of(const StepModel& model, int first, int end, int d) {
+  const std::vector<Port>& ports = model.exchange.ports;
+  const auto holder =
+      std::find_if(ports.begin() + first, ports.begin() + end, [d](const Port& port) { return port.is_held[d]; });
+  return holder == ports.begin() + end ? nullptr : &*holder;
 }
 
 }  // namespace
@@ -57,6 +66,9 @@ PointRecord start_point(const StepModel& model, const Point& point, const State&
   }
   record.is_released = start.released[point.members.front().surface] != 0;
   record.shortening_old = record.trial.shortening = start.shortening[point.members.front().surface];
+  for (int d = 0; d < 3; ++d)
+    record.trial.is_given[d] = point.has_law[d] && holder_of(model, point.first_port, point.first_port_2, d) &&
+                               (point.is_wall || holder_of(model, point.first_port_2, point.end_port, d));
   if (model.scheme.is_static) return record;
   const int n_1 = point.first_port_2 - point.first_port, n_2 = point.end_port - point.first_port_2;
   for (int p = point.first_port; p < point.end_port; ++p) {
@@ -73,6 +85,27 @@ void begin_point(const StepModel& model, const Point& point, const Vec3& jump, i
   if (!interface) return;
   record.trial.shortening = model.loads->shortening(interface, record.trial.shortening, increment);
   record.is_released = record.is_released || model.loads->is_released(interface, increment);
+}
+
+// Differences of what moves both alike, or has brought them where they are, are rounding.
+void give_rates(const StepModel& model, const Point& point, const std::vector<double>& motions, double moved,
+                PointRecord& record) {
+  constexpr double of_rates = 1e-12, of_places = 1e-14;
+  double size = 0.0;
+  record.given_rate.setZero();
+  for (int d = 0; d < 3; ++d) {
+    if (!record.trial.is_given[d]) continue;
+    const auto velocity = [&](int first, int end) {
+      const Port* holder = holder_of(model, first, end, d);
+      return holder ? model.held_velocity(*holder, point.frame.col(d), motions) : 0.0;
+    };
+    const double side_1 = velocity(point.first_port, point.first_port_2),
+                 side_2 = velocity(point.first_port_2, point.end_port);
+    record.given_rate[d] = side_2 - side_1;
+    size = std::max(size, std::abs(side_1) + std::abs(side_2));
+  }
+  const double rounding = std::max(of_rates * size, of_places * moved / model.scheme.dt);
+  if (record.given_rate.norm() <= rounding) record.given_rate.setZero();
 }
 
 LawState end_of_point(const Point& point, const PointRecord& record, const Increment& increment) {

@@ -12,8 +12,9 @@ Increment increment_of(const Scheme& scheme, double push_out);
 
 // Vectors in the point's frame; members of one point share it.
 struct PointRecord {
-  LawState law;  // at the start of the increment
-  Trial trial;   // jump, shortening and area are set by begin_point; s and y are the solver's
+  LawState law;                    // at the start of the increment
+  Trial trial;                     // jump, shortening and area are set by begin_point; s and y are the solver's
+  Vec3 given_rate = Vec3::Zero();  // m/s, where the trial says that it is given
   bool is_released = false;
   Vec3 force = Vec3::Zero();    // N, found by the solver
   double shortening_old = 0.0;  // m
@@ -31,6 +32,10 @@ PointRecord start_point(const StepModel& model, const Point& point, const State&
                         const std::vector<PortMotion>& ports);
 // Jump (m, u' - u), shortening and release of an increment, for a point with a law.
 void begin_point(const StepModel& model, const Point& point, const Vec3& jump, int increment, PointRecord& record);
+// Rates (m/s) that supports and prescribed motions give a point with a law, of motions with these velocities at the end
+// of the increment. moved: m, how far its sides are from where the deck has them.
+void give_rates(const StepModel& model, const Point& point, const std::vector<double>& motions, double moved,
+                PointRecord& record);
 // The law's state at the end of the increment, with the force found.
 LawState end_of_point(const Point& point, const PointRecord& record, const Increment& increment);
 // Do its sides hang on each other then, by a force whose square times y is above `least` (W), or whatever it is?

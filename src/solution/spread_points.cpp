@@ -1,6 +1,8 @@
 #include "solution/spread_points.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/error.hpp"
 #include "law/law.hpp"
@@ -32,7 +34,8 @@ void SpreadPoints::add_point(const Surface& surface, int s, int i) {
   exchange_.ports.push_back(port(surface, 2 * s, i, point.frame));
   if (!point.is_wall) exchange_.ports.push_back(port(surface, 2 * s + 1, i, point.frame));
   for (int d = 0; d < 3; ++d)
-    point.has_law[d] = point.law->acts_on(d, step_.is_static) && (point.is_wall || !is_held_along(surface, point, d));
+    point.has_law[d] =
+        point.law->acts_on(d, step_.is_static) && (point.is_wall || !is_tied_to_plane(surface, point, d));
   activate(exchange_.ports, false, point);
   exchange_.points.push_back(std::move(point));
 }
@@ -40,19 +43,38 @@ void SpreadPoints::add_point(const Surface& surface, int s, int i) {
 // Where both sides end on one plane of symmetry, nothing moves along its normal: the side with the points is held
 // (quadratic faces: the point's own node; its row has small shares of nodes off the plane), the other one's row has
 // what of its nodes is off the plane alone. Both would be tied to the plane once more, by more rows than nodes move.
-bool SpreadPoints::is_held_along(const Surface& surface, const Point& point, int d) const {
+bool SpreadPoints::is_tied_to_plane(const Surface& surface, const Point& point, int d) const {
   const int carrier = surface.facing.carrier == 1 ? point.first_port : point.first_port_2;
-  if (!exchange_.ports[carrier].is_held[d] && !has_held_node_at(exchange_.ports[carrier], surface, point, d))
-    return false;
+  const Port& own = exchange_.ports[carrier];
   const Port& other = exchange_.ports[carrier == point.first_port ? point.first_port_2 : point.first_port];
-  bool has_held_nodes = false;
+  if (own.is_held[d] && other.is_held[d]) return false;  // no rows
+  if (!own.is_held[d] && !has_held_node_at(own, surface, point, d)) return false;
+  const Vec3 axis = point.frame.col(d);
+  bool has_held_nodes = false, is_driven = false;
   other.for_each_node([&](int node, const Mat3& block) {
     const Held* held = conditions_.at(other.part, node);
-    const Vec3 along = block.transpose() * point.frame.col(d);
-    has_held_nodes |= held && (held->directions.leftCols(held->n).transpose() * along).norm() > 0.999 * along.norm() &&
-                      !along.isZero();
+    const Vec3 along = block.transpose() * axis;
+    if (!held || along.isZero() ||
+        (held->directions.leftCols(held->n).transpose() * along).norm() <= 0.999 * along.norm())
+      return;
+    has_held_nodes = true;
+    is_driven = is_driven || moves_apart(own, other.part, node, axis);
   });
-  return has_held_nodes;
+  return has_held_nodes && !is_driven;
+}
+
+// Is a held node moved along an axis otherwise than the one that carries a port?
+bool SpreadPoints::moves_apart(const Port& port, int part, int node, const Vec3& axis) const {
+  std::map<int, double> difference;  // by motion
+  const auto add = [&](const Held* held, double sign) {
+    for (int j = 0; held && j < held->n; ++j)
+      for (const auto& [motion, factor] : held->motion[j])
+        difference[motion] += sign * factor * held->directions.col(j).dot(axis);
+  };
+  add(conditions_.at(port.part, port.node), 1.0);
+  add(conditions_.at(part, node), -1.0);
+  return std::any_of(difference.begin(), difference.end(),
+                     [](const auto& motion) { return std::abs(motion.second) > 1e-9; });
 }
 
 // Is the node that carries the point held along d, and the point there?

@@ -543,5 +543,63 @@ problem{ name = "p", substructures = { a, b }, interfaces = { seat }, supports =
   EXPECT_EQ(figures.static_iteration_error.value(), 0.0);
 }
 
+// A block pressed by 100 N and dragged along y by the nodes of its own foot, friction 0.2, so that 20 N act. Kind 0: on
+// a wall; 1: on a plate of the same mesh; 2, 3: of a coarser and of a finer one, held throughout; +10: in a dynamic
+// step.
+const std::string driven = R"(
+local on, is_dynamic = p.kind % 10, p.kind >= 10
+local block = substructure{ name = "block", material = metal, mesh = mesh.box{ size = { 1*mm, 1*mm, 1*mm }, cells = { 2, 2, 2 } } }
+local foot, top = block:face "zmin", block:face "zmax"
+local bodies, joints, supports, seat = { block }, {}, {}, nil
+if on == 0 then
+  seat = support.wall{ name = "seat", on = foot, friction = 0.2 }
+  supports = { seat }
+else
+  local n = ({ 2, 1, 5 })[on]
+  local plate = substructure{ name = "plate", material = metal, mesh = on == 1
+    and mesh.box{ size = { 1*mm, 1*mm, 1*mm }, cells = { 2, 2, 1 }, origin = { 0, 0, -1*mm } }
+    or mesh.box{ size = { 3*mm, 3*mm, 1*mm }, cells = { n, n, 1 }, origin = { -1*mm, -1*mm, -1*mm } } }
+  seat = interface.contact{ name = "seat", between = { foot, plate:face "zmax" }, friction = 0.2 }
+  bodies, joints = { block, plate }, { seat }
+  supports = { support.fixed{ name = "ground", on = plate:where(function() return true end) } }
+end
+local push = load.pressure{ on = top, history = 100*MPa }
+local press = step.static{ name = "press", increments = 2, loads = { push, load.displacement{ on = top, x = 0, y = 0 } } }
+local drag = is_dynamic
+  and step.dynamic{ name = "drag", after = press, duration = 20*us, dt = 0.05*us, loads = { push, load.displacement{ on = foot, x = 0, y = history.ramp{ to = 20*um, duration = 20*us } } } }
+  or step.static{ name = "drag", after = press, increments = 4, loads = { push, load.displacement{ on = foot, x = 0, y = 20*um } } }
+local hold = step.static{ name = "hold", after = drag, loads = { push, load.displacement{ on = foot, x = 0, y = 20*um } } }
+local outputs = { output.resultant{ name = "seat", on = seat }, output.joint{ name = "joint", on = seat }, output.energy{} }
+if on > 0 then outputs[#outputs + 1] = output.resultant{ name = "ground", on = supports[1] } end
+problem{ name = "driven", substructures = bodies, interfaces = joints, supports = supports, steps = is_dynamic and { press, drag } or { press, drag, hold }, outputs = outputs }:run{}
+)";
+
+class Driven : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Solvers, Driven, testing::Values("latin{}", "monolithic{}", "explicit{}"));
+
+TEST_P(Driven, side_of_a_contact_rubs_on_what_is_held) {
+  for (const int kind : {0, 1, 2, 3, 10, 11, 12, 13}) {
+    const DeckRun run = run_kind(driven, kind, GetParam());
+    const bool is_dynamic = kind >= 10, has_springs = is_dynamic && GetParam() == std::string("explicit{}");
+    EXPECT_TRUE(run.result->converged) << kind;
+    const std::vector<double>&normal = run.column("seat", "normal"), &shear = run.column("seat", "y");
+    // Steps that press, and where the springs of the explicit code give way before they slide.
+    const size_t first = has_springs ? 100 : is_dynamic ? 4 : 3;
+    for (size_t i = first; i < shear.size(); ++i)
+      EXPECT_NEAR(std::abs(shear[i]), 0.2 * std::abs(normal[i]), 1e-6 * 20.0) << kind << " " << i;
+    EXPECT_NEAR(normal.back(), -100.0, 1e-3) << kind;
+    EXPECT_NEAR(std::abs(shear.back()), 20.0, 1e-3) << kind;  // statics: held where it is, it keeps what it has
+    EXPECT_NEAR(run.column("joint", "slip").back(), 20e-6, (has_springs ? 0.15 : 0.005) * 20e-6) << kind;
+    // The force of a static increment grows along it, from nothing in the first of four.
+    const double work = 20.0 * 20e-6 * (is_dynamic ? 1.0 : 3.5 / 4.0);
+    EXPECT_NEAR(run.column("joint", "friction_work").back(), work, (has_springs ? 0.15 : 0.005) * work) << kind;
+    EXPECT_LT(run.figure("energy imbalance [%]"), has_springs ? 0.05 : 1e-6) << kind;
+    if (kind % 10 == 0) continue;
+    const std::vector<double>& ground = run.column("ground", "y");
+    for (size_t i = first; i < shear.size(); ++i)
+      EXPECT_NEAR(std::abs(ground[i]), std::abs(shear[i]), 1e-6 * 20.0) << kind << " " << i;
+  }
+}
+
 }  // namespace
 }  // namespace dygita::test::conditions_tests

@@ -147,6 +147,59 @@ TEST(Contact, tells_how_its_friction_follows_the_normal_force) {
   EXPECT_GT(n_slip, 50);
 }
 
+// 1 / Y = 500 N s/m: pressed by 500 N, so that friction is 150 N at most.
+Trial given(const Vec3& s, std::array<bool, 2> tangents) {
+  Trial t = trial(s);
+  for (int d = 1; d < 3; ++d)
+    if ((t.is_given[d] = tangents[d - 1])) t.y[d] = 0.0;
+  return t;
+}
+
+TEST(Contact, slides_as_it_is_driven_where_both_sides_are_held) {
+  const LawPtr law = contact(0.3);
+  for (const double size : {1e-12, 1.0, 1e6}) {
+    const Trial t = given({-1.0, 3.0 * size, -4.0 * size}, {true, true});
+    const Vec3 f = law->force(t, dynamic_step, {});
+    EXPECT_LT((f - Vec3(-500.0, 90.0, -120.0)).norm(), 1e-9);
+    const LawState end = law->advance(t, dynamic_step, {}, f);
+    EXPECT_EQ(end.status, PointState::slip);
+    EXPECT_EQ(end.rate.tail<2>(), t.s.tail<2>());
+    EXPECT_NEAR(law->work({}, end, dynamic_step, t.area).friction, 150.0 * 0.5e-6 * 5.0 * size, 1e-15 * size);
+  }
+  EXPECT_EQ(law->force(given({1.0, 3.0, -4.0}, {true, true}), dynamic_step, {}), Vec3(0, 0, 0));
+  EXPECT_EQ(contact(0.0)->force(given({-1.0, 3.0, -4.0}, {true, true}), dynamic_step, {}).tail<2>(),
+            Eigen::Vector2d(0, 0));
+}
+
+// What is held and rests carries what it carried, but no more than the disc allows.
+TEST(Contact, keeps_the_friction_that_there_was_where_both_sides_rest) {
+  const LawPtr law = contact(0.3);
+  LawState start;
+  start.force = {-500.0, 60.0, 80.0};
+  EXPECT_EQ(law->force(given({-1.0, 0.0, 0.0}, {true, true}), dynamic_step, start), start.force);
+  const Vec3 less = law->force(given({-0.5, 0.0, 0.0}, {true, true}), dynamic_step, start);
+  EXPECT_LT((less - Vec3(-250.0, 45.0, 60.0)).norm(), 1e-9);
+}
+
+// One tangent is driven, the other one free: along both the slip rate is along the force.
+TEST(Contact, slides_across_the_way_it_is_driven_as_its_other_tangent_is_pulled) {
+  const LawPtr law = contact(0.3);
+  for (const double pull : {0.0, 0.1, 0.4, 50.0}) {
+    const Trial t = given({-1.0, 2.0, pull}, {true, false});
+    const Vec3 f = law->force(t, dynamic_step, {});
+    const LawState end = law->advance(t, dynamic_step, {}, f);
+    EXPECT_NEAR(f.tail<2>().norm(), 150.0, 1e-9);
+    EXPECT_EQ(end.rate[1], 2.0);
+    EXPECT_NEAR(f[1] * end.rate[2], f[2] * end.rate[1], 1e-9 * 150.0 * (2.0 + pull));
+  }
+  LawState start;
+  start.force = {-500.0, 140.0, 0.0};
+  const Vec3 sticks = law->force(given({-1.0, 0.0, 0.2}, {true, false}), dynamic_step, start);  // 100 N of 150 N
+  EXPECT_LT((sticks - Vec3(-500.0, std::sqrt(150.0 * 150.0 - 100.0 * 100.0), 100.0)).norm(), 1e-9);
+  const Vec3 slides = law->force(given({-1.0, 0.0, 0.5}, {true, false}), dynamic_step, start);
+  EXPECT_LT((slides - Vec3(-500.0, 0.0, 150.0)).norm(), 1e-9);
+}
+
 TEST(Contact, is_for_small_motions_what_its_state_is) {
   LawState state;
   state.status = PointState::open;

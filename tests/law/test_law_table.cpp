@@ -42,7 +42,7 @@ TEST_P(EveryLaw, says_its_parameters_with_their_numbers) {
   }
 }
 
-TEST_P(EveryLaw, puts_no_force_where_both_sides_are_held_or_it_does_not_act) {
+TEST_P(EveryLaw, puts_no_force_where_it_does_not_act) {
   const Increment increment{1e-6, 0.5, false};
   LawState start = law->initial();
   start.rate = {-1.0, 2.0, 0.5};

@@ -81,6 +81,15 @@ TEST(Viscous, lies_between_free_and_bonded) {
   EXPECT_LT(stiff->advance(t, dynamic_step, {}, f).rate.norm(), 1e-9);
 }
 
+TEST(Viscous, damps_the_rate_that_both_held_sides_are_given) {
+  Trial t = trial({-1.0, 2.0, 0.5});
+  t.y.setZero();
+  t.is_given = {true, true, false};
+  LawState start;
+  start.rate = {1.0, 1.0, 1.0};
+  EXPECT_EQ(viscous(4e6, 1e6)->force(t, dynamic_step, start), Vec3(0.0, 1e2 * 1.5, 0.0));
+}
+
 TEST(Viscous, holds_nothing_in_a_static_step) {
   const LawPtr law = viscous(4e6, 1e6);
   EXPECT_FALSE(law->takes_part(true));

@@ -76,8 +76,9 @@ Vec3 Contact::force(const Trial& trial, const Increment& increment, const LawSta
   if (trial.y[0] <= 0.0) return force;
   const double closing = -closing_speed(increment, start);
   force[0] = std::min((trial.s[0] - closing) / trial.y[0], 0.0);
-  if (friction_ > 0.0)
-    force.tail<2>() = project_on_disc(trial.s.tail<2>(), trial.y.tail<2>(), friction_ * std::abs(force[0])).force;
+  if (friction_ <= 0.0) return force;
+  const GivenRates given{{trial.is_given[1], trial.is_given[2]}, start.force.tail<2>()};
+  force.tail<2>() = project_on_disc(trial.s.tail<2>(), trial.y.tail<2>(), friction_ * std::abs(force[0]), given).force;
   return force;
 }
 
