@@ -132,6 +132,172 @@ bool is_floating(const Substructure& part, const std::unordered_map<int, Held>& 
   return symmetric_eigen(gram).values[0] < 1e-8 * scale;
 }
 
+namespace {
+
+// Motions of all bodies, 6 n x m, orthonormal.
+Mat orthonormal(Mat motions) {
+  for (Eigen::Index i = 0; i < motions.cols(); ++i) {
+    for (int pass = 0; pass < 2; ++pass)
+      for (Eigen::Index j = 0; j < i; ++j) motions.col(i) -= motions.col(j).dot(motions.col(i)) * motions.col(j);
+    motions.col(i).normalize();
+  }
+  return motions;
+}
+
+// One direction of one node.
+struct Pin {
+  int part = -1, node = -1;
+  Vec3 direction = Vec3::Zero();
+};
+
+// Finds directions of nodes that hold what is free and nothing else: as far as a body may move at all, a node is held
+// along its own motion, which no support and no law resists. So many of them as there are free motions are statically
+// determinate, and carry nothing.
+class Pinning {
+ public:
+  Pinning(const Problem& problem, const Exchange& exchange, const Conditions& conditions,
+          const std::vector<RigidFrame>& frames)
+      : problem_(problem), exchange_(exchange), conditions_(conditions), frames_(frames) {
+    for (size_t i = 0; i < exchange.points.size(); ++i)
+      for (int p = exchange.points[i].first_port; p < exchange.points[i].end_port; ++p)
+        exchange.ports[static_cast<size_t>(p)].for_each_node([&](int node, const Mat3& /*block*/) {
+          points_at_[{exchange.ports[static_cast<size_t>(p)].part, node}].push_back(static_cast<int>(i));
+        });
+  }
+
+  // The node that moves furthest, and that way: whatever the basis of the free motions, and however all is turned.
+  Pin best(const Mat& free) const {
+    constexpr double nearly = 1.0 + 1e-9;  // of nodes that are alike the first
+    double best = 0.0;
+    Pin pin;
+    for (int part = 0; part < static_cast<int>(frames_.size()); ++part) {
+      const Mat own = free.middleRows(6 * part, 6);
+      const Mat6 gram = own * own.transpose();
+      const Substructure& body = *problem_.substructures[static_cast<size_t>(part)];
+      for (int node = 0; node < body.mesh->n_nodes(); ++node) {
+        if (body.mesh->condensed && body.mesh->condensed->follower(node)) continue;  // it has no unknowns
+        Mat3 square = square_of(part, node, gram);
+        const double most = std::sqrt(std::max(0.0, square.trace()));
+        if (most <= nearly * best) continue;
+        const double weight = weight_of(part, node);
+        if (weight * most <= nearly * best) continue;
+        if (const Held* held = conditions_.at(part, node)) {
+          const Mat3 is_free = held->free_basis() * held->free_basis().transpose();
+          square = (is_free * square * is_free).eval();
+        }
+        const PrincipalAxes axes = principal_axes(square);
+        const Vec3 direction = axes.vectors.col(2);
+        const double reach =
+            std::sqrt(std::max(0.0, axes.values[2])) * weight * (fits_frames(part, node, direction) ? 1.0 : at_odds);
+        if (reach <= nearly * best) continue;
+        best = reach;
+        pin = {part, node, direction};
+      }
+    }
+    return pin;
+  }
+
+  // How each free motion moves a pin.
+  Vec along(const Pin& pin, const Mat& free) const {
+    const Substructure& body = *problem_.substructures[static_cast<size_t>(pin.part)];
+    return free.middleRows(6 * pin.part, 6).transpose() *
+           frames_[static_cast<size_t>(pin.part)].row(body, pin.node, pin.direction);
+  }
+
+ private:
+  using Mat6 = Eigen::Matrix<double, 6, 6>;
+  // Rather where no support and no interface is: what a pin adds to them is theirs no more.
+  static constexpr double at_support = 1e-2, at_interface = 1e-3, at_odds = 1e-3;
+
+  double weight_of(int part, int node) const {
+    const Held* held = conditions_.at(part, node);
+    return (held && held->n > 0 ? at_support : 1.0) * (points_at_.contains({part, node}) ? at_interface : 1.0);
+  }
+
+  // Sum of squares of the displacements of a node.
+  Mat3 square_of(int part, int node, const Mat6& gram) const {
+    const Substructure& body = *problem_.substructures[static_cast<size_t>(part)];
+    Eigen::Matrix<double, 3, 6> rows;
+    for (int d = 0; d < 3; ++d) rows.row(d) = frames_[static_cast<size_t>(part)].row(body, node, Vec3::Unit(d));
+    return rows * gram * rows.transpose();
+  }
+
+  // The axes of a point contain what is held of its nodes: a direction must be along or across the normal of a law, and
+  // what is held already.
+  bool fits_frames(int part, int node, const Vec3& direction) const {
+    constexpr double rounding = 1e-6;
+    const auto is_oblique = [&](const Vec3& axis) {
+      const double along = std::abs(axis.dot(direction));
+      return along > rounding && along < 1.0 - rounding;
+    };
+    const auto points = points_at_.find({part, node});
+    if (points == points_at_.end()) return true;
+    for (const int i : points->second) {
+      const Point& point = exchange_.points[static_cast<size_t>(i)];
+      if (point.law && is_oblique(point.frame.col(0))) return false;
+      for (int p = point.first_port; p < point.end_port; ++p) {
+        const Port& port = exchange_.ports[static_cast<size_t>(p)];
+        const Held* held = conditions_.at(port.part, port.node);
+        for (int j = 0; held && held->n < 3 && j < held->n; ++j)
+          if (is_oblique(held->directions.col(j))) return false;
+      }
+    }
+    return true;
+  }
+
+  const Problem& problem_;
+  const Exchange& exchange_;
+  const Conditions& conditions_;
+  const std::vector<RigidFrame>& frames_;
+  std::map<std::pair<int, int>, std::vector<int>> points_at_;  // by part and node
+};
+
+// Throws where the loads (3 x nodes of each body, N) drive one of the free motions.
+void check_unloaded(const Problem& problem, const Step& step, const std::vector<RigidFrame>& frames,
+                    const std::vector<Points>& force, const Mat& free) {
+  const int n = static_cast<int>(frames.size());
+  Vec work = Vec::Zero(free.cols());
+  for (int i = 0; i < n; ++i)
+    if (!force[i].isZero(0.0))
+      for (Eigen::Index m = 0; m < free.cols(); ++m)
+        work[m] += frames[i]
+                       .displacements(free.col(m).segment<6>(6 * i), *problem.substructures[i])
+                       .cwiseProduct(force[i])
+                       .sum();
+  if (work.isZero(0.0)) return;
+  const Vec driven = free * work.normalized();
+  int part = 0;
+  double largest = 0.0, scale = 0.0;
+  for (int i = 0; i < n; ++i)
+    if (driven.segment<6>(6 * i).norm() > largest) {
+      largest = driven.segment<6>(6 * i).norm();
+      part = i;
+    }
+  for (int i = 0; i < n; ++i) scale += force[i].colwise().norm().sum() * largest;
+  if (work.norm() > 1e-7 * scale)
+    throw InputError(step.origin,
+                     fmt::format("static step '{}': {} of substructure '{}' is loaded, but no support and no "
+                                 "interface holds it",
+                                 step.name, describe(driven.segment<6>(6 * part)), problem.substructures[part]->name) +
+                         what_lets_go(problem, *problem.substructures[part]));
+}
+
+// Names for as many motions as a body (6 x n) has: those that they are nearest to.
+std::vector<std::string> names_of(const Mat& motions) {
+  Mat left = orthonormal(motions);
+  std::vector<std::string> names;
+  for (Eigen::Index m = 0; m < motions.cols(); ++m) {
+    int nearest = 0;
+    left.rowwise().squaredNorm().maxCoeff(&nearest);
+    names.push_back(describe(RigidMotion::Unit(nearest)));
+    const Vec taken = left.row(nearest).transpose().normalized();
+    left -= (left * taken) * taken.transpose();
+  }
+  return names;
+}
+
+}  // namespace
+
 void pin_free_motions(const Problem& problem, const Step& step, const Exchange& exchange,
                       const std::vector<Points>& force, Conditions& conditions) {
   const int n = static_cast<int>(problem.substructures.size());
@@ -143,72 +309,33 @@ void pin_free_motions(const Problem& problem, const Step& step, const Exchange& 
   for (int i = 0; i < n; ++i)
     weight.segment<6>(6 * i).setConstant(1.0 / std::sqrt(std::max(1.0, gram.at({i, i}).trace())));
   const EigenPairs eigen = pairs_below(scaled(gram, weight), 1e-9);
-  std::set<std::pair<int, int>> on_interface;
-  for (const Port& port : exchange.ports)
-    port.for_each_node([&](int node, const Mat3&) { on_interface.emplace(port.part, node); });
-
-  std::map<int, std::vector<std::string>> unconstrained;  // by part
-  std::vector<Vec> free_motions;
-  for (Eigen::Index m = 0; m < eigen.values.size(); ++m)
-    free_motions.push_back(weight.cwiseProduct(eigen.vectors.col(m)));
-  while (!free_motions.empty()) {
-    // The part that moves most, and where it moves most away from interfaces and supports.
-    Vec& motion = free_motions.back();
-    int part = 0;
-    double largest = 0.0;
-    for (int i = 0; i < n; ++i)
-      if (motion.segment<6>(6 * i).norm() > largest) {
-        largest = motion.segment<6>(6 * i).norm();
-        part = i;
-      }
-    double work = 0.0, scale = 0.0;
-    for (int i = 0; i < n; ++i) {
-      work += frames[i].displacements(motion.segment<6>(6 * i), *problem.substructures[i]).cwiseProduct(force[i]).sum();
-      scale += force[i].colwise().norm().sum() * largest;
-    }
-    const std::string what = fmt::format("static step '{}': {} of substructure '{}'", step.name,
-                                         describe(motion.segment<6>(6 * part)), problem.substructures[part]->name);
-    if (std::abs(work) > 1e-7 * scale && scale > 0.0)
-      throw InputError(step.origin, what + " is loaded, but no support and no interface holds it" +
-                                        what_lets_go(problem, *problem.substructures[part]));
-    unconstrained[part].push_back(describe(motion.segment<6>(6 * part)));
-    const Substructure& body = *problem.substructures[part];
-    // Rather where no support and no interface is: what a pin adds to them is theirs no more.
-    constexpr double at_support = 1e-2, at_interface = 1e-3;
-    int best_node = -1;
-    Vec3 best_direction = Vec3::Zero();
-    double best = 0.0;
-    for (int node = 0; node < body.mesh->n_nodes(); ++node) {
-      if (body.mesh->condensed && body.mesh->condensed->follower(node)) continue;  // it has no unknowns
-      Vec3 u = frames[part].value(motion.segment<6>(6 * part), body, node);
-      const auto held = conditions.held[part].find(node);
-      const bool is_held = held != conditions.held[part].end() && held->second.n > 0;
-      if (is_held && held->second.n == 3) continue;
-      if (is_held) u = held->second.free_basis() * (held->second.free_basis().transpose() * u);
-      int axis = 0;
-      const double reach = u.cwiseAbs().maxCoeff(&axis) * (is_held ? at_support : 1.0) *
-                           (on_interface.count({part, node}) ? at_interface : 1.0);
-      if (reach <= best) continue;
-      best = reach;
-      best_node = node;
-      best_direction = Vec3::Unit(axis);
-      if (is_held)
-        best_direction =
-            (held->second.free_basis() * (held->second.free_basis().transpose() * best_direction)).normalized();
-    }
-    CHECK(best_node >= 0, "no node can be pinned against a free rigid motion");
-    Held& held = conditions.held[part][best_node];
-    held.directions.col(held.n) = held.given.col(held.n) = best_direction;
+  if (eigen.values.size() == 0) return;
+  Mat free = orthonormal(weight.asDiagonal() * eigen.vectors);
+  check_unloaded(problem, step, frames, force, free);
+  const Pinning pinning(problem, exchange, conditions, frames);
+  std::map<int, Mat> unconstrained;  // by part, a column a motion
+  while (free.cols() > 0) {
+    const Pin pin = pinning.best(free);
+    CHECK(pin.node >= 0, "no node can be pinned against a free rigid motion");
+    // Of the free motions one moves the pin, and the others, across it, do not.
+    const Vec moving = pinning.along(pin, free).normalized();
+    Mat& own = unconstrained[pin.part];
+    own.conservativeResize(6, own.cols() + 1);
+    own.rightCols(1) = (free * moving).segment<6>(6 * pin.part);
+    Mat others(free.cols(), free.cols());
+    others.col(0) = moving;
+    others.rightCols(free.cols() - 1).setIdentity();
+    int last = 0;
+    moving.cwiseAbs().maxCoeff(&last);  // the unit vector nearest to it is left out
+    if (last < free.cols() - 1) others.col(last + 1) = Vec::Unit(free.cols(), free.cols() - 1);
+    free = orthonormal(free * orthonormal(others).rightCols(free.cols() - 1));
+    Held& held = conditions.held[pin.part][pin.node];
+    held.directions.col(held.n) = held.given.col(held.n) = pin.direction;
     ++held.n;
-    // What is left of the other free motions once this one is pinned.
-    const auto at_pin = [&](const Vec& z) {
-      return best_direction.dot(frames[part].value(z.segment<6>(6 * part), body, best_node));
-    };
-    const Vec pinned = motion;
-    free_motions.pop_back();
-    for (Vec& other : free_motions) other -= at_pin(other) / at_pin(pinned) * pinned;
   }
-  warn_of_unconstrained(problem, step, unconstrained);
+  std::map<int, std::vector<std::string>> names;
+  for (const auto& [part, motions] : unconstrained) names[part] = names_of(motions);
+  warn_of_unconstrained(problem, step, names);
 }
 
 }  // namespace dygita

@@ -601,5 +601,46 @@ TEST_P(Driven, side_of_a_contact_rubs_on_what_is_held) {
   }
 }
 
+// A post without friction between a plate and a bar that a bolt pulls down beside it: it may slide, and turn about
+// itself. One cell high, it has no node that is not at a contact.
+const std::string post = R"(
+local axes = { { 0, 0, 1 }, { 1, 0, 0 }, { -0.845156, -0.572766, -0.393743 }, { 1, 1, 0 }, { 0.2, -0.9, 0.4 }, { -0.3, 0.1, 0.95 }, { 0.1, 0.2, 0.3 } }
+local turned = { rotate = { axis = axes[p.kind + 1], angle = 2.401282 * p.kind / 3, about = { 0, 0, 0 } } }
+local function box(name, young, poisson, size, cells, x, z, cell)
+  return substructure{ name = name, material = material.elastic{ name = name, young = young*GPa, poisson = poisson, density = 2700 },
+    mesh = mesh.box{ size = { size[1]*mm, size[2]*mm, size[3]*mm }, cells = cells, origin = { x*mm, 0, z*mm }, cell = cell }, place = turned }
+end
+local plate = box("plate", 167.25, 0, { 36, 4, 4 }, { 3, 4, 1 }, 0, 0, "hex8")
+local bar = box("bar", 167.25, 0, { 36, 4, 6 }, { 4, 3, 2 }, 0, 12, "hex8")
+local post = box("post", 69.2, 0, { 4, 4, 8 }, { 4, 1, 1 }, 0, 4, "prism6")
+local shank = box("shank", 25.34, 0.3, { 4, 4, 8 }, { 1, 2, 1 }, 8, 4, "hex8")
+local foot = interface.contact{ name = "foot", between = { plate:face "zmax", post:face "zmin" } }
+local head = interface.contact{ name = "head", between = { post:face "zmax", bar:face "zmin" }, gap = 1*um }
+local low = interface.bonded{ name = "low", between = { plate:face "zmax", shank:face "zmin" } }
+local nut = interface.plastic{ name = "nut", between = { shank:face "zmax", bar:face "zmin" }, yield = 299*MPa, hardening = 1e12 }
+local base = support.fixed{ name = "base", on = plate:face "zmin" }
+local tighten = step.static{ name = "tighten", increments = 2, loads = { load.shortening{ on = nut, by = 25.2575*um } } }
+problem{ name = "post", substructures = { plate, bar, post, shank }, interfaces = { foot, head, low, nut }, supports = { base }, steps = { tighten },
+  outputs = { output.resultant{ name = "foot", on = foot }, output.resultant{ name = "head", on = head }, output.resultant{ name = "base", on = base } } }:run{}
+)";
+
+TEST(FreeMotion, carries_nothing_however_it_is_turned) {
+  const double right = run_kind(post, 0, "latin{ static_tolerance = 1e-10 }").column("foot", "normal").back();
+  EXPECT_NEAR(right, -46.1, 0.1);
+  for (int kind = 0; kind < 7; ++kind)
+    for (const char* solver : {"latin{ static_tolerance = 1e-10 }", "monolithic{}"}) {
+      const DeckRun run = run_kind(post, kind, solver);
+      EXPECT_TRUE(run.result->converged) << kind << solver;
+      for (const char* joint : {"foot", "head"}) {
+        EXPECT_NEAR(run.column(joint, "normal").back(), right, 1e-5 * 46.1) << kind << solver;
+        EXPECT_LT(run.column(joint, "shear").back(), 1e-6 * 46.1) << kind << solver;  // there is no friction
+      }
+      for (const char* axis : {"x", "y", "z"}) {
+        EXPECT_NEAR(run.column("foot", axis).back(), run.column("head", axis).back(), 1e-5 * 46.1) << kind << solver;
+        EXPECT_NEAR(run.column("base", axis).back(), 0.0, 1e-5 * 46.1) << kind << solver;
+      }
+    }
+}
+
 }  // namespace
 }  // namespace dygita::test::conditions_tests
