@@ -34,13 +34,15 @@ class Indicator {
     const double finest = std::max(1e-6, 1e-12 / tolerance);
     floor_ = std::max(floor_, finest * finest * energy / dt);
   }
+  // sum k U^2 / 2 of where a static increment starts: forces of what has moved are no closer than its rounding.
+  void start_displaced(double size) { displaced_ = size; }
   Outcome measure(const IndicatorSums& sums) const {
     constexpr double tiny = std::numeric_limits<double>::min();
     const double size = sums.force_size + sums.velocity_size;
     double eta = std::sqrt((sums.force_distance + sums.velocity_distance) / std::max({largest_, size, floor_, tiny}));
     if (largest_motion_ > 0.0) {
-      const double forces = std::max(
-          {largest_force_, sums.force_size, 4e-15 * std::min(sums.velocity_size, largest_motion_), floor_, tiny});
+      const double motion = std::min(std::max(sums.velocity_size, displaced_), largest_motion_);
+      const double forces = std::max({largest_force_, sums.force_size, 4e-15 * motion, floor_, tiny});
       eta = std::max(eta, force_share_ * std::sqrt(sums.force_distance / forces));
     }
     return {eta, size, sums.force_size};
@@ -55,7 +57,7 @@ class Indicator {
 
  private:
   double largest_motion_, force_share_;
-  double largest_ = 0.0, largest_force_ = 0.0, floor_ = 0.0;
+  double largest_ = 0.0, largest_force_ = 0.0, floor_ = 0.0, displaced_ = 0.0;
 };
 
 }  // namespace dygita

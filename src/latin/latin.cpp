@@ -156,6 +156,7 @@ void StepRun::begin_increment(int increment, bool starts_window) {
   const std::vector<double> motions = begin_pieces(increment);
   const Stopwatch watch(books_.seconds.forward);
   local_.begin(increment, motions, starts_window);
+  if (model_.scheme.is_static) indicator_.start_displaced(local_.displacement_size());
 }
 
 // Returns the velocities of motions at its end.
@@ -223,6 +224,7 @@ StepRun::Best StepRun::answer(int increment, const Goal& goal, bool goes_over_ag
 // acceleration.
 void StepRun::iterate_again(int increment, const Goal& goal, const Vec& start, Best& best) {
   constexpr double diverged = 1e-5;  // of the indicator
+  if (increment > 0) stop_loose_parts();
   constexpr IterationLimit part_by_part{400, 5000};
   if (settings_.limit.least == settings_.limit.most) return;  // as many as the deck allows have been
   for (const bool accelerates : {true, false}) {

@@ -126,6 +126,17 @@ void LocalStage::begin(int increment, const std::vector<double>& motions, bool s
   for_points(model_->near.points(), begin_at, model_->scheme.is_static ? 1 : 0);
 }
 
+double LocalStage::displacement_size() {
+  Vec u = Vec::Zero(model_->near.n());
+  for (const int i : model_->near.points())
+    for (int p = model_->exchange.points[i].first_port; p < model_->exchange.points[i].end_port; ++p)
+      for (int d = 0; d < 3; ++d)
+        if (const int at = model_->unknown(model_->exchange.ports[p], d); at >= 0) u[at] = ports_[p].u[d];
+  return sums_.add(1, [&](Eigen::Index first, Eigen::Index n, double* to) {
+    for (Eigen::Index i = first; i < first + n; ++i) *to += 0.5 * k_[i] * u[i] * u[i];
+  })[0];
+}
+
 // r and 1/k of one side of a point: a group is one body with k = sum k, r = sum k r / sum k.
 LocalStage::Side LocalStage::gather(int first, int end, const Vec& velocity, const Vec& q) const {
   Side side;
@@ -183,7 +194,7 @@ void LocalStage::set_trial(const Point& point, const Side& side_1, const Side& s
   record.trial.s = record.given_rate;
   record.trial.y.setZero();
   for (int d = 0; d < 3; ++d) {
-    if (!point.is_active[d] || !point.has_law[d]) continue;
+    if (!point.is_active[d] || !point.has_law[d] || record.trial.is_given[d]) continue;
     record.trial.s[d] = side_2.r[d] - side_1.r[d];
     record.trial.y[d] = side_1.inverse_k[d] + side_2.inverse_k[d];
   }

@@ -39,6 +39,8 @@ class LocalStage {
   // Jumps come from the substructures' displacements at the start of a window; inside a window of several steps from
   // W_hat, since the displacements of an unfinished iteration would be answered with a velocity of jump / dt.
   void begin(int increment, const std::vector<double>& motions, bool starts_window);
+  // sum k U^2 / 2 (W) of the displacements that the increment starts from; collective.
+  double displacement_size();
   // From velocities V and data q of the linear stage: F_hat, W_hat and their q (the fixed-point image). First at points
   // whose unknowns are all here, while others' are on their way, then at the rest.
   void run_inner(const Vec& velocity, const Vec& q, Vec& image);

@@ -7,6 +7,25 @@
 
 namespace dygita {
 
+// Takes motions of ports off the fields at hand: the same forces.
+void StepRun::take_off(const std::vector<Vec3>& motions) {
+  for (size_t p = 0; p < motions.size(); ++p)
+    for (int d = 0; d < 3; ++d)
+      if (const int i = model_.unknown(model_.exchange.ports[p], d); i >= 0) {
+        at_.velocity[i] -= motions[p][d];
+        at_.q[i] -= local_.k()[i] * motions[p][d];
+      }
+}
+
+// Where an increment starts nothing says that what was loose at the end of the one before goes on as it went there.
+void StepRun::stop_loose_parts() {
+  if (!loose_ || !loose_->may_be() || at_.velocity.size() != at_.q.size()) return;
+  const double least = std::pow(settings_.tolerance, 2) * indicator_.largest();
+  take_off(loose_->find(
+      {[&](int point) { return local_.links(point, least); },
+       [&](int p, int d) { return at_.velocity[model_.unknown(model_.exchange.ports[static_cast<size_t>(p)], d)]; }}));
+}
+
 // The system knows where loose parts are by what they are near to, and carries them along with it: they rest, as far as
 // nothing is in their way there. False: there are none.
 bool StepRun::leave_loose_parts() {
@@ -14,12 +33,7 @@ bool StepRun::leave_loose_parts() {
     return at_.velocity[model_.unknown(model_.exchange.ports[static_cast<size_t>(p)], d)];
   };
   const std::vector<Vec3> motions = loose_->find({[&](int point) { return local_.carries(point); }, moved});
-  for (size_t p = 0; p < motions.size(); ++p)
-    for (int d = 0; d < 3; ++d)
-      if (const int i = model_.unknown(model_.exchange.ports[p], d); i >= 0) {
-        at_.velocity[i] -= motions[p][d];
-        at_.q[i] -= assembled_->k()[i] * motions[p][d];  // the same force
-      }
+  take_off(motions);
   return !motions.empty();
 }
 
@@ -60,12 +74,7 @@ void StepRun::rest_loose_parts(int increment, const Goal& goal, Best& best) {
   for (int n = 0; n < most; ++n) {
     const std::vector<Vec3> motions = loose_motions(best.outcome.size);
     if (motions.empty()) return;
-    for (size_t p = 0; p < motions.size(); ++p)
-      for (int d = 0; d < 3; ++d)
-        if (const int i = model_.unknown(model_.exchange.ports[p], d); i >= 0) {
-          at_.velocity[i] -= motions[p][d];
-          at_.q[i] -= local_.k()[i] * motions[p][d];  // the same force
-        }
+    take_off(motions);
     at_.uncorrected.resize(0);
     answer();
     Outcome outcome = indicator_.measure(at_.sums);

