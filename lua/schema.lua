@@ -572,7 +572,8 @@ words[9] = {
           .. "`tolerance` is reached" },
       { "static_steps", type = "choice", choices = { "automatic", "assembled", "iterated" }, default = "automatic",
         doc = "assembled: all parts in one system, factorised anew as contact changes; a few tens of iterations however parts hang on each other. "
-          .. "iterated: part by part, as in dynamic steps. automatic: assembled where there are 10 parts or more, in steps of at most 5 increments" },
+          .. "iterated: part by part, as in dynamic steps. automatic: assembled where there are 10 parts or more, in steps of at most 5 increments, "
+          .. "and where an increment part by part has not converged in 400 iterations" },
       { "plain", type = "boolean", default = false, doc = "iterates with full solves, to check the condensed ones" },
     },
   },

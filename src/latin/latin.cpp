@@ -190,17 +190,21 @@ void StepRun::finish_increment(const Vec& q) {
 // Iterates, and leaves pieces and laws with the answer: the last one, or the best where none is good enough.
 StepRun::Best StepRun::answer(int increment, const Goal& goal, bool goes_over_again) {
   Best best{at_.q, {}};
-  const Vec start = model_.scheme.is_static && (assembled_ || anderson_.accelerates()) ? at_.q : Vec();
+  Fields start;
+  if (model_.scheme.is_static) start = {at_.q, at_.velocity};
   BoltStart bolts;
   if (local_.has_preloads()) bolts = {at_.q, local_.preload_figures().shortening};
-  iterate(increment, goal, best);
+  const bool has_other_way = start.q.size() > 0 && can_go_in_one() && goal.limit.most > goal.limit.least;
+  iterate(increment, has_other_way ? Goal{goal.tolerance, {goal.limit.least, goal.limit.least}, goal.furthest} : goal,
+          best);
   // So many more iterations on what was solved before: where increments before it are others now, that may be too few.
   if (settings_.more_iterations > 0 && best.outcome.eta > settings_.tolerance) {
     at_.q = best.q;
     iterate(increment, {settings_.tolerance, settings_.limit, goal.furthest}, best);
   }
+  if (has_other_way && best.outcome.eta > settings_.tolerance) iterate_in_one(increment, goal, start, best);
   if (best.outcome.eta > settings_.tolerance && local_.has_preloads()) seat_bolts(increment, bolts, best);
-  if (start.size() > 0) iterate_again(increment, goal, start, best);
+  if (start.q.size() > 0) iterate_again(increment, goal, start.q, best);
   rest_loose_parts(increment, goal, best);
   const bool is_solved = best.outcome.eta <= goal.tolerance;
   anderson_.end(own(at_.q), own(at_.image), is_solved);
@@ -218,32 +222,9 @@ StepRun::Best StepRun::answer(int increment, const Goal& goal, bool goes_over_ag
   return best;
 }
 
-// Parts that contact alone holds, and that an iteration has let off, come back by the same small way each time, which
-// tells the acceleration nothing: it sends them anywhere. Newton's method in one system may go round in circles where
-// all points slide back at once. Where either has diverged, once more from the start: part by part, and without
-// acceleration.
-void StepRun::iterate_again(int increment, const Goal& goal, const Vec& start, Best& best) {
-  constexpr double diverged = 1e-5;  // of the indicator
-  if (increment > 0) stop_loose_parts();
-  constexpr IterationLimit part_by_part{400, 5000};
-  if (settings_.limit.least == settings_.limit.most) return;  // as many as the deck allows have been
-  for (const bool accelerates : {true, false}) {
-    if (accelerates && !(assembled_ && anderson_.accelerates())) continue;
-    if (!(best.outcome.eta > std::max(diverged, settings_.tolerance))) return;
-    Best again{start, {}, best.iterations};
-    at_.q = start;
-    anderson_.pause(!accelerates);
-    goes_part_by_part_ = true;
-    iterate(increment, {goal.tolerance, part_by_part, goal.furthest}, again);
-    goes_part_by_part_ = false;
-    anderson_.pause(false);
-    best.iterations = again.iterations;
-    if (again.outcome.eta < best.outcome.eta) best = std::move(again);
-  }
-}
-
 // One time step: forward once, iterate on the interfaces alone, backward once.
 void StepRun::solve_increment(int increment) {
+  if (increment > 0) stop_loose_parts();
   begin_increment(increment, true);
   const bool has_start = (!assembled_ || files_.start_from) && predict(increment, at_.q);
   if (assembled_ && has_start) {

@@ -27,6 +27,11 @@ void tell_run(const std::shared_ptr<const InterfaceFields>& kept, SolverFigures&
   figures.own.shared_factors = figures.n_equal;
 }
 
+// One process, and a deck that does not say how.
+bool may_go_in_one(const Problem& problem, const StepModel& model) {
+  return ranks::is_alone() && model.scheme.is_static && !model.is_assembled && fits_in_one(problem);
+}
+
 CutPtr cut_into_pieces(const Problem& problem, const std::vector<Surface>& surfaces, const SharePlan& plan) {
   const LikePages like;
   return make_cut(problem, surfaces, plan);
@@ -70,7 +75,10 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
     if (step == problem.steps.back()) give_up_matrices(bodies);
     const Vec k = search_directions(model, problem.solver.search_direction, settings.window);
     fix_search_directions(model, k);
-    StepRun run(settings, model, k, {state, observer, start_from, *kept, trail});
+    RunFiles files{state, observer, start_from, *kept, trail};
+    if (may_go_in_one(problem, model))
+      files.pieces_in_one = [&bodies](const StepModel& of) { return make_assembled_pieces(of, bodies); };
+    StepRun run(settings, model, k, files);
     figures.seconds["factor"] += lap();
     figures.stopped_by = run_as_far_as_it_goes(run, figures);
     if (!figures.stopped_by) end_step(model, state);

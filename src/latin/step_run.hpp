@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 
 #include "base/parallel.hpp"
 #include "base/thread_choice.hpp"
@@ -18,6 +19,7 @@
 #include "latin/warm_start.hpp"
 #include "solution/distant_points.hpp"
 #include "solution/loose_motions.hpp"
+#include "solution/make_pieces.hpp"
 #include "solution/trail.hpp"
 
 namespace dygita {
@@ -40,6 +42,8 @@ struct RunFiles {
   const InterfaceFields* start_from;  // of another case, or null
   InterfaceFields& kept;
   Trail* trail;  // null: none
+  // Of a static step that is solved piece by piece, its pieces for one system; empty: it is not to change its way.
+  std::function<Pieces(const StepModel&)> pieces_in_one = nullptr;
 };
 
 class StepRun {
@@ -65,7 +69,11 @@ class StepRun {
     int iterations = 0;
     Missed missed{};  // where the goal was not reached
   };
-  // Where preloaded bolts begin an increment.
+  // Where an increment begins.
+  struct Fields {
+    Vec q, velocity;
+  };
+  // Where preloaded bolts begin one.
   struct BoltStart {
     Vec q, shortening;
   };
@@ -78,13 +86,19 @@ class StepRun {
   void coarse_correction(Vec& q, Vec& velocity);
   void inner_iterations();
   void iterate(int increment, const Goal& goal, Best& best);
-  // The same in other ways, from where the increment began, where what is best is no solution at all.
+  // The same in other ways, from where the increment began (other_way.cpp): in one system what is solved piece by
+  // piece; and where what is best is no solution at all.
+  bool can_go_in_one() const;
+  void begin_in_one(int increment);
+  void iterate_in_one(int increment, const Goal& goal, const Fields& start, Best& best);
   void iterate_again(int increment, const Goal& goal, const Vec& start, Best& best);
   // With all pieces in one system; leaves: loose parts once, near the solution.
   void iterate_assembled(int increment, const Goal& goal, Best& best, bool leaves = true);
   // Loose parts (loose_parts.cpp), where all pieces are in one system and where they are not.
   bool leave_loose_parts();
   std::vector<Vec3> loose_motions(double size) const;  // size: W, of the increment's fields
+  void take_off(const std::vector<Vec3>& motions);
+  void stop_loose_parts();
   void rest_loose_parts(int increment, const Goal& goal, Best& best);
   void begin_increment(int increment, bool starts_window);
   std::vector<double> begin_pieces(int increment);
@@ -97,8 +111,6 @@ class StepRun {
   bool leads(long n) const { return files_.trail && files_.trail->leads(n); }
   Best follow(int increment, const Goal& goal);
   Best go_over_again(const TrailEntry& entry, int increment, const Goal& goal);
-  void take_off(const std::vector<Vec3>& motions);
-  void stop_loose_parts();
   void leave(const Best& best, bool is_solved);
   void leave_window(const std::vector<Vec>& q, int iterations, double eta, const std::optional<Missed>& missed);
   void replay_window(int first, int last);
@@ -213,9 +225,11 @@ class StepRun {
   int n_inner_;  // iterations by the pieces' rough operators after each
   LocalStage local_;
   std::optional<TangentIteration> assembled_;  // static steps with all pieces in one system
-  std::optional<LooseMotions> loose_;          // of static steps
-  bool goes_part_by_part_ = false;             // though all pieces are in one system
-  bool is_answered_ = false;                   // the velocities at hand are the linear stage's answer to q
+  Pieces pieces_in_one_;                       // of others, once an increment has asked for them
+  std::optional<TangentIteration> in_one_;
+  std::optional<LooseMotions> loose_;  // of static steps
+  bool goes_part_by_part_ = false;     // though all pieces are in one system
+  bool is_answered_ = false;           // the velocities at hand are the linear stage's answer to q
   DirectPoints direct_;
   std::optional<DistantPoints> distant_;  // where there are several ranks
   std::vector<ExplicitPiece*> explicit_;  // null: implicit

@@ -60,9 +60,11 @@ std::string cure_of_stall(const Problem& problem, const StepSummary& step, const
   const bool has_friction =
       std::any_of(problem.interfaces.begin(), problem.interfaces.end(),
                   [](const InterfacePtr& i) { return i->law->shown().gap && i->law->shown().slip; });
+  // Left to the program, both ways have been gone.
+  const bool is_fixed = problem.solver.static_steps != StaticSteps::automatic;
   return text + fmt::format(
-                    "take more increments, or fix how they are solved (solver.latin{{ static_steps = "
-                    "\"assembled\" }} or \"iterated\"){}",
+                    "take more increments{}{}",
+                    is_fixed ? ", or leave out 'static_steps': where one way stands still the other is then taken" : "",
                     has_friction ? ", or see what friction alone has to hold (output.joint)" : "");
 }
 

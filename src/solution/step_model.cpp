@@ -216,20 +216,29 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
   return model;
 }
 
+}  // namespace
+
+bool fits_in_one(const Problem& problem) {
+  constexpr long most_unknowns = 600000;
+  const LatinSettings& asked = problem.solver;
+  if (asked.plain || asked.static_steps != StaticSteps::automatic || asked.static_tolerance < 1e-12) return false;
+  long n = 0;
+  for (const SubstructurePtr& part : problem.substructures) n += 3L * part->mesh->n_nodes();
+  return n <= most_unknowns;
+}
+
+namespace {
+
 // Assembled increments cost ten factors or more each, iterated steps dense operators at their start and next to nothing
 // an increment, unless many parts hang on each other by contact alone. Forces and ties of the former agree to twelve
 // digits at best.
 bool is_assembled(const Problem& problem, const Step& step) {
   constexpr int few_increments = 5;
   constexpr size_t many_parts = 10;
-  constexpr long most_unknowns_in_one = 600000;
   const LatinSettings& asked = problem.solver;
   if (!step.is_static || asked.plain) return false;
   if (asked.static_steps != StaticSteps::automatic) return asked.static_steps == StaticSteps::assembled;
-  long n = 0;
-  for (const SubstructurePtr& part : problem.substructures) n += 3L * part->mesh->n_nodes();
-  return problem.substructures.size() >= many_parts && step.increments <= few_increments && n <= most_unknowns_in_one &&
-         asked.static_tolerance >= 1e-12;
+  return problem.substructures.size() >= many_parts && step.increments <= few_increments && fits_in_one(problem);
 }
 
 // Every rank holds such a system and solves it: what one process does is done as often, and passes nowhere.

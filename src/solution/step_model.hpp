@@ -85,6 +85,10 @@ struct StepModel {
   std::vector<std::vector<PieceLoad>> piece_loads;  // of each piece
 };
 
+// May one system of all parts solve the static steps of a problem: does the deck leave it to the program, and is it
+// not too large?
+bool fits_in_one(const Problem& problem);
+
 // Builds and factorises; pieces side by side on the threads at hand. bodies: of the pieces. Throws InputError,
 // NumericalError. In static steps that the solver assembles the pieces are not factorised.
 StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,

@@ -80,6 +80,54 @@ TEST(LimitLoad, of_a_block_between_jaws_is_what_the_deck_of_hard_cases_asks_for)
   expect_in(said, {"'block' slides as a whole: ", "'a' slides at", "'b' slides at"});
 }
 
+// A block on a plate that only friction holds, pressed by 1 kN across a gap and pushed aside; friction holds 300 N.
+const std::string pressed_aside = R"(
+local p = param{ side = 285, iterations = 0 }
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7800 }
+local a = substructure{ name = "a", material = steel, mesh = mesh.box{ size = { 30*mm, 30*mm, 10*mm }, cells = { 6, 6, 2 } } }
+local b = substructure{ name = "b", material = steel, mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 3, 3, 3 }, origin = { 10*mm, 10*mm, 10.1*mm } } }
+local j = interface.contact{ name = "j", between = { a:face "zmax", b:face "zmin" }, friction = 0.3, gap = "geometry", within = 0.2*mm }
+local base = support.fixed{ name = "base", on = a:face "zmin" }
+local s = step.static{ name = "s", loads = { load.force{ on = b:face "zmax", z = -1*kN, x = p.side } } }
+problem{ name = "press", substructures = { a, b }, interfaces = { j }, supports = { base }, steps = { s }, outputs = { output.joint{ name = "o", on = j } },
+  solver = p.iterations > 0 and solver.latin{ max_iterations = p.iterations } or solver.latin{} }:run{}
+)";
+
+TEST(OtherWay, is_taken_where_parts_one_by_one_stand_still) {
+  testing::internal::CaptureStdout();
+  const Said pressed = said_by(pressed_aside);
+  expect_in(testing::internal::GetCapturedStdout(), {"static step 's', increment 1: ", " part by part did not bring"});
+  EXPECT_TRUE(pressed.run.result->converged);
+  EXPECT_EQ(pressed.warnings.find("equilibrium"), std::string::npos) << pressed.warnings;
+  EXPECT_NEAR(pressed.run.column("o", "normal").back(), -1000.0, 1e-3);
+  EXPECT_NEAR(pressed.run.column("o", "shear").back(), 285.0, 1e-3);
+}
+
+// 4 MPa on a small block of which one upper node is dragged by half its length at once.
+TEST(OtherWay, finds_where_a_block_is_dragged_over_friction_in_one_increment) {
+  const std::string dragged = R"(
+local p = param{ increments = 1 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local cube = substructure{ name = "cube", material = steel, mesh = mesh.box{ size = { 1*mm, 1*mm, 1*mm }, cells = { 1, 1, 1 } } }
+local block = substructure{ name = "block", material = steel, mesh = mesh.box{ size = { 0.2*mm, 0.2*mm, 0.2*mm }, cells = { 1, 1, 1 }, origin = { 0.4*mm, 0.4*mm, 1*mm } } }
+local seat = interface.contact{ name = "seat", between = { block:face "zmin", cube:face "zmax" }, friction = 0.0001 }
+local ground = support.fixed{ name = "ground", on = cube:face "zmin" }
+local function node(X, Y) return block:where(function(x, y, z) return near(x, X*mm) and near(y, Y*mm) and near(z, 1.2*mm) end) end
+local push = load.pressure{ on = block:face "zmax", history = 100*MPa }
+local press = step.static{ name = "press", loads = { push, load.displacement{ on = node(0.4, 0.4), x = 0, y = 0 }, load.displacement{ on = node(0.4, 0.6), x = 0 } } }
+local drag = step.static{ name = "drag", after = press, increments = p.increments, loads = { push, load.displacement{ on = node(0.4, 0.4), x = 0, y = 0.1*mm }, load.displacement{ on = node(0.4, 0.6), x = 0 } } }
+problem{ name = "slide", substructures = { cube, block }, interfaces = { seat }, supports = { ground }, steps = { press, drag },
+  outputs = { output.resultant{ name = "seat", on = seat }, output.history{ name = "u", on = block:face "zmin", quantity = "displacement" } } }:run{}
+)";
+  for (const char* increments : {"1", "10"}) {
+    const DeckRun run = run_text(dragged, {{"increments", increments}}).at(0);
+    EXPECT_TRUE(run.result->converged) << increments;
+    EXPECT_NEAR(run.column("seat", "normal").back(), -4.0, 1e-5) << increments;
+    EXPECT_NEAR(std::abs(run.column("seat", "y").back()), 4e-4, 1e-7) << increments;
+    EXPECT_NEAR(run.column("u", "y").back(), 100.014e-6, 1e-8) << increments;
+  }
+}
+
 // Too few iterations are told apart from an indicator that stands still, and what the message asks for is enough.
 TEST(NotConverged, asks_for_as_many_iterations_as_are_enough) {
   const Said few = said_by(strap, {{"pull", "900"}, {"iterations", "20"}});
