@@ -11,6 +11,7 @@ from exact_pages import number
 
 HEADS = ["scene", "knob", "value", "estimated (%)", "true (%)", "estimated / true"]
 KNOBS = {"tolerance": "iteration", "steps": "time step", "cells": "mesh", "cells and steps": "mesh and time step"}
+SCENES = {"static": "static steps, mesh", "frequency": "frequencies", "amplitude": "amplitudes", "spectrum (dB)": "bands of spectra"}  # of scenes.lua
 
 
 def run(program, folder, say):
@@ -36,7 +37,7 @@ def shown(rows):
 
 
 def knob_of(row):
-    return row[1].split(" (")[0]
+    return row[1] if row[1] in SCENES else row[1].split(" (")[0]
 
 
 def scene_of(row):
@@ -47,7 +48,7 @@ def scene_of(row):
 def worst(rows):
     """A sentence for each knob: between what factors the estimates are off."""
     told = []
-    for knob, name in KNOBS.items():
+    for knob, name in (KNOBS | SCENES).items():
         ratios = [float(row[5]) for row in rows if knob_of(row) == knob and math.isfinite(float(row[5])) and float(row[5]) > 0]
         if ratios:
             told.append(f"{name} {number(min(ratios), 2)} to {number(max(ratios), 2)}")

@@ -84,6 +84,32 @@ SparseMatrix consistent_mass(const Mesh& mesh, const Elastic& material) {
   return assembled_mass(mesh, material, nullptr, {});
 }
 
+std::vector<Vec> lumping_energies(const Mesh& mesh, double density, const Points& velocity) {
+  std::vector<Vec> of_cells;
+  for (const CellBlock& block : mesh.blocks) {
+    Vec& energy = of_cells.emplace_back(Vec::Zero(block.n_cells()));
+    with_cell(block.type, [&](auto cell) {
+      using Cell = decltype(cell);
+      constexpr int n = Cell::n_nodes;
+      if constexpr (Cell::row.inertia == Inertia::lumped) {
+        const auto& shapes = Cell::mass_shapes();
+        const auto compute = [&](int i) {
+          const auto x = gather<n>(mesh.nodes, block.cell(i)), v = gather<n>(velocity, block.cell(i));
+          const Nodes<n> beside = v.colwise() - v.col(0);  // rounding of what is carried along
+          double twice = node_volumes<Cell>(x).dot(beside.colwise().squaredNorm().transpose());
+          for (int k = 0; k < shapes.n_points; ++k) {
+            const double volume = (x * shapes.slopes[k]).eval().determinant() * shapes.weights[k];
+            twice -= volume * (beside * shapes.values.col(k)).squaredNorm();
+          }
+          energy[i] = 0.5 * density * twice;
+        };
+        parallel_for(block.n_cells(), compute, Schedule::evenly);
+      }
+    });
+  }
+  return of_cells;
+}
+
 bool has_consistent_mass(const Mesh& mesh) {
   if (mesh.condensed) return true;
   return std::any_of(mesh.blocks.begin(), mesh.blocks.end(),

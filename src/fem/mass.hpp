@@ -17,6 +17,10 @@ SparseMatrix tuned_mass(const Mesh& mesh, const Elastic& material, const WaveTun
 // n x n, kg: consistent in cells whose row says so, lumped in others.
 SparseMatrix consistent_mass(const Mesh& mesh, const Elastic& material);
 
+// J, of the cells of each block: by what the kinetic energy of their lumped masses is above that of the material, whose
+// velocity is the interpolated one (3 x n_nodes, m/s); none in cells whose mass is consistent.
+std::vector<Vec> lumping_energies(const Mesh& mesh, double density, const Points& velocity);
+
 // Does the mesh have cells of consistent mass, or a mass matrix of its own?
 bool has_consistent_mass(const Mesh& mesh);
 

@@ -6,17 +6,11 @@
 #include "fem/cell_loop.hpp"
 #include "fem/cell_stress.hpp"
 #include "fem/patch_recovery.hpp"
+#include "fem/strain_energy.hpp"
 
 namespace dygita {
 
 namespace {
-
-// 1/2 s : C^-1 : s, J/m^3.
-double energy_density(const Elastic& material, const Eigen::Matrix<double, 6, 1>& s) {
-  const double trace = s[0] + s[1] + s[2];
-  const double norm2 = s.head<3>().squaredNorm() + 2 * s.tail<3>().squaredNorm();
-  return 0.5 * ((1 + material.poisson) * norm2 - material.poisson * trace * trace) / material.young;
-}
 
 // 1/2 of the integral of d : C^-1 : d over a cell, d interpolated from its nodes.
 template <class Cell>
@@ -71,10 +65,12 @@ Tensors cell_stresses(const Mesh& mesh, const CellBlock& block, const Elastic& m
 double StressError::energy() const {
   double sum = 0.0;
   for (const Vec& of_block : of_cells) sum += of_block.sum();
+  for (const Vec& of_block : at_surface) sum += of_block.sum();
   return sum;
 }
 
-StressError stress_error(const Mesh& mesh, const Elastic& material, const Points& displacement) {
+StressError stress_error(const Mesh& mesh, const Elastic& material, const Points& displacement,
+                         const std::vector<FreeCell>& free) {
   const bool of_order_two = is_of_order_two(mesh);
   std::vector<Tensors> of_cells;
   Tensors smooth = Tensors::Zero(6, mesh.n_nodes());
@@ -91,7 +87,11 @@ StressError stress_error(const Mesh& mesh, const Elastic& material, const Points
   smooth *= n_cells.cwiseInverse().asDiagonal();
   if (of_order_two) smooth = recovered_stress(mesh, material, displacement);
 
-  StressError error{{}, Vec::Zero(mesh.n_nodes())};
+  StressError error{{}, {}, Vec::Zero(mesh.n_nodes())};
+  const Vec left = surface_errors(mesh, material, free, of_cells);
+  for (const CellBlock& block : mesh.blocks) error.at_surface.emplace_back(Vec::Zero(block.n_cells()));
+  for (size_t i = 0; i < free.size(); ++i)
+    error.at_surface[static_cast<size_t>(free[i].block)][free[i].cell] = left[static_cast<Eigen::Index>(i)];
   for (size_t b = 0; b < mesh.blocks.size(); ++b)
     with_cell(mesh.blocks[b].type, [&](auto cell) {
       using Cell = decltype(cell);

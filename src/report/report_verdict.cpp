@@ -133,6 +133,12 @@ std::vector<Card> cards_of(const RunFolder& run) {
       {&Figures::penalty_error, "penalty error", shock, penalty, penalty},
       {&Figures::time_step_error, "time step error", shock, limit::good_discretisation, limit::discretisation_error},
       {&Figures::mesh_error, "mesh error", shock, limit::good_discretisation, limit::discretisation_error},
+      {&Figures::step_frequency_error, "frequency error, time step", "estimate, to report", limit::good_frequency,
+       limit::frequency_error},
+      {&Figures::mesh_frequency_error, "frequency error, mesh", "estimate, to report", limit::good_frequency,
+       limit::frequency_error},
+      {&Figures::mesh_amplitude_error, "amplitude error, mesh", "estimate, to report", limit::good_discretisation,
+       limit::discretisation_error},
       {&Figures::static_iteration_error, "iteration error", still, limit::iteration_error, limit::iteration_error},
       {&Figures::static_mesh_error, "mesh error", still, limit::good_discretisation, limit::discretisation_error}};
   std::vector<Card> cards;
@@ -190,9 +196,11 @@ std::string verdict_section(const RunFolder& run, const ReportRequest& request) 
         "Green: fine. Amber: to be kept in mind (a mesh or time step error above {:g} %, a specification that is met "
         "by less "
         "than the spectrum is uncertain, or not judged over all of it). Red: beyond the limit at which a run warns, a "
-        "specification exceeded, a yield reached. Errors are in the energy norm: a force or a displacement is usually "
-        "better, "
-        "an acceleration worse.",
+        "specification exceeded, a yield reached. Errors of iteration, time step and mesh are in the energy norm, in "
+        "which "
+        "lags add up: they choose tolerance, dt and mesh. What to report of a frequency is its own error, of a stress "
+        "or a "
+        "force that of amplitudes (of static steps the mesh error), of a spectrum its band.",
         limit::good_discretisation));
   }
   body += html::list(findings);

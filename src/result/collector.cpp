@@ -141,6 +141,9 @@ void add_error_figures(const ErrorEstimator& errors, const Problem& problem, Run
     result.figures.mesh_error = 100 * e.mesh;
     if (!problem.explicit_dynamics) result.figures.interface_error = e.interface_energy;
     result.figures.mean_frequency = e.mean_frequency;
+    result.figures.step_frequency_error = 100 * e.step_frequency;
+    result.figures.mesh_frequency_error = 100 * e.mesh_frequency;
+    result.figures.mesh_amplitude_error = 100 * e.mesh_amplitude;
   }
 }
 

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/parallel_by_cost.hpp"
-#include "fem/mass.hpp"
-#include "fem/stress_error.hpp"
+#include "base/parallel.hpp"
 #include "model/extent.hpp"
 #include "result/limits.hpp"
 #include "result/mass_lag.hpp"
@@ -38,48 +36,6 @@ Vec velocity_of(const Instant& instant, int piece) {
 double ratio(double energy, double of) { return of > 0.0 ? std::sqrt(std::max(0.0, energy) / of) : 0.0; }
 
 }  // namespace
-
-int OctaveSamples::add(const Vec& mass, const Vec& velocity, double* content2) {
-  const Vec* sample = &velocity;
-  int n = 0;
-  for (size_t i = 0;; ++i) {
-    if (i == octaves_.size()) octaves_.emplace_back();
-    Octave& octave = octaves_[i];
-    std::array<Vec, 3>& last = octave.last;
-    // The third difference passes what turns by a right angle a sample, the middle of the octave, with the factor
-    // 2^(3/2), the square root of 8.
-    if (octave.n_samples >= 3)
-      content2[n++] = (mass.array() * (*sample - last[2] - 3.0 * (last[0] - last[1])).array().square()).sum() / 8.0;
-    // Every other sample, smoothed, goes to the octave below.
-    const bool goes_on = octave.n_samples % 2 == 1 && octave.n_samples >= 2 && i + 1 < most_octaves;
-    Vec& smooth = smooth_[i % 2];
-    if (goes_on) smooth = 0.25 * (*sample + 2.0 * last[0] + last[1]);
-    ++octave.n_samples;
-    last[2].swap(last[1]);
-    last[1].swap(last[0]);
-    last[0] = *sample;
-    if (!goes_on) return n;
-    sample = &smooth;
-  }
-}
-
-void OctaveBank::add(std::span<const double> content2) {
-  if (octaves_.size() < content2.size()) octaves_.resize(content2.size());
-  for (size_t i = 0; i < content2.size(); ++i) {
-    constexpr double quarter = std::numbers::pi / 2;
-    const double content = std::sqrt(content2[i]), steps = std::exp2(i);
-    octaves_[i].content = std::max(octaves_[i].content, content);
-    const double turned = is_tuned_ ? std::pow(quarter / steps, 5) / 80.0 : std::pow(quarter / steps, 3) / 12.0;
-    octaves_[i].phase += steps * turned * content;
-  }
-}
-
-double OctaveBank::phase_error(double factor) const {
-  double sum = 0.0;
-  for (const Octave& octave : octaves_)
-    sum += std::pow(std::min(factor * octave.phase, std::numbers::sqrt2 * octave.content), 2);
-  return std::sqrt(sum);
-}
 
 // Relative to the assembly's motion as a whole, which bends no cell and turns no phase (eq. Q0).
 void ErrorEstimator::take_velocities(const Instant& instant) {
@@ -131,6 +87,7 @@ void ErrorEstimator::take_velocities(const Instant& instant) {
   if (!linked_.are_one()) kinetic_now_ -= linked_.energy_as_wholes(instant, momenta_of_all(), carried_->free());
   rate_ += sums[1];
   n_rates_ += has_old_;
+  if (has_old_) kinetic_rates_ += kinetic_now_;
   has_old_ = true;
   bank_->add(std::span(sums).subspan(2));
 }
@@ -141,50 +98,6 @@ ErrorEstimator::ErrorEstimator(const Problem& problem, PartViews& views)
     at_rest_ += 0.5 * problem.substructures[i]->material.young * std::pow(limit::strain_at_rest, 2) * volume_[i];
 }
 
-ErrorEstimator::StressEnergies ErrorEstimator::stress_energies(const Instant& instant) {
-  const Cut& cut = *instant.model.cut;
-  const Problem& problem = *instant.model.problem;
-  views_->take(instant);
-  std::vector<double> own(static_cast<size_t>(cut.n_pieces()), 0.0);
-  std::vector<double> cost;
-  for (size_t part = 0; part < problem.substructures.size(); ++part) {
-    const PartView& view = views_->of(static_cast<int>(part));
-    cost.push_back(view.is_empty() ? 0.0 : view.mesh().n_cells());
-  }
-  parallel_by_cost(cost, [&](int part) {
-    const PartView& view = views_->of(part);
-    if (view.is_empty()) return;
-    Points u = views_->field(part);
-    if (!start_.empty()) u -= start_[static_cast<size_t>(part)];
-    const std::vector<double> of_pieces =
-        view.sums(stress_error(view.mesh(), problem.substructures[static_cast<size_t>(part)]->material, u).of_cells);
-    for (size_t k = 0; k < of_pieces.size(); ++k) own[static_cast<size_t>(view.pieces()[k])] = of_pieces[k];
-  });
-  const std::vector<double> errors =
-      of_all_pieces(cut, 1, [&](int piece, double* to) { *to = own[static_cast<size_t>(piece)]; });
-  std::vector<int> here;
-  for (int i = 0; i < cut.n_pieces(); ++i)
-    if (cut.is_here(i)) here.push_back(i);
-  std::vector<double> own_strains(here.size());
-  parallel_for(static_cast<int>(here.size()), [&](int i) {
-    const auto k = static_cast<size_t>(i);
-    Points u = instant.piece_displacement(here[k]);
-    if (!start_.empty()) u -= pieces_[k].start;
-    const Points force = instant.model.pieces[static_cast<size_t>(here[k])]->quick_elastic_force(u);
-    own_strains[k] = 0.5 * u.reshaped().dot(force.reshaped());
-  });
-  size_t next = 0;
-  const std::vector<double> strains = of_all_pieces(cut, 1, [&](int, double* to) { *to = own_strains[next++]; });
-  StressEnergies energies;
-  for (size_t i = 0; i < errors.size(); ++i) {
-    const auto part = static_cast<size_t>(cut.piece(static_cast<int>(i)).part);
-    energies.error += errors[i];
-    if (!has_consistent_mass(*problem.substructures[part]->mesh)) energies.of_linear += errors[i];
-  }
-  for (const double strain : strains) energies.strain += strain;
-  return energies;
-}
-
 void ErrorEstimator::begin_step(const Instant& start) {
   if (bank_) {
     const Estimate so_far = dynamic_steps();
@@ -193,6 +106,7 @@ void ErrorEstimator::begin_step(const Instant& start) {
   }
   pieces_.clear();
   start_.clear();
+  find_free_surfaces(start);
   still_ = {start.state.energies.loads, start.state.energies.strain, start.state.energies.balance()};
   if (start.is_static()) return;
   for (int i = 0; i < start.model.cut->n_pieces(); ++i)
@@ -260,16 +174,19 @@ void ErrorEstimator::accept_static(const Instant& instant) {
   most_strain_ = std::max({most_strain_, energies_now.strain, still_.strain});
   if (energies_now.strain > carried)
     static_.mesh =
-        std::max(static_.mesh, ratio(energies_now.error, std::max(energies_now.strain, 1e-8 * most_strain_)));
+        std::max(static_.mesh, ratio(energies_now.error(), std::max(energies_now.strain, 1e-8 * most_strain_)));
 }
 
 void ErrorEstimator::sample_stress(const Instant& instant) {
-  const auto [error, of_linear, strain] = stress_energies(instant);
-  stress_energy_ = std::max(stress_energy_, error);
-  stress_sum_ += of_linear;
-  strain_sum_ += strain;
-  strain_now_ = strain;
-  shock_energy_ = std::max(shock_energy_, kinetic_now_ + strain);
+  lumping_sum_ += lumping_energy(instant);
+  kinetic_sum_ += kinetic_now_;
+  const StressEnergies now = stress_energies(instant);
+  stress_energy_ = std::max(stress_energy_, now.error());
+  sums_.within += now.within;
+  sums_.at_surface += now.at_surface;
+  sums_.strain += now.strain;
+  strain_now_ = now.strain;
+  shock_energy_ = std::max(shock_energy_, kinetic_now_ + now.strain);
   ++n_stress_;
 }
 
@@ -296,17 +213,23 @@ ErrorEstimator::Estimate ErrorEstimator::dynamic_steps() const {
   estimate.velocity = total_mass_ > 0.0 ? root / std::sqrt(total_mass_) : 0.0;
   estimate.iteration = std::sqrt(dynamic_.interface_energy) / root;
   estimate.time_step = (before_ + (bank_ ? bank_->phase_error(phase_factor_) : 0.0)) / root;
-  if (n_stress_ == 0 || n_rates_ == 0 || strain_sum_ <= 0.0) return estimate;
-  // Rayleigh's quotient of the accelerations: blind to rigid motion and to what was stressed before.
-  const double frequency2 = (rate_ / static_cast<double>(n_rates_)) / (2.0 * strain_sum_ / n_stress_);
+  if (n_stress_ == 0 || n_rates_ == 0 || sums_.strain <= 0.0 || kinetic_rates_ <= 0.0) return estimate;
+  // Rayleigh's quotient of the accelerations, over the energy of which there is less: strain, of what moves as a whole,
+  // or kinetic, of what is bent or let go about another place than that of the start.
+  const double moving = kinetic_rates_ / static_cast<double>(n_rates_), strained = sums_.strain / n_stress_,
+               frequency2 = (rate_ / static_cast<double>(n_rates_)) / (2.0 * std::min(moving, strained));
+  const double steps2 = frequency2 * dt_ * dt_;  // (w dt)^2
   estimate.mean_frequency = std::sqrt(frequency2) / (2 * std::numbers::pi);
-  // Linear cells of length h leave (k h)^2 / 12 of the strain energy in the stress error, and turn a wave by w dt (k
-  // h)^2 / 24 too little. Cells of order two turn it by (k h)^4 / 1440 alone, but with a diagonal mass by half of w^3
-  // dt times its lag.
-  const double turned =
-      (frequency2 > 0.0 ? 6.0 * stress_sum_ / strain_sum_ / (frequency2 * dt_ * dt_) : 0.0) + 6.0 * lag_ / (dt_ * dt_);
-  const double phase = bank_ ? bank_->phase_error(turned) / root : 0.0;
-  estimate.mesh = std::hypot(phase, ratio(stress_energy_, energy));
+  const FrequencyShares mesh = frequency_shares();
+  // What goes with the square of the frequency turns as a time step does; the rest all frequencies alike.
+  const double turned = (steps2 > 0.0 ? 12.0 * mesh.dispersion / steps2 : 0.0) + 6.0 * lag_ / (dt_ * dt_);
+  const double phase = bank_ ? bank_->phase_error(turned, mesh.of_all) / root : 0.0;
+  const bool is_tuned = bank_ && bank_->is_tuned();
+  const double of_step = is_tuned ? 12.0 / 80.0 * steps2 : 1.0;  // of what (Q2) would have
+  estimate.mesh_amplitude = ratio(stress_energy_, energy);
+  estimate.mesh = std::hypot(phase, estimate.mesh_amplitude);
+  estimate.mesh_frequency = of_step * mesh.dispersion + mesh.of_all + 0.5 * frequency2 * lag_;
+  estimate.step_frequency = of_step * phase_factor_ * steps2 / 12.0;
   return estimate;
 }
 

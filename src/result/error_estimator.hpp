@@ -4,56 +4,15 @@
 // Each is the square root of the energy of the estimated error over that of the shock, at its worst instant.
 #pragma once
 
-#include <array>
 #include <optional>
-#include <span>
 
+#include "fem/free_surface.hpp"
 #include "result/carried_motion.hpp"
 #include "result/linked_parts.hpp"
+#include "result/octaves.hpp"
 #include "result/part_views.hpp"
 
 namespace dygita {
-
-// The velocities of a piece by octave of frequency (eq. Q2): what each sample has in the middle of an octave.
-class OctaveSamples {
- public:
-  // Samples the velocities. Writes the square of the content of each octave that it completes, from octave 0 on, and
-  // says how many these are: the same for pieces that have been given as many samples. mass: kg, weights.
-  int add(const Vec& mass, const Vec& velocity, double* content2);
-  // The velocities last added; null: none yet.
-  const Vec* latest() const { return octaves_.empty() ? nullptr : &octaves_.front().last[0]; }
-  static constexpr int most_octaves = 32;
-
- private:
-  struct Octave {
-    std::array<Vec, 3> last;  // samples, the latest first
-    long n_samples = 0;
-  };
-  std::vector<Octave> octaves_;
-  std::array<Vec, 2> smooth_;  // on its way to the octave below
-};
-
-// Content of the velocities of the assembly by octave of frequency, and the phase error that the time scheme gives each
-// (eq. Q2-Q4): a trapezoidal step turns a motion of angular frequency w by (w dt)^3 / 12 too little, until it has
-// nothing in common with the exact one.
-class OctaveBank {
- public:
-  // is_tuned: the cells' mass undoes the phase error to the next order, (w dt)^5 / 80.
-  explicit OctaveBank(bool is_tuned) : is_tuned_(is_tuned) {}
-
-  // Squares of the contents of the first octaves in a sample.
-  void add(std::span<const double> content2);
-  // Norm (sqrt of J) of the accumulated phase error; `factor` multiplies the phases.
-  double phase_error(double factor = 1.0) const;
-
- private:
-  struct Octave {
-    double content = 0.0;  // largest norm so far
-    double phase = 0.0;    // sum of content x phase error of a sample
-  };
-  bool is_tuned_;
-  std::vector<Octave> octaves_;
-};
 
 // Every rank has the velocities and the stress error of its own pieces; the estimates are the same on all. Sums are
 // taken piece by piece, in their order.
@@ -69,6 +28,8 @@ class ErrorEstimator {
     double interface_energy = 0.0;  // J, constitutive-relation error of the interfaces, summed over the increments
     double mean_frequency = 0.0;    // Hz, of the energy of the velocities
     double velocity = 0.0;          // m/s, at which all mass would have the energy that the errors are relative to
+    // Apart (eq. Q14): relative errors of the mean frequency, and of amplitudes, in energy norm.
+    double step_frequency = 0.0, mesh_frequency = 0.0, mesh_amplitude = 0.0;
   };
   Estimate static_steps() const { return static_; }
   Estimate dynamic_steps() const;
@@ -79,10 +40,11 @@ class ErrorEstimator {
   const std::optional<double>& strain_of_motion() const { return strain_now_; }
 
  private:
-  // Energies (J) of the stress error of all substructures, of those of linear cells alone, and the strain energy of the
-  // same displacements.
+  // Energies (J): of the stress error of all substructures, within them and at their free surfaces, and the strain
+  // energy of the same displacements.
   struct StressEnergies {
-    double error = 0.0, of_linear = 0.0, strain = 0.0;
+    double within = 0.0, at_surface = 0.0, strain = 0.0;
+    double error() const { return within + at_surface; }
   };
   // What a piece that is here has of a dynamic step.
   struct PieceMotion {
@@ -95,10 +57,19 @@ class ErrorEstimator {
     OctaveSamples octaves;
   };
 
+  // Relative errors of frequencies that the mesh makes: at the mean frequency, with the square of the frequency; and of
+  // all frequencies (eq. Q14).
+  struct FrequencyShares {
+    double dispersion = 0.0, of_all = 0.0;
+  };
+
   void accept_static(const Instant& instant);
   void take_velocities(const Instant& instant);
   void sample_stress(const Instant& instant);
   StressEnergies stress_energies(const Instant& instant);
+  double lumping_energy(const Instant& instant);
+  FrequencyShares frequency_shares() const;
+  void find_free_surfaces(const Instant& start);
   double energy_when_carried(const Instant& instant) const;
 
   // Of the shock, J, relative to which errors are: twice the kinetic energy, as of a wave, without that of parts which
@@ -125,6 +96,8 @@ class ErrorEstimator {
   LinkedParts linked_;
   double dt_ = 0.0, phase_factor_ = 1.0;
   PartViews* views_;
+  std::vector<std::vector<Facet>> boundary_;  // of each substructure, once it has been asked for
+  std::vector<std::vector<FreeCell>> free_;   // of its view, in the step
   std::vector<Points> start_;            // displacements of the views at the start of the dynamic step: what it adds is
                                          // the shock; empty in static ones
   double kinetic_now_ = 0.0;             // J, of the relative velocities, without parts in flight
@@ -132,12 +105,15 @@ class ErrorEstimator {
   double shock_energy_ = 0.0;            // J, largest of the samples: kinetic, and strain of the shock
   double stress_energy_ = 0.0;           // J, largest of the samples
   std::optional<double> strain_now_;     // J, of the shock, where the increment was sampled
-  // Of the samples: stress error of the parts of linear cells (eq. Q6), and strain energy of the shock.
-  double stress_sum_ = 0.0, strain_sum_ = 0.0;
+  // Of the samples: energies of the stress error and of the shock (eq. Q6), and what of the kinetic energy is that of
+  // lumped masses alone.
+  StressEnergies sums_;
+  double kinetic_sum_ = 0.0, lumping_sum_ = 0.0;
   int n_stress_ = 0;
-  double total_mass_ = 0.0;  // kg
-  double lag_ = 0.0;         // s^2, of the diagonal mass of cells of order two (eq. Q12)
-  double rate_ = 0.0;        // sum of |dV / dt|^2, in the norm of the mass
+  double total_mass_ = 0.0;     // kg
+  double lag_ = 0.0;            // s^2, of the diagonal mass of cells of order two (eq. Q12)
+  double rate_ = 0.0;           // sum of |dV / dt|^2, in the norm of the mass
+  double kinetic_rates_ = 0.0;  // J, sum of kinetic_now_ over the same
   long n_rates_ = 0;
   bool has_old_ = false;  // of the step: velocities of an increment before
 };

@@ -22,8 +22,9 @@ struct Figures : OwnFigures {
   // The run's own estimates (manual, eq. Q1-Q6), %, energy norm, of the shock or of the static steps.
   std::optional<double> iteration_error, time_step_error, mesh_error, penalty_error;
   std::optional<double> static_iteration_error, static_mesh_error;
-  std::optional<double> interface_error, static_interface_error;  // J
-  std::optional<double> mean_frequency;                           // Hz
+  std::optional<double> step_frequency_error, mesh_frequency_error, mesh_amplitude_error;  // apart (eq. Q14), %
+  std::optional<double> interface_error, static_interface_error;                           // J
+  std::optional<double> mean_frequency;                                                    // Hz
   std::optional<double> passes, iterations_of_passes;
   std::optional<double> spectra_moved;  // dB, in the last pass
   std::optional<double> largest_slip,

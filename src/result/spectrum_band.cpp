@@ -11,6 +11,13 @@ namespace {
 
 double decibels(double ratio) { return 20.0 * std::log10(ratio); }
 
+// Of the velocities, relative to those of the shock: all of the mesh error that is phase, and the square of the error
+// of stresses.
+double mesh_error_of_motion(const ErrorEstimator::Estimate& errors) {
+  const double amplitude2 = std::pow(errors.mesh_amplitude, 2);
+  return std::sqrt(std::max(0.0, std::pow(errors.mesh, 2) - amplitude2) + std::pow(amplitude2, 2));
+}
+
 // Errors of different origin have no common sign.
 void add_up(Table& band) {
   band.columns[4].clear();
@@ -32,7 +39,7 @@ Table spectrum_band(const Table& spectrum, SrsQuantity quantity, const ErrorEsti
     const double w = 2.0 * std::numbers::pi * frequency[i];
     const double level = band_share * errors.velocity * std::pow(w, power);
     band.columns[0].push_back(frequency[i]);
-    const double parts[] = {errors.iteration, errors.time_step, errors.mesh};
+    const double parts[] = {errors.iteration, errors.time_step, mesh_error_of_motion(errors)};
     for (int k = 0; k < 3; ++k) {
       // A spectrum of nothing has no level to be relative to.
       band.columns[k + 1].push_back(maximax[i] > 0.0 ? decibels(1.0 + level * parts[k] / maximax[i]) : 0.0);

@@ -111,9 +111,17 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
         figures.mean_frequency.value() / 1e3, figures.penalty_error ? "penalty" : "iteration",
         (figures.penalty_error ? figures.penalty_error : figures.iteration_error).value(),
         figures.time_step_error.value(), *figures.mesh_error));
+  if (figures.mesh_frequency_error)
+    say(fmt::format(
+        "  these choose dt and mesh, since lags add up in them; to report: a frequency is off by {:.2g} % (time "
+        "step) and {:.2g} % (mesh), an amplitude by {:.2g} % (mesh), a spectrum by its band",
+        figures.step_frequency_error.value(), *figures.mesh_frequency_error, figures.mesh_amplitude_error.value()));
   if (figures.static_mesh_error)
-    say(fmt::format("  estimated errors of static steps: iteration {:.2g} %, mesh {:.2g} %",
-                    figures.static_iteration_error.value(), *figures.static_mesh_error));
+    say(fmt::format(
+        "  estimated errors of static steps: iteration {:.2g} %, mesh {:.2g} % (of stresses; of the displacement "
+        "under a load its square, {:.2g} %)",
+        figures.static_iteration_error.value(), *figures.static_mesh_error,
+        std::pow(*figures.static_mesh_error, 2) / 100.0));
   for (const OutputPtr& output : problem.outputs)
     for (const std::string& line : result.findings_of(*output).lines) say("  " + line);
   if (!directory.empty()) say(fmt::format("  {:.2f} s in all; results in {}", seconds, directory.string()));

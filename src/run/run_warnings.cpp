@@ -163,6 +163,11 @@ std::string doubt_of_bands(const RunResult& result) {
   return has_bands ? "; with so much, spectra may be off by far more than their bands say" : "";
 }
 
+// An error in energy norm may be a lag that has added up.
+std::string frequency_text(const std::optional<double>& error) {
+  return error ? fmt::format(", of its frequencies one of {:.2g} %", *error) : "";
+}
+
 // The run's own estimates, where they are too large to build on.
 void warn_of_errors(const Problem& problem, const RunResult& result) {
   const Figures& figures = result.figures;
@@ -177,12 +182,14 @@ void warn_of_errors(const Problem& problem, const RunResult& result) {
                     "{:.1g} would leave 0.1 %",
                     problem.solver.static_tolerance, still, 0.1 * problem.solver.static_tolerance / still));
   if (const double e = figures.time_step_error.value_or(0.0); e > limit::discretisation_error)
-    warn(
-        fmt::format("the time step leaves an error of about {:.2g} % (energy norm) in the shock, which moves at {:.3g} "
-                    "kHz on average: use a smaller dt{}",
-                    e, figures.mean_frequency.value() / 1e3, doubt_of_bands(result)));
-  for (const auto& [error, text, of_bands] : {std::tuple{figures.mesh_error, "in the shock", doubt_of_bands(result)},
-                                              {figures.static_mesh_error, "in the static steps", std::string()}})
+    warn(fmt::format(
+        "the time step leaves an error of about {:.2g} % (energy norm) in the shock, which moves at {:.3g} "
+        "kHz on average{}: use a smaller dt{}",
+        e, figures.mean_frequency.value() / 1e3, frequency_text(figures.step_frequency_error), doubt_of_bands(result)));
+  const std::string in_shock = "in the shock" + frequency_text(figures.mesh_frequency_error);
+  for (const auto& [error, text, of_bands] :
+       {std::tuple{figures.mesh_error, in_shock, doubt_of_bands(result)},
+        {figures.static_mesh_error, std::string("in the static steps"), std::string()}})
     if (const double e = error.value_or(0.0); e > limit::discretisation_error)
       warn(
           fmt::format("the mesh leaves an error of about {:.2g} % (energy norm) {}: use smaller cells; "

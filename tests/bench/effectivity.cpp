@@ -1,12 +1,15 @@
 // What the runs' own error estimates are worth: estimated over true. CSV on standard output.
 //
-// Run: ./run.sh report, or build/release/tests/effectivity
+// Run: ./run.sh report, or build/release/tests/effectivity; with `scenes` those of scenes.lua alone, with numbers after
+// it some of them.
 //
 // True errors: of the iteration against a tolerance of 1e-11 (dynamic steps only); of the time step against the same
-// mesh with dt / 16; of the mesh against cells 8 times shorter and the same dt, on the fine mesh.
-#include "decks/effectivity.hpp"
-
+// mesh with dt / 16; of the mesh against cells 8 times shorter and the same dt, on the fine mesh. In scenes.lua against
+// dt / 4 and against cells 3 times shorter, frequencies and amplitudes apart: the time of the finer run is stretched
+// until its velocities are nearest.
 #include <cstdio>
+
+#include "decks/spectra.hpp"
 
 namespace {
 
@@ -56,11 +59,143 @@ void study_bar(const char* scene, const char* text) {
   std::filesystem::remove(path);
 }
 
+SpectraRun run_scene(int scene, int n, int finer) {
+  return run_spectra(std::filesystem::path(DYGITA_SOURCE_DIR) / "tests/bench/scenes.lua",
+                     {{"scene", std::to_string(scene)}, {"n", std::to_string(n)}, {"finer", std::to_string(finer)}}, {},
+                     0.0, 0.0);
+}
+
+std::vector<const dygita::Table*> velocities(const SpectraRun& run) {
+  std::vector<const dygita::Table*> tables;
+  for (const dygita::OutputPtr& output : run.problem.outputs)
+    if (output->name.front() == 'v') tables.push_back(&run.result->tables.at(output.get()));
+  return tables;
+}
+
+// A column of a table at a time, by straight lines; nothing beyond its end.
+std::optional<double> at_time(const dygita::Table& table, double t) {
+  const std::vector<double>&time = table.column("time"), &value = table.columns.back();
+  const auto after = std::lower_bound(time.begin(), time.end(), t);
+  if (after == time.end()) return std::nullopt;
+  const auto i = static_cast<size_t>(after - time.begin());
+  if (i == 0) return value.front();
+  const double share = (t - time[i - 1]) / (time[i] - time[i - 1]);
+  return (1 - share) * value[i - 1] + share * value[i];
+}
+
+// Relative distance of two runs' velocities, the time of the other stretched.
+double distance(const std::vector<const dygita::Table*>& run, const std::vector<const dygita::Table*>& other,
+                double stretch) {
+  double error = 0.0, all = 0.0;
+  for (size_t k = 0; k < run.size(); ++k) {
+    const std::vector<double>& time = run[k]->column("time");
+    for (size_t i = 0; i < time.size(); ++i) {
+      if (run[k]->step[i] != run[k]->step.back()) continue;
+      const std::optional<double> exact = at_time(*other[k], stretch * time[i]);
+      if (!exact) continue;
+      error += std::pow(run[k]->columns.back()[i] - *exact, 2);
+      all += std::pow(*exact, 2);
+    }
+  }
+  return std::sqrt(error / all);
+}
+
+// What frequencies are off by, and what is left of the distance then.
+struct Apart {
+  double frequency = 0.0, amplitude = 0.0;
+};
+
+Apart apart(const SpectraRun& run, const SpectraRun& other) {
+  const auto own = velocities(run), exact = velocities(other);
+  Apart best{0.0, distance(own, exact, 1.0)};
+  for (const double step : {2e-3, 1e-4}) {
+    const Apart near = best;
+    for (int i = -100; i <= 100; ++i) {
+      const double off = near.frequency + i * step;
+      if (const double left = distance(own, exact, 1.0 + off); left < best.amplitude) best = {off, left};
+    }
+  }
+  return {std::abs(best.frequency), best.amplitude};
+}
+
+// Means over the frequencies of all spectra.
+void bands(const char* scene, const char* column, const SpectraRun& run, const SpectraRun& better, double of_all) {
+  double band = 0.0, truth = 0.0;
+  for (size_t i = 0; i < run.spectra.size(); ++i) {
+    const BandWorth worth = band_worth(run.spectra[i], better.spectra.at(i), column);
+    band += worth.band / static_cast<double>(run.spectra.size());
+    truth += of_all * worth.truth / static_cast<double>(run.spectra.size());
+  }
+  line(scene, "spectrum (dB)", column, band, truth);
+}
+
+// The errors of a run that is `finer` times better are this much smaller: what the difference has to be multiplied by.
+double of_all(double finer) { return 1.0 / (1.0 - 1.0 / (finer * finer)); }
+
+void study_motion(const char* name, int scene) {
+  const int finer_dt = 4, finer_mesh = 3;
+  const SpectraRun run = run_scene(scene, 1, 1), in_time = run_scene(scene, 1, finer_dt),
+                   in_space = run_scene(scene, finer_mesh, 1);
+  const dygita::Figures& figures = run.result->figures;
+  const Apart time = apart(run, in_time), space = apart(run, in_space);
+  line(name, "frequency", "time step", figures.step_frequency_error.value(), 100 * of_all(finer_dt) * time.frequency);
+  line(name, "frequency", "mesh", figures.mesh_frequency_error.value(), 100 * of_all(finer_mesh) * space.frequency);
+  line(name, "amplitude", "mesh", figures.mesh_amplitude_error.value(), 100 * of_all(finer_mesh) * space.amplitude);
+  bands(name, "time_step", run, in_time, of_all(finer_dt));
+  bands(name, "mesh", run, in_space, of_all(finer_mesh));
+}
+
+// Of a load that is given the strain energy is off by the energy of the error.
+void study_static(const char* name, int scene) {
+  const auto strain = [](const SpectraRun& run) {
+    for (const dygita::OutputPtr& output : run.problem.outputs)
+      if (output->word == "energy") return run.result->tables.at(output.get()).column("strain").back();
+    return 0.0;
+  };
+  const SpectraRun run = run_scene(scene, 1, 1);
+  const double exact = strain(run_scene(scene, scene == 23 ? 3 : 6, 1)), own = strain(run);
+  line(name, "static", "mesh", run.result->figures.static_mesh_error.value(),
+       100 * std::sqrt(std::abs(exact - own) / own));
+}
+
+struct NamedScene {
+  int number;
+  const char* name;
+};
+
+constexpr NamedScene motions[] = {
+    {1, "impedance"},        {2, "block on bar"},      {3, "shaken cantilever"},     {4, "pushed block"},
+    {5, "bracket"},          {6, "cap on posts"},      {7, "joint that yields"},     {8, "falling block"},
+    {9, "tet10 cantilever"}, {11, "hex20 cantilever"}, {10, "twisted bar, 2 cells"}, {12, "twisted bar, 1 cell"},
+    {13, "ring-down"},       {14, "two plates shaken"}};
+constexpr NamedScene statics[] = {{21, "static torsion, 1 cell"},
+                                  {22, "static torsion, 2 cells"},
+                                  {23, "static torsion, 4 cells"},
+                                  {24, "static bending, 1 cell"},
+                                  {25, "static bending, 2 cells"}};
+
+void study_scenes(const std::vector<int>& asked) {
+  const auto is_asked = [&](int scene) {
+    return asked.empty() || std::find(asked.begin(), asked.end(), scene) != asked.end();
+  };
+  for (const NamedScene& scene : statics)
+    if (is_asked(scene.number)) study_static(scene.name, scene.number);
+  for (const NamedScene& scene : motions)
+    if (is_asked(scene.number)) study_motion(scene.name, scene.number);
+}
+
 }  // namespace
 
-int main(int, char** argv) {
+int main(int argc, char** argv) {
   dygita::prepare_process(argv);
   std::puts("scene,knob,value,estimated [%],true [%],effectivity");
+  if (argc > 1 && std::string(argv[1]) == "scenes") {
+    std::vector<int> asked;
+    for (int i = 2; i < argc; ++i) asked.push_back(std::stoi(argv[i]));
+    study_scenes(asked);
+    return 0;
+  }
+  study_scenes({});
   study_bar("pulse", pulse);
   study_bar("impact", impact);
   study_bar("yielding", yielding);

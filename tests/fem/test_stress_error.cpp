@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <numeric>
 
+#include "fem/mass.hpp"
 #include "fem/meshes.hpp"
 #include "fem/stress_error.hpp"
+#include "mesh/face_nodes.hpp"
 
 namespace dygita::test {
 namespace {
@@ -71,6 +74,65 @@ TEST(StressError, of_cells_of_order_two_falls_with_the_fourth_power) {
       energy[static_cast<size_t>(n)] = stress_error(mesh, material_of(3.0, 0.3), displacement).energy();
     }
     EXPECT_NEAR(std::log2(energy[0] / energy[1]), 4.0, 0.3) << cell_shape(type).name;
+  }
+}
+
+// A square bar that twists without warping, one and two cells across: the cells agree with each other, and leave
+// traction at its sides. With one across they lack the parabolas of x (1 - y^2), a fifth of the energy; with two, 2/15.
+TEST(StressError, of_a_twisted_bar_is_what_is_left_at_its_sides) {
+  for (const int n : {1, 2}) {
+    const Vec3 size(1, 1, 3);
+    const Mesh mesh = *box_mesh(Vec3(-0.5, -0.5, 0), size, {n, n, 3});
+    Points displacement = Points::Zero(3, mesh.n_nodes());
+    displacement.row(0) = -1e-3 * mesh.nodes.row(2).cwiseProduct(mesh.nodes.row(1));
+    displacement.row(1) = 1e-3 * mesh.nodes.row(2).cwiseProduct(mesh.nodes.row(0));
+    const Elastic material = material_of(2.6, 0.3);
+    EXPECT_LT(stress_error(mesh, material, displacement).energy(), 1e-20);
+    FacetKeys sides;
+    for (const char* name : {"xmin", "xmax", "ymin", "ymax"})
+      for (const Facet& facet : mesh.faces.at(name)) sides.insert(facet_key(facet));
+    std::vector<int> nodes(static_cast<size_t>(mesh.n_nodes()));
+    std::iota(nodes.begin(), nodes.end(), 0);
+    const std::vector<FreeCell> free = free_cells(mesh, sides, nodes);
+    EXPECT_EQ(free.size(), static_cast<size_t>(3 * n * n));
+    const double shear = 1.0, strain = 0.5 * shear * 1e-6 * 3 / 6;  // 1/2 G (twist)^2 (polar moment) length
+    EXPECT_NEAR(stress_error(mesh, material, displacement, free).energy() / strain, n == 1 ? 1.0 / 5 : 2.0 / 15, 1e-6);
+  }
+}
+
+// Whatever the cell, a stress without traction at a surface leaves nothing there, and no constant one leaves a
+// resultant.
+TEST(StressError, at_a_free_surface_is_none_where_there_is_no_traction) {
+  for (const CellType type : cell_types) {
+    const Mesh mesh = box_of(type, Vec3(1, 1, 1), {2, 2, 2});
+    FacetKeys ends, sides;
+    for (const Facet& facet : boundary_facets(mesh.blocks))
+      (std::abs(facet_area_vector(mesh.nodes, facet).normalized()[2]) > 0.5 ? ends : sides).insert(facet_key(facet));
+    Points displacement = -0.25e-3 * mesh.nodes;
+    displacement.row(2) = 1e-3 * mesh.nodes.row(2);  // a pull along z
+    std::vector<int> nodes(static_cast<size_t>(mesh.n_nodes()));
+    std::iota(nodes.begin(), nodes.end(), 0);
+    const Elastic material = material_of(1.0, 0.25);
+    const double strain = 0.5e-6;
+    EXPECT_LT(stress_error(mesh, material, displacement, free_cells(mesh, sides, nodes)).energy(), 1e-12 * strain)
+        << cell_shape(type).name;
+    if (nodes_per_cell(type) == cell_shape(type).n_corners) {
+      EXPECT_GT(stress_error(mesh, material, displacement, free_cells(mesh, ends, nodes)).energy(), 0.05 * strain)
+          << cell_shape(type).name;
+    }
+  }
+}
+
+// The same bar turning at a rate that grows along it: with n cells across lumped masses have 1 + 2/n^2 times its
+// inertia; along it, in cells of one length, nothing is added by what is linear.
+TEST(LumpedMass, has_more_energy_than_the_material) {
+  for (const int n : {1, 2, 4}) {
+    const Mesh mesh = *box_mesh(Vec3(-0.5, -0.5, 0), Vec3(1, 1, 3), {n, n, 3});
+    Points velocity(3, mesh.n_nodes());
+    velocity << -mesh.nodes.row(1), mesh.nodes.row(0), Eigen::RowVectorXd::Constant(mesh.n_nodes(), 100.0);
+    double energy = 0.0;
+    for (const Vec& of_block : lumping_energies(mesh, 2.0, velocity)) energy += of_block.sum();
+    EXPECT_NEAR(energy / (0.5 * 2.0 * 3 / 6), 2.0 / (n * n), 1e-9);
   }
 }
 

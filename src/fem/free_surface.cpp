@@ -1,0 +1,140 @@
+#include "fem/free_surface.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "fem/cell_loop.hpp"
+#include "fem/strain_energy.hpp"
+
+namespace dygita {
+
+namespace {
+
+// The most exact rule of the cells with so many corners: what is integrated goes with the fourth power of a distance.
+constexpr QuadratureRule finest_rule(int n_corners) {
+  QuadratureRule rule{{}, -1};
+  for (const CellShape& row : cell_shapes)
+    if (row.n_corners == n_corners && row.mass.degree > rule.degree) rule = row.mass;
+  return rule;
+}
+
+template <class Cell>
+struct LinearCell {
+  static constexpr int n = Cell::n_nodes;
+  static constexpr QuadratureRule rule = finest_rule(n);
+  static constexpr int n_points = static_cast<int>(rule.points.size());
+
+  std::array<Eigen::Matrix<double, n, 3>, n> slopes;  // of the shape functions, at the nodes
+  ShapeTable<n, n_points> inside{shape_functions(Cell::type), rule};
+
+  LinearCell() {
+    for (int a = 0; a < n; ++a)
+      slopes[a] = shape_functions(Cell::type).slopes(vector_of(Cell::row.shape.nodes[static_cast<size_t>(a)]));
+  }
+  static const LinearCell& table() {
+    static const LinearCell cell;
+    return cell;
+  }
+};
+
+// The least stress with the traction that `stress` has across `normal`: it has none across the two directions beside.
+Eigen::Matrix<double, 6, 1> across(const Eigen::Matrix<double, 6, 1>& stress, const Vec3& normal) {
+  Mat3 s;
+  s << stress[0], stress[3], stress[5], stress[3], stress[1], stress[4], stress[5], stress[4], stress[2];
+  const Vec3 t = s * normal;
+  const Mat3 d = t * normal.transpose() + normal * t.transpose() - normal.dot(t) * normal * normal.transpose();
+  return {d(0, 0), d(1, 1), d(2, 2), d(0, 1), d(1, 2), d(2, 0)};
+}
+
+// From a facet, where it is 1, the stress falls as x (c x - c + 1) to what lies opposite, where x is 0: another facet,
+// an edge or a corner. c is such that its integral over the cell is none, so that resultants stay.
+double fall(int n_opposite) { return n_opposite == 1 ? 5.0 : n_opposite == 2 ? 4.0 : 3.0; }
+
+template <class Cell>
+double surface_error(const Elastic& material, const Nodes<Cell::n_nodes>& x, const CornerStress<Cell::n_nodes>& stress,
+                     unsigned facets) {
+  constexpr int n = Cell::n_nodes, n_points = LinearCell<Cell>::n_points;
+  const LinearCell<Cell>& table = LinearCell<Cell>::table();
+  Eigen::Matrix<double, 6, n_points> error = Eigen::Matrix<double, 6, n_points>::Zero();
+  for (size_t k = 0; k < Cell::row.facets.size(); ++k) {
+    if (!(facets >> k & 1u)) continue;
+    const LocalFacet& facet = Cell::row.facets[k];
+    const int n_on = nodes_per_facet(facet.type);
+    Eigen::Matrix<double, n, 1> is_on = Eigen::Matrix<double, n, 1>::Zero();
+    for (int i = 0; i < n_on; ++i) is_on[facet.nodes[static_cast<size_t>(i)]] = 1.0;
+    CornerStress<n> traction = CornerStress<n>::Zero();
+    for (int i = 0; i < n_on; ++i) {
+      const int a = facet.nodes[static_cast<size_t>(i)];
+      const Mat3 jacobian = x * table.slopes[a];
+      const Vec3 normal = (jacobian.inverse().transpose() * (table.slopes[a].transpose() * is_on)).normalized();
+      traction.col(a) = across(stress.col(a), normal);
+    }
+    const double c = fall(n - n_on);
+    const Eigen::Matrix<double, 1, n_points> distance = is_on.transpose() * table.inside.values;
+    error += (traction * table.inside.values) * (c * distance.array() - (c - 1.0)).matrix().asDiagonal();
+  }
+  double energy = 0.0;
+  for (int i = 0; i < n_points; ++i) {
+    const double volume = (x * table.inside.slopes[i]).eval().determinant() * table.inside.weights[i];
+    energy += volume * energy_density(material, error.col(i));
+  }
+  return energy;
+}
+
+}  // namespace
+
+std::vector<FreeCell> free_cells(const Mesh& mesh, const FacetKeys& facets, const std::vector<int>& node_of) {
+  std::vector<char> is_on(static_cast<size_t>(mesh.n_nodes()), 0);
+  {
+    std::unordered_set<int> nodes;
+    for (const FacetKey& key : facets) nodes.insert(key.begin(), key.end());
+    for (int i = 0; i < mesh.n_nodes(); ++i)
+      is_on[static_cast<size_t>(i)] = nodes.contains(node_of[static_cast<size_t>(i)]);
+  }
+  std::vector<FreeCell> cells;
+  for (size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const CellBlock& block = mesh.blocks[b];
+    const CellShape& shape = cell_shape(block.type);
+    if (nodes_per_cell(block.type) > shape.n_corners) continue;
+    for (int i = 0; i < block.n_cells(); ++i) {
+      FreeCell cell{static_cast<int>(b), i};
+      const auto is_free = [&](const LocalFacet& facet) {
+        std::array<int, most_facet_corners> corners{};
+        const auto n = static_cast<size_t>(nodes_per_facet(facet.type));
+        for (size_t a = 0; a < n; ++a) {
+          const auto node = static_cast<size_t>(block.cell(i)[facet.nodes[a]]);
+          if (!is_on[node]) return false;
+          corners[a] = node_of[node];
+        }
+        return facets.contains(facet_key(std::span<const int>(corners.data(), n)));
+      };
+      for (size_t k = 0; k < shape.facets.size(); ++k)
+        if (is_free(shape.facets[k])) cell.facets |= 1u << k;
+      if (cell.facets) cells.push_back(cell);
+    }
+  }
+  return cells;
+}
+
+Vec surface_errors(const Mesh& mesh, const Elastic& material, const std::vector<FreeCell>& cells,
+                   const std::vector<Tensors>& stress) {
+  Vec energies = Vec::Zero(static_cast<Eigen::Index>(cells.size()));
+  parallel_for(
+      static_cast<int>(cells.size()),
+      [&](int i) {
+        const FreeCell& at = cells[static_cast<size_t>(i)];
+        const CellBlock& block = mesh.blocks[static_cast<size_t>(at.block)];
+        with_cell(block.type, [&](auto cell) {
+          using Cell = decltype(cell);
+          constexpr int n = Cell::n_nodes;
+          if constexpr (n == Cell::row.n_corners)
+            energies[i] = surface_error<Cell>(material, gather<n>(mesh.nodes, block.cell(at.cell)),
+                                              stress[static_cast<size_t>(at.block)].template middleCols<n>(n * at.cell),
+                                              at.facets);
+        });
+      },
+      Schedule::evenly);
+  return energies;
+}
+
+}  // namespace dygita

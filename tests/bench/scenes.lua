@@ -1,0 +1,126 @@
+-- Scenes by which the error estimates of a run are held against the truth: effectivity scenes.
+-- dygita run scenes.lua --set scene=3 --set n=2 --set finer=4     cells n times finer, time steps 4 times shorter
+local p = param{ scene = 1, n = 1, finer = 1 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local aluminium = material.elastic{ name = "aluminium", young = 70*GPa, poisson = 0.33, density = 2700 }
+local function box(name, size, cells, more)
+  more = more or {}
+  for i = 1, 3 do cells[i] = cells[i] * p.n end
+  return substructure{ name = name, material = more.of or steel, velocity = more.velocity, place = more.at,
+    mesh = mesh.box{ size = size, cells = cells, cell = more.cell, order = more.cell and 2 or 1 } }
+end
+local parts, joints, supports, steps, places = {}, {}, {}, {}, {}
+local dt, duration = 0.5*us, 60*us
+local X, Y, Z = { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }
+local function fixed(on) supports[#supports+1] = support.fixed{ name = "held", on = on } return supports[#supports] end
+local function shock(loads, after) steps[#steps+1] = step.dynamic{ name = "shock", after = after, duration = duration, dt = dt / p.finer, loads = loads } end
+local function see(on, direction) places[#places+1] = { on, direction } end
+local function at_x(part, x, y) return part:where(function(a, b) return near(a, x) and (not y or near(b, y)) end) end
+local pulse, half = history.haversine, history.half_sine
+
+if p.scene == 1 then -- a pulse through a change of impedance
+  local a, b = box("a", { 5*mm, 5*mm, 100*mm }, { 1, 1, 25 }), box("b", { 5*mm, 5*mm, 60*mm }, { 1, 1, 15 }, { of = aluminium, at = { 0, 0, 100*mm } })
+  parts, joints = { a, b }, { interface.contact{ name = "joint", between = { a:face "zmax", b:face "zmin" }, friction = 0.2 } }
+  fixed(b:face "zmax")
+  shock{ load.pressure{ on = a:face "zmin", history = pulse{ peak = 50*MPa, duration = 15*us } } }
+  see(a:face "zmin", Z) see(a:face "zmax", Z)
+elseif p.scene == 2 then -- a block hits a bar
+  local a = box("a", { 5*mm, 5*mm, 100*mm }, { 1, 1, 25 })
+  local b = box("b", { 5*mm, 5*mm, 20*mm }, { 1, 1, 5 }, { at = { 0, 0, 100*mm }, velocity = { 0, 0, -5 } })
+  parts, joints = { a, b }, { interface.contact{ name = "joint", between = { a:face "zmax", b:face "zmin" } } }
+  shock{}
+  see(a:face "zmin", Z) see(b:face "zmax", Z)
+elseif p.scene == 3 then -- a cantilever on a shaken base
+  local a = box("a", { 60*mm, 6*mm, 4*mm }, { 10, 2, 1 })
+  parts, dt, duration = { a }, 2*us, 1000*us
+  shock{ load.base_acceleration{ on = fixed(a:face "xmin"), direction = { 0.2, 0.3, 1 }, history = half{ peak = 10000, duration = 200*us } } }
+  see(a:face "xmax", Z) see(a:face "xmax", Y)
+elseif p.scene == 4 then -- a block pressed on a block, pushed aside
+  local a, b = box("a", { 20*mm, 20*mm, 12*mm }, { 4, 4, 3 }), box("b", { 12*mm, 12*mm, 12*mm }, { 3, 3, 3 }, { of = aluminium, at = { 4*mm, 4*mm, 12*mm } })
+  parts, joints = { a, b }, { interface.contact{ name = "joint", between = { a:face "zmax", b:face "zmin" }, friction = 0.3 } }
+  fixed(a:face "zmin")
+  local press = load.pressure{ on = b:face "zmax", history = 20*MPa }
+  steps[1] = step.static{ name = "press", loads = { press } }
+  shock({ press, load.traction{ on = b:face "zmax", x = pulse{ peak = 6*MPa, duration = 20*us } } }, steps[1])
+  see(a:face "xmax", X) see(b:face "xmax", X)
+elseif p.scene == 5 then -- a bracket of two plates, bonded, unlike meshes
+  local a, b = box("a", { 40*mm, 20*mm, 4*mm }, { 8, 4, 1 }), box("b", { 4*mm, 20*mm, 30*mm }, { 1, 3, 5 }, { of = aluminium, at = { 0, 0, 4*mm } })
+  parts, joints = { a, b }, { interface.bonded{ name = "joint", between = { a:face "zmax", b:face "zmin" } } }
+  dt, duration = 2*us, 1000*us
+  shock{ load.base_acceleration{ on = fixed(a:face "xmax"), direction = Z, history = half{ peak = 10000, duration = 100*us } } }
+  see(b:face "zmax", X) see(a:face "xmin", Z)
+elseif p.scene == 6 then -- a cap on two posts, held by a tightened rod
+  local a, c = box("a", { 20*mm, 8*mm, 4*mm }, { 10, 4, 2 }), box("c", { 20*mm, 8*mm, 4*mm }, { 10, 4, 2 }, { at = { 0, 0, 16*mm } })
+  local function post(name, x) return box(name, { 4*mm, 8*mm, 12*mm }, { 2, 4, 6 }, { at = { x, 0, 4*mm } }) end
+  local left, right, rod = post("left", 0), post("right", 16*mm), post("rod", 8*mm)
+  parts = { a, c, left, right, rod }
+  joints = { interface.bonded{ name = "shank", between = { rod:face "zmax", c:face "zmin" } }, interface.bonded{ name = "foot", between = { a:face "zmax", rod:face "zmin" } } }
+  for i, q in ipairs{ left, right } do
+    joints[#joints+1] = interface.contact{ name = "below " .. i, between = { a:face "zmax", q:face "zmin" }, friction = 0.2 }
+    joints[#joints+1] = interface.contact{ name = "above " .. i, between = { q:face "zmax", c:face "zmin" }, friction = 0.2 }
+  end
+  fixed(a:face "zmin")
+  steps[1] = step.static{ name = "tighten", increments = 2, loads = { load.preload{ on = joints[1], force = 3*kN } } }
+  duration = 100*us
+  shock({ load.traction{ on = c:face "zmax", x = pulse{ peak = 8*MPa, duration = 25*us }, z = pulse{ peak = 5*MPa, duration = 25*us } } }, steps[1])
+  see(c:face "zmax", Z) see(c:face "zmax", X)
+elseif p.scene == 7 then -- a bar whose joint yields
+  local a, b = box("a", { 5*mm, 5*mm, 100*mm }, { 1, 1, 25 }), box("b", { 5*mm, 5*mm, 60*mm }, { 1, 1, 15 }, { at = { 0, 0, 100*mm } })
+  parts, joints = { a, b }, { interface.plastic{ name = "joint", between = { a:face "zmax", b:face "zmin" }, yield = 30*MPa, hardening = 2e12 } }
+  shock{ load.pressure{ on = a:face "zmin", history = pulse{ peak = -80*MPa, duration = 15*us } } }
+  see(a:face "zmin", Z) see(b:face "zmax", Z)
+elseif p.scene == 8 then -- a block falls on a plate that is held at its ends
+  local a = box("a", { 60*mm, 10*mm, 4*mm }, { 12, 2, 1 })
+  local b = box("b", { 10*mm, 10*mm, 10*mm }, { 2, 2, 2 }, { at = { 25*mm, 0, 4*mm }, velocity = { 0, 0, -1 } })
+  parts, joints = { a, b }, { interface.contact{ name = "joint", between = { a:face "zmax", b:face "zmin" }, friction = 0.2 } }
+  fixed{ a:face "xmin", a:face "xmax" }
+  dt, duration = 1*us, 300*us
+  shock{}
+  see(b:face "zmax", Z) see(at_x(a, 15*mm), Z)
+elseif p.scene == 9 or p.scene == 11 then -- a cantilever of cells of order two, pushed aside
+  local a = box("a", { 40*mm, 6*mm, 6*mm }, { 8, 1, 1 }, { cell = p.scene == 9 and "tet10" or "hex20" })
+  parts, dt, duration = { a }, 2*us, 600*us
+  fixed(a:face "xmin")
+  shock{ load.force{ on = a:face "xmax", y = half{ peak = 300, duration = 60*us }, z = half{ peak = 100, duration = 60*us } } }
+  see(a:face "xmax", Z) see(a:face "xmax", Y)
+elseif p.scene == 10 or p.scene == 12 then -- a square bar twisted, two cells across; one
+  local across = p.scene == 10 and 2 or 1
+  local a = box("a", { 60*mm, 8*mm, 8*mm }, { 8, across, across })
+  parts, dt, duration = { a }, 1*us, 300*us
+  fixed(a:face "xmin")
+  shock{ load.torque{ on = a:face "xmax", axis = X, history = pulse{ peak = 10, duration = 60*us } } }
+  see(at_x(a, 60*mm, 8*mm), Z) see(at_x(a, 30*mm, 8*mm), Z)
+elseif p.scene == 13 then -- a cantilever let go: forty periods
+  local a = box("a", { 100*mm, 5*mm, 5*mm }, { 5, 1, 1 })
+  parts, dt, duration = { a }, 100*us, 100*ms
+  fixed(a:face "xmin")
+  local pull = load.force{ on = a:face "xmax", z = 10 }
+  steps[1] = step.static{ name = "pull", loads = { pull } }
+  shock({ load.force{ on = a:face "xmax", z = 0 } }, steps[1])
+  see(a:face "xmax", Z)
+elseif p.scene == 14 then -- two plates pressed together on a shaken base
+  local a, b = box("a", { 240*mm, 20*mm, 10*mm }, { 24, 2, 2 }), box("b", { 240*mm, 20*mm, 10*mm }, { 24, 2, 2 }, { at = { 0, 0, 10*mm } })
+  parts, joints = { a, b }, { interface.contact{ name = "joint", between = { a:face "zmax", b:face "zmin" }, friction = 0.5 } }
+  dt, duration = 20*us, 20*ms
+  local base = fixed{ a:face "xmin", b:face "xmin" }
+  local press = { load.pressure{ on = b:face "zmax", history = 20*MPa }, load.pressure{ on = a:face "zmin", history = 20*MPa } }
+  steps[1] = step.static{ name = "press", increments = 2, loads = press }
+  shock({ press[1], press[2], load.base_acceleration{ on = base, direction = Z, history = half{ peak = 1000, duration = 0.5*ms } } }, steps[1])
+  see(b:face "xmax", Z)
+elseif p.scene >= 21 then -- static: a square bar twisted (21, 22, 23) or bent (24, 25), one, two or four cells across
+  local across = ({ 1, 2, 4, 1, 2 })[p.scene - 20]
+  local a = box("a", { 60*mm, 8*mm, 8*mm }, { p.scene < 24 and 20 or 8, across, across })
+  parts = { a }
+  fixed(a:face "xmin")
+  steps[1] = step.static{ name = "load", loads = { p.scene < 24 and load.torque{ on = a:face "xmax", axis = X, history = 10 } or load.force{ on = a:face "xmax", z = 100 } } }
+end
+
+local outputs = { output.energy{} }
+for i, place in ipairs(places) do
+  outputs[#outputs+1] = output.history{ name = "v" .. i, on = place[1], direction = place[2], quantity = "velocity" }
+  local a = output.history{ name = "a" .. i, on = place[1], direction = place[2], quantity = "acceleration" }
+  outputs[#outputs+1] = a
+  outputs[#outputs+1] = output.srs{ name = "s" .. i, of = a, from = math.max(1 / duration, p.scene > 12 and 200 or 1000), to = math.min(100e3, 0.25 / dt / (p.scene > 12 and 4 or 1)), per_octave = 6 }
+end
+-- One scheme and one mass whatever the time step.
+problem{ name = "scene " .. p.scene, solver = solver.latin{ integration = "implicit" }, substructures = parts, interfaces = joints, supports = supports, steps = steps, outputs = outputs }:run{}
