@@ -9,6 +9,7 @@
 #include "mesh/face_nodes.hpp"
 #include "mesh/jacobian.hpp"
 #include "mesh/shape_functions.hpp"
+#include "model/output.hpp"
 #include "model/support.hpp"
 #include "numerics/dense.hpp"
 
@@ -55,6 +56,12 @@ bool is_kept_from_turning(const Problem& problem, const SubstructurePtr& part, c
   return false;
 }
 
+// Is it of natural frequencies, those of the lumped masses?
+bool has_modes(const Output& output) {
+  const Columns columns = output.columns();
+  return !columns.empty() && columns.front().name == "frequency";
+}
+
 bool is_slender(const Mesh& mesh, const Vec3& axis) {
   const Eigen::RowVectorXd along = axis.transpose() * mesh.nodes;
   const Points beside = mesh.nodes - axis * along;
@@ -82,7 +89,9 @@ LumpedInertia lumped_inertia(const Mesh& mesh) {
 void doubt_lumped_inertia(const Problem& problem) {
   const bool is_tuned = problem.monolithic ? problem.monolithic->mass.is_tuned : problem.solver.mass.is_tuned;
   const bool moves =
-      std::any_of(problem.steps.begin(), problem.steps.end(), [](const StepPtr& step) { return !step->is_static; });
+      std::any_of(problem.steps.begin(), problem.steps.end(), [](const StepPtr& step) { return !step->is_static; }) ||
+      std::any_of(problem.outputs.begin(), problem.outputs.end(),
+                  [](const OutputPtr& output) { return has_modes(*output); });
   if (!moves || (is_tuned && !problem.explicit_dynamics)) return;
   std::set<const Mesh*> told;
   for (const SubstructurePtr& part : problem.substructures) {
@@ -93,10 +102,8 @@ void doubt_lumped_inertia(const Problem& problem) {
       continue;
     warn(fmt::format(
         "{}problem '{}': the masses of substructure '{}' at its nodes have {:.2g} times the moment of inertia "
-        "of the material about the axis ({:.2g}, {:.2g}, {:.2g}): its torsion is up to {:.0f} % too low, and "
-        "the estimated errors do not see it, where its mass is lumped; take more cells across, or solver.latin{{ mass "
-        "= "
-        "\"tuned\" }}",
+        "of the material about the axis ({:.2g}, {:.2g}, {:.2g}): its torsion is up to {:.0f} % too low where its mass "
+        "is lumped; take more cells across, or solver.latin{{ mass = \"tuned\" }}",
         part->origin.prefix(), problem.name, part->name, lumped.ratio, lumped.axis[0], lumped.axis[1], lumped.axis[2],
         100.0 * (1.0 - 1.0 / std::sqrt(lumped.ratio))));
   }

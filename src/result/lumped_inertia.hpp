@@ -12,8 +12,8 @@ struct LumpedInertia {
 };
 LumpedInertia lumped_inertia(const Mesh& mesh);
 
-// Warns of substructures whose masses are lumped in a dynamic step and turn much too slowly: (1 + 2/n^2) times the
-// inertia in torsion with n cells across a square bar.
+// Warns of substructures whose masses are lumped in a dynamic step, or in the modes of an output, and turn much too
+// slowly: (1 + 2/n^2) times the inertia in torsion with n cells across a square bar.
 void doubt_lumped_inertia(const Problem& problem);
 
 }  // namespace dygita

@@ -322,6 +322,21 @@ TEST(Warnings, name_a_mesh_too_coarse_for_the_wavelength) {
   EXPECT_NE(said.find("the mesh leaves an error of about"), std::string::npos) << said;
 }
 
+TEST(Warnings, name_a_part_whose_modes_twist_too_slowly) {
+  testing::internal::CaptureStderr();
+  run_text(R"(
+local steel = material.elastic{ name = "steel", young = 209*GPa, poisson = 0.3, density = 7850 }
+local plate = substructure{ name = "plate", material = steel, mesh = mesh.box{ size = { 300*mm, 30*mm, 1*mm }, cells = { 15, 1, 1 } } }
+problem{ name = "torsion", substructures = { plate }, supports = { support.fixed{ name = "clamp", on = plate:face "xmin" } },
+  steps = { step.static{ name = "s" } }, outputs = { output.superelement{ name = "e", on = plate:face "xmax", modes = 4 } } }:run{}
+)",
+           {}, 1);
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("the masses of substructure 'plate' at its nodes have 3 times the moment of inertia"),
+            std::string::npos)
+      << said;
+}
+
 TEST(Warnings, name_a_tolerance_too_loose_and_one_that_would_do) {
   const std::string said = warnings({{"tolerance", "0.05"}});
   EXPECT_NE(said.find("the tolerance 0.05 leaves an error of about"), std::string::npos) << said;

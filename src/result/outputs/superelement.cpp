@@ -7,6 +7,7 @@
 #include "model/check.hpp"
 #include "numerics/dense.hpp"
 #include "result/craig_bampton.hpp"
+#include "result/lumped_inertia.hpp"
 #include "result/output_table.hpp"
 #include "result/recorder.hpp"
 #include "result/superelement_files.hpp"
@@ -34,7 +35,9 @@ class SuperelementRecorder : public TableRecorder {
  public:
   SuperelementRecorder(const Columns& columns, const Problem& problem, const SuperelementRequest& request,
                        const Step* step)
-      : TableRecorder(columns), problem_(problem), request_(request), i_step_(index_of(problem.steps, step)) {}
+      : TableRecorder(columns), problem_(problem), request_(request), i_step_(index_of(problem.steps, step)) {
+    doubt_lumped_inertia(problem);
+  }
 
   // What is wrong with it does not stop a run that has other outputs: it is said, and nothing is written.
   void accept(const Instant& instant) override {
