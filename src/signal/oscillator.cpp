@@ -23,10 +23,11 @@ Complex phi_2(Complex h) {
   return sum;
 }
 
-// Extreme of the parabola through three equidistant values of which `b`, in the middle, is the extreme.
+// Extreme of the parabola through three equidistant values of which `b`, in the middle, is the extreme. No square of
+// them is taken: it may be too large or too small for a number.
 double vertex(double a, double b, double c) {
   const double curvature = a - 2.0 * b + c, slope = c - a;
-  return curvature == 0.0 ? b : b - slope * slope / (8.0 * curvature);
+  return curvature == 0.0 ? b : b - slope / 8.0 * (slope / curvature);
 }
 
 }  // namespace
@@ -42,17 +43,24 @@ Oscillator::Oscillator(double frequency, double q_factor, double dt, double firs
   const double wn = 2.0 * pi * frequency, damping = 0.5 / q_factor;
   wd_ = wn * std::sqrt((1.0 - damping) * (1.0 + damping));
   pole_ = Complex(-damping * wn, wd_);
-  decay_ = std::exp(pole_ * dt);
   // Partial fractions of (2 z wn s + wn^2), -1 or -wn over (s^2 + 2 z wn s + wn^2); twice the real part stands for the
   // conjugate pole.
   const Complex numerator = quantity == SrsQuantity::absolute_acceleration   ? 2.0 * damping * wn * pole_ + wn * wn
                             : quantity == SrsQuantity::relative_displacement ? Complex(-1.0)
                                                                              : Complex(-wn);
-  const Complex residue = numerator / Complex(0.0, wd_);
+  residue_ = numerator / Complex(0.0, wd_);
+  sample_every(dt);
+}
+
+void Oscillator::sample_every(double dt) {
+  decay_ = std::exp(pole_ * dt);
   // Integrals of e^(p (T - s)) times the base, linear from its old to its new value.
   const Complex h = pole_ * dt, phi = phi_2(h);
-  from_new_ = residue * dt * phi;
-  from_old_ = residue * dt * (1.0 + h * phi - phi);  // (e^h - 1) / h = 1 + h phi
+  from_new_ = residue_ * dt * phi;
+  from_old_ = residue_ * dt * (1.0 + h * phi - phi);  // (e^h - 1) / h = 1 + h phi
+  // The parabola is through samples equally far apart.
+  extremes_.meet(u_.real());
+  y_old_ = u_.real();
 }
 
 void Oscillator::advance(const std::vector<double>& base) {
@@ -79,6 +87,26 @@ void Oscillator::advance(const std::vector<double>& base) {
   y_old_ = y_old;
   x_ = x_old;
   extremes_ = {highest, lowest};
+}
+
+// Beside a straight line the response is that line and a vibration that decays: its envelope is convex, so that the
+// largest value is met in the first period or in the last.
+void Oscillator::follow_line(double to, double length) {
+  constexpr double per_period = 40.0, ends = 2.0;
+  const double period = 2.0 * pi / wd_, from = x_;
+  std::vector<double> base;
+  const auto follow = [&](double begin, double end, int n) {
+    base.clear();
+    for (int i = 1; i <= n; ++i) base.push_back(from + (to - from) * ((begin + (end - begin) * i / n) / length));
+    sample_every((end - begin) / n);
+    advance(base);
+  };
+  if (length <= 3.0 * ends * period)
+    return follow(0.0, length, std::max(8, static_cast<int>(per_period * length / period)));
+  const int n = static_cast<int>(ends * per_period);
+  follow(0.0, ends * period, n);
+  follow(ends * period, length - ends * period, 1);
+  follow(length - ends * period, length, n);
 }
 
 ResponsePeaks Oscillator::during() const {

@@ -28,7 +28,12 @@ class Oscillator {
   Oscillator(double frequency, double q_factor, double dt, double first,
              SrsQuantity quantity = SrsQuantity::absolute_acceleration);
 
+  // The samples that follow are this far apart (s).
+  void sample_every(double dt);
   void advance(const std::vector<double>& base);
+  // The base goes on along a straight line to the value `to`, for `length` (s): sampled where the response can be
+  // largest, as often however long it is.
+  void follow_line(double to, double length);
 
   double response() const { return u_.real(); }
   // During the samples met so far; a peak between samples is the vertex of the parabola through three of them.
@@ -38,7 +43,7 @@ class Oscillator {
 
  private:
   double wd_;
-  std::complex<double> pole_, decay_, from_old_, from_new_;
+  std::complex<double> pole_, residue_, decay_, from_old_, from_new_;
   std::complex<double> u_ = 0.0;
   double x_, y_old_ = 0.0;
   ResponsePeaks extremes_;

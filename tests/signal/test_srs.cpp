@@ -209,6 +209,134 @@ TEST(Srs, has_the_asked_frequencies) {
   EXPECT_NEAR(srs.frequency[1] / srs.frequency[0], std::sqrt(2.0), 1e-12);
 }
 
+TEST(Srs, ends_at_the_highest_frequency_that_is_asked_for) {
+  const Srs srs = shock_response_spectrum(half_sine(100), 1e-6, {10.0, 100.0, 10e3, 12});
+  ASSERT_EQ(srs.frequency.size(), 81u);
+  EXPECT_EQ(srs.frequency.back(), 10e3);
+  EXPECT_NEAR(srs.frequency[79], 9589.0, 1.0);
+  EXPECT_EQ(shock_response_spectrum(half_sine(100), 1e-6, {10.0, 100.0, 6400.0, 12}).frequency.back(), 6400.0);
+}
+
+TEST(Srs, is_as_large_as_its_signal_however_large_that_is) {
+  const std::vector<double> signal = sampled(300, [](double i) { return std::exp(-0.01 * i) * std::sin(0.2 * i); });
+  const Srs plain = shock_response_spectrum(signal, 1e-4, {});
+  for (const double factor : {1e200, 1e-200}) {
+    std::vector<double> scaled;
+    for (const double value : signal) scaled.push_back(factor * value);
+    const Srs srs = shock_response_spectrum(scaled, 1e-4, {});
+    for (size_t i = 0; i < srs.frequency.size(); ++i)
+      EXPECT_NEAR(srs.maximax[i] / factor, plain.maximax[i], 1e-9 * plain.maximax[i]) << factor;
+  }
+  EXPECT_THROW(shock_response_spectrum({0.0, 1.7e308, -1.7e308, 1.7e308, -1.7e308}, 1e-4, {}), InputError);
+}
+
+double decibels(double a, double b) { return 20.0 * std::log10(a / b); }
+
+// Ten samples a second apart, then two hundred 10 ns apart: what was still before says nothing, and costs nothing.
+TEST(Srs, of_a_long_quiet_stretch_before_a_short_one_is_that_of_the_short_one) {
+  const std::vector<double> pulse = half_sine(200);
+  const SrsSettings settings{10.0, 1e3, 1e6, 12};
+  const auto start = std::chrono::steady_clock::now();
+  const Srs srs =
+      shock_response_spectrum({{0.5, 1.0, std::vector<double>(10, 0.0)}, {10.0 + 0.5e-8, 1e-8, pulse}}, settings);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1.0);
+  const Srs alone = shock_response_spectrum(pulse, 1e-8, settings);
+  for (size_t i = 0; i < alone.frequency.size(); ++i)
+    EXPECT_NEAR(decibels(srs.maximax[i], alone.maximax[i]), 0.0, 1e-6) << alone.frequency[i];
+  EXPECT_THROW(shock_response_spectrum({{0.0, 1.0, pulse}, {10.0, 1.0, pulse}}, settings), InputError);
+}
+
+// A wave sampled 200 times a period, then 20 times: as the same wave at the finer rate throughout.
+TEST(Srs, of_stretches_of_unlike_steps_is_that_of_the_signal_behind_them) {
+  const auto wave = [](double t) { return std::exp(-0.5 * t) * std::sin(2.0 * pi * t); };
+  EvenStretch fine{0.0, 1.0 / 200.0, {}}, coarse{4.0, 1.0 / 20.0, {}};
+  for (int i = 0; i < 796; ++i) fine.values.push_back(wave(fine.time(static_cast<size_t>(i))));
+  for (int i = 0; i < 120; ++i) coarse.values.push_back(wave(coarse.time(static_cast<size_t>(i))));
+  std::vector<double> all;
+  for (int i = 0; i <= 1990; ++i) all.push_back(wave(i / 200.0));
+  const SrsSettings settings{10.0, 0.25, 4.0, 6};
+  const Srs srs = shock_response_spectrum({fine, coarse}, settings),
+            exact = shock_response_spectrum(all, 1.0 / 200.0, settings);
+  for (size_t i = 0; i < exact.frequency.size(); ++i) {
+    EXPECT_NEAR(decibels(srs.maximax[i], exact.maximax[i]), 0.0, 0.01) << exact.frequency[i];
+    EXPECT_NEAR(decibels(srs.residual[i], exact.residual[i]), 0.0, 0.1) << exact.frequency[i];
+  }
+}
+
+SrsSettings watched(double q_factor, double from, double to) {
+  SrsSettings settings{q_factor, from, to, 6};
+  settings.watches_end = true;
+  return settings;
+}
+
+// A ring of 1 Hz that has set in slowly, cut at its largest velocity: to a slow oscillator the cut is a step of
+// velocity.
+const std::vector<double>& cut_ring() {
+  static const std::vector<double> signal = sampled(2051, [](double i) {
+    const double t = i / 100.0;
+    return std::sin(2.0 * pi * t) * std::min(t / 10.0, 1.0);
+  });
+  return signal;
+}
+
+TEST(Srs, of_a_record_that_is_cut_off_in_motion_tells_what_hangs_on_the_cut) {
+  const Srs srs = shock_response_spectrum(cut_ring(), 0.01, watched(10.0, 0.1, 8.0));
+  for (size_t i = 0; i < srs.frequency.size(); ++i) {
+    if (srs.frequency[i] < 0.3) {
+      EXPECT_GT(srs.ending.maximax[i], 6.0) << srs.frequency[i];
+    }
+    if (srs.frequency[i] > 0.9) {
+      EXPECT_LT(srs.ending.maximax[i], 1.0) << srs.frequency[i];
+    }
+    EXPECT_LT(srs.ending.primary[i], 1.0) << srs.frequency[i];
+    EXPECT_FALSE(srs.ending.grows[i]) << srs.frequency[i];
+  }
+  EXPECT_TRUE(shock_response_spectrum(cut_ring(), 0.01, {10.0, 0.1, 8.0}).ending.maximax.empty());
+}
+
+// What keeps its velocity after a push ends as it will go on.
+TEST(Srs, of_a_push_hangs_on_no_cut) {
+  std::vector<double> signal = half_sine(100);
+  signal.resize(1000, 0.0);
+  const Srs srs = shock_response_spectrum(signal, 1e-3, watched(10.0, 1.0, 400.0));
+  for (const double moved : srs.ending.maximax) EXPECT_LT(moved, 0.01);
+  signal.insert(signal.begin(), 20000, 0.0);  // a long rest before it is no part of the record
+  for (const double moved : shock_response_spectrum(signal, 1e-3, watched(10.0, 1.0, 400.0)).ending.maximax)
+    EXPECT_LT(moved, 0.01);
+  for (const double moved :
+       shock_response_spectrum(std::vector<double>(100, 0.0), 1e-3, watched(10.0, 10.0, 400.0)).ending.maximax)
+    EXPECT_EQ(moved, 0.0);
+}
+
+// Twenty periods at the frequency of an oscillator of Q 50: it has come to 1 - exp(-20 pi/50) = 72 % of its peak.
+TEST(Srs, tells_a_response_that_still_grows) {
+  const std::vector<double> tone = sampled(2000, [](double i) { return std::sin(2.0 * pi * i / 100.0); });
+  const Srs srs = shock_response_spectrum(tone, 0.01, watched(50.0, 1.0, 1.001));
+  ASSERT_TRUE(srs.ending.grows.front());
+  const double quarter_before = 20.0 * std::log10((1.0 - std::exp(-0.4 * pi)) / (1.0 - std::exp(-0.3 * pi)));
+  EXPECT_NEAR(srs.ending.maximax.front(), quarter_before, 0.2);
+  EXPECT_FALSE(shock_response_spectrum(tone, 0.01, watched(5.0, 1.0, 1.001)).ending.grows.front());
+}
+
+// The truth is the ring that dies away by itself.
+TEST(Srs, of_a_tapered_record_is_that_of_a_ring_that_dies_away) {
+  std::vector<double> whole = cut_ring();
+  for (int i = 0; i < 3000; ++i) whole.push_back(std::sin(2.0 * pi * (2051 + i) / 100.0) * std::exp(-i / 300.0));
+  SrsSettings settings = watched(10.0, 0.25, 8.0);
+  const Srs truth = shock_response_spectrum(whole, 0.01, settings),
+            cut = shock_response_spectrum(cut_ring(), 0.01, settings);
+  settings.taper = 5.0;
+  const Srs tapered = shock_response_spectrum(cut_ring(), 0.01, settings);
+  EXPECT_GT(decibels(cut.maximax.front(), truth.maximax.front()), 6.0);
+  EXPECT_GT(cut.ending.maximax.front(), 6.0);
+  for (size_t i = 0; i < truth.frequency.size(); ++i) {
+    EXPECT_NEAR(decibels(tapered.maximax[i], truth.maximax[i]), 0.0, 1.0) << truth.frequency[i];
+    EXPECT_LT(tapered.ending.maximax[i], 2.0) << truth.frequency[i];
+  }
+  settings.taper = -1.0;
+  EXPECT_THROW(shock_response_spectrum(cut_ring(), 0.01, settings), InputError);
+}
+
 TEST(Srs, warns_below_the_record_and_above_its_nyquist_frequency) {
   take_warnings();
   shock_response_spectrum(half_sine(100), 1e-3, {10.0, 20.0, 400.0, 3});
@@ -251,6 +379,26 @@ TEST(Oscillator, answers_as_smallwoods_recursion_does) {
     ASSERT_NEAR(oscillator.response(), y, 1e-11) << i;
     x2 = x1, x1 = base[i], y2 = y1, y1 = y;
   }
+}
+
+// Against the line in ten thousand steps, for oscillators of a twentieth to five hundred periods along it.
+TEST(Oscillator, follows_a_line_of_any_length) {
+  for (const double q_factor : {0.6, 10.0, infinite})
+    for (const double frequency : {0.05, 0.7, 5.0, 40.0, 500.0}) {
+      Oscillator far(frequency, q_factor, 1.0, 0.0), near(frequency, q_factor, 1e-4, 0.0);
+      far.sample_every(0.002);
+      near.sample_every(0.002);
+      for (Oscillator* oscillator : {&far, &near})
+        oscillator->advance(std::vector<double>(3, 0.4));  // so that it vibrates
+      std::vector<double> line;
+      for (int i = 1; i <= 100000; ++i) line.push_back(0.4 - 1.4 * i / 100000.0);
+      far.follow_line(-1.0, 1.0);
+      near.sample_every(1e-5);
+      near.advance(line);
+      EXPECT_NEAR(far.response(), near.response(), 1e-6) << frequency;
+      EXPECT_NEAR(far.during().highest, near.during().highest, 1e-3) << frequency << " Hz, Q " << q_factor;
+      EXPECT_NEAR(far.during().lowest, near.during().lowest, 1e-3) << frequency << " Hz, Q " << q_factor;
+    }
 }
 
 TEST(Oscillator, reads_a_peak_between_samples) {
