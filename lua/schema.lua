@@ -615,8 +615,10 @@ local function spectrum(arguments, per_octave)
     { "quantity", type = "choice", default = "absolute_acceleration",
       choices = { "absolute_acceleration", "relative_displacement", "pseudo_velocity" }, doc = "what of the oscillator" },
     { "from", type = "number", unit = "Hz", range = { 0.01, 1e8 }, default = 100, doc = "first frequency" },
-    { "to", type = "number", unit = "Hz", range = { 0.01, 1e8 }, default = 10000, doc = "highest frequency: the last is the highest of from, from 2^(1/per_octave), ... up to it" },
+    { "to", type = "number", unit = "Hz", range = { 0.01, 1e8 }, default = 10000, doc = "highest frequency, the last one: from, from 2^(1/per_octave), ..., to" },
     { "per_octave", type = "integer", range = { 1, 1000 }, default = per_octave, doc = "frequencies per octave" },
+    { "taper", type = "number", unit = "s", range = { 0, 1e4 }, default = 0,
+      doc = "before the end of the dynamic steps, over which half a cosine takes the acceleration to zero: a record that ends in motion has no step there" },
   } do
     table.insert(arguments, argument)
   end
@@ -667,6 +669,8 @@ words[10] = {
       { "of", type = "object", kinds = { "output.history" }, required = true, doc = "an acceleration with a direction" },
       { "specification", type = "specification", unit = "m/s^2", doc = "what the maximax is held against in report.html: a CSV of frequency "
         .. "(Hz) and level (m/s^2; other units as its header says in brackets, [g] or (g)), or { {100, 20*g0}, {1000, 500*g0} }; log-log in between; judged from 1/record length to half the sampling rate" },
+      { "judge", type = "choice", choices = { "maximax", "primary" }, default = "maximax",
+        doc = "the column that is held against the specification and whose band is estimated; primary: the response during the record alone" },
     }, 12),
   },
   {

@@ -21,6 +21,7 @@ inline constexpr double good_discretisation = 10.0;   // %, beyond it a card is 
 inline constexpr double frequency_error = 10.0;       // %, of the time step, of the mesh
 inline constexpr double good_frequency = 2.0;         // %, beyond it a card is amber
 inline constexpr double spectrum_band = 6.0;          // dB, mean over a spectrum's frequencies: a factor of two
+inline constexpr double record_band = 1.0;            // dB, that a spectrum hangs on the end of its record
 inline constexpr double loop_energy_error = 0.05;     // of the loss of a cycle, that the energy balance misses
 inline constexpr double rotation = 5.0;               // degrees, of a cell: what small displacements bear
 inline constexpr double slip_in_cells = 0.5;          // of a contact cell, along the slip

@@ -1,8 +1,10 @@
 // What output.srs makes of a history once a run has ended.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "base/log.hpp"
 #include "result/given_output.hpp"
@@ -43,6 +45,10 @@ class SpectrumOutput : public ::testing::Test {
     spectrum->conclude({problem, result, errors}, result.tables[spectrum.get()], findings());
     take_warnings();
   }
+  bool warned_of(const std::string& text) {
+    return std::any_of(findings().warnings.begin(), findings().warnings.end(),
+                       [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
+  }
   Findings& findings() { return result.findings[spectrum.get()]; }
 
   Problem problem;
@@ -62,8 +68,66 @@ TEST_F(SpectrumOutput, has_a_spectrum_a_band_and_its_distance_from_the_specifica
   EXPECT_NEAR(findings().figures.at("largest exceedance of the specification of 'spectrum' [dB]"),
               20.0 * std::log10(peak / 10.0), 1e-12);
   EXPECT_NEAR(findings().figures.at("frequency of the largest exceedance of 'spectrum' [Hz]"), 1e3, 1.0);
-  EXPECT_EQ(findings().figures.size(), 6u);
+  EXPECT_EQ(findings().figures.size(), 7u);
   EXPECT_EQ(findings().lines.size(), 2u);
+}
+
+// The ringing of unit amplitude goes on as it began: what is slower than it sees its last velocity as a step.
+TEST_F(SpectrumOutput, tells_what_hangs_on_the_end_of_its_record_and_warns_beyond_a_decibel) {
+  conclude();
+  const Table& band = findings().band;
+  for (int i = 0; i < band.n_rows(); ++i) {
+    double sum = 0.0;
+    for (const char* part : {"iteration", "time_step", "mesh", "record"}) sum += std::pow(band.column(part)[i], 2);
+    EXPECT_NEAR(band.column("all")[i], std::sqrt(sum), 1e-12);
+  }
+  EXPECT_TRUE(findings().warnings.empty());
+  // Cut to two periods, an oscillator at 1 kHz has come to 1 - exp(-pi/5), and grows.
+  Table& table = result.tables[history.get()];
+  for (std::vector<double>& column : table.columns) column.resize(100);
+  table.step.resize(100);
+  conclude();
+  EXPECT_TRUE(warned_of("spectrum 'spectrum' still grows when its record ends"));
+  const std::vector<double>& record = findings().band.column("record");
+  EXPECT_GT(*std::max_element(record.begin(), record.end()), 1.5);
+  EXPECT_NEAR(findings().figures.at("spectrum 'spectrum', mean band, record [dB]"),
+              std::accumulate(record.begin(), record.end(), 0.0) / 25.0, 1e-12);
+  // A pass over the run keeps the warning.
+  spectrum->settle(Table(result.tables.at(spectrum.get())), result.tables.at(spectrum.get()), findings());
+  EXPECT_TRUE(warned_of("still grows"));
+}
+
+TEST_F(SpectrumOutput, warns_of_its_end_where_no_error_is_estimated_too) {
+  Table& table = result.tables[history.get()];
+  for (std::vector<double>& column : table.columns) column.resize(100);
+  table.step.resize(100);
+  problem.explicit_dynamics.emplace();
+  conclude();
+  EXPECT_TRUE(warned_of("still grows"));
+}
+
+// The step that a cut leaves belongs to what comes after the record.
+TEST_F(SpectrumOutput, judges_the_response_during_the_record_where_asked) {
+  GivenArguments arguments = given_spectrum("srs", "spectrum", 60.0, 200.0);
+  arguments.outputs["of"] = history;
+  arguments.specifications["specification"] =
+      std::make_shared<Specification>(Specification{{10.0, 1e4}, {10.0, 10.0}, "deck"});
+  Table& table = result.tables[history.get()];
+  for (int i = 0; i < 1000; ++i) table.columns[1][static_cast<size_t>(i)] *= std::min(i / 500.0, 1.0);
+  for (std::vector<double>& column : table.columns) column.resize(975);  // at the largest velocity
+  table.step.resize(975);
+  const auto level = [&](const char* column) { return result.tables.at(spectrum.get()).column(column).front(); };
+  for (const char* judged : {"maximax", "primary"}) {
+    arguments.words["judge"] = judged;
+    spectrum = make_output(arguments);
+    conclude();
+    EXPECT_GT(level("maximax"), 1.5 * level("primary"));
+    const Table& spectra = result.tables.at(spectrum.get());
+    const std::vector<double>& values = spectra.column(judged);
+    EXPECT_NEAR(findings().figures.at("largest exceedance of the specification of 'spectrum' [dB]"),
+                20.0 * std::log10(*std::max_element(values.begin(), values.end()) / 10.0), 1e-9);
+    EXPECT_EQ(warned_of("hangs on where its record ends"), std::string(judged) == "maximax");
+  }
 }
 
 TEST_F(SpectrumOutput, tells_the_mean_of_its_band_and_warns_beyond_a_factor_of_two) {

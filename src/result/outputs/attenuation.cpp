@@ -1,5 +1,6 @@
 // output.attenuation: shock attenuation across a joint, the ratio of the spectra before and behind it by band.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -56,7 +57,9 @@ class AttenuationOutput final : public Output {
         leaving_(a.output("leaving")),
         srs_(srs_settings(a)),
         bands_(a.integer("bands")),
-        n_joints_(a.integer("joints")) {}
+        n_joints_(a.integer("joints")) {
+    srs_.watches_end = true;
+  }
 
   // What enters and what leaves are compared axis by axis.
   void check(const Problem& problem) const override {
@@ -76,7 +79,7 @@ class AttenuationOutput final : public Output {
     if (has_direction[0] != has_direction[1])
       check::fail(problem, origin, who + ": one of 'entering' and 'leaving' has a direction, the other has none",
                   "both with a direction, or both without for x, y and z");
-    check_spectrum(problem, *this);
+    check_spectrum(problem, *this, srs_);
   }
 
   Columns columns() const override {
@@ -109,9 +112,11 @@ class AttenuationOutput final : public Output {
     constexpr double nothing = 1e-6;  // of the level along the strongest axis
     table = empty_table(columns());
     std::vector<double> strongest;
+    findings.warnings.clear();
     for (size_t axis = 0; axis < axes().size(); ++axis) {
       const Srs in = spectrum_of(end.problem, srs_, end.result.tables.at(entering_.get()), axis + 1);
       const Srs out = spectrum_of(end.problem, srs_, end.result.tables.at(leaving_.get()), axis + 1);
+      doubt_ends(end, {&in, &out}, axis, findings);
       const std::vector<Band> bands = bands_of(in.frequency, srs_, bands_);
       strongest.resize(bands.size(), 0.0);
       for (size_t b = 0; b < bands.size(); ++b) {
@@ -136,6 +141,19 @@ class AttenuationOutput final : public Output {
     const std::optional<HistoryKind> history = entering_->history();
     return history && history->has_direction ? std::vector<std::string>{""}
                                              : std::vector<std::string>{"_x", "_y", "_z"};
+  }
+
+  // Of the spectra that enter and that leave along an axis.
+  void doubt_ends(const RunEnd& end, const std::array<const Srs*, 2>& spectra, size_t axis, Findings& findings) const {
+    for (const auto& [of, srs] : {std::pair{entering_, spectra[0]}, {leaving_, spectra[1]}}) {
+      if (of->is_prescribed(end.problem)) continue;
+      const Table& history = end.result.tables.at(of.get());
+      const std::string along = axes()[axis].empty() ? "" : " along " + axes()[axis].substr(1);
+      for (const std::string& doubt : doubts_of_end(
+               fmt::format("attenuation '{}': the spectrum of '{}'{}", name, of->name, along), *srs,
+               srs->ending.maximax, judged_by(end.problem, history), end_of_record(end.problem, history, axis + 1)))
+        findings.warnings.push_back(doubt);
+    }
   }
 
   // Mean ratio of each axis over the bands that the record allows to judge, the lowest and the highest, beside the rule

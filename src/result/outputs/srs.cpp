@@ -34,7 +34,12 @@ const char* quantity_text(SrsQuantity quantity) {
 class SrsOutput final : public Output {
  public:
   explicit SrsOutput(const ModelArguments& a)
-      : Output(a), of_(a.output("of")), srs_(srs_settings(a)), specification_(a.specification("specification")) {
+      : Output(a),
+        of_(a.output("of")),
+        srs_(srs_settings(a)),
+        specification_(a.specification("specification")),
+        judged_(a.has("judge") ? a.text("judge") : "maximax") {
+    srs_.watches_end = true;
     if (specification_ && srs_.quantity != SrsQuantity::absolute_acceleration)
       throw InputError("a 'specification' is of absolute acceleration: leave 'quantity' out");
   }
@@ -52,7 +57,7 @@ class SrsOutput final : public Output {
     if (!history->has_direction)
       check::fail(problem, origin, who + " is of " + of_->known_as() + ", which has no direction", hint);
     check::names_are_free(problem, *this, {"_band"});
-    check_spectrum(problem, *this);
+    check_spectrum(problem, *this, srs_);
   }
 
   Columns columns() const override {
@@ -63,6 +68,8 @@ class SrsOutput final : public Output {
 
   Notes record(const Table& table, const Findings& findings) const override {
     Notes notes = {{"of", of_->name}, {"quantity", quantity_text(srs_.quantity)}, {"q_factor", srs_.q_factor}};
+    if (judged_ != "maximax") notes.push_back({"judge", judged_});
+    if (srs_.taper > 0.0) notes.push_back({"taper", srs_.taper});
     if (findings.band.n_rows() > 0) notes.push_back({"band", file_name_of(name) + "_band.csv"});
     if (!specification_) return notes;
     Notes against = {
@@ -80,15 +87,22 @@ class SrsOutput final : public Output {
   std::optional<double> highest_frequency() const override { return srs_.to; }
 
   void conclude(const RunEnd& end, Table& table, Findings& findings) const override {
-    const FrequencyRange judged = judged_by(end.problem, end.result.tables.at(of_.get()));
+    const Table& history = end.result.tables.at(of_.get());
+    const FrequencyRange judged = judged_by(end.problem, history);
     findings.values = {{"judged_from", judged.from}, {"judged_to", judged.to}};
-    const Srs srs = spectrum_of(end.problem, srs_, end.result.tables.at(of_.get()), 1);
+    Srs srs = spectrum_of(end.problem, srs_, history, 1);
+    if (judged_ == "primary") srs.ending.grows.assign(srs.frequency.size(), true);  // nothing else moves it
     table = {};
     if (!srs.frequency.empty()) {
       table = empty_table(columns());
       table.columns = {srs.frequency, srs.maximax, srs.positive, srs.negative, srs.primary, srs.residual};
-      if (!end.problem.explicit_dynamics && !of_->is_prescribed(end.problem))  // what is prescribed has no error
-        findings.band = spectrum_band(table, srs_.quantity, end.errors);
+      if (!of_->is_prescribed(end.problem)) {  // what is prescribed has no error, and ends as the deck says
+        const std::vector<double>& record = judged_ == "primary" ? srs.ending.primary : srs.ending.maximax;
+        if (!end.problem.explicit_dynamics)
+          findings.band = spectrum_band(table, srs_.quantity, end.errors, record, judged_.c_str());
+        findings.model =
+            doubts_of_end("spectrum '" + name + "'", srs, record, judged, end_of_record(end.problem, history, 1));
+      }
     }
     tell(table, findings);
   }
@@ -101,7 +115,7 @@ class SrsOutput final : public Output {
 
   bool settles() const override { return true; }
   double settle(const Table& before, const Table& table, Findings& findings) const override {
-    if (findings.band.n_rows() > 0) take_iteration_from(table, before, findings.band);
+    if (findings.band.n_rows() > 0) take_iteration_from(table, before, findings.band, judged_.c_str());
     tell(table, findings);
     return largest_move(table, before);
   }
@@ -115,13 +129,14 @@ class SrsOutput final : public Output {
 
   Exceedance exceedance(const Table& table, const Findings& findings) const {
     if (!specification_ || table.n_rows() == 0) return {};
-    return largest_exceedance(*specification_, table.columns.front(), table.column("maximax"), judged_range(findings));
+    return largest_exceedance(*specification_, table.columns.front(), table.column(judged_), judged_range(findings));
   }
 
   void tell(const Table& table, Findings& findings) const {
     findings.figures.clear();
     findings.lines.clear();
-    findings.warnings.clear();
+    const auto* doubts = std::any_cast<std::vector<std::string>>(&findings.model);  // those of the record's end
+    findings.warnings = doubts ? *doubts : std::vector<std::string>();
     if (findings.band.n_rows() > 0) tell_band(findings);
     if (specification_ && table.n_rows() > 0) tell_specification(table, findings);
   }
@@ -148,21 +163,20 @@ class SrsOutput final : public Output {
                     not_judged(table, findings, worst), not_covered(table)));
   }
 
-  // What the specification asks beyond the frequencies of the spectrum. These end at the last line of an octave: less
-  // than a line short is no gap.
+  // What the specification asks beyond the frequencies of the spectrum.
   std::string not_covered(const Table& table) const {
+    constexpr double same = 1.0 + 1e-6;
     const std::vector<double>&f = table.columns.front(), &asked = specification_->frequency;
-    const double line = f.size() > 1 ? f[1] / f[0] : 1.0;
     std::string text;
-    if (asked.front() * line < f.front()) text += fmt::format(" from {:.4g} to {:.4g} Hz", asked.front(), f.front());
-    if (asked.back() > f.back() * line)
+    if (asked.front() * same < f.front()) text += fmt::format(" from {:.4g} to {:.4g} Hz", asked.front(), f.front());
+    if (asked.back() > f.back() * same)
       text += fmt::format("{} from {:.4g} to {:.4g} Hz", text.empty() ? "" : " and", f.back(), asked.back());
     return text.empty() ? "" : "; the spectrum has no frequency" + text + ", where the specification goes on";
   }
 
   // Where the spectrum reads worse than in the range that is judged: ", judged from 1667 Hz on; at 500 Hz, ...".
   std::string not_judged(const Table& table, const Findings& findings, const Exceedance& worst) const {
-    const Exceedance all = largest_exceedance(*specification_, table.columns.front(), table.column("maximax"));
+    const Exceedance all = largest_exceedance(*specification_, table.columns.front(), table.column(judged_));
     if (all.decibels <= worst.decibels) return "";
     const FrequencyRange judged = judged_range(findings);
     return fmt::format(
@@ -178,10 +192,10 @@ class SrsOutput final : public Output {
       findings.figures["spectrum '" + name + "', mean band, " + column + " [dB]"] = mean(column);
     }
     findings.lines.push_back(
-        fmt::format("spectrum '{}': iteration leaves about {:.2g} dB, time step {:.2g} dB, mesh {:.2g} dB (mean over "
-                    "its frequencies)",
-                    name, mean("iteration"), mean("time_step"), mean("mesh")));
-    if (const double all = mean("all"); all > limit::spectrum_band)
+        fmt::format("spectrum '{}': iteration leaves about {:.2g} dB, time step {:.2g} dB, mesh {:.2g} dB, the end of "
+                    "the record {:.2g} dB (mean over its frequencies)",
+                    name, mean("iteration"), mean("time_step"), mean("mesh"), mean("record")));
+    if (const double all = mean_error_band(findings.band); all > limit::spectrum_band)
       findings.warnings.push_back(
           fmt::format("spectrum '{}' is uncertain by about {:.2g} dB (mean over its frequencies, by the run's own "
                       "estimate): little arrives there beside the errors of dt and the mesh",
@@ -191,6 +205,7 @@ class SrsOutput final : public Output {
   OutputPtr of_;
   SrsSettings srs_;
   std::shared_ptr<const Specification> specification_;
+  std::string judged_;  // the column that is held against it, and that the band is of
 };
 
 }  // namespace

@@ -54,7 +54,7 @@ class FieldRecorder : public Recorder {
     if (instant.is_static()) return;
     missed_ = missed_so_far_;
     const double dt = instant.interval();
-    dt_ = dt_ == 0.0 ? dt : std::min(dt, dt_);
+    dt_.push_back(dt);
     time_.push_back(instant.time() - 0.5 * dt);
     std::vector<float> row;
     for (const Area& area : areas_) {
@@ -94,7 +94,7 @@ class FieldRecorder : public Recorder {
       for (size_t d = 0; d < n_directions; ++d) {
         for (size_t t = 0; t < time_.size(); ++t)
           value[t] = static_cast<double>(signals_[t][first + n_directions * i + d]);
-        const Srs srs = shock_response_spectrum(evenly(time_, value, dt_), dt_, request_.srs);
+        const Srs srs = shock_response_spectrum(stretches_of(time_, dt_, value), request_.srs);
         frequency = srs.frequency;
         const auto n = static_cast<Eigen::Index>(frequency.size()), node = static_cast<Eigen::Index>(i);
         if (all[0].size() == 0)
@@ -157,9 +157,8 @@ class FieldRecorder : public Recorder {
   const Columns columns_;
   const FieldRequest& request_;
   std::vector<Area> areas_;
-  std::vector<double> time_;                 // s, middle of each increment
+  std::vector<double> time_, dt_;            // s, middle and length of each increment
   std::vector<std::vector<float>> signals_;  // of each instant: nodes of all areas x directions, m/s^2
-  double dt_ = 0.0;                          // s, smallest
   int missed_so_far_ = 0, missed_ = 0;       // increments that have not converged; those that the signals rest on
 };
 
@@ -176,7 +175,7 @@ class SrsFieldOutput final : public Output {
     if (name == problem.name || name == "interfaces")
       check::fail(problem, origin, known_as() + " would overwrite " + name + ".pvd",
                   "the problem's own name and 'interfaces' are those of the run's frames");
-    check_spectrum(problem, *this);
+    check_spectrum(problem, *this, request_.srs);
   }
 
   Columns columns() const override {
