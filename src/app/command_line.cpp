@@ -158,10 +158,12 @@ void add_srs_options(CLI::App& command, SrsCommand& asked) {
 void add_report_options(CLI::App& command, ReportCommand& asked) {
   add_run_folder(command, asked.run);
   command
-      .add_option("--specification", asked.specification,
-                  "frequency (Hz) and level (m/s^2, or g where its header says [g]): of all spectra, in place of the "
-                  "deck's")
-      ->type_name("FILE.csv");
+      .add_option(
+          "--specification", asked.specifications,
+          "frequency (Hz) and level (m/s^2, or g where its header says [g]), in place of the deck's: of a "
+          "spectrum by its name; FILE.csv alone is of those that have one in the deck, or of all where none has")
+      ->allow_extra_args(false)
+      ->type_name("SPECTRUM=FILE.csv");
   command.add_option("--out", asked.out, "file to write (default: report.html in the folder)")->type_name("FILE");
 }
 

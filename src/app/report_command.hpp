@@ -2,13 +2,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace dygita {
 
 struct ReportCommand {
-  std::string run;            // folder
-  std::string specification;  // CSV; empty: the deck's
-  std::string out;            // empty: report.html in the folder
+  std::string run;                          // folder
+  std::vector<std::string> specifications;  // CSV, or SPECTRUM=CSV; empty: the deck's
+  std::string out;                          // empty: report.html in the folder
 };
 
 // Writes the page. Throws InputError.

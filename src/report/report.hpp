@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -11,7 +12,9 @@ namespace dygita {
 
 struct ReportRequest {
   std::string record = {};  // text of run.json where it is not written yet; empty: the folder's
-  std::shared_ptr<const Specification> specification = {};  // of all spectra, in place of the deck's
+  // In place of the deck's, by the name of the spectrum; "": of those that have one in the deck, or of all where none
+  // has.
+  std::map<std::string, std::shared_ptr<const Specification>> specifications = {};
 };
 
 // The page of the run in this folder, out/<problem>/<case>, from run.json, its tables and scenes.json; depends on

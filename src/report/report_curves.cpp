@@ -67,7 +67,8 @@ std::string spectra_figure(const std::vector<Spectrum>& group, const TimeAxis& t
   plot.width = 820;
   std::vector<std::shared_ptr<const Specification>> drawn;
   for (const Spectrum& s : group)
-    plot.lines.push_back({s.name + (std::isfinite(s.q_factor) ? fmt::format(" (Q {:g})", s.q_factor) : " (undamped)"),
+    plot.lines.push_back({s.name + (std::isfinite(s.q_factor) ? fmt::format(" (Q {:g})", s.q_factor) : " (undamped)") +
+                              (s.judged == "maximax" ? "" : ", " + s.judged),
                           s.frequency(), s.level()});
   bool has_uncertainty = false;
   if (group.size() <= most_shaded)
@@ -90,7 +91,10 @@ std::string spectra_figure(const std::vector<Spectrum>& group, const TimeAxis& t
   }
   std::string caption = "Maximax response of oscillators to the acceleration of the dynamic steps";
   if (time.record() > 0.0) caption += shade_unreliable(time.judged(), plot);
-  if (has_uncertainty) caption += "; shaded: uncertainty from iteration, time step and mesh by the run's own estimate";
+  if (has_uncertainty)
+    caption +=
+        "; shaded: uncertainty from iteration, time step and mesh, and from where the record ends, by the run's own "
+        "estimate";
   return html::figure(svg(plot), caption + ".");
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/names.hpp"
 #include "report/units.hpp"
 #include "result/limits.hpp"
 
@@ -13,17 +15,26 @@ namespace {
 
 constexpr size_t most_ranges = 4;  // in a sentence
 
-std::shared_ptr<const Specification> specification_of(const Json& output, const ReportRequest& request) {
-  if (request.specification) {
-    if (const std::string quantity = text(output, "quantity"); quantity != "acceleration") {
-      warn(
-          fmt::format("spectrum '{}' is of {} and is not held against the specification, which is of absolute "
-                      "acceleration",
-                      text(output, "name"), quantity));
-      return nullptr;
-    }
-    return request.specification;
+using SpecificationPtr = std::shared_ptr<const Specification>;
+
+// What a request gives a spectrum; null: nothing.
+SpecificationPtr requested(const Json& output, const ReportRequest& request, bool deck_has_some) {
+  const auto& given = request.specifications;
+  auto found = given.find(text(output, "name"));
+  if (found == given.end() && (output.contains("specification") || !deck_has_some)) found = given.find("");
+  if (found == given.end()) return nullptr;
+  if (const std::string quantity = text(output, "quantity"); quantity != "acceleration") {
+    warn(
+        fmt::format("spectrum '{}' is of {} and is not held against the specification, which is of absolute "
+                    "acceleration",
+                    text(output, "name"), quantity));
+    return nullptr;
   }
+  return found->second;
+}
+
+SpecificationPtr specification_of(const Json& output, const ReportRequest& request, bool deck_has_some) {
+  if (SpecificationPtr given = requested(output, request, deck_has_some)) return given;
   if (!output.contains("specification")) return nullptr;
   const Json& json = output["specification"];
   auto found = std::make_shared<Specification>();
@@ -31,6 +42,23 @@ std::shared_ptr<const Specification> specification_of(const Json& output, const 
   found->frequency = json.at("frequency").get<std::vector<double>>();
   found->level = json.at("level").get<std::vector<double>>();
   return found;
+}
+
+// What is asked for and is not there; what one file that names no spectrum is held against.
+void check_names(const std::vector<Json>& outputs, const ReportRequest& request, bool deck_has_some) {
+  std::vector<std::string> names;
+  for (const Json& output : outputs) names.push_back(text(output, "name"));
+  for (const auto& [name, specification] : request.specifications)
+    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
+      throw InputError(fmt::format("--specification {}={}: the run has no spectrum '{}'\n    {}", name,
+                                   specification->source, name, did_you_mean(name, names)));
+  if (deck_has_some || names.size() < 2 || !request.specifications.contains("")) return;
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "'" : ", '") + name + "'";
+  warn(
+      fmt::format("the specification is held against every spectrum of the run, {}, since the deck gives none of them "
+                  "one; --specification {}=FILE.csv holds it against one",
+                  list, names.front()));
 }
 
 std::string hertz(double f) { return with_unit(f, "Hz"); }
@@ -99,15 +127,20 @@ SpectrumVerdict not_judged(const Spectrum& s, const FrequencyRange& judged) {
 }  // namespace
 
 std::vector<Spectrum> spectra_of(const RunFolder& run, const ReportRequest& request) {
+  const std::vector<Json> outputs = run.outputs(Display::As::spectrum);
+  const bool deck_has_some =
+      std::any_of(outputs.begin(), outputs.end(), [](const Json& output) { return output.contains("specification"); });
+  check_names(outputs, request, deck_has_some);
   std::vector<Spectrum> spectra;
-  for (const Json& output : run.outputs(Display::As::spectrum)) {
+  for (const Json& output : outputs) {
     Spectrum spectrum{text(output, "name"),
                       text(output, "of"),
                       text(output, "quantity"),
                       number(output, "q_factor"),
-                      run.table(text(output, "file"), {"maximax", "positive", "negative"}),
-                      specification_of(output, request),
+                      run.table(text(output, "file"), {"maximax", "positive", "negative", "primary"}),
+                      specification_of(output, request, deck_has_some),
                       {}};
+    if (output.contains("judge")) spectrum.judged = text(output, "judge");
     if (output.contains("band")) spectrum.band = run.table(text(output, "band"), {"all"});
     if (spectrum.table.n_rows() > 0) spectra.push_back(std::move(spectrum));
   }

@@ -18,13 +18,15 @@ struct Spectrum {
   double q_factor;
   Table table;
   std::shared_ptr<const Specification> specification;
-  Table band;  // dB, what iteration, time step and mesh leave; empty: not known
+  Table band;  // dB, what iteration, time step, mesh and the end of the record leave; empty: not known
+  std::string judged = "maximax";  // the column that is held against the specification
 
   const std::vector<double>& frequency() const { return table.columns.front(); }
-  const std::vector<double>& level() const { return table.column("maximax"); }
+  const std::vector<double>& level() const { return table.column(judged); }
 };
 
-// Those of the record whose tables are there.
+// Those of the record whose tables are there. Throws InputError where the request names a spectrum that is none of
+// them.
 std::vector<Spectrum> spectra_of(const RunFolder& run, const ReportRequest& request);
 
 // "+7.1 dB", with a true minus.

@@ -2,8 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <map>
 
+#include "base/log.hpp"
 #include "decks/engine.hpp"
+#include "report/report.hpp"
 #include "report/svg_checks.hpp"
 
 namespace dygita::test::report_runs_tests {
@@ -41,7 +45,9 @@ struct Written {
   std::vector<OutputPtr> outputs;  // the results' keys, which go with the deck
 };
 
-Written run_and_read(const std::string& text, const std::string& solver = "") {
+using Look = std::function<void(const fs::path& run_folder)>;
+
+Written run_and_read(const std::string& text, const std::string& solver = "", const Look& look = {}) {
   set_progress_enabled(false);
   const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
   const fs::path folder = fs::temp_directory_path() / ("dygita_report_" + test + "_" + std::to_string(getpid()));
@@ -64,6 +70,7 @@ Written run_and_read(const std::string& text, const std::string& solver = "") {
   for (const auto& entry : fs::recursive_directory_iterator(options.out)) {
     std::ifstream file(entry.path(), std::ios::binary);
     if (entry.path().filename() == "report.html") written.page = {std::istreambuf_iterator<char>(file), {}};
+    if (entry.path().filename() == "run.json" && look) look(entry.path().parent_path());
     if (entry.path().filename() == "run.json") written.record = {std::istreambuf_iterator<char>(file), {}};
   }
   fs::remove_all(folder);
@@ -123,6 +130,44 @@ for _, one in ipairs{ b, output.attenuation{ name = "taken", entering = a, leavi
        {"<h2>Through the joint", "taken: from top to behind", "<h2>Condensed models", "pseudo (undamped)",
         "maximax pseudo-velocity (", "shaded: uncertainty from iteration, time step and mesh"})
     EXPECT_NE(run.page.find(part), std::string::npos) << part;
+}
+
+// Three spectra; a specification is held against those it is meant for.
+TEST(ReportRuns, are_held_against_the_specification_of_each_spectrum_by_its_name) {
+  const auto flat = [](double level) {
+    return std::make_shared<const Specification>(Specification{{1e3, 1e5}, {level, level}, "flat.csv"});
+  };
+  const auto verdicts = [](const std::string& page) {
+    std::string found;
+    for (const char* name : {"s", "t", "u"})
+      if (page.find("Spectrum &#39;" + std::string(name) + "&#39;") != std::string::npos) found += name;
+    return found;
+  };
+  const auto held = [&](const fs::path& folder, const std::map<std::string, std::shared_ptr<const Specification>>& by) {
+    take_warnings();
+    return verdicts(report_html(folder, {"", by}));
+  };
+  const std::string three = R"(
+for i, name in ipairs{ "s", "t", "u" } do
+  outputs[#outputs + 1] = output.srs{ name = name, of = a, from = 40*kHz, to = 100*kHz, specification = i == given and { {1*kHz, 1000*g0}, {100*kHz, 1000*g0} } or nil }
+end
+)";
+  const std::string steps = latin + "local shock = hit('shock', press, 30*us) local steps = { press, shock }\n";
+  run_and_read(blocks(steps, "local given = 2\n" + three), "", [&](const fs::path& folder) {
+    EXPECT_EQ(held(folder, {}), "t");
+    EXPECT_EQ(held(folder, {{"", flat(1.0)}}), "t");
+    EXPECT_EQ(held(folder, {{"u", flat(1.0)}}), "tu");
+    EXPECT_TRUE(take_warnings().empty());
+    EXPECT_THROW(held(folder, {{"v", flat(1.0)}}), InputError);
+  });
+  run_and_read(blocks(steps, "local given = 0\n" + three), "", [&](const fs::path& folder) {
+    EXPECT_EQ(held(folder, {{"u", flat(1.0)}}), "u");
+    EXPECT_EQ(held(folder, {{"", flat(1.0)}}), "stu");
+    const std::vector<std::string> said = take_warnings();
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_EQ(said[0].find("the specification is held against every spectrum of the run, 's', 't', 'u'"), 0u)
+        << said[0];
+  });
 }
 
 TEST(ReportRuns, only_static) {
