@@ -14,7 +14,9 @@
 #include "base/log.hpp"
 #include "base/names.hpp"
 #include "output/csv.hpp"
+#include "signal/signal_doubts.hpp"
 #include "signal/signal_file.hpp"
+#include "signal/unit.hpp"
 
 namespace dygita {
 
@@ -202,6 +204,8 @@ void write_srs(const SrsCommand& command) {
   if (command.damping) settings.q_factor = q_factor_of(*command.damping);
   Signal signal = read_signal(command);
   const double dt = make_even(signal, command.signal);
+  for (const std::string& doubt : doubts_of_signal(signal.values, dt, settings.to))
+    warn(fmt::format("{}: the signal {}", command.signal, doubt));
   const Srs srs = shock_response_spectrum(signal.values, dt, settings);
   const std::string unit = srs_unit(settings.quantity, signal.unit);
   Table table{{"frequency", "maximax", "positive", "negative", "primary", "residual"},
