@@ -30,6 +30,7 @@ std::string check_report(const Problem& problem) {
     text += part_line(*part);
   }
   text += mass_line(problem);
+  for (const std::string& line : base_lines(problem)) text += line + "\n";
   for (const Surface& surface : surfaces) text += surface_line(surface);
   long increments = 0;
   double bytes = 0.0;

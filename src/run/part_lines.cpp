@@ -4,6 +4,8 @@
 
 #include "base/log.hpp"
 #include "mesh/cell_quality.hpp"
+#include "model/check.hpp"
+#include "model/load.hpp"
 #include "result/limits.hpp"
 
 namespace dygita {
@@ -51,6 +53,60 @@ std::string mass_line(const Problem& problem) {
   const std::vector<double> volume = volumes(problem);
   for (size_t i = 0; i < volume.size(); ++i) mass += mass_of(*problem.substructures[i], volume[i]);
   return fmt::format("  {:.4g} kg in all\n", mass);
+}
+
+namespace {
+
+// Of a base since the first step.
+struct BaseJourney {
+  Vec3 velocity = Vec3::Zero(), path = Vec3::Zero();  // m/s, m
+  double time = 0.0;                                  // s, of dynamic steps
+  bool is_shaken = false;
+};
+
+// A base that is shaken no more keeps its velocity; a static step finds it at rest.
+void go_on(const Support& support, const Step& step, BaseJourney& base) {
+  if (step.is_static) {
+    base.velocity.setZero();
+    return;
+  }
+  constexpr int most = 20000;
+  const int n = std::min(step.n_increments(), most);
+  const double dt = step.duration / n;
+  std::vector<const BaseMotion*> motions;
+  std::vector<Effect> effects;
+  for (const LoadPtr& load : step.loads)
+    for (const Effect& effect : load->effects()) effects.push_back(effect);
+  for (const Effect& effect : effects)
+    if (const auto* motion = std::get_if<BaseMotion>(&effect); motion && motion->on.get() == &support)
+      motions.push_back(motion);
+  base.is_shaken |= !motions.empty();
+  for (int i = 0; i < n; ++i) {
+    Vec3 change = Vec3::Zero();
+    for (const BaseMotion* motion : motions)
+      change += motion->direction * motion->acceleration.integral(i * dt, (i + 1) * dt);
+    base.path += dt * (base.velocity + 0.5 * change);
+    base.velocity += change;
+  }
+  base.time += step.duration;
+}
+
+}  // namespace
+
+std::vector<std::string> base_lines(const Problem& problem) {
+  std::vector<std::string> lines;
+  for (const SupportPtr& support : check::all_supports(problem)) {
+    BaseJourney base;
+    for (const StepPtr& step : problem.steps) go_on(*support, *step, base);
+    const Vec3 v = base.velocity + Vec3::Zero(), u = 1e3 * base.path + Vec3::Zero();  // no "-0"
+    if (base.is_shaken)
+      lines.push_back(
+          fmt::format("  base '{}': in the {:.4g} ms of the dynamic steps its velocity changes by ({:.3g}, {:.3g}, "
+                      "{:.3g}) m/s, and "
+                      "it ends ({:.3g}, {:.3g}, {:.3g}) mm from where it was",
+                      support->name, 1e3 * base.time, v[0], v[1], v[2], u[0], u[1], u[2]));
+  }
+  return lines;
 }
 
 void warn_of_stresses(const Problem& problem, const RunResult& result) {

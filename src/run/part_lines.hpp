@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "result/result.hpp"
 #include "solution/surfaces.hpp"
@@ -14,6 +15,10 @@ std::string part_line(const Substructure& part);
 std::string list_pieces(const Problem& problem, const std::vector<int>& pieces);
 // "  1.23 kg in all\n".
 std::string mass_line(const Problem& problem);
+
+// "  base 'table': in the 30 ms of the dynamic steps its velocity changes by ..." of each support that is shaken: a
+// record of velocity, or one with an offset, shows there.
+std::vector<std::string> base_lines(const Problem& problem);
 
 // Warns of each substructure that leaves the elastic range of its material.
 void warn_of_stresses(const Problem& problem, const RunResult& result);

@@ -312,6 +312,7 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
   check_ranks_agree(declared);
   say(fmt::format("problem '{}', case '{}': {} substructures, {} interfaces, {} steps", declared.name, asked.case_name,
                   declared.substructures.size(), declared.interfaces.size(), declared.steps.size()));
+  for (const std::string& line : base_lines(declared)) say(line);
   RunSite site(declared, asked);
   site.plan = plan_of(declared, asked, site.directory);
   RunRequest request = asked;
