@@ -19,6 +19,9 @@ namespace {
 
 constexpr int most_refinements = 6;
 
+// Ends a deck before it computes.
+struct BeyondBudget : std::exception {};
+
 class Converge {
  public:
   Converge(const ConvergeOptions& options, const Engine& engine)
@@ -90,16 +93,41 @@ class Converge {
   // Runs a setting unless it has been run or exceeds the budget; false: it was not.
   bool compute(const Levels& levels) {
     if (study_.runs().count(levels)) return true;
-    const bool is_first = study_.runs().empty();
-    const double predicted = is_first ? 0.0 : study_.predicted_seconds(levels);
-    if (spent_ + predicted > options_.budget) {
+    say("== " + setting_text(study_, levels));
+    ConvergenceRun run;
+    const Engine engine{[&](const Problem& problem, const RunRequest& request) {
+                          if (run.work == 0.0) afford(levels, run.work = work_of(problem));
+                          auto result = engine_.run(problem, request);
+                          note_figures(problem, *result, run);
+                          return result;
+                        },
+                        engine_.check};
+    try {
+      outcome_.interrupted = run_deck(deck_at(levels), engine).interrupted;
+    } catch (const BeyondBudget&) {
       outcome_.is_whole = false;
-      say(fmt::format("{} would take about {:.3g} s, beyond the budget: {:.3g} of {:.3g} s are spent",
-                      setting_text(study_, levels), predicted, spent_, options_.budget));
       return false;
     }
-    say(fmt::format("== {}{}", setting_text(study_, levels),
-                    is_first ? "" : fmt::format(", about {:.3g} s or less", predicted)));
+    outcome_.is_whole &= run.converged;
+    if (!run.converged) say("  this run did not converge: its figures are left out");
+    spent_ += run.seconds;
+    study_.add(levels, std::move(run));
+    return !outcome_.interrupted;
+  }
+
+  // Once the deck has made its meshes it is known how much there is to do.
+  void afford(const Levels& levels, double work) const {
+    if (study_.runs().empty()) return;
+    const double predicted = study_.predicted_seconds(levels, work);
+    if (spent_ + predicted > options_.budget) {
+      say(fmt::format("{} would take about {:.3g} s, beyond the budget: {:.3g} of {:.3g} s are spent",
+                      setting_text(study_, levels), predicted, spent_, options_.budget));
+      throw BeyondBudget();
+    }
+    say(fmt::format("  about {:.3g} s", predicted));
+  }
+
+  DeckOptions deck_at(const Levels& levels) const {
     DeckOptions deck = options_.deck;
     deck.write_files = deck.write_frames = deck.write_state = deck.is_study = false;
     for (size_t i = 0; i < levels.size(); ++i) {
@@ -107,19 +135,7 @@ class Converge {
       std::erase_if(deck.settings, [&](const auto& setting) { return setting.first == variation.parameter; });
       deck.settings.emplace_back(variation.parameter, fmt::format("{:.17g}", variation.value(levels[i])));
     }
-    ConvergenceRun run;
-    const DeckOutcome done = run_deck(deck, {[&](const Problem& problem, const RunRequest& request) {
-                                               auto result = engine_.run(problem, request);
-                                               note_figures(problem, *result, run);
-                                               return result;
-                                             },
-                                             engine_.check});
-    outcome_.interrupted = done.interrupted;
-    outcome_.is_whole &= run.converged;
-    if (!run.converged) say("  this run did not converge: its figures are left out");
-    spent_ += run.seconds;
-    study_.add(levels, std::move(run));
-    return !outcome_.interrupted;
+    return deck;
   }
 
   bool refine_twice() {
@@ -203,7 +219,7 @@ class Converge {
     }
     const std::string setting = setting_text(study_, *levels);
     say(fmt::format("cheapest setting within {:g} %: {}, about {:.3g} s", 100.0 * options_.aim, setting,
-                    study_.predicted_seconds(*levels)));
+                    study_.predicted_seconds(*levels, 0.0)));
     if (!compute(*levels)) {
       say("  it has not been run: its error is predicted from the runs along each parameter");
     } else if (!study_.runs().at(*levels).converged) {

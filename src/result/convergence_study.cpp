@@ -10,7 +10,7 @@ namespace dygita {
 namespace {
 
 constexpr double rounding = 1e-9;  // of a figure's largest value
-constexpr double dearest = 4.0;    // power of the refinement that the cost of a run is taken to grow with at first
+constexpr double of_static = 8.0;  // dynamic increments that cost as much as a static one
 
 double largest_of(const std::vector<double>& values) {
   double largest = 0.0;
@@ -19,6 +19,13 @@ double largest_of(const std::vector<double>& values) {
 }
 
 }  // namespace
+
+double work_of(const Problem& problem) {
+  double nodes = 0.0, increments = 0.0;
+  for (const SubstructurePtr& part : problem.substructures) nodes += part->mesh->n_nodes();
+  for (const StepPtr& step : problem.steps) increments += (step->is_static ? of_static : 1.0) * step->n_increments();
+  return increments * std::pow(nodes, 4.0 / 3.0);
+}
 
 double Variation::value(int level) const {
   const double factor = std::pow(ratio, level);
@@ -60,18 +67,19 @@ Levels ConvergenceStudy::finest() const {
   return levels;
 }
 
-double ConvergenceStudy::predicted_seconds(const Levels& levels) const {
+double ConvergenceStudy::predicted_seconds(const Levels& levels, double work) const {
   if (const auto known = runs_.find(levels); known != runs_.end()) return known->second.seconds;
-  const double base = std::max(run(coarsest()).seconds, 1e-3);
+  const ConvergenceRun& coarsest_run = run(coarsest());
+  const double base = std::max(coarsest_run.seconds, 1e-3);
   double seconds = base;
   for (size_t i = 0; i < variations_.size(); ++i) {
     const int deep = deepest(i);
     const int known = std::min(levels[i], deep);
     const double there = std::max(run(along(i, known)).seconds, 1e-3);
     seconds *= there / base;
-    const double growth = deep == 0 ? std::pow(variations_[i].ratio, dearest)
-                                    : std::max(1.0, there / std::max(run(along(i, deep - 1)).seconds, 1e-3));
-    seconds *= std::pow(growth, levels[i] - known);
+    const double growth =
+        deep == 0 ? work / coarsest_run.work : there / std::max(run(along(i, deep - 1)).seconds, 1e-3);
+    if (levels[i] > known) seconds *= std::pow(std::max(1.0, growth), levels[i] - known);
   }
   return seconds;
 }
@@ -131,7 +139,7 @@ std::optional<Levels> ConvergenceStudy::cheapest(const std::vector<FigureConverg
   std::optional<Levels> best;
   double seconds = 0.0;
   for (Levels levels = coarsest();;) {
-    const double cost = predicted_seconds(levels);
+    const double cost = predicted_seconds(levels, 0.0);  // none is deeper than what has been run
     if (meets(figures, levels, aim) && (!best || cost < seconds)) {
       best = levels;
       seconds = cost;

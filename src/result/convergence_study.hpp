@@ -28,8 +28,13 @@ struct ConvergenceRun {
   std::vector<WatchedFigure> figures;
   double seconds = 0.0;
   bool converged = true;
+  double work = 0.0;                 // work_of the first problem of the deck
   std::set<std::string> tuned = {};  // substructures whose mass was tuned (manual, eq. S15)
 };
+
+// How much there is to compute, to compare runs of one deck: increments times the 4/3rd power of the nodes, which
+// solving with factors of a mesh in three dimensions takes; a static increment as several dynamic ones.
+double work_of(const Problem& problem);
 
 // What became of a figure: by variation, and in the limit of all of them.
 struct FigureConvergence {
@@ -58,9 +63,9 @@ class ConvergenceStudy {
   int deepest(size_t variation) const;  // level along it that has been run
   Levels finest() const;                // the deepest of each
 
-  // Seconds that a run will take, from those along each variation; before it has been refined once, its fourth power,
-  // which a mesh in three dimensions hardly exceeds.
-  double predicted_seconds(const Levels& levels) const;
+  // Seconds that a run will take, from those along each variation; before one has been refined, from how much more work
+  // it is than the coarsest run.
+  double predicted_seconds(const Levels& levels, double work) const;
   // Of figures whose runs all have converged and that are more than rounding. Needs two refinements of each variation.
   std::vector<FigureConvergence> figures() const;
   // The variation whose error counts most at the finest levels, in the figure that is farthest from the aim.

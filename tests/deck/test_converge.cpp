@@ -9,10 +9,11 @@
 namespace dygita::test::converge_tests {
 namespace {
 
-// bolt.normal = 5 + 0.1 size^2 + 0.02 / n N, in 1 / size^3 s; `spoil` may add to it.
+// bolt.normal = 5 + 0.1 size^2 + 0.02 / n N, in 1 / size^3 s unless `seconds` says otherwise; `spoil` may add to it.
 struct PowerLaws {
   std::vector<std::map<std::string, double>> asked;
   std::function<double(std::map<std::string, double>)> spoil = [](const auto&) { return 0.0; };
+  std::function<double(std::map<std::string, double>)> seconds = [](auto at) { return std::pow(at["size"], -3); };
   std::function<bool(std::map<std::string, double>)> tuned = nullptr;  // is the mass of the lower block?
   bool converged = true;
 
@@ -27,7 +28,7 @@ struct PowerLaws {
               table.columns = {{0.0, 1.0}, {0.0, 5.0 + 0.1 * std::pow(at["size"], 2) + 0.02 / at["n"] + spoil(at)}};
               for (const OutputPtr& output : problem.outputs) result->tables[output.get()] = table;
               if (tuned && tuned(at)) result->steps.emplace_back().tuned_parts = {"low"};
-              result->seconds["all"] = std::pow(at["size"], -3);
+              result->seconds["all"] = seconds(at);
               result->converged = converged;
               return result;
             },
@@ -45,9 +46,10 @@ class Converging : public ::testing::Test {
   Folder folder;
   PowerLaws laws;
   ConvergeOptions options;
+  std::string deck = refined_deck;
 
   ConvergeOutcome run(const std::vector<std::string>& vary, const std::vector<std::string>& outputs) {
-    options.deck.path = folder.write("deck.lua", refined_deck);
+    options.deck.path = folder.write("deck.lua", deck);
     options.deck.out = folder.path() / "out";
     options.variations.clear();
     for (const std::string& text : vary) options.variations.push_back(parse_variation(text));
@@ -110,6 +112,18 @@ TEST_F(Converging, begins_no_run_beyond_its_budget) {
   EXPECT_FALSE(outcome.is_met);
   EXPECT_EQ(laws.asked.size(), 3u);  // 1/64 + 1/8 + 1 s; the next would take 8
   EXPECT_TRUE(says("size = 0.5 would take about 8 s, beyond the budget: 1.14 of 3 s are spent")) << said;
+}
+
+// Three times as many increments cost three times as much, not the 81 times of cells a third as large in each
+// direction.
+TEST_F(Converging, knows_from_increments_and_nodes_what_a_first_refinement_costs) {
+  deck.replace(deck.find("steps = { hold, ring }"), 22,
+               "steps = { hold, ring, step.dynamic{ name = 'long', after = ring, duration = 30*ms, dt = 30*us/p.n } }");
+  laws.seconds = [](auto at) { return 1.5 * at["n"]; };
+  options.budget = 100.0;  // 4.5 + 13.5 + 40.5 s
+  EXPECT_TRUE(run({"n*3"}, {"bolt.normal.max"}).is_whole);
+  ASSERT_EQ(laws.asked.size(), 3u);
+  EXPECT_TRUE(says("== n = 9\n  about 13.4 s") || says("== n = 9\n  about 13.5 s")) << said;
 }
 
 TEST_F(Converging, names_what_has_no_limit) {
