@@ -228,12 +228,12 @@ bool goes_on(const Force& force, const Step& step) {
   return false;
 }
 
-// What is left of it when its step ends; zero where that is nothing beside what it was.
-double left_at_end(const Force& force, const Step& step) {
-  const double end = step.is_static ? 1.0 : step.duration, left = force.value.history.value(end);
+// What is left of a value when its step ends; zero where that is nothing beside what it was.
+double left_at_end(const TimeValue& value, const Step& step) {
+  const double end = step.is_static ? 1.0 : step.duration, left = value.history.value(end);
   double largest = std::abs(left);
   const int n = 64;
-  for (int i = 0; i < n; ++i) largest = std::max(largest, std::abs(force.value.history.value(end * i / n)));
+  for (int i = 0; i < n; ++i) largest = std::max(largest, std::abs(value.history.value(end * i / n)));
   return std::abs(left) > 1e-3 * largest ? left : 0.0;
 }
 
@@ -241,7 +241,7 @@ double left_at_end(const Force& force, const Step& step) {
 void doubt_dropped_loads(const Problem& problem, const Step& before, const Step& step) {
   for (const LoadPtr& load : before.loads)
     for (const Force& force : forces_of(*load)) {
-      const double left = left_at_end(force, before);
+      const double left = left_at_end(force.value, before);
       if (left == 0.0 || goes_on(force, step)) continue;
       doubt(problem, load->origin,
             fmt::format("{}{} stands at {:.4g} {} at the end of step '{}' and is not listed in the dynamic step '{}', "
@@ -250,6 +250,43 @@ void doubt_dropped_loads(const Problem& problem, const Step& before, const Step&
                         force.name, force.on ? " on " + describe(target_of(*force.on)) : "", left, load->unit(),
                         before.name, step.name));
     }
+}
+
+// Does anything in a step hold or move these nodes along an axis?
+bool is_held_in(const Problem& problem, const Step& step, const PrescribedMotion& motion, size_t axis) {
+  for (const LoadPtr& load : step.loads)
+    for (const Effect& effect : load->effects())
+      if (const auto* other = std::get_if<PrescribedMotion>(&effect);
+          other && other->along[axis] && one_in_other(other->on, motion.on))
+        return true;
+  for (const SupportPtr& support : supports_of(problem, step))
+    for (const FaceOrRegion& place : support->on)
+      if (support->kind->holds(step.is_static) != Directions::none && one_in_other(motion.on, place)) return true;
+  return false;
+}
+
+// Nodes that a load has brought somewhere and that nothing holds there in the step that follows spring back.
+void doubt_dropped_motions(const Problem& problem, const Step& before, const Step& step) {
+  for (const LoadPtr& load : before.loads)
+    for (const Effect& effect : load->effects()) {
+      const auto* motion = std::get_if<PrescribedMotion>(&effect);
+      for (size_t axis = 0; motion && !motion->is_velocity && axis < 3; ++axis) {
+        const double left = motion->along[axis] ? left_at_end(*motion->along[axis], before) : 0.0;
+        if (left == 0.0 || is_held_in(problem, step, *motion, axis)) continue;
+        doubt(
+            problem, load->origin,
+            fmt::format("{} on {} stands at {:.4g} m at the end of step '{}' and is not listed in the {} step '{}', "
+                        "where nothing holds these nodes: they are let go at once{}; list it there too to hold them, "
+                        "if no release is meant",
+                        motion->name_along(static_cast<int>(axis)), describe(target_of(motion->on)), left, before.name,
+                        step.is_static ? "static" : "dynamic", step.name, step.is_static ? "" : ", a shock in itself"));
+      }
+    }
+}
+
+void doubt_dropped(const Problem& problem, const Step& before, const Step& step) {
+  if (!step.is_static) doubt_dropped_loads(problem, before, step);
+  doubt_dropped_motions(problem, before, step);
 }
 
 }  // namespace
@@ -276,8 +313,7 @@ void doubts(const Problem& problem) {
   doubt_symmetry(problem);
   doubt_sudden_rest(problem);
   for (const InterfacePtr& interface : problem.interfaces) doubt_hardening(problem, *interface);
-  for (size_t i = 1; i < problem.steps.size(); ++i)
-    if (!problem.steps[i]->is_static) doubt_dropped_loads(problem, *problem.steps[i - 1], *problem.steps[i]);
+  for (size_t i = 1; i < problem.steps.size(); ++i) doubt_dropped(problem, *problem.steps[i - 1], *problem.steps[i]);
   for (const OutputPtr& output : problem.outputs) output->doubt(problem);
 }
 

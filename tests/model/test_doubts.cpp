@@ -89,6 +89,33 @@ TEST_F(Doubts, are_said_of_a_load_that_a_dynamic_step_drops) {
   EXPECT_TRUE(take_warnings().empty());
 }
 
+// Of all loads the one that lets go in a static step too: nothing is ramped.
+TEST_F(Doubts, are_said_of_displacements_that_the_next_step_lets_go) {
+  const Target top = Face{upper, "zmax"};
+  const auto displaced = [&](double value) { return load("displacement", {top}, {{"z", value}}); };
+  tighten->loads.push_back(displaced(1e-5));
+  EXPECT_EQ(only_warning(),
+            "deck.lua:40: problem 'bolted': load.displacement z on face 'upper.zmax' stands at 1e-05 m at the end of "
+            "step 'tighten' and is not listed in the dynamic step 'shock', where nothing holds these nodes: they are "
+            "let go at once, a shock in itself; list it there too to hold them, if no release is meant");
+  for (const double value : {1e-5, 0.0}) {  // kept, or brought back
+    shock->loads = {displaced(value)};
+    EXPECT_EQ(complaint(), "");
+    EXPECT_TRUE(take_warnings().empty()) << value;
+  }
+  shock->loads = {load("displacement", {top}, {{"x", 1e-5}})};  // along another axis
+  EXPECT_EQ(complaint(), "");
+  EXPECT_EQ(take_warnings().size(), 1u);
+  shock->loads.clear();
+  tighten->loads.back() = displaced(0.0);  // held, not moved
+  EXPECT_EQ(complaint(), "");
+  EXPECT_TRUE(take_warnings().empty());
+  tighten->loads.back() = displaced(1e-5);
+  shock->is_static = true;
+  problem.outputs.clear();
+  EXPECT_EQ(only_warning().find("deck.lua:40: problem 'bolted': load.displacement z on face 'upper.zmax' stands"), 0u);
+}
+
 TEST_F(Doubts, are_said_of_gravity_that_a_dynamic_step_drops) {
   tighten->loads.push_back(load("gravity", {}, {{"z", -9.81}}));
   const std::string start = "deck.lua:40: problem 'bolted': load.gravity z stands at -9.81 m/s^2 at the end of step";
