@@ -16,7 +16,6 @@
 #include "output/csv.hpp"
 #include "signal/signal_doubts.hpp"
 #include "signal/signal_file.hpp"
-#include "signal/unit.hpp"
 
 namespace dygita {
 

@@ -6,6 +6,7 @@
 
 #include "model/check.hpp"
 #include "model/load.hpp"
+#include "model/load_content.hpp"
 #include "signal/unit.hpp"
 
 namespace dygita::check {
@@ -20,38 +21,6 @@ std::string time(double t) {
   const double size = std::abs(t);
   if (size >= 1.0) return fmt::format("{:.4g} s", t);
   return size >= 1e-3 || size == 0.0 ? fmt::format("{:.4g} ms", 1e3 * t) : fmt::format("{:.4g} us", 1e6 * t);
-}
-
-// The history of the same value of the same load in another dynamic step; none: it has none.
-std::optional<History> same_in(const Step& step, const Load& load, size_t i_value) {
-  for (const LoadPtr& other : step.loads) {
-    bool is_same = !step.is_static && other->path == load.path && other->on.size() == load.on.size();
-    for (size_t i = 0; is_same && i < load.on.size(); ++i) is_same = describe(load.on[i]) == describe(other->on[i]);
-    if (is_same && other->values[i_value]) return other->values[i_value]->history;
-  }
-  return {};
-}
-
-// Whether the steps beside it go on with a load where it leaves off, as with :shifted(-duration).
-struct Chain {
-  bool before = false, after = false;
-};
-
-Chain chain_of(const Problem& problem, size_t i_step, const Load& load, size_t i_value) {
-  const History& here = load.values[i_value]->history;
-  const auto profile = here.profile();
-  const double close = profile ? near_zero * profile->largest() : 0.0;
-  Chain chain;
-  if (i_step > 0) {
-    const Step& before = *problem.steps[i_step - 1];
-    const auto other = same_in(before, load, i_value);
-    chain.before = other && std::abs(other->value(before.duration) - here.value(0.0)) <= close;
-  }
-  if (i_step + 1 < problem.steps.size()) {
-    const auto other = same_in(*problem.steps[i_step + 1], load, i_value);
-    chain.after = other && std::abs(other->value(0.0) - here.value(problem.steps[i_step]->duration)) <= close;
-  }
-  return chain;
 }
 
 // A load's value along one axis, in one step.
@@ -178,9 +147,12 @@ class InStep {
     double largest = 0.0, bend = 0.0;
     std::vector<double> v(n + 1);
     for (int i = 0; i <= n; ++i) largest = std::max(largest, std::abs(v[i] = history_.value(end() * i / n)));
+    const bool is_part = chain_.before || chain_.after;
+    if (largest == 0.0 && is_part) return;
     if (largest == 0.0) return say("is zero throughout the step");
     if (largest > most_acceleration && load_.unit() == std::string("m/s^2"))
       say(fmt::format("reaches {:.4g} m/s^2, beyond 100000 g; is it in m/s^2 already?", largest));
+    if (is_part) return;
     for (int i = 0; i <= n; ++i) bend = std::max(bend, std::abs(v[i] - v[0] - (v[n] - v[0]) * i / n));
     const auto [low, high] = std::minmax_element(v.begin(), v.end());
     if (*low == *high && !step_.is_static)

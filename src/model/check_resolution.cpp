@@ -36,10 +36,10 @@ std::string in_unit(double frequency) {
 }
 
 // What the step must carry: the highest of its loads, and the spectra asked for.
-std::vector<Content> contents(const Problem& problem, const Step& step) {
+std::vector<Content> contents(const Problem& problem, size_t i_step) {
   std::vector<Content> list;
-  for (const LoadPtr& load : step.loads)
-    if (const double f = load_frequency(*load, step); f > 0.0)
+  for (const LoadPtr& load : problem.steps[i_step]->loads)
+    if (const double f = load_frequency(problem, i_step, *load); f > 0.0)
       list.push_back({f, label(*load), "95 % of the energy of " + label(*load) + " lies below", load->origin});
   for (const OutputPtr& output : problem.outputs)
     if (const std::optional<double> f = output->highest_frequency())
@@ -113,9 +113,10 @@ void doubt_superelements(const Problem& problem, const Content& content) {
 
 void resolution(const Problem& problem) {
   std::vector<double> size;
-  for (const StepPtr& step : problem.steps) {
+  for (size_t i_step = 0; i_step < problem.steps.size(); ++i_step) {
+    const StepPtr& step = problem.steps[i_step];
     if (step->is_static) continue;
-    const std::vector<Content> all = contents(problem, *step);
+    const std::vector<Content> all = contents(problem, i_step);
     for (const Content& content : all) {
       const double steps = 1.0 / (content.frequency * step->dt);
       if (steps < steps_a_period)

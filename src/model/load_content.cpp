@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "model/check.hpp"
 #include "model/effects.hpp"
 #include "signal/spectrum.hpp"
 
@@ -131,6 +132,15 @@ bool begins_with_a_jump(const Problem& problem, const Step& step) {
   return jumps_between(before ? values_at(*before, end) : Values(), values_at(step, 0.0));
 }
 
+// Zero where the deck's function fails: the run tells it, and keeps what it has computed till then.
+double known_value(const History& history, double t) {
+  try {
+    return history.value(t);
+  } catch (const InputError&) {
+    return 0.0;
+  }
+}
+
 // As many as resolve the time steps, where they are not too many; a power of two, as the transform likes them.
 std::vector<double> samples_of(const History& history, const Step& step) {
   constexpr unsigned fewest = 256, most = 1u << 17;
@@ -167,10 +177,98 @@ bool jumps_on_the_way(const History& history, const Step& step) {
 
 }  // namespace
 
-double load_frequency(const Load& load, const Step& step) {
+const Load* same_load_in(const Step& step, const Load& load, size_t i_value) {
+  if (step.is_static) return nullptr;
+  for (const LoadPtr& other : step.loads) {
+    bool is_same = other->path == load.path && other->on.size() == load.on.size();
+    for (size_t i = 0; is_same && i < load.on.size(); ++i)
+      is_same = check::describe(load.on[i]) == check::describe(other->on[i]);
+    if (is_same && other->values[i_value]) return other.get();
+  }
+  return nullptr;
+}
+
+Chain chain_of(const Problem& problem, size_t i_step, const Load& load, size_t i_value) {
+  constexpr double close = 0.02;  // of the largest value in the step
+  const Step& step = *problem.steps[i_step];
+  const History& here = load.values[i_value]->history;
+  if (step.is_static) return {};
+  double largest = 0.0;
+  constexpr int n = 64;
+  for (int i = 0; i <= n; ++i) largest = std::max(largest, std::abs(known_value(here, step.duration * i / n)));
+  const auto meets = [&](const Step& beside, double t, double own) {
+    const Load* other = same_load_in(beside, load, i_value);
+    return other &&
+           std::abs(known_value(other->values[i_value]->history, t) - known_value(here, own)) <= close * largest;
+  };
+  Chain chain;
+  if (i_step > 0) chain.before = meets(*problem.steps[i_step - 1], problem.steps[i_step - 1]->duration, 0.0);
+  if (i_step + 1 < problem.steps.size()) chain.after = meets(*problem.steps[i_step + 1], 0.0, step.duration);
+  return chain;
+}
+
+namespace {
+
+// A value of a load over the dynamic steps that go on with it.
+struct Record {
+  std::vector<double> samples;
+  double dt = 0.0;            // s
+  size_t begin = 0, end = 0;  // samples of the step itself
+};
+
+Record record_of(const Problem& problem, size_t i_step, const Load& load, size_t i_value) {
+  size_t first = i_step, last = i_step;
+  std::vector<const Load*> loads = {&load};
+  while (chain_of(problem, first, *loads.front(), i_value).before)
+    loads.insert(loads.begin(), same_load_in(*problem.steps[--first], load, i_value));
+  while (chain_of(problem, last, *loads.back(), i_value).after)
+    loads.push_back(same_load_in(*problem.steps[++last], load, i_value));
+  double duration = 0.0, finest = problem.steps[i_step]->duration;
+  for (size_t i = first; i <= last; ++i) {
+    const Step& step = *problem.steps[i];
+    duration += step.duration;
+    finest = std::min(finest, step.duration / std::max(256, 4 * step.n_increments()));
+  }
+  constexpr double most = 1u << 17;
+  const size_t n = std::bit_ceil(static_cast<size_t>(std::min(duration / finest, most)));
+  Record record{{}, duration / static_cast<double>(n), 0, 0};
+  for (size_t i = first; i <= last; ++i) {
+    if (i == i_step) record.begin = record.samples.size();
+    const History& history = loads[i - first]->values[i_value]->history;
+    const auto n_own = static_cast<int>(std::lround(problem.steps[i]->duration / record.dt));
+    for (int j = 0; j < n_own; ++j) record.samples.push_back(known_value(history, j * record.dt));
+    if (i == i_step) record.end = record.samples.size();
+  }
+  record.samples.resize(n, record.samples.empty() ? 0.0 : record.samples.back());
+  record.end = std::min(record.end, n);
+  return record;
+}
+
+double largest_in(const std::vector<double>& samples, size_t begin, size_t end) {
+  double largest = 0.0;
+  for (size_t i = begin; i < end; ++i) largest = std::max(largest, std::abs(samples[i]));
+  return largest;
+}
+
+}  // namespace
+
+double load_frequency(const Problem& problem, size_t i_step, const Load& load) {
+  constexpr double nothing = 1e-3;  // of the largest value
+  constexpr size_t enough = 64;     // samples, that show what is in a step
+  const Step& step = *problem.steps[i_step];
   double highest = 0.0;
-  for (const auto& value : load.values)
-    if (value) highest = std::max(highest, frequency_of(value->history, step, 0.0));
+  for (size_t k = 0; k < load.values.size(); ++k) {
+    if (!load.values[k] || load.values[k]->history.is_constant()) continue;
+    const Chain chain = chain_of(problem, i_step, load, k);
+    const Record whole = chain.before || chain.after ? record_of(problem, i_step, load, k) : Record();
+    if (whole.end - whole.begin < enough) {
+      highest = std::max(highest, frequency_of(load.values[k]->history, step, 0.0));
+      continue;
+    }
+    const double own = largest_in(whole.samples, whole.begin, whole.end),
+                 all = largest_in(whole.samples, 0, whole.samples.size());
+    if (own > nothing * all) highest = std::max(highest, band_limit(whole.samples, whole.dt, share));
+  }
   return highest;
 }
 

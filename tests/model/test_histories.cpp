@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "model/assembly.hpp"
+#include "model/load_content.hpp"
 #include "signal/signal_file.hpp"
 
 namespace dygita {
@@ -79,6 +80,36 @@ TEST_F(Histories, that_the_next_step_goes_on_with_are_not_cut_off) {
   };
   EXPECT_EQ(warnings_of_both(pulse.shifted(-200e-6)), 0U);
   EXPECT_EQ(warnings_of_both(pulse), 2U);  // begins anew: its peak is lost in one, its end in the other
+}
+
+// Cut in two, each part alone would begin or end with a jump, which holds all frequencies.
+TEST_F(Histories, over_several_steps_hold_the_frequencies_of_the_whole) {
+  for (const History& pulse : {History::half_sine(5.0, 600e-6), History::function([](double t) {
+                                 return t < 600e-6 ? std::sin(std::numbers::pi * t / 600e-6) : 0.0;
+                               })}) {
+    push_with(pulse);
+    shock->duration = 800e-6;
+    problem.steps = {tighten, shock};
+    const double whole = load_frequency(problem, 1, *shock->loads.front());
+    EXPECT_GT(whole, 500.0);
+    EXPECT_LT(whole, 3e3);
+    shock->duration = 200e-6;
+    std::vector<StepPtr> steps = {tighten, shock};
+    for (int i = 1; i < 4; ++i) {
+      auto later = std::make_shared<Step>(*shock);
+      later->after = steps.back();
+      push_with(pulse.shifted(-200e-6 * i));
+      later->loads = shock->loads;
+      steps.push_back(later);
+    }
+    push_with(pulse);
+    problem.steps = steps;
+    for (size_t i = 1; i < 4; ++i)
+      EXPECT_NEAR(load_frequency(problem, i, *problem.steps[i]->loads.front()), whole, 0.05 * whole) << i;
+    EXPECT_EQ(load_frequency(problem, 4, *problem.steps[4]->loads.front()), 0.0);  // it is over
+    problem.steps = {tighten, shock};
+    EXPECT_GT(load_frequency(problem, 1, *shock->loads.front()), 2.0 * whole);  // cut off indeed
+  }
 }
 
 TEST_F(Histories, that_a_time_step_swallows_are_named) {
