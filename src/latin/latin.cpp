@@ -64,6 +64,10 @@ void StepRun::inner_iterations() {
   }
 }
 
+void StepRun::heed_interrupt(int iteration, int every) {
+  if (iteration % every == every - 1 && ranks::any(interrupt_requested())) throw LeftUnsolved();
+}
+
 // Both stages in turn, until the goal is reached.
 void StepRun::iterate(int increment, const Goal& goal, Best& best) {
   if (assembled_ && !goes_part_by_part_) return iterate_assembled(increment, goal, best);
@@ -74,6 +78,7 @@ void StepRun::iterate(int increment, const Goal& goal, Best& best) {
   // Inner iterations change the image that the acceleration takes sums of.
   Anderson* const also = model_.near.is_all() || n_inner_ > 0 ? nullptr : &anderson_;
   for (int i = 0;; ++i) {
+    heed_interrupt(i, 64);
     const bool is_corrected = i > 0 && !coarse_.is_empty();  // what is in balance to the tolerance is left as it is
     linear_stage(at_.q, at_.velocity, !is_corrected);
     if (is_corrected) coarse_correction(at_.q, at_.velocity);
@@ -116,6 +121,7 @@ void StepRun::iterate_assembled(int increment, const Goal& goal, Best& best, boo
   }
   Persistence persistence(goal.limit);
   for (int i = 0;; ++i) {
+    heed_interrupt(i, 8);
     at_.sums = local_stage(at_.velocity, at_.q, at_.image);
     Outcome outcome = indicator_.measure(at_.sums);
     ++best.iterations;
@@ -245,12 +251,17 @@ void StepRun::run() {
   Progress progress(model_.step->name, n);
   for (int i = 0; i < n && !ranks::any(interrupt_requested()); i += settings_.window) {
     const int last = std::min(i + settings_.window, n);
-    if (model_.has_explicit())
-      solve_interval(i);
-    else if (settings_.window == 1)
-      solve_increment(i);
-    else
-      solve_window(i, last);
+    try {
+      if (model_.has_explicit())
+        solve_interval(i);
+      else if (settings_.window == 1)
+        solve_increment(i);
+      else
+        solve_window(i, last);
+    } catch (const LeftUnsolved&) {
+      is_left_unsolved_ = true;
+      return;
+    }
     progress.update(last, describe_progress());
   }
   if (distant_) distant_->complete_all();

@@ -22,7 +22,9 @@ constexpr int most_sweeps = 5;  // over bolts that loosen each other
 
 Vec StepRun::search_shortenings(int increment, double tolerance, double precision, Vec& d, Best& best) {
   const PreloadFigures figures = local_.preload_figures();
+  int n_searched = 0;
   const auto forces = [&](const Vec& prescribed) {
+    heed_interrupt(n_searched++, 1);
     local_.prescribe_shortenings(prescribed);
     iterate(increment, {tolerance, settings_.limit, 0.0}, best);
     return local_.preload_figures().force;
@@ -30,7 +32,12 @@ Vec StepRun::search_shortenings(int increment, double tolerance, double precisio
   const Vec& target = figures.target;
   const double scale = std::max(target.cwiseAbs().maxCoeff(), forces(d).cwiseAbs().maxCoeff());
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    if (sweep > 0 && (forces(d) - target).cwiseAbs().maxCoeff() <= 5 * precision * scale) break;
+    if (sweep > 0) {
+      const Vec now = forces(d);
+      if ((now - target).cwiseAbs().maxCoeff() <= 5 * precision * scale) break;
+      // Nothing has resisted any of them: once more over all finds no more.
+      if ((now.array() < 0.5 * target.array()).all()) break;
+    }
     for (int i = 0; i < d.size(); ++i) {
       const auto force = [&](double own) {
         Vec all = d;

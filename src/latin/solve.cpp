@@ -81,7 +81,7 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
     StepRun run(settings, model, k, files);
     figures.seconds["factor"] += lap();
     figures.stopped_by = run_as_far_as_it_goes(run, figures);
-    if (!figures.stopped_by) end_step(model, state);
+    if (!figures.stopped_by && !run.is_left_unsolved()) end_step(model, state);
     figures.steps.push_back(run.figures());
     figures.steps.back().seconds = lap();
     run.add_to(figures);

@@ -46,6 +46,8 @@ struct RunFiles {
   std::function<Pieces(const StepModel&)> pieces_in_one = nullptr;
 };
 
+struct LeftUnsolved : std::exception {};
+
 class StepRun {
  public:
   // The step has been started (start_step) and its pieces have search directions k (of the assembled q).
@@ -54,6 +56,8 @@ class StepRun {
   void run();
   const StepFigures& figures() const { return books_.figures; }
   void add_to(SolverFigures& figures) const;
+  // Has the user stopped it within an increment, which then does not count?
+  bool is_left_unsolved() const { return is_left_unsolved_; }
 
  private:
   // What an iteration is to reach, with how many rounds at most, and velocities beyond which it is lost (0: none).
@@ -86,6 +90,8 @@ class StepRun {
   void coarse_correction(Vec& q, Vec& velocity);
   void inner_iterations();
   void iterate(int increment, const Goal& goal, Best& best);
+  // An increment may take minutes: the user who stops the run does not wait for it. Throws LeftUnsolved.
+  static void heed_interrupt(int iteration, int every);
   // The same in other ways, from where the increment began (other_way.cpp): in one system what is solved piece by
   // piece; and where what is best is no solution at all.
   bool can_go_in_one() const;
@@ -229,6 +235,7 @@ class StepRun {
   std::optional<TangentIteration> in_one_;
   std::optional<LooseMotions> loose_;  // of static steps
   bool goes_part_by_part_ = false;     // though all pieces are in one system
+  bool is_left_unsolved_ = false;      // the increment at hand, since the user has stopped the run
   bool is_answered_ = false;           // the velocities at hand are the linear stage's answer to q
   DirectPoints direct_;
   std::optional<DistantPoints> distant_;  // where there are several ranks
