@@ -179,6 +179,7 @@ def draw(seed):
     style["support"] = rng.choice(("fixed", "fixed", "fixed", "symmetry", "absorbing", "wall") + (() if style["statics"] else ("none", "none")))
     if style["layout"] == "clamped":
         style["support"] = "fixed"
+    style["manner"] = rng.choice(("implicit", "implicit", "implicit", "explicit", "automatic"))
     style["faint"] = style["statics"] and rng.random() < 0.15
     scene = {"seed": seed, "style": style, "materials": [draw_material(rng, f"m{i}") for i in range(rng.randint(1, 3))],
              "parts": [], "joints": [], "supports": [], "patterns": [], "steps": [], "orientation": None}
@@ -189,6 +190,7 @@ def draw(seed):
         grow(rng, scene, rng.choice((2, 2, 3, 3, 4, 5, 6, 8)))
     stand(rng, scene)
     draw_steps(rng, scene)
+    scene["patterns"] = [pattern for pattern in scene["patterns"] if len({tuple(scene["parts"][i]["velocity"]) for i in pattern["members"]}) == 1]
     how = rng.random()
     scene = json.loads(json.dumps(scene))    # no two steps share a load
     scene["orientation"] = geometry.IDENTITY if how < 0.4 else geometry.quarter_turn(rng) if how < 0.6 else geometry.oblique_turn(rng)

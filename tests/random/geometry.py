@@ -132,10 +132,9 @@ def in_common(parts, joint):
 
 
 def grid_lines(part, axis):
-    """Where the nodes of a box stand along an axis, mid nodes of cells of order two included."""
-    n = part["cells"][axis] * (1 if part["cell"] in LINEAR else 2)
+    """Where the corners of the cells of a box stand along an axis."""
     low, high = ends(part, axis)
-    return [low + (high - low) * k / n for k in range(n + 1)]
+    return [low + (high - low) * k / part["cells"][axis] for k in range(part["cells"][axis] + 1)]
 
 
 LINEAR = ("hex8", "prism6", "tet4")
@@ -154,10 +153,11 @@ def lies_within(inner, outer, face):
 
 
 def nodes_coincide(parts, joint):
-    """Have both faces the same nodes where they meet? Of order two they are taken for that only where one face lies within the other."""
+    """Have both faces the same nodes where they meet? Of order two they are taken for that only where one face lies within the other, and have cells of one type."""
     (a, face), (b, _) = joint["a"], joint["b"]
     a, b = parts[a], parts[b]
-    if (a["cell"] in LINEAR) != (b["cell"] in LINEAR) or a["cell"] in QUADRATIC and not (lies_within(a, b, face) or lies_within(b, a, face)):
+    both_linear = a["cell"] in LINEAR and b["cell"] in LINEAR
+    if not both_linear and (a["cell"] != b["cell"] or not (lies_within(a, b, face) or lies_within(b, a, face))):
         return False
     low, high = in_common(parts, joint)
     for axis in range(3):

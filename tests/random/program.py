@@ -9,13 +9,16 @@ import shutil
 import subprocess
 import time
 
-# What all runs that are compared are solved with: implicit increments, each to far below what is compared.
-TIGHT = {"integration": '"implicit"', "tolerance": "1e-9", "static_tolerance": "1e-10", "precision": '"double"', "pieces": "1"}
+# What all runs that are compared are solved with: each increment to far below what is compared.
+TIGHT = {"tolerance": "1e-9", "static_tolerance": "1e-10", "precision": '"double"', "pieces": "1"}
 SECONDS = 120    # a run that takes longer hangs: scenes take about a second
 
 
-def latin(**changes):
-    return "latin{ " + ", ".join(f"{name} = {value}" for name, value in {**TIGHT, **changes}.items()) + " }"
+MANNERS = {"implicit": {"integration": '"implicit"'}, "explicit": {"integration": '"explicit"', "mass": '"lumped"'}, "automatic": {}}
+
+
+def latin(manner="implicit", **changes):
+    return "latin{ " + ", ".join(f"{name} = {value}" for name, value in {**MANNERS[manner], **TIGHT, **changes}.items()) + " }"
 
 
 class Table:
@@ -54,6 +57,10 @@ class Run:
         if code in (0, 1) and (self.out / "run.json").exists():
             self.tables = {path.stem: Table(path) for path in sorted(self.out.glob("*.csv")) if path.stem not in ("convergence", "bolts")}
             self.record = json.loads((self.out / "run.json").read_text())
+
+    def increments(self):
+        """How many explicit increments a dt has, and of which mass: chosen by limits of stability that are known to a per cent."""
+        return {("tuned" in line, int(n)) for line, n in re.findall(r"(explicit[^\n]*?), (\d+) substeps? of each dt", self.text)}
 
     def refusal(self):
         """The first line of the error, without numbers, to count by kind."""

@@ -67,9 +67,9 @@ class OtherEnergy:
         table.columns["loads"] = [0.99 * x for x in table["loads"]]
 
 
-# What a relation cannot see: the moment of momentum has no displacements and forces, books are of one run, schemes differ by more.
+# What a relation cannot see: the moment of momentum has no displacements and forces, schemes and choices of points differ by more, what is continued takes the right loads.
 BLIND = {("moment", WrongSign), ("moment", OtherEnergy), ("explicit", OtherLoads), ("explicit", OtherEnergy), ("tolerance", OtherEnergy), ("continued to a tolerance", OtherLoads),
-         ("continued in time", OtherLoads), ("static way", OtherEnergy), ("points", OtherEnergy)}
+         ("continued in time", OtherLoads), ("static way", OtherEnergy), ("points", OtherEnergy), ("points", OtherLoads)}
 
 
 def main():

@@ -12,22 +12,22 @@ import compare
 import frames
 import geometry
 import variations
-from program import latin
 from trial import fails, holds, not_an_answer, undecided
 
 
 class Relation:
-    def __init__(self, name, check, applies, why, share):
-        self.name, self.check, self.applies, self.why, self.share = name, check, applies, why, share
+    def __init__(self, name, check, applies, why, share, manners):
+        self.name, self.check, self.why, self.share = name, check, why, share
+        self.applies = lambda scene: scene["style"]["manner"] in manners and bool(applies(scene))
 
 
 RELATIONS = []
 
 
-def relation(name, why, applies=lambda scene: True, share=1.0):
-    """Names a check; share: for which part of the scenes it is made, costs being what they are."""
+def relation(name, why, applies=lambda scene: True, share=1.0, manners=("implicit", "explicit", "automatic")):
+    """Names a check; share: for which part of the scenes it is made, costs being what they are; manners: for which ways of integrating in time it holds."""
     def put(check):
-        RELATIONS.append(Relation(name, check, applies, why, share))
+        RELATIONS.append(Relation(name, check, applies, why, share, manners))
         return check
     return put
 
@@ -64,14 +64,14 @@ def check_books(trial):
     return judged(found)
 
 
-@relation("books of monolithic", "as books; Newton's method to 1e-10")
+@relation("books of monolithic", "as books; Newton's method to 1e-10", manners=("implicit",))
 def check_books_of_monolithic(trial):
     run = trial.run("monolithic", solver="monolithic{}", spoiled=True)
     told = not_an_answer(run)
     return told or judged(books.energy(trial.scene, run, compare.floors(trial.scene)["energy"]) + books.equilibrium(trial.scene, run) + books.momentum(trial.scene, run))
 
 
-@relation("monolithic", "exact: one discrete problem, two methods")
+@relation("monolithic", "exact: one discrete problem, two methods, where all is implicit", manners=("implicit",))
 def check_monolithic(trial):
     return trial.compare(trial.run("monolithic", solver="monolithic{}", spoiled=True))
 
@@ -155,24 +155,25 @@ def inner_side(scene, joint):
     return None if within[0] == within[1] else ("first", "second")[within[1]]
 
 
-@relation("cut", "exact: pieces are bonded again; iterated to the tolerance",
+@relation("cut", "exact: pieces are bonded again; iterated to the tolerance (explicit ones have increments and a tuned mass of their own)", manners=("implicit",),
           applies=lambda scene: any(part["cells"][0] * part["cells"][1] * part["cells"][2] >= 16 for part in scene["parts"]))
 def check_cut(trial):
-    return trial.compare(trial.run("cut", solver=latin(pieces=str(rng_of(trial, "cut").randint(2, 3))), spoiled=True))
+    return trial.compare(trial.run("cut", solver=trial.latin(pieces=str(rng_of(trial, "cut").randint(2, 3))), spoiled=True))
 
 
-@relation("window", "exact: time steps iterated together have the answer of one after the other", applies=has_dynamic, share=0.5)
+@relation("window", "exact: time steps iterated together have the answer of one after the other", applies=has_dynamic, share=0.5, manners=("implicit",))
 def check_window(trial):
-    return trial.compare(trial.run("window", solver=latin(window=str(rng_of(trial, "window").choice((2, 3, 5)))), spoiled=True))
+    return trial.compare(trial.run("window", solver=trial.latin(window=str(rng_of(trial, "window").choice((2, 3, 5)))), spoiled=True))
 
 
 @relation("static way", "exact: all parts in one system, or part by part; 1e-3, since their indicators are measured against all work so far, that of yielding too", applies=has_static, share=0.7)
 def check_static_way(trial):
-    verdicts = [trial.compare(trial.run(way, solver=latin(static_steps=f'"{way}"'), spoiled=True), allowed=1e-3) for way in ("assembled", "iterated")]
+    verdicts = [trial.compare(trial.run(way, solver=trial.latin(static_steps=f'"{way}"'), spoiled=True), allowed=1e-3) for way in ("assembled", "iterated")]
     return min(verdicts, key=lambda verdict: ("fails", "undecided", "holds").index(verdict.kind))
 
 
-@relation("chained", "exact: a step in two parts whose loads go on is one step", applies=lambda scene: can_be_chained(scene))
+@relation("chained", "exact: a step in two parts whose loads go on is one step; what is explicit or tuned may be chosen by the loads of a step",
+          applies=lambda scene: can_be_chained(scene), manners=("implicit", "explicit"))
 def check_chained(trial):
     k = next(k for k, step in enumerate(trial.scene["steps"]) if step["kind"] == "dynamic")
     n = rng_of(trial, "chained").randint(1, trial.scene["steps"][k]["n"] - 1)
@@ -196,13 +197,15 @@ def check_found(trial):
     return trial.compare(trial.run("found", found=True, spoiled=True))
 
 
-@relation("tolerance", "what is left to users' tolerance (1e-6 in motion, 1e-8 at rest): one per cent of each kind of quantity")
+@relation("tolerance", "what is left to users' tolerance (1e-6 in motion, 1e-8 at rest): one per cent of each kind of quantity; what is explicit may be chosen by the tolerance",
+          manners=("implicit", "explicit"))
 def check_tolerance(trial):
-    usual = latin(tolerance="1e-6", static_tolerance="1e-8")
+    usual = trial.latin(tolerance="1e-6", static_tolerance="1e-8")
     return trial.compare(trial.run("tolerance", solver=usual, spoiled=True), allowed=1e-2)
 
 
-@relation("moment", "exact: in free flight the moment of momentum is that of the start and of the loads; 1e-5 of its largest part", applies=has_dynamic, share=0.5)
+@relation("moment", "exact: in free flight the moment of momentum is that of the start and of the loads; 1e-5 of its largest part; tuned masses are not known here", applies=has_dynamic,
+          share=0.5, manners=("implicit", "explicit"))
 def check_moment(trial):
     scene = variations.freed(trial.scene)
     run = trial.run("moment", scene, frames=scene["steps"][0]["n"], more=("--no-state",), spoiled=True)

@@ -11,7 +11,7 @@ import geometry
 SWITCHED_OFF = [
     ("left free in a static step", "*", "where a free motion is left depends on the place and the orientation of the scene, and what holds it carries force"),
     ("on the verge of tipping", "*", "no answer is the right one; for good"),
-    ("friction and yield in a ring", "*", "three parts joined in a ring: laws that meet there share their force in a way that is not unique, and with it what slides and what yields; for good"),
+    ("friction in a ring", "*", "three parts joined in a ring: laws that meet there share their force in a way that is not unique, and with it what slides and what yields; for good"),
     ("driven at a joint", "*", "a tie whose one side a load sets in motion at once gains energy; friction between held and driven nodes vanishes"),
     ("tie between unlike velocities", "*", "a tie between parts thrown apart gains energy"),
     ("faint motion about a preload", "*", "the tolerance of a dynamic step is measured against the energy of the preload"),
@@ -60,8 +60,8 @@ def traits(scene):
         "driven at a joint": any(meets(parts, *load["on"], joint) for load in loads if load["kind"] in ("velocity", "displacement") for joint in joints),
         "held at a joint with friction": any(meets(parts, part, face, joint) for support in scene["supports"] for part, face in support["on"]
                                              for joint in joints if joint["args"].get("friction")),
-        "friction and yield in a ring": any(is_ring(parts, ring) and any(joint["args"].get("friction") for joint in ring) and any(joint["law"] == "plastic" for joint in ring)
-                                            for ring in itertools.combinations(joints, 3)),
+        "friction in a ring": any(is_ring(parts, ring) and any(joint["args"].get("friction") for joint in ring) and sum(joint["law"] in ("contact", "plastic") for joint in ring) > 1
+                                  for ring in itertools.combinations(joints, 3)),
         "joints that meet": len(joints) > 1 and bool(compare.sharing_joints(scene)),
     }
     return found | {name for name, has in conditions.items() if has}
