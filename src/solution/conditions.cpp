@@ -291,13 +291,15 @@ class ConditionsBuilder {
     std::sort(difference.begin(), difference.end());
     const auto [known, is_new] = agreed_.try_emplace(difference, true);
     for (int i = 0; i < step_.n_increments() && is_new; ++i) {
+      // A normal is known to rounding, and better than the nodes of a mesh file are.
+      constexpr double alike = 1e-6;
       double sum = 0.0, size = 0.0;
       for (const auto& [index, factor] : difference) {
-        const double v = factor * result_.motions[static_cast<size_t>(index)].velocity(i, step_.dt);
-        sum += v;
+        const double v = result_.motions[static_cast<size_t>(index)].velocity(i, step_.dt);
+        sum += factor * v;
         size = std::max(size, std::abs(v));
       }
-      if (std::abs(sum) > 1e-9 * size) known->second = false;
+      if (std::abs(sum) > alike * size) known->second = false;
     }
     if (known->second) return;
     std::string other;

@@ -244,6 +244,23 @@ problem{ name = "p", substructures = { b }, supports = p.kind == 1 and { plane, 
   EXPECT_NE(error_of(text, 3).find("where it holds nothing"), std::string::npos);
 }
 
+// A half model shaken along its plane of symmetry, turned about the direction of the shock: normals are known to
+// rounding.
+TEST(Supports, shaken_along_an_oblique_plane_of_symmetry_are_as_along_one_on_an_axis) {
+  const std::string text = R"(
+local turn = { rotate = { axis = { 0, 0, 1 }, angle = ({ 0, 17, 73 })[p.kind + 1]*deg } }
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 20*mm, 20*mm, 40*mm }, cells = { 2, 2, 4 } }, place = turn }
+local root = support.fixed{ name = "root", on = b:face "zmin" }
+local plane = support.symmetry{ name = "plane", on = b:face "ymin" }
+local shock = step.dynamic{ name = "shock", duration = 40*us, dt = 2*us, loads = { load.base_acceleration{ on = root, direction = { 0, 0, 1 }, history = 1000 } } }
+local top = output.history{ name = "top", on = b:face "zmax", quantity = "velocity" }
+problem{ name = "p", substructures = { b }, supports = { root, plane }, steps = { shock }, outputs = { top }, solver = solver.latin{ tolerance = 1e-9 } }:run{}
+)";
+  const DeckRun straight = run_kind(text, 0);
+  for (const int turned : {1, 2})
+    EXPECT_LT(difference(straight.column("top", "z"), run_kind(text, turned).column("top", "z")), 1e-6) << turned;
+}
+
 TEST(Release, at_the_end_of_a_step_has_let_go_in_the_next) {
   const DeckRun run = run_kind(R"(
 local function block(name, z) return substructure{ name = name, material = metal, mesh = mesh.box{ origin = { 0, 0, z }, size = { 10*mm, 10*mm, 20*mm }, cells = { 1, 1, 4 } } } end
