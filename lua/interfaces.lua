@@ -21,6 +21,15 @@ end
 function interfaces.forget_part(part) forget(parts, part) end
 function interfaces.forget(interface) forget(declared, interface) end
 
+-- Those that were found for a problem are its own: the next case of a study finds them anew. Those that a deck declares
+-- one by one hold for all that follow.
+local found = setmetatable({}, { __mode = "k" })
+function interfaces.note_problem(of)
+  for _, interface in ipairs(of or {}) do
+    if found[interface] then forget(declared, interface) end
+  end
+end
+
 local function name_of(object) return (select(3, native.kind(object))) end
 
 -- The answer to "all touching": a list whose interfaces are found by name, too.
@@ -102,7 +111,10 @@ local function declare_all(entry, given, line)
   native.say(("%s \"%s\": %d pairs of parts touch%s"):format(entry.path, all, #list,
     #left > 0 and "; left alone: " .. table.concat(left, ", ") or ""))
   for _, text in ipairs(lines) do native.say(text) end
-  for _, interface in ipairs(list) do interfaces.note(interface) end
+  for _, interface in ipairs(list) do
+    found[interface] = true
+    interfaces.note(interface)
+  end
   return list
 end
 

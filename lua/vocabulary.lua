@@ -36,6 +36,7 @@ local function constructor(entry)
     end
     local object = native.make(entry.path, entry.makes, arguments, line)
     if entry.makes == "substructure" then interfaces.note_part(object) end
+    if entry.path == "problem" then interfaces.note_problem(arguments.interfaces) end
     return object
   end
 end

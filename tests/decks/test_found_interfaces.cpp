@@ -156,6 +156,26 @@ TEST(FoundInterfaces, between_parts_that_are_a_little_apart_say_that_the_gap_is_
   }
 }
 
+// Each case of a study finds what the one before it has found.
+TEST(FoundInterfaces, of_a_second_case_are_those_of_the_first) {
+  const std::vector<DeckRun> runs = run_text(R"(
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local cube = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 2, 2, 2 } }
+local parts = {}
+for i = 1, 3 do parts[i] = substructure{ name = "cube " .. i, mesh = cube, material = steel, place = { 0, 0, 10*mm * i } } end
+local glue = interface.bonded{ name = "glue", between = { parts[1], parts[2] } }
+local base = support.fixed{ name = "base", on = parts[1]:face "zmin" }
+for i, mu in ipairs{ 0.1, 0.3 } do
+  local rest = interface.contact{ between = "all touching", friction = mu }
+  assert(#rest == 1 and rest["cube 2/cube 3"])
+  problem{ name = "tower", substructures = parts, interfaces = { glue, rest }, supports = { base }, outputs = { output.energy{} },
+    steps = { step.static{ name = "press", loads = { load.pressure{ on = parts[3]:face "zmax", history = 1*MPa } } } } }:run{ case = "mu " .. i }
+end
+)");
+  ASSERT_EQ(runs.size(), 2u);
+  for (const DeckRun& run : runs) EXPECT_EQ(run.problem.interfaces.size(), 2u);
+}
+
 }  // namespace
 
 }  // namespace dygita::test
