@@ -156,7 +156,7 @@ words[1][3] = {
         { "growth", type = "number", range = { 0.01, 2 }, default = 0.35, doc = "by which it grows with the distance" },
       } },
     { "round", type = "integer", range = { 4, 400 }, default = 16, doc = "cells around a whole turn of a round surface, as in a hole, where `size` alone would be coarser" },
-    { "unit", type = "number", unit = "m", range = { 1e-9, 1000 }, default = 0.001, doc = "length of one unit of a .brep; a .step states its own" },
+    { "unit", type = "number", unit = "m", range = { 1e-9, 1000 }, default_doc = "0.001", doc = "length of one unit of a .brep; a .step states its own, which this must not contradict" },
   },
 }
 

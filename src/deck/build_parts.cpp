@@ -11,6 +11,7 @@
 #include "mesh/box.hpp"
 #include "mesh/geo_script.hpp"
 #include "mesh/machine_copies.hpp"
+#include "mesh/mesh_file.hpp"
 #include "mesh/mesh_limits.hpp"
 #include "model/found_faces.hpp"
 #include "model/point_faces.hpp"
@@ -81,7 +82,12 @@ Content build_step_mesh(const Declaration& d) {
     }
   }
   options.cells_a_turn = a.integer("round");
-  options.unit = a.number("unit");
+  if (a.has("unit")) {
+    GmshOptions given;
+    given.file = options.file;
+    given.unit = options.unit = a.number("unit");
+    check_options(given);
+  }
   if (a.has("parts")) options.parts = a.texts("parts");
   const std::string cells = a.text("cells");
   if (cells != "tetrahedra")

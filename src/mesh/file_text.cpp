@@ -1,6 +1,7 @@
 #include "mesh/file_text.hpp"
 
 #include <cctype>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -103,6 +104,51 @@ void collect(const std::filesystem::path& file, Collected& collected) {
   }
 }
 
+// The first name of an entity at or after `at`: "#24"; empty where there is none.
+std::string entity_name(const std::string& text, size_t at) {
+  const size_t start = text.find('#', at);
+  if (start == std::string::npos) return "";
+  size_t end = start + 1;
+  while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end]))) ++end;
+  return text.substr(start, end - start);
+}
+
+// What a STEP file says of an entity: "#24 = ( LENGTH_UNIT() ... );" without name and end.
+std::string entity_called(const std::string& text, const std::string& name) {
+  for (size_t found = text.find(name); !name.empty() && found != std::string::npos;
+       found = text.find(name, found + 1)) {
+    const size_t next = past_spaces(text, found + name.size());
+    if (next < text.size() && text[next] == '=') return text.substr(next + 1, text.find(';', next) - next - 1);
+  }
+  return "";
+}
+
+// m, of the metre with a prefix; none of what is no SI unit of length.
+std::optional<double> si_length(const std::string& entity) {
+  const size_t metre = entity.find(".METRE."), open = entity.rfind('(', metre);
+  if (metre == std::string::npos || open == std::string::npos) return {};
+  const std::string prefix = entity.substr(open + 1, metre - open - 1);
+  if (prefix.find('$') != std::string::npos) return 1.0;
+  for (const auto& [word, length] :
+       {std::pair{".MICRO.", 1e-6}, {".MILLI.", 1e-3}, {".CENTI.", 1e-2}, {".DECI.", 0.1}, {".KILO.", 1e3}})
+    if (prefix.find(word) != std::string::npos) return length;
+  return {};
+}
+
+// m, of a unit of length: an inch is a number of others.
+std::optional<double> length_of(const std::string& text, const std::string& entity, int depth = 0) {
+  constexpr int deepest = 3;
+  if (entity.find("LENGTH_UNIT") == std::string::npos || depth > deepest) return {};
+  const size_t converted = entity.find("CONVERSION_BASED_UNIT");
+  if (converted == std::string::npos) return si_length(entity);
+  const std::string measure = entity_called(text, entity_name(entity, converted)), word = "LENGTH_MEASURE(";
+  const size_t number = measure.find(word);
+  if (number == std::string::npos) return {};
+  const std::optional<double> unit = length_of(text, entity_called(text, entity_name(measure, number)), depth + 1);
+  if (!unit) return {};
+  return *unit * std::strtod(measure.c_str() + number + word.size(), nullptr);
+}
+
 }  // namespace
 
 GeoFacts geo_facts(const std::string& file) {
@@ -113,15 +159,11 @@ GeoFacts geo_facts(const std::string& file) {
 
 std::optional<double> step_unit(const std::string& file) {
   const std::string text = text_of(file);
-  // An inch is declared through a millimetre: the first metre found would mislead.
-  if (text.find("INCH") != std::string::npos) return {};
-  const size_t metre = text.find(".METRE."), open = text.rfind('(', metre);
-  if (metre == std::string::npos || open == std::string::npos) return {};
-  const std::string prefix = text.substr(open + 1, metre - open - 1);
-  if (prefix.find(".MILLI.") != std::string::npos) return 1e-3;
-  if (prefix.find(".CENTI.") != std::string::npos) return 1e-2;
-  if (prefix.find(".MICRO.") != std::string::npos) return 1e-6;
-  if (prefix.find('$') != std::string::npos) return 1.0;
+  // The units of a context, that of length among them.
+  const size_t at = text.find("GLOBAL_UNIT_ASSIGNED_CONTEXT"), end = text.find("))", at);
+  if (at == std::string::npos) return {};
+  for (size_t i = text.find('#', at); i < end; i = text.find('#', i + 1))
+    if (const std::optional<double> length = length_of(text, entity_called(text, entity_name(text, i)))) return length;
   return {};
 }
 
