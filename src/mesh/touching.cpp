@@ -18,7 +18,7 @@ namespace {
 constexpr double of_facet = 0.01;       // the default of `within`, of the usual facet
 constexpr double of_bend = 0.3;         // how well the bulge of a facet is known, of the bulge
 constexpr double least_opposed = 0.8;   // cosine between a normal and the opposite of the other
-constexpr double least_covered = 1e-3;  // of a facet's area, to take part
+constexpr double least_covered = 1e-3;  // of a facet's area, or of a smaller one's on it, to take part
 constexpr double largest_bulge = 0.3;   // of a facet's size
 
 // A smooth surface of a outside, as far as it may touch the other body.
@@ -118,7 +118,14 @@ std::vector<SmoothPatch> patches_of(const Outside& outside, const std::vector<in
 struct CommonArea {
   double area = 0.0, apart = 0.0;  // m^2; m, mean distance of the round surfaces
   double least = 1e300, most = -1e300;
-  std::map<int, double> covered_1, covered_2;  // m^2, by facet of the outside
+  struct Covered {
+    double area = 0.0, by = 0.0;  // m^2; that of the largest facet on it
+    void add(double common, double other) {
+      area += common;
+      by = std::max(by, other);
+    }
+  };
+  std::map<int, Covered> covered_1, covered_2;  // by facet of the outside
 };
 
 CommonArea common_of(const SmoothPatch& one, const SmoothPatch& other, double reach) {
@@ -136,20 +143,20 @@ CommonArea common_of(const SmoothPatch& one, const SmoothPatch& other, double re
       common.apart += segment.area * (segment.gap - one.bulges[p] - other.bulges[static_cast<size_t>(segment.other)]);
       common.least = std::min(common.least, segment.gap);
       common.most = std::max(common.most, segment.gap);
-      common.covered_1[one.facets[static_cast<size_t>(part_1.facet)]] += segment.area;
-      common.covered_2[other.facets[static_cast<size_t>(part_2.facet)]] += segment.area;
+      common.covered_1[one.facets[static_cast<size_t>(part_1.facet)]].add(segment.area, part_2.area);
+      common.covered_2[other.facets[static_cast<size_t>(part_2.facet)]].add(segment.area, part_1.area);
     }
   if (common.area > 0.0) common.apart /= common.area;
   return common;
 }
 
-// Marks facets of which enough is covered; were there any?
-bool mark(const Outside& outside, const std::map<int, double>& covered, std::vector<char>& marked) {
-  bool any = false;
-  for (const auto& [f, area] : covered)
-    if (area > least_covered * std::pow(outside.sizes[static_cast<size_t>(f)], 2))
-      marked[static_cast<size_t>(f)] = any = true;
-  return any;
+// Facets of which enough is covered.
+std::vector<int> well_covered(const Outside& outside, const std::map<int, CommonArea::Covered>& covered) {
+  std::vector<int> facets;
+  for (const auto& [f, by] : covered)
+    if (by.area > least_covered * std::min(std::pow(outside.sizes[static_cast<size_t>(f)], 2), by.by))
+      facets.push_back(f);
+  return facets;
 }
 
 std::vector<Facet> marked_facets(const Outside& outside, const std::vector<char>& marked) {
@@ -268,8 +275,11 @@ Touching find_touching(const Outside& one, const Outside& other, std::optional<d
       if (!patch_1.box.grown(reach).meets(patch_2.box)) continue;
       const CommonArea common = common_of(patch_1, patch_2, reach);
       if (common.area == 0.0 || std::abs(common.apart) > found.within + of_bend * bend) continue;
-      const bool any_1 = mark(one, common.covered_1, marked_1), any_2 = mark(other, common.covered_2, marked_2);
-      if (!any_1 || !any_2) continue;
+      const std::vector<int> covered_1 = well_covered(one, common.covered_1),
+                             covered_2 = well_covered(other, common.covered_2);
+      if (covered_1.empty() || covered_2.empty()) continue;
+      for (const int f : covered_1) marked_1[static_cast<size_t>(f)] = 1;
+      for (const int f : covered_2) marked_2[static_cast<size_t>(f)] = 1;
       ++found.n_surfaces;
       found.area += common.area;
       found.bend = std::max(found.bend, bend);

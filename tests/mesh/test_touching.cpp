@@ -98,6 +98,20 @@ TEST(Touching, facets_that_are_taken_are_left_alone) {
   EXPECT_EQ(rest.facets_2.size(), 10u);
 }
 
+// A foot that covers less than a thousandth of the facet below it.
+TEST(Touching, a_small_part_on_a_large_facet_is_found) {
+  const Blocks b{box_mesh(Vec3::Zero(), {400, 400, 40}, {1, 1, 1}),
+                 box_mesh(Vec3::Zero(), {10, 10, 10}, {2, 2, 2}),
+                 {200, 200, 40}};
+  const Touching t = b.touching();
+  EXPECT_NEAR(t.area, 100.0, 1e-9);
+  EXPECT_EQ(t.facets_1.size(), 1u);
+  EXPECT_EQ(t.facets_2.size(), 4u);
+  const Blocks beside{b.mesh_1, b.mesh_2, {400 - 1e-4, 0, 40}};  // a sliver: nothing, on either side
+  EXPECT_TRUE(beside.touching().facets_1.empty());
+  EXPECT_TRUE(beside.touching().facets_2.empty());
+}
+
 TEST(Touching, the_distance_of_bodies_is_told_with_its_place) {
   const MeshPtr mesh = box_mesh(Vec3::Zero(), {4, 4, 2}, {2, 2, 1});
   const Separation s = separation({*mesh, Vec3::Zero()}, {*mesh, Vec3(7, 3, 6)});  // corner to corner: 3 and 4
