@@ -2,11 +2,14 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "mesh/jacobian.hpp"
 #include "mesh/mesh_file.hpp"
 #include "mesher/estimate.hpp"
 #include "mesher/gmsh_session.hpp"
@@ -18,14 +21,28 @@ namespace dygita {
 
 namespace {
 
+// Why parts keep their tetrahedra, by name.
+using Unswept = std::map<std::string, std::string>;
+
+// A solid made anew, so that it has hexahedra.
+struct Swept {
+  size_t solid;
+  double volume;  // of the model's unit, of the CAD
+};
+
 // Hexahedra where solids are a face moved along its normal.
-void sweep_solids(const StepOptions& options, std::vector<Solid>& solids) {
-  if (options.sweep == StepOptions::Sweep::none) return;
-  for (Solid& solid : solids) {
-    if (solid.copy) continue;
+std::vector<Swept> sweep_solids(const StepOptions& options, const Unswept& unswept, std::vector<Solid>& solids) {
+  std::vector<Swept> all;
+  if (options.sweep == StepOptions::Sweep::none) return all;
+  for (size_t i = 0; i < solids.size(); ++i) {
+    Solid& solid = solids[i];
+    if (solid.copy || unswept.contains(solid.part.name)) continue;
+    double cad = 0.0;
+    gmsh::model::occ::getMass(3, solid.tag, cad);
     if (auto swept = sweep_solid(solid.tag, solid.surfaces, solid.size)) {
       solid.tag = swept->tag;
       solid.surfaces = swept->surfaces;
+      all.push_back({i, cad});
     } else if (options.sweep == StepOptions::Sweep::all) {
       throw InputError(
           fmt::format("{}: part '{}' cannot have hexahedra: it is no flat face moved along its normal, as a plate or a "
@@ -33,7 +50,8 @@ void sweep_solids(const StepOptions& options, std::vector<Solid>& solids) {
                       options.file, solid.part.name));
     }
   }
-  gmsh::option::setNumber("Mesh.RecombinationAlgorithm", 3);  // quadrilaterals alone
+  if (!all.empty()) gmsh::option::setNumber("Mesh.RecombinationAlgorithm", 3);  // quadrilaterals alone
+  return all;
 }
 
 // Small at the edges of contacts, growing with the distance from them.
@@ -57,8 +75,9 @@ void show_meshed(const std::vector<Solid>& solids) {
   gmsh::option::setNumber("Mesh.MeshOnlyVisible", 1);
 }
 
-void mesh_solids(const StepOptions& options, const std::vector<Solid>& solids, double unit) {
-  std::map<std::pair<int, int>, double> size_of;  // of entities, by dimension and tag
+// Sizes of entities, by dimension and tag, as gmsh asks for them.
+void set_sizes(const StepOptions& options, const std::vector<Solid>& solids, double unit) {
+  std::map<std::pair<int, int>, double> size_of;
   for (const Solid& solid : solids) {
     GmshEntities all = {{3, solid.tag}}, boundary;
     gmsh::model::getBoundary(all, boundary, false, false, true);  // down to the points
@@ -86,14 +105,17 @@ void mesh_solids(const StepOptions& options, const std::vector<Solid>& solids, d
   }
   gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
   gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", options.cells_a_turn);
-  gmsh::model::mesh::setSizeCallback([&](int dimension, int tag, double, double, double) {
+  gmsh::model::mesh::setSizeCallback([size_of = std::move(size_of)](int dimension, int tag, double, double, double) {
     const auto found = size_of.find({dimension, tag});
     return found == size_of.end() ? 1e22 : found->second;
   });
+}
+
+void mesh_solids(const StepOptions& options, const std::vector<Solid>& solids, double unit) {
+  set_sizes(options, solids, unit);
   gmsh::option::setNumber("Mesh.SecondOrderIncomplete", options.is_complete ? 0 : 1);
   show_meshed(solids);
   gmsh::model::mesh::generate(3);
-  gmsh::model::mesh::removeSizeCallback();
   if (options.order > 1) gmsh::model::mesh::setOrder(options.order);
 }
 
@@ -153,31 +175,112 @@ void open(const StepOptions& options) {
   gmsh::open(options.file);
 }
 
-}  // namespace
+// Of the cells that are read of a solid, in the model's unit.
+double volume_of(const TaggedModel& model, const TaggedVolume& volume, double unit) {
+  double sum = 0.0;
+  for (const auto& [type, tags] : volume.cells) {
+    const auto n = static_cast<size_t>(nodes_per_cell(type));
+    Points x(3, static_cast<Eigen::Index>(n));
+    for (size_t first = 0; first < tags.size(); first += n) {
+      for (size_t a = 0; a < n; ++a) x.col(static_cast<Eigen::Index>(a)) = model.nodes.at(tags[first + a]);
+      sum += std::abs(cell_volume(type, x));
+    }
+  }
+  return sum / (unit * unit * unit);
+}
 
-MesherAnswer read_assembly(const StepOptions& options) {
+// Parts whose hexahedra do not fill them: quadrilaterals of a narrow ring may lie across its hole.
+Unswept badly_filled(const StepOptions& options, const MesherAnswer& answer, const std::vector<Solid>& solids,
+                     const std::vector<Swept>& swept, double unit) {
+  constexpr double exact = 0.02;  // of the volume
+  const double turn = 2.0 * std::acos(-1.0) / options.cells_a_turn, chords = 1.0 - std::sin(turn) / turn,
+               within = exact + (options.order > 1 ? 0.0 : 2.0 * chords);
+  Unswept bad;
+  for (const auto& [solid, volume] : swept) {
+    const double share = volume_of(answer.model, answer.model.volumes[solid], unit) / volume;
+    if (std::abs(share - 1.0) > within)
+      bad[solids[solid].part.name] = fmt::format("they fill {:.3g} times the volume of the solid", share);
+  }
+  return bad;
+}
+
+// Parts whose hexahedra gmsh does not manage, each tried by itself.
+Unswept not_meshed(const GmshSession& session, const std::vector<Solid>& solids, const std::vector<Swept>& swept) {
+  Unswept bad;
+  for (const Swept& one : swept) try {
+      session.run([&] {
+        gmsh::model::mesh::clear();
+        show_meshed({solids[one.solid]});
+        gmsh::model::mesh::generate(3);
+        std::map<CellType, std::vector<size_t>> cells;
+        read_gmsh_cells(solids[one.solid].tag, "", solids[one.solid].part.name, cells);
+      });
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      bad[solids[one.solid].part.name] = "gmsh fails: " + text.substr(0, text.find('\n'));
+    }
+  return bad;
+}
+
+// Reads and meshes the file once. Answers the parts that cannot have hexahedra although they are swept; then the answer
+// is none.
+Unswept read_once(const StepOptions& options, const Unswept& unswept, MesherAnswer& answer) {
   const double unit = kind_of_file(options.file) == "step" ? 1e-3 : options.unit;
   const GmshSession session(options.file);
   session.run([&] { open(options); });
   session.run([&] { doubt_losses(options.file, gmsh_tags(3).size()); });
-  MesherAnswer answer;
+  std::vector<Solid> solids;
+  std::vector<Swept> swept;
   session.run([&] {
-    std::vector<Solid> solids = read_solids(options, unit);
-    sweep_solids(options, solids);
+    solids = read_solids(options, unit);
+    swept = sweep_solids(options, unswept, solids);
     const auto size_of = [&](int volume) {
       const auto solid = std::find_if(solids.begin(), solids.end(), [&](const Solid& s) { return s.tag == volume; });
       return solid == solids.end() || solid->copy ? 0.0 : solid->size;
     };
     refuse_hopeless(options.file, size_of, unit);
-    mesh_solids(options, solids, unit);
-    answer.model = tagged(options, solids, unit);
+  });
+  try {
+    session.run([&] {
+      mesh_solids(options, solids, unit);
+      answer.model = tagged(options, solids, unit);
+    });
+  } catch (const InputError&) {
+    const Unswept bad = not_meshed(session, solids, swept);
+    if (bad.empty()) throw;
+    return bad;
+  }
+  session.run([&] {
     for (const Solid& solid : solids) {
       answer.solids.push_back(solid.part);
       answer.copies.push_back(solid.copy);
       answer.surfaces.push_back(surfaces_of(solid));
     }
   });
-  return answer;
+  return badly_filled(options, answer, solids, swept, unit);
+}
+
+}  // namespace
+
+MesherAnswer read_assembly(const StepOptions& options) {
+  Unswept unswept;
+  while (true) {
+    MesherAnswer answer;
+    const Unswept bad = read_once(options, unswept, answer);
+    if (bad.empty()) return answer;
+    for (const auto& [part, why] : bad) {
+      if (options.sweep == StepOptions::Sweep::all)
+        throw InputError(
+            fmt::format("{}: part '{}' cannot have hexahedra of this size: {}\n    a smaller size, more cells around "
+                        "('round'), or cells = \"hexahedra where possible\", which gives it tetrahedra",
+                        options.file, part, why));
+      warn(
+          fmt::format("{}: part '{}' has tetrahedra, since hexahedra of its size are no good: {}; a smaller size, or "
+                      "more cells around ('round')",
+                      options.file, part, why));
+    }
+    unswept.insert(bad.begin(), bad.end());
+  }
 }
 
 }  // namespace dygita

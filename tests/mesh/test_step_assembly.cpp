@@ -120,6 +120,32 @@ Vec3 centre(const Mesh& mesh, const FaceNodes& face) {
   return sum / face.weights.sum();
 }
 
+// A plate with round corners that gmsh does not manage with eight millimetres, and a ring a millimetre wide, across
+// whose hole it then lays cells.
+TEST(StepAssembly, has_tetrahedra_where_hexahedra_fail_or_do_not_fill_the_solid) {
+  StepOptions options;
+  options.file = std::string(DYGITA_SOURCE_DIR) + "/tests/mesh/ring_on_plate.step";
+  options.sweep = StepOptions::Sweep::where_possible;
+  options.size = 8e-3;
+  options.cells_a_turn = 12;
+  const double plate = (60 * 40 - (4 - M_PI) * 25) * 5 * 1e-9, ring = M_PI * (19.9 * 19.9 - 18.9 * 18.9) * 4 * 1e-9;
+  take_warnings();
+  const StepAssembly coarse(options);
+  EXPECT_EQ(take_warnings().size(), 2u);
+  options.size = 2e-3;
+  const StepAssembly fine(options);
+  for (const auto& [assembly, type] : {std::pair{&coarse, CellType::tet4}, {&fine, CellType::hex8}}) {
+    ASSERT_EQ(assembly->parts().size(), 2u);
+    EXPECT_EQ(assembly->parts()[0].mesh->blocks.at(0).type, type);
+    EXPECT_EQ(assembly->parts()[1].mesh->blocks.at(0).type, type);
+    EXPECT_NEAR(volume(*assembly->parts()[0].mesh), plate, 0.01 * plate);
+    EXPECT_NEAR(volume(*assembly->parts()[1].mesh), ring, 0.1 * ring);
+  }
+  options.size = 8e-3;
+  options.sweep = StepOptions::Sweep::all;
+  expect_input_error([&] { StepAssembly{options}; }, {"cannot have hexahedra of this size", "smaller size"});
+}
+
 // Surfaces keep their order: surface7 is the same face, whatever the cells.
 TEST(StepAssembly, has_hexahedra_where_solids_are_a_face_moved_along_its_normal) {
   StepOptions options = joint();
