@@ -2,10 +2,16 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 
+#include "base/log.hpp"
 #include "deck/arguments.hpp"
+#include "mesh/face_nodes.hpp"
 #include "mesh/pick_facets.hpp"
+#include "mesh/smooth_patches.hpp"
 
 namespace dygita {
 
@@ -74,6 +80,57 @@ std::string places_along(const Substructure& part, FacetPick pick) {
   return "; 'at' counts along the normal, and there is something at " + list + " m";
 }
 
+// Surfaces at one height along a normal.
+struct Level {
+  double at = 0.0, area = 0.0;  // m, m^2
+  Vec3 moment = Vec3::Zero();
+  int n_facets = 0;
+};
+
+// A normal by itself fits steps and recesses, too: "16 facets of 400 mm^2 around (5, 5, 10) mm ('at' = 0.01), ...",
+// where it fits surfaces at several heights.
+std::string several_levels(const Substructure& part, const Vec3& normal, const std::vector<Facet>& facets) {
+  constexpr double alike = 1e-4;  // of the part's size
+  constexpr size_t most_told = 5;
+  std::vector<Vec3> areas, normals;
+  for (const Facet& facet : facets) {
+    areas.push_back(facet_area_vector(part.mesh->nodes, facet));
+    normals.push_back(areas.back().normalized());
+  }
+  std::map<int, Level> surfaces;
+  const std::vector<int> patch = smooth_patches(facets, normals);
+  for (size_t f = 0; f < facets.size(); ++f) {
+    Vec3 middle = part.place;
+    for (const int node : facets[f].corners())
+      middle += part.mesh->nodes.col(node) / static_cast<double>(facets[f].corners().size());
+    Level& surface = surfaces[patch[f]];
+    surface.area += areas[f].norm();
+    surface.moment += areas[f].norm() * middle;
+    ++surface.n_facets;
+  }
+  const Points& x = part.mesh->nodes;
+  const double same = alike * (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
+  std::vector<Level> levels;
+  for (auto& [number, surface] : surfaces) {
+    surface.at = normal.dot(surface.moment) / surface.area;
+    const auto known = std::find_if(levels.begin(), levels.end(),
+                                    [&](const Level& level) { return std::abs(level.at - surface.at) <= same; });
+    Level& level = known == levels.end() ? levels.emplace_back(Level{surface.at, 0.0, Vec3::Zero(), 0}) : *known;
+    level.area += surface.area;
+    level.moment += surface.moment;
+    level.n_facets += surface.n_facets;
+  }
+  if (levels.size() < 2) return "";
+  std::sort(levels.begin(), levels.end(), [](const Level& a, const Level& b) { return a.area > b.area; });
+  std::string text;
+  for (size_t i = 0; i < std::min(levels.size(), most_told); ++i) {
+    const Vec3 centre = 1e3 / levels[i].area * levels[i].moment;
+    text += fmt::format("{}{} facets, {:.4g} mm^2 around ({:.4g}, {:.4g}, {:.4g}) mm (at = {:.6g})", i == 0 ? "" : "; ",
+                        levels[i].n_facets, 1e6 * levels[i].area, centre[0], centre[1], centre[2], levels[i].at);
+  }
+  return fmt::format("surfaces at {} heights: {}{}", levels.size(), text, levels.size() > most_told ? "; ..." : "");
+}
+
 }  // namespace
 
 Face picked_face(const std::filesystem::path& folder, const SubstructurePtr& part, lua_State* L, const Origin& origin) {
@@ -109,6 +166,12 @@ Face picked_face(const std::filesystem::path& folder, const SubstructurePtr& par
     throw InputError(
         origin, fmt::format("substructure '{}' has no facet on its boundary of {}\n    it spans {}{}", part->name, by,
                             extent(part->mesh->nodes, part->place), places_along(*part, pick)));
+  if (pick.normal && !pick.at && !pick.where && !pick.is_cylinder)
+    if (const std::string levels = several_levels(*part, *pick.normal, *facets); !levels.empty())
+      warn(fmt::format(
+          "{}substructure '{}': face ({}) is {}; 'at' picks one of them, 'where' with one says that all are "
+          "meant",
+          origin.prefix(), part->name, by, levels));
   return {part, "(" + by + ")", facets};
 }
 

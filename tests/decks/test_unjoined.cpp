@@ -167,6 +167,37 @@ problem{ name = "ring", substructures = { all }, supports = { support.fixed{ nam
   EXPECT_TRUE(said_of_check(ring("72*deg"), "same place").empty());
 }
 
+// Its upper sides are at two heights.
+TEST(Unjoined, a_face_picked_by_its_normal_on_a_stepped_part_is_told) {
+  const auto said = [](const std::string& more) {
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / ("dygita_step_" + std::to_string(getpid()) + ".geo");
+    std::ofstream(file)
+        << "SetFactory(\"OpenCASCADE\");\nBox(1) = {0,0,0, 40,10,5};\nBox(2) = {0,0,5, 5,10,30};\nCoherence;\n"
+           "Mesh.CharacteristicLengthMax = 5;\nPhysical Volume(\"bracket\") = {1,2};\n";
+    return said_of_check(R"(
+local file = mesh.gmsh{ file = ")" +
+                             file.string() +
+                             R"(", unit = mm, order = 2 }
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7800 }
+local a = substructure{ name = "bracket", mesh = file:volume "bracket", material = steel }
+local base = support.fixed{ name = "base", on = a:face{ normal = { 0, 0, -1 } } }
+local top = load.pressure{ on = a:face{ normal = { 0, 0, 1 })" +
+                             more + R"( }, history = 1*MPa }
+problem{ name = "p", substructures = { a }, supports = { base }, outputs = { output.energy{} }, steps = { step.static{ name = "s", loads = { top } } } }:run{}
+)",
+                         "heights");
+  };
+  const std::vector<std::string> told = said("");
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0].find("face (normal 0 0 1) is surfaces at 2 heights: "), std::string::npos) << told[0];
+  EXPECT_NE(told[0].find("facets, 350 mm^2 around (22.5, 5, 5) mm (at = 0.005); "), std::string::npos) << told[0];
+  EXPECT_NE(told[0].find("facets, 50 mm^2 around (2.5, 5, 35) mm (at = 0.035); 'at' picks one"), std::string::npos)
+      << told[0];
+  EXPECT_TRUE(said(", at = 35*mm").empty());
+  EXPECT_TRUE(said(", where = function() return true end").empty());
+}
+
 TEST(Unjoined, faces_of_one_size_a_cell_apart_are_named) {
   const std::string contact =
       "interfaces = { interface.contact{ name = 'seat', between = { plate:face 'zmax', block:face 'zmin' } } }";
