@@ -51,11 +51,19 @@ ExplicitRun::ExplicitRun(StepModel& model, const std::vector<Body>& bodies, Inte
   start(bodies, memory);
   find_substeps();
   collect_loads();
-  internal_.start_from(moved_);
-  evaluate_forces(substep_, true);
-  cells_ = {};
+  find_start_forces(memory);
   spring_energy_ = springs_.energy();
   observer_.begin_step(instant(-1));
+}
+
+// Where another explicit step was before, damping goes on resisting the velocity of its last substep.
+void ExplicitRun::find_start_forces(const ExplicitMemory& memory) {
+  const Vec at_start = velocity_;
+  if (memory.velocity.size() > 0) velocity_ = memory.velocity;
+  internal_.start_from(memory.velocity.size() > 0 ? Vec(-substep_ * memory.velocity) : moved_);
+  evaluate_forces(substep_, true);
+  velocity_ = at_start;
+  cells_ = {};
 }
 
 void ExplicitRun::start(const std::vector<Body>& bodies, const ExplicitMemory& memory) {
@@ -82,6 +90,8 @@ void ExplicitRun::start(const std::vector<Body>& bodies, const ExplicitMemory& m
     if (shared_.is_shared(i)) inverse_mass_[i] = 0.0;
   shared_.average(velocity_);
   find_mass_damping(bodies);
+  find_hourglass_force(bodies, memory);
+  if (memory.first.size() > 0) before_ = prestress_ - memory.first;
   for (const Motion& motion : model_.conditions.motions)
     motions_new_.push_back(motion.at_start ? motion.at_start(model_.step->dt) : 0.0);
   start_strain_ = state_.energies.strain;
@@ -96,6 +106,19 @@ void ExplicitRun::find_mass_damping(const std::vector<Body>& bodies) {
   if (damping.isZero(0.0)) return;
   shared_.average(damping);
   mass_damping_ = damping;
+}
+
+// The force that the steps before have left works on: part of it on the cells' strain, part on what the hourglass
+// control holds, whose energy is booked apart.
+void ExplicitRun::find_hourglass_force(const std::vector<Body>& bodies, const ExplicitMemory& memory) {
+  ExplicitSettings settings = *model_.problem->explicit_dynamics;
+  if (memory.moved.size() == 0 || !settings.one_point || settings.hourglass == 0.0) return;
+  hourglass_ = start_hourglass_ = internal_.elastic(memory.moved, hourglass_force_).hourglass;
+  settings.hourglass = 0.0;
+  settings.bulk_viscosity = false;
+  Vec without;
+  InternalForce(bodies, settings).elastic(memory.moved, without);
+  hourglass_force_ -= without;
 }
 
 void ExplicitRun::find_substeps() {
@@ -174,7 +197,7 @@ void ExplicitRun::damp_masses(double tau) {
 void ExplicitRun::evaluate_forces(double dt, bool has_energy) {
   const CellEnergy energy = internal_.damped(moved_, velocity_, dt, has_energy, force_);
   cells_ = {energy.strain, energy.hourglass, cells_.dissipated + energy.dissipated};
-  if (internal_.has_stiffness_damping()) resisted_ = force_;
+  if (internal_.has_stiffness_damping()) resisted_ = before_.size() > 0 ? Vec(force_ + before_) : force_;
   springs_.add_force(moved_, force_);
 }
 
@@ -195,6 +218,7 @@ void ExplicitRun::solve_increment(int increment) {
     springs_.weigh(is_last ? 0.5 : 1.0);
   }
   apply_loads(start + (n_substeps_ - 0.5) * h, start + n_substeps_ * h);
+  if (increment + 1 == model_.step->n_increments()) last_velocity_ = velocity_;
   kick(0.5 * h, 1.0, 1.0, 0.0);
 }
 
@@ -206,17 +230,23 @@ void ExplicitRun::book_energies() {
     // Not from the damped forces: what resisted took more than what is stored.
     const double before = stored_;
     cells_ = internal_.elastic(moved_, elastic_);
-    stored_ = cells_.strain + cells_.hourglass;
+    stored_ = cells_.strain + cells_.hourglass + (before_.size() > 0 ? before_.dot(moved_) : 0.0);
     dissipated = internal_work_ - (stored_ - before);
   }
   energies.kinetic = 0.5 * velocity_.cwiseAbs2().dot(mass_);
   energies.strain = start_strain_ + prestress_.dot(moved_) + cells_.strain;
-  energies.damping += dissipated + drag_work_ + shared_.take_absorbed_work() + cells_.hourglass - hourglass_;
+  double hourglass = start_hourglass_ + cells_.hourglass;
+  if (hourglass_force_.size() > 0) {
+    const double work = hourglass_force_.dot(moved_);
+    hourglass += work;
+    energies.strain -= work;
+  }
+  energies.damping += dissipated + drag_work_ + shared_.take_absorbed_work() + hourglass - hourglass_;
   energies.loads += load_work_ + shared_.take_motion_work();
   const double in_springs = springs_.energy();
   energies.scheme += in_springs - spring_energy_;
   spring_energy_ = in_springs;
-  hourglass_ = cells_.hourglass;
+  hourglass_ = hourglass;
   cells_.dissipated = load_work_ = drag_work_ = internal_work_ = 0.0;
   const double all = energies.kinetic + energies.strain + std::abs(energies.loads);
   if (all > 0.0) hourglass_share_ = std::max(hourglass_share_, hourglass_ / all);
@@ -269,7 +299,10 @@ void ExplicitRun::finish(ExplicitMemory& memory) {
                                 interface_force(*model_.problem, *model_.surfaces, state_, part));
   }
   internal_.elastic(moved_, elastic_);
+  if (memory.first.size() == 0) memory.first = prestress_;
   memory.internal = prestress_ + elastic_;
+  memory.velocity = last_velocity_;
+  memory.moved = memory.moved.size() == 0 ? moved_ : Vec(memory.moved + moved_);
 }
 
 Points ExplicitRun::nodal(const Vec& all, int part) const {

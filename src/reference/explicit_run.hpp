@@ -11,6 +11,9 @@ namespace dygita {
 // What an explicit step leaves to the next beside the state.
 struct ExplicitMemory {
   Vec internal;  // elastic force of the substructures, N; empty: that of their stiffness
+  Vec first;     // the same when the first of the explicit steps began that follow one another; empty: none has
+  Vec moved;     // displacement since then, m; empty: none
+  Vec velocity;  // of the last substep, m/s: what the bulk viscosity resists; empty: none
 };
 
 // Which surfaces hold their sides together all through a step: ties that are not let go in it.
@@ -42,6 +45,8 @@ class ExplicitRun : public NodalFields {
  private:
   void start(const std::vector<Body>& bodies, const ExplicitMemory& memory);
   void find_mass_damping(const std::vector<Body>& bodies);
+  void find_hourglass_force(const std::vector<Body>& bodies, const ExplicitMemory& memory);
+  void find_start_forces(const ExplicitMemory& memory);
   void find_substeps();
   void collect_loads();
   void solve_increment(int increment);
@@ -69,16 +74,19 @@ class ExplicitRun : public NodalFields {
   double substep_ = 0.0, critical_ = 0.0;
 
   // By dof. moved_ is the displacement since the step's start; the forces of that instant are in prestress_.
-  Vec moved_, velocity_, velocity_old_, force_, external_, prestress_, mass_, inverse_mass_;
+  Vec moved_, velocity_, velocity_old_, last_velocity_, force_, external_, prestress_, mass_, inverse_mass_;
   Vec load_, anchor_,
       base_external_;  // of loaded dofs, what absorbing supports hold included; these alone; what balances the start
   std::vector<int> loaded_;
   std::vector<double> load_values_;
   std::vector<double> motions_old_, motions_new_;
   Vec mass_damping_;        // 1/s; empty: none
+  Vec hourglass_force_;     // N, what the hourglass control has of prestress_; empty: nothing
   Vec resisted_, elastic_;  // internal force with damping, without (stiffness damping only)
+  Vec before_;              // N, of prestress_ what explicit steps before this one have brought; empty: nothing
 
-  double start_strain_ = 0.0, stored_ = 0.0, spring_energy_ = 0.0, hourglass_ = 0.0, supplied_ = 0.0;
+  double start_strain_ = 0.0, stored_ = 0.0, spring_energy_ = 0.0, supplied_ = 0.0;
+  double start_hourglass_ = 0.0, hourglass_ = 0.0;
   CellEnergy cells_;                                                // stored ones now; dissipated in the increment
   double load_work_ = 0.0, drag_work_ = 0.0, internal_work_ = 0.0;  // of the increment
   double hourglass_share_ = 0.0;

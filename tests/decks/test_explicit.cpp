@@ -264,6 +264,40 @@ problem{ name = "pulled", substructures = { block }, supports = { support.fixed{
   EXPECT_GT(free, 20 * exact);
 }
 
+// What the hourglass control and the viscosities take does not depend on where steps are divided.
+TEST(Explicit, one_motion_in_several_steps_has_one_set_of_books) {
+  const std::string text = R"(
+    local p = param{ pieces = 1 }
+    local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7800, damping = { mass = 200, stiffness = 1e-8 } }
+    local a = substructure{ name = "a", material = steel, mesh = mesh.box{ size = { 20*mm, 10*mm, 10*mm }, cells = { 4, 2, 2 } } }
+    local b = substructure{ name = "b", material = steel, mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 2, 2, 2 }, origin = { 5*mm, 0, 10*mm } } }
+    local joint = interface.contact{ name = "joint", between = { a, b }, friction = 0.2 }
+    local pressed = load.pressure{ on = b:face "zmax", history = 10*MPa }
+    local press = step.static{ name = "press", loads = { pressed } }
+    local push = history.half_sine{ peak = 3*MPa, duration = 20*us }
+    local steps, before, whole = { press }, press, 40*us
+    for i = 1, p.pieces do
+      before = step.dynamic{ name = "d" .. i, after = before, duration = whole / p.pieces, dt = 0.5*us,
+        loads = { pressed, load.traction{ on = b:face "xmax", x = push:shifted(-(i - 1) * whole / p.pieces) } } }
+      steps[#steps + 1] = before
+    end
+    problem{ name = "chain", substructures = { a, b }, interfaces = { joint }, steps = steps,
+      supports = { support.fixed{ name = "base", on = a:face "zmin" } },
+      outputs = { output.energy{}, output.history{ name = "top", on = b:face "zmax", quantity = "displacement" } },
+      solver = solver.explicit{} }:run{}
+  )";
+  const DeckRun one = run_text(text).at(0);
+  const double damping = one.column("energy", "damping").back();
+  EXPECT_GT(damping, 0.0);
+  for (const char* pieces : {"2", "4", "8"}) {
+    const DeckRun some = run_text(text, {{"pieces", pieces}}).at(0);
+    EXPECT_NEAR(some.column("top", "x").back(), one.column("top", "x").back(), 1e-9 * largest(one.column("top", "x")));
+    for (const char* column : {"damping", "strain", "scheme", "friction"})
+      EXPECT_NEAR(some.column("energy", column).back(), one.column("energy", column).back(), 1e-3 * damping)
+          << column << ", " << pieces << " pieces";
+  }
+}
+
 TEST(Explicit, a_released_tie_parts_and_absorbing_ends_take_the_wave_away) {
   const std::string released = block_deck(R"(
 local glue = interface.bonded{ name = "glue", between = { block:face "zmax", still:face "zmin" } }
