@@ -38,6 +38,7 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
                    : 0),
       local_(model, files.state, model.near.part(k)),
       direct_(model, files.state),
+      pulls_(model),
       at_{local_.initial_q(), Vec::Zero(model.near.n()), {}, {}},
       warm_start_({files.start_from, static_cast<size_t>(settings.i_step), &model.near}, weight_, InterfaceSums(model)),
       anderson_(settings.of_increment.depth, settings.of_increment.n_problems, settings.of_increment.relaxation,

@@ -9,6 +9,7 @@
 #include "base/thread_choice.hpp"
 #include "latin/anderson.hpp"
 #include "latin/coarse_correction.hpp"
+#include "latin/cut_pulls.hpp"
 #include "latin/direct_points.hpp"
 #include "latin/indicator.hpp"
 #include "latin/latin.hpp"
@@ -126,6 +127,9 @@ class StepRun {
   void solve_interval(int increment);
   void run_through(int increment);
   void begin_substep(int increment, int substep);
+  template <class First>
+  void share_pulls(First&& first);
+  void begin_explicit(int i, const std::vector<double>& motions);
   Best solve_substep(int increment, int substep, bool is_led);
   void finish_piece(Piece& piece, int i);
   void book_stored_energy(int i);
@@ -238,6 +242,7 @@ class StepRun {
   bool is_left_unsolved_ = false;      // the increment at hand, since the user has stopped the run
   bool is_answered_ = false;           // the velocities at hand are the linear stage's answer to q
   DirectPoints direct_;
+  CutPulls pulls_;
   std::optional<DistantPoints> distant_;  // where there are several ranks
   std::vector<ExplicitPiece*> explicit_;  // null: implicit
   std::vector<int> largest_first_;        // pieces that are solved here

@@ -7,14 +7,32 @@
 
 namespace dygita {
 
+// Pieces that a cut leaves with a common mass are pulled at before any of them moves. first: what else comes before.
+template <class First>
+void StepRun::share_pulls(First&& first) {
+  if (pulls_.is_empty()) return;
+  for_each_piece([&](Piece&, int i) {
+    if (pulls_.has(i)) first(*explicit_[i], i);
+  });
+  pulls_.share(piece_threads_.threads());
+}
+
+void StepRun::begin_explicit(int i, const std::vector<double>& motions) {
+  if (pulls_.has(i))
+    explicit_[i]->begin_motion(motions);
+  else
+    explicit_[i]->begin(model_.loads->values(), motions);
+}
+
 void StepRun::begin_substep(int increment, int substep) {
   const Stopwatch watch(books_.seconds.forward);
   const std::vector<double> motions = model_.motion_velocities(substep);
   model_.loads->evaluate_mean(substep * model_.scheme.dt, (substep + 1) * model_.scheme.dt);
   const double quiet = indicator_.quiet(settings_.tolerance);
+  share_pulls([&](ExplicitPiece& piece, int) { piece.begin_pull(model_.loads->values()); });
   const auto begin = [&](Piece& piece, int i) {
     if (explicit_[i])
-      explicit_[i]->begin(model_.loads->values(), motions);
+      begin_explicit(i, motions);
     else
       piece.begin(model_.piece_force(i, files_.state), motions, quiet);
   };
@@ -39,11 +57,19 @@ void StepRun::run_through(int increment) {
     if (begins) model_.loads->evaluate_mean(substep * model_.scheme.dt, (substep + 1) * model_.scheme.dt);
     {
       const Stopwatch watch(books_.seconds.forward);
-      const auto pass = [&](Piece& piece, int at) {
+      const auto end_last = [&](Piece& piece, int at) {
         if (i == 0) piece.begin_interval();
         if (i > 0) finish_piece(piece, at);
+      };
+      if (begins)
+        share_pulls([&](ExplicitPiece& piece, int at) {
+          end_last(piece, at);
+          piece.begin_pull(model_.loads->values());
+        });
+      const auto pass = [&](Piece& piece, int at) {
+        if (!begins || !pulls_.has(at)) end_last(piece, at);
         if (begins)
-          explicit_[at]->begin(model_.loads->values(), motions);
+          begin_explicit(at, motions);
         else
           book_stored_energy(at);
       };

@@ -37,12 +37,11 @@ SharePlan plan_of(const Problem& problem, const RunRequest& request, const std::
   if (problem.monolithic || problem.explicit_dynamics) return plan;
   plan.n_pieces = request.pieces.empty() ? pieces_for_ranks(problem, ranks::count()) : request.pieces;
   if (plan.n_pieces != usual_pieces(problem))
-    warn(fmt::format(
-        "substructures are cut for several MPI ranks to have about as much each ({}), other than one "
-        "process would: explicit ones agree with it to round-off (where their mass is tuned, see run.json, as "
-        "well as the mesh allows: cells along a cut stay lumped), iterated increments to the tolerance; "
-        "solver.latin{{ pieces = 1 }} leaves them whole",
-        list_pieces(problem, plan.n_pieces)));
+    warn(
+        fmt::format("substructures are cut for several MPI ranks to have about as much each ({}), other than one "
+                    "process would: explicit ones agree with it to round-off, iterated increments to the tolerance; "
+                    "solver.latin{{ pieces = 1 }} leaves them whole",
+                    list_pieces(problem, plan.n_pieces)));
   if (!ranks::is_alone()) recall(folder, plan);
   return plan;
 }

@@ -94,6 +94,26 @@ void ExplicitPiece::restore(const PieceState& state) {
   start_momentum();
 }
 
+Points ExplicitPiece::coupled(const Points& velocity) const {
+  std::vector<double> from(4 * inverse_.size(), 0.0), to(from.size(), 0.0);
+  put(velocity, from);
+  for (const Special& s : specials_)
+    if (s.has_held) {
+      Eigen::Map<Vec3> own(from.data() + 4 * static_cast<size_t>(s.node));
+      own = (s.free * (s.free.transpose() * own)).eval();
+    }
+  op_->tuning.add_product(from.data(), to.data());
+  Points product = nodal(to);
+  for (const Special& s : specials_)
+    if (s.has_held) product.col(s.node) = (s.free * (s.free.transpose() * product.col(s.node))).eval();
+  return product;
+}
+
+void ExplicitPiece::set_momenta(const Points& z) {
+  put(z * node_masses().asDiagonal(), p_);
+  p_old_ = p_;
+}
+
 // Momenta M z of velocities V, where (M + C) z = M V on free directions: by conjugate gradients, preconditioned by M.
 // Those of a translation are M V to begin with.
 void ExplicitPiece::start_momentum() {
@@ -101,21 +121,10 @@ void ExplicitPiece::start_momentum() {
   constexpr int most_products = 200;
   const Eigen::Index n = static_cast<Eigen::Index>(inverse_.size());
   const Vec mass = unknown_masses_;
-  const auto rest = [&](Points& x) {
-    for (const Special& s : specials_)
-      if (s.has_held) x.col(s.node) = (s.free * (s.free.transpose() * x.col(s.node))).eval();
-  };
-  std::vector<double> from(4 * inverse_.size(), 0.0), to;
-  const auto times_c = [&](const Vec& x) {
-    put(x.reshaped(3, n), from);
-    to.assign(from.size(), 0.0);
-    op_->tuning.add_product(from.data(), to.data());
-    Points y = nodal(to);
-    rest(y);
-    return Vec(y.reshaped());
-  };
   Points v = nodal(v_);
-  rest(v);
+  for (const Special& s : specials_)
+    if (s.has_held) v.col(s.node) = (s.free * (s.free.transpose() * v.col(s.node))).eval();
+  const auto times_c = [&](const Vec& x) { return Vec(coupled(x.reshaped(3, n)).reshaped()); };
   Vec z = v.reshaped(), residual = -times_c(z), along = residual.cwiseQuotient(mass);
   double size = residual.dot(along);
   const double enough = 1e-30 * z.cwiseProduct(mass).dot(z);
@@ -129,8 +138,7 @@ void ExplicitPiece::start_momentum() {
     along = next + next_size / size * along;
     size = next_size;
   }
-  put(mass.cwiseProduct(z).reshaped(3, n), p_);
-  p_old_ = p_;
+  set_momenta(z.reshaped(3, n));
 }
 
 // E3: of the middles before and after U, from the product that the step has made.

@@ -147,25 +147,35 @@ void ExplicitPiece::update_loads(const std::vector<double>& values) {
 }
 
 void ExplicitPiece::begin(const std::vector<double>& load_values, const std::vector<double>& motion_velocity) {
+  begin_pull(load_values);
+  move(motion_velocity);
+}
+
+void ExplicitPiece::begin_pull(const std::vector<double>& load_values) {
   update_loads(load_values);
-  advance(motion_velocity);
+  pull();
 }
 
 void ExplicitPiece::begin(const Points& force, const std::vector<double>& motion_velocity, double /*quiet*/) {
   set_loads(force, {});
   update_loads({});
-  advance(motion_velocity);
+  pull();
+  move(motion_velocity);
 }
 
-// The product, and the velocities without interfaces (manual, eq. S9-S10); D goes along.
-void ExplicitPiece::advance(const std::vector<double>& motion_velocity) {
-  const double dt = setup_.scheme.dt, keep = keep_;
+// The product.
+void ExplicitPiece::pull() {
   for (size_t i = 0; i < loaded_.size(); ++i) loaded_v_old_[i] = velocity_of(loaded_[i]);
   for (Special& s : specials_) s.v_old = velocity_of(s.node);
   if (is_damped()) v_old_ = v_;
   std::copy(base_.begin(), base_.end(), y_.begin());
   op_->stiffness->add_product(d_.data(), y_.data());
   if (has_stiffness_damping()) add_stiffness_damping();
+}
+
+// The velocities without interfaces (manual, eq. S9-S10); D goes along.
+void ExplicitPiece::move(const std::vector<double>& motion_velocity) {
+  const double dt = setup_.scheme.dt, keep = keep_;
   const size_t n = inverse_.size();
   const double *const y = y_.data(), *const inverse = inverse_.data();
   double *const v = v_.data(), *const d = d_.data();

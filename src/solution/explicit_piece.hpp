@@ -71,6 +71,18 @@ class ExplicitPiece final : public Piece, public ExplicitNodes {
   void set_loads(const Points& constant, const std::vector<PatternLoad>& loads);
   // As the other `begin`, for values of all patterns of the step.
   void begin(const std::vector<double>& load_values, const std::vector<double>& motion_velocity);
+  // The same in two halves: what pulls at the nodes, and what it does to them. In between a node on a cut may be given
+  // its share of what pulls at all of its copies, which its neighbours feel where the mass is tuned.
+  void begin_pull(const std::vector<double>& load_values);
+  void begin_motion(const std::vector<double>& motion_velocity) { move(motion_velocity); }
+  Eigen::Map<Vec3> pull_at(int node) { return Eigen::Map<Vec3>(y_.data() + 4 * static_cast<size_t>(node)); }
+
+  // The tuned mass (manual, eq. S13): is there one, does it couple this node to its neighbours? C V on free directions
+  // (3 x n_nodes), and the momenta M Z.
+  bool is_tuned() const { return !op_->tuning.empty(); }
+  bool is_coupled(int node) const { return has_momentum(static_cast<size_t>(node)); }
+  Points coupled(const Points& velocity) const;
+  void set_momenta(const Points& z);
 
   int index_of(int node) const override { return node; }
   Mat3 node_compliance(int node) const override;
@@ -100,11 +112,11 @@ class ExplicitPiece final : public Piece, public ExplicitNodes {
   void make_specials();
   void make_compliance(Special& special);
   Special& special_at(int node) { return specials_[index_.at(node)]; }
-  void advance(const std::vector<double>& motion_velocity);
+  void pull();
+  void move(const std::vector<double>& motion_velocity);
   void take_momenta();
   void look_back();
   void start_momentum();
-  bool is_tuned() const { return !op_->tuning.empty(); }
   // Nodes whose cells are lumped have mass times velocity; laws push them after the momenta are made.
   bool has_momentum(size_t node) const { return is_tuned() && !setup_.keeps_lumped[node]; }
   Vec3 pull_on(int node) const {  // K X - f + beta K V0, and what a tuned mass adds

@@ -218,7 +218,7 @@ void bind_to_implicit(const Problem& problem, const AlikeParts& alike, std::vect
                         parts[j].why_not.empty() ? "" : ": " + parts[j].why_not);
 }
 
-// Whether it is cut does not count: then the cells along the cut stay lumped, and no others.
+// Whether it is cut does not count: a cut changes nothing.
 void choose_mass(const Problem& problem, const std::vector<Size>& sizes, std::vector<Integration::Part>& parts) {
   const bool is_chosen = problem.mass().is_chosen;
   const std::vector<double> brought = is_chosen ? brought_frequencies(problem) : std::vector<double>();
@@ -254,10 +254,14 @@ void longest_steps(const Problem& problem, const std::vector<Body>& bodies, cons
                   .first->second
             : p;
   }
+  std::vector<double> speed(parts.size(), 0.0);
+  for (size_t i = 0; i < parts.size(); ++i)
+    if (parts[i].is_tuned) speed[i] = tuned_wave_speed(*problem.substructures[i], conditions.held[i]);
   parallel_for(static_cast<int>(bodies.size()), [&](int p) {
+    const auto part = static_cast<size_t>(cut.piece(p).part);
     if (first[p] == p)
-      longest[p] =
-          safety * (parts[cut.piece(p).part].is_tuned ? longest_tuned_step : longest_explicit_step)(bodies[p], held[p]);
+      longest[p] = safety * (parts[part].is_tuned ? longest_tuned_step(bodies[p], held[p], speed[part])
+                                                  : longest_explicit_step(bodies[p], held[p]));
   });
   for (size_t p = 0; p < first.size(); ++p)
     if (first[p] >= 0) longest[p] = longest[first[p]];

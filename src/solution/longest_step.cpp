@@ -100,8 +100,8 @@ double damped(double longest, const Body& body) {
 }
 
 // Where supports leave one direction alone and the body is long in it, no other waves travel than those along it.
-bool is_confined(const Body& body, const HeldNodes& held) {
-  const Points& nodes = body.part->mesh->nodes;
+bool is_confined(const Substructure& part, const HeldNodes& held) {
+  const Points& nodes = part.mesh->nodes;
   if (static_cast<Eigen::Index>(held.size()) < nodes.cols()) return false;
   Vec3 along = Vec3::Zero();
   for (const auto& [node, h] : held) {
@@ -120,9 +120,9 @@ bool is_confined(const Body& body, const HeldNodes& held) {
 
 }  // namespace
 
-double tuned_wave_speed(const Body& body, const HeldNodes& held) {
-  const Elastic& material = body.part->material;
-  return is_confined(body, held) ? material.p_wave_speed() : material.s_wave_speed();
+double tuned_wave_speed(const Substructure& part, const HeldNodes& held) {
+  const Elastic& material = part.material;
+  return is_confined(part, held) ? material.p_wave_speed() : material.s_wave_speed();
 }
 
 double longest_explicit_step(const Body& body, const HeldNodes& held) {
@@ -132,14 +132,13 @@ double longest_explicit_step(const Body& body, const HeldNodes& held) {
 // The mass is tuned to the step that it allows, which depends on it: by a tenth at most where shear waves keep their
 // speed, by a third where those of compression do. Where the two meet, by secants from a share of what a wave takes
 // along the shortest edge.
-double longest_tuned_step(const Body& body, const HeldNodes& held) {
+double longest_tuned_step(const Body& body, const HeldNodes& held, double speed) {
   constexpr int most_rounds = 6;
   constexpr double most_slope = 0.5, usual_share = 0.9;
   const Elastic& material = body.part->material;
   const CellEdges edges(*body.part->mesh, material, {});
   if (edges.lengths.empty()) return longest_explicit_step(body, held);
   const FreeBody free(body, held);
-  const double speed = tuned_wave_speed(body, held);
   const bool is_of_compression = speed == material.p_wave_speed();
   double slope = is_of_compression ? 0.3 : 0.07;
   const double near = is_of_compression ? 0.01 : 0.06;  // leaves half a percent, at most

@@ -178,7 +178,7 @@ std::vector<int> pieces_for_ranks(const Problem& problem, int n_ranks) {
     for (size_t i = 0; i < costs.size(); ++i) of_pieces.insert(of_pieces.end(), n_pieces[i], costs[i] / n_pieces[i]);
     return unevenness(of_pieces, n_ranks);
   };
-  // Cells along a cut stay lumped where the mass is tuned: as one process would have them where there is enough to do.
+  // Pieces of a tuned mass wait for each other twice an increment.
   const std::vector<double> brought = brought_frequencies(problem);
   std::vector<char> stays_whole;
   for (const SubstructurePtr& part : problem.substructures)

@@ -9,6 +9,7 @@
 #include "model/check.hpp"
 #include "solution/all_pieces.hpp"
 #include "solution/copies.hpp"
+#include "solution/cut_momenta.hpp"
 #include "solution/explicit_piece.hpp"
 #include "solution/joined_velocities.hpp"
 
@@ -81,6 +82,7 @@ void set_pieces(StepModel& model, const State& state) {
     cut.keep_owned(i, imbalance);
     model.pieces[i]->set_state(u, v, force, elastic[i] - force - imbalance);
   }
+  start_cut_momenta(model);
 }
 
 // A system of all pieces starts from the fields of all.
