@@ -7,6 +7,7 @@
 
 #include "law/law.hpp"
 #include "numerics/dense.hpp"
+#include "result/rigid_balance.hpp"
 
 namespace dygita {
 
@@ -110,10 +111,15 @@ std::string names_of(const Instant& instant, const Group& group) {
   return names + (group.parts.size() > 4 ? fmt::format(" and {} more", group.parts.size() - 4) : "");
 }
 
-std::string line_of(const Instant& instant, const Group& group, const Vec3& pull, const Vec3& missing) {
-  Vec3 along = missing.normalized();
+// Without minus zeros.
+Vec3 as_told(Vec3 direction) {
   for (int d = 0; d < 3; ++d)
-    if (std::abs(along[d]) < 0.005) along[d] = 0.0;  // and no minus zero
+    if (std::abs(direction[d]) < 0.005) direction[d] = 0.0;
+  return direction;
+}
+
+std::string line_of(const Instant& instant, const Group& group, const Vec3& pull, const Vec3& missing, bool is_proven) {
+  const Vec3 along = as_told(missing.normalized());
   const double factor = correction(group);
   std::string joints;
   double hold = 0.0;
@@ -129,11 +135,33 @@ std::string line_of(const Instant& instant, const Group& group, const Vec3& pull
       std::all_of(group.joints.begin(), group.joints.end(), [](const LimitJoint& joint) { return joint.is_open; });
   return fmt::format(
       "static step '{}', increment {}: {} {} as a whole: {:.0f} N pull along ({:.2f}, {:.2f}, {:.2f}), and joints hold "
-      "about {:.0f} N of it ({}); there is no equilibrium{}: less load, more preload or friction, a stop, or a dynamic "
-      "step",
+      "about {:.0f} N of it ({}); {}: less load, more preload or friction, a stop, or a dynamic step",
       instant.model.step->name, instant.increment + 1, names_of(instant, group), is_open ? "comes off" : "slides",
       pull.dot(along), along[0], along[1], along[2], hold, joints,
-      is_open ? " unless a gap closes first, which static_steps = \"assembled\" in solver.latin finds" : "");
+      is_proven ? "there is no equilibrium"
+      : is_open
+          ? "no equilibrium was found, though a gap may close first, or this is further from one than it looks"
+          : "no equilibrium was found, though these figures are those of an iteration that has not come to an end");
+}
+
+// What no contact force can balance, where the joints do not show it.
+std::string line_of(const Instant& instant, const RigidImbalance& imbalance) {
+  std::string parts, joints;
+  for (size_t i = 0; i < imbalance.parts.size() && i < 4; ++i)
+    parts += fmt::format("{}'{}'", i ? ", " : "", instant.model.problem->substructures[imbalance.parts[i]]->name);
+  if (imbalance.parts.size() > 4) parts += fmt::format(" and {} more", imbalance.parts.size() - 4);
+  for (const std::string& joint : imbalance.joints) joints += fmt::format("{}'{}'", joints.empty() ? "" : ", ", joint);
+  const Vec3 along = as_told(imbalance.along);
+  const std::string at = joints.empty()
+                             ? "no contact is there to hold that"
+                             : fmt::format("no forces at the {} points of {} hold that", imbalance.n_points, joints);
+  return fmt::format(
+      "static step '{}', increment {}: the loads {} {} {} ({:.2f}, {:.2f}, {:.2f}), and {}: there is no equilibrium{}",
+      instant.model.step->name, instant.increment + 1, imbalance.turns ? "tip" : "move", parts,
+      imbalance.turns ? "about" : "along", along[0], along[1], along[2], at,
+      imbalance.turns ? "; a support or a stop holds it, or smaller cells where the points lie too close together for "
+                        "the faces that touch"
+                      : "; a support or a stop holds it, or more friction");
 }
 
 }  // namespace
@@ -164,6 +192,7 @@ std::vector<std::string> overloaded_joints(const Instant& instant) {
     all[b].joints.push_back(joint);
     all[b].joints.back().force *= -1.0;
   }
+  const std::optional<RigidImbalance> imbalance = rigid_imbalance(instant);
   std::vector<std::string> lines;
   for (Group& group : all) {
     if (group.parts.empty() || group.is_grounded || group.joints.empty()) continue;
@@ -171,9 +200,15 @@ std::vector<std::string> overloaded_joints(const Instant& instant) {
     for (const LimitJoint& joint : group.joints) joints += joint.force;
     for (const LimitJoint& joint : group.joints) group.held += joint.normal * joint.normal.transpose();
     const Vec3 pull = free_part(group, group.load), missing = free_part(group, group.load + joints);
-    if (missing.norm() > balanced * pull.norm() && pull.dot(missing) > 0.0)
-      lines.push_back(line_of(instant, group, pull, missing));
+    if (missing.norm() <= balanced * pull.norm() || pull.dot(missing) <= 0.0) continue;
+    const bool is_proven =
+        imbalance && std::any_of(group.parts.begin(), group.parts.end(), [&](int part) {
+          return std::find(imbalance->parts.begin(), imbalance->parts.end(), part) != imbalance->parts.end();
+        });
+    if (is_proven && imbalance->turns) continue;  // that says more
+    lines.push_back(line_of(instant, group, pull, missing, is_proven));
   }
+  if (imbalance && (lines.empty() || imbalance->turns)) lines.insert(lines.begin(), line_of(instant, *imbalance));
   return lines;
 }
 

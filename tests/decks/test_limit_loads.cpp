@@ -128,6 +128,32 @@ problem{ name = "slide", substructures = { cube, block }, interfaces = { seat },
   }
 }
 
+TEST(NoEquilibrium, is_said_only_where_no_forces_balance_the_loads) {
+  const Said pushed = said_by(pressed_aside, {{"side", "310"}});
+  EXPECT_FALSE(pushed.run.result->converged);
+  expect_in(pushed.warnings, {"there is no equilibrium"});
+  const Said few = said_by(pressed_aside, {{"side", "285"}, {"iterations", "60"}});
+  EXPECT_FALSE(few.run.result->converged);
+  EXPECT_EQ(few.warnings.find("there is no equilibrium"), std::string::npos) << few.warnings;
+}
+
+// Half a block over the edge of another, pressed from above beyond it.
+TEST(NoEquilibrium, of_a_block_that_tips_names_it) {
+  const std::string tipping = R"(
+local p = param{ dx = 12 }
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7800 }
+local a = substructure{ name = "a", material = steel, mesh = mesh.box{ size = { 20*mm, 20*mm, 10*mm }, cells = { 4, 4, 2 } } }
+local b = substructure{ name = "b", material = steel, mesh = mesh.box{ size = { 20*mm, 20*mm, 10*mm }, cells = { 4, 4, 2 }, origin = { p.dx*mm, 0, 10*mm } } }
+local j = interface.contact{ name = "j", between = { a:face "zmax", b:face "zmin" }, friction = 0.3 }
+problem{ name = "tipping", substructures = { a, b }, interfaces = { j }, supports = { support.fixed{ name = "base", on = a:face "zmin" } },
+  steps = { step.static{ name = "t", loads = { load.pressure{ on = b:face "zmax", history = 10*MPa } } } }, outputs = { output.joint{ name = "o", on = j } } }:run{}
+)";
+  const Said tips = said_by(tipping);
+  EXPECT_FALSE(tips.run.result->converged);
+  expect_in(tips.warnings, {"static step 't', increment 1: the loads tip 'b' about (0.00, 1.00, 0.00)",
+                            " points of 'j' hold that: there is no equilibrium"});
+}
+
 // Too few iterations are told apart from an indicator that stands still, and what the message asks for is enough.
 TEST(NotConverged, asks_for_as_many_iterations_as_are_enough) {
   const Said few = said_by(strap, {{"pull", "900"}, {"iterations", "20"}});
