@@ -9,6 +9,7 @@
 #include "base/fnv1a.hpp"
 #include "base/parallel.hpp"
 #include "mesh/jacobian.hpp"
+#include "mesh/unmatched_cells.hpp"
 
 namespace dygita {
 
@@ -142,6 +143,7 @@ void check_mesh(const Mesh& mesh, const std::string& name) {
   }
 
   for (const CellBlock& block : mesh.blocks) check_block(mesh.nodes, block, name);
+  check_shared_facets(mesh, name);
 }
 
 MeshPtr turned_mesh(const Mesh& mesh, const Mat3& turn, const Vec3& shift) {

@@ -80,7 +80,28 @@ std::vector<std::pair<std::string, std::vector<int>>> groups(int dimension) {
   return result;
 }
 
+// gmsh's interface answers cells of one order in a volume of its own, and is silent on the others.
+void refuse_lost_cells(const std::string& file) {
+  double all = 0.0;
+  for (const char* kind : {"Mesh.NbTetrahedra", "Mesh.NbHexahedra", "Mesh.NbPrisms", "Mesh.NbPyramids"}) {
+    double n = 0.0;
+    gmsh::option::getNumber(kind, n);
+    all += n;
+  }
+  std::vector<int> types;
+  std::vector<std::vector<size_t>> cells, nodes;
+  gmsh::model::mesh::getElements(types, cells, nodes, 3);
+  size_t n_read = 0;
+  for (const std::vector<size_t>& of_type : cells) n_read += of_type.size();
+  if (static_cast<double>(n_read) < all)
+    throw InputError(fmt::format(
+        "{}: gmsh passes on {} of its {:.0f} cells: those of another order in the same volume are lost\n    "
+        "cells of one volume have one order; give the others a volume of their own (elementary entity)",
+        file, n_read, all));
+}
+
 TaggedModel read_model(const GmshOptions& options) {
+  refuse_lost_cells(options.file);
   TaggedModel model;
   model.file = options.file;
   for (const auto& [name, entities] : groups(3)) {

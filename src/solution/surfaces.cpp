@@ -13,6 +13,7 @@
 #include "mesh/mortar.hpp"
 #include "mesh/segments.hpp"
 #include "solution/preload.hpp"
+#include "solution/whole_parts.hpp"
 
 namespace dygita {
 
@@ -297,6 +298,7 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
       surfaces.push_back(std::move(surface));
     }
   check_overlaps(problem, surfaces);
+  refuse_seams(problem, surfaces);
   check_preloads(problem, surfaces);
   return surfaces;
 }

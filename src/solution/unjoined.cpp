@@ -15,6 +15,7 @@
 #include "mesh/face_nodes.hpp"
 #include "model/check.hpp"
 #include "model/load.hpp"
+#include "solution/whole_parts.hpp"
 
 namespace dygita {
 
@@ -333,6 +334,7 @@ void doubt_surfaces(const Problem& problem, const std::vector<Surface>& surfaces
 
 std::vector<Unjoined> doubt_neighbours(const Problem& problem, const std::vector<Surface>& surfaces) {
   doubt_same_place(problem);
+  doubt_loose_pieces(problem, surfaces);
   doubt_surfaces(problem, surfaces);
   std::vector<Unjoined> pairs = find_unjoined(problem, surfaces);
   doubt_unjoined(problem, pairs);

@@ -167,6 +167,39 @@ problem{ name = "ring", substructures = { all }, supports = { support.fixed{ nam
   EXPECT_TRUE(said_of_check(ring("72*deg"), "same place").empty());
 }
 
+// A column in one volume: two boxes of 20 mm above each other, `apart` mm between them, joined or not. `mesh` says how.
+std::string column_of(const std::string& mesh, double apart) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("dygita_column_" + std::to_string(getpid()) + ".geo");
+  std::ofstream(file) << "SetFactory(\"OpenCASCADE\");\nBox(1) = {0,0,0, 10,10,20};\nBox(2) = {0,0," << 20 + apart
+                      << ", 10,10,20};\n"
+                      << mesh << "\nMesh.CharacteristicLengthMax = 5;\nPhysical Volume(\"column\") = {1,2};\n";
+  return R"(
+local file = mesh.gmsh{ file = ")" +
+         file.string() + R"(", unit = mm, order = 2 }
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7800 }
+local a = substructure{ name = "column", mesh = file:volume "column", material = steel }
+local base = support.fixed{ name = "base", on = a:face{ normal = { 0, 0, -1 }, at = 0 } }
+problem{ name = "column", substructures = { a }, supports = { base }, outputs = { output.energy{} },
+  steps = { step.static{ name = "s", loads = { load.gravity{ x = -9.81 } } } } }:run{}
+)";
+}
+
+TEST(Unjoined, pieces_of_a_part_that_touch_without_sharing_nodes_are_refused) {
+  for (const auto& [mesh, said] :
+       {std::pair<std::string, std::string>{"", "cells of its mesh meet on 100 mm^2 without sharing nodes and facets"},
+        {"Characteristic Length{ PointsOf{ Volume{2}; } } = 3;", "cells of its mesh meet on 100 mm^2"}}) {
+    try {
+      said_of_check(column_of(mesh, 0.0), "");
+      FAIL() << "accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("substructure 'column': " + said), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("it is in 2 pieces"), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_TRUE(said_of_check(column_of("Coherence;", 0.0), "pieces").empty());
+}
+
 // Its upper sides are at two heights.
 TEST(Unjoined, a_face_picked_by_its_normal_on_a_stepped_part_is_told) {
   const auto said = [](const std::string& more) {
@@ -196,6 +229,15 @@ problem{ name = "p", substructures = { a }, supports = { base }, outputs = { out
       << told[0];
   EXPECT_TRUE(said(", at = 35*mm").empty());
   EXPECT_TRUE(said(", where = function() return true end").empty());
+}
+
+TEST(Unjoined, pieces_of_a_part_that_are_apart_are_named) {
+  const std::vector<std::string> said = said_of_check(column_of("", 8.0), "pieces");
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("substructure 'column' is in 2 pieces that share no nodes"), std::string::npos) << said[0];
+  EXPECT_NE(said[0].find("from (0, 0, 28) to (10, 10, 48) mm; some have no interface and no support"),
+            std::string::npos)
+      << said[0];
 }
 
 TEST(Unjoined, faces_of_one_size_a_cell_apart_are_named) {

@@ -7,6 +7,7 @@
 #include "mesh/facing.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/mesh_limits.hpp"
+#include "mesh/unmatched_cells.hpp"
 
 namespace dygita {
 namespace {
@@ -189,6 +190,83 @@ TEST(Mesh, with_a_lone_node_or_without_cells_is_refused) {
   expect_input_error([&] { check_mesh(mesh, "block"); }, {"block", "node 8", "(4, 5, 6)", "no cell"});
   mesh.blocks.clear();
   expect_input_error([&] { check_mesh(mesh, "block"); }, {"block", "has no cell", "box"});
+}
+
+// Two cells that share the facet 0 1 2 of a tetrahedron.
+Mesh with_second(CellType type, const std::vector<int>& cell, const std::vector<Vec3>& more) {
+  Mesh mesh = one_cell(CellType::tet4, unit_tet());
+  mesh.nodes.conservativeResize(3, 4 + static_cast<long>(more.size()));
+  for (size_t i = 0; i < more.size(); ++i) mesh.nodes.col(4 + static_cast<long>(i)) = more[i];
+  if (type == CellType::tet4)
+    mesh.blocks[0].nodes.insert(mesh.blocks[0].nodes.end(), cell.begin(), cell.end());
+  else
+    mesh.blocks.push_back({type, cell});
+  return mesh;
+}
+
+TEST(Mesh, whose_cells_do_not_fit_at_a_facet_is_refused_with_both) {
+  EXPECT_NO_THROW(check_mesh(with_second(CellType::tet4, {0, 2, 1, 4}, {{0, 0, -1}}), "fits"));
+  expect_input_error(
+      [] {
+        check_mesh(with_second(CellType::tet4, {1, 2, 0, 3}, {}), "bar");
+      },
+      {"mesh of 'bar': cell 1 (tet4) at (0.25, 0.25, 0.25) m is cell 0 (tet4) once more"});
+  expect_input_error(
+      [] {
+        check_mesh(with_second(CellType::tet4, {0, 1, 2, 4}, {{0.1, 0.1, 2}}), "bar");
+      },
+      {"cells 0 (tet4) and 1 (tet4)", "lie on the same side of the facet that they share"});
+  const std::vector<Vec3> middles = {{0, 0, -1},  {0, .5, 0},   {.5, .5, 0}, {.5, 0, 0},
+                                     {0, 0, -.5}, {0, .5, -.5}, {.5, 0, -.5}};
+  expect_input_error(
+      [&] {
+        check_mesh(with_second(CellType::tet10, {0, 2, 1, 4, 5, 6, 7, 8, 9, 10}, middles), "bar");
+      },
+      {"cells 0 (tet4) and 0 (tet10)", "share the corners of a facet and not its other nodes", "one order"});
+}
+
+// Facets of the boundary that lie on others: nodes that were not merged, a diagonal, nodes in the middle of a facet.
+TEST(Mesh, with_a_seam_is_told_its_area) {
+  const auto stacked = [](const std::array<int, 3>& upper_cells, CellType upper) {
+    Mesh mesh = *box_mesh({0, 0, 0}, {2, 2, 1}, {2, 2, 1});
+    const MeshPtr other = box_mesh({0, 0, 1}, {2, 2, 1}, upper_cells, upper);
+    const int n = mesh.n_nodes();
+    mesh.nodes.conservativeResize(3, n + other->n_nodes());
+    mesh.nodes.rightCols(other->n_nodes()) = other->nodes;
+    CellBlock block = other->blocks[0];
+    for (int& node : block.nodes) node += n;
+    mesh.blocks.push_back(block);
+    return mesh;
+  };
+  EXPECT_FALSE(find_seam(*box_mesh({0, 0, 0}, {2, 2, 1}, {4, 4, 4}, CellType::tet10), {}));
+  for (const auto& [cells, type] : {std::pair{std::array{2, 2, 1}, CellType::hex8},
+                                    {std::array{3, 1, 1}, CellType::hex8},
+                                    {std::array{2, 2, 1}, CellType::tet4}}) {
+    const Mesh mesh = stacked(cells, type);
+    const std::optional<Seam> seam = find_seam(mesh, {});
+    ASSERT_TRUE(seam);
+    EXPECT_NEAR(seam->area, 4.0, 1e-12);
+    EXPECT_FALSE(seam->is_overlap);
+    EXPECT_NEAR(seam->place[2], 1.0, 1e-12);
+    const std::vector<LoosePiece> pieces = loose_pieces(mesh);
+    ASSERT_EQ(pieces.size(), 2u);
+    EXPECT_NEAR(volume(pieces[0].mesh), 4.0, 1e-12);
+    EXPECT_NEAR(volume(pieces[1].mesh), 4.0, 1e-12);
+  }
+  Mesh twice = *box_mesh({0, 0, 0}, {2, 2, 1}, {2, 2, 1});  // once more with nodes of its own
+  CellBlock again = twice.blocks[0];
+  for (int& node : again.nodes) node += twice.n_nodes();
+  twice.nodes = (Points(3, 36) << twice.nodes, twice.nodes).finished();
+  twice.blocks.push_back(again);
+  ASSERT_TRUE(find_seam(twice, {}));
+  EXPECT_TRUE(find_seam(twice, {})->is_overlap);
+}
+
+// Both sides of a wedge face away from each other.
+TEST(Mesh, as_thin_as_a_blade_has_no_seam) {
+  Points x(3, 6);
+  x << 0, 1, 1, 0, 1, 1, 0, -1e-4, 1e-4, 0, -1e-4, 1e-4, 0, 0, 0, 1, 1, 1;
+  EXPECT_FALSE(find_seam(one_cell(CellType::prism6, x), {}));
 }
 
 TEST(Mesh, has_a_digest_that_changes_with_nodes_cells_and_faces) {

@@ -1,0 +1,1 @@
+local file = mesh.gmsh{ file = "cells_twice.msh", unit = mm }

@@ -1,0 +1,1 @@
+local file = mesh.gmsh{ file = "two_orders.msh" }
