@@ -13,6 +13,7 @@
 #include "mesh/machine_copies.hpp"
 #include "mesh/mesh_file.hpp"
 #include "mesh/mesh_limits.hpp"
+#include "model/extent.hpp"
 #include "model/found_faces.hpp"
 #include "model/point_faces.hpp"
 
@@ -23,6 +24,7 @@ namespace {
 constexpr double bytes_per_cell = 100.0;  // of a box or a bolt: coordinates, connectivity, facets
 constexpr double bytes_per_quadratic_cell = 400.0;
 constexpr double locking_poisson = 0.45;
+constexpr double default_share_of_size = 1e-4;  // of the assembly: how far apart named faces may be that touch
 
 // The type by its name, else by the order.
 CellType cell_of_box(const LuaArguments& a) {
@@ -189,13 +191,32 @@ const char* cure_of_gap(bool knows_gaps) {
                     : "'place' and 'origin' bring them together";
 }
 
+void warn_of_gap(const Declaration& d, const Interface& interface, const std::string& who_1, const std::string& who_2,
+                 const std::string& doubt) {
+  const bool has_gap = d.arguments.has("gap") && (!d.arguments.is_number("gap") || d.arguments.number("gap") != 0.0);
+  const bool is_closed = d.arguments.has("closed") && d.arguments.boolean("closed");
+  if (!doubt.empty() && !has_gap && !is_closed)
+    warn(fmt::format("{}{} '{}': '{}' and '{}' {}; {}", d.origin.prefix(), d.path, interface.name, who_1, who_2, doubt,
+                     cure_of_gap(d.arguments.has("gap"))));
+}
+
+// Faces that are named meet where they are near, within a distance that the assembly gives: not less than their own.
+void set_named_faces(const Declaration& d, const Face& one, const Face& other, Interface& interface) {
+  interface.side_1 = with_facets(one, other, interface.within);
+  interface.side_2 = with_facets(other, one, interface.within);
+  const double size = std::max(extent_of(*one.part).size().norm(), extent_of(*other.part).size().norm());
+  const GapDoubt doubt =
+      doubt_of_gap(interface.side_1, interface.side_2, interface.within.value_or(default_share_of_size * size));
+  // Where 'within' is larger than what facets hide, the check of the whole problem tells it.
+  if (!interface.within || doubt.is_hidden) warn_of_gap(d, interface, one.label(), other.label(), doubt.text);
+}
+
 // The faces, found where parts are given.
 void set_sides(const Declaration& d, Interface& interface) {
   const std::vector<const Object*> sides = d.arguments.objects("between");
   const InterfaceSide one = side_of(*sides[0]), other = side_of(*sides[1]);
   if (one.face && other.face) {
-    interface.side_1 = with_facets(*one.face, *other.face, interface.within);
-    interface.side_2 = with_facets(*other.face, *one.face, interface.within);
+    set_named_faces(d, *one.face, *other.face, interface);
     return;
   }
   for (const InterfaceSide* side : {&one, &other})
@@ -214,11 +235,8 @@ void set_sides(const Declaration& d, Interface& interface) {
   interface.within = found.touching.within;
   say(fmt::format("{} '{}': '{}' and '{}' touch on {}", d.path, interface.name, one.label(), other.label(),
                   describe(found.touching)));
-  const bool has_gap = d.arguments.has("gap") && (!d.arguments.is_number("gap") || d.arguments.number("gap") != 0.0);
-  const bool is_closed = d.arguments.has("closed") && d.arguments.boolean("closed");
-  if (const std::string doubt = doubt_of_gap(found.touching); !doubt.empty() && !has_gap && !is_closed)
-    warn(fmt::format("{}{} '{}': '{}' and '{}' {}; {}", d.origin.prefix(), d.path, interface.name, one.label(),
-                     other.label(), doubt, cure_of_gap(d.arguments.has("gap"))));
+  warn_of_gap(d, interface, one.label(), other.label(),
+              doubt_of_gap(interface.side_1, interface.side_2, found.touching.within).text);
 }
 
 // The law of a word, from all numbers and truth values of the declaration.

@@ -36,9 +36,12 @@ int touching_pairs(LuaState& lua, lua_State* L) {
   const auto interfaces = list_at<InterfacePtr>(L, 2);
   const double within = lua_tonumber(L, 3);
   std::vector<TouchingPair> pairs;
+  std::vector<std::string> doubts;
   {
     const LuaState::Pause pause(lua);
     pairs = all_touching(parts, interfaces, within > 0.0 ? std::optional(within) : std::nullopt);
+    for (const auto& [part_1, part_2, found] : pairs)
+      doubts.push_back(doubt_of_gap(found.side_1, found.side_2, found.touching.within).text);
   }
   lua_createtable(L, static_cast<int>(pairs.size()), 0);
   for (size_t p = 0; p < pairs.size(); ++p) {
@@ -56,7 +59,7 @@ int touching_pairs(LuaState& lua, lua_State* L) {
     lua_setfield(L, -2, "within");
     lua_pushstring(L, describe(pair.found.touching).c_str());
     lua_setfield(L, -2, "text");
-    lua_pushstring(L, doubt_of_gap(pair.found.touching).c_str());
+    lua_pushstring(L, doubts[p].c_str());
     lua_setfield(L, -2, "doubt");
     lua_rawseti(L, -2, static_cast<lua_Integer>(p) + 1);
   }

@@ -9,6 +9,7 @@
 #include "mesh/face_nodes.hpp"
 #include "mesh/overlap.hpp"
 #include "mesh/sagitta.hpp"
+#include "mesh/true_gaps.hpp"
 
 namespace dygita {
 
@@ -130,6 +131,19 @@ Nearest nearest_on(const SurfaceInBox& surface, const Facet& facet, const Vec3& 
   return best;
 }
 
+// Do the surfaces touch that the facets stand for, as chords of which they may cross?
+bool touch_as_round(const SurfaceInBox& a, const SurfaceInBox& b) {
+  constexpr double of_size = 1e-3, least_touching = 0.02;
+  const auto face_of = [](const SurfaceInBox& surface) {
+    PlacedFace face{surface.body.mesh, {}, surface.body.place, ""};
+    for (size_t i = 0; i < surface.facets.size(); ++i)
+      if (!surface.is_joined(i)) face.facets.push_back(surface.facets[i]);
+    return face;
+  };
+  const TrueGaps gaps = true_gaps(face_of(a), face_of(b), of_size * std::min(a.mean_size(), b.mean_size()));
+  return gaps.touching > least_touching * gaps.area;
+}
+
 std::optional<Touch> find_touch(const SurfaceInBox& a, const SurfaceInBox& b) {
   std::vector<Polygon> polygons[2];
   std::vector<size_t> index[2];
@@ -142,7 +156,7 @@ std::optional<Touch> find_touch(const SurfaceInBox& a, const SurfaceInBox& b) {
     }
   }
   const std::optional<Overlap> overlap = find_overlap(polygons[0], polygons[1], Facings::opposed);
-  if (!overlap) return std::nullopt;
+  if (!overlap || !touch_as_round(a, b)) return std::nullopt;
   return Touch{overlap->area, overlap->place, a.facets[index[0][static_cast<size_t>(overlap->first_1)]],
                b.facets[index[1][static_cast<size_t>(overlap->first_2)]]};
 }

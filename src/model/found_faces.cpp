@@ -3,6 +3,8 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "mesh/neighbours.hpp"
+#include "mesh/true_gaps.hpp"
+#include "model/meeting.hpp"
 
 namespace dygita {
 
@@ -118,12 +120,17 @@ std::string describe(const Touching& touching) {
   return text + ")";
 }
 
-std::string doubt_of_gap(const Touching& touching) {
-  const bool is_apart = std::abs(touching.most_gap) >= std::abs(touching.least_gap);
-  const double largest = std::abs(is_apart ? touching.most_gap : touching.least_gap);
-  if (largest - 2.0 * touching.bend <= 0.05 * touching.within) return "";
-  return fmt::format("{} {:.2g} mm, which counts as nothing: the interface starts closed",
-                     is_apart ? "are apart by up to" : "pass into each other by up to", 1e3 * largest);
+GapDoubt doubt_of_gap(const Face& side_1, const Face& side_2, double within) {
+  const TrueGaps gaps = true_gaps(placed(side_1), placed(side_2), within);
+  if (!gaps.is_told()) return {};
+  const bool is_apart = gaps.most + gaps.least > 0.0;
+  const double largest = is_apart ? gaps.most : -gaps.least;
+  return {
+      fmt::format("{} {:.2g} mm, which counts as nothing: the interface starts closed (a gap of {:.2g} mm on average "
+                  "over {:.4g} mm^2)",
+                  is_apart ? "are apart by up to" : "pass into each other by up to", 1e3 * largest, 1e3 * gaps.mean,
+                  1e6 * gaps.area),
+      largest <= 2.0 * gaps.bend};
 }
 
 }  // namespace dygita

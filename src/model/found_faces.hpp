@@ -35,8 +35,12 @@ std::vector<TouchingPair> all_touching(const std::vector<SubstructurePtr>& parts
 // "1200 mm^2 on 2 surfaces, gaps -0.01 to 0.02 mm between facets, within 0.05 mm".
 std::string describe(const Touching& touching);
 
-// What to say of parts that were found to touch and do not: how far they are apart, or in each other, beyond what
-// facets leave between round surfaces; empty where they do.
-std::string doubt_of_gap(const Touching& touching);
+// What to say of faces that are taken for touching, within a distance (m), and do not: how far they are apart, or in
+// each other, beyond what facets leave between round surfaces; empty where they do.
+struct GapDoubt {
+  std::string text;
+  bool is_hidden = false;  // facets are as far off their round surfaces
+};
+GapDoubt doubt_of_gap(const Face& side_1, const Face& side_2, double within);
 
 }  // namespace dygita

@@ -176,6 +176,32 @@ end
   for (const DeckRun& run : runs) EXPECT_EQ(run.problem.interfaces.size(), 2u);
 }
 
+// A quarter of a shaft in a hub, 20 um larger than its hole or as large: faces named, nothing said of a gap.
+TEST(FoundInterfaces, of_round_faces_that_are_named_say_an_interference_that_is_left_out) {
+  const auto said_of = [](const std::string& over, const std::string& gap) {
+    const std::string text = R"(
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local file = mesh.gmsh{ file = ")" +
+                             std::string(DYGITA_SOURCE_DIR) + R"(/tests/decks/drawn_rings.geo", set = { over = )" +
+                             over + R"(, n = 4 }, order = 2 }
+local function part(name) return substructure{ name = name, mesh = file:volume(name), material = steel } end
+local inner, outer = part "inner", part "outer"
+local function round(of) local face = of:face{ cylinder = true, radius = 20*mm } return face end
+local fit = interface.contact{ name = "fit", between = { round(inner), round(outer) }, gap = )" +
+                             gap + R"( }
+)";
+    testing::internal::CaptureStderr();
+    run_text(text);
+    return testing::internal::GetCapturedStderr();
+  };
+  const std::string said = said_of("20*um", "0");
+  EXPECT_NE(said.find("pass into each other by up to 0.02"), std::string::npos) << said;
+  EXPECT_NE(said.find("(a gap of -0.02 mm on average over 62.8"), std::string::npos) << said;
+  EXPECT_NE(said_of("-20*um", "0").find("are apart by up to 0.02"), std::string::npos);
+  for (const auto& [over, gap] : {std::pair{"20*um", "-20*um"}, {"0", "0"}})
+    EXPECT_EQ(said_of(over, gap).find("counts as nothing"), std::string::npos) << over;
+}
+
 }  // namespace
 
 }  // namespace dygita::test

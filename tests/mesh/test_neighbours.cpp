@@ -60,6 +60,17 @@ TEST(Neighbours, side_by_side_or_apart_do_not_touch) {
   EXPECT_FALSE(apart.are_near());
 }
 
+// M8 in a hole of 9 mm, with so few facets around that their chords cross: the round faces are apart all the same.
+TEST(Neighbours, a_shank_in_a_hole_with_clearance_does_not_touch) {
+  for (const int n : {8, 12, 16})
+    for (const double turned : {0.0, 0.25, 0.5}) {
+      const MeshPtr shank = ring(2.0, 4.0, n, 0.0), hole = ring(4.5, 9.0, n, turned), fit = ring(4.0, 9.0, n, turned);
+      const PlacedBody body{shank.get(), Vec3::Zero()};
+      EXPECT_FALSE(find_neighbours(body, {hole.get(), Vec3::Zero()}, 0.1).touch) << n << ' ' << turned;
+      EXPECT_TRUE(n < 12 || find_neighbours(body, {fit.get(), Vec3::Zero()}, 0.1).touch) << n << ' ' << turned;
+    }
+}
+
 TEST(Neighbours, that_overlap_are_told_with_depth_and_extent) {
   const PlacedBody lower = block({20, 20, 20}, {1, 1, 1}, {0, 0, 0});
   const Neighbours aligned = find_neighbours(lower, block({20, 20, 20}, {1, 1, 1}, {0, 0, 16}), 1.0);

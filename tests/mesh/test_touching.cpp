@@ -1,10 +1,12 @@
 // Facets of two bodies that touch, found without names.
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <cmath>
 
 #include "mesh/box.hpp"
 #include "mesh/touching.hpp"
+#include "mesh/true_gaps.hpp"
 
 namespace dygita {
 namespace {
@@ -110,6 +112,76 @@ TEST(Touching, a_small_part_on_a_large_facet_is_found) {
   const Blocks beside{b.mesh_1, b.mesh_2, {400 - 1e-4, 0, 40}};  // a sliver: nothing, on either side
   EXPECT_TRUE(beside.touching().facets_1.empty());
   EXPECT_TRUE(beside.touching().facets_2.empty());
+}
+
+// The round faces of two tubes of 12 and more facets around: their surfaces are apart by the difference of the radii,
+// whatever the chords do.
+TrueGaps gaps_of_tubes(double clearance, int n_1, int n_2, double turned, double within) {
+  const MeshPtr shaft = tube(5, 10, n_1), hole = tube(10 + clearance, 20, n_2, turned);
+  const Touching t = find_touching({*shaft, Vec3::Zero()}, {*hole, Vec3::Zero()}, 2.0);
+  return true_gaps({shaft.get(), t.facets_1, Vec3::Zero(), ""}, {hole.get(), t.facets_2, Vec3::Zero(), ""}, within);
+}
+
+TEST(TrueGaps, of_round_faces_are_those_of_their_surfaces) {
+  for (const auto& [n_1, n_2] : {std::pair{12, 12}, {12, 48}, {40, 12}, {16, 24}, {48, 40}})
+    for (const double turned : {0.0, 0.3, 0.5}) {
+      SCOPED_TRACE(fmt::format("{} in {}, turned by {}", n_1, n_2, turned));
+      const TrueGaps fit = gaps_of_tubes(0.0, n_1, n_2, turned, 0.01);
+      EXPECT_NEAR(fit.mean, 0.0, 0.05 * fit.bend);
+      EXPECT_FALSE(fit.is_told());
+      for (const double clearance : {0.3, -0.1}) {
+        const TrueGaps gap = gaps_of_tubes(clearance, n_1, n_2, turned, 0.4);
+        EXPECT_NEAR(gap.mean, clearance, 0.02 + 0.03 * gap.bend);
+        EXPECT_TRUE(gap.is_told());
+      }
+    }
+}
+
+// A round foot (radius 10, 15 degrees of it, two facets) on a plane: its nodes are where they are, and between them it
+// is round.
+TEST(TrueGaps, of_a_round_face_on_a_plane_are_those_of_its_arc) {
+  const MeshPtr wheel = tube(5, 10, 24, 0.5), floor = box_mesh({-4, -4, -1}, {8, 8, 1}, {5, 5, 1});
+  Mesh upright = *wheel;  // its axis along y, lowest line between two facets at z = 0
+  for (int i = 0; i < upright.n_nodes(); ++i) {
+    const Vec3 x = wheel->nodes.col(i);
+    upright.nodes.col(i) = Vec3(-x[1], x[2] - 2.5, 10 - x[0]);
+  }
+  std::vector<Facet> round, plane;
+  for (const Facet& facet : boundary_facets(upright)) {
+    const Vec3 normal = facet_area_vector(upright.nodes, facet).normalized();
+    if (normal[2] < -0.7) round.push_back(facet);
+  }
+  for (const Facet& facet : boundary_facets(*floor))
+    if (facet_area_vector(floor->nodes, facet).normalized()[2] > 0.9) plane.push_back(facet);
+  const TrueGaps gaps = true_gaps({&upright, round, Vec3::Zero(), ""}, {floor.get(), plane, Vec3::Zero(), ""}, 1e-3);
+  const double half = 10 * std::sin(M_PI / 24), height = 10 - 10 * std::cos(M_PI / 24);  // of a facet; of its arc
+  EXPECT_TRUE(gaps.is_told());
+  EXPECT_NEAR(gaps.bend, height, 0.02 * height);
+  EXPECT_NEAR(gaps.area, 2 * half * 5, 0.02 * 2 * half * 5) << "the facet below";
+  EXPECT_NEAR(gaps.mean, height / 3, 0.02 * height) << "of a parabola";
+  EXPECT_NEAR(gaps.most, gaps.mean, 1e-9) << "more is not certain";
+  EXPECT_GT(gaps.touching, 0.3 * gaps.area);
+}
+
+// Between planes nothing is in doubt.
+TEST(TrueGaps, of_planes_are_told_to_the_last_digit) {
+  const MeshPtr lower = box_mesh({0, 0, -1}, {4, 4, 1}, {4, 4, 1}), upper = box_mesh({0, 0, 0}, {4, 4, 1}, {3, 5, 1});
+  const auto face = [](const Mesh& mesh, double up) {
+    PlacedFace placed{&mesh, {}, Vec3::Zero(), ""};
+    for (const Facet& facet : boundary_facets(mesh))
+      if (facet_area_vector(mesh.nodes, facet).normalized()[2] * up > 0.9) placed.facets.push_back(facet);
+    return placed;
+  };
+  for (const double gap : {0.0, 1e-5, 0.01, -0.02}) {
+    PlacedFace above = face(*upper, -1);
+    above.place = {0, 0, gap};
+    const TrueGaps gaps = true_gaps(face(*lower, 1), above, 0.03);
+    EXPECT_EQ(gaps.is_told(), std::abs(gap) > 1e-3) << gap;
+    EXPECT_NEAR(gaps.area, 16.0, 1e-12);
+    for (const double told : {gaps.mean, gaps.least, gaps.most}) EXPECT_NEAR(told, gap, 1e-12);
+    EXPECT_NEAR(gaps.apart, gap > 1e-3 ? 16.0 : 0.0, 1e-12);
+    EXPECT_NEAR(gaps.into, gap < -1e-3 ? 16.0 : 0.0, 1e-12);
+  }
 }
 
 TEST(Touching, the_distance_of_bodies_is_told_with_its_place) {
