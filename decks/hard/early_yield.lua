@@ -43,7 +43,7 @@ local function clamp(name, yield, gap, steps_)
   local seats, feet = {}, {}
   for i, half in ipairs{ left, right } do
     feet[i] = interface.bonded{ name = half.name .. "_foot", between = { foot:face "zmax", half:face "zmin" } }
-    seats[i] = interface.contact{ name = half.name .. "_head", between = { half:face "zmax", head:face "zmin" }, gap = gap }
+    seats[i] = interface.contact{ name = half.name .. "_head", between = { half:face "zmax", head:face "zmin" }, friction = 0, gap = gap }
   end
   local steps, last = {}, nil
   for k = 1, steps_ do

@@ -60,8 +60,8 @@ local head_moves = output.history{ name = "head", on = head:face "zmin", quantit
 local function tighten(case, shank, gap, loads, more)
   local seats = {}
   for _, half in ipairs{ { "left", left }, { "right", right } } do
-    seats[#seats + 1] = interface.contact{ name = half[1] .. "_foot", between = { foot:face "zmax", half[2]:face "zmin" } }
-    seats[#seats + 1] = interface.contact{ name = half[1] .. "_head", between = { half[2]:face "zmax", head:face "zmin" }, gap = gap }
+    seats[#seats + 1] = interface.contact{ name = half[1] .. "_foot", between = { foot:face "zmax", half[2]:face "zmin" }, friction = 0 }
+    seats[#seats + 1] = interface.contact{ name = half[1] .. "_head", between = { half[2]:face "zmax", head:face "zmin" }, friction = 0, gap = gap }
   end
   local steps = {}
   for i, one in ipairs(loads) do

@@ -41,10 +41,10 @@ local foot  = part("foot", head_metal, 0, 10*mm, -cap, cap, 2)
 local thread = interface.bonded{ name = "thread", between = { foot:face "zmax", rod:face "zmin" } }
 local shank  = interface.bonded{ name = "shank", between = { rod:face "zmax", head:face "zmin" } }
 local seats  = {
-  interface.contact{ name = "left_foot",  between = { foot:face "zmax", left:face "zmin" } },
-  interface.contact{ name = "left_head",  between = { left:face "zmax", head:face "zmin" } },
-  interface.contact{ name = "right_foot", between = { foot:face "zmax", right:face "zmin" } },
-  interface.contact{ name = "right_head", between = { right:face "zmax", head:face "zmin" } },
+  interface.contact{ name = "left_foot",  between = { foot:face "zmax", left:face "zmin" }, friction = 0 },
+  interface.contact{ name = "left_head",  between = { left:face "zmax", head:face "zmin" }, friction = 0 },
+  interface.contact{ name = "right_foot", between = { foot:face "zmax", right:face "zmin" }, friction = 0 },
+  interface.contact{ name = "right_head", between = { right:face "zmax", head:face "zmin" }, friction = 0 },
 }
 local base   = support.fixed{ name = "base", on = foot:face "zmin" }
 local guides = support.symmetry{                 -- the halves slide: hold them sideways, not along z

@@ -114,7 +114,7 @@ std::pair<double, double> numbers_in(TextTable& table, const TableRow& row, size
 }
 
 Signal read_signal(const SrsCommand& command) {
-  TextTable table(command.signal, "signal");
+  TextTable table(command.signal, "signal", true);
   const std::vector<Title>& titles = table.titles();
   const std::optional<size_t> steps = column_of_steps(titles);
   Signal signal;

@@ -32,19 +32,19 @@ void keep(const std::string& message, bool is_serious) {
 }
 
 // The worst of a kind, and the subjects of the others.
-std::string merged(const std::vector<Waiting>& kind) {
+std::string merged(std::vector<Waiting> kind) {
   constexpr size_t most_named = 5;
-  const auto worst = std::max_element(kind.begin(), kind.end(),
-                                      [](const Waiting& a, const Waiting& b) { return a.of.rank < b.of.rank; });
-  const size_t n_others = kind.size() - 1;
-  if (n_others == 0) return worst->message;
-  std::string names;
-  size_t n_named = 0;
-  for (const Waiting& other : kind)
-    if (&other != &*worst && n_named < most_named) names += (n_named++ ? ", " : "") + other.of.subject;
-  if (n_others > n_named) names += fmt::format(" and {} others", n_others - n_named);
-  return fmt::format("{}\n    the worst of {} of this kind; the other{}: {}", worst->message, kind.size(),
-                     n_others == 1 ? "" : "s", names);
+  std::stable_sort(kind.begin(), kind.end(), [](const Waiting& a, const Waiting& b) { return a.of.rank > b.of.rank; });
+  if (kind.size() == 1) return kind.front().message;
+  std::vector<std::string> others;
+  for (const Waiting& one : kind)
+    if (const std::string& subject = one.of.subject;
+        subject != kind.front().of.subject && std::find(others.begin(), others.end(), subject) == others.end())
+      others.push_back(subject);
+  std::string text = fmt::format("{}\n    the worst of {} of this kind", kind.front().message, kind.size());
+  for (size_t i = 0; i < std::min(others.size(), most_named); ++i)
+    text += (i > 0 ? ", " : others.size() == 1 ? "; the other: " : "; the others: ") + others[i];
+  return others.size() > most_named ? text + fmt::format(" and {} more", others.size() - most_named) : text;
 }
 
 void tell(bool is_serious) {

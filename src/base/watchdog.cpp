@@ -1,10 +1,9 @@
 #include "base/watchdog.hpp"
 
-#include <pthread.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 
 #include "base/names.hpp"

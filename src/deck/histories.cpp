@@ -75,6 +75,16 @@ void doubt_factor(const History& history, double factor, const Origin& origin) {
        "times as large");
 }
 
+// What is wrong with a history that is made of others is told at the line that makes it.
+template <class Make>
+History made_at(const Origin& origin, const Make& make) {
+  try {
+    return make();
+  } catch (const InputError& error) {
+    throw InputError(origin, error.what());
+  }
+}
+
 }  // namespace
 
 History history_of_function(lua_State* L, int index) {
@@ -95,7 +105,7 @@ int combine_histories(LuaState& lua, lua_State* L) {
       throw DeckScriptError(origin,
                             fmt::format("a history is multiplied by {}\n    was something divided by zero?", factor));
     doubt_factor(history, factor, origin);
-    push_history(L, history.scaled(factor), id_at(L, 2));
+    push_history(L, made_at(origin, [&] { return history.scaled(factor); }), id_at(L, 2));
     return 1;
   }
   CHECK(operation == "sum", "lua/arithmetic.lua asks for an operation that is not there");
@@ -104,7 +114,7 @@ int combine_histories(LuaState& lua, lua_State* L) {
   if (!history.unit().empty() && !other.unit().empty() && history.unit() != other.unit())
     throw InputError(origin, fmt::format("a history in {} is added to one in {}", history.unit(), other.unit()));
   if (id_at(L, 3) >= 0) state.declared.mark_used(id_at(L, 3));
-  push_history(L, history.plus(other), id_at(L, 2));
+  push_history(L, made_at(origin, [&] { return history.plus(other); }), id_at(L, 2));
   return 1;
 }
 

@@ -101,7 +101,8 @@ void prepare_thread() {
 void take_blas_buffers(int n_threads) {
   if (!blas_memory_alloc || !blas_memory_free) return;
   std::vector<void*> buffers;  // taken together: one that is given back serves the next
-  for (int i = 0; i < n_threads; ++i) buffers.push_back(blas_memory_alloc(0));
+  constexpr int most = 64;     // it has no more in some builds
+  for (int i = 0; i < std::min(n_threads, most); ++i) buffers.push_back(blas_memory_alloc(0));
   for (void* buffer : buffers) blas_memory_free(buffer);
 }
 

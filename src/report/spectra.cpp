@@ -133,14 +133,15 @@ std::vector<Spectrum> spectra_of(const RunFolder& run, const ReportRequest& requ
   check_names(outputs, request, deck_has_some);
   std::vector<Spectrum> spectra;
   for (const Json& output : outputs) {
+    const std::string judged = output.contains("judge") ? text(output, "judge") : "maximax";
     Spectrum spectrum{text(output, "name"),
                       text(output, "of"),
                       text(output, "quantity"),
                       number(output, "q_factor"),
-                      run.table(text(output, "file"), {"maximax", "positive", "negative", "primary"}),
+                      run.table(text(output, "file"), {"maximax", "positive", "negative", judged}),
                       specification_of(output, request, deck_has_some),
                       {}};
-    if (output.contains("judge")) spectrum.judged = text(output, "judge");
+    spectrum.judged = judged;
     if (output.contains("band")) spectrum.band = run.table(text(output, "band"), {"all"});
     if (spectrum.table.n_rows() > 0) spectra.push_back(std::move(spectrum));
   }

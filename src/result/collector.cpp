@@ -79,7 +79,7 @@ void Collector::watch(const Instant& instant) {
   largest_energy_ = std::max({largest_energy_, accounted, std::abs(e.start + e.loads)});
   EnergyBooks& now = books(instant.is_static());
   // Of nearly nothing beside what is stored rounding alone would tell.
-  constexpr double rounding = 1e-10;
+  constexpr double rounding = 1e-8;
   now.energy = std::max({now.energy, energy_of(instant), rounding * before_.strain});
   now.imbalance = std::max(now.imbalance, std::abs(e.balance() - before_.balance()));
   now.loss = std::max(now.loss, e.scheme - before_.scheme);

@@ -157,7 +157,7 @@ class Record final : public Polyline {
   Record(SampledSignal signal, std::string description)
       : Polyline(std::move(signal.times), std::move(signal.values), std::move(description)),
         unit_(std::move(signal.unit)),
-        has_unit_(signal.has_unit) {}
+        has_unit_(signal.has_unit || !unit_.empty()) {}
 
   std::string unit() const override { return unit_; }
   std::optional<double> factor_without_unit() const override { return has_unit_ ? std::nullopt : std::optional(1.0); }

@@ -85,11 +85,11 @@ bool is_empty_or_comment(const std::string& line) {
 
 bool has_unit(const Title& title) { return title.unit.has_value(); }
 
-std::vector<std::string> lines_of(const std::string& path, const std::string& what) {
+std::vector<std::string> lines_of(const std::string& path, const std::string& what, bool may_be_pipe) {
   std::error_code error;
-  require_file(path);
+  if (!may_be_pipe) require_file(path);
   std::ifstream file(path, std::ios::binary);
-  if (!std::filesystem::is_regular_file(path, error) || !file)
+  if (!file || !(may_be_pipe || std::filesystem::is_regular_file(path, error)))
     throw InputError("cannot read the " + what + " '" + path + "'");
   std::vector<std::string> lines;
   for (std::string line; std::getline(file, line);) {
@@ -119,7 +119,8 @@ std::string doubt_of_number(const std::string& cell) {
   return digits.size() + 1 < cell.size() && plain_number(digits) ? ": thousands are not separated" : "";
 }
 
-TextTable::TextTable(const std::string& path, const std::string& what) : path_(path), lines_(lines_of(path, what)) {
+TextTable::TextTable(const std::string& path, const std::string& what, bool may_be_pipe)
+    : path_(path), lines_(lines_of(path, what, may_be_pipe)) {
   find_first_row();
   if (has_rows()) {
     choose_separator();

@@ -24,7 +24,7 @@ class TextTable {
   // Reads the file. Throws InputError: no such file, which the message calls `what`; text in UTF-16; commas that may
   // separate columns as well as decimals; titles with units that are not as many as the columns; a line above the
   // numbers that is neither titles nor units.
-  TextTable(const std::string& path, const std::string& what);
+  TextTable(const std::string& path, const std::string& what, bool may_be_pipe = false);
 
   bool has_rows() const { return first_row_ < lines_.size(); }
   size_t n_columns() const { return n_columns_; }  // of the first row

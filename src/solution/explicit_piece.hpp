@@ -79,7 +79,7 @@ class ExplicitPiece final : public Piece, public ExplicitNodes {
 
   // The tuned mass (manual, eq. S13): is there one, does it couple this node to its neighbours? C V on free directions
   // (3 x n_nodes), and the momenta M Z.
-  bool is_tuned() const { return !op_->tuning.empty(); }
+  bool is_tuned() const { return setup_.tuned_speed > 0.0; }
   bool is_coupled(int node) const { return has_momentum(static_cast<size_t>(node)); }
   Points coupled(const Points& velocity) const;
   void set_momenta(const Points& z);

@@ -31,7 +31,7 @@ TEST(Log, tells_warnings_of_one_kind_together_serious_ones_first) {
   warn("told at once");
   const std::vector<std::string> expected = {
       "a and b overlap by 2 mm\n    the worst of 2 of this kind; the other: c and d", "told at once",
-      "dt is 9 times too long for 3\n    the worst of 8 of this kind; the others: 1, 2, 4, 5, 6 and 2 others",
+      "dt is 9 times too long for 3\n    the worst of 8 of this kind; the others: 8, 7, 6, 5, 4 and 2 more",
       "a mesh is coarse"};
   EXPECT_EQ(take_warnings(), expected);
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "warning: told at once\nwarning: " + expected[0] + "\nwarning: " +

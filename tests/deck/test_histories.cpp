@@ -108,6 +108,7 @@ TEST(DeckHistory, of_an_acceleration_has_a_unit_in_the_file_or_the_deck) {
     try {
       said_with(csv, history);
     } catch (const InputError& error) {
+      testing::internal::GetCapturedStdout();
       return error.what();
     }
     return "";

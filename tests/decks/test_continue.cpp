@@ -122,8 +122,9 @@ TEST_F(Continue, to_a_tighter_tolerance_gives_what_that_tolerance_gives_and_take
     std::cout << "latin{" << more << " }: first run " << before << " iterations, continued with "
               << iterations(going_on) << ", a fresh run at 1e-7 takes " << fresh << "; difference from it "
               << difference_before << " before, " << after << " after\n";
-    // What an iteration leaves goes with its tolerance, here by 1e-4; both runs leave it.
-    EXPECT_LT(after, 2e-4 * difference_before) << more;
+    // What an iteration leaves goes with its tolerance, here by 1e-4; both runs leave it. Windows leave less at 1e-3
+    // than single steps do, and as much at 1e-7.
+    EXPECT_LT(after, std::max(2e-4 * difference_before, 2e-6)) << more;
     // A window of several steps begins anew what its steps tell each other.
     EXPECT_LT(static_cast<double>(iterations(going_on)),
               (std::string(more).find("window") == std::string::npos ? 0.9 : 1.1) * static_cast<double>(fresh))

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "decks/deck_prints.hpp"
+#include "result/limits.hpp"
 
 namespace dygita::test::hard_tests {
 namespace {
@@ -196,9 +197,16 @@ TEST(StaticYield, creates_no_energy_in_one_increment) {
   for (const char* name : {"hard/early_yield.lua", "hard/plastic_cycle.lua"}) {
     const PrintedRun bolt = run_printing(name);
     for (const DeckRun& run : bolt.runs) {
-      // A gap that stays open: percentages of what the tolerance leaves of the 1e-5 J of a tightened bolt.
+      // A gap that stays open, or a rest: percentages of what the tolerance leaves of the 1e-5 J of a tightened bolt.
       if (run.figure("largest energy [J]") < 1e-12) continue;
-      EXPECT_LT(run.figure("energy created by the scheme [%]"), 1e-3) << name;
+      const std::map<std::string, double> figures = run.figures();
+      if (const auto found = figures.find("energy created by the scheme, static [%]"); found != figures.end())
+        EXPECT_LT(found->second, 1e-3) << name;
+      const auto motion = figures.find("energy of the motion [J]");
+      if (motion != figures.end() && motion->second <= 1.01e-8 * run.figure("largest energy [J]"))
+        EXPECT_LT(run.figure("energy created by the scheme [%]"), limit::energy_gain) << name;  // no warning
+      else
+        EXPECT_LT(run.figure("energy created by the scheme [%]"), 1e-3) << name;
     }
   }
 }

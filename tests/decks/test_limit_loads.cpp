@@ -129,7 +129,8 @@ problem{ name = "slide", substructures = { cube, block }, interfaces = { seat },
 }
 
 TEST(NoEquilibrium, is_said_only_where_no_forces_balance_the_loads) {
-  const Said pushed = said_by(pressed_aside, {{"side", "310"}});
+  // Friction holds 300 N; the cone that no forces must be found in is up to a tenth wider.
+  const Said pushed = said_by(pressed_aside, {{"side", "340"}});
   EXPECT_FALSE(pushed.run.result->converged);
   expect_in(pushed.warnings, {"there is no equilibrium"});
   const Said few = said_by(pressed_aside, {{"side", "285"}, {"iterations", "60"}});

@@ -32,7 +32,7 @@ class Histories : public Assembly {
   }
 };
 
-History record(std::vector<double> times, std::vector<double> values, const std::string& unit = "") {
+History record(std::vector<double> times, std::vector<double> values, const std::string& unit = "Pa") {
   return History::record({std::move(times), std::move(values), unit, unit, 1.0}, "shot.csv");
 }
 
@@ -146,6 +146,15 @@ TEST_F(Histories, without_a_peak_in_the_step_are_named) {
   EXPECT_EQ(doubt_of(History::function([](double) { return 0.0; })), "is zero throughout the step");
   EXPECT_EQ(doubt_of(History::function([](double t) { return t < 0.5 ? 3.0 : 0.0; })),
             "is 3 Pa throughout the step: does it depend on t, and is t in seconds?");
+}
+
+TEST_F(Histories, from_files_without_a_unit_are_doubted_unless_a_factor_gives_it) {
+  const History plain = record({0.0, 50e-6, 100e-6}, {0.0, 5.0, 0.0}, "");
+  EXPECT_EQ(
+      doubt_of(plain),
+      "takes Pa, and the file of its history gives no unit: its values are taken as Pa; history.file{ ..., unit = 1 "
+      "} says so, another number that one of them is worth more");
+  EXPECT_EQ(doubt_of(plain.scaled(1e3)), "");
 }
 
 TEST_F(Histories, in_milliseconds_are_over_at_once_in_a_static_step) {

@@ -38,6 +38,7 @@ def arguments():
     asked.add_argument("--no-shrinking", action="store_true")
     asked.add_argument("--verbose", action="store_true")
     asked = asked.parse_args()
+    asked.out = asked.out.resolve()
     if "all" in asked.switched_on:
         asked.switched_on = [trait for trait, _, _ in switched_off.SWITCHED_OFF]
     asked.program = asked.program.resolve()

@@ -9,18 +9,8 @@ import compare
 import geometry
 
 SWITCHED_OFF = [
-    ("left free in a static step", "*", "where a free motion is left depends on the place and the orientation of the scene, and what holds it carries force"),
     ("on the verge of tipping", "*", "no answer is the right one; for good"),
     ("friction in a ring", "*", "three parts joined in a ring: laws that meet there share their force in a way that is not unique, and with it what slides and what yields; for good"),
-    ("driven at a joint", "*", "a tie whose one side a load sets in motion at once gains energy; friction between held and driven nodes vanishes"),
-    ("tie between unlike velocities", "*", "a tie between parts thrown apart gains energy"),
-    ("faint motion about a preload", "*", "the tolerance of a dynamic step is measured against the energy of the preload"),
-    ("overhang", "*", "interface points are merged until too few are left; which ones depends on order and orientation"),
-    ("unlike meshes", "swapped", "the side with the interface's points depends on the order where facets are of equal size"),
-    ("unlike meshes", "turned by quarters", "ties between facets of equal size are decided along global axes"),
-    ("unlike meshes", "turned obliquely", "ties between facets of equal size are decided along global axes"),
-    ("unlike meshes", "mirrored", "ties between facets of equal size are decided along global axes"),
-    ("unlike meshes", "points", "points on the coarser face where the finer lies within it"),
 ]
 
 

@@ -52,7 +52,9 @@ def check_ranks(trial):
 
 
 def can_be_condensed(scene, i):
-    return not any(i in pattern["members"] for pattern in scene["patterns"])
+    """Patterns share one mesh; a non-reflecting support asks its part for a material, which a superelement has not."""
+    absorbs = any(support["kind"] == "absorbing" and any(part == i for part, _ in support["on"]) for support in scene["supports"])
+    return not absorbs and not any(i in pattern["members"] for pattern in scene["patterns"])
 
 
 @relation("condensed", "exact: a superelement with all its modes is its mesh in other unknowns, always implicit", share=0.4, manners=("implicit",),

@@ -231,7 +231,8 @@ TEST(Report, says_by_how_much_a_spectrum_leaves_its_specification) {
   EXPECT_NEAR(record["outputs"][1]["specification"]["exceedance"]["decibels"].get<double>(), 20 * std::log10(2.5),
               1e-9);
   ReportRequest other;
-  other.specification = std::make_shared<Specification>(Specification{{100.0, 1000.0}, {100.0, 100.0}, "other.csv"});
+  other.specifications[""] =
+      std::make_shared<Specification>(Specification{{100.0, 1000.0}, {100.0, 100.0}, "other.csv"});
   expect_all(report_html(scratch.path(), other),
              {"stays below its specification wherever it is judged, nearest at 500\u00a0Hz with −12.0\u00a0dB",
               "Specification: other.csv", std::string("card fine") + card_of_srs});
@@ -263,11 +264,11 @@ TEST(Report, says_that_a_spectrum_and_its_specification_do_not_meet) {
   expect_all(page, {"is not held against its specification (100\u00a0Hz to 1\u00a0kHz)", "not judged",
                     std::string("card poor") + card_of_srs});
   ReportRequest far;
-  far.specification = std::make_shared<Specification>(Specification{{2e3, 9e3}, {1.0, 1.0}, "far.csv"});
+  far.specifications[""] = std::make_shared<Specification>(Specification{{2e3, 9e3}, {1.0, 1.0}, "far.csv"});
   long_record().write(scratch.path());
   expect_all(report_html(scratch.path(), far), {"they share no frequency that can be judged",
                                                 "2\u00a0kHz to 9\u00a0kHz", std::string("card poor") + card_of_srs});
-  far.specification = std::make_shared<Specification>(Specification{{500.0, 9e3}, {1e3, 1e3}, "half.csv"});
+  far.specifications[""] = std::make_shared<Specification>(Specification{{500.0, 9e3}, {1e3, 1e3}, "half.csv"});
   expect_all(report_html(scratch.path(), far),
              {"1\u00a0kHz to 9\u00a0kHz (the spectrum ends at 1\u00a0kHz)", std::string("card fair") + card_of_srs});
 }
