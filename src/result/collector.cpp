@@ -78,9 +78,9 @@ void Collector::watch(const Instant& instant) {
   const double accounted = e.kinetic + e.strain + e.friction + e.plastic + e.damping + e.scheme;
   largest_energy_ = std::max({largest_energy_, accounted, std::abs(e.start + e.loads)});
   EnergyBooks& now = books(instant.is_static());
-  // Of nearly nothing beside what is stored rounding alone would tell.
-  constexpr double rounding = 1e-8;
-  now.energy = std::max({now.energy, energy_of(instant), rounding * before_.strain});
+  // A motion of next to nothing beside what is stored is what the tolerance has left.
+  constexpr double left_by_tolerance = 1e-7;
+  now.energy = std::max({now.energy, energy_of(instant), left_by_tolerance * before_.strain});
   now.imbalance = std::max(now.imbalance, std::abs(e.balance() - before_.balance()));
   now.loss = std::max(now.loss, e.scheme - before_.scheme);
   now.gain = std::max(now.gain, before_.scheme - e.scheme);
