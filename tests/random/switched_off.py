@@ -9,6 +9,8 @@ import compare
 import geometry
 
 SWITCHED_OFF = [
+    ("left free in a static step", "*", "where a free motion is left depends on the place and the orientation of the scene, by 1e-3 of the motion"),
+    ("unlike meshes", "points", "cells as large as the overlap: which face has the points changes as much as cells of half the size do"),
     ("on the verge of tipping", "*", "no answer is the right one; for good"),
     ("friction in a ring", "*", "three parts joined in a ring: laws that meet there share their force in a way that is not unique, and with it what slides and what yields; for good"),
 ]
