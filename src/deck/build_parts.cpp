@@ -172,7 +172,7 @@ Content build_substructure(const Declaration& d) {
   part->material = *material;
   part->yield = material->yield;
   set_place(d.arguments.numbers("place"), *part);
-  share_on_machine(part->mesh);
+  share_on_machine(part->mesh, part->mesh->arrays());
   part->velocity = d.arguments.vector("velocity");
   if (d.arguments.has("integration")) part->integration = integration_of(d.arguments.text("integration"));
   doubt_size(*part);

@@ -37,11 +37,11 @@ CutPtr cut_into_pieces(const Problem& problem, const std::vector<Surface>& surfa
   return make_cut(problem, surfaces, plan);
 }
 
-std::vector<MeshPtr> meshes_of(const Problem& problem, const Cut& cut) {
-  std::vector<MeshPtr> meshes;
-  for (const SubstructurePtr& part : problem.substructures) meshes.push_back(part->mesh);
-  for (const CutPiece& piece : cut.pieces()) meshes.push_back(piece.body->mesh);
-  return meshes;
+void share_on_machine(const Problem& problem, const Cut& cut) {
+  const auto share = [](const MeshPtr& mesh) { share_on_machine(mesh, mesh->arrays()); };
+  for (const SubstructurePtr& part : problem.substructures) share(part->mesh);
+  for (const CutPiece& piece : cut.pieces()) share(piece.body->mesh);
+  dygita::share_on_machine(cut.arrays());
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
   const ranks::Traffic traffic_before = ranks::traffic();
   const std::vector<Surface> surfaces = make_surfaces(problem);
   const CutPtr cut = cut_into_pieces(problem, surfaces, plan);
-  share_on_machine(meshes_of(problem, *cut), cut->arrays());
+  share_on_machine(problem, *cut);
   const std::vector<Body> bodies = make_bodies(problem, surfaces, *cut);
   State state = initial_state(problem, surfaces, *cut);
   auto kept = std::make_shared<InterfaceFields>(problem.solver.history_memory);

@@ -121,10 +121,10 @@ namespace {
 struct Shared {
   fs::path folder;
   std::unique_ptr<MachineCopies> copies;  // null: no folder for temporary files
-  std::map<const Mesh*, std::weak_ptr<const Mesh>> known;
+  std::map<const void*, std::weak_ptr<const void>> known;
   struct Waiting {
     MachineArray array;
-    MeshPtr mesh;  // that it is of, or null
+    std::shared_ptr<const void> owner;  // or null
   };
   std::vector<Waiting> waiting;  // being written by others
 
@@ -133,9 +133,9 @@ struct Shared {
     folder = fs::temp_directory_path(error);
     if (!error) copies = std::make_unique<MachineCopies>(folder.string(), prefix());
   }
-  void share(const MachineArray& array, const MeshPtr& mesh) {
-    if (copies->share(array.at, array.n_bytes) == MachineCopies::Outcome::being_written)
-      waiting.push_back({array, mesh});
+  void share(const MachineArray& array, const std::shared_ptr<const void>& owner) {
+    if (copies->share(array.data(), array.size()) == MachineCopies::Outcome::being_written)
+      waiting.push_back({array, owner});
   }
   static std::string prefix() { return "dygita_meshes_" + ranks::name_of_job() + "_"; }
 };
@@ -175,20 +175,18 @@ LikePages::~LikePages() {
   mallopt(M_TRIM_THRESHOLD, 2 * most_by_rule);
 }
 
-void share_on_machine(const MeshPtr& mesh) {
+void share_on_machine(const std::shared_ptr<const void>& owner, const std::vector<MachineArray>& arrays) {
   if (ranks::count_on_machine() == 1) return;
   Shared& here = shared_here();
-  std::weak_ptr<const Mesh>& known = here.known[mesh.get()];
-  if (!here.copies || known.lock() == mesh) return;
-  known = mesh;
+  std::weak_ptr<const void>& known = here.known[owner.get()];
+  if (!here.copies || known.lock() == owner) return;
+  known = owner;
   ranks::before_stop(forget_on_machine);
-  here.share(machine_array(mesh->nodes), mesh);
-  for (const CellBlock& block : mesh->blocks) here.share(machine_array(block.nodes), mesh);
+  for (const MachineArray& array : arrays) here.share(array, owner);
 }
 
-void share_on_machine(const std::vector<MeshPtr>& meshes, const std::vector<MachineArray>& arrays) {
+void share_on_machine(const std::vector<MachineArray>& arrays) {
   if (ranks::is_alone()) return;
-  for (const MeshPtr& mesh : meshes) share_on_machine(mesh);
   if (ranks::count_on_machine() > 1 && shared_here().copies) {
     ranks::before_stop(forget_on_machine);
     for (const MachineArray& array : arrays) shared_here().share(array, nullptr);
@@ -197,7 +195,7 @@ void share_on_machine(const std::vector<MeshPtr>& meshes, const std::vector<Mach
   bool is_impossible = false;
   if (ranks::count_on_machine() > 1) {
     Shared& here = shared_here();
-    for (const auto& [array, mesh] : std::exchange(here.waiting, {})) here.copies->share(array.at, array.n_bytes);
+    for (const auto& [array, owner] : std::exchange(here.waiting, {})) here.copies->share(array.data(), array.size());
     is_impossible = !here.copies || here.copies->is_impossible();
   }
   if (ranks::any(is_impossible))

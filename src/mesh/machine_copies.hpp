@@ -1,11 +1,13 @@
 // Ranks of one machine read the same deck and make the same meshes: what is large of these is in memory once for all.
+// By hand, since the arrays are those that std::vector and Eigen have made: shared windows of MPI want to allocate
+// them.
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
-
-#include "mesh/mesh.hpp"
 
 namespace dygita {
 
@@ -50,20 +52,18 @@ class LikePages {
   LikePages& operator=(const LikePages&) = delete;
 };
 
-// Where several ranks are on this machine: the mesh's nodes and cells as one of them has them. Not collective.
-void share_on_machine(const MeshPtr& mesh);
 // Heap memory that nobody changes any more.
-struct MachineArray {
-  const void* at;
-  size_t n_bytes;
-};
+using MachineArray = std::span<const std::byte>;
 template <class Array>
 MachineArray machine_array(const Array& array) {
-  return {array.data(), sizeof(*array.data()) * static_cast<size_t>(array.size())};
+  return std::as_bytes(std::span(array.data(), static_cast<size_t>(array.size())));
 }
-// Collective. All of these and what could not be shared when it was made; afterwards no file has a name. Warns where
-// the folder of temporary files does not take them: then each rank keeps its own.
-void share_on_machine(const std::vector<MeshPtr>& meshes, const std::vector<MachineArray>& arrays);
+// Where several ranks are on this machine: the owner's arrays as one of them has them, once for each owner. Not
+// collective.
+void share_on_machine(const std::shared_ptr<const void>& owner, const std::vector<MachineArray>& arrays);
+// Collective. These, and what could not be shared when it was made; afterwards no file has a name. Warns where the
+// folder of temporary files does not take them: then each rank keeps its own.
+void share_on_machine(const std::vector<MachineArray>& arrays);
 double bytes_shared_on_machine();
 
 }  // namespace dygita

@@ -53,6 +53,14 @@ int Mesh::n_cells() const {
   return n;
 }
 
+std::vector<std::span<const std::byte>> Mesh::arrays() const {
+  std::vector<std::span<const std::byte>> arrays{
+      std::as_bytes(std::span(nodes.data(), static_cast<size_t>(nodes.size())))};
+  for (const CellBlock& block : blocks)
+    arrays.push_back(std::as_bytes(std::span(block.nodes.data(), static_cast<size_t>(block.nodes.size()))));
+  return arrays;
+}
+
 Facet facet_of_cell(const CellBlock& block, int i, int k) {
   const LocalFacet& local = cell_shape(block.type).facets[k];
   const int n = nodes_per_facet(local.type), *cell = block.cell(i);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -56,6 +58,8 @@ struct Mesh {
   const std::string& shape_digest() const { return shape.empty() ? digest : shape; }
   int n_nodes() const { return static_cast<int>(nodes.cols()); }
   int n_cells() const;
+  // Memory of the nodes and of each block's cells.
+  std::vector<std::span<const std::byte>> arrays() const;
 };
 
 using MeshPtr = std::shared_ptr<const Mesh>;

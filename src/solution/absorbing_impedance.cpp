@@ -1,7 +1,6 @@
 #include "solution/absorbing_impedance.hpp"
 
-#include "mesh/facing.hpp"
-#include "solution/step_model.hpp"
+#include "mesh/face_nodes.hpp"
 
 namespace dygita {
 
@@ -42,13 +41,10 @@ bool is_linear(const Facet& facet) { return facet.nodes().size() == facet.corner
 
 }  // namespace
 
-AbsorbingImpedance absorbing_impedance(const StepModel& model, int part) {
+AbsorbingImpedance absorbing_impedance(const Problem& problem, const Step& step, const Substructure& body,
+                                       bool is_explicit) {
   AbsorbingImpedance impedance;
-  const Problem& problem = *model.problem;
-  const Step& step = *model.step;
   if (step.is_static) return impedance;
-  const bool is_explicit = model.integration.is_explicit_piece(model.cut->first(part));
-  const Substructure& body = *problem.substructures[part];
   for (const SupportPtr& support : supports_of(problem, step)) {
     if (!support->kind->absorbs()) continue;
     for (const FaceOrRegion& on : support->on) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "solution/integration.hpp"
+#include "solution/longest_step.hpp"
 
 namespace dygita {
 

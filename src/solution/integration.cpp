@@ -13,6 +13,7 @@
 #include "model/model.hpp"
 #include "solution/alike_parts.hpp"
 #include "solution/all_pieces.hpp"
+#include "solution/longest_step.hpp"
 #include "solution/mass_choice.hpp"
 #include "solution/stored_precision.hpp"
 
@@ -291,14 +292,6 @@ void refuse_mixed_window(const Problem& problem, const Integration& chosen) {
 
 IntegrationChoice asked_of(const Problem& problem, const Substructure& part) {
   return part.integration.value_or(problem.solver.integration);
-}
-
-std::string why_not_explicit(const Body& body, double numerical_damping) {
-  if (body.part->mesh->condensed) return "a superelement has no mass of its own at each node";
-  if (numerical_damping != 0.0) return "'numerical_damping' belongs to the implicit scheme";
-  if (!body.mass->is_massless.empty()) return "'massless_contact' leaves nodes without mass";
-  if (body.mass->least <= 0.0) return "it has a node without mass";
-  return "";
 }
 
 Integration choose_integration(const Problem& problem, const Step& step, const std::vector<Body>& bodies,

@@ -38,18 +38,6 @@ Integration choose_integration(const Problem& problem, const Step& step, const s
 // What the deck says of a substructure: implicit, as the program chooses, or explicit.
 IntegrationChoice asked_of(const Problem& problem, const Substructure& part);
 
-// Why a body cannot be integrated explicitly: "it has a node without mass"; empty: it can.
-std::string why_not_explicit(const Body& body, double numerical_damping);
-
-// Longest stable increment (s) of a body by itself, from its highest frequency by Lanczos' iteration: within a percent,
-// and not above it. held: of its nodes.
-double longest_explicit_step(const Body& body, const std::unordered_map<int, Held>& held);
-// The same where its mass is tuned to that step and to waves of that speed, m/s (manual, eq. S13).
-double longest_tuned_step(const Body& body, const std::unordered_map<int, Held>& held, double speed);
-// Speed (m/s) of the waves that a tuned mass keeps at theirs: shear waves, which are the shortest of a frequency; where
-// supports leave a bar no motion but along it, compression. held: of all of its nodes.
-double tuned_wave_speed(const Substructure& part, const std::unordered_map<int, Held>& held);
-
 // "explicit: 'a', 'b' (12 increments of 0.08 us in each dt, stable to 0.09 us); implicit: 'c' (it has cells of order
 // two, whose mass couples the nodes)"; empty: all are implicit and none was to be anything else.
 std::string describe(const Integration& integration, const Problem& problem, const Step& step);

@@ -1,5 +1,7 @@
-// The longest stable increment of a piece: that of its highest frequency with its interfaces free, since ties, contact
-// and friction only join such pieces (manual, eq. S11).
+// The longest stable increment of a piece is that of its highest frequency with its interfaces free, since ties,
+// contact and friction only join such pieces.
+#include "solution/longest_step.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,7 +9,6 @@
 
 #include "fem/mass_edges.hpp"
 #include "numerics/tridiagonal.hpp"
-#include "solution/integration.hpp"
 
 namespace dygita {
 
@@ -123,6 +124,14 @@ bool is_confined(const Substructure& part, const HeldNodes& held) {
 double tuned_wave_speed(const Substructure& part, const HeldNodes& held) {
   const Elastic& material = part.material;
   return is_confined(part, held) ? material.p_wave_speed() : material.s_wave_speed();
+}
+
+std::string why_not_explicit(const Body& body, double numerical_damping) {
+  if (body.part->mesh->condensed) return "a superelement has no mass of its own at each node";
+  if (numerical_damping != 0.0) return "'numerical_damping' belongs to the implicit scheme";
+  if (!body.mass->is_massless.empty()) return "'massless_contact' leaves nodes without mass";
+  if (body.mass->least <= 0.0) return "it has a node without mass";
+  return "";
 }
 
 double longest_explicit_step(const Body& body, const HeldNodes& held) {

@@ -16,6 +16,7 @@
 #include "solution/distant_piece.hpp"
 #include "solution/equal_pieces.hpp"
 #include "solution/explicit_piece.hpp"
+#include "solution/longest_step.hpp"
 #include "solution/rigid_motions.hpp"
 #include "solution/row_stiffness.hpp"
 #include "solution/stored_precision.hpp"
@@ -150,7 +151,9 @@ std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body
   CHECK(static_cast<int>(bodies.size()) == n, "one body a piece");
   std::vector<AbsorbingImpedance> absorbing;
   for (size_t part = 0; part < model.problem->substructures.size(); ++part)
-    absorbing.push_back(absorbing_impedance(model, static_cast<int>(part)));
+    absorbing.push_back(
+        absorbing_impedance(*model.problem, *model.step, *model.problem->substructures[part],
+                            model.integration.is_explicit_piece(model.cut->first(static_cast<int>(part)))));
   const std::vector<std::vector<PortAt>> ports = ports_of_pieces(model);
   std::vector<PieceSetup> setups(n);
   const auto set_up = [&](int at) {

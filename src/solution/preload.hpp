@@ -37,7 +37,4 @@ void shorten(const StepModel& model, const Preload& preload, double target, cons
 void check_reached(const Step& step, int increment, const std::vector<const Interface*>& interfaces, const Vec& force,
                    const Vec& target);
 
-// Throws InputError where a step asks for more than an interface without hardening can carry.
-void check_preloads(const Problem& problem, const std::vector<Surface>& surfaces);
-
 }  // namespace dygita

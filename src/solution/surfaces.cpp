@@ -12,7 +12,7 @@
 #include "law/law.hpp"
 #include "mesh/mortar.hpp"
 #include "mesh/segments.hpp"
-#include "solution/preload.hpp"
+#include "solution/check_preloads.hpp"
 #include "solution/whole_parts.hpp"
 
 namespace dygita {

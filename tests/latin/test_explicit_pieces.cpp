@@ -9,6 +9,7 @@
 #include "law/law.hpp"
 #include "solution/blocks.hpp"
 #include "solution/explicit_piece.hpp"
+#include "solution/longest_step.hpp"
 
 namespace dygita {
 namespace {
