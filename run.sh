@@ -36,8 +36,8 @@ report_packages=(python3 python3-numpy python3-matplotlib)  # of ./run.sh report
 
 usage() {
   cat <<'END'
-./run.sh                  install what is missing, build, run decks/bolted_flanges.lua, say which files to open
-./run.sh test [NAME]      install what is missing, build, pass the tests; with NAME only those whose name matches it (ctest -R)
+./run.sh                  install what is missing, build the program, run decks/bolted_flanges.lua, say which files to open
+./run.sh test [NAME]      install what is missing, build the program and its tests, pass them; with NAME only those whose name matches it (ctest -R)
 ./run.sh sanitize [decks] build with address and undefined behaviour sanitizers (build/sanitize), pass the unit tests and run small decks;
                           'threads': small decks on three threads under the sanitizer of threads (clang, build/threads)
                           'decks': these and a minute of the fuzzers, which needs the program and them alone
@@ -155,6 +155,7 @@ n_jobs() {
   echo $((memory < cores ? memory : cores))
 }
 
+# The program, or with 'all' its tests too.
 build_engine() {
   # A build folder that came along with a copied checkout belongs to another place.
   local cache="$build/CMakeCache.txt"
@@ -163,7 +164,7 @@ build_engine() {
     rm -rf "$build"
   fi
   say "Building (build/release)"
-  (cd "$root" && cmake --preset release && cmake --build --preset release --parallel "$(n_jobs)") ||
+  (cd "$root" && cmake --preset release && cmake --build --preset release --parallel "$(n_jobs)" --target "${1:-dygita}") ||
     fail "the build failed; the first error is above"
 }
 
@@ -267,7 +268,10 @@ main() {
       [[ "$command $*" != "sanitize threads" ]] || packages+=("${fuzz_packages[@]}")
       install_packages
       [[ "$command" != test ]] || install_test_packages
-      [[ "$command" == sanitize ]] || build_engine
+      case "$command" in
+        test) build_engine all ;;
+        example | build) build_engine ;;
+      esac
       case "$command" in
         example) run_example ;;
         test) run_tests "$@" ;;

@@ -2,7 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
-#include "output/files.hpp"
+#include "files/files.hpp"
 #include "report/check_picture.hpp"
 
 namespace dygita {

@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
-#include "output/files.hpp"
+#include "files/files.hpp"
 #include "report/report.hpp"
 #include "signal/specification.hpp"
 

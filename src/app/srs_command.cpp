@@ -13,7 +13,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/names.hpp"
-#include "output/csv.hpp"
+#include "files/csv.hpp"
 #include "signal/signal_doubts.hpp"
 #include "signal/signal_file.hpp"
 

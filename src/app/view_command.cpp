@@ -12,7 +12,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/plain_file.hpp"
-#include "output/files.hpp"
+#include "files/files.hpp"
 #include "report/view_script.hpp"
 
 namespace dygita {

@@ -1,6 +1,7 @@
 #include "base/memory.hpp"
 
 #include <sys/mman.h>
+#include <sys/sysinfo.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -42,6 +43,11 @@ void require_memory(std::size_t bytes) {
   void* const at = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (at == MAP_FAILED) throw std::bad_alloc();
   munmap(at, bytes);
+}
+
+double memory_of_machine() {
+  struct sysinfo info {};
+  return sysinfo(&info) == 0 ? static_cast<double>(info.totalram) * info.mem_unit : 0.0;
 }
 
 }  // namespace dygita

@@ -23,6 +23,9 @@ class MemoryReserve {
 // Bytes that the machine could give without swapping (MemAvailable of /proc/meminfo); 0: it does not tell.
 double available_memory();
 
+// Bytes of memory that the machine has; 0: it does not tell.
+double memory_of_machine();
+
 // Bytes of this process that are in memory now, and that were at most.
 double resident_memory();
 double peak_memory();

@@ -3,8 +3,8 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "base/names.hpp"
-#include "mesh/machine_copies.hpp"
 #include "model/load.hpp"
+#include "ranks/machine_copies.hpp"
 
 namespace dygita {
 

@@ -6,16 +6,16 @@
 #include "deck/build_model.hpp"
 #include "deck/deck_state.hpp"
 #include "deck/integration.hpp"
+#include "intake/geo_script.hpp"
+#include "intake/mesh_file.hpp"
 #include "law/law.hpp"
 #include "mesh/bolt.hpp"
 #include "mesh/box.hpp"
-#include "mesh/geo_script.hpp"
-#include "mesh/machine_copies.hpp"
-#include "mesh/mesh_file.hpp"
 #include "mesh/mesh_limits.hpp"
 #include "model/extent.hpp"
 #include "model/found_faces.hpp"
 #include "model/point_faces.hpp"
+#include "ranks/machine_copies.hpp"
 
 namespace dygita {
 

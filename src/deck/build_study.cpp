@@ -7,7 +7,7 @@
 #include "deck/integration.hpp"
 #include "model/check.hpp"
 #include "model/load.hpp"
-#include "result/output_table.hpp"
+#include "recording/output_table.hpp"
 
 namespace dygita {
 

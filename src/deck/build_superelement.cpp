@@ -5,7 +5,7 @@
 
 #include "base/log.hpp"
 #include "deck/build_model.hpp"
-#include "mesh/superelement_file.hpp"
+#include "intake/superelement_file.hpp"
 
 namespace dygita {
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "deck/deck.hpp"
-#include "result/convergence_study.hpp"
+#include "estimates/convergence_study.hpp"
 
 namespace dygita {
 

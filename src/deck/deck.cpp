@@ -11,7 +11,7 @@
 #include "deck/deck_text.hpp"
 #include "deck/results.hpp"
 #include "deck/syntax_hint.hpp"
-#include "mesh/mesher_process.hpp"
+#include "intake/mesher_process.hpp"
 #include "model/own_files.hpp"
 #include "numerics/factor.hpp"
 #include "numerics/panel_choice.hpp"

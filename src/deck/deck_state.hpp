@@ -8,7 +8,7 @@
 #include "deck/deck.hpp"
 #include "deck/lua_state.hpp"
 #include "deck/register.hpp"
-#include "mesh/step_assembly.hpp"
+#include "intake/step_assembly.hpp"
 #include "run/study.hpp"
 
 namespace dygita {

@@ -7,9 +7,9 @@
 #include <variant>
 #include <vector>
 
+#include "intake/gmsh_reader.hpp"
+#include "intake/step_assembly.hpp"
 #include "material/material.hpp"
-#include "mesh/gmsh_reader.hpp"
-#include "mesh/step_assembly.hpp"
 #include "model/model.hpp"
 #include "result/result.hpp"
 #include "result/series.hpp"

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "base/parallel.hpp"
-#include "solution/all_pieces.hpp"
+#include "partition/all_pieces.hpp"
 
 namespace dygita {
 

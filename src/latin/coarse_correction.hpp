@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 #include <vector>
 
-#include "solution/step_model.hpp"
+#include "step/step_model.hpp"
 
 namespace dygita {
 

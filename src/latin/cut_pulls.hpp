@@ -2,9 +2,9 @@
 // a node, before the mass of any of them spreads it to its neighbours (manual, eq. S13). So a cut changes nothing.
 #pragma once
 
+#include "pieces/explicit_piece.hpp"
 #include "ranks/neighbours.hpp"
-#include "solution/explicit_piece.hpp"
-#include "solution/step_model.hpp"
+#include "step/step_model.hpp"
 
 namespace dygita {
 

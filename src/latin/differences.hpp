@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "solution/interface_sums.hpp"
+#include "step/interface_sums.hpp"
 
 namespace dygita {
 

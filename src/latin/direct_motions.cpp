@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "exchange/direct_links.hpp"
 #include "latin/direct_points.hpp"
-#include "solution/direct_links.hpp"
 
 namespace dygita {
 

@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "law/law.hpp"
-#include "solution/distant_points.hpp"
+#include "step/distant_points.hpp"
 
 namespace dygita {
 

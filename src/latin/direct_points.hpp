@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "base/fair_shares.hpp"
+#include "exchange/direct_links.hpp"
 #include "latin/force_mixing.hpp"
+#include "pieces/explicit_piece.hpp"
 #include "ranks/neighbours.hpp"
-#include "solution/direct_links.hpp"
-#include "solution/distant_piece.hpp"
-#include "solution/explicit_piece.hpp"
-#include "solution/point_record.hpp"
+#include "step/distant_piece.hpp"
+#include "step/point_record.hpp"
 
 namespace dygita {
 

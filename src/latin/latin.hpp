@@ -1,9 +1,9 @@
 // The method: every step of a problem, the linear and the local stage alternating until they agree.
 #pragma once
 
-#include "solution/observer.hpp"
-#include "solution/solver_figures.hpp"
-#include "solution/trail.hpp"
+#include "step/observer.hpp"
+#include "step/solver_figures.hpp"
+#include "step/trail.hpp"
 
 namespace dygita {
 

@@ -4,9 +4,9 @@
 #include <map>
 
 #include "law/law_slope.hpp"
-#include "solution/interface_sums.hpp"
-#include "solution/preload.hpp"
-#include "solution/tangents.hpp"
+#include "step/interface_sums.hpp"
+#include "step/preload.hpp"
+#include "step/tangents.hpp"
 
 namespace dygita {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "solution/solver_figures.hpp"
+#include "step/solver_figures.hpp"
 
 namespace dygita {
 

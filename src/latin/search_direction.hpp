@@ -2,7 +2,7 @@
 // directions).
 #pragma once
 
-#include "solution/step_model.hpp"
+#include "step/step_model.hpp"
 
 namespace dygita {
 

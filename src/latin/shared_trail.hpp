@@ -1,7 +1,7 @@
 // The trail of several ranks: each keeps its part, rank 0 reads all of them, and all go over it.
 #pragma once
 
-#include "solution/trail.hpp"
+#include "step/trail.hpp"
 
 namespace dygita {
 

@@ -6,9 +6,9 @@
 
 #include "base/log.hpp"
 #include "base/memory.hpp"
-#include "mesh/machine_copies.hpp"
-#include "solution/all_pieces.hpp"
-#include "solution/share_out.hpp"
+#include "partition/all_pieces.hpp"
+#include "partition/share_out.hpp"
+#include "ranks/machine_copies.hpp"
 
 namespace dygita {
 

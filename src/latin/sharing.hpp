@@ -1,10 +1,10 @@
 // What a run of several ranks tells of itself.
 #pragma once
 
+#include "interfaces/surfaces.hpp"
+#include "partition/cut.hpp"
 #include "ranks/ranks.hpp"
-#include "solution/cut.hpp"
-#include "solution/solver_figures.hpp"
-#include "solution/surfaces.hpp"
+#include "step/solver_figures.hpp"
 
 namespace dygita {
 

@@ -7,10 +7,10 @@
 #include "latin/shared_trail.hpp"
 #include "latin/sharing.hpp"
 #include "latin/step_run.hpp"
-#include "mesh/machine_copies.hpp"
 #include "numerics/factor.hpp"
-#include "solution/step_ends.hpp"
-#include "solution/stopped_run.hpp"
+#include "ranks/machine_copies.hpp"
+#include "step/step_ends.hpp"
+#include "step/stopped_run.hpp"
 
 namespace dygita {
 

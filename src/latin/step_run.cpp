@@ -8,9 +8,9 @@
 
 #include "base/log.hpp"
 #include "fem/mass.hpp"
-#include "solution/all_pieces.hpp"
-#include "solution/finite_energies.hpp"
-#include "solution/step_ends.hpp"
+#include "partition/all_pieces.hpp"
+#include "step/finite_energies.hpp"
+#include "step/step_ends.hpp"
 
 namespace dygita {
 

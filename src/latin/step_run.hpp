@@ -18,10 +18,10 @@
 #include "latin/step_settings.hpp"
 #include "latin/tangent_iteration.hpp"
 #include "latin/warm_start.hpp"
-#include "solution/distant_points.hpp"
-#include "solution/loose_motions.hpp"
-#include "solution/make_pieces.hpp"
-#include "solution/trail.hpp"
+#include "step/distant_points.hpp"
+#include "step/loose_motions.hpp"
+#include "step/make_pieces.hpp"
+#include "step/trail.hpp"
 
 namespace dygita {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "latin/persistence.hpp"
-#include "solution/step_model.hpp"
+#include "step/step_model.hpp"
 
 namespace dygita {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "latin/step_run.hpp"
-#include "solution/step_ends.hpp"
+#include "step/step_ends.hpp"
 
 namespace dygita {
 

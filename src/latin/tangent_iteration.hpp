@@ -4,8 +4,8 @@
 #pragma once
 
 #include "latin/indicator.hpp"
-#include "solution/assembled_system.hpp"
-#include "solution/tangent_steps.hpp"
+#include "step/assembled_system.hpp"
+#include "step/tangent_steps.hpp"
 
 namespace dygita {
 

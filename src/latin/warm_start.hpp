@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "solution/interface_fields.hpp"
-#include "solution/interface_sums.hpp"
+#include "interfaces/interface_fields.hpp"
+#include "step/interface_sums.hpp"
 
 namespace dygita {
 

@@ -22,26 +22,21 @@ struct Box {
   bool meets(const Box& other) const { return !common(other).is_empty(); }
 };
 
-class BoxGrid {
+// Numbers of things by the cells of a regular grid that their boxes touch.
+class CellGrid {
  public:
-  // `cell`: the edge of a cell (m), about as large as the boxes.
-  BoxGrid(const std::vector<Box>& boxes, double cell) : boxes_(boxes), cell_(cell), last_asked_(boxes.size(), -1) {
-    for (size_t i = 0; i < boxes.size(); ++i)
-      for_each_cell(boxes[i], [&](size_t key) { in_cell_[key].push_back(static_cast<int>(i)); });
-  }
+  // cell: the edge of a cell, m.
+  explicit CellGrid(double cell) : cell_(cell) {}
 
-  // Calls visit(i) once for each box that meets `box`.
+  void add(const Box& box, int i) {
+    for_each_cell(box, [&](size_t key) { in_cell_[key].push_back(i); });
+  }
+  // Calls back with those that share a cell with the box; with one that shares several, several times.
   template <typename Visit>
-  void for_each_meeting(const Box& box, Visit visit) {
-    ++n_asked_;
+  void for_each_near(const Box& box, Visit visit) const {
     for_each_cell(box, [&](size_t key) {
-      const auto found = in_cell_.find(key);
-      if (found == in_cell_.end()) return;
-      for (const int i : found->second)
-        if (last_asked_[static_cast<size_t>(i)] != n_asked_ && boxes_[static_cast<size_t>(i)].meets(box)) {
-          last_asked_[static_cast<size_t>(i)] = n_asked_;
-          visit(i);
-        }
+      if (const auto found = in_cell_.find(key); found != in_cell_.end())
+        for (const int i : found->second) visit(i);
     });
   }
 
@@ -57,9 +52,32 @@ class BoxGrid {
                 static_cast<size_t>(k) * 83492791u);
   }
 
-  const std::vector<Box>& boxes_;
   double cell_;
   std::unordered_map<size_t, std::vector<int>> in_cell_;
+};
+
+class BoxGrid {
+ public:
+  // cell: the edge of a cell (m), about as large as the boxes.
+  BoxGrid(const std::vector<Box>& boxes, double cell) : boxes_(boxes), grid_(cell), last_asked_(boxes.size(), -1) {
+    for (size_t i = 0; i < boxes.size(); ++i) grid_.add(boxes[i], static_cast<int>(i));
+  }
+
+  // Calls visit(i) once for each box that meets `box`.
+  template <typename Visit>
+  void for_each_meeting(const Box& box, Visit visit) {
+    ++n_asked_;
+    grid_.for_each_near(box, [&](int i) {
+      long& last = last_asked_[static_cast<size_t>(i)];
+      if (last == n_asked_ || !boxes_[static_cast<size_t>(i)].meets(box)) return;
+      last = n_asked_;
+      visit(i);
+    });
+  }
+
+ private:
+  const std::vector<Box>& boxes_;
+  CellGrid grid_;
   std::vector<long> last_asked_;
   long n_asked_ = 0;
 };

@@ -14,6 +14,7 @@ struct MeshLimits {
 
 // For all meshes from now on.
 void set_mesh_limits(const MeshLimits& limits);
+const MeshLimits& mesh_limits();
 bool is_trusted_mesh(const std::string& file);
 double box_memory_limit();  // bytes; 0: not known
 

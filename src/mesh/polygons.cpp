@@ -39,9 +39,8 @@ double mean_diameter(const std::vector<Polygon>& polygons) {
   return sum / static_cast<double>(polygons.size());
 }
 
-PolygonGrid::PolygonGrid(const std::vector<Polygon>& polygons, double cell, double reach) : cell_(cell) {
-  for (size_t i = 0; i < polygons.size(); ++i)
-    for_each_cell(polygons[i], reach, [&](size_t key) { in_cell_[key].push_back(static_cast<int>(i)); });
+PolygonGrid::PolygonGrid(const std::vector<Polygon>& polygons, double cell, double reach) : cell_(cell), grid_(cell) {
+  for (size_t i = 0; i < polygons.size(); ++i) grid_.add(around(polygons[i], reach), static_cast<int>(i));
 }
 
 }  // namespace dygita

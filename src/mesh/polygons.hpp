@@ -2,9 +2,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <unordered_map>
 #include <vector>
 
+#include "mesh/box_grid.hpp"
 #include "mesh/mesh.hpp"
 
 namespace dygita {
@@ -32,29 +32,17 @@ class PolygonGrid {
   // Calls back with those that share a cell with this one; with one that shares several, several times.
   template <typename Visit>
   void for_each_near(const Polygon& polygon, Visit visit) const {
-    for_each_cell(polygon, 0.0, [&](size_t key) {
-      if (const auto found = in_cell_.find(key); found != in_cell_.end())
-        for (const int i : found->second) visit(i);
-    });
+    grid_.for_each_near(around(polygon, 0.0), visit);
   }
 
  private:
-  template <typename Visit>
-  void for_each_cell(const Polygon& x, double reach, Visit visit) const {
-    // Half a cell of margin, so that faces a sagitta apart share cells.
-    const Vec3 low = x.rowwise().minCoeff(), high = x.rowwise().maxCoeff();
-    const double margin = 0.5 + reach / cell_;
-    const auto first = ((low.array() / cell_ - margin).floor()).cast<long>().eval();
-    const auto last = ((high.array() / cell_ + margin).floor()).cast<long>().eval();
-    for (long k = first[2]; k <= last[2]; ++k)
-      for (long j = first[1]; j <= last[1]; ++j)
-        for (long i = first[0]; i <= last[0]; ++i)
-          visit(static_cast<size_t>(i) * 73856093u ^ static_cast<size_t>(j) * 19349663u ^
-                static_cast<size_t>(k) * 83492791u);
+  // Half a cell of margin, so that faces a sagitta apart share cells.
+  Box around(const Polygon& x, double reach) const {
+    return Box{x.rowwise().minCoeff(), x.rowwise().maxCoeff()}.grown(0.5 * cell_ + reach);
   }
 
   double cell_;
-  std::unordered_map<size_t, std::vector<int>> in_cell_;
+  CellGrid grid_;
 };
 
 }  // namespace dygita

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "mesh/mesher_task.hpp"
+#include "intake/mesher_task.hpp"
 
 namespace dygita {
 

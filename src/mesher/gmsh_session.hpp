@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "mesh/tagged_model.hpp"
+#include "intake/tagged_model.hpp"
 
 namespace dygita {
 

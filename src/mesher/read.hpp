@@ -1,7 +1,7 @@
 // What the mesher does: reads a file by gmsh and meshes what is not meshed. All throw InputError.
 #pragma once
 
-#include "mesh/mesher_task.hpp"
+#include "intake/mesher_task.hpp"
 
 namespace dygita {
 

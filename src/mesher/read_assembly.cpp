@@ -9,8 +9,8 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "intake/mesh_file.hpp"
 #include "mesh/jacobian.hpp"
-#include "mesh/mesh_file.hpp"
 #include "mesher/estimate.hpp"
 #include "mesher/gmsh_session.hpp"
 #include "mesher/read.hpp"

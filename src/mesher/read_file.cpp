@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "mesh/mesh_file.hpp"
+#include "intake/mesh_file.hpp"
 #include "mesher/estimate.hpp"
 #include "mesher/gmsh_session.hpp"
 #include "mesher/read.hpp"

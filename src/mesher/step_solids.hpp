@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "intake/mesher_task.hpp"
 #include "mesh/box_grid.hpp"
-#include "mesh/mesher_task.hpp"
 #include "mesher/step_contacts.hpp"
 
 namespace dygita {

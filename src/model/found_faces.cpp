@@ -2,8 +2,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "mesh/neighbours.hpp"
-#include "mesh/true_gaps.hpp"
+#include "meeting/neighbours.hpp"
+#include "meeting/true_gaps.hpp"
 #include "model/meeting.hpp"
 
 namespace dygita {

@@ -1,7 +1,7 @@
 // Faces of interfaces that a deck declares between whole parts: those that touch.
 #pragma once
 
-#include "mesh/touching.hpp"
+#include "meeting/touching.hpp"
 #include "model/model.hpp"
 
 namespace dygita {

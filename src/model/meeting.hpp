@@ -1,7 +1,7 @@
 // How the faces of an interface meet.
 #pragma once
 
-#include "mesh/mortar.hpp"
+#include "meeting/mortar.hpp"
 #include "model/model.hpp"
 
 namespace dygita {

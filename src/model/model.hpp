@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "law/law_fwd.hpp"
 #include "material/elastic.hpp"
-#include "mesh/meeting_options.hpp"
+#include "meeting/meeting_options.hpp"
 #include "mesh/mesh.hpp"
 #include "model/support.hpp"
 #include "signal/history.hpp"

@@ -1,5 +1,6 @@
 // Generalised minimal residuals, preconditioned from the right (Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7,
-// 1986), without restarts: for systems whose preconditioner leaves a few directions to find.
+// 1986), without restarts: for systems whose preconditioner leaves a few directions to find. Eigen's is unsupported,
+// wants a matrix, and measures the preconditioned residual.
 #pragma once
 
 #include <functional>

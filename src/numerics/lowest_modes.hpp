@@ -1,4 +1,6 @@
-// Lowest eigenpairs of A x = lambda M x for large sparse matrices, by block Lanczos iteration on the inverse.
+// Lowest eigenpairs of A x = lambda M x for large sparse matrices, by block Lanczos iteration on the inverse. By hand,
+// since Spectra iterates one vector, which finds an eigenvalue that a symmetric assembly has twice once, and has no
+// "all below".
 #pragma once
 
 #include <functional>

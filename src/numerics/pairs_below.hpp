@@ -1,4 +1,5 @@
-// The few smallest eigenpairs of a large sparse matrix that is nearly singular.
+// The few smallest eigenpairs of a large sparse matrix that is nearly singular. By hand: libraries ask how many there
+// are, which is what is wanted here.
 #pragma once
 
 #include "numerics/dense.hpp"

@@ -1,4 +1,5 @@
-// The largest eigenvalue of a symmetric tridiagonal matrix that grows row by row, as Lanczos' iteration makes it.
+// The largest eigenvalue of a symmetric tridiagonal matrix that grows row by row, as Lanczos' iteration makes it: by
+// hand, since a library would solve the whole matrix anew for each row.
 #pragma once
 
 #include <vector>

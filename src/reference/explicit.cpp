@@ -9,8 +9,8 @@
 #include "base/progress.hpp"
 #include "reference/explicit_run.hpp"
 #include "reference/monolithic.hpp"
-#include "solution/step_ends.hpp"
-#include "solution/stopped_run.hpp"
+#include "step/step_ends.hpp"
+#include "step/stopped_run.hpp"
 
 namespace dygita {
 

@@ -2,8 +2,8 @@
 // steps are the monolithic solver's.
 #pragma once
 
-#include "solution/observer.hpp"
-#include "solution/solver_figures.hpp"
+#include "step/observer.hpp"
+#include "step/solver_figures.hpp"
 
 namespace dygita {
 

@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "base/progress.hpp"
 #include "law/law.hpp"
-#include "solution/finite_energies.hpp"
+#include "step/finite_energies.hpp"
 
 namespace dygita {
 

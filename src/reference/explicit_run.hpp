@@ -3,8 +3,8 @@
 
 #include "reference/critical_step.hpp"
 #include "reference/inertial_laws.hpp"
-#include "solution/observer.hpp"
-#include "solution/solver_figures.hpp"
+#include "step/observer.hpp"
+#include "step/solver_figures.hpp"
 
 namespace dygita {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "reference/shared_nodes.hpp"
-#include "solution/point_record.hpp"
+#include "step/point_record.hpp"
 
 namespace dygita {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "reference/merged_assembly.hpp"
-#include "solution/point_record.hpp"
+#include "step/point_record.hpp"
 
 namespace dygita {
 

@@ -4,7 +4,7 @@
 
 #include "fem/symmetric_blocks.hpp"
 #include "fem/uniform_strain.hpp"
-#include "solution/body.hpp"
+#include "pieces/body.hpp"
 
 namespace dygita {
 

@@ -2,7 +2,7 @@
 // condensed by the sparse factor (manual, eq. R1-R4).
 #pragma once
 
-#include "solution/make_pieces.hpp"
+#include "step/make_pieces.hpp"
 
 namespace dygita {
 

@@ -11,10 +11,10 @@
 #include "reference/interface_newton.hpp"
 #include "reference/merged_assembly.hpp"
 #include "reference/preload_newton.hpp"
-#include "solution/finite_energies.hpp"
-#include "solution/loose_motions.hpp"
-#include "solution/step_ends.hpp"
-#include "solution/stopped_run.hpp"
+#include "step/finite_energies.hpp"
+#include "step/loose_motions.hpp"
+#include "step/step_ends.hpp"
+#include "step/stopped_run.hpp"
 
 namespace dygita {
 

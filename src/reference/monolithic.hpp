@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "solution/observer.hpp"
-#include "solution/solver_figures.hpp"
+#include "step/observer.hpp"
+#include "step/solver_figures.hpp"
 
 namespace dygita {
 

@@ -3,7 +3,7 @@
 
 #include "law/penalty_form.hpp"
 #include "reference/internal_force.hpp"
-#include "solution/point_record.hpp"
+#include "step/point_record.hpp"
 
 namespace dygita {
 

@@ -3,8 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <map>
-#include <numeric>
 
+#include "base/union_find.hpp"
 #include "numerics/dense.hpp"
 
 namespace dygita {
@@ -16,16 +16,6 @@ double motion_velocity(const Held& held, int j, const std::vector<double>& motio
   for (const auto& [motion, factor] : held.motion[j]) velocity += factor * motions[motion];
   return velocity;
 }
-
-// Disjoint sets of nodes.
-struct Sets {
-  std::vector<int> parent;
-  explicit Sets(int n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }
-  int of(int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  }
-};
 
 // Adds direction . v = motions to what is held, orthogonalised; in the span of the others it is theirs.
 void add_held(const Vec3& direction, const std::vector<std::pair<int, double>>& motion, const Support* support,
@@ -75,11 +65,12 @@ void SharedNodes::for_each_tie(const StepModel& model, const std::vector<char>& 
 
 // Groups of nodes tied to each other; those alone count where they are held or absorb.
 void SharedNodes::collect(const StepModel& model, const std::vector<char>& is_tied, const InternalForce& internal) {
-  Sets sets(internal.n_dofs() / 3);
-  std::vector<char> is_shared(sets.parent.size(), 0);
+  const int n_nodes = internal.n_dofs() / 3;
+  UnionFind sets(n_nodes);
+  std::vector<char> is_shared(static_cast<size_t>(n_nodes), 0);
   for_each_tie(model, is_tied, internal, [&](int, int, int a, int b) {
     is_shared[a] = is_shared[b] = 1;
-    sets.parent[sets.of(a)] = sets.of(b);
+    sets.join(a, b);
   });
   for (int part = 0; part < internal.n_parts(); ++part) {
     const int first = internal.first(part) / 3;
@@ -87,13 +78,13 @@ void SharedNodes::collect(const StepModel& model, const std::vector<char>& is_ti
       if (held.n > 0) is_shared[first + node] = 1;
     for (const auto& [node, impedance] : assembled_piece(model, part).op().absorbing()) is_shared[first + node] = 1;
   }
-  std::vector<int> group_of(sets.parent.size(), -1), copy_of(sets.parent.size(), -1);
+  std::vector<int> group_of(static_cast<size_t>(n_nodes), -1), copy_of(static_cast<size_t>(n_nodes), -1);
   for (int part = 0; part < internal.n_parts(); ++part) {
     const PieceOperator& piece = assembled_piece(model, part).op();
     auto absorbing = piece.absorbing().begin();  // by node
     for (int global = internal.first(part) / 3; global < internal.first(part + 1) / 3; ++global) {
       if (!is_shared[global]) continue;
-      int& group = group_of[sets.of(global)];
+      int& group = group_of[sets.root(global)];
       if (group < 0) {
         group = static_cast<int>(groups_.size());
         groups_.emplace_back();
@@ -108,7 +99,7 @@ void SharedNodes::collect(const StepModel& model, const std::vector<char>& is_ti
   }
   for_each_tie(model, is_tied, internal, [&](int s, int i, int a, int b) {
     const double area = (*model.surfaces)[s].facing.areas[i];
-    groups_[group_of[sets.of(a)]].edges.push_back({s, i, copy_of[a], copy_of[b], std::sqrt(area)});
+    groups_[group_of[sets.root(a)]].edges.push_back({s, i, copy_of[a], copy_of[b], std::sqrt(area)});
   });
 }
 

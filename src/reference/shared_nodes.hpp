@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "reference/internal_force.hpp"
-#include "solution/make_pieces.hpp"
+#include "step/make_pieces.hpp"
 
 namespace dygita {
 

@@ -4,8 +4,8 @@
 
 #include "numerics/dense.hpp"
 #include "reference/interface_rows.hpp"
-#include "solution/preload.hpp"
-#include "solution/tangent_steps.hpp"
+#include "step/preload.hpp"
+#include "step/tangent_steps.hpp"
 
 namespace dygita {
 

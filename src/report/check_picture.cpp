@@ -3,13 +3,13 @@
 #include <algorithm>
 
 #include "base/log.hpp"
+#include "drawing/labelled_panel.hpp"
+#include "drawing/named_facets.hpp"
+#include "drawing/part_color.hpp"
+#include "drawing/picture.hpp"
+#include "drawing/svg_text.hpp"
+#include "drawing/turning_file.hpp"
 #include "report/html.hpp"
-#include "report/labelled_panel.hpp"
-#include "report/named_facets.hpp"
-#include "report/part_color.hpp"
-#include "report/picture.hpp"
-#include "report/svg_text.hpp"
-#include "report/turning_file.hpp"
 
 namespace dygita {
 
@@ -135,14 +135,6 @@ class CheckDrawings {
   std::vector<int> part_;  // of each triangle
   mutable std::vector<std::string> remarks_;
 };
-
-std::string open_svg(double width, double height, const std::string& title) {
-  return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
-      "aria-label=\"{2}\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\" fill=\"#222222\">\n"
-      "<title>{2}</title>\n",
-      coordinate(width), coordinate(height), escaped(title));
-}
 
 }  // namespace
 

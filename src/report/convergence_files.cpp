@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "output/csv.hpp"
-#include "output/files.hpp"
-#include "report/svg_plot.hpp"
-#include "report/units.hpp"
+#include "drawing/svg_plot.hpp"
+#include "drawing/units.hpp"
+#include "files/csv.hpp"
+#include "files/files.hpp"
 
 namespace dygita {
 

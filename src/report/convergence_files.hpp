@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "result/convergence_study.hpp"
+#include "estimates/convergence_study.hpp"
 
 namespace dygita {
 

@@ -4,8 +4,8 @@
 #include <cctype>
 
 #include "base/log.hpp"
+#include "drawing/svg_text.hpp"
 #include "report/embedded.hpp"
-#include "report/svg_text.hpp"
 
 namespace dygita::html {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "output/run_folder.hpp"
+#include "files/run_folder.hpp"
 
 namespace dygita {
 

@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "base/log.hpp"
+#include "drawing/svg_plot.hpp"
+#include "drawing/units.hpp"
 #include "report/html.hpp"
 #include "report/report_parts.hpp"
 #include "report/spectra.hpp"
-#include "report/svg_plot.hpp"
-#include "report/units.hpp"
 
 namespace dygita {
 

@@ -5,14 +5,14 @@
 #include <functional>
 
 #include "base/log.hpp"
+#include "drawing/plot_data.hpp"
+#include "drawing/plot_legend.hpp"
+#include "drawing/plot_scale.hpp"
+#include "drawing/quantities.hpp"
+#include "drawing/svg_text.hpp"
+#include "drawing/units.hpp"
 #include "report/html.hpp"
-#include "report/plot_data.hpp"
-#include "report/plot_legend.hpp"
-#include "report/plot_scale.hpp"
-#include "report/quantities.hpp"
 #include "report/report_parts.hpp"
-#include "report/svg_text.hpp"
-#include "report/units.hpp"
 
 namespace dygita {
 

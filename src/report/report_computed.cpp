@@ -3,9 +3,9 @@
 #include <sstream>
 
 #include "base/log.hpp"
+#include "drawing/units.hpp"
 #include "report/html.hpp"
 #include "report/report_parts.hpp"
-#include "report/units.hpp"
 
 namespace dygita {
 

@@ -5,11 +5,11 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "drawing/svg_text.hpp"
+#include "drawing/units.hpp"
 #include "report/html.hpp"
 #include "report/report_parts.hpp"
 #include "report/spectra.hpp"
-#include "report/svg_text.hpp"
-#include "report/units.hpp"
 #include "result/limits.hpp"
 
 namespace dygita {

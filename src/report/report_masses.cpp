@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "base/log.hpp"
+#include "drawing/quantities.hpp"
+#include "drawing/units.hpp"
 #include "report/html.hpp"
 #include "report/part_groups.hpp"
-#include "report/quantities.hpp"
 #include "report/report_parts.hpp"
-#include "report/units.hpp"
 
 namespace dygita {
 

@@ -1,7 +1,7 @@
 // The picture that turns, from motion.json.
+#include "drawing/turning_file.hpp"
 #include "report/html.hpp"
 #include "report/report_parts.hpp"
-#include "report/turning_file.hpp"
 
 namespace dygita {
 

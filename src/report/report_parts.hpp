@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "output/run_folder.hpp"
+#include "drawing/time_axis.hpp"
+#include "files/run_folder.hpp"
 #include "report/report.hpp"
-#include "report/time_axis.hpp"
 
 namespace dygita {
 

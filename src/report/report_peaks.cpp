@@ -4,11 +4,11 @@
 #include <limits>
 
 #include "base/log.hpp"
+#include "drawing/quantities.hpp"
+#include "drawing/units.hpp"
 #include "report/html.hpp"
-#include "report/quantities.hpp"
 #include "report/report_parts.hpp"
 #include "report/spectra.hpp"
-#include "report/units.hpp"
 #include "result/limits.hpp"
 
 namespace dygita {

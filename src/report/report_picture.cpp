@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "base/log.hpp"
+#include "drawing/svg_text.hpp"
+#include "drawing/units.hpp"
 #include "report/html.hpp"
 #include "report/part_groups.hpp"
 #include "report/report_parts.hpp"
-#include "report/svg_text.hpp"
-#include "report/units.hpp"
 
 namespace dygita {
 
@@ -93,14 +93,6 @@ std::string axes_of(const Json& picture, double height) {
         names[axis]);
   }
   return result;
-}
-
-std::string open_svg(double width, double height, const std::string& title) {
-  return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
-      "aria-label=\"{2}\" "
-      "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\">\n<title>{2}</title>\n",
-      coordinate(width), coordinate(height), escaped(title));
 }
 
 // Facets of one colour that follow each other share a path.

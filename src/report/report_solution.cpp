@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "base/log.hpp"
+#include "drawing/svg_text.hpp"
+#include "drawing/units.hpp"
 #include "report/html.hpp"
 #include "report/report_parts.hpp"
-#include "report/svg_text.hpp"
-#include "report/units.hpp"
 
 namespace dygita {
 

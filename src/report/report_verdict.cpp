@@ -2,11 +2,11 @@
 #include <cmath>
 
 #include "base/log.hpp"
+#include "drawing/svg_text.hpp"
+#include "drawing/units.hpp"
 #include "report/html.hpp"
 #include "report/report_parts.hpp"
 #include "report/spectra.hpp"
-#include "report/svg_text.hpp"
-#include "report/units.hpp"
 #include "result/limits.hpp"
 
 namespace dygita {

@@ -6,7 +6,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/names.hpp"
-#include "report/units.hpp"
+#include "drawing/units.hpp"
 #include "result/limits.hpp"
 
 namespace dygita {

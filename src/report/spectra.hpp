@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "output/run_folder.hpp"
+#include "drawing/svg_plot.hpp"
+#include "files/run_folder.hpp"
 #include "report/card.hpp"
 #include "report/report.hpp"
-#include "report/svg_plot.hpp"
 
 namespace dygita {
 

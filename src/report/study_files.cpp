@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "base/log.hpp"
-#include "output/csv.hpp"
-#include "output/files.hpp"
-#include "report/svg_plot.hpp"
-#include "report/svg_text.hpp"
+#include "drawing/svg_plot.hpp"
+#include "drawing/svg_text.hpp"
+#include "files/csv.hpp"
+#include "files/files.hpp"
 
 namespace dygita {
 

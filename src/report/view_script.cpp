@@ -9,9 +9,9 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/names.hpp"
+#include "drawing/picture.hpp"
+#include "drawing/units.hpp"
 #include "report/embedded.hpp"
-#include "report/picture.hpp"
-#include "report/units.hpp"
 
 namespace dygita {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "files/frame_summary.hpp"
 #include "model/model.hpp"
 #include "model/own_files.hpp"
-#include "output/frame_summary.hpp"
 
 namespace dygita {
 

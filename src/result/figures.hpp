@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "solution/solver_figures.hpp"
+#include "step/solver_figures.hpp"
 
 namespace dygita {
 

@@ -5,13 +5,13 @@
 #include <set>
 
 #include "base/warnings.hpp"
+#include "interfaces/unjoined.hpp"
 #include "model/check.hpp"
+#include "reduction/lumped_inertia.hpp"
 #include "reference/explicit.hpp"
-#include "result/lumped_inertia.hpp"
 #include "run/part_lines.hpp"
 #include "run/run_problem.hpp"
-#include "solution/step_model.hpp"
-#include "solution/unjoined.hpp"
+#include "step/step_model.hpp"
 
 namespace dygita {
 

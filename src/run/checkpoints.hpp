@@ -1,7 +1,7 @@
 // The checkpoint of a run: begun with it, gone over where it continues, gone with its end.
 #pragma once
 
-#include "result/checkpoint_file.hpp"
+#include "persistence/checkpoint_file.hpp"
 #include "run/run_problem.hpp"
 
 namespace dygita {

@@ -10,13 +10,13 @@
 #include "base/log.hpp"
 #include "base/name_list.hpp"
 #include "base/names.hpp"
-#include "output/csv.hpp"
-#include "output/run_record.hpp"
+#include "files/csv.hpp"
+#include "files/run_record.hpp"
+#include "partition/mass_choice.hpp"
 #include "ranks/ranks.hpp"
 #include "result/hollow_result.hpp"
 #include "run/keep_state.hpp"
 #include "run/share_plan.hpp"
-#include "solution/mass_choice.hpp"
 
 namespace dygita {
 

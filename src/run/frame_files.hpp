@@ -1,7 +1,7 @@
 // Frames of a run on disk: each rank writes what it has of the parts, rank 0 the rest and the lists.
 #pragma once
 
-#include "output/run_writer.hpp"
+#include "files/run_writer.hpp"
 #include "run/unwritten.hpp"
 
 namespace dygita {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "interfaces/surfaces.hpp"
 #include "result/result.hpp"
-#include "solution/surfaces.hpp"
 
 namespace dygita {
 

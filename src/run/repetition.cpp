@@ -7,7 +7,7 @@
 
 #include "base/fnv1a.hpp"
 #include "base/log.hpp"
-#include "output/run_folder.hpp"
+#include "files/run_folder.hpp"
 
 namespace dygita {
 

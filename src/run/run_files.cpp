@@ -1,10 +1,10 @@
 #include "run/run_files.hpp"
 
 #include "base/log.hpp"
-#include "output/run_record.hpp"
+#include "drawing/scene_file.hpp"
+#include "drawing/turning_file.hpp"
+#include "files/run_record.hpp"
 #include "report/report.hpp"
-#include "report/scene_file.hpp"
-#include "report/turning_file.hpp"
 #include "report/view_script.hpp"
 
 namespace dygita {

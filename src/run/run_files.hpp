@@ -1,7 +1,7 @@
 // All files of a finished run but its frames and state: tables, pictures, the report, and the run record at the end.
 #pragma once
 
-#include "output/run_writer.hpp"
+#include "files/run_writer.hpp"
 
 namespace dygita {
 

@@ -5,12 +5,12 @@
 #include <memory>
 #include <string>
 
+#include "files/run_lock.hpp"
+#include "files/run_writer.hpp"
 #include "model/model.hpp"
-#include "output/run_lock.hpp"
-#include "output/run_writer.hpp"
-#include "result/checkpoint_file.hpp"
+#include "persistence/checkpoint_file.hpp"
+#include "persistence/state_file.hpp"
 #include "result/result.hpp"
-#include "result/state_file.hpp"
 
 namespace dygita {
 

@@ -7,8 +7,8 @@
 
 #include "base/log.hpp"
 #include "law/law.hpp"
+#include "partition/stored_precision.hpp"
 #include "result/limits.hpp"
-#include "solution/stored_precision.hpp"
 
 namespace dygita {
 

@@ -6,10 +6,10 @@
 #include <cstdlib>
 
 #include "base/log.hpp"
-#include "output/run_record.hpp"
+#include "files/run_record.hpp"
+#include "partition/share_out.hpp"
 #include "ranks/ranks.hpp"
 #include "run/part_lines.hpp"
-#include "solution/share_out.hpp"
 
 namespace dygita {
 

@@ -1,8 +1,8 @@
 // How several ranks cut and share out a run (manual/parallel.md).
 #pragma once
 
+#include "partition/cut.hpp"
 #include "run/run_problem.hpp"
-#include "solution/cut.hpp"
 
 namespace dygita {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/log.hpp"
-#include "output/files.hpp"
+#include "files/files.hpp"
 
 namespace dygita {
 

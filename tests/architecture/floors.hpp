@@ -1,6 +1,7 @@
 // The floors of the house: which module may include which, and which third-party headers are whose.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,5 +13,8 @@ std::vector<std::string> violations(const std::string& module, const std::string
 
 // Modules that have a floor.
 std::vector<std::string> modules();
+
+// What a module may include, itself left out.
+std::set<std::string> below(const std::string& module);
 
 }  // namespace dygita::architecture

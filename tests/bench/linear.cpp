@@ -10,10 +10,10 @@
 #include <tuple>
 
 #include "fem/assembly.hpp"
+#include "interfaces/loads.hpp"
+#include "interfaces/surfaces.hpp"
 #include "numerics/factor.hpp"
-#include "solution/loads.hpp"
-#include "solution/step_model.hpp"
-#include "solution/surfaces.hpp"
+#include "step/step_model.hpp"
 
 namespace dygita::bench {
 

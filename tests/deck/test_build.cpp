@@ -9,7 +9,7 @@
 #include "law/law.hpp"
 #include "model/load.hpp"
 #include "model/output.hpp"
-#include "result/recorder.hpp"
+#include "recording/recorder.hpp"
 #include "result/result.hpp"
 
 namespace dygita::test::build_tests {

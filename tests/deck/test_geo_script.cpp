@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "deck/fake_engine.hpp"
-#include "mesh/geo_script.hpp"
+#include "intake/geo_script.hpp"
 
 namespace dygita::test::geo_script_tests {
 

@@ -9,8 +9,8 @@
 #include "decks/engine.hpp"
 #include "latin/latin.hpp"
 #include "mesh/face_nodes.hpp"
-#include "result/collector.hpp"
-#include "solution/step_model.hpp"
+#include "recording/collector.hpp"
+#include "step/step_model.hpp"
 
 namespace dygita::test {
 

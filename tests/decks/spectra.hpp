@@ -4,8 +4,8 @@
 #include <chrono>
 
 #include "decks/effectivity.hpp"
-#include "result/given_output.hpp"
-#include "result/spectrum_band.hpp"
+#include "estimates/spectrum_band.hpp"
+#include "recording/given_output.hpp"
 
 namespace dygita::test {
 

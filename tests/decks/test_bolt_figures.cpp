@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "decks/engine.hpp"
-#include "output/bolt_table.hpp"
+#include "files/bolt_table.hpp"
 
 namespace dygita::test::bolt_figures_tests {
 namespace {

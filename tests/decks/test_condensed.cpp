@@ -13,7 +13,7 @@
 #include "latin/latin.hpp"
 #include "numerics/factor.hpp"
 #include "numerics/lowest_modes.hpp"
-#include "result/craig_bampton.hpp"
+#include "reduction/craig_bampton.hpp"
 
 namespace dygita::test::condensed_tests {
 namespace {

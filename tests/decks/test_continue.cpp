@@ -6,8 +6,8 @@
 
 #include "deck/continue_run.hpp"
 #include "decks/engine.hpp"
-#include "output/csv.hpp"
-#include "output/run_record.hpp"
+#include "files/csv.hpp"
+#include "files/run_record.hpp"
 
 namespace dygita::test::continue_tests {
 namespace {

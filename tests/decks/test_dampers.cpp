@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "decks/deck_prints.hpp"
-#include "result/superelement.hpp"
+#include "reduction/superelement.hpp"
 
 namespace dygita::test::dampers_tests {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "deck/continue_run.hpp"
 #include "decks/engine.hpp"
-#include "output/csv.hpp"
+#include "files/csv.hpp"
 
 namespace dygita::test::gap_tests {
 namespace {

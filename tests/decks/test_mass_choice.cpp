@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "decks/deck_prints.hpp"
-#include "solution/mass_choice.hpp"
+#include "partition/mass_choice.hpp"
 
 namespace dygita::test::mass_choice_tests {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "base/log.hpp"
 #include "decks/engine.hpp"
+#include "drawing/svg_checks.hpp"
 #include "report/report.hpp"
-#include "report/svg_checks.hpp"
 
 namespace dygita::test::report_runs_tests {
 namespace {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "decks/spectra.hpp"
-#include "result/spectrum_band.hpp"
+#include "estimates/spectrum_band.hpp"
 
 namespace dygita::test::spectra_tests {
 namespace {

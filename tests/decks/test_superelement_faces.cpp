@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "decks/engine.hpp"
-#include "result/superelement.hpp"
+#include "reduction/superelement.hpp"
 
 namespace dygita::test::superelement_faces_tests {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "base/error.hpp"
 #include "decks/engine.hpp"
-#include "mesh/matrix_market.hpp"
-#include "mesh/superelement_file.hpp"
-#include "result/superelement_files.hpp"
+#include "intake/matrix_market.hpp"
+#include "intake/superelement_file.hpp"
+#include "reduction/superelement_files.hpp"
 
 namespace dygita::test::superelement_parts_tests {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "fuzz/target.hpp"
+#include "intake/mesher_task.hpp"
+#include "intake/straighten.hpp"
 #include "mesh/cell_quality.hpp"
-#include "mesh/mesher_task.hpp"
-#include "mesh/straighten.hpp"
 
 namespace dygita::fuzz {
 

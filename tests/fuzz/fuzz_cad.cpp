@@ -1,8 +1,8 @@
 // What the program itself reads of a .geo or .step before the mesher does: parameters, included files, the unit.
 #include "fuzz/target.hpp"
-#include "mesh/file_text.hpp"
-#include "mesh/geo_script.hpp"
-#include "mesh/mesh_file.hpp"
+#include "intake/file_text.hpp"
+#include "intake/geo_script.hpp"
+#include "intake/mesh_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
   using namespace dygita;

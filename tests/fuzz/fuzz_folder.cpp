@@ -1,9 +1,9 @@
 // The folder of a run: run.json, scenes.json, tables, the list of files, the lock beside it. An input is a text with
 // a line "==> NAME" before the content of each file.
+#include "files/manifest.hpp"
+#include "files/run_lock.hpp"
+#include "files/run_record.hpp"
 #include "fuzz/target.hpp"
-#include "output/manifest.hpp"
-#include "output/run_lock.hpp"
-#include "output/run_record.hpp"
 #include "report/report.hpp"
 #include "run/repetition.hpp"
 

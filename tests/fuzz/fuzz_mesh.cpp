@@ -11,9 +11,9 @@
 #include "base/clock.hpp"
 #include "fuzz/target.hpp"
 #include "fuzz/text_changes.hpp"
-#include "mesh/gmsh_reader.hpp"
+#include "intake/gmsh_reader.hpp"
+#include "intake/step_assembly.hpp"
 #include "mesh/mesh_limits.hpp"
-#include "mesh/step_assembly.hpp"
 
 namespace dygita::fuzz {
 

@@ -4,7 +4,7 @@
 
 #include "base/fnv1a.hpp"
 #include "fuzz/target.hpp"
-#include "result/checkpoint_file.hpp"
+#include "persistence/checkpoint_file.hpp"
 #include "run/continuation.hpp"
 
 namespace dygita::fuzz {

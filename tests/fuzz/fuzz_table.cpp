@@ -3,8 +3,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "files/csv.hpp"
 #include "fuzz/target.hpp"
-#include "output/csv.hpp"
 #include "signal/history.hpp"
 #include "signal/signal_file.hpp"
 #include "signal/specification.hpp"

@@ -7,9 +7,9 @@
 #include "base/team.hpp"
 #include "latin/latin.hpp"
 #include "law/law.hpp"
-#include "solution/blocks.hpp"
-#include "solution/explicit_piece.hpp"
-#include "solution/longest_step.hpp"
+#include "pieces/explicit_piece.hpp"
+#include "pieces/longest_step.hpp"
+#include "step/blocks.hpp"
 
 namespace dygita {
 namespace {

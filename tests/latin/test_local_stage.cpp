@@ -5,7 +5,7 @@
 
 #include "base/progress.hpp"
 #include "latin/local_stage.hpp"
-#include "solution/blocks.hpp"
+#include "step/blocks.hpp"
 
 namespace dygita {
 namespace {

@@ -9,7 +9,7 @@
 #include "latin/latin.hpp"
 #include "latin/search_direction.hpp"
 #include "latin/step_settings.hpp"
-#include "solution/blocks.hpp"
+#include "step/blocks.hpp"
 
 namespace dygita {
 namespace {

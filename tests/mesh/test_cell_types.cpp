@@ -7,8 +7,8 @@
 #include <fstream>
 #include <random>
 
+#include "intake/gmsh_reader.hpp"
 #include "mesh/face_nodes.hpp"
-#include "mesh/gmsh_reader.hpp"
 #include "mesh/jacobian.hpp"
 #include "mesh/reference_integrals.hpp"
 

@@ -2,9 +2,9 @@
 
 #include <Eigen/Geometry>
 
+#include "meeting/facing.hpp"
 #include "mesh/box.hpp"
 #include "mesh/expect_input_error.hpp"
-#include "mesh/facing.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/mesh_limits.hpp"
 #include "mesh/unmatched_cells.hpp"

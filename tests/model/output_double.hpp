@@ -2,7 +2,7 @@
 #pragma once
 
 #include "model/given_arguments.hpp"
-#include "result/recorder.hpp"
+#include "recording/recorder.hpp"
 
 namespace dygita {
 

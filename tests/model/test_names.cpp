@@ -83,8 +83,6 @@ TEST_F(Names, are_not_needed_by_outputs_that_come_once) {
   EXPECT_EQ(complaint(), "deck.lua:53: problem 'bolted': 'outputs' has more than one output.double");
 }
 
-TEST_F(Names, of_every_kind_are_the_words_of_the_deck) {}
-
 TEST_F(Names, need_a_substructure_and_a_step) {
   problem.steps.clear();
   EXPECT_EQ(complaint(),

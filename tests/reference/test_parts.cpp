@@ -7,7 +7,7 @@
 #include "reference/critical_step.hpp"
 #include "reference/explicit_run.hpp"
 #include "reference/interface_newton.hpp"
-#include "solution/blocks.hpp"
+#include "step/blocks.hpp"
 
 namespace dygita::parts_tests {
 namespace {

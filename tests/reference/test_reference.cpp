@@ -6,7 +6,7 @@
 #include "latin/latin.hpp"
 #include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
-#include "solution/blocks.hpp"
+#include "step/blocks.hpp"
 
 namespace dygita::reference_tests {
 namespace {

@@ -8,7 +8,7 @@
 #include "latin/latin.hpp"
 #include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
-#include "solution/blocks.hpp"
+#include "step/blocks.hpp"
 
 namespace dygita::unlike_meshes_tests {
 namespace {

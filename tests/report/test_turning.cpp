@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "drawing/turning_file.hpp"
 #include "law/law.hpp"
 #include "report/check_picture.hpp"
-#include "report/turning_file.hpp"
 #include "report/view_script.hpp"
 
 namespace dygita {

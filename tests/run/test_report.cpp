@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "drawing/svg_checks.hpp"
+#include "files/scratch.hpp"
 #include "law/law.hpp"
-#include "output/scratch.hpp"
+#include "recording/given_output.hpp"
 #include "report/report.hpp"
-#include "report/svg_checks.hpp"
-#include "result/given_output.hpp"
 #include "result/scenes.hpp"
 #include "run/run_files.hpp"
 

@@ -1,7 +1,7 @@
 // The state of a piece: copied, put back, taken from fields.
 #include <gtest/gtest.h>
 
-#include "solution/piece_case.hpp"
+#include "pieces/piece_case.hpp"
 
 namespace dygita::state_tests {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/progress.hpp"
-#include "solution/blocks.hpp"
+#include "step/blocks.hpp"
 
 namespace dygita::step_tests {
 namespace {

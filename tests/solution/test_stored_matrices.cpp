@@ -1,8 +1,8 @@
 // Matrices that are given up come back as they were.
 #include <gtest/gtest.h>
 
-#include "solution/piece_case.hpp"
-#include "solution/stored_matrices.hpp"
+#include "pieces/piece_case.hpp"
+#include "pieces/stored_matrices.hpp"
 
 namespace dygita {
 namespace {

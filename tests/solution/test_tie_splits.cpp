@@ -4,7 +4,7 @@
 #include <Eigen/QR>
 #include <numeric>
 
-#include "solution/exchange.hpp"
+#include "exchange/exchange.hpp"
 
 namespace dygita::test {
 namespace {

@@ -1,5 +1,5 @@
 // A picture that turns: triangles of an assembly with depth, on a plain canvas (no graphics card is asked for), by step and frame, coloured
-// by a field, cut and pulled apart. Its data is JSON in the page (motion_file.hpp); without this script the figure stays hidden.
+// by a field, cut and pulled apart. Its data is JSON in the page (drawing/turning_file.hpp); without this script the figure stays hidden.
 "use strict";
 (() => {
 const viridis = [[68,1,84],[71,44,122],[59,81,139],[44,113,142],[33,144,141],[39,173,129],[92,200,99],[170,220,50],[253,231,37]];

@@ -1,0 +1,165 @@
+#include "drawing/scene_file.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/parallel.hpp"
+#include "drawing/cut_plane.hpp"
+#include "drawing/joint_map.hpp"
+#include "drawing/picture.hpp"
+
+namespace dygita {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Three significant digits: short in the file.
+Json rounded(double value) {
+  if (!std::isfinite(value) || value == 0.0) return value == 0.0 ? Json(0) : Json();
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2.0);
+  const double digits = std::round(value / unit);
+  // Dividing by a power of ten gives the shortest text where multiplying by its inverse would not.
+  return unit < 1.0 ? digits / std::round(1.0 / unit) : digits * unit;
+}
+
+// Each facet: part, light (%), value (thousandths of the largest), number of corners, then their places.
+Json json_of(const Picture& picture) {
+  Json facets = Json::array();
+  const double unit = picture.value_high > 0.0 ? 1000.0 / picture.value_high : 0.0;
+  for (const PictureFacet& facet : picture.facets) {
+    facets.push_back(facet.part);
+    facets.push_back(std::lround(100.0 * facet.light));
+    facets.push_back(std::lround(unit * facet.value));
+    facets.push_back(facet.corners.size());
+    for (const std::array<int, 2>& corner : facet.corners) facets.insert(facets.end(), {corner[0], corner[1]});
+  }
+  return {{"width", picture.width},      {"height", picture.height},
+          {"cut", picture.is_cut},       {"boundary_facets", picture.n_facets},
+          {"axes", picture.axes},        {"largest", picture.value_high},
+          {"facets", std::move(facets)}, {"edges", picture.edges},
+          {"outline", picture.outline}};
+}
+
+// m; what is not finite is told as it is.
+double largest(const std::vector<Points>& displacement) {
+  double largest = 0.0;
+  for (const Points& u : displacement)
+    for (Eigen::Index i = 0; i < u.cols(); ++i) {
+      const double length = u.col(i).norm();
+      if (!std::isfinite(length)) return length;
+      largest = std::max(largest, length);
+    }
+  return largest;
+}
+
+// Where the pictures are seen from: the whole assembly and, where there is something to see inside, cut open.
+struct Views {
+  View whole;
+  std::optional<View> cut;
+  std::string cut_text;
+};
+
+// Through the bolts where there are any, else through the middle where a part is hidden.
+Views views_of(const Problem& problem) {
+  Views views{view_of(problem.substructures), {}, {}};
+  if (const std::optional<CutPlane> plane = plane_through_bolts(problem, views.whole)) {
+    views.cut = views.whole;
+    views.cut->is_cut = true;
+    views.cut->cut = plane->normal;
+    views.cut->cut_at = plane->point;
+    views.cut_text = plane->text;
+  } else if (views.whole.is_cut) {
+    views.cut = views.whole;
+    views.cut_text = "through the middle, " + plane_text(views.whole.cut, views.whole.cut_at);
+  }
+  views.whole.is_cut = false;
+  return views;
+}
+
+Json stress_picture(const Problem& problem, const View& view, const AssemblyScene& scene) {
+  const double scale = picture_scale(view, scene.displacement);
+  Json json = json_of(make_picture(problem.substructures, view, scene.displacement, scene.von_mises, scale));
+  json["colour"] = "von_mises";
+  json["step"] = scene.step;
+  json["static"] = scene.is_static;
+  json["time"] = scene.time;
+  json["missed"] = scene.missed;
+  json["scale"] = scale;
+  const double moved = largest(scene.displacement);
+  json["largest_displacement"] = std::isfinite(moved) ? Json(moved) : Json();
+  return json;
+}
+
+Json shape_picture(const Problem& problem, const View& view) {
+  Json json = json_of(make_picture(problem.substructures, view, {}, {}, 0.0));
+  json["colour"] = "part";
+  return json;
+}
+
+Json assembly(const Problem& problem, const Scenes& scenes) {
+  const Views views = views_of(problem);
+  std::vector<std::pair<const AssemblyScene*, bool>> wanted;  // none: the shape; is it cut?
+  const auto want = [&](const AssemblyScene* scene) {
+    wanted.emplace_back(scene, false);
+    if (views.cut) wanted.emplace_back(scene, true);
+  };
+  want(nullptr);
+  for (const AssemblyScene& scene : scenes.assembly) want(&scene);
+  std::vector<Json> pictures(wanted.size());
+  parallel_for(static_cast<int>(wanted.size()), [&](int i) {
+    const auto& [scene, is_cut] = wanted[static_cast<size_t>(i)];
+    const View& view = is_cut ? *views.cut : views.whole;
+    Json picture = scene ? stress_picture(problem, view, *scene) : shape_picture(problem, view);
+    if (is_cut) picture["cut_text"] = views.cut_text;
+    pictures[static_cast<size_t>(i)] = std::move(picture);
+  });
+  return pictures;
+}
+
+Json values(const std::vector<float>& of_points, const JointMap& map) {
+  Json list = Json::array();
+  for (const std::vector<int>& points : map.points) list.push_back(rounded(mean_of_cell(of_points, points)));
+  return list;
+}
+
+Json joint(const JointScenes& joint) {
+  const JointMap map = make_joint_map(joint);
+  Json json = {{"name", joint.name}, {"contact", joint.is_contact}, {"flat", map.is_flat}};
+  if (!map.is_flat) return json;
+  const double unit = std::max({map.width, map.height, 1e-12}) / 1000.0;
+  json["unit"] = unit;  // m, of the corners' places
+  json["size"] = {map.width, map.height};
+  json["axes"] = {map.across, map.up};
+  Json cells = Json::array(), instants = Json::array();
+  for (const auto& cell : map.cells) {
+    Json corners = Json::array();
+    for (const std::array<double, 2>& corner : cell)
+      corners.insert(corners.end(), {std::lround(corner[0] / unit), std::lround(corner[1] / unit)});
+    cells.push_back(std::move(corners));
+  }
+  json["cells"] = std::move(cells);
+  for (const JointScene& scene : joint.instants) {
+    Json instant = {{"step", scene.step}, {"static", scene.is_static}, {"time", scene.time}, {"missed", scene.missed}};
+    Json states = Json::array();
+    for (const std::vector<int>& points : map.points) states.push_back(state_of_cell(scene.status, points));
+    instant["state"] = std::move(states);
+    instant["pressure"] = values(scene.pressure, map);
+    if (!scene.slip.empty()) instant["slip"] = values(scene.slip, map);
+    if (!scene.plastic_opening.empty()) instant["plastic_opening"] = values(scene.plastic_opening, map);
+    instants.push_back(std::move(instant));
+  }
+  json["instants"] = std::move(instants);
+  return json;
+}
+
+}  // namespace
+
+std::string scene_text(const Problem& problem, const Scenes& scenes) {
+  Json joints = Json::array();
+  for (const JointScenes& scene : scenes.joints) joints.push_back(joint(scene));
+  const Json json = {{"assembly", assembly(problem, scenes)}, {"joints", std::move(joints)}};
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace dygita

@@ -1,0 +1,236 @@
+#include "estimates/error_estimator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.hpp"
+#include "estimates/mass_lag.hpp"
+#include "model/extent.hpp"
+#include "result/limits.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr int n_samples = 5;  // of the stress error, a dynamic step: each costs about a time step
+
+// Masses (kg) and directions of the unknowns of a piece, as velocities have them.
+Vec masses_of(const Instant& instant, int piece) {
+  const Piece& of = *instant.model.pieces[static_cast<size_t>(piece)];
+  return instant.fields ? Vec(of.node_masses().replicate(1, 3).transpose().reshaped()) : of.unknown_masses();
+}
+
+Points directions_of(const Instant& instant, int piece) {
+  const Piece& of = *instant.model.pieces[static_cast<size_t>(piece)];
+  return instant.fields ? Points(Mat3::Identity().replicate(1, of.node_masses().size())) : of.unknown_directions();
+}
+
+Vec velocity_of(const Instant& instant, int piece) {
+  if (instant.fields) return instant.velocity(piece).reshaped();
+  const Piece& of = *instant.model.pieces[static_cast<size_t>(piece)];
+  return of.is_explicit() ? Vec(of.velocity().reshaped()) : of.state().v;  // whose state is put together when asked for
+}
+
+double ratio(double energy, double of) { return of > 0.0 ? std::sqrt(std::max(0.0, energy) / of) : 0.0; }
+
+}  // namespace
+
+// Relative to the assembly's motion as a whole, which bends no cell and turns no phase (eq. Q0).
+void ErrorEstimator::take_velocities(const Instant& instant) {
+  const Cut& cut = *instant.model.cut;
+  const bool asks_for_momentum = carried_->asks_for_momentum();
+  const auto renew = [&](int i) {
+    PieceMotion& own = pieces_[static_cast<size_t>(i)];
+    own.velocity = velocity_of(instant, own.piece);
+    if (asks_for_momentum) own.momentum.noalias() = own.directions * own.mass.cwiseProduct(own.velocity);
+  };
+  Eigen::Index n_unknowns = 0;
+  for (const PieceMotion& own : pieces_) n_unknowns += own.velocity.size();
+  const int threads_for_few = 1, n_threads = n_unknowns < 20000 ? threads_for_few : 0;
+  if (asks_for_momentum) parallel_for(static_cast<int>(pieces_.size()), renew, Schedule::as_free, n_threads);
+  size_t next = 0;  // of pieces_, whose order is that of the cut
+  const auto momenta_of_all = [&] {
+    next = 0;
+    return of_all_pieces(cut, 3, [&](int, double* to) { std::copy_n(pieces_[next++].momentum.data(), 3, to); });
+  };
+  const Vec3 carried = carried_->at(instant, [&] {
+    const std::vector<double> momenta = momenta_of_all();
+    Vec3 sum = Vec3::Zero();
+    for (size_t i = 0; i < momenta.size(); i += 3) sum += Eigen::Map<const Vec3>(&momenta[i]);
+    return sum;
+  });
+  constexpr int width = OctaveSamples::most_octaves + 2;
+  std::vector<std::array<double, width>> own_sums(pieces_.size());
+  std::vector<int> n_octaves(pieces_.size());
+  const auto take = [&](int i) {
+    if (!asks_for_momentum) renew(i);
+    PieceMotion& own = pieces_[static_cast<size_t>(i)];
+    double* sums = own_sums[static_cast<size_t>(i)].data();
+    if (!carried.isZero(0.0)) own.velocity.noalias() -= own.directions.transpose() * carried;
+    const Vec momenta = own.mass.cwiseProduct(own.velocity);
+    sums[0] = own.velocity.dot(momenta);
+    if (!linked_.are_one()) own.momentum.noalias() = own.directions * momenta;
+    const Vec* const old = own.octaves.latest();
+    sums[1] = old ? (own.mass.array() * (own.velocity - *old).array().square()).sum() / (dt_ * dt_) : 0.0;
+    n_octaves[static_cast<size_t>(i)] = own.octaves.add(own.mass, own.velocity, sums + 2);
+  };
+  parallel_for(static_cast<int>(pieces_.size()), take, Schedule::as_free, n_threads);
+  const int n = 2 + n_octaves.front();
+  next = 0;
+  const std::vector<double> all =
+      of_all_pieces(cut, n, [&](int, double* to) { std::copy_n(own_sums[next++].data(), n, to); });
+  std::vector<double> sums(static_cast<size_t>(n), 0.0);
+  for (size_t i = 0; i < all.size(); ++i) sums[i % sums.size()] += all[i];
+  kinetic_now_ = 0.5 * sums[0];
+  if (!linked_.are_one()) kinetic_now_ -= linked_.energy_as_wholes(instant, momenta_of_all(), carried_->free());
+  rate_ += sums[1];
+  n_rates_ += has_old_;
+  if (has_old_) kinetic_rates_ += kinetic_now_;
+  has_old_ = true;
+  bank_->add(std::span(sums).subspan(2));
+}
+
+ErrorEstimator::ErrorEstimator(const Problem& problem, PartViews& views)
+    : volume_(volumes(problem)), linked_(problem), views_(&views) {
+  for (size_t i = 0; i < volume_.size(); ++i)
+    at_rest_ += 0.5 * problem.substructures[i]->material.young * std::pow(limit::strain_at_rest, 2) * volume_[i];
+}
+
+void ErrorEstimator::begin_step(const Instant& start) {
+  if (bank_) {
+    const Estimate so_far = dynamic_steps();
+    before_ = so_far.time_step * std::sqrt(energy());
+    bank_.reset();
+  }
+  pieces_.clear();
+  start_.clear();
+  find_free_surfaces(start);
+  still_ = {start.state.energies.loads, start.state.energies.strain, start.state.energies.balance()};
+  if (start.is_static()) return;
+  for (int i = 0; i < start.model.cut->n_pieces(); ++i)
+    if (start.model.cut->is_here(i)) pieces_.emplace_back().piece = i;
+  parallel_for(static_cast<int>(pieces_.size()), [&](int i) {
+    PieceMotion& own = pieces_[static_cast<size_t>(i)];
+    own.mass = masses_of(start, own.piece);
+    own.directions = directions_of(start, own.piece);
+    own.start = start.piece_displacement(own.piece);
+  });
+  carried_.emplace(start);
+  linked_.begin_step(start);
+  has_old_ = false;
+  bank_.emplace(start.model.is_tuned());
+  dt_ = start.interval();
+  total_mass_ = 0.0;
+  for (const auto& piece : start.model.pieces) total_mass_ += piece->mass();
+  lag_ = 0.0;
+  for (const double own : of_all_pieces(*start.model.cut, 1, [&](int i, double*to) {
+         *to = mass_lag(*start.model.pieces[static_cast<size_t>(i)], *start.model.cut->piece(i).body);
+       }))
+    lag_ += own / total_mass_;
+  views_->take(start);
+  for (size_t i = 0; i < start.model.problem->substructures.size(); ++i)
+    start_.push_back(views_->field(static_cast<int>(i)));
+}
+
+// Collective.
+double ErrorEstimator::energy_when_carried(const Instant& instant) const {
+  const Problem& problem = *instant.model.problem;
+  const Cut& cut = *instant.model.cut;
+  const std::vector<double> moved2 = of_all_pieces(
+      cut, 1, [&](int i, double* to) { *to = instant.piece_displacement(i).colwise().squaredNorm().maxCoeff(); });
+  double energy = 0.0;
+  for (size_t i = 0; i < volume_.size(); ++i) {
+    if (volume_[i] == 0.0) continue;  // of matrices alone
+    const auto part = static_cast<int>(i);
+    const auto first = moved2.begin() + cut.first(part);
+    const double most2 = *std::max_element(first, first + cut.n_pieces(part));
+    const double size2 = extent_of(*problem.substructures[i]).size().squaredNorm();
+    energy += 0.5 * problem.substructures[i]->material.young * volume_[i] * most2 / size2 *
+              std::pow(limit::strain_of_carrying, 2);
+  }
+  return energy;
+}
+
+// What increments leave adds up along a static path: friction keeps it. It is held against the work that the step's own
+// loads do, or what it gives back of the strain energy, since what an earlier step has stored says nothing of this one;
+// and it is no less than what the energy balance misses in the step (eq. Q9).
+void ErrorEstimator::accept_static(const Instant& instant) {
+  const Energies& energies = instant.state.energies;
+  static_.interface_energy += instant.interface_energy;
+  still_.left += std::sqrt(std::max(0.0, instant.interface_energy));
+  still_.work =
+      std::max({still_.work, std::abs(energies.loads - still_.loads), std::abs(energies.strain - still_.strain)});
+  still_.missing = std::max(still_.missing, std::abs(energies.balance() - still_.balance));
+  if (instant.increment + 1 < instant.model.step->n_increments()) return;
+  const double carried = energy_when_carried(instant);
+  at_rest_ = std::max(at_rest_, carried);
+  if (const double work = std::max(still_.work, 1e-8 * energies.strain); work > carried)
+    static_.iteration = std::max(
+        {static_.iteration, still_.left / std::sqrt(work), still_.missing / std::max(work, 1e-4 * energies.strain)});
+  const StressEnergies energies_now = stress_energies(instant);
+  // What is left of nothing is rounding.
+  most_strain_ = std::max({most_strain_, energies_now.strain, still_.strain});
+  if (energies_now.strain > carried)
+    static_.mesh =
+        std::max(static_.mesh, ratio(energies_now.error(), std::max(energies_now.strain, 1e-8 * most_strain_)));
+}
+
+void ErrorEstimator::sample_stress(const Instant& instant) {
+  lumping_sum_ += lumping_energy(instant);
+  kinetic_sum_ += kinetic_now_;
+  const StressEnergies now = stress_energies(instant);
+  stress_energy_ = std::max(stress_energy_, now.error());
+  sums_.within += now.within;
+  sums_.at_surface += now.at_surface;
+  sums_.strain += now.strain;
+  strain_now_ = now.strain;
+  shock_energy_ = std::max(shock_energy_, kinetic_now_ + now.strain);
+  ++n_stress_;
+}
+
+void ErrorEstimator::accept(const Instant& instant) {
+  strain_now_.reset();
+  if (instant.is_static()) return accept_static(instant);
+  // Central differences of n substeps turn a motion by (w dt / n)^2 / 24 too much.
+  phase_factor_ = instant.fields ? 0.5 / std::pow(std::max(1, instant.iterations), 2) : instant.model.phase_factor();
+  dynamic_.interface_energy += instant.interface_energy;
+  const Energies& energies = instant.state.energies;
+  linked_.accept(instant);
+  take_velocities(instant);
+  kinetic_ = std::max(kinetic_, kinetic_now_);
+  stored_ = std::max(stored_, energies.kinetic + energies.strain);
+  const long all = instant.model.step->n_increments(), i = instant.increment + 1;
+  if ((i * n_samples) / all != ((i - 1) * n_samples) / all) sample_stress(instant);
+}
+
+ErrorEstimator::Estimate ErrorEstimator::dynamic_steps() const {
+  Estimate estimate = dynamic_;
+  const double energy = this->energy();
+  if (energy <= 0.0) return estimate;
+  const double root = std::sqrt(energy);
+  estimate.velocity = total_mass_ > 0.0 ? root / std::sqrt(total_mass_) : 0.0;
+  estimate.iteration = std::sqrt(dynamic_.interface_energy) / root;
+  estimate.time_step = (before_ + (bank_ ? bank_->phase_error(phase_factor_) : 0.0)) / root;
+  if (n_stress_ == 0 || n_rates_ == 0 || sums_.strain <= 0.0 || kinetic_rates_ <= 0.0) return estimate;
+  // Rayleigh's quotient of the accelerations, over the energy of which there is less: strain, of what moves as a whole,
+  // or kinetic, of what is bent or let go about another place than that of the start.
+  const double moving = kinetic_rates_ / static_cast<double>(n_rates_), strained = sums_.strain / n_stress_,
+               frequency2 = (rate_ / static_cast<double>(n_rates_)) / (2.0 * std::min(moving, strained));
+  const double steps2 = frequency2 * dt_ * dt_;  // (w dt)^2
+  estimate.mean_frequency = std::sqrt(frequency2) / (2 * std::numbers::pi);
+  const FrequencyShares mesh = frequency_shares();
+  // What goes with the square of the frequency turns as a time step does; the rest all frequencies alike.
+  const double turned = (steps2 > 0.0 ? 12.0 * mesh.dispersion / steps2 : 0.0) + 6.0 * lag_ / (dt_ * dt_);
+  const double phase = bank_ ? bank_->phase_error(turned, mesh.of_all) / root : 0.0;
+  const bool is_tuned = bank_ && bank_->is_tuned();
+  const double of_step = is_tuned ? 12.0 / 80.0 * steps2 : 1.0;  // of what (Q2) would have
+  estimate.mesh_amplitude = ratio(stress_energy_, energy);
+  estimate.mesh = std::hypot(phase, estimate.mesh_amplitude);
+  estimate.mesh_frequency = of_step * mesh.dispersion + mesh.of_all + 0.5 * frequency2 * lag_;
+  estimate.step_frequency = of_step * phase_factor_ * steps2 / 12.0;
+  return estimate;
+}
+
+}  // namespace dygita

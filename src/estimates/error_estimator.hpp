@@ -1,0 +1,121 @@
+// What a run's answer is worth, told by the run itself: errors of iteration, time step and mesh in energy norm (manual,
+// eq. Q1-Q6).
+//
+// Each is the square root of the energy of the estimated error over that of the shock, at its worst instant.
+#pragma once
+
+#include <optional>
+
+#include "estimates/octaves.hpp"
+#include "fem/free_surface.hpp"
+#include "watch/carried_motion.hpp"
+#include "watch/linked_parts.hpp"
+#include "watch/part_views.hpp"
+
+namespace dygita {
+
+// Every rank has the velocities and the stress error of its own pieces; the estimates are the same on all. Sums are
+// taken piece by piece, in their order.
+class ErrorEstimator {
+ public:
+  ErrorEstimator(const Problem& problem, PartViews& views);
+  // Both are collective.
+  void begin_step(const Instant& start);
+  void accept(const Instant& instant);
+
+  struct Estimate {
+    double iteration = 0.0, time_step = 0.0, mesh = 0.0;  // relative, energy norm
+    double interface_energy = 0.0;  // J, constitutive-relation error of the interfaces, summed over the increments
+    double mean_frequency = 0.0;    // Hz, of the energy of the velocities
+    double velocity = 0.0;          // m/s, at which all mass would have the energy that the errors are relative to
+    // Apart (eq. Q14): relative errors of the mean frequency, and of amplitudes, in energy norm.
+    double step_frequency = 0.0, mesh_frequency = 0.0, mesh_amplitude = 0.0;
+  };
+  Estimate static_steps() const { return static_; }
+  Estimate dynamic_steps() const;
+  // J, what a scene at rest, or carried along by a static step, has of rounding and of what an iteration leaves: shares
+  // of less say nothing.
+  double energy_at_rest() const { return at_rest_; }
+  // J, of the displacements since the start of a dynamic step, where the last increment has been sampled.
+  const std::optional<double>& strain_of_motion() const { return strain_now_; }
+
+ private:
+  // Energies (J): of the stress error of all substructures, within them and at their free surfaces, and the strain
+  // energy of the same displacements.
+  struct StressEnergies {
+    double within = 0.0, at_surface = 0.0, strain = 0.0;
+    double error() const { return within + at_surface; }
+  };
+  // What a piece that is here has of a dynamic step.
+  struct PieceMotion {
+    int piece = 0;
+    Vec mass;                      // kg, of its unknowns
+    Points directions;             // 3 x n, of the same
+    Vec velocity;                  // m/s, of the same; relative (Q0)
+    Vec3 momentum = Vec3::Zero();  // kg m/s, where the carried motion asks for it, or parts that are not linked
+    Points start;                  // m, displacements at the start of the step
+    OctaveSamples octaves;
+  };
+
+  // Relative errors of frequencies that the mesh makes: at the mean frequency, with the square of the frequency; and of
+  // all frequencies (eq. Q14).
+  struct FrequencyShares {
+    double dispersion = 0.0, of_all = 0.0;
+  };
+
+  void accept_static(const Instant& instant);
+  void take_velocities(const Instant& instant);
+  void sample_stress(const Instant& instant);
+  StressEnergies stress_energies(const Instant& instant);
+  double lumping_energy(const Instant& instant);
+  FrequencyShares frequency_shares() const;
+  void find_free_surfaces(const Instant& start);
+  double energy_when_carried(const Instant& instant) const;
+
+  // Of the shock, J, relative to which errors are: twice the kinetic energy, as of a wave, without that of parts which
+  // fly as a whole and have touched nothing; of a slow motion, what is stored in it; at rest, next to nothing of what
+  // was there before.
+  double energy() const { return std::max({2.0 * kinetic_, shock_energy_, 1e-8 * stored_}); }
+
+  // Of a static step so far.
+  struct StaticStep {
+    double loads = 0.0, strain = 0.0, balance = 0.0;  // J, work of the loads and what the balance misses, at its start
+    double left = 0.0;                                // sqrt of J, sum of what its increments leave
+    double work = 0.0, missing = 0.0;                 // J, largest so far since its start
+  };
+
+  Estimate static_, dynamic_;
+  StaticStep still_;
+  std::vector<double> volume_;            // m^3, of the substructures
+  double at_rest_ = 0.0;                  // J
+  double most_strain_ = 0.0;              // J, when static steps began and ended
+  std::optional<OctaveBank> bank_;        // of the step
+  double before_ = 0.0;                   // phase error (norm, sqrt of J) of the dynamic steps before
+  std::vector<PieceMotion> pieces_;       // that are here, in a dynamic step
+  std::optional<CarriedMotion> carried_;  // of the step
+  LinkedParts linked_;
+  double dt_ = 0.0, phase_factor_ = 1.0;
+  PartViews* views_;
+  std::vector<std::vector<Facet>> boundary_;  // of each substructure, once it has been asked for
+  std::vector<std::vector<FreeCell>> free_;   // of its view, in the step
+  std::vector<Points> start_;            // displacements of the views at the start of the dynamic step: what it adds is
+                                         // the shock; empty in static ones
+  double kinetic_now_ = 0.0;             // J, of the relative velocities, without parts in flight
+  double kinetic_ = 0.0, stored_ = 0.0;  // J, largest so far: kinetic of the relative velocities; kinetic + strain
+  double shock_energy_ = 0.0;            // J, largest of the samples: kinetic, and strain of the shock
+  double stress_energy_ = 0.0;           // J, largest of the samples
+  std::optional<double> strain_now_;     // J, of the shock, where the increment was sampled
+  // Of the samples: energies of the stress error and of the shock (eq. Q6), and what of the kinetic energy is that of
+  // lumped masses alone.
+  StressEnergies sums_;
+  double kinetic_sum_ = 0.0, lumping_sum_ = 0.0;
+  int n_stress_ = 0;
+  double total_mass_ = 0.0;     // kg
+  double lag_ = 0.0;            // s^2, of the diagonal mass of cells of order two (eq. Q12)
+  double rate_ = 0.0;           // sum of |dV / dt|^2, in the norm of the mass
+  double kinetic_rates_ = 0.0;  // J, sum of kinetic_now_ over the same
+  long n_rates_ = 0;
+  bool has_old_ = false;  // of the step: velocities of an increment before
+};
+
+}  // namespace dygita

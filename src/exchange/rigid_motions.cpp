@@ -1,0 +1,341 @@
+#include "exchange/rigid_motions.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <map>
+#include <set>
+
+#include "base/log.hpp"
+#include "exchange/rigid_frame.hpp"
+#include "law/law.hpp"
+#include "numerics/pairs_below.hpp"
+
+namespace dygita {
+
+namespace {
+
+std::string describe(const RigidMotion& motion) {
+  const char* names[] = {"translation along x", "translation along y", "translation along z",
+                         "rotation about x",    "rotation about y",    "rotation about z"};
+  int largest = 0;
+  motion.cwiseAbs().maxCoeff(&largest);
+  return names[largest];
+}
+
+// Blocks of 6 x 6, of each body and of each two that a constraint joins.
+using Blocks = std::map<std::pair<int, int>, Eigen::Matrix<double, 6, 6>>;
+
+// Sum of squares of all constraints on the rigid motions of all substructures: 6 n x 6 n.
+Blocks constraint_gram(const Problem& problem, const Exchange& exchange, const Conditions& conditions,
+                       const std::vector<RigidFrame>& frames) {
+  const int n = static_cast<int>(frames.size());
+  Blocks gram;
+  const auto block = [&gram](int i, int j) -> Eigen::Matrix<double, 6, 6>& {
+    return gram.try_emplace({i, j}, Eigen::Matrix<double, 6, 6>::Zero()).first->second;
+  };
+  for (int part = 0; part < n; ++part) block(part, part);
+  for (int part = 0; part < n; ++part) {
+    const auto resisted = frames[part].resisted(*problem.substructures[part]);
+    block(part, part) += resisted * resisted.transpose();
+  }
+  for (int part = 0; part < n; ++part)
+    for (const auto& [node, held] : conditions.held[part])
+      for (int j = 0; j < held.n; ++j) {
+        const RigidMotion r = frames[part].row(*problem.substructures[part], node, held.directions.col(j));
+        block(part, part) += r * r.transpose();
+      }
+  for (const Point& point : exchange.points) {
+    const auto row_of = [&](int p, int d) {
+      const Port& port = exchange.ports[p];
+      return frames[port.part].row(*problem.substructures[port.part], port, point.frame.col(d));
+    };
+    const auto tie = [&](int p, int other, int d) {
+      const RigidMotion a = row_of(p, d);
+      const int i = exchange.ports[p].part;
+      block(i, i) += a * a.transpose();
+      if (other < 0) return;
+      const RigidMotion b = row_of(other, d);
+      const int j = exchange.ports[other].part;
+      block(j, j) += b * b.transpose();
+      block(i, j) -= a * b.transpose();
+      block(j, i) -= b * a.transpose();
+    };
+    for (int d = 0; d < 3; ++d) {
+      for (int p = point.first_port + 1; p < point.first_port_2; ++p) tie(p, point.first_port, d);
+      for (int p = point.first_port_2 + 1; p < point.end_port; ++p) tie(p, point.first_port_2, d);
+      if (!point.has_law[d]) continue;
+      tie(point.first_port, point.is_wall ? -1 : point.first_port_2, d);
+    }
+  }
+  return gram;
+}
+
+SparseMatrix scaled(const Blocks& gram, const Vec& weight) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& [at, block] : gram)
+    for (int a = 0; a < 6; ++a)
+      for (int b = 0; b < 6; ++b) {
+        const int i = 6 * at.first + a, j = 6 * at.second + b;
+        entries.emplace_back(i, j, weight[i] * block(a, b) * weight[j]);
+      }
+  const auto size = static_cast<int>(weight.size());
+  SparseMatrix matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+// Interfaces of a part that carry nothing in a static step: "; interface 'gasket' does not in a static step".
+std::string what_lets_go(const Problem& problem, const Substructure& part) {
+  for (const InterfacePtr& interface : problem.interfaces)
+    if ((interface->side_1.part.get() == &part || interface->side_2.part.get() == &part) &&
+        !interface->law->takes_part(true))
+      return ": interface." + interface->law->word() + " '" + interface->name + "' carries nothing in a static step";
+  return "";
+}
+
+// What nothing resists and nothing loads, a line for each part.
+void warn_of_unconstrained(const Problem& problem, const Step& step,
+                           const std::map<int, std::vector<std::string>>& motions) {
+  for (const auto& [part, all] : motions) {
+    const std::string& name = problem.substructures[static_cast<size_t>(part)]->name;
+    if (all.size() >= 6) {
+      warn(
+          fmt::format("static step '{}': substructure '{}' is unconstrained, no support and no interface holds it{}; "
+                      "nothing loads it, it is left at zero",
+                      step.name, name, what_lets_go(problem, *problem.substructures[static_cast<size_t>(part)])));
+      continue;
+    }
+    const std::set<std::string> each(all.begin(), all.end());
+    std::string text;
+    for (const std::string& motion : each) text += (text.empty() ? "" : " and ") + motion;
+    warn(fmt::format("static step '{}': {} of substructure '{}' {} unconstrained; nothing loads it, it is left at zero",
+                     step.name, text, name, each.size() == 1 ? "is" : "are"));
+  }
+}
+
+}  // namespace
+
+bool is_floating(const Substructure& part, const std::unordered_map<int, Held>& held) {
+  const RigidFrame frame(extent_of(part));
+  Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();
+  double scale = 0.0;
+  for (const auto& [node, conditions] : held)
+    for (int j = 0; j < conditions.n; ++j) {
+      const RigidMotion r = frame.row(part, node, conditions.directions.col(j));
+      gram += r * r.transpose();
+      scale += 1.0;
+    }
+  const auto resisted = frame.resisted(part);
+  gram += resisted * resisted.transpose();
+  scale += static_cast<double>(resisted.cols());
+  if (scale == 0.0) return true;
+  return symmetric_eigen(gram).values[0] < 1e-8 * scale;
+}
+
+namespace {
+
+// Motions of all bodies, 6 n x m, orthonormal.
+Mat orthonormal(Mat motions) {
+  for (Eigen::Index i = 0; i < motions.cols(); ++i) {
+    for (int pass = 0; pass < 2; ++pass)
+      for (Eigen::Index j = 0; j < i; ++j) motions.col(i) -= motions.col(j).dot(motions.col(i)) * motions.col(j);
+    motions.col(i).normalize();
+  }
+  return motions;
+}
+
+// One direction of one node.
+struct Pin {
+  int part = -1, node = -1;
+  Vec3 direction = Vec3::Zero();
+};
+
+// Finds directions of nodes that hold what is free and nothing else: as far as a body may move at all, a node is held
+// along its own motion, which no support and no law resists. So many of them as there are free motions are statically
+// determinate, and carry nothing.
+class Pinning {
+ public:
+  Pinning(const Problem& problem, const Exchange& exchange, const Conditions& conditions,
+          const std::vector<RigidFrame>& frames)
+      : problem_(problem), exchange_(exchange), conditions_(conditions), frames_(frames) {
+    for (size_t i = 0; i < exchange.points.size(); ++i)
+      for (int p = exchange.points[i].first_port; p < exchange.points[i].end_port; ++p)
+        exchange.ports[static_cast<size_t>(p)].for_each_node([&](int node, const Mat3& /*block*/) {
+          points_at_[{exchange.ports[static_cast<size_t>(p)].part, node}].push_back(static_cast<int>(i));
+        });
+  }
+
+  // The node that moves furthest, and that way: whatever the basis of the free motions, and however all is turned.
+  Pin best(const Mat& free) const {
+    constexpr double nearly = 1.0 + 1e-9;  // of nodes that are alike the first
+    double best = 0.0;
+    Pin pin;
+    for (int part = 0; part < static_cast<int>(frames_.size()); ++part) {
+      const Mat own = free.middleRows(6 * part, 6);
+      const Mat6 gram = own * own.transpose();
+      const Substructure& body = *problem_.substructures[static_cast<size_t>(part)];
+      for (int node = 0; node < body.mesh->n_nodes(); ++node) {
+        if (body.mesh->condensed && body.mesh->condensed->follower(node)) continue;  // it has no unknowns
+        Mat3 square = square_of(part, node, gram);
+        const double most = std::sqrt(std::max(0.0, square.trace()));
+        if (most <= nearly * best) continue;
+        const double weight = weight_of(part, node);
+        if (weight * most <= nearly * best) continue;
+        if (const Held* held = conditions_.at(part, node)) {
+          const Mat3 is_free = held->free_basis() * held->free_basis().transpose();
+          square = (is_free * square * is_free).eval();
+        }
+        const PrincipalAxes axes = principal_axes(square);
+        const Vec3 direction = axes.vectors.col(2);
+        const double reach =
+            std::sqrt(std::max(0.0, axes.values[2])) * weight * (fits_frames(part, node, direction) ? 1.0 : at_odds);
+        if (reach <= nearly * best) continue;
+        best = reach;
+        pin = {part, node, direction};
+      }
+    }
+    return pin;
+  }
+
+  // How each free motion moves a pin.
+  Vec along(const Pin& pin, const Mat& free) const {
+    const Substructure& body = *problem_.substructures[static_cast<size_t>(pin.part)];
+    return free.middleRows(6 * pin.part, 6).transpose() *
+           frames_[static_cast<size_t>(pin.part)].row(body, pin.node, pin.direction);
+  }
+
+ private:
+  using Mat6 = Eigen::Matrix<double, 6, 6>;
+  // Rather where no support and no interface is: what a pin adds to them is theirs no more.
+  static constexpr double at_support = 1e-2, at_interface = 1e-3, at_odds = 1e-3;
+
+  double weight_of(int part, int node) const {
+    const Held* held = conditions_.at(part, node);
+    return (held && held->n > 0 ? at_support : 1.0) * (points_at_.contains({part, node}) ? at_interface : 1.0);
+  }
+
+  // Sum of squares of the displacements of a node.
+  Mat3 square_of(int part, int node, const Mat6& gram) const {
+    const Substructure& body = *problem_.substructures[static_cast<size_t>(part)];
+    Eigen::Matrix<double, 3, 6> rows;
+    for (int d = 0; d < 3; ++d) rows.row(d) = frames_[static_cast<size_t>(part)].row(body, node, Vec3::Unit(d));
+    return rows * gram * rows.transpose();
+  }
+
+  // The axes of a point contain what is held of its nodes: a direction must be along or across the normal of a law, and
+  // what is held already.
+  bool fits_frames(int part, int node, const Vec3& direction) const {
+    constexpr double rounding = 1e-6;
+    const auto is_oblique = [&](const Vec3& axis) {
+      const double along = std::abs(axis.dot(direction));
+      return along > rounding && along < 1.0 - rounding;
+    };
+    const auto points = points_at_.find({part, node});
+    if (points == points_at_.end()) return true;
+    for (const int i : points->second) {
+      const Point& point = exchange_.points[static_cast<size_t>(i)];
+      if (point.law && is_oblique(point.frame.col(0))) return false;
+      for (int p = point.first_port; p < point.end_port; ++p) {
+        const Port& port = exchange_.ports[static_cast<size_t>(p)];
+        const Held* held = conditions_.at(port.part, port.node);
+        for (int j = 0; held && held->n < 3 && j < held->n; ++j)
+          if (is_oblique(held->directions.col(j))) return false;
+      }
+    }
+    return true;
+  }
+
+  const Problem& problem_;
+  const Exchange& exchange_;
+  const Conditions& conditions_;
+  const std::vector<RigidFrame>& frames_;
+  std::map<std::pair<int, int>, std::vector<int>> points_at_;  // by part and node
+};
+
+// Throws where the loads (3 x nodes of each body, N) drive one of the free motions.
+void check_unloaded(const Problem& problem, const Step& step, const std::vector<RigidFrame>& frames,
+                    const std::vector<Points>& force, const Mat& free) {
+  const int n = static_cast<int>(frames.size());
+  Vec work = Vec::Zero(free.cols());
+  for (int i = 0; i < n; ++i)
+    if (!force[i].isZero(0.0))
+      for (Eigen::Index m = 0; m < free.cols(); ++m)
+        work[m] += frames[i]
+                       .displacements(free.col(m).segment<6>(6 * i), *problem.substructures[i])
+                       .cwiseProduct(force[i])
+                       .sum();
+  if (work.isZero(0.0)) return;
+  const Vec driven = free * work.normalized();
+  int part = 0;
+  double largest = 0.0, scale = 0.0;
+  for (int i = 0; i < n; ++i)
+    if (driven.segment<6>(6 * i).norm() > largest) {
+      largest = driven.segment<6>(6 * i).norm();
+      part = i;
+    }
+  for (int i = 0; i < n; ++i) scale += force[i].colwise().norm().sum() * largest;
+  if (work.norm() > 1e-7 * scale)
+    throw InputError(step.origin,
+                     fmt::format("static step '{}': {} of substructure '{}' is loaded, but no support and no "
+                                 "interface holds it",
+                                 step.name, describe(driven.segment<6>(6 * part)), problem.substructures[part]->name) +
+                         what_lets_go(problem, *problem.substructures[part]));
+}
+
+// Names for as many motions as a body (6 x n) has: those that they are nearest to.
+std::vector<std::string> names_of(const Mat& motions) {
+  Mat left = orthonormal(motions);
+  std::vector<std::string> names;
+  for (Eigen::Index m = 0; m < motions.cols(); ++m) {
+    int nearest = 0;
+    left.rowwise().squaredNorm().maxCoeff(&nearest);
+    names.push_back(describe(RigidMotion::Unit(nearest)));
+    const Vec taken = left.row(nearest).transpose().normalized();
+    left -= (left * taken) * taken.transpose();
+  }
+  return names;
+}
+
+}  // namespace
+
+void pin_free_motions(const Problem& problem, const Step& step, const Exchange& exchange,
+                      const std::vector<Points>& force, Conditions& conditions) {
+  const int n = static_cast<int>(problem.substructures.size());
+  std::vector<RigidFrame> frames;
+  for (const SubstructurePtr& part : problem.substructures) frames.emplace_back(extent_of(*part));
+  const Blocks gram = constraint_gram(problem, exchange, conditions, frames);
+  // Each body's scale: how often it is constrained; a motion nothing resists has a vanishing eigenvalue.
+  Vec weight(6 * n);
+  for (int i = 0; i < n; ++i)
+    weight.segment<6>(6 * i).setConstant(1.0 / std::sqrt(std::max(1.0, gram.at({i, i}).trace())));
+  const EigenPairs eigen = pairs_below(scaled(gram, weight), 1e-9);
+  if (eigen.values.size() == 0) return;
+  Mat free = orthonormal(weight.asDiagonal() * eigen.vectors);
+  check_unloaded(problem, step, frames, force, free);
+  const Pinning pinning(problem, exchange, conditions, frames);
+  std::map<int, Mat> unconstrained;  // by part, a column a motion
+  while (free.cols() > 0) {
+    const Pin pin = pinning.best(free);
+    CHECK(pin.node >= 0, "no node can be pinned against a free rigid motion");
+    // Of the free motions one moves the pin, and the others, across it, do not.
+    const Vec moving = pinning.along(pin, free).normalized();
+    Mat& own = unconstrained[pin.part];
+    own.conservativeResize(6, own.cols() + 1);
+    own.rightCols(1) = (free * moving).segment<6>(6 * pin.part);
+    Mat others(free.cols(), free.cols());
+    others.col(0) = moving;
+    others.rightCols(free.cols() - 1).setIdentity();
+    int last = 0;
+    moving.cwiseAbs().maxCoeff(&last);  // the unit vector nearest to it is left out
+    if (last < free.cols() - 1) others.col(last + 1) = Vec::Unit(free.cols(), free.cols() - 1);
+    free = orthonormal(free * orthonormal(others).rightCols(free.cols() - 1));
+    Held& held = conditions.held[pin.part][pin.node];
+    held.directions.col(held.n) = held.given.col(held.n) = pin.direction;
+    ++held.n;
+  }
+  std::map<int, std::vector<std::string>> names;
+  for (const auto& [part, motions] : unconstrained) names[part] = names_of(motions);
+  warn_of_unconstrained(problem, step, names);
+}
+
+}  // namespace dygita

@@ -1,0 +1,76 @@
+#include "files/replacement.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "base/error.hpp"
+#include "files/manifest.hpp"
+
+namespace dygita {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// One move where the file system can exchange, two where it cannot.
+bool exchange(const fs::path& a, const fs::path& b) {
+  if (renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0) return true;
+  const fs::path aside = a.string() + ".old";
+  if (std::rename(a.c_str(), aside.c_str()) != 0) return false;
+  if (std::rename(b.c_str(), a.c_str()) == 0) return std::rename(aside.c_str(), b.c_str()) == 0;
+  const int reason = errno;
+  std::rename(aside.c_str(), a.c_str());
+  errno = reason;
+  return false;
+}
+
+// What others put beside the old results goes where it was; folders of ours that it lies in are there again.
+bool carry_over(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  bool is_done = true;
+  for (const fs::directory_entry& entry : fs::directory_iterator(from, error)) {
+    const fs::path target = to / entry.path().filename();
+    if (!fs::exists(fs::symlink_status(target))) {
+      fs::rename(entry.path(), target, error);
+      is_done = is_done && !error;
+    } else if (fs::is_directory(entry.symlink_status()) && fs::is_directory(target)) {
+      is_done = carry_over(entry.path(), target) && is_done;
+    }
+  }
+  return is_done;
+}
+
+}  // namespace
+
+Replacement::Replacement(const fs::path& directory) : directory_(fs::canonical(directory)) {
+  work_ = directory_.parent_path() / ("." + directory_.filename().string() + ".continued");
+  // What a killed run has left there is a folder; a link would lead to the old results, or anywhere.
+  std::error_code ignored;
+  const fs::file_status there = fs::symlink_status(work_, ignored);
+  if (fs::exists(there) && !fs::is_directory(there))
+    throw InputError("'" + work_.string() + "' is a link or a file, where new results are to be written: remove it");
+}
+
+Replacement::~Replacement() {
+  if (is_committed_) return;
+  std::error_code error;
+  fs::remove_all(work_, error);
+}
+
+void Replacement::commit(const std::string& dropped) {
+  if (!exchange(directory_, work_))
+    throw InputError("cannot put the new results in the place of '" + directory_.string() +
+                     "': " + std::strerror(errno));
+  is_committed_ = true;
+  { const Manifest removes_what_it_lists(work_); }
+  std::error_code error;
+  fs::remove(work_ / Manifest::file_name, error);
+  if (!dropped.empty()) fs::remove_all(work_ / dropped, error), fs::remove_all(work_ / (dropped + ".parts"), error);
+  if (carry_over(work_, directory_)) fs::remove_all(work_, error);
+}
+
+}  // namespace dygita

@@ -1,0 +1,306 @@
+#include "interfaces/surfaces.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <deque>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "base/parallel.hpp"
+#include "interfaces/check_preloads.hpp"
+#include "interfaces/whole_parts.hpp"
+#include "law/law.hpp"
+#include "meeting/mortar.hpp"
+#include "meeting/segments.hpp"
+
+namespace dygita {
+
+bool takes_part(const Problem& problem, const Step& step, const Surface& surface) {
+  if (surface.wall && index_of(supports_of(problem, step), surface.wall) < 0) return false;
+  return surface.declared_law().takes_part(step.is_static);
+}
+
+namespace {
+
+// What some load acts on is a law of its own, never part of a group nor one with its neighbours.
+bool has_load(const Problem& problem, const Interface* interface) {
+  for (const StepPtr& step : problem.steps)
+    for (const LoadPtr& load : step->loads)
+      for (const Target& target : load->on)
+        if (const auto* on = std::get_if<InterfacePtr>(&target); on && on->get() == interface) return true;
+  return false;
+}
+
+bool is_alike(const Law& a, const Law& b) {
+  const std::vector<LawParameter> of_a = a.parameters(), of_b = b.parameters();
+  return a.word() == b.word() &&
+         std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                    [](const LawParameter& p, const LawParameter& q) { return p.value == q.value; });
+}
+
+// Laws that join their like share one object: where such faces meet at a node they act as one (exchange.cpp).
+class SharedLaws {
+ public:
+  const LawPtr& of(const LawPtr& law) {
+    if (!law->joins_its_like()) return law;
+    const auto same =
+        std::find_if(known_.begin(), known_.end(), [&](const LawPtr& known) { return is_alike(*known, *law); });
+    return same != known_.end() ? *same : known_.emplace_back(law);
+  }
+
+ private:
+  std::deque<LawPtr> known_;
+};
+
+// A law acts point by point with the force on the area of a node. On facets of order two without a middle node forces
+// at corners are zero or pull under uniform pressure, and would open it there: such faces have the points of
+// sub-facets.
+Facing facing_of_wall(const Face& face) {
+  const std::vector<Facet>& facets = face.facets();
+  const bool has_shared = std::any_of(facets.begin(), facets.end(), [](const Facet& facet) {
+    return facet_shape(facet.type()).is_shared_by_sub_facets;
+  });
+  std::vector<Facing> parts;
+  for (const PlacedFace& part : smooth_parts(placed(face)))
+    parts.push_back(has_shared ? facing_on_rigid(part) : facing_of(part));
+  return joined(parts);
+}
+
+// Of a facet on one side of an interface between meshes that do not match, the share that the other side covers.
+double covered_share(const Surface& surface, int part, const Facet& facet) {
+  const bool is_first = surface.part_1 == part;
+  PlacedFace own = placed(is_first ? surface.interface->side_1 : surface.interface->side_2),
+             other = placed(is_first ? surface.interface->side_2 : surface.interface->side_1);
+  own.facets = {facet};
+  other.facets = is_first ? surface.facing.facets_2 : surface.facing.facets_1;
+  const FaceInSpace in_space(own), there(other);
+  double all = 0.0, covered = 0.0;
+  for (const FaceInSpace::Part& of_facet : in_space.parts) all += of_facet.area;
+  const SegmentFinder finder(in_space, there, std::sqrt(all));
+  for (size_t p = 0; p < in_space.parts.size(); ++p)
+    for (const Segment& segment : finder.segments(static_cast<int>(p))) covered += segment.area;
+  return covered / all;
+}
+
+// Facets named by two interfaces would carry their forces twice. Where meshes do not match, a facet may lie under
+// several bodies, but under each only once, and under none where a wall or a mesh that matches has all of it.
+void check_overlaps(const Problem& problem, const std::vector<Surface>& surfaces) {
+  constexpr double next_to_nothing = 0.01;  // of a facet: what a face reaches over an edge by rounding
+  struct Claim {
+    const Surface* surface;
+    int other;
+  };
+  std::map<std::pair<int, FacetKey>, std::vector<Claim>> claims;
+  const auto has_all = [](const Surface& surface) { return surface.facing.matches() || surface.wall; };
+  const auto covers = [&](const Surface& surface, int part, const Facet& facet) {
+    return has_all(surface) || covered_share(surface, part, facet) > next_to_nothing;
+  };
+  const auto claim = [&](const Surface& surface, int part, const std::vector<Facet>& facets, int other) {
+    for (const Facet& facet : facets) {
+      std::vector<Claim>& of_facet = claims[{part, facet_key(facet)}];
+      for (const Claim& before : of_facet) {
+        if (before.surface == &surface) continue;
+        const bool is_alike = !has_all(surface) && !has_all(*before.surface);
+        if (is_alike ? before.other != other : !(covers(surface, part, facet) && covers(*before.surface, part, facet)))
+          continue;
+        const Origin& origin = surface.interface ? surface.interface->origin : surface.wall->origin;
+        throw InputError(origin, "'" + surface.name() + "' and '" + before.surface->name() +
+                                     "' share facets of substructure '" + problem.substructures[part]->name +
+                                     "': a facet can be in one interface or wall only");
+      }
+      of_facet.push_back({&surface, other});
+    }
+  };
+  for (const Surface& surface : surfaces) {
+    claim(surface, surface.part_1, surface.facing.facets_1, surface.part_2);
+    if (surface.part_2 >= 0) claim(surface, surface.part_2, surface.facing.facets_2, surface.part_1);
+  }
+}
+
+// Where bodies are joined in a ring around a line, the last of the ties that would close it.
+class Rings {
+ public:
+  Rings(const Problem& problem, const std::vector<std::optional<Meeting>>& meetings) : problem_(problem) {
+    for (size_t i = 0; i < meetings.size(); ++i) {
+      const Interface& interface = *problem.interfaces[i];
+      add(static_cast<int>(i), interface.side_1, meetings[i]->facets_1());
+      add(static_cast<int>(i), interface.side_2, meetings[i]->facets_2());
+    }
+  }
+
+  // At x, are both sides of a tie joined by interfaces that come before it?
+  std::function<bool(const Vec3&)> closed_by(int i) const {
+    const Entry& own =
+        *std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.interface == i; });
+    std::vector<const Entry*> near;
+    for (const Entry& entry : entries_) {
+      const double apart = std::max((entry.low - own.high).maxCoeff(), (own.low - entry.high).maxCoeff());
+      if (apart <= entry.tolerance && entry.interface != i && comes_before(entry.interface, i)) near.push_back(&entry);
+    }
+    return [this, i, near = std::move(near)](const Vec3& x) { return are_joined(i, near, x); };
+  }
+
+ private:
+  struct Entry {
+    int interface;
+    std::vector<Polygon> polygons;
+    double tolerance;  // m
+    Vec3 low, high;
+  };
+
+  void add(int i, const Face& face, const std::vector<Facet>& facets) {
+    PlacedFace own = placed(face);
+    own.facets = facets;
+    const FaceInSpace in_space(own);
+    Entry entry{
+        i, {}, 1e-6 * in_space.smallest_edge(), in_space.x.rowwise().minCoeff(), in_space.x.rowwise().maxCoeff()};
+    double area = 0.0;
+    for (const FaceInSpace::Part& part : in_space.parts) {
+      entry.polygons.push_back(part.x);
+      area += part.area;
+    }
+    entries_.push_back(std::move(entry));
+    areas_.resize(problem_.interfaces.size());
+    areas_[static_cast<size_t>(i)] = std::max(areas_[static_cast<size_t>(i)], area);
+  }
+
+  bool are_joined(int i, const std::vector<const Entry*>& by, const Vec3& x) const {
+    const Interface& own = *problem_.interfaces[static_cast<size_t>(i)];
+    std::vector<std::pair<const Substructure*, const Substructure*>> joined;
+    for (const Entry* entry : by) {
+      if (!has(*entry, x)) continue;
+      const Interface& other = *problem_.interfaces[static_cast<size_t>(entry->interface)];
+      joined.emplace_back(other.side_1.part.get(), other.side_2.part.get());
+    }
+    std::vector<const Substructure*> reached{own.side_1.part.get()};
+    for (size_t k = 0; k < reached.size(); ++k)
+      for (const auto& [a, b] : joined)
+        for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)})
+          if (from == reached[k] && std::find(reached.begin(), reached.end(), to) == reached.end())
+            reached.push_back(to);
+    return std::find(reached.begin(), reached.end(), own.side_2.part.get()) != reached.end();
+  }
+
+  // What is no tie, and of ties the larger; of those as large the first by the names of what it joins: in whatever
+  // order they are declared, and wherever the assembly stands.
+  bool comes_before(int i, int j) const {
+    constexpr double alike = 1e-6;
+    const auto is_tie = [&](int k) { return problem_.interfaces[static_cast<size_t>(k)]->law->is_tie(); };
+    if (is_tie(i) != is_tie(j)) return is_tie(j);
+    const double a = areas_[static_cast<size_t>(i)], b = areas_[static_cast<size_t>(j)];
+    if (std::abs(a - b) > alike * std::max(a, b)) return a > b;
+    const auto names = [&](int k) {
+      const Interface& own = *problem_.interfaces[static_cast<size_t>(k)];
+      const auto sides = std::minmax({own.side_1.label(), own.side_2.label()});
+      return std::tuple(sides.first, sides.second, k);
+    };
+    return names(i) < names(j);
+  }
+
+  static bool has(const Entry& entry, const Vec3& x) {
+    if ((x - entry.low).minCoeff() < -entry.tolerance || (entry.high - x).minCoeff() < -entry.tolerance) return false;
+    return std::any_of(entry.polygons.begin(), entry.polygons.end(),
+                       [&](const Polygon& polygon) { return lies_on(x, polygon, entry.tolerance); });
+  }
+
+  static bool lies_on(const Vec3& x, const Polygon& polygon, double tolerance) {
+    const Vec3 normal = area_vector(polygon).normalized();
+    if (std::abs(normal.dot(x - polygon.rowwise().mean())) > tolerance) return false;
+    for (int a = 0; a < polygon.cols(); ++a) {
+      const Vec3 edge = polygon.col((a + 1) % polygon.cols()) - polygon.col(a);
+      if (edge.cross(x - polygon.col(a)).dot(normal) < -tolerance * edge.norm()) return false;
+    }
+    return true;
+  }
+
+  const Problem& problem_;
+  std::vector<Entry> entries_;  // side after side of the interfaces, in their order
+  std::vector<double> areas_;   // m^2, of each interface: of the larger of both sides
+};
+
+// Gaps of the places mean nothing where facets of round faces are as far off.
+void check_gap_of_geometry(const Interface& interface, const Facing& facing) {
+  const double largest = facing.gaps.size() > 0 ? facing.gaps.cwiseAbs().maxCoeff() : 0.0;
+  if (facing.sagitta <= 0.1 * largest || facing.sagitta < 1e-12) return;
+  throw InputError(
+      interface.origin,
+      fmt::format(
+          "interface '{}': 'gap' = \"geometry\": the facets of '{}' and '{}' are up to {:.3g} mm off the round "
+          "face that they stand for, the largest gap between them is {:.3g} mm\n    declare the gap as a length, "
+          "or mesh finer",
+          interface.name, interface.side_1.label(), interface.side_2.label(), 1e3 * facing.sagitta, 1e3 * largest));
+}
+
+// The points of an interface. Where bodies are tied in a ring around a line, one of the ties leaves it to the others:
+// tied once too often, it would not converge well (manual, eq. J5).
+Facing facing_of(const Problem& problem, int i, const std::vector<std::optional<Meeting>>& meetings,
+                 const Rings& rings) {
+  const Interface& interface = *problem.interfaces[i];
+  Facing facing =
+      meetings[i]->facing(interface.law->is_tie() ? rings.closed_by(i) : std::function<bool(const Vec3&)>());
+  if (interface.has_gap_of_geometry) check_gap_of_geometry(interface, facing);
+  return facing;
+}
+
+void follow(const Face& side_1, const Face* side_2, const Origin& origin, const std::string& who, Facing& facing) {
+  try {
+    follow_rigid_faces(side_1.part->mesh.get(), side_1.part->place, side_2 ? side_2->part->mesh.get() : nullptr,
+                       side_2 ? side_2->part->place : Vec3(Vec3::Zero()), facing);
+  } catch (const InputError& error) {
+    throw InputError(origin, who + error.what());
+  }
+}
+
+}  // namespace
+
+std::vector<Surface> make_surfaces(const Problem& problem) {
+  std::vector<Surface> surfaces;
+  SharedLaws laws;
+  const int n = static_cast<int>(problem.interfaces.size());
+  std::vector<std::optional<Meeting>> meetings(static_cast<size_t>(n));
+  const double within = n > 0 ? default_within(problem) : 0.0;
+  parallel_for(n, [&](int i) { meetings[i].emplace(meeting_of(*problem.interfaces[i], within)); });
+  const Rings rings(problem, meetings);
+  std::vector<Facing> facings(static_cast<size_t>(n));
+  parallel_for(n, [&](int i) { facings[i] = facing_of(problem, i, meetings, rings); });
+  for (size_t i = 0; i < problem.interfaces.size(); ++i) {
+    const InterfacePtr& interface = problem.interfaces[i];
+    Surface surface;
+    surface.interface = interface.get();
+    surface.part_1 = index_of(problem.substructures, interface->side_1.part.get());
+    surface.part_2 = index_of(problem.substructures, interface->side_2.part.get());
+    surface.facing = std::move(facings[i]);
+    follow(interface->side_1, &interface->side_2, interface->origin,
+           "interface '" + interface->name + "': ", surface.facing);
+    // A tie between meshes that do not match is a law of its own.
+    if (has_load(problem, interface.get()) || (interface->law->is_tie() && !surface.facing.matches()))
+      surface.law = interface->law;
+    else if (!interface->law->is_tie())
+      surface.law = laws.of(interface->law);
+    surfaces.push_back(std::move(surface));
+  }
+  std::vector<const Support*> walls;
+  for (const StepPtr& step : problem.steps)
+    for (const SupportPtr& support : supports_of(problem, *step))
+      if (support->kind->law() && std::find(walls.begin(), walls.end(), support.get()) == walls.end())
+        walls.push_back(support.get());
+  for (const Support* wall : walls)
+    for (const FaceOrRegion& on : wall->on) {
+      const Face& face = std::get<Face>(on);
+      Surface surface;
+      surface.wall = wall;
+      surface.part_1 = index_of(problem.substructures, face.part.get());
+      surface.facing = facing_of_wall(face);
+      follow(face, nullptr, wall->origin, "support.wall '" + wall->name + "': ", surface.facing);
+      surface.law = laws.of(wall->kind->law());
+      surfaces.push_back(std::move(surface));
+    }
+  check_overlaps(problem, surfaces);
+  refuse_seams(problem, surfaces);
+  check_preloads(problem, surfaces);
+  return surfaces;
+}
+
+}  // namespace dygita

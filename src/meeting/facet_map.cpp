@@ -1,0 +1,94 @@
+#include "meeting/facet_map.hpp"
+
+#include <Eigen/LU>
+
+#include "mesh/shape_functions.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr double straight = 1e-12;  // of the size of a facet: mid nodes off the chord, opposite edges unlike
+constexpr int most_steps = 20;
+constexpr double converged = 1e-14;
+
+// A linear map gives each node the mean that the corners' linear functions say.
+bool goes_linearly(FacetType type, const Eigen::Ref<const Points>& x) {
+  const FacetShape& shape = facet_shape(type);
+  const auto reference = [&](int a) { return vector_of(shape.shape.nodes[static_cast<size_t>(a)]); };
+  // From the first corner along its two neighbours.
+  const int second = shape.n_corners - 1;
+  Eigen::Matrix2d axes;
+  axes.col(0) = (reference(1) - reference(0)).head<2>();
+  axes.col(1) = (reference(second) - reference(0)).head<2>();
+  const Eigen::Matrix2d back = axes.inverse();
+  Eigen::Matrix<double, 3, 2> edges;
+  edges.col(0) = x.col(1) - x.col(0);
+  edges.col(1) = x.col(second) - x.col(0);
+  for (int a = 0; a < x.cols(); ++a) {
+    const Vec2 share = back * (reference(a) - reference(0)).head<2>();
+    if ((x.col(0) + edges * share - x.col(a)).norm() > straight * edges.norm()) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+FacetValues facet_values(FacetType type, const Vec2& xi) {
+  const double r = xi[0], s = xi[1];
+  if (type == FacetType::tri3) return Vec3(1 - r - s, r, s);
+  if (type == FacetType::quad4)
+    return 0.25 * Eigen::Vector4d((1 - r) * (1 - s), (1 + r) * (1 - s), (1 + r) * (1 + s), (1 - r) * (1 + s));
+  return shape_functions(type).values({r, s, 0.0});
+}
+
+FacetSlopes facet_slopes(FacetType type, const Vec2& xi) {
+  const double r = xi[0], s = xi[1];
+  FacetSlopes slopes;
+  if (type == FacetType::tri3) {
+    slopes.resize(3, 2);
+    slopes << -1, -1, 1, 0, 0, 1;
+  } else if (type == FacetType::quad4) {
+    slopes.resize(4, 2);
+    slopes << s - 1, r - 1, 1 - s, -1 - r, 1 + s, 1 + r, -1 - s, 1 - r;
+    slopes *= 0.25;
+  } else {
+    slopes = shape_functions(type).slopes({r, s, 0.0}).leftCols<2>();
+  }
+  return slopes;
+}
+
+FacetMap::FacetMap(FacetType type, const Points& x, const Vec3& origin, const Eigen::Matrix<double, 3, 2>& along)
+    : type_(type), x_(x), flat_(along.transpose() * (x.colwise() - origin)), is_affine_(goes_linearly(type, x)) {
+  const FacetShape& shape = facet_shape(type);
+  start_.setZero();
+  for (int a = 0; a < shape.n_corners; ++a)
+    start_ += vector_of(shape.shape.nodes[static_cast<size_t>(a)]).head<2>() / shape.n_corners;
+  if (!is_affine_) return;
+  const FacetSlopes slopes = facet_slopes(type, start_);
+  back_ = Eigen::Matrix2d(flat_ * slopes).inverse();
+  at_start_ = flat_ * facet_values(type, start_);
+  const Eigen::Matrix<double, 3, 2> tangents = x_ * slopes;
+  normal_ = tangents.col(0).cross(tangents.col(1)).normalized();
+}
+
+Vec2 FacetMap::inverse(const Vec2& p) const {
+  if (is_affine_) return start_ + back_ * (p - at_start_);
+  Vec2 xi = start_;
+  for (int i = 0; i < most_steps; ++i) {
+    const Vec2 off = flat_.lazyProduct(facet_values(type_, xi)) - p;
+    const Eigen::Matrix2d slopes = flat_.lazyProduct(facet_slopes(type_, xi));
+    const Vec2 step = slopes.inverse() * off;
+    xi -= step;
+    if (step.cwiseAbs().maxCoeff() < converged) break;
+  }
+  return xi;
+}
+
+Vec3 FacetMap::normal(const Vec2& xi) const {
+  if (is_affine_) return normal_;
+  const Eigen::Matrix<double, 3, 2> tangents = x_.lazyProduct(facet_slopes(type_, xi));
+  return tangents.col(0).cross(tangents.col(1)).normalized();
+}
+
+}  // namespace dygita

@@ -1,0 +1,352 @@
+#include "reduction/linear_assembly.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+#include "fem/mass.hpp"
+#include "law/law.hpp"
+#include "numerics/dense.hpp"
+
+namespace dygita {
+
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+// Disjoint sets of nodes.
+struct Places {
+  std::vector<int> parent;
+  explicit Places(int n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }
+  int of(int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  }
+  void join(int a, int b) { parent[of(a)] = of(b); }
+};
+
+void add_condition(LinearAssembly& assembly, int a, int b, const Vec3& direction) {
+  assembly.conditions.push_back({{a, b}, {direction, Vec3(-direction)}});
+}
+
+// N and two tangents.
+Mat3 frame_of(const Vec3& normal) {
+  int least = 0;
+  normal.cwiseAbs().minCoeff(&least);
+  Mat3 frame;
+  frame.col(0) = normal;
+  frame.col(1) = normal.cross(Vec3::Unit(least)).normalized();
+  frame.col(2) = normal.cross(frame.col(1));
+  return frame;
+}
+
+// A point between faces that do not match: each direction of its law is a sum over nodes.
+void add_spread_point(const Instant& instant, int s, int i, bool ties_sliding, LinearAssembly& assembly) {
+  const Surface& surface = (*instant.model.surfaces)[s];
+  const Tangent tangent = surface.declared_law().tangent(instant.surface(s).points[i], ties_sliding);
+  const Mat3 frame = frame_of(surface.facing.normals.col(i));
+  for (int d = 0; d < 3; ++d) {
+    if (!tangent.holds[d] && tangent.damping[d] == 0.0) continue;
+    SpreadSum sum{{}, tangent.holds[d], surface.facing.areas[i] * tangent.damping[d]};
+    for (const auto& [trace, part, sign] : {std::tuple{&surface.facing.side_1, surface.part_1, -1.0},
+                                            std::tuple{&surface.facing.side_2, surface.part_2, 1.0}})
+      for (int k = 0; part >= 0 && k < trace->n_shares(i); ++k)
+        sum.nodes.emplace_back(assembly.first_node[part] + trace->share(i, k).node,
+                               sign * (trace->block(i, k).transpose() * frame.col(d)));
+    assembly.sums.push_back(std::move(sum));
+  }
+  const auto n_held = std::count(tangent.holds.begin(), tangent.holds.end(), true);
+  if (surface.declared_law().shown().gap)
+    ++(n_held == 3 ? assembly.n_tied : n_held > 0 ? assembly.n_normal : assembly.n_open);
+}
+
+// Interfaces and walls: what each point does at this instant.
+void add_surfaces(const Instant& instant, bool ties_sliding, LinearAssembly& assembly) {
+  const auto& supports = supports_of(*instant.model.problem, *instant.model.step);
+  for (size_t s = 0; s < instant.model.surfaces->size(); ++s) {
+    const Surface& surface = (*instant.model.surfaces)[s];
+    if (instant.state.released[s] || (surface.wall && index_of(supports, surface.wall) < 0)) continue;
+    const Law& law = surface.declared_law();
+    const bool is_contact = law.shown().gap;
+    for (int i = 0; i < surface.n_points(); ++i) {
+      if (!surface.facing.matches()) {
+        add_spread_point(instant, static_cast<int>(s), i, ties_sliding, assembly);
+        continue;
+      }
+      const int a = assembly.first_node[surface.part_1] + surface.facing.side_1.main_node(i);
+      const int b = surface.part_2 >= 0 ? assembly.first_node[surface.part_2] + surface.facing.side_2.main_node(i) : -1;
+      const Tangent tangent = law.tangent(instant.surface(s).points[i], ties_sliding);
+      const Mat3 frame = frame_of(surface.facing.normals.col(i));
+      const auto n_held = std::count(tangent.holds.begin(), tangent.holds.end(), true);
+      for (int d = 0; d < 3; ++d)
+        if (tangent.holds[d]) add_condition(assembly, a, b, n_held == 3 ? Vec3(Vec3::Unit(d)) : Vec3(frame.col(d)));
+      if (!tangent.damping.isZero(0.0))
+        assembly.dampers.push_back(
+            {{a, b}, surface.facing.areas[i] * frame * tangent.damping.asDiagonal() * frame.transpose()});
+      if (is_contact) ++(n_held == 3 ? assembly.n_tied : n_held > 0 ? assembly.n_normal : assembly.n_open);
+    }
+  }
+}
+
+void add_supports(const Instant& instant, LinearAssembly& assembly) {
+  Step bare = *instant.model.step;
+  bare.loads.clear();
+  const Conditions conditions = make_conditions(*instant.model.problem, bare, instant.state);
+  for (size_t part = 0; part < conditions.held.size(); ++part) {
+    const std::map<int, Held> by_node(conditions.held[part].begin(), conditions.held[part].end());
+    for (const auto& [node, held] : by_node)
+      for (int j = 0; j < held.n; ++j)
+        add_condition(assembly, assembly.first_node[part] + node, -1, held.directions.col(j));
+  }
+}
+
+// Basis of the displacements (3 per node) that the conditions of a place leave: an orthonormal one of their null space.
+Mat free_basis(const std::vector<int>& nodes, const std::vector<const NodeCondition*>& conditions) {
+  const int m = static_cast<int>(nodes.size());
+  if (conditions.empty()) return Mat::Identity(3, 3);
+  Mat transposed = Mat::Zero(3 * m, static_cast<int>(conditions.size()));
+  for (size_t c = 0; c < conditions.size(); ++c)
+    for (int side = 0; side < 2; ++side)
+      for (int i = 0; i < m; ++i)
+        if (conditions[c]->node[side] == nodes[i]) transposed.block(3 * i, c, 3, 1) += conditions[c]->coefficient[side];
+  const auto [q, rank] = ranked_basis(transposed, 1e-8);
+  Mat basis = q.rightCols(3 * m - rank);
+  // All copies tied and nothing else: their common motion, along the axes.
+  if (basis.cols() == 3 && rank == 3 * (m - 1)) {
+    Mat common(3 * m, 3);
+    for (int i = 0; i < m; ++i) common.middleRows(3 * i, 3) = Mat3::Identity();
+    if ((transposed.transpose() * common).norm() < 1e-12) basis = common;
+  }
+  return basis;
+}
+
+void make_map(LinearAssembly& assembly) {
+  const int n_nodes = assembly.first_node.back();
+  Places places(n_nodes);
+  for (const NodeCondition& condition : assembly.conditions)
+    if (condition.node[1] >= 0) places.join(condition.node[0], condition.node[1]);
+  std::vector<std::vector<int>> nodes(n_nodes);
+  std::vector<std::vector<const NodeCondition*>> conditions(n_nodes);
+  for (int i = 0; i < n_nodes; ++i) nodes[places.of(i)].push_back(i);
+  for (const NodeCondition& condition : assembly.conditions)
+    conditions[places.of(condition.node[0])].push_back(&condition);
+  Triplets entries;
+  int n = 0;
+  for (int place = 0; place < n_nodes; ++place) {
+    if (nodes[place].empty()) continue;
+    const Mat basis = free_basis(nodes[place], conditions[place]);
+    for (int column = 0; column < basis.cols(); ++column) {
+      for (int row = 0; row < basis.rows(); ++row)
+        if (std::abs(basis(row, column)) > 1e-14)
+          entries.emplace_back(3 * nodes[place][row / 3] + row % 3, n, basis(row, column));
+      assembly.place_of_unknown.push_back(place);
+      ++n;
+    }
+  }
+  assembly.map.resize(3 * n_nodes, n);
+  assembly.map.setFromTriplets(entries.begin(), entries.end());
+}
+
+void add_dampers(LinearAssembly& assembly) {
+  if (assembly.dampers.empty()) return;
+  Triplets entries;
+  for (const Damper& damper : assembly.dampers)
+    for (int p = 0; p < 2; ++p)
+      for (int q = 0; q < 2; ++q)
+        for (int row = 0; row < 3 && damper.node[p] >= 0 && damper.node[q] >= 0; ++row)
+          for (int column = 0; column < 3; ++column)
+            entries.emplace_back(3 * damper.node[p] + row, 3 * damper.node[q] + column,
+                                 (p == q ? 1.0 : -1.0) * damper.coefficient(row, column));
+  SparseMatrix nodal(assembly.map.rows(), assembly.map.rows());
+  nodal.setFromTriplets(entries.begin(), entries.end());
+  const SparseMatrix transposed = assembly.map.transpose(), c_map = nodal * assembly.map;
+  if (assembly.damping.rows() == 0) assembly.damping.resize(assembly.map.cols(), assembly.map.cols());
+  assembly.damping += SparseMatrix(transposed * c_map);
+}
+
+SparseMatrix sparse_of(Eigen::Index n_rows, Eigen::Index n_columns, const Triplets& entries) {
+  SparseMatrix matrix(n_rows, n_columns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+// n x n, kg: as the cells of the body have it in a step.
+SparseMatrix nodal_mass(const Substructure& body, const BodyMatrices& matrices) {
+  if (has_consistent_mass(*body.mesh)) return consistent_mass(*body.mesh, body.material);
+  SparseMatrix lumped(matrices.mass.size(), matrices.mass.size());
+  lumped.reserve(Eigen::VectorXi::Constant(lumped.rows(), 1));
+  for (int i = 0; i < lumped.rows(); ++i) lumped.insert(i, i) = matrices.mass[i];
+  return lumped;
+}
+
+// The same for each of the three directions: 3n x 3n.
+SparseMatrix by_axis(const SparseMatrix& nodal) {
+  Triplets entries;
+  entries.reserve(static_cast<size_t>(3 * nodal.nonZeros()));
+  for (int row = 0; row < nodal.outerSize(); ++row)
+    for (SparseMatrix::InnerIterator entry(nodal, row); entry; ++entry)
+      for (int d = 0; d < 3; ++d)
+        entries.emplace_back(3 * static_cast<int>(entry.row()) + d, 3 * static_cast<int>(entry.col()) + d,
+                             entry.value());
+  SparseMatrix all(3 * nodal.rows(), 3 * nodal.cols());
+  all.setFromTriplets(entries.begin(), entries.end());
+  return all;
+}
+
+// A sum on the unknowns.
+std::map<int, double> row_of(const LinearAssembly& assembly, const SpreadSum& sum) {
+  std::map<int, double> row;
+  for (const auto& [node, coefficient] : sum.nodes)
+    for (int d = 0; d < 3; ++d)
+      for (SparseMatrix::InnerIterator e(assembly.map, 3 * node + d); e; ++e)
+        row[static_cast<int>(e.col())] += coefficient[d] * e.value();
+  return row;
+}
+
+// Rows times the root of their factor, of the sums that have one.
+template <typename Factor>
+SparseMatrix rooted_sums(const LinearAssembly& assembly, Factor&& factor) {
+  Triplets entries;
+  int n = 0;
+  for (const SpreadSum& sum : assembly.sums) {
+    const std::map<int, double> row = row_of(assembly, sum);
+    const double root = std::sqrt(factor(sum, row));
+    if (root == 0.0) continue;
+    for (const auto& [i, a] : row) entries.emplace_back(n, i, root * a);
+    ++n;
+  }
+  return sparse_of(n, assembly.map.cols(), entries);
+}
+
+void add_sums(LinearAssembly& assembly) {
+  constexpr double stiff = 1e6;
+  if (assembly.sums.empty()) return;
+  const Vec diagonal = assembly.stiffness.diagonal();
+  assembly.cells = assembly.stiffness;
+  assembly.springs = rooted_sums(assembly, [&](const SpreadSum& sum, const std::map<int, double>& row) {
+    double stiffest = 0.0;
+    for (const auto& [i, a] : row) stiffest = std::max(stiffest, diagonal[i]);
+    return sum.is_held ? stiff * stiffest : 0.0;
+  });
+  assembly.stiffness += SparseMatrix(SparseMatrix(assembly.springs.transpose()) * assembly.springs);
+  if (std::none_of(assembly.sums.begin(), assembly.sums.end(), [](const SpreadSum& sum) { return sum.damping > 0.0; }))
+    return;
+  if (assembly.damping.rows() == 0) assembly.damping.resize(assembly.map.cols(), assembly.map.cols());
+  const SparseMatrix dampers = rooted_sums(assembly, [](const SpreadSum& sum, const auto&) { return sum.damping; });
+  assembly.damping += SparseMatrix(SparseMatrix(dampers.transpose()) * dampers);
+}
+
+void add_matrices(const Problem& problem, LinearAssembly& assembly) {
+  const int n = static_cast<int>(assembly.map.cols());
+  assembly.stiffness.resize(n, n);
+  assembly.mass.resize(n, n);
+  std::map<std::tuple<std::string, double, double, double>, BodyMatrices> known;
+  for (size_t part = 0; part < problem.substructures.size(); ++part) {
+    const Substructure& body = *problem.substructures[part];
+    const Elastic& material = body.material;
+    const auto [it, is_new] =
+        known.try_emplace({body.mesh->digest, material.young, material.poisson, material.density});
+    if (is_new) it->second = assemble(*body.mesh, material);
+    const BodyMatrices& own = it->second;
+    const SparseMatrix map = assembly.map.middleRows(3 * assembly.first_node[part], 3 * body.mesh->n_nodes());
+    const SparseMatrix transposed = map.transpose();
+    const CondensedBody* condensed = body.mesh->condensed.get();
+    const SparseMatrix k_map = own.stiffness * map,
+                       m_map = (condensed ? condensed->mass : by_axis(nodal_mass(body, own))) * map;
+    const SparseMatrix k = transposed * k_map, m = transposed * m_map;
+    assembly.stiffness += k;
+    assembly.mass += m;
+    assembly.mass_of_parts += own.mass.sum();
+    if (condensed && condensed->damping.size() > 0) {
+      if (assembly.damping.rows() == 0) assembly.damping.resize(n, n);
+      const SparseMatrix c_map = condensed->damping * map;
+      assembly.damping += SparseMatrix(transposed * c_map);
+    }
+    const Damping& damping = material.damping;
+    if (damping.mass == 0.0 && damping.stiffness == 0.0) continue;
+    if (assembly.damping.rows() == 0) assembly.damping.resize(n, n);
+    assembly.damping += damping.mass * m + damping.stiffness * k;
+  }
+  add_dampers(assembly);
+  add_sums(assembly);
+  assembly.stiffness.makeCompressed();
+  assembly.mass.makeCompressed();
+  assembly.damping.makeCompressed();
+}
+
+}  // namespace
+
+Mat LinearAssembly::energies(const Mat& x) const {
+  if (springs.rows() == 0) return x.transpose() * (stiffness * x);
+  const Mat felt = springs * x;
+  return x.transpose() * (cells * x) + felt.transpose() * felt;
+}
+
+LinearAssembly linearise(const Instant& instant, bool ties_sliding) {
+  const Problem& problem = *instant.model.problem;
+  LinearAssembly assembly;
+  assembly.first_node.push_back(0);
+  for (const SubstructurePtr& part : problem.substructures)
+    assembly.first_node.push_back(assembly.first_node.back() + part->mesh->n_nodes());
+  add_surfaces(instant, ties_sliding, assembly);
+  add_supports(instant, assembly);
+  make_map(assembly);
+  add_matrices(problem, assembly);
+  return assembly;
+}
+
+std::string free_motion(const LinearAssembly& assembly, const Problem& problem, const std::vector<int>& held_nodes) {
+  const int n = static_cast<int>(problem.substructures.size());
+  std::vector<Vec3> centre;
+  std::vector<double> size;
+  for (const SubstructurePtr& part : problem.substructures) {
+    const Vec3 low = part->mesh->nodes.rowwise().minCoeff(), high = part->mesh->nodes.rowwise().maxCoeff();
+    centre.push_back(0.5 * (low + high));
+    size.push_back((high - low).norm());
+  }
+  // Sum of squares of all conditions on the rigid motions, rotations times the size of their body.
+  Mat gram = Mat::Zero(6 * n, 6 * n);
+  const auto add_sum = [&](const std::vector<std::pair<int, Vec3>>& nodes) {
+    std::vector<std::pair<int, Eigen::Matrix<double, 6, 1>>> rows;
+    for (const auto& [node, coefficient] : nodes) {
+      if (node < 0) continue;
+      const int part = static_cast<int>(std::upper_bound(assembly.first_node.begin(), assembly.first_node.end(), node) -
+                                        assembly.first_node.begin()) -
+                       1;
+      const Vec3 x = problem.substructures[part]->mesh->nodes.col(node - assembly.first_node[part]);
+      Eigen::Matrix<double, 6, 1> row;
+      row << coefficient, (x - centre[part]).cross(coefficient) / size[part];
+      const auto same = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.first == 6 * part; });
+      if (same == rows.end())
+        rows.emplace_back(6 * part, row);
+      else
+        same->second += row;
+    }
+    for (const auto& [i, a] : rows)
+      for (const auto& [j, b] : rows) gram.block<6, 6>(i, j) += a * b.transpose();
+  };
+  const auto add = [&](const NodeCondition& condition) {
+    add_sum({{condition.node[0], condition.coefficient[0]}, {condition.node[1], condition.coefficient[1]}});
+  };
+  for (const SpreadSum& sum : assembly.sums)
+    if (sum.is_held) add_sum(sum.nodes);
+  for (const NodeCondition& condition : assembly.conditions) add(condition);
+  for (const int node : held_nodes)
+    for (int d = 0; d < 3; ++d) add({{node, -1}, {Vec3::Unit(d), Vec3::Zero()}});
+  Vec weight(6 * n);
+  for (int i = 0; i < n; ++i)
+    weight.segment<6>(6 * i).setConstant(1.0 / std::sqrt(std::max(1.0, gram.block<6, 6>(6 * i, 6 * i).trace())));
+  const EigenPairs eigen = symmetric_eigen(weight.asDiagonal() * gram * weight.asDiagonal());
+  if (eigen.values[0] >= 1e-9) return "";
+  const Vec motion = weight.cwiseProduct(eigen.vectors.col(0));
+  int at = 0;
+  motion.cwiseAbs().maxCoeff(&at);
+  const char* names[] = {"translation along x", "translation along y", "translation along z",
+                         "rotation about x",    "rotation about y",    "rotation about z"};
+  return std::string(names[at % 6]) + " of substructure '" + problem.substructures[at / 6]->name + "'";
+}
+
+}  // namespace dygita

@@ -1,0 +1,112 @@
+#include "reduction/lumped_inertia.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/log.hpp"
+#include "fem/assembly.hpp"
+#include "mesh/face_nodes.hpp"
+#include "mesh/jacobian.hpp"
+#include "mesh/shape_functions.hpp"
+#include "model/output.hpp"
+#include "model/support.hpp"
+#include "numerics/dense.hpp"
+
+namespace dygita {
+
+namespace {
+
+constexpr double most = 1.2;     // of the true moment: torsion a tenth too low
+constexpr double slender = 2.0;  // length over width of what twists rather than turns
+
+// Integrals of x x^T.
+Mat3 material_moments(const Mesh& mesh, const Vec3& centre) {
+  Mat3 moments = Mat3::Zero();
+  for (const CellBlock& block : mesh.blocks) {
+    const ShapeFunctions& shape = shape_functions(block.type);
+    for (int i = 0; i < block.n_cells(); ++i) {
+      const Points x = cell_nodes(mesh.nodes, block, i).colwise() - centre;
+      for (const QuadraturePoint& point : cell_shape(block.type).mass.points) {
+        const Vec3 xi = vector_of(point.at), at = x * shape.values(xi);
+        const Mat3 jacobian = x * shape.slopes(xi);
+        moments += point.weight * jacobian.determinant() * at * at.transpose();
+      }
+    }
+  }
+  return moments;
+}
+
+// A plane of symmetry along the axis: nothing turns about it.
+bool is_kept_from_turning(const Problem& problem, const SubstructurePtr& part, const Vec3& axis) {
+  const double across = 0.1;
+  for (const StepPtr& step : problem.steps) {
+    if (step->is_static) continue;
+    for (const SupportPtr& support : supports_of(problem, *step)) {
+      if (support->kind->holds(false) != Directions::normal) continue;
+      for (const FaceOrRegion& place : support->on) {
+        const Face* face = std::get_if<Face>(&place);
+        if (!face || face->part != part) continue;
+        Vec3 area = Vec3::Zero();
+        for (const Facet& facet : face->facets()) area += facet_area_vector(part->mesh->nodes, facet);
+        if (std::abs(area.normalized().dot(axis)) < across) return true;
+      }
+    }
+  }
+  return false;
+}
+
+// Is it of natural frequencies, those of the lumped masses?
+bool has_modes(const Output& output) {
+  const Columns columns = output.columns();
+  return !columns.empty() && columns.front().name == "frequency";
+}
+
+bool is_slender(const Mesh& mesh, const Vec3& axis) {
+  const Eigen::RowVectorXd along = axis.transpose() * mesh.nodes;
+  const Points beside = mesh.nodes - axis * along;
+  const double width = (beside.rowwise().maxCoeff() - beside.rowwise().minCoeff()).maxCoeff();
+  return along.maxCoeff() - along.minCoeff() > slender * width;
+}
+
+}  // namespace
+
+LumpedInertia lumped_inertia(const Mesh& mesh) {
+  const Vec volumes = nodal_volumes(mesh);
+  const Vec3 centre = mesh.nodes * volumes / volumes.sum();
+  const Points arm = mesh.nodes.colwise() - centre;
+  const Mat3 lumped = arm * volumes.asDiagonal() * arm.transpose(), material = material_moments(mesh, centre);
+  const EigenPairs principal = symmetric_eigen(material);
+  LumpedInertia worst;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 axis = principal.vectors.col(i);
+    const double ratio = (lumped.trace() - axis.dot(lumped * axis)) / (material.trace() - axis.dot(material * axis));
+    if (ratio > worst.ratio) worst = {ratio, axis};
+  }
+  return worst;
+}
+
+void doubt_lumped_inertia(const Problem& problem) {
+  const bool is_tuned = problem.monolithic ? problem.monolithic->mass.is_tuned : problem.solver.mass.is_tuned;
+  const bool moves =
+      std::any_of(problem.steps.begin(), problem.steps.end(), [](const StepPtr& step) { return !step->is_static; }) ||
+      std::any_of(problem.outputs.begin(), problem.outputs.end(),
+                  [](const OutputPtr& output) { return has_modes(*output); });
+  if (!moves || (is_tuned && !problem.explicit_dynamics)) return;
+  std::set<const Mesh*> told;
+  for (const SubstructurePtr& part : problem.substructures) {
+    if (part->mesh->condensed || !told.insert(part->mesh.get()).second) continue;
+    const LumpedInertia lumped = lumped_inertia(*part->mesh);
+    if (lumped.ratio < most || !is_slender(*part->mesh, lumped.axis) ||
+        is_kept_from_turning(problem, part, lumped.axis))
+      continue;
+    warn(fmt::format(
+        "{}problem '{}': the masses of substructure '{}' at its nodes have {:.2g} times the moment of inertia "
+        "of the material about the axis ({:.2g}, {:.2g}, {:.2g}): its torsion is up to {:.0f} % too low where its mass "
+        "is lumped; take more cells across, or solver.latin{{ mass = \"tuned\" }}",
+        part->origin.prefix(), problem.name, part->name, lumped.ratio, lumped.axis[0], lumped.axis[1], lumped.axis[2],
+        100.0 * (1.0 - 1.0 / std::sqrt(lumped.ratio))));
+  }
+}
+
+}  // namespace dygita

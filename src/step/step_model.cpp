@@ -1,0 +1,320 @@
+#include "step/step_model.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+#include "base/log.hpp"
+#include "base/memory.hpp"
+#include "exchange/rigid_motions.hpp"
+#include "law/law.hpp"
+#include "partition/all_pieces.hpp"
+#include "step/assembled_system.hpp"
+#include "step/make_pieces.hpp"
+
+namespace dygita {
+
+State initial_state(const Problem& problem, const std::vector<Surface>& surfaces) {
+  return initial_state(problem, surfaces, *no_cut(problem));
+}
+
+State initial_state(const Problem& problem, const std::vector<Surface>& surfaces, const Cut& cut) {
+  State state;
+  for (int i = 0; i < cut.n_pieces(); ++i)
+    for (std::vector<Points>* field : {&state.displacement, &state.velocity, &state.force})
+      field->emplace_back(Points::Zero(3, cut.is_here(i) ? cut.piece(i).body->mesh->n_nodes() : 0));
+  state.anchor.resize(problem.substructures.size());
+  for (const Surface& surface : surfaces) {
+    state.surfaces.push_back({std::vector<LawState>(surface.n_points(), surface.declared_law().initial()),
+                              std::vector<double>(surface.n_points(), 0.0), std::vector<Work>(surface.n_points())});
+    if (surface.interface && surface.interface->has_gap_of_geometry)
+      for (int i = 0; i < surface.n_points(); ++i) state.surfaces.back().points[i].gap = surface.facing.gaps[i];
+    state.shortening.push_back(0.0);
+    state.released.push_back(0);
+  }
+  return state;
+}
+
+std::vector<double> StepModel::motion_velocities(int increment) const {
+  std::vector<double> velocities;
+  for (const Motion& motion : conditions.motions) velocities.push_back(motion.velocity(increment, scheme.dt));
+  return velocities;
+}
+
+double StepModel::phase_factor() const { return 1.0 / std::pow(n_substeps(), 2); }
+
+bool StepModel::has_inner_iterations() const {
+  return !scheme.is_static && problem->solver.anderson != 0 && problem->solver.window == 1;
+}
+
+bool StepModel::is_tuned() const { return !has_explicit() && problem->mass().is_tuned; }
+
+double StepModel::held_velocity(const Port& port, const Vec3& direction, const std::vector<double>& motions) const {
+  double velocity = 0.0;
+  port.for_each_node([&](int node, const Mat3& block) {
+    const Held* held = conditions.at(port.part, node);
+    for (int j = 0; held && j < held->n; ++j)
+      for (const auto& [motion, factor] : held->motion[j])
+        velocity += (block * held->directions.col(j)).dot(direction) * factor * motions[motion];
+  });
+  return velocity;
+}
+
+Points StepModel::external_force(int part, const State& state) const {
+  Points force = Points::Zero(3, problem->substructures[part]->mesh->n_nodes());
+  if (!scheme.is_static)
+    for (const auto& [node, held] : state.anchor[part]) force.col(node) = held;
+  loads->add_forces(part, force);
+  return force;
+}
+
+Points StepModel::piece_anchor(int piece, const State& state) const {
+  const CutPiece& own = cut->piece(piece);
+  Points force = Points::Zero(3, own.body->mesh->n_nodes());
+  for (const auto& [node, held] : state.anchor[own.part])
+    if (const Copy owner = cut->owner(own.part, node); owner.piece == piece) force.col(owner.node) = held;
+  return force;
+}
+
+Points StepModel::piece_force(int piece, const State& state) const {
+  const int part = cut->piece(piece).part;
+  if (!cut->is_cut(part)) return external_force(part, state);
+  Points force =
+      scheme.is_static ? Points(Points::Zero(3, cut->piece(piece).body->mesh->n_nodes())) : piece_anchor(piece, state);
+  for (const PieceLoad& load : piece_loads[piece])
+    if (const double value = loads->values()[load.pattern]; value != 0.0)
+      for (const auto& [node, unit] : load.nodes) force.col(node) += value * unit;
+  return force;
+}
+
+Points interface_force(const Problem& problem, const std::vector<Surface>& surfaces, const State& state, int part) {
+  Points force = Points::Zero(3, problem.substructures[part]->mesh->n_nodes());
+  for (size_t s = 0; s < surfaces.size(); ++s) {
+    const Surface& surface = surfaces[s];
+    for (int i = 0; i < surface.n_points(); ++i) {
+      const Vec3& f = state.surfaces[s].points[i].force;
+      if (surface.part_1 == part) surface.facing.side_1.spread(i, f, force);
+      if (surface.part_2 == part) surface.facing.side_2.spread(i, -f, force);
+    }
+  }
+  return force;
+}
+
+Points StepModel::reactions_of(int piece, const State& state) const {
+  const Points interfaces = interface_force(*problem, *surfaces, state, cut->piece(piece).part);
+  return pieces[piece]->reactions(cut->on_owners(piece, interfaces));
+}
+
+Points StepModel::reactions(int part, const State& state) const {
+  const Points interfaces = interface_force(*problem, *surfaces, state, part);
+  return cut->summed(part, [&](int piece) { return pieces[piece]->reactions(cut->on_owners(piece, interfaces)); });
+}
+
+namespace {
+
+// Mass times an acceleration of the nodes (3 x n) of a substructure.
+InertiaForce inertia_of(const Cut& cut, const std::vector<Body>& bodies, std::vector<char> is_explicit) {
+  return [&, is_explicit = std::move(is_explicit)](int part, const Points& acceleration) {
+    Points force = Points::Zero(3, acceleration.cols());
+    for (int p = cut.first(part); p < cut.first(part) + cut.n_pieces(part); ++p) {
+      const Points own = bodies[p].mass->times(cut.on_piece(p, acceleration), !is_explicit.empty() && is_explicit[p]);
+      for (Eigen::Index i = 0; i < own.cols(); ++i) force.col(cut.piece(p).node(static_cast<int>(i))) += own.col(i);
+    }
+    return force;
+  };
+}
+
+void split_loads(StepModel& model) {
+  model.piece_loads.resize(model.cut->n_pieces());
+  for (size_t i = 0; i < model.loads->patterns().size(); ++i) {
+    const LoadPattern& pattern = model.loads->patterns()[i];
+    if (!model.cut->is_cut(pattern.part)) continue;
+    for (const auto& [node, unit] : pattern.nodes) {
+      const Copy owner = model.cut->owner(pattern.part, node);
+      auto& of_piece = model.piece_loads[owner.piece];
+      if (of_piece.empty() || of_piece.back().pattern != i) of_piece.push_back({i, {}});
+      of_piece.back().nodes.emplace_back(owner.node, unit);
+    }
+  }
+}
+
+// All ranks look for the shortening of a bolt, which its points share.
+std::vector<char> solved_everywhere(const StepModel& model) {
+  std::vector<char> everywhere;
+  for (const Surface& surface : *model.surfaces)
+    everywhere.push_back(model.scheme.is_static && surface.law && surface.interface &&
+                         model.loads->preload(surface.interface));
+  return everywhere;
+}
+
+// Collective. Where the nodes are whose displacement a step prescribes.
+NodeMotions moved_nodes(const Problem& problem, const Step& step, const State& start, const Cut& cut) {
+  const std::vector<std::vector<int>> nodes = prescribed_nodes(problem, step);
+  std::vector<double> values;
+  std::vector<int> owner, offset{0};
+  for (size_t part = 0; part < nodes.size(); ++part)
+    for (const int node : nodes[part]) {
+      const Copy copy = cut.owner(static_cast<int>(part), node);
+      const Points& u = start.displacement[static_cast<size_t>(copy.piece)];
+      values.resize(values.size() + 3, 0.0);
+      if (u.cols() > 0) Eigen::Map<Vec3>(values.data() + values.size() - 3) = u.col(copy.node);
+      owner.push_back(cut.piece(copy.piece).rank);
+      offset.push_back(static_cast<int>(values.size()));
+    }
+  if (!ranks::is_alone()) ranks::Segments(owner, offset).complete(values.data());
+  NodeMotions moved(nodes.size());
+  const double* next = values.data();
+  for (size_t part = 0; part < nodes.size(); ++part)
+    for (const int node : nodes[part]) {
+      moved[part].emplace(node, Eigen::Map<const Vec3>(next));
+      next += 3;
+    }
+  return moved;
+}
+
+StepModel make_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                     const std::vector<Body>& bodies, const State& start, const CutPtr& cut, bool chooses_integration,
+                     bool solves_all) {
+  StepModel model;
+  model.cut = cut;
+  model.problem = &problem;
+  model.step = &step;
+  model.surfaces = &surfaces;
+  if (!step.is_static) model.scheme = {false, step.dt, 0.5 * (1.0 - problem.numerical_damping())};
+  model.conditions = make_conditions(problem, step, start, moved_nodes(problem, step, start, *cut));
+  if (chooses_integration && !step.is_static) {
+    model.integration = choose_integration(problem, step, bodies, *cut, model.conditions, surfaces);
+    model.scheme.dt = step.dt / model.integration.n_substeps;
+  }
+  model.loads = std::make_unique<Loads>(problem, step, start, inertia_of(*cut, bodies, model.integration.is_explicit),
+                                        model.has_explicit() ? inertia_of(*cut, bodies, {}) : InertiaForce());
+  if (step.is_static) {
+    std::vector<Points> force;
+    model.loads->evaluate(step.increments - 1);
+    for (size_t i = 0; i < problem.substructures.size(); ++i)
+      force.push_back(model.external_force(static_cast<int>(i), start));
+    // What is free to move, and where it is pinned, is a matter of the substructures.
+    pin_free_motions(problem, step, make_exchange(problem, step, *no_cut(problem), surfaces, model.conditions), force,
+                     model.conditions);
+  }
+  const std::vector<char>& is_explicit = model.integration.is_explicit;
+  const Reach reach =
+      solves_all ? Reach() : Reach(problem, step, *cut, surfaces, is_explicit, solved_everywhere(model));
+  model.exchange = make_exchange(problem, step, *cut, surfaces, model.conditions, is_explicit, reach);
+  split_loads(model);
+  model.offset.assign(1, 0);
+  for (const int n : model.exchange.n_unknowns) model.offset.push_back(model.offset.back() + n);
+  for (int i = 0; i < cut->n_pieces(); ++i)
+    if (cut->is_here(i)) model.here.push_back(i);
+  model.unknowns = segments_of(*cut, model.exchange.n_unknowns);
+  model.near =
+      solves_all ? NearUnknowns(model.exchange, model.offset) : NearUnknowns(*cut, model.exchange, model.offset);
+  return model;
+}
+
+}  // namespace
+
+bool fits_in_one(const Problem& problem) {
+  constexpr long most_unknowns = 600000;
+  const LatinSettings& asked = problem.solver;
+  if (asked.plain || asked.static_steps != StaticSteps::automatic || asked.static_tolerance < 1e-12) return false;
+  long n = 0;
+  for (const SubstructurePtr& part : problem.substructures) n += 3L * part->mesh->n_nodes();
+  return n <= most_unknowns;
+}
+
+namespace {
+
+// Assembled increments cost ten factors or more each, iterated steps dense operators at their start and next to nothing
+// an increment, unless many parts hang on each other by contact alone. Forces and ties of the former agree to twelve
+// digits at best.
+bool is_assembled(const Problem& problem, const Step& step) {
+  constexpr int few_increments = 5;
+  constexpr size_t many_parts = 10;
+  const LatinSettings& asked = problem.solver;
+  if (!step.is_static || asked.plain) return false;
+  if (asked.static_steps != StaticSteps::automatic) return asked.static_steps == StaticSteps::assembled;
+  return problem.substructures.size() >= many_parts && step.increments <= few_increments && fits_in_one(problem);
+}
+
+// Every rank holds such a system and solves it: what one process does is done as often, and passes nowhere.
+bool fits_every_rank(const Problem& problem, const Step& step) {
+  if (ranks::is_alone() || problem.solver.static_steps == StaticSteps::assembled) return true;
+  double n = 0.0;
+  for (const SubstructurePtr& part : problem.substructures) n += 3.0 * part->mesh->n_nodes();
+  // Of factor and matrices of solids, about (manual, several machines).
+  const double bytes = 200.0 * std::pow(n, 4.0 / 3.0);
+  const double all = ranks::count_on_machine() * bytes, available = available_memory();
+  if (!ranks::any(available > 0.0 && all > 0.5 * available)) return true;
+  warn(
+      fmt::format("static step '{}' is iterated substructure by substructure: as one system of all, which one process "
+                  "would solve, it would take some {:.1f} GB on each of the MPI ranks; the forces of both agree to "
+                  "'static_tolerance'",
+                  step.name, 1e-9 * bytes));
+  return false;
+}
+
+// One process solves equal pieces together, whose last digits depend on how many there are.
+void tell_equal_apart(const StepModel& model) {
+  if (ranks::is_alone() || model.is_assembled) return;
+  std::map<std::tuple<std::string, double, double, double>, int> first;
+  for (int i = 0; i < model.cut->n_pieces(); ++i) {
+    if (model.integration.is_explicit_piece(i)) continue;
+    const CutPiece& piece = model.cut->piece(i);
+    const Elastic& m = piece.body->material;
+    const auto [equal, is_new] =
+        first.try_emplace({piece.body->mesh->shape_digest(), m.young, m.poisson, m.density}, i);
+    if (is_new || model.cut->piece(equal->second).rank == piece.rank) continue;
+    const auto name = [&](int p) { return model.problem->substructures[model.cut->piece(p).part]->name; };
+    warn(
+        fmt::format("equal substructures are on several MPI ranks, '{}' and '{}' among them: one process solves them "
+                    "together, and the last digits of both differ; iterated increments agree to the tolerance",
+                    name(equal->second), name(i)));
+    return;
+  }
+}
+
+}  // namespace
+
+StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                          const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
+  const bool is_in_one = is_assembled(problem, step) && fits_every_rank(problem, step);
+  StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true, is_in_one || ranks::is_alone());
+  model.is_assembled = is_in_one;
+  if (model.is_assembled && !ranks::is_alone()) {
+    model.here.resize(static_cast<size_t>(cut->n_pieces()));
+    std::iota(model.here.begin(), model.here.end(), 0);
+    model.unknowns = {};
+    model.assembled_bodies = with_all_matrices(bodies);
+  }
+  model.pieces = !model.is_assembled ? make_pieces(model, bodies)
+                 : ranks::is_alone() ? make_assembled_pieces(model, bodies)
+                                     : make_assembled_pieces(model, model.assembled_bodies);
+  model.equal = group_equal(model.pieces);
+  tell_equal_apart(model);
+  return model;
+}
+
+StepModel make_assembled_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                               const std::vector<Body>& bodies, const State& start) {
+  StepModel model = make_model(problem, step, surfaces, bodies, start, no_cut(problem), false, true);
+  model.pieces = make_assembled_pieces(model, bodies);
+  model.equal = group_equal(model.pieces);
+  return model;
+}
+
+StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                      const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
+  StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true, true);
+  if (is_assembled(problem, step)) {
+    model.pieces = make_assembled_pieces(model, bodies);
+    return {AssembledSystem(model).bytes(), model.n_q(), model.integration};
+  }
+  return {predicted_bytes(model, bodies), model.n_q(), model.integration};
+}
+
+}  // namespace dygita

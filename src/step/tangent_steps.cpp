@@ -1,0 +1,74 @@
+#include "step/tangent_steps.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "law/law_slope.hpp"
+
+namespace dygita {
+
+namespace {
+
+// Of the search directions, the least stiffness of what is open or slides. It keeps parts that nothing holds where they
+// are until what they rest on is known; then it goes down, since it is all that slows the iteration.
+constexpr double usual_softest = TangentBounds{}.softest, hard_softest = 0.1, least_softest = 1e-9;
+
+constexpr double near = 1e-2;  // of the indicator: friction follows
+
+}  // namespace
+
+void TangentSteps::begin() {
+  n_ = 0;
+  softest_ = usual_softest;
+  limits_.clear();
+  follows_ = false;
+  follows_below_ = near;
+}
+
+// Friction is limited by the normal forces of an earlier iteration until what that leaves is nearly solved: each such
+// problem is convex, where friction limited by forces that are far from balance sends loose parts away. Near the
+// solution it is limited by those at hand: limits a step behind would come closer by the same factor each time.
+double TangentSteps::begin_step(const Distance& distance, const std::function<std::vector<double>()>& trials,
+                                double eta) {
+  constexpr double nearly = 0.3;
+  const double own = distance({});
+  if (is_first() || follows_) return own;
+  std::vector<double> at_hand = trials();
+  if (!limits_.empty())
+    if (const double limited = distance(limits_); limited > nearly * nearly * own) return limited;
+  follows_ = eta < follows_below_ && !limits_.empty();
+  limits_ = follows_ ? std::vector<double>() : std::move(at_hand);
+  return distance(limits_);
+}
+
+void TangentSteps::cannot_follow(double eta) {
+  follows_ = false;
+  follows_below_ = 0.1 * eta;
+}
+
+double TangentSteps::end_step(double before, const std::function<double(double)>& distance, int n_changed, double eta) {
+  if (n_++ == 0) return 1.0;
+  double best = 1.0, least = std::numeric_limits<double>::infinity();
+  for (double share = 1.0; share > 0.01; share *= 0.5) {
+    const double now = distance(share);
+    if (now < least) {
+      least = now;
+      best = share;
+    }
+    if (now < (1.0 - 0.2 * share) * before) break;
+  }
+  if (follows_ && least > 0.9 * before) cannot_follow(eta);
+  choose_softest(best, n_changed, eta);
+  return best;
+}
+
+void TangentSteps::choose_softest(double share, int n_changed, double eta) {
+  if (share < 1.0)
+    softest_ = share < 0.4 ? std::min(3.0 * softest_, hard_softest) : softest_;
+  else if (n_changed == 0 && eta < 1e-3)
+    softest_ = std::max(softest_ / 30.0, least_softest);
+  else
+    softest_ = std::max(softest_ / 3.0, usual_softest);
+}
+
+}  // namespace dygita

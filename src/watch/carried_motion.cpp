@@ -1,0 +1,57 @@
+#include "watch/carried_motion.hpp"
+
+#include "law/law.hpp"
+#include "numerics/dense.hpp"
+
+namespace dygita {
+
+CarriedMotion::CarriedMotion(const Instant& start) {
+  const StepModel& model = start.model;
+  const auto n_motions = static_cast<Eigen::Index>(model.conditions.motions.size());
+  pull_ = Eigen::Matrix3Xd::Zero(3, n_motions);
+  square_ = Mat::Zero(n_motions, n_motions);
+  Mat3 held = Mat3::Zero();
+  for (const auto& of_part : model.conditions.held)
+    for (const auto& [node, at_node] : of_part)
+      for (int j = 0; j < at_node.n; ++j) {
+        const Vec3 d = at_node.directions.col(j);
+        held += d * d.transpose();
+        for (const auto& [i, share] : at_node.motion[j]) {
+          pull_.col(i) += share * d;
+          for (const auto& [k, other] : at_node.motion[j]) square_(i, k) += share * other;
+        }
+      }
+  for (const SubstructurePtr& part : model.problem->substructures)
+    if (part->mesh->condensed) {
+      const Eigen::Matrix3Xd resisted = part->mesh->condensed->resisted_motions(part->mesh->nodes).topRows<3>();
+      held += resisted * resisted.transpose();
+    }
+  for (const Surface& surface : *model.surfaces)
+    if (surface.wall && takes_part(*model.problem, *model.step, surface))
+      held += surface.facing.normals * surface.facing.normals.transpose();
+  for (const SupportPtr& support : supports_of(*model.problem, *model.step))
+    if (support->kind->absorbs()) held += Mat3::Identity();
+  const PrincipalAxes axes = principal_axes(held);
+  for (int d = 0; d < 3; ++d) {
+    const Vec3 axis = axes.vectors.col(d);
+    if (axes.values[d] < 1e-6) continue;
+    held_inverse_ += axis * axis.transpose() / axes.values[d];
+    free_ -= axis * axis.transpose();
+  }
+  for (const auto& piece : model.pieces) mass_ += piece->mass();
+}
+
+Vec3 CarriedMotion::at(const Instant& instant, const std::function<Vec3()>& momentum) const {
+  Vec3 carried = Vec3::Zero();
+  if (pull_.cols() > 0) {
+    const std::vector<double> motions = instant.model.motion_velocities(std::max(instant.last_substep(), 0));
+    const Eigen::Map<const Vec> v(motions.data(), static_cast<Eigen::Index>(motions.size()));
+    const Vec3 pulled = pull_ * v;
+    const double all = v.dot(square_ * v), together = pulled.dot(held_inverse_ * pulled);
+    if (together > 0.99 * all) carried = held_inverse_ * pulled;  // all that is held moves alike
+  }
+  if (asks_for_momentum()) carried += free_ * momentum() / mass_;
+  return carried;
+}
+
+}  // namespace dygita

@@ -1,0 +1,37 @@
+// Watches a run for the assembly as the report draws it (scenes.hpp). Cheap: it copies displacements a few tens of
+// times per run at most.
+#pragma once
+
+#include <vector>
+
+#include "result/result.hpp"
+#include "result/scenes.hpp"
+#include "step/observer.hpp"
+#include "watch/skin_recorder.hpp"
+
+namespace dygita {
+
+class SceneRecorder : public Observer {
+ public:
+  SceneRecorder(const Problem& problem, PartViews& views) : problem_(problem), views_(views), motion_(problem, views) {}
+
+  void begin_step(const Instant&) override {}
+  // Both are collective: each rank keeps what it has of the parts.
+  void accept(const Instant& instant) override;
+  // Puts the scenes into the result, on rank 0, those of joints with them; stresses are computed here.
+  void finish(std::vector<JointScenes> joints, RunResult& result);
+
+ private:
+  void keep_assembly(const Instant& instant, AssemblyScene& scene);
+  void gather(AssemblyScene& scene) const;
+  void gather_part(int part, Points& displacement, Vec& stress) const;
+
+  const Problem& problem_;
+  PartViews& views_;
+  SkinRecorder motion_;
+  AssemblyScene tightened_, shocked_;  // of the views (part_views.hpp); without displacements: not met yet
+  double strain_energy_ = -1.0;        // J, of shocked_
+  int missed_ = 0;                     // increments so far that have not converged
+};
+
+}  // namespace dygita

@@ -1,0 +1,62 @@
+// Moments of inertia of lumped masses.
+#include <gtest/gtest.h>
+
+#include "base/log.hpp"
+#include "mesh/box.hpp"
+#include "model/support.hpp"
+#include "reduction/lumped_inertia.hpp"
+
+namespace dygita::lumped_inertia_tests {
+namespace {
+
+TEST(LumpedInertia, of_a_bar_follows_its_cells_across) {
+  for (const int n : {1, 2, 4}) {
+    const LumpedInertia found = lumped_inertia(*box_mesh(Vec3(0.1, 0.2, 0.3), Vec3(0.01, 0.01, 0.1), {n, n, 10 * n}));
+    EXPECT_NEAR(found.ratio, 1.0 + 2.0 / (n * n), 1e-9) << n;
+    EXPECT_NEAR(std::abs(found.axis.z()), 1.0, 1e-9) << n;
+  }
+}
+
+struct Bar {
+  std::shared_ptr<Substructure> part = std::make_shared<Substructure>();
+  std::shared_ptr<Step> step = std::make_shared<Step>();
+  Problem problem;
+
+  explicit Bar(int n) {
+    part->name = "bar";
+    part->mesh = box_mesh(Vec3::Zero(), Vec3(0.01, 0.01, 0.1), {n, n, 10 * n});
+    step->duration = step->dt = 1e-6;
+    problem.name = "twist";
+    problem.substructures = {part};
+    problem.steps = {step};
+    take_warnings();
+  }
+  std::vector<std::string> warnings() const {
+    doubt_lumped_inertia(problem);
+    return take_warnings();
+  }
+};
+
+TEST(LumpedInertia, is_doubted_in_slender_parts_that_may_twist) {
+  const std::vector<std::string> said = Bar(2).warnings();
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("'bar' at its nodes have 1.5 times the moment of inertia"), std::string::npos) << said[0];
+  EXPECT_NE(said[0].find("its torsion is up to 18 % too low"), std::string::npos) << said[0];
+  EXPECT_TRUE(Bar(4).warnings().empty());
+}
+
+TEST(LumpedInertia, is_not_doubted_where_masses_are_tuned_nothing_moves_or_symmetry_forbids_it) {
+  Bar tuned(2), still(2), quarter(2);
+  tuned.problem.solver.mass.is_tuned = true;
+  still.step->is_static = true;
+  auto plane = std::make_shared<Support>();
+  plane->kind = make_support("symmetry");
+  plane->on = {Face{quarter.part, "xmin"}};
+  quarter.problem.supports = {plane};
+  for (const Bar* bar : {&tuned, &still, &quarter}) EXPECT_TRUE(bar->warnings().empty());
+  plane->on = {Face{quarter.part, "zmin"}};  // across the axis
+  EXPECT_EQ(quarter.warnings().size(), 1u);
+}
+
+}  // namespace
+}  // namespace dygita::lumped_inertia_tests
