@@ -14,9 +14,7 @@ CutPulls::CutPulls(const StepModel& model) : concerned_(model.pieces.size(), 0) 
   for (int part = 0; part < cut.n_parts() && model.has_explicit(); ++part) {
     for (const int node : cut.on_cuts(part).nodes()) {
       const std::vector<Copy> copies = cut.copies(part, node);
-      const auto piece_of = [&](const Copy& copy) {
-        return dynamic_cast<ExplicitPiece*>(model.pieces[copy.piece].get());
-      };
+      const auto piece_of = [&](const Copy& copy) { return model.pieces[copy.piece]->as_explicit(); };
       const auto is_concerned = [&](const Copy& copy) {
         const ExplicitPiece* piece = piece_of(copy);
         return piece && piece->is_coupled(copy.node);

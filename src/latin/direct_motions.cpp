@@ -19,7 +19,7 @@ void DirectPoints::find_motions(const StepModel& model, const NearDirect& near) 
   std::vector<std::vector<int>> readers;
   for (const NearDirect::Node& node : near.nodes) {
     if (node.readers.size() < 2) continue;
-    auto* of_piece = dynamic_cast<ExplicitNodes*>(model.pieces[node.piece].get());
+    auto* of_piece = model.pieces[node.piece]->explicit_nodes();
     motions_.push_back({node.piece, of_piece->index_of(node.node), of_piece, model.cut->is_here(node.piece)});
     owner.push_back(model.cut->piece(node.piece).rank);
     readers.push_back(node.readers);
@@ -55,11 +55,11 @@ void DirectPoints::complete_starts(const ranks::Neighbours& of_starts) {
   }
   of_starts.exchange(told.data());
   for (size_t i = 0; i < motions_.size(); ++i) {
-    auto* distant = dynamic_cast<DistantNodes*>(model_->pieces[motions_[i].piece].get());
-    if (!distant) continue;
-    distant->hear_start(motions_[i].index, told.data() + n_start * i);
-    distant->set_compliance(motions_[i].index, Eigen::Map<const Mat3>(told.data() + n_start * i + 3));
-    distant->hear_motion(motions_[i].index, told.data() + n_start * i + 12);
+    if (motions_[i].is_here) continue;
+    ExplicitNodes& distant = *motions_[i].nodes;
+    distant.hear_start(motions_[i].index, told.data() + n_start * i);
+    distant.set_compliance(motions_[i].index, Eigen::Map<const Mat3>(told.data() + n_start * i + 3));
+    distant.hear_motion(motions_[i].index, told.data() + n_start * i + 12);
   }
 }
 

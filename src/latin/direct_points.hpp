@@ -9,7 +9,6 @@
 #include "latin/force_mixing.hpp"
 #include "pieces/explicit_piece.hpp"
 #include "ranks/neighbours.hpp"
-#include "step/distant_piece.hpp"
 #include "step/point_record.hpp"
 
 namespace dygita {

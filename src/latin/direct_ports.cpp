@@ -8,8 +8,8 @@ DirectPoints::OwnPort DirectPoints::make_port(const StepModel& model, const Poin
   const Port& port = model.exchange.ports[index];
   OwnPort own;
   Piece* const piece = model.pieces[port.piece].get();
-  own.piece = dynamic_cast<ExplicitPiece*>(piece);
-  own.nodes = dynamic_cast<ExplicitNodes*>(piece);
+  own.piece = piece->as_explicit();
+  own.nodes = piece->explicit_nodes();
   CHECK(own.nodes, "a direct point has explicit pieces alone");
   own.node = own.nodes->index_of(port.piece_node);
   own.index = index;

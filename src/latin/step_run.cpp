@@ -60,7 +60,7 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
     books_.piece_seconds.resize(model.pieces.size());
     if (!model.is_assembled) distant_.emplace(model, files.state);
   }
-  for (const auto& piece : model.pieces) explicit_.push_back(dynamic_cast<ExplicitPiece*>(piece.get()));
+  for (const auto& piece : model.pieces) explicit_.push_back(piece->as_explicit());
   StepFigures& figures = books_.figures;
   figures.substeps = model.n_substeps();
   for (size_t i = 0; i < model.integration.parts.size(); ++i) {

@@ -1,7 +1,7 @@
 // State, energies and fields of an explicit piece (manual, eq. E3).
 #include <algorithm>
 
-#include "pieces/explicit_piece.hpp"
+#include "pieces/central_differences.hpp"
 
 namespace dygita {
 
@@ -29,11 +29,11 @@ void put(const Points& values, std::vector<double>& field) {
 
 }  // namespace
 
-Points ExplicitPiece::unknown_directions() const {
+Points CentralDifferences::unknown_directions() const {
   return Mat3::Identity().replicate(1, static_cast<Eigen::Index>(inverse_.size()));
 }
 
-Points ExplicitPiece::elastic_force(const Points& displacement) const {
+Points CentralDifferences::elastic_force(const Points& displacement) const {
   Points force = Points::Zero(3, displacement.cols());
   if (displacement.isZero(0.0)) return force;  // the matrix may have to be assembled
   Eigen::Map<Vec>(force.data(), force.size()) =
@@ -41,15 +41,15 @@ Points ExplicitPiece::elastic_force(const Points& displacement) const {
   return force;
 }
 
-Points ExplicitPiece::quick_elastic_force(const Points& displacement) const {
+Points CentralDifferences::quick_elastic_force(const Points& displacement) const {
   std::vector<double> u(d_.size(), 0.0), force(d_.size(), 0.0);
   put(displacement, u);
   op_->stiffness->add_product(u.data(), force.data());
   return nodal(force);
 }
 
-void ExplicitPiece::set_state(const Points& displacement, const Points& velocity, const Points& force,
-                              const Points& /*interface_force*/) {
+void CentralDifferences::set_state(const Points& displacement, const Points& velocity, const Points& force,
+                                   const Points& /*interface_force*/) {
   const double dt = setup_.scheme.dt;
   const Points elastic = elastic_force(displacement);
   Points v = velocity;
@@ -69,7 +69,7 @@ void ExplicitPiece::set_state(const Points& displacement, const Points& velocity
 }
 
 // What an increment before this would have left: K X for the X half an increment before U.
-void ExplicitPiece::look_back() {
+void CentralDifferences::look_back() {
   const double dt = setup_.scheme.dt;
   std::vector<double> before(d_.size());
   for (size_t c = 0; c < d_.size(); ++c) before[c] = d_[c] - dt * v_[c];
@@ -78,14 +78,14 @@ void ExplicitPiece::look_back() {
   for (size_t c = 0; c < elastic_.size(); ++c) elastic_[c] = y_[c] - base_[c];
 }
 
-const PieceState& ExplicitPiece::state() const {
+const PieceState& CentralDifferences::state() const {
   const Points u = displacement(), v = velocity();
   shown_.u = u.reshaped();
   shown_.v = v.reshaped();
   return shown_;
 }
 
-void ExplicitPiece::restore(const PieceState& state) {
+void CentralDifferences::restore(const PieceState& state) {
   const Eigen::Index n = static_cast<Eigen::Index>(inverse_.size());
   const Points v = state.v.reshaped(3, n);
   put(v, v_);
@@ -94,7 +94,7 @@ void ExplicitPiece::restore(const PieceState& state) {
   start_momentum();
 }
 
-Points ExplicitPiece::coupled(const Points& velocity) const {
+Points CentralDifferences::coupled(const Points& velocity) const {
   std::vector<double> from(4 * inverse_.size(), 0.0), to(from.size(), 0.0);
   put(velocity, from);
   for (const Special& s : specials_)
@@ -109,14 +109,14 @@ Points ExplicitPiece::coupled(const Points& velocity) const {
   return product;
 }
 
-void ExplicitPiece::set_momenta(const Points& z) {
+void CentralDifferences::set_momenta(const Points& z) {
   put(z * node_masses().asDiagonal(), p_);
   p_old_ = p_;
 }
 
 // Momenta M z of velocities V, where (M + C) z = M V on free directions: by conjugate gradients, preconditioned by M.
 // Those of a translation are M V to begin with.
-void ExplicitPiece::start_momentum() {
+void CentralDifferences::start_momentum() {
   if (!is_tuned()) return;
   constexpr int most_products = 200;
   const Eigen::Index n = static_cast<Eigen::Index>(inverse_.size());
@@ -142,7 +142,7 @@ void ExplicitPiece::start_momentum() {
 }
 
 // E3: of the middles before and after U, from the product that the step has made.
-IncrementEnergy ExplicitPiece::stored_energy() const {
+IncrementEnergy CentralDifferences::stored_energy() const {
   const double dt = setup_.scheme.dt;
   const Vec& mass = node_masses();
   const bool is_damped = has_stiffness_damping();
@@ -163,7 +163,7 @@ IncrementEnergy ExplicitPiece::stored_energy() const {
   return energy;
 }
 
-double ExplicitPiece::damping_work() {
+double CentralDifferences::damping_work() {
   const Damping& damping = setup_.body->part->material.damping;
   const double dt = setup_.scheme.dt, alpha = setup_.scheme.alpha(damping);
   const Vec& mass = node_masses();
@@ -181,7 +181,7 @@ double ExplicitPiece::damping_work() {
 }
 
 // What non-reflecting supports take and moving ones give, and the sums that means over the deck's time step need.
-void ExplicitPiece::book_special(Special& s, IncrementEnergy& energy) {
+void CentralDifferences::book_special(Special& s, IncrementEnergy& energy) {
   const double dt = setup_.scheme.dt;
   const double mass = node_masses()[s.node], alpha = setup_.scheme.alpha(setup_.body->part->material.damping);
   const Vec3 v = velocity_of(s.node), mean = 0.5 * (s.v_old + v);
@@ -198,7 +198,7 @@ void ExplicitPiece::book_special(Special& s, IncrementEnergy& energy) {
     if (!motions.empty()) energy.loads += dt * direction.dot(mean) * direction.dot(reaction);
 }
 
-void ExplicitPiece::begin_interval() {
+void CentralDifferences::begin_interval() {
   v_interval_ = v_;
   interval_ = 0.0;
   for (Special& s : specials_) {
@@ -207,7 +207,7 @@ void ExplicitPiece::begin_interval() {
   }
 }
 
-Points ExplicitPiece::displacement() const {
+Points CentralDifferences::displacement() const {
   Points u(3, static_cast<Eigen::Index>(inverse_.size()));
   double* to = u.data();
   const double half = 0.5 * setup_.scheme.dt;
@@ -216,26 +216,26 @@ Points ExplicitPiece::displacement() const {
   return u;
 }
 
-Points ExplicitPiece::velocity() const { return nodal(v_); }
+Points CentralDifferences::velocity() const { return nodal(v_); }
 
-Points ExplicitPiece::acceleration() const {
+Points CentralDifferences::acceleration() const {
   if (interval_ == 0.0) return Points::Zero(3, static_cast<Eigen::Index>(inverse_.size()));
   return (nodal(v_) - nodal(v_interval_)) / interval_;
 }
 
-Points ExplicitPiece::displacement(const std::vector<int>& nodes) const {
+Points CentralDifferences::displacement(const std::vector<int>& nodes) const {
   return nodal(start_, nodes) + nodal(d_, nodes) - 0.5 * setup_.scheme.dt * nodal(v_, nodes);
 }
 
-Points ExplicitPiece::velocity(const std::vector<int>& nodes) const { return nodal(v_, nodes); }
+Points CentralDifferences::velocity(const std::vector<int>& nodes) const { return nodal(v_, nodes); }
 
-Points ExplicitPiece::acceleration(const std::vector<int>& nodes) const {
+Points CentralDifferences::acceleration(const std::vector<int>& nodes) const {
   if (interval_ == 0.0) return Points::Zero(3, static_cast<Eigen::Index>(nodes.size()));
   return (nodal(v_, nodes) - nodal(v_interval_, nodes)) / interval_;
 }
 
 // Of the increment's start: it has begun when the laws ask.
-Vec ExplicitPiece::row_displacements() const {
+Vec CentralDifferences::row_displacements() const {
   Vec values(n_rows());
   for (const Special& s : specials_) {
     if (s.rows.empty()) continue;
@@ -245,7 +245,7 @@ Vec ExplicitPiece::row_displacements() const {
   return values;
 }
 
-Points ExplicitPiece::reactions(const Points& interface_force) const {
+Points CentralDifferences::reactions(const Points& interface_force) const {
   const double alpha = setup_.scheme.alpha(setup_.body->part->material.damping);
   Points force = Points::Zero(3, static_cast<Eigen::Index>(inverse_.size()));
   if (interval_ == 0.0) return force;
@@ -259,7 +259,7 @@ Points ExplicitPiece::reactions(const Points& interface_force) const {
   return force;
 }
 
-Points ExplicitPiece::absorbing_force() const {
+Points CentralDifferences::absorbing_force() const {
   Points force = Points::Zero(3, static_cast<Eigen::Index>(inverse_.size()));
   if (interval_ == 0.0) return force;
   for (const Special& s : specials_)
@@ -274,7 +274,7 @@ double explicit_bytes(const PieceSetup& setup, bool shares) {
          (shares ? 0.0 : 4.0 * n + 40.0 * pairs + (is_tuned ? MassEdges::bytes_of(n) : 0.0));
 }
 
-PieceFigures ExplicitPiece::figures() const {
+PieceFigures CentralDifferences::figures() const {
   PieceFigures figures;
   figures.bytes =
       op_->stiffness->bytes() + (is_tuned() ? op_->tuning.bytes() : 0.0) +

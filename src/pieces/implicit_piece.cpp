@@ -44,6 +44,17 @@ void ImplicitPiece::set_state(const Points& displacement, const Points& velocity
   work_.nodal_force = force;
 }
 
+Points ImplicitPiece::velocity_of_impulse(const Points& impulse) const {
+  const FreeUnknowns& unknowns = op_.unknowns();
+  const PieceMass& mass = op_.mass();
+  Vec v = unknowns.restrict_nodal(impulse);
+  if (mass.is_matrix())
+    v = mass.solve(v);
+  else
+    v = (mass.lumped().array() > 0.0).select(v.array() / mass.lumped().array(), 0.0);
+  return unknowns.expand(v, std::vector<double>(op_.held().size(), 0.0));
+}
+
 Points ImplicitPiece::after_jump(const Points& before, const Points& held) const {
   if (op_.scheme().is_static || !op_.mass().is_full()) return held;
   const FreeUnknowns& unknowns = op_.unknowns();

@@ -24,6 +24,7 @@ class ImplicitPiece : public Piece {
   bool is_massless(int node) const override;
   bool has_motions() const override { return op_.has_motions(); }
   Points after_jump(const Points& before, const Points& held) const override;
+  Points velocity_of_impulse(const Points& impulse) const override;
   Points elastic_force(const Points& displacement) const override { return op_.elastic_force(displacement); }
   const Vec& schur_diagonal() const override { return schur_diagonal_; }
   void set_search_directions(const Vec& k) override;

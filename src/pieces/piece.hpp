@@ -10,6 +10,9 @@
 
 namespace dygita {
 
+class ExplicitNodes;
+class ExplicitPiece;
+
 // What a node of a piece adds to a velocity at a row: along . V.
 struct NodeAlong {
   int node;
@@ -72,8 +75,13 @@ class Piece {
   virtual Points unknown_directions() const = 0;               // 3 x n, unit, of the same entries
   // Has the node given its mass away in this step (manual, eq. S7)?
   virtual bool is_massless(int node) const = 0;
-  // Does a node answer to a force on it at once, and to no other (explicit_piece.hpp)?
+  // Is it solved by this process, or by another rank?
+  virtual bool is_here() const { return true; }
+  // Does a node answer to a force on it at once, and to no other (explicit_piece.hpp)? The piece as one of these, and
+  // those of its nodes that laws see; null: it is none, or on another rank.
   virtual bool is_explicit() const { return false; }
+  virtual ExplicitPiece* as_explicit() { return nullptr; }
+  virtual ExplicitNodes* explicit_nodes() { return nullptr; }
   virtual bool has_motions() const = 0;                                // of supports and prescribed ones
   virtual Points elastic_force(const Points& displacement) const = 0;  // K u, 3 x n_nodes, N
   // The same to some 1e-7 of the largest difference between neighbours, from what increments have at hand.
@@ -99,6 +107,8 @@ class Piece {
   // Velocities after a jump: `held` has those of held directions after it, `before` all as they were. What holds them
   // gives an impulse, which others feel through a mass matrix.
   virtual Points after_jump(const Points& /*before*/, const Points& held) const { return held; }
+  // Velocities (m/s) that impulses on the nodes (3 x n_nodes, N s) bring; held directions stay.
+  virtual Points velocity_of_impulse(const Points& impulse) const = 0;
   virtual const PieceState& state() const = 0;
   virtual void restore(const PieceState& state) = 0;
   virtual IncrementEnergy stored_energy() const = 0;  // kinetic and strain now

@@ -18,7 +18,7 @@ class CutMomenta {
     for (size_t i = 0; i < pieces_.size(); ++i) {
       const int part = cut_.piece(static_cast<int>(i)).part;
       if (!model.solves(static_cast<int>(i)) || !cut_.is_cut(part)) continue;
-      auto* piece = dynamic_cast<ExplicitPiece*>(model.pieces[i].get());
+      auto* piece = model.pieces[i]->as_explicit();
       if (piece && piece->is_tuned()) pieces_[i] = piece;
     }
   }

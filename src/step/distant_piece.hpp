@@ -21,6 +21,7 @@ class DistantPiece : public Piece {
   const std::vector<InterfaceRow>& rows() const override { return rows_; }
   const Vec& node_masses() const override { return none_; }  // nobody asks for those of a piece elsewhere
   double mass() const override { return mass_->all; }
+  bool is_here() const override { return false; }
   const Vec& unknown_masses() const override;
   Points unknown_directions() const override;
   bool is_massless(int node) const override { return !mass_->is_massless.empty() && mass_->is_massless[node] != 0; }
@@ -32,6 +33,7 @@ class DistantPiece : public Piece {
   Mat row_compliance(const std::vector<int>& /*columns*/) const override { return {}; }
 
   void set_state(const Points&, const Points&, const Points&, const Points&) override {}
+  Points velocity_of_impulse(const Points&) const override { return {}; }
   const PieceState& state() const override;
   void restore(const PieceState& /*state*/) override {}
   IncrementEnergy stored_energy() const override { return {}; }
@@ -76,9 +78,12 @@ class DistantNodes final : public DistantPiece, public ExplicitNodes {
   // nodes: of the piece, increasing; dt: increment, s.
   DistantNodes(DistantPiece piece, std::vector<int> nodes, double dt);
   bool is_explicit() const override { return true; }
+  ExplicitNodes* explicit_nodes() override { return this; }
   int index_of(int node) const override;
   Mat3 node_compliance(int index) const override { return compliances_[static_cast<size_t>(index)]; }
-  void set_compliance(int index, const Mat3& compliance) { compliances_[static_cast<size_t>(index)] = compliance; }
+  void set_compliance(int index, const Mat3& compliance) override {
+    compliances_[static_cast<size_t>(index)] = compliance;
+  }
 
  private:
   std::vector<int> nodes_;

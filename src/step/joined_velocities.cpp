@@ -5,7 +5,6 @@
 
 #include "base/error.hpp"
 #include "law/law.hpp"
-#include "pieces/implicit_piece.hpp"
 
 namespace dygita {
 
@@ -109,30 +108,7 @@ Vec Joining::rates(const std::vector<Points>& velocity) const {
   return Eigen::Map<const Vec>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-// Velocities that impulses on the nodes of a piece (3 x n, N s) bring; held directions stay.
-Points answer_of(const StepModel& model, int i, const Points& impulse) {
-  const Piece& piece = *model.pieces[i];
-  if (const auto* implicit = dynamic_cast<const ImplicitPiece*>(&piece)) {
-    const FreeUnknowns& unknowns = implicit->op().unknowns();
-    const PieceMass& mass = implicit->op().mass();
-    Vec v = unknowns.restrict_nodal(impulse);
-    if (mass.is_matrix())
-      v = mass.solve(v);
-    else
-      v = (mass.lumped().array() > 0.0).select(v.array() / mass.lumped().array(), 0.0);
-    return unknowns.expand(v, std::vector<double>(implicit->op().held().size(), 0.0));
-  }
-  Points v = impulse * piece.node_masses().cwiseInverse().asDiagonal();
-  const CutPiece& own = model.cut->piece(i);
-  for (int node = 0; node < v.cols(); ++node)
-    if (const Held* held = model.conditions.at(own.part, own.node(node)); held && held->n > 0) {
-      const auto directions = held->directions.leftCols(held->n);
-      v.col(node) -= (directions * (directions.transpose() * v.col(node))).eval();
-    }
-  return v;
-}
-
-// The same of impulses on the rows, for the pieces here that have any.
+// Velocities that impulses on the rows bring, for the pieces here that have any.
 std::vector<Points> Joining::answer(const Vec& impulse) const {
   std::vector<Points> on_pieces(model_.pieces.size(), Points(3, 0));
   for (size_t i = 0; i < rows_.size(); ++i)
@@ -143,7 +119,7 @@ std::vector<Points> Joining::answer(const Vec& impulse) const {
       of_piece.col(on.node) += impulse[static_cast<Eigen::Index>(i)] * on.along;
     }
   for (const int i : model_.here)
-    if (on_pieces[i].cols() > 0) on_pieces[i] = answer_of(model_, i, on_pieces[i]);
+    if (on_pieces[i].cols() > 0) on_pieces[i] = model_.pieces[i]->velocity_of_impulse(on_pieces[i]);
   return on_pieces;
 }
 

@@ -15,8 +15,8 @@
 #include "numerics/scratch_pages.hpp"
 #include "partition/stored_precision.hpp"
 #include "pieces/absorbing_impedance.hpp"
+#include "pieces/central_differences.hpp"
 #include "pieces/equal_pieces.hpp"
-#include "pieces/explicit_piece.hpp"
 #include "pieces/longest_step.hpp"
 #include "pieces/row_stiffness.hpp"
 #include "step/distant_piece.hpp"
@@ -238,7 +238,7 @@ Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies) {
     });
   Pieces pieces(std::make_move_iterator(built.begin()), std::make_move_iterator(built.end()));
   parallel_for(n, [&](int i) {
-    if (operators[i]) pieces[i] = std::make_unique<ExplicitPiece>(std::move(setups[i]), operators[i]);
+    if (operators[i]) pieces[i] = std::make_unique<CentralDifferences>(std::move(setups[i]), operators[i]);
   });
   add_distant(model, bodies, pieces);
   return pieces;
@@ -262,7 +262,7 @@ std::vector<std::vector<int>> group_equal(const Pieces& pieces) {
   std::vector<std::vector<int>> groups;
   std::map<const void*, size_t> open;
   for (size_t i = 0; i < pieces.size(); ++i) {
-    if (dynamic_cast<const DistantPiece*>(pieces[i].get())) continue;
+    if (!pieces[i]->is_here()) continue;
     const void* key = pieces[i]->shared_key();
     const auto it = key ? open.find(key) : open.end();
     if (it != open.end() && groups[it->second].size() < 16) {

@@ -100,7 +100,7 @@ void leave_to_others(const Cut& cut, State& state) {
 // Explicit pieces keep the loads that are theirs: a field of forces in each increment would cost what a product does.
 void give_loads(StepModel& model, const State& state) {
   for (int i = 0; i < static_cast<int>(model.pieces.size()); ++i) {
-    auto* piece = dynamic_cast<ExplicitPiece*>(model.pieces[i].get());
+    auto* piece = model.pieces[i]->as_explicit();
     if (!piece) continue;
     const int part = model.cut->piece(i).part;
     std::vector<ExplicitPiece::PatternLoad> loads;

@@ -7,7 +7,7 @@
 #include "base/team.hpp"
 #include "latin/latin.hpp"
 #include "law/law.hpp"
-#include "pieces/explicit_piece.hpp"
+#include "pieces/central_differences.hpp"
 #include "pieces/longest_step.hpp"
 #include "step/blocks.hpp"
 
@@ -151,7 +151,7 @@ double growth(double part_of_longest, bool is_tuned = false, double beta = 0.0, 
   setup.scheme = {false, part_of_longest * longest, 0.5};
   setup.keeps_lumped.assign(static_cast<size_t>(setup.n_nodes()), 0);
   setup.what = "cube";
-  ExplicitPiece piece(setup, std::make_shared<const ExplicitOperator>(setup));
+  CentralDifferences piece(setup, std::make_shared<const ExplicitOperator>(setup));
   const int n = setup.n_nodes();
   Points zero = Points::Zero(3, n), v(3, n);
   std::mt19937 random(5);

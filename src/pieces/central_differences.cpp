@@ -1,4 +1,4 @@
-#include "pieces/explicit_piece.hpp"
+#include "pieces/central_differences.hpp"
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ ExplicitOperator::ExplicitOperator(const PieceSetup& setup) : stiffness(setup.bo
     tuning = MassEdges(CellEdges(*part.mesh, part.material, setup.keeps_lumped), setup.tuned_speed, setup.scheme.dt);
 }
 
-ExplicitPiece::ExplicitPiece(PieceSetup setup, std::shared_ptr<const ExplicitOperator> op)
+CentralDifferences::CentralDifferences(PieceSetup setup, std::shared_ptr<const ExplicitOperator> op)
     : setup_(std::move(setup)), op_(std::move(op)), k_(Vec::Zero(n_rows())) {
   CHECK(!setup_.scheme.is_static && why_not_explicit(*setup_.body, 1.0 - 2.0 * setup_.scheme.g).empty(),
         setup_.what + " cannot be explicit");
@@ -34,7 +34,7 @@ ExplicitPiece::ExplicitPiece(PieceSetup setup, std::shared_ptr<const ExplicitOpe
   make_specials();
 }
 
-void ExplicitPiece::make_specials() {
+void CentralDifferences::make_specials() {
   const FreeUnknowns unknowns(setup_.n_nodes(), setup_.rows, setup_.held);
   std::vector<int> nodes;
   for (const InterfaceRow& row : setup_.rows) {
@@ -72,7 +72,7 @@ void ExplicitPiece::make_specials() {
   }
 }
 
-void ExplicitPiece::make_compliance(Special& special) {
+void CentralDifferences::make_compliance(Special& special) {
   const int n = special.n_free;
   for (int j = n; j < 3; ++j) special.free.col(j).setZero();
   special.matrix = 1.0 / inverse_[special.node] * Mat3::Identity();
@@ -87,13 +87,13 @@ void ExplicitPiece::make_compliance(Special& special) {
   special.with_rows = special.free * (special.matrix + rows).inverse() * special.free.transpose();
 }
 
-void ExplicitPiece::set_search_directions(const Vec& k) {
+void CentralDifferences::set_search_directions(const Vec& k) {
   CHECK(k.size() == n_rows(), "one search direction a row");
   k_ = k;
   for (Special& special : specials_) make_compliance(special);
 }
 
-Mat ExplicitPiece::row_compliance(const std::vector<int>& columns) const {
+Mat CentralDifferences::row_compliance(const std::vector<int>& columns) const {
   const auto n = static_cast<Eigen::Index>(columns.size());
   std::vector<Eigen::Index> column_of(setup_.rows.size(), -1);
   for (Eigen::Index c = 0; c < n; ++c) column_of[columns[c]] = c;
@@ -107,12 +107,12 @@ Mat ExplicitPiece::row_compliance(const std::vector<int>& columns) const {
   return compliance;
 }
 
-Mat3 ExplicitPiece::node_compliance(int node) const {
+Mat3 CentralDifferences::node_compliance(int node) const {
   const auto it = index_.find(node);
   return it == index_.end() ? Mat3(inverse_[node] * Mat3::Identity()) : specials_[it->second].compliance;
 }
 
-void ExplicitPiece::set_loads(const Points& constant, const std::vector<PatternLoad>& loads) {
+void CentralDifferences::set_loads(const Points& constant, const std::vector<PatternLoad>& loads) {
   loaded_.clear();
   patterns_.clear();
   has_forces_ = false;
@@ -133,7 +133,7 @@ void ExplicitPiece::set_loads(const Points& constant, const std::vector<PatternL
   }
 }
 
-void ExplicitPiece::update_loads(const std::vector<double>& values) {
+void CentralDifferences::update_loads(const std::vector<double>& values) {
   if (values == load_values_ && has_forces_) return;
   has_forces_ = true;
   load_values_ = values;
@@ -146,17 +146,17 @@ void ExplicitPiece::update_loads(const std::vector<double>& values) {
     Eigen::Map<Vec3>(base_.data() + 4 * static_cast<size_t>(loaded_[i])) -= load_[i];
 }
 
-void ExplicitPiece::begin(const std::vector<double>& load_values, const std::vector<double>& motion_velocity) {
+void CentralDifferences::begin(const std::vector<double>& load_values, const std::vector<double>& motion_velocity) {
   begin_pull(load_values);
   move(motion_velocity);
 }
 
-void ExplicitPiece::begin_pull(const std::vector<double>& load_values) {
+void CentralDifferences::begin_pull(const std::vector<double>& load_values) {
   update_loads(load_values);
   pull();
 }
 
-void ExplicitPiece::begin(const Points& force, const std::vector<double>& motion_velocity, double /*quiet*/) {
+void CentralDifferences::begin(const Points& force, const std::vector<double>& motion_velocity, double /*quiet*/) {
   set_loads(force, {});
   update_loads({});
   pull();
@@ -164,7 +164,7 @@ void ExplicitPiece::begin(const Points& force, const std::vector<double>& motion
 }
 
 // The product.
-void ExplicitPiece::pull() {
+void CentralDifferences::pull() {
   for (size_t i = 0; i < loaded_.size(); ++i) loaded_v_old_[i] = velocity_of(loaded_[i]);
   for (Special& s : specials_) s.v_old = velocity_of(s.node);
   if (is_damped()) v_old_ = v_;
@@ -174,7 +174,7 @@ void ExplicitPiece::pull() {
 }
 
 // The velocities without interfaces (manual, eq. S9-S10); D goes along.
-void ExplicitPiece::move(const std::vector<double>& motion_velocity) {
+void CentralDifferences::move(const std::vector<double>& motion_velocity) {
   const double dt = setup_.scheme.dt, keep = keep_;
   const size_t n = inverse_.size();
   const double *const y = y_.data(), *const inverse = inverse_.data();
@@ -206,7 +206,7 @@ void ExplicitPiece::move(const std::vector<double>& motion_velocity) {
 }
 
 // beta K V0: V0 is what X has moved by since the product before, so that K V0 needs none of its own (manual, eq. S14).
-void ExplicitPiece::add_stiffness_damping() {
+void CentralDifferences::add_stiffness_damping() {
   const double factor = setup_.scheme.beta(setup_.body->part->material.damping) / setup_.scheme.dt;
   double *const y = y_.data(), *const elastic = elastic_.data(), *const damping = damping_force_.data();
   const double* const base = base_.data();
@@ -221,7 +221,7 @@ void ExplicitPiece::add_stiffness_damping() {
 
 // The inverse of a tuned mass is M^-1 + M^-1 C M^-1 (manual, eq. S13): M^-1 (K X - f), and what it takes of the
 // momenta.
-void ExplicitPiece::take_momenta() {
+void CentralDifferences::take_momenta() {
   const double share = setup_.mass_share(), keep = keep_;
   if (is_damped()) p_old_ = p_;
   const double *const y = y_.data(), *const inverse = inverse_.data();
@@ -241,7 +241,7 @@ void ExplicitPiece::take_momenta() {
   }
 }
 
-void ExplicitPiece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) {
+void CentralDifferences::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) {
   for (const Special& s : specials_) {
     if (s.rows.empty()) continue;
     Vec3 rhs = s.rhs;
@@ -251,7 +251,7 @@ void ExplicitPiece::interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> 
   }
 }
 
-IncrementEnergy ExplicitPiece::finish(Eigen::Ref<const Vec> q, const Points* interface_force) {
+IncrementEnergy CentralDifferences::finish(Eigen::Ref<const Vec> q, const Points* interface_force) {
   const double dt = setup_.scheme.dt;
   IncrementEnergy energy;
   for (Special& s : specials_) {
@@ -268,6 +268,15 @@ IncrementEnergy ExplicitPiece::finish(Eigen::Ref<const Vec> q, const Points* int
   if (is_damped()) energy.damping += damping_work();
   interval_ += dt;
   return energy;
+}
+
+Points CentralDifferences::velocity_of_impulse(const Points& impulse) const {
+  Points v = impulse * node_masses().cwiseInverse().asDiagonal();
+  for (const Special& special : specials_) {
+    const auto free = special.free.leftCols(special.n_free);
+    v.col(special.node) = (free * (free.transpose() * v.col(special.node))).eval();
+  }
+  return v;
 }
 
 }  // namespace dygita
