@@ -700,7 +700,7 @@ words[10] = {
   {
     "joint", makes = "output",
     doc = "All about an interface: normal, shear (N), opening, slip, plastic_opening (m), open_area, stick_area, slip_area "
-      .. "(m^2), friction_work, plastic_work, damping_work (J).",
+      .. "(m^2), friction_work, plastic_work, damping_work, stored_energy (J).",
     arguments = { name_of "output", on({ "interface", "support.wall" }, "which") },
   },
   {
@@ -750,7 +750,7 @@ words[10] = {
   },
   {
     "energy", makes = "output",
-    doc = "Balance of the whole. Columns: kinetic, strain, loads, friction, plastic, damping, scheme, balance (J).",
+    doc = "Balance of the whole. Columns: kinetic, strain, loads, friction, plastic, damping, scheme, balance, stored (J; in interfaces).",
     arguments = {},
   },
 }

@@ -107,7 +107,8 @@ void ErrorEstimator::begin_step(const Instant& start) {
   pieces_.clear();
   start_.clear();
   find_free_surfaces(start);
-  still_ = {start.state.energies.loads, start.state.energies.strain, start.state.energies.balance()};
+  still_ = {start.state.energies.loads, start.state.energies.strain + start.state.energies.stored,
+            start.state.energies.balance()};
   if (start.is_static()) return;
   for (int i = 0; i < start.model.cut->n_pieces(); ++i)
     if (start.model.cut->is_here(i)) pieces_.emplace_back().piece = i;
@@ -160,8 +161,8 @@ void ErrorEstimator::accept_static(const Instant& instant) {
   const Energies& energies = instant.state.energies;
   static_.interface_energy += instant.interface_energy;
   still_.left += std::sqrt(std::max(0.0, instant.interface_energy));
-  still_.work =
-      std::max({still_.work, std::abs(energies.loads - still_.loads), std::abs(energies.strain - still_.strain)});
+  still_.work = std::max({still_.work, std::abs(energies.loads - still_.loads),
+                          std::abs(energies.strain + energies.stored - still_.strain)});
   still_.missing = std::max(still_.missing, std::abs(energies.balance() - still_.balance));
   if (instant.increment + 1 < instant.model.step->n_increments()) return;
   const double carried = energy_when_carried(instant);
@@ -200,7 +201,7 @@ void ErrorEstimator::accept(const Instant& instant) {
   linked_.accept(instant);
   take_velocities(instant);
   kinetic_ = std::max(kinetic_, kinetic_now_);
-  stored_ = std::max(stored_, energies.kinetic + energies.strain);
+  stored_ = std::max(stored_, energies.held());
   const long all = instant.model.step->n_increments(), i = instant.increment + 1;
   if ((i * n_samples) / all != ((i - 1) * n_samples) / all) sample_stress(instant);
 }

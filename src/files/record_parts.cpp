@@ -38,7 +38,14 @@ void add_law(const Law& law, Json& json) {
   for (const LawRemark& remark : law.remarks())
     remarks.push_back({{"text", remark.text}, {"value", remark.value}, {"unit", remark.unit}});
   const Shown shown = law.shown();
-  json["law"] = {{"remarks", remarks}, {"yields", shown.plastic_opening}, {"has_states", shown.states}};
+  Json memory = Json::array();
+  for (const MemoryEntry& entry : law.memory())
+    memory.push_back({{"name", entry.name},
+                      {"unit", entry.unit},
+                      {"kind", entry.kind == MemoryEntry::Kind::scalar ? "scalar" : "vector"},
+                      {"count", entry.count}});
+  json["law"] = {
+      {"remarks", remarks}, {"yields", shown.plastic_opening}, {"has_states", shown.states}, {"memory", memory}};
 }
 
 // The law that a record of an earlier version tells by its kind and parameters alone; null: none is known by them.

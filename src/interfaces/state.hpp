@@ -12,11 +12,12 @@ namespace dygita {
 
 // Cumulated since the beginning, J (manual, energy balance).
 struct Energies {
-  double kinetic = 0.0, strain = 0.0;                                              // now
+  double kinetic = 0.0, strain = 0.0, stored = 0.0;                                // now; stored: in interfaces
   double loads = 0.0, friction = 0.0, plastic = 0.0, damping = 0.0, scheme = 0.0;  // so far
   double start = 0.0;  // kinetic + strain before anything was done: initial velocities
 
-  double balance() const { return start + loads - friction - plastic - damping - scheme - kinetic - strain; }
+  double held() const { return kinetic + strain + stored; }
+  double balance() const { return start + loads - friction - plastic - damping - scheme - kinetic - strain - stored; }
 };
 
 // Fields of a surface's points now; vectors in global axes, forces on side 1.
@@ -24,7 +25,7 @@ struct SurfaceState {
   std::vector<LawState> points;
   std::vector<double>
       residual;             // N, of each point: what is left between the force of the substructure and that of the law
-  std::vector<Work> works;  // J, of each point: what its law has dissipated so far
+  std::vector<Work> works;  // J, of each point: what its law has dissipated so far, and stores
 
   Work work() const;  // J, of all points
 };

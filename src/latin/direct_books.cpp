@@ -94,7 +94,8 @@ void DirectPoints::book(Book& book, IncrementEnergy& energy) const {
     energy.friction += p.work.friction;
     energy.plastic += p.work.plastic;
     energy.damping += p.work.damping;
-    energy.scheme += p.work.given - p.on_pieces - p.work.dissipated();
+    energy.stored += p.work.stored;
+    energy.scheme += p.work.given - p.on_pieces - p.work.dissipated() - p.work.stored;
   }
 }
 

@@ -48,7 +48,7 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
                  settings.is_assembled ? 1e-1 : 1e-2) {
   if (settings.is_assembled) assembled_.emplace(model, local_, k, settings.assembly_size);
   const Energies& energies = files.state.energies;
-  const double before = energies.kinetic + energies.strain + std::abs(energies.loads);
+  const double before = energies.held() + std::abs(energies.loads);
   if (model.scheme.is_static) {
     loose_.emplace(model);
     indicator_.start_from(before);
@@ -133,7 +133,7 @@ void StepRun::accept_interval(int increment, int iterations, double eta, double 
   if (!std::isfinite(energies.balance())) complete_energies(books_.energy);  // to tell where
   check_energies(model_, state, books_.energy, increment);
   if (has_flown_off()) eta = std::numeric_limits<double>::infinity();
-  indicator_.raise_floor(energies.kinetic + energies.strain + std::abs(energies.loads), model_.scheme.dt);
+  indicator_.raise_floor(energies.held() + std::abs(energies.loads), model_.scheme.dt);
   StepFigures& figures = books_.figures;
   ++figures.increments;
   figures.iterations += iterations;
@@ -155,6 +155,7 @@ std::vector<IncrementEnergy> StepRun::all_energies() const {
     all[i].plastic += points.plastic;
     all[i].damping += points.damping;
     all[i].scheme += points.scheme;
+    all[i].stored += points.stored;
   }
   complete_energies(all);
   return all;
@@ -163,15 +164,15 @@ std::vector<IncrementEnergy> StepRun::all_energies() const {
 // Those of pieces elsewhere.
 void StepRun::complete_energies(std::vector<IncrementEnergy>& energies) const {
   if (ranks::is_alone()) return;
-  constexpr int n = 7;
+  constexpr int n = 8;
   const std::vector<double> all = of_all_pieces(*model_.cut, n, [&](int i, double* to) {
     const IncrementEnergy& e = energies[i];
-    const double own[n] = {e.loads, e.friction, e.plastic, e.damping, e.scheme, e.kinetic, e.strain};
+    const double own[n] = {e.loads, e.friction, e.plastic, e.damping, e.scheme, e.kinetic, e.strain, e.stored};
     std::copy_n(own, n, to);
   });
   for (size_t i = 0; i < energies.size(); ++i) {
     const double* e = all.data() + n * i;
-    energies[i] = {e[0], e[1], e[2], e[3], e[4], e[5], e[6]};
+    energies[i] = {e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7]};
   }
 }
 

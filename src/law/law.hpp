@@ -71,14 +71,20 @@ class Law {
   // Does it carry a force in this direction (0 normal, 1 and 2 tangents) in steps of this kind? Others have no unknown.
   // In a static step these are the directions in which it holds a part.
   virtual bool acts_on(int direction, bool is_static) const = 0;
-  // State before anything has happened.
-  virtual LawState initial() const = 0;
+  // What it keeps of its own at a point.
+  virtual std::vector<MemoryEntry> memory() const = 0;
+  // Fields of its state before anything has happened, where they are not those of LawState.
+  virtual void set_initial(LawState& state) const = 0;
   // Force of the increment (N), a pure function of the trial and the state at its start; zero where y is, unless the
   // rate is given there and the law makes a force of it.
   virtual Vec3 force(const Trial& trial, const Increment& increment, const LawState& start) const = 0;
   // State at the end of the increment, once `force` is accepted.
   virtual LawState advance(const Trial& trial, const Increment& increment, const LawState& start,
                            const Vec3& force) const = 0;
+  // What a release leaves of its own memory: nothing of what it has stored.
+  virtual void let_go(LawState& state) const = 0;
+  // Its sides begin to part at this rate (m/s), since they could not be joined without yielding (manual, eq. S5b).
+  virtual void begin_to_part(LawState& state, double rate) const = 0;
   // What became of the increment's energy at a point of this area (m^2).
   virtual Work work(const LawState& start, const LawState& end, const Increment& increment, double area) const = 0;
   // Opening (m) that outputs show.
@@ -87,6 +93,13 @@ class Law {
   virtual Tangent tangent(const LawState& state, bool ties_sliding) const = 0;
   virtual ExplicitForm explicit_form() const = 0;
 
+  // State before anything has happened.
+  LawState initial() const {
+    LawState state;
+    state.memory = LawMemory(memory());
+    set_initial(state);
+    return state;
+  }
   // Does it act on any direction in steps of this kind?
   bool takes_part(bool is_static) const {
     return acts_on(0, is_static) || acts_on(1, is_static) || acts_on(2, is_static);

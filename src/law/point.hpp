@@ -5,22 +5,21 @@
 
 #include <array>
 
-#include "numerics/types.hpp"
+#include "law/memory.hpp"
 
 namespace dygita {
 
 enum class PointState { open = 0, stick = 1, slip = 2 };  // a closed frictionless contact slips; a yielding bolt slips
 
-// What a point remembers from increment to increment.
+// What a point remembers from increment to increment: what outputs and solvers read, and what the law alone does.
 struct LawState {
-  double gap = 0.0;                // m, contact: from the hat fields, so that closed is exactly closed
-  double plastic_opening = 0.0;    // m, signed
-  double hardening_opening = 0.0;  // m, accumulated: what hardens
-  double opening_rate = 0.0;       // m/s, plastic, of the last dynamic increment; zero after a static one
-  Vec3 slip = Vec3::Zero();        // m, relative tangential displacement while closed
-  Vec3 rate = Vec3::Zero();        // m/s, V' - V at the end of the last increment
-  Vec3 force = Vec3::Zero();       // N, of the last increment
+  double gap = 0.0;              // m, contact: from the hat fields, so that closed is exactly closed
+  double plastic_opening = 0.0;  // m, signed
+  Vec3 slip = Vec3::Zero();      // m, relative tangential displacement while closed
+  Vec3 rate = Vec3::Zero();      // m/s, V' - V at the end of the last increment
+  Vec3 force = Vec3::Zero();     // N, of the last increment
   PointState status = PointState::stick;
+  LawMemory memory;
 
   // Adds the memory of one of the surface points (global axes) that a point of this frame stands for, by its share of
   // the area. The rate is not taken: it restarts with each step.
@@ -50,6 +49,7 @@ struct Trial {
 // Where the energy of a point goes in an increment, J.
 struct Work {
   double friction = 0.0, plastic = 0.0, damping = 0.0;  // dissipated
+  double stored = 0.0;                                  // more than before
   double given = 0.0;                                   // by whatever drives the point, beside a shortening
 
   double dissipated() const { return friction + plastic + damping; }
@@ -57,6 +57,7 @@ struct Work {
     friction += share * other.friction;
     plastic += share * other.plastic;
     damping += share * other.damping;
+    stored += share * other.stored;
     given += share * other.given;
   }
 };
@@ -72,8 +73,9 @@ inline Vec3 motion_of(const LawState& start, const LawState& end, const Incremen
 
 // A law seen by small motions about a state.
 struct Tangent {
-  std::array<bool, 3> holds{};  // no relative motion in this direction
-  Vec3 damping = Vec3::Zero();  // Pa s/m, traction per relative velocity
+  std::array<bool, 3> holds{};    // no relative motion in this direction
+  Vec3 damping = Vec3::Zero();    // Pa s/m, traction per relative velocity
+  Vec3 stiffness = Vec3::Zero();  // Pa/m, traction per relative displacement
 };
 
 }  // namespace dygita

@@ -25,12 +25,21 @@ LawState held_end(const Trial& trial, const LawState& start, const Vec3& force) 
   return end;
 }
 
+double energy_of_springs(const SpringPoint& point, int first, int end) {
+  double sum = 0.0;
+  for (int d = first; d < end; ++d)
+    if (point.stiffness[d] > 0.0) sum += 0.5 * point.now.force[d] * point.now.force[d] / point.stiffness[d];
+  return sum;
+}
+
 // What holds does not open and close: it can be as stiff as the cells behind it without making impacts chatter.
-double TieSprings::stiffness_factor(double penalty) const { return std::max(1.0, penalty); }
+Vec3 TieSprings::stiffness(double, double cells, double penalty) const {
+  return Vec3::Constant(std::max(1.0, penalty) * cells);
+}
 
 void TieSprings::move(SpringPoint& point, const Vec3& jump) const {
-  point.force += point.stiffness.cwiseProduct(jump - point.jump);
-  point.status = PointState::stick;
+  point.now.force += point.stiffness.cwiseProduct(jump - point.jump);
+  point.now.status = PointState::stick;
 }
 
 }  // namespace dygita

@@ -18,10 +18,12 @@ LawState held_end(const Trial& trial, const LawState& start, const Vec3& force);
 // Springs that hold.
 class TieSprings : public PenaltyForm {
  public:
-  double stiffness_factor(double penalty) const override;
+  Vec3 stiffness(double area, double cells, double penalty) const override;
   void begin(SpringPoint&) const override {}
   void move(SpringPoint& point, const Vec3& jump) const override;
+  double penalty_energy(const SpringPoint& point) const override { return energy_of_springs(point); }
   double plastic_work(const LawState&, double) const override { return 0.0; }
+  double stored_energy(const LawState&, double) const override { return 0.0; }
 };
 
 }  // namespace dygita

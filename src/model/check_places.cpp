@@ -51,8 +51,8 @@ void interfaces(const Problem& problem) {
            "'between' takes two faces that meet");
     }
     const ExplicitForm form = interface->law->explicit_form();
-    if (const auto* none = std::get_if<NoExplicitForm>(&form); none && is_explicit)
-      fail(problem, interface->origin, "solver.explicit does not take " + who + ": " + none->reason,
+    if (form.is_none() && is_explicit)
+      fail(problem, interface->origin, "solver.explicit does not take " + who + ": " + form.refusal,
            "use solver.latin or solver.monolithic");
   }
 }

@@ -36,6 +36,7 @@ struct InterfaceRow {
 struct IncrementEnergy {
   double loads = 0.0, friction = 0.0, plastic = 0.0, damping = 0.0, scheme = 0.0;
   double kinetic = 0.0, strain = 0.0;
+  double stored = 0.0;  // in interfaces, more than before
 };
 
 // What a piece carries from one increment to the next; vectors over its free unknowns, in its own order. A copy is all

@@ -63,7 +63,7 @@ double Collector::energy_of(const Instant& instant) const {
                             (before_.friction + before_.plastic + before_.damping + before_.scheme);
   if (!instant.is_static() && before_.strain > 0.0)
     return e.kinetic + std::max(0.0, dissipated) + parts_.errors().strain_of_motion().value_or(0.0);
-  return std::max(e.kinetic + e.strain + dissipated, std::abs(e.start + e.loads - before_.start - before_.loads));
+  return std::max(e.held() + dissipated, std::abs(e.start + e.loads - before_.start - before_.loads));
 }
 
 void Collector::watch(const Instant& instant) {
@@ -75,7 +75,7 @@ void Collector::watch(const Instant& instant) {
   }
   last_ = e;
   // The top of the report's chart: all that is stored and dissipated.
-  const double accounted = e.kinetic + e.strain + e.friction + e.plastic + e.damping + e.scheme;
+  const double accounted = e.held() + e.friction + e.plastic + e.damping + e.scheme;
   largest_energy_ = std::max({largest_energy_, accounted, std::abs(e.start + e.loads)});
   EnergyBooks& now = books(instant.is_static());
   // A motion of next to nothing beside what is stored is what the tolerance has left.

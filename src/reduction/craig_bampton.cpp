@@ -43,7 +43,7 @@ class HeldInterface {
                        fmt::format("output.superelement '{}': {} is unconstrained ({})\n    hold it by a "
                                    "support, put a face of it into 'on', or give its contact friction",
                                    request.name, motion,
-                                   assembly.dampers.empty() ? "open joints, or contact that slides"
+                                   assembly.n_damped() == 0 ? "open joints, or contact that slides"
                                                             : "open joints, contact that slides, or dampers alone"));
     SparseMatrix a = assembly.stiffness;
     Vec reference = Vec::Zero(n);
@@ -242,7 +242,7 @@ Superelement condense(const LinearAssembly& assembly, const Problem& problem, co
   element.n_tied = assembly.n_tied;
   element.n_normal = assembly.n_normal;
   element.n_open = assembly.n_open;
-  element.n_damped = static_cast<int>(assembly.dampers.size());
+  element.n_damped = assembly.n_damped();
   return element;
 }
 

@@ -49,8 +49,9 @@ void add_spread_point(const Instant& instant, int s, int i, bool ties_sliding, L
   const Tangent tangent = surface.declared_law().tangent(instant.surface(s).points[i], ties_sliding);
   const Mat3 frame = frame_of(surface.facing.normals.col(i));
   for (int d = 0; d < 3; ++d) {
-    if (!tangent.holds[d] && tangent.damping[d] == 0.0) continue;
-    SpreadSum sum{{}, tangent.holds[d], surface.facing.areas[i] * tangent.damping[d]};
+    if (!tangent.holds[d] && tangent.damping[d] == 0.0 && tangent.stiffness[d] == 0.0) continue;
+    const double area = surface.facing.areas[i];
+    SpreadSum sum{{}, tangent.holds[d], area * tangent.damping[d], area * tangent.stiffness[d]};
     for (const auto& [trace, part, sign] : {std::tuple{&surface.facing.side_1, surface.part_1, -1.0},
                                             std::tuple{&surface.facing.side_2, surface.part_2, 1.0}})
       for (int k = 0; part >= 0 && k < trace->n_shares(i); ++k)
@@ -83,9 +84,9 @@ void add_surfaces(const Instant& instant, bool ties_sliding, LinearAssembly& ass
       const auto n_held = std::count(tangent.holds.begin(), tangent.holds.end(), true);
       for (int d = 0; d < 3; ++d)
         if (tangent.holds[d]) add_condition(assembly, a, b, n_held == 3 ? Vec3(Vec3::Unit(d)) : Vec3(frame.col(d)));
-      if (!tangent.damping.isZero(0.0))
-        assembly.dampers.push_back(
-            {{a, b}, surface.facing.areas[i] * frame * tangent.damping.asDiagonal() * frame.transpose()});
+      if (!tangent.damping.isZero(0.0) || !tangent.stiffness.isZero(0.0))
+        assembly.springs_of_laws.push_back(
+            {{a, b}, frame, surface.facing.areas[i] * tangent.damping, surface.facing.areas[i] * tangent.stiffness});
       if (is_contact) ++(n_held == 3 ? assembly.n_tied : n_held > 0 ? assembly.n_normal : assembly.n_open);
     }
   }
@@ -150,21 +151,25 @@ void make_map(LinearAssembly& assembly) {
   assembly.map.setFromTriplets(entries.begin(), entries.end());
 }
 
-void add_dampers(LinearAssembly& assembly) {
-  if (assembly.dampers.empty()) return;
+// Adds what the springs of laws have of a kind, between their nodes, to a matrix of the unknowns.
+void add_between_nodes(const LinearAssembly& assembly, Vec3 Spring::*coefficient, SparseMatrix& matrix) {
   Triplets entries;
-  for (const Damper& damper : assembly.dampers)
+  for (const Spring& spring : assembly.springs_of_laws) {
+    const Mat3 block = spring.frame * (spring.*coefficient).asDiagonal() * spring.frame.transpose();
+    if (block.isZero(0.0)) continue;
     for (int p = 0; p < 2; ++p)
       for (int q = 0; q < 2; ++q)
-        for (int row = 0; row < 3 && damper.node[p] >= 0 && damper.node[q] >= 0; ++row)
+        for (int row = 0; row < 3 && spring.node[p] >= 0 && spring.node[q] >= 0; ++row)
           for (int column = 0; column < 3; ++column)
-            entries.emplace_back(3 * damper.node[p] + row, 3 * damper.node[q] + column,
-                                 (p == q ? 1.0 : -1.0) * damper.coefficient(row, column));
+            entries.emplace_back(3 * spring.node[p] + row, 3 * spring.node[q] + column,
+                                 (p == q ? 1.0 : -1.0) * block(row, column));
+  }
+  if (entries.empty()) return;
   SparseMatrix nodal(assembly.map.rows(), assembly.map.rows());
   nodal.setFromTriplets(entries.begin(), entries.end());
-  const SparseMatrix transposed = assembly.map.transpose(), c_map = nodal * assembly.map;
-  if (assembly.damping.rows() == 0) assembly.damping.resize(assembly.map.cols(), assembly.map.cols());
-  assembly.damping += SparseMatrix(transposed * c_map);
+  const SparseMatrix transposed = assembly.map.transpose(), product = nodal * assembly.map;
+  if (matrix.rows() == 0) matrix.resize(assembly.map.cols(), assembly.map.cols());
+  matrix += SparseMatrix(transposed * product);
 }
 
 SparseMatrix sparse_of(Eigen::Index n_rows, Eigen::Index n_columns, const Triplets& entries) {
@@ -224,6 +229,15 @@ SparseMatrix rooted_sums(const LinearAssembly& assembly, Factor&& factor) {
 void add_sums(LinearAssembly& assembly) {
   constexpr double stiff = 1e6;
   if (assembly.sums.empty()) return;
+  const auto add = [&](double SpreadSum::*coefficient, SparseMatrix& matrix) {
+    const SparseMatrix rows =
+        rooted_sums(assembly, [&](const SpreadSum& sum, const auto&) { return sum.*coefficient; });
+    if (rows.rows() == 0) return;
+    if (matrix.rows() == 0) matrix.resize(assembly.map.cols(), assembly.map.cols());
+    matrix += SparseMatrix(SparseMatrix(rows.transpose()) * rows);
+  };
+  add(&SpreadSum::damping, assembly.damping);
+  add(&SpreadSum::stiffness, assembly.stiffness);
   const Vec diagonal = assembly.stiffness.diagonal();
   assembly.cells = assembly.stiffness;
   assembly.springs = rooted_sums(assembly, [&](const SpreadSum& sum, const std::map<int, double>& row) {
@@ -232,11 +246,6 @@ void add_sums(LinearAssembly& assembly) {
     return sum.is_held ? stiff * stiffest : 0.0;
   });
   assembly.stiffness += SparseMatrix(SparseMatrix(assembly.springs.transpose()) * assembly.springs);
-  if (std::none_of(assembly.sums.begin(), assembly.sums.end(), [](const SpreadSum& sum) { return sum.damping > 0.0; }))
-    return;
-  if (assembly.damping.rows() == 0) assembly.damping.resize(assembly.map.cols(), assembly.map.cols());
-  const SparseMatrix dampers = rooted_sums(assembly, [](const SpreadSum& sum, const auto&) { return sum.damping; });
-  assembly.damping += SparseMatrix(SparseMatrix(dampers.transpose()) * dampers);
 }
 
 void add_matrices(const Problem& problem, LinearAssembly& assembly) {
@@ -270,7 +279,8 @@ void add_matrices(const Problem& problem, LinearAssembly& assembly) {
     if (assembly.damping.rows() == 0) assembly.damping.resize(n, n);
     assembly.damping += damping.mass * m + damping.stiffness * k;
   }
-  add_dampers(assembly);
+  add_between_nodes(assembly, &Spring::damping, assembly.damping);
+  add_between_nodes(assembly, &Spring::stiffness, assembly.stiffness);
   add_sums(assembly);
   assembly.stiffness.makeCompressed();
   assembly.mass.makeCompressed();
@@ -278,6 +288,11 @@ void add_matrices(const Problem& problem, LinearAssembly& assembly) {
 }
 
 }  // namespace
+
+int LinearAssembly::n_damped() const {
+  return static_cast<int>(std::count_if(springs_of_laws.begin(), springs_of_laws.end(),
+                                        [](const Spring& spring) { return !spring.damping.isZero(0.0); }));
+}
 
 Mat LinearAssembly::energies(const Mat& x) const {
   if (springs.rows() == 0) return x.transpose() * (stiffness * x);
@@ -332,7 +347,10 @@ std::string free_motion(const LinearAssembly& assembly, const Problem& problem, 
     add_sum({{condition.node[0], condition.coefficient[0]}, {condition.node[1], condition.coefficient[1]}});
   };
   for (const SpreadSum& sum : assembly.sums)
-    if (sum.is_held) add_sum(sum.nodes);
+    if (sum.is_held || sum.stiffness > 0.0) add_sum(sum.nodes);
+  for (const Spring& spring : assembly.springs_of_laws)
+    for (int d = 0; d < 3; ++d)
+      if (spring.stiffness[d] > 0.0) add({spring.node, {Vec3(spring.frame.col(d)), Vec3(-spring.frame.col(d))}});
   for (const NodeCondition& condition : assembly.conditions) add(condition);
   for (const int node : held_nodes)
     for (int d = 0; d < 3; ++d) add({{node, -1}, {Vec3::Unit(d), Vec3::Zero()}});

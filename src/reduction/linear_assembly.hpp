@@ -15,18 +15,19 @@ struct NodeCondition {
   std::array<Vec3, 2> coefficient{Vec3::Zero(), Vec3::Zero()};
 };
 
-// A force against the relative velocity of two nodes (side 2 of a wall: none).
-struct Damper {
+// A force against the relative displacement and velocity of two nodes (side 2 of a wall: none).
+struct Spring {
   std::array<int, 2> node{-1, -1};
-  Mat3 coefficient = Mat3::Zero();  // N s/m
+  Mat3 frame = Mat3::Identity();
+  Vec3 damping = Vec3::Zero(), stiffness = Vec3::Zero();  // N s/m, N/m, along its axes
 };
 
 // Where faces do not match: a sum of coefficient . displacement over nodes of both sides, held at zero (by a spring a
-// million times as stiff as the nodes) or damped.
+// million times as stiff as the nodes), or with a spring and a damper.
 struct SpreadSum {
   std::vector<std::pair<int, Vec3>> nodes;  // counted through all substructures
   bool is_held = false;
-  double damping = 0.0;  // N s/m
+  double damping = 0.0, stiffness = 0.0;  // N s/m, N/m
 };
 
 struct LinearAssembly {
@@ -39,12 +40,13 @@ struct LinearAssembly {
   std::vector<int> first_node;        // of each substructure, and the number of all nodes
   std::vector<int> place_of_unknown;  // unknowns of one place are contiguous
   std::vector<NodeCondition> conditions;
-  std::vector<Damper> dampers;
+  std::vector<Spring> springs_of_laws;
   std::vector<SpreadSum> sums;
   int n_tied = 0, n_normal = 0, n_open = 0;  // contact points
   double mass_of_parts = 0.0;                // kg
 
   int n() const { return static_cast<int>(stiffness.rows()); }
+  int n_damped() const;  // points of interfaces between nodes with a damper
   // x^T K x. Springs are that stiff that a motion which they do not feel must not be multiplied with them: their
   // rounding would be stiffness.
   Mat energies(const Mat& x) const;
@@ -52,8 +54,8 @@ struct LinearAssembly {
 
 // The assembly at an instant: bonded and plastic interfaces are tied, unless released; contact points that stick are
 // tied, those at the limit of friction too (ties_sliding) or along their normal, as those without friction, open ones
-// are free; supports of the step hold, prescribed motions do not. Lumped mass, small displacements: no stiffness of the
-// prestress.
+// are free; laws with a stiffness are springs; supports of the step hold, prescribed motions do not. Lumped mass, small
+// displacements: no stiffness of the prestress.
 LinearAssembly linearise(const Instant& instant, bool ties_sliding);
 
 // A rigid motion of a substructure ("rotation about z of substructure 'nut'") that neither the assembly's conditions

@@ -95,7 +95,7 @@ void ExplicitRun::start(const std::vector<Body>& bodies, const ExplicitMemory& m
   for (const Motion& motion : model_.conditions.motions)
     motions_new_.push_back(motion.at_start ? motion.at_start(model_.step->dt) : 0.0);
   start_strain_ = state_.energies.strain;
-  supplied_ = state_.energies.kinetic + state_.energies.strain;
+  supplied_ = state_.energies.held();
 }
 
 void ExplicitRun::find_mass_damping(const std::vector<Body>& bodies) {

@@ -36,11 +36,14 @@ InertialLaws::InertialLaws(const StepModel& model, const std::vector<PointRecord
   };
   for (size_t i = 0; i < all_->size(); ++i) {
     const Point& point = (*all_)[i];
-    if (!point.law || start[i].is_released || !std::holds_alternative<AtNodesInertia>(point.law->explicit_form()))
-      continue;
+    if (!point.law || start[i].is_released) continue;
+    const ExplicitForm form = point.law->explicit_form();
+    if (!form.rates) continue;
     if (model.exchange.ports[point.first_port].trace) refuse(model, point);
     InertialPoint& at = points_.emplace_back();
     at.point = static_cast<int>(i);
+    at.law = form.rates;
+    at.has_springs = form.springs != nullptr;
     at.side_1 = mover_of(point.first_port);
     if (!point.is_wall) at.side_2 = mover_of(point.first_port_2);
     at.is_given = start[i].trial.is_given;
@@ -55,6 +58,7 @@ void InertialLaws::release(const StepModel& model, int increment) {
     if (!interface || !model.loads->is_released(interface, increment)) continue;
     at.is_released = true;
     at.force.setZero();
+    if (!at.has_springs) at.law->let_go(at.start);
   }
 }
 
@@ -86,26 +90,32 @@ Vec3 InertialLaws::rate(const InertialPoint& at, Vec3 Mover::*velocity) const {
   return (*all_)[at.point].frame.transpose() * rate;
 }
 
+// At fixed forces of all other points.
+Trial InertialLaws::trial_at(const InertialPoint& at) const {
+  const Point& point = (*all_)[at.point];
+  Mat3 mobility = movers_[at.side_1].mobility;
+  if (at.side_2 >= 0) mobility += movers_[at.side_2].mobility;
+  const Vec3 now = rate(at, &Mover::now);
+  Trial trial;
+  trial.area = point.area;
+  trial.is_given = at.is_given;
+  for (int d = 0; d < 3; ++d) {
+    if (at.is_given[d]) trial.s[d] = now[d];
+    if (!at.is_active[d]) continue;
+    trial.y[d] = point.frame.col(d).dot(mobility * point.frame.col(d));
+    trial.s[d] = now[d] + trial.y[d] * at.force[d];
+  }
+  return trial;
+}
+
 // The law at each point in turn; returns the largest change of a force, of the largest force.
 double InertialLaws::sweep(const Increment& increment) {
   double change = 0.0, largest = 0.0;
   for (InertialPoint& at : points_) {
     if (at.is_released) continue;
-    const Point& point = (*all_)[at.point];
-    Mat3 mobility = movers_[at.side_1].mobility;
-    if (at.side_2 >= 0) mobility += movers_[at.side_2].mobility;
-    const Vec3 now = rate(at, &Mover::now);
-    Trial trial;
-    trial.area = point.area;
-    trial.is_given = at.is_given;
-    for (int d = 0; d < 3; ++d) {
-      if (at.is_given[d]) trial.s[d] = now[d];
-      if (!at.is_active[d]) continue;
-      trial.y[d] = point.frame.col(d).dot(mobility * point.frame.col(d));
-      trial.s[d] = now[d] + trial.y[d] * at.force[d];
-    }
+    const Trial trial = trial_at(at);
     at.start.rate = rate(at, &Mover::before);
-    const Vec3 force = point.law->force(trial, increment, at.start);
+    const Vec3 force = at.law->force(trial, increment, at.start);
     push(at, force - at.force);
     change = std::max(change, (force - at.force).cwiseAbs().maxCoeff());
     largest = std::max(largest, force.cwiseAbs().maxCoeff());
@@ -130,13 +140,15 @@ void InertialLaws::add_force(const Kick& kick, const SharedNodes& shared, const 
   const Increment mean{kick.tau, 0.5, false};
   for (InertialPoint& at : points_) {
     const Point& point = (*all_)[at.point];
-    LawState end = at.start;
+    LawState end = at.is_released ? at.start : at.law->advance(trial_at(at), increment, at.start, at.force);
     end.rate = rate(at, &Mover::now);
     end.force = at.force;
-    const Work work = point.law->work(at.start, end, mean, point.area);
+    const Work work = at.law->work(at.start, end, mean, point.area);
     at.work.friction += work.friction;
     at.work.plastic += work.plastic;
     at.work.damping += work.damping;
+    at.work.stored += work.stored;
+    at.start = std::move(end);
     at.impulse += kick.tau * at.force;
     const Vec3 f = point.frame * at.force;
     put(movers_[at.side_1].dof, -f, internal);
@@ -153,7 +165,11 @@ void InertialLaws::show(const StepModel& model, double dt, std::vector<PointReco
   for (InertialPoint& at : points_) {
     const Point& point = model.exchange.points[at.point];
     PointRecord& record = records[at.point];
-    record.law.force = at.impulse / dt;
+    if (!at.has_springs) {
+      record.law = at.start;
+      record.law.force.setZero();
+    }
+    record.law.force += at.impulse / dt;
     record.law.rate = rate(at, &Mover::now);
     record.is_released = at.is_released;
     book_dissipation(point, at.work, state);
@@ -166,7 +182,10 @@ void InertialLaws::show(const StepModel& model, double dt, std::vector<PointReco
 void InertialLaws::keep(const StepModel& model, const std::vector<PointRecord>& records, State& state) const {
   for (const InertialPoint& at : points_) {
     PointRecord record = records[at.point];
-    record.law.force = at.force;
+    if (at.has_springs)
+      record.law.force += at.force;
+    else
+      record.law.force = at.force;
     show_point(model.exchange.points[at.point], record, state);
   }
 }

@@ -36,6 +36,8 @@ class InertialLaws {
   };
   struct InertialPoint {
     int point = -1, side_1 = -1, side_2 = -1;  // movers; side_2 < 0: a wall
+    const Law* law = nullptr;
+    bool has_springs = false;  // which show force and memory, and this adds to the force
     std::array<bool, 3> is_active{}, is_given{};
     LawState start;
     Vec3 force = Vec3::Zero(), impulse = Vec3::Zero();  // N now; N s in the increment
@@ -46,6 +48,7 @@ class InertialLaws {
                    const Vec& internal);
   void push(const InertialPoint& at, const Vec3& force);
   Vec3 rate(const InertialPoint& at, Vec3 Mover::*velocity) const;
+  Trial trial_at(const InertialPoint& at) const;
   double sweep(const Increment& increment);
   void put(int dof, const Vec3& force, Vec& internal);
 

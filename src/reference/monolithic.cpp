@@ -231,7 +231,7 @@ void MonolithicRun::accept_increment(int increment, const InterfaceNewton::Outco
   show_ties(model_, records_, port_force_, state_);
   Energies& energies = state_.energies;
   book_increment(energy_, energies);
-  rows_.raise_floor(energies.kinetic + energies.strain + std::abs(energies.loads), model_.scheme.dt);
+  rows_.raise_floor(energies.held() + std::abs(energies.loads), model_.scheme.dt);
   if (!increment_.is_static) state_.time = start_time_ + (increment + 1) * increment_.dt;
   check_energies(model_, state_, energy_, increment);
   ++figures_.increments;

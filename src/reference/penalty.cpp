@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fem/assembly.hpp"
 #include "law/law.hpp"
@@ -44,12 +45,13 @@ Side side_of(const StepModel& model, const Point& point, int side) {
   return sum;
 }
 
-double stiffness_of(const StepModel& model, const Point& point, double penalty, double critical) {
+// N/m, of the cells behind a point.
+double stiffness_behind(const StepModel& model, const Point& point, double critical) {
   const Side side_1 = side_of(model, point, 1);
-  if (point.is_wall) return penalty * side_1.stiffness;
+  if (point.is_wall) return side_1.stiffness;
   const Side side_2 = side_of(model, point, 2);
   const double mass = side_1.mass * side_2.mass / (side_1.mass + side_2.mass);
-  return penalty * std::max(std::min(side_1.stiffness, side_2.stiffness), soft_rule * mass / (critical * critical));
+  return std::max(std::min(side_1.stiffness, side_2.stiffness), soft_rule * mass / (critical * critical));
 }
 
 }  // namespace
@@ -64,8 +66,7 @@ PenaltySprings::PenaltySprings(const StepModel& model, const std::vector<PointRe
     const Point& point = model.exchange.points[i];
     if (!point.law || is_tied[point.members.front().surface] || start[i].is_released) continue;
     const ExplicitForm form = point.law->explicit_form();
-    const auto* springs = std::get_if<const PenaltyForm*>(&form);
-    if (!springs) continue;
+    if (!form.springs) continue;
     const auto nodes_of = [&](int i_port) {
       const Port& port = model.exchange.ports[i_port];
       std::vector<MovedNode> nodes;
@@ -83,19 +84,16 @@ PenaltySprings::PenaltySprings(const StepModel& model, const std::vector<PointRe
       spring.side_1 = nodes_of(point.first_port);
       spring.side_2 = nodes_of(point.first_port_2);
     }
-    spring.form = *springs;
+    spring.form = form.springs;
     spring.frame = point.frame;
-    spring.has_gap = point.law->shown().gap;
-    const double k = stiffness_of(model, point, spring.form->stiffness_factor(penalty), 2.0 / frequency);
-    SpringPoint& now = spring.now;
-    now.area = point.area;
-    for (int d = 0; d < 3; ++d) now.stiffness[d] = point.has_law[d] ? k : 0.0;
-    now.start = start[i].law;
-    now.force = now.start.force;
-    now.status = now.start.status;
-    now.slip = now.start.slip;
-    spring.form->begin(now);
-    springs_.push_back(spring);
+    SpringPoint& at = spring.at;
+    at.area = point.area;
+    at.stiffness = spring.form->stiffness(point.area, stiffness_behind(model, point, 2.0 / frequency), penalty);
+    for (int d = 0; d < 3; ++d)
+      if (!point.has_law[d]) at.stiffness[d] = 0.0;
+    at.start = at.now = start[i].law;
+    spring.form->begin(at);
+    springs_.push_back(std::move(spring));
   }
 }
 
@@ -105,10 +103,14 @@ double PenaltySprings::release(const StepModel& model, int increment) {
     const Interface* interface =
         (*model.surfaces)[model.exchange.points[spring.point].members.front().surface].interface;
     if (spring.is_released || !interface || !model.loads->is_released(interface, increment)) continue;
-    lost += energy_of(spring);
+    const Point& point = model.exchange.points[spring.point];
+    LawState& now = spring.at.now;
+    lost += spring.form->penalty_energy(spring.at) + spring.form->stored_energy(now, point.area);
     spring.is_released = true;
-    spring.now.force.setZero();
-    spring.now.status = PointState::open;
+    now.force.setZero();
+    now.status = PointState::open;
+    point.law->let_go(now);
+    lost -= spring.form->stored_energy(now, point.area);
   }
   return lost;
 }
@@ -138,71 +140,54 @@ void PenaltySprings::add_force(const Vec& displacement, Vec& force) {
   for (Spring& spring : springs_) {
     if (spring.is_released) continue;
     const Vec3 jump = jump_of(spring, displacement);
-    spring.form->move(spring.now, jump);
-    spring.now.jump = jump;
-    if (!spring.now.force.isZero(0.0)) put(spring, spring.now.force, force);
+    spring.form->move(spring.at, jump);
+    spring.at.jump = jump;
+    if (!spring.at.now.force.isZero(0.0)) put(spring, spring.at.now.force, force);
   }
 }
 
 void PenaltySprings::add_closed_force(const Vec& displacement, Vec& force) const {
   for (const Spring& spring : springs_)
-    put(spring, spring.now.stiffness.cwiseProduct(jump_of(spring, displacement)), force);
+    put(spring, spring.at.stiffness.cwiseProduct(jump_of(spring, displacement)), force);
 }
 
 void PenaltySprings::weigh(double weight) {
   for (Spring& spring : springs_) {
-    spring.sum += weight * spring.now.force;
+    spring.sum += weight * spring.at.now.force;
     spring.weight += weight;
   }
 }
 
-double PenaltySprings::energy_of(const Spring& spring) {
-  double sum = 0.0;
-  for (int d = 0; d < 3; ++d)
-    if (spring.now.stiffness[d] > 0.0) sum += 0.5 * spring.now.force[d] * spring.now.force[d] / spring.now.stiffness[d];
-  return sum;
-}
-
 double PenaltySprings::energy() const {
   double sum = 0.0;
-  for (const Spring& spring : springs_) sum += energy_of(spring);
+  for (const Spring& spring : springs_) sum += spring.form->penalty_energy(spring.at);
   return sum;
-}
-
-LawState PenaltySprings::state_of(const Spring& spring, const LawState& start, const Vec3& force) const {
-  const SpringPoint& now = spring.now;
-  LawState law = start;
-  law.force = force;
-  law.status = now.status;
-  law.slip = now.slip;
-  law.opening_rate = 0.0;
-  law.plastic_opening = now.start.plastic_opening + now.plastic;
-  law.hardening_opening = now.start.hardening_opening + now.accumulated;
-  if (spring.has_gap) law.gap = now.start.gap + now.jump[0];
-  return law;
 }
 
 void PenaltySprings::show(const StepModel& model, std::vector<PointRecord>& records, State& state) {
   for (Spring& spring : springs_) {
     const Point& point = model.exchange.points[spring.point];
     PointRecord& record = records[spring.point];
-    const LawState law = state_of(spring, record.law, spring.sum / spring.weight);
+    LawState law = spring.at.now;
+    law.force = spring.sum / spring.weight;
+    law.rate = record.law.rate;
     Work work;
-    work.friction = spring.now.friction_work;
+    work.friction = spring.at.friction_work;
     work.plastic = spring.form->plastic_work(law, point.area) - spring.form->plastic_work(record.law, point.area);
+    work.stored = spring.form->stored_energy(law, point.area) - spring.form->stored_energy(record.law, point.area);
     book_dissipation(point, work, state);
-    record.law = law;
+    record.law = std::move(law);
     record.is_released = spring.is_released;
     show_point(point, record, state);
     spring.sum.setZero();
-    spring.weight = spring.now.friction_work = 0.0;
+    spring.weight = spring.at.friction_work = 0.0;
   }
 }
 
-void PenaltySprings::keep(const StepModel& model, const std::vector<PointRecord>& records, State& state) const {
+void PenaltySprings::keep(const StepModel& model, std::vector<PointRecord>& records, State& state) const {
   for (const Spring& spring : springs_) {
-    PointRecord record = records[spring.point];
-    record.law.force = spring.now.force;
+    PointRecord& record = records[spring.point];
+    record.law.force = spring.at.now.force;
     show_point(model.exchange.points[spring.point], record, state);
   }
 }

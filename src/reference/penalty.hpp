@@ -15,7 +15,7 @@ class PenaltySprings {
                  const InternalForce& internal);
 
   int size() const { return static_cast<int>(springs_.size()); }
-  // Lets the springs of released interfaces go; returns the energy (J) that was in them.
+  // Lets the springs of released interfaces go; returns the energy (J) that was in penalty springs and in laws.
   double release(const StepModel& model, int increment);
   // Adds the force (N, as internal force: M a = external - force) for the displacements since the step's start.
   void add_force(const Vec& displacement, Vec& force);
@@ -24,12 +24,12 @@ class PenaltySprings {
   // Counts the present forces with this weight in the mean that `show` will give.
   void weigh(double weight);
 
-  // Elastic energy in the springs now, J.
+  // Elastic energy in penalty springs now, J.
   double energy() const;
   // Means of the increment and present states into the records and the surfaces, works into the energies.
   void show(const StepModel& model, std::vector<PointRecord>& records, State& state);
   // The forces now in place of the means: what the next step starts from.
-  void keep(const StepModel& model, const std::vector<PointRecord>& records, State& state) const;
+  void keep(const StepModel& model, std::vector<PointRecord>& records, State& state) const;
   double bytes() const { return static_cast<double>(springs_.size() * sizeof(Spring)); }
 
  private:
@@ -43,15 +43,13 @@ class PenaltySprings {
     std::vector<MovedNode> side_1, side_2;  // in their place where faces do not match
     const PenaltyForm* form;
     Mat3 frame;
-    SpringPoint now;
-    bool has_gap = false, is_released = false;
+    SpringPoint at;
+    bool is_released = false;
     Vec3 sum = Vec3::Zero();
     double weight = 0.0;
   };
-  static double energy_of(const Spring& spring);
   Vec3 jump_of(const Spring& spring, const Vec& displacement) const;
   static void put(const Spring& spring, const Vec3& force, Vec& all);
-  LawState state_of(const Spring& spring, const LawState& start, const Vec3& force) const;
 
   std::vector<Spring> springs_;
 };

@@ -31,9 +31,15 @@ std::string energy_figure(const Table& t, const TimeAxis& time) {
   struct Term {
     const char *column, *name, *color;
   };
-  static constexpr Term terms[] = {{"kinetic", "kinetic", "#56b4e9"},   {"strain", "strain", "#0072b2"},
-                                   {"friction", "friction", "#e69f00"}, {"plastic", "yielding", "#d55e00"},
-                                   {"damping", "damping", "#cc79a7"},   {"scheme", "scheme", "#999999"}};
+  static constexpr Term dissipated[] = {{"friction", "friction", "#e69f00"},
+                                        {"plastic", "yielding", "#d55e00"},
+                                        {"damping", "damping", "#cc79a7"},
+                                        {"scheme", "scheme", "#999999"}};
+  // Tables of older versions know of nothing that interfaces store.
+  std::vector<Term> terms = {{"kinetic", "kinetic", "#56b4e9"}, {"strain", "strain", "#0072b2"}};
+  if (std::find(t.names.begin(), t.names.end(), "stored") != t.names.end())
+    terms.push_back({"stored", "stored in interfaces", "#009e73"});
+  for (const Term& term : dissipated) terms.push_back(term);
   std::vector<double> all(places.size(), 0.0);
   double most = largest_of(t.column("loads"));
   for (const Term& term : terms) most = std::max(most, largest_of(t.column(term.column)));

@@ -10,26 +10,33 @@ namespace dygita {
 
 namespace {
 
-constexpr size_t n_point = 18, width = 1 + n_point;
+// Numbers of a point, and with its own: all points of a surface have one law.
+size_t n_point(const SurfaceState& surface) {
+  constexpr size_t n_of_every_law = 17;
+  return n_of_every_law + (surface.points.empty() ? 0 : surface.points.front().memory.size());
+}
+size_t width(const SurfaceState& surface) { return 1 + n_point(surface); }
 
 void write(const SurfaceState& surface, int point, double* to) {
   const LawState& law = surface.points[static_cast<size_t>(point)];
-  for (const double value : {law.gap, law.plastic_opening, law.hardening_opening, law.opening_rate}) *to++ = value;
+  for (const double value : {law.gap, law.plastic_opening}) *to++ = value;
   for (const Vec3* v : {&law.slip, &law.rate, &law.force}) to = std::copy_n(v->data(), 3, to);
   *to++ = static_cast<double>(law.status);
   const Work& work = surface.works[static_cast<size_t>(point)];
-  for (const double value : {work.friction, work.plastic, work.damping}) *to++ = value;
-  *to = surface.residual[static_cast<size_t>(point)];
+  for (const double value : {work.friction, work.plastic, work.damping, work.stored}) *to++ = value;
+  *to++ = surface.residual[static_cast<size_t>(point)];
+  std::copy_n(law.memory.data(), law.memory.size(), to);
 }
 
 void read(const double* from, int point, SurfaceState& surface) {
   LawState& law = surface.points[static_cast<size_t>(point)];
-  for (double* value : {&law.gap, &law.plastic_opening, &law.hardening_opening, &law.opening_rate}) *value = *from++;
+  for (double* value : {&law.gap, &law.plastic_opening}) *value = *from++;
   for (Vec3* v : {&law.slip, &law.rate, &law.force}) *v = Eigen::Map<const Vec3>(from), from += 3;
   law.status = static_cast<PointState>(*from++);
   Work& work = surface.works[static_cast<size_t>(point)];
-  for (double* value : {&work.friction, &work.plastic, &work.damping}) *value = *from++;
-  surface.residual[static_cast<size_t>(point)] = *from;
+  for (double* value : {&work.friction, &work.plastic, &work.damping, &work.stored}) *value = *from++;
+  surface.residual[static_cast<size_t>(point)] = *from++;
+  std::copy_n(from, law.memory.size(), law.memory.data());
 }
 
 }  // namespace
@@ -94,12 +101,13 @@ void DistantPoints::forget() {
 // Of each point its number, then its fields.
 std::vector<double> DistantPoints::answer(int surface) const {
   const std::vector<int>& own = own_[static_cast<size_t>(surface)];
-  std::vector<double> values(width * own.size());
+  const SurfaceState& fields = state_->surfaces[static_cast<size_t>(surface)];
+  std::vector<double> values(width(fields) * own.size());
   double* to = values.data();
   for (const int point : own) {
     *to = point;
-    write(state_->surfaces[static_cast<size_t>(surface)], point, to + 1);
-    to += width;
+    write(fields, point, to + 1);
+    to += width(fields);
   }
   return values;
 }
@@ -110,7 +118,7 @@ void DistantPoints::complete(int surface) const {
   CHECK(ranks::is_first(), "fields of an interface are read on a rank that does not keep them");
   for (const int rank : booking_[s]) {
     const std::vector<double> values = ranks::ask(rank, {asked, surface}, {});
-    for (size_t at = 0; at < values.size(); at += width)
+    for (size_t at = 0; at < values.size(); at += width(state_->surfaces[s]))
       read(values.data() + at + 1, static_cast<int>(values[at]), state_->surfaces[s]);
   }
   is_known_[s] = 1;
@@ -121,7 +129,8 @@ void DistantPoints::complete_all() {
   constexpr size_t enough = 1 << 16;  // numbers in one message
   for (size_t first = 0, end = 0; first < own_.size(); first = end) {
     size_t n = 0;
-    for (end = first; end < own_.size() && n < enough; ++end) n += width * state_->surfaces[end].points.size();
+    for (end = first; end < own_.size() && n < enough; ++end)
+      n += width(state_->surfaces[end]) * state_->surfaces[end].points.size();
     complete_some(first, end);
   }
   is_known_.assign(is_known_.size(), 1);
@@ -143,7 +152,7 @@ void DistantPoints::complete_some(size_t first, size_t end) {
       SurfaceState& surface = state_->surfaces[static_cast<size_t>(of_all[rank][at])];
       const auto n = static_cast<size_t>(of_all[rank][at + 1]);
       at += 2;
-      for (size_t i = 0; i < n; ++i, at += width)
+      for (size_t i = 0; i < n; ++i, at += width(surface))
         read(of_all[rank].data() + at + 1, static_cast<int>(of_all[rank][at]), surface);
     }
   }
@@ -152,13 +161,14 @@ void DistantPoints::complete_some(size_t first, size_t end) {
 void share_first(State& state) {
   if (ranks::is_alone()) return;
   Energies& e = state.energies;
-  const auto energies = {&e.kinetic, &e.strain, &e.loads, &e.friction, &e.plastic, &e.damping, &e.scheme, &e.start};
+  const auto energies = {&e.kinetic, &e.strain, &e.loads, &e.friction, &e.plastic,
+                         &e.damping, &e.scheme, &e.start, &e.stored};
   std::vector<double> values(state.shortening);
   for (const double* energy : energies) values.push_back(*energy);
   for (const SurfaceState& surface : state.surfaces)
     for (size_t i = 0; i < surface.points.size(); ++i) {
-      values.resize(values.size() + n_point);
-      write(surface, static_cast<int>(i), values.data() + values.size() - n_point);
+      values.resize(values.size() + n_point(surface));
+      write(surface, static_cast<int>(i), values.data() + values.size() - n_point(surface));
     }
   values = ranks::shared(std::move(values));
   if (ranks::is_first()) return;
@@ -166,7 +176,8 @@ void share_first(State& state) {
   for (double& shortening : state.shortening) shortening = *from++;
   for (double* energy : energies) *energy = *from++;
   for (SurfaceState& surface : state.surfaces)
-    for (size_t i = 0; i < surface.points.size(); ++i, from += n_point) read(from, static_cast<int>(i), surface);
+    for (size_t i = 0; i < surface.points.size(); ++i, from += n_point(surface))
+      read(from, static_cast<int>(i), surface);
 }
 
 }  // namespace dygita

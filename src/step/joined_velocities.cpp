@@ -218,7 +218,8 @@ std::string Joining::run() {
   for (size_t i = 0; i < rows_.size(); ++i)
     if (rows_[i].direction == 0)
       for (const Member& member : exchange_.points[rows_[i].point].members)
-        state_.surfaces[member.surface].points[member.point].opening_rate = rate[static_cast<Eigen::Index>(i)];
+        exchange_.points[rows_[i].point].law->begin_to_part(state_.surfaces[member.surface].points[member.point],
+                                                            rate[static_cast<Eigen::Index>(i)]);
   return name.empty() ? "a cut" : name;
 }
 

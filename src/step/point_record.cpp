@@ -114,6 +114,7 @@ LawState end_of_point(const Point& point, const PointRecord& record, const Incre
   LawState end = record.law;
   end.force.setZero();
   end.status = PointState::open;
+  point.law->let_go(end);
   return end;
 }
 
@@ -142,6 +143,7 @@ void book_dissipation(const Point& point, const Work& work, State& state) {
   state.energies.friction += work.friction;
   state.energies.plastic += work.plastic;
   state.energies.damping += work.damping;
+  state.energies.stored += work.stored;
 }
 
 void book_work(const Point& point, const PointRecord& record, const LawState& end, const Increment& increment,
@@ -157,7 +159,8 @@ void book_work(const Point& point, const PointRecord& record, const LawState& en
   energy.friction += work.friction;
   energy.plastic += work.plastic;
   energy.damping += work.damping;
-  energy.scheme += work.given - on_pieces - work.friction - work.plastic - work.damping;
+  energy.stored += work.stored;
+  energy.scheme += work.given - on_pieces - work.friction - work.plastic - work.damping - work.stored;
 }
 
 void book_work(const Point& point, const PointRecord& record, const LawState& end, const Increment& increment,
@@ -169,6 +172,7 @@ void book_work(const Point& point, const PointRecord& record, const LawState& en
   state.energies.damping += energy.damping;
   state.energies.loads += energy.loads;
   state.energies.scheme += energy.scheme;
+  state.energies.stored += energy.stored;
 }
 
 void show_law(const Point& point, const LawState& law, State& state) {

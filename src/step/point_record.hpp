@@ -52,7 +52,7 @@ void book_work(const Point& point, const PointRecord& record, const LawState& en
 // The same, of a point that is booked with a piece.
 void book_work(const Point& point, const PointRecord& record, const LawState& end, const Increment& increment,
                double on_pieces, State& state, IncrementEnergy& energy);
-// What a law has dissipated, into its surfaces; and into the energies.
+// What a law has dissipated and stored, into its surfaces; and into the energies.
 void book_on_surfaces(const Point& point, const Work& work, State& state);
 void book_dissipation(const Point& point, const Work& work, State& state);
 // A point with a law into the surfaces' state, once record.law is that of the end: forces, gaps and slips, which no

@@ -368,6 +368,7 @@ void book_increment(const std::vector<IncrementEnergy>& increment, Energies& ene
     energies.plastic += e.plastic;
     energies.damping += e.damping;
     energies.scheme += e.scheme;
+    energies.stored += e.stored;
   }
 }
 

@@ -42,15 +42,12 @@ inline SpringPoint spring_point(const Law& law, const LawState& start, double ar
   SpringPoint point;
   point.area = area;
   for (int d = 0; d < 3; ++d) point.stiffness[d] = law.acts_on(d, false) ? k : 0.0;
-  point.start = start;
-  point.force = start.force;
-  point.status = start.status;
-  point.slip = start.slip;
-  std::get<const PenaltyForm*>(law.explicit_form())->begin(point);
+  point.start = point.now = start;
+  law.explicit_form().springs->begin(point);
   return point;
 }
 inline void move_to(const Law& law, const Vec3& jump, SpringPoint& point) {
-  std::get<const PenaltyForm*>(law.explicit_form())->move(point, jump);
+  law.explicit_form().springs->move(point, jump);
   point.jump = jump;
 }
 

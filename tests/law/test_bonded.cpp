@@ -26,7 +26,7 @@ TEST(Bonded, its_springs_come_to_the_held_jump) {
   for (const double k : {1e6, 1e9}) {
     SpringPoint point = spring_point(*law, {}, 1e-4, k);
     move_to(*law, {100.0 / k, 0, -50.0 / k}, point);
-    EXPECT_NEAR((point.force - Vec3(100, 0, -50)).norm(), 0.0, 1e-9);
+    EXPECT_NEAR((point.now.force - Vec3(100, 0, -50)).norm(), 0.0, 1e-9);
   }
 }
 

@@ -237,11 +237,11 @@ TEST(Contact, its_springs_come_to_its_conditions) {
     SpringPoint point = spring_point(*law, law->initial(), 1e-4, k);
     move_to(*law, {-pressed / k, 0, 0}, point);
     move_to(*law, {-pressed / k, dragged, 0}, point);
-    EXPECT_NEAR(point.force[0], -pressed, 1e-9 * pressed);
-    EXPECT_NEAR(point.force[1], 0.3 * pressed, 1e-9 * pressed);
-    const double short_by = dragged - point.slip[1];  // what the spring gives way instead of sliding
+    EXPECT_NEAR(point.now.force[0], -pressed, 1e-9 * pressed);
+    EXPECT_NEAR(point.now.force[1], 0.3 * pressed, 1e-9 * pressed);
+    const double short_by = dragged - point.now.slip[1];  // what the spring gives way instead of sliding
     EXPECT_NEAR(short_by, 0.3 * pressed / k, 1e-12);
-    EXPECT_NEAR(point.friction_work, 0.3 * pressed * point.slip[1], 1e-12);
+    EXPECT_NEAR(point.friction_work, 0.3 * pressed * point.now.slip[1], 1e-12);
     EXPECT_LT(short_by, before);
     before = short_by;
   }
@@ -254,7 +254,7 @@ TEST(Contact, goes_on_pressing_in_an_explicit_step_as_it_did) {
   const LawPtr law = contact(0.3);
   SpringPoint point = spring_point(*law, start, 1e-4, 1e8);
   move_to(*law, Vec3::Zero(), point);
-  EXPECT_NEAR(point.force[0], -50.0, 1e-9);
+  EXPECT_NEAR(point.now.force[0], -50.0, 1e-9);
 }
 
 }  // namespace

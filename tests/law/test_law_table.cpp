@@ -42,6 +42,23 @@ TEST_P(EveryLaw, says_its_parameters_with_their_numbers) {
   }
 }
 
+TEST_P(EveryLaw, declares_its_memory) {
+  std::set<std::string> names;
+  int n_scalars = 0, n_vectors = 0;
+  for (const MemoryEntry& entry : law->memory()) {
+    EXPECT_TRUE(names.insert(entry.name).second) << entry.name;
+    EXPECT_FALSE(entry.name.empty() || entry.unit.empty());
+    EXPECT_GT(entry.count, 0);
+    (entry.kind == MemoryEntry::Kind::scalar ? n_scalars : n_vectors) += entry.count;
+  }
+  const LawState start = law->initial();
+  EXPECT_EQ(start.memory.n_scalars(), n_scalars);
+  EXPECT_EQ(start.memory.n_vectors(), n_vectors);
+  const Trial t = trial({2e3, 1e3, -1e3});
+  const LawState end = law->advance(t, dynamic_step, start, law->force(t, dynamic_step, start));
+  EXPECT_EQ(end.memory.size(), start.memory.size());
+}
+
 TEST_P(EveryLaw, puts_no_force_where_it_does_not_act) {
   const Increment increment{1e-6, 0.5, false};
   LawState start = law->initial();
@@ -71,6 +88,7 @@ TEST_P(EveryLaw, obeys_the_search_problem_and_shows_its_force) {
 
 TEST_P(EveryLaw, dissipates_and_never_creates) {
   LawState state = law->initial();
+  double stored = 0.0;
   for (int i = 0; i < 200; ++i) {
     const Trial t = trial(2e3 * Vec3(std::sin(0.7 * i), std::cos(1.3 * i), std::sin(2.1 * i)), {1e-2, 1e-2, 1e-2});
     const LawState end = law->advance(t, dynamic_step, state, law->force(t, dynamic_step, state));
@@ -78,20 +96,26 @@ TEST_P(EveryLaw, dissipates_and_never_creates) {
     EXPECT_GE(work.plastic, 0.0);
     EXPECT_GE(work.damping, 0.0);
     EXPECT_EQ(work.given, 0.0);
+    stored += work.stored;
+    EXPECT_GE(stored, -1e-12);
     state = end;
   }
+  // What a release gives back is all that was stored.
+  LawState gone = state;
+  gone.force.setZero();
+  gone.status = PointState::open;
+  law->let_go(gone);
+  EXPECT_NEAR(law->work(state, gone, dynamic_step, 1e-4).stored, -stored, 1e-9 * stored);
 }
 
 TEST_P(EveryLaw, has_an_explicit_form_or_says_why_not) {
   const ExplicitForm form = law->explicit_form();
-  if (const auto* none = std::get_if<NoExplicitForm>(&form)) {
-    EXPECT_FALSE(none->reason.empty());
-  }
-  if (const auto* springs = std::get_if<const PenaltyForm*>(&form)) {
-    EXPECT_GT((*springs)->stiffness_factor(0.1), 0.0);
+  EXPECT_EQ(form.is_none(), !form.refusal.empty());
+  if (form.springs) {
+    EXPECT_GT(form.springs->stiffness(1e-4, 1e8, 0.1).minCoeff(), 0.0);
     SpringPoint point = spring_point(*law, law->initial(), 1e-4, 1e8);
     move_to(*law, {-2.0, 0, 0}, point);  // further than the example's gap
-    EXPECT_LT(point.force[0], 0.0);
+    EXPECT_LT(point.now.force[0], 0.0);
   }
 }
 
@@ -102,8 +126,9 @@ TEST_P(EveryLaw, holds_for_small_motions_only_where_it_acts) {
     const Tangent tangent = law->tangent(state, true);
     for (int d = 0; d < 3; ++d) {
       EXPECT_GE(tangent.damping[d], 0.0);
-      EXPECT_FALSE(tangent.holds[d] && tangent.damping[d] > 0.0);
-      if (tangent.holds[d]) {
+      EXPECT_GE(tangent.stiffness[d], 0.0);
+      EXPECT_FALSE(tangent.holds[d] && (tangent.damping[d] > 0.0 || tangent.stiffness[d] > 0.0));
+      if (tangent.holds[d] || tangent.stiffness[d] > 0.0) {
         EXPECT_TRUE(law->acts_on(d, true));
       }
     }
@@ -145,12 +170,22 @@ TEST(LawStates, are_turned_and_shared) {
   member.slip = {1e-6, 2e-6, 3e-6};
   member.force = {1, 2, 3};
   member.status = PointState::slip;
+  member.memory = LawMemory({{"number", "m"}, {"vectors", "Pa", MemoryEntry::Kind::vector, 2}});
+  member.memory.scalar(0) = 5.0;
+  member.memory.vector(1) = Vec3(1, 2, 3);
   LawState point;
   point.add(member, 0.25, frame);
   point.add(member, 0.75, frame);
   EXPECT_DOUBLE_EQ(point.gap, 1e-6);
-  EXPECT_EQ(point.force, Vec3(6, 2, 4));  // both members', along N, T1, T2
+  EXPECT_EQ(point.force, Vec3(6, 2, 4));          // both members', along N, T1, T2
+  EXPECT_DOUBLE_EQ(point.memory.scalar(0), 5.0);  // means, not sums
+  EXPECT_EQ(point.memory.vector(1), Vec3(3, 1, 2));
+  EXPECT_EQ(point.memory.vector(0), Vec3(0, 0, 0));
   const LawState back = point.member(0.5, frame);
+  EXPECT_EQ(back.memory.scalar(0), 5.0);
+  EXPECT_EQ(back.memory.vector(1), Vec3(1, 2, 3));
+  EXPECT_THROW(point.memory.scalar(1), ContractError);
+  EXPECT_THROW(point.memory.vector(2), ContractError);
   EXPECT_LT((back.slip - member.slip).norm(), 1e-20);
   EXPECT_EQ(back.force, member.force);
   EXPECT_EQ(back.status, PointState::slip);

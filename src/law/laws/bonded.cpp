@@ -21,17 +21,20 @@ class Bonded final : public Law, public TieSprings {
   bool allows_massless_nodes() const override { return false; }
 
   bool acts_on(int, bool) const override { return true; }
-  LawState initial() const override { return {}; }
+  std::vector<MemoryEntry> memory() const override { return {}; }
+  void set_initial(LawState&) const override {}
   Vec3 force(const Trial& trial, const Increment& increment, const LawState& start) const override {
     return force_for_rate(trial, closing_rate(trial, increment, start.plastic_opening));
   }
   LawState advance(const Trial& trial, const Increment&, const LawState& start, const Vec3& force) const override {
     return held_end(trial, start, force);
   }
+  void let_go(LawState&) const override {}
+  void begin_to_part(LawState&, double) const override {}
   Work work(const LawState&, const LawState&, const Increment&, double) const override { return {}; }
   double opening(const LawState&) const override { return 0.0; }
   Tangent tangent(const LawState&, bool) const override { return {{true, true, true}}; }
-  ExplicitForm explicit_form() const override { return this; }
+  ExplicitForm explicit_form() const override { return {this, nullptr, {}}; }
 };
 
 }  // namespace

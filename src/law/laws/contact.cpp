@@ -41,24 +41,27 @@ class Contact final : public Law, public PenaltyForm {
   bool allows_massless_nodes() const override { return true; }
 
   bool acts_on(int direction, bool) const override { return direction == 0 || friction_ > 0.0; }
-  LawState initial() const override {
-    LawState state;
+  std::vector<MemoryEntry> memory() const override { return {}; }
+  void set_initial(LawState& state) const override {
     state.gap = gap_;
     state.status = PointState::open;
-    return state;
   }
   Vec3 force(const Trial& trial, const Increment& increment, const LawState& start) const override;
   LawState advance(const Trial& trial, const Increment& increment, const LawState& start,
                    const Vec3& force) const override;
+  void let_go(LawState&) const override {}
+  void begin_to_part(LawState&, double) const override {}
   Work work(const LawState& start, const LawState& end, const Increment& increment, double area) const override;
   double opening(const LawState& state) const override { return std::max(state.gap, 0.0); }
   Tangent tangent(const LawState& state, bool ties_sliding) const override;
 
-  ExplicitForm explicit_form() const override { return this; }
-  double stiffness_factor(double penalty) const override { return penalty; }
+  ExplicitForm explicit_form() const override { return {this, nullptr, {}}; }
+  Vec3 stiffness(double, double cells, double penalty) const override { return Vec3::Constant(penalty * cells); }
   void begin(SpringPoint& point) const override;
   void move(SpringPoint& point, const Vec3& jump) const override;
+  double penalty_energy(const SpringPoint& point) const override { return energy_of_springs(point); }
   double plastic_work(const LawState&, double) const override { return 0.0; }
+  double stored_energy(const LawState&, double) const override { return 0.0; }
 
  private:
   double friction_, gap_;
@@ -126,27 +129,29 @@ void Contact::begin(SpringPoint& point) const {
 // Normal force of the gap, friction by radial return (eq. X9, X10).
 void Contact::move(SpringPoint& point, const Vec3& jump) const {
   const Vec3 moved = jump - point.jump;
-  point.force[0] = point.stiffness[0] * std::min(0.0, point.start.gap + jump[0] + point.offset);
-  if (point.force[0] == 0.0) {
-    point.force.tail<2>().setZero();
-    point.status = PointState::open;
+  LawState& now = point.now;
+  now.gap = point.start.gap + jump[0];
+  now.force[0] = point.stiffness[0] * std::min(0.0, now.gap + point.offset);
+  if (now.force[0] == 0.0) {
+    now.force.tail<2>().setZero();
+    now.status = PointState::open;
     return;
   }
-  point.status = PointState::slip;
+  now.status = PointState::slip;
   if (point.stiffness[1] == 0.0) return;
-  const double limit = friction_ * -point.force[0];
-  const Eigen::Vector2d before = point.force.tail<2>();
+  const double limit = friction_ * -now.force[0];
+  const Eigen::Vector2d before = now.force.tail<2>();
   const Eigen::Vector2d trial = before + point.stiffness[1] * moved.tail<2>();
   const double norm = trial.norm();
   if (norm <= limit) {
-    point.force.tail<2>() = trial;
-    point.status = PointState::stick;
+    now.force.tail<2>() = trial;
+    now.status = PointState::stick;
     return;
   }
-  point.force.tail<2>() = trial * (limit / norm);
-  const Eigen::Vector2d slid = (trial - point.force.tail<2>()) / point.stiffness[1];
-  point.slip.tail<2>() += slid;
-  point.friction_work += point.force.tail<2>().dot(slid);
+  now.force.tail<2>() = trial * (limit / norm);
+  const Eigen::Vector2d slid = (trial - now.force.tail<2>()) / point.stiffness[1];
+  now.slip.tail<2>() += slid;
+  point.friction_work += now.force.tail<2>().dot(slid);
 }
 
 }  // namespace

@@ -10,6 +10,9 @@ namespace dygita {
 
 namespace {
 
+// Of its own memory.
+constexpr int hardening_opening = 0, opening_rate = 1;
+
 class Plastic final : public Law, public TieSprings {
  public:
   // yield (Pa), hardening (Pa per metre of plastic opening), compression: yields in compression too.
@@ -33,21 +36,26 @@ class Plastic final : public Law, public TieSprings {
   bool allows_massless_nodes() const override { return false; }
 
   bool acts_on(int, bool) const override { return true; }
-  LawState initial() const override { return {}; }
+  // What hardens is accumulated without sign; the rate is that of the last dynamic increment, zero after a static one.
+  std::vector<MemoryEntry> memory() const override { return {{"hardening opening", "m"}, {"opening rate", "m/s"}}; }
+  void set_initial(LawState&) const override {}
   Vec3 force(const Trial& trial, const Increment& increment, const LawState& start) const override;
   LawState advance(const Trial& trial, const Increment& increment, const LawState& start,
                    const Vec3& force) const override;
+  void let_go(LawState&) const override {}
+  void begin_to_part(LawState& state, double rate) const override { state.memory.scalar(opening_rate) = rate; }
   Work work(const LawState& start, const LawState& end, const Increment& increment, double area) const override;
   double opening(const LawState& state) const override { return state.plastic_opening; }
   // Unloading is rigid.
   Tangent tangent(const LawState&, bool) const override { return {{true, true, true}}; }
 
-  ExplicitForm explicit_form() const override { return this; }
+  ExplicitForm explicit_form() const override { return {this, nullptr, {}}; }
+  void begin(SpringPoint& point) const override { point.now.memory.scalar(opening_rate) = 0.0; }
   void move(SpringPoint& point, const Vec3& jump) const override;
   double plastic_work(const LawState& state, double area) const override;
 
  private:
-  double opening_rate(const Trial& trial, const Increment& increment, const LawState& start) const;
+  double rate_of_opening(const Trial& trial, const Increment& increment, const LawState& start) const;
 
   double yield_, hardening_;
   bool compression_;
@@ -60,11 +68,12 @@ std::vector<LawRemark> Plastic::remarks() const {
   return remarks;
 }
 
-double Plastic::opening_rate(const Trial& trial, const Increment& increment, const LawState& start) const {
+double Plastic::rate_of_opening(const Trial& trial, const Increment& increment, const LawState& start) const {
   const double z = trial.s[0] - closing_rate(trial, increment, start.plastic_opening)[0];
   // A dynamic force is the mean of the increment: it hardens with the opening half way, and its work is then exact.
   const double half = increment.is_static ? 1.0 : 0.5;
-  const double hardened = start.hardening_opening + half * increment.g * increment.dt * std::abs(start.opening_rate);
+  const double had = start.memory.scalar(hardening_opening), before = start.memory.scalar(opening_rate);
+  const double hardened = had + half * increment.g * increment.dt * std::abs(before);
   const double limit = trial.area * (yield_ + hardening_ * hardened);
   const double excess = (compression_ ? std::abs(z) : z) - trial.y[0] * limit;
   if (excess <= 0.0 || trial.y[0] <= 0.0) return 0.0;
@@ -74,23 +83,24 @@ double Plastic::opening_rate(const Trial& trial, const Increment& increment, con
 
 Vec3 Plastic::force(const Trial& trial, const Increment& increment, const LawState& start) const {
   Vec3 c = closing_rate(trial, increment, start.plastic_opening);
-  c[0] += opening_rate(trial, increment, start);
+  c[0] += rate_of_opening(trial, increment, start);
   return force_for_rate(trial, c);
 }
 
 LawState Plastic::advance(const Trial& trial, const Increment& increment, const LawState& start,
                           const Vec3& force) const {
   LawState end = held_end(trial, start, force);
-  const double rate = opening_rate(trial, increment, start), before = start.opening_rate;
+  const double rate = rate_of_opening(trial, increment, start), before = start.memory.scalar(opening_rate);
   end.plastic_opening += increment.dt * (increment.g * before + (1.0 - increment.g) * rate);
-  end.hardening_opening += increment.dt * (increment.g * std::abs(before) + (1.0 - increment.g) * std::abs(rate));
-  end.opening_rate = increment.is_static ? 0.0 : rate;
+  double& hardened = end.memory.scalar(hardening_opening);
+  hardened += increment.dt * (increment.g * std::abs(before) + (1.0 - increment.g) * std::abs(rate));
+  end.memory.scalar(opening_rate) = increment.is_static ? 0.0 : rate;
   if (rate != 0.0) end.status = PointState::slip;
   return end;
 }
 
 double Plastic::plastic_work(const LawState& state, double area) const {
-  const double p = state.hardening_opening;
+  const double p = state.memory.scalar(hardening_opening);
   return area * (yield_ * p + 0.5 * hardening_ * p * p);
 }
 
@@ -108,15 +118,17 @@ Work Plastic::work(const LawState& start, const LawState& end, const Increment& 
 void Plastic::move(SpringPoint& point, const Vec3& jump) const {
   TieSprings::move(point, jump);
   const double yield = point.area * yield_, hardening = point.area * hardening_;
-  const double limit = yield + hardening * (point.start.hardening_opening + point.accumulated);
-  const double pull = compression_ ? std::abs(point.force[0]) : point.force[0];
+  LawState& now = point.now;
+  double& hardened = now.memory.scalar(hardening_opening);
+  const double limit = yield + hardening * hardened;
+  const double pull = compression_ ? std::abs(now.force[0]) : now.force[0];
   if (pull <= limit) return;
   const double opened = (pull - limit) / (point.stiffness[0] + hardening);
-  const double sign = point.force[0] < 0.0 ? -1.0 : 1.0;
-  point.force[0] -= sign * point.stiffness[0] * opened;
-  point.plastic += sign * opened;
-  point.accumulated += opened;
-  point.status = PointState::slip;
+  const double sign = now.force[0] < 0.0 ? -1.0 : 1.0;
+  now.force[0] -= sign * point.stiffness[0] * opened;
+  now.plastic_opening += sign * opened;
+  hardened += opened;
+  now.status = PointState::slip;
 }
 
 }  // namespace

@@ -29,11 +29,8 @@ class Viscous final : public Law {
   bool allows_massless_nodes() const override { return false; }
 
   bool acts_on(int direction, bool is_static) const override { return !is_static && coefficient_[direction] > 0.0; }
-  LawState initial() const override {
-    LawState state;
-    state.status = PointState::slip;
-    return state;
-  }
+  std::vector<MemoryEntry> memory() const override { return {}; }
+  void set_initial(LawState& state) const override { state.status = PointState::slip; }
 
   // The force of a step is that of the mean of its two rates: it takes F . motion exactly, and never gives.
   Vec3 force(const Trial& trial, const Increment& increment, const LawState& start) const override {
@@ -52,12 +49,14 @@ class Viscous final : public Law {
     end.force = force;
     return end;
   }
+  void let_go(LawState&) const override {}
+  void begin_to_part(LawState&, double) const override {}
   Work work(const LawState& start, const LawState& end, const Increment& increment, double) const override {
     return {.damping = end.force.dot(motion_of(start, end, increment))};
   }
   double opening(const LawState&) const override { return 0.0; }
   Tangent tangent(const LawState&, bool) const override { return {{}, coefficient_}; }
-  ExplicitForm explicit_form() const override { return AtNodesInertia{}; }
+  ExplicitForm explicit_form() const override { return {nullptr, this, {}}; }
 
  private:
   Vec3 coefficient_;

@@ -16,7 +16,7 @@ class EnergyRecorder : public TableRecorder {
   void accept(const Instant& instant) override {
     const Energies& e = instant.state.energies;
     add_row(instant, instant.time(),
-            {e.kinetic, e.strain, e.loads, e.friction, e.plastic, e.damping, e.scheme, e.balance()});
+            {e.kinetic, e.strain, e.loads, e.friction, e.plastic, e.damping, e.scheme, e.balance(), e.stored});
   }
 };
 
@@ -28,7 +28,8 @@ class EnergyOutput final : public Output {
 
   Columns columns() const override {
     Columns columns = {{"time", "s"}};
-    for (const char* term : {"kinetic", "strain", "loads", "friction", "plastic", "damping", "scheme", "balance"})
+    for (const char* term :
+         {"kinetic", "strain", "loads", "friction", "plastic", "damping", "scheme", "balance", "stored"})
       columns.push_back({term, "J"});
     return columns;
   }

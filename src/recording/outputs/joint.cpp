@@ -46,7 +46,7 @@ class JointRecorder : public TableRecorder {
             {r.normal, r.shear, mean(a.opening, now.opening), mean(a.slip, now.slip),
              mean(a.plastic_opening, now.plastic_opening), area[0], area[1], area[2],
              mean(a.work.friction, now.work.friction), mean(a.work.plastic, now.work.plastic),
-             mean(a.work.damping, now.work.damping)});
+             mean(a.work.damping, now.work.damping), mean(a.work.stored, now.work.stored)});
     before_ = now;
   }
 
@@ -85,9 +85,10 @@ class JointOutput final : public Output {
   }
 
   Columns columns() const override {
-    return {{"time", "s"},        {"normal", "N"},          {"shear", "N"},        {"opening", "m"},
-            {"slip", "m"},        {"plastic_opening", "m"}, {"open_area", "m^2"},  {"stick_area", "m^2"},
-            {"slip_area", "m^2"}, {"friction_work", "J"},   {"plastic_work", "J"}, {"damping_work", "J"}};
+    return {{"time", "s"},         {"normal", "N"},          {"shear", "N"},        {"opening", "m"},
+            {"slip", "m"},         {"plastic_opening", "m"}, {"open_area", "m^2"},  {"stick_area", "m^2"},
+            {"slip_area", "m^2"},  {"friction_work", "J"},   {"plastic_work", "J"}, {"damping_work", "J"},
+            {"stored_energy", "J"}};
   }
 
   Notes record(const Table&, const Findings&) const override {
