@@ -1,6 +1,6 @@
 """dygita under mpirun: every table and every frame has the bits of one process; errors are said once; what ranks cannot share is refused.
 
-ranks.py PROGRAM MPIRUN FOLDER_OF_THE_DECKS [--ranks N]
+ranks.py PROGRAM MPIRUN FOLDER_OF_THE_DECKS [--ranks N] [--part bits|iterated|continued|refused]
 """
 
 import argparse
@@ -25,6 +25,7 @@ asked.add_argument("program")
 asked.add_argument("mpirun")
 asked.add_argument("folder", type=pathlib.Path)
 asked.add_argument("--ranks", type=int, nargs="*", default=[2])
+asked.add_argument("--part", choices=["bits", "iterated", "continued", "refused"], help="alone; else all one after the other")
 asked = asked.parse_args()
 FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="dygita_ranks_"))
 PARTS = "state.dygita.parts"
@@ -151,41 +152,9 @@ def compare(name, deck, problem, *words, cases=("base",), most=1000, also=()):
             same(f"{name} on {ranks} ranks", FOLDER / f"{name}_1" / problem / case, out / problem / case)
 
 
-stopped = asked.folder / "stopped.lua"
-compare("implicit", stopped, "stopped")
-compare("windows", stopped, "stopped", "--set", "window=4")
-compare("explicit", stopped, "stopped", "--set", "explicit=1")
-compare("all_explicit", stopped, "stopped", "--solver", "latin{ integration = 'explicit' }")
-compare("passes", stopped, "stopped", "--set", "passes=1")
-unlike = asked.folder / "ranks_unlike.lua"
-compare("unlike", unlike, "unlike", most=4, also=[2, 3])
-compare("damped", unlike, "unlike", "--set", "beta=2e-8", "--set", "driven=1", most=4, also=[2, 3])
-compare("tuned", unlike, "unlike", "--set", "beta=1e-8", "--set", "tuned=1", most=4)
-compare("order_two", unlike, "unlike", "--set", "tetrahedra=1", most=3)
-compare("pieces", asked.folder / "ranks.lua", "ranks")
-# Cut substructures on several ranks; motions too large for the theory, stresses beyond yield.
-compare("cut", asked.folder / "ranks.lua", "ranks", "--set", "cut=24", "--set", "peak=30000*MPa", "--set", "us=30", also=[3])
-compare("massless", stopped, "stopped", "--solver", "latin{ massless_contact = true, static_steps = 'iterated' }")
-# All pieces of static steps in one system, which every rank solves.
-ASSEMBLED = ["--solver", "latin{ static_steps = 'assembled', integration = 'implicit' }"]
-compare("assembled", stopped, "stopped", *ASSEMBLED, also=[3])
-compare("assembled_pieces", asked.folder / "ranks.lua", "ranks", "--solver", "latin{ static_steps = 'assembled', pieces = 24 }")
-compare("released", asked.folder / "ranks.lua", "ranks", "--set", "release=20", also=[3])
-# Iterated points between ranks: each solves those that its pieces touch, sums are made piece by piece.
-implicit = asked.folder / "ranks_implicit.lua"
+stopped, unlike, implicit, uneven = (asked.folder / name for name in ("stopped.lua", "ranks_unlike.lua", "ranks_implicit.lua", "ranks_uneven.lua"))
 DECKS = asked.folder.parents[1] / "decks"
-compare("iterated", implicit, "implicit", "--set", "release=8", also=[3, 4])
-compare("iterated_cut", implicit, "implicit", "--set", "cut=3", "--set", "driven=1", also=[3, 4])
-compare("iterated_windows", implicit, "implicit", "--set", "window=4", "--set", "cut=2", also=[3])
-compare("heavy", implicit, "implicit", "--set", "heavy=1", "--set", "us=3", also=[3])    # a load on bodies whose mass is a matrix
-compare("cut_cube", DECKS / "verification" / "pieces.lua", "pieces", "--set", "n=8", "--set", "only=6", cases=("6_pieces",), also=[3])
-compare("iterated_mixed", implicit, "implicit", "--set", "explicit=4", also=[3, 4])
-# Meshes of files: rank 0 has them meshed for all; turned copies.
-compare("meshed", DECKS / "bench" / "ring.lua", "ring", "--set", "bolts=6", "--set", "steps=3", "--solver", "latin{ integration = 'explicit' }", also=[3])
-(FOLDER / "spoiled.geo").write_text("Point(1) = {0, 0;\n")
-(FOLDER / "spoiled.lua").write_text('local m = mesh.gmsh{ file = "spoiled.geo" }\n')
-dygita(2, "run", FOLDER / "spoiled.lua", "--quiet", "--out", FOLDER / "spoiled", expected=2, says=["gmsh cannot read or mesh it"])
-compare("study", asked.folder / "study.lua", "study", cases=("mu 0.1", "mu 0.2", "mu 0.3"), most=2)
+ASSEMBLED = ["--solver", "latin{ static_steps = 'assembled', integration = 'implicit' }"]
 
 
 def ranks_of(pid):
@@ -308,18 +277,6 @@ def cut_for_ranks(name, ranks, tolerance, *words, heaviest=1.15):
     return runs[ranks]
 
 
-uneven = asked.folder / "ranks_uneven.lua"
-cut_for_ranks("uneven", 3, 1e-8, "--set", "cells=12")
-cut_for_ranks("one_body", 3, 1e-8, "--set", "bodies=1", "--set", "cells=5")
-implicit_cut = cut_for_ranks("one_implicit_body", 3, 1e-5, "--set", "bodies=1", "--set", "implicit=1", heaviest=1.2)
-# The cut is that of the run which is continued, on however many ranks.
-on_one = shutil.copytree(FOLDER / "one_implicit_body_3", FOLDER / "continued_on_one") / "uneven" / "base"
-for ranks, run in (3, implicit_cut), (1, on_one):
-    dygita(ranks, "continue", run, "--until", "15*us", "--quiet", "--threads", 1, expected=0)
-same("a cut for three ranks continued on one", on_one, implicit_cut)
-compare("even", uneven, "uneven", "--set", "bodies=4", "--set", "long=1", "--set", "cells=5", also=[2])
-
-
 def measured(name):
     """Pieces are shared out by the seconds that they took in the run before, and the answer keeps its bits."""
     out = FOLDER / name
@@ -364,30 +321,6 @@ def once_on_machine(name):
         failures.append(f"{name}: left after an error: {left}")
 
 
-once_on_machine("once")
-measured("measured")
-to_all("iterated_4")
-go_on("two_then_one", 2, 1)
-go_on("two_then_three", 2, 3)
-go_on("one_then_two", 1, 2)
-go_on("assembled_two_then_one", 2, 1, *ASSEMBLED)
-go_on("iterated_four_then_three", 4, 3, deck=implicit, problem="implicit", us=150)
-go_on("iterated_three_then_one", 3, 1, deck=implicit, problem="implicit", us=150)
-go_on("cut_three_then_one", 3, 1, "--set", "bodies=1", "--set", "implicit=1", deck=uneven, problem="uneven", us=200, whole_on=3)
-go_further("further", "--until", "80*us")
-go_further("tighter", "--tolerance", "1e-8")
-go_further("tighter_implicit", "--tolerance", "1e-8", deck=implicit, problem="implicit", continued_by=(1, 3, 4))
-go_further("assembled_further", "--until", "80*us", setting=ASSEMBLED)
-spoil_part()
-dygita(2, "continue", FOLDER / "none", expected=2, says=["no folder"])
-dygita(7, "run", stopped, "--quiet", "--solver", "latin{ pieces = 1 }", "--out", FOLDER / "many", expected=2, says=["7 MPI ranks for 6 substructures"])
-dygita(2, "run", stopped, "--quiet", "--solver", "monolithic", "--out", FOLDER / "one", expected=2, says=["solver.monolithic is one system"])
-dygita(2, "check", stopped, expected=2, says=["dygita check: not on several MPI ranks"])
-dygita(2, "run", stopped, "--set", "usage=1", "--quiet", "--out", FOLDER / "none", expected=2, says=["usage"])
-dygita(2, "run", FOLDER / "none.lua", expected=2, says=["no deck"])
-# A history that fails in the middle of a run fails on all ranks, and is told once.
-dygita(2, "run", stopped, "--set", "broken=1", "--quiet", "--out", FOLDER / "broken", expected=2, says=["no record at 20 us"])
-# What Lua orders otherwise in each process is declared in one order; what is another on each rank all the same is refused.
 ROW = """
 local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
 local at, named, parts = { bottom = 0, middle = 1, top = 2, lid = 3 }, {}, {}
@@ -400,24 +333,107 @@ local hit = step.dynamic{ name = "hit", duration = 10*us, dt = 0.25*us, loads = 
 problem{ name = "row", substructures = parts, interfaces = { interface.contact{ between = "all touching", friction = 0.3 } }, supports = { base }, steps = { hit },
   outputs = { output.momentum{ name = "m", of = named.middle }, output.energy{} } }:run{}
 """
-(FOLDER / "row.lua").write_text(ROW.replace("PEAK", "100*MPa"))
-compare("row", FOLDER / "row.lua", "row", also=[3])
-(FOLDER / "chance.lua").write_text(ROW.replace("PEAK", "tonumber(tostring({}):match('0x(%x+)'), 16) % 100000000"))
-dygita(2, "run", FOLDER / "chance.lua", "--quiet", "--out", FOLDER / "chance", expected=2, says=["the MPI ranks have read different steps from the deck"])
-# An error of the deck after a run leaves what the run has written.
-(FOLDER / "late.lua").write_text(ROW.replace("PEAK", "100*MPa") + "error('after all')\n")
-dygita(4, "run", FOLDER / "late.lua", "--quiet", "--out", FOLDER / "late", expected=2, says=["after all"])
-if not (FOLDER / "late" / "row" / "base" / "run.json").exists():
-    failures.append("an error of the deck after a run took its results away")
-# Each rank writes the frames of its own parts; one that cannot ends the run, which keeps the rest.
-run = FOLDER / "barred" / "ranks" / "base"
-(run / "frames" / "block 15_00002.vtu" / "in the way").mkdir(parents=True)
-(run / "frames" / "block 1_00002.vtu" / "in the way").mkdir(parents=True)
-dygita(2, "run", asked.folder / "ranks.lua", "--quiet", "--out", FOLDER / "barred", expected=2,
-       says=["_00002.vtu': ", "what was computed and could be written is in"])
-listed = (run / "ranks.pvd").read_text()
-if "_00001.vtu" not in listed or "_00002.vtu" in listed or not (run / "energy.csv").exists():
-    failures.append(f"a frame that cannot be written: {sorted(p.name for p in run.iterdir())}\n{listed}")
+
+
+def bits():
+    """Every kind of step has the bits of one process."""
+    compare("implicit", stopped, "stopped")
+    compare("windows", stopped, "stopped", "--set", "window=4")
+    compare("explicit", stopped, "stopped", "--set", "explicit=1")
+    compare("all_explicit", stopped, "stopped", "--solver", "latin{ integration = 'explicit' }")
+    compare("passes", stopped, "stopped", "--set", "passes=1")
+    compare("unlike", unlike, "unlike", most=4, also=[2, 3])
+    compare("damped", unlike, "unlike", "--set", "beta=2e-8", "--set", "driven=1", most=4, also=[2, 3])
+    compare("tuned", unlike, "unlike", "--set", "beta=1e-8", "--set", "tuned=1", most=4)
+    compare("order_two", unlike, "unlike", "--set", "tetrahedra=1", most=3)
+    compare("pieces", asked.folder / "ranks.lua", "ranks")
+    # Cut substructures on several ranks; motions too large for the theory, stresses beyond yield.
+    compare("cut", asked.folder / "ranks.lua", "ranks", "--set", "cut=24", "--set", "peak=30000*MPa", "--set", "us=30", also=[3])
+    compare("massless", stopped, "stopped", "--solver", "latin{ massless_contact = true, static_steps = 'iterated' }")
+    # All pieces of static steps in one system, which every rank solves.
+    compare("assembled", stopped, "stopped", *ASSEMBLED, also=[3])
+    compare("assembled_pieces", asked.folder / "ranks.lua", "ranks", "--solver", "latin{ static_steps = 'assembled', pieces = 24 }")
+    compare("released", asked.folder / "ranks.lua", "ranks", "--set", "release=20", also=[3])
+
+
+def iterated():
+    """So have points that ranks iterate together, meshes of files and studies."""
+    # Iterated points between ranks: each solves those that its pieces touch, sums are made piece by piece.
+    compare("iterated", implicit, "implicit", "--set", "release=8", also=[3, 4])
+    compare("iterated_cut", implicit, "implicit", "--set", "cut=3", "--set", "driven=1", also=[3, 4])
+    compare("iterated_windows", implicit, "implicit", "--set", "window=4", "--set", "cut=2", also=[3])
+    compare("heavy", implicit, "implicit", "--set", "heavy=1", "--set", "us=3", also=[3])    # a load on bodies whose mass is a matrix
+    compare("cut_cube", DECKS / "verification" / "pieces.lua", "pieces", "--set", "n=8", "--set", "only=6", cases=("6_pieces",), also=[3])
+    compare("iterated_mixed", implicit, "implicit", "--set", "explicit=4", also=[3, 4])
+    # Meshes of files: rank 0 has them meshed for all; turned copies.
+    compare("meshed", DECKS / "bench" / "ring.lua", "ring", "--set", "bolts=6", "--set", "steps=3", "--solver", "latin{ integration = 'explicit' }", also=[3])
+    (FOLDER / "spoiled.geo").write_text("Point(1) = {0, 0;\n")
+    (FOLDER / "spoiled.lua").write_text('local m = mesh.gmsh{ file = "spoiled.geo" }\n')
+    dygita(2, "run", FOLDER / "spoiled.lua", "--quiet", "--out", FOLDER / "spoiled", expected=2, says=["gmsh cannot read or mesh it"])
+    compare("study", asked.folder / "study.lua", "study", cases=("mu 0.1", "mu 0.2", "mu 0.3"), most=2)
+    to_all("iterated_4")
+
+
+def continued():
+    """Whoever goes on with what others have left; cuts that ranks ask for."""
+    cut_for_ranks("uneven", 3, 1e-8, "--set", "cells=12")
+    cut_for_ranks("one_body", 3, 1e-8, "--set", "bodies=1", "--set", "cells=5")
+    implicit_cut = cut_for_ranks("one_implicit_body", 3, 1e-5, "--set", "bodies=1", "--set", "implicit=1", heaviest=1.2)
+    # The cut is that of the run which is continued, on however many ranks.
+    on_one = shutil.copytree(FOLDER / "one_implicit_body_3", FOLDER / "continued_on_one") / "uneven" / "base"
+    for ranks, run in (3, implicit_cut), (1, on_one):
+        dygita(ranks, "continue", run, "--until", "15*us", "--quiet", "--threads", 1, expected=0)
+    same("a cut for three ranks continued on one", on_one, implicit_cut)
+    compare("even", uneven, "uneven", "--set", "bodies=4", "--set", "long=1", "--set", "cells=5", also=[2])
+    once_on_machine("once")
+    measured("measured")
+    go_on("two_then_one", 2, 1)
+    go_on("two_then_three", 2, 3)
+    go_on("one_then_two", 1, 2)
+    go_on("assembled_two_then_one", 2, 1, *ASSEMBLED)
+    go_on("iterated_four_then_three", 4, 3, deck=implicit, problem="implicit", us=150)
+    go_on("iterated_three_then_one", 3, 1, deck=implicit, problem="implicit", us=150)
+    go_on("cut_three_then_one", 3, 1, "--set", "bodies=1", "--set", "implicit=1", deck=uneven, problem="uneven", us=200, whole_on=3)
+    go_further("further", "--until", "80*us")
+    go_further("tighter", "--tolerance", "1e-8")
+    go_further("tighter_implicit", "--tolerance", "1e-8", deck=implicit, problem="implicit", continued_by=(1, 3, 4))
+    go_further("assembled_further", "--until", "80*us", setting=ASSEMBLED)
+    spoil_part()
+
+
+def refused():
+    """What ranks cannot share is refused, and an error is said once."""
+    dygita(2, "continue", FOLDER / "none", expected=2, says=["no folder"])
+    dygita(7, "run", stopped, "--quiet", "--solver", "latin{ pieces = 1 }", "--out", FOLDER / "many", expected=2, says=["7 MPI ranks for 6 substructures"])
+    dygita(2, "run", stopped, "--quiet", "--solver", "monolithic", "--out", FOLDER / "one", expected=2, says=["solver.monolithic is one system"])
+    dygita(2, "check", stopped, expected=2, says=["dygita check: not on several MPI ranks"])
+    dygita(2, "run", stopped, "--set", "usage=1", "--quiet", "--out", FOLDER / "none", expected=2, says=["usage"])
+    dygita(2, "run", FOLDER / "none.lua", expected=2, says=["no deck"])
+    # A history that fails in the middle of a run fails on all ranks, and is told once.
+    dygita(2, "run", stopped, "--set", "broken=1", "--quiet", "--out", FOLDER / "broken", expected=2, says=["no record at 20 us"])
+    # What Lua orders otherwise in each process is declared in one order; what is another on each rank all the same is refused.
+    (FOLDER / "row.lua").write_text(ROW.replace("PEAK", "100*MPa"))
+    compare("row", FOLDER / "row.lua", "row", also=[3])
+    (FOLDER / "chance.lua").write_text(ROW.replace("PEAK", "tonumber(tostring({}):match('0x(%x+)'), 16) % 100000000"))
+    dygita(2, "run", FOLDER / "chance.lua", "--quiet", "--out", FOLDER / "chance", expected=2, says=["the MPI ranks have read different steps from the deck"])
+    # An error of the deck after a run leaves what the run has written.
+    (FOLDER / "late.lua").write_text(ROW.replace("PEAK", "100*MPa") + "error('after all')\n")
+    dygita(4, "run", FOLDER / "late.lua", "--quiet", "--out", FOLDER / "late", expected=2, says=["after all"])
+    if not (FOLDER / "late" / "row" / "base" / "run.json").exists():
+        failures.append("an error of the deck after a run took its results away")
+    # Each rank writes the frames of its own parts; one that cannot ends the run, which keeps the rest.
+    run = FOLDER / "barred" / "ranks" / "base"
+    (run / "frames" / "block 15_00002.vtu" / "in the way").mkdir(parents=True)
+    (run / "frames" / "block 1_00002.vtu" / "in the way").mkdir(parents=True)
+    dygita(2, "run", asked.folder / "ranks.lua", "--quiet", "--out", FOLDER / "barred", expected=2,
+           says=["_00002.vtu': ", "what was computed and could be written is in"])
+    listed = (run / "ranks.pvd").read_text()
+    if "_00001.vtu" not in listed or "_00002.vtu" in listed or not (run / "energy.csv").exists():
+        failures.append(f"a frame that cannot be written: {sorted(p.name for p in run.iterdir())}\n{listed}")
+
+
+for part in [asked.part] if asked.part else ["bits", "iterated", "continued", "refused"]:
+    {"bits": bits, "iterated": iterated, "continued": continued, "refused": refused}[part]()
 shutil.rmtree(FOLDER)
 print("\n".join(failures) or "the same bits on several ranks")
 sys.exit(1 if failures else 0)
