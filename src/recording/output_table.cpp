@@ -10,7 +10,7 @@ const OutputEntry* output_entry(const std::string& word) {
 
 OutputPtr make_output(const ModelArguments& arguments) {
   const OutputEntry* entry = output_entry(arguments.word());
-  CHECK(entry, "no file of src/result/outputs makes '" + arguments.path() + "'");
+  CHECK(entry, "no file of src/recording/outputs makes '" + arguments.path() + "'");
   return entry->make(arguments);
 }
 

@@ -124,7 +124,7 @@ Vec3 centre(const Mesh& mesh, const FaceNodes& face) {
 // whose hole it then lays cells.
 TEST(StepAssembly, has_tetrahedra_where_hexahedra_fail_or_do_not_fill_the_solid) {
   StepOptions options;
-  options.file = std::string(DYGITA_SOURCE_DIR) + "/tests/mesh/ring_on_plate.step";
+  options.file = std::string(DYGITA_SOURCE_DIR) + "/tests/intake/ring_on_plate.step";
   options.sweep = StepOptions::Sweep::where_possible;
   options.size = 8e-3;
   options.cells_a_turn = 12;
