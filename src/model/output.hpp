@@ -1,8 +1,8 @@
 // An output of a problem: every duty that checks, runs, files, the record, the report and studies have of one.
 //
-// Each output is one file in src/recording/outputs/, which ends with its entry in the table of outputs; nothing else names
-// it. A duty that every output has is pure virtual: an output that forgets one does not compile. What duties are made
-// of (recorders, tables) belongs to the floors above and is only named here.
+// Each output is one file in src/recording/outputs/, which ends with its entry in the table of outputs; nothing else
+// names it. A duty that every output has is pure virtual: an output that forgets one does not compile. What duties are
+// made of (recorders, tables) belongs to the floors above and is only named here.
 #pragma once
 
 #include <functional>
