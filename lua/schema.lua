@@ -343,6 +343,15 @@ words[5] = {
     arguments = { name_of "support", on({ "face" }, "faces on the plane of symmetry") },
   },
   {
+    "held", makes = "support", doc = "No displacement along some of the axes x, y and z.",
+    arguments = {
+      name_of "support", on({ "face", "region" }, "what is held"),
+      { "x", type = "boolean", default = false, doc = "along x" },
+      { "y", type = "boolean", default = false, doc = "along y" },
+      { "z", type = "boolean", default = false, doc = "along z" },
+    },
+  },
+  {
     "wall", makes = "support", doc = "A rigid wall: unilateral contact with friction.",
     arguments = {
       name_of "support", on({ "face" }, "faces that may touch the wall"), friction,

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include "app/check_command.hpp"
@@ -100,6 +101,17 @@ void check_command(const CLI::App& app, int argc, char** argv) {
   throw InputError(std::string("no command '") + argv[1] + "'\n    " + did_you_mean(argv[1], known));
 }
 
+// Paths are relative to where a rank was started: each would write its share of the results elsewhere.
+void refuse_folders_of_their_own() {
+  const std::vector<std::string> folders = ranks::gathered(std::filesystem::current_path().string());
+  std::string apart;
+  for (size_t rank = 1; rank < folders.size() && apart.empty(); ++rank)
+    if (folders[rank] != folders[0])
+      apart = fmt::format("rank 0 was started in {} and rank {} in {}", folders[0], rank, folders[rank]);
+  apart = ranks::shared(apart);
+  if (!apart.empty()) throw InputError(apart + "\n    start all ranks in one folder: mpirun --wdir FOLDER");
+}
+
 // Under mpirun: who speaks, and what several ranks do together.
 void join_ranks(int argc, char** argv) {
   ranks::start([](const std::string& message) { say_error(message); });
@@ -108,6 +120,7 @@ void join_ranks(int argc, char** argv) {
   if (command != "run" && command != "continue")
     throw InputError(fmt::format(
         "dygita {}: not on several MPI ranks\n    dygita run and continue are what mpirun starts", command));
+  refuse_folders_of_their_own();
   if (ranks::is_first()) return;
   be_silent();
   set_progress_enabled(false);

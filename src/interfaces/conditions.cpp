@@ -113,20 +113,28 @@ class ConditionsBuilder {
     const Directions held = support.kind->holds(step_.is_static);
     if (held == Directions::none) return;
     const std::vector<std::pair<Vec3, int>> moves = base_motions(support);
-    for (const FaceOrRegion& on : support.on) switch (held) {
-        case Directions::none:
-          break;
-        case Directions::normal:
-          hold_normals(support, std::get<Face>(on), moves);
-          break;
-        case Directions::all:
-          for (const int node : nodes_on(on)) {
-            const int moving = hold_turn(part_of(on), node, &support);
-            for (int axis = 0; axis < 3; ++axis)
-              hold(part_of(on), moving, Vec3::Unit(axis), moves, &support, support.name, support.origin);
-          }
-          break;
-      }
+    for (const FaceOrRegion& on : support.on) {
+      if (held.along_normals) hold_normals(support, std::get<Face>(on), moves);
+      if (held.axes != Directions::none.axes) hold_axes(support, on, held.axes, moves);
+    }
+  }
+
+  void hold_axes(const Support& support, const FaceOrRegion& on, const std::array<bool, 3>& axes,
+                 const std::vector<std::pair<Vec3, int>>& moves) {
+    for (const int node : nodes_on(on)) {
+      const int moving = hold_turn(part_of(on), node, &support);
+      if (moving != node && axes != Directions::all.axes) refuse_rigid_face(support, "along some axes");
+      for (int axis = 0; axis < 3; ++axis)
+        if (axes[static_cast<size_t>(axis)])
+          hold(part_of(on), moving, Vec3::Unit(axis), moves, &support, support.name, support.origin);
+    }
+  }
+
+  [[noreturn]] static void refuse_rigid_face(const Support& support, const std::string& how) {
+    throw InputError(support.origin,
+                     "support." + support.kind->word() + " '" + support.name + "' holds " + how +
+                         ", and its face is one that a superelement has as a whole\n    take support.fixed, or "
+                         "condense the body with motion = \"nodes\"");
   }
 
   // A node of a rigid face is held at the face's point, and the face then does not turn. Answers the node that moves.
@@ -153,10 +161,7 @@ class ConditionsBuilder {
     for (const PlacedFace& part : smooth_parts({&mesh, face.facets(), Vec3::Zero(), ""})) {
       const FaceNodes on_patch = face_nodes(mesh, part.facets);
       if (mesh.condensed && mesh.condensed->follower(on_patch.nodes.front()))
-        throw InputError(support.origin,
-                         "support." + support.kind->word() + " '" + support.name +
-                             "' holds along normals, and its face is one that a superelement has as a whole\n    take "
-                             "support.fixed, or condense the body with motion = \"nodes\"");
+        refuse_rigid_face(support, "along normals");
       for (size_t i = 0; i < on_patch.nodes.size(); ++i)
         hold(part_of(face), on_patch.nodes[i], on_patch.normals.col(i), moves, &support, support.name, support.origin);
     }

@@ -47,7 +47,8 @@ void hold_by_supports(const Problem& problem, const Step& step, const Substructu
       for (size_t i = 0; i < nodes.size(); ++i)
         for (int axis = 0; axis < 3; ++axis) {
           const auto vector = vectors.col(static_cast<Eigen::Index>(i));
-          held(axis, nodes[i]) |= directions == Directions::all || std::abs(vector[axis]) > (1 - 1e-9) * vector.norm();
+          held(axis, nodes[i]) |= directions.axes[static_cast<size_t>(axis)] ||
+                                  (directions.along_normals && std::abs(vector[axis]) > (1 - 1e-9) * vector.norm());
         }
     }
   }

@@ -147,16 +147,9 @@ Vec3 normal_of(const Face& face) {
 
 bool claims(const Support& support, const FaceOrRegion& place, int axis) {
   const double aligned = 0.99;
-  switch (support.kind->claims()) {
-    case Directions::none:
-      return false;
-    case Directions::normal:
-      return std::abs(normal_of(std::get<Face>(place))[axis]) >= aligned;
-    case Directions::all:
-      return true;
-  }
-  CHECK(false, "unknown directions of a support");
-  return true;
+  const Directions claimed = support.kind->claims();
+  return claimed.axes[static_cast<size_t>(axis)] ||
+         (claimed.along_normals && std::abs(normal_of(std::get<Face>(place))[axis]) >= aligned);
 }
 
 void support_leaves_motion_free(const Problem& problem, const Step& step, const Load& load,
@@ -183,11 +176,14 @@ void supports_leave_motions_free(const Problem& problem, const Step& step, const
                  effect);
 }
 
-// A support that holds along its normals alone is moved along them alone.
-void support_follows(const Problem& problem, const Load& load, const BaseMotion& motion) {
-  if (motion.on->kind->holds(false) != Directions::normal) return;
+// The part of a direction in which a support holds something while it moves.
+Vec3 part_that_is_held(const Support& support, const Vec3& direction) {
+  const Directions held = support.kind->holds(false);
   Mat3 normals = Mat3::Zero();
-  for (const FaceOrRegion& place : motion.on->on) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (held.axes[static_cast<size_t>(axis)]) normals(axis, axis) = 1.0;
+  for (const FaceOrRegion& place : support.on) {
+    if (!held.along_normals) break;
     const Face& face = std::get<Face>(place);
     for (const Facet& facet : face.facets()) {
       const Vec3 n = facet_area_vector(face.part->mesh->nodes, facet);
@@ -198,11 +194,20 @@ void support_follows(const Problem& problem, const Load& load, const BaseMotion&
   Vec3 followed = Vec3::Zero();
   for (int i = 0; i < 3; ++i)
     if (axes.eigenvalues()[i] > 1e-6 * normals.trace())
-      followed += axes.eigenvectors().col(i).dot(motion.direction) * axes.eigenvectors().col(i);
+      followed += axes.eigenvectors().col(i).dot(direction) * axes.eigenvectors().col(i);
+  return followed;
+}
+
+// A support that does not hold along all directions is moved along those that it holds alone.
+void support_follows(const Problem& problem, const Load& load, const BaseMotion& motion) {
+  const Directions held = motion.on->kind->holds(false);
+  if (held == Directions::all || held == Directions::none) return;
+  const Vec3 followed = part_that_is_held(*motion.on, motion.direction);
   const std::string what = fmt::format("{} moves {} along ({:.3g}, {:.3g}, {:.3g})", load.path, describe(*motion.on),
                                        motion.direction[0], motion.direction[1], motion.direction[2]);
-  const std::string hint =
-      "it holds along the normals of its faces alone; a support.fixed is moved along any direction";
+  const std::string hint = std::string("it holds along ") +
+                           (held.along_normals ? "the normals of its faces" : "some axes") +
+                           " alone; a support.fixed is moved along any direction";
   if (followed.norm() < 1e-3) fail(problem, load.origin, what + ", where it holds nothing", hint);
   if (followed.norm() < 0.999)
     doubt(problem, load.origin,

@@ -4,6 +4,7 @@
 // duty is pure virtual: a kind that forgets one does not compile.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,17 @@
 
 namespace dygita {
 
-enum class Directions { none, normal, all };
+// Along the normals of the faces, or along axes x, y and z.
+struct Directions {
+  bool along_normals = false;
+  std::array<bool, 3> axes{};
+
+  static const Directions none, normal, all;
+  bool operator==(const Directions&) const = default;
+};
+inline constexpr Directions Directions::none{};
+inline constexpr Directions Directions::normal{.along_normals = true};
+inline constexpr Directions Directions::all{.axes = {true, true, true}};
 
 class SupportKind {
  public:

@@ -107,6 +107,7 @@ CheckpointFile::CheckpointFile(std::filesystem::path path, const CheckpointIdent
       !put(file_.get(), &byte_order, 4) || !put_record(file_.get(), header, sum_) || std::fflush(file_.get()) != 0 ||
       std::rename(temporary.c_str(), path_.c_str()) != 0)
     throw InputError(fmt::format("cannot write '{}': {}", path_.string(), std::strerror(errno)));
+  entries_at_ = ftello(file_.get());
 }
 
 CheckpointFile::CheckpointFile(std::filesystem::path path, double every)
@@ -123,6 +124,7 @@ CheckpointFile::CheckpointFile(std::filesystem::path path, double every)
   std::setvbuf(file_.get(), buffer_.get(), _IOFBF, buffer_bytes);
   try {
     read_header();
+    entries_at_ = ftello(file_.get());
   } catch (const InputError& error) {
     throw InputError(fmt::format("'{}' cannot be used: {}\n    run the deck again", path_.string(), error.what()));
   }
@@ -276,8 +278,9 @@ void CheckpointFile::fail(const char* what) {
   has_failed_ = true;
   // What the disk has left belongs to the results.
   std::error_code error;
-  const auto size = std::filesystem::file_size(path_, error);
-  const bool is_cut = reason == ENOSPC && !error && ftruncate(fileno(file_.get()), static_cast<off_t>(size / 2)) == 0;
+  const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path_, error));
+  const auto kept = entries_at_ + std::max<std::int64_t>(0, (size - entries_at_) / 2);  // without its header it is none
+  const bool is_cut = reason == ENOSPC && !error && ftruncate(fileno(file_.get()), kept) == 0;
   warn(fmt::format(
       "the checkpoint '{}' cannot be {}: {}{}\n    the run goes on; if it is stopped, it continues from what was kept "
       "until {}",

@@ -76,8 +76,9 @@ class CheckpointFile final : public Trail {
   long expected_ = 0;                     // in all; 0: nobody told
   double room_ = 0.0;                     // bytes that it may still take, once that is foreseen
   bool has_foreseen_ = false;
-  std::int64_t at_ = 0;    // where the next one is taken or left, bytes
-  std::uint64_t sum_ = 0;  // of the entry before it
+  std::int64_t entries_at_ = 0;  // where the first one is, bytes
+  std::int64_t at_ = 0;          // where the next one is taken or left, bytes
+  std::uint64_t sum_ = 0;        // of the entry before it
   double every_;
   Clock::time_point flushed_, synced_;
   bool is_leaving_ = false, has_failed_ = false, has_differed_ = false;

@@ -212,6 +212,26 @@ def a_small_disk():
     check("grows no further, so that the results find room" in output and done.returncode == 0, output)
 
 
+def a_disk_that_is_full_at_once():
+    """What is given back to the results is never the checkpoint's header: where there is room later, the run goes on as it says."""
+    out = FOLDER / "tiny"
+    out.mkdir()
+    run = out / "stopped" / "base"
+    script = 'mount -t tmpfs -o size=SIZE none "$0"; "$@"; echo "first: $?"; mount -o remount,size=50m "$0"; exec "$PROGRAM" continue "$RUN" --quiet'
+    inside = ["unshare", "-r", "-m", "sh", "-c"]
+    if not shutil.which("unshare") or subprocess.run([*inside, 'mount -t tmpfs -o size=90k none "$0"', str(out)], capture_output=True, check=False).returncode != 0:
+        print("a disk that is full at once: not tried, no file system may be mounted here")
+        return
+    for size in ("100k", "150k", "250k"):
+        words = [PROGRAM, *map(str, deck_command(out, "--set", "us=100"))]
+        done = subprocess.run([*inside, script.replace("SIZE", size), str(out), *words], capture_output=True, text=True, check=False,
+                              env={**os.environ, "PROGRAM": PROGRAM, "RUN": str(run)})
+        output = done.stdout + done.stderr
+        check("first: 2" in output and "No space left on device" in output, f"{size}: the disk was not full\n{output}")
+        if "dygita continue" in output:
+            check(done.returncode == 0, f"{size}: continue refuses what was advised\n{output}")
+
+
 def interrupted():
     for number in (signal.SIGINT, signal.SIGTERM):
         run, output = stopped_run(f"interrupted_{number}", number, "--set", "us=2000")
@@ -378,7 +398,7 @@ def is_running(pid):
 
 
 for fault in (who_holds_the_folder, an_error_in_the_middle, numbers_that_overflow, energies_that_overflow, little_memory,
-              a_disk_that_the_checkpoint_fills, a_small_disk, interrupted, a_spoiled_checkpoint, a_load_that_changed,
+              a_disk_that_the_checkpoint_fills, a_small_disk, a_disk_that_is_full_at_once, interrupted, a_spoiled_checkpoint, a_load_that_changed,
               a_state_without_a_record, a_folder_that_is_removed, pipes_in_the_place_of_files, decks_that_take_long, a_time_limit_of_the_clock,
               a_kill_while_the_mesher_starts):
     fault()

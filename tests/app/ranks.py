@@ -409,6 +409,13 @@ def refused():
     dygita(2, "check", stopped, expected=2, says=["dygita check: not on several MPI ranks"])
     dygita(2, "run", stopped, "--set", "usage=1", "--quiet", "--out", FOLDER / "none", expected=2, says=["usage"])
     dygita(2, "run", FOLDER / "none.lua", expected=2, says=["no deck"])
+    apart = [asked.mpirun, "--allow-run-as-root", "--oversubscribe"]
+    for folder in "apart_1", "apart_2":
+        (FOLDER / folder).mkdir()
+        apart += [":"] * (folder == "apart_2") + ["-n", "1", "--wdir", str(FOLDER / folder), asked.program, "run", str(stopped), "--out", "results"]
+    done = subprocess.run(apart, capture_output=True, text=True, timeout=100, check=False)
+    if done.returncode != 2 or "rank 0 was started in" not in done.stderr or list((FOLDER / "apart_1").iterdir()):
+        failures.append(f"ranks in folders of their own: exit {done.returncode}\n{done.stdout}{done.stderr}")
     # A history that fails in the middle of a run fails on all ranks, and is told once.
     dygita(2, "run", stopped, "--set", "broken=1", "--quiet", "--out", FOLDER / "broken", expected=2, says=["no record at 20 us"])
     # What Lua orders otherwise in each process is declared in one order; what is another on each rank all the same is refused.

@@ -56,6 +56,67 @@ TEST_P(FunctionOfTime, shakes_a_base_as_the_same_signal_does) {
   }
 }
 
+// Kind 0: a bar held along one axis on each of three sides, and pulled along z; 1: the same by planes of symmetry; 2:
+// held along two axes by one support, on a region.
+const std::string held_along_axes = R"(
+local soft = material.elastic{ name = "soft", young = 1*GPa, poisson = 0.4, density = 1000 }
+local b = substructure{ name = "b", material = soft, mesh = mesh.box{ size = { 10*mm, 20*mm, 50*mm }, cells = { 2, 3, 4 } } }
+local along_x, along_y, along_z
+if p.kind == 1 then
+  along_x = support.symmetry{ name = "x", on = b:face "xmin" }
+  along_y = support.symmetry{ name = "y", on = b:face "ymin" }
+  along_z = support.symmetry{ name = "z", on = b:face "zmin" }
+elseif p.kind == 0 then
+  along_x = support.held{ name = "x", on = b:face "xmin", x = true }
+  along_y = support.held{ name = "y", on = b:face "ymin", y = true }
+  along_z = support.held{ name = "z", on = b:face "zmin", z = true }
+else
+  along_x = support.held{ name = "x", on = b:face "xmin", x = true }
+  along_y = support.held{ name = "y", on = b:region(function(x, y, z) return y < 1*um end), y = true }
+  along_z = support.held{ name = "z", on = b:face "zmin", z = true }
+end
+local pull = step.static{ name = "pull", increments = 1, loads = { load.traction{ on = b:face "zmax", z = 10*MPa } } }
+problem{ name = "p", substructures = { b }, supports = { along_x, along_y, along_z }, steps = { pull },
+  outputs = { output.history{ name = "x", on = b:face "xmax", quantity = "displacement" },
+              output.history{ name = "y", on = b:face "ymax", quantity = "displacement" },
+              output.history{ name = "z", on = b:face "zmax", quantity = "displacement" },
+              output.resultant{ name = "r", on = along_z } } }:run{}
+)";
+
+TEST(HeldAlongAxes, stretches_a_bar_as_planes_of_symmetry_do) {
+  for (const int kind : {0, 1, 2}) {
+    const DeckRun run = run_kind(held_along_axes, kind);
+    EXPECT_NEAR(run.column("z", "z [m]").back(), 0.5e-3, 1e-12) << kind;
+    EXPECT_NEAR(run.column("x", "x [m]").back(), -0.4 * 0.01 * 10e-3, 1e-12) << kind;
+    EXPECT_NEAR(run.column("y", "y [m]").back(), -0.4 * 0.01 * 20e-3, 1e-12) << kind;
+    EXPECT_NEAR(run.column("r", "z [N]").back(), -2000.0, 1e-6) << kind;
+  }
+}
+
+// Kind 0: a base held along all axes, shaken along two; 1: fixed; 2: held along z alone and shaken across.
+const std::string shaken_along_axes = R"(
+local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 20*mm, 20*mm, 40*mm }, cells = { 2, 2, 3 } } }
+local base = p.kind == 1 and support.fixed{ name = "base", on = b:face "zmin" }
+  or support.held{ name = "base", on = b:face "zmin", x = p.kind == 0, y = p.kind == 0, z = true }
+local direction = p.kind == 2 and { 1, 0, 0 } or { 0.6, 0, 0.8 }
+local shock = step.dynamic{ name = "shock", duration = 200*us, dt = 1*us,
+  loads = { load.base_acceleration{ on = base, direction = direction, history = history.half_sine{ peak = 1000*g, duration = 100*us } } } }
+problem{ name = "p", substructures = { b }, supports = { base }, steps = { shock },
+  outputs = { output.history{ name = "top", on = b:face "zmax", quantity = "velocity" }, output.energy{} } }:run{}
+)";
+
+TEST(HeldAlongAxes, all_of_them_is_fixed_where_it_is_shaken_too) {
+  const DeckRun held = run_kind(shaken_along_axes, 0), fixed = run_kind(shaken_along_axes, 1);
+  for (const char* column : {"x [m/s]", "y [m/s]", "z [m/s]"})
+    EXPECT_EQ(held.column("top", column), fixed.column("top", column)) << column;
+}
+
+TEST(HeldAlongAxes, is_not_shaken_where_it_holds_nothing) {
+  EXPECT_NE(error_of(shaken_along_axes, 2).find("where it holds nothing\n    it holds along some axes alone"),
+            std::string::npos)
+      << error_of(shaken_along_axes, 2);
+}
+
 // Kind 0 and 1: the order in which two supports are listed that share nodes; 2: the absorbing one leaves.
 const std::string absorbed = R"(
 local b = substructure{ name = "b", material = metal, mesh = mesh.box{ size = { 10*mm, 10*mm, 50*mm }, cells = { 2, 2, 5 } } }

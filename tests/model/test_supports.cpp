@@ -19,6 +19,9 @@ TEST(Supports, hold_what_their_names_say) {
     EXPECT_EQ(symmetry->holds(is_static), Directions::normal);
     EXPECT_EQ(wall->holds(is_static), Directions::none);
   }
+  const SupportKindPtr held = make_support("held", {{"x", 1.0}, {"y", 0.0}, {"z", 1.0}});
+  EXPECT_EQ(held->holds(true), (Directions{.axes = {true, false, true}}));
+  EXPECT_EQ(held->claims(), held->holds(false));
   EXPECT_EQ(absorbing->holds(true), Directions::all);
   EXPECT_EQ(absorbing->holds(false), Directions::none);
   EXPECT_TRUE(absorbing->absorbs());
@@ -32,8 +35,8 @@ TEST(Supports, of_the_table_have_words_of_their_own_and_need_a_face_where_they_n
     EXPECT_TRUE(words.insert(entry.word).second) << entry.word;
     const SupportKindPtr kind = example_of(entry);
     EXPECT_EQ(kind->word(), entry.word);
-    const bool needs_face = kind->absorbs() || kind->law() || kind->claims() == Directions::normal ||
-                            kind->holds(true) == Directions::normal || kind->holds(false) == Directions::normal;
+    const bool needs_face = kind->absorbs() || kind->law() || kind->claims().along_normals ||
+                            kind->holds(true).along_normals || kind->holds(false).along_normals;
     EXPECT_FALSE(needs_face && kind->takes_regions()) << entry.word;
   }
 }

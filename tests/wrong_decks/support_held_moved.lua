@@ -1,0 +1,8 @@
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local cube = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 1, 1, 1 } }
+local low = substructure{ name = "low", mesh = cube, material = steel }
+local base = support.fixed{ name = "base", on = low:face "zmin" }
+local guide = support.held{ name = "guide", on = low:face "zmax", x = true }
+local push = step.static{ name = "push", increments = 1, loads = {
+  load.displacement{ on = low:face "zmax", x = 1*um } } }
+problem{ name = "p", substructures = { low }, supports = { base, guide }, steps = { push } }

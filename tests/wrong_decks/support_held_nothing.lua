@@ -1,0 +1,4 @@
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local cube = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 1, 1, 1 } }
+local low = substructure{ name = "low", mesh = cube, material = steel }
+local guide = support.held{ name = "guide", on = low:face "xmin" }
