@@ -89,8 +89,8 @@ local function declare_all(entry, given, line)
       lines[#lines + 1] = ("  '%s': %s"):format(copy.name, pair.text)
       if pair.doubt ~= "" and not given.closed and (given.gap or 0) == 0 then
         native.warn(line, ("%s: '%s' and '%s' %s; %s"):format(entry.path, name_of(one), name_of(other), pair.doubt,
-          entry.path == "interface.contact" and "gap = \"geometry\" keeps what lies between them, closed = true says that it is meant"
-          or "'place' and 'origin' bring them together"))
+          entry.path == "interface.contact" and "gap = \"geometry\" keeps the actual gap, closed = true confirms contact"
+          or "move them together by 'place' or 'origin'"))
       end
     end
   end

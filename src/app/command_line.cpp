@@ -10,18 +10,18 @@ namespace dygita {
 namespace {
 
 void add_limits(CLI::App& command, double& time_limit, double& memory_limit, MeshLimits& meshes) {
-  command.add_option("--time-limit", time_limit, "time (s) that the deck's own code may take")
+  command.add_option("--time-limit", time_limit, "time limit (s) of deck code")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command.add_option("--memory-limit", memory_limit, "memory (MB) that the deck's own data may take")
+  command.add_option("--memory-limit", memory_limit, "memory limit (MB) of deck data")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command.add_option("--mesh-time-limit", meshes.time, "time (s) that reading and meshing one file may take")
+  command.add_option("--mesh-time-limit", meshes.time, "time limit (s) for reading and meshing one file")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command
       .add_option("--trust-mesh", meshes.trusted,
-                  "a mesh file that you trust: it may run programs and write files, as gmsh itself lets it")
+                  "trust this mesh file: it may run programs and write files, as in gmsh itself")
       ->allow_extra_args(false)
       ->type_name("FILE");
 }
@@ -29,8 +29,7 @@ void add_limits(CLI::App& command, double& time_limit, double& memory_limit, Mes
 void add_checkpoints(CLI::App& command, std::string& every) {
   command
       .add_option("--checkpoint-every", every,
-                  "bring what was computed to the disk so often, as 30s, 5min or 1h; 0: never, a run that is killed "
-                  "cannot be continued")
+                  "interval between checkpoints, as 30s, 5min or 1h; 0: none, so that a killed run cannot be continued")
       ->capture_default_str()
       ->type_name("TIME");
 }
@@ -46,12 +45,12 @@ void add_run_folder(CLI::App& command, Path& run) {
 
 void add_deck_options(CLI::App& command, Command& asked) {
   command.add_option("DECK", asked.deck.path, "a deck")->required()->type_name("FILE.lua");
-  command.add_option("--set", asked.settings, "another value for a parameter of the deck, as tighten=0.04*mm")
+  command.add_option("--set", asked.settings, "override a parameter of the deck, as tighten=0.04*mm")
       ->allow_extra_args(false)
       ->type_name("NAME=VALUE");
   command
       .add_option("--solver", asked.deck.solver,
-                  "solver of every problem in place of the deck's, as monolithic or 'latin{ tolerance = 1e-4 }'")
+                  "replace the solver of every problem, as monolithic or 'latin{ tolerance = 1e-4 }'")
       ->allow_extra_args(false)
       ->type_name("SOLVER");
   add_limits(command, asked.deck.time_limit, asked.deck.memory_limit, asked.deck.meshes);
@@ -60,20 +59,19 @@ void add_deck_options(CLI::App& command, Command& asked) {
 
 void add_run_options(CLI::App& command, Command& asked) {
   add_deck_options(command, asked);
-  CLI::Option* repeats =
-      command
-          .add_option("--repeat", asked.repeats,
-                      "a run.json: deck, parameters and solver are those of its run, deck and meshes must be the same, "
-                      "tables are compared")
-          ->type_name("FILE.json");
+  CLI::Option* repeats = command
+                             .add_option("--repeat", asked.repeats,
+                                         "repeat the run of this run.json with its deck, parameters and solver, and "
+                                         "compare the tables; deck and meshes must be unchanged")
+                             ->type_name("FILE.json");
   command.get_option("DECK")->required(false);
   for (const char* option : {"--set", "--solver"}) repeats->excludes(command.get_option(option));
   command.add_option("--out", asked.deck.out, "folder of the results, out/<problem>/<case>")
       ->capture_default_str()
       ->type_name("DIR");
   add_threads(command, asked.deck.threads);
-  command.add_flag("--no-frames", asked.has_no_frames, "no frames for ParaView; tables and run.json are written");
-  command.add_flag("--no-state", asked.has_no_state, "no state file: the run cannot be continued later");
+  command.add_flag("--no-frames", asked.has_no_frames, "write no frames for ParaView, only tables and run.json");
+  command.add_flag("--no-state", asked.has_no_state, "write no state file; the run cannot be continued later");
   add_checkpoints(command, asked.checkpoint_every);
 }
 
@@ -81,7 +79,7 @@ void add_check_options(CLI::App& command, Command& asked) {
   add_deck_options(command, asked);
   command
       .add_option("--picture", asked.picture,
-                  "draw parts, their named faces and the interfaces found: .svg, or .html to turn it")
+                  "draw parts, named faces and interfaces: .svg, or .html for a view that rotates")
       ->type_name("FILE");
 }
 
@@ -90,24 +88,24 @@ void add_converge_options(CLI::App& command, Command& asked) {
   command
       .add_option(
           "--vary", asked.vary,
-          "parameters to refine, with commas: size (halved each time), size/1.5, n*2 (a number of cells or steps)")
+          "comma-separated parameters to refine: size (halved each time), size/1.5, n*2 (a number of cells or steps)")
       ->required()
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("NAMES");
   command
       .add_option("--output", asked.outputs,
-                  "figures to watch, with commas: shank.normal.max (or .min, .last, .mean), a spectrum by its name "
+                  "comma-separated quantities: shank.normal.max (or .min, .last, .mean), a spectrum by its name "
                   "(default: those of studies, and all spectra)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("NAMES");
   command
       .add_option("--to", asked.aim,
-                  "how close to the limit, as 1% (of spectra its decibels): refines until it is met, and says the "
+                  "target distance from the limit, as 1% (for spectra in dB): refine until it is met and report the "
                   "cheapest setting that meets it")
       ->type_name("SHARE");
-  command.add_option("--budget", asked.budget, "begin no run that would exceed this, as 90s, 10min or 2h")
+  command.add_option("--budget", asked.budget, "time budget: start no run that would exceed it, as 90s, 10min or 2h")
       ->type_name("TIME");
   command.add_option("--out", asked.deck.out, "folder of the results, out/<deck>_converge")
       ->capture_default_str()
@@ -122,25 +120,25 @@ void add_continue_options(CLI::App& command, Command& asked) {
       ->check(CLI::Range(1e-14, 0.1));
   command
       .add_option("--iterations", options.more_iterations,
-                  "at most so many further iterations at each increment, after one that meets what is known")
+                  "limit of further iterations per increment, after the one that restores the stored solution")
       ->check(CLI::Range(1, 1000000));
   command.add_option("--until", asked.until, "extend the last dynamic step to this time, as 0.0004 or 0.4*ms")
       ->type_name("TIME");
   add_threads(command, options.threads);
   add_limits(command, options.time_limit, options.memory_limit, options.meshes);
   command.add_flag("--no-frames", asked.has_no_frames, "no frames for ParaView");
-  command.add_flag("--no-state", asked.has_no_state, "no state file: the run cannot be continued once more");
+  command.add_flag("--no-state", asked.has_no_state, "write no state file; the run cannot be continued again");
   add_checkpoints(command, asked.checkpoint_every);
   command.add_flag("--quiet", asked.is_quiet, "no progress lines");
 }
 
 void add_srs_options(CLI::App& command, SrsCommand& asked) {
-  command.add_option("SIGNAL", asked.signal, "time (s), then values; a column of step names is passed over")
+  command.add_option("SIGNAL", asked.signal, "time (s), then values; a column of step names is ignored")
       ->required()
       ->type_name("FILE.csv");
   CLI::Option* q =
       command.add_option("--q", asked.settings.q_factor, "Q, the amplification at resonance")->capture_default_str();
-  command.add_option("--damping", asked.damping, "damping ratio, 1/(2 Q), in place of Q")
+  command.add_option("--damping", asked.damping, "damping ratio, 1/(2 Q), instead of Q")
       ->check(CLI::Range(0.0, 0.99))
       ->excludes(q);
   std::string quantities;
@@ -158,10 +156,10 @@ void add_srs_options(CLI::App& command, SrsCommand& asked) {
 void add_report_options(CLI::App& command, ReportCommand& asked) {
   add_run_folder(command, asked.run);
   command
-      .add_option(
-          "--specification", asked.specifications,
-          "frequency (Hz) and level (m/s^2, or g where its header says [g]), in place of the deck's: of a "
-          "spectrum by its name; FILE.csv alone is of those that have one in the deck, or of all where none has")
+      .add_option("--specification", asked.specifications,
+                  "replace the deck's specification by a table of frequency (Hz) and level (m/s^2, or g if its header "
+                  "says [g]): of the named spectrum, or with FILE.csv alone of those that have one in the deck, or of "
+                  "all if none has")
       ->allow_extra_args(false)
       ->type_name("SPECTRUM=FILE.csv");
   command.add_option("--out", asked.out, "file to write (default: report.html in the folder)")->type_name("FILE");
@@ -169,7 +167,7 @@ void add_report_options(CLI::App& command, ReportCommand& asked) {
 
 void add_view_options(CLI::App& command, ViewCommand& asked) {
   add_run_folder(command, asked.run);
-  command.add_option("--paraview", asked.program, "ParaView's program, a name or a path")
+  command.add_option("--paraview", asked.program, "ParaView executable, a name or a path")
       ->capture_default_str()
       ->type_name("FILE");
 }
@@ -233,7 +231,7 @@ const std::vector<ExitMeaning>& exit_meanings() {
       {not_converged, "computed and written, but some increments did not converge"},
       {wrong_input, "the deck, a mesh or the command line is wrong; the message says where"},
       {failed, "the computation failed"},
-      {broken, "an error in the program: please report it with the deck"},
+      {broken, "a bug: please report it with the deck"},
       {stopped, "stopped by the user"}};
   return meanings;
 }
@@ -246,17 +244,17 @@ void declare_commands(CLI::App& app, Command& asked) {
   add_run_options(*app.add_subcommand("run", "compute a deck"), asked);
   add_continue_options(
       *app.add_subcommand("continue",
-                          "continue a run: where it was stopped or killed, to a tighter tolerance, or further in time"),
+                          "continue a run: resume it after a stop, tighten its tolerance or extend it in time"),
       asked);
-  add_check_options(*app.add_subcommand("check", "declare and check a deck, say what it would compute, solve nothing"),
+  add_check_options(*app.add_subcommand("check", "check a deck and report what it would compute, without solving"),
                     asked);
   add_converge_options(
-      *app.add_subcommand("converge", "run a deck ever finer: orders of convergence, limits, the cheapest setting"),
+      *app.add_subcommand("converge", "refine a deck repeatedly: orders of convergence, limits, the cheapest setting"),
       asked);
   add_srs_options(*app.add_subcommand("srs", "shock response spectrum of a CSV file"), asked.srs);
   app.add_subcommand("schema", "the reference of the deck language, as Markdown")
-      ->add_flag("--lua", asked.is_for_editors, "definitions for editors instead, which then complete and check decks");
-  add_report_options(*app.add_subcommand("report", "write report.html of a run again"), asked.report);
+      ->add_flag("--lua", asked.is_for_editors, "print definitions for editors, which then complete and check decks");
+  add_report_options(*app.add_subcommand("report", "rewrite report.html of a run"), asked.report);
   add_view_options(*app.add_subcommand("view", "open a run in ParaView: deformed, coloured, cut"), asked.view);
   add_hidden_pages(app);
 }

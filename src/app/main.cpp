@@ -69,7 +69,7 @@ int run_or_check(Command& asked, bool solves) {
   catch_interrupts();
   const char* when_stopped = "stopped; the results so far are written";
   if (!ranks::is_alone() && !asked.repeats.empty())
-    throw InputError("dygita run --repeat: not on several MPI ranks\n    start it without mpirun");
+    throw InputError("dygita run --repeat: cannot run on several MPI ranks\n    start it without mpirun");
   if (!ranks::is_first()) asked.deck.write_files = false;
   if (!asked.repeats.empty()) return exit_code(repeat_run(asked.deck, asked.repeats), when_stopped);
   if (asked.deck.path.empty()) throw InputError("dygita run: which deck? dygita run DECK.lua, or --repeat run.json");
@@ -119,7 +119,7 @@ void join_ranks(int argc, char** argv) {
   const std::string_view command = argc < 2 ? "" : argv[1];
   if (command != "run" && command != "continue")
     throw InputError(fmt::format(
-        "dygita {}: not on several MPI ranks\n    dygita run and continue are what mpirun starts", command));
+        "dygita {}: cannot run on several MPI ranks\n    mpirun starts only dygita run and dygita continue", command));
   refuse_folders_of_their_own();
   if (ranks::is_first()) return;
   be_silent();
@@ -163,7 +163,7 @@ int main(int argc, char** argv) {
   } catch (const NumericalError& error) {
     return fail(error.what(), failed);
   } catch (const std::bad_alloc&) {
-    return fail("not enough memory on this machine; dygita check tells what a problem needs", failed);
+    return fail("not enough memory on this machine; dygita check reports what a problem needs", failed);
   } catch (const std::exception& error) {
     return fail(error.what(), broken);
   }

@@ -26,8 +26,9 @@ void write_report(const ReportCommand& command) {
   for (const std::string& given : command.specifications) {
     const auto [name, file] = name_and_file(given);
     if (!request.specifications.emplace(name, std::make_shared<const Specification>(read_specification(file))).second)
-      throw InputError("--specification " + given + ": " +
-                       (name.empty() ? "a second file that names no spectrum" : "'" + name + "' has one already"));
+      throw InputError(
+          "--specification " + given + ": " +
+          (name.empty() ? "a second file without the name of a spectrum" : "'" + name + "' has one already"));
   }
   const std::filesystem::path folder = command.run;
   const std::filesystem::path page = command.out.empty() ? folder / "report.html" : std::filesystem::path(command.out);

@@ -45,7 +45,7 @@ std::string value_unit(const Title& title, const Origin& origin) {
   const std::optional<Unit> unit = unit_of(title, origin);
   if (unit && unit->si != "m/s^2")
     throw InputError(origin,
-                     fmt::format("'{}' is in {}: a shock response spectrum is taken of an acceleration, in m/s^2 or g",
+                     fmt::format("'{}' is in {}: a shock response spectrum requires an acceleration, in m/s^2 or g",
                                  title.name, *title.unit));
   return title.unit.value_or("");
 }
@@ -57,7 +57,7 @@ void say_choice(const SrsCommand& command, const std::vector<Title>& titles, siz
     if (i != column && titles[i].name != "step" && titles[i].name != "converged")
       others += (others.empty() ? "" : ", ") + titles[i].name;
   if (!command.column.empty() || others.empty()) return;
-  warn(fmt::format("{}: the spectrum is of column '{}'; --column takes another: {}", command.signal,
+  warn(fmt::format("{}: the spectrum is of column '{}'; --column selects another: {}", command.signal,
                    titles[column].name, others));
 }
 
@@ -136,7 +136,7 @@ Signal read_signal(const SrsCommand& command) {
     take_sample(seconds * time, value, step, row.origin, signal);
   }
   drop_static_rows(signal);
-  if (signal.time.size() < 2) throw InputError(fmt::format("{}: fewer than two instants", command.signal));
+  if (signal.time.size() < 2) throw InputError(fmt::format("{}: fewer than two time points", command.signal));
   return signal;
 }
 
@@ -157,7 +157,7 @@ double make_even(Signal& signal, const std::string& file) {
       std::max(std::min(std::ceil(to_shortest * span / shortest * (1.0 - 1e-6)), most_samples), double(n - 1));
   const double dt = span / n_steps;
   warn(fmt::format(
-      "{}: the time steps differ by up to {:.0f} % of their mean; values are interpolated along straight lines, every "
+      "{}: the time steps differ by up to {:.0f} % of their mean; values are interpolated linearly, every "
       "{:g} s{}",
       file, 100.0 * worst, dt,
       dt > 1.01 * shortest ? fmt::format(", the shortest step is {:g} s: shorter pulses are lost", shortest) : ""));
@@ -197,7 +197,7 @@ std::vector<std::string> srs_quantities() {
 void write_srs(const SrsCommand& command) {
   std::error_code ignored;
   if (!command.out.empty() && std::filesystem::equivalent(command.out, command.signal, ignored))
-    throw InputError(fmt::format("--out {}: that is the signal itself, which would be overwritten", command.out));
+    throw InputError(fmt::format("--out {}: this would overwrite the signal itself", command.out));
   SrsSettings settings = command.settings;
   settings.quantity = quantity_named(command.quantity);
   if (command.damping) settings.q_factor = q_factor_of(*command.damping);
@@ -213,7 +213,7 @@ void write_srs(const SrsCommand& command) {
               {}};
   if (signal.n_missed >= 0) table.mark(signal.n_missed == 0);
   if (signal.n_missed > 0)
-    warn(fmt::format("{}: {} of {} rows come from increments that have NOT CONVERGED, and the spectrum rests on them",
+    warn(fmt::format("{}: {} of {} rows come from increments that have NOT CONVERGED, and the spectrum depends on them",
                      command.signal, signal.n_missed, signal.n_rows));
   std::FILE* file = command.out.empty() ? stdout : std::fopen(command.out.c_str(), "w");
   if (!file) throw InputError(fmt::format("cannot write '{}'", command.out));

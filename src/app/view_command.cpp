@@ -28,9 +28,9 @@ fs::path script_of(const fs::path& folder) {
   if (fs::exists(script)) return fs::absolute(script);
   if (!fs::is_directory(folder)) throw InputError("no folder '" + folder.string() + "'");
   if (!fs::exists(folder / "run.json"))
-    throw InputError("'" + folder.string() + "' holds no run\n    give the folder of one, out/<problem>/<case>");
+    throw InputError("'" + folder.string() + "' contains no run\n    give the folder of a run, out/<problem>/<case>");
   throw InputError("'" + folder.string() +
-                   "' holds no frames for ParaView\n    list output.vtk{} in the problem's outputs and run the deck "
+                   "' contains no frames for ParaView\n    list output.vtk{} in the problem's outputs and run the deck "
                    "again, without --no-frames");
 }
 

@@ -13,9 +13,7 @@ bool is_no_file(const fs::path& path) {
 }
 
 void require_file(const fs::path& path) {
-  if (is_no_file(path))
-    throw InputError("'" + path.string() +
-                     "' is a pipe, a device or a folder where a file is expected: it is not read");
+  if (is_no_file(path)) throw InputError("'" + path.string() + "' is a pipe, a device or a folder, not a file");
 }
 
 }  // namespace dygita

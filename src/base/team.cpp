@@ -128,7 +128,7 @@ class Team {
 int limit_at_start() {
   if (const char* asked = std::getenv("OMP_NUM_THREADS")) {
     if (const int n = std::atoi(asked); n > 0) return n;
-    warn(fmt::format("OMP_NUM_THREADS='{}' is no number of threads: as many are taken as there are processors", asked));
+    warn(fmt::format("OMP_NUM_THREADS='{}' is not a number of threads: one per processor is used", asked));
   }
   cpu_set_t allowed;
   if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return std::max(1, CPU_COUNT(&allowed));

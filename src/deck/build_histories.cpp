@@ -36,14 +36,14 @@ Content build_haversine(const Declaration& d) {
 Content build_pulse(const Declaration& d) {
   const LuaArguments& a = d.arguments;
   const double rise = a.number("rise"), hold = a.number("hold"), fall = a.number("fall");
-  if (rise + hold + fall <= 0.0) throw InputError("'rise', 'hold' and 'fall' are all zero: the pulse has no length");
+  if (rise + hold + fall <= 0.0) throw InputError("'rise', 'hold' and 'fall' are all zero: the pulse has zero length");
   return content(History::pulse(a.number("peak"), rise, hold, fall));
 }
 
 Content build_piecewise(const Declaration& d) {
   auto times = d.arguments.numbers("times"), values = d.arguments.numbers("values");
   if (times.size() != values.size()) {
-    throw InputError(fmt::format("{} times and {} values: equally many are needed", times.size(), values.size()));
+    throw InputError(fmt::format("{} times and {} values: their numbers must be equal", times.size(), values.size()));
   }
   for (size_t i = 1; i < times.size(); ++i) {
     if (times[i] > times[i - 1]) continue;
@@ -81,7 +81,7 @@ void take_unit(double factor, SampledSignal& signal) {
   for (double& value : signal.values) {
     value *= factor;
     if (!std::isfinite(value))
-      throw InputError(fmt::format("a value of the file times 'unit' = {:g} is no finite number", factor));
+      throw InputError(fmt::format("a value of the file times 'unit' = {:g} is not a finite number", factor));
   }
   signal.has_unit = true;
 }

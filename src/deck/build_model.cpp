@@ -54,8 +54,8 @@ Face face_of(const SubstructurePtr& part, const std::string& group, const Origin
   for (const auto& [name, nodes] : part->mesh->point_groups) known.push_back(name);
   for (const auto& [name, facets] : faces) known.push_back(name);
   if (part->mesh->condensed)
-    throw InputError(origin, fmt::format("superelement '{}' was condensed without a face '{}'\n    {}", part->name,
-                                         group, did_you_mean(group, known)));
+    throw InputError(origin, fmt::format("superelement '{}' was condensed without face '{}'\n    {}", part->name, group,
+                                         did_you_mean(group, known)));
   throw InputError(origin, fmt::format("substructure '{}' has no face '{}' in its mesh\n    {}", part->name, group,
                                        did_you_mean(group, known)));
 }

@@ -58,7 +58,7 @@ Content build_gmsh(const Declaration& d) {
   options.order = d.arguments.integer("order");
   options.is_complete = d.arguments.has("cell") && d.arguments.text("cell") == "hex27";
   if (options.order < 2 && d.arguments.has("cell"))
-    throw InputError("'cell' chooses among cells of order 2: add order = 2");
+    throw InputError("'cell' selects among cells of order 2: add order = 2");
   const LuaState::Pause pause(d.lua);
   return std::make_shared<const GmshMeshes>(options);
 }
@@ -71,7 +71,7 @@ Content build_step_mesh(const Declaration& d) {
   if (a.has("size")) options.size = a.number("size");
   options.sizes = a.settings("sizes");
   if (const auto all = options.sizes.find("default"); all != options.sizes.end()) {
-    if (options.size) throw InputError("'size' and 'sizes.default' are two words for one thing: give one of them");
+    if (options.size) throw InputError("'size' and 'sizes.default' are mutually exclusive: give one of them");
     options.size = all->second;
     options.sizes.erase("default");
   }
@@ -104,7 +104,7 @@ Content build_bolt_mesh(const Declaration& d) {
   const int around = a.integer("around"), order = a.integer("order");
   const auto made = [&](const auto& shape, auto make) -> Content {
     const double cells = n_cells(shape), bytes = cells * (order == 2 ? bytes_per_quadratic_cell : bytes_per_cell);
-    d.lua.reserve(fmt::format("bolt.hex: {:.3g} cells of a part", cells), static_cast<size_t>(std::min(bytes, 1e18)));
+    d.lua.reserve(fmt::format("bolt.hex: {:.3g} cells in a part", cells), static_cast<size_t>(std::min(bytes, 1e18)));
     const MeshPtr mesh = make(shape);
     d.lua.hold_reserved(mesh, static_cast<size_t>(bytes));
     return mesh;
@@ -120,20 +120,21 @@ Content build_bolt_mesh(const Declaration& d) {
 
 Damping damping_by_ratio(const LuaArguments& a) {
   if (!a.is_number("damping") || a.number("damping") != 0.0)
-    throw InputError("'damping' and 'damping_ratio' are two words for one thing: give one of them");
+    throw InputError("'damping' and 'damping_ratio' are mutually exclusive: give one of them");
   if (!a.has("damping_frequency"))
     throw InputError(
-        "'damping_ratio' needs the frequency where it holds\n    damping_frequency = 1*kHz, or { 200*Hz, 2*kHz }");
+        "'damping_ratio' requires the frequency at which it holds\n    damping_frequency = 1*kHz, or { 200*Hz, 2*kHz "
+        "}");
   const std::vector<double> ratio = a.numbers("damping_ratio"), frequency = a.numbers("damping_frequency");
   if (ratio.size() > frequency.size())
-    throw InputError("'damping_ratio' has two values and 'damping_frequency' one: each ratio has a frequency");
+    throw InputError("'damping_ratio' has two values and 'damping_frequency' one: give one frequency per ratio");
   if (frequency.size() == 1) return damping_of(ratio[0], frequency[0]);
   return damping_of({ratio.front(), ratio.back()}, {frequency[0], frequency[1]});
 }
 
 Damping damping_in(const LuaArguments& a) {
   if (a.has("damping_ratio")) return damping_by_ratio(a);
-  if (a.has("damping_frequency")) throw InputError("'damping_frequency' goes with 'damping_ratio', which is missing");
+  if (a.has("damping_frequency")) throw InputError("'damping_frequency' requires 'damping_ratio', which is missing");
   if (a.is_number("damping")) return {0.0, a.number("damping")};
   const auto damping = a.settings("damping");
   return {damping.at("mass"), damping.at("stiffness")};
@@ -155,10 +156,10 @@ void doubt_locking(const Substructure& part) {
     const std::string_view cells = cell_shape(block.type).locks_as;
     if (cells.empty()) continue;
     if (part.material.poisson <= locking_poisson)
-      warn(fmt::format(
-          "{}substructure '{}': {} are far too stiff in bending, and their stress is poor; order = 2 in the "
-          "mesh makes them tet10",
-          part.origin.prefix(), part.name, cells));
+      warn(
+          fmt::format("{}substructure '{}': {} are far too stiff in bending and give poor stresses; order = 2 in the "
+                      "mesh makes them tet10",
+                      part.origin.prefix(), part.name, cells));
     else
       warn(fmt::format("{}substructure '{}': {} with a Poisson's ratio of {:g} lock; hexahedra or prisms do not",
                        part.origin.prefix(), part.name, cells, part.material.poisson));
@@ -187,8 +188,8 @@ InterfaceSide side_of(const Object& object) {
 }
 
 const char* cure_of_gap(bool knows_gaps) {
-  return knows_gaps ? "gap = \"geometry\" keeps what lies between them, closed = true says that it is meant"
-                    : "'place' and 'origin' bring them together";
+  return knows_gaps ? "gap = \"geometry\" keeps the actual gap, closed = true confirms contact"
+                    : "move them together by 'place' or 'origin'";
 }
 
 void warn_of_gap(const Declaration& d, const Interface& interface, const std::string& who_1, const std::string& who_2,
@@ -221,10 +222,8 @@ void set_sides(const Declaration& d, Interface& interface) {
   }
   for (const InterfaceSide* side : {&one, &other})
     if (!side->face && side->part->mesh->condensed && side->part->mesh->faces.empty())
-      throw InputError(
-          fmt::format("superelement '{}' has points and no facets: name its face, and the face that lies on "
-                      "its points",
-                      side->part->name));
+      throw InputError(fmt::format("superelement '{}' has points but no facets: name its face and the opposite face",
+                                   side->part->name));
   for (const auto& [own, opposite] : {std::pair(&one, &other), std::pair(&other, &one)})
     if (own->face && is_of_points(*own->face))
       throw InputError(fmt::format("'{}' is given by points alone: give the face of '{}' that lies on them",

@@ -38,7 +38,8 @@ Content build_dynamic(const Declaration& d) {
   if (n < 1.0 - 1e-6) {
     throw InputError(fmt::format("'dt' = {:g} s is longer than 'duration' = {:g} s", step->dt, step->duration));
   }
-  if (n > most_time_steps) throw InputError(fmt::format("{:.3g} time steps are more than {:g}", n, most_time_steps));
+  if (n > most_time_steps)
+    throw InputError(fmt::format("{:.3g} time steps exceed the limit of {:g}", n, most_time_steps));
   return StepPtr(step);
 }
 
@@ -60,14 +61,14 @@ Content build_latin(const Declaration& d) {
     settings->precision = a.text("precision") == "single" ? Precision::single_precision : Precision::double_precision;
   if (settings->precision == Precision::single_precision && settings->tolerance < 1e-7)
     throw InputError(
-        fmt::format("'precision' = \"single\" holds a tolerance of 1e-7 at least, got {:g}: leave 'precision' out or "
+        fmt::format("'precision' = \"single\" allows no tolerance below 1e-7, got {:g}: leave 'precision' out or "
                     "say \"double\"",
                     settings->tolerance));
   settings->pieces = a.is_number("pieces") ? a.integer("pieces") : 0;  // the only word is "auto"
   if (settings->pieces > 1 && settings->mass.is_moved_from_contact)
     throw InputError(
-        fmt::format("'pieces' = {} and 'massless_contact' exclude each other: mass does not move from one piece to "
-                    "another; leave 'pieces' out, or 1",
+        fmt::format("'pieces' = {} and 'massless_contact' are mutually exclusive: mass cannot move between pieces; "
+                    "omit 'pieces' or set it to 1",
                     settings->pieces));
   settings->spectra = a.number_or("spectra", settings->spectra);
   settings->history_memory = 1e6 * a.number("history_memory");
@@ -118,8 +119,8 @@ void doubt_friction(const Problem& problem, const DeckState& state) {
         std::find(problem.interfaces.begin(), problem.interfaces.end(), interface) == problem.interfaces.end())
       continue;
     check::doubt(problem, interface->origin,
-                 fmt::format("{} has no 'friction' and slides freely, where bolts are tightened that hold by friction: "
-                             "friction = 0 says that it is meant",
+                 fmt::format("{} has no 'friction' and slides freely, although tightened bolts rely on friction: "
+                             "friction = 0 confirms this",
                              check::describe(*interface)),
                  {"no friction", 0.0, "'" + interface->name + "'", true});
   }

@@ -44,15 +44,13 @@ MeshPtr superelement_of(const LuaArguments& a) {
   if (a.has("file")) {
     for (const char* other : {"stiffness", "mass", "damping", "points"})
       if (a.has(other))
-        throw InputError(
-            fmt::format("'file' names all that belongs to it: '{}' is for matrices of other programs, "
-                        "without 'file'",
-                        other));
+        throw InputError(fmt::format(
+            "'file' already refers to all matrices: '{}' is for matrices from other programs, without 'file'", other));
     return read_superelement(a.file("file"));
   }
   for (const char* needed : {"mass", "points"})
     if (!a.has(needed))
-      throw InputError(fmt::format("'stiffness' goes with 'mass' and 'points': '{}' is missing", needed));
+      throw InputError(fmt::format("'stiffness' requires 'mass' and 'points': '{}' is missing", needed));
   MatrixFiles files{a.file("stiffness"), a.file("mass"), {}, a.file("points")};
   if (a.has("damping")) files.damping = a.file("damping");
   return read_matrices(files);
@@ -61,8 +59,8 @@ MeshPtr superelement_of(const LuaArguments& a) {
 // Nothing is known of its inside where it is held there.
 void check_free(const Substructure& part) {
   if (part.velocity.isZero() || !part.mesh->condensed->resists(part.mesh->nodes, part.velocity)) return;
-  throw InputError(
-      fmt::format("'velocity' of '{}': its matrices resist that motion: a support was condensed with it", part.name));
+  throw InputError(fmt::format(
+      "'velocity' of '{}': its matrices resist that motion because a support was condensed with it", part.name));
 }
 
 // Matrices are kept dense and sparse, about as large as their texts each.

@@ -17,7 +17,7 @@ DeckOutcome continue_run(const ContinueOptions& options) {
   }
   continuation.check_until();
   if (read_deck_text(state.deck_path) != state.deck_text)
-    warn(fmt::format("deck '{}' has changed since the run or is gone: the run continues with the text that it kept",
+    warn(fmt::format("deck '{}' has changed since the run or is missing: the run continues with its stored text",
                      state.deck_path));
   DeckOptions deck;
   deck.path = state.deck_path;
@@ -39,9 +39,9 @@ DeckOutcome continue_run(const ContinueOptions& options) {
              check_report});
   if (!continuation.is_done() && !outcome.interrupted)
     throw InputError(
-        fmt::format("the deck does not run problem '{}', case '{}' any more", state.problem, state.case_name));
+        fmt::format("the deck no longer runs problem '{}', case '{}' any more", state.problem, state.case_name));
   if (continuation.ends_early()) {
-    say("the deck has further cases that have not been computed: it ends here");
+    say("the deck has further cases that have not been computed; execution ends here");
     outcome.interrupted = false;
   }
   if (continuation.resumes()) return outcome;

@@ -82,7 +82,7 @@ class Converge {
       if (!figure) continue;
       const auto same = [&](const WatchedFigure& known) { return known.name == name; };
       if (std::erase_if(run.figures, same) > 0 && said_last_of_.insert(name).second)
-        say("'" + name + "' is of several runs of the deck: its figures are those of the last");
+        say("'" + name + "' occurs in several runs of the deck: its values are those of the last");
       run.figures.push_back(*figure);
     }
     run.converged &= result.converged;
@@ -109,7 +109,7 @@ class Converge {
       return false;
     }
     outcome_.is_whole &= run.converged;
-    if (!run.converged) say("  this run did not converge: its figures are left out");
+    if (!run.converged) say("  this run did not converge: its values are omitted");
     spent_ += run.seconds;
     study_.add(levels, std::move(run));
     return !outcome_.interrupted;
@@ -174,7 +174,8 @@ class Converge {
   void conclude() {
     if (!has_enough()) {
       outcome_.is_met = options_.aim == 0.0;
-      say("an order of convergence takes two refinements of each parameter: raise --budget, or start coarser (--set)");
+      say("an order of convergence requires two refinements of each parameter: raise --budget, or start coarser "
+          "(--set)");
       return;
     }
     outcome_.figures = study_.figures();
@@ -199,10 +200,10 @@ class Converge {
     std::erase_if(in_some, [&](const std::string& name) { return in_all.contains(name); });
     if (in_some.empty()) return;
     outcome_.is_met = false;
-    say(
-        fmt::format("these runs are no one sequence: the mass of {} was tuned in some and lumped in others; say which, "
-                    "--solver \"latin{{ mass = 'tuned' }}\" or 'lumped'",
-                    list_of_names({in_some.begin(), in_some.end()})));
+    say(fmt::format(
+        "these runs do not form one sequence: the mass of {} was tuned in some and lumped in others; say which, "
+        "--solver \"latin{{ mass = 'tuned' }}\" or 'lumped'",
+        list_of_names({in_some.begin(), in_some.end()})));
   }
 
   // The cheapest setting that is predicted to meet the aim, computed and compared with the limit.
@@ -210,18 +211,18 @@ class Converge {
     const std::vector<FigureConvergence> figures = with_limit();
     outcome_.is_met = !figures.empty() && (options_.outputs.empty() || figures.size() == options_.outputs.size());
     if (figures.size() < all.size() || !outcome_.is_met)
-      say("figures without a limit, or of runs that did not converge, meet no aim");
+      say("quantities without a limit, or of runs that did not converge, cannot meet a target");
     const auto levels = figures.empty() ? std::nullopt : study_.cheapest(figures, options_.aim);
     if (!levels) {
       outcome_.is_met = false;
-      say(fmt::format("no setting that was tried is within {:g} % of every limit", 100.0 * options_.aim));
+      say(fmt::format("no tested setting is within {:g} % of every limit", 100.0 * options_.aim));
       return;
     }
     const std::string setting = setting_text(study_, *levels);
     say(fmt::format("cheapest setting within {:g} %: {}, about {:.3g} s", 100.0 * options_.aim, setting,
                     study_.predicted_seconds(*levels, 0.0)));
     if (!compute(*levels)) {
-      say("  it has not been run: its error is predicted from the runs along each parameter");
+      say("  this setting has not been run: its error is predicted from the runs along each parameter");
     } else if (!study_.runs().at(*levels).converged) {
       outcome_.is_met = false;
     } else {
@@ -258,8 +259,8 @@ class Converge {
       outcome_.is_met = false;
       if (off <= figure.allowed(options_.aim))
         say(
-            fmt::format("    but {:.2g} {} from the sum of what each parameter does alone: the limit, which is such a "
-                        "sum, is known no better\n    refine the coarsest run (--set), or one parameter at a time",
+            fmt::format("    but {:.2g} {} from the sum of the separate effects: the limit, also such a sum, is no "
+                        "more accurate\n    refine the coarsest run (--set), or one parameter at a time",
                         unit * together, is_level ? "dB" : "%"));
     }
   }
@@ -318,7 +319,7 @@ Variation parse_variation(const std::string& text) {
   if (sign != std::string::npos) std::tie(variation.ratio, rest) = number_and_rest(text.substr(sign + 1));
   if (variation.parameter.empty() || !rest.empty() || !(variation.ratio > 1.0) || !(variation.ratio <= 10.0))
     throw InputError("--vary " + text +
-                     ": write a parameter and what to refine it by, above 1 and at most 10: size (halved), size/1.5, "
+                     ": write a parameter and its refinement factor, above 1 and at most 10: size (halved), size/1.5, "
                      "n*2 (a number of cells or steps)");
   return variation;
 }
@@ -327,7 +328,7 @@ double parse_share(const std::string& what, const std::string& text) {
   const auto [number, rest] = number_and_rest(text);
   const double share = rest == "%" ? number / 100.0 : number;
   if ((!rest.empty() && rest != "%") || !(share > 0.0) || !(share < 1.0))
-    throw InputError(what + " " + text + ": write a share as 1% or 0.01, above 0 and below 100%");
+    throw InputError(what + " " + text + ": write a fraction as 1% or 0.01, above 0 and below 100%");
   return share;
 }
 

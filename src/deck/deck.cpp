@@ -84,7 +84,7 @@ void warn_of_unused(const DeckState& state) {
   for (const std::string& warning : state.declared.unused()) warn(warning);
   for (const auto& [name, value] : state.parameters) {
     if (state.parameters_read.count(name)) continue;
-    warn(fmt::format("{}parameter '{}' is declared and never used", state.parameters_origin.prefix(), name));
+    warn(fmt::format("{}parameter '{}' is declared but never used", state.parameters_origin.prefix(), name));
   }
   for (const auto& [assembly, taken] : state.parts_taken) {
     std::string left;
@@ -119,8 +119,7 @@ DeckOutcome execute(const DeckOptions& options, const Engine& engine, bool solve
     state.outcome.interrupted = true;
   } catch (const DeckScriptError& error) {
     if (!state.has_read_hollow) throw;
-    say(fmt::format("the check ends here, where the deck uses results that a check does not compute:\n    {}",
-                    error.what()));
+    say(fmt::format("the check ends here: the deck uses results that a check does not compute:\n    {}", error.what()));
   }
   state.outcome.parameters = state.parameters;
   return state.outcome;
@@ -173,7 +172,7 @@ void check_cold(DeckState& state, const DeckResult& warm, StudyCase& one) {
   RunRequest request = request_of(state, *warm.problem, one.name);
   request.write_files = request.write_frames = false;
   request.is_trial = true;
-  say(fmt::format("problem '{}', case '{}' once more, without 'start_from':", warm.problem->name, one.name));
+  say(fmt::format("problem '{}', case '{}' again, without 'start_from':", warm.problem->name, one.name));
   const auto cold = state.engine.run(*warm.problem, request);
   if (cold->interrupted) return;
   const Difference difference = largest_difference(*warm.problem, *cold, *warm.run);
@@ -202,8 +201,7 @@ void note_case(DeckState& state, const DeckResult& result, const std::string& ca
   if (is_warm) one.started_from = start_from->case_name;
   if (arguments.boolean("check_cold") && is_warm) check_cold(state, result, one);
   if (arguments.boolean("check_cold") && !is_warm)
-    warn(fmt::format("case '{}': 'check_cold' compares with what 'start_from' gives, and the case has run from scratch",
-                     case_name));
+    warn(fmt::format("case '{}': 'check_cold' compares with 'start_from', but the case ran from scratch", case_name));
   state.study.add(result.problem->name, std::move(one));
 }
 
@@ -238,11 +236,10 @@ int run_from_deck(DeckState& state, lua_State* L) {
   const Origin origin = state.origin(static_cast<int>(lua_tointeger(L, 4)));
   const std::string label = fmt::format("problem '{}', case '{}'", problem->name, case_name);
   if (const char* what = own_file_called(file_name_of(case_name), true))
-    throw InputError(
-        origin, fmt::format("{}: its folder would stand in the place of {}\n    give it another name", label, what));
+    throw InputError(origin, fmt::format("{}: its folder would overwrite {}\n    give it another name", label, what));
   if (!state.cases.emplace(problem->name, case_name).second) {
     throw InputError(origin,
-                     fmt::format("{} has run before in this deck and would be overwritten\n    give each run its "
+                     fmt::format("{} has already run in this deck and would be overwritten\n    give each run its "
                                  "own: run{{ case = \"...\" }}",
                                  label));
   }

@@ -38,11 +38,13 @@ class DeckFunction {
   void check_answers_the_same() const {
     const double first = value(0.0), again = value(0.0);
     if (first == again) return;
-    throw InputError(DeckState::of(lua_).origin(declared_at_),
-                     fmt::format("a function of time must give one value for one time, and this one gave {:g} and then "
-                                 "{:g} at t = 0\n    math.random and counters belong outside of it: make a table of "
-                                 "values once, and history.piecewise of it",
-                                 first, again));
+    throw InputError(
+        DeckState::of(lua_).origin(declared_at_),
+        fmt::format(
+            "a function of time must return the same value for the same time, but this one returned {:g} and then "
+            "{:g} at t = 0\n    keep math.random and counters outside: tabulate the values once and use "
+            "history.piecewise",
+            first, again));
   }
 
  private:
@@ -71,8 +73,8 @@ void push_history(lua_State* L, History history, int id) {
 void doubt_factor(const History& history, double factor, const Origin& origin) {
   if (history.unit() != "m/s^2" || std::abs(std::abs(factor) / standard_gravity - 1.0) > 0.01) return;
   warn(origin.prefix() +
-       "the signal's file gives a unit of acceleration, so that its values are m/s^2 already: times g0 they are 9.8 "
-       "times as large");
+       "the signal file states a unit of acceleration, so its values are already in m/s^2: multiplying by g0 makes "
+       "them 9.8 times too large");
 }
 
 // What is wrong with a history that is made of others is told at the line that makes it.

@@ -150,8 +150,7 @@ void LuaState::check_time() const {
 
 InputError LuaState::out_of_time() const {
   return {origin(last_line_),
-          fmt::format("the deck itself has computed for {:g} s and was stopped\n    a loop without end? --time-limit "
-                      "raises the limit",
+          fmt::format("deck code has run for {:g} s and was stopped\n    infinite loop? --time-limit raises the limit",
                       limits_.seconds)};
 }
 
@@ -176,9 +175,10 @@ void LuaState::raise(int status) {
   if (held_) std::rethrow_exception(std::exchange(held_, nullptr));
   if (status == LUA_ERRMEM) {
     if (is_out_of_time()) throw out_of_time();
-    throw InputError(origin(last_line_), fmt::format("the deck wants more than {:g} MB of memory\n    --memory-limit "
-                                                     "raises the limit",
-                                                     static_cast<double>(limits_.bytes) / (1 << 20)));
+    throw InputError(origin(last_line_),
+                     fmt::format("deck data require more than {:g} MB of memory\n    --memory-limit "
+                                 "raises the limit",
+                                 static_cast<double>(limits_.bytes) / (1 << 20)));
   }
   throw DeckScriptError(message);
 }
@@ -195,11 +195,10 @@ void LuaState::reserve(const std::string& what, size_t bytes) {
   lua_gc(L_, LUA_GCCOLLECT);
   if (used_bytes_ + outside_bytes() + bytes <= limits_.bytes) return;
   constexpr double megabyte = 1 << 20;
-  throw InputError(
-      origin(line(L_)),
-      fmt::format("{} take about {:.3g} MB; the deck may hold {:g} MB\n    --memory-limit "
-                  "raises the limit",
-                  what, static_cast<double>(bytes) / megabyte, static_cast<double>(limits_.bytes) / megabyte));
+  throw InputError(origin(line(L_)), fmt::format("{} take about {:.3g} MB; the limit is {:g} MB\n    --memory-limit "
+                                                 "raises the limit",
+                                                 what, static_cast<double>(bytes) / megabyte,
+                                                 static_cast<double>(limits_.bytes) / megabyte));
 }
 
 LuaState::Pause::Pause(LuaState& state) : state_(state) {
@@ -242,8 +241,8 @@ double LuaState::value_of_function(int reference, int declared_at, double t) {
   const std::string answer = is_number ? fmt::format("{:g}", value) : luaL_typename(L_, -1);
   lua_pop(L_, 1);
   if (is_number && std::isfinite(value)) return value;
-  throw InputError(origin(declared_at), fmt::format("the function of time declared here answers {} at t = {:g} s\n"
-                                                    "    it must answer a finite number at every time",
+  throw InputError(origin(declared_at), fmt::format("the function of time declared here returns {} at t = {:g} s\n"
+                                                    "    it must return a finite number at every time",
                                                     answer, t));
 }
 

@@ -52,7 +52,7 @@ int line(LuaState& state, lua_State* L) {
   const int found = state.line(L);
   if (state.is_paused()) {
     throw InputError(state.origin(found),
-                     "a function of time only computes: nothing is declared, read or run inside it");
+                     "a function of time may only compute: it cannot declare, read or run anything");
   }
   lua_pushinteger(L, found);
   return 1;

@@ -30,9 +30,9 @@ int read_part(lua_State* L, const PartData& data, const Origin& origin) {
                                          did_you_mean(key, {"mass", "von_mises", "margin", "volume_above_yield"})));
   if (part.mesh->condensed)
     throw InputError(origin,
-                     fmt::format("superelement '{}' has no '{}': it has no cells, and no stress", part.name, key));
+                     fmt::format("superelement '{}' has no '{}': without cells it has no stress", part.name, key));
   if (!part.yield)
-    throw InputError(origin, fmt::format("substructure '{}' has no '{}': its stress was not watched\n    give its "
+    throw InputError(origin, fmt::format("substructure '{}' has no '{}': its stress was not monitored\n    give its "
                                          "material '{}' a 'yield'",
                                          part.name, key, part.material.name));
   double value = std::numeric_limits<double>::quiet_NaN();

@@ -33,7 +33,7 @@ bool answers_true(lua_State* L, int function, const Vec3& x, const std::string& 
   lua_call(L, 3, 1);
   if (!lua_isboolean(L, -1))
     throw InputError(origin,
-                     fmt::format("substructure '{}': the function of 'where' must answer true or false, got {}\n"
+                     fmt::format("substructure '{}': the function of 'where' must return true or false, got {}\n"
                                  "    is its 'return' missing?",
                                  part, luaL_typename(L, -1)));
   const bool answer = lua_toboolean(L, -1);
@@ -53,7 +53,7 @@ Region region_of(const SubstructurePtr& part, lua_State* L, const Origin& origin
   }
   if (region.nodes.empty()) {
     throw InputError(origin,
-                     fmt::format("substructure '{}': 'where' finds none of its {} nodes\n    they span {}; compare "
+                     fmt::format("substructure '{}': 'where' selects none of its {} nodes\n    they span {}; compare "
                                  "coordinates with near(a, b)",
                                  part->name, part->mesh->n_nodes(), extent(nodes, part->place)));
   }
@@ -74,10 +74,10 @@ std::string places_along(const Substructure& part, FacetPick pick) {
         std::stod(fmt::format("{:.6g}", pick.normal->dot(middle) / static_cast<double>(facet.corners().size()))));
   }
   constexpr size_t most = 5;
-  if (places.empty() || places.size() > most) return places.empty() ? "; nothing else fits either, whatever 'at'" : "";
+  if (places.empty() || places.size() > most) return places.empty() ? "; no facet matches at any 'at'" : "";
   std::string list;
   for (const double at : places) list += fmt::format("{}{:g}", list.empty() ? "" : ", ", at);
-  return "; 'at' counts along the normal, and there is something at " + list + " m";
+  return "; 'at' is measured along the normal: facets match at " + list + " m";
 }
 
 // Surfaces at one height along a normal.
@@ -150,17 +150,16 @@ Face picked_face(const std::filesystem::path& folder, const SubstructurePtr& par
     pick.box = {a.vector("low"), a.vector("high")};
     note("from " + vector(pick.box->first) + " to " + vector(pick.box->second) + " m");
   }
-  if (pick.at && !pick.normal) throw InputError(origin, "'at' is a place along 'normal', which is missing");
+  if (pick.at && !pick.normal) throw InputError(origin, "'at' is a position along 'normal', which is missing");
   if ((pick.radius || pick.axis) && !pick.is_cylinder)
-    throw InputError(origin, "'radius' and 'axis' are those of a cylinder: add cylinder = true");
+    throw InputError(origin, "'radius' and 'axis' require cylinder = true");
   if (a.is_function("where")) {
     lua_getfield(L, 3, "where");
     const int function = lua_gettop(L);
     pick.where = [&, function](const Vec3& x) { return answers_true(L, function, x, part->name, origin); };
     note("where");
   }
-  if (by.empty())
-    throw InputError(origin, "part:face{} picks by 'normal', 'cylinder', 'low' and 'high', or 'where': none is given");
+  if (by.empty()) throw InputError(origin, "part:face{} requires 'normal', 'cylinder', 'low' and 'high', or 'where'");
   const auto facets = std::make_shared<const std::vector<Facet>>(pick_facets(*part->mesh, part->place, pick));
   if (facets->empty())
     throw InputError(
@@ -169,8 +168,7 @@ Face picked_face(const std::filesystem::path& folder, const SubstructurePtr& par
   if (pick.normal && !pick.at && !pick.where && !pick.is_cylinder)
     if (const std::string levels = several_levels(*part, *pick.normal, *facets); !levels.empty())
       warn(fmt::format(
-          "{}substructure '{}': face ({}) is {}; 'at' picks one of them, 'where' with one says that all are "
-          "meant",
+          "{}substructure '{}': face ({}) is {}; 'at' selects one of them, a 'where' that returns true confirms all",
           origin.prefix(), part->name, by, levels));
   return {part, "(" + by + ")", facets};
 }

@@ -22,7 +22,7 @@ std::vector<std::string> Register::unused() const {
     if (is_used[i] || is_referred[i]) continue;
     const bool is_problem = entries_[i].label.rfind("problem", 0) == 0;
     warnings.push_back(entries_[i].origin.prefix() + entries_[i].label +
-                       (is_problem ? " is declared and never run" : " is declared and never used"));
+                       (is_problem ? " is declared but never run" : " is declared but never used"));
   }
   return warnings;
 }

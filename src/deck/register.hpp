@@ -16,7 +16,7 @@ class Register {
   // Notes that an object does something by itself: a problem that ran.
   void mark_used(int id) { entries_[static_cast<size_t>(id)].is_used = true; }
 
-  // "crush.lua:30: support 'wall' is declared and never used" for each object that no used one refers to, outermost
+  // "crush.lua:30: support 'wall' is declared but never used" for each object that no used one refers to, outermost
   // only: what serves an unused object alone is not told.
   std::vector<std::string> unused() const;
 

@@ -17,19 +17,18 @@ DeckOutcome repeat_run(DeckOptions options, const std::filesystem::path& record)
   std::error_code ignored;
   if (!std::filesystem::exists(options.path, ignored))
     throw InputError(
-        fmt::format("the deck of the record, '{}', is not there\n    dygita run DECK --repeat {} says where it is, or "
-                    "start from the "
-                    "folder of that run",
+        fmt::format("the recorded deck '{}' is missing\n    dygita run DECK --repeat {} gives its path, or start "
+                    "from the folder of that run",
                     options.path.string(), record.string()));
   DeckOutcome outcome = run_deck(
       options, {[&](const Problem& problem, const RunRequest& request) { return repetition.run(problem, request); },
                 check_report});
   if (!repetition.is_done() && !outcome.interrupted)
-    throw InputError(fmt::format("the deck does not run {} any more", repetition.label()));
+    throw InputError(fmt::format("the deck no longer runs {} any more", repetition.label()));
   if (!repetition.differing().empty())
     outcome.differing = fmt::format(
-        "deck, parameters and meshes are those of {} (files of histories are not compared: one that has "
-        "changed gives other tables), and these tables differ: {}",
+        "deck, parameters and meshes match those of {}, but these tables differ (history files are not compared and "
+        "may have changed): {}",
         repetition.label(), repetition.differing());
   return outcome;
 }

@@ -75,11 +75,11 @@ int push_output_data(lua_State* L, const DeckResultPtr& result, const Object& ke
   }
   if (output->columns().empty()) {
     throw InputError(origin,
-                     "output." + output->word + " has no data in the deck\n    its frames are files for ParaView");
+                     "output." + output->word + " provides no data to the deck\n    its frames are ParaView files");
   }
   const auto& listed = result->problem->outputs;
   if (index_of(listed, output.get()) >= 0) {
-    throw InputError(origin, fmt::format("the run gave nothing for {}", key.label()));
+    throw InputError(origin, fmt::format("the run produced nothing for {}", key.label()));
   }
   throw InputError(origin, fmt::format("{} is not in 'outputs' of problem '{}'", key.label(), result->problem->name));
 }
@@ -93,8 +93,8 @@ int read_result(lua_State* L, const Object& object, const Origin& origin) {
     }
     if (key->kind == "output") return push_output_data(L, result, *key, origin);
     throw InputError(
-        origin, fmt::format("result[{}]: a result is asked for an output, as in result[bolt], or for a substructure",
-                            key->label()));
+        origin,
+        fmt::format("result[{}]: index a result by an output, as in result[bolt], or by a substructure", key->label()));
   }
   const std::string key = key_text(L);
   if (key == "iterations") {
@@ -105,9 +105,11 @@ int read_result(lua_State* L, const Object& object, const Origin& origin) {
     lua_pushboolean(L, result->run->converged);
   } else if (const auto& outputs = result->problem->outputs;
              std::any_of(outputs.begin(), outputs.end(), [&](const OutputPtr& o) { return o->name == key; })) {
-    throw InputError(origin, fmt::format("a result has no '{}'\n    an output is asked for by itself, not by its name: "
-                                         "result[{}], without quotes",
-                                         key, key));
+    throw InputError(
+        origin,
+        fmt::format(
+            "a result has no '{}'\n    index it by the output itself, not by its name: result[{}], without quotes", key,
+            key));
   } else {
     unknown(origin, "a result", key, {"converged", "iterations", "mean_iterations"});
   }

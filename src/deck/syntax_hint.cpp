@@ -26,7 +26,7 @@ std::string unit_hint(const std::string& line) {
   static const std::regex number_unit(std::string(R"((^|[^\w.])(\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+)\s*()") + units +
                                       R"()(?!\w))");
   if (std::regex_search(line, found, number_unit))
-    return "a unit is a number to multiply by: write " + found[2].str() + "*" + found[3].str();
+    return "a unit is a factor: write " + found[2].str() + "*" + found[3].str();
   static const std::regex base_unit(R"((^|[^\w.])(\d+\.?\d*(?:[eE][-+]?\d+)?)\s*(m|s|N|Pa|kg|g|cm)(?!\w))");
   if (std::regex_search(line, found, base_unit))
     return "numbers are in SI units: write " + found[2].str() + " without '" + found[3].str() +
@@ -37,7 +37,7 @@ std::string unit_hint(const std::string& line) {
 std::string sign_hint(const std::string& near) {
   if (near == "!") return "'not equal' is ~=, 'not' is the word not";
   if (near.starts_with("<\\255") || near.starts_with("<\\254")) return "the deck is text in UTF-16: save it as UTF-8";
-  if (near.starts_with("<\\")) return "text stands between straight quotes, \"\", and minus is the plain -";
+  if (near.starts_with("<\\")) return "text requires straight quotes, \"\", and minus is the plain -";
   if (near == "&" || near == "|") return "write 'and', 'or'";
   if (near == "#" || near == "//" || near == "%") return "a comment starts with --";
   if (near == "+" || near == "-" || near == "*" || near == "/") return "there is no += in Lua: write x = x + 1";

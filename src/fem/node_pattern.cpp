@@ -73,8 +73,8 @@ NodePattern node_pattern(const Mesh& mesh, CellSlots* slots) {
     std::sort(pattern.neighbours.begin() + static_cast<std::ptrdiff_t>(first), pattern.neighbours.end());
     if (pattern.neighbours.size() > std::numeric_limits<int>::max() / 9)
       throw InputError(fmt::format(
-          "mesh {}: {} nodes in one substructure are too many, its matrix would have more than 2^31 entries\n"
-          "    cut it into several substructures (about 8 million nodes each at most)",
+          "mesh {}: {} nodes exceed the limit of one substructure: its matrix would have more than 2^31 entries\n"
+          "    divide it into several substructures (of at most about 8 million nodes each)",
           mesh.source, mesh.n_nodes()));
     pattern.starts.push_back(static_cast<int>(pattern.neighbours.size()));
     if (!slots) continue;

@@ -67,7 +67,7 @@ std::vector<Token> tokens_of(const std::string& text) {
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, int line, const std::string& text) {
-  throw InputError(fmt::format("{}:{}: {}\n    a mesh file of a deck describes a mesh and does nothing else",
+  throw InputError(fmt::format("{}:{}: {}\n    a mesh file of a deck may only describe a mesh",
                                file.filename().string(), line, text));
 }
 
@@ -114,16 +114,17 @@ void check_geo(const std::filesystem::path& file, int depth, Checked& checked) {
 }
 
 void check_file(const std::filesystem::path& file, int depth, Checked& checked) {
-  if (depth > deepest_merge) throw InputError(fmt::format("{}: files merge each other too deeply", file.string()));
+  if (depth > deepest_merge)
+    throw InputError(fmt::format("{}: files merge each other to too many levels", file.string()));
   std::error_code error;
   const std::filesystem::path known = std::filesystem::canonical(file, error);
   if (error || !std::filesystem::is_regular_file(known, error))
-    throw InputError(fmt::format("{}: no such file, and a mesh file merges it", file.string()));
+    throw InputError(fmt::format("{}: no such file, but a mesh file merges it", file.string()));
   if (checked.contains(known)) return;
   const std::filesystem::path options = file.string() + ".opt";
   if (std::filesystem::exists(options, error)) {
     throw InputError(
-        fmt::format("{} lies beside the mesh file and gmsh would run it: rename or remove it", options.string()));
+        fmt::format("{} is beside the mesh file and gmsh would run it: rename or remove it", options.string()));
   }
   std::string extension = file.extension().string();
   if (extension == ".msh") {

@@ -22,7 +22,7 @@ void warn_of_implausible_size(const Mesh& mesh, const std::string& volume) {
   const double length = (mesh.nodes.rowwise().maxCoeff() - mesh.nodes.rowwise().minCoeff()).norm();
   if (length > 100 || length < 1e-5)
     warn(fmt::format(
-        "{}: volume '{}' is {:.3g} m across; is 'unit' right? mesh files are in metres unless it says otherwise",
+        "{}: volume '{}' is {:.3g} m across; is 'unit' correct? mesh files are in metres unless 'unit' is given",
         mesh.source, volume, length));
 }
 

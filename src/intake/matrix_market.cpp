@@ -103,7 +103,7 @@ MatrixHeader header_of(std::string_view line, const std::string& file) {
   words >> banner >> object >> format >> field >> symmetry;
   if (banner != "%%matrixmarket" || object != "matrix")
     throw InputError(
-        fmt::format("'{}' is no matrix in Matrix Market format: its first line does not begin with "
+        fmt::format("'{}' is not in Matrix Market format: its first line does not begin with "
                     "'%%MatrixMarket matrix'",
                     file));
   if ((format != "array" && format != "coordinate") || (field != "real" && field != "integer" && field != "double") ||
@@ -122,8 +122,8 @@ void check_matrix(const Mat& matrix, const std::string& file) {
   for (Eigen::Index j = 0; j < matrix.cols(); ++j)
     for (Eigen::Index i = j + 1; i < matrix.rows(); ++i)
       if (std::abs(matrix(i, j) - matrix(j, i)) > unlike * std::max(largest[i], largest[j]))
-        throw InputError(fmt::format("'{}' is not symmetric: {:.9g} in row {}, column {}, and {:.9g} the other way",
-                                     file, matrix(i, j), i + 1, j + 1, matrix(j, i)));
+        throw InputError(fmt::format("'{}' is not symmetric: {:.9g} in row {}, column {}, but {:.9g} transposed", file,
+                                     matrix(i, j), i + 1, j + 1, matrix(j, i)));
 }
 
 }  // namespace
@@ -140,8 +140,8 @@ MatrixFile read_matrix_market(const std::string& file) {
     throw InputError(fmt::format("'{}' is {} x {}: a square matrix is expected", file, rows, columns));
   if (rows > most_rows)
     throw InputError(
-        fmt::format("'{}' has {} rows: at most {} are allowed, since a condensed body is kept as a dense "
-                    "matrix\n    condense it to fewer points or modes",
+        fmt::format("'{}' has {} rows: at most {} are allowed, since a condensed body is stored as a dense matrix\n    "
+                    "condense it to fewer points or modes",
                     file, rows, most_rows));
   Mat matrix = Mat::Zero(rows, rows);
   if (header.is_array) {

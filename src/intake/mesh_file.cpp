@@ -31,11 +31,11 @@ void check_file(const std::string& file) {
 void check_geo(const GmshOptions& options) {
   if (kind_of_file(options.file) != "geo") {
     if (options.set.empty()) return;
-    throw InputError(fmt::format("mesh file '{}': 'set' acts on the parameters of a .geo only", options.file));
+    throw InputError(fmt::format("mesh file '{}': 'set' applies only to the parameters of a .geo", options.file));
   }
   const GeoFacts facts = geo_facts(options.file);
   if (!facts.unfinished.empty())
-    throw InputError(fmt::format("mesh file '{}' does not end with a newline: gmsh would leave out its last line",
+    throw InputError(fmt::format("mesh file '{}' does not end with a newline: gmsh would ignore its last line",
                                  facts.unfinished.front()));
   const std::vector<std::string>& known = facts.parameters;
   for (const auto& [name, value] : options.set) {
@@ -55,10 +55,10 @@ void check_lengths(const GmshOptions& options) {
     throw InputError(fmt::format("mesh file '{}': size must be positive, not {:g} m", options.file, *options.size));
   if (options.size && kind == "msh")
     throw InputError(
-        fmt::format("mesh file '{}': 'size' does not act on a .msh, which is meshed already", options.file));
+        fmt::format("mesh file '{}': 'size' does not apply to a .msh, which is already meshed", options.file));
   if (options.order > 1 && kind == "msh")
     throw InputError(
-        fmt::format("mesh file '{}': 'order' does not act on a .msh, whose cells have their order", options.file));
+        fmt::format("mesh file '{}': 'order' does not apply to a .msh, whose cells have a fixed order", options.file));
   const std::optional<double> stated = kind == "step" ? step_unit(options.file) : std::nullopt;
   if (stated && options.unit != 1 && std::abs(options.unit / *stated - 1) > 1e-9)
     throw InputError(fmt::format("mesh file '{}' states its unit, {:g} m, but 'unit' is {:g} m", options.file, *stated,

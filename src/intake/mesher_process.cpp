@@ -46,10 +46,9 @@ std::string mesher_program() {
   const fs::path here = fs::read_symlink("/proc/self/exe", ignored).parent_path();
   for (const char* place : {"dygita-mesher", "../dygita-mesher", "../libexec/dygita/dygita-mesher"})
     if (const fs::path program = here / place; access(program.c_str(), X_OK) == 0) return program.string();
-  throw InputError(
-      fmt::format("the program 'dygita-mesher' is neither in {} nor in ../libexec/dygita beside it: is the "
-                  "installation whole?",
-                  here.string()));
+  throw InputError(fmt::format(
+      "the program 'dygita-mesher' is neither in {} nor in ../libexec/dygita beside it: is the installation complete?",
+      here.string()));
 }
 
 // Sockets: to write to one whose reader is gone is an error, where a pipe would end this program.
@@ -162,10 +161,10 @@ InputError crash(const std::string& file, int status, const std::string& errors)
   const std::string how = WIFSIGNALED(status)
                               ? fmt::format("by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))
                               : fmt::format("with code {}", WEXITSTATUS(status));
-  return InputError(fmt::format(
-      "{}: gmsh came to an end {} while it read or meshed the file: it is spoiled, or gmsh has a fault\n    does "
-      "gmsh itself open it? another size or another algorithm may get past a fault of gmsh{}",
-      file, how, last_words(errors)));
+  return InputError(
+      fmt::format("{}: gmsh terminated {} while reading or meshing the file: the file is damaged, or gmsh has a bug\n  "
+                  "  does gmsh itself open it? another size or algorithm may avoid a bug of gmsh{}",
+                  file, how, last_words(errors)));
 }
 
 }  // namespace
@@ -187,9 +186,9 @@ std::string run_mesher(MesherTask task, const std::string& file) {
       mesher.converse(to_bytes(task), [&] { return seconds() < mesh_limits().time && !interrupt_requested(); });
   if (!is_over) {
     mesher.end();
-    if (interrupt_requested()) throw InputError(fmt::format("{}: stopped while gmsh meshed it", file));
+    if (interrupt_requested()) throw InputError(fmt::format("{}: stopped while gmsh was meshing it", file));
     throw InputError(
-        fmt::format("{}: gmsh has taken {:g} s to read and mesh it and was stopped\n    a loop without end? "
+        fmt::format("{}: gmsh has taken {:g} s to read and mesh it, and was stopped\n    infinite loop? "
                     "--mesh-time-limit raises the limit",
                     file, mesh_limits().time));
   }

@@ -276,7 +276,7 @@ std::string to_bytes(const MesherAnswer& answer) {
 
 MesherAnswer answer_of(const std::string& bytes, const std::string& file) {
   const auto refuse = [&](const std::string& why) {
-    return InputError(fmt::format("{}: what gmsh makes of it is no mesh: {}", file, why));
+    return InputError(fmt::format("{}: gmsh returned no valid mesh: {}", file, why));
   };
   try {
     MesherAnswer answer = read_answer(bytes);

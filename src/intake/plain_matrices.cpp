@@ -23,7 +23,7 @@ namespace {
 
 void check_sizes(const Mat& stiffness, const std::string& of, const Mat& other, const std::string& of_other) {
   if (stiffness.rows() != other.rows())
-    throw InputError(fmt::format("'{}' has {} rows and '{}' {}: they are not of one body", of, stiffness.rows(),
+    throw InputError(fmt::format("'{}' has {} rows and '{}' {}: they do not belong to one body", of, stiffness.rows(),
                                  of_other, other.rows()));
 }
 
@@ -74,20 +74,19 @@ class PointTable {
     for (size_t i = 0; i < titles.size(); ++i) {
       const std::string title = in_lower_case(titles[i]);
       if (std::find(known.begin(), known.end(), title) == known.end())
-        throw InputError(fmt::format("{}:{}: a line of titles comes first, and '{}' is none of them\n    {}", file_,
-                                     number, printable(titles[i]), did_you_mean(title, known)));
+        throw InputError(fmt::format("{}:{}: the first line must have titles, but '{}' is not one of them\n    {}",
+                                     file_, number, printable(titles[i]), did_you_mean(title, known)));
       if (!columns_.emplace(title, i).second)
         throw InputError(fmt::format("{}:{}: title '{}' comes twice", file_, number, title));
     }
     for (const std::string& title : needed)
       if (!columns_.contains(title))
         throw InputError(
-            fmt::format("{}:{}: column '{}' is missing: face, x, y, z are needed, row_x, row_y, row_z may "
-                        "follow",
+            fmt::format("{}:{}: column '{}' is missing: face, x, y, z are required, row_x, row_y, row_z optional",
                         file_, number, title));
     const auto n = std::count_if(rows.begin(), rows.end(), [&](const auto& title) { return columns_.contains(title); });
     if (n != 0 && n != 3)
-      throw InputError(fmt::format("{}:{}: row_x, row_y and row_z come together or not at all", file_, number));
+      throw InputError(fmt::format("{}:{}: give all of row_x, row_y and row_z, or none", file_, number));
   }
 
   double number_at(const std::vector<std::string>& fields, const char* title, int line) const {
@@ -102,8 +101,8 @@ class PointTable {
 
   void read_line(const std::vector<std::string>& fields, int line) {
     if (fields.size() != columns_.size())
-      throw InputError(fmt::format("{}:{}: {} columns where the line of titles has {}", file_, line, fields.size(),
-                                   columns_.size()));
+      throw InputError(
+          fmt::format("{}:{}: {} columns, but the line of titles has {}", file_, line, fields.size(), columns_.size()));
     PointLine point{fields[columns_.at("face")],
                     {number_at(fields, "x", line), number_at(fields, "y", line), number_at(fields, "z", line)},
                     {}};
@@ -117,7 +116,7 @@ class PointTable {
       const double row = number_at(fields, title.c_str(), line);
       if (row < 0.0 || row != std::floor(row) || row > 1e9)
         throw InputError(
-            fmt::format("{}:{}: '{}' is the number of a row from 1 on, or 0 where there is none", file_, line, title));
+            fmt::format("{}:{}: '{}' must be the number of a row, from 1, or 0 for none", file_, line, title));
       point.rows[static_cast<size_t>(d)] = static_cast<int>(row) - 1;
     }
     if (point.face.empty()) throw InputError(fmt::format("{}:{}: the face has no name", file_, line));
@@ -143,10 +142,8 @@ void check_definite(const Mat& matrix, const std::string& file, const char* what
   scaled.diagonal().array() += of_rounding * static_cast<double>(matrix.rows());
   const Eigen::LLT<Eigen::Ref<Mat>> factor(scaled);
   if (factor.info() != Eigen::Success)
-    throw InputError(
-        fmt::format("'{}' is no {} matrix: it is not positive semidefinite, some motion would have a "
-                    "negative energy",
-                    file, what));
+    throw InputError(fmt::format(
+        "'{}' is no {} matrix: it is not positive semidefinite: some motion would have negative energy", file, what));
 }
 
 void check_rows(const std::vector<PointLine>& points, Eigen::Index n_rows, const MatrixFiles& files) {

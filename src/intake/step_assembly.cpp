@@ -55,7 +55,7 @@ void say_parts(const std::string& file, const std::vector<StepPart>& parts) {
     say(line_of(part));
     if (const double worst = worst_shape(*part.mesh); part.copy_of.empty() && worst < 0.0)
       warn(
-          fmt::format("{}: part '{}' has cells that are tangled at a corner (worst shape {:.2g}, below 0): give it a "
+          fmt::format("{}: part '{}' has cells that are inverted at a corner (worst shape {:.2g}, below 0): give it a "
                       "smaller size or more cells around its holes ('round'), or tetrahedra",
                       file, part.name, worst));
   }
@@ -121,8 +121,8 @@ const StepPart& StepAssembly::part(const std::string& name) const {
         fmt::format("'{}' has no part '{}'\n    {}", file_, name, did_you_mean(name, known_names(parts_))));
   if (found.size() > 1)
     throw InputError(
-        fmt::format("'{}' has {} parts '{}'\n    they are called '{}' to '{}'; assembly:parts \"{}\" "
-                    "answers all of them",
+        fmt::format("'{}' has {} parts '{}'\n    their names are '{}' to '{}'; assembly:parts \"{}\" "
+                    "returns all of them",
                     file_, found.size(), name, found.front()->name, found.back()->name, name));
   return *found.front();
 }
@@ -132,7 +132,7 @@ std::vector<const StepPart*> StepAssembly::parts(const std::string& pattern) con
   for (const StepPart& part : parts_)
     if (part.fit(pattern)) found.push_back(&part);
   if (found.empty())
-    throw InputError(fmt::format("'{}' has no part that '{}' fits\n    {}", file_, pattern,
+    throw InputError(fmt::format("'{}' has no part that matches '{}'\n    {}", file_, pattern,
                                  did_you_mean(pattern, known_names(parts_))));
   return found;
 }

@@ -54,8 +54,9 @@ double volume_of(const TaggedVolume& volume, const Nodes& nodes) {
 
 std::string text_of(const Straightened& one, const std::string& file) {
   return fmt::format(
-      "{}: {} of {} curved cells of volume '{}' were tangled and have straight edges now; its volume changes by {:.2g} "
-      "%; smaller cells where the surface bends leave fewer",
+      "{}: {} of {} curved cells of volume '{}' were inverted and now have straight edges; its volume changes by "
+      "{:.2g} "
+      "%; smaller cells on curved surfaces reduce their number",
       file, one.n_cells, one.n_curved, one.volume, 100.0 * one.volume_change);
 }
 

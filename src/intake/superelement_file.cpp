@@ -31,7 +31,9 @@ class Description {
     const Json what = json_.is_object() ? json_.value("what", Json()) : Json();
     if (what != "dygita superelement") refuse("its 'what' is not \"dygita superelement\"");
     if (json_.value("version", Json()) != 1)
-      refuse("it is of a later version of the program: condense the body again with this one, or take the later one");
+      refuse(
+          "it was written by a later version of the program: condense the body again with this one, or use the later "
+          "one");
   }
 
   MeshPtr read() const {
@@ -39,8 +41,7 @@ class Description {
       return read_body();
     } catch (const Json::exception& error) {
       const std::string text = error.what();  // "[json.exception.out_of_range.403] key 'rows' not found"
-      refuse("something is missing in it or of another kind, " +
-             text.substr(std::min(text.find("] ") + 2, text.size())));
+      refuse("an entry is missing or of the wrong type, " + text.substr(std::min(text.find("] ") + 2, text.size())));
     }
   }
 
@@ -48,8 +49,7 @@ class Description {
   [[noreturn]] void refuse(const std::string& why) const {
     throw InputError(
         fmt::format("'{}' does not describe a superelement: {}\n    output.superelement writes "
-                    "<name>.json; matrices of other programs are given by 'stiffness', 'mass' and "
-                    "'points'",
+                    "<name>.json; give matrices of other programs by 'stiffness', 'mass' and 'points'",
                     file_, why));
   }
 
@@ -60,8 +60,8 @@ class Description {
     const std::string path = (fs::path(file_).parent_path() / name).string();
     MatrixFile read = read_matrix_market(path);
     if (read.digest != entry.at("digest"))
-      throw InputError(fmt::format("'{}' is not the {} that '{}' describes: it has been changed, or is of another run",
-                                   path, what, file_));
+      throw InputError(fmt::format(
+          "'{}' is not the {} that '{}' describes: it has been changed, or belongs to another run", path, what, file_));
     if (read.matrix.rows() != json_.at("n_rows").get<long>())
       throw InputError(fmt::format("'{}' has {} rows, '{}' says {}", path, read.matrix.rows(), file_,
                                    json_.at("n_rows").get<long>()));
@@ -71,18 +71,17 @@ class Description {
   Vec3 vector(const Json& json) const {
     constexpr double farthest = 1e6;  // m
     const Vec3 x(json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>());
-    if (!(x.cwiseAbs().maxCoeff() < farthest)) refuse("a place lies 1000 km or more from the origin");
+    if (!(x.cwiseAbs().maxCoeff() < farthest)) refuse("a point is 1000 km or more from the origin");
     return x;
   }
 
   int row_of(const Json& json) const {
     const long row = json.get<long>();
     if (row == -1)
-      throw InputError(
-          fmt::format("'{}': a motion of one of its faces is that of another face, since they are tied to "
-                      "each other or share nodes along a support that is oblique: it has no row of its "
-                      "own\n    condense the assembly with one of the two in 'on'",
-                      file_));
+      throw InputError(fmt::format(
+          "'{}': a motion of one of its faces is that of another face, because they are tied or share nodes along an "
+          "oblique support: it has no row of its own\n    condense the assembly with one of the two in 'on'",
+          file_));
     if (row < 0 || row > json_.at("n_rows").get<long>()) refuse(fmt::format("there is no row {}", row));
     return row == 0 ? no_row : static_cast<int>(row) - 1;
   }

@@ -123,7 +123,7 @@ void add_partners(const Pair& pair, const Facet& facet_2, const Facet& translate
     if (is_new || known->second == node_2) continue;
     const Vec3 place = pair.in_space_1.x.col(pair.in_space_1.index.at(node_1));
     throw InputError(
-        fmt::format("faces '{}' and '{}': '{}' has two nodes at {}, the interface could not tell them apart",
+        fmt::format("faces '{}' and '{}': '{}' has two nodes at {}, so the interface cannot distinguish them",
                     pair.side_1.name, pair.side_2.name, pair.side_2.name, at(place)));
   }
 }
@@ -165,11 +165,10 @@ Matching match(const Pair& pair) {
 void refuse_same_orientation(const Pair& pair, const Matching& matching) {
   if (matching.same_way.empty()) return;
   const Vec3 place = pair.in_space_1.polygon(matching.same_way.front()).rowwise().mean();
-  throw InputError(
-      fmt::format("faces '{}' and '{}' coincide on {} facets, the first at {}, but both have their bodies on the same "
-                  "side: the bodies overlap\n    check the places of both bodies, or whether a face of the "
-                  "other end was meant",
-                  pair.side_1.name, pair.side_2.name, matching.same_way.size(), at(place)));
+  throw InputError(fmt::format(
+      "faces '{}' and '{}' coincide on {} facets, the first at {}, but both have their bodies on the same "
+      "side: the bodies overlap\n    check the places of both bodies, or whether the opposite end face was meant",
+      pair.side_1.name, pair.side_2.name, matching.same_way.size(), at(place)));
 }
 
 bool overlaps(const Pair& pair, const Matching& matching) {

@@ -24,11 +24,11 @@ void refuse_same_side(const PlacedFace& side_1, const PlacedFace& side_2) {
   const std::optional<Overlap> overlap = find_overlap(polygons_of(side_1), polygons_of(side_2));
   if (!overlap) return;
   const Vec3& x = overlap->place;
-  throw InputError(fmt::format(
-      "faces '{}' and '{}' lie on one another, around ({:.6g}, {:.6g}, {:.6g}) m, but both have their bodies "
-      "on the same side: the bodies overlap\n    check the places of both bodies, or whether a face of the "
-      "other end was meant",
-      side_1.name, side_2.name, x[0], x[1], x[2]));
+  throw InputError(
+      fmt::format("faces '{}' and '{}' coincide, around ({:.6g}, {:.6g}, {:.6g}) m, but both have their bodies "
+                  "on the same side: the bodies overlap\n    check the places of both bodies, or whether the opposite "
+                  "end face was meant",
+                  side_1.name, side_2.name, x[0], x[1], x[2]));
 }
 
 // Those of a face's facets that are among these, whose corners may go round the other way.

@@ -50,8 +50,8 @@ constexpr double bytes_of_hexahedron = 60.0, bytes_of_cut = 1200.0, bytes_of_tet
 void check_memory(const std::array<int, 3>& cells, double bytes_of_cell) {
   const double bytes = bytes_of_cell * cells[0] * cells[1] * cells[2], limit = box_memory_limit();
   if (limit <= 0.0 || bytes <= limit) return;
-  throw InputError(fmt::format("box: {} x {} x {} cells take about {:.2g} GB and this machine has {:.2g} GB", cells[0],
-                               cells[1], cells[2], 1e-9 * bytes, 1e-9 * limit));
+  throw InputError(fmt::format("box: {} x {} x {} cells require about {:.2g} GB, but this machine has {:.2g} GB",
+                               cells[0], cells[1], cells[2], 1e-9 * bytes, 1e-9 * limit));
 }
 
 void check_box(const Vec3& origin, const Vec3& size, const std::array<int, 3>& cells) {
@@ -66,7 +66,7 @@ void check_box(const Vec3& origin, const Vec3& size, const std::array<int, 3>& c
   const double n_nodes = (cells[0] + 1.0) * (cells[1] + 1.0) * (cells[2] + 1.0);
   if (n_nodes * 8 > std::numeric_limits<int>::max())
     throw InputError(
-        fmt::format("box: {} x {} x {} cells are too many: at most about 2.6e8 nodes", cells[0], cells[1], cells[2]));
+        fmt::format("box: {} x {} x {} cells exceed the limit of about 2.6e8 nodes", cells[0], cells[1], cells[2]));
 }
 
 // The linear cells that fill a hexahedron, by its corners: as many nodes as one cell has for each.

@@ -30,12 +30,11 @@ void check_block(const Points& nodes, const CellBlock& block, const std::string&
     const double length = longest_edge(x), smallest = smallest_jacobian(block.type, x);
     if (smallest > flattest * length * length * length) continue;
     const Vec3 centre = x.rowwise().mean();
-    throw InputError(
-        fmt::format("mesh of '{}': cell {} ({}) at ({:.6g}, {:.6g}, {:.6g}) m, volume {:.3g} m^3, is {}\n"
-                    "    every Jacobian must be positive, the smallest is {:.3g} m^3: the cell is turned inside out or "
-                    "too distorted",
-                    name, i, cell_shape(block.type).name, centre[0], centre[1], centre[2], cell_volume(block.type, x),
-                    smallest < 0 ? "inverted" : "flat", smallest));
+    throw InputError(fmt::format(
+        "mesh of '{}': cell {} ({}) at ({:.6g}, {:.6g}, {:.6g}) m, volume {:.3g} m^3, is {}\n"
+        "    every Jacobian must be positive, the smallest is {:.3g} m^3: the cell is inverted or too distorted",
+        name, i, cell_shape(block.type).name, centre[0], centre[1], centre[2], cell_volume(block.type, x),
+        smallest < 0 ? "inverted" : "flat", smallest));
   }
 }
 

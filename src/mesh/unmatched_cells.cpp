@@ -158,20 +158,20 @@ void check_shared_facets(const Mesh& mesh, const std::string& name) {
   };
   if (const auto& first = misfits.first_repeated)
     throw InputError(
-        fmt::format("mesh of '{}': cell {} at {} is cell {} once more{}\n    what is listed twice has its mass and "
-                    "stiffness twice: list each cell once",
+        fmt::format("mesh of '{}': cell {} at {} repeats cell {}{}\n    a repeated cell counts its mass and stiffness "
+                    "twice: list each cell once",
                     name, first->second.name(), middle(first->second), first->first.name(),
                     more(static_cast<int>(misfits.repeated.size()), "such cells")));
   if (const auto& first = misfits.first_overlap)
     throw InputError(
         fmt::format("mesh of '{}': cells {} and {}, around {}, lie on the same side of the facet that they share: they "
-                    "overlap{}\n    each place belongs to one cell; two meshes of one body are two volumes",
+                    "overlap{}\n    cells must not overlap; two meshes of one body need two volumes",
                     name, first->first.name(), first->second.name(), middle(first->second),
                     more(misfits.n_overlaps, "such facets")));
   if (const auto& first = misfits.first_unlike)
     throw InputError(fmt::format(
-        "mesh of '{}': cells {} and {}, around {}, share the corners of a facet and not its other nodes: "
-        "they come apart between the corners{}\n    cells of one volume that meet have one order; two "
+        "mesh of '{}': cells {} and {}, around {}, share the corners of a facet but not its other nodes: they separate "
+        "between the corners{}\n    adjacent cells of one volume must have the same order; two "
         "volumes with interface.bonded between them may differ",
         name, first->first.name(), first->second.name(), middle(first->second), more(misfits.n_unlike, "such facets")));
 }

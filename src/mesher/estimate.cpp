@@ -55,11 +55,11 @@ void refuse_hopeless(const std::string& file, const std::function<double(int vol
   const std::string likely =
       across > implausible_length
           ? "is the file in millimetres? then say unit = mm"
-          : fmt::format("was a unit forgotten or written twice, as in size = 4*mm? {:g} mm would be about {:.1g} cells",
+          : fmt::format("is a unit missing or repeated, as in size = 4*mm? {:g} mm would be about {:.1g} cells",
                         1e6 * size, cells * 1e-9);
   throw InputError(fmt::format(
-      "{}: cells of {:.3g} mm in a part {:.4g} m across would be about {:.1g}: more than gmsh can make\n    {}", file,
-      1e3 * size, across, cells, likely));
+      "{}: cells of {:.3g} mm in a part {:.4g} m across would be about {:.1g}: more than gmsh can generate\n    {}",
+      file, 1e3 * size, across, cells, likely));
 }
 
 }  // namespace dygita

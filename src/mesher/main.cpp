@@ -27,7 +27,7 @@ MesherAnswer answer_to(const MesherTask& task) {
     answer.error = error.what();
   } catch (const std::bad_alloc&) {
     const auto& file = std::visit([](const auto& options) -> const std::string& { return options.file; }, task.options);
-    answer.error = file + ": gmsh wants more memory than this machine has\n    larger cells, or a unit that is wrong?";
+    answer.error = file + ": gmsh requires more memory than this machine has\n    use larger cells, or check 'unit'";
   }
   answer.warnings = take_warnings();
   return answer;
@@ -50,7 +50,7 @@ bool write_all(int stream, const std::string& bytes) {
 int main() {
   using namespace dygita;
   if (isatty(STDIN_FILENO)) {
-    std::fputs("dygita-mesher is started by dygita, not by hand\n", stderr);
+    std::fputs("dygita starts dygita-mesher; do not start it by hand\n", stderr);
     return 2;
   }
   const std::string bytes((std::istreambuf_iterator<char>(std::cin)), {});

@@ -45,8 +45,8 @@ std::vector<Swept> sweep_solids(const StepOptions& options, const Unswept& unswe
       all.push_back({i, cad});
     } else if (options.sweep == StepOptions::Sweep::all) {
       throw InputError(
-          fmt::format("{}: part '{}' cannot have hexahedra: it is no flat face moved along its normal, as a plate or a "
-                      "washer is\n    cells = \"hexahedra where possible\" gives it tetrahedra",
+          fmt::format("{}: part '{}' cannot have hexahedra: it is not an extruded flat face, such as a plate or a "
+                      "washer\n    cells = \"hexahedra where possible\" gives it tetrahedra",
                       options.file, solid.part.name));
     }
   }
@@ -95,7 +95,7 @@ void set_sizes(const StepOptions& options, const std::vector<Solid>& solids, dou
   if (is_finer_at_contacts(options)) {
     const StepContacts contacts = contacts_of(solids);
     if (contacts.surfaces.empty())
-      warn(fmt::format("{}: no faces of its parts touch: {} makes nothing finer", options.file,
+      warn(fmt::format("{}: no faces of its parts touch: {} refines nothing", options.file,
                        options.fine ? "'fine'" : "'sizes.contacts'"));
     if (options.fine && !contacts.curves.empty()) grade(contacts.curves, *options.fine, unit);
     if (on_contacts != options.sizes.end()) {
@@ -159,7 +159,7 @@ void doubt_losses(const std::string& file, size_t n_solids) {
   if (kind_of_file(file) != "step") return;
   const size_t n = count_in_file(file, "MANIFOLD_SOLID_BREP(") + count_in_file(file, "BREP_WITH_VOIDS(");
   if (n > n_solids)
-    warn(fmt::format("{}: it holds {} solids, and {} could be read: is it whole? export it once more", file, n,
+    warn(fmt::format("{}: it holds {} solids, and {} could be read: is the file complete? export it again", file, n,
                      n_solids));
 }
 
@@ -168,7 +168,7 @@ void open(const StepOptions& options) {
   gmsh::option::getString("General.BuildOptions", build);
   if (build.find("OpenCASCADE-CAF") == std::string::npos)
     throw InputError(
-        fmt::format("{}: this gmsh reads no names of parts (built without OpenCASCADE-CAF)", options.file));
+        fmt::format("{}: this gmsh cannot read the names of parts (built without OpenCASCADE-CAF)", options.file));
   gmsh::option::setNumber("Geometry.OCCImportLabels", 1);
   // OpenCASCADE's tolerances are made for millimetres.
   gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
@@ -275,7 +275,7 @@ MesherAnswer read_assembly(const StepOptions& options) {
                         "('round'), or cells = \"hexahedra where possible\", which gives it tetrahedra",
                         options.file, part, why));
       warn(
-          fmt::format("{}: part '{}' has tetrahedra, since hexahedra of its size are no good: {}; a smaller size, or "
+          fmt::format("{}: part '{}' has tetrahedra, since hexahedra of its size are invalid: {}; a smaller size, or "
                       "more cells around ('round')",
                       options.file, part, why));
     }

@@ -24,7 +24,7 @@ void join_touching_bodies() {
   for (size_t i = 0; i < volumes.size(); ++i) {
     const auto n_pieces =
         std::count_if(origins[i].begin(), origins[i].end(), [](const auto& e) { return e.first == 3; });
-    if (n_pieces != 1) throw InputError(fmt::format("body {} is cut by another one: they overlap", i + 1));
+    if (n_pieces != 1) throw InputError(fmt::format("body {} intersects another one: they overlap", i + 1));
   }
 }
 
@@ -95,8 +95,8 @@ void refuse_lost_cells(const std::string& file) {
   for (const std::vector<size_t>& of_type : cells) n_read += of_type.size();
   if (static_cast<double>(n_read) < all)
     throw InputError(fmt::format(
-        "{}: gmsh passes on {} of its {:.0f} cells: those of another order in the same volume are lost\n    "
-        "cells of one volume have one order; give the others a volume of their own (elementary entity)",
+        "{}: gmsh passes on {} of its {:.0f} cells: those of a different order in the same volume are lost\n    "
+        "all cells of a volume must have the same order; put the others into their own volume (elementary entity)",
         file, n_read, all));
 }
 

@@ -65,8 +65,8 @@ class Filter {
   static void check(int failed) {
     if (failed == 0) return;
     throw InputError(
-        "the system refuses the filter (seccomp) that keeps gmsh from starting programs and from writing files\n    "
-        "--trust-mesh FILE reads a file that you trust without it");
+        "the system refuses the filter (seccomp) that prevents gmsh from starting programs and writing files\n    "
+        "--trust-mesh FILE reads a trusted file without it");
   }
 
   scmp_filter_ctx context_;
@@ -129,7 +129,7 @@ void let_read(int set, const char* path) {
 void restrict_files(const std::vector<std::string>& readable) {
   const long version = syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
   if (version < 1) {  // an old kernel: the filter has to do
-    warn("this system's kernel has no Landlock: a mesh file can have gmsh read any file that you can read");
+    warn("this kernel has no Landlock: a mesh file can make gmsh read any file that you can read");
     return;
   }
   landlock_ruleset_attr rules = {};

@@ -59,7 +59,7 @@ std::vector<std::string> known_names(const std::vector<Solid>& solids) {
 void keep_asked(const StepOptions& options, std::vector<Solid>& solids) {
   for (const std::string& pattern : options.parts)
     if (std::none_of(solids.begin(), solids.end(), [&](const Solid& one) { return one.part.fit(pattern); }))
-      throw InputError(fmt::format("{}: 'parts' names '{}', which no part is called\n    {}", options.file, pattern,
+      throw InputError(fmt::format("{}: 'parts' names '{}', but no part has this name\n    {}", options.file, pattern,
                                    did_you_mean(pattern, known_names(solids))));
   if (options.parts.empty()) return;
   std::erase_if(solids, [&](const Solid& one) {
@@ -127,7 +127,7 @@ std::vector<Solid> read_solids(const StepOptions& options, double unit) {
     solid.size = options.size ? *options.size / unit : box_of(3, tag).size().norm() / cells_across;
   }
   if (solids.empty())
-    throw InputError(fmt::format("{}: no solid in it; surfaces alone cannot be meshed", options.file));
+    throw InputError(fmt::format("{}: it contains no solid; surfaces alone cannot be meshed", options.file));
   name_parts(solids);
   keep_asked(options, solids);
   for (const auto& [pattern, size] : options.sizes) {
@@ -139,7 +139,7 @@ std::vector<Solid> read_solids(const StepOptions& options, double unit) {
         is_used = true;
       }
     if (!is_used)
-      throw InputError(fmt::format("{}: 'sizes' names '{}', which no part is called\n    {}", options.file, pattern,
+      throw InputError(fmt::format("{}: 'sizes' names '{}', but no part has this name\n    {}", options.file, pattern,
                                    did_you_mean(pattern, known_names(solids))));
   }
   find_copies(options, unit, solids);

@@ -306,7 +306,7 @@ void superelements_feel(const Problem& problem, const Load& load) {
       if (part->mesh->condensed && part->mesh->condensed->resists(part->mesh->nodes, force->unit(part->place)))
         fail(problem, load.origin,
              force->name + ": what it does to the inside of superelement '" + part->name +
-                 "' is not known, since its matrices resist that motion: a support was condensed with it",
+                 "' is not known, since its matrices resist that motion because a support was condensed with it",
              "condense it without the support, with the supported face in 'on', and hold it in the deck");
   }
 }

@@ -199,7 +199,7 @@ void share_on_machine(const std::vector<MachineArray>& arrays) {
     is_impossible = !here.copies || here.copies->is_impossible();
   }
   if (ranks::any(is_impossible))
-    warn(fmt::format("meshes cannot be shared in {}: each rank keeps its own (TMPDIR names another folder)",
+    warn(fmt::format("meshes cannot be shared in {}: each rank keeps a copy (TMPDIR selects another folder)",
                      folder_of_files()));
   if (ranks::count_on_machine() > 1 && shared_here().copies) shared_here().copies->forget_files();
   ranks::before_stop(nullptr);

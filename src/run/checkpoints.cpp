@@ -136,7 +136,7 @@ void rethrow(const std::exception_ptr& error, const std::string& line) {
   } catch (const NumericalError& numerical) {
     throw NumericalError(numerical.what() + line);
   } catch (const std::bad_alloc&) {
-    throw NumericalError("not enough memory on this machine; dygita check tells what a problem needs" + line);
+    throw NumericalError("not enough memory on this machine; dygita check reports what a problem needs" + line);
   }
 }
 

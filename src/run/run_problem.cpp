@@ -292,7 +292,7 @@ void tell_stop(const RunResult& result, const RunSite& site) {
 
 // Not even the results found room: what the checkpoint has is not lost.
 [[noreturn]] void tell_lack_of_memory(RunSite& site) {
-  std::string text = "not enough memory on this machine; dygita check tells what a problem needs";
+  std::string text = "not enough memory on this machine; dygita check reports what a problem needs";
   if (site.checkpoint && site.checkpoint->has_entries()) {
     site.checkpoint->sync();
     text += fmt::format(

@@ -146,7 +146,7 @@ for name, solver, expected in (("short", "latin{ max_iterations = 8 }", 1), ("wh
     # A spectrum of the history by hand carries it on; so does the report made again.
     said = dygita("srs", run_folder / "above.csv", "--from", 25000, "--to", 200000, "--out", FOLDER / f"{name}.csv", expected=0)
     check(set(marks(table(FOLDER / f"{name}.csv"))) == {0 if is_marked else 1}, "dygita srs")
-    check(("have NOT CONVERGED, and the spectrum rests on them" in said) == is_marked, said)
+    check(("have NOT CONVERGED, and the spectrum depends on them" in said) == is_marked, said)
     page = (run_folder / "report.html").read_bytes()
     dygita("report", run_folder, expected=0)
     check((run_folder / "report.html").read_bytes() == page, "a report made again is another")

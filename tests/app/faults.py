@@ -306,7 +306,7 @@ def pipes_in_the_place_of_files():
     dygita(*deck_command(FOLDER / "pipes"), expected=0)
     whole = FOLDER / "pipes" / "stopped" / "base"
     stopped, _ = stopped_run("pipes_stopped", signal.SIGKILL, "--set", "us=2000")
-    refused = "a pipe, a device or a folder where a file is expected"
+    refused = "a pipe, a device or a folder, not a file"
     again = deck_command(FOLDER / "again", "--repeat", whole / "run.json")
     for file, command, expected, says in (
             (whole / "run.json", ("report", whole), 2, refused), (whole / "scenes.json", ("report", whole), 2, refused),
@@ -335,7 +335,7 @@ def decks_that_take_long():
             ("number", "print(string.find(1234567890123456789, ('.-'):rep(30) .. 'x'))", 2, "too many repetitions"),
             ("number_as_pattern", "print(('12'):rep(9):find(12))", 0, "1\t2"),
             ("searches", "local s = ('a'):rep(30000) for i = 1, 1e6 do s:find('a-b') end", 2, "and was stopped"),
-            ("sparse", "local t = {} for k = 61, 3, -1 do t[1 << k] = 1 end for i = 1, 5 do t[i] = 1 end table.remove(t, 1)", 2, "sparse.lua:1: the deck itself has computed for 1 s and was stopped"),
+            ("sparse", "local t = {} for k = 61, 3, -1 do t[1 << k] = 1 end for i = 1, 5 do t[i] = 1 end table.remove(t, 1)", 2, "sparse.lua:1: deck code has run for 1 s and was stopped"),
             ("long_numbers", "local a = ('1'):rep(50000000) for i = 1, 1e7 do local x = tonumber(a, 10) end", 2, "and was stopped"),
             ("doubled", "local h = history.constant{ value = 1 } for i = 1, 60 do h = h + h end print(h(0))", 0, "1.1529215046068e+18"),
             ("long_name", "material.elastic{ [('a'):rep(20000000)] = 1 }", 2, "known: damping"),
@@ -362,7 +362,7 @@ def a_time_limit_of_the_clock():
     process.send_signal(signal.SIGCONT)
     output = process.stdout.read()
     status, used = os.wait4(process.pid, 0)[1:]
-    check(os.waitstatus_to_exitcode(status) == 2 and "has computed for 3 s" in output, output)
+    check(os.waitstatus_to_exitcode(status) == 2 and "has run for 3 s" in output, output)
     check(used.ru_utime + used.ru_stime < 2.0, "the time limit counts the processor's time, not that of the clock")
 
 

@@ -136,10 +136,11 @@ TEST_F(Converging, names_what_has_no_limit) {
 TEST_F(Converging, says_where_masses_make_it_no_one_sequence) {
   laws.tuned = [](std::map<std::string, double> at) { return at["size"] > 1.5; };
   EXPECT_FALSE(run({"size"}, {"bolt.normal.max"}).is_met);
-  EXPECT_TRUE(says("these runs are no one sequence: the mass of 'low' was tuned in some and lumped in others")) << said;
+  EXPECT_TRUE(says("these runs do not form one sequence: the mass of 'low' was tuned in some and lumped in others"))
+      << said;
   laws.tuned = [](std::map<std::string, double>) { return true; };
   EXPECT_TRUE(run({"size"}, {"bolt.normal.max"}).is_met);
-  EXPECT_FALSE(says("no one sequence")) << said;
+  EXPECT_FALSE(says("not form one sequence")) << said;
 }
 
 TEST_F(Converging, leaves_out_runs_that_did_not_converge) {

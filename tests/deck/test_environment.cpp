@@ -97,14 +97,14 @@ TEST(Environment, gives_the_same_random_numbers_in_every_run) {
 
 TEST(TimeLimit, stops_a_loop_without_end) {
   const std::string message = message_with_limits("local n = 0\nwhile true do\n  n = n + 1\nend", 0.2, 100);
-  EXPECT_TRUE(contains(message, "the deck itself has computed for 0.2 s and was stopped")) << message;
+  EXPECT_TRUE(contains(message, "deck code has run for 0.2 s and was stopped")) << message;
   EXPECT_TRUE(contains(message, "--time-limit")) << message;
   EXPECT_TRUE(contains(message, "deck.lua:3:") || contains(message, "deck.lua:2:")) << message;
 }
 
 TEST(TimeLimit, stops_a_loop_that_is_short_of_lines_and_long_of_work) {
   const std::string message = message_with_limits("while true do local s = ('x'):rep(50000000) end", 0.2, 200);
-  EXPECT_TRUE(contains(message, "the deck itself has computed for 0.2 s")) << message;
+  EXPECT_TRUE(contains(message, "deck code has run for 0.2 s")) << message;
 }
 
 TEST(TimeLimit, does_not_count_what_the_engine_takes) {
@@ -141,7 +141,7 @@ TEST(MemoryLimit, stops_a_deck_that_fills_the_memory) {
   const std::string by_tables = "local list = {}\nfor i = 1, 1e9 do\n  list[i] = { i }\nend";
   for (const std::string& text : {std::string("local s = ('x'):rep(1e9)"), by_tables}) {
     const std::string message = message_with_limits(text, 20, 16);
-    EXPECT_TRUE(contains(message, "the deck wants more than 16 MB of memory")) << message;
+    EXPECT_TRUE(contains(message, "deck data require more than 16 MB of memory")) << message;
     EXPECT_TRUE(contains(message, "--memory-limit")) << message;
   }
 }
@@ -151,7 +151,7 @@ TEST(MemoryLimit, counts_meshes_for_as_long_as_they_live) {
   EXPECT_EQ(message_with_limits("for i = 1, 20 do local m = " + box + " end", 20, 32), "");
   const std::string message =
       message_with_limits("local kept = {}\nfor i = 1, 20 do kept[i] = " + box + " end", 20, 32);
-  EXPECT_TRUE(contains(message, "deck.lua:2: mesh.box: 40 x 40 x 40 cells take about 6.1 MB; the deck may hold 32 MB"))
+  EXPECT_TRUE(contains(message, "deck.lua:2: mesh.box: 40 x 40 x 40 cells require about 6.1 MB; the limit is 32 MB"))
       << message;
 }
 

@@ -59,7 +59,8 @@ TEST(DeckFunction, gives_one_value_for_one_time) {
     } catch (const InputError& error) {
       const std::string message = error.what();
       EXPECT_EQ(message.find("deck.lua:"), 0u) << message;
-      EXPECT_NE(message.find("a function of time must give one value for one time, and this one gave"), message.npos)
+      EXPECT_NE(message.find("a function of time must return the same value for the same time, but this one returned"),
+                message.npos)
           << message;
       EXPECT_NE(message.find("history.piecewise"), message.npos) << message;
     }
@@ -84,7 +85,7 @@ TEST(DeckFunction, that_answers_no_number_later_on_says_when_before_anything_is_
     FAIL() << "nothing thrown";
   } catch (const InputError& error) {
     const std::string message = error.what();
-    EXPECT_EQ(message.find("deck.lua:14: the function of time declared here answers"), 0u) << message;
+    EXPECT_EQ(message.find("deck.lua:14: the function of time declared here returns"), 0u) << message;
     EXPECT_NE(message.find("at t = 2e-06 s"), std::string::npos) << message;
   }
 }
@@ -97,7 +98,7 @@ TEST(DeckFunction, declares_nothing) {
     FAIL() << "nothing thrown";
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()),
-              "deck.lua:15: a function of time only computes: nothing is declared, read or run inside it");
+              "deck.lua:15: a function of time may only compute: it cannot declare, read or run anything");
   }
 }
 

@@ -135,7 +135,7 @@ TEST(DeckHistory, in_g_that_is_multiplied_by_g0_is_doubted) {
   const auto doubts = [](const std::string& csv, const std::string& history) {
     int n = 0;
     for (const std::string& warning : said_with(csv, history).second)
-      n += warning.find("gives a unit of acceleration") != std::string::npos;
+      n += warning.find("states a unit of acceleration") != std::string::npos;
     return n;
   };
   const std::string in_g = "t [us],a [g]\n0,0\n1,100\n4,0\n", plain = "t,a\n0,0\n1e-6,100\n4e-6,0\n";

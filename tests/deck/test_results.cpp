@@ -147,15 +147,14 @@ TEST(Results, that_are_not_there_are_errors) {
   EXPECT_EQ(message_when("local x = result[spread].peak"),
             "series 'spread.displacement' has no 'peak'\n    known: at, first, last, max, min, time");
   EXPECT_EQ(message_when("local x = result[vtk]"),
-            "output.vtk has no data in the deck\n    its frames are files for ParaView");
-  EXPECT_EQ(message_when("local x = result[a].max"), "the run gave nothing for output 'a'");
-  EXPECT_EQ(
-      message_when("local x = result.bolt"),
-      "a result has no 'bolt'\n    an output is asked for by itself, not by its name: result[bolt], without quotes");
+            "output.vtk provides no data to the deck\n    its frames are ParaView files");
+  EXPECT_EQ(message_when("local x = result[a].max"), "the run produced nothing for output 'a'");
+  EXPECT_EQ(message_when("local x = result.bolt"),
+            "a result has no 'bolt'\n    index it by the output itself, not by its name: result[bolt], without quotes");
   EXPECT_EQ(message_when("local x = result.bold"),
             "a result has no 'bold'\n    known: converged, iterations, mean_iterations");
   EXPECT_EQ(message_when("local x = result[glue]"),
-            "result[interface 'glue']: a result is asked for an output, as in result[bolt], or for a substructure");
+            "result[interface 'glue']: index a result by an output, as in result[bolt], or by a substructure");
   EXPECT_EQ(message_when("local n = #low"), "substructure 'low' has no length");
 }
 

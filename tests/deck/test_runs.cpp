@@ -137,23 +137,23 @@ TEST(Unused, objects_are_warned_of) {
   const std::string used = std::string(two_blocks) + "local r = " + pair + ":run{}\n";
   EXPECT_TRUE(warnings_of(used).empty());
   EXPECT_EQ(warnings_of(used + "local wall = support.wall{ name = 'wall', on = high:face 'zmax' }"),
-            std::vector<std::string>{"deck.lua:15: support 'wall' is declared and never used"});
+            std::vector<std::string>{"deck.lua:15: support 'wall' is declared but never used"});
 }
 
 TEST(Unused, objects_that_serve_an_unused_one_are_not_told_apart) {
   const std::string text = std::string(two_blocks) + "local r = " + pair + ":run{}\n" +
                            "local s = step.static{ name = 's', loads = { load.gravity{ z = -g0 } } }";
-  EXPECT_EQ(warnings_of(text), std::vector<std::string>{"deck.lua:15: step 's' is declared and never used"});
+  EXPECT_EQ(warnings_of(text), std::vector<std::string>{"deck.lua:15: step 's' is declared but never used"});
 }
 
 TEST(Unused, parameters_are_warned_of) {
   const std::string text =
       "local p = param{ mu = 0.3, n = 4 }" + std::string(two_blocks) + "local r = " + pair + ":run{}\nlocal n = p.n";
-  EXPECT_EQ(warnings_of(text), std::vector<std::string>{"deck.lua:1: parameter 'mu' is declared and never used"});
+  EXPECT_EQ(warnings_of(text), std::vector<std::string>{"deck.lua:1: parameter 'mu' is declared but never used"});
 }
 
 TEST(Unused, problems_are_those_never_run) {
-  const std::vector<std::string> expected = {"deck.lua:14: problem 'pair' is declared and never run",
+  const std::vector<std::string> expected = {"deck.lua:14: problem 'pair' is declared but never run",
                                              "deck.lua runs no problem: nothing was computed"};
   EXPECT_EQ(warnings_of(std::string(two_blocks) + "local p = " + pair), expected);
 }

@@ -223,7 +223,7 @@ TEST_F(Continue, goes_on_with_the_text_that_the_run_kept) {
   testing::internal::CaptureStderr();
   continue_run(options);
   EXPECT_NE(testing::internal::GetCapturedStderr().find(
-                "has changed since the run or is gone: the run continues with the text that it kept"),
+                "has changed since the run or is missing: the run continues with its stored text"),
             std::string::npos);
   put("flanges.lua", bolted_flanges());
   EXPECT_LT(largest_difference(run("again", "latin{ integration = 'implicit', tolerance = 1e-6 }"), kept), 1e-4);
@@ -243,7 +243,7 @@ TEST_F(Continue, reads_other_cases_of_the_deck_from_their_folders) {
   fs::remove_all(base);
   testing::internal::CaptureStdout();
   EXPECT_FALSE(continue_run(options).interrupted);
-  EXPECT_NE(testing::internal::GetCapturedStdout().find("it ends here"), std::string::npos);
+  EXPECT_NE(testing::internal::GetCapturedStdout().find("execution ends here"), std::string::npos);
 }
 
 TEST_F(Continue, says_what_is_wrong_and_leaves_the_old_results) {

@@ -421,7 +421,7 @@ local up = substructure{ name = "up", mesh = block(10*mm), material = steel }
     return "";
   };
   EXPECT_NE(refusal(R"(local i = interface.bonded{ name = "i", between = { low, up } })")
-                .find("name its face, and the face that lies on its points"),
+                .find("name its face and the opposite face"),
             std::string::npos);
   EXPECT_NE(refusal(R"(local i = interface.bonded{ name = "i", between = { low:face "zmax", up } })")
                 .find("give the face of 'up' that lies on them"),

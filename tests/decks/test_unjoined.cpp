@@ -225,7 +225,7 @@ problem{ name = "p", substructures = { a }, supports = { base }, outputs = { out
   ASSERT_EQ(told.size(), 1u);
   EXPECT_NE(told[0].find("face (normal 0 0 1) is surfaces at 2 heights: "), std::string::npos) << told[0];
   EXPECT_NE(told[0].find("facets, 350 mm^2 around (22.5, 5, 5) mm (at = 0.005); "), std::string::npos) << told[0];
-  EXPECT_NE(told[0].find("facets, 50 mm^2 around (2.5, 5, 35) mm (at = 0.035); 'at' picks one"), std::string::npos)
+  EXPECT_NE(told[0].find("facets, 50 mm^2 around (2.5, 5, 35) mm (at = 0.035); 'at' selects one"), std::string::npos)
       << told[0];
   EXPECT_TRUE(said(", at = 35*mm").empty());
   EXPECT_TRUE(said(", where = function() return true end").empty());

@@ -193,7 +193,7 @@ Mesh.MeshSizeMin = 0.8; Mesh.MeshSizeMax = 0.8; Physical Volume("shell") = {3};)
   const MeshPtr shell = GmshMeshes(options).volume("shell");
   const std::vector<std::string> warnings = take_warnings();
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("curved cells of volume 'shell' were tangled and have straight edges now"),
+  EXPECT_NE(warnings[0].find("curved cells of volume 'shell' were inverted and now have straight edges"),
             std::string::npos)
       << warnings[0];
   for (int i = 0; i < shell->n_cells(); ++i)

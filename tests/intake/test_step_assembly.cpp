@@ -91,7 +91,7 @@ TEST(StepAssembly, of_a_spoiled_file_says_that_solids_are_missing) {
   EXPECT_EQ(assembly.parts("*").size(), 3u);
   const std::vector<std::string> warnings = take_warnings();
   ASSERT_FALSE(warnings.empty());
-  EXPECT_NE(warnings.front().find("it holds 4 solids, and 3 could be read: is it whole?"), std::string::npos)
+  EXPECT_NE(warnings.front().find("it holds 4 solids, and 3 could be read: is the file complete?"), std::string::npos)
       << warnings.front();
   std::filesystem::remove(spoiled);
 }
@@ -179,7 +179,7 @@ TEST(StepAssembly, refuses_hexahedra_in_a_solid_of_several_thicknesses) {
   StepOptions options = joint();
   options.sweep = StepOptions::Sweep::all;
   expect_input_error([&] { StepAssembly{options}; },
-                     {"part 'bolt1' cannot have hexahedra", "no flat face moved along its normal", "where possible"});
+                     {"part 'bolt1' cannot have hexahedra", "not an extruded flat face", "where possible"});
 }
 
 StepOptions brackets() {

@@ -103,7 +103,7 @@ TEST(Box, that_takes_more_memory_than_there_is_is_refused_before_it_is_made) {
   } catch (const InputError& error) {
     message = error.what();
   }
-  EXPECT_EQ(message, "box: 100 x 100 x 100 cells take about 0.06 GB and this machine has 0.001 GB");
+  EXPECT_EQ(message, "box: 100 x 100 x 100 cells require about 0.06 GB, but this machine has 0.001 GB");
   EXPECT_THROW(box_mesh(zero, one, {10, 10, 10}, CellType::tet10), InputError);
   EXPECT_NO_THROW(box_mesh(zero, one, {20, 20, 20}));
   set_mesh_limits({});
@@ -222,7 +222,7 @@ TEST(Mesh, whose_cells_do_not_fit_at_a_facet_is_refused_with_both) {
       [&] {
         check_mesh(with_second(CellType::tet10, {0, 2, 1, 4, 5, 6, 7, 8, 9, 10}, middles), "bar");
       },
-      {"cells 0 (tet4) and 0 (tet10)", "share the corners of a facet and not its other nodes", "one order"});
+      {"cells 0 (tet4) and 0 (tet10)", "share the corners of a facet but not its other nodes", "one order"});
 }
 
 // Facets of the boundary that lie on others: nodes that were not merged, a diagonal, nodes in the middle of a facet.
