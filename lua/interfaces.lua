@@ -96,7 +96,7 @@ local function declare_all(entry, given, line)
   end
   if #list == 0 then
     fail(entry, line, ("no two of %d parts touch where they have no interface yet"):format(#among),
-      "'within' says how far apart faces may be that touch; parts that overlap touch nowhere: dygita check tells them")
+      "'within' sets how far apart touching faces may be; overlapping parts do not touch: dygita check reports them")
   end
   if not given.of then
     for _, interface in ipairs(declared) do

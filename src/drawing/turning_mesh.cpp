@@ -170,7 +170,7 @@ TurningMesh make_turning_mesh(const std::vector<SubstructurePtr>& parts, const s
   TurningMesh mesh;
   std::vector<Vec3> places;
   for (size_t p = 0; p < parts.size(); ++p) append(boundaries[p], quota[p], mesh, places);
-  if (places.size() > 65535) throw InputError("too many parts for a picture that turns");
+  if (places.size() > 65535) throw InputError("too many parts for a rotating picture");
   mesh.nodes.resize(3, static_cast<Eigen::Index>(places.size()));
   for (size_t i = 0; i < places.size(); ++i) mesh.nodes.col(static_cast<Eigen::Index>(i)) = places[i];
   return mesh;

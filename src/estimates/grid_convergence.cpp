@@ -58,13 +58,13 @@ const char* meaning(Tendency tendency) {
     case Tendency::asymptotic:
       return "asymptotic";
     case Tendency::fast:
-      return "not asymptotic yet: the coarse runs are off by more than their order tells; refine further";
+      return "not asymptotic yet: the coarse runs deviate more than their order predicts; refine further";
     case Tendency::slow:
-      return "slow: something singular, as a re-entrant or contact edge (grade the mesh there) or an impact";
+      return "slow: a singularity, such as a re-entrant or contact edge (grade the mesh there), or an impact";
     case Tendency::oscillating:
-      return "not asymptotic: goes up and down; refine further";
+      return "not asymptotic: oscillates; refine further";
     case Tendency::divergent:
-      return "no limit in these runs: they are too coarse, or it has none, as stress at a sharp corner";
+      return "no limit in these runs: they are too coarse, or there is none, as for stress at a sharp corner";
   }
   CHECK(false, "unknown tendency");
   return "";

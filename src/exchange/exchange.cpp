@@ -175,7 +175,7 @@ class Builder {
     throw InputError(
         surface.interface->origin,
         fmt::format("interface '{}': its two sides are tied to each other at node {} of '{}' ({:.6g}, {:.6g}, {:.6g}) "
-                    "through bonded interfaces ({}): tied nodes cannot move apart there",
+                    "through bonded interfaces ({}), so they cannot separate there",
                     surface.name(), surface.facing.side_1.main_node(i), problem_.substructures[surface.part_1]->name,
                     x[0], x[1], x[2], path));
   }

@@ -100,15 +100,15 @@ void warn_of_unconstrained(const Problem& problem, const Step& step,
     const std::string& name = problem.substructures[static_cast<size_t>(part)]->name;
     if (all.size() >= 6) {
       warn(
-          fmt::format("static step '{}': substructure '{}' is unconstrained, no support and no interface holds it{}; "
-                      "nothing loads it, it is left at zero",
+          fmt::format("static step '{}': substructure '{}' is unconstrained: no support or interface holds it{}; "
+                      "it carries no load and stays at zero",
                       step.name, name, what_lets_go(problem, *problem.substructures[static_cast<size_t>(part)])));
       continue;
     }
     const std::set<std::string> each(all.begin(), all.end());
     std::string text;
     for (const std::string& motion : each) text += (text.empty() ? "" : " and ") + motion;
-    warn(fmt::format("static step '{}': {} of substructure '{}' {} unconstrained; nothing loads it, it is left at zero",
+    warn(fmt::format("static step '{}': {} of substructure '{}' {} unconstrained; it carries no load and stays at zero",
                      step.name, text, name, each.size() == 1 ? "is" : "are"));
   }
 }
@@ -275,11 +275,11 @@ void check_unloaded(const Problem& problem, const Step& step, const std::vector<
     }
   for (int i = 0; i < n; ++i) scale += force[i].colwise().norm().sum() * largest;
   if (work.norm() > 1e-7 * scale)
-    throw InputError(step.origin,
-                     fmt::format("static step '{}': {} of substructure '{}' is loaded, but no support and no "
-                                 "interface holds it",
-                                 step.name, describe(driven.segment<6>(6 * part)), problem.substructures[part]->name) +
-                         what_lets_go(problem, *problem.substructures[part]));
+    throw InputError(
+        step.origin,
+        fmt::format("static step '{}': {} of substructure '{}' is loaded, but no support or interface holds it",
+                    step.name, describe(driven.segment<6>(6 * part)), problem.substructures[part]->name) +
+            what_lets_go(problem, *problem.substructures[part]));
 }
 
 // Names for as many motions as a body (6 x n) has: those that they are nearest to.

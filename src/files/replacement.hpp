@@ -11,7 +11,7 @@ class Replacement {
   // `directory`: of the results to be replaced. Nothing is made yet. Throws InputError where something other than a
   // folder has the place of the new ones, a link too.
   explicit Replacement(const std::filesystem::path& directory);
-  // Without `commit`: the old results are as they were, the new ones are gone.
+  // Without `commit`: the old results are unchanged, the new ones are gone.
   ~Replacement();
   Replacement(const Replacement&) = delete;
   Replacement& operator=(const Replacement&) = delete;

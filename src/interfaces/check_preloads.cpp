@@ -30,14 +30,14 @@ void check_direction(const Facing& facing, const Load& load, const std::string& 
   throw InputError(
       load.origin,
       fmt::format(
-          "{}, whose faces turn: {}; the forces along the normals, which a preload adds up, pull against each "
-          "other\n    tighten the bolt where a flat face crosses its shank: two parts bonded there, the preload "
-          "on that interface, and this one bonded without a load",
+          "{}, whose faces turn: {}; the forces along the normals, which a preload sums, oppose each other\n    "
+          "tighten the bolt at a flat section of its shank: bond two parts there, apply the preload to that interface, "
+          "and bond this one without a load",
           who,
-          share > 0.01 ? fmt::format("normals are up to {:.0f} degrees off their mean, along which {:.3g} % of "
-                                     "the area are seen",
-                                     turn, 100.0 * share)
-                       : "all around, so that their normals have no mean"));
+          share > 0.01
+              ? fmt::format("normals are up to {:.0f} degrees off their mean, with a projected area of {:.3g} %", turn,
+                            100.0 * share)
+              : "closed around, so that their normals have no mean"));
 }
 
 void check_preload(const Problem& problem, const Step& step, const Load& load, const PreloadForce& preload,

@@ -133,8 +133,8 @@ class ConditionsBuilder {
   [[noreturn]] static void refuse_rigid_face(const Support& support, const std::string& how) {
     throw InputError(support.origin,
                      "support." + support.kind->word() + " '" + support.name + "' holds " + how +
-                         ", and its face is one that a superelement has as a whole\n    take support.fixed, or "
-                         "condense the body with motion = \"nodes\"");
+                         ", but a superelement moves this face as a whole\n    take support.fixed, or condense the "
+                         "body with motion = \"nodes\"");
   }
 
   // A node of a rigid face is held at the face's point, and the face then does not turn. Answers the node that moves.
@@ -149,10 +149,9 @@ class ConditionsBuilder {
   static void check_whole(const PrescribedMotion& prescribed, const Load& load) {
     if (std::all_of(prescribed.along.begin(), prescribed.along.end(), [](const auto& own) { return own.has_value(); }))
       return;
-    throw InputError(load.origin,
-                     load.path +
-                         " on a face that a superelement has as a whole gives all three components: x, y and "
-                         "z, 0 where it is to rest\n    or condense the body with motion = \"nodes\"");
+    throw InputError(load.origin, load.path +
+                                      " on a face that a superelement has as a whole must give all three components x, "
+                                      "y and z, 0 for no motion\n    or condense the body with motion = \"nodes\"");
   }
 
   // Where planes of one face meet at an edge, along the normal of each.
@@ -232,7 +231,7 @@ class ConditionsBuilder {
     const int n = step_.n_increments();
     if (step_.is_static) {
       if (prescribed.is_velocity)
-        throw InputError(load.origin, load.path + " has no meaning in static step '" + step_.name +
+        throw InputError(load.origin, load.path + " is not allowed in static step '" + step_.name +
                                           "': a static step has no time; use load.displacement");
       return {[value, n](int i, double) { return value.at_static(i, n) - value.at_static(i - 1, n); }};
     }
@@ -242,9 +241,8 @@ class ConditionsBuilder {
     const double start = value.history.value(0.0);
     if (std::abs(start - value.from) > 1e-9 + 1e-6 * std::abs(start))
       warn(
-          fmt::format("{}{} in dynamic step '{}' starts at {:.6g} m where {:.6g} m has been reached: "
-                      "only its changes in the "
-                      "step move the nodes; start the history from there, or bring it there in a static step",
+          fmt::format("{}{} in dynamic step '{}' starts at {:.6g} m but {:.6g} m has been reached: only its changes in "
+                      "the step are applied; start the history there, or move it there in a static step",
                       load.origin.prefix(), load.path, step_.name, start, value.from));
     // U is then the two-point mean of the prescribed displacement and nothing alternates (manual, eq. S5a).
     return {[value](int i, double dt) {
@@ -313,8 +311,8 @@ class ConditionsBuilder {
     throw InputError(
         support.origin,
         fmt::format("step '{}': supports '{}' and '{}' both hold node {} of substructure '{}' along ({:.3g}, "
-                    "{:.3g}, {:.3g}), and load.base_acceleration moves them there in two ways\n    shake "
-                    "both alike, with one load on both, or take one of them off the nodes that they share",
+                    "{:.3g}, {:.3g}), and load.base_acceleration prescribes two different motions\n    use one load on "
+                    "both, or remove one support from the shared nodes",
                     step_.name, other, support.name, node, problem_.substructures[part]->name, direction[0],
                     direction[1], direction[2]));
   }

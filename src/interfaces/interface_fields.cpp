@@ -52,7 +52,7 @@ void InterfaceFields::append(const Vec& q) {
     if (!write(q)) {
       has_failed_ = true;
       warn("the interface fields cannot be written to " + std::filesystem::temp_directory_path().string() +
-           ": later cases start from what was kept until here, the results are not touched");
+           ": later cases start from the last stored fields; results are not affected");
       return;
     }
   }

@@ -224,13 +224,12 @@ class Rings {
 void check_gap_of_geometry(const Interface& interface, const Facing& facing) {
   const double largest = facing.gaps.size() > 0 ? facing.gaps.cwiseAbs().maxCoeff() : 0.0;
   if (facing.sagitta <= 0.1 * largest || facing.sagitta < 1e-12) return;
-  throw InputError(
-      interface.origin,
-      fmt::format(
-          "interface '{}': 'gap' = \"geometry\": the facets of '{}' and '{}' are up to {:.3g} mm off the round "
-          "face that they stand for, the largest gap between them is {:.3g} mm\n    declare the gap as a length, "
-          "or mesh finer",
-          interface.name, interface.side_1.label(), interface.side_2.label(), 1e3 * facing.sagitta, 1e3 * largest));
+  throw InputError(interface.origin,
+                   fmt::format("interface '{}': 'gap' = \"geometry\": the facets of '{}' and '{}' are up to {:.3g} mm "
+                               "off the round face they represent, the largest gap between them is {:.3g} mm\n    "
+                               "declare the gap as a length, or refine the mesh",
+                               interface.name, interface.side_1.label(), interface.side_2.label(), 1e3 * facing.sagitta,
+                               1e3 * largest));
 }
 
 // The points of an interface. Where bodies are tied in a ring around a line, one of the ties leaves it to the others:

@@ -86,11 +86,11 @@ void doubt_distance(const Problem& problem, const Surface& surface) {
   if (!interface.within || knows || facing.matches() || facing.n_points() == 0) return;
   const double largest = facing.gaps.cwiseAbs().maxCoeff();
   if (largest <= std::max(default_within(problem), 2.0 * facing.sagitta)) return;
-  check::doubt(
-      problem, interface.origin,
-      fmt::format("{} joins faces that are up to {:.3g} mm apart as if they touched{}", check::describe(interface),
-                  1e3 * largest, interface.law->is_tie() ? "" : ": gap = \"geometry\" has the law know the distance"),
-      {"joined apart", largest, "'" + interface.name + "'"});
+  check::doubt(problem, interface.origin,
+               fmt::format("{} joins faces that are up to {:.3g} mm apart as if in contact{}",
+                           check::describe(interface), 1e3 * largest,
+                           interface.law->is_tie() ? "" : ": gap = \"geometry\" includes the distance in the law"),
+               {"joined apart", largest, "'" + interface.name + "'"});
 }
 
 // How many facets have all their nodes among those that a support holds.
@@ -110,11 +110,11 @@ void doubt_held_side(const Problem& problem, const Surface& surface, const Subst
       const std::vector<int> held = check::nodes_at(place);
       const int n = n_held(facets, held);
       if (n == 0 || static_cast<int>(held.size()) == part->mesh->n_nodes()) continue;
-      check::doubt(problem, surface.interface->origin,
-                   fmt::format("{} of {} facets of {} are also under {} ({}): what the support holds there, the "
-                               "interface does not move",
-                               n, facets.size(), check::describe(*surface.interface), check::describe(*support),
-                               check::label_of(place)));
+      check::doubt(
+          problem, surface.interface->origin,
+          fmt::format(
+              "{} of {} facets of {} are also under {} ({}): the interface cannot move what the support holds there", n,
+              facets.size(), check::describe(*surface.interface), check::describe(*support), check::label_of(place)));
     }
   }
 }
@@ -134,8 +134,8 @@ void doubt_pressed_bond(const Problem& problem, const Surface& surface, const Su
                                      [&](const Facet& facet) { return bonded.contains(facet_key(facet)); });
         if (n > 0)
           check::doubt(problem, load->origin,
-                       fmt::format("{} acts on {}, of whose {} facets {} {} bonded to '{}' by {}: nothing acts between "
-                                   "bonded faces; is another face meant?",
+                       fmt::format("{} acts on {}, of whose {} facets {} {} bonded to '{}' by {}: the load has no "
+                                   "effect between bonded faces; was another face intended?",
                                    load->path, face->label(), pressed.size(), n, n == 1 ? "is" : "are", other->name,
                                    check::describe(*surface.interface)));
       }
@@ -181,7 +181,7 @@ void doubt_same_place(const Problem& problem) {
       if (have_equal_places(a, b, within))
         check::doubt(
             problem, b.origin,
-            fmt::format("substructures '{}' and '{}' overlap: they stand in the same place, from {} to {}: check "
+            fmt::format("substructures '{}' and '{}' overlap: they occupy the same place, from {} to {}: check "
                         "'place', or 'n' and 'angle' of a pattern",
                         a.name, b.name, at(boxes[i].low), at(boxes[i].high)));
     }
@@ -261,8 +261,8 @@ void doubt_touches(const Problem& problem, const std::vector<Unjoined>& unjoined
       others += (i == 0 ? "" : i + 1 == pairs.size() ? " and " : ", ") + ("'" + part(pairs[i]->part_2).name + "'");
     check::doubt(
         problem, b.origin,
-        fmt::format("substructures '{}' and {} touch on {:.4g} mm^2{} where no interface joins them, at {} ({} on "
-                    "{}): they pass through each other there; an interface.contact keeps them apart",
+        fmt::format("substructures '{}' and {} touch on {:.4g} mm^2{} without an interface, at {} ({} on {}): they "
+                    "pass through each other there; add an interface.contact",
                     a.name, others, 1e6 * touch.area, pairs.size() > 1 ? " each" : "", at(touch.place),
                     face_with(a, touch.facet_1), face_with(b, touch.facet_2)),
         {"touch", touch.area, fmt::format("'{}' and {} ({:.3g} mm^2)", a.name, others, 1e6 * touch.area), true});
@@ -281,9 +281,9 @@ void doubt_unjoined(const Problem& problem, const std::vector<Unjoined>& unjoine
           problem, b.origin,
           fmt::format("{} overlap, up to {:.3g} mm deep at {}, in about {:.3g} mm^3 between {} and {}: {}", who,
                       1e3 * intrusion->depth, at(intrusion->place), 1e9 * intrusion->volume, at(box.low), at(box.high),
-                      is_of_facets ? "no more than the facets of their round faces are off; 'round', or cells "
-                                     "of order two, make it less"
-                                   : "check 'place', 'origin' and 'unit'"),
+                      is_of_facets
+                          ? "within the facet error of their round faces; reduce it by 'round' or cells of order two"
+                          : "check 'place', 'origin' and 'unit'"),
           {is_of_facets ? "overlap of facets" : "overlap", intrusion->depth,
            fmt::format("'{}' and '{}' ({:.3g} mm)", a.name, b.name, 1e3 * intrusion->depth), !is_of_facets});
     }
@@ -306,13 +306,13 @@ void doubt_points(const Problem& problem, const Surface& surface) {
   const bool is_row = facing.n_points() > 2 && width_of(facing.places) < narrow * width;
   if (facing.n_points() >= few && !is_row) return;
   const Face& carrier = facing.carrier == 1 ? face_1 : face_2;
-  check::doubt(problem, surface.interface->origin,
-               fmt::format("{} has {} point{} only{}, since the facets of {} are large for its {:.4g} mm^2: a finer "
-                           "mesh there",
-                           check::describe(*surface.interface), facing.n_points(), facing.n_points() == 1 ? "" : "s",
-                           is_row ? ", in a row, so that it gives way like a hinge" : "", carrier.label(),
-                           1e6 * facing.areas.sum()),
-               {"few points", (is_row ? 1.0 : 0.0) - facing.n_points(), "'" + surface.interface->name + "'", true});
+  check::doubt(
+      problem, surface.interface->origin,
+      fmt::format(
+          "{} has {} point{} only{}, since the facets of {} are large for its {:.4g} mm^2: refine the mesh there",
+          check::describe(*surface.interface), facing.n_points(), facing.n_points() == 1 ? "" : "s",
+          is_row ? ", collinear, so that it acts as a hinge" : "", carrier.label(), 1e6 * facing.areas.sum()),
+      {"few points", (is_row ? 1.0 : 0.0) - facing.n_points(), "'" + surface.interface->name + "'", true});
 }
 
 void doubt_surfaces(const Problem& problem, const std::vector<Surface>& surfaces) {

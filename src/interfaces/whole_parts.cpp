@@ -119,9 +119,9 @@ void refuse_seams(const Problem& problem, const std::vector<Surface>& surfaces) 
     const Substructure& part = *problem.substructures[static_cast<size_t>(parts[k])];
     check::fail(
         problem, part.origin,
-        fmt::format("substructure '{}': {}: nothing joins them, they pass through each other", part.name, texts[k]),
-        "merge the nodes (gmsh: Coherence before meshing, Coherence Mesh after it) and let cells meet facet on "
-        "facet; or make a volume of each piece and join them by an interface");
+        fmt::format("substructure '{}': {}: they are not joined and pass through each other", part.name, texts[k]),
+        "merge the nodes (gmsh: Coherence before meshing, Coherence Mesh after it) with matching facets, or make a "
+        "volume of each piece and join them by an interface");
   }
 }
 
@@ -144,11 +144,11 @@ void doubt_loose_pieces(const Problem& problem, const std::vector<Surface>& surf
     }
     check::doubt(
         problem, part.origin,
-        fmt::format("substructure '{}' is in {} pieces that share no nodes: {}{}; {}, and they pass through each "
-                    "other where they meet: is something missing between them? A volume for each lets an "
-                    "interface join them",
-                    part.name, pieces.size(), list, pieces.size() > most_told ? ", ..." : "",
-                    all_held ? "some are near each other" : "some have no interface and no support"));
+        fmt::format(
+            "substructure '{}' is in {} pieces that share no nodes: {}{}; {}, and nothing prevents them from passing "
+            "through each other: is a connection missing? Give each its own volume to join them by an interface",
+            part.name, pieces.size(), list, pieces.size() > most_told ? ", ..." : "",
+            all_held ? "some are near each other" : "some have no interface and no support"));
   }
 }
 

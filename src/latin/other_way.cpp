@@ -50,10 +50,8 @@ void StepRun::iterate_in_one(int increment, const Goal& goal, const Fields& star
   best.iterations += found.iterations;
   const bool is_found = found.outcome.eta <= settings_.tolerance;
   if (is_found) {
-    say(fmt::format(
-        "static step '{}', increment {}: {} iterations part by part did not bring it to the tolerance, {} in "
-        "one system did",
-        model_.step->name, increment + 1, n_before, found.iterations));
+    say(fmt::format("static step '{}', increment {}: {} iterations part by part did not converge, {} in one system did",
+                    model_.step->name, increment + 1, n_before, found.iterations));
     at_.uncorrected.resize(0);
     linear_stage(at_.q, at_.velocity, true);
     at_.sums = local_stage(at_.velocity, at_.q, at_.image, true);

@@ -106,8 +106,7 @@ bool StepRun::predict(int increment, Vec& q) {
   const bool has_start = warm_start_.predict(increment, own(q)) && fields;
   if (fields && !has_start && increment == 0 && fields->n_increments(settings_.i_step) > 0)
     warn(
-        fmt::format("step '{}': nothing of the case to start from fits (other interfaces, another number of pieces or "
-                    "of increments): the "
+        fmt::format("step '{}': the initial case does not match (different interfaces, pieces or increments): the "
                     "iteration starts from scratch",
                     model_.step->name));
   return has_start;

@@ -96,14 +96,14 @@ void StepRun::check_window(std::pair<int, int> steps, int n, const Outcome& wors
   const bool is_lost = grown > most_grown;
   if (!is_lost && !(ends && worst.eta > least_answer)) return;
   throw NumericalError(fmt::format(
-      "step '{}', time steps {} to {}, which 'window' iterates together: {}\n    leave 'window' out: each time step is "
-      "then solved by itself; or take a shorter one{}",
+      "step '{}', time steps {} to {}, which 'window' iterates together: {}\n    omit 'window' to solve each time step "
+      "separately, or use a shorter one{}",
       model_.step->name, steps.first + 1, steps.second,
       is_lost
           ? fmt::format("the iteration has diverged: after {} iterations motions and forces are {:.0e} times those "
                         "of the first",
                         n, grown)
-          : fmt::format("the iteration has not come near an answer: the indicator is at {:.2g} after {}", worst.eta, n),
+          : fmt::format("the iteration has not approached a solution: the indicator is {:.2g} after {}", worst.eta, n),
       is_lost ? "" : ", or more 'max_iterations'"));
 }
 

@@ -44,7 +44,7 @@ struct Shown {
 // The largest normal traction that a law can carry, and what to say to who asks for more.
 struct TensionLimit {
   double traction = std::numeric_limits<double>::infinity();  // Pa
-  std::string why;   // "it yields at {} and has no hardening", with the force where the braces are
+  std::string why;   // "it yields at {} without hardening", with the force where the braces are
   std::string cure;  // "give it 'hardening'"; empty: there is none
 };
 

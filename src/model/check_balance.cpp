@@ -87,11 +87,10 @@ void doubt_idle_forces(const Problem& problem, const Step& step) {
       const Substructure& part = part_of(force->on);
       if (!held.contains(&part)) held[&part] = held_axes(problem, step, part);
       if (!acts_on_held_nodes_only(*force, held[&part])) continue;
-      doubt(
-          problem, load->origin,
-          fmt::format("step '{}': {} on {} moves nothing: a support or another load prescribes the motion of all nodes "
-                      "it acts on",
-                      step.name, force->name, describe(target_of(force->on))));
+      doubt(problem, load->origin,
+            fmt::format(
+                "step '{}': {} on {} has no effect: a support or another load prescribes the motion of all its nodes",
+                step.name, force->name, describe(target_of(force->on))));
     }
 }
 
@@ -165,10 +164,10 @@ std::vector<Pull> pulls_on(int group, const Groups& groups, const Preloads& prel
 void refuse_alone(const Problem& problem, const Step& step, const std::string& part, const Pull& pull) {
   if (pull.force.norm() == 0.0) return;
   fail(problem, pull.origin,
-       fmt::format("step '{}': load.preload of {} pulls '{}' against nothing: no other interface, "
-                   "support or load holds it",
+       fmt::format("step '{}': load.preload of {} has no reaction path through '{}': no other interface, support or "
+                   "load holds it",
                    step.name, pull.name, part),
-       "let it bear on what it clamps, by an interface of its other faces, or hold it by a support");
+       "add an interface with what it clamps, or hold it by a support");
 }
 
 // A group that only preloads along one line pull at is in equilibrium where their sum is zero, and nowhere else.
@@ -185,10 +184,10 @@ void refuse_unbalanced(const Problem& problem, const Step& step, const std::stri
   }
   if (sum.norm() <= 1e-3 * largest) return;
   fail(problem, pulls.back().origin,
-       fmt::format("step '{}': nothing but the preload of {} acts along its axis on '{}', and {:.4g} kN of it are left "
-                   "over: there is no equilibrium",
+       fmt::format("step '{}': only the preload of {} acts along its axis on '{}', and {:.4g} kN is unbalanced: there "
+                   "is no equilibrium",
                    step.name, names, part, 1e-3 * sum.norm()),
-       "bolts one behind the other carry one force: give them the same, or preload one of them");
+       "bolts in series carry the same force: give them equal forces, or preload one of them");
 }
 
 void check_preloads(const Problem& problem, const Step& step) {

@@ -24,8 +24,8 @@ void materials(const Problem& problem) {
       if (part_of(place).mesh->condensed)
         fail(problem, support->origin,
              describe(*support) + " is on superelement '" + part_of(place).name +
-                 "', and what waves meet there follows from a material, which it has not",
-             "condense the body without that face, or let it have a mesh");
+                 "', which has no material to give the wave impedance",
+             "condense the body without that face, or give it a mesh");
   }
 }
 
@@ -40,16 +40,16 @@ void cells(const Problem& problem) {
   if (!what || !has_dynamic_step(problem)) return;
   for (const SubstructurePtr& part : problem.substructures)
     if (part->mesh->condensed)
-      fail(
-          problem, part->origin,
-          std::string(what) + " is for meshes: substructure '" + part->name + "' is a superelement, with a mass matrix",
-          problem.explicit_dynamics ? "an explicit step divides by the mass of each node: solver.latin and "
-                                      "solver.monolithic take superelements"
-                                    : "leave it out");
+      fail(problem, part->origin,
+           std::string(what) + " requires a mesh: substructure '" + part->name +
+               "' is a superelement, with a mass matrix",
+           problem.explicit_dynamics ? "an explicit step divides by the mass of each node: solver.latin and "
+                                       "solver.monolithic take superelements"
+                                     : "leave it out");
   for (const SubstructurePtr& part : problem.substructures)
     if (const CellShape* cell = consistent_cells(*part))
       fail(problem, part->origin,
-           std::string(what) + " is for cells of order one: substructure '" + part->name + "' has " + cell->name +
+           std::string(what) + " requires cells of order one: substructure '" + part->name + "' has " + cell->name +
                " cells, of consistent mass",
            problem.explicit_dynamics ? "an explicit step divides by the mass of each node: solver.latin or "
                                        "solver.monolithic take such cells, or mesh the part with order = 1"

@@ -41,7 +41,7 @@ void doubt_supports(const Problem& problem, bool moves) {
       return index_of(supports_of(problem, *step), support.get()) >= 0;
     });
     if (!is_used) {
-      doubt(problem, support->origin, describe(*support) + " holds in no step: every step has 'supports' of its own");
+      doubt(problem, support->origin, describe(*support) + " is not used: every step has its own 'supports'");
     }
   }
   if (moves) return;
@@ -74,7 +74,7 @@ void doubt_hardening(const Problem& problem, const Interface& interface) {
     doubt(problem, interface.origin,
           fmt::format("{}: '{}' = {:g} Pa/m over the {:.4g} mm of '{}' is a plastic modulus of {:.3g} MPa, {:.2g} % of "
                       "its Young's "
-                      "modulus; it is H/L, for a modulus H over a length L: is the division by L missing?",
+                      "modulus; it is H/L, for a modulus H over a length L: was the division by L forgotten?",
                       describe(interface), parameter.name, *value, 1e3 * length, face.part->name, 1e-6 * modulus,
                       100.0 * modulus / young));
   }
@@ -101,12 +101,12 @@ void doubt_mass_damping(const Problem& problem) {
   for (const SubstructurePtr& part : problem.substructures) {
     const double lost = 1.0 - std::exp(-part->material.damping.mass * duration);
     if (lost < 1e-3 || !told.insert(part->material.name).second) continue;
-    doubt(problem, part->origin,
-          fmt::format(
-              "damping of material '{}' at two frequencies has a part proportional to the mass, {:.3g} 1/s, which "
-              "brakes rigid motion too: {:.2g} % of a free velocity in the {:.3g} ms of the dynamic steps, and a "
-              "force that shows in reactions and momentum; a ratio at one frequency has no such part",
-              part->material.name, part->material.damping.mass, 100.0 * lost, 1e3 * duration));
+    doubt(
+        problem, part->origin,
+        fmt::format("damping of material '{}' at two frequencies has a mass-proportional part, {:.3g} 1/s, which also "
+                    "damps rigid motion: {:.2g} % of a free velocity in the {:.3g} ms of the dynamic steps, and a "
+                    "force that shows in reactions and momentum; a ratio at one frequency has no such part",
+                    part->material.name, part->material.damping.mass, 100.0 * lost, 1e3 * duration));
   }
 }
 
@@ -120,10 +120,9 @@ void doubt_moduli(const Problem& problem) {
     if (part->mesh->condensed) continue;
     if (!(speed < slowest) || !told.insert(material.name).second) continue;
     doubt(problem, part->origin,
-          fmt::format(
-              "a bar of material '{}' (young {:.4g} GPa, density {:.4g} kg/m^3) carries waves at {:.3g} m/s, as rubber "
-              "does: is the modulus in GPa?",
-              material.name, material.young / 1e9, material.density, speed));
+          fmt::format("a bar of material '{}' (young {:.4g} GPa, density {:.4g} kg/m^3) has a wave speed of {:.3g} "
+                      "m/s, like rubber: is the modulus in GPa?",
+                      material.name, material.young / 1e9, material.density, speed));
   }
 }
 
@@ -138,12 +137,11 @@ void doubt_shortenings(const Problem& problem) {
         const double length = std::max(length_behind(shortening->on->side_1), length_behind(shortening->on->side_2)),
                      by = shortening->value.history.value(1.0);
         if (std::abs(by) <= most * length) continue;
-        doubt(
-            problem, load->origin,
-            fmt::format("step '{}': {} of {:.4g} mm on {} is {:.2g} % of the {:.4g} mm of the longer part it joins: no "
-                        "bolt is stretched so far; was a unit forgotten?",
-                        step->name, load->path, 1e3 * by, describe(*shortening->on), 100.0 * std::abs(by) / length,
-                        1e3 * length));
+        doubt(problem, load->origin,
+              fmt::format("step '{}': {} of {:.4g} mm on {} is {:.2g} % of the {:.4g} mm of the longer part it joins, "
+                          "beyond any bolt; was a unit forgotten?",
+                          step->name, load->path, 1e3 * by, describe(*shortening->on), 100.0 * std::abs(by) / length,
+                          1e3 * length));
       }
 }
 
@@ -172,10 +170,9 @@ void doubt_whole_bolts(const Problem& problem, const Support& support, const Fac
     const double far = out.maxCoeff(), near = -out.minCoeff();
     if (part == face.part || far <= beyond * near || near <= beyond * far) continue;
     doubt(problem, support.origin,
-          fmt::format(
-              "'{}', which a load tightens, lies on both sides of the plane of {}, {:.3g} mm beyond it: in half a "
-              "model a bolt on the plane is half a bolt with half its preload",
-              part->name, describe(support), 1e3 * far),
+          fmt::format("'{}', which a load tightens, lies on both sides of the plane of {}, {:.3g} mm beyond it: in a "
+                      "half model, model half of a bolt on the plane, with half its preload",
+                      part->name, describe(support), 1e3 * far),
           {"whole bolt", far, "'" + part->name + "'", true});
   }
 }
@@ -192,10 +189,9 @@ void doubt_symmetry(const Problem& problem) {
 void doubt_sudden_rest(const Problem& problem) {
   for (size_t i = 1; i < problem.steps.size(); ++i)
     if (problem.steps[i]->is_static && !problem.steps[i - 1]->is_static)
-      doubt(
-          problem, problem.steps[i]->origin,
-          "static step '" + problem.steps[i]->name + "' comes after the dynamic step '" + problem.steps[i - 1]->name +
-              "': whatever still moves then stops at once, and its kinetic energy is booked as numerical dissipation");
+      doubt(problem, problem.steps[i]->origin,
+            "static step '" + problem.steps[i]->name + "' follows the dynamic step '" + problem.steps[i - 1]->name +
+                "': all motion stops at its start, and the kinetic energy counts as numerical dissipation");
 }
 
 // A force of a load: its name and where it acts (nowhere in particular: on every mass).
@@ -245,8 +241,8 @@ void doubt_dropped_loads(const Problem& problem, const Step& before, const Step&
       if (left == 0.0 || goes_on(force, step)) continue;
       doubt(problem, load->origin,
             fmt::format("{}{} stands at {:.4g} {} at the end of step '{}' and is not listed in the dynamic step '{}', "
-                        "where it is gone at once: a shock in itself; list it there too, or there with the value 0 if "
-                        "its sudden release is meant",
+                        "where it is released suddenly, which is itself a shock; list it there too, or with the value "
+                        "0 if the release is intended",
                         force.name, force.on ? " on " + describe(target_of(*force.on)) : "", left, load->unit(),
                         before.name, step.name));
     }
@@ -273,13 +269,13 @@ void doubt_dropped_motions(const Problem& problem, const Step& before, const Ste
       for (size_t axis = 0; motion && !motion->is_velocity && axis < 3; ++axis) {
         const double left = motion->along[axis] ? left_at_end(*motion->along[axis], before) : 0.0;
         if (left == 0.0 || is_held_in(problem, step, *motion, axis)) continue;
-        doubt(
-            problem, load->origin,
-            fmt::format("{} on {} stands at {:.4g} m at the end of step '{}' and is not listed in the {} step '{}', "
-                        "where nothing holds these nodes: they are let go at once{}; list it there too to hold them, "
-                        "if no release is meant",
-                        motion->name_along(static_cast<int>(axis)), describe(target_of(motion->on)), left, before.name,
-                        step.is_static ? "static" : "dynamic", step.name, step.is_static ? "" : ", a shock in itself"));
+        doubt(problem, load->origin,
+              fmt::format("{} on {} stands at {:.4g} m at the end of step '{}' and is not listed in the {} step '{}', "
+                          "where nothing holds these nodes: they are released suddenly{}; list it there too to hold "
+                          "them, unless the release is intended",
+                          motion->name_along(static_cast<int>(axis)), describe(target_of(motion->on)), left,
+                          before.name, step.is_static ? "static" : "dynamic", step.name,
+                          step.is_static ? "" : ", which is itself a shock"));
       }
     }
 }
@@ -296,9 +292,8 @@ void doubts(const Problem& problem) {
   const bool has_spectrum = std::any_of(problem.outputs.begin(), problem.outputs.end(),
                                         [](const OutputPtr& output) { return output->settles(); });
   if (problem.solver.spectra > 0.0 && !has_spectrum)
-    doubt(
-        problem, problem.origin,
-        "'spectra' of solver.latin waits for spectra to stand still, and no output.srs is asked for: one pass is run");
+    doubt(problem, problem.origin,
+          "'spectra' of solver.latin iterates until the spectra converge, but there is no output.srs: one pass is run");
   for (const SubstructurePtr& part : problem.substructures) {
     const std::string who = "substructure '" + part->name + "'";
     if (!is_touched(problem, part)) doubt(problem, part->origin, "no interface, support or load touches " + who);

@@ -49,7 +49,7 @@ class InStep {
     if (unit.empty() || unit == load_.unit()) return;
     fail(problem_, load_.origin,
          fmt::format("{} takes {}, and the file of its history is in {}", who(), load_.unit(), unit),
-         "a number times the signal, as in 7.2*signal for a mass of 7.2 kg, counts as a plain number");
+         "scale the signal by a number, as in 7.2*signal for a mass of 7.2 kg, to change its unit");
   }
 
   // A file without a unit: g taken for m/s^2 is a tenth of the shock. A factor may be that of a unit, and may not.
@@ -63,7 +63,7 @@ class InStep {
              "the file: time [s], acceleration [g]");
       doubt(problem_, load_.origin,
             what + fmt::format(": its values are taken as {}; history.file{{ ..., unit = 1 }} "
-                               "says so, another number that one of them is worth more",
+                               "says so, another value converts them",
                                load_.unit()));
     } else if (is_acceleration && std::abs(std::abs(factor) / standard_gravity - 1.0) > 0.01) {
       doubt(problem_, load_.origin,
@@ -82,7 +82,7 @@ class InStep {
   void lasts_in_a_static_step() const {
     const double increment = 1.0 / step_.n_increments();
     if (profile_->end < 0.5 * increment)
-      say(fmt::format("is over after {}, within the first increment: time goes from 0 to 1 s in a static step",
+      say(fmt::format("ends after {}, within the first increment: time runs from 0 to 1 s in a static step",
                       time(profile_->end)));
     else
       reaches_its_peak();
@@ -92,8 +92,8 @@ class InStep {
     const double length = profile_->end - profile_->begin;
     if (is_pulse() && !chain_.before && length < step_.dt * (1.0 - rounding))
       say(fmt::format("lasts {}, shorter than 'dt' = {}: {}", time(length), time(step_.dt),
-                      prescribes_a_motion() ? "a prescribed motion is taken where time steps meet, and may miss it"
-                                            : "only its impulse is left of it"));
+                      prescribes_a_motion() ? "a prescribed motion is sampled at the ends of time steps and may miss it"
+                                            : "only its impulse is kept"));
     if (profile_->is_record) is_whole();
     if (!reaches_its_peak()) return;
     const double left = history_.value(end());
@@ -128,17 +128,17 @@ class InStep {
     const auto percent = [&](double value) { return 100.0 * std::abs(value) / most; };
     const char* unit = load_.unit();
     if (!chain_.before && profile_->begin < -rounding * end())
-      say(fmt::format("has a record that begins at {}: what lies before 0 does not act; :shifted({:g}) brings it in",
+      say(fmt::format("has a record that begins at {}: values before 0 are not applied; :shifted({:g}) includes them",
                       time(profile_->begin), -profile_->begin));
     else if (!chain_.before && std::abs(first) > near_zero * most)
       say(fmt::format("has a record that begins at {} with {:.4g} {}, {:.2g} % of its largest value, {}",
                       time(profile_->begin), first, unit, percent(first),
-                      profile_->begin > rounding * end() ? "which acts from 0 on" : "which acts at once"));
+                      profile_->begin > rounding * end() ? "applied from 0 on" : "applied suddenly"));
     if (!chain_.after && profile_->end < end() * (1.0 - rounding) && std::abs(last) > near_zero * most)
-      say(fmt::format(
-          "has a record that ends at {} with {:.4g} {}, {:.2g} % of its largest value, which goes on acting "
-          "until the end of the step at {}",
-          time(profile_->end), last, unit, percent(last), time(end())));
+      say(
+          fmt::format("has a record that ends at {} with {:.4g} {}, {:.2g} % of its largest value, held until the end "
+                      "of the step at {}",
+                      time(profile_->end), last, unit, percent(last), time(end())));
   }
 
   // A function that is still on its way up, and was no straight line: a wave whose peak lies beyond the step?

@@ -7,7 +7,7 @@ namespace {
 
 std::string why_not(const Problem& problem) {
   if (problem.numerical_damping() != 0.0) return "'numerical_damping' belongs to the implicit scheme";
-  if (problem.mass().is_moved_from_contact) return "'massless_contact' leaves nodes without mass";
+  if (problem.mass().is_moved_from_contact) return "'massless_contact' gives nodes without mass";
   return "";
 }
 

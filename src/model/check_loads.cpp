@@ -40,8 +40,8 @@ void targets_fit(const Problem& problem, const Step& step, const Load& load) {
                place && other && overlap(*place, *other))
         fail(problem, load.origin,
              who + ": " + load.path + " is on " + describe(load.on[j]) + " and on " + describe(target) +
-                 ", which have facets or nodes in common: it would act there twice",
-             "a load of its own for what one of them is to have besides");
+                 ", which share facets or nodes: it would act there twice",
+             "use a separate load for the additional part");
   }
 }
 
@@ -117,12 +117,10 @@ class Competition {
     if (bolt != bolt_of(b)) return;
     const bool is_force = std::holds_alternative<PreloadForce>(a) || std::holds_alternative<PreloadForce>(b);
     if (a.index() == b.index())
-      twice(" on " + describe(*bolt),
-            is_force ? "one force per step: give the other one in a step of its own" : in_one);
+      twice(" on " + describe(*bolt), is_force ? "one force per step: apply the other in a separate step" : in_one);
     if (is_force)
       fail(problem_, b_.origin, who_ + a_.path + " and " + b_.path + " are both on " + describe(*bolt),
-           "a preload finds the shortening that brings its force: one of the two, or one after the other in steps of "
-           "their own");
+           "a preload finds the shortening for its force: keep one of the two, or apply them in separate steps");
   }
 
   [[noreturn]] void twice(const std::string& where, const std::string& hint = in_one) const {
@@ -205,14 +203,14 @@ void support_follows(const Problem& problem, const Load& load, const BaseMotion&
   const Vec3 followed = part_that_is_held(*motion.on, motion.direction);
   const std::string what = fmt::format("{} moves {} along ({:.3g}, {:.3g}, {:.3g})", load.path, describe(*motion.on),
                                        motion.direction[0], motion.direction[1], motion.direction[2]);
-  const std::string hint = std::string("it holds along ") +
+  const std::string hint = std::string("it holds only along ") +
                            (held.along_normals ? "the normals of its faces" : "some axes") +
-                           " alone; a support.fixed is moved along any direction";
+                           "; a support.fixed can be moved in any direction";
   if (followed.norm() < 1e-3) fail(problem, load.origin, what + ", where it holds nothing", hint);
   if (followed.norm() < 0.999)
     doubt(problem, load.origin,
           what +
-              fmt::format(", of which only the part ({:.3g}, {:.3g}, {:.3g}) moves it: ", followed[0], followed[1],
+              fmt::format(", of which only the component ({:.3g}, {:.3g}, {:.3g}) moves it: ", followed[0], followed[1],
                           followed[2]) +
               hint);
 }
@@ -222,8 +220,8 @@ void doubt_inner_supports(const Problem& problem, const Load& load, const BaseMo
   for (const SubstructurePtr& part : problem.substructures)
     if (part->mesh->condensed && part->mesh->condensed->resists(part->mesh->nodes, motion.direction))
       doubt(problem, load.origin,
-            load.path + " moves " + describe(*motion.on) + ", and the support that was condensed with superelement '" +
-                part->name + "' stands still");
+            load.path + " moves " + describe(*motion.on) + ", but the support condensed with superelement '" +
+                part->name + "' is at rest");
 }
 
 void supports_follow(const Problem& problem, const Load& load) {
@@ -266,7 +264,7 @@ void interfaces_have_a_free_side(const Problem& problem, const Step& step) {
     if (other.empty()) continue;
     fail(problem, interface->origin,
          "step '" + step.name + "': both sides of " + describe(*interface) + " are held or moved along " + "xyz"[axis] +
-             ", by " + one + " and " + other + ": it would transmit nothing, and stand open or overlap as they say",
+             ", by " + one + " and " + other + ": it would transmit no force, and its gap would follow from them",
          "drive one side: the interface carries the motion to the other");
   }
 }
@@ -305,7 +303,7 @@ void superelements_feel(const Problem& problem, const Load& load) {
     for (const SubstructurePtr& part : problem.substructures)
       if (part->mesh->condensed && part->mesh->condensed->resists(part->mesh->nodes, force->unit(part->place)))
         fail(problem, load.origin,
-             force->name + ": what it does to the inside of superelement '" + part->name +
+             force->name + ": its effect inside superelement '" + part->name +
                  "' is not known, since its matrices resist that motion because a support was condensed with it",
              "condense it without the support, with the supported face in 'on', and hold it in the deck");
   }

@@ -24,7 +24,7 @@ void has_name(const Problem& problem, const Named& object, const std::string& wh
   std::string name = object.name;
   std::erase_if(name, [&](char c) { return besides.find(c) != std::string::npos; });
   if (name.empty() || !is_fit_for_a_file(name)) {
-    fail(problem, object.origin, what + " '" + object.name + "': a name becomes a file name",
+    fail(problem, object.origin, what + " '" + object.name + "': a name is used as a file name",
          "allowed: anything without '/', '\\', control characters and a '.' in front");
   }
 }
@@ -83,7 +83,7 @@ void names(const Problem& problem) {
          "take another name");
   if (problem.substructures.empty()) fail(problem, problem.origin, "'substructures' is empty");
   if (problem.steps.empty()) {
-    fail(problem, problem.origin, "'steps' is empty", "at least one step.static or step.dynamic is needed");
+    fail(problem, problem.origin, "'steps' is empty", "at least one step.static or step.dynamic is required");
   }
   has_unique_names(problem, problem.substructures, "substructure");
   has_unique_names(problem, problem.interfaces, "interface", "/");

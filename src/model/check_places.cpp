@@ -48,7 +48,7 @@ void interfaces(const Problem& problem) {
     }
     if (interface->side_1.part == interface->side_2.part && interface->side_1.group == interface->side_2.group) {
       fail(problem, interface->origin, who + " joins " + interface->side_1.label() + " with itself",
-           "'between' takes two faces that meet");
+           "'between' requires two faces that touch");
     }
     const ExplicitForm form = interface->law->explicit_form();
     if (form.is_none() && is_explicit)

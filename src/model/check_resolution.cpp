@@ -89,8 +89,8 @@ void doubt_damping(const Problem& problem, const Step& step, double highest) {
     const double at = damping.ratio(f);
     if (at <= most_damping) continue;
     doubt(problem, part->origin,
-          fmt::format("damping of material '{}' is {:.3g} % of critical at {}{}: what moves so fast is damped away "
-                      "within a period; 'damping' is in seconds, 'damping_ratio' with "
+          fmt::format("damping of material '{}' is {:.3g} % of critical at {}{}: such motion decays within a period; "
+                      "'damping' is in seconds, 'damping_ratio' with "
                       "'damping_frequency' takes the ratio",
                       part->material.name, 100.0 * at, in_unit(f),
                       highest > 0.0 ? ", which step '" + step.name + "' is to show"
@@ -103,9 +103,8 @@ void doubt_superelements(const Problem& problem, const Content& content) {
     const double valid_to = part->mesh->condensed ? part->mesh->condensed->valid_to : 0.0;
     if (valid_to > 0.0 && content.frequency > valid_to)
       say(problem, content, "superelement " + part->name,
-          fmt::format("superelement '{}' was made to be used up to {}: what it does above is not that of the body "
-                      "it stands for",
-                      part->name, in_unit(valid_to)));
+          fmt::format("superelement '{}' is valid up to {}: above that it does not represent the body", part->name,
+                      in_unit(valid_to)));
   }
 }
 

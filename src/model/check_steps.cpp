@@ -17,7 +17,7 @@ void steps_are_a_line(const Problem& problem) {
     const std::string who = "step '" + step.name + "'";
     if (step.after) listed(problem, who + " comes after", *step.after, steps, "steps");
     if (i == 0 && step.after) {
-      fail(problem, step.origin, who + " is listed first but comes after '" + step.after->name + "'",
+      fail(problem, step.origin, who + " is listed first but follows '" + step.after->name + "'",
            "list the steps in the order they happen");
     }
     if (i == 0) continue;
@@ -30,7 +30,7 @@ void steps_are_a_line(const Problem& problem) {
     if (step.after != steps[i - 1]) {
       fail(problem, step.origin,
            who + " comes after '" + step.after->name + "', but '" + previous + "' is listed before it",
-           "steps are one line in the order listed; a fork is two problems");
+           "steps form one sequence in the order listed; use two problems for a branch");
     }
   }
 }
@@ -79,7 +79,7 @@ void interferences_are_closed_in_a_static_step(const Problem& problem) {
     fail(problem, origin,
          fmt::format("{} has 'gap' = {:g} m, an interference, but the first step, '{}', is dynamic", what, gap,
                      first.name),
-         "put a step.static before it, which presses the parts apart");
+         "put a step.static before it to press the parts apart");
   };
   for (const InterfacePtr& interface : problem.interfaces)
     check_gap(interface->origin, describe(*interface), interface->law->initial().gap);

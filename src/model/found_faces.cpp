@@ -38,18 +38,18 @@ FoundFaces found_between(const InterfaceSide& one, const InterfaceSide& other, T
   const Neighbours neighbours =
       find_neighbours({one.part->mesh.get(), one.part->place}, {other.part->mesh.get(), other.part->place}, 0.0);
   if (const auto& intrusion = neighbours.intrusion)
-    throw InputError(fmt::format(
-        "{} do not touch, they overlap: up to {:.3g} mm deep at {}\n    check 'place', 'origin' and 'unit'; an "
-        "interference is a negative 'gap' between faces that coincide",
-        who, 1e3 * intrusion->depth, at(intrusion->place), 1e9 * intrusion->volume));
+    throw InputError(
+        fmt::format("{} do not touch, they overlap: up to {:.3g} mm deep at {}\n    check 'place', 'origin' and "
+                    "'unit'; model an interference by a negative 'gap' between faces that coincide",
+                    who, 1e3 * intrusion->depth, at(intrusion->place), 1e9 * intrusion->volume));
   const Separation apart = separation(outside_1, outside_2);
   const bool is_near = apart.distance <= within;
   throw InputError(fmt::format(
       "{} touch nowhere within {:.3g} mm: they are {:.4g} mm apart where they are nearest, from {} to {}\n    {}", who,
       1e3 * within, 1e3 * apart.distance, at(apart.place_1), at(apart.place_2),
-      is_near ? "they meet at an edge or a point only, or their facets are too coarse to tell: 'within' says how far "
-                "apart faces may be that touch"
-              : "check 'place', 'origin' and 'unit'; 'within' says how far apart faces may be that touch"));
+      is_near ? "they meet only at an edge or a point, or their facets are too coarse to decide: 'within' sets how far "
+                "apart touching faces may be"
+              : "check 'place', 'origin' and 'unit'; 'within' sets how far apart touching faces may be"));
 }
 
 Box box_of(const Substructure& part) { return PlacedBody{part.mesh.get(), part.place}.box(); }
@@ -125,12 +125,11 @@ GapDoubt doubt_of_gap(const Face& side_1, const Face& side_2, double within) {
   if (!gaps.is_told()) return {};
   const bool is_apart = gaps.most + gaps.least > 0.0;
   const double largest = is_apart ? gaps.most : -gaps.least;
-  return {
-      fmt::format("{} {:.2g} mm, which counts as nothing: the interface starts closed (a gap of {:.2g} mm on average "
-                  "over {:.4g} mm^2)",
-                  is_apart ? "are apart by up to" : "pass into each other by up to", 1e3 * largest, 1e3 * gaps.mean,
-                  1e6 * gaps.area),
-      largest <= 2.0 * gaps.bend};
+  return {fmt::format("{} {:.2g} mm, which is neglected: the interface starts closed (a gap of {:.2g} mm on average "
+                      "over {:.4g} mm^2)",
+                      is_apart ? "are apart by up to" : "overlap by up to", 1e3 * largest, 1e3 * gaps.mean,
+                      1e6 * gaps.area),
+          largest <= 2.0 * gaps.bend};
 }
 
 }  // namespace dygita

@@ -47,7 +47,7 @@ Region region_of_points(const Face& face) { return {face.part, face.part->mesh->
 Face with_facets(const Face& face, const Face& other, const std::optional<double>& within) {
   if (!is_of_points(face)) return face;
   if (is_of_points(other))
-    throw InputError(fmt::format("'{}' and '{}' are both given by points alone: one of two faces has facets",
+    throw InputError(fmt::format("'{}' and '{}' are both given by points alone: one of the two faces must have facets",
                                  face.label(), other.label()));
   const Points& x = other.part->mesh->nodes;
   const std::vector<int> nodes = nodes_of(other.facets());
@@ -62,10 +62,9 @@ Face with_facets(const Face& face, const Face& other, const std::optional<double
     if (nearest.distance < closest.distance) closest = nearest;
     if (nearest.distance > reach) continue;
     if (std::find(point_of.begin(), point_of.end(), nearest.point) != point_of.end())
-      throw InputError(
-          fmt::format("'{}' and '{}': two nodes lie within {:.3g} mm of one point\n    a smaller 'within' tells "
-                      "them apart",
-                      face.label(), other.label(), 1e3 * reach));
+      throw InputError(fmt::format(
+          "'{}' and '{}': two nodes lie within {:.3g} mm of one point\n    a smaller 'within' distinguishes them",
+          face.label(), other.label(), 1e3 * reach));
     point_of[static_cast<size_t>(node)] = nearest.point;
     ++n_found;
   }
@@ -80,16 +79,15 @@ Face with_facets(const Face& face, const Face& other, const std::optional<double
     throw InputError(
         fmt::format("'{}' is given by {} points, and no facet of '{}' has one at each of its nodes: {} of its {} nodes "
                     "have a point "
-                    "within {:.3g} mm, the nearest is {:.3g} mm off\n    points lie where the nodes of the mesh that "
-                    "is attached lie: "
-                    "check 'place' and the units, 'within' says how far apart they may be",
+                    "within {:.3g} mm, the nearest is {:.3g} mm off\n    points must coincide with nodes of the "
+                    "attached mesh: check 'place' and units; 'within' sets how far apart they may be",
                     face.label(), face.part->mesh->point_groups.at(face.group).size(), other.label(), n_found,
                     nodes.size(), 1e3 * reach, 1e3 * closest.distance));
   const size_t n_points = face.part->mesh->point_groups.at(face.group).size(), n_joined = nodes_of(*facets).size();
   if (n_joined < n_points || facets->size() < other.facets().size())
     warn(
-        fmt::format("'{}' and '{}': {} of {} points lie at nodes of {} of {} facets; what has no point at each of its "
-                    "nodes is not joined",
+        fmt::format("'{}' and '{}': {} of {} points lie at nodes of {} of {} facets; facets without a point at each "
+                    "node are not joined",
                     face.label(), other.label(), n_joined, n_points, facets->size(), other.facets().size()));
   return {face.part, face.group, facets};
 }

@@ -13,6 +13,6 @@ std::optional<BoltDimensions> bolt_by_hand(const Arguments& arguments);
 std::string tightened_interfaces();
 bool can_be_tightened(const Target& target);
 
-constexpr const char* tighten_before = "tighten in a step.static before it; the bolt keeps its length afterwards";
+constexpr const char* tighten_before = "tighten in a preceding step.static; the bolt keeps its length afterwards";
 
 }  // namespace dygita

@@ -211,8 +211,8 @@ void share_out(const Problem& problem, const std::vector<Surface>& surfaces, con
   if (n_ranks == 1) return;
   if (cut.n_pieces() < n_ranks)
     throw InputError(problem.origin,
-                     fmt::format("problem '{}': {} MPI ranks for {} substructures or pieces of them: some would have "
-                                 "nothing to do\n    start {} ranks at most, or cut it: solver.latin{{ pieces = {} }}",
+                     fmt::format("problem '{}': {} MPI ranks for {} substructures or pieces of them: some would be "
+                                 "idle\n    start at most {} ranks, or divide it: solver.latin{{ pieces = {} }}",
                                  problem.name, n_ranks, cut.n_pieces(), cut.n_pieces(),
                                  (n_ranks + cut.n_pieces() - 1) / cut.n_pieces()));
   const Weights weights = shared_points(surfaces, cut);

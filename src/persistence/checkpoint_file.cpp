@@ -197,7 +197,7 @@ TrailEntry CheckpointFile::take() {
   std::string payload;
   std::uint64_t sum = 0;
   if (fseeko(file_.get(), at_, SEEK_SET) != 0 || !get_record(file_.get(), sum_, payload, sum))
-    throw InputError(fmt::format("'{}' has changed while the run went over it", path_.string()));
+    throw InputError(fmt::format("'{}' has changed while the run replayed it", path_.string()));
   sum_ = sum;
   at_ = ftello(file_.get());
   --n_left_;
@@ -256,20 +256,20 @@ void CheckpointFile::foresee(std::int64_t bytes_of_entry) {
   has_foreseen_ = true;
   const double all = ranks::count() * static_cast<double>(expected_) * static_cast<double>(bytes_of_entry);
   if (all <= room) return;
-  warn(fmt::format(
-      "the checkpoint '{}' comes to about {:.3g} GB, and {:.3g} GB are free: it is kept up to half of those, and a run "
-      "stopped after that goes on from there; --checkpoint-every 0 keeps none, --no-state neither it nor the state, "
-      "which takes as much",
-      path_.string(), all / 1e9, static_cast<double>(space.available) / 1e9));
+  warn(
+      fmt::format("the checkpoint '{}' needs about {:.3g} GB, and {:.3g} GB are free: checkpointing stops at half the "
+                  "free space, and a run stopped later resumes from there; --checkpoint-every 0 writes no checkpoint, "
+                  "--no-state neither checkpoint nor state, which needs as much",
+                  path_.string(), all / 1e9, static_cast<double>(space.available) / 1e9));
 }
 
 void CheckpointFile::stop_growing() {
   std::fflush(file_.get());
   has_failed_ = true;
-  warn(fmt::format(
-      "the checkpoint '{}' has taken half of the space that was free and grows no further, so that the results find "
-      "room\n    the run goes on; if it is stopped, it continues from what was kept until here",
-      path_.string()));
+  warn(
+      fmt::format("the checkpoint '{}' has filled half of the free space and stops growing; the rest is reserved for "
+                  "results\n    the run continues; if stopped, it resumes from here",
+                  path_.string()));
 }
 
 // The results are not touched: the run goes on without.
@@ -281,19 +281,17 @@ void CheckpointFile::fail(const char* what) {
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path_, error));
   const auto kept = entries_at_ + std::max<std::int64_t>(0, (size - entries_at_) / 2);  // without its header it is none
   const bool is_cut = reason == ENOSPC && !error && ftruncate(fileno(file_.get()), kept) == 0;
-  warn(fmt::format(
-      "the checkpoint '{}' cannot be {}: {}{}\n    the run goes on; if it is stopped, it continues from what was kept "
-      "until {}",
-      path_.string(), what, std::strerror(reason), is_cut ? "; half of it is given back to the results" : "",
-      is_cut ? "there" : "here"));
+  warn(fmt::format("the checkpoint '{}' cannot be {}: {}{}\n    the run continues; if stopped, it resumes from {}",
+                   path_.string(), what, std::strerror(reason),
+                   is_cut ? "; half of its space is released for results" : "", is_cut ? "there" : "here"));
 }
 
 void CheckpointFile::note_difference() {
   if (has_differed_) return;
   has_differed_ = true;
   warn(
-      "the increments that were computed before give other last digits now (another processor, another library or "
-      "version of the program): the results are as good, but not bit for bit those of a run that was never stopped");
+      "recomputed increments differ in their last digits (different processor, library or program version): the "
+      "results are equally accurate, but not bit for bit those of an uninterrupted run");
 }
 
 }  // namespace dygita

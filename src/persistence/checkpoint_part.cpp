@@ -100,7 +100,7 @@ void CheckpointPart::leave(const TrailEntry& entry) {
   sum_ = chained_sum(sum_, encoder.bytes);
   errno = 0;
   room_ -= static_cast<double>(encoder.bytes.size() + 16);
-  if (room_ < 0.0) return fail("it has taken its share of half of the space that was free");
+  if (room_ < 0.0) return fail("it has filled its share of half of the free space");
   if (!put_record(file_.get(), encoder.bytes, sum_)) return fail(std::strerror(errno));
   const auto now = std::chrono::steady_clock::now();
   if (now - flushed_ >= std::chrono::seconds(1)) {
@@ -116,8 +116,7 @@ void CheckpointPart::leave(const TrailEntry& entry) {
 void CheckpointPart::fail(const char* reason) {
   has_failed_ = true;
   warn(fmt::format(
-      "the checkpoint's part '{}' cannot be written: {}\n    the run goes on; if it is stopped, it continues "
-      "from what was kept until here",
+      "the checkpoint's part '{}' cannot be written: {}\n    the run continues; if stopped, it resumes from here",
       path_.string(), reason));
 }
 
@@ -173,7 +172,7 @@ void CheckpointParts::add_to(std::uint64_t number, TrailEntry& entry) {
     std::uint64_t sum = 0;
     if (fseeko(part.file.get(), record->at, SEEK_SET) != 0 ||
         !get_record(part.file.get(), record->before, payload, sum))
-      throw InputError("a part of the checkpoint has changed while the run went over it");
+      throw InputError("a part of the checkpoint has changed while the run replayed it");
     EntryShare share;
     Decoder decoder(std::move(payload));
     code_share(decoder, share);

@@ -122,7 +122,7 @@ StatePart state_part_of(std::string bytes) {
 
 std::shared_ptr<const InterfaceFields> fields_of_parts(const fs::path& state, const StateParts& all) {
   const auto& [sizes, parts] = all;
-  if (!are_complete(parts, sizes)) throw InputError("its parts do not have every unknown once");
+  if (!are_complete(parts, sizes)) throw InputError("its parts do not contain every unknown exactly once");
   std::vector<FieldPart> files;
   for (size_t i = 0; i < parts.size(); ++i) {
     const fs::path path = state_parts_folder(state) / std::to_string(i);

@@ -20,7 +20,7 @@ SrsSettings srs_settings(const Arguments& arguments) {
                   arguments.integer("per_octave"), quantities.at(arguments.text("quantity"))};
   if (arguments.has("damping")) {
     if (arguments.has("q_factor"))
-      throw InputError("'q_factor' and 'damping' are the same quantity: leave one out (Q = 1 / (2 damping))");
+      throw InputError("'q_factor' and 'damping' are mutually exclusive: omit one (Q = 1 / (2 damping))");
     srs.q_factor = q_factor_of(arguments.number("damping"));
   }
   srs.taper = arguments.number_or("taper", 0.0);
@@ -34,14 +34,14 @@ std::string spectrum_unit(const SrsSettings& settings) { return srs_unit(setting
 void check_spectrum(const Problem& problem, const Output& output, const SrsSettings& settings) {
   if (!check::has_dynamic_step(problem))
     check::fail(problem, output.origin, output.known_as() + ": the problem has no dynamic step",
-                "a spectrum is of dynamic steps only");
+                "a spectrum requires a dynamic step");
   double duration = 0.0;
   for (const StepPtr& step : problem.steps) duration += step->is_static ? 0.0 : step->duration;
   if (settings.taper >= duration)
     check::fail(problem, output.origin,
                 fmt::format("{}: 'taper' = {:g} s leaves nothing of the {:g} s of the dynamic steps", output.known_as(),
                             settings.taper, duration),
-                "it is a time before their end, a quarter of them mostly");
+                "it is a time before their end, typically a quarter of their duration");
 }
 
 std::vector<EvenStretch> stretches_of(const std::vector<double>& time, const std::vector<double>& dt,
@@ -122,16 +122,15 @@ std::vector<std::string> doubts_of_end(const std::string& who, const Srs& srs, c
   std::vector<std::string> doubts;
   if (moves.worst > 0.0)
     doubts.push_back(fmt::format(
-        "{} hangs on where its record ends {}: cut off anywhere in its last quarter it moves by up to {:.2g} dB, at "
+        "{} depends on where its record ends {}: truncation within its last quarter changes it by up to {:.2g} dB, at "
         "{:.4g} Hz; at the end, {:.4g} ms, the velocity has changed by {:.3g} m/s and the displacement by {:.3g} mm, "
-        "and the velocity enters as a step; a longer 'duration' or more damping lets it ring out, 'taper' = {:.3g}*ms "
-        "fades it out",
+        "and the spectrum sees the velocity as a step; use a longer 'duration' or more damping, or 'taper' = {:.3g}*ms",
         who, moves.range(), moves.worst, moves.at, 1e3 * end.length, end.velocity, 1e3 * end.displacement,
         250.0 * end.length));
   if (grows.worst > 0.0)
     doubts.push_back(
         fmt::format("{} still grows when its record ends {}: by {:.2g} dB in the last quarter of {:.4g} ms, at {:.4g} "
-                    "Hz; an oscillator that has not come to its peak tells no largest response: a longer 'duration'",
+                    "Hz; an oscillator that has not peaked gives no maximum: use a longer 'duration'",
                     who, grows.range(), grows.worst, 1e3 * end.length, grows.at));
   return doubts;
 }

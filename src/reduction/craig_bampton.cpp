@@ -35,8 +35,7 @@ class HeldInterface {
     const int n_b = static_cast<int>(std::count(is_interface.begin(), is_interface.end(), 1));
     if (n_b > most_face_unknowns)
       throw InputError(request.origin, fmt::format("output.superelement '{}': the faces of 'on' have {} unknowns, at "
-                                                   "most {} are allowed: take smaller faces or "
-                                                   "larger cells there",
+                                                   "most {} are allowed: use smaller faces or larger cells there",
                                                    request.name, n_b, most_face_unknowns));
     if (const std::string motion = free_motion(assembly, problem, coordinates.nodes); !motion.empty())
       throw InputError(request.origin,

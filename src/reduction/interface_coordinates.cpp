@@ -168,10 +168,12 @@ InterfaceCoordinates interface_coordinates(const LinearAssembly& assembly, const
             coordinates.rows.push_back({on_index, on.nodes[i] - assembly.first_node[part], d, on.places[i]});
             of_rows.emplace_back(n_held, static_cast<int>(coordinates.rows.size()) - 1, 1.0);
           } else if (is_rigid && !is_free) {
-            throw InputError(request.origin, fmt::format("output.superelement '{}': a node of {} is held by a support, "
-                                                         "or tied to another of the faces, so that "
-                                                         "it cannot move as a rigid body\n    take motion = \"mean\"",
-                                                         request.name, label_of(place)));
+            throw InputError(
+                request.origin,
+                fmt::format(
+                    "output.superelement '{}': a node of {} is held by a support, "
+                    "or tied to another face, so that the face cannot move as a rigid body\n    take motion = \"mean\"",
+                    request.name, label_of(place)));
           } else if (is_rigid) {
             const Vec3 arm = on.places[i] - on.centre;
             of_rows.emplace_back(n_held, first_row + d, 1.0);
@@ -184,7 +186,7 @@ InterfaceCoordinates interface_coordinates(const LinearAssembly& assembly, const
     }
     if (n_held == before)
       throw InputError(request.origin, fmt::format("output.superelement '{}': nothing of {} can move: a support holds "
-                                                   "it, or other faces of 'on' have all of it",
+                                                   "it, or other faces of 'on' contain all its nodes",
                                                    request.name, label_of(place)));
   }
   coordinates.w = independent.matrix();

@@ -102,8 +102,8 @@ void doubt_lumped_inertia(const Problem& problem) {
       continue;
     warn(fmt::format(
         "{}problem '{}': the masses of substructure '{}' at its nodes have {:.2g} times the moment of inertia "
-        "of the material about the axis ({:.2g}, {:.2g}, {:.2g}): its torsion is up to {:.0f} % too low where its mass "
-        "is lumped; take more cells across, or solver.latin{{ mass = \"tuned\" }}",
+        "of the material about the axis ({:.2g}, {:.2g}, {:.2g}): its torsional frequencies are up to {:.0f} % too low "
+        "with lumped mass; use more cells across, or solver.latin{{ mass = \"tuned\" }}",
         part->origin.prefix(), problem.name, part->name, lumped.ratio, lumped.axis[0], lumped.axis[1], lumped.axis[2],
         100.0 * (1.0 - 1.0 / std::sqrt(lumped.ratio))));
   }

@@ -15,8 +15,8 @@ const char* direction_names[] = {"x", "y", "z", "rx", "ry", "rz"};
 const char* motion_text(FaceMotion motion) {
   switch (motion) {
     case FaceMotion::mean:
-      return "the mean motion of the face (weights: areas), which is free to deform; a force on it is spread evenly "
-             "over the face";
+      return "the mean motion of the face (weights: areas), which may deform; a force on it is spread evenly over the "
+             "face";
     case FaceMotion::rigid:
       return "the motion of the face as a rigid body";
     case FaceMotion::nodes:

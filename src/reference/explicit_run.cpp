@@ -262,7 +262,7 @@ void ExplicitRun::check_stability(int increment) const {
   const double created = -e.balance(), limit = unstable * (supplied_ + std::abs(e.loads));
   if (std::isfinite(created) && (created <= limit || created <= 1e-9 * e.kinetic)) return;
   throw NumericalError(fmt::format(
-      "step '{}': unstable at {:.4g} s after its start: {:.3g} J appeared from nowhere\n    the substep is {:.4g} s, "
+      "step '{}': unstable at {:.4g} s after its start: the scheme created {:.3g} J\n    the substep is {:.4g} s, "
       "{:.3f} of the critical {:.4g} s; likely cause: 'safety' above 1, take 0.9 or less",
       model_.step->name, (increment + 1) * model_.step->dt, created, substep_, substep_ / critical_, critical_));
 }

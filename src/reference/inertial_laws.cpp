@@ -16,8 +16,8 @@ constexpr double unchanged = 1e-13;  // of the largest force
 [[noreturn]] void refuse(const StepModel& model, const Point& point) {
   const Interface& interface = *(*model.surfaces)[point.members.front().surface].interface;
   throw InputError(interface.origin, "interface." + interface.law->word() + " '" + interface.name +
-                                         "': solver.explicit takes this law only where the meshes of both faces match; "
-                                         "use solver.latin, or mesh both faces alike");
+                                         "': solver.explicit supports this law only where the meshes of both faces "
+                                         "match; use solver.latin, or matching meshes");
 }
 
 }  // namespace

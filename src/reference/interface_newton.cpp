@@ -205,7 +205,7 @@ void InterfaceNewton::check_together(const Outcome& outcome) const {
   if (!outcome.is_apart) return;
   throw NumericalError(
       fmt::format("step '{}': sides of an interface move apart by more than the assembly's size; likely cause: a body "
-                  "that was held by contact alone has come off, so that there is no equilibrium",
+                  "held by contact alone has separated, so that there is no equilibrium",
                   rows_->model().step->name));
 }
 

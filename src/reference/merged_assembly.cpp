@@ -157,8 +157,8 @@ SparseMatrix MergedAssembly::make_rows() {
     throw InputError(
         model_->step->origin,
         fmt::format(
-            "step '{}': solver.monolithic keeps dense matrices of the unknowns under contact, plastic, shortened and "
-            "released interfaces: {} of them, at most {} are allowed; use solver.latin, or a coarser mesh there",
+            "step '{}': solver.monolithic stores dense matrices of the unknowns of contact, plastic, shortened and "
+            "released interfaces: there are {}, at most {} are allowed; use solver.latin, or a coarser mesh there",
             model_->step->name, n_rows, most_rows));
   held_rate_ = free_rate_ = Vec::Zero(n_rows);
   return sparse(n_rows, n_, entries);

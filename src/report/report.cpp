@@ -27,8 +27,9 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
 // Every section and every drawing says so: a figure is taken out of the page, a table is read without its top.
 std::string marked(std::string sections, const std::string& words) {
   if (words.empty()) return sections;
-  replace_all(sections, "</h2>\n",
-              "</h2>\n<p class=\"missed\">" + words + " (red in charts). What comes after them rests on them.</p>\n");
+  replace_all(
+      sections, "</h2>\n",
+      "</h2>\n<p class=\"missed\">" + words + " (red in charts). Later results depend on these increments.</p>\n");
   const std::string stamp =
       "<text x=\"99.5%\" y=\"98.5%\" text-anchor=\"end\" font-size=\"11\" font-weight=\"bold\" fill=\"#d55e00\" "
       "stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\">"
@@ -59,7 +60,7 @@ std::string report_html(const std::filesystem::path& folder, const ReportRequest
   try {
     return page_of(run, request);
   } catch (const Json::exception& error) {
-    throw InputError("'" + folder.string() + "' holds a run that cannot be read: " + error.what());
+    throw InputError("'" + folder.string() + "' contains a run that cannot be read: " + error.what());
   }
 }
 

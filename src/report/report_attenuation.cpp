@@ -15,8 +15,8 @@ namespace {
 
 std::string ratio_text(double value) {
   return std::isfinite(value) ? fmt::format("{}{:.1f} dB", value < 0.0 ? "−" : "+", std::abs(value))
-         : std::isinf(value)  ? "nothing leaves"
-                              : "nothing enters";
+         : std::isinf(value)  ? "no output"
+                              : "no input";
 }
 
 std::string attenuation_part(const RunFolder& run, const Json& output, const FrequencyRange& judged) {

@@ -151,14 +151,12 @@ std::string loss_figure(const Json& bolts) {
     return std::max({std::abs(loss.all), std::abs(loss.by[0]), loss.swing}) > 1e-3;
   });
   if (!has_loss) return "";
-  return html::figure(LossChart(losses).svg(),
-                      "What is lost at the end of the run. Yielding of the bolt: its mean plastic elongation since its "
-                      "own tightening times "
-                      "the stiffness that it showed while it was tightened. Other bolts and static loads: what else "
-                      "was gone when the motion "
-                      "began. The joint in the motion: the rest, which is slip and settling of contacts, and loads and "
-                      "motion that are still "
-                      "there at the end. Black bars: how far the force still swings in the last tenth of the motion.");
+  return html::figure(
+      LossChart(losses).svg(),
+      "Preload lost at the end of the run. Yielding of the bolt: its mean plastic elongation since its own tightening, "
+      "times its stiffness during tightening. Other bolts and static loads: the other loss before the motion. The "
+      "joint in the motion: the rest, from slip and settling of contacts and from loads and motion remaining at the "
+      "end. Black bars: swing of the force in the last tenth of the motion.");
 }
 
 // Forces after each static step.
@@ -229,11 +227,11 @@ std::string bolts_section(const RunFolder& run) {
     for (size_t i = 0; i < bolts.size(); ++i) rows[i].emplace_back(column.value(bolts[i]), column.unit, column.digits);
   }
   return html::section(
-      "Bolts", html::table(header, in_common_units(rows), true) +
-                   html::paragraph("Forces are those through the modelled part of each bolt, tension positive; lost: "
-                                   "relative to its own tightening, at the end; the mean stress is that at the end, "
-                                   "over the modelled area.") +
-                   loss_figure(bolts) + history_table(bolts, steps));
+      "Bolts",
+      html::table(header, in_common_units(rows), true) +
+          html::paragraph("Forces act through the modelled part of each bolt, tension positive. Loss: at the end, "
+                          "relative to the bolt's own tightening. Mean stress: at the end, over the modelled area.") +
+          loss_figure(bolts) + history_table(bolts, steps));
 }
 
 }  // namespace dygita

@@ -133,9 +133,9 @@ std::string works(const Table& t, const TimeAxis& time) {
       plot.lines.push_back({work == std::string("friction_work") ? "friction" : "yielding", places, t.column(work)});
   if (const std::vector<double> work = damping_work(t); largest(work) > 0.0) {
     plot.lines.push_back({"damping", places, work});
-    return html::figure(svg(plot), "What the joint has dissipated.");
+    return html::figure(svg(plot), "Energy dissipated by the joint.");
   }
-  return plot.lines.empty() ? "" : html::figure(svg(plot), "What friction and yielding have dissipated.");
+  return plot.lines.empty() ? "" : html::figure(svg(plot), "Energy dissipated by friction and yielding.");
 }
 
 std::string joint_part(const RunFolder& run, const Json& output, const TimeAxis& time) {
@@ -163,8 +163,8 @@ std::string joint_part(const RunFolder& run, const Json& output, const TimeAxis&
   std::string body = html::heading(text(output, "name") + " on " + on) + html::paragraph(summary(t, kind));
   body += html::row(
       {html::figure(svg(force), force.lines.size() > 1 ? "Normal and shear force on side 1 against time."
-                                                       : "Normal force on side 1 against time; hardly any shear."),
-       kind.has_states ? html::figure(svg(area), "How much of the joint is in which state.") : "",
+                                                       : "Normal force on side 1 against time; shear is negligible."),
+       kind.has_states ? html::figure(svg(area), "Area of the joint in each state.") : "",
        loop(t, "Normal force against opening", yields ? "plastic_opening" : "opening", "normal"),
        loop(t, "Shear force against slip", "slip", "shear"), works(t, time)});
   if (!run.scenes().is_object() || !run.scenes().contains("joints")) return body;

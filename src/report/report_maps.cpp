@@ -113,7 +113,7 @@ std::vector<std::string> colors_of(const Json& values, double high, bool is_stat
 
 std::string maps_of_joint(const Json& joint) {
   if (!joint.value("flat", false))
-    return html::paragraph("'" + text(joint, "name") + "' turns too much to be laid flat: no maps.");
+    return html::paragraph("'" + text(joint, "name") + "' is too curved to be drawn flat: no maps.");
   const Json& instants = joint.at("instants");
   if (instants.empty()) return "";
   const Grid grid = grid_of(joint);

@@ -14,10 +14,10 @@ std::string motion_section(const RunFolder& run) {
       "The motion",
       turning_figure(
           json, "The assembly in motion",
-          "Drag to turn, with Shift to move, Ctrl and the wheel (or + and −) to zoom. Frames are even over each step, "
-          "the instant of largest strain energy with them. Values are those of the report's own, smaller mesh: "
+          "Drag to turn, with Shift to move, Ctrl and the wheel (or + and −) to zoom. Frames are evenly spaced in each "
+          "step and include the instant of largest strain energy. Values are on the report's own, coarser mesh: "
           "displacements "
-          "rounded to 1/32767 and stresses to 1/255 of a frame's largest; files for ParaView hold them in full."));
+          "rounded to 1/32767 and stresses to 1/255 of a frame's largest; ParaView files have full precision."));
 }
 
 }  // namespace dygita

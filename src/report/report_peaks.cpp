@@ -179,12 +179,10 @@ std::string margins_section(const RunFolder& run) {
       html::table({"part", "material", "yield", "largest von Mises", "margin", "volume beyond", "when", "where (mm)"},
                   in_common_units(rows), true) +
           html::paragraph(
-              "Margin: yield / von Mises − 1; the material stays elastic beyond yield. Stress is that at nodes, the "
-              "mean of the "
-              "cells around: at an edge, a corner or the rim of a contact it grows with a finer mesh, so see how much "
-              "of the "
-              "volume is beyond." +
-              (unwatched.empty() ? "" : " Not watched, since their material has no yield: " + unwatched + ".")));
+              "Margin: yield / von Mises − 1; the material model stays elastic beyond yield. Stresses are nodal "
+              "averages; at edges, corners and contact rims they are mesh-dependent, so check the volume beyond "
+              "yield." +
+              (unwatched.empty() ? "" : " Not monitored, since their material has no yield: " + unwatched + ".")));
 }
 
 }  // namespace dygita

@@ -229,11 +229,11 @@ std::string caption_of(const Json& picture, const Json& parts) {
   if (!std::isfinite(moved)) return caption + ": displacements are not finite; drawn undeformed.";
   caption += fmt::format(": displacements up to {}, ", with_unit(moved, "m"));
   caption += scale == 0.0   ? (moved > 0.0 ? "beyond the picture; drawn undeformed" : "nothing moves")
-             : scale == 1.0 ? "drawn as they are"
+             : scale == 1.0 ? "drawn to scale"
                             : "drawn " + plain_number(scale, 6) + " times as large";
   caption += "; von Mises stress up to " + with_unit(number(picture, "largest"), "Pa") + ".";
   if (const double missed = number(picture, "missed"); missed > 0)
-    caption += fmt::format(" NOT CONVERGED: {:.0f} increment{} up to here.", missed, missed == 1 ? "" : "s");
+    caption += fmt::format(" NOT CONVERGED: {:.0f} increment{} so far.", missed, missed == 1 ? "" : "s");
   if (picture.value("cut", false)) caption += " Cut " + cut_of(picture) + ".";
   for (size_t i = 0; i < parts.size(); ++i)
     if (has_no_stress(parts, i)) {

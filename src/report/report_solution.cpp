@@ -54,8 +54,7 @@ std::string energy_figure(const Table& t, const TimeAxis& time) {
   plot.lines.push_back({"input: loads and initial velocities", places, given, "#000000", true, false, 1.6});
   return html::figure(svg(plot),
                       "Stored and dissipated energies, stacked, against the input of loads and initial velocities. The "
-                      "balance closes "
-                      "where the dashed line follows the top of the areas.");
+                      "balance closes if the dashed line follows the top of the areas.");
 }
 
 // The tolerance lines of a convergence chart.
@@ -122,7 +121,7 @@ std::string energy_section(const RunFolder& run, const TimeAxis& time) {
     // Records of older versions hold all against the largest energy.
     const bool has_motion = run.has_figure(&Figures::energy_of_motion),
                has_both = run.has_figure(&Figures::static_gain);
-    std::string told = fmt::format("Largest energy {}: the top of the chart, all that is stored and dissipated. ",
+    std::string told = fmt::format("Largest energy {}: the top of the chart, stored and dissipated energy together. ",
                                    with_unit(most, "J"));
     told += has_motion ? fmt::format("The motion has {}. The balance closes within {} of that",
                                      with_unit(run.figure(&Figures::energy_of_motion), "J"),
@@ -132,7 +131,7 @@ std::string energy_section(const RunFolder& run, const TimeAxis& time) {
                         percent(&Figures::energy_gain));
     if (has_both)
       told += fmt::format(
-          " In static steps it closes within {} of what they store; numerical dissipation {}, energy "
+          " In static steps it closes within {} of their stored energy; numerical dissipation {}, energy "
           "gain {}.",
           percent(&Figures::static_imbalance), percent(&Figures::static_dissipation), percent(&Figures::static_gain));
     body += html::paragraph(told);

@@ -63,8 +63,8 @@ std::string verdict_text(const Json& record) {
                        increments == 1.0 ? "the one increment" : fmt::format("all {} increments", increments),
                        tolerance.empty() ? "what the solver asks for" : "the tolerance of " + tolerance);
   return fmt::format(
-      "NOT converged: {} stopped short of the tolerance{}. Do not rely on what follows these increments before they "
-      "converge: more iterations, a smaller dt or more static increments.",
+      "NOT converged: {} missed the tolerance{}. Do not rely on later results until these increments converge: use "
+      "more iterations, a smaller dt or more static increments.",
       steps_that_missed(record), tolerance.empty() ? "" : " of " + tolerance);
 }
 
@@ -193,14 +193,12 @@ std::string verdict_section(const RunFolder& run, const ReportRequest& request) 
     for (const Card& card : cards) body += card_html(card);
     body += "</div>\n";
     body += html::paragraph(fmt::format(
-        "Green: fine. Amber: to be kept in mind (a mesh or time step error above {:g} %, a specification that is met "
-        "by less "
-        "than the spectrum is uncertain, or not judged over all of it). Red: beyond the limit at which a run warns, a "
+        "Green: fine. Amber: caution (a mesh or time step error above {:g} %, a specification margin smaller than the "
+        "uncertainty, or a specification not judged over its whole range). Red: beyond the warning limit of a run, a "
         "specification exceeded, a yield reached. Errors of iteration, time step and mesh are in the energy norm, in "
-        "which "
-        "lags add up: they choose tolerance, dt and mesh. What to report of a frequency is its own error, of a stress "
-        "or a "
-        "force that of amplitudes (of static steps the mesh error), of a spectrum its band.",
+        "which phase lags accumulate: use them to choose tolerance, dt and mesh. Report the frequency error with a "
+        "frequency, the amplitude error with a stress or force (in static steps the mesh error), and the band with a "
+        "spectrum.",
         limit::good_discretisation));
   }
   body += html::list(findings);

@@ -24,10 +24,9 @@ SpecificationPtr requested(const Json& output, const ReportRequest& request, boo
   if (found == given.end() && (output.contains("specification") || !deck_has_some)) found = given.find("");
   if (found == given.end()) return nullptr;
   if (const std::string quantity = text(output, "quantity"); quantity != "acceleration") {
-    warn(
-        fmt::format("spectrum '{}' is of {} and is not held against the specification, which is of absolute "
-                    "acceleration",
-                    text(output, "name"), quantity));
+    warn(fmt::format(
+        "spectrum '{}' is of {} and is not compared with the specification, which is of absolute acceleration",
+        text(output, "name"), quantity));
     return nullptr;
   }
   return found->second;
@@ -56,8 +55,8 @@ void check_names(const std::vector<Json>& outputs, const ReportRequest& request,
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "'" : ", '") + name + "'";
   warn(
-      fmt::format("the specification is held against every spectrum of the run, {}, since the deck gives none of them "
-                  "one; --specification {}=FILE.csv holds it against one",
+      fmt::format("the specification is compared with every spectrum of the run, {}, since the deck specifies none; "
+                  "--specification {}=FILE.csv applies it to one",
                   list, names.front()));
 }
 
@@ -118,8 +117,8 @@ SpectrumVerdict not_judged(const Spectrum& s, const FrequencyRange& judged) {
   const std::string specification = range_text(s.specification->frequency.front(), s.specification->frequency.back());
   std::string why = "the spectrum is from " + hertz(s.frequency().front()) + " to " + hertz(s.frequency().back());
   if (std::isfinite(judged.from)) why += ", and the record allows " + hertz(judged.from) + " to " + hertz(judged.to);
-  return {fmt::format("Spectrum '{}' is not held against its specification ({}): they share no frequency that can be "
-                      "judged; {}.",
+  return {fmt::format("Spectrum '{}' is not compared with its specification ({}): they have no common frequency that "
+                      "can be judged; {}.",
                       s.name, specification, why),
           {"'" + s.name + "' and its specification", "not judged", "no frequency in common", Grade::poor}};
 }
@@ -203,8 +202,8 @@ SpectrumVerdict verdict_of(const Spectrum& s, const FrequencyRange& judged) {
   card.note = "at " + hertz(worst.frequency);
   std::string& line = verdict.sentence;
   if (above.empty()) {
-    line = fmt::format("Spectrum '{}' stays below its specification wherever it is judged, nearest at {} with {}",
-                       s.name, hertz(worst.frequency), decibels(worst.decibels));
+    line = fmt::format("Spectrum '{}' is below its specification over the judged range, closest at {} with {}", s.name,
+                       hertz(worst.frequency), decibels(worst.decibels));
     if (-worst.decibels < unsure) card.grade = Grade::fair;
   } else {
     line = fmt::format("Spectrum '{}' exceeds its specification by up to {}", s.name, listed(above));

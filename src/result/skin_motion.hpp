@@ -1,4 +1,4 @@
-// The skin of the assembly at a few instants of every step, for a picture that turns.
+// The skin of the assembly at a few instants of every step, for a rotating picture.
 #pragma once
 
 #include <string>

@@ -68,7 +68,7 @@ std::shared_ptr<CheckpointFile> checkpoint_of(const Problem& problem, const RunR
   if (!request.write_files || !request.write_state || request.checkpoint_every <= 0.0) return nullptr;
   const CheckpointIdentity identity = identity_of(problem, request);
   if (auto left = left_in(path, identity, request.checkpoint_every)) {
-    say(fmt::format("  an earlier attempt was stopped: {} increments are known", left->n_left()));
+    say(fmt::format("  an earlier attempt was stopped: {} increments are stored", left->n_left()));
     return left;
   }
   try {
@@ -76,7 +76,7 @@ std::shared_ptr<CheckpointFile> checkpoint_of(const Problem& problem, const RunR
     checkpoint->expect(expected_entries(problem));
     return checkpoint;
   } catch (const InputError& error) {
-    warn(fmt::format("{}\n    the run goes on, and cannot be continued if it is killed", error.what()));
+    warn(fmt::format("{}\n    the run continues, but cannot be resumed if it is killed", error.what()));
     return nullptr;
   }
 }

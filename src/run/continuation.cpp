@@ -31,7 +31,7 @@ RunState state_in(const fs::path& run) {
   if (fs::exists(run / state_file_name, ignored)) {
     RunState state = read_state(run / state_file_name);
     if (state.steps.empty() || state.efforts.empty())
-      throw InputError(fmt::format("'{}' tells no step of a run: it is damaged\n    run the deck again",
+      throw InputError(fmt::format("'{}' describes no step: it is damaged\n    run the deck again",
                                    (run / state_file_name).string()));
     return state;
   }
@@ -43,9 +43,9 @@ RunState state_in(const fs::path& run) {
   throw InputError(
       recorded->solver == "latin"
           ? fmt::format(
-                "'{}' keeps no {}: the run was told --no-state, or an earlier version made it\n    run the deck again",
+                "'{}' keeps no {}: the run used --no-state, or an earlier version wrote it\n    run the deck again",
                 run.string(), state_file_name)
-          : fmt::format("'{}' was computed by solver.{}, which keeps nothing to continue from\n    run the deck again",
+          : fmt::format("'{}' was computed by solver.{}, which stores nothing to continue from\n    run the deck again",
                         run.string(), recorded->solver));
 }
 
@@ -66,12 +66,11 @@ fs::path unfinished_case(const fs::path& folder) {
   std::string list;
   for (const fs::path& one : unfinished.empty() ? cases : unfinished) list += "\n      " + one.string();
   if (list.empty()) return folder;
-  throw InputError(
-      unfinished.empty()
-          ? fmt::format("every case in '{}' has come to its end\n    name the folder of one to refine it, or "
-                        "run the deck again for cases that are not there:{}",
-                        folder.string(), list)
-          : fmt::format("several cases in '{}' were stopped: continue one of{}", folder.string(), list));
+  throw InputError(unfinished.empty()
+                       ? fmt::format("every case in '{}' is complete\n    name the folder of one to refine it, or run "
+                                     "the deck again for missing cases:{}",
+                                     folder.string(), list)
+                       : fmt::format("several cases in '{}' were stopped: continue one of{}", folder.string(), list));
 }
 
 // The end of the run as it was asked for, s.
@@ -106,7 +105,7 @@ void check_problem_is_same(const Problem& problem, const RunState& state) {
   if (const std::string which = changed_load(problem, state); !which.empty())
     throw InputError(
         fmt::format("the loads {} have changed since the run (a file that the deck reads, the results of another "
-                    "case, or a function of the deck that answers otherwise when asked again): run the deck "
+                    "case, or a function of the deck that now returns other values): run the deck "
                     "again",
                     which));
 }
@@ -129,7 +128,7 @@ void Continuation::open() {
   has_record_ = read_run_record(options.run).has_value();
   if (is_unfinished && asks && !(has_record_ && fs::exists(options.run / state_file_name, ignored)))
     throw InputError(
-        fmt::format("'{0}': the run has not come to its end: `dygita continue {0}` takes it there, and then further",
+        fmt::format("'{0}': the run is not complete: `dygita continue {0}` completes it and can then extend it",
                     options.run.string()));
   if (is_unfinished && !asks) {
     checkpoint_ = std::make_shared<CheckpointFile>(checkpoint, options.checkpoint_every);
@@ -168,12 +167,12 @@ std::string Continuation::idle() const {
   if (!options_.tolerance) {
     if (!state.converged) return "";
     throw InputError(
-        fmt::format("'{}': the run is complete and has converged: say --tolerance, --iterations or --until",
+        fmt::format("'{}': the run is complete and has converged: give --tolerance, --iterations or --until",
                     options_.run.string()));
   }
   const double reached = std::max(worst_of(state, false), 0.0), reached_static = worst_of(state, true);
   if (reached > *options_.tolerance || reached_static > static_tolerance(options_, state.efforts.back())) return "";
-  return fmt::format("nothing to do: the run has reached {:.2g}, the tolerance {:g} asks no more",
+  return fmt::format("nothing to do: the run has reached {:.2g}, which meets the tolerance {:g}",
                      std::max(reached, reached_static), *options_.tolerance);
 }
 
@@ -216,12 +215,12 @@ std::shared_ptr<const RunResult> Continuation::resume(const Problem& problem, co
   const CheckpointIdentity& identity = *resumed_;
   if (!identity.has_start) going_on.start_from = nullptr;
   if (identity.has_start && (!request.start_from || !request.start_from->interface_fields))
-    throw InputError("the run started from another case's fields, which are gone: run the deck again");
+    throw InputError("the run started from another case's fields, which are missing: run the deck again");
   if (identity.kernels != request.identity.kernels || identity.state.program != program_version())
     warn("the run was begun on another processor or by another version of the program: its last digits may differ");
   say(problem.monolithic || problem.explicit_dynamics
-          ? "  this solver keeps nothing to go on from: the run starts again"
-          : fmt::format("  {} increments are gone over again", checkpoint_ ? checkpoint_->n_left() : 0));
+          ? "  this solver stores nothing to resume from: the run starts again"
+          : fmt::format("  {} increments are replayed", checkpoint_ ? checkpoint_->n_left() : 0));
   auto result = run_problem(problem, going_on);
   is_done_ = true;
   return result;
@@ -236,18 +235,19 @@ Problem Continuation::changed(Problem problem) const {
   problem.solver.spectra = 0.0;  // what is asked for now decides
   problem.solver.more_iterations = options_.more_iterations;
   if (problem.solver.precision == Precision::single_precision && problem.solver.tolerance < 1e-7)
-    throw InputError(fmt::format("--tolerance {:g}: 'precision' = \"single\" of the deck holds 1e-7 at least",
-                                 problem.solver.tolerance));
+    throw InputError(
+        fmt::format("--tolerance {:g}: 'precision' = \"single\" of the deck allows no tolerance below 1e-7",
+                    problem.solver.tolerance));
   const double duration = state_->steps.back().duration + (options_.until ? *options_.until - end_of(*state_) : 0.0);
   if (!problem.steps.back()->is_static && duration != problem.steps.back()->duration) {
     const std::vector<std::string> before = tuned_by_choice(problem);
     problem.steps.back() = extended(*problem.steps.back(), duration);
     if (const std::vector<std::string> now = tuned_by_choice(problem); now != before)
-      warn(fmt::format(
-          "in the longer time the mass of other substructures is worth being tuned ({} in place of {}): what "
-          "was reported before moves by what the mesh leaves; solver.latin{{ mass = \"tuned\" }} or "
-          "\"lumped\" in the deck fixes it",
-          now.empty() ? "none" : list_of_names(now), before.empty() ? "none" : list_of_names(before)));
+      warn(
+          fmt::format("for the longer duration the automatic choice of tuned mass changes ({} instead of {}): earlier "
+                      "results change within the mesh error; solver.latin{{ mass = \"tuned\" }} or "
+                      "\"lumped\" in the deck fixes it",
+                      now.empty() ? "none" : list_of_names(now), before.empty() ? "none" : list_of_names(before)));
   }
   check_problem_is_same(problem, *state_);
   return problem;

@@ -46,10 +46,10 @@ const InterfaceFields* start_of(const RunRequest& request) {
   if (request.continues) return request.continues->fields.get();
   if (!request.start_from) return nullptr;
   if (request.start_from->converged) return request.start_from->interface_fields.get();
-  warn(fmt::format(
-      "case '{}': the case to start from has not converged, so its fields are not used as an initial guess: the "
-      "iteration starts from scratch",
-      request.case_name));
+  warn(
+      fmt::format("case '{}': the initial case has not converged, so its fields are not used as an initial guess: the "
+                  "iteration starts from scratch",
+                  request.case_name));
   return nullptr;
 }
 
@@ -139,7 +139,7 @@ void check_room(const RunState& state, const std::filesystem::path& folder, cons
   std::error_code error;
   const std::filesystem::space_info space = std::filesystem::space(folder, error);
   if (!error && static_cast<double>(space.available) < bytes + results)
-    throw InputError(fmt::format("no room for {} ({:.3g} MB; {:.3g} MB are free): it goes to the results",
+    throw InputError(fmt::format("no room for {} ({:.3g} MB; {:.3g} MB are free): the space is reserved for results",
                                  state_file_name, bytes / 1e6, static_cast<double>(space.available) / 1e6));
 }
 
@@ -211,7 +211,7 @@ void keep_state(RunState& state, KeptParts kept, RunWriter& writer, bool has_che
     std::filesystem::remove_all(parts, ignored);
     warn(fmt::format(
         "{}\n    {}; its results are not touched", error.what(),
-        has_checkpoint ? "what continues this run is its checkpoint" : "this run cannot be continued later"));
+        has_checkpoint ? "the run can be continued from its checkpoint" : "this run cannot be continued later"));
   }
   result.seconds["state file"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -102,8 +102,7 @@ std::vector<std::string> base_lines(const Problem& problem) {
     if (base.is_shaken)
       lines.push_back(
           fmt::format("  base '{}': in the {:.4g} ms of the dynamic steps its velocity changes by ({:.3g}, {:.3g}, "
-                      "{:.3g}) m/s, and "
-                      "it ends ({:.3g}, {:.3g}, {:.3g}) mm from where it was",
+                      "{:.3g}) m/s, and its final displacement is ({:.3g}, {:.3g}, {:.3g}) mm",
                       support->name, 1e3 * base.time, v[0], v[1], v[2], u[0], u[1], u[2]));
   }
   return lines;
@@ -118,9 +117,8 @@ void warn_of_stresses(const Problem& problem, const RunResult& result) {
     const double share = 100.0 * peak.above;
     if (peak.margin() < limit::yield_margin)
       warn(fmt::format(
-          "substructure '{}' reaches {:.4g} MPa (von Mises), above the yield of {:.4g} MPa of '{}': up to {} % of "
-          "its volume at once. The material stays elastic there; at an edge or a corner the peak grows with a finer "
-          "mesh",
+          "substructure '{}' reaches {:.4g} MPa (von Mises), above the yield of {:.4g} MPa of '{}': up to {} % of its "
+          "volume at once. The material model stays elastic; peaks at edges and corners are mesh-dependent",
           part.name, peak.von_mises / 1e6, peak.yield / 1e6, part.material.name,
           share > 9.95 ? fmt::format("{:.0f}", share) : fmt::format("{:.2g}", share)));
   }

@@ -31,7 +31,7 @@ bool have_settled(const Problem& problem, const RunResult& before, RunResult& re
     const Table &then = before.tables.at(output.get()), &now = result.tables.at(output.get());
     worst = std::max(worst, output->settle(then, now, result.findings[output.get()]));
   }
-  say(fmt::format("  tolerance {:g}: the spectra have moved by up to {:.3g} dB", problem.solver.tolerance, worst));
+  say(fmt::format("  tolerance {:g}: the spectra have changed by up to {:.3g} dB", problem.solver.tolerance, worst));
   result.figures.spectra_moved = worst;
   return worst < problem.solver.spectra;
 }

@@ -38,8 +38,8 @@ void require_tables(const Json& record, const fs::path& folder) {
     const fs::path path = folder / name;
     std::error_code error;
     if (path.extension() == ".csv" && !fs::is_regular_file(path, error))
-      throw InputError(fmt::format("--repeat {}: its table '{}' is {}: there is nothing to compare with",
-                                   folder.string(), name, fs::exists(path, error) ? "not a file" : "not there"));
+      throw InputError(fmt::format("--repeat {}: its table '{}' is {}: nothing to compare with", folder.string(), name,
+                                   fs::exists(path, error) ? "not a file" : "not there"));
   }
 }
 
@@ -56,10 +56,9 @@ Repetition::Repetition(const fs::path& record)
               : record.parent_path().empty() ? "."
                                              : record.parent_path()) {
   if (!fs::is_directory(record) && fs::exists(record) && record.filename() != "run.json")
-    throw InputError(
-        fmt::format("--repeat {}: a run's folder, or the run.json in it, is what can be repeated", record.string()));
+    throw InputError(fmt::format("--repeat {}: give a run's folder or its run.json", record.string()));
   if (!fs::is_directory(record) && !fs::exists(record))
-    throw InputError(fmt::format("--repeat {}: there is no such record", record.string()));
+    throw InputError(fmt::format("--repeat {}: no such record", record.string()));
   const RunFolder run(folder_, "");
   const Json& json = run.record();
   try {
@@ -79,7 +78,7 @@ Repetition::Repetition(const fs::path& record)
     for (const Json& part : json.at("substructures")) meshes_[part.at("name")] = part.at("digest");
     require_tables(json, folder_);
   } catch (const Json::exception&) {
-    throw InputError(fmt::format("--repeat {}: the record lacks what tells how the run was made", record.string()));
+    throw InputError(fmt::format("--repeat {}: the record lacks the settings of the run", record.string()));
   }
   tables_ = tables_in(folder_);
 }
@@ -88,7 +87,7 @@ std::string Repetition::label() const { return fmt::format("problem '{}', case '
 
 void Repetition::check_same(const RunRequest& request) const {
   if (request.identity.deck_digest != deck_digest_)
-    throw InputError(fmt::format("deck '{}' has changed since the run of '{}': --repeat computes the same again",
+    throw InputError(fmt::format("deck '{}' has changed since the run of '{}': --repeat requires an unchanged deck",
                                  request.identity.deck_path, folder_.string()));
   for (const auto& [name, digest] : request.identity.mesh_digests)
     if (const auto known = meshes_.find(name); known == meshes_.end() || known->second != digest)
@@ -106,7 +105,7 @@ void Repetition::compare_tables(const fs::path& folder) {
     if (const auto found = now.find(name); found == now.end() || found->second != digest) other.push_back(name);
   differing_ = list_of(other);
   if (other.empty())
-    say(fmt::format("  repeated: deck, parameters and meshes are the same, and all {} tables, bit for bit",
+    say(fmt::format("  repeated: deck, parameters, meshes and all {} tables are identical, bit for bit",
                     tables_.size()));
 }
 

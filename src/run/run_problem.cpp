@@ -113,7 +113,8 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
         figures.time_step_error.value(), *figures.mesh_error));
   if (figures.mesh_frequency_error)
     say(fmt::format(
-        "  these choose dt and mesh, since lags add up in them; to report: a frequency is off by {:.2g} % (time "
+        "  use these to choose dt and mesh, since lags accumulate in them; errors to report: a frequency is off by "
+        "{:.2g} % (time "
         "step) and {:.2g} % (mesh), an amplitude by {:.2g} % (mesh), a spectrum by its band",
         figures.step_frequency_error.value(), *figures.mesh_frequency_error, figures.mesh_amplitude_error.value()));
   if (figures.static_mesh_error)
@@ -264,7 +265,7 @@ void settle(const RunRequest& request, const RunResult& result, RunSite& site) {
   if (site.checkpoint && result.interrupted) site.checkpoint->sync();
   site.unwritten.finish(site.directory, site.replacement.has_value(),
                         site.can_go_on(result)
-                            ? fmt::format("\n    where there is room this goes on with it: dygita continue {}",
+                            ? fmt::format("\n    once there is space, continue with: dygita continue {}",
                                           shell_word(site.directory.string()))
                             : "");
   if (site.replacement && site.is_kept) {
@@ -279,15 +280,16 @@ void settle(const RunRequest& request, const RunResult& result, RunSite& site) {
 // What the user is to know of a run that did not come to its end. Throws the error that ended it.
 void tell_stop(const RunResult& result, const RunSite& site) {
   const std::string folder = site.directory.string();
-  if (!site.is_kept) say(fmt::format("  stopped before it reached what '{}' holds already: that is as it was", folder));
+  if (!site.is_kept)
+    say(fmt::format("  stopped before reaching the results already in '{}', which are unchanged", folder));
   if (result.stopped_by) {
     withdraw_interrupt();
     rethrow(result.stopped_by, !site.writer    ? ""
-                               : !site.is_kept ? "\n    the results in " + folder + " are as they were"
-                                               : "\n    what was computed before is in " + folder);
+                               : !site.is_kept ? "\n    the results in " + folder + " are unchanged"
+                                               : "\n    earlier results are in " + folder);
   }
   if (result.interrupted && site.checkpoint)
-    say(fmt::format("  stopped; this goes on with it:\n    dygita continue {}", shell_word(folder)));
+    say(fmt::format("  stopped; continue with:\n    dygita continue {}", shell_word(folder)));
 }
 
 // Not even the results found room: what the checkpoint has is not lost.
@@ -295,9 +297,8 @@ void tell_stop(const RunResult& result, const RunSite& site) {
   std::string text = "not enough memory on this machine; dygita check reports what a problem needs";
   if (site.checkpoint && site.checkpoint->has_entries()) {
     site.checkpoint->sync();
-    text += fmt::format(
-        "\n    what was computed is kept; where there is more memory this goes on with it: dygita continue {}",
-        shell_word(site.directory.string()));
+    text += fmt::format("\n    results so far are kept; with more memory, continue with: dygita continue {}",
+                        shell_word(site.directory.string()));
   }
   throw NumericalError(text);
 }

@@ -33,8 +33,8 @@ std::string cure_by_iterations(const StepSummary& step, const Missed& worst, con
       halving = std::max(halving, *m.halving);
     }
   const int asked = std::max(static_cast<int>(std::ceil(2.0 * more / 100.0)) * 100, 100);
-  std::string text = "the indicator still falls";
-  if (more > 0.0) text += fmt::format(", by half in {:.0f} iterations: about {:.0f} more would do", halving, more);
+  std::string text = "the indicator is still decreasing";
+  if (more > 0.0) text += fmt::format(", halving in {:.0f} iterations: about {:.0f} more are needed", halving, more);
   text += ": ";
   if (!kept.empty()) text += fmt::format("`dygita continue {} --iterations {}`, or ", kept.string(), asked);
   return text + fmt::format("solver.latin{{ max_iterations = {} }}", (worst.iterations + 99) / 100 * 100 + asked);
@@ -43,15 +43,15 @@ std::string cure_by_iterations(const StepSummary& step, const Missed& worst, con
 // The indicator stands still: iterations do not help, if there were enough to tell.
 std::string cure_of_stall(const Problem& problem, const StepSummary& step, const Missed& worst) {
   if (problem.solver.max_iterations > 0 && problem.solver.max_iterations < 1000)
-    return "leave out 'max_iterations': the iteration then goes on as long as it helps";
-  std::string text = "the indicator stands still: more iterations will not help; ";
+    return "omit 'max_iterations': the iteration then continues while it improves";
+  std::string text = "the indicator has stagnated: more iterations will not help; ";
   const bool is_stored_in_single =
       !step.is_static && step.explicit_parts.size() < problem.substructures.size() &&
       std::any_of(problem.substructures.begin(), problem.substructures.end(), [&](const auto& part) {
         return stored_precision(problem.solver, 3.0 * part->mesh->n_nodes()) == Precision::single_precision;
       });
   const std::string stored =
-      is_stored_in_single ? ", or solver.latin{ precision = \"double\" }, where the stored factors hold it up" : "";
+      is_stored_in_single ? ", or solver.latin{ precision = \"double\" }, if the stored factors limit it" : "";
   if (worst.indicator < 30.0 * worst.tolerance)
     return text + fmt::format("it is within {:.0f} times the tolerance: {} = {:.0e} accepts it{}",
                               std::ceil(worst.indicator / worst.tolerance),
@@ -62,10 +62,9 @@ std::string cure_of_stall(const Problem& problem, const StepSummary& step, const
                   [](const InterfacePtr& i) { return i->law->shown().gap && i->law->shown().slip; });
   // Left to the program, both ways have been gone.
   const bool is_fixed = problem.solver.static_steps != StaticSteps::automatic;
-  return text + fmt::format(
-                    "take more increments{}{}",
-                    is_fixed ? ", or leave out 'static_steps': where one way stands still the other is then taken" : "",
-                    has_friction ? ", or see what friction alone has to hold (output.joint)" : "");
+  return text + fmt::format("take more increments{}{}",
+                            is_fixed ? ", or omit 'static_steps': if one method stagnates, the other is then used" : "",
+                            has_friction ? ", or check what friction alone must resist (output.joint)" : "");
 }
 
 void warn_of_missed(const Problem& problem, const RunResult& result, const std::filesystem::path& kept) {
@@ -93,8 +92,8 @@ std::string cure_of_balance(const Problem& problem, const Figures& figures, bool
   const double motion = figures.energy_of_motion.value_or(0.0), all = figures.largest_energy.value_or(0.0);
   if (!problem.monolithic && is_motion && motion < small * all)
     return fmt::format(
-        "the motion has {:.2g} J beside {:.2g} J that were stored before it, whose forces work on what the tolerance "
-        "leaves between the sides of interfaces: 'tolerance = {:.1g}' closes it",
+        "the motion has {:.2g} J against {:.2g} J stored before it, whose forces do work on the remaining interface "
+        "error: 'tolerance = {:.1g}' closes it",
         motion, all, 0.1 * problem.solver.tolerance);
   const LatinSettings usual;
   const LatinSettings& asked = problem.solver;
@@ -103,8 +102,8 @@ std::string cure_of_balance(const Problem& problem, const Figures& figures, bool
         "the tolerance is loose (tolerance {:g}, static_tolerance {:g}) and its errors add up: take {:g} "
         "and {:g}",
         asked.tolerance, asked.static_tolerance, usual.tolerance, usual.static_tolerance);
-  return "every increment has converged: if a ten times smaller tolerance does not close it, this is an error of the "
-         "program: please report it with the deck";
+  return "every increment has converged: if a ten times smaller tolerance does not close it, this is a bug: please "
+         "report it with the deck";
 }
 
 // %, of the motion or of the static steps.
@@ -118,8 +117,8 @@ void warn_of_books(const Problem& problem, const RunResult& result, const Shares
   const char* const what = is_motion ? "the energy of the motion" : "the energy of the static steps";
   if (shares.lost > limit::numerical_dissipation)
     warn(fmt::format("numerical dissipation takes {:.1f} % of {} ({} reduce it", shares.lost, what,
-                     is_motion ? "impacts; releases): a smaller dt or smaller elements"
-                               : "increments that close a gap, parts that stop): more static increments"));
+                     is_motion ? "impacts; releases): use a smaller dt or smaller elements"
+                               : "increments that close a gap, parts that stop): use more static increments"));
   if (shares.gained > limit::energy_gain)
     warn(fmt::format("the numerical energy gain is {:.2f} % of {}: take {}", shares.gained, what,
                      is_motion ? "a smaller dt or tolerance" : "more static increments"));
@@ -160,12 +159,12 @@ void warn_of_losses(const Problem& problem, const RunResult& result) {
 std::string doubt_of_bands(const RunResult& result) {
   const bool has_bands = std::any_of(result.findings.begin(), result.findings.end(),
                                      [](const auto& of) { return of.second.band.n_rows() > 0; });
-  return has_bands ? "; with so much, spectra may be off by far more than their bands say" : "";
+  return has_bands ? "; with errors this large, spectra may be off by far more than their bands" : "";
 }
 
 // An error in energy norm may be a lag that has added up.
 std::string frequency_text(const std::optional<double>& error) {
-  return error ? fmt::format(", of its frequencies one of {:.2g} %", *error) : "";
+  return error ? fmt::format(", {:.2g} % in its frequencies", *error) : "";
 }
 
 // The run's own estimates, where they are too large to build on.

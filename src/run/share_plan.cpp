@@ -38,9 +38,9 @@ SharePlan plan_of(const Problem& problem, const RunRequest& request, const std::
   plan.n_pieces = request.pieces.empty() ? pieces_for_ranks(problem, ranks::count()) : request.pieces;
   if (plan.n_pieces != usual_pieces(problem))
     warn(
-        fmt::format("substructures are cut for several MPI ranks to have about as much each ({}), other than one "
-                    "process would: explicit ones agree with it to round-off, iterated increments to the tolerance; "
-                    "solver.latin{{ pieces = 1 }} leaves them whole",
+        fmt::format("substructures are divided to balance MPI load ({}); a single-process run partitions differently: "
+                    "explicit ones agree with it to round-off, iterated increments to the tolerance; solver.latin{{ "
+                    "pieces = 1 }} keeps them whole",
                     list_pieces(problem, plan.n_pieces)));
   if (!ranks::is_alone()) recall(folder, plan);
   return plan;

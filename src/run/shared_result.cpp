@@ -212,10 +212,9 @@ void check_ranks_agree(const Problem& problem) {
     if (ranks::any(own.compare(i * length, length, of_first, i * length, length) != 0))
       throw InputError(
           problem.origin,
-          fmt::format("problem '{}': the MPI ranks have read different {} from the deck, in number, order "
-                      "or value\n    a deck must say the same each time it is read: no order of pairs() over "
-                      "a table whose keys are objects, nothing kept from one call of a function of time to "
-                      "the next",
+          fmt::format("problem '{}': MPI ranks have read different {} from the deck, in number, order "
+                      "or value\n    a deck must be reproducible: do not rely on the order of pairs() over a table "
+                      "whose keys are objects, nor keep values between calls of a function of time",
                       problem.name, read[i].what));
 }
 

@@ -31,8 +31,8 @@ class Unwritten {
     if (error_.empty()) return;
     withdraw_interrupt();
     throw InputError(error_ +
-                     (is_replacing ? "\n    the results in " + directory.string() + " are as they were"
-                                   : "\n    what was computed and could be written is in " + directory.string()) +
+                     (is_replacing ? "\n    the results in " + directory.string() + " are unchanged"
+                                   : "\n    the results that could be written are in " + directory.string()) +
                      remedy);
   }
 

@@ -163,8 +163,7 @@ History::Shape::Extent extent_of(const History::Shape& a, const History::Shape* 
   if (made.n_terms <= most_terms && made.depth <= deepest) return made;
   throw InputError(
       made.depth > deepest
-          ? fmt::format("a history that is made of others in {} steps, one of the other: {} are allowed", made.depth,
-                        deepest)
+          ? fmt::format("a history nested {} deep: {} levels are allowed", made.depth, deepest)
           : fmt::format("a history of {:.3g} terms: {} are allowed", made.n_terms, static_cast<int>(most_terms)));
 }
 

@@ -225,7 +225,7 @@ History History::pulse(double peak, double rise, double hold, double fall) {
 History History::piecewise(std::vector<double> times, std::vector<double> values) {
   if (times.empty() || times.size() != values.size()) {
     throw InputError(
-        fmt::format("history.piecewise: {} 'times' and {} 'values': equally many of both are needed, at least one",
+        fmt::format("history.piecewise: {} 'times' and {} 'values': their numbers must be equal and at least one",
                     times.size(), values.size()));
   }
   for (size_t i = 0; i < times.size(); ++i) {

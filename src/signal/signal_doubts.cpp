@@ -35,26 +35,26 @@ std::vector<std::string> doubts_of_signal(const std::vector<double>& signal, dou
                           std::min(percent(before), percent(after)) > 100.0 * 0.5 * at_rest;
   if (has_offset) {
     doubts.push_back(
-        fmt::format("lies at {:.3g} before the shock and at {:.3g} after it, {:.2g} % of its largest value: an offset "
-                    "is a velocity "
-                    "that grows all along, and the spectrum shows it as acceleration; take it off first",
+        fmt::format("is {:.3g} before the shock and {:.3g} after it, {:.2g} % of its largest value: an offset "
+                    "integrates to a growing velocity and distorts the spectrum; remove it first",
                     before, after, percent(0.5 * (before + after))));
   } else {
     if (std::abs(signal.front()) > at_rest * largest)
-      doubts.push_back(fmt::format("begins with {:.4g}, {:.2g} % of its largest value: the spectrum is of a jump to it",
-                                   signal.front(), percent(signal.front())));
+      doubts.push_back(
+          fmt::format("begins with {:.4g}, {:.2g} % of its largest value: the spectrum includes a jump to it",
+                      signal.front(), percent(signal.front())));
     if (std::abs(signal.back()) > at_rest * largest)
       doubts.push_back(
-          fmt::format("ends with {:.4g}, {:.2g} % of its largest value: the spectrum is of a signal that drops to zero "
-                      "there; take a longer record, or fade it out",
+          fmt::format("ends with {:.4g}, {:.2g} % of its largest value: the spectrum includes a drop to zero; use a "
+                      "longer record, or taper it",
                       signal.back(), percent(signal.back())));
   }
   constexpr double enough = 10.0, high = 0.4, much = 5e-4;  // samples a period; of the sampling rate; of the energy
   if (n > 4 && to * dt > 1.0 / enough && to * dt <= 0.5 && band_limit(signal, dt, 1.0 - much) * dt > high)
     doubts.push_back(
-        fmt::format("is sampled {:.3g} times a period at {:.4g} Hz and holds more than {:g} % of its energy above "
-                    "{:.4g} Hz, near half its sampling rate: what lies between its samples is lost, and what lay above "
-                    "is folded in; a spectrum up to {:.4g} Hz would be safe, or ten samples a period",
+        fmt::format("has {:.3g} samples per period at {:.4g} Hz and more than {:g} % of its energy above {:.4g} Hz, "
+                    "near half its sampling rate: peaks between samples are lost and higher frequencies may be "
+                    "aliased; limit the spectrum to {:.4g} Hz, or use ten samples per period",
                     1.0 / (to * dt), to, 100.0 * much, high / dt, 1.0 / (enough * dt)));
   return doubts;
 }

@@ -38,7 +38,7 @@ void require_columns(const TextTable& table, const TableRow& row, const std::str
                      fmt::format("'{}': {} cells, where the first row has {}", row.text, n, table.n_columns()));
   const bool has_titles = n > 2 && n == table.titles().size();
   throw InputError(row.origin,
-                   fmt::format("{} {} where two are expected: time (s) and value{}", n, n == 1 ? "number" : "columns",
+                   fmt::format("{} {} but two are expected: time (s) and value{}", n, n == 1 ? "number" : "columns",
                                has_titles ? "\n    'column' takes one: " + names_of(table.titles()) : ""));
 }
 

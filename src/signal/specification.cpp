@@ -65,7 +65,7 @@ Specification read_specification(const std::string& path) {
   }
   if (s.unit.empty())
     warn(
-        fmt::format("{} gives no unit: its levels are taken as m/s^2\n    its first line may say otherwise: "
+        fmt::format("{} gives no unit: its levels are assumed to be in m/s^2\n    its first line may give another: "
                     "frequency [Hz], level [g]",
                     path));
   try {

@@ -177,7 +177,7 @@ class Group {
     for (size_t i = 0; i < frequencies_.size(); ++i) {
       const ResponsePeaks during = oscillators_[i].during(), after = oscillators_[i].after();
       if (!std::isfinite(oscillators_[i].response()) || !std::isfinite(during.maximax() + after.maximax()))
-        throw InputError("srs: the signal has values too large to compute with");
+        throw InputError("srs: the signal has values that overflow");
       srs.frequency.push_back(frequencies_[i]);
       srs.positive.push_back(std::max(during.highest, after.highest));
       srs.negative.push_back(-std::min(during.lowest, after.lowest) + 0.0);  // + 0: no "-0"

@@ -109,14 +109,14 @@ std::vector<std::string> lines_of(const std::string& path, const std::string& wh
 std::string doubt_of_number(const std::string& cell) {
   for (const char* quote : {"\xE2\x80\x98", "\xE2\x80\x99", "\xE2\x80\x9A", "\xE2\x80\x9C", "\xE2\x80\x9D",
                             "\xE2\x80\x9E", "\xC2\xAB", "\xC2\xBB"})
-    if (cell.find(quote) != std::string::npos) return ": it has typographic quotes, where none or straight ones stand";
+    if (cell.find(quote) != std::string::npos) return ": it has typographic quotes, use straight quotes or none";
   for (const char* sign : {"\xE2\x88\x92", "\xE2\x80\x93", "\xE2\x80\x90", "\xE2\x80\x91"})
-    if (cell.find(sign) != std::string::npos) return ": its minus is not the plain '-'";
+    if (cell.find(sign) != std::string::npos) return ": its minus sign is not the plain '-'";
   for (const char* blank : {"\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89"})
-    if (cell.find(blank) != std::string::npos) return ": it has a blank of typography in it";
+    if (cell.find(blank) != std::string::npos) return ": it contains a typographic space";
   std::string digits = cell;
   std::erase_if(digits, [](char c) { return c == '.' || c == ',' || c == '\''; });
-  return digits.size() + 1 < cell.size() && plain_number(digits) ? ": thousands are not separated" : "";
+  return digits.size() + 1 < cell.size() && plain_number(digits) ? ": do not separate thousands" : "";
 }
 
 TextTable::TextTable(const std::string& path, const std::string& what, bool may_be_pipe)
@@ -188,8 +188,8 @@ void TextTable::refuse_doubtful_commas() const {
       if (cell.find_first_of(".,") != std::string::npos || !plain_number(cell)) return;
   }
   throw InputError({path_, static_cast<int>(first_row_) + 1},
-                   fmt::format("'{}': commas separate columns here, or decimals, and nothing tells which\n    write "
-                               "decimals with a point, or separate columns by semicolons or tabs, or put a line above "
+                   fmt::format("'{}': commas may separate columns or decimals, which is ambiguous\n    write "
+                               "decimals with a point, or separate columns by semicolons or tabs, or add a header line "
                                "with a title for each of {} columns",
                                trimmed(lines_[first_row_]), n_columns_));
 }

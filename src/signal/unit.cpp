@@ -211,8 +211,8 @@ std::optional<Unit> unit_of(const Title& title, const Origin& origin, const std:
   if (!title.unit || title.unit->empty()) return std::nullopt;
   const std::optional<Unit> unit = unit_named(*title.unit);
   if (!unit)
-    throw InputError(origin, fmt::format("'{}' is not a unit that is known, in the title '{}'\n    known: {}",
-                                         *title.unit, title.name, known_units(si)));
+    throw InputError(origin, fmt::format("'{}' is not a known unit, in the title '{}'\n    known: {}", *title.unit,
+                                         title.name, known_units(si)));
   if (!si.empty() && unit->si != si)
     throw InputError(origin,
                      fmt::format("column '{}' is in '{}', where {} is expected\n    known: {}", title.name, *title.unit,
@@ -234,8 +234,7 @@ std::string unit_in_name(const std::string& name) {
 void doubt_name(const Title& title, const Origin& origin) {
   const std::string unit = title.unit ? "" : unit_in_name(title.name);
   if (unit.empty()) return;
-  warn(fmt::format("{}column '{}' is read in SI: a unit is read where it stands in brackets, [{}]", origin.prefix(),
-                   title.name, unit));
+  warn(fmt::format("{}column '{}' is read in SI: put a unit in brackets, [{}]", origin.prefix(), title.name, unit));
 }
 
 }  // namespace dygita

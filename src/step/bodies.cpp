@@ -42,8 +42,8 @@ void tell_those_that_keep_mass(const Problem& problem) {
     if (part->material.damping.stiffness > 0.0) names.push_back(part->name);
   if (!names.empty())
     warn(
-        fmt::format("problem '{}': 'massless_contact' leaves their mass to nodes in contact of {} and of what they "
-                    "touch: with damping by stiffness (damping_ratio, damping.stiffness) they cannot do without",
+        fmt::format("problem '{}': 'massless_contact' requires mass at contact nodes of {} and of the parts they "
+                    "touch, because of stiffness-proportional damping (damping_ratio, damping.stiffness)",
                     problem.name, list_of_names(names)));
 }
 

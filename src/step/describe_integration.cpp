@@ -26,7 +26,7 @@ void add_to(ByReason& groups, std::string reason, const std::string& name) {
     it->second.push_back(name);
 }
 
-// "tuned mass in 'rod' (lumped mass would keep waves back by up to 3.2 rad), ": what is not lumped.
+// "tuned mass in 'rod' (lumped mass would give a phase lag of up to 3.2 rad), ": what is not lumped.
 std::string mass_of_explicit(const Integration& integration, const Problem& problem) {
   std::vector<std::string> tuned;
   ByReason lumped;
@@ -44,10 +44,10 @@ std::string mass_of_explicit(const Integration& integration, const Problem& prob
     phase = std::max(phase, part.phase);
   }
   std::string text = tuned.empty() ? "" : has_lumped ? "tuned mass in " + list_of_names(tuned) : "tuned mass";
-  if (phase > 0.0) text += fmt::format(" (lumped mass would keep waves back by up to {:.2g} rad)", phase);
+  if (phase > 0.0) text += fmt::format(" (lumped mass would give a phase lag of up to {:.2g} rad)", phase);
   if (!text.empty()) text += ", ";
   for (const auto& [reason, names] : lumped)
-    text += fmt::format("{}{} ({}), ", &reason == &lumped.front().first ? "lumped, though waves are kept back: " : "",
+    text += fmt::format("{}{} ({}), ", &reason == &lumped.front().first ? "lumped, despite the phase lag: " : "",
                         list_of_names(names), reason);
   return has_diagonal ? text + "diagonal mass in cells of order two, " : text;
 }

@@ -164,7 +164,7 @@ class Chooser {
       if (left_[i] && best.parts[i].why_not.empty())
         best.parts[i].why_not =
             "its cells of order two have no nodes in the middle of quadrangles, so that their diagonal mass is less "
-            "accurate: explicit only where asked for";
+            "accurate: explicit only on request";
     return best;
   }
 
@@ -284,7 +284,7 @@ void refuse_mixed_window(const Problem& problem, const Integration& chosen) {
   if (count == 0 || count == static_cast<long>(chosen.parts.size())) return;
   throw InputError(problem.origin,
                    fmt::format("problem '{}': 'window' is for time steps that are iterated together, and some of its "
-                               "substructures are explicit\n    leave 'window' out, or make all of them implicit",
+                               "substructures are explicit\n    omit 'window', or make all of them implicit",
                                problem.name));
 }
 

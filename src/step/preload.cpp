@@ -95,13 +95,12 @@ void check_reached(const Step& step, int increment, const std::vector<const Inte
                    const Vec& target) {
   for (size_t i = 0; i < interfaces.size(); ++i) {
     if (target[i] <= 0.0 || force[i] >= 0.5 * target[i]) continue;
-    throw NumericalError(
-        fmt::format("step '{}', increment {}: load.preload asks for {:.6g} N through interface.{} '{}', and no "
-                    "shortening gives more than {:.3g} N; likely "
-                    "cause: nothing takes the force on one of its sides (a part that is held by this interface alone, "
-                    "a joint that cannot close)",
-                    step.name, increment + 1, target[i], interfaces[i]->law->word(), interfaces[i]->name,
-                    force[i] > 1e-6 * target[i] ? force[i] : 0.0));
+    throw NumericalError(fmt::format(
+        "step '{}', increment {}: load.preload asks for {:.6g} N through interface.{} '{}', and no "
+        "shortening gives more than {:.3g} N; likely "
+        "cause: one of its sides has no reaction path (a part held by this interface alone, a joint that cannot close)",
+        step.name, increment + 1, target[i], interfaces[i]->law->word(), interfaces[i]->name,
+        force[i] > 1e-6 * target[i] ? force[i] : 0.0));
   }
 }
 

@@ -189,9 +189,9 @@ void tell_impact(const Step& step, const std::string& where, double lost, double
   constexpr double least = 1e-6;
   if (lost <= least * energy) return;
   warn(
-      fmt::format("step '{}': parts that are joined begin with unlike velocities ('{}'): they meet in an impact, which "
-                  "takes {:.3g} % of the kinetic energy ({:.4g} J, part of 'scheme') before the first row\n    likely "
-                  "cause: a part without the 'velocity' of the others; the finer the mesh, the less an impact takes",
+      fmt::format("step '{}': joined parts start with different velocities ('{}'): they impact, which dissipates "
+                  "{:.3g} % of the kinetic energy ({:.4g} J, part of 'scheme') before the first row\n    likely cause: "
+                  "a part without the 'velocity' of the others; a finer mesh dissipates less",
                   step.name, where, 100.0 * lost / energy, lost));
 }
 

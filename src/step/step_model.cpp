@@ -251,9 +251,8 @@ bool fits_every_rank(const Problem& problem, const Step& step) {
   const double all = ranks::count_on_machine() * bytes, available = available_memory();
   if (!ranks::any(available > 0.0 && all > 0.5 * available)) return true;
   warn(
-      fmt::format("static step '{}' is iterated substructure by substructure: as one system of all, which one process "
-                  "would solve, it would take some {:.1f} GB on each of the MPI ranks; the forces of both agree to "
-                  "'static_tolerance'",
+      fmt::format("static step '{}' is iterated substructure by substructure: a single system, as one process would "
+                  "solve, would need about {:.1f} GB on each MPI rank; the forces of both agree to 'static_tolerance'",
                   step.name, 1e-9 * bytes));
   return false;
 }
@@ -271,8 +270,8 @@ void tell_equal_apart(const StepModel& model) {
     if (is_new || model.cut->piece(equal->second).rank == piece.rank) continue;
     const auto name = [&](int p) { return model.problem->substructures[model.cut->piece(p).part]->name; };
     warn(
-        fmt::format("equal substructures are on several MPI ranks, '{}' and '{}' among them: one process solves them "
-                    "together, and the last digits of both differ; iterated increments agree to the tolerance",
+        fmt::format("identical substructures are on several MPI ranks, '{}' and '{}' among them: one process solves "
+                    "them together, so the last digits differ; iterated increments agree to the tolerance",
                     name(equal->second), name(i)));
     return;
   }

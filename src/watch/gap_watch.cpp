@@ -52,11 +52,10 @@ void GapWatch::finish(RunResult& result) const {
   result.figures.largest_penetration = deepest_;
   for (const New& wall : walls_)
     if (wall.depth > wall.least)
-      result.warnings.push_back(
-          fmt::format("step '{}': support.wall '{}' appears where '{}' already is, up to {:.4g} mm behind it: it keeps "
-                      "the part from going deeper and does not push it out; list the wall in the steps before as well, "
-                      "or check its 'gap'",
-                      wall.step->name, wall.wall->name, wall.part->name, 1e3 * wall.depth));
+      result.warnings.push_back(fmt::format(
+          "step '{}': support.wall '{}' appears where '{}' already is, up to {:.4g} mm behind it: it stops further "
+          "penetration but does not push the part out; list the wall in the preceding steps too, or check its 'gap'",
+          wall.step->name, wall.wall->name, wall.part->name, 1e3 * wall.depth));
 }
 
 }  // namespace dygita

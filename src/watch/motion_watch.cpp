@@ -170,29 +170,28 @@ void MotionWatch::settle() {
 
 void MotionWatch::finish(RunResult& result) const {
   const auto moment = [&](int i) { return moments_[static_cast<size_t>(i)]; };
-  const auto since = [&](const Finding& f) { return f.first == f.at ? "" : "; too much since " + moment(f.first); };
+  const auto since = [&](const Finding& f) { return f.first == f.at ? "" : "; too large since " + moment(f.first); };
   double slip = 0.0;
   for (const Watched& w : surfaces_) {
     slip = std::max(slip, limit::slip_in_cells * w.slip.most);
     if (w.slip.most > 1.0)
       result.warnings.push_back(fmt::format(
-          "{} slides by {:.4g} mm at {}, {}{}: {}; displacements are taken as small, each node presses on the one it "
-          "faced at first",
+          "{} slides by {:.4g} mm at {}, {}{}: {}; displacements are assumed small, so each node stays paired with its "
+          "initial opposite node",
           w.name, 1e3 * w.slip.value, in_mm(w.slip.place), moment(w.slip.at), since(w.slip),
           w.slip.value > w.slip.length
-              ? fmt::format("it is {:.4g} mm long there, so that one side has left the other and is still carried",
+              ? fmt::format("it is {:.4g} mm long there, so one side has slid off the other but is still supported",
                             1e3 * w.slip.length)
-              : fmt::format("half of its cells is {:.4g} mm there", 0.5e3 * w.slip.cell)));
+              : fmt::format("half a cell is {:.4g} mm there", 0.5e3 * w.slip.cell)));
     if (w.opening.most > 1.0)
       result.warnings.push_back(
-          fmt::format("{} is open all over, by {:.4g} mm at least, {}{}: its sides have left each other by more than a "
-                      "cell ({:.4g} mm); where they meet again, each node still meets the one it faced at first",
+          fmt::format("{} is open everywhere, by {:.4g} mm at least, {}{}: its sides have separated by more than a "
+                      "cell ({:.4g} mm); if they close again, each node still meets its initial opposite node",
                       w.name, 1e3 * w.opening.value, moment(w.opening.at), since(w.opening), 1e3 * w.opening.cell));
     if (w.passing.most > 1.0)
-      result.warnings.push_back(
-          fmt::format("{} is released, and its sides pass into each other by {:.4g} mm at {}, {}{}: nothing keeps them "
-                      "apart after load.release",
-                      w.name, 1e3 * w.passing.value, in_mm(w.passing.place), moment(w.passing.at), since(w.passing)));
+      result.warnings.push_back(fmt::format(
+          "{} is released, and its sides overlap by {:.4g} mm at {}, {}{}: after load.release nothing prevents this",
+          w.name, 1e3 * w.passing.value, in_mm(w.passing.place), moment(w.passing.at), since(w.passing)));
   }
   if (slip > limit::slip_in_cells) result.figures.largest_slip = slip;
 }

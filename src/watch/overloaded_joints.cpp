@@ -134,14 +134,13 @@ std::string line_of(const Instant& instant, const Group& group, const Vec3& pull
   const bool is_open =
       std::all_of(group.joints.begin(), group.joints.end(), [](const LimitJoint& joint) { return joint.is_open; });
   return fmt::format(
-      "static step '{}', increment {}: {} {} as a whole: {:.0f} N pull along ({:.2f}, {:.2f}, {:.2f}), and joints hold "
-      "about {:.0f} N of it ({}); {}: less load, more preload or friction, a stop, or a dynamic step",
+      "static step '{}', increment {}: {} {} as a whole: {:.0f} N act along ({:.2f}, {:.2f}, {:.2f}), and joints "
+      "resist about {:.0f} N of it ({}); {}: less load, more preload or friction, a stop, or a dynamic step",
       instant.model.step->name, instant.increment + 1, names_of(instant, group), is_open ? "comes off" : "slides",
       pull.dot(along), along[0], along[1], along[2], hold, joints,
       is_proven ? "there is no equilibrium"
-      : is_open
-          ? "no equilibrium was found, though a gap may close first, or this is further from one than it looks"
-          : "no equilibrium was found, though these figures are those of an iteration that has not come to an end");
+      : is_open ? "no equilibrium was found; a gap may still close, or the deficit may be larger than it appears"
+                : "no equilibrium was found; these figures are from an iteration that has not converged");
 }
 
 // What no contact force can balance, where the joints do not show it.
@@ -152,16 +151,16 @@ std::string line_of(const Instant& instant, const RigidImbalance& imbalance) {
   if (imbalance.parts.size() > 4) parts += fmt::format(" and {} more", imbalance.parts.size() - 4);
   for (const std::string& joint : imbalance.joints) joints += fmt::format("{}'{}'", joints.empty() ? "" : ", ", joint);
   const Vec3 along = as_told(imbalance.along);
-  const std::string at = joints.empty()
-                             ? "no contact is there to hold that"
-                             : fmt::format("no forces at the {} points of {} hold that", imbalance.n_points, joints);
+  const std::string at =
+      joints.empty() ? "no contact resists this"
+                     : fmt::format("no forces at the {} points of {} can balance them", imbalance.n_points, joints);
   return fmt::format(
       "static step '{}', increment {}: the loads {} {} {} ({:.2f}, {:.2f}, {:.2f}), and {}: there is no equilibrium{}",
       instant.model.step->name, instant.increment + 1, imbalance.turns ? "tip" : "move", parts,
       imbalance.turns ? "about" : "along", along[0], along[1], along[2], at,
-      imbalance.turns ? "; a support or a stop holds it, or smaller cells where the points lie too close together for "
-                        "the faces that touch"
-                      : "; a support or a stop holds it, or more friction");
+      imbalance.turns
+          ? "; add a support or a stop, or use smaller cells if the contact points do not span the touching faces"
+          : "; add a support, a stop or friction");
 }
 
 }  // namespace

@@ -89,8 +89,7 @@ void PenetrationWatch::finish() const {
   for (size_t i = most_told; i < deep.size(); ++i)
     others += fmt::format("{}'{}' and '{}' {}", i == most_told ? "" : ", ", name_of(pairs_[deep[i]].part_1),
                           name_of(pairs_[deep[i]].part_2), length_text(deepest_[deep[i]].depth));
-  warn(fmt::format("{} more pairs pass into each other where no interface joins them: {}", deep.size() - most_told,
-                   others));
+  warn(fmt::format("{} more pairs overlap without an interface: {}", deep.size() - most_told, others));
 }
 
 const std::string& PenetrationWatch::name_of(int part) const {
@@ -102,9 +101,9 @@ std::string PenetrationWatch::text_of(size_t pair) const {
   const Substructure& body = *problem_.substructures[static_cast<size_t>(deepest.part)];
   const Vec3 x = 1e3 * (body.mesh->nodes.col(deepest.at->node) + body.place);
   return fmt::format(
-      "substructures '{}' and '{}' pass {} into each other where no interface joins them, at ({:.4g}, {:.4g}, {:.4g}) "
+      "substructures '{}' and '{}' overlap by {} without an interface, at ({:.4g}, {:.4g}, {:.4g}) "
       "mm "
-      "through {}, in step '{}'{}: an interface.contact would keep them apart",
+      "through {}, in step '{}'{}: an interface.contact would prevent this",
       name_of(pairs_[pair].part_1), name_of(pairs_[pair].part_2), length_text(deepest.depth), x[0], x[1], x[2],
       face_with(*problem_.substructures[static_cast<size_t>(deepest.other)], deepest.at->facet), deepest.step->name,
       deepest.step->is_static ? "" : fmt::format(" at {:.4g} ms", 1e3 * deepest.time));

@@ -80,10 +80,10 @@ void RotationWatch::finish(const Problem& problem, RunResult& result) const {
     turned = std::max(turned, r.angle / degree);
     if (r.angle <= allowed) continue;
     result.warnings.push_back(fmt::format(
-        "substructure '{}' turns by {:.3g} degrees at {}, {}{}: displacements are taken as small, which holds to about "
-        "{:g} degrees",
+        "substructure '{}' turns by {:.3g} degrees at {}, {}{}: displacements are assumed small, which is valid to "
+        "about {:g} degrees",
         problem.substructures[part]->name, r.angle / degree, in_mm(r.place), moments_[static_cast<size_t>(r.at)],
-        r.first == r.at ? "" : "; too much since " + moments_[static_cast<size_t>(r.first)], limit::rotation));
+        r.first == r.at ? "" : "; too large since " + moments_[static_cast<size_t>(r.first)], limit::rotation));
   }
   if (turned > limit::rotation) result.figures.largest_rotation = turned;
 }

@@ -63,7 +63,7 @@ foreach(separator ";" "\t" "  ")
 endforeach()
 file(WRITE ${signal} "0,0,00\n1,0,26\n2,0,50\n3,0,69\n")
 expect(2 srs ${signal})
-if(NOT err MATCHES "commas separate columns here, or decimals")
+if(NOT err MATCHES "commas may separate columns or decimals")
   message(SEND_ERROR "srs of decimal commas between commas: ${err}")
 endif()
 # A pulse in steps of 1 us, then a millisecond in steps of 100 us: what is sampled once is in the spectrum.
@@ -154,7 +154,7 @@ file(REMOVE_RECURSE ${out})
 # A disk that is full, as the system tells of it: no file may grow beyond 10 kB, and frames do.
 execute_process(COMMAND sh -c "ulimit -f 20; trap '' XFSZ; exec \"$0\" run \"$1\" --set n=4 --quiet --no-state --out \"$2\"" ${DYGITA}
   ${SOURCE_DIR}/decks/crush.lua ${out} RESULT_VARIABLE code OUTPUT_QUIET ERROR_VARIABLE err)
-if(NOT code EQUAL 2 OR NOT err MATCHES "cannot write '.*vtu': File too large\n *what was computed and could be written is in")
+if(NOT code EQUAL 2 OR NOT err MATCHES "cannot write '.*vtu': File too large\n *the results that could be written are in")
   message(SEND_ERROR "a full disk: exit code ${code}\n${err}")
 endif()
 file(GLOB tables ${out}/*/*/energy.csv)

@@ -77,7 +77,7 @@ def an_error_in_the_middle():
     out = FOLDER / "broken"
     output = dygita(*deck_command(out, "--set", "broken=1"), expected=2, says="no record at 20 us")
     run = out / "stopped" / "base"
-    check(f"what was computed before is in {run}" in output, output)
+    check(f"earlier results are in {run}" in output, output)
     record = json.loads((run / "run.json").read_text())
     check(record["verdict"] == "interrupted" and "no record at 20 us" in record["stopped_by"], "the record hides the error")
     rows = (run / "joint.csv").read_text().splitlines()
@@ -128,7 +128,7 @@ problem{ name = "energies", substructures = { b }, supports = { support.fixed{ n
             output = dygita("run", deck, "--quiet", "--set", f"static={static}", "--solver", solver, "--out", out, expected=3,
                             says="the energies of substructure 'alone' are not finite")
             run = out / "energies" / "base"
-            check(f"what was computed before is in {run}" in output, output)
+            check(f"earlier results are in {run}" in output, output)
             table = (run / "energy.csv").read_text().splitlines()
             check(len(table) == rows and not any("nan" in row or "inf" in row for row in table), f"{solver}: {table}")
             check(frames_of(run) == frames, f"{solver}, static {static}: {frames_of(run)} frames")
@@ -167,7 +167,7 @@ problem{ name = "long", substructures = { low, high }, interfaces = { seam }, su
     output = done.stdout + done.stderr
     check(done.returncode == 3 and "not enough memory" in output, f"little memory: exit {done.returncode}\n{output[-1000:]}")
     run = FOLDER / "long" / "long" / "base"
-    check(f"what was computed before is in {run}" in output, output[-1000:])
+    check(f"earlier results are in {run}" in output, output[-1000:])
     check(len((run / "energy.csv").read_text().splitlines()) > 5000, "the table of a run that met its end by memory")
     check(json.loads((run / "run.json").read_text())["stopped_by"].startswith("not enough memory"), "the record hides it")
     check((run / "checkpoint.dygita").exists() and not list(run.rglob("*.tmp")), "no checkpoint, or half a file")
@@ -208,8 +208,8 @@ def a_small_disk():
         return
     done = subprocess.run([*inside, *words], capture_output=True, text=True, check=False)
     output = done.stdout + done.stderr
-    check("checkpoint.dygita' comes to about" in output and "are free: it is kept up to half of those" in output, output)
-    check("grows no further, so that the results find room" in output and done.returncode == 0, output)
+    check("checkpoint.dygita' needs about" in output and "are free: checkpointing stops at half the free space" in output, output)
+    check("stops growing; the rest is reserved for results" in output and done.returncode == 0, output)
 
 
 def a_disk_that_is_full_at_once():
@@ -253,7 +253,7 @@ def a_spoiled_checkpoint():
         dygita("continue", run, "--quiet", expected=2, says=says)
     check(before == sorted(p for p in run.rglob("*")), "a checkpoint that was refused has cost other files")
     checkpoint.write_bytes(whole)
-    dygita("continue", run, "--tolerance", "1e-9", expected=2, says="the run has not come to its end")
+    dygita("continue", run, "--tolerance", "1e-9", expected=2, says="the run is not complete")
 
 
 def a_load_that_changed():
@@ -312,7 +312,7 @@ def pipes_in_the_place_of_files():
             (whole / "run.json", ("report", whole), 2, refused), (whole / "scenes.json", ("report", whole), 2, refused),
             (whole / "above.csv", ("report", whole), 0, ""),
             (whole / "view.py", ("view", whole, "--paraview", "true"), 2, refused),
-            (whole / "run.json", again, 2, refused), (whole / "joint.csv", again, 2, "there is nothing to compare with"),
+            (whole / "run.json", again, 2, refused), (whole / "joint.csv", again, 2, "nothing to compare with"),
             (whole / "run.json", ("continue", whole, "--iterations", "1"), 2, refused),
             (whole / "state.dygita", ("continue", whole, "--iterations", "1"), 2, refused),
             (whole / ".dygita-files", ("continue", whole, "--iterations", "1", "--quiet"), 0, ""),

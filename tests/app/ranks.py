@@ -127,7 +127,7 @@ def numbers(run):
     record = json.loads((run / "run.json").read_text())
     own = ("memory", "substitutions", "share another's", "[MB]")
     figures = {name: value for name, value in record["figures"].items() if not any(word in name for word in own)}
-    record["warnings"] = [text for text in record["warnings"] if not text.startswith("equal substructures are on several MPI ranks")]
+    record["warnings"] = [text for text in record["warnings"] if not text.startswith("identical substructures are on several MPI ranks")]
     return figures | {key: record.get(key) for key in ("verdict", "warnings", "bolts", "outputs", "iterations")}
 
 
@@ -196,7 +196,7 @@ def go_on(name, killed, then, *solver, deck=stopped, problem="stopped", us=300, 
     said = process.communicate(timeout=100)[1]
     if process.returncode == 0 or (killed > 1 and "signal 9" not in said):
         failures.append(f"{name}: a rank was killed: mpirun exits with {process.returncode}\n{said}")
-    said = dygita(then, "continue", run, "--no-frames", "--threads", "1", expected=0, says=["increments are gone over again"])
+    said = dygita(then, "continue", run, "--no-frames", "--threads", "1", expected=0, says=["increments are replayed"])
     if "other last digits" in said:
         failures.append(f"{name}: the increments gone over differ\n{said}")
     same(name, whole / problem / "base", run)
@@ -271,7 +271,7 @@ def cut_for_ranks(name, ranks, tolerance, *words, heaviest=1.15):
     record = json.loads((runs[ranks] / "run.json").read_text())
     unknowns = [rank["unknowns"] for rank in record["ranks"]["of_each"]]
     off = largest_difference(runs[1], runs[ranks])
-    warned = sum("are cut for several MPI ranks" in text for text in record["warnings"])
+    warned = sum("are divided to balance MPI load" in text for text in record["warnings"])
     if len(unknowns) != ranks or max(unknowns) * ranks > heaviest * sum(unknowns) or not 0.0 < off < tolerance or warned != 1:
         failures.append(f"{name}: unknowns of each rank {unknowns}, tables differ by {off:.3g}, {warned} warnings of the cut")
     return runs[ranks]
@@ -422,7 +422,7 @@ def refused():
     (FOLDER / "row.lua").write_text(ROW.replace("PEAK", "100*MPa"))
     compare("row", FOLDER / "row.lua", "row", also=[3])
     (FOLDER / "chance.lua").write_text(ROW.replace("PEAK", "tonumber(tostring({}):match('0x(%x+)'), 16) % 100000000"))
-    dygita(2, "run", FOLDER / "chance.lua", "--quiet", "--out", FOLDER / "chance", expected=2, says=["the MPI ranks have read different steps from the deck"])
+    dygita(2, "run", FOLDER / "chance.lua", "--quiet", "--out", FOLDER / "chance", expected=2, says=["MPI ranks have read different steps from the deck"])
     # An error of the deck after a run leaves what the run has written.
     (FOLDER / "late.lua").write_text(ROW.replace("PEAK", "100*MPa") + "error('after all')\n")
     dygita(4, "run", FOLDER / "late.lua", "--quiet", "--out", FOLDER / "late", expected=2, says=["after all"])
@@ -433,7 +433,7 @@ def refused():
     (run / "frames" / "block 15_00002.vtu" / "in the way").mkdir(parents=True)
     (run / "frames" / "block 1_00002.vtu" / "in the way").mkdir(parents=True)
     dygita(2, "run", asked.folder / "ranks.lua", "--quiet", "--out", FOLDER / "barred", expected=2,
-           says=["_00002.vtu': ", "what was computed and could be written is in"])
+           says=["_00002.vtu': ", "the results that could be written are in"])
     listed = (run / "ranks.pvd").read_text()
     if "_00001.vtu" not in listed or "_00002.vtu" in listed or not (run / "energy.csv").exists():
         failures.append(f"a frame that cannot be written: {sorted(p.name for p in run.iterdir())}\n{listed}")

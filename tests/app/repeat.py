@@ -30,23 +30,23 @@ dygita("run", deck, "--set", "us=40", "--solver", "latin{ integration = 'implici
        expected=0)
 for threads in (1, 2, 3):
     dygita("run", "--repeat", run / "run.json", "--threads", threads, "--quiet", "--out", FOLDER / f"again_{threads}", expected=0,
-           says="deck, parameters and meshes are the same, and all 8 tables, bit for bit")
+           says="deck, parameters, meshes and all 8 tables are identical, bit for bit")
 table = run / "joint.csv"
 whole = table.read_text()
 table.write_text(whole.replace("1", "2", 1))
 dygita("run", "--repeat", run, "--quiet", "--out", FOLDER / "other", expected=1, says="these tables differ: joint.csv")
 dygita("run", expected=2, says="which deck?")
 shutil.copy(run / "run.json", FOLDER / "copy.json")
-dygita("run", "--repeat", FOLDER / "copy.json", expected=2, says="a run's folder, or the run.json in it")
-dygita("run", "--repeat", FOLDER / "none.json", expected=2, says="there is no such record")
+dygita("run", "--repeat", FOLDER / "copy.json", expected=2, says="give a run's folder or its run.json")
+dygita("run", "--repeat", FOLDER / "none.json", expected=2, says="no such record")
 dygita("run", "--repeat", run, "--set", "us=20", expected=2, says="--set")
 moved = FOLDER / "moved.lua"
 deck.rename(moved)
 dygita("run", "--repeat", run, expected=2, says="is not there")
 table.unlink()
-dygita("run", moved, "--repeat", run, "--quiet", "--out", FOLDER / "lost", expected=2, says="its table 'joint.csv' is not there: there is nothing to compare with")
+dygita("run", moved, "--repeat", run, "--quiet", "--out", FOLDER / "lost", expected=2, says="its table 'joint.csv' is not there: nothing to compare with")
 os.mkfifo(table)
-dygita("run", moved, "--repeat", run, "--quiet", "--out", FOLDER / "lost", expected=2, says="its table 'joint.csv' is not a file: there is nothing to compare with")
+dygita("run", moved, "--repeat", run, "--quiet", "--out", FOLDER / "lost", expected=2, says="its table 'joint.csv' is not a file: nothing to compare with")
 table.unlink()
 table.write_text(whole)
 dygita("run", moved, "--repeat", run, "--quiet", "--out", FOLDER / "moved", expected=0, says="repeated:")

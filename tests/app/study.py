@@ -68,7 +68,7 @@ dygita("continue", FOLDER / "whole" / "study", expected=2, says="every case in")
 # What is to be left out is left out again; and what is continued further asks for a case of its own.
 study = killed_in("mu 0.2", "--set", "us=2000")
 case = study / "mu 0.2"
-dygita("continue", study, "--tolerance", "1e-9", "--quiet", expected=2, says="the run has not come to its end")
+dygita("continue", study, "--tolerance", "1e-9", "--quiet", expected=2, says="the run is not complete")
 dygita("continue", study, "--quiet", "--threads", 1)
 dygita("continue", case, "--tolerance", "1e-8", "--quiet", "--threads", 1)
 check(not list(study.rglob("checkpoint.dygita")), "a checkpoint is left")

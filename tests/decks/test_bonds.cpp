@@ -150,7 +150,7 @@ TEST(Thrown, parts_that_are_joined_gain_no_energy_and_keep_their_momentum) {
         settings.emplace_back("dt", dt);
         testing::internal::CaptureStderr();
         const DeckRun run = run_text(thrown, settings, 1, solver)[0];
-        EXPECT_NE(testing::internal::GetCapturedStderr().find("begin with unlike velocities ('tie')"),
+        EXPECT_NE(testing::internal::GetCapturedStderr().find("start with different velocities ('tie')"),
                   std::string::npos)
             << what;
         const Flight flight = books_of(run, solver);

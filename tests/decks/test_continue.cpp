@@ -256,7 +256,7 @@ TEST_F(Continue, says_what_is_wrong_and_leaves_the_old_results) {
   EXPECT_FALSE(fs::exists(options.run / state_file_name));
   EXPECT_NE(refusal(options).find("the run was told --no-state"), std::string::npos) << refusal(options);
   options.run = run("other", "monolithic{}");
-  EXPECT_NE(refusal(options).find("was computed by solver.monolithic, which keeps nothing to continue from"),
+  EXPECT_NE(refusal(options).find("was computed by solver.monolithic, which stores nothing to continue from"),
             std::string::npos)
       << refusal(options);
 
@@ -264,7 +264,8 @@ TEST_F(Continue, says_what_is_wrong_and_leaves_the_old_results) {
   const std::string tip = text_of(options.run / "above.csv"), record = text_of(options.run / "run.json");
   EXPECT_NE(record.find(state_file_name), std::string::npos);
   options.tolerance = 1e-8;
-  EXPECT_NE(refusal(options).find("'precision' = \"single\" of the deck holds 1e-7 at least"), std::string::npos)
+  EXPECT_NE(refusal(options).find("'precision' = \"single\" of the deck allows no tolerance below 1e-7"),
+            std::string::npos)
       << refusal(options);
   options.tolerance.reset();
   options.until = 5e-6;

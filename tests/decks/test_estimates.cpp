@@ -154,7 +154,7 @@ TEST_F(ShakenBar, of_poor_cells_has_bands_that_are_said_not_to_hold) {
     run_file(path_, {{"n", "20"}, {"hexahedra", hexahedra}});
     return testing::internal::GetCapturedStderr();
   };
-  const std::string held = "spectra may be off by far more than their bands say";
+  const std::string held = "spectra may be off by far more than their bands";
   EXPECT_NE(said_with("0").find(held), std::string::npos);
   EXPECT_EQ(said_with("1").find(held), std::string::npos);
 }

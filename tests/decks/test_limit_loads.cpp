@@ -45,15 +45,15 @@ TEST(LimitLoad, a_joint_that_slides_as_a_whole_is_named_with_force_and_capacity)
   const Said slides = said_by(strap, {{"pull", "1500"}});
   EXPECT_FALSE(slides.run.result->converged);
   expect_in(slides.warnings,
-            {"static step 'pull', increment 2: 'strap' slides as a whole: 1500 N pull along (1.00, ",  // no equilibrium
-             "joints hold about 1000 N of it ('mating' slides at 1000 N)", "more preload or friction"});
+            {"static step 'pull', increment 2: 'strap' slides as a whole: 1500 N act along (1.00, ",  // no equilibrium
+             "joints resist about 1000 N of it ('mating' slides at 1000 N)", "more preload or friction"});
 }
 
 TEST(LimitLoad, a_part_that_is_pulled_off_is_named) {
   const Said lifted = said_by(strap, {{"pull", "0"}, {"lift", "20*MPa"}});
   EXPECT_FALSE(lifted.run.result->converged);
   expect_in(lifted.warnings,
-            {"static step 'pull', increment 2: 'strap' comes off as a whole: 4000 N pull along (", "'mating' is open"});
+            {"static step 'pull', increment 2: 'strap' comes off as a whole: 4000 N act along (", "'mating' is open"});
 }
 
 TEST(LimitLoad, a_part_whose_only_joint_is_released_is_named) {
@@ -63,7 +63,7 @@ TEST(LimitLoad, a_part_whose_only_joint_is_released_is_named) {
   const Said released = said_by(text, {{"lift", "20*MPa"}});
   EXPECT_FALSE(released.run.result->converged);
   expect_in(released.warnings,
-            {"'strap' comes off as a whole: 4000 N pull along (0.00, 0.00, 1.00)", "('mating' is released)"});
+            {"'strap' comes off as a whole: 4000 N act along (0.00, 0.00, 1.00)", "('mating' is released)"});
 }
 
 TEST(LimitLoad, a_joint_that_holds_is_not_complained_of) {
@@ -96,7 +96,8 @@ problem{ name = "press", substructures = { a, b }, interfaces = { j }, supports 
 TEST(OtherWay, is_taken_where_parts_one_by_one_stand_still) {
   testing::internal::CaptureStdout();
   const Said pressed = said_by(pressed_aside);
-  expect_in(testing::internal::GetCapturedStdout(), {"static step 's', increment 1: ", " part by part did not bring"});
+  expect_in(testing::internal::GetCapturedStdout(),
+            {"static step 's', increment 1: ", " part by part did not converge"});
   EXPECT_TRUE(pressed.run.result->converged);
   EXPECT_EQ(pressed.warnings.find("equilibrium"), std::string::npos) << pressed.warnings;
   EXPECT_NEAR(pressed.run.column("o", "normal").back(), -1000.0, 1e-3);
@@ -159,7 +160,8 @@ problem{ name = "tipping", substructures = { a, b }, interfaces = { j }, support
 TEST(NotConverged, asks_for_as_many_iterations_as_are_enough) {
   const Said few = said_by(strap, {{"pull", "900"}, {"iterations", "20"}});
   EXPECT_FALSE(few.run.result->converged);
-  expect_in(few.warnings, {"step 'pull': increment", "the indicator still falls, by half in ", "more would do"});
+  expect_in(few.warnings,
+            {"step 'pull': increment", "the indicator is still decreasing, halving in ", "more are needed"});
   std::smatch found;
   ASSERT_TRUE(std::regex_search(few.warnings, found, std::regex(R"(max_iterations = (\d+))"))) << few.warnings;
   const Said enough = said_by(strap, {{"pull", "900"}, {"iterations", found[1]}});

@@ -226,7 +226,7 @@ problem{ name = "many", substructures = { plate }, supports = { wall }, steps = 
              {{"monolithic", "1"}});
     FAIL() << "7803 rows were taken";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("7803 of them, at most 6000 are allowed"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("there are 7803, at most 6000 are allowed"), std::string::npos)
         << error.what();
   }
 }

@@ -165,7 +165,7 @@ end
     EXPECT_EQ(held(folder, {{"", flat(1.0)}}), "stu");
     const std::vector<std::string> said = take_warnings();
     ASSERT_EQ(said.size(), 1u);
-    EXPECT_EQ(said[0].find("the specification is held against every spectrum of the run, 's', 't', 'u'"), 0u)
+    EXPECT_EQ(said[0].find("the specification is compared with every spectrum of the run, 's', 't', 'u'"), 0u)
         << said[0];
   });
 }
@@ -234,10 +234,11 @@ TEST(ReportRuns, is_cut_through_its_bolts_and_tells_masses_and_margins) {
   const Written run = run_and_read(posts);
   ;
   EXPECT_EQ(xml_fault(run.page, {"meta"}), "");
-  for (const char* part : {"cut through &#39;bolt a&#39;, &#39;bolt b&#39;, the plane y = 5\u00a0mm",
-                           "50 × 10 × 20\u00a0mm", "<td>8\u00a0g</td>", "<td>28.35\u00a0g</td>", "84.04\u00a0g in all",
-                           "<h2>Stress against yield", "Not watched, since their material has no yield: foot, cap, pad",
-                           "Force after each static step", "by other bolts, static loads"})
+  for (const char* part :
+       {"cut through &#39;bolt a&#39;, &#39;bolt b&#39;, the plane y = 5\u00a0mm", "50 × 10 × 20\u00a0mm",
+        "<td>8\u00a0g</td>", "<td>28.35\u00a0g</td>", "84.04\u00a0g in all", "<h2>Stress against yield",
+        "Not monitored, since their material has no yield: foot, cap, pad", "Force after each static step",
+        "by other bolts, static loads"})
     EXPECT_NE(run.page.find(part), std::string::npos) << part;
   ASSERT_EQ(run.result->stresses.size(), 2u);
   EXPECT_NE(run.record.find("\"volume_above_yield\": 0.0"), std::string::npos);

@@ -37,7 +37,7 @@ TEST(SmallDisplacements, a_block_that_slides_beyond_half_a_cell_is_named) {
   for (const char* friction : {"0", "0.1"}) {
     const DeckRun run = thrown("8", friction);
     expect_said(all(run), {"interface 'touch' slides by ", " mm at (", "t = 1 ms in step 'slide'",
-                           "; too much since t = 0.6", "half of its cells is 5 mm there"});
+                           "; too large since t = 0.6", "half a cell is 5 mm there"});
     EXPECT_NEAR(run.figure("largest slip [contact cells]"), 0.8, 0.01) << friction;
   }
 }
@@ -45,7 +45,7 @@ TEST(SmallDisplacements, a_block_that_slides_beyond_half_a_cell_is_named) {
 TEST(SmallDisplacements, a_block_that_has_slid_off_its_plate_is_said_to_be_carried_still) {
   const std::string said = all(thrown("78", "0"));
   expect_said(said,
-              {"slides by 78", "it is 20 mm long there, so that one side has left the other and is still carried"});
+              {"slides by 78", "it is 20 mm long there, so one side has slid off the other but is still supported"});
 }
 
 TEST(SmallDisplacements, a_block_that_slides_little_is_no_matter) {
@@ -73,7 +73,7 @@ problem{ name = "cantilever", substructures = { beam }, supports = { clamp },
   const DeckRun far = bent("390");  // deflects 195 mm
   expect_said(all(far),
               {"substructure 'beam' turns by ", "degrees at (97.5, 2.5, 1) mm, increment 1 of static step 'bend'",
-               "holds to about 5 degrees"});
+               "valid to about 5 degrees"});
   EXPECT_NEAR(far.figure("largest rotation [degrees]"), std::atan(slope) * 57.29578, 0.5);
   EXPECT_EQ(all(bent("10")), "");  // 4.3 degrees
 }
@@ -106,7 +106,7 @@ problem{ name = "released", substructures = { low, high }, interfaces = { weld }
   steps = { step.dynamic{ name = "fly", duration = 0.4*ms, dt = 4*us, loads = { load.release{ on = weld, at = 0 } } } } }:run{}
 )")
                           .at(0);
-  expect_said(all(run), {"interface 'weld' is released, and its sides pass into each other by 2 mm"});
+  expect_said(all(run), {"interface 'weld' is released, and its sides overlap by 2 mm"});
 }
 
 }  // namespace

@@ -126,7 +126,7 @@ end
   EXPECT_FALSE(runs[1].result->converged);
   EXPECT_TRUE(runs[2].result->converged);
   EXPECT_LT(runs[2].column("j", "slip").back(), 1e-5);
-  EXPECT_NE(said.find("the case to start from has not converged"), std::string::npos) << said;
+  EXPECT_NE(said.find("the initial case has not converged"), std::string::npos) << said;
 }
 
 TEST(StudyFigure, has_a_line_for_each_value_of_a_second_parameter_and_leaves_out_what_has_not_converged) {

@@ -65,7 +65,7 @@ TEST(Unjoined, parts_that_touch_and_pass_through_each_other_are_named) {
   const std::string text = blocks_at("{ 10*mm, 10*mm, 10*mm }", "");
   const std::vector<std::string> touch = said_of_check(text, "touch on");
   ASSERT_EQ(touch.size(), 1u);
-  EXPECT_NE(touch[0].find("substructures 'plate' and 'block' touch on 400 mm^2 where no interface joins them, at ("),
+  EXPECT_NE(touch[0].find("substructures 'plate' and 'block' touch on 400 mm^2 without an interface, at ("),
             std::string::npos)
       << touch[0];
   EXPECT_NE(touch[0].find("('plate.zmax' on 'block.zmin')"), std::string::npos) << touch[0];
@@ -73,8 +73,8 @@ TEST(Unjoined, parts_that_touch_and_pass_through_each_other_are_named) {
   const std::vector<std::string> through = said_of_run(text, "into each other");
   ASSERT_EQ(through.size(), 1u);
   EXPECT_EQ(through[0].substr(0, through[0].find(", at (")),
-            "substructures 'plate' and 'block' pass 0.1 mm into each other where no interface joins them");
-  EXPECT_NE(through[0].find("in step 'fall' at 0.1 ms: an interface.contact would keep them apart"), std::string::npos);
+            "substructures 'plate' and 'block' overlap by 0.1 mm without an interface");
+  EXPECT_NE(through[0].find("in step 'fall' at 0.1 ms: an interface.contact would prevent this"), std::string::npos);
 }
 
 // 40 m/s for 100 us, across more than a twentieth of the block's size.
@@ -93,10 +93,10 @@ TEST(Unjoined, faces_apart_that_meet_as_if_they_touched_are_named) {
                                    "interfaces = { interface.contact{ name = \"lid\", between = { block:face \"zmin\", "
                                    "plate:face \"zmax\" }, within = 2*mm" +
                                        more + " } }"),
-                         "as if they touched");
+                         "as if in contact");
   };
   ASSERT_EQ(said("").size(), 1u);
-  EXPECT_NE(said("")[0].find("'lid' joins faces that are up to 1 mm apart as if they touched: gap = \"geometry\" has"),
+  EXPECT_NE(said("")[0].find("'lid' joins faces that are up to 1 mm apart as if in contact: gap = \"geometry\" has"),
             std::string::npos)
       << said("")[0];
   EXPECT_TRUE(said(", gap = \"geometry\"").empty());
@@ -161,7 +161,7 @@ problem{ name = "ring", substructures = { all }, supports = { support.fixed{ nam
   steps = { step.static{ name = "s", loads = { load.gravity{ z = -9.81 } } } } }:run{}
 )";
   };
-  const std::vector<std::string> overlap = said_of_check(ring("90*deg"), "stand in the same place");
+  const std::vector<std::string> overlap = said_of_check(ring("90*deg"), "occupy the same place");
   ASSERT_EQ(overlap.size(), 1u);
   EXPECT_NE(overlap[0].find("substructures 'p[1]' and 'p[5]' overlap"), std::string::npos) << overlap[0];
   EXPECT_TRUE(said_of_check(ring("72*deg"), "same place").empty());

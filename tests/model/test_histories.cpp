@@ -114,24 +114,22 @@ TEST_F(Histories, over_several_steps_hold_the_frequencies_of_the_whole) {
 
 TEST_F(Histories, that_a_time_step_swallows_are_named) {
   EXPECT_EQ(doubt_of(History::half_sine(5.0, 0.5e-6)),
-            "lasts 0.5 us, shorter than 'dt' = 1 us: only its impulse is left of it");
+            "lasts 0.5 us, shorter than 'dt' = 1 us: only its impulse is kept");
 }
 
 TEST_F(Histories, from_files_are_named_where_they_are_held_beyond_their_ends) {
-  EXPECT_EQ(
-      doubt_of(record({0.0, 50e-6, 100e-6}, {0.0, 5.0, 2.0})),
-      "has a record that ends at 100 us with 2 Pa, 40 % of its largest value, which goes on acting until the end of "
-      "the step at 200 us");
+  EXPECT_EQ(doubt_of(record({0.0, 50e-6, 100e-6}, {0.0, 5.0, 2.0})),
+            "has a record that ends at 100 us with 2 Pa, 40 % of its largest value, held until the end of the step at "
+            "200 us");
   EXPECT_EQ(doubt_of(record({20e-6, 50e-6, 100e-6}, {1.0, 5.0, 0.0})),
-            "has a record that begins at 20 us with 1 Pa, 20 % of its largest value, which acts from 0 on");
+            "has a record that begins at 20 us with 1 Pa, 20 % of its largest value, applied from 0 on");
   EXPECT_EQ(doubt_of(record({0.0, 50e-6, 100e-6}, {-1.0, 5.0, 0.0})),
-            "has a record that begins at 0 ms with -1 Pa, 20 % of its largest value, which acts at once");
+            "has a record that begins at 0 ms with -1 Pa, 20 % of its largest value, applied suddenly");
   EXPECT_EQ(doubt_of(record({-20e-6, 50e-6, 100e-6}, {0.0, 5.0, 0.0})),
-            "has a record that begins at -20 us: what lies before 0 does not act; :shifted(2e-05) brings it in");
-  EXPECT_EQ(
-      doubt_of(record({0.0, 50e-6, 100e-6}, {0.0, 5.0, 2.0}).scaled(-3.0)),
-      "has a record that ends at 100 us with -6 Pa, 40 % of its largest value, which goes on acting until the end of "
-      "the step at 200 us");
+            "has a record that begins at -20 us: values before 0 are not applied; :shifted(2e-05) includes them");
+  EXPECT_EQ(doubt_of(record({0.0, 50e-6, 100e-6}, {0.0, 5.0, 2.0}).scaled(-3.0)),
+            "has a record that ends at 100 us with -6 Pa, 40 % of its largest value, held until the end of the step at "
+            "200 us");
 }
 
 TEST_F(Histories, without_a_peak_in_the_step_are_named) {
@@ -153,7 +151,7 @@ TEST_F(Histories, from_files_without_a_unit_are_doubted_unless_a_factor_gives_it
   EXPECT_EQ(
       doubt_of(plain),
       "takes Pa, and the file of its history gives no unit: its values are taken as Pa; history.file{ ..., unit = 1 "
-      "} says so, another number that one of them is worth more");
+      "} says so, another value converts them");
   EXPECT_EQ(doubt_of(plain.scaled(1e3)), "");
 }
 
@@ -161,7 +159,7 @@ TEST_F(Histories, in_milliseconds_are_over_at_once_in_a_static_step) {
   shock->is_static = true;
   shock->increments = 4;
   EXPECT_EQ(doubt_of(History::half_sine(5.0, 1e-3)),
-            "is over after 1 ms, within the first increment: time goes from 0 to 1 s in a static step");
+            "ends after 1 ms, within the first increment: time runs from 0 to 1 s in a static step");
   EXPECT_EQ(doubt_of(History::piecewise({0.0, 0.5, 1.0}, {0.0, 1.0, -1.0})), "");
   EXPECT_EQ(doubt_of(History::piecewise({0.0, 5.0, 10.0}, {0.0, 1.0, 0.0})),
             "reaches its largest value, 1 Pa, at 5 s, after the end of the step at 1 s: within the step it is 0.2 Pa "
@@ -173,8 +171,8 @@ TEST_F(Histories, in_another_unit_than_their_load_are_refused) {
   EXPECT_EQ(
       complaint(),
       "deck.lua:40: problem 'bolted': step 'shock': load.pressure on face 'upper.zmax' takes Pa, and the file of its "
-      "history is in m/s^2\n    a number times the signal, as in 7.2*signal for a mass of 7.2 kg, counts as a plain "
-      "number");
+      "history is in m/s^2\n    scale the signal by a number, as in 7.2*signal for a mass of 7.2 kg, to change its "
+      "unit");
   push_with(record({0.0, 50e-6}, {0.0, 5.0}, "m/s^2").scaled(7.2));
   EXPECT_EQ(complaint(), "");
   push_with(record({0.0, 50e-6}, {0.0, 5.0}, "Pa"));

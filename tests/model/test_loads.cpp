@@ -118,7 +118,7 @@ TEST_F(LoadRules, that_shorten_a_bolt_act_in_static_steps) {
   EXPECT_EQ(complaint_of(load("shortening", {InterfacePtr(shank)})),
             in_shock +
                 "load.shortening acts in static steps only, and this one is dynamic\n"
-                "    tighten in a step.static before it; the bolt keeps its length afterwards");
+                "    tighten in a preceding step.static; the bolt keeps its length afterwards");
 }
 
 TEST_F(LoadRules, that_need_time_act_in_dynamic_steps) {
@@ -126,11 +126,11 @@ TEST_F(LoadRules, that_need_time_act_in_dynamic_steps) {
       complaint_of_static(load("base_acceleration", {SupportPtr(base)})),
       "deck.lua:40: problem 'bolted': step 'tighten': load.base_acceleration acts in dynamic steps only, and this "
       "one is static\n"
-      "    a steady acceleration of the whole assembly is load.gravity");
+      "    use load.gravity for a steady acceleration of the whole assembly");
   EXPECT_EQ(complaint_of_static(load("velocity", {Face{upper, "zmax"}})),
             "deck.lua:40: problem 'bolted': step 'tighten': load.velocity acts in dynamic steps only, and this one is "
             "static\n"
-            "    a static step has no time: use load.displacement");
+            "    a static step has no physical time: use load.displacement");
 }
 
 TEST_F(LoadRules, release_within_their_step) {

@@ -65,7 +65,7 @@ TEST_F(Names, cannot_be_empty) {
 TEST_F(Names, cannot_leave_the_output_directory) {
   above->name = "../above";
   EXPECT_EQ(complaint(),
-            "deck.lua:50: problem 'bolted': output '../above': a name becomes a file name\n"
+            "deck.lua:50: problem 'bolted': output '../above': a name is used as a file name\n"
             "    allowed: anything without '/', '\\', control characters and a '.' in front");
 }
 
@@ -87,7 +87,7 @@ TEST_F(Names, need_a_substructure_and_a_step) {
   problem.steps.clear();
   EXPECT_EQ(complaint(),
             "deck.lua:84: problem 'bolted': 'steps' is empty\n"
-            "    at least one step.static or step.dynamic is needed");
+            "    at least one step.static or step.dynamic is required");
   problem.substructures.clear();
   EXPECT_EQ(complaint(), "deck.lua:84: problem 'bolted': 'substructures' is empty");
 }

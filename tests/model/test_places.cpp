@@ -36,7 +36,7 @@ TEST_F(Places, of_an_interface_are_two) {
   mating->side_2 = mating->side_1;
   EXPECT_EQ(complaint(),
             "deck.lua:11: problem 'bolted': interface.contact 'mating' joins lower.zmax with itself\n"
-            "    'between' takes two faces that meet");
+            "    'between' requires two faces that touch");
 }
 
 TEST_F(Places, of_a_support_are_on_listed_substructures) {

@@ -8,7 +8,7 @@ using Steps = Assembly;
 TEST_F(Steps, start_from_the_undeformed_state) {
   problem.steps = {shock, tighten};
   EXPECT_EQ(complaint(),
-            "deck.lua:31: problem 'bolted': step 'shock' is listed first but comes after 'tighten'\n"
+            "deck.lua:31: problem 'bolted': step 'shock' is listed first but follows 'tighten'\n"
             "    list the steps in the order they happen");
 }
 
@@ -34,7 +34,7 @@ TEST_F(Steps, do_not_fork) {
   problem.steps.push_back(pull);
   EXPECT_EQ(complaint(),
             "deck.lua:32: problem 'bolted': step 'pull' comes after 'tighten', but 'shock' is listed before it\n"
-            "    steps are one line in the order listed; a fork is two problems");
+            "    steps form one sequence in the order listed; use two problems for a branch");
 }
 
 TEST_F(Steps, when_static_have_an_increment) {
@@ -87,7 +87,7 @@ TEST_F(Steps, with_an_interference_begin_with_a_static_one) {
   EXPECT_EQ(complaint(),
             "deck.lua:11: problem 'bolted': interface.contact 'mating' has 'gap' = -1e-05 m, an interference, but the "
             "first step, 'shock', is dynamic\n"
-            "    put a step.static before it, which presses the parts apart");
+            "    put a step.static before it to press the parts apart");
 }
 
 TEST_F(Steps, with_an_interference_at_a_wall_begin_with_a_static_one) {

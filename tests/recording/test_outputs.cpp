@@ -102,7 +102,7 @@ TEST_F(Outputs, of_momentum_are_of_listed_parts_each_once) {
   arguments.parts = {upper, upper};
   problem.outputs = {make_output(arguments)};
   EXPECT_EQ(complaint(),
-            "deck.lua:50: problem 'bolted': output.momentum 'rebound': substructure 'upper' stands in 'of' twice");
+            "deck.lua:50: problem 'bolted': output.momentum 'rebound': substructure 'upper' occurs twice in 'of'");
   arguments.parts = {std::make_shared<Substructure>(*upper)};
   problem.outputs = {make_output(arguments)};
   EXPECT_NE(complaint().find("output.momentum 'rebound' is of substructure 'upper', which is not in 'substructures'"),
@@ -146,7 +146,7 @@ TEST_F(Outputs, of_spectra_need_a_dynamic_step_and_a_range) {
   problem.steps = {tighten};
   EXPECT_EQ(complaint(),
             "deck.lua:51: problem 'bolted': output.srs 'spectrum': the problem has no dynamic step\n"
-            "    a spectrum is of dynamic steps only");
+            "    a spectrum requires a dynamic step");
 }
 
 TEST_F(Outputs, for_paraview_have_a_frame) {

@@ -22,7 +22,7 @@ TEST_F(BaseLines, tell_where_a_shaken_base_ends) {
   problem.steps = {tighten, shock, later};
   EXPECT_EQ(base_lines(problem),
             std::vector<std::string>{"  base 'base': in the 20 ms of the dynamic steps its velocity changes by (0, 0, "
-                                     "-0.127) m/s, and it ends (0, 0, -2.42) mm from where it was"});
+                                     "-0.127) m/s, and its final displacement is (0, 0, -2.42) mm"});
   shock->loads.clear();
   EXPECT_TRUE(base_lines(problem).empty());
 }

@@ -234,7 +234,7 @@ TEST(Report, says_by_how_much_a_spectrum_leaves_its_specification) {
   other.specifications[""] =
       std::make_shared<Specification>(Specification{{100.0, 1000.0}, {100.0, 100.0}, "other.csv"});
   expect_all(report_html(scratch.path(), other),
-             {"stays below its specification wherever it is judged, nearest at 500\u00a0Hz with −12.0\u00a0dB",
+             {"is below its specification over the judged range, closest at 500\u00a0Hz with −12.0\u00a0dB",
               "Specification: other.csv", std::string("card fine") + card_of_srs});
 }
 
@@ -261,12 +261,12 @@ TEST(Report, marks_each_range_above_the_specification_with_its_figure) {
 TEST(Report, says_that_a_spectrum_and_its_specification_do_not_meet) {
   const Scratch scratch;
   const std::string page = Example().write(scratch.path());  // 3 us: from 333 kHz on
-  expect_all(page, {"is not held against its specification (100\u00a0Hz to 1\u00a0kHz)", "not judged",
+  expect_all(page, {"is not compared with its specification (100\u00a0Hz to 1\u00a0kHz)", "not judged",
                     std::string("card poor") + card_of_srs});
   ReportRequest far;
   far.specifications[""] = std::make_shared<Specification>(Specification{{2e3, 9e3}, {1.0, 1.0}, "far.csv"});
   long_record().write(scratch.path());
-  expect_all(report_html(scratch.path(), far), {"they share no frequency that can be judged",
+  expect_all(report_html(scratch.path(), far), {"they have no common frequency that can be judged",
                                                 "2\u00a0kHz to 9\u00a0kHz", std::string("card poor") + card_of_srs});
   far.specifications[""] = std::make_shared<Specification>(Specification{{500.0, 9e3}, {1e3, 1e3}, "half.csv"});
   expect_all(report_html(scratch.path(), far),
@@ -281,7 +281,7 @@ TEST(Report, is_not_green_where_a_margin_is_within_what_is_uncertain) {
   Findings& findings = run.result.findings[srs];
   findings.values = {{"judged_from", 50.0}, {"judged_to", 5e5}};
   findings.band = {{"frequency", "all"}, {"Hz", "dB"}, {{100, 500, 1000}, {0.5, 2.0, 0.5}}, {}};
-  expect_all(run.write(scratch.path()), {"nearest at 500\u00a0Hz with −0.9\u00a0dB; uncertain there by 2.0\u00a0dB",
+  expect_all(run.write(scratch.path()), {"closest at 500\u00a0Hz with −0.9\u00a0dB; uncertain there by 2.0\u00a0dB",
                                          std::string("card fair") + card_of_srs});
 }
 
@@ -323,7 +323,7 @@ TEST(Report, tells_first_what_matters) {
   // A tetrahedron of a sixth of a cubic metre; the largest of each history with its instant.
   expect_all(page, {"<td>1.3\u00a0t</td>", "1 × 1 × 1\u00a0m", "210\u00a0GPa", "7800\u00a0kg/m³",
                     "<td>2.04\u00a0g</td><td>shock, 2\u00a0µs</td>", "<td>−20\u00a0%</td><td>12\u00a0%</td>",
-                    "(10, 0, 500)", "Not watched, since their material has no yield: upper",
+                    "(10, 0, 500)", "Not monitored, since their material has no yield: upper",
                     "card poor\"><small>smallest margin against yield"});
 }
 

@@ -186,19 +186,19 @@ TEST_F(HistoryFile, has_decimal_commas_where_commas_do_not_separate_columns) {
     EXPECT_NEAR(history.value(0.75), 22.5 * 9.80665, 1e-12) << text;
   }
   EXPECT_EQ(message("t;a\n0,5;1\n1.5;2\n"), ":3: '1.5' has a decimal point, and a number in line 2 a decimal comma");
-  EXPECT_EQ(message("t;a\n0;1.234,5\n"), ":2: '1.234,5' is not a finite number: thousands are not separated");
+  EXPECT_EQ(message("t;a\n0;1.234,5\n"), ":2: '1.234,5' is not a finite number: do not separate thousands");
 }
 
 TEST_F(HistoryFile, whose_commas_may_separate_columns_or_decimals_is_refused) {
-  const std::string doubt = "': commas separate columns here, or decimals, and nothing tells which\n";
+  const std::string doubt = "': commas may separate columns or decimals, which is ambiguous\n";
   for (const char* text : {"0,0,00\n1,0,26\n", "t,a\n0,0,00\n1,0,26\n"})
     EXPECT_TRUE(message(text).find("'0,0,00" + doubt) != std::string::npos) << message(text);
   EXPECT_TRUE(message("0,000,0,000\n0,001,3,141\n").starts_with(":1: '0,000,0,000" + doubt));
-  EXPECT_EQ(message("0,0\n1,0,26\n"), ":2: 3 columns where two are expected: time (s) and value");
+  EXPECT_EQ(message("0,0\n1,0,26\n"), ":2: 3 columns but two are expected: time (s) and value");
   // Titles or a point tell.
   EXPECT_EQ(message("t,a,b\n0,0,1\n1,0,26\n"),
-            ":2: 3 columns where two are expected: time (s) and value\n    'column' takes one: a, b");
-  EXPECT_EQ(message("0,0,0\n0.1,0,26\n"), ":1: 3 columns where two are expected: time (s) and value");
+            ":2: 3 columns but two are expected: time (s) and value\n    'column' takes one: a, b");
+  EXPECT_EQ(message("0,0,0\n0.1,0,26\n"), ":1: 3 columns but two are expected: time (s) and value");
 }
 
 TEST_F(HistoryFile, is_read_in_units_however_its_titles_give_them) {
@@ -231,20 +231,18 @@ TEST_F(HistoryFile, in_characters_of_typography_or_in_UTF_16_is_named) {
   EXPECT_EQ(message("t;a\n0;\xE2\x80\x9C"
                     "1\xE2\x80\x9D\n"),
             ":2: '\xE2\x80\x9C"
-            "1\xE2\x80\x9D' is not a finite number: it has typographic quotes, where none or straight "
-            "ones stand");
+            "1\xE2\x80\x9D' is not a finite number: it has typographic quotes, use straight quotes or none");
   EXPECT_EQ(message("t;a\n0;\xE2\x88\x92"
                     "1\n"),
             ":2: '\xE2\x88\x92"
-            "1' is not a finite number: its minus is not the plain '-'");
+            "1' is not a finite number: its minus sign is not the plain '-'");
   for (const std::string& start : {std::string("\xFF\xFE", 2), std::string("\xFE\xFF", 2), std::string("0\0;\0", 4)})
     EXPECT_NE(message(start + "0;1\n1;2\n").find("is text in UTF-16\n    save it as UTF-8"), std::string::npos);
 }
 
 TEST_F(HistoryFile, in_a_unit_that_is_not_known_is_refused) {
-  EXPECT_TRUE(
-      message("time [ms], acceleration [furlong]\n0,1\n")
-          .starts_with(":1: 'furlong' is not a unit that is known, in the title 'acceleration'\n    known: s, ms"));
+  EXPECT_TRUE(message("time [ms], acceleration [furlong]\n0,1\n")
+                  .starts_with(":1: 'furlong' is not a known unit, in the title 'acceleration'\n    known: s, ms"));
   EXPECT_EQ(message("time [Hz], a [g]\n0,1\n"),
             ":1: column 'time' is in 'Hz', where a time is expected\n    known: s, ms, us, ns, sec, msec, usec, min");
   EXPECT_EQ(message("time acceleration [g]\n0 1\n"),
@@ -332,7 +330,7 @@ TEST(ComposedHistory, of_too_many_terms_is_refused) {
   EXPECT_EQ(message_of([&] {
               for (int i = 0; i < 20000; ++i) deep = deep.plus(History::constant(1.0));
             }),
-            "a history that is made of others in 10001 steps, one of the other: 10000 are allowed");
+            "a history nested 10001 deep: 10000 levels are allowed");
 }
 
 TEST_F(HistoryFile, that_is_wrong_is_named_with_its_line) {
@@ -341,8 +339,8 @@ TEST_F(HistoryFile, that_is_wrong_is_named_with_its_line) {
   EXPECT_EQ(message("t v\nagain titles\n"), ":2: 'again' is not a finite number");
   EXPECT_EQ(message("0 1\n1 nan\n"), ":2: 'nan' is not a finite number");
   EXPECT_EQ(message("t [ms], a [kN]\n0,1\n1,1e306\n"), ":3: '1e306' is not a finite number in SI");
-  EXPECT_EQ(message("0,5 1,5 3\n"), ":1: 3 columns where two are expected: time (s) and value");
-  EXPECT_EQ(message("7\n"), ":1: 1 number where two are expected: time (s) and value");
+  EXPECT_EQ(message("0,5 1,5 3\n"), ":1: 3 columns but two are expected: time (s) and value");
+  EXPECT_EQ(message("7\n"), ":1: 1 number but two are expected: time (s) and value");
   EXPECT_NE(message("time value\n").find("has no points"), std::string::npos);
   EXPECT_EQ(message_of([] { History::from_file("no/such/file.csv"); }),
             "cannot read the signal file 'no/such/file.csv'");

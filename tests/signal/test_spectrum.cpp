@@ -56,7 +56,7 @@ TEST(SignalDoubts, are_none_of_a_pulse_that_is_whole_and_well_sampled) {
 }
 
 TEST(SignalDoubts, are_of_an_offset_and_of_ends_that_are_no_rest) {
-  EXPECT_EQ(doubt_of(pulse_of(20, -5.0), 100.0).find("lies at -5 before the shock and at -5 after it"), 0u);
+  EXPECT_EQ(doubt_of(pulse_of(20, -5.0), 100.0).find("is -5 before the shock and -5 after it"), 0u);
   std::vector<double> cut = pulse_of(20);
   cut.resize(75);
   EXPECT_EQ(doubt_of(cut, 100.0).find("ends with 76"), 0u) << doubt_of(cut, 100.0);
@@ -66,7 +66,7 @@ TEST(SignalDoubts, are_of_an_offset_and_of_ends_that_are_no_rest) {
 }
 
 TEST(SignalDoubts, are_of_samples_too_few_for_what_they_hold) {
-  EXPECT_EQ(doubt_of(pulse_of(3), 300.0).find("is sampled 3.33 times a period at 300 Hz"), 0u)
+  EXPECT_EQ(doubt_of(pulse_of(3), 300.0).find("has 3.33 samples per period at 300 Hz"), 0u)
       << doubt_of(pulse_of(3), 300.0);
   EXPECT_EQ(doubt_of(pulse_of(3), 100.0), "");  // ten times a period
 }

@@ -31,7 +31,7 @@ class Plastic final : public Law, public TieSprings {
   bool can_be_tightened() const override { return true; }
   TensionLimit tension_limit() const override {
     if (hardening_ > 0.0) return {};
-    return {yield_, "it yields at {} and has no hardening", "give it 'hardening'"};
+    return {yield_, "it yields at {} without hardening", "give it 'hardening'"};
   }
   bool allows_massless_nodes() const override { return false; }
 

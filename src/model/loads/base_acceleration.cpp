@@ -24,7 +24,7 @@ class BaseAcceleration final : public Load {
   bool is_everywhere() const override { return false; }
   const char* unit() const override { return "m/s^2"; }
   std::optional<Complaint> complaint(const Step& step) const override {
-    return dynamic_only(step, "a steady acceleration of the whole assembly is load.gravity");
+    return dynamic_only(step, "use load.gravity for a steady acceleration of the whole assembly");
   }
   std::vector<Effect> effects() const override {
     std::vector<Effect> all;

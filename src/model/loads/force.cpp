@@ -14,8 +14,8 @@ class Force final : public Load {
     const auto n_faces = std::count_if(on.begin(), on.end(), is_face);
     if (n_faces > 0 && n_faces < static_cast<long>(on.size()))
       throw InputError(
-          "load.force is spread over the area of faces or over the nodes of regions, not over both: give a load of its "
-          "own to each kind");
+          "load.force is spread over the area of faces or over the nodes of regions, not both: use a separate load for "
+          "each kind");
   }
 
   std::string acts_on() const override { return "a face or a region"; }

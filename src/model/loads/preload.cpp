@@ -12,22 +12,22 @@ double torque_force(const ModelArguments& a) {
   for (const char* needed : {"friction_factor", "diameter"})
     if (!a.has(needed))
       throw InputError(
-          fmt::format("'torque' needs '{}'\n    the force is torque / (friction_factor diameter)", needed));
+          fmt::format("'torque' requires '{}'\n    the force is torque / (friction_factor diameter)", needed));
   return a.number_or("share", 1.0) * a.number("torque") / (a.number("friction_factor") * a.number("diameter"));
 }
 
 TimeValue force_of(const ModelArguments& a) {
   const bool has_force = a.has("force"), has_torque = a.has("torque");
   if (has_force == has_torque)
-    throw InputError(has_force ? "'force' and 'torque' exclude each other"
+    throw InputError(has_force ? "'force' and 'torque' are mutually exclusive"
                                : "give 'force', or 'torque' with 'friction_factor' and 'diameter'");
   if (has_torque) return {History::constant(torque_force(a)), true};
   for (const char* of_torque : {"friction_factor", "diameter"})
     if (a.has(of_torque)) throw InputError(fmt::format("'{}' goes with 'torque', and 'force' is given", of_torque));
   if (a.has("share") && !a.has("hand"))
     throw InputError(
-        "'share' goes with 'torque' or 'hand'\n    'force' is what goes through the modelled interface: a quarter "
-        "model takes a quarter");
+        "'share' requires 'torque' or 'hand'\n    'force' acts through the modelled interface: a quarter model takes a "
+        "quarter");
   return a.value("force");
 }
 
@@ -44,7 +44,8 @@ class Preload final : public Load {
     for (int i = 1; i <= step.increments; ++i)
       if (const double force = values[0]->history.value(static_cast<double>(i) / step.increments); force < 0.0)
         return Complaint{
-            fmt::format(" asks for {:.6g} N in increment {}: a bolt pulls, its force is not negative", force, i), ""};
+            fmt::format(" asks for {:.6g} N in increment {}: a bolt force is tensile and cannot be negative", force, i),
+            ""};
     return std::nullopt;
   }
   std::vector<Effect> effects() const override {

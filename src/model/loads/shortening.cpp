@@ -23,11 +23,11 @@ class Shorten final : public Load {
     if (!step.is_static) return static_only(step, tighten_before);
     for (int i = 1; i <= step.increments; ++i)
       if (const double by = values[0]->history.value(static_cast<double>(i) / step.increments); by < 0.0)
-        return Complaint{fmt::format(" asks for {:.6g} m in increment {}: a nut draws the sides together, 'by' is not "
-                                     "negative",
-                                     by, i),
-                         "by = 0 loosens the bolt; what pushes two sides apart is an interface.contact with a "
-                         "negative 'gap'"};
+        return Complaint{
+            fmt::format(
+                " asks for {:.6g} m in increment {}: a nut draws the sides together, so 'by' cannot be negative", by,
+                i),
+            "by = 0 loosens the bolt; to push two sides apart, use interface.contact with a negative 'gap'"};
     return std::nullopt;
   }
   std::vector<Effect> effects() const override {

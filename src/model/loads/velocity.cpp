@@ -14,7 +14,7 @@ class Velocity final : public Load {
   bool is_everywhere() const override { return false; }
   const char* unit() const override { return "m/s"; }
   std::optional<Complaint> complaint(const Step& step) const override {
-    return dynamic_only(step, "a static step has no time: use load.displacement");
+    return dynamic_only(step, "a static step has no physical time: use load.displacement");
   }
   std::vector<Effect> effects() const override {
     std::vector<Effect> all;

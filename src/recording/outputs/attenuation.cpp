@@ -181,7 +181,7 @@ class AttenuationOutput final : public Output {
       text += text.empty() ? "" : "; ";
       if (!axis.empty()) text += axis.substr(1) + " ";
       const bool leaves_none = std::any_of(ratio.begin(), ratio.end(), [](double x) { return std::isinf(x); });
-      text += n == 0.0 ? std::string(leaves_none ? "nothing leaves" : "nothing enters")
+      text += n == 0.0 ? std::string(leaves_none ? "no output" : "no input")
                        : fmt::format("{:+.1f} dB ({:+.1f} at {:.3g} kHz, {:+.1f} at {:.3g} kHz)", sum / n, lowest,
                                      lowest_at, highest, highest_at);
     }

@@ -133,7 +133,7 @@ class HistoryOutput final : public Output {
           check::fail(problem, origin,
                       known_as() + " is on " + check::describe(request_.on[j]) + " and on " +
                           check::describe(request_.on[i]) +
-                          ", which have facets or nodes in common: these would count twice in the mean");
+                          ", which share facets or nodes: these would count twice in the mean");
     const bool is_of_stress =
         request_.what.quantity == Quantity::stress || request_.what.quantity == Quantity::von_mises;
     for (const Target& target : request_.on)
@@ -152,7 +152,7 @@ class HistoryOutput final : public Output {
           region && region->part->mesh->condensed && !region->part->mesh->faces.empty())
         check::doubt(problem, origin,
                      known_as() + " is a mean over nodes of superelement '" + region->part->name +
-                         "', which counts each alike: over those of a mesh it goes by their volumes");
+                         "', which weights each equally; in a mesh it weights them by volume");
     const Quantity quantity = request_.what.quantity;
     const bool is_rate = quantity == Quantity::velocity || quantity == Quantity::acceleration;
     if (is_rate && !check::has_dynamic_step(problem))

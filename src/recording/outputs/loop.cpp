@@ -24,10 +24,9 @@ std::string steps_text(const Problem& problem, const std::pair<int, int>& range)
 std::string line_of(const std::string& name, const LoopSummary& loop, double resolution, const std::string& where) {
   std::string line = fmt::format("loop '{}': ", name);
   if (loop.range <= resolution)
-    return line + fmt::format(
-                      "nothing moves in {}: the displacement stays within {:.2g} m, and the tolerance leaves "
-                      "{:.2g} m",
-                      where, loop.range, resolution);
+    return line +
+           fmt::format("nothing moves in {}: the displacement stays within {:.2g} m, below the tolerance of {:.2g} m",
+                       where, loop.range, resolution);
   const int n = loop.cycles.n_rows();
   if (n == 0) {
     line += "no closed cycle in " + where;
@@ -51,14 +50,13 @@ std::vector<std::string> doubts_of(const std::string& name, const LoopSummary& l
   std::vector<std::string> doubts;
   if (loop.n_gaining > 0)
     doubts.push_back(
-        fmt::format("loop '{}': {} of its {} cycles gain{} energy, which no joint does: inertia of the parts (a "
-                    "dynamic step), or a "
-                    "load between the two places; their loss factors mean nothing",
+        fmt::format("loop '{}': {} of its {} cycles gain{} energy, which a joint cannot: inertia of the parts (a "
+                    "dynamic step), or a load between the two places; ignore their loss factors",
                     name, loop.n_gaining, loop.cycles.n_rows(), loop.n_gaining == 1 ? "s" : ""));
   if (loop.energy_error > limit::loop_energy_error)
     doubts.push_back(
-        fmt::format("loop '{}': the tolerance leaves up to {:.2g} % of the loss of a cycle: take a "
-                    "tighter tolerance (static_tolerance of solver.latin)",
+        fmt::format("loop '{}': the tolerance leaves up to {:.2g} % error in the loss of a cycle: use a tighter "
+                    "tolerance (static_tolerance of solver.latin)",
                     name, 100.0 * loop.energy_error));
   return doubts;
 }
@@ -163,7 +161,7 @@ class LoopOutput final : public Output {
     }
     if (n_supports > 0 && n_supports < request_.on.size())
       check::fail(problem, origin, who + " is on interfaces and supports",
-                  "the force is that of interfaces or that on supports: take two loops");
+                  "the force is either that of interfaces or that on supports: use two loops");
     if (needs_between && request_.between.empty())
       check::fail(problem, origin, who + " is on a support that does not slide, and has no 'between'",
                   "as in between = block:face \"xmax\"");
@@ -201,7 +199,7 @@ class LoopOutput final : public Output {
       if (i > 0 && at != index_of(problem.steps, request_.steps[i - 1].get()) + 1)
         check::fail(problem, origin,
                     fmt::format("{}: step '{}' does not follow on '{}'", who, step.name, request_.steps[i - 1]->name),
-                    "'steps' are those of the problem, one after the other");
+                    "'steps' must be consecutive steps of the problem");
       if (request_.after && at <= index_of(problem.steps, request_.after.get()))
         check::fail(problem, origin,
                     fmt::format("{}: step '{}' is not after '{}'", who, step.name, request_.after->name));

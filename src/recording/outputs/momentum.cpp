@@ -55,18 +55,17 @@ class MomentumOutput final : public Output {
       check::listed(problem, known_as() + " is of substructure", *of_[i], problem.substructures, "substructures");
       for (size_t j = 0; j < i; ++j)
         if (of_[i] == of_[j])
-          check::fail(problem, origin, known_as() + ": substructure '" + of_[i]->name + "' stands in 'of' twice");
+          check::fail(problem, origin, known_as() + ": substructure '" + of_[i]->name + "' occurs twice in 'of'");
     }
     for (const SubstructurePtr& part : problem.substructures) {
       const bool is_asked = of_.empty() || std::find(of_.begin(), of_.end(), part) != of_.end();
       if (!is_asked || !part->mesh->condensed) continue;
       for (int axis = 0; axis < 3; ++axis)
         if (part->mesh->condensed->resists(part->mesh->nodes, Vec3::Unit(axis)))
-          check::fail(
-              problem, origin,
-              known_as() + ": superelement '" + part->name +
-                  "' is held inside, by a support that was condensed with it: what moves behind its faces is not known",
-              "name the other parts in 'of', or condense it without the support and hold it in the deck");
+          check::fail(problem, origin,
+                      known_as() + ": superelement '" + part->name +
+                          "' contains a condensed support: its internal motion is unknown",
+                      "list the other parts in 'of', or condense it without the support and hold it in the deck");
     }
   }
 

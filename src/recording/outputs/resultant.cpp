@@ -40,11 +40,10 @@ class ResultantOutput final : public Output {
       const auto* support = std::get_if<SupportPtr>(&target);
       if (support && std::any_of((*support)->on.begin(), (*support)->on.end(),
                                  [](const FaceOrRegion& on) { return std::holds_alternative<Region>(on); }))
-        check::doubt(
-            problem, origin,
-            known_as() + ": " + check::describe(**support) +
-                " is on a region, which has no normal: 'normal' is 0 and 'shear' the whole force there; put it "
-                "on a face, or read x, y, z");
+        check::doubt(problem, origin,
+                     known_as() + ": " + check::describe(**support) +
+                         " is on a region, which has no normal: 'normal' is 0 and 'shear' is the total force; use a "
+                         "face, or x, y, z");
     }
   }
 

@@ -41,7 +41,7 @@ class SrsOutput final : public Output {
         judged_(a.has("judge") ? a.text("judge") : "maximax") {
     srs_.watches_end = true;
     if (specification_ && srs_.quantity != SrsQuantity::absolute_acceleration)
-      throw InputError("a 'specification' is of absolute acceleration: leave 'quantity' out");
+      throw InputError("a 'specification' requires absolute acceleration: omit 'quantity'");
   }
 
   // A spectrum is of one absolute acceleration over dynamic steps.
@@ -147,7 +147,7 @@ class SrsOutput final : public Output {
     findings.values["exceedance_at"] = worst.is_known ? worst.frequency : not_known;
     if (!worst.is_known) {
       findings.warnings.push_back(
-          fmt::format("spectrum '{}' is not held against its specification ({:.4g} to {:.4g} Hz): they share no "
+          fmt::format("spectrum '{}' is not compared with its specification ({:.4g} to {:.4g} Hz): they have no common "
                       "frequency between {:.4g} Hz, 1/record length, and {:.4g} Hz, half the sampling rate",
                       name, specification_->frequency.front(), specification_->frequency.back(),
                       findings.values["judged_from"], findings.values["judged_to"]));
@@ -171,7 +171,7 @@ class SrsOutput final : public Output {
     if (asked.front() * same < f.front()) text += fmt::format(" from {:.4g} to {:.4g} Hz", asked.front(), f.front());
     if (asked.back() > f.back() * same)
       text += fmt::format("{} from {:.4g} to {:.4g} Hz", text.empty() ? "" : " and", f.back(), asked.back());
-    return text.empty() ? "" : "; the spectrum has no frequency" + text + ", where the specification goes on";
+    return text.empty() ? "" : "; the spectrum has no frequency" + text + ", where the specification continues";
   }
 
   // Where the spectrum reads worse than in the range that is judged: ", judged from 1667 Hz on; at 500 Hz, ...".
@@ -181,7 +181,7 @@ class SrsOutput final : public Output {
     const FrequencyRange judged = judged_range(findings);
     return fmt::format(
         "; judged between {:.4g} Hz, 1/record length, and {:.4g} Hz, half the sampling rate: outside, at "
-        "{:.4g} Hz, it reads {:.1f} dB {}, which this record cannot tell",
+        "{:.4g} Hz, it reads {:.1f} dB {}, which this record cannot resolve",
         judged.from, judged.to, all.frequency, std::abs(all.decibels), all.decibels > 0.0 ? "above" : "below");
   }
 
@@ -198,7 +198,7 @@ class SrsOutput final : public Output {
     if (const double all = mean_error_band(findings.band); all > limit::spectrum_band)
       findings.warnings.push_back(
           fmt::format("spectrum '{}' is uncertain by about {:.2g} dB (mean over its frequencies, by the run's own "
-                      "estimate): little arrives there beside the errors of dt and the mesh",
+                      "estimate): the signal there is comparable to the discretisation error",
                       name, all));
   }
 

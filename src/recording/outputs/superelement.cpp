@@ -83,7 +83,7 @@ SuperelementRequest request_of(const ModelArguments& a) {
   static const std::map<std::string, FaceMotion> motions = {
       {"mean", FaceMotion::mean}, {"rigid", FaceMotion::rigid}, {"nodes", FaceMotion::nodes}};
   if (a.has("up_to") && a.has("modes"))
-    throw InputError("'up_to' and 'modes' exclude each other: modes are kept up to twice 'up_to'");
+    throw InputError("'up_to' and 'modes' are mutually exclusive: modes are kept up to twice 'up_to'");
   SuperelementRequest request{a.text("name"), a.origin(), a.targets("on")};
   request.motion = motions.at(a.text("motion"));
   request.up_to = a.number_or("up_to", 0.0);
@@ -145,21 +145,20 @@ class SuperelementOutput final : public Output {
     const Step* step = step_of(problem);
     if (!step)
       check::fail(problem, origin, who + ": the problem has no static step",
-                  "it is taken about the state after one; or name another step with 'after'");
+                  "it is linearised about the state after one; or name another step with 'after'");
     check_faces(problem, *step);
     for (const SubstructurePtr& part : problem.substructures)
       if (part->mesh->condensed && !part->mesh->condensed->followers.empty())
-        check::fail(problem, origin,
-                    who + ": superelement '" + part->name +
-                        "' has faces that move as a whole, which cannot be condensed "
-                        "once more",
-                    "condense it with motion = \"nodes\"");
+        check::fail(
+            problem, origin,
+            who + ": superelement '" + part->name + "' has faces that move as a whole, which cannot be condensed again",
+            "condense it with motion = \"nodes\"");
     for (const SupportPtr& support : supports_of(problem, *step))
       if (support->kind->absorbs())
         check::fail(problem, origin,
                     who + ": " + check::describe(*support) + " is a non-reflecting boundary in step '" + step->name +
                         "', which a superelement cannot represent",
-                    "give the step its own 'supports', without it");
+                    "give the step its own 'supports' without it");
   }
 
   Columns columns() const override { return {{"frequency", "Hz"}, {"damping", ""}}; }
@@ -184,13 +183,13 @@ class SuperelementOutput final : public Output {
       check::fail(problem, origin,
                   who + fmt::format(": the faces of 'on' have {} unknowns or more, at most {} are allowed", n,
                                     most_face_unknowns),
-                  "take smaller faces or larger cells there");
+                  "use smaller faces or larger cells there");
     for (const Target& target : request_.on)
       if (request_.motion == FaceMotion::rigid && is_line(*check::place_of(target)))
         check::fail(problem, origin,
                     who + ": the nodes of " + check::describe(target) +
-                        " lie on a line, which does not turn about itself: it has no six motions of a rigid body",
-                    "take motion = \"nodes\", or name a face, or a region whose nodes are on no line");
+                        " are collinear and cannot define rotation about their line: six rigid motions are required",
+                    "take motion = \"nodes\", or use a face, or a region whose nodes are not collinear");
   }
 
   // The last static step where none is named; null: there is none.
