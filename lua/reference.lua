@@ -57,7 +57,7 @@ local function entry_of(title, entry)
   put("### %s\n", title)
   put("%s\n", entry.doc)
   if entry.argument then table_of { entry.argument } end
-  if entry.argument and entry.arguments then put "In its place a table of:\n" end
+  if entry.argument and entry.arguments then put "Instead, a table of:\n" end
   if entry.arguments then table_of(entry.arguments) end
   if entry.one_of then put("At least one of `%s`.\n", table.concat(entry.one_of, "`, `")) end
   if entry.later then put("Not built yet: `%s`.\n", table.concat(entry.later, "`, `")) end
@@ -80,10 +80,10 @@ for _, entry in ipairs(schema.methods) do entry_of(("`%s`"):format(entry.write),
 
 put "## param\n"
 put("`param{ mu = 0.2, n = 4 }` declares, once in a deck, the numbers that the command line may override: `--set mu=0.3`, "
-  .. "`--set tighten=0.04*mm`. It answers them by their names.\n")
+  .. "`--set tighten=0.04*mm`. It returns them by name.\n")
 
 for _, kind in ipairs { "bolt", "list of bolts" } do
-  put("## What a %s answers\n", kind)
+  put("## What a %s has\n", kind)
   put "| written | kind | meaning |"
   put "| --- | --- | --- |"
   for _, field in ipairs(schema.fields[kind]) do

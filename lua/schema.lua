@@ -53,7 +53,7 @@ end
 -- What may be said where the meshes of two faces do not match.
 local function within()
   return { "within", type = "number", unit = "m", range = { 0, 0.1 }, default_doc = "a ten thousandth of the assembly's diagonal; where faces are found, a hundredth of the facets",
-           doc = "how far apart faces may be that touch, beside what the facets of round ones are off" }
+           doc = "how far apart touching faces may be, beyond the facet error of round ones" }
 end
 
 local function points()
@@ -76,7 +76,7 @@ end
 -- A bolted joint for the hand formula of VDI 2230.
 local bolt_length = { 1e-4, 10 }
 local by_hand = {
-  "hand", type = "table", doc = "the whole bolt and what it clamps, for a comparison with VDI 2230's hand formula",
+  "hand", type = "table", doc = "the whole bolt and the clamped parts, for a comparison with VDI 2230's hand formula",
   fields = {
     { "diameter", type = "number", unit = "m", range = { 1e-4, 0.5 }, required = true, doc = "nominal, and of the shank" },
     { "grip", type = "number", unit = "m", range = bolt_length, required = true, doc = "length clamped, from head to nut" },
@@ -91,11 +91,11 @@ local by_hand = {
   },
 }
 local function share_of_bolt(of)
-  return { "share", type = "number", range = { 1e-6, 1 }, default_doc = "1", doc = "part of it that the model has: 0.25 of " .. of .. " in a quarter model" }
+  return { "share", type = "number", range = { 1e-6, 1 }, default_doc = "1", doc = "modelled fraction: 0.25 of " .. of .. " in a quarter model" }
 end
 
 local friction = { "friction", type = "number", range = { 0, 1000 }, usual = { 0, 2, "metals have 0.05 to 1" }, default = 0, doc = "Coulomb's coefficient" }
-local friction_of_contact = { "friction", type = "number", range = friction.range, usual = friction.usual, default_doc = "0, which is warned of where bolts are tightened", doc = friction.doc }
+local friction_of_contact = { "friction", type = "number", range = friction.range, usual = friction.usual, default_doc = "0, with a warning if bolts are tightened", doc = friction.doc }
 local duration = { 1e-9, 100 }  -- s
 local any_value = { -1e15, 1e15 }
 local usual_gap = { -0.0005, 0.002, "between faces whose meshes coincide gaps are tenths of a millimetre" }
@@ -105,7 +105,7 @@ local usual_acceleration = { -980665, 980665, "beyond 100000 g; is it in m/s^2 a
 local words = {}
 
 words[1] = {
-  name = "mesh", doc = "Bodies as cells and named groups of facets.",
+  name = "mesh", doc = "Bodies as cells with named groups of facets.",
   {
     "box", makes = "mesh", doc = "A regular box of hexahedra; its faces are xmin, xmax, ymin, ymax, zmin, zmax.",
     arguments = {
@@ -123,10 +123,10 @@ words[1] = {
     doc = "The volumes of a .geo, .msh, .step or .brep file, read or meshed by gmsh; `file:volume \"name\"` is one of them.",
     arguments = {
       { "file", type = "file", required = true, doc = "path, relative to the deck's folder" },
-      { "size", type = "number", unit = "m", range = { 1e-7, 100 }, doc = "size of the elements, where the file has none" },
+      { "size", type = "number", unit = "m", range = { 1e-7, 100 }, doc = "size of the elements, if the file sets none" },
       { "set", type = "settings", doc = "parameters of the .geo (DefineConstant) given other values" },
       { "unit", type = "number", unit = "m", range = { 1e-9, 1000 }, default = 1,
-        doc = "length of one unit of the file: `unit = mm` where it counts in millimetres" },
+        doc = "length of one unit of the file: `unit = mm` for a file in millimetres" },
       { "order", type = "integer", range = { 1, 2 }, default = 1,
         doc = "order of the shape functions; cells of order 2 follow round surfaces" },
       { "cell", type = "choice", choices = { "hex20", "hex27" }, default_doc = "hex20",
@@ -138,13 +138,13 @@ words[1] = {
 
 words[1][3] = {
   "step", makes = "assembly",
-  doc = "A CAD assembly, .step or .brep: every solid a mesh of its own, with the names of the file; `assembly:part \"name\"` is one of them.",
+  doc = "A CAD assembly, .step or .brep: every solid becomes its own mesh, with the names of the file; `assembly:part \"name\"` is one of them.",
   arguments = {
     { "file", type = "file", required = true, doc = "path, relative to the deck's folder" },
     { "order", type = "integer", range = { 1, 2 }, default = 2, doc = "order of the shape functions: 2 makes tet10, 1 tet4" },
     { "parts", type = "texts", or_single = true, default_doc = "all", doc = "names of the parts to mesh, * stands for any text" },
     { "cells", type = "choice", choices = { "tetrahedra", "hexahedra", "hexahedra where possible" }, default = "tetrahedra",
-      doc = "hexahedra (hex8 or hex20, prisms where need be) are for solids that are a flat face moved along its normal, as plates and washers: an error where one is not, or where possible" },
+      doc = "hexahedra (hex8 or hex20, with prisms if needed) require extruded solids, such as plates and washers: an error for any other, unless where possible" },
     { "size", type = "number", unit = "m", range = { 1e-7, 100 }, default_doc = "a twentieth of each part's diagonal", doc = "size of the cells" },
     { "sizes", type = "settings", unit = "m", range = { 1e-7, 100 },
       doc = "by the names of parts, as `{ [\"M8 bolt\"] = 2*mm, contacts = 1*mm }`: * stands for any text, `contacts` for faces that touch another part" },
@@ -155,13 +155,13 @@ words[1][3] = {
         { "size", type = "number", unit = "m", range = { 1e-7, 100 }, required = true, doc = "size there" },
         { "growth", type = "number", range = { 0.01, 2 }, default = 0.35, doc = "by which it grows with the distance" },
       } },
-    { "round", type = "integer", range = { 4, 400 }, default = 16, doc = "cells around a whole turn of a round surface, as in a hole, where `size` alone would be coarser" },
-    { "unit", type = "number", unit = "m", range = { 1e-9, 1000 }, default_doc = "0.001", doc = "length of one unit of a .brep; a .step states its own, which this must not contradict" },
+    { "round", type = "integer", range = { 4, 400 }, default = 16, doc = "least number of cells around a full circle, as in a hole, if `size` alone gives fewer" },
+    { "unit", type = "number", unit = "m", range = { 1e-9, 1000 }, default_doc = "0.001", doc = "length of one unit of a .brep; a .step states its own, which must agree" },
   },
 }
 
 words[2] = {
-  name = "material", doc = "What substructures are made of.",
+  name = "material", doc = "Materials of substructures.",
   {
     "elastic", makes = "material", doc = "Isotropic linear elasticity.",
     arguments = {
@@ -170,7 +170,7 @@ words[2] = {
       { "poisson", type = "number", range = { -0.9, 0.4999 }, usual = { 0, 0.4999, "metals have 0.25 to 0.35" }, required = true, doc = "Poisson's ratio" },
       { "density", type = "number", unit = "kg/m^3", range = { 10, 100000 }, required = true, doc = "mass per volume" },
       { "yield", type = "number", unit = "Pa", range = { 1e5, 1e11 },
-        doc = "yield stress: the run then watches the von Mises stress of its parts and states the margin; the material stays elastic" },
+        doc = "yield stress: the run then monitors the von Mises stress of its parts and states the margin; the material stays elastic" },
       { "damping", type = "number", unit = "s", range = { 0, 0.01 }, default = 0,
         doc = "stiffness-proportional damping (a time, not a ratio), or { mass = (1/s), stiffness = (s) }",
         or_table = {
@@ -178,9 +178,9 @@ words[2] = {
           { "stiffness", type = "number", unit = "s", range = { 0, 0.01 }, default = 0, doc = "stiffness-proportional" },
         } },
       { "damping_ratio", type = "numbers", range = { 0, 1 }, at_least = 1, at_most = 2, or_single = true,
-        doc = "in place of `damping`: part of critical damping at `damping_frequency`, 0.02 for 2 %; one for both frequencies, or one for each" },
+        doc = "instead of `damping`: fraction of critical damping at `damping_frequency`, 0.02 for 2 %; one for both frequencies, or one each" },
       { "damping_frequency", type = "numbers", unit = "Hz", range = { 1e-3, 1e8 }, at_least = 1, at_most = 2, or_single = true,
-        doc = "where the ratio holds: one frequency (proportional to it elsewhere), or two (least in between)" },
+        doc = "frequency of the ratio: one (damping proportional to frequency), or two (least in between)" },
     },
   },
 }
@@ -188,7 +188,7 @@ words[2] = {
 words[3] = {
   name = "substructure", doc = "One linear elastic part of the assembly.",
   call = {
-    makes = "substructure", doc = "A part: a mesh made of a material, moved to its place.",
+    makes = "substructure", doc = "A part: a mesh, a material and a place.",
     arguments = {
       name_of "part",
       { "mesh", type = "object", kinds = { "mesh" }, required = true, doc = "its body" },
@@ -206,7 +206,7 @@ words[3] = {
       { "velocity", type = "vector", unit = "m/s", range = { -20000, 20000 }, usual = usual_velocity, default = { 0, 0, 0 },
         doc = "velocity at the start of the first dynamic step" },
       { "integration", type = "choice", choices = { "implicit", "automatic", "explicit" }, default_doc = "as the solver has it",
-        doc = "of its motion in dynamic steps of solver.latin: explicit needs no factor and takes as many increments in a dt as its cells require" },
+        doc = "of its motion in dynamic steps of solver.latin: explicit needs no factor and uses as many increments per dt as its cells require" },
     },
   },
 }
@@ -215,9 +215,8 @@ words[3] = {
 local part_arguments = words[3].call.arguments
 words[3][1] = {
   "superelement", makes = "substructure",
-  doc = "A part that is known by its matrices: what output.superelement has condensed, or matrices of another program, in SI. It takes part "
-    .. "in interfaces, supports and all steps; it has no stress, and no joint inside it opens or slides. Its faces are those that it was condensed "
-    .. "with. `file`, or `stiffness`, `mass` and `points`.",
+  doc = "A part given by its matrices: from output.superelement or from another program, in SI. It takes part in interfaces, supports and "
+    .. "all steps; it has no stress, and no joint inside it opens or slides. Its faces are those with which it was condensed. `file`, or `stiffness`, `mass` and `points`.",
   arguments = {
     name_of "part",
     { "file", type = "file", doc = "the `<name>.json` that output.superelement has written, beside its matrices" },
@@ -233,7 +232,7 @@ words[3][1] = {
 
 local function pattern_of(n_doc)
   return { "of", type = "object", kinds = { "substructure" }, or_bolt = true, required = true,
-           doc = "the part, or a bolt with all its parts; the first of the list stands where it does" },
+           doc = "the part, or a bolt with all its parts; it is the first of the list" },
     { "n", type = "integer", range = { 1, 10000 }, required = true, doc = n_doc }
 end
 local circle_of, circle_n = pattern_of "how many, evenly around"
@@ -264,12 +263,12 @@ words.bolt = {
   name = "bolt", doc = "Standard bolts, meshed: parts, faces and interfaces at once.",
   {
     "hex", makes = "bolt", is_bolt = true,
-    doc = "A hexagon bolt with nut and washers (ISO 4014 and 4017, 4032, 7089), of hexahedra around z. z = 0 is the upper face of what it clamps; the head is "
-      .. "above, the nut at -grip. Its parts are held together by its own interfaces; what it clamps, by the deck's.",
+    doc = "A hexagon bolt with nut and washers (ISO 4014 and 4017, 4032, 7089), of hexahedra around z. z = 0 is the upper clamped face; the head is above, "
+      .. "the nut at -grip. Its own interfaces join its parts; the deck must join it to the clamped parts.",
     arguments = {
       { "name", type = "name", required = true, doc = "of the bolt: its parts are `name head`, `name nut`, `name washer 1`, `name washer 2`, the shank's interface `name`" },
       { "size", type = "choice", choices = bolts.sizes, required = true, doc = "of the thread" },
-      { "grip", type = "number", unit = "m", range = { 1e-4, 2 }, required = true, doc = "thickness of what is clamped, without the washers" },
+      { "grip", type = "number", unit = "m", range = { 1e-4, 2 }, required = true, doc = "clamped thickness, without the washers" },
       { "material", type = "object", kinds = { "material" }, required = true, doc = "of all its parts" },
       { "place", type = "placement", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "as of a substructure",
         fields = words[3].call.arguments[4].fields },
@@ -287,7 +286,7 @@ words.bolt = {
 }
 
 words[4] = {
-  name = "interface", doc = "Where two substructures meet: everything nonlinear happens here.",
+  name = "interface", doc = "Where two substructures meet; everything nonlinear happens here.",
   {
     "bonded", makes = "interface", tightens = true, doc = "A perfect bond.",
     arguments = { name_unless_all(), between(all_touching), of_parts, except, within(), points() },
@@ -297,8 +296,8 @@ words[4] = {
     arguments = {
       name_unless_all(), between(all_touching), of_parts, except, friction_of_contact,
       { "gap", type = "number", unit = "m", range = { -0.01, 0.01 }, usual = usual_gap, default = 0, or_word = "geometry",
-        doc = "initial gap; a negative one is an interference; \"geometry\": that of the places, point by point, where the meshes do not match" },
-      { "closed", type = "boolean", default = false, doc = "says that the faces touch, whatever lies between their facets: the gap is 0" },
+        doc = "initial gap; a negative one is an interference; \"geometry\": the actual distance, point by point, for non-matching meshes" },
+      { "closed", type = "boolean", default = false, doc = "confirms that the faces touch, whatever lies between their facets: the gap is 0" },
       within(), points(),
     },
   },
@@ -315,8 +314,8 @@ words[4] = {
   },
   {
     "viscous", makes = "interface",
-    doc = "A damper, as a gasket or a layer of grease: a traction in proportion to the relative velocity, pulling and pushing. It carries "
-      .. "nothing in a static step.",
+    doc = "A damper, such as a gasket or a layer of grease: a traction proportional to the relative velocity, in tension and compression. "
+      .. "It carries no load in a static step.",
     arguments = {
       name_of "interface", between(), within(), points(),
       { "normal", type = "number", unit = "Pa s/m", range = { 0, 1e12 }, required = true,
@@ -333,7 +332,7 @@ for _, entry in ipairs(words[4]) do
 end
 
 words[5] = {
-  name = "support", doc = "What the assembly stands on; rigid.",
+  name = "support", doc = "Rigid supports of the assembly.",
   {
     "fixed", makes = "support", doc = "No displacement.",
     arguments = { name_of "support", on({ "face", "region" }, "what is held") },
@@ -359,7 +358,7 @@ words[5] = {
     },
   },
   {
-    "absorbing", makes = "support", doc = "Non-reflecting boundary: waves leave as if the part extended to infinity.",
+    "absorbing", makes = "support", doc = "Non-reflecting boundary: waves leave as if the part were infinite.",
     arguments = { name_of "support", on({ "face" }, "where waves leave") },
   },
 }
@@ -381,7 +380,7 @@ words[6] = {
     one_of = { "x", "y", "z" },
   },
   {
-    "force", makes = "load", doc = "A force in all, spread evenly over the area of all faces of `on` together, or over the nodes of its regions.",
+    "force", makes = "load", doc = "A total force, spread evenly over the combined area of all faces of `on`, or over the nodes of its regions.",
     arguments = { on({ "face", "region" }, "loaded faces or nodes"), components("force", "N", { -1e10, 1e10 }) },
     one_of = { "x", "y", "z" },
   },
@@ -420,7 +419,7 @@ words[6] = {
   },
   {
     "shortening", makes = "load",
-    doc = "Brings the two sides of an interface together by a length, as a nut does; frozen when the step ends.",
+    doc = "Draws the two sides of an interface together by a length, as a nut does; frozen at the end of the step.",
     arguments = {
       on(tightened, "shortened interfaces"),
       { "by", type = "value", unit = "m", range = { -0.01, 0.01 }, required = true, doc = "a positive one tightens" },
@@ -429,12 +428,12 @@ words[6] = {
   },
   {
     "preload", makes = "load",
-    doc = "Tightens until a force goes through the interface, by a shortening that is found and frozen when the step ends; static "
+    doc = "Tightens until a force acts through the interface; the shortening is found, and frozen at the end of the step. Static "
       .. "steps only. `force`, or `torque` with `friction_factor` and `diameter`: torque / (friction_factor diameter).",
     arguments = {
       on(tightened, "tightened interfaces: each gets the force"),
       { "force", type = "value", unit = "N", range = { 0, 1e8 },
-        doc = "through the modelled interface (a quarter model takes a quarter), reached in a ramp from what it carries" },
+        doc = "through the modelled interface (a quarter model takes a quarter), ramped from its current force" },
       { "torque", type = "number", unit = "N m", range = { 0, 1e6 }, doc = "on the nut or head of the whole bolt" },
       { "friction_factor", type = "number", range = { 0.01, 1 }, doc = "nut factor K; about 0.2 for dry steel" },
       { "diameter", type = "number", unit = "m", range = { 1e-4, 0.5 }, doc = "nominal, of the thread" },
@@ -442,7 +441,7 @@ words[6] = {
     },
   },
   {
-    "release", makes = "load", doc = "An interface lets go: separation.",
+    "release", makes = "load", doc = "Releases an interface: separation.",
     arguments = {
       on({ "interface" }, "what lets go"),
       { "at", type = "number", unit = "s", range = { 0, 100 }, required = true,
@@ -454,7 +453,7 @@ words[6] = {
 words[7] = {
   name = "history", 
   doc = "A value that depends on time, counted from the start of the step (from 0 to 1 in a static one). Any `function(t)` "
-    .. "does as well. Histories and functions can be scaled and added, `2*signal`, `-signal`, `signal/3`, `signal*g0`, `signal + other`, "
+    .. "is accepted as well. Histories and functions can be scaled and added, `2*signal`, `-signal`, `signal/3`, `signal*g0`, `signal + other`, "
     .. "`signal - 5`, and `signal(t)` is the value at a time.",
   {
     "constant", makes = "history", doc = "The same at all times.",
@@ -468,7 +467,7 @@ words[7] = {
     },
   },
   {
-    "ramp", makes = "history", doc = "Linear from one value to another, where it stays.",
+    "ramp", makes = "history", doc = "Linear from one value to another, then constant.",
     arguments = {
       { "from", type = "number", range = any_value, default = 0, doc = "value at 0" },
       { "to", type = "number", range = any_value, required = true, doc = "value at the end" },
@@ -507,25 +506,24 @@ words[7] = {
   },
   {
     "file", makes = "history",
-    doc = "Two columns, time and value, separated by semicolons, tabs, commas or blanks, linear in between; beyond its ends the first and the last value "
-      .. "hold. Decimals take a point, or a comma where commas do not separate columns. Its titles may give units, `time [ms], acceleration (g)`, or a line below "
-      .. "them; without, times are seconds, and an acceleration needs `unit`.",
+    doc = "Two columns, time and value, separated by semicolons, tabs, commas or blanks, linear in between; constant beyond its ends. Decimals have a "
+      .. "point, or a comma if commas do not separate columns. Its titles may give units, `time [ms], acceleration (g)`, or a line below them; without units, times are in seconds, and an acceleration requires `unit`.",
     arguments = {
       { "file", type = "file", required = true, doc = "path, relative to the deck's folder" },
-      { "column", type = "text", doc = "title of the values' column, without its unit, in a file of several; the first column is the time" },
-      { "unit", type = "number", range = { 1e-12, 1e12 }, doc = "what one of the file's values is in SI, where the file does not say: `unit = g0`, `unit = kN`, `unit = 1`" },
+      { "column", type = "text", doc = "title of the column of values, without its unit, if the file has several; the first column is the time" },
+      { "unit", type = "number", range = { 1e-12, 1e12 }, doc = "SI value of one unit of the file, if the file does not state it: `unit = g0`, `unit = kN`, `unit = 1`" },
     },
   },
 }
 
 local loads = { "loads", type = "objects", kinds = { "load" }, default = {}, doc = "what acts" }
 local step_supports = { "supports", type = "objects", kinds = { "support" },
-                        doc = "where given, replaces the problem's in this step: what is taken away lets go" }
+                        doc = "replaces the problem's in this step: an omitted support is released" }
 local after = { "after", type = "object", kinds = { "step" },
                 doc = "the step before; left out: from the undeformed state" }
 
 words[8] = {
-  name = "step", doc = "What is computed, one after the other.",
+  name = "step", doc = "The stages of a computation.",
   {
     "static", makes = "step", doc = "Equilibrium, in increments.",
     arguments = {
@@ -546,11 +544,11 @@ words[8] = {
 }
 
 words[9] = {
-  name = "solver", doc = "How it is computed. Every parameter has a good default, so most decks write none.",
+  name = "solver", doc = "Solution methods. Every parameter has a good default, so most decks give none.",
   {
     "latin", makes = "solver", doc = "The LATIN method.",
     arguments = {
-      { "tolerance", type = "number", range = { 1e-14, 0.1 }, default = 1e-6, doc = "indicator at which a dynamic step stops" },
+      { "tolerance", type = "number", range = { 1e-14, 0.1 }, default = 1e-6, doc = "indicator at which a time step has converged" },
       { "static_tolerance", type = "number", range = { 1e-14, 0.1 }, default = 1e-8, doc = "the same in static steps" },
       { "window", type = "integer", range = { 1, 1e9 }, default = 1, or_word = "whole",
         doc = "time steps iterated together; \"whole\": the whole step" },
@@ -561,29 +559,29 @@ words[9] = {
       { "max_iterations", type = "integer", range = { 1, 1000000 }, default_doc = "200, in static steps 400, and on to ten times as many while they help",
         doc = "of an increment or a window" },
       { "numerical_damping", type = "number", range = { 0, 1 }, default = 0, doc = "of the time scheme; 0: none" },
-      { "push_out", type = "number", range = { 0, 1 }, default = 0, doc = "part of a penetration undone in a time step" },
+      { "push_out", type = "number", range = { 0, 1 }, default = 0, doc = "fraction of a penetration removed per time step" },
       { "search_direction", type = "number", range = { 1e-6, 1e6 }, default = 1, doc = "multiplies every search direction" },
       { "mass", type = "choice", choices = { "automatic", "tuned", "lumped" }, default = "automatic",
-        doc = "of the cells: tuned to the time scheme so that waves keep their speed, or all at the nodes; \"automatic\": tuned in explicit substructures of "
-          .. "hexahedra whose waves lumped mass would keep back, else lumped" },
+        doc = "of the cells: tuned to the time scheme so that waves keep their speed, or lumped at the nodes; \"automatic\": tuned in explicit substructures of "
+          .. "hexahedra in which lumped mass would delay waves, else lumped" },
       { "massless_contact", type = "boolean", default = false,
-        doc = "nodes in contact give their mass to those behind them: an impact then costs no energy" },
+        doc = "moves the mass of contact nodes to those behind them: impacts then dissipate no energy" },
       { "integration", type = "choice", choices = { "implicit", "automatic", "explicit" }, default = "automatic",
-        doc = "of substructures in dynamic steps; \"automatic\": explicit where that costs less; \"explicit\": wherever it is possible" },
+        doc = "of substructures in dynamic steps; \"automatic\": explicit where cheaper; \"explicit\": wherever possible" },
       { "precision", type = "choice", choices = { "single", "double" }, default_doc = "single in substructures of more than 1000 unknowns, unless tolerance is below 1e-7 or a window has more than 5 time steps",
-        doc = "of the stored factors in dynamic steps; arithmetic is in double precision either way. Implicit parts cost less in single, which integration = \"automatic\" reckons with" },
+        doc = "of the stored factors in dynamic steps; arithmetic is always in double precision. Implicit parts cost less in single, which integration = \"automatic\" takes into account" },
       { "pieces", type = "integer", range = { 1, 100000 }, default = "auto", or_word = "auto",
-        doc = "into how many bonded pieces each substructure is cut; 1: none is; \"auto\": large ones are, and for several MPI ranks what would leave them uneven" },
+        doc = "number of bonded pieces of each substructure; 1: none is cut; \"auto\": large ones are, and others to balance MPI load" },
       { "history_memory", type = "number", range = { 0, 1e6 }, default = 512,
-        doc = "MB of interface fields kept in memory for `start_from`; what is more goes to a temporary file" },
+        doc = "MB of interface fields kept in memory for `start_from`; the rest goes to a temporary file" },
       { "spectra", type = "number", range = { 1e-4, 20 }, default_doc = "one run at `tolerance`",
-        doc = "dB: the run is computed in passes, from a tolerance of 1e-3 on ten times tighter each, until no output.srs moves by as much or "
-          .. "`tolerance` is reached" },
+        doc = "dB: the run is computed in passes, each ten times tighter, from a tolerance of 1e-3, until no output.srs changes by this much "
+          .. "or `tolerance` is reached" },
       { "static_steps", type = "choice", choices = { "automatic", "assembled", "iterated" }, default = "automatic",
-        doc = "assembled: all parts in one system, factorised anew as contact changes; a few tens of iterations however parts hang on each other. "
-          .. "iterated: part by part, as in dynamic steps. automatic: assembled where there are 10 parts or more, in steps of at most 5 increments, "
+        doc = "assembled: all parts in one system, refactorised as contact changes; a few tens of iterations for any connectivity. iterated: part "
+          .. "by part, as in dynamic steps. automatic: assembled where there are 10 parts or more, in steps of at most 5 increments, "
           .. "and where an increment part by part has not converged in 400 iterations" },
-      { "plain", type = "boolean", default = false, doc = "iterates with full solves, to check the condensed ones" },
+      { "plain", type = "boolean", default = false, doc = "iterates with full solves, to verify the condensed ones" },
     },
   },
   {
@@ -591,24 +589,24 @@ words[9] = {
     doc = "The whole assembly in one implicit system, contact and plasticity by Newton's method: a check of LATIN. Dense in the "
       .. "unknowns of contact, plastic and shortened interfaces, for which there is a limit.",
     arguments = {
-      { "tolerance", type = "number", range = { 1e-14, 0.1 }, default = 1e-10, doc = "relative residual at which an increment stops" },
-      { "max_iterations", type = "integer", range = { 1, 1000000 }, default = 50, doc = "of one increment; a static one is approached by up to twice as many before" },
+      { "tolerance", type = "number", range = { 1e-14, 0.1 }, default = 1e-10, doc = "relative residual at which an increment has converged" },
+      { "max_iterations", type = "integer", range = { 1, 1000000 }, default = 50, doc = "of one increment; a static one may use up to twice as many before" },
       { "numerical_damping", type = "number", range = { 0, 1 }, default = 0, doc = "of the time scheme; 0: none" },
       { "mass", type = "choice", choices = { "tuned", "lumped" }, default = "lumped",
         doc = "of the cells: tuned to dt so that waves keep their speed, or all at the nodes" },
-      { "plain", type = "boolean", default = false, doc = "factorises each tangent of the interfaces, to check those that are solved with the factor of another" },
+      { "plain", type = "boolean", default = false, doc = "factorises every interface tangent, to verify those solved with another's factor" },
     },
   },
 }
 
 table.insert(words[9], {
   "explicit", makes = "solver",
-  doc = "The classic explicit code: central differences with lumped mass and penalty contact, in as many equal substeps of each `dt` "
-    .. "as stability asks for. A rival of LATIN and an independent check. Static steps are computed as by solver.monolithic.",
+  doc = "The classic explicit code: central differences with lumped mass and penalty contact, in as many equal substeps per `dt` as "
+    .. "stability requires. A rival of LATIN and an independent check. Static steps are computed as by solver.monolithic.",
   arguments = {
-    { "safety", type = "number", range = { 0.01, 2 }, default = 0.9, doc = "substep, of the critical one; above 1 it is unstable" },
+    { "safety", type = "number", range = { 0.01, 2 }, default = 0.9, doc = "fraction of the critical substep; unstable above 1" },
     { "penalty", type = "number", range = { 1e-4, 100 }, default = 0.1,
-      doc = "stiffness of contact, of that of the layer of elements behind it; plastic and releasable interfaces: 1 at least" },
+      doc = "contact stiffness relative to the layer of elements behind it; plastic and releasable interfaces: at least 1" },
     { "integration", type = "choice", choices = { "one_point", "full" }, default = "one_point",
       doc = "of hexahedra; full: the elements of the other solvers" },
     { "hourglass", type = "number", range = { 0, 1 }, default = 0.1, doc = "stiffness against hourglass modes, one_point only" },
@@ -620,14 +618,14 @@ table.insert(words[9], {
 local function spectrum(arguments, per_octave)
   for _, argument in ipairs{
     { "q_factor", type = "number", range = { 0.5, 1000 }, default_doc = "10", doc = "amplification at resonance, above 0.5" },
-    { "damping", type = "number", range = { 0, 0.99 }, doc = "damping ratio, 1/(2 q_factor), in its place" },
+    { "damping", type = "number", range = { 0, 0.99 }, doc = "damping ratio, 1/(2 q_factor), instead" },
     { "quantity", type = "choice", default = "absolute_acceleration",
-      choices = { "absolute_acceleration", "relative_displacement", "pseudo_velocity" }, doc = "what of the oscillator" },
+      choices = { "absolute_acceleration", "relative_displacement", "pseudo_velocity" }, doc = "response of the oscillator" },
     { "from", type = "number", unit = "Hz", range = { 0.01, 1e8 }, default = 100, doc = "first frequency" },
     { "to", type = "number", unit = "Hz", range = { 0.01, 1e8 }, default = 10000, doc = "highest frequency, the last one: from, from 2^(1/per_octave), ..., to" },
     { "per_octave", type = "integer", range = { 1, 1000 }, default = per_octave, doc = "frequencies per octave" },
     { "taper", type = "number", unit = "s", range = { 0, 1e4 }, default = 0,
-      doc = "before the end of the dynamic steps, over which half a cosine takes the acceleration to zero: a record that ends in motion has no step there" },
+      doc = "length of a half-cosine fade to zero at the end of the dynamic steps: avoids a velocity step at the end of the record" },
   } do
     table.insert(arguments, argument)
   end
@@ -638,7 +636,7 @@ local quantities = { "displacement", "velocity", "acceleration", "stress", "von_
 local fields = { "displacement", "velocity", "stress", "von_mises", "stress_error" }
 
 words[10] = {
-  name = "output", doc = "What is kept: files in the output directory, and data for the deck (`result[output]`).",
+  name = "output", doc = "Requested results: files in the output directory, and data for the deck (`result[output]`).",
   {
     "vtk", makes = "output", doc = "Frames for ParaView.",
     arguments = {
@@ -648,17 +646,17 @@ words[10] = {
   },
   {
     "history", makes = "output",
-    doc = "A quantity against time, as the mean over a face or a region. Columns: the quantity where it is one number or has a "
+    doc = "A quantity against time, as the mean over a face or a region. Columns: the quantity if it is one number or has a "
       .. "`direction`, else x, y, z (of stress xx, yy, zz, xy, yz, zx).",
     arguments = {
       name_of "output",
-      on({ "face", "region", "interface", "support" }, "where; `pressure` is of an interface or a wall"),
+      on({ "face", "region", "interface", "support" }, "where; `pressure` requires an interface or a wall"),
       { "quantity", type = "choice", choices = quantities, required = true, doc = "what" },
       { "direction", type = "vector", doc = "its component along this direction; its length does not matter" },
     },
   },
   {
-    "resultant", makes = "output", doc = "The force through an interface or a support, of a list their sum (x, y, z: on the first part that each names). Where two supports hold a node along one direction, the first listed has its reaction. Columns: normal, shear, x, y, z (N).",
+    "resultant", makes = "output", doc = "The force through an interface or a support, of a list their sum (x, y, z: on the first part that each names). If two supports hold a node along one direction, the first listed gets its reaction. Columns: normal, shear, x, y, z (N).",
     arguments = { name_of "output", on({ "interface", "support" }, "what transmits the force") },
   },
   {
@@ -676,10 +674,10 @@ words[10] = {
     arguments = spectrum({
       name_of "output",
       { "of", type = "object", kinds = { "output.history" }, required = true, doc = "an acceleration with a direction" },
-      { "specification", type = "specification", unit = "m/s^2", doc = "what the maximax is held against in report.html: a CSV of frequency "
-        .. "(Hz) and level (m/s^2; other units as its header says in brackets, [g] or (g)), or { {100, 20*g0}, {1000, 500*g0} }; log-log in between; judged from 1/record length to half the sampling rate" },
+      { "specification", type = "specification", unit = "m/s^2", doc = "specification for the maximax in report.html: a CSV of frequency "
+        .. "(Hz) and level (m/s^2; or units in brackets in its header, [g] or (g)), or { {100, 20*g0}, {1000, 500*g0} }; log-log in between; judged from 1/record length to half the sampling rate" },
       { "judge", type = "choice", choices = { "maximax", "primary" }, default = "maximax",
-        doc = "the column that is held against the specification and whose band is estimated; primary: the response during the record alone" },
+        doc = "the column compared with the specification, whose band is estimated; primary: the response during the record only" },
     }, 12),
   },
   {
@@ -703,56 +701,56 @@ words[10] = {
       { "leaving", type = "object", kinds = { "output.history" }, required = true, doc = "acceleration behind it" },
       { "bands", type = "integer", range = { 1, 24 }, default = 1, doc = "bands per octave: 1, or 3 for thirds" },
       { "joints", type = "integer", range = { 1, 100 }, default = 1,
-        doc = "bolted joints on the way: the rule of thumb it is compared with is -3 dB each" },
+        doc = "bolted joints on the path, for comparison with the rule of thumb of -3 dB each" },
     }, 12),
   },
   {
     "joint", makes = "output",
-    doc = "All about an interface: normal, shear (N), opening, slip, plastic_opening (m), open_area, stick_area, slip_area "
+    doc = "History of an interface: normal, shear (N), opening, slip, plastic_opening (m), open_area, stick_area, slip_area "
       .. "(m^2), friction_work, plastic_work, damping_work, stored_energy (J).",
     arguments = { name_of "output", on({ "interface", "support.wall" }, "which") },
   },
   {
     "footprint", makes = "output",
-    doc = "Where an interface presses. Columns: pressure (largest, Pa), area (that presses, m^2), x, y, z (centre of pressure, m), spread_x, spread_y, "
+    doc = "Contact footprint of an interface. Columns: pressure (largest, Pa), area (in contact, m^2), x, y, z (centre of pressure, m), spread_x, spread_y, "
       .. "spread_z (root mean square distance of the normal force from there, m), shear_x, shear_y, shear_z (the same of the tangential force).",
     arguments = {
       name_of "output",
       on({ "interface", "support.wall" }, "which"),
-      { "about", type = "vector", unit = "m", range = { -1000, 1000 }, default_doc = "the centre of pressure", doc = "from where the distances are; in a part cut by planes of symmetry, a point of those" },
+      { "about", type = "vector", unit = "m", range = { -1000, 1000 }, default_doc = "the centre of pressure", doc = "origin of the distances; in a symmetric model, a point on the planes of symmetry" },
       { "direction", type = "vector", default_doc = "the modulus", doc = "of the tangential force; its length does not matter" },
     },
   },
   {
     "loop", makes = "output",
-    doc = "A joint condensed: force against displacement along a direction, and what a system model takes of it: cycles with their loss "
-      .. "and stiffness, the exponent of the loss, and the curve of first loading with the sliders that have it. Columns: displacement (m), "
+    doc = "A condensed joint: force against displacement along a direction, and data for a system model: cycles with their loss and "
+      .. "stiffness, the exponent of the loss, and the curve of first loading with equivalent sliders. Columns: displacement (m), "
       .. "force (N).",
     arguments = {
       name_of "output",
       on({ "interface", "support" }, "what transmits the force: interfaces, or supports"),
       { "direction", type = "vector", required = true, doc = "along which; its length does not matter" },
       { "between", type = "objects", kinds = { "face", "region" }, at_least = 1, or_single = true,
-        doc = "two places, on side 1 and on side 2: the displacement is the second's against the first's, flexibility of the parts included; one: "
-          .. "against the ground; left out: of the joint's sides themselves" },
+        doc = "two places, on side 1 and on side 2: the displacement of the second relative to the first, including flexibility of the parts; one "
+          .. "place: relative to the ground; left out: relative displacement of the joint's sides" },
       { "after", type = "object", kinds = { "step" }, doc = "the loading begins at the end of this step (the tightened joint); left out: at the start" },
       { "steps", type = "objects", kinds = { "step" }, at_least = 1, or_single = true, default_doc = "those after `after`, as long as they are of one kind",
-        doc = "the steps in which it is loaded and its cycles are closed, one after the other" },
+        doc = "the consecutive steps in which it is loaded and its cycles are closed" },
     },
   },
   {
     "superelement", makes = "output",
     doc = "The assembly condensed about its tightened state: mass and stiffness on the motions of some faces and on modes (Craig and Bampton), "
-      .. "as Matrix Market files, with a page that says what each row is. Columns: frequency (Hz), damping (ratio) of its own modes.",
+      .. "as Matrix Market files, with a page that describes each row. Columns: frequency (Hz), damping (ratio) of its own modes.",
     arguments = {
       name_of "output",
       on({ "face", "region" }, "where something is to be attached, pushed or measured"),
-      { "up_to", type = "number", unit = "Hz", range = { 0.01, 1e8 }, doc = "frequency up to which it is to be used: modes with the faces held are kept up to twice that" },
-      { "modes", type = "integer", range = { 1, 2000 }, doc = "or how many modes are kept" },
+      { "up_to", type = "number", unit = "Hz", range = { 0.01, 1e8 }, doc = "highest frequency of use: fixed-interface modes are kept up to twice that" },
+      { "modes", type = "integer", range = { 1, 2000 }, doc = "number of modes to keep instead" },
       { "motion", type = "choice", choices = { "mean", "rigid", "nodes" }, default = "mean",
         doc = "rows of a face: its six mean motions, the face free to deform; its six motions as a rigid body; or three per node" },
       { "sliding", type = "choice", choices = { "tied", "free" }, default = "tied",
-        doc = "contact points at the limit of their friction: tied, as the first reversal makes them, or free along their tangents" },
+        doc = "contact points at their friction limit: tied, as after the first reversal, or free along their tangents" },
       { "after", type = "object", kinds = { "step" }, default_doc = "the last static step", doc = "about the state at the end of this step, with its supports" },
     },
     one_of = { "up_to", "modes" },
@@ -765,9 +763,9 @@ words[10] = {
 }
 
 words[11] = {
-  name = "problem", doc = "What is in. Nothing acts by having been declared: only what a problem lists is computed.",
+  name = "problem", doc = "What is computed. Only what a problem lists takes part.",
   call = {
-    makes = "problem", doc = "An assembly, its steps and what is asked for.",
+    makes = "problem", doc = "An assembly, its steps and its outputs.",
     arguments = {
       name_of "problem",
       { "substructures", type = "objects", kinds = { "substructure" }, at_least = 1, required = true, doc = "parts" },
@@ -788,7 +786,7 @@ local methods = {
   },
   {
     kind = "assembly", "part", write = "assembly:part \"name\"", makes = "mesh",
-    doc = "One part of a CAD assembly: by its name, its product or its instance, where that is one part's alone.",
+    doc = "One part of a CAD assembly: by its name, its product or its instance, if that is unique.",
     argument = { "name", type = "text", doc = "the part's name" },
   },
   {
@@ -802,7 +800,7 @@ local methods = {
       .. "part's boundary.",
     argument = { "group", type = "text", doc = "the group's name" },
     arguments = {
-      { "normal", type = "vector", doc = "in place of a name, `part:face{ normal = { 0, 0, 1 }, at = 18*mm }`: facets whose outward normal is "
+      { "normal", type = "vector", doc = "instead of a name, `part:face{ normal = { 0, 0, 1 }, at = 18*mm }`: facets whose outward normal is "
         .. "this, within two degrees" },
       { "at", type = "number", unit = "m", range = { -1000, 1000 }, doc = "where along the normal: all nodes of the facet lie in that plane" },
       { "cylinder", type = "boolean", default = false, doc = "facets on a cylinder" },
@@ -815,31 +813,31 @@ local methods = {
   },
   {
     kind = "substructure", "where", write = "part:where(function(x, y, z) return boolean end)", makes = "region",
-    doc = "The nodes at which the function answers true; near(a, b) compares coordinates with a tolerance.",
+    doc = "The nodes at which the function returns true; near(a, b) compares coordinates with a tolerance.",
     argument = { "function", type = "function", doc = "function(x, y, z), in metres" },
   },
   {
     kind = "history", "shifted", write = "signal:shifted(t)", makes = "history",
-    doc = "The same later: what it was at 0 it is at t; before, it has the value that it had before 0.",
+    doc = "Delayed by t; before t it has the value that it had before 0.",
     argument = { "t", type = "number", unit = "s", range = { -100, 100 }, doc = "how much later; negative: earlier" },
   },
   {
     kind = "history", "scaled", write = "signal:scaled(t)", makes = "history",
-    doc = "The same stretched in time, t times as long: `signal:scaled(1e-3)` where a file's times without a unit are milliseconds. Its values are scaled by "
+    doc = "Stretched in time, t times as long: `signal:scaled(1e-3)` for a file in milliseconds without a unit. Its values are scaled by "
       .. "`2*signal`.",
     argument = { "t", type = "number", range = { 1e-12, 1e12 }, doc = "times as long" },
   },
   {
     kind = "problem", "run", write = "problem:run{}", makes = "result",
-    doc = "Computes, writes out/<problem>/<case>/ and answers the result.",
+    doc = "Computes, writes out/<problem>/<case>/ and returns the result.",
     arguments = {
       { "case", type = "name", default = "base", doc = "name of this case, for its folder" },
       { "start_from", type = "object", kinds = { "result" }, doc = "result of an earlier case: the iteration of each "
-        .. "increment starts from its interface fields; the answer stays the same to the tolerance" },
+        .. "increment starts from its interface fields; the answer is the same within the tolerance" },
       { "at", type = "settings", doc = "parameters of this case by name, SI, as { mu = 0.3 }: with several cases of a problem "
-        .. "out/<problem>/study.csv and study.svg show what they come to" },
-      { "check_cold", type = "boolean", default = false, doc = "runs the case once more without `start_from`, and says how many "
-        .. "iterations that took and how far the answers are apart" },
+        .. "out/<problem>/study.csv and study.svg show the results" },
+      { "check_cold", type = "boolean", default = false, doc = "runs the case again without `start_from`, and reports its "
+        .. "iterations and the difference of the answers" },
     },
   },
 }
@@ -869,8 +867,8 @@ local fields = {
     { "parts", kind = "substructure", is_list = true, doc = "head, nut and washers: for `substructures`" },
     { "interfaces", kind = "interface", is_list = true, doc = "the shank's and, with washers, theirs against head and nut: for `interfaces`" },
     { "shank", kind = "interface", doc = "across the middle of the shank: for load.preload and load.shortening" },
-    { "upper", kind = "face", doc = "what bears on the upper side of what it clamps: the washer's lower face, or the head's" },
-    { "lower", kind = "face", doc = "what bears on the lower side" },
+    { "upper", kind = "face", doc = "bears on the upper clamped face: the washer's lower face, or the head's" },
+    { "lower", kind = "face", doc = "bears on the lower clamped face" },
     { "head", kind = "substructure", doc = "the head with half of the shank" },
     { "nut", kind = "substructure", doc = "the nut with the other half" },
     { "washers", kind = "substructure", is_list = true, doc = "under the head, under the nut" },
