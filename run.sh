@@ -33,6 +33,7 @@ test_packages=(
 )
 fuzz_packages=(clang libclang-rt-dev llvm)    # of ./run.sh fuzz and ./run.sh sanitize threads
 report_packages=(python3 python3-numpy python3-matplotlib)  # of ./run.sh report and ./run.sh bench
+manual_packages=(mkdocs mkdocs-material)                    # of ./run.sh manual
 
 usage() {
   cat <<'END'
@@ -48,6 +49,7 @@ usage() {
                           scenes scaling ranks those that are named; --quick: small sizes. Full: 25 minutes on a machine left alone.
                           Elsewhere, --up-to UNKNOWNS --into DIR; put beside as manual/performance/others/NAME, --page shows it
 ./run.sh report [...]     run all verification, rewrite manual/verification.md and its figures (--quick, --only CASE)
+./run.sh manual           install what is missing, build the manual as a site with search in build/manual
 ./run.sh build            install what is missing, build
 ./run.sh install          install what is missing, no more; no package is ever removed
 ./run.sh run DECK [...]   build if needed, then: dygita run DECK [...]    (--set NAME=VALUE, --out DIR, --threads N)
@@ -78,6 +80,7 @@ missing_packages() {
 
 # Is VTK installed for development, or are its headers unpacked here and the libraries of that version there?
 has_vtk() {
+  [[ -n "$vtk_package" ]] || return 0 # not wanted
   is_installed "$vtk_package" && return
   local headers
   headers="$(compgen -G "$vtk_root/usr/include/vtk-9.*")" || return
@@ -237,6 +240,12 @@ run_report() {
   (cd "$root" && "$python" manual/verification/report.py "$@")
 }
 
+build_manual() {
+  say "The manual"
+  (cd "$root" && mkdocs build --strict --clean) || fail "mkdocs failed; its own message is above"
+  say "Open $root/build/manual/index.html (the search needs a server: python3 -m http.server --directory build/manual)"
+}
+
 run_example() {
   local deck=decks/bolted_flanges.lua results=out/bolted_flanges/base status=0 file
   say "Running $deck"
@@ -297,6 +306,12 @@ main() {
       build_engine
       "run_$command" "$@"
       ;;
+    manual)
+      (($# == 0)) || fail "'manual' takes no argument, got: $*" "./run.sh help"
+      packages=("${manual_packages[@]}") vtk_package=
+      install_packages
+      build_manual
+      ;;
     run)
       (($# > 0)) || fail "'run' needs a deck: ./run.sh run DECK [--set NAME=VALUE ...]"
       [[ -f "$1" ]] || fail "there is no deck '$1' in $PWD"
@@ -305,7 +320,7 @@ main() {
       say "Running $1"
       exec "$build/dygita" run "$@"
       ;;
-    *) fail "unknown command '$command'; known: bench, build, fuzz, help, install, random, report, run, sanitize, test" "./run.sh help" ;;
+    *) fail "unknown command '$command'; known: bench, build, fuzz, help, install, manual, random, report, run, sanitize, test" "./run.sh help" ;;
   esac
 }
 

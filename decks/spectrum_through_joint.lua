@@ -18,7 +18,7 @@
 --            sliding (-6.0 dB along x; -6.1 at size = 3 mm and with cells graded to the edges): -9 dB below 8 kHz, next to nothing at 23 kHz. The bolt keeps 30.6 of
 --            31.0 kN, which cells of one size, quick here, give 4.5 % too high (graded ones 29.5 of 30.0). The rule of thumb, -3 dB a joint, is neither: it is a mean over joints and directions. With mu = 0.05
 --            -20.3 dB along x, with the bolt tightened to 2.6 kN only -8.3 dB.
--- Read next  manual/user-guide.md "Spectra"; condensed_joint.lua turns such a joint into a table for a system model
+-- Read next  manual/howto/spectra.md; condensed_joint.lua turns such a joint into a table for a system model
 
 local p = param{ mu = 0.3, tighten = 0.06*mm, size = 4*mm, dt = 1*us, duration = 1000*us, push = 100*MPa, shear = 40*MPa }
 

@@ -16,7 +16,7 @@
 --            at n = 4 (0.87 mJ at n = 8, 0.84 at n = 12 for mu = 0.15, limit 0.81). Each case
 --            starts from the interface fields of the case before: 4259 iterations for the ten, 9833 from scratch
 --            (--set cold=1), 57 % saved, with the same answers (3e-7 apart at most)
--- Read next  manual/user-guide.md "Studies": when starting from another case pays, and when it does not
+-- Read next  manual/howto/studies.md: when starting from another case pays, and when it does not
 
 local p = param{ first = 0.15, by = 0.03, cases = 10, increments = 20, cold = 0, n = 4, shear = 3*kN }
 

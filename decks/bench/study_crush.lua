@@ -10,7 +10,7 @@
 --
 -- Run        dygita run decks/bench/study_crush.lua --set by=0.01          --set cold=1     (every case from scratch)
 -- See        the last lines: iterations of all cases
--- Expect     the figures of manual/user-guide.md "Studies"
+-- Expect     the figures of manual/howto/studies.md
 -- Read next  decks/study_friction.lua, where more is saved
 
 local p = param{ first = 0.2, by = 0.05, cases = 10, cold = 0, n = 2 }

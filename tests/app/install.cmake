@@ -10,7 +10,7 @@ endif()
 foreach(file bin/dygita share/man/man1/dygita.1 share/bash-completion/completions/dygita ${ZSH_COMPLETIONS}/_dygita
     share/fish/vendor_completions.d/dygita.fish share/dygita/editor/dygita.lua share/dygita/decks/crush.lua share/dygita/decks/verification/patch.lua
     share/dygita/meshes share/doc/dygita/README.md share/doc/dygita/LICENSE share/doc/dygita/copyright
-    share/doc/dygita/CHANGELOG.md share/doc/dygita/CITATION.cff share/doc/dygita/manual/user-guide.md
+    share/doc/dygita/CHANGELOG.md share/doc/dygita/CITATION.cff share/doc/dygita/manual/index.md
     share/doc/dygita/manual/pictures/bolted_flanges.png share/doc/dygita/manual/bar.lua)
   if(NOT EXISTS ${prefix}/${file})
     message(SEND_ERROR "not installed: ${file}")

@@ -1,0 +1,20 @@
+# The manual builds as a site without a warning: cmake -DSOURCE_DIR=folder -DSITE=folder -DMKDOCS=program -P manual_site.cmake
+
+if(NOT MKDOCS)
+  message("SKIPPED: no mkdocs here (Debian and Ubuntu: apt-get install mkdocs mkdocs-material)")
+  return()
+endif()
+execute_process(COMMAND ${MKDOCS} build --strict --clean --config-file ${SOURCE_DIR}/mkdocs.yml --site-dir ${SITE}
+  RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(output MATCHES "Unrecognised theme")
+  message("SKIPPED: mkdocs has no theme 'material' here (Debian and Ubuntu: apt-get install mkdocs-material)")
+  return()
+endif()
+if(NOT code EQUAL 0)
+  message(FATAL_ERROR "mkdocs: exit code ${code}\n${output}")
+endif()
+foreach(file index.html search/search_index.json tutorial/cad-to-verdict.html glossary.html)
+  if(NOT EXISTS ${SITE}/${file})
+    message(SEND_ERROR "the site has no ${file}")
+  endif()
+endforeach()
