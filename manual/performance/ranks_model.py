@@ -258,7 +258,7 @@ def write_rows(path, rows):
 
 def windows_table(rows):
     """Of each scene: iterations, messages a time step and the latency from which the window pays."""
-    lines = ["| dt | window | iterations | messages one after the other a time step | pays from a latency of |", "| --- | --- | --- | --- | --- |"]
+    lines = ["| dt | window | iterations | messages in sequence per time step | pays above a latency of |", "| --- | --- | --- | --- | --- |"]
     for row in rows:
         one = next(r for r in rows if r["cfl"] == row["cfl"] and r["window"] == 1)
         latency = break_even(one["s of an iteration"], one["s around"], one["iterations"], row["iterations"], row["window"]) if row["window"] > 1 else None
