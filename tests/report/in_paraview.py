@@ -24,12 +24,17 @@ check(made["TIME"] > 0, "the instant shown is not in the motion")
 check(abs(GetAnimationScene().AnimationTime - made["TIME"]) < 1e-15, "ParaView stands at another instant")
 check(warp.ScaleFactor > 1 and interfaces.ScaleFactor == warp.ScaleFactor, "nothing is magnified")
 check(list(clip.ClipType.Origin) == made["CENTRE"], "the clip is not at the middle")
-points = GetColorTransferFunction("von_mises").RGBPoints
-check(points[0] == 0 and abs(points[-4] - made["TOP"]) < 1e-6 * made["TOP"], "the colours do not span the stresses")
+points = GetColorTransferFunction("von Mises stress (MPa)").RGBPoints
+values = made["values_of"](made["shown"], "von Mises stress (MPa)")
+check(len(values) > 50 and abs(values[-1] / (1e-6 * made["TOP"]) - 1) < 0.5, "the stresses are not in MPa: %g" % values[-1])
+check(points[0] == 0 and points[-4] == made["top"], "the colours do not begin at zero or end elsewhere")
+check(sum(v > 0.2 * points[-4] for v in values) > 0.4 * len(values), "most of the assembly has the lowest colours")
+names = GetColorTransferFunction("vtkBlockColors").Annotations
+check(list(names) == ["0", "low", "1", "high"], "the parts are not named: %s" % names)
 warp.UpdatePipeline(made["TIME"])
 bounds = warp.GetDataInformation().GetBounds()
 check(all(bounds[2 * d] <= made["CENTRE"][d] <= bounds[2 * d + 1] for d in range(3)), "the middle is outside")
-shown = GetDisplayProperties(clip, made["view"]).Visibility + GetDisplayProperties(warp, made["view"]).Visibility
+shown = GetDisplayProperties(clip, made["view"]).Visibility + GetDisplayProperties(made["shown"], made["view"]).Visibility
 check(shown == 1, "the whole and the clipped assembly are shown, or neither")
 
 reader = vtkPNGReader()
