@@ -756,6 +756,21 @@ words[10] = {
     one_of = { "up_to", "modes" },
   },
   {
+    "modes", makes = "output",
+    doc = "Natural modes of the assembly about the end of a static step: ties closed, contacts as they stand there, supports of that step; without a static "
+      .. "step, of the unloaded assembly. Motions that nothing resists come first, at 0 Hz. Shapes for ParaView: <name>.pvd, whose time is the frequency (Hz). Columns: frequency (Hz), number, damping (ratio), generalised_mass "
+      .. "(kg, of the shape whose largest displacement is one), participation_x, _y, _z, _about_x, _about_y, _about_z (about the axes through the centre "
+      .. "of mass, m), effective_x ... effective_about_z (effective masses, kg, kg m^2).",
+    arguments = {
+      name_of "output",
+      { "n", type = "integer", range = { 1, 2000 }, default_doc = "10", doc = "how many, those at 0 Hz among them" },
+      { "up_to", type = "number", unit = "Hz", range = { 0.01, 1e8 }, doc = "or all up to this frequency" },
+      { "sliding", type = "choice", choices = { "tied", "free" }, default = "tied",
+        doc = "contact points at the limit of their friction: tied, as the first reversal makes them, or free along their tangents" },
+      { "after", type = "object", kinds = { "step" }, default_doc = "the last static step", doc = "about the state at the end of this step, with its supports" },
+    },
+  },
+  {
     "energy", makes = "output",
     doc = "Balance of the whole. Columns: kinetic, strain, loads, friction, plastic, damping, scheme, balance, stored (J; in interfaces).",
     arguments = {},

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "base/parallel.hpp"
 #include "drawing/cut_plane.hpp"
@@ -117,6 +118,41 @@ Json assembly(const Problem& problem, const Scenes& scenes) {
   return pictures;
 }
 
+// The first modes that are no motions at 0 Hz, of each output that has shapes of the parts.
+Json shapes(const Problem& problem, const RunResult& result) {
+  constexpr size_t most_modes = 6;
+  constexpr double drawn_as = 0.08;  // of the view's width, the largest displacement
+  View view = view_of(problem.substructures);
+  view.is_cut = false;
+  std::vector<std::tuple<const Output*, size_t, const Frame*>> wanted;
+  for (const OutputPtr& output : problem.outputs) {
+    const std::vector<Frame>& frames = result.findings_of(*output).frames;
+    size_t n = 0;
+    for (size_t i = 0; i < frames.size() && n < most_modes; ++i) {
+      if (frames[i].parts.empty() || frames[i].time <= 0.0) continue;
+      wanted.emplace_back(output.get(), i, &frames[i]);
+      ++n;
+    }
+  }
+  std::vector<Json> pictures(wanted.size());
+  parallel_for(static_cast<int>(wanted.size()), [&](int k) {
+    const auto& [output, i, frame] = wanted[static_cast<size_t>(k)];
+    std::vector<Points> displacement;
+    std::vector<Vec> moved;
+    for (const PartFrame& part : frame->parts) {
+      displacement.push_back(part.displacement);
+      moved.push_back(part.displacement.colwise().norm().transpose());
+    }
+    Json picture = json_of(make_picture(problem.substructures, view, displacement, moved, drawn_as * view.size));
+    picture["output"] = output->name;
+    picture["mode"] = i + 1;
+    picture["frequency"] = frame->time;
+    picture["missed"] = frame->missed;
+    pictures[static_cast<size_t>(k)] = std::move(picture);
+  });
+  return pictures;
+}
+
 Json values(const std::vector<float>& of_points, const JointMap& map) {
   Json list = Json::array();
   for (const std::vector<int>& points : map.points) list.push_back(rounded(mean_of_cell(of_points, points)));
@@ -155,10 +191,12 @@ Json joint(const JointScenes& joint) {
 
 }  // namespace
 
-std::string scene_text(const Problem& problem, const Scenes& scenes) {
+std::string scene_text(const Problem& problem, const RunResult& result) {
+  const Scenes& scenes = *result.scenes;
   Json joints = Json::array();
   for (const JointScenes& scene : scenes.joints) joints.push_back(joint(scene));
-  const Json json = {{"assembly", assembly(problem, scenes)}, {"joints", std::move(joints)}};
+  Json json = {{"assembly", assembly(problem, scenes)}, {"joints", std::move(joints)}};
+  if (Json of_modes = shapes(problem, result); !of_modes.empty()) json["shapes"] = std::move(of_modes);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

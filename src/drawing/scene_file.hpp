@@ -5,12 +5,13 @@
 
 #include "files/files.hpp"
 #include "model/model.hpp"
+#include "result/result.hpp"
 #include "result/scenes.hpp"
 
 namespace dygita {
 
-// Pictures of the assembly and maps of the joints (picture.hpp, joint_map.hpp) as JSON. Lengths of pictures are tenths
-// of a pixel.
-std::string scene_text(const Problem& problem, const Scenes& scenes);
+// Pictures of the assembly and of its modes, maps of the joints (picture.hpp, joint_map.hpp) as JSON. Lengths of
+// pictures are tenths of a pixel.
+std::string scene_text(const Problem& problem, const RunResult& result);
 
 }  // namespace dygita

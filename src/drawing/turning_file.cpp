@@ -6,6 +6,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "base/log.hpp"
 #include "base/markup.hpp"
 #include "base/parallel.hpp"
 #include "drawing/part_color.hpp"
@@ -153,6 +154,39 @@ std::string motion_text(const Problem& problem, const SkinMotion& motion) {
   u(0, 0) = largest_displacement(motion);
   json["warp"] = picture_scale(view, {u});
   json["shown"] = shown(json["frames"]);
+  return dumped(json);
+}
+
+std::string shapes_text(const Problem& problem, const std::vector<Frame>& modes) {
+  constexpr size_t most_modes = 20;
+  constexpr double drawn_as = 0.08;  // of the view's width, the largest displacement
+  const size_t n = std::min(modes.size(), most_modes);
+  if (n == 0) return "";
+  const TurningMesh mesh = make_turning_mesh(
+      problem.substructures, {},
+      static_cast<int>(std::clamp<double>(most_bytes / (7.0 * static_cast<double>(n)), fewest_nodes, most_nodes)));
+  if (mesh.nodes.cols() == 0) return "";
+  const View view = whole_view_of(problem.substructures);
+  Json json = still(problem, mesh, view);
+  Json::array_t frames(n);
+  parallel_for(static_cast<int>(n), [&](int m) {
+    const Frame& mode = modes[static_cast<size_t>(m)];
+    SkinFrame frame;
+    frame.step = fmt::format("mode {}, {:.5g} Hz", m + 1, mode.time);
+    frame.is_static = true;
+    frame.missed = mode.missed;
+    for (size_t p = 0; p < mesh.parts.size(); ++p)
+      for (const int node : mesh.parts[p].nodes)
+        for (int d = 0; d < 3; ++d)
+          frame.displacement.push_back(static_cast<float>(mode.parts[p].displacement(d, node)));
+    frame.von_mises.resize(frame.displacement.size() / 3);
+    frames[static_cast<size_t>(m)] = frame_of(frame, mesh);
+  });
+  json["frames"] = std::move(frames);
+  json["warp"] = drawn_as * view.size;
+  json["shown"] = std::count_if(modes.begin(), modes.begin() + static_cast<long>(n) - 1,
+                                [](const Frame& mode) { return mode.time <= 0.0; });
+  json["modes"] = true;
   return dumped(json);
 }
 

@@ -7,6 +7,7 @@
 
 #include "drawing/turning_mesh.hpp"
 #include "model/own_files.hpp"
+#include "result/frame.hpp"
 #include "result/skin_motion.hpp"
 
 namespace dygita {
@@ -17,6 +18,11 @@ inline constexpr const char* motion_file = own_file::motion;
 // largest component, stresses to 1/255 of the frame's largest. Displacements and stresses that are not finite become
 // zero.
 std::string motion_text(const Problem& problem, const SkinMotion& motion);
+
+// The same of natural modes, whose frames have shapes of the parts: each swings where it stands.
+std::string shapes_text(const Problem& problem, const std::vector<Frame>& modes);
+// Its file, of an output whose files are called so: "modes_shapes.json".
+inline std::string shapes_file(const std::string& stem) { return stem + "_shapes.json"; }
 
 struct TurningLabel {
   std::string name, color;  // color empty: grey

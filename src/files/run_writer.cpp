@@ -190,9 +190,18 @@ void RunWriter::write_field(const std::string& name, const std::vector<Frame>& f
   Collection collection;
   for (size_t i = 0; i < frames.size(); ++i) {
     const fs::path file = folder / fmt::format("{}_{:05}.vtu", name, i);
-    index_->manifest.add(file);
-    index_->manifest.while_there([&] { write_interfaces(frames[i], directory_ / file); });
-    collection.add(frames[i].label_time, 0, name, file);
+    if (!frames[i].interfaces.empty()) {
+      index_->manifest.add(file);
+      index_->manifest.while_there([&] { write_interfaces(frames[i], directory_ / file); });
+      collection.add(frames[i].label_time, 0, name, file);
+    }
+    int i_part = 0;
+    for (const PartFrame& part : frames[i].parts) {
+      const fs::path of_part = folder / fmt::format("{}_{:05}.vtu", file_name_of(part.part->name), i);
+      index_->manifest.add(of_part);
+      index_->manifest.while_there([&] { write_part(part, frames[i], directory_ / of_part); });
+      collection.add(frames[i].label_time, i_part++, part.part->name, of_part);
+    }
   }
   if (!collection.is_empty()) write(name + ".pvd", collection.text());
 }

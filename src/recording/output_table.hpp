@@ -16,6 +16,7 @@ struct Display {
     joint,        // forces, areas by state, loops, works, maps
     loop,         // force against displacement, and its cycles
     frequencies,  // a list
+    modes,        // with effective masses and shapes
     energy        // one on top of the other
   };
   As as;

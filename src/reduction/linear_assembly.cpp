@@ -263,8 +263,8 @@ void add_matrices(const Problem& problem, LinearAssembly& assembly) {
     const SparseMatrix map = assembly.map.middleRows(3 * assembly.first_node[part], 3 * body.mesh->n_nodes());
     const SparseMatrix transposed = map.transpose();
     const CondensedBody* condensed = body.mesh->condensed.get();
-    const SparseMatrix k_map = own.stiffness * map,
-                       m_map = (condensed ? condensed->mass : by_axis(nodal_mass(body, own))) * map;
+    assembly.nodal_masses.push_back(condensed ? condensed->mass : by_axis(nodal_mass(body, own)));
+    const SparseMatrix k_map = own.stiffness * map, m_map = assembly.nodal_masses.back() * map;
     const SparseMatrix k = transposed * k_map, m = transposed * m_map;
     assembly.stiffness += k;
     assembly.mass += m;

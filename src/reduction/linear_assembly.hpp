@@ -44,6 +44,7 @@ struct LinearAssembly {
   std::vector<SpreadSum> sums;
   int n_tied = 0, n_normal = 0, n_open = 0;  // contact points
   double mass_of_parts = 0.0;                // kg
+  std::vector<SparseMatrix> nodal_masses;    // kg, of each substructure, 3 n_nodes x 3 n_nodes
 
   int n() const { return static_cast<int>(stiffness.rows()); }
   int n_damped() const;  // points of interfaces between nodes with a damper

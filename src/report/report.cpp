@@ -46,7 +46,7 @@ std::string page_of(const RunFolder& run, const ReportRequest& request) {
   body +=
       marked(motion_section(run) + peaks_section(run, time, request) + margins_section(run) + bolts_section(run) +
                  spectra_section(run, time, request) + attenuation_section(run, time) + histories_section(run, time) +
-                 joints_section(run, time) + condensed_section(run) + energy_section(run, time),
+                 joints_section(run, time) + modes_section(run) + condensed_section(run) + energy_section(run, time),
              unconverged_text(run.record()));
   body += convergence_section(run) + cost_section(run) + computed_section(run);
   return html::page(text(run.record(), "problem") + ", " + text(run.record(), "case"),

@@ -22,6 +22,9 @@ std::string picture_section(const RunFolder& run);
 std::string motion_section(const RunFolder& run);
 std::string spectra_section(const RunFolder& run, const TimeAxis& time, const ReportRequest& request);
 std::string condensed_section(const RunFolder& run);
+std::string modes_section(const RunFolder& run);
+// Of scenes.json, coloured by displacement.
+std::string picture_of_shape(const Json& picture, const Json& parts, const std::string& title);
 std::string attenuation_section(const RunFolder& run, const TimeAxis& time);
 std::string histories_section(const RunFolder& run, const TimeAxis& time);
 std::string bolts_section(const RunFolder& run);

@@ -178,14 +178,20 @@ std::string by_part(const Json& picture, const Json& parts) {
 // Superelements have no stress.
 bool has_no_stress(const Json& parts, size_t part) { return part < parts.size() && parts[part].contains("condensed"); }
 
-std::string by_stress(const Json& picture, const Json& parts, const std::string& title) {
+// What colours tell.
+struct ColourScale {
+  const char *name, *unit;
+  bool is_of_cells;  // bodies without cells have none
+};
+
+std::string by_field(const Json& picture, const Json& parts, const std::string& title, const ColourScale& scale) {
   const std::vector<DrawnFacet> facets = facets_of(picture);
-  const int highest = top_of_scale(facets);
+  const int highest = scale.is_of_cells ? top_of_scale(facets) : 1000;
   const auto color_of_level = [](int level) { return scale_color((level + 0.5) / n_picture_levels); };
   std::vector<std::string> colors;
   for (const DrawnFacet& facet : facets)
     colors.push_back(
-        has_no_stress(parts, static_cast<size_t>(facet.part))
+        scale.is_of_cells && has_no_stress(parts, static_cast<size_t>(facet.part))
             ? "#bbbbbb"
             : color_of_level(std::clamp(n_picture_levels * facet.value / highest, 0, n_picture_levels - 1)));
   const double width = number(picture, "width"), height = number(picture, "height"),
@@ -202,10 +208,10 @@ std::string by_stress(const Json& picture, const Json& parts, const std::string&
   const double high = largest * highest / 1000.0;
   result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">0</text>\n", coordinate(bar_left),
                         coordinate(height + 28.0));
-  result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">von Mises stress</text>\n",
-                        coordinate(0.5 * width), coordinate(height + 28.0));
+  result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", coordinate(0.5 * width),
+                        coordinate(height + 28.0), scale.name);
   result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}{}</text>\n", coordinate(bar_left + bar),
-                        coordinate(height + 28.0), highest < 990 ? "above " : "", escaped(with_unit(high, "Pa")));
+                        coordinate(height + 28.0), highest < 990 ? "above " : "", escaped(with_unit(high, scale.unit)));
   if (number(picture, "missed") > 0)
     result += fmt::format(
         "<text x=\"{}\" y=\"16\" text-anchor=\"end\" font-weight=\"bold\" fill=\"#d55e00\">NOT CONVERGED"
@@ -245,6 +251,10 @@ std::string caption_of(const Json& picture, const Json& parts) {
 
 }  // namespace
 
+std::string picture_of_shape(const Json& picture, const Json& parts, const std::string& title) {
+  return by_field(picture, parts, title, {"displacement, of the largest", "", false});
+}
+
 std::string picture_section(const RunFolder& run) {
   if (!run.scenes().is_object() || !run.scenes().contains("assembly")) return "";
   std::vector<std::string> figures;
@@ -256,7 +266,8 @@ std::string picture_section(const RunFolder& run) {
                                                                   : "The assembly, undeformed."));
     else
       figures.push_back(
-          html::figure(by_stress(picture, parts, caption_of(picture, parts)), caption_of(picture, parts)));
+          html::figure(by_field(picture, parts, caption_of(picture, parts), {"von Mises stress", "Pa", true}),
+                       caption_of(picture, parts)));
   }
   return html::section("The assembly", html::row(figures));
 }

@@ -44,6 +44,7 @@ class Model {
     });
     this.colors = json.parts.map((part) => rgb(part.color));
     this.labelColors = (json.labels || []).map((label) => label.color ? rgb(label.color) : [228, 228, 228]);
+    this.isModes = json.modes === true;
     this.frames = json.frames.map((f) => ({...f, u: new Int16Array(bytes(f.u)), s: new Uint8Array(bytes(f.s))}));
     this.radius = 0;
     for (let i = 0; i < this.n; ++i) this.radius = Math.max(this.radius, Math.hypot(this.x[3 * i], this.x[3 * i + 1], this.x[3 * i + 2]));
@@ -98,7 +99,7 @@ class Picture {
 
   project(state) {
     const m = this.model, a = this.axes, w = this.canvas.width, h = this.canvas.height, f = m.frames[state.frame];
-    const scale = 0.55 * Math.min(w / 1.25, h) / m.radius * this.zoom / (1 + 0.5 * state.apart), warp = f ? state.warp * f.unit : 0;
+    const scale = 0.55 * Math.min(w / 1.25, h) / m.radius * this.zoom / (1 + 0.5 * state.apart), warp = f ? state.swing * state.warp * f.unit : 0;
     this.scale = scale;
     for (let i = 0; i < m.n; ++i) {
       const c = m.middle[m.partOfNode[i]];
@@ -237,7 +238,7 @@ function setUp(figure) {
   const tip = element(stage, "div", {class: "tip"}), legend = element(figure, "div", {class: "legend"});
   const second = element(figure, "div", {class: "controls"});
   const picture = new Picture(canvas, model);
-  const state = {frame: Math.max(0, model.shown || 0), warp: model.warp || 0, apart: model.label ? 0.6 : 0, field: model.frames.length ? "von_mises" : "", cut: null,
+  const state = {frame: Math.max(0, model.shown || 0), warp: model.warp || 0, apart: model.label ? 0.6 : 0, swing: 1, field: model.isModes ? "displacement" : model.frames.length ? "von_mises" : "", cut: null,
                  hidden: new Set(), range: [0, 1], colorOf: null};
   let waiting = false, playing = 0;
   const ranges = {};
@@ -263,19 +264,19 @@ function setUp(figure) {
   function tell() {
     legend.textContent = "";
     if (state.field) {
-      const [name, unit] = fields[state.field];
+      const [name, unit] = model.isModes ? [fields[state.field][0] + ", of the largest", ""] : fields[state.field];
       element(legend, "span", {}, withUnit(state.range[0], unit));
       element(legend, "span", {class: "ramp"});
       element(legend, "span", {}, withUnit(state.range[1], unit) + "  " + name);
     }
     const f = model.frames[state.frame];
-    if (f) instant.textContent = f.step + (f.static ? " (static)" : ", " + withUnit(f.time, "s"));
+    if (f) instant.textContent = f.step + (model.isModes ? "" : f.static ? " (static)" : ", " + withUnit(f.time, "s"));
     if (f && f.missed) instant.textContent += " – NOT CONVERGED: " + f.missed + (f.missed === 1 ? " increment" : " increments") + " so far";
   }
 
   // By what it is coloured; when.
   const choice = control(bar, "colour", "select");
-  if (model.frames.length) for (const [key, [name]] of Object.entries(fields)) element(choice, "option", {value: key}, name);
+  if (model.frames.length) for (const [key, [name]] of Object.entries(fields)) if (!model.isModes || key !== "von_mises") element(choice, "option", {value: key}, name);
   element(choice, "option", {value: "part"}, "part");
   if (model.label) element(choice, "option", {value: "label"}, model.coloring);
   choice.onchange = () => {
@@ -285,13 +286,16 @@ function setUp(figure) {
   };
   const instant = document.createElement("output");
   if (model.frames.length) {
-    const time = control(bar, "frame", "input", {type: "range", min: 0, max: model.frames.length - 1, step: 1, value: state.frame});
+    const time = control(bar, model.isModes ? "mode" : "frame", "input", {type: "range", min: 0, max: model.frames.length - 1, step: 1, value: state.frame});
     const show = (k) => { time.value = state.frame = k; draw(); };
     time.oninput = () => show(Number(time.value));
     const play = element(bar, "button", {type: "button"}, "play");
     play.onclick = () => {
       clearInterval(playing);
-      playing = playing ? 0 : setInterval(() => show((state.frame + 1) % model.frames.length), 350);
+      let phase = 0;
+      const swing = () => { state.swing = Math.cos(phase += Math.PI / 16); draw(true); };
+      if (playing) { state.swing = 1; draw(); }
+      playing = playing ? 0 : model.isModes ? setInterval(swing, 40) : setInterval(() => show((state.frame + 1) % model.frames.length), 350);
       play.textContent = playing ? "stop" : "play";
     };
     bar.append(instant);

@@ -1,0 +1,23 @@
+// Motions of an assembly as a whole, and those that nothing resists: of the whole, of bodies that are loose, of
+// mechanisms.
+#pragma once
+
+#include "reduction/linear_assembly.hpp"
+
+namespace dygita {
+
+// What an assembly is to its translations along x, y, z and its rotations about the axes through its centre of mass.
+struct WholeInertia {
+  double mass = 0.0;                                   // kg
+  Vec3 centre = Vec3::Zero(), moments = Vec3::Zero();  // m; kg m^2
+  Mat momenta;                                         // n x 6: T^T M times the six motions of all nodes (eq. D15)
+};
+WholeInertia whole_inertia(const LinearAssembly& assembly, const Problem& problem);
+
+// n x k, orthonormal in the mass: all motions in which every body moves as a rigid one, no condition is broken and
+// nothing is stored but rounding. Those of the whole come first, in its order, where they are among them. Throws
+// NumericalError, naming `what`, where there are more than 600.
+Mat free_motions(const LinearAssembly& assembly, const Problem& problem, const WholeInertia& whole,
+                 const std::string& what);
+
+}  // namespace dygita
