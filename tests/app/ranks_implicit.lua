@@ -34,6 +34,7 @@ local strike = step.dynamic{ name = "strike", after = press, duration = p.us * u
 local corner = output.history{ name = "corner", on = blocks[n]:face "zmax", quantity = "acceleration", direction = { 0, 0, 1 } }
 local outputs = { corner, output.energy{}, output.vtk{ frames = 6, fields = { "displacement", "stress" } } }
 for _, i in ipairs{ 2, 5, 8, 11 } do table.insert(outputs, output.joint{ name = joints[i].name, on = joints[i] }) end
+table.insert(outputs, output.modes{ name = "modes", n = 8, after = press })
 problem{ name = "implicit", substructures = blocks, interfaces = joints, steps = { press, strike }, outputs = outputs,
   supports = { p.driven == 1 and support.symmetry{ name = "end", on = blocks[1]:face "xmin" } or support.fixed{ name = "end", on = blocks[1]:face "xmin" }, support.wall{ name = "side", on = blocks[n]:face "ymin", friction = 0.15 } },
   solver = solver.latin{ static_steps = "iterated", tolerance = p.tolerance, window = p.window > 1 and math.tointeger(p.window) or nil,
