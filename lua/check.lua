@@ -392,6 +392,9 @@ function check.arguments(call, arguments, given, prefix)
     local key = argument[1]
     local value = given[key]
     if value ~= nil then
+      if argument.with and given[argument.with] == nil then
+        fail(call, ("'%s%s' needs '%s'"):format(prefix, key, argument.with), argument.doc)
+      end
       checked[key] = types[argument.type](call, argument, value, prefix .. key)
     elseif argument.required and not is_excused(argument, given) then
       fail(call, ("'%s%s' is missing"):format(prefix, key), of_unit(key, argument.unit) .. ": " .. argument.doc)

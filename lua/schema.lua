@@ -7,6 +7,7 @@
 --
 -- An argument: { name, type, unit, range = { smallest, largest }, default, required, doc, ... }; `usual` = { smallest, largest,
 -- text } warns beyond it. The types:
+-- `with`: another argument that must be given too.
 --   number, integer       `or_word`: a word allowed instead; `or_table`: a table of named numbers allowed instead
 --   boolean, choice       `choices`
 --   choices               a list of `choices`
@@ -321,6 +322,22 @@ words[4] = {
       { "normal", type = "number", unit = "Pa s/m", range = { 0, 1e12 }, required = true,
         doc = "traction per relative velocity along the normal: viscosity / thickness of a layer; 0: free" },
       { "tangential", type = "number", unit = "Pa s/m", range = { 0, 1e12 }, default = 0, doc = "the same along the tangents; 0: free" },
+    },
+  },
+  {
+    "bushing", makes = "interface", tightens = true,
+    doc = "A linear spring and damper, as an isolator, a gasket or an adhesive layer (CBUSH): a traction in proportion to the relative "
+      .. "displacement and velocity, pulling and pushing.",
+    arguments = {
+      name_of "interface", between(), within(), points(),
+      { "normal", type = "number", unit = "Pa/m", range = { 1, 1e18 }, required = true,
+        doc = "traction per relative displacement along the normal: modulus / thickness of a layer, stiffness / area of a mount" },
+      { "tangential", type = "number", unit = "Pa/m", range = { 0, 1e18 }, default = 0, doc = "the same along the tangents; 0: free" },
+      { "normal_damping", type = "number", unit = "Pa s/m", range = { 0, 1e12 }, default = 0, doc = "traction per relative velocity along the normal" },
+      { "tangential_damping", type = "number", unit = "Pa s/m", range = { 0, 1e12 }, default = 0, doc = "the same along the tangents" },
+      { "loss", type = "number", range = { 0, 2 }, default = 0, with = "frequency",
+        doc = "loss factor of the stiffness at `frequency`, turned into damping, loss stiffness / (2 pi frequency), and added to it" },
+      { "frequency", type = "number", unit = "Hz", range = { 1e-3, 1e8 }, default = 0, default_doc = "none", doc = "where `loss` holds" },
     },
   },
 }

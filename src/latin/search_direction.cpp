@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "base/parallel_by_cost.hpp"
+#include "law/law.hpp"
 
 namespace dygita {
 
@@ -55,12 +56,25 @@ double mass_at(const StepModel& model, const Port& port, const NodeAreas& areas)
   return port.area * sum / weights;
 }
 
+// N/m, of the laws at each port that are springs: zero elsewhere.
+std::vector<Vec3> stiffness_of_laws(const StepModel& model) {
+  std::vector<Vec3> stiffness(model.exchange.ports.size(), Vec3::Zero());
+  for (const Point& point : model.exchange.points) {
+    if (!point.law) continue;
+    const Vec3 of_law = point.area * point.law->tangent(point.law->initial(), true).stiffness;
+    for (int p = point.first_port; p < point.end_port; ++p) stiffness[static_cast<size_t>(p)] = of_law;
+  }
+  return stiffness;
+}
+
 }  // namespace
 
 Vec search_directions(const StepModel& model, double multiplier, int n_window) {
   Vec k = Vec::Zero(model.n_q());
   const NodeAreas areas = node_areas(model);
-  for (const Port& port : model.exchange.ports) {
+  const std::vector<Vec3> springs = model.scheme.is_static ? stiffness_of_laws(model) : std::vector<Vec3>();
+  for (size_t p = 0; p < model.exchange.ports.size(); ++p) {
+    const Port& port = model.exchange.ports[p];
     if (!model.solves(port.piece)) continue;
     const Piece& piece = *model.pieces[port.piece];
     const Elastic& material = model.cut->piece(port.piece).body->material;
@@ -80,6 +94,8 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
         direction = has_schur            ? std::max(schur, 1e-3 * row.reference_stiffness)
                     : model.is_assembled ? 0.3 * modulus * std::sqrt(port.area)  // of cells under the point alone
                                          : row.static_stiffness;
+        // A soft spring is all that such a side can feel of the other one.
+        if (const double spring = springs[p][d]; spring > 0.0) direction = 1.0 / (1.0 / direction + 1.0 / spring);
         continue;
       }
       const double mass = mass_at(model, port, areas);

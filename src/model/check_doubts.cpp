@@ -63,6 +63,7 @@ double length_behind(const Face& face) {
 // A traction per length times the length of what yields is a plastic modulus: below a thousandth of Young's it is no
 // metal's, and hardly what was meant.
 void doubt_hardening(const Problem& problem, const Interface& interface) {
+  if (!interface.law->shown().plastic_opening) return;
   for (const LawParameter& parameter : interface.law->parameters()) {
     const double* value = std::get_if<double>(&parameter.value);
     if (parameter.unit != "Pa/m" || !value || *value <= 0.0) continue;

@@ -254,7 +254,10 @@ std::string driver_of(const Problem& problem, const Step& step, const Face& face
 // An interface both of whose sides move as told transmits nothing and may stand open or overlap unseen.
 void interfaces_have_a_free_side(const Problem& problem, const Step& step) {
   for (const InterfacePtr& interface : problem.interfaces) {
-    if (!interface->law->takes_part(true)) continue;  // a damper holds nothing: it is made to be driven
+    const Law& law = *interface->law;
+    if (!law.takes_part(true)) continue;  // a damper holds nothing: it is made to be driven
+    if (law.tangent(law.initial(), false).stiffness[0] > 0.0)
+      continue;  // a spring transmits what both sides make of it
     const Vec3 normal = normal_of(interface->side_1);
     int axis = 0;
     normal.cwiseAbs().maxCoeff(&axis);

@@ -105,12 +105,11 @@ double PenaltySprings::release(const StepModel& model, int increment) {
     if (spring.is_released || !interface || !model.loads->is_released(interface, increment)) continue;
     const Point& point = model.exchange.points[spring.point];
     LawState& now = spring.at.now;
-    lost += spring.form->penalty_energy(spring.at) + spring.form->stored_energy(now, point.area);
+    lost += spring.form->penalty_energy(spring.at);
     spring.is_released = true;
     now.force.setZero();
     now.status = PointState::open;
     point.law->let_go(now);
-    lost -= spring.form->stored_energy(now, point.area);
   }
   return lost;
 }
@@ -175,6 +174,7 @@ void PenaltySprings::show(const StepModel& model, std::vector<PointRecord>& reco
     work.friction = spring.at.friction_work;
     work.plastic = spring.form->plastic_work(law, point.area) - spring.form->plastic_work(record.law, point.area);
     work.stored = spring.form->stored_energy(law, point.area) - spring.form->stored_energy(record.law, point.area);
+    if (spring.is_released) work.damping = -work.stored;
     book_dissipation(point, work, state);
     record.law = std::move(law);
     record.is_released = spring.is_released;

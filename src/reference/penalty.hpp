@@ -15,7 +15,7 @@ class PenaltySprings {
                  const InternalForce& internal);
 
   int size() const { return static_cast<int>(springs_.size()); }
-  // Lets the springs of released interfaces go; returns the energy (J) that was in penalty springs and in laws.
+  // Lets the springs of released interfaces go; returns the energy (J) that was in penalty springs.
   double release(const StepModel& model, int increment);
   // Adds the force (N, as internal force: M a = external - force) for the displacements since the step's start.
   void add_force(const Vec& displacement, Vec& force);

@@ -67,7 +67,7 @@ TEST_F(LoadRules, of_each_kind_act_on_what_they_can) {
                                                        "    load.gravity acts on every substructure, without 'on'");
   EXPECT_EQ(complaint_of_static(load("shortening", {contact})),
             "deck.lua:40: problem 'bolted': step 'tighten': load.shortening cannot act on interface.contact 'mating'\n"
-            "    load.shortening acts on an interface.bonded or an interface.plastic");
+            "    load.shortening acts on an interface.bonded or an interface.bushing or an interface.plastic");
 }
 
 TEST_F(LoadRules, of_each_kind_are_accepted_where_they_act) {
