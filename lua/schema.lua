@@ -340,6 +340,19 @@ words[4] = {
       { "frequency", type = "number", unit = "Hz", range = { 1e-3, 1e8 }, default = 0, default_doc = "none", doc = "where `loss` holds" },
     },
   },
+  {
+    "iwan", makes = "interface",
+    doc = "A lap joint that slips little by little (Segalman's four parameters): held along the normal, along the tangents elastic sliders side "
+      .. "by side, the weakest of which slip at once. Its limit does not depend on the normal force.",
+    arguments = {
+      name_of "interface", between(), within(), points(),
+      { "slip", type = "number", unit = "Pa", range = { 1, 1e11 }, required = true, doc = "traction at which all of it slips: force over area" },
+      { "stiffness", type = "number", unit = "Pa/m", range = { 1, 1e18 }, required = true, doc = "traction per relative displacement of a small motion" },
+      { "chi", type = "number", range = { -0.99, 0 }, required = true, doc = "the loss of a small cycle grows with the power 3 + chi of its amplitude" },
+      { "beta", type = "number", range = { 0, 1000 }, required = true, doc = "stiffness that goes at once where all slips, over that which went before" },
+      { "sliders", type = "integer", range = { 2, 200 }, default = 30, doc = "bands of the distribution; more are smoother and cost more" },
+    },
+  },
 }
 
 -- Interfaces that a load can shorten, as a nut does.
