@@ -151,7 +151,7 @@ TEST(MemoryLimit, counts_meshes_for_as_long_as_they_live) {
   EXPECT_EQ(message_with_limits("for i = 1, 20 do local m = " + box + " end", 20, 32), "");
   const std::string message =
       message_with_limits("local kept = {}\nfor i = 1, 20 do kept[i] = " + box + " end", 20, 32);
-  EXPECT_TRUE(contains(message, "deck.lua:2: mesh.box: 40 x 40 x 40 cells require about 6.1 MB; the limit is 32 MB"))
+  EXPECT_TRUE(contains(message, "deck.lua:2: mesh.box: 40 x 40 x 40 cells take about 6.1 MB; the limit is 32 MB"))
       << message;
 }
 

@@ -153,7 +153,7 @@ problem{ name = "tipping", substructures = { a, b }, interfaces = { j }, support
   const Said tips = said_by(tipping);
   EXPECT_FALSE(tips.run.result->converged);
   expect_in(tips.warnings, {"static step 't', increment 1: the loads tip 'b' about (0.00, 1.00, 0.00)",
-                            " points of 'j' hold that: there is no equilibrium"});
+                            " points of 'j' can balance them: there is no equilibrium"});
 }
 
 // Too few iterations are told apart from an indicator that stands still, and what the message asks for is enough.

@@ -90,7 +90,7 @@ problem{ name = "leaves", substructures = { low, high }, interfaces = { touch },
   steps = { step.dynamic{ name = "fly", duration = 0.4*ms, dt = 4*us } } }:run{}
 )")
                           .at(0);
-  expect_said(all(run), {"interface 'touch' is open all over, by 8 mm at least, t = 0.4 ms in step 'fly'",
+  expect_said(all(run), {"interface 'touch' is open everywhere, by 8 mm at least, t = 0.4 ms in step 'fly'",
                          "more than a cell (5 mm)"});
 }
 

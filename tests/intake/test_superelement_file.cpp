@@ -79,7 +79,7 @@ TEST_F(SuperelementFile, refuses_what_is_no_symmetric_matrix) {
   EXPECT_NE(refusal(head + "2 2\n1\n2\n2\n1\n7\n").find("the end of the matrix is expected, not '7'"),
             std::string::npos);
   EXPECT_NE(refusal(head + "2 2\n1\n2\nx\n1\n").find(":5: an entry is expected, not 'x'"), std::string::npos);
-  EXPECT_NE(refusal(head + "2 2\n1\n2\n3\n1\n").find("is not symmetric: 2 in row 2, column 1, and 3 the other way"),
+  EXPECT_NE(refusal(head + "2 2\n1\n2\n3\n1\n").find("is not symmetric: 2 in row 2, column 1, but 3 transposed"),
             std::string::npos);
   EXPECT_NE(refusal(head + "1 1\nnan\n").find("an entry that is not finite"), std::string::npos);
   EXPECT_NE(refusal(head + "1000000 1000000\n").find("at most 8000 are allowed"), std::string::npos);

@@ -210,7 +210,7 @@ TEST(Mesh, whose_cells_do_not_fit_at_a_facet_is_refused_with_both) {
       [] {
         check_mesh(with_second(CellType::tet4, {1, 2, 0, 3}, {}), "bar");
       },
-      {"mesh of 'bar': cell 1 (tet4) at (0.25, 0.25, 0.25) m is cell 0 (tet4) once more"});
+      {"mesh of 'bar': cell 1 (tet4) at (0.25, 0.25, 0.25) m repeats cell 0 (tet4)"});
   expect_input_error(
       [] {
         check_mesh(with_second(CellType::tet4, {0, 1, 2, 4}, {{0.1, 0.1, 2}}), "bar");

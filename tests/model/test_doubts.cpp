@@ -127,8 +127,8 @@ TEST_F(Doubts, are_said_of_mass_damping_where_parts_fly_or_are_driven) {
   EXPECT_TRUE(take_warnings().empty());  // held, not driven
   upper->velocity = Vec3(0, 0, -1);
   EXPECT_EQ(only_warning(),
-            "deck.lua:1: problem 'bolted': damping of material 'steel' at two frequencies has a part proportional to "
-            "the mass, 100 1/s, which also damps rigid motion: 9.5 % of a free velocity in the 1 ms of the dynamic "
+            "deck.lua:1: problem 'bolted': damping of material 'steel' at two frequencies has a mass-proportional "
+            "part, 100 1/s, which also damps rigid motion: 9.5 % of a free velocity in the 1 ms of the dynamic "
             "steps, and a force that shows in reactions and momentum; a ratio at one frequency has no such part");
 }
 

@@ -195,7 +195,7 @@ TEST_F(Damped, beyond_a_fifth_of_critical_within_the_band_is_named) {
   EXPECT_EQ(
       damping_doubt(),
       "deck.lua:1: problem 'bolted': damping of material 'steel' is 1.57e+04 % of critical at 5 kHz, the lowest of "
-      "step 'shock': what moves so fast is damped away within a period; 'damping' is in seconds, 'damping_ratio' "
+      "step 'shock': such motion decays within a period; 'damping' is in seconds, 'damping_ratio' "
       "with 'damping_frequency' takes the ratio");
   lower->material.damping = damping_of(0.02, 1e4);
   EXPECT_EQ(complaint(), "");

@@ -255,8 +255,7 @@ TEST_F(HistoryFile, with_a_unit_outside_of_brackets_is_doubted) {
   EXPECT_EQ(read("time_ms,acc_g\n0,0\n1,2\n").value(1.0), 2.0);
   const std::vector<std::string> warnings = take_warnings();
   ASSERT_EQ(warnings.size(), 2u);
-  EXPECT_NE(warnings[0].find(":1: column 'time_ms' is read in SI: a unit is read where it stands in brackets, [ms]"),
-            std::string::npos);
+  EXPECT_NE(warnings[0].find(":1: column 'time_ms' is read in SI: put a unit in brackets, [ms]"), std::string::npos);
 }
 
 // The rule for a function is made for a time step: over a thousand of them it misses most of a pulse.
