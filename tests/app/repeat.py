@@ -34,7 +34,7 @@ for threads in (1, 2, 3):
 table = run / "joint.csv"
 whole = table.read_text()
 table.write_text(whole.replace("1", "2", 1))
-dygita("run", "--repeat", run, "--quiet", "--out", FOLDER / "other", expected=1, says="these tables differ: joint.csv")
+dygita("run", "--repeat", run, "--quiet", "--out", FOLDER / "other", expected=1, says="may have changed): joint.csv")
 dygita("run", expected=2, says="which deck?")
 shutil.copy(run / "run.json", FOLDER / "copy.json")
 dygita("run", "--repeat", FOLDER / "copy.json", expected=2, says="give a run's folder or its run.json")
@@ -42,7 +42,7 @@ dygita("run", "--repeat", FOLDER / "none.json", expected=2, says="no such record
 dygita("run", "--repeat", run, "--set", "us=20", expected=2, says="--set")
 moved = FOLDER / "moved.lua"
 deck.rename(moved)
-dygita("run", "--repeat", run, expected=2, says="is not there")
+dygita("run", "--repeat", run, expected=2, says="is missing")
 table.unlink()
 dygita("run", moved, "--repeat", run, "--quiet", "--out", FOLDER / "lost", expected=2, says="its table 'joint.csv' is not there: nothing to compare with")
 os.mkfifo(table)

@@ -149,9 +149,8 @@ TEST(Results, that_are_not_there_are_errors) {
   EXPECT_EQ(message_when("local x = result[vtk]"),
             "output.vtk provides no data to the deck\n    its frames are ParaView files");
   EXPECT_EQ(message_when("local x = result[a].max"), "the run produced nothing for output 'a'");
-  EXPECT_EQ(
-      message_when("local x = result.bolt"),
-      "a result has no 'bolt'\n    index it by the output itself, not by its name: result[bolt], without quotes");
+  EXPECT_EQ(message_when("local x = result.bolt"),
+            "a result has no 'bolt'\n    index it by the output itself, not by its name: result[bolt], without quotes");
   EXPECT_EQ(message_when("local x = result.bold"),
             "a result has no 'bold'\n    known: converged, iterations, mean_iterations");
   EXPECT_EQ(message_when("local x = result[glue]"),
