@@ -254,7 +254,7 @@ TEST_F(Continue, says_what_is_wrong_and_leaves_the_old_results) {
   EXPECT_NE(refusal(options).find("is not the folder of a run"), std::string::npos) << refusal(options);
   options.run = run("none", "latin{ integration = 'implicit' }", {}, false);
   EXPECT_FALSE(fs::exists(options.run / state_file_name));
-  EXPECT_NE(refusal(options).find("the run was told --no-state"), std::string::npos) << refusal(options);
+  EXPECT_NE(refusal(options).find("the run used --no-state"), std::string::npos) << refusal(options);
   options.run = run("other", "monolithic{}");
   EXPECT_NE(refusal(options).find("was computed by solver.monolithic, which stores nothing to continue from"),
             std::string::npos)

@@ -70,7 +70,7 @@ TEST(Unjoined, parts_that_touch_and_pass_through_each_other_are_named) {
       << touch[0];
   EXPECT_NE(touch[0].find("('plate.zmax' on 'block.zmin')"), std::string::npos) << touch[0];
   // 1 m/s for 100 us.
-  const std::vector<std::string> through = said_of_run(text, "into each other");
+  const std::vector<std::string> through = said_of_run(text, "overlap by");
   ASSERT_EQ(through.size(), 1u);
   EXPECT_EQ(through[0].substr(0, through[0].find(", at (")),
             "substructures 'plate' and 'block' overlap by 0.1 mm without an interface");
@@ -80,11 +80,12 @@ TEST(Unjoined, parts_that_touch_and_pass_through_each_other_are_named) {
 // 40 m/s for 100 us, across more than a twentieth of the block's size.
 TEST(Unjoined, parts_that_fly_into_each_other_from_afar_are_named) {
   std::string text = blocks_at("{ 10*mm, 10*mm, 12.4*mm }", "");
-  EXPECT_TRUE(said_of_run(text, "into each other").empty());
+  EXPECT_TRUE(said_of_run(text, "overlap by").empty());
   text.replace(text.find("0, 0, -1 }"), 10, "0, 0, -40 }");
-  const std::vector<std::string> through = said_of_run(text, "into each other");
+  const std::vector<std::string> through = said_of_run(text, "overlap by");
   ASSERT_EQ(through.size(), 1u);
-  EXPECT_EQ(through[0].substr(0, through[0].find(" into each other")), "substructures 'plate' and 'block' pass 1.6 mm");
+  EXPECT_EQ(through[0].substr(0, through[0].find(" without an")),
+            "substructures 'plate' and 'block' overlap by 1.6 mm");
 }
 
 TEST(Unjoined, faces_apart_that_meet_as_if_they_touched_are_named) {
@@ -104,11 +105,11 @@ TEST(Unjoined, faces_apart_that_meet_as_if_they_touched_are_named) {
 }
 
 TEST(Unjoined, parts_are_watched_across_a_gap_and_where_cells_differ) {
-  const std::vector<std::string> through = said_of_run(blocks_at("{ 9*mm, 8*mm, 10.04*mm }", ""), "into each other");
+  const std::vector<std::string> through = said_of_run(blocks_at("{ 9*mm, 8*mm, 10.04*mm }", ""), "overlap by");
   ASSERT_EQ(through.size(), 1u);
-  EXPECT_NE(through[0].find("pass 0.06 mm into each other"), std::string::npos) << through[0];
-  EXPECT_TRUE(said_of_run(blocks_at("{ 9*mm, 8*mm, 10.2*mm }", ""), "into each other").empty()) << "does not get there";
-  EXPECT_TRUE(said_of_run(blocks_at("{ 9*mm, 8*mm, 30*mm }", ""), "into each other").empty());
+  EXPECT_NE(through[0].find("overlap by 0.06 mm"), std::string::npos) << through[0];
+  EXPECT_TRUE(said_of_run(blocks_at("{ 9*mm, 8*mm, 10.2*mm }", ""), "overlap by").empty()) << "does not get there";
+  EXPECT_TRUE(said_of_run(blocks_at("{ 9*mm, 8*mm, 30*mm }", ""), "overlap by").empty());
 }
 
 TEST(Unjoined, parts_that_an_interface_keeps_apart_are_not_named) {

@@ -222,7 +222,7 @@ TEST(Mesh, whose_cells_do_not_fit_at_a_facet_is_refused_with_both) {
       [&] {
         check_mesh(with_second(CellType::tet10, {0, 2, 1, 4, 5, 6, 7, 8, 9, 10}, middles), "bar");
       },
-      {"cells 0 (tet4) and 0 (tet10)", "share the corners of a facet but not its other nodes", "one order"});
+      {"cells 0 (tet4) and 0 (tet10)", "share the corners of a facet but not its other nodes", "the same order"});
 }
 
 // Facets of the boundary that lie on others: nodes that were not merged, a diagonal, nodes in the middle of a facet.
