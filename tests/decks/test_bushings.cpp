@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "decks/deck_prints.hpp"
-#include "result/superelement.hpp"
+#include "reduction/superelement.hpp"
 
 namespace dygita::test::bushings_tests {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "decks/deck_prints.hpp"
-#include "result/superelement.hpp"
+#include "reduction/superelement.hpp"
 
 namespace dygita::test::lap_joints_tests {
 namespace {
