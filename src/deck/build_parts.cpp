@@ -140,12 +140,12 @@ Damping damping_in(const LuaArguments& a) {
   return {damping.at("mass"), damping.at("stiffness")};
 }
 
-Content build_elastic(const Declaration& d) {
-  auto material = std::make_shared<Material>();
+// Of the entry of a word, from all numbers of the declaration.
+Content build_material(const Declaration& d) {
+  const auto entry = std::find_if(material_table().begin(), material_table().end(),
+                                  [&](const MaterialEntry& one) { return one.word == d.arguments.word(); });
+  auto material = std::make_shared<Material>(Material{entry->make(d.arguments.plain_numbers()), {}});
   material->name = d.arguments.text("name");
-  material->young = d.arguments.number("young");
-  material->poisson = d.arguments.number("poisson");
-  material->density = d.arguments.number("density");
   if (d.arguments.has("yield")) material->yield = d.arguments.number("yield");
   material->damping = damping_in(d.arguments);
   return std::shared_ptr<const Material>(material);
@@ -155,14 +155,15 @@ void doubt_locking(const Substructure& part) {
   for (const CellBlock& block : part.mesh->blocks) {
     const std::string_view cells = cell_shape(block.type).locks_as;
     if (cells.empty()) continue;
-    if (part.material.poisson <= locking_poisson)
+    const double poisson = part.material.constant("poisson").value_or(0.0);
+    if (poisson <= locking_poisson)
       warn(
           fmt::format("{}substructure '{}': {} are far too stiff in bending and give poor stresses; order = 2 in the "
                       "mesh makes them tet10",
                       part.origin.prefix(), part.name, cells));
     else
       warn(fmt::format("{}substructure '{}': {} with a Poisson's ratio of {:g} lock; hexahedra or prisms do not",
-                       part.origin.prefix(), part.name, cells, part.material.poisson));
+                       part.origin.prefix(), part.name, cells, poisson));
   }
 }
 
@@ -289,11 +290,11 @@ const Builders& part_builders() {
         {"mesh.gmsh", build_gmsh},
         {"bolt.mesh", build_bolt_mesh},
         {"mesh.step", build_step_mesh},
-        {"material.elastic", build_elastic},
         {"substructure", build_substructure},
         {"substructure.superelement", build_superelement},
         {"param", build_parameters},
     };
+    for (const MaterialEntry& kind : material_table()) all.emplace("material." + kind.word, build_material);
     for (const LawEntry& law : law_table()) all.emplace("interface." + law.word, build_interface);
     for (const SupportEntry& kind : support_table()) all.emplace("support." + kind.word, build_support);
     return all;

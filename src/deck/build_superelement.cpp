@@ -32,12 +32,8 @@ namespace {
 // What a mesh of matrices has in the place of a material: what search directions and comparisons of stiffness go by.
 Elastic material_like(const Mesh& mesh) {
   constexpr double poisson = 0.3, bar_speed = 5200.0;  // m/s, as metals have it
-  Elastic like;
-  like.name = "superelement";
-  like.young = mesh.condensed->modulus(mesh.nodes);
-  like.poisson = poisson;
-  like.density = like.young / (bar_speed * bar_speed);
-  return like;
+  const double young = mesh.condensed->modulus(mesh.nodes);
+  return {"superelement", young, poisson, young / (bar_speed * bar_speed)};
 }
 
 MeshPtr superelement_of(const LuaArguments& a) {

@@ -95,7 +95,7 @@ void ErrorEstimator::take_velocities(const Instant& instant) {
 ErrorEstimator::ErrorEstimator(const Problem& problem, PartViews& views)
     : volume_(volumes(problem)), linked_(problem), views_(&views) {
   for (size_t i = 0; i < volume_.size(); ++i)
-    at_rest_ += 0.5 * problem.substructures[i]->material.young * std::pow(limit::strain_at_rest, 2) * volume_[i];
+    at_rest_ += 0.5 * problem.substructures[i]->material.young() * std::pow(limit::strain_at_rest, 2) * volume_[i];
 }
 
 void ErrorEstimator::begin_step(const Instant& start) {
@@ -148,7 +148,7 @@ double ErrorEstimator::energy_when_carried(const Instant& instant) const {
     const auto first = moved2.begin() + cut.first(part);
     const double most2 = *std::max_element(first, first + cut.n_pieces(part));
     const double size2 = extent_of(*problem.substructures[i]).size().squaredNorm();
-    energy += 0.5 * problem.substructures[i]->material.young * volume_[i] * most2 / size2 *
+    energy += 0.5 * problem.substructures[i]->material.young() * volume_[i] * most2 / size2 *
               std::pow(limit::strain_of_carrying, 2);
   }
   return energy;

@@ -5,12 +5,18 @@
 
 #include "fem/cell_lanes.hpp"
 #include "fem/cell_loop.hpp"
+#include "fem/cell_tensor.hpp"
 #include "fem/frequency.hpp"
 #include "fem/node_pattern.hpp"
 
 namespace dygita {
 
 namespace {
+
+// Does the material lie in both cells alike?
+bool has_equal_axes(const CellBlock& block, int i, int j) {
+  return block.axes.empty() || block.axes[static_cast<size_t>(i)] == block.axes[static_cast<size_t>(j)];
+}
 
 // Are the cells equal but for a translation, as those of a box are?
 template <int n>
@@ -26,7 +32,7 @@ std::vector<int> models(const Points& nodes, const CellBlock& block) {
   Nodes<n> last;
   for (int i = 0; i < block.n_cells(); ++i) {
     const Nodes<n> x = gather<n>(nodes, block.cell(i));
-    const bool is_copy = i > 0 && is_translated<n>(last, x);
+    const bool is_copy = i > 0 && has_equal_axes(block, i - 1, i) && is_translated<n>(last, x);
     model[i] = is_copy ? model[i - 1] : i;
     if (!is_copy) last = x;
   }
@@ -49,7 +55,7 @@ struct AssemblyKernel {
   const NodeOwners& owners;
   BodyMatrices& body;
   std::vector<char>& is_begun;  // nodes whose rows have been set
-  bool is_plain = false;        // few models: by the kernel of a single cell, whatever the number of owners
+  bool is_plain = false;  // by the kernel of a single cell, whatever the number of owners: few models, or directions
 
   int me = 0;
   std::array<int, n_lanes> batch{};  // models computed, increasing
@@ -78,7 +84,7 @@ struct AssemblyKernel {
       for (int a = 0; a < n; ++a)
         for (int p = 0; p < 3; ++p) x[a][p][lane] = mesh.nodes(p, nodes[a]) - mesh.nodes(p, nodes[0]);
     }
-    stiffness_in_lanes<Cell>(x, material, matrices);
+    stiffness_in_lanes<Cell>(x, material.tensor(), matrices);
     if constexpr (Cell::row.lumping != Lumping::row_sums)
       for (int lane = 0; lane < n_batch; ++lane) {
         const Eigen::Matrix<double, n, 1> volumes = node_volumes<Cell>(gather<n>(mesh.nodes, block.cell(batch[lane])));
@@ -89,7 +95,7 @@ struct AssemblyKernel {
   void compute_one(int i) {
     batch[n_batch++] = i;
     const Nodes<n> x = gather<n>(mesh.nodes, block.cell(i));
-    const Stiffness<n> stiffness = Cell::stiffness(x, material);
+    const Stiffness<n> stiffness = Cell::stiffness(x, tensor_in(material, block, i));
     const Eigen::Matrix<double, n, 1> volumes = node_volumes<Cell>(x);
     for (int a = 0; a < n; ++a) {
       matrices.volume[a][0] = volumes[a];
@@ -141,7 +147,7 @@ void see_cells(const Mesh& mesh, const CellBlock& block, const Elastic& material
     if (model[i] != i) continue;
     const Nodes<n> x = gather<n>(mesh.nodes, block.cell(i));
     const Eigen::Matrix<double, n, 1> mass = material.density * node_volumes<Cell>(x);
-    highest.see(Cell::stiffness(x, material), mass);
+    highest.see(Cell::stiffness(x, tensor_in(material, block, i)), mass);
   }
 }
 
@@ -163,7 +169,7 @@ BodyMatrices assemble(const Mesh& mesh, const Elastic& material, SparseMatrix* m
                                   model, owners, body,     is_begun};
       int n_models = 0;
       for (int i = 0; i < block.n_cells(); ++i) n_models += model[i] == i;
-      kernel.is_plain = n_models <= kernel.few;
+      kernel.is_plain = n_models <= kernel.few || !material.is_isotropic();
       sum_at_nodes(block, owners, kernel);
     });
   return body;

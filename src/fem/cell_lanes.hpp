@@ -144,19 +144,20 @@ void sum_points(const PointLanes<n, g>& points, const Lanes (*scaled)[modes][n],
   }
 }
 
-// x: coordinates (m) of the nodes. Throws ContractError where a cell is inverted.
+// x: coordinates (m) of the nodes. Of an isotropic material: others are not in lanes. Throws ContractError where a cell
+// is inverted.
 template <class Cell>
-void stiffness_in_lanes(const Lanes (&x)[Cell::n_nodes][3], const Elastic& material,
+void stiffness_in_lanes(const Lanes (&x)[Cell::n_nodes][3], const ElasticTensor& tensor,
                         CellLanes<Cell::n_nodes>& matrices) {
   constexpr int n = Cell::n_nodes, g = Cell::n_points;
   PointLanes<n, g> points;
   Lanes mean[3][3];
-  const double mu = material.shear_modulus(), lambda = material.p_wave_modulus() - 2 * mu;
+  const double mu = tensor.mu(), lambda = tensor.lambda();
   find_points<Cell>(Cell::shapes(), x, points, mean, matrices.volume);
   sum_points<n, g, 1>(points, nullptr, nullptr, lambda, mu, matrices);
 }
 
 template <>
-void stiffness_in_lanes<Hex8>(const Lanes (&x)[8][3], const Elastic& material, CellLanes<8>& matrices);
+void stiffness_in_lanes<Hex8>(const Lanes (&x)[8][3], const ElasticTensor& tensor, CellLanes<8>& matrices);
 
 }  // namespace dygita

@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "fem/shape.hpp"
 #include "fem/wave_tuning.hpp"
-#include "material/elastic.hpp"
+#include "material/elastic_tensor.hpp"
 #include "numerics/dense.hpp"
 
 namespace dygita {
@@ -47,10 +47,10 @@ struct ShapedCell {
 template <CellType cell_type>
 struct Cell : ShapedCell<cell_type> {
   static constexpr int n = ShapedCell<cell_type>::n_nodes;
-  static Stiffness<n> stiffness(const Nodes<n>& x, const Elastic& material);
-  static CornerStress<n> stress(const Nodes<n>& x, const Elastic& material, const Nodes<n>& displacement);
+  static Stiffness<n> stiffness(const Nodes<n>& x, const ElasticTensor& tensor);
+  static CornerStress<n> stress(const Nodes<n>& x, const ElasticTensor& tensor, const Nodes<n>& displacement);
   // Between lumped and consistent; of its diagonal nothing is read (manual, eq. S6).
-  static MassMatrix<n> tuned_mass(const Nodes<n>& x, const Elastic& material, const WaveTuning& tuning);
+  static MassMatrix<n> tuned_mass(const Nodes<n>& x, double density, const WaveTuning& tuning);
 };
 
 // Trilinear hexahedron with 12 enhanced strain modes condensed in the cell: the 9 of Taylor, Beresford and Wilson
@@ -59,9 +59,9 @@ struct Cell : ShapedCell<cell_type> {
 // incompressibility. Its mass is tuned along each of its axes.
 template <>
 struct Cell<CellType::hex8> : ShapedCell<CellType::hex8> {
-  static Stiffness<8> stiffness(const Nodes<8>& x, const Elastic& material);
-  static CornerStress<8> stress(const Nodes<8>& x, const Elastic& material, const Nodes<8>& displacement);
-  static MassMatrix<8> tuned_mass(const Nodes<8>& x, const Elastic& material, const WaveTuning& tuning);
+  static Stiffness<8> stiffness(const Nodes<8>& x, const ElasticTensor& tensor);
+  static CornerStress<8> stress(const Nodes<8>& x, const ElasticTensor& tensor, const Nodes<8>& displacement);
+  static MassMatrix<8> tuned_mass(const Nodes<8>& x, double density, const WaveTuning& tuning);
 };
 using Hex8 = Cell<CellType::hex8>;
 
@@ -98,14 +98,6 @@ decltype(auto) with_cell(CellType type, Kernel&& kernel) {
     if (static_cast<int>(type) != first) return with_cell<first + 1>(type, std::forward<Kernel>(kernel));
   }
   return kernel(Cell<static_cast<CellType>(first)>{});
-}
-
-// Stress (Pa) of a displacement gradient d u_p / d x_q.
-inline Eigen::Matrix<double, 6, 1> stress_of_gradient(const Elastic& material, const Mat3& gradient) {
-  const double mu = material.shear_modulus();
-  const double pressure = (material.p_wave_modulus() - 2 * mu) * gradient.trace();
-  const Mat3 stress = mu * (gradient + gradient.transpose()) + pressure * Mat3::Identity();
-  return {stress(0, 0), stress(1, 1), stress(2, 2), stress(0, 1), stress(1, 2), stress(2, 0)};
 }
 
 // Programmer's contract of the kernels: the cell passed check_mesh.

@@ -5,7 +5,7 @@
 namespace dygita {
 
 CellMatrix element_stiffness(CellType type, const CellNodes& x, const Elastic& material) {
-  return with_cell(type, [&](auto cell) -> CellMatrix { return cell.stiffness(x, material); });
+  return with_cell(type, [&](auto cell) -> CellMatrix { return cell.stiffness(x, material.tensor()); });
 }
 
 Eigen::VectorXd element_mass(CellType type, const CellNodes& x, double density) {
@@ -13,7 +13,7 @@ Eigen::VectorXd element_mass(CellType type, const CellNodes& x, double density) 
 }
 
 Tensors element_stress(CellType type, const CellNodes& x, const Elastic& material, const CellNodes& displacement) {
-  return with_cell(type, [&](auto cell) -> Tensors { return cell.stress(x, material, displacement); });
+  return with_cell(type, [&](auto cell) -> Tensors { return cell.stress(x, material.tensor(), displacement); });
 }
 
 }  // namespace dygita

@@ -12,8 +12,9 @@ using CellNodes = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, most_cell_nodes
 // 3n x 3n, dof = 3 node + axis
 using CellMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_cell_dofs, most_cell_dofs>;
 
-// Stiffness (N/m), exactly symmetric. hex8: 12 enhanced strain modes condensed in the cell, passes the patch test on
-// distorted cells, locks neither in bending nor near incompressibility. Others: plain, linear ones lock in both.
+// Stiffness (N/m), exactly symmetric, of a material along the axes. hex8: 12 enhanced strain modes condensed in the
+// cell, passes the patch test on distorted cells, locks neither in bending nor near incompressibility. Others: plain,
+// linear ones lock in both.
 CellMatrix element_stiffness(CellType type, const CellNodes& x, const Elastic& material);
 
 // Lumped mass of each node (kg), as the type's row says: positive, with exact total.

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "fem/cell_loop.hpp"
-#include "fem/strain_energy.hpp"
+#include "fem/cell_tensor.hpp"
 
 namespace dygita {
 
@@ -51,8 +51,8 @@ Eigen::Matrix<double, 6, 1> across(const Eigen::Matrix<double, 6, 1>& stress, co
 double fall(int n_opposite) { return n_opposite == 1 ? 5.0 : n_opposite == 2 ? 4.0 : 3.0; }
 
 template <class Cell>
-double surface_error(const Elastic& material, const Nodes<Cell::n_nodes>& x, const CornerStress<Cell::n_nodes>& stress,
-                     unsigned facets) {
+double surface_error(const ElasticTensor& tensor, const Nodes<Cell::n_nodes>& x,
+                     const CornerStress<Cell::n_nodes>& stress, unsigned facets) {
   constexpr int n = Cell::n_nodes, n_points = LinearCell<Cell>::n_points;
   const LinearCell<Cell>& table = LinearCell<Cell>::table();
   Eigen::Matrix<double, 6, n_points> error = Eigen::Matrix<double, 6, n_points>::Zero();
@@ -76,7 +76,7 @@ double surface_error(const Elastic& material, const Nodes<Cell::n_nodes>& x, con
   double energy = 0.0;
   for (int i = 0; i < n_points; ++i) {
     const double volume = (x * table.inside.slopes[i]).eval().determinant() * table.inside.weights[i];
-    energy += volume * energy_density(material, error.col(i));
+    energy += volume * tensor.energy_density(error.col(i));
   }
   return energy;
 }
@@ -128,9 +128,9 @@ Vec surface_errors(const Mesh& mesh, const Elastic& material, const std::vector<
           using Cell = decltype(cell);
           constexpr int n = Cell::n_nodes;
           if constexpr (n == Cell::row.n_corners)
-            energies[i] = surface_error<Cell>(material, gather<n>(mesh.nodes, block.cell(at.cell)),
-                                              stress[static_cast<size_t>(at.block)].template middleCols<n>(n * at.cell),
-                                              at.facets);
+            energies[i] = surface_error<Cell>(
+                tensor_in(material, block, at.cell), gather<n>(mesh.nodes, block.cell(at.cell)),
+                stress[static_cast<size_t>(at.block)].template middleCols<n>(n * at.cell), at.facets);
         });
       },
       Schedule::evenly);

@@ -144,10 +144,48 @@ void place(const Square8& block, int p, int q, Stiffness<8>& stiffness) {
     }
 }
 
+// Strains of the modes at a point, one column a mode, of any material.
+Eigen::Matrix<double, 6, n_hex8_modes> strain_of_modes(const Geometry& cell, int point) {
+  const auto functions = mode_functions().row(point);
+  const double scale = cell.j_centre / cell.volume[point];
+  Eigen::Matrix<double, 6, n_hex8_modes> strain;
+  for (int j = 0; j < 3; ++j) strain.middleCols<3>(3 * j) = strain_of_node(scale * functions[j] * cell.centre.col(j));
+  for (int k = 0; k < 3; ++k) strain.col(9 + k) = strain_of(scale * functions[3 + k] * Mat3::Identity());
+  return strain;
+}
+
+// What the modes have of any material: their own stiffness, and that between them and the dofs of the nodes.
+struct GeneralModes {
+  ModeMatrix own = ModeMatrix::Zero();
+  Eigen::Matrix<double, n_hex8_modes, 24> coupling = Eigen::Matrix<double, n_hex8_modes, 24>::Zero();
+
+  GeneralModes(const Geometry& cell, const Mat6& d) {
+    for (int i = 0; i < 8; ++i) {
+      const Eigen::Matrix<double, n_hex8_modes, 6> stress = cell.volume[i] * strain_of_modes(cell, i).transpose() * d;
+      own += stress * strain_of_modes(cell, i);
+      for (int a = 0; a < 8; ++a) coupling.middleCols<3>(3 * a) += stress * strain_of_node(gradient_at(cell, a, i));
+    }
+  }
+
+  static Vec3 gradient_at(const Geometry& cell, int node, int point) {
+    return {cell.gradient[0](node, point), cell.gradient[1](node, point), cell.gradient[2](node, point)};
+  }
+};
+
+Stiffness<8> general_stiffness(const Nodes<8>& x, const Mat6& d) {
+  const GeneralModes modes(geometry_of(x), d);
+  const Eigen::Matrix<double, n_hex8_modes, 24> yielding = modes.own.llt().solve(modes.coupling);
+  Stiffness<8> stiffness = stiffness_of_points(Hex8::shapes(), x, d);
+  stiffness.noalias() -= modes.coupling.transpose() * yielding;
+  stiffness.triangularView<Eigen::StrictlyLower>() = stiffness.transpose();
+  return stiffness;
+}
+
 }  // namespace
 
-Stiffness<8> Hex8::stiffness(const Nodes<8>& x, const Elastic& material) {
-  const double mu = material.shear_modulus(), lambda = material.p_wave_modulus() - 2 * mu;
+Stiffness<8> Hex8::stiffness(const Nodes<8>& x, const ElasticTensor& tensor) {
+  if (!tensor.is_isotropic()) return general_stiffness(x, tensor.stiffness());
+  const double mu = tensor.mu(), lambda = tensor.lambda();
   const Geometry cell = geometry_of(x);
 
   // Condense the modes.
@@ -176,15 +214,20 @@ Stiffness<8> Hex8::stiffness(const Nodes<8>& x, const Elastic& material) {
   return stiffness;
 }
 
-CornerStress<8> Hex8::stress(const Nodes<8>& x, const Elastic& material, const Nodes<8>& displacement) {
-  const double mu = material.shear_modulus(), lambda = material.p_wave_modulus() - 2 * mu;
+CornerStress<8> Hex8::stress(const Nodes<8>& x, const ElasticTensor& tensor, const Nodes<8>& displacement) {
   const Geometry cell = geometry_of(x);
 
   // Recover the modes.
-  Eigen::Matrix<double, 24, 1> by_axis;
-  for (int p = 0; p < 3; ++p) by_axis.segment<8>(8 * p) = displacement.row(p);
-  const Eigen::Matrix<double, n_hex8_modes, 1> force = couple(cell, lambda, mu).transpose() * by_axis;
-  const Eigen::Matrix<double, n_hex8_modes, 1> modes = -mode_stiffness(cell, lambda, mu).ldlt().solve(force);
+  Eigen::Matrix<double, n_hex8_modes, 1> modes;
+  if (tensor.is_isotropic()) {
+    Eigen::Matrix<double, 24, 1> by_axis;
+    for (int p = 0; p < 3; ++p) by_axis.segment<8>(8 * p) = displacement.row(p);
+    const double mu = tensor.mu(), lambda = tensor.lambda();
+    modes = -mode_stiffness(cell, lambda, mu).ldlt().solve(couple(cell, lambda, mu).transpose() * by_axis);
+  } else {
+    const GeneralModes general(cell, tensor.stiffness());
+    modes = -general.own.llt().solve(general.coupling * displacement.reshaped());
+  }
 
   // Stress at the points, then its trilinear interpolation at the nodes.
   const Mat3 incompatible = Eigen::Map<const Mat3>(modes.data());  // column j: a_j
@@ -196,13 +239,13 @@ CornerStress<8> Hex8::stress(const Nodes<8>& x, const Elastic& material, const N
     const double scale = cell.j_centre / cell.volume[i];
     gradient += scale * incompatible * functions.head<3>().asDiagonal() * cell.centre.transpose();
     gradient.diagonal().array() += scale * functions.tail<3>().dot(modes.tail<3>());
-    at_points.col(i) = stress_of_gradient(material, gradient);
+    at_points.col(i) = tensor.stress(gradient);
   }
   return at_points * to_nodes();
 }
 
 // Integrals of rho N_a N_b by two points a direction, at +-s: s = 1 is lumped, s^2 = 1/3 consistent.
-MassMatrix<8> Hex8::tuned_mass(const Nodes<8>& x, const Elastic& material, const WaveTuning& tuning) {
+MassMatrix<8> Hex8::tuned_mass(const Nodes<8>& x, double density, const WaveTuning& tuning) {
   const auto& table = shapes();
   Mat3 jacobian = Mat3::Zero();
   for (int i = 0; i < 8; ++i) jacobian += x * table.slopes[i] / 8.0;  // at the centre
@@ -215,7 +258,7 @@ MassMatrix<8> Hex8::tuned_mass(const Nodes<8>& x, const Elastic& material, const
     for (int a = 0; a < 8; ++a)
       values[a] = (Vec3::Ones() + table.points.col(a).cwiseSign().cwiseProduct(corner).cwiseProduct(s)).prod() / 8.0;
     const double volume = (x * table.slopes[i]).eval().determinant() * table.weights[i];
-    mass += material.density * volume * values * values.transpose();
+    mass += density * volume * values * values.transpose();
   }
   return mass;
 }

@@ -197,8 +197,8 @@ struct GeometryLanes {
 }  // namespace
 
 template <>
-void stiffness_in_lanes<Hex8>(const Lanes (&x)[8][3], const Elastic& material, CellLanes<8>& matrices) {
-  const double mu = material.shear_modulus(), lambda = material.p_wave_modulus() - 2 * mu;
+void stiffness_in_lanes<Hex8>(const Lanes (&x)[8][3], const ElasticTensor& tensor, CellLanes<8>& matrices) {
+  const double mu = tensor.mu(), lambda = tensor.lambda();
   const GeometryLanes cells(x);
   std::copy(cells.volume, cells.volume + 8, matrices.volume);
   const ModeLanes modes(cells.points, cells.centre, cells.j_centre, lambda, mu);
@@ -209,7 +209,8 @@ void stiffness_in_lanes<Hex8>(const Lanes (&x)[8][3], const Elastic& material, C
 
 template <>
 void stresses_of<Hex8>(const CellFields& fields, std::span<const int* const> cells, CornerStress<8>* stress) {
-  const double mu = fields.material.shear_modulus(), lambda = fields.material.p_wave_modulus() - 2 * mu;
+  if (!fields.material.is_isotropic()) return stresses_one_by_one<Hex8>(fields, cells, stress);
+  const double mu = fields.material.tensor().mu(), lambda = fields.material.tensor().lambda();
   const int n_cells = static_cast<int>(cells.size());
   for (int first = 0; first < n_cells; first += n_lanes) {
     Lanes x[8][3], u[8][3];

@@ -35,7 +35,7 @@ struct MassKernel {
     mass.setZero();
     if (!tuning) return;
     if (keeps_lumped.empty() || std::none_of(nodes, nodes + n, [&](int node) { return keeps_lumped[node]; }))
-      mass = Cell::tuned_mass(x, material, *tuning);
+      mass = Cell::tuned_mass(x, material.density, *tuning);
   }
   void add(const int* nodes, int a) {
     const int first = pattern.starts[nodes[a]], end = pattern.starts[nodes[a] + 1];

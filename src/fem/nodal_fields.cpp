@@ -79,8 +79,9 @@ Tensors nodal_stress(const Mesh& mesh, const Elastic& material, const Points& di
   Vec n_cells = Vec::Zero(mesh.n_nodes());
   for (const CellBlock& block : mesh.blocks) {
     with_cell(block.type, [&](auto cell) {
-      sum_at_nodes(block, owners,
-                   StressKernel<decltype(cell)>{mesh, block, owners, {mesh.nodes, displacement, material}, stress});
+      sum_at_nodes(
+          block, owners,
+          StressKernel<decltype(cell)>{mesh, block, owners, {mesh.nodes, displacement, material, block}, stress});
     });
     for (const int node : block.nodes) n_cells[node] += 1;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fem/cell_loop.hpp"
+#include "fem/cell_tensor.hpp"
 #include "mesh/raise_order.hpp"
 #include "numerics/dense.hpp"
 
@@ -38,10 +39,11 @@ void sample_block(const Mesh& mesh, const CellBlock& block, const Elastic& mater
   const auto compute = [&](int i) {
     const auto x = gather<Cell::n_nodes>(mesh.nodes, block.cell(i));
     const auto u = gather<Cell::n_nodes>(displacement, block.cell(i));
+    const ElasticTensor tensor = tensor_in(material, block, i);
     for (int k = 0; k < shapes.n_points; ++k) {
       const int at = first + i * shapes.n_points + k;
       samples.places.col(at) = x * shapes.values.col(k);
-      samples.stress.col(at) = stress_of_gradient(material, u * point_in_cell(shapes, x, k).gradient);
+      samples.stress.col(at) = tensor.stress(u * point_in_cell(shapes, x, k).gradient);
     }
   };
   parallel_for(block.n_cells(), compute, Schedule::evenly);

@@ -6,7 +6,6 @@
 #include "fem/cell_loop.hpp"
 #include "fem/cell_stress.hpp"
 #include "fem/patch_recovery.hpp"
-#include "fem/strain_energy.hpp"
 
 namespace dygita {
 
@@ -14,11 +13,11 @@ namespace {
 
 // 1/2 of the integral of d : C^-1 : d over a cell, d interpolated from its nodes.
 template <class Cell>
-double cell_energy(const Elastic& material, const Nodes<Cell::n_nodes>& x, const CornerStress<Cell::n_nodes>& d) {
+double cell_energy(const ElasticTensor& tensor, const Nodes<Cell::n_nodes>& x, const CornerStress<Cell::n_nodes>& d) {
   const auto& shapes = Cell::mass_shapes();  // a quadratic, as products of shape functions are
   double energy = 0.0;
   for (int i = 0; i < shapes.n_points; ++i)
-    energy += point_in_cell(shapes, x, i).volume * energy_density(material, d * shapes.values.col(i));
+    energy += point_in_cell(shapes, x, i).volume * tensor.energy_density(d * shapes.values.col(i));
   return energy;
 }
 
@@ -31,14 +30,14 @@ CornerStress<n> gather_stress(const Tensors& values, const int* nodes) {
 
 // 1/2 of the integral of (s* - s) : C^-1 : (s* - s) over a cell, s* interpolated from its nodes, s of the displacement.
 template <class Cell>
-double energy_against(const Elastic& material, const Nodes<Cell::n_nodes>& x, const Nodes<Cell::n_nodes>& displacement,
-                      const CornerStress<Cell::n_nodes>& smooth) {
+double energy_against(const ElasticTensor& tensor, const Nodes<Cell::n_nodes>& x,
+                      const Nodes<Cell::n_nodes>& displacement, const CornerStress<Cell::n_nodes>& smooth) {
   const auto& shapes = Cell::mass_shapes();
   double energy = 0.0;
   for (int i = 0; i < shapes.n_points; ++i) {
     const auto point = point_in_cell(shapes, x, i);
-    energy += point.volume * energy_density(material, smooth * shapes.values.col(i) -
-                                                          stress_of_gradient(material, displacement * point.gradient));
+    energy += point.volume *
+              tensor.energy_density(smooth * shapes.values.col(i) - tensor.stress(displacement * point.gradient));
   }
   return energy;
 }
@@ -53,7 +52,8 @@ Tensors cell_stresses(const Mesh& mesh, const CellBlock& block, const Elastic& m
     std::array<const int*, at_once> nodes{};
     std::array<CornerStress<n>, at_once> of_cell;
     for (int i = 0; i < count; ++i) nodes[i] = block.cell(first + i);
-    stresses_of<Cell>({mesh.nodes, displacement, material}, {nodes.data(), static_cast<size_t>(count)}, of_cell.data());
+    stresses_of<Cell>({mesh.nodes, displacement, material, block}, {nodes.data(), static_cast<size_t>(count)},
+                      of_cell.data());
     for (int i = 0; i < count; ++i) stress.middleCols<n>(n * (first + i)) = of_cell[i];
   };
   parallel_for((block.n_cells() + at_once - 1) / at_once, compute, Schedule::evenly);
@@ -102,9 +102,10 @@ StressError stress_error(const Mesh& mesh, const Elastic& material, const Points
         auto difference = of_cells[b].middleCols<n>(n * i);
         for (int a = 0; a < n; ++a) difference.col(a) = smooth.col(block.cell(i)[a]) - difference.col(a);
         const auto x = gather<n>(mesh.nodes, block.cell(i));
-        energy[i] = of_order_two ? energy_against<Cell>(material, x, gather<n>(displacement, block.cell(i)),
+        const ElasticTensor tensor = tensor_in(material, block, i);
+        energy[i] = of_order_two ? energy_against<Cell>(tensor, x, gather<n>(displacement, block.cell(i)),
                                                         gather_stress<n>(smooth, block.cell(i)))
-                                 : cell_energy<Cell>(material, x, difference);
+                                 : cell_energy<Cell>(tensor, x, difference);
       };
       parallel_for(block.n_cells(), compute, Schedule::evenly);
       error.of_cells.push_back(std::move(energy));

@@ -93,7 +93,9 @@ void UniformStrainCells::Loop::set_lane(const UniformStrainCells& cells, const N
   constexpr int n = Cell::n_nodes;
   const MeanCell<n> mean = mean_cell<Cell>(x);
   const BulkViscosity& viscosity = cells.settings_.viscosity;
-  const double impedance = material.density * material.p_wave_speed();
+  // Of slower waves none is damped by more than the linear part of critical, which the stable step counts on.
+  const double impedance =
+      material.density * (material.is_isotropic() ? material.p_wave_speed() : material.s_wave_speed());
   const double length = viscosity.quadratic * mean.thickness;
   for (int a = 0; a < n; ++a)
     for (int d = 0; d < 3; ++d) geometry[3 * a + d][lane] = mean.gradient(a, d);
@@ -233,10 +235,8 @@ CellEnergy UniformStrainCells::Loop::run(const UniformStrainCells& cells, const 
 
 UniformStrainCells::UniformStrainCells(const Mesh& mesh, const CellBlock& block, const Elastic& material,
                                        const UniformStrainSettings& settings)
-    : type_(block.type),
-      settings_(settings),
-      lambda_(material.p_wave_modulus() - 2 * material.shear_modulus()),
-      mu_(material.shear_modulus()) {
+    : type_(block.type), settings_(settings), lambda_(material.tensor().lambda()), mu_(material.tensor().mu()) {
+  CHECK(material.is_isotropic() || !settings.has_stress, "cells of uniform strain have a stress of lambda and mu");
   with_lumped_cell(type_, [&](auto cell) {
     using Cell = decltype(cell);
     static_assert((Cell::row.one_point == OnePoint::hourglass_control) == (Hourglass<Cell>::n_modes > 0),

@@ -32,9 +32,10 @@ struct UniformStrainSettings {
   BulkViscosity viscosity;
 };
 
-// All cells of one block of a mesh. The mean gradient (Flanagan and Belytschko, Int. J. Numer. Methods Eng. 17, 1981)
-// passes the patch test on distorted cells; linear tetrahedra have no other. Forces are what the cells resist with: M a
-// = external - force. Vectors are by node, 3 n_nodes long, dof = 3 node + axis.
+// All cells of one block of a mesh, of an isotropic material where they have stress. The mean gradient (Flanagan and
+// Belytschko, Int. J. Numer. Methods Eng. 17, 1981) passes the patch test on distorted cells; linear tetrahedra have no
+// other. Forces are what the cells resist with: M a = external - force. Vectors are by node, 3 n_nodes long, dof = 3
+// node + axis.
 class UniformStrainCells {
  public:
   UniformStrainCells(const Mesh& mesh, const CellBlock& block, const Elastic& material,

@@ -43,9 +43,11 @@ Json body(const Substructure& part, double volume) {
             {"low", {low[0], low[1], low[2]}},
             {"high", {high[0], high[1], high[2]}},
             {"condensed", {{"rows", part.mesh->condensed->n_rows()}, {"valid_to", part.mesh->condensed->valid_to}}}};
-  Json json = {{"mass", material.density * volume},   {"low", {low[0], low[1], low[2]}},
-               {"high", {high[0], high[1], high[2]}}, {"young", material.young},
-               {"poisson", material.poisson},         {"density", material.density}};
+  Json json = {{"mass", material.density * volume},
+               {"low", {low[0], low[1], low[2]}},
+               {"high", {high[0], high[1], high[2]}},
+               {"density", material.density}};
+  for (const MaterialConstant& constant : material.constants()) json[constant.name] = constant.value;
   if (part.yield) json["yield"] = *part.yield;
   return json;
 }

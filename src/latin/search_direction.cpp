@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "base/parallel_by_cost.hpp"
+#include "fem/cell_tensor.hpp"
 #include "law/law.hpp"
 
 namespace dygita {
@@ -67,17 +68,38 @@ std::vector<Vec3> stiffness_of_laws(const StepModel& model) {
   return stiffness;
 }
 
+// Of each piece that is solved here.
+std::vector<ElasticTensor> mean_tensors(const StepModel& model) {
+  std::vector<ElasticTensor> tensors(static_cast<size_t>(model.cut->n_pieces()));
+  for (int i = 0; i < model.cut->n_pieces(); ++i)
+    if (const Substructure& body = *model.cut->piece(i).body; model.solves(i))
+      tensors[static_cast<size_t>(i)] = mean_tensor(body.material, *body.mesh);
+  return tensors;
+}
+
+// The axes of the point that each port is at, the normal first.
+std::vector<const Mat3*> frames_of_ports(const Exchange& exchange) {
+  std::vector<const Mat3*> frames(exchange.ports.size(), nullptr);
+  for (const auto& point : exchange.points)
+    for (int p = point.first_port; p < point.end_port; ++p) frames[static_cast<size_t>(p)] = &point.frame;
+  return frames;
+}
+
 }  // namespace
 
 Vec search_directions(const StepModel& model, double multiplier, int n_window) {
   Vec k = Vec::Zero(model.n_q());
   const NodeAreas areas = node_areas(model);
+  const std::vector<ElasticTensor> tensors = mean_tensors(model);
+  const std::vector<const Mat3*> frames = frames_of_ports(model.exchange);
   const std::vector<Vec3> springs = model.scheme.is_static ? stiffness_of_laws(model) : std::vector<Vec3>();
   for (size_t p = 0; p < model.exchange.ports.size(); ++p) {
     const Port& port = model.exchange.ports[p];
     if (!model.solves(port.piece)) continue;
     const Piece& piece = *model.pieces[port.piece];
-    const Elastic& material = model.cut->piece(port.piece).body->material;
+    const ElasticTensor& tensor = tensors[static_cast<size_t>(port.piece)];
+    const double density = model.cut->piece(port.piece).body->material.density;
+    const Vec3 normal = frames[p]->col(0);
     const bool has_schur = piece.schur_diagonal().size() > 0;
     for (int d = 0; d < 3; ++d) {
       if (port.unknown[d] < 0) continue;
@@ -90,7 +112,7 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
       }
       if (model.scheme.is_static) {
         // A body that only this unknown could hold has no stiffness of its own there.
-        const double modulus = d == 0 ? material.young : material.shear_modulus();
+        const double modulus = d == 0 ? tensor.young(normal) : tensor.wave_modulus(normal, frames[p]->col(d));
         direction = has_schur            ? std::max(schur, 1e-3 * row.reference_stiffness)
                     : model.is_assembled ? 0.3 * modulus * std::sqrt(port.area)  // of cells under the point alone
                                          : row.static_stiffness;
@@ -99,8 +121,8 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
         continue;
       }
       const double mass = mass_at(model, port, areas);
-      const double speed = d == 0 ? material.p_wave_speed() : material.s_wave_speed();
-      const double impedance = material.density * speed * port.area;
+      const double speed = std::sqrt(tensor.wave_modulus(normal, frames[p]->col(d)) / density);
+      const double impedance = density * speed * port.area;
       if (n_window > 5) {
         direction = impedance;
         continue;

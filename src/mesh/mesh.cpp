@@ -156,6 +156,8 @@ void check_mesh(const Mesh& mesh, const std::string& name) {
 MeshPtr turned_mesh(const Mesh& mesh, const Mat3& turn, const Vec3& shift) {
   auto turned = std::make_shared<Mesh>(mesh);
   turned->nodes = (turn * mesh.nodes).colwise() + shift;
+  for (CellBlock& block : turned->blocks)
+    for (Mat3& axes : block.axes) axes = (turn * axes).eval();
   turned->shape = mesh.shape_digest();
   turned->turn = turn * mesh.turn;
   turned->shift = turn * mesh.shift + shift;
@@ -163,6 +165,24 @@ MeshPtr turned_mesh(const Mesh& mesh, const Mat3& turn, const Vec3& shift) {
     turned->condensed = std::make_shared<const CondensedBody>(mesh.condensed->turned(turn, turned->nodes));
   turned->digest = mesh_digest(*turned);
   return turned;
+}
+
+MeshPtr oriented_mesh(const Mesh& mesh, std::vector<std::vector<Mat3>> axes) {
+  CHECK(axes.size() == mesh.blocks.size(), "axes for every block");
+  auto oriented = std::make_shared<Mesh>(mesh);
+  Fnv1a shape;
+  shape.add(mesh.shape_digest());
+  for (size_t b = 0; b < axes.size(); ++b) {
+    CHECK(static_cast<int>(axes[b].size()) == mesh.blocks[b].n_cells(), "axes for every cell");
+    for (const Mat3& of_cell : axes[b]) {
+      const Mat3 own = mesh.turn.transpose() * of_cell;  // turned copies with turned axes are one shape
+      shape.add(own.data(), sizeof(double) * 9);
+    }
+    oriented->blocks[b].axes = std::move(axes[b]);
+  }
+  oriented->shape = shape.hexadecimal();
+  oriented->digest = mesh_digest(*oriented);
+  return oriented;
 }
 
 std::string mesh_digest(const Mesh& mesh) {
@@ -174,6 +194,7 @@ std::string mesh_digest(const Mesh& mesh) {
     digest.add(static_cast<int>(block.type));
     digest.add(block.n_cells());
     digest.add(block.nodes.data(), sizeof(int) * block.nodes.size());
+    for (const Mat3& axes : block.axes) digest.add(axes.data(), sizeof(double) * 9);
   }
   for (const auto& [name, facets] : mesh.faces) {
     digest.add(name);

@@ -18,6 +18,8 @@ namespace dygita {
 struct CellBlock {
   CellType type;
   std::vector<int> nodes;  // n_cells x nodes_per_cell, row after row
+  // Of the material of each cell, one column an axis; empty: of a material without directions.
+  std::vector<Mat3> axes = {};
 
   int n_cells() const { return static_cast<int>(nodes.size()) / nodes_per_cell(type); }
   const int* cell(int i) const { return nodes.data() + static_cast<size_t>(i) * nodes_per_cell(type); }
@@ -98,7 +100,10 @@ void check_mesh(const Mesh& mesh, const std::string& name);
 // The mesh turned (a rotation about the origin), then moved (m): a copy of what it is a copy of.
 MeshPtr turned_mesh(const Mesh& mesh, const Mat3& turn, const Vec3& shift);
 
-// Digest (FNV-1a 64, in hexadecimal) of nodes, cells and faces.
+// The mesh with axes for the material of each cell, block by block: a shape of its own.
+MeshPtr oriented_mesh(const Mesh& mesh, std::vector<std::vector<Mat3>> axes);
+
+// Digest (FNV-1a 64, in hexadecimal) of nodes, cells, their axes and faces.
 std::string mesh_digest(const Mesh& mesh);
 
 // Volume (m^3) of the whole body.

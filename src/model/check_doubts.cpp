@@ -70,7 +70,7 @@ void doubt_hardening(const Problem& problem, const Interface& interface) {
     const bool first = length_behind(interface.side_1) >= length_behind(interface.side_2);
     const Face& face = first ? interface.side_1 : interface.side_2;
     if (face.part->mesh->condensed) continue;
-    const double length = length_behind(face), young = face.part->material.young, modulus = *value * length;
+    const double length = length_behind(face), young = face.part->material.young(), modulus = *value * length;
     if (modulus >= 1e-3 * young) continue;
     doubt(problem, interface.origin,
           fmt::format("{}: '{}' = {:g} Pa/m over the {:.4g} mm of '{}' is a plastic modulus of {:.3g} MPa, {:.2g} % of "
@@ -117,13 +117,13 @@ void doubt_moduli(const Problem& problem) {
   std::set<std::string> told;
   for (const SubstructurePtr& part : problem.substructures) {
     const auto& material = part->material;
-    const double speed = std::sqrt(material.young / material.density);  // nan: there is no material
+    const double speed = std::sqrt(material.young() / material.density);  // nan: there is no material
     if (part->mesh->condensed) continue;
     if (!(speed < slowest) || !told.insert(material.name).second) continue;
     doubt(problem, part->origin,
           fmt::format("a bar of material '{}' (young {:.4g} GPa, density {:.4g} kg/m^3) has a wave speed of {:.3g} "
                       "m/s, like rubber: is the modulus in GPa?",
-                      material.name, material.young / 1e9, material.density, speed));
+                      material.name, material.young() / 1e9, material.density, speed));
   }
 }
 

@@ -211,6 +211,7 @@ std::vector<MeshPiece> cut_mesh(const Mesh& mesh, const std::vector<int>& piece_
     for (int i = 0; i < block.n_cells(); ++i, ++cell) {
       std::vector<int>& nodes = own[piece_of_cell[cell]].nodes;
       nodes.insert(nodes.end(), block.cell(i), block.cell(i) + n_nodes);
+      if (!block.axes.empty()) own[piece_of_cell[cell]].axes.push_back(block.axes[static_cast<size_t>(i)]);
     }
     for (int p = 0; p < n; ++p)
       if (own[p].n_cells() > 0) blocks[p].push_back(std::move(own[p]));

@@ -49,13 +49,14 @@ bool wants_tuned_mass(const Substructure& part, double phase, double interface_s
 std::string why_lumped(const Substructure& part, double phase, double interface_share) {
   if (phase <= most_phase) return "";
   if (!is_of_bricks(*part.mesh)) return "its cells are no hexahedra of order one";
+  if (!part.material.is_isotropic()) return "its waves have other speeds in other directions";
   return interface_share < most_on_interfaces ? "" : "half of its nodes or more have laws";
 }
 
 bool may_be_tuned(const Problem& problem, const std::vector<double>& brought, const Substructure& part) {
   if (part.integration.value_or(problem.solver.integration) == IntegrationChoice::implicitly) return false;
   const MassSettings mass = problem.mass();
-  if (!mass.is_chosen) return mass.is_tuned && is_of_bricks(*part.mesh);
+  if (!mass.is_chosen) return mass.is_tuned && is_of_bricks(*part.mesh) && part.material.is_isotropic();
   return wants_tuned_mass(part, phase_of_lumped_mass(problem, brought, part), 0.0);
 }
 

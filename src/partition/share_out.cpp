@@ -101,16 +101,15 @@ std::vector<double> costs_of(const Problem& problem, const Cut& cut, const Share
 
 // Pieces with equal meshes and materials that are surely implicit: one solves for all of them on a rank.
 std::vector<int> groups_of_equal(const Problem& problem, const Cut& cut) {
-  std::map<std::tuple<std::string, double, double, double>, int> known;
+  std::map<std::pair<std::string, MaterialKey>, int> known;
   std::vector<int> group;
   int n = 0;
   for (const CutPiece& piece : cut.pieces()) {
-    const Elastic& m = piece.body->material;
     if (!is_surely_implicit(problem, *piece.body)) {
       group.push_back(n++);
       continue;
     }
-    const auto [at, is_new] = known.try_emplace({piece.body->mesh->shape_digest(), m.young, m.poisson, m.density}, n);
+    const auto [at, is_new] = known.try_emplace({piece.body->mesh->shape_digest(), piece.body->material.key()}, n);
     n += is_new;
     group.push_back(at->second);
   }

@@ -252,12 +252,11 @@ void add_matrices(const Problem& problem, LinearAssembly& assembly) {
   const int n = static_cast<int>(assembly.map.cols());
   assembly.stiffness.resize(n, n);
   assembly.mass.resize(n, n);
-  std::map<std::tuple<std::string, double, double, double>, BodyMatrices> known;
+  std::map<std::pair<std::string, MaterialKey>, BodyMatrices> known;
   for (size_t part = 0; part < problem.substructures.size(); ++part) {
     const Substructure& body = *problem.substructures[part];
     const Elastic& material = body.material;
-    const auto [it, is_new] =
-        known.try_emplace({body.mesh->digest, material.young, material.poisson, material.density});
+    const auto [it, is_new] = known.try_emplace({body.mesh->digest, material.key()});
     if (is_new) it->second = assemble(*body.mesh, material);
     const BodyMatrices& own = it->second;
     const SparseMatrix map = assembly.map.middleRows(3 * assembly.first_node[part], 3 * body.mesh->n_nodes());

@@ -10,10 +10,10 @@ namespace {
 constexpr BulkViscosity usual_viscosity{0.06, 1.2};
 
 // The body with only these cells.
-Mesh only(const Mesh& mesh, const CellBlock& block) {
+Mesh only(const Mesh& mesh, std::vector<CellBlock> blocks) {
   Mesh some;
   some.nodes = mesh.nodes;
-  some.blocks = {block};
+  some.blocks = std::move(blocks);
   return some;
 }
 
@@ -29,9 +29,12 @@ InternalForce::InternalForce(const std::vector<Body>& bodies, const ExplicitSett
     Part part;
     part.beta = material.damping.stiffness;
     has_stiffness_damping_ |= part.beta > 0.0;
+    std::vector<CellBlock> multiplied;  // by their stiffness
     const BulkViscosity none, viscosity = settings.bulk_viscosity ? usual_viscosity : none;
     for (const CellBlock& block : mesh.blocks) {
-      const bool is_uniform = settings.one_point && cell_shape(block.type).one_point != OnePoint::none;
+      // One point and its hourglass stiffness know lambda and mu alone.
+      const bool is_uniform =
+          settings.one_point && cell_shape(block.type).one_point != OnePoint::none && material.is_isotropic();
       // Viscosity sees the strain alone, not what stiffness damping adds to it: at its rate that is a third derivative.
       const bool is_apart = !is_uniform || part.beta > 0.0;
       if (is_uniform)
@@ -39,9 +42,10 @@ InternalForce::InternalForce(const std::vector<Body>& bodies, const ExplicitSett
                                 UniformStrainSettings{true, settings.hourglass, is_apart ? none : viscosity});
       if (is_apart && settings.bulk_viscosity)
         part.viscous.emplace_back(mesh, block, material, UniformStrainSettings{false, 0.0, viscosity});
-      if (settings.one_point && !is_uniform)
-        part.stiffness = std::make_unique<SymmetricBlocks>(assemble(only(mesh, block), material).stiffness);
+      if (settings.one_point && !is_uniform) multiplied.push_back(block);
     }
+    if (!multiplied.empty())
+      part.stiffness = std::make_unique<SymmetricBlocks>(assemble(only(mesh, multiplied), material).stiffness);
     if (!settings.one_point) part.stiffness = std::make_unique<SymmetricBlocks>(*body.matrices->stiffness());
     parts_.push_back(std::move(part));
   }

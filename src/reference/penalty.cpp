@@ -36,7 +36,7 @@ Side side_of(const StepModel& model, const Point& point, int side) {
     const int part = side == 1 ? surface.part_1 : surface.part_2;
     const SideTrace& trace = side == 1 ? surface.facing.side_1 : surface.facing.side_2;
     const Elastic& material = model.problem->substructures[part]->material;
-    const double bulk = material.young / (3 * (1 - 2 * material.poisson));
+    const double bulk = material.tensor().bulk_modulus();
     const double area = surface.facing.areas[member.point], mass = mass_of(trace, member.point, *model.pieces[part]);
     // A node on a face has half of the volume of the cells behind its area.
     sum.stiffness += bulk * area * area / (2 * mass / material.density);

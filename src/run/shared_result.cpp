@@ -170,7 +170,8 @@ std::vector<ReadPart> read_parts(const Problem& problem) {
     parts.digest.add(part->name);
     parts.digest.add(part->mesh->digest);
     const Elastic& m = part->material;
-    parts.add_all(std::array{m.young, m.poisson, m.density, m.damping.mass, m.damping.stiffness});
+    parts.add_all(m.key());
+    parts.add_all(std::array{m.damping.mass, m.damping.stiffness});
     parts.add_all(part->place);
     parts.add_all(part->velocity);
   }

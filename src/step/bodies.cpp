@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 #include <set>
-#include <tuple>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/log.hpp"
@@ -161,12 +161,11 @@ bool has_body_forces(const Problem& problem) {
   return false;
 }
 
-using BodyKey = std::tuple<std::string, double, double, double>;
+using BodyKey = std::pair<std::string, MaterialKey>;
 
 // A mass has no directions: turned copies have the same. A mass matrix of its own has some.
 BodyKey mass_key(const Substructure& part) {
-  const Elastic& m = part.material;
-  return {part.mesh->condensed ? part.mesh->digest : part.mesh->shape_digest(), m.young, m.poisson, m.density};
+  return {part.mesh->condensed ? part.mesh->digest : part.mesh->shape_digest(), part.material.key()};
 }
 
 // Of which pieces the masses are known on all ranks: all where loads are laid on them; else those that give theirs to
@@ -245,10 +244,7 @@ bool may_do_without_matrix(const Problem& problem, const Substructure& part) {
 // Equal bodies share theirs; keeps: whose matrix stays.
 void add_matrices(const std::vector<char>& to, const std::vector<char>& keeps, std::vector<Body>& bodies) {
   std::map<BodyKey, std::shared_ptr<const StoredMatrices>> known;
-  const auto key = [](const Body& body) {
-    const Elastic& m = body.part->material;
-    return BodyKey{body.part->mesh->digest, m.young, m.poisson, m.density};
-  };
+  const auto key = [](const Body& body) { return BodyKey{body.part->mesh->digest, body.part->material.key()}; };
   for (const Body& body : bodies)
     if (body.matrices) known[key(body)] = body.matrices;
   std::vector<std::pair<size_t, std::shared_ptr<const StoredMatrices>*>> wanted;

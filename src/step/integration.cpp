@@ -224,7 +224,8 @@ void choose_mass(const Problem& problem, const std::vector<Size>& sizes, std::ve
   const bool is_chosen = problem.mass().is_chosen;
   const std::vector<double> brought = is_chosen ? brought_frequencies(problem) : std::vector<double>();
   for (size_t i = 0; i < parts.size(); ++i) {
-    parts[i].is_tuned = problem.mass().is_tuned;
+    // Tuned to one speed of waves; where other directions have others the longest stable step is not found safely.
+    parts[i].is_tuned = problem.mass().is_tuned && problem.substructures[i]->material.is_isotropic();
     if (!is_chosen || !parts[i].why_not.empty()) continue;
     const Substructure& part = *problem.substructures[i];
     parts[i].phase = phase_of_lumped_mass(problem, brought, part);

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/parallel_by_cost.hpp"
 #include "exchange/rigid_motions.hpp"
+#include "fem/cell_tensor.hpp"
 #include "meeting/facing.hpp"
 #include "model/extent.hpp"
 #include "numerics/scratch_pages.hpp"
@@ -85,16 +86,18 @@ std::vector<InterfaceRow> rows_of(const StepModel& model, int piece, const std::
   const double length = body.mesh->condensed ? extent_of(body).size().norm()
                         : total_area > 0.0   ? volume(*body.mesh) / total_area
                                              : 1.0;
+  const ElasticTensor tensor = mean_tensor(body.material, *body.mesh);
   for (const PortAt& at : ports) {
     const Port& port = model.exchange.ports[at.port];
+    const Mat3& frame = model.exchange.points[at.point].frame;
     for (int d = 0; d < 3; ++d) {
       if (port.unknown[d] < 0) continue;
-      const double modulus = d == 0 ? body.material.young : body.material.shear_modulus();
+      const double modulus = d == 0 ? tensor.young(frame.col(0)) : tensor.wave_modulus(frame.col(0), frame.col(d));
       const double stiffness = modulus * port.area / length;
       InterfaceRow& row = rows[port.unknown[d]];
       row = {{}, needs_reference ? stiffness : 0.0, stiffness, 1.0, port.side};
       port.for_each_node([&](int node, const Mat3& block) {
-        const Vec3 along = block.transpose() * model.exchange.points[at.point].frame.col(d);
+        const Vec3 along = block.transpose() * frame.col(d);
         if (!along.isZero(0.0))
           row.nodes.push_back({port.trace ? model.cut->owner(port.part, node).node : port.piece_node, along});
       });

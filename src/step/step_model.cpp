@@ -260,13 +260,11 @@ bool fits_every_rank(const Problem& problem, const Step& step) {
 // One process solves equal pieces together, whose last digits depend on how many there are.
 void tell_equal_apart(const StepModel& model) {
   if (ranks::is_alone() || model.is_assembled) return;
-  std::map<std::tuple<std::string, double, double, double>, int> first;
+  std::map<std::pair<std::string, MaterialKey>, int> first;
   for (int i = 0; i < model.cut->n_pieces(); ++i) {
     if (model.integration.is_explicit_piece(i)) continue;
     const CutPiece& piece = model.cut->piece(i);
-    const Elastic& m = piece.body->material;
-    const auto [equal, is_new] =
-        first.try_emplace({piece.body->mesh->shape_digest(), m.young, m.poisson, m.density}, i);
+    const auto [equal, is_new] = first.try_emplace({piece.body->mesh->shape_digest(), piece.body->material.key()}, i);
     if (is_new || model.cut->piece(equal->second).rank == piece.rank) continue;
     const auto name = [&](int p) { return model.problem->substructures[model.cut->piece(p).part]->name; };
     warn(

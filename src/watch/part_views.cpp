@@ -27,8 +27,11 @@ std::pair<MeshPtr, std::vector<int>> some_cells(const Mesh& mesh, const std::vec
     const CellBlock& block = mesh.blocks[b];
     CellBlock& kept = some->blocks.emplace_back(CellBlock{block.type, {}});
     const int n = nodes_per_cell(block.type);
-    for (int i = 0; i < block.n_cells(); ++i)
-      if (is_kept[b][static_cast<size_t>(i)]) kept.nodes.insert(kept.nodes.end(), block.cell(i), block.cell(i) + n);
+    for (int i = 0; i < block.n_cells(); ++i) {
+      if (!is_kept[b][static_cast<size_t>(i)]) continue;
+      kept.nodes.insert(kept.nodes.end(), block.cell(i), block.cell(i) + n);
+      if (!block.axes.empty()) kept.axes.push_back(block.axes[static_cast<size_t>(i)]);
+    }
     for (const int node : kept.nodes) number[static_cast<size_t>(node)] = 0;
   }
   for (int node = 0; node < mesh.n_nodes(); ++node) {

@@ -137,11 +137,11 @@ void LinearAnalysis::number_unknowns() {
 
 // One mesh for each material, all on the nodes of the uncut body; then K and M of the unknowns.
 void LinearAnalysis::assemble_free() {
-  std::map<std::tuple<double, double, double>, std::pair<Mesh, Elastic>> bodies;
+  std::map<MaterialKey, std::pair<Mesh, Elastic>> bodies;
   for (size_t part = 0; part < node_of_.size(); ++part) {
     const Substructure& body = *problem_.substructures[part];
     const Elastic& m = body.material;
-    auto& [mesh, material] = bodies[{m.young, m.poisson, m.density}];
+    auto& [mesh, material] = bodies[m.key()];
     if (mesh.nodes.cols() == 0) {
       mesh.nodes = Points::Zero(3, n_nodes_);
       mesh.source = "uncut";

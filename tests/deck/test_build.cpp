@@ -45,7 +45,7 @@ problem{ name = "p", substructures = { bar }, steps = { s },
 )",
            fake);
   const Substructure& bar = *fake.problems.at(0).substructures.at(0);
-  EXPECT_EQ(bar.material.young, 4.2e9);
+  EXPECT_EQ(bar.material.young(), 4.2e9);
   EXPECT_EQ(bar.material.damping.mass, 3.0);
   EXPECT_EQ(bar.material.damping.stiffness, 2e-6);
   EXPECT_EQ(bar.place, Vec3(1e-3, 2e-3, 3e-3));

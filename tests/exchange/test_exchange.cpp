@@ -275,7 +275,8 @@ TEST(StepModel, tells_which_substructure_cannot_be_factorised) {
   Problem problem;
   problem.solver.integration = IntegrationChoice::implicitly;
   for (int i = 0; i < 4; ++i) problem.substructures.push_back(cube("cube " + std::to_string(i), 3 * i, 0, 0));
-  const_cast<Substructure&>(*problem.substructures[2]).material.young = 1e11;  // matrices of its own
+  Elastic& own = const_cast<Substructure&>(*problem.substructures[2]).material;
+  own = Elastic(own.name, 1e11, 0.3, own.density);  // matrices of its own
   problem.steps = {dynamic_step("test", 1, exchange_dt, {})};
   const std::vector<Surface> surfaces = make_surfaces(problem);
   std::vector<Body> bodies = make_bodies(problem, surfaces);

@@ -5,13 +5,7 @@
 
 namespace dygita::test {
 
-Elastic material_of(double young, double poisson, double density) {
-  Elastic material;
-  material.young = young;
-  material.poisson = poisson;
-  material.density = density;
-  return material;
-}
+Elastic material_of(double young, double poisson, double density) { return {"", young, poisson, density}; }
 
 std::vector<int> split(CellType type, const int* hex) {
   static const std::map<CellType, std::vector<int>> local = {{CellType::hex8, {0, 1, 2, 3, 4, 5, 6, 7}},

@@ -31,7 +31,7 @@ double tip_ratio(const Mesh& mesh, double poisson) {
   for (const int a : tip) deflection += found(2, a) / static_cast<double>(tip.size());
 
   const double inertia = std::pow(height, 4) / 12, kappa = 10 * (1 + poisson) / (12 + 11 * poisson);
-  const double beam = std::pow(length, 3) / (3 * material.young * inertia) +
+  const double beam = std::pow(length, 3) / (3 * material.young() * inertia) +
                       length / (kappa * material.shear_modulus() * height * height);
   return deflection / beam;
 }
@@ -102,7 +102,7 @@ TEST(Cantilever, of_hexahedra_has_the_beam_stress_at_its_nodes) {
   }
   const Tensors stress = nodal_stress(mesh, material, displacement);
   for (int a = 0; a < mesh.n_nodes(); ++a) {
-    EXPECT_NEAR(stress(0, a), material.young * curvature * (mesh.nodes(2, a) - height / 2), 1e-12);
+    EXPECT_NEAR(stress(0, a), material.young() * curvature * (mesh.nodes(2, a) - height / 2), 1e-12);
     EXPECT_LT(stress.col(a).tail<5>().norm(), 1e-12);
   }
 }

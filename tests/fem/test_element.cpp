@@ -204,7 +204,7 @@ TEST(Element, stress_of_a_hexahedral_box_is_exact_in_pure_bending) {
   }
   const Tensors stress = element_stress(CellType::hex8, rotation * x, material, rotation * displacement);
   for (int a = 0; a < 8; ++a) {
-    const Mat3 expected = material.young * curvature * x(0, a) * rotation.col(2) * rotation.col(2).transpose();
+    const Mat3 expected = material.young() * curvature * x(0, a) * rotation.col(2) * rotation.col(2).transpose();
     Eigen::Matrix<double, 6, 1> column;
     column << expected(0, 0), expected(1, 1), expected(2, 2), expected(0, 1), expected(1, 2), expected(2, 0);
     EXPECT_LT((stress.col(a) - column).norm(), 1e-13) << "node " << a;

@@ -26,8 +26,8 @@ struct RadialState {
 
 // Unit inner pressure on the eighth of a sphere; u = p a^3 / (b^3 - a^3) ((1 - 2 nu) r / E + (1 + nu) b^3 / (2 E r^2)).
 double sphere_displacement(const Elastic& m, double r) {
-  const double a3 = std::pow(inner, 3), b3 = std::pow(outer, 3), nu = m.poisson;
-  return a3 / (b3 - a3) / m.young * ((1 - 2 * nu) * r + (1 + nu) * b3 / (2 * r * r));
+  const double a3 = std::pow(inner, 3), b3 = std::pow(outer, 3), nu = *m.constant("poisson");
+  return a3 / (b3 - a3) / m.young() * ((1 - 2 * nu) * r + (1 + nu) * b3 / (2 * r * r));
 }
 
 // Eighth of a thick sphere: three patches of n x n, each the face of a cube, n layers.

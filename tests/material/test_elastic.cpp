@@ -25,8 +25,10 @@ TEST(Elastic, has_the_hooke_matrix_whose_inverse_is_the_compliance_of_the_engine
   const Eigen::Matrix<double, 6, 6> compliance = inverse(m.hooke());
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j) {
-      const double expected = i != j ? (i < 3 && j < 3 ? -0.3 / m.young : 0.0) : i < 3 ? 1 / m.young : 2.6 / m.young;
-      EXPECT_NEAR(compliance(i, j) * m.young, expected * m.young, 1e-13) << i << ", " << j;
+      const double expected = i != j  ? (i < 3 && j < 3 ? -0.3 / m.young() : 0.0)
+                              : i < 3 ? 1 / m.young()
+                                      : 2.6 / m.young();
+      EXPECT_NEAR(compliance(i, j) * m.young(), expected * m.young(), 1e-13) << i << ", " << j;
     }
   EXPECT_EQ(m.hooke(), m.hooke().transpose());
 }

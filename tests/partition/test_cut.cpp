@@ -16,9 +16,7 @@ Problem blocks(int pieces) {
   auto one = std::make_shared<Substructure>(), other = std::make_shared<Substructure>();
   for (const auto& part : {one, other}) {
     part->name = part == one ? "one" : "other";
-    part->material.young = 200e9;
-    part->material.poisson = 0.3;
-    part->material.density = 7800;
+    part->material = Elastic("steel", 200e9, 0.3, 7800);
   }
   one->mesh = box_mesh(Vec3::Zero(), {6, 6, 9}, {6, 6, 9});
   other->mesh = box_mesh({0, 0, 9}, {6, 6, 1}, {2, 2, 1});

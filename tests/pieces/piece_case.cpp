@@ -184,14 +184,7 @@ Vec DensePiece::next_displacement(const Vec& u0, const Vec& v0, const Vec& v1) c
   return u0 + scheme.dt * mean_velocity(v0, v1);
 }
 
-Elastic steel() {
-  Elastic steel;
-  steel.name = "steel";
-  steel.young = 200e9;
-  steel.poisson = 0.3;
-  steel.density = 7800.0;
-  return steel;
-}
+Elastic steel() { return {"steel", 200e9, 0.3, 7800.0}; }
 
 double pseudo_random(int i) { return std::fmod(std::abs(std::sin(12.9898 * i + 78.233)) * 43758.5453, 2.0) - 1.0; }
 

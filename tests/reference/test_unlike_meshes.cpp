@@ -93,7 +93,7 @@ double patch_error(const Problem& problem, const Watcher& run) {
     const Points& x = problem.substructures[part]->mesh->nodes;
     for (Eigen::Index i = 0; i < x.cols(); ++i)
       for (int d = 0; d < 3; ++d) {
-        const double strain = (stress[d] - m.poisson * (stress.sum() - stress[d])) / m.young;
+        const double strain = (stress[d] - *m.constant("poisson") * (stress.sum() - stress[d])) / m.young();
         worst = std::max(worst, std::abs(run.rows.back().displacement[part](d, i) - strain * x(d, i)));
         size = std::max(size, std::abs(strain * x(d, i)));
       }
@@ -200,7 +200,8 @@ Impact impact(const Pair& cells, double ratio = 1.0) {
   Problem problem = stack(cells, contact(0.3));
   auto upper = std::const_pointer_cast<Substructure>(problem.substructures[1]);
   upper->velocity = {2.0, 1.0, -10.0};
-  upper->material.young /= ratio;
+  const Elastic& of_both = upper->material;
+  upper->material = Elastic(of_both.name, of_both.young() / ratio, *of_both.constant("poisson"), of_both.density);
   problem.steps = {dynamic_step("hit", 40, 0.5e-6, {})};
   problem.solver.integration = IntegrationChoice::implicitly;
   problem.solver.tolerance = 1e-6;
