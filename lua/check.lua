@@ -197,6 +197,28 @@ function types.placement(call, argument, value, label)
   return placement.shortest(placement.after(moved, turned))
 end
 
+-- Two axes, a function of a place, or a cylinder's axis with an angle. Answers the function, or a flat list: six numbers of
+-- two axes, seven of an axis, a point of it and the angle.
+function types.orientation(call, argument, value, label)
+  if type(value) == "function" then return value end
+  local wanted = "two axes { {x, y, z}, {x, y, z} }, a function or a table { axis = ... }"
+  if type(value) ~= "table" or native.kind(value) or next(value) == nil then wrong_type(call, label, wanted, value) end
+  local flat = {}
+  local function add(vector)
+    for i = 1, 3 do flat[#flat + 1] = vector[i] end
+  end
+  if #value == 0 then
+    local given = check.arguments(call, argument.fields, value, label .. ".")
+    add(given.axis)
+    add(given.about)
+    flat[7] = given.angle
+    return flat
+  end
+  if check_list(call, value, label, wanted) ~= 2 then fail(call, ("'%s' must be %s, got a list of %d"):format(label, wanted, #value)) end
+  for i = 1, 2 do add(types.vector(call, {}, value[i], ("%s[%d]"):format(label, i))) end
+  return flat
+end
+
 function types.counts(call, argument, value, label)
   local whole = {}
   if check_list(call, value, label, "three whole numbers") ~= 3 then

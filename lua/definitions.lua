@@ -42,6 +42,9 @@ function type_of(a)
   if a.type == "choices" then text = grouped(union(a.choices, function(word) return ('"%s"'):format(word) end)) .. "[]" end
   if a.type == "table" then text = inline_table(a.fields) end
   if a.type == "placement" then text = "dygita.vector|" .. inline_table(a.fields) end
+  if a.type == "orientation" then
+    text = "[dygita.vector, dygita.vector]|(fun(x: number, y: number, z: number): dygita.vector, dygita.vector)|" .. inline_table(a.fields)
+  end
   if a.kinds then
     local one = union(a.kinds, class_of)
     if a.type == "object" then text = one

@@ -9,7 +9,7 @@ local function put(format, ...) lines[#lines + 1] = format:format(...) end
 local function number(x) return ("%g"):format(x) end
 
 local function type_of(argument)
-  local names = { vector = "{ x, y, z }", placement = "{ x, y, z } or table", counts = "{ nx, ny, nz }", numbers = "list of numbers", name = "text",
+  local names = { vector = "{ x, y, z }", placement = "{ x, y, z } or table", orientation = "{ axis1, axis2 }, function(x, y, z) or table", counts = "{ nx, ny, nz }", numbers = "list of numbers", name = "text",
                   settings = "table of numbers", specification = "file or list of { frequency, level }", value = "number, history or function(t)", integer = "whole number",
                   choice = "text", choices = "list of texts" }
   local text = names[argument.type] or argument.type

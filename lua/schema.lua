@@ -18,6 +18,7 @@
 --   settings              a table of numbers by name
 --   specification         a file, or a list of { frequency, level }
 --   table                 a table of the named `fields`
+--   orientation           two axes, a function of a place, or a table of the named `fields`
 --   value                 a number, a history or a function of time
 --   between               two sides, each one of the `kinds`; `or_word`: a word allowed instead
 --   except                a list of parts, pairs of parts and interfaces
@@ -161,6 +162,27 @@ words[1][3] = {
   },
 }
 
+local function damping()
+  return { "damping", type = "number", unit = "s", range = { 0, 0.01 }, default = 0,
+      doc = "stiffness-proportional damping (a time, not a ratio), or { mass = (1/s), stiffness = (s) }",
+      or_table = {
+        { "mass", type = "number", unit = "1/s", range = { 0, 1e6 }, default = 0, doc = "mass-proportional" },
+        { "stiffness", type = "number", unit = "s", range = { 0, 0.01 }, default = 0, doc = "stiffness-proportional" },
+      } },
+    { "damping_ratio", type = "numbers", range = { 0, 1 }, at_least = 1, at_most = 2, or_single = true,
+      doc = "instead of `damping`: fraction of critical damping at `damping_frequency`, 0.02 for 2 %; one for both frequencies, or one each" },
+    { "damping_frequency", type = "numbers", unit = "Hz", range = { 1e-3, 1e8 }, at_least = 1, at_most = 2, or_single = true,
+      doc = "frequency of the ratio: one (damping proportional to frequency), or two (least in between)" }
+end
+local damping_time, damping_ratio, damping_frequency = damping()
+local density = { "density", type = "number", unit = "kg/m^3", range = { 10, 100000 }, required = true, doc = "mass per volume" }
+
+local function modulus(name, doc) return { name, type = "number", unit = "Pa", range = { 1e3, 2e12 }, required = true, doc = doc } end
+local function contraction(along, pulled)
+  return { "nu" .. pulled .. along, type = "number", range = { -50, 50 }, usual = { -1, 1, ("is it nu%s%s, the contraction along %s of a bar pulled along %s?"):format(pulled, along, along, pulled) },
+           required = true, doc = ("Poisson's ratio: contraction along %s of a bar pulled along %s; nu%s%s is nu%s%s e%s/e%s"):format(along, pulled, along, pulled, pulled, along, along, pulled) }
+end
+
 words[2] = {
   name = "material", doc = "Materials of substructures.",
   {
@@ -169,19 +191,22 @@ words[2] = {
       name_of "material",
       { "young", type = "number", unit = "Pa", range = { 1e6, 2e12 }, required = true, doc = "Young's modulus" },
       { "poisson", type = "number", range = { -0.9, 0.4999 }, usual = { 0, 0.4999, "metals have 0.25 to 0.35" }, required = true, doc = "Poisson's ratio" },
-      { "density", type = "number", unit = "kg/m^3", range = { 10, 100000 }, required = true, doc = "mass per volume" },
+      density,
       { "yield", type = "number", unit = "Pa", range = { 1e5, 1e11 },
         doc = "yield stress: the run then monitors the von Mises stress of its parts and states the margin; the material stays elastic" },
-      { "damping", type = "number", unit = "s", range = { 0, 0.01 }, default = 0,
-        doc = "stiffness-proportional damping (a time, not a ratio), or { mass = (1/s), stiffness = (s) }",
-        or_table = {
-          { "mass", type = "number", unit = "1/s", range = { 0, 1e6 }, default = 0, doc = "mass-proportional" },
-          { "stiffness", type = "number", unit = "s", range = { 0, 0.01 }, default = 0, doc = "stiffness-proportional" },
-        } },
-      { "damping_ratio", type = "numbers", range = { 0, 1 }, at_least = 1, at_most = 2, or_single = true,
-        doc = "instead of `damping`: fraction of critical damping at `damping_frequency`, 0.02 for 2 %; one for both frequencies, or one each" },
-      { "damping_frequency", type = "numbers", unit = "Hz", range = { 1e-3, 1e8 }, at_least = 1, at_most = 2, or_single = true,
-        doc = "frequency of the ratio: one (damping proportional to frequency), or two (least in between)" },
+      damping_time, damping_ratio, damping_frequency,
+    },
+  },
+  {
+    "orthotropic", makes = "material",
+    doc = "Linear elasticity with three planes of symmetry: a ply of fibres along axis 1, a honeycomb, plywood. Its axes are laid by the `orientation` of the "
+      .. "substructure, else along x, y, z of the mesh.",
+    arguments = {
+      name_of "material",
+      modulus("e1", "Young's modulus along axis 1"), modulus("e2", "Young's modulus along axis 2"), modulus("e3", "Young's modulus along axis 3"),
+      contraction("2", "1"), contraction("3", "1"), contraction("3", "2"),
+      modulus("g12", "shear modulus in the plane of axes 1 and 2"), modulus("g13", "shear modulus in the plane of axes 1 and 3"), modulus("g23", "shear modulus in the plane of axes 2 and 3"),
+      density, damping_time, damping_ratio, damping_frequency,
     },
   },
 }
@@ -206,6 +231,14 @@ words[3] = {
         } },
       { "velocity", type = "vector", unit = "m/s", range = { -20000, 20000 }, usual = usual_velocity, default = { 0, 0, 0 },
         doc = "velocity at the start of the first dynamic step" },
+      { "orientation", type = "orientation", default_doc = "along x, y, z",
+        doc = "of a material with directions, in the coordinates of the mesh, with which it turns (`place`, `pattern.circle`): { axis1, axis2 } (axis 2 in the plane of both, "
+          .. "axis 3 across), a function of the middle of a cell (m) that returns axis1, axis2, or { axis = ... } of a cylinder: axis 1 around it, 2 along it, 3 outwards",
+        fields = {
+          { "axis", type = "vector", required = true, doc = "direction of the cylinder's axis; its length does not matter" },
+          { "about", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "a point of it" },
+          { "angle", type = "number", range = { -7, 7 }, default = 0, doc = "by which axes 1 and 2 are turned about axis 3, in radians: 90*deg lays axis 1 along the cylinder" },
+        } },
       { "integration", type = "choice", choices = { "implicit", "automatic", "explicit" }, default_doc = "as the solver has it",
         doc = "of its motion in dynamic steps of solver.latin: explicit needs no factor and uses as many increments per dt as its cells require" },
     },

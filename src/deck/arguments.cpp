@@ -94,6 +94,31 @@ std::map<std::string, double> LuaArguments::settings(const char* key) const {
   return values;
 }
 
+std::array<Vec3, 2> LuaArguments::two_vectors_at(const char* key, const Vec3& x) const {
+  push(key);
+  for (const double coordinate : x) lua_pushnumber(L_, coordinate);
+  lua_call(L_, 3, 2);
+  std::array<Vec3, 2> vectors;
+  bool is_right = true;
+  for (int i = 0; i < 2; ++i)
+    for (int d = 0; d < 3; ++d) {
+      if (!lua_istable(L_, i - 2)) {
+        is_right = false;
+        continue;
+      }
+      is_right &= lua_rawgeti(L_, i - 2, d + 1) == LUA_TNUMBER;
+      vectors[static_cast<size_t>(i)][d] = lua_tonumber(L_, -1);
+      lua_pop(L_, 1);
+    }
+  lua_pop(L_, 2);
+  if (!is_right || !vectors[0].allFinite() || !vectors[1].allFinite())
+    throw InputError(
+        fmt::format("'{}': the function must answer two axes at ({:g}, {:g}, {:g}) m\n    as in return "
+                    "{{ 1, 0, 0 }}, {{ 0, 1, 0 }}",
+                    key, x[0], x[1], x[2]));
+  return vectors;
+}
+
 const Object& LuaArguments::object(const char* key) const {
   push(key);
   const Object& object = the_object_at(L_, -1);

@@ -8,6 +8,7 @@
 #include "deck/integration.hpp"
 #include "intake/geo_script.hpp"
 #include "intake/mesh_file.hpp"
+#include "deck/orientation.hpp"
 #include "law/law.hpp"
 #include "mesh/bolt.hpp"
 #include "mesh/box.hpp"
@@ -173,6 +174,13 @@ Content build_substructure(const Declaration& d) {
   const auto& material = d.arguments.object("material").as<std::shared_ptr<const Material>>();
   part->material = *material;
   part->yield = material->yield;
+  if (!material->is_isotropic())
+    part->mesh = oriented(*part->mesh, d.arguments);
+  else if (d.arguments.has("orientation"))
+    throw InputError(
+        fmt::format("'orientation' of a part of material '{}', which is the same in all directions\n    "
+                    "material.orthotropic has axes",
+                    material->name));
   set_place(d.arguments.numbers("place"), *part);
   share_on_machine(part->mesh, part->mesh->arrays());
   part->velocity = d.arguments.vector("velocity");

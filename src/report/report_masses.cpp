@@ -84,26 +84,43 @@ std::string table_of_parts(const Json& parts, const Box& whole) {
   return html::table(header, in_common_units(rows), true);
 }
 
+// "138 / 9 / 9 GPa" of a material with directions, "0.3 / 0.3 / 0.45"; the one number of others.
+Cell of_axes(const Json& part, const char* same, std::initializer_list<const char*> along, const std::string& si_unit) {
+  if (!part.contains(*along.begin())) return {number(part, same), si_unit};
+  double largest = 0.0;
+  for (const char* key : along) largest = std::max(largest, std::abs(number(part, key)));
+  const EngineeringUnit unit = engineering_unit(si_unit, largest);
+  std::string text;
+  for (const char* key : along) text += (text.empty() ? "" : " / ") + plain_number(number(part, key) / unit.size);
+  return text + (unit.name.empty() ? "" : "\u00a0" + unit.name);
+}
+
 // Each material once, with what it weighs.
 std::string table_of_materials(const Json& parts) {
   Cells rows;
   std::vector<Json> seen;
+  const bool has_axes = std::any_of(parts.begin(), parts.end(), [](const Json& part) { return part.contains("g12"); });
   for (const Json& part : parts) {
     if (part.contains("condensed")) continue;
     Json key = {text(part, "material")};
-    for (const char* value : {"young", "poisson", "density", "yield"}) key.push_back(part.value(value, Json()));
+    for (const char* value :
+         {"young", "poisson", "e1", "e2", "e3", "nu12", "nu13", "nu23", "g12", "g13", "g23", "density", "yield"})
+      key.push_back(part.value(value, Json()));
     if (std::find(seen.begin(), seen.end(), key) != seen.end()) continue;
     seen.push_back(key);
     double mass = 0.0;
     for (const Json& other : parts)
       if (text(other, "material") == text(part, "material")) mass += number(other, "mass");
-    rows.push_back({text(part, "material"), Cell(number(part, "young"), "Pa"), Cell(number(part, "poisson"), ""),
-                    Cell(number(part, "density"), "kg/m^3", 4),
+    rows.push_back({text(part, "material"), of_axes(part, "young", {"e1", "e2", "e3"}, "Pa"),
+                    of_axes(part, "poisson", {"nu12", "nu13", "nu23"}, ""), Cell(number(part, "density"), "kg/m^3", 4),
                     std::isfinite(number(part, "yield")) ? Cell(number(part, "yield"), "Pa") : Cell("none given"),
                     Cell(mass, "kg", 4)});
+    if (has_axes) rows.back().insert(rows.back().begin() + 3, of_axes(part, "", {"g12", "g13", "g23"}, "Pa"));
   }
-  return html::table({"material", "Young's modulus", "Poisson's ratio", "density", "yield", "mass in all"},
-                     in_common_units(rows), true);
+  std::vector<std::string> header = {"material", "Young's modulus", "Poisson's ratio",
+                                     "density",  "yield",           "mass in all"};
+  if (has_axes) header.insert(header.begin() + 3, "shear moduli (12 / 13 / 23)");
+  return html::table(header, in_common_units(rows), true);
 }
 
 }  // namespace

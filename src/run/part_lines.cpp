@@ -28,6 +28,19 @@ std::string condensed_line(const Substructure& part, const Vec3& size) {
       held_inside(body.resisted_motions(part.mesh->nodes).cols()), body.mass_of_parts, size[0], size[1], size[2]);
 }
 
+// "    waves of 'ply' along axis 1: 9293, 1838, 1838 m/s; ...", of a material with directions.
+std::string wave_lines(const Elastic& material) {
+  if (material.is_isotropic()) return "";
+  std::string text = fmt::format("    waves of '{}' along its axis", material.name);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 speeds = material.wave_speeds(Vec3::Unit(axis));
+    text += fmt::format("{} {}: {:.0f}, {:.0f}, {:.0f} m/s", axis == 0 ? "" : ";", axis + 1, speeds[0], speeds[1],
+                        speeds[2]);
+  }
+  return text +
+         fmt::format("; of all directions {:.0f} to {:.0f} m/s\n", material.s_wave_speed(), material.p_wave_speed());
+}
+
 }  // namespace
 
 std::string part_line(const Substructure& part) {
@@ -35,9 +48,11 @@ std::string part_line(const Substructure& part) {
   const Vec3 size = 1e3 * (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff());
   if (part.mesh->condensed) return condensed_line(part, size);
   return fmt::format(
-      "  substructure '{}': {} nodes, {} cells (worst shape {:.2g}), {}, {:.4g} kg, {:.4g} x {:.4g} x {:.4g} mm\n",
-      part.name, part.mesh->n_nodes(), part.mesh->n_cells(), worst_shape(*part.mesh), part.material.name,
-      part.material.density * volume(*part.mesh), size[0], size[1], size[2]);
+             "  substructure '{}': {} nodes, {} cells (worst shape {:.2g}), {}, {:.4g} kg, {:.4g} x {:.4g} x {:.4g} "
+             "mm\n",
+             part.name, part.mesh->n_nodes(), part.mesh->n_cells(), worst_shape(*part.mesh), part.material.name,
+             part.material.density * volume(*part.mesh), size[0], size[1], size[2]) +
+         wave_lines(part.material);
 }
 
 std::string list_pieces(const Problem& problem, const std::vector<int>& pieces) {

@@ -264,6 +264,8 @@ std::string value_for(const Argument& a, const Declared& declared, Random& rando
   if (a.type == "name" || a.type == "text") return fmt::format("\"n{}\"", random() % 100);
   if (a.type == "file") return chance(0.7, random) ? "\"shock_in_g.csv\"" : "\"no.csv\"";
   if (a.type == "vector" || a.type == "counts" || a.type == "placement") return list_of(3, number);
+  if (a.type == "orientation")
+    return chance(0.3, random) ? one_of(functions, random) : list_of(2, [&] { return list_of(3, number); });
   if (a.type == "numbers") return a.may_be_single && chance(0.4, random) ? number() : list_of(few, number);
   if (a.type == "settings") return "{ n" + std::to_string(random() % 10) + " = " + number() + " }";
   if (a.type == "specification") return "{ { 100, 10 }, { " + number() + ", 20 } }";
