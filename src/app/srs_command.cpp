@@ -74,7 +74,7 @@ std::optional<size_t> column_of_steps(const std::vector<Title>& titles) {
   return std::nullopt;
 }
 
-// Of rows of the same time the last counts: time stands still in static steps. step: the row's; none: it has none.
+// Of rows of the same time the last counts: time does not advance in static steps. step: the row's; none: it has none.
 void take_sample(double time, double value, const std::optional<std::string>& step, const Origin& origin,
                  Signal& signal) {
   if (!signal.time.empty() && time < signal.time.back())

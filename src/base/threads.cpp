@@ -25,7 +25,7 @@ void set_up_process(char** argv, const char* blas_kernels) {
                                ":glibc.malloc.mmap_threshold=" + std::to_string(mapped_alone) +
                                ":glibc.malloc.trim_threshold=" + kept;
   setenv("GLIBC_TUNABLES", tunables.c_str(), 0);
-  // Where /proc is missing the program goes on as it is, only slower on a busy machine.
+  // Where /proc is missing the program continues as it is, only slower on a busy machine.
   execv("/proc/self/exe", argv);
 }
 

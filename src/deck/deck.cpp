@@ -150,7 +150,7 @@ RunRequest request_of(const DeckState& state, const Problem& problem, const std:
   return request;
 }
 
-// Runs or checks one problem while the deck's clock stands still.
+// Runs or checks one problem while the deck's clock is stopped.
 DeckResultPtr compute(DeckState& state, std::shared_ptr<const Problem> problem, const std::string& case_name,
                       const DeckResultPtr& start_from) {
   const LuaState::Pause pause(state);

@@ -48,7 +48,7 @@ struct DeckOutcome {
 // Runs the deck to its end. Throws InputError (deck, mesh, limits; with file:line), NumericalError.
 DeckOutcome run_deck(const DeckOptions& options, const Engine& engine);
 
-// Declares and checks everything, says what each problem:run would compute, solves nothing. The deck goes on with nan
+// Declares and checks everything, says what each problem:run would compute, solves nothing. The deck continues with nan
 // for every result; what fails because of that is said and is not an error.
 DeckOutcome check_deck(const DeckOptions& options, const Engine& engine);
 

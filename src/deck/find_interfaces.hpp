@@ -12,7 +12,7 @@ int touching_pairs(LuaState& lua, lua_State* L);
 // sides(interface, parts): its two substructures as they are in the list, nil where not.
 int sides_of_interface(LuaState& lua, lua_State* L);
 
-// say(text): a line on standard output, but not of a deck that goes on without values.
+// say(text): a line on standard output, but not of a deck that continues without values.
 int say_line(LuaState& lua, lua_State* L);
 
 }  // namespace dygita

@@ -130,7 +130,7 @@ int LuaState::line(lua_State* L) const {
   return last_line_;
 }
 
-// The deck's clock goes on. Of several ranks the first has the word before another ends all of them.
+// The deck's clock continues. Of several ranks the first has the word before another ends all of them.
 void LuaState::begin_section() {
   section_start_ = now();
   watchdog_.expect_end_by(section_start_.elapsed + limits_.seconds - spent_.elapsed +

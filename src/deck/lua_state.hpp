@@ -56,7 +56,7 @@ class LuaState {
   Origin origin(int line) const { return {deck_name_, line}; }
   const std::string& deck_name() const { return deck_name_; }
 
-  // While it lives the deck's clock stands still and nothing can be declared: the engine or the mesher works.
+  // While it lives the deck's clock is stopped and nothing can be declared: the engine or the mesher works.
   class Pause {
    public:
     explicit Pause(LuaState& state);

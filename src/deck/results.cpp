@@ -133,7 +133,7 @@ int read_series(lua_State* L, const Series& series, const Origin& origin) {
   unknown(origin, fmt::format("series '{}'", series.name), key, {"at", "first", "last", "max", "min", series.abscissa});
 }
 
-// What an output tells beside its table: tables and numbers, under these names.
+// What an output reports beside its table: tables and numbers, under these names.
 const Findings& findings_beside(const OutputData& data) {
   static const Findings none;
   const RunResult& run = *data.result->run;

@@ -13,8 +13,8 @@ int read_data(lua_State* L, const Origin& origin);
 // Number of rows of the data or series at index 1.
 int length_of(lua_State* L, const Origin& origin);
 
-// Value of a series at a time (linear between rows, the last row of that time where time stands still) or in the last
-// row of a step: the object or number at stack index 2.
+// Value of a series at a time (linear between rows, the last row of that time where time does not advance) or in the
+// last row of a step: the object or number at stack index 2.
 int value_at(lua_State* L, const Origin& origin);
 
 }  // namespace dygita

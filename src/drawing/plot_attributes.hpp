@@ -1,4 +1,4 @@
-// What a chart tells of itself, beside what it shows, so that embedded/charts.js can read values off it.
+// What a chart reports about itself, beside what it shows, so that embedded/charts.js can read values off it.
 #pragma once
 
 #include <string>

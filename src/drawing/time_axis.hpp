@@ -1,4 +1,4 @@
-// The axis of histories: time, with the static steps, in which time stands still, set apart as shaded ranges.
+// The axis of histories: time, with the static steps, in which time does not advance, set apart as shaded ranges.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What a sequence of ever finer runs tells of its limit.
+// What a sequence of ever finer runs shows of its limit.
 #pragma once
 
 #include <limits>

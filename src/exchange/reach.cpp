@@ -24,7 +24,7 @@ void Reach::for_each_copy(int part, int node, Visit&& visit) const {
   for (const Copy& copy : cut_->on_cuts(part).others_of(node)) visit(NodeKey{copy.piece, copy.node});
 }
 
-// visit(key, hangs): a node that the point acts on, and whether what else acts on it hangs on the point. Where faces
+// visit(key, hangs): a node that the point acts on, and whether what else acts on it depends on the point. Where faces
 // match, groups and laws meet at nodes; where they do not, points share nodes: those of explicit pieces are solved
 // together, the others each for itself.
 template <class Visit>

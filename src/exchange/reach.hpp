@@ -1,5 +1,5 @@
 // What a rank has to know of the points of a step: those on nodes of its pieces, those that all ranks solve, and
-// whatever hangs on the nodes of both.
+// whatever depends on the nodes of both.
 #pragma once
 
 #include <cstdint>

@@ -118,7 +118,7 @@ std::string csv_text(const Table& table, const std::vector<std::string>& step_na
   text += table.converged.empty() ? "\n" : ",converged\n";
   std::vector<std::string> steps;
   for (const std::string& name : step_names) steps.push_back(quoted(name));
-  // The time of a long record goes on by far less than its ninth digit.
+  // The time of a long record advances by far less than its ninth digit.
   std::vector<const char*> formats;
   for (const std::string& name : table.names) formats.push_back(name == "time" ? "{:.15g}" : "{:.9g}");
   for (size_t row = 0; row < static_cast<size_t>(table.n_rows()); ++row) {

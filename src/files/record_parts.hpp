@@ -13,7 +13,7 @@ void complete_laws(nlohmann::ordered_json& record);
 
 nlohmann::ordered_json interfaces_record(const Problem& problem);
 nlohmann::ordered_json supports_record(const Problem& problem);
-// Outputs with a table, in the deck's order, with the file of each and what it tells of itself.
+// Outputs with a table, in the deck's order, with the file of each and what it reports about itself.
 nlohmann::ordered_json outputs_record(const Problem& problem, const RunResult& result);
 // Tolerances and what else tells how it was solved.
 nlohmann::ordered_json solver_record(const Problem& problem);

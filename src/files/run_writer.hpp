@@ -14,7 +14,7 @@
 
 namespace dygita {
 
-// What the run record tells beside the result.
+// What the run record states beside the result.
 struct RunIdentity {
   std::string deck_path, deck_digest;                             // digest of the deck's text
   std::vector<std::pair<std::string, double>> parameters;         // param{} after --set

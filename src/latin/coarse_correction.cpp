@@ -185,7 +185,7 @@ CoarseCorrection::CoarseCorrection(const StepModel& model, const Vec& k) {
       for (int r = 0; r < share[i].rows(); ++r)
         stiffness(pieces_[i].motions[r], pieces_[i].motions[c]) += share[i](r, c);
   // Motions that are the same at all ties (of two bodies tied to nothing else) are told apart by this alone; what is
-  // not tied at all stands still.
+  // not tied at all is at rest.
   for (int i = 0; i < 6 * n; ++i) stiffness(i, i) = stiffness(i, i) > 0.0 ? stiffness(i, i) * (1.0 + 1e-9) : 1.0;
   factor_.compute(stiffness);
   if (factor_.info() != Eigen::Success) pieces_.clear();  // the iteration goes without

@@ -1,4 +1,4 @@
-// What the local stage keeps and tells of an increment: the laws' memory, works, forces, gaps and residuals.
+// What the local stage keeps and reports of an increment: the laws' memory, works, forces, gaps and residuals.
 #include <algorithm>
 #include <set>
 #include <utility>

@@ -17,7 +17,7 @@ void StepRun::take_off(const std::vector<Vec3>& motions) {
       }
 }
 
-// Where an increment starts nothing says that what was loose at the end of the one before goes on as it went there.
+// Where an increment starts nothing says that what was loose at the end of the one before continues as it went there.
 void StepRun::stop_loose_parts() {
   if (!loose_ || !loose_->may_be() || at_.velocity.size() != at_.q.size()) return;
   const double least = std::pow(settings_.tolerance, 2) * indicator_.largest();

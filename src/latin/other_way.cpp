@@ -1,5 +1,5 @@
 // Where a static increment does not converge as the step is solved: in one system what the parts one by one have not
-// found, part by part what one system has not (manual, "Where it stands still").
+// found, part by part what one system has not (manual, "Stagnation").
 #include <spdlog/fmt/fmt.h>
 
 #include "base/error.hpp"
@@ -42,7 +42,7 @@ void StepRun::iterate_in_one(int increment, const Goal& goal, const Fields& star
     assembled_.swap(in_one_);
     iterate(increment, {goal.tolerance, few, goal.furthest}, found);
     if (goal.furthest > 0.0 && !(largest_velocity() <= goal.furthest)) found.outcome = {};
-  } catch (const NumericalError&) {  // too large, or astray: the pieces' own way is as good as it was
+  } catch (const NumericalError&) {  // too large, or diverged: the pieces' own way is as good as it was
     found.outcome = {};
   }
   if (assembled_) assembled_.swap(in_one_);
@@ -71,9 +71,9 @@ void StepRun::iterate_in_one(int increment, const Goal& goal, const Fields& star
 }
 
 // Parts that contact alone holds, and that an iteration has let off, come back by the same small way each time, which
-// tells the acceleration nothing: it sends them anywhere. Newton's method in one system may go round in circles where
-// all points slide back at once. Where either has diverged, once more from the start: part by part, and without
-// acceleration. Where one system stands still short of the tolerance, the parts one by one go on.
+// gives the acceleration no information: it makes them diverge. Newton's method in one system may go round in circles
+// where all points slide back at once. Where either has diverged, once more from the start: part by part, and without
+// acceleration. Where one system stagnates short of the tolerance, the parts one by one go on.
 void StepRun::iterate_again(int increment, const Goal& goal, const Vec& start, Best& best) {
   constexpr double diverged = 1e-5;  // of the indicator
   constexpr IterationLimit part_by_part{400, 5000};

@@ -1,5 +1,5 @@
 // Where the joint under a preloaded bolt stands open, no force is in balance until it has closed, and the iteration
-// cannot find the shortening by the way: it is searched from outside, roughly, and the iteration goes on from there
+// cannot find the shortening by the way: it is searched from outside, roughly, and the iteration continues from there
 // (manual, preload).
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// What a run of several ranks tells of itself.
+// What a run of several ranks reports about itself.
 #pragma once
 
 #include "interfaces/surfaces.hpp"

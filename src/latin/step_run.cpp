@@ -90,7 +90,7 @@ StepRun::StepRun(const StepSettings& settings, StepModel& model, const Vec& k, c
   iterating_ = in_turn(model.near.border_pieces());
 }
 
-// The first iteration only hears what the kept fields are worth.
+// The first iteration only measures what the kept fields are worth.
 StepRun::Goal StepRun::goal_of(bool has_start) const {
   const double furthest = local_.has_preloads()     ? settings_.assembly_size
                           : model_.scheme.is_static ? too_far * settings_.assembly_size

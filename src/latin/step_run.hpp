@@ -84,8 +84,8 @@ class StepRun {
   };
 
   // The stages (latin.cpp): q gives velocity; velocity and q give the image and its distance. Neighbours are told both
-  // in between: as soon as the pieces that they hear of have answered, where is_told. also: an acceleration whose first
-  // sums come with the distance.
+  // in between: as soon as the pieces whose data they receive have answered, where is_told. also: an acceleration whose
+  // first sums come with the distance.
   void linear_stage(const Vec& q, Vec& velocity, bool is_told = false);
   IndicatorSums local_stage(Vec& velocity, Vec& q, Vec& image, bool is_told = false, Anderson* also = nullptr);
   void coarse_correction(Vec& q, Vec& velocity);
@@ -246,7 +246,7 @@ class StepRun {
   std::optional<DistantPoints> distant_;  // where there are several ranks
   std::vector<ExplicitPiece*> explicit_;  // null: implicit
   std::vector<int> largest_first_;        // pieces that are solved here
-  // Of these, those that other ranks hear of, and the rest: in explicit increments, and in iterations.
+  // Of these, those that other ranks receive, and the rest: in explicit increments, and in iterations.
   struct InTurn {
     std::vector<int> border, interior;
   };

@@ -1,6 +1,6 @@
 // Static steps with all pieces in one system: the linear stage takes the tangents of the laws as its search directions,
 // and so knows what holds a part on the other side of its interfaces. An increment is then a few tens of iterations at
-// most, however many parts hang on each other by contact alone (manual, eq. U1-U5).
+// most, however many parts are joined by contact alone (manual, eq. U1-U5).
 #pragma once
 
 #include "latin/indicator.hpp"

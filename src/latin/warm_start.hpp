@@ -20,7 +20,7 @@ struct OwnFields {
 
 // Three guesses of an increment's q from the kept fields c and the q of the increment before:
 //
-//   q(n-1)                     this case goes on as it does without another
+//   q(n-1)                     this case continues as it does without another
 //   c(n)                       the other case's answer
 //   q(n-1) + c(n) - c(n-1)     what the other case did in this increment
 //

@@ -98,7 +98,7 @@ void filter_calls() {
                  SCMP_SYS(futimesat), SCMP_SYS(setxattr),    SCMP_SYS(lsetxattr),
                  SCMP_SYS(fsetxattr), SCMP_SYS(removexattr), SCMP_SYS(open_by_handle_at)},
                 EACCES);
-  // Whose flags a filter cannot see: the C library goes on with the older call.
+  // Whose flags a filter cannot see: the C library continues with the older call.
   filter.refuse({SCMP_SYS(clone3), SCMP_SYS(openat2)}, ENOSYS);
   filter.refuse_where(SCMP_SYS(clone), {0, SCMP_CMP_MASKED_EQ, CLONE_THREAD, 0});
   filter.refuse_where(SCMP_SYS(ioctl), {1, SCMP_CMP_EQ, TIOCSTI, 0});

@@ -52,7 +52,7 @@ Values values_at(const Step& step, double t) {
   return values;
 }
 
-// What goes on where the step before has ended, or begins at zero, is no jump; a tenth of it is none either.
+// What continues where the step before has ended, or begins at zero, is no jump; a tenth of it is none either.
 bool jumps_between(const Values& before, const Values& after) {
   constexpr double most = 0.1;
   const auto at = [](const Values& values, const std::string& name) {
@@ -132,7 +132,7 @@ bool begins_with_a_jump(const Problem& problem, const Step& step) {
   return jumps_between(before ? values_at(*before, end) : Values(), values_at(step, 0.0));
 }
 
-// Zero where the deck's function fails: the run tells it, and keeps what it has computed till then.
+// Zero where the deck's function fails: the run reports it, and keeps what it has computed till then.
 double known_value(const History& history, double t) {
   try {
     return history.value(t);
@@ -149,7 +149,7 @@ std::vector<double> samples_of(const History& history, const Step& step) {
   for (unsigned i = 0; i < n; ++i) {
     try {
       samples[i] = history.value(step.duration * i / (n - 1));
-    } catch (const InputError&) {  // of the deck's function: the run tells it, and keeps what it has computed till then
+    } catch (const InputError&) {  // of the deck's function: the run reports it, and keeps its results
       samples[i] = i > 0 ? samples[i - 1] : 0.0;
     }
   }

@@ -28,7 +28,7 @@ struct Column {
 };
 using Columns = std::vector<Column>;
 
-// What the run record tells of an output, in order, whatever its format.
+// What the run record states of an output, in order, whatever its format.
 struct Note;
 using Notes = std::vector<Note>;
 struct Note {
@@ -89,7 +89,7 @@ class Output : public Named {
   virtual bool is_prescribed(const Problem&) const { return false; }
   // Interfaces and walls whose points the report maps.
   virtual std::vector<Target> mapped() const { return {}; }
-  // Do passes over the run go on until it stands still (solver.latin{ spectra })?
+  // Do passes over the run go on until it converges (solver.latin{ spectra })?
   virtual bool settles() const { return false; }
   // How far it has moved since the pass before, dB; its findings then tell of that.
   virtual double settle(const Table&, const Table&, Findings&) const { return 0.0; }

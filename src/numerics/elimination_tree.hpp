@@ -24,7 +24,7 @@ struct Branch {
 };
 
 // The largest first; none of it has much of all operations, and none is a tree. Empty where waking threads would take
-// longer. They hang on the pattern alone.
+// longer. They depend only on the sparsity pattern.
 std::vector<Branch> branches_of(const EliminationTree& tree, const std::vector<SupernodeView>& supernodes);
 
 }  // namespace dygita

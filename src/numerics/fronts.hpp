@@ -23,7 +23,7 @@ using KeepSupernode = std::function<void(const SupernodeView&, int place)>;
 // Eliminates the first n_interior unknowns of `matrix` (symmetric, both triangles stored) taken in `order`.
 // supernodes: columns before n_interior and the rows below them, as an ordering in which rows are increasing gives
 // them; their values are not read. Threads take subtrees, and share the large fronts above them; which operations go
-// into an entry, and in which order, hangs on the pattern alone.
+// into an entry, and in which order, depends only on the sparsity pattern.
 Eliminated eliminate(const SparseMatrix& matrix, const std::vector<int>& order, int n_interior,
                      const std::vector<SupernodeView>& supernodes, const KeepSupernode& keep);
 

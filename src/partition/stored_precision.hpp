@@ -7,7 +7,7 @@ namespace dygita {
 
 // Of a substructure of so many unknowns: what the deck asks for, or single where that is faster and the tolerance
 // and the window allow it. A solve then reads a third from memory, and an interface product less; nothing is gained in
-// a substructure that the nearest caches hold. Within a window what rounding leaves of an increment goes on to the
+// a substructure that the nearest caches hold. Within a window what rounding leaves of an increment continues to the
 // next.
 inline Precision stored_precision(const LatinSettings& solver, double n_unknowns) {
   constexpr double large = 1000.0, finest_tolerance = 1e-7;

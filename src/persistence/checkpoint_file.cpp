@@ -117,7 +117,7 @@ CheckpointFile::CheckpointFile(std::filesystem::path path, double every)
       flushed_(Clock::now()),
       synced_(flushed_) {
   require_file(path_);
-  if (std::filesystem::is_symlink(path_))  // to be written to, as the run goes on
+  if (std::filesystem::is_symlink(path_))  // to be written to, as the run continues
     throw InputError(fmt::format("'{}' is a link, and not a checkpoint of dygita", path_.string()));
   file_.reset(std::fopen(path_.c_str(), "r+b"));
   if (!file_) throw InputError(fmt::format("cannot read '{}': {}", path_.string(), std::strerror(errno)));
@@ -272,7 +272,7 @@ void CheckpointFile::stop_growing() {
                   path_.string()));
 }
 
-// The results are not touched: the run goes on without.
+// The results are not touched: the run continues without.
 void CheckpointFile::fail(const char* what) {
   const int reason = errno;
   has_failed_ = true;

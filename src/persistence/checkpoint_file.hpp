@@ -29,9 +29,9 @@ struct CheckpointIdentity {
 std::string bytes_of(const CheckpointIdentity& identity);
 CheckpointIdentity checkpoint_identity_of(std::string bytes);
 
-// Entries are appended, each with a checksum that goes on from the one before; what a crash has cut off is dropped when
-// the file is read. Entries reach the system within a second, and the disk every so often. Of several ranks the others
-// leave their shares beside it (checkpoint_part.hpp): an entry counts where all are there.
+// Entries are appended, each with a checksum that continues from the one before; what a crash has cut off is dropped
+// when the file is read. Entries reach the system within a second, and the disk every so often. Of several ranks the
+// others leave their shares beside it (checkpoint_part.hpp): an entry counts where all are there.
 class CheckpointFile final : public Trail {
  public:
   // Begins a new one in the place of whatever is there. every: s between two times that it is brought to the disk.

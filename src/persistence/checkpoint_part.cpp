@@ -58,7 +58,7 @@ CheckpointPart::~CheckpointPart() {
   if (file_ && !has_failed_ && std::fflush(file_.get()) == 0) fdatasync(fileno(file_.get()));
 }
 
-// Counted; what is in it the first rank tells.
+// Counted; what is in it the first rank sends.
 TrailEntry CheckpointPart::take() {
   ++number_;
   return {};
@@ -112,7 +112,7 @@ void CheckpointPart::leave(const TrailEntry& entry) {
   if (std::fflush(file_.get()) != 0 || fdatasync(fileno(file_.get())) != 0) fail(std::strerror(errno));
 }
 
-// The results are not touched: the run goes on without.
+// The results are not touched: the run continues without.
 void CheckpointPart::fail(const char* reason) {
   has_failed_ = true;
   warn(fmt::format(

@@ -1,5 +1,5 @@
 // What another rank than the first leaves of each increment: its share of a checkpoint, in a file of its own beside it
-// (<checkpoint>.parts/<rank>). Any number of ranks goes on from all of them.
+// (<checkpoint>.parts/<rank>). Any number of ranks resumes from all of them.
 #pragma once
 
 #include <chrono>

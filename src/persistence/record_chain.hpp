@@ -1,4 +1,4 @@
-// Records of a file one after the other: length, bytes, and a checksum that goes on from that of the record before.
+// Records of a file one after the other: length, bytes, and a checksum that continues from that of the record before.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // The fields of a state that several ranks keep: each writes its own beside the state file (<state>.parts/<rank>),
-// which tells what lies in them. Any number of ranks goes on from all of them.
+// which records what they contain. Any number of ranks resumes from all of them.
 #pragma once
 
 #include <cstdint>

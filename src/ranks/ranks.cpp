@@ -45,7 +45,7 @@ std::string word_of_failed() {
   transport().abort(code);
 }
 
-// Does rank 0 hear that another has failed?
+// Does rank 0 learn that another has failed?
 void look_out() {
   if (me() != 0) return;
   const std::string word = word_of_failed();

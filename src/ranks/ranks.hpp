@@ -15,7 +15,7 @@
 namespace dygita::ranks {
 
 // Joins the other ranks where mpirun or srun has started the process; else it stays alone, and MPI is not touched.
-// say: how rank 0 tells the error that ends all. Throws InputError where it was started so and the program was built
+// say: how rank 0 reports the error that ends all. Throws InputError where it was started so and the program was built
 // without MPI.
 using Say = void (*)(const std::string&);
 void start(Say say);
@@ -49,7 +49,7 @@ std::vector<std::vector<int>> swapped(const std::vector<std::vector<int>>& to_ea
 std::vector<double> to_first(int owner, std::vector<double> values);
 double largest(double value);
 bool any(bool is_so);
-// `largest` in two halves, between which the caller goes on.
+// `largest` in two halves, between which the caller continues.
 class LaterLargest {
  public:
   void begin(double value);

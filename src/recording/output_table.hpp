@@ -20,7 +20,7 @@ struct Display {
     energy        // one on top of the other
   };
   As as;
-  std::string quantity;  // curves: of the columns; empty: the record tells it
+  std::string quantity;  // curves: of the columns; empty: the record states it
   int n_columns;         // curves: how many are drawn; 0: all
 };
 

@@ -37,8 +37,8 @@ struct EndOfRecord {
 };
 EndOfRecord end_of_record(const Problem& problem, const Table& history, size_t column);
 
-// What to say of spectrum `who` where it hangs on the end of its record by more than limit::record_band at frequencies
-// that are judged; empty: nowhere. `band` in dB.
+// What to say of spectrum `who` where it depends on the end of its record by more than limit::record_band at
+// frequencies that are judged; empty: nowhere. `band` in dB.
 std::vector<std::string> doubts_of_end(const std::string& who, const Srs& srs, const std::vector<double>& band,
                                        const FrequencyRange& judged, const EndOfRecord& end);
 

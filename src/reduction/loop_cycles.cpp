@@ -35,7 +35,7 @@ struct Cycle {
   }
 };
 
-// Slope of the rows i and i + step, or further along where the displacement stands still.
+// Slope of the rows i and i + step, or further along where the displacement is constant.
 double slope(const Path& path, int i, int step, int end) {
   for (int j = i + step; step > 0 ? j <= end : j >= end; j += step)
     if (path.x[j] != path.x[i]) return (path.f[j] - path.f[i]) / (path.x[j] - path.x[i]);

@@ -35,7 +35,7 @@ struct LoopRows {
 // most a fifth of its range.
 LoopSummary summarise_loop(const Table& table, int first, const LoopRows& rows = {});
 
-// Rows at which the displacement turns, the ends of the path included; where it stands still, the row at which the
+// Rows at which the displacement turns, the ends of the path included; where it is constant, the row at which the
 // force turns.
 std::vector<int> turning_points(const std::vector<double>& displacement, const std::vector<double>& force, int first);
 

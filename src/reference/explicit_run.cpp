@@ -56,7 +56,7 @@ ExplicitRun::ExplicitRun(StepModel& model, const std::vector<Body>& bodies, Inte
   observer_.begin_step(instant(-1));
 }
 
-// Where another explicit step was before, damping goes on resisting the velocity of its last substep.
+// Where another explicit step was before, damping keeps resisting the velocity of its last substep.
 void ExplicitRun::find_start_forces(const ExplicitMemory& memory) {
   const Vec at_start = velocity_;
   if (memory.velocity.size() > 0) velocity_ = memory.velocity;

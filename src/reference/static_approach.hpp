@@ -1,4 +1,4 @@
-// Brings a static increment near its solution, however many parts hang on each other by contact alone, preloads
+// Brings a static increment near its solution, however many parts are joined by contact alone, preloads
 // included (manual, eq. R8-R9).
 #pragma once
 

@@ -98,7 +98,7 @@ std::string spectra_figure(const std::vector<Spectrum>& group, const TimeAxis& t
   return html::figure(svg(plot), caption + ".");
 }
 
-// What the columns are of: the output's own, or what the record tells.
+// What the columns are of: the output's own, or what the record states.
 std::string quantity_of(const Json& output) {
   const OutputEntry* entry = output_entry(text(output, "kind"));
   return entry && !entry->display.quantity.empty() ? entry->display.quantity : text(output, "quantity");

@@ -36,7 +36,7 @@ std::string cost_section(const RunFolder& run);
 
 // What an output is of: "acceleration along z, on upper.top".
 std::string subject_of(const Json& output);
-// "half-sine, peak 100 MPa, duration 40 µs": a history as the record tells it, of values in this unit.
+// "half-sine, peak 100 MPa, duration 40 µs": a history as the record states it, of values in this unit.
 std::string history_text(const std::string& description, const std::string& unit);
 
 }  // namespace dygita

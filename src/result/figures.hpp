@@ -1,4 +1,4 @@
-// What a run was, in figures: every one with the name under which the run record tells it, unit included, said once.
+// What a run was, in figures: every one with the name under which the run record states it, unit included, said once.
 #pragma once
 
 #include <map>

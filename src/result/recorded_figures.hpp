@@ -1,4 +1,4 @@
-// All figures of a run as its record tells them: the run's own and those of its outputs.
+// All figures of a run as its record states them: the run's own and those of its outputs.
 #pragma once
 
 #include "result/result.hpp"

@@ -59,7 +59,7 @@ struct StepSummary {
   long iterations = 0;
   double worst_indicator = 0.0;  // largest accepted
   double seconds = 0.0;
-  std::vector<Missed> missed;               // increments that did not converge, where the solver tells of them
+  std::vector<Missed> missed;               // increments that did not converge, where the solver reports them
   std::vector<std::string> explicit_parts;  // substructures integrated explicitly
   int substeps = 1;                         // increments in each time step of the deck
   double stable_step = 0.0;                 // s, longest increment that they are stable with; 0: there are none
@@ -126,7 +126,7 @@ struct PartStress {
 
 struct Scenes;
 
-// What an output tells beside its table.
+// What an output reports beside its table.
 struct Findings {
   std::vector<std::pair<std::string, Table>> parts;  // further tables: <name>_<part>.csv, and result[output].<part>
   std::map<std::string, double> values;              // result[output].<value>

@@ -22,7 +22,7 @@ struct Series {
 // max, min, first or last; nothing for another key. Throws InputError on an empty series.
 std::optional<double> summary_of(const Series& series, const std::string& key, const Origin& origin);
 
-// Linear between rows; where time stands still the last row of that time. Half a row's spacing beyond either end
+// Linear between rows; where time does not advance the last row of that time. Half a row's spacing beyond either end
 // answers the end's value, since means over a time step carry its middle. Throws InputError farther out.
 double value_at_abscissa(const Series& series, double x, const Origin& origin);
 

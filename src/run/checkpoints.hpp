@@ -6,7 +6,7 @@
 
 namespace dygita {
 
-// The one that the run goes on with, or a new one in `folder`; null where none is asked for or none can be written
+// The one that the run continues with, or a new one in `folder`; null where none is asked for or none can be written
 // (with a warning).
 std::shared_ptr<CheckpointFile> checkpoint_of(const Problem& problem, const RunRequest& request,
                                               const std::filesystem::path& folder);

@@ -1,5 +1,5 @@
 // Continuing a run from what it left: where it was stopped or killed, to a tighter tolerance, or further in time
-// (manual, "Continuing a run").
+// (manual, "Resume a stopped run").
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ struct ContinueOptions {
   double checkpoint_every = 180.0;  // s; 0: none
 };
 
-// Takes the place of run_problem while the deck of the run runs once more: the case continued goes on from its state,
+// Takes the place of run_problem while the deck of the run runs once more: the continued case resumes from its state,
 // other cases are read from their folders, and computed where a run that was stopped had not come to them.
 class Continuation {
  public:

@@ -34,8 +34,8 @@ struct KeptParts {
 // null: nothing is kept.
 KeptParts keep_parts(const RunState& state, RunWriter* writer, const RunResult& result);
 
-// Writes the state file; where that fails the run goes on, with a warning. has_checkpoint: it can be continued all the
-// same.
+// Writes the state file; where that fails the run continues, with a warning. has_checkpoint: it can be continued all
+// the same.
 void keep_state(RunState& state, KeptParts parts, RunWriter& writer, bool has_checkpoint, RunResult& result);
 
 // "  continued: 812 iterations more; ..."

@@ -1,4 +1,4 @@
-// Substructures in words: what a check tells of them, what a run says of their stress.
+// Substructures in words: what a check reports of them, what a run says of their stress.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// A run once more as its record tells it (manual, "The same run again").
+// A run once more as its record states it (manual, "Repeat a run").
 #pragma once
 
 #include <filesystem>

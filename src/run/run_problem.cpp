@@ -172,7 +172,7 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const Given& given, Fra
   return result;
 }
 
-// Where a run's files go, and what goes on with it should it be stopped.
+// Where a run's files go, and the command that resumes it if it is stopped.
 struct RunSite {
   RunSite(const Problem& problem, const RunRequest& request)
       : directory(request.replaces.empty() ? request.out / problem.name / request.case_name : request.replaces),

@@ -28,7 +28,7 @@ struct RunRequest {
   // results are complete, or at least reach as far as the old ones did.
   std::shared_ptr<const RunState> continues;
   std::filesystem::path replaces;
-  // The same run goes on where it was stopped or killed: over what its checkpoint has, in the folder `replaces`; in
+  // The same run continues where it was stopped or killed: over what its checkpoint has, in the folder `replaces`; in
   // place where no run has come to an end there.
   std::shared_ptr<CheckpointFile> checkpoint;
   bool is_in_place = false;

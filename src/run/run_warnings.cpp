@@ -40,7 +40,7 @@ std::string cure_by_iterations(const StepSummary& step, const Missed& worst, con
   return text + fmt::format("solver.latin{{ max_iterations = {} }}", (worst.iterations + 99) / 100 * 100 + asked);
 }
 
-// The indicator stands still: iterations do not help, if there were enough to tell.
+// The indicator has stagnated: iterations do not help, if there were enough to tell.
 std::string cure_of_stall(const Problem& problem, const StepSummary& step, const Missed& worst) {
   if (problem.solver.max_iterations > 0 && problem.solver.max_iterations < 1000)
     return "omit 'max_iterations': the iteration then continues while it improves";

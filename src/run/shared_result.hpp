@@ -1,4 +1,4 @@
-// Runs of several ranks: what they refuse, and what the others hear of rank 0's results, since the deck runs on all.
+// Runs of several ranks: what they refuse, and what the others receive of rank 0's results, since the deck runs on all.
 #pragma once
 
 #include "run/run_problem.hpp"

@@ -151,7 +151,7 @@ class Function : public History::Shape {
   std::function<double(double)> f_;
 };
 
-// A file's signal: it goes on after its ends with the values that it has there.
+// A file's signal: it continues after its ends with the values that it has there.
 class Record final : public Polyline {
  public:
   Record(SampledSignal signal, std::string description)

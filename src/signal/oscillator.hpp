@@ -31,7 +31,7 @@ class Oscillator {
   // The samples that follow are this far apart (s).
   void sample_every(double dt);
   void advance(const std::vector<double>& base);
-  // The base goes on along a straight line to the value `to`, for `length` (s): sampled where the response can be
+  // The base continues along a straight line to the value `to`, for `length` (s): sampled where the response can be
   // largest, as often however long it is.
   void follow_line(double to, double length);
 

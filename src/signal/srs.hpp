@@ -29,11 +29,11 @@ struct SrsSettings {
 // One entry a natural frequency (Hz), from, from 2^(1/per_octave), ..., and `to` last. The others in
 // srs_unit, none negative: `positive` and `negative` are the largest response of each sign, during the record and after
 // it, `maximax` the larger of the two; `primary` is the maximax during the record, `residual` after it, where the base
-// stands still.
+// is constant.
 struct Srs {
   std::vector<double> frequency, maximax, positive, negative, primary, residual;
 
-  // What hangs on where the record ends: how far the spectrum lies, in dB, from those of the same record cut off
+  // How the end of the record matters: how far the spectrum lies, in dB, from those of the same record cut off
   // anywhere in its last quarter (manual, eq. N3), at most 40; `grows` where it has grown all through that quarter, as
   // an oscillator does that has not come to its peak. Empty unless watched.
   struct Ending {

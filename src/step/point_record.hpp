@@ -38,7 +38,7 @@ void give_rates(const StepModel& model, const Point& point, const std::vector<do
                 PointRecord& record);
 // The law's state at the end of the increment, with the force found.
 LawState end_of_point(const Point& point, const PointRecord& record, const Increment& increment);
-// Do its sides hang on each other then, by a force whose square times y is above `least` (W), or whatever it is?
+// Do its sides depend on each other then, by a force whose square times y is above `least` (W), or whatever it is?
 bool links(const Point& point, const PointRecord& record, double least);
 // How far (m) its sides may come together then, infinite where nothing keeps them apart.
 double gap_of(const Point& point, const PointRecord& record, const Increment& increment);

@@ -1,4 +1,4 @@
-// What a solver tells of a run.
+// What a solver reports of a run.
 #pragma once
 
 #include <array>

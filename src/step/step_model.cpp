@@ -230,7 +230,7 @@ bool fits_in_one(const Problem& problem) {
 namespace {
 
 // Assembled increments cost ten factors or more each, iterated steps dense operators at their start and next to nothing
-// an increment, unless many parts hang on each other by contact alone. Forces and ties of the former agree to twelve
+// an increment, unless many parts are joined by contact alone. Forces and ties of the former agree to twelve
 // digits at best.
 bool is_assembled(const Problem& problem, const Step& step) {
   constexpr int few_increments = 5;

@@ -26,16 +26,16 @@ struct TrailEntry {
   AssembledRuns runs{};
 };
 
-// Entries one after the other, of all steps and passes of a run: taken where an earlier run has left them, left from
-// there on.
+// Entries one after the other, of all steps and passes of a run: replayed where an earlier run has left them, appended
+// from there on.
 class Trail {
  public:
   virtual ~Trail() = default;
-  // Do at least n entries follow? If not, those that do are dropped: from here on entries are left.
+  // Do at least n entries follow? If not, those that do are dropped: from here on entries are appended.
   virtual bool leads(long n) = 0;
   virtual long n_left() const = 0;
   // The next one, which there is, whole. Throws InputError where it cannot be read. On other ranks than the first: what
-  // is in it the first tells.
+  // is in it the first sends.
   virtual TrailEntry take() = 0;
   virtual void leave(const TrailEntry& entry) = 0;
   // The numbers of an increment gone over differ from those that it had.

@@ -120,7 +120,7 @@ Tangent Contact::tangent(const LawState& state, bool ties_sliding) const {
   return {{true, sticks, sticks}};
 }
 
-// What pressed at the start goes on pressing; what overlapped without force is let be (eq. X9).
+// What pressed at the start keeps pressing; what overlapped without force is let be (eq. X9).
 void Contact::begin(SpringPoint& point) const {
   const LawState& start = point.start;
   point.offset = start.force[0] < 0.0 ? start.force[0] / point.stiffness[0] - start.gap : std::max(0.0, -start.gap);
