@@ -24,7 +24,7 @@ struct Entry {
 
 // "### `interface.contact{ ... }`" and the rows "| `friction` | ..." below it.
 std::vector<Entry> entries_of_reference() {
-  static const std::regex head(R"(### `([a-z_]+)([.:]?)([a-z_]*).*)"), row(R"(\| `([A-Za-z_]+)` \|.*)");
+  static const std::regex head(R"(### `([a-z_]+)([.:]?)([a-z_]*).*)"), row(R"(\| `([A-Za-z_][A-Za-z_0-9]*)` \|.*)");
   std::vector<Entry> entries;
   std::istringstream text(deck_reference());
   std::smatch found;
@@ -39,7 +39,8 @@ std::vector<Entry> entries_of_reference() {
 
 // Fields of each class.
 std::map<std::string, std::set<std::string>> classes_of(const std::string& definitions) {
-  static const std::regex head(R"(---@class (\(exact\) )?([A-Za-z_.]+).*)"), field(R"(---@field ([A-Za-z_]+)\??.*)");
+  static const std::regex head(R"(---@class (\(exact\) )?([A-Za-z_.]+).*)"),
+      field(R"(---@field ([A-Za-z_][A-Za-z_0-9]*)\??.*)");
   std::map<std::string, std::set<std::string>> classes;
   std::string open;
   std::istringstream text(definitions);
