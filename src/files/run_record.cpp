@@ -195,6 +195,27 @@ Json bolts(const RunResult& result) {
   return list;
 }
 
+Json contacts(const Problem& problem, const RunResult& result) {
+  const auto known = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
+  Json list = Json::array();
+  for (const ContactSummary& contact : result.contacts) {
+    Json steps = Json::array();
+    for (const ContactStep& step : contact.steps)
+      steps.push_back({{"step", problem.steps[static_cast<size_t>(step.step)]->name},
+                       {"pressed_lowest", step.lowest},
+                       {"pressed_highest", step.highest},
+                       {"shear", step.shear},
+                       {"closed", step.closed},
+                       {"opening", step.opening},
+                       {"sliding", known(step.sliding)},
+                       {"slip", known(step.slip)},
+                       {"friction_used", known(step.friction_used)}});
+    list.push_back(
+        {{"name", contact.name}, {"area", contact.area}, {"friction", contact.friction}, {"steps", std::move(steps)}});
+  }
+  return list;
+}
+
 }  // namespace
 
 const char* program_version() { return DYGITA_VERSION; }
@@ -265,6 +286,7 @@ std::string run_record(const Problem& problem, const RunResult& result, const Ru
       {"iterations", {{"all", result.iterations}, {"mean", result.mean_iterations}}},
       {"steps", steps(problem, result)},
       {"bolts", bolts(result)},
+      {"contacts", contacts(problem, result)},
       {"figures", object(recorded_figures(result))},
       {"seconds", object(result.seconds)},
       {"threads", identity.threads},

@@ -180,6 +180,7 @@ void Collector::finish(RunResult& result) {
   parts_.turned().finish(problem_, result);
   parts_.gaps().finish(result);
   result.stresses = parts_.stresses().take();
+  result.contacts = parts_.contacts().take();
   for (const PartStress& stress : result.stresses) {
     std::optional<double>& least = result.figures.yield_margin;
     if (!least || std::isnan(stress.margin()) || stress.margin() < *least) least = stress.margin();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "estimates/error_estimator.hpp"
+#include "watch/contact_recorder.hpp"
 #include "watch/gap_watch.hpp"
 #include "watch/motion_watch.hpp"
 #include "watch/rotation_watch.hpp"
@@ -22,6 +23,7 @@ class PartWatch : public Observer {
     motion_.begin_step(start);
     turned_.begin_step(start);
     gaps_.begin_step(start);
+    contacts_.begin_step(start);
   }
   void accept(const Instant& instant) override {
     errors_.accept(instant);
@@ -29,6 +31,7 @@ class PartWatch : public Observer {
     turned_.accept(instant);
     stresses_.accept(instant);
     gaps_.accept(instant);
+    contacts_.accept(instant);
   }
   // Once, after the last step: rank 0 knows all.
   void settle() {
@@ -36,6 +39,7 @@ class PartWatch : public Observer {
     turned_.settle();
     stresses_.settle();
     gaps_.settle();
+    contacts_.settle();
   }
 
   const ErrorEstimator& errors() const { return errors_; }
@@ -43,6 +47,7 @@ class PartWatch : public Observer {
   const RotationWatch& turned() const { return turned_; }
   PartViews& views() { return views_; }
   StressRecorder& stresses() { return stresses_; }
+  ContactRecorder& contacts() { return contacts_; }
   const GapWatch& gaps() const { return gaps_; }
 
  private:
@@ -52,6 +57,7 @@ class PartWatch : public Observer {
   RotationWatch turned_;
   StressRecorder stresses_;
   GapWatch gaps_;
+  ContactRecorder contacts_;
 };
 
 }  // namespace dygita

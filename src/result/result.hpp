@@ -13,6 +13,7 @@
 
 #include "model/bolt_formula.hpp"
 #include "model/output.hpp"
+#include "result/contact_summary.hpp"
 #include "result/figures.hpp"
 #include "result/frame.hpp"
 
@@ -141,6 +142,7 @@ struct Findings {
 
 struct RunResult {
   std::vector<BoltSummary> bolts;
+  std::vector<ContactSummary> contacts;
   std::map<const Output*, Table> tables;  // of all outputs but vtk
   std::map<const Output*, Findings> findings;
   Table convergence;  // time, step, iterations, indicator, converged (1 or 0)

@@ -1,0 +1,139 @@
+#include "watch/contact_recorder.hpp"
+
+#include <algorithm>
+
+#include "law/law.hpp"
+#include "ranks/ranks.hpp"
+
+namespace dygita {
+
+namespace {
+
+bool is_contact(const Surface& surface) {
+  const Shown shown = surface.declared_law().shown();
+  return shown.gap && shown.states;
+}
+
+double friction_of(const Law& law) {
+  for (const LawParameter& parameter : law.parameters())
+    if (parameter.name == "friction") return std::get<double>(parameter.value);
+  return 0.0;
+}
+
+// f(index, state) of every point that this rank keeps.
+template <class Function>
+void for_each_here(const Instant& instant, int s, Function&& f) {
+  const std::vector<LawState>& points = instant.state.surfaces[static_cast<size_t>(s)].points;
+  if (instant.distant)
+    for (const int i : instant.distant->here(s)) f(i, points[static_cast<size_t>(i)]);
+  else
+    for (size_t i = 0; i < points.size(); ++i) f(static_cast<int>(i), points[i]);
+}
+
+}  // namespace
+
+void ContactRecorder::find_contacts(const Instant& start) {
+  const std::vector<Surface>& surfaces = *start.model.surfaces;
+  for (size_t s = 0; s < surfaces.size(); ++s) {
+    if (!is_contact(surfaces[s])) continue;
+    // The faces of a wall follow each other.
+    const bool is_next_face = surfaces[s].wall && s > 0 && surfaces[s - 1].wall == surfaces[s].wall;
+    if (!is_next_face) {
+      contacts_.push_back({surfaces[s].name(), 0.0, friction_of(surfaces[s].declared_law()), {}});
+      surfaces_.emplace_back();
+    }
+    contacts_.back().area += surfaces[s].facing.areas.sum();
+    surfaces_.back().push_back(static_cast<int>(s));
+  }
+}
+
+void ContactRecorder::begin_step(const Instant& start) {
+  if (contacts_.empty()) find_contacts(start);
+  watched_.clear();
+  for (size_t c = 0; c < contacts_.size(); ++c)
+    for (const int s : surfaces_[c]) {
+      const Surface& surface = (*start.model.surfaces)[static_cast<size_t>(s)];
+      if (!takes_part(*start.model.problem, *start.model.step, surface)) continue;
+      Watched watched{c, s, std::vector<Start>(static_cast<size_t>(surface.n_points()))};
+      for_each_here(start, s, [&](int i, const LawState& point) {
+        watched.points[static_cast<size_t>(i)] = {point.slip, point.status != PointState::open};
+      });
+      watched_.push_back(std::move(watched));
+    }
+  is_new_ = true;
+}
+
+void ContactRecorder::look_at(const Instant& instant, const Watched& watched, Sums& sums, ContactStep& step) const {
+  const Surface& surface = (*instant.model.surfaces)[static_cast<size_t>(watched.surface)];
+  const Law& law = surface.declared_law();
+  if (instant.state.released[static_cast<size_t>(watched.surface)]) return;
+  for_each_here(instant, watched.surface, [&](int i, const LawState& point) {
+    const Start& start = watched.points[static_cast<size_t>(i)];
+    if (start.is_closed) step.opening = std::max(step.opening, law.opening(point));
+    if (step.slip) step.slip = std::max(*step.slip, (point.slip - start.slip).norm());
+    if (point.status == PointState::open) return;
+    const Vec3 n = surface.facing.normals.col(i);
+    const double normal = point.force.dot(n), area = surface.facing.areas[i];
+    sums.pressed -= normal;
+    sums.shear += point.force - normal * n;
+    sums.closed += area;
+    if (point.status == PointState::slip) sums.sliding += area;
+  });
+}
+
+void ContactRecorder::add(const Sums& sums, bool is_static, ContactSummary& contact) const {
+  const double shear = sums.shear.norm(), closed = contact.area > 0.0 ? sums.closed / contact.area : 0.0;
+  const bool is_first = is_static || is_new_;
+  ContactStep& step = contact.steps.back();
+  step.lowest = is_first ? sums.pressed : std::min(step.lowest, sums.pressed);
+  step.highest = is_first ? sums.pressed : std::max(step.highest, sums.pressed);
+  step.shear = is_first ? shear : std::max(step.shear, shear);
+  step.closed = is_first ? closed : std::min(step.closed, closed);
+  if (!(contact.friction > 0.0)) return;
+  const double sliding = sums.closed > 0.0 ? sums.sliding / sums.closed : 0.0,
+               used = sums.pressed > 0.0 ? shear / (contact.friction * sums.pressed) : 0.0;
+  step.sliding = is_first ? sliding : std::max(*step.sliding, sliding);
+  step.friction_used = is_first ? used : std::max(*step.friction_used, used);
+}
+
+void ContactRecorder::accept(const Instant& instant) {
+  if (contacts_.empty()) return;
+  std::vector<char> is_watched(contacts_.size(), 0);
+  for (const Watched& watched : watched_) {
+    ContactSummary& contact = contacts_[watched.contact];
+    if (!is_watched[watched.contact]++ && is_new_) contact.steps.emplace_back().step = instant.i_step;
+    if (!is_new_ && !instant.is_static()) continue;
+    contact.steps.back().opening = 0.0;
+    if (contact.friction > 0.0) contact.steps.back().slip = 0.0;
+  }
+  std::vector<Sums> of_each(contacts_.size());
+  for (const Watched& watched : watched_)
+    look_at(instant, watched, of_each[watched.contact], contacts_[watched.contact].steps.back());
+  std::vector<double> numbers;
+  for (const Sums& of : of_each)
+    numbers.insert(numbers.end(), {of.pressed, of.shear[0], of.shear[1], of.shear[2], of.closed, of.sliding});
+  numbers = ranks::sums(numbers);
+  for (size_t c = 0; c < contacts_.size(); ++c) {
+    const double* n = numbers.data() + 6 * c;
+    if (is_watched[c]) add({n[0], {n[1], n[2], n[3]}, n[4], n[5]}, instant.is_static(), contacts_[c]);
+  }
+  is_new_ = false;
+}
+
+void ContactRecorder::settle() {
+  if (ranks::is_alone()) return;
+  std::vector<double> own;
+  for (const ContactSummary& contact : contacts_)
+    for (const ContactStep& step : contact.steps) own.insert(own.end(), {step.opening, step.slip.value_or(0.0)});
+  for (const std::vector<double>& of_rank : ranks::of_all(own)) {
+    size_t i = 0;
+    for (ContactSummary& contact : contacts_)
+      for (ContactStep& step : contact.steps) {
+        step.opening = std::max(step.opening, of_rank[i++]);
+        const double slip = of_rank[i++];
+        if (step.slip) step.slip = std::max(*step.slip, slip);
+      }
+  }
+}
+
+}  // namespace dygita
