@@ -82,30 +82,29 @@ std::vector<std::array<int, 4>> seen_edges(const Skin& skin, const View& view, c
   return lines;
 }
 
-// Share of the parts that are seen at all.
-bool all_parts_are_seen(const Skin& skin, const View& view, size_t n_parts) {
+// Of how many parts at least a twentieth is seen.
+size_t n_parts_seen(const std::vector<SubstructurePtr>& parts, const View& view) {
+  const Skin skin = make_skin(parts, view, {}, {}, 0.0);
   const std::vector<char> seen =
       buffer_of(skin, view, projected(skin.position, view)).seen(static_cast<int>(skin.facets.size()));
-  std::vector<int> n_seen(n_parts, 0), n_all(n_parts, 0);
+  std::vector<int> n_seen(parts.size(), 0), n_all(parts.size(), 0);
   for (size_t f = 0; f < seen.size(); ++f) {
     n_seen[skin.part[f]] += seen[f];
     ++n_all[skin.part[f]];
   }
-  for (size_t p = 0; p < n_parts; ++p)
-    if (n_seen[p] < 0.05 * n_all[p]) return false;
-  return true;
+  size_t n = 0;
+  for (size_t p = 0; p < parts.size(); ++p) n += n_seen[p] >= 0.05 * n_all[p];
+  return n;
 }
 
 int n_seen(const std::vector<char>& seen) { return static_cast<int>(std::count(seen.begin(), seen.end(), 1)); }
 
-}  // namespace
-
-View whole_view_of(const std::vector<SubstructurePtr>& parts) {
+View view_from(const Box& box, double turn) {
   View view;
-  const Box box = extent_of(parts);
   view.centre = 0.5 * (box.low + box.high);
-  const int along = long_axis(box);
-  view.axes = along >= 0 ? turned(along, along == 2 ? 1 : 2, 20.0, 22.0) : turned(0, 2, 45.0, 35.264);
+  const int longest = long_axis(box);
+  view.axes =
+      longest >= 0 ? turned(longest, longest == 2 ? 1 : 2, 20.0 + turn, 22.0) : turned(0, 2, 45.0 + turn, 35.264);
   // The eight corners of the box fit in.
   Vec3 low = Vec3::Constant(1e300), high = -low;
   for (int i = 0; i < 8; ++i) {
@@ -128,9 +127,31 @@ View whole_view_of(const std::vector<SubstructurePtr>& parts) {
   return view;
 }
 
+// From the side that hides the fewest parts; all parts are seen?
+std::pair<View, bool> clearest_view_of(const std::vector<SubstructurePtr>& parts) {
+  const Box box = extent_of(parts);
+  View best;
+  size_t most = 0;
+  for (const double turn : {0.0, 180.0, 90.0, 270.0}) {
+    if (long_axis(box) >= 0 && turn != 0.0 && turn != 180.0) continue;  // not along it
+    const View view = view_from(box, turn);
+    const size_t n = n_parts_seen(parts, view);
+    if (turn == 0.0 || n > most) {
+      most = n;
+      best = view;
+    }
+    if (most == parts.size()) break;
+  }
+  return {best, most == parts.size()};
+}
+
+}  // namespace
+
+View whole_view_of(const std::vector<SubstructurePtr>& parts) { return view_from(extent_of(parts), 0.0); }
+
 View view_of(const std::vector<SubstructurePtr>& parts) {
-  View view = whole_view_of(parts);
-  if (all_parts_are_seen(make_skin(parts, view, {}, {}, 0.0), view, parts.size())) return view;
+  auto [view, shows_all] = clearest_view_of(parts);
+  if (shows_all) return view;
   view.is_cut = true;
   // The horizontal axis that looks most towards the reader.
   const int along = long_axis(extent_of(parts));

@@ -40,7 +40,7 @@ struct View {
 
 // An isometric view that the whole assembly fits in, flatter for what is long and thin; laid on its side if it is tall.
 View whole_view_of(const std::vector<SubstructurePtr>& parts);
-// The same, cut in half where a part cannot be seen from outside.
+// The same from the side that hides the fewest parts, cut in half where one still cannot be seen.
 View view_of(const std::vector<SubstructurePtr>& parts);
 
 // Deformed by `scale` times `displacement` (m, 3 x n_nodes each; empty: undeformed) with `values` at nodes (empty:

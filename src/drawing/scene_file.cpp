@@ -24,10 +24,12 @@ Json rounded(double value) {
   return unit < 1.0 ? digits / std::round(1.0 / unit) : digits * unit;
 }
 
-// Each facet: part, light (%), value (thousandths of the largest), number of corners, then their places.
+constexpr double value_steps = 1e6;  // up to the largest: beside a peak the rest still tells
+
+// Each facet: part, light (%), value, number of corners, then their places.
 Json json_of(const Picture& picture) {
   Json facets = Json::array();
-  const double unit = picture.value_high > 0.0 ? 1000.0 / picture.value_high : 0.0;
+  const double unit = picture.value_high > 0.0 ? value_steps / picture.value_high : 0.0;
   for (const PictureFacet& facet : picture.facets) {
     facets.push_back(facet.part);
     facets.push_back(std::lround(100.0 * facet.light));
@@ -35,11 +37,11 @@ Json json_of(const Picture& picture) {
     facets.push_back(facet.corners.size());
     for (const std::array<int, 2>& corner : facet.corners) facets.insert(facets.end(), {corner[0], corner[1]});
   }
-  return {{"width", picture.width},      {"height", picture.height},
-          {"cut", picture.is_cut},       {"boundary_facets", picture.n_facets},
-          {"axes", picture.axes},        {"largest", picture.value_high},
-          {"facets", std::move(facets)}, {"edges", picture.edges},
-          {"outline", picture.outline}};
+  return {{"width", picture.width},     {"height", picture.height},
+          {"cut", picture.is_cut},      {"boundary_facets", picture.n_facets},
+          {"axes", picture.axes},       {"largest", picture.value_high},
+          {"value_steps", value_steps}, {"facets", std::move(facets)},
+          {"edges", picture.edges},     {"outline", picture.outline}};
 }
 
 // m; what is not finite is told as it is.

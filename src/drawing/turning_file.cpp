@@ -105,7 +105,8 @@ Json frame_of(const SkinFrame& frame, const TurningMesh& mesh) {
   std::vector<int16_t> places;
   const double unit = quantised(u, places), top = *std::max_element(stress.begin(), stress.end());
   std::vector<uint8_t> levels;
-  for (const double s : stress) levels.push_back(static_cast<uint8_t>(top > 0.0 ? std::lround(255.0 * s / top) : 0));
+  for (const double s : stress)
+    levels.push_back(static_cast<uint8_t>(top > 0.0 ? std::lround(255.0 * std::cbrt(s / top)) : 0));
   return {{"step", frame.step}, {"static", frame.is_static}, {"time", frame.time}, {"missed", frame.missed},
           {"unit", unit},       {"u", base64(places)},       {"top", top},         {"s", base64(levels)}};
 }
@@ -144,8 +145,10 @@ std::string motion_text(const Problem& problem, const SkinMotion& motion) {
       make_turning_mesh(problem.substructures, {},
                         static_cast<int>(std::clamp<double>(most_bytes / bytes_of_node, fewest_nodes, most_nodes)));
   if (mesh.nodes.cols() == 0) return "";  // bodies of points alone
-  const View view = whole_view_of(problem.substructures);
+  const View view = view_of(problem.substructures);
   Json json = still(problem, mesh, view);
+  json["hides"] = view.is_cut;  // some part is hidden
+  json["stress_power"] = 3;     // of a byte: a peak leaves room for what is small
   Json::array_t frames(motion.frames.size());
   parallel_for(static_cast<int>(frames.size()),
                [&](int i) { frames[static_cast<size_t>(i)] = frame_of(motion.frames[static_cast<size_t>(i)], mesh); });

@@ -15,8 +15,8 @@ namespace dygita {
 inline constexpr const char* motion_file = own_file::motion;
 
 // JSON as embedded/turn.js reads it; numbers are little-endian in base64. Displacements to 1/32767 of the frame's
-// largest component, stresses to 1/255 of the frame's largest. Displacements and stresses that are not finite become
-// zero.
+// largest component, stresses (cube roots) to 1/255 of the frame's largest. Displacements and stresses that are not
+// finite become zero.
 std::string motion_text(const Problem& problem, const SkinMotion& motion);
 
 // The same of natural modes, whose frames have shapes of the parts: each swings where it stands.

@@ -9,6 +9,7 @@
 #include "report/html.hpp"
 #include "report/part_groups.hpp"
 #include "report/report_parts.hpp"
+#include "report/stress_scale.hpp"
 
 namespace dygita {
 
@@ -70,13 +71,12 @@ std::string lines(const Json& edges, const char* style) {
   return path.empty() ? "" : fmt::format("<path d=\"{}\" fill=\"none\" {}/>\n", path, style);
 }
 
-// Top of the colour scale: what one facet in two hundred exceeds, so that a notch does not hide the rest.
-int top_of_scale(const std::vector<DrawnFacet>& facets) {
-  std::vector<int> values;
-  for (const DrawnFacet& facet : facets) values.push_back(facet.value);
-  if (values.empty()) return 1;
-  std::sort(values.begin(), values.end());
-  return std::max(1, values[std::min(values.size() - 1, values.size() * 199 / 200)]);
+// Pixels that a facet takes, in tenths of a pixel squared.
+double area_of(const DrawnFacet& facet) {
+  const auto at = [&](size_t k) { return (*facet.list)[facet.first + k % (2 * facet.n)].get<double>(); };
+  double twice = 0.0;
+  for (size_t k = 0; k < facet.n; ++k) twice += at(2 * k) * at(2 * k + 3) - at(2 * k + 2) * at(2 * k + 1);
+  return 0.5 * std::abs(twice);
 }
 
 std::string axes_of(const Json& picture, double height) {
@@ -186,17 +186,20 @@ struct ColourScale {
 
 std::string by_field(const Json& picture, const Json& parts, const std::string& title, const ColourScale& scale) {
   const std::vector<DrawnFacet> facets = facets_of(picture);
-  const int highest = scale.is_of_cells ? top_of_scale(facets) : 1000;
+  const auto is_grey = [&](const DrawnFacet& facet) {
+    return scale.is_of_cells && has_no_stress(parts, static_cast<size_t>(facet.part));
+  };
+  std::vector<std::pair<double, double>> values;  // with what they cover
+  for (const DrawnFacet& facet : facets)
+    if (!is_grey(facet)) values.emplace_back(facet.value, area_of(facet));
+  const StressScale colours(values, n_picture_levels);
   const auto color_of_level = [](int level) { return scale_color((level + 0.5) / n_picture_levels); };
   std::vector<std::string> colors;
   for (const DrawnFacet& facet : facets)
-    colors.push_back(
-        scale.is_of_cells && has_no_stress(parts, static_cast<size_t>(facet.part))
-            ? "#bbbbbb"
-            : color_of_level(std::clamp(n_picture_levels * facet.value / highest, 0, n_picture_levels - 1)));
+    colors.push_back(is_grey(facet) ? "#bbbbbb" : color_of_level(colours.color(facet.value)));
   const double width = number(picture, "width"), height = number(picture, "height"),
                largest = number(picture, "largest");
-  std::string result = open_svg(width, height + 40.0, title);
+  std::string result = open_svg(width, height + 54.0, title);
   result += "<g transform=\"scale(0.1)\" stroke-width=\"8\" stroke-linejoin=\"round\">\n" + drawn(facets, colors) +
             lines(picture.at("edges"), "stroke=\"#222222\" stroke-width=\"6\" stroke-opacity=\"0.7\"") +
             lines(picture.at("outline"), "stroke=\"#777777\" stroke-width=\"8\" stroke-dasharray=\"40 30\"") +
@@ -205,13 +208,19 @@ std::string by_field(const Json& picture, const Json& parts, const std::string& 
   for (int level = 0; level < n_picture_levels; ++level)
     result += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"22.5\" height=\"12\" fill=\"{}\"/>\n",
                           coordinate(bar_left + 22.0 * level), coordinate(height), color_of_level(level));
-  const double high = largest * highest / 1000.0;
-  result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">0</text>\n", coordinate(bar_left),
-                        coordinate(height + 28.0));
-  result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", coordinate(0.5 * width),
-                        coordinate(height + 28.0), scale.name);
-  result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}{}</text>\n", coordinate(bar_left + bar),
-                        coordinate(height + 28.0), highest < 990 ? "above " : "", escaped(with_unit(high, scale.unit)));
+  // Runs of earlier versions have thousandths.
+  const double steps = number(picture, "value_steps"), unit = largest / (std::isfinite(steps) ? steps : 1000.0);
+  const int n_between = colours.is_by_quantile() ? 4 : 1;
+  for (int i = 0; i <= n_between; ++i) {
+    const double value = unit * colours.ends()[static_cast<size_t>(i * n_picture_levels / n_between)];
+    result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}{}</text>\n",
+                          coordinate(bar_left + bar * i / n_between), coordinate(height + 28.0),
+                          i == n_between && colours.is_exceeded() ? "above " : "",
+                          i == 0 ? "0" : escaped(with_unit(value, scale.unit, 2)));
+  }
+  result += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}{}</text>\n", coordinate(0.5 * width),
+                        coordinate(height + 46.0), scale.name,
+                        colours.is_by_quantile() ? ", by quantile: each colour covers as much of the picture" : "");
   if (number(picture, "missed") > 0)
     result += fmt::format(
         "<text x=\"{}\" y=\"16\" text-anchor=\"end\" font-weight=\"bold\" fill=\"#d55e00\">NOT CONVERGED"

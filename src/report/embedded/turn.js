@@ -55,22 +55,52 @@ class Model {
     const f = this.frames[frame], v = new Float32Array(this.n);
     for (let i = 0; i < this.n; ++i) {
       const u = f.unit, d = f.u;
-      if (name === "von_mises") v[i] = f.s[i] * f.top / 255;
+      if (name === "von_mises") v[i] = f.top * (f.s[i] / 255) ** (this.stress_power || 1);
       else if (name === "displacement") v[i] = u * Math.hypot(d[3 * i], d[3 * i + 1], d[3 * i + 2]);
       else v[i] = u * d[3 * i + "xyz".indexOf(name)];
     }
     return v;
   }
 
-  // What a colour scale shows: all frames; of stress what one node in two hundred exceeds.
-  range(name) {
-    let all = [];
+  // Values at the ends of equal steps of a colour scale over all frames, from low to high. Of stress high is what one node in two hundred
+  // exceeds; where a peak would leave half of the assembly the lowest fifth of the scale, each colour takes as many nodes.
+  scale(name) {
+    const isStress = name === "von_mises", all = [];
+    let low = Infinity, high = -Infinity;
     for (let k = 0; k < this.frames.length; ++k) {
-      const v = this.field(name, k).sort();
-      all.push(v[0], v[Math.floor((name === "von_mises" ? 0.995 : 1) * (this.n - 1))]);
+      const v = this.field(name, k).sort(), place = (share) => v[Math.floor(share * (this.n - 1))];
+      low = Math.min(low, v[0]);
+      high = Math.max(high, place(isStress ? 0.995 : 1));
+      for (let j = 0; j <= 400; ++j) all.push(place(j / 400));
     }
-    const low = name === "von_mises" || name === "displacement" ? 0 : Math.min(...all), high = Math.max(...all);
-    return [low, high > low ? high : low + 1e-30];
+    if (isStress || name === "displacement") low = 0;
+    if (!(high > low)) high = low + 1e-30;
+    all.sort((a, b) => a - b);
+    const steps = 64, at = (share) => all[Math.round(share * (all.length - 1))];
+    const isSkewed = isStress && at(0.5) < 0.2 * high;
+    const ends = Array.from({length: steps + 1}, (_, i) => isSkewed ? Math.min(high, at(i / steps)) : low + (high - low) * i / steps);
+    ends[0] = low; ends[steps] = high;
+    return {ends, isSkewed};
+  }
+
+  // Places on a scale, 0 to 255.
+  tones(values, {ends}) {
+    const tones = new Float32Array(values.length), last = ends.length - 1;
+    for (let i = 0; i < values.length; ++i) {
+      let a = 0, b = last;
+      while (b - a > 1) { const m = (a + b) >> 1; if (ends[m] <= values[i]) a = m; else b = m; }
+      const share = ends[b] > ends[a] ? (values[i] - ends[a]) / (ends[b] - ends[a]) : 0;
+      tones[i] = 255 * Math.max(0, Math.min(1, (a + Math.max(0, Math.min(1, share))) / last));
+    }
+    return tones;
+  }
+
+  // Middle of the part that has the largest stress of a frame.
+  mostStressed(frame) {
+    const v = this.field("von_mises", frame);
+    let best = 0;
+    for (let i = 1; i < this.n; ++i) if (v[i] > v[best]) best = i;
+    return this.middle[this.partOfNode[best]];
   }
 }
 
@@ -123,6 +153,7 @@ class Picture {
     const pixels = new Uint32Array(this.image.data.buffer).fill(0xffffffff);
     this.project(state);
     this.values = state.field ? m.field(state.field, state.frame) : null;
+    this.tones = state.field ? m.tones(this.values, state.scale) : null;
     const colors = m.colors;
     for (let t = 0; t < m.partOfTriangle.length; ++t) {
       const p = m.partOfTriangle[t];
@@ -151,7 +182,7 @@ class Picture {
   }
 
   triangle(t, state, color, pixels) {
-    const {triangles} = this.model, {px, py, pz, side, depth, item, values} = this, w = this.canvas.width, h = this.canvas.height;
+    const {triangles} = this.model, {px, py, pz, side, depth, item, tones} = this, w = this.canvas.width, h = this.canvas.height;
     const a = triangles[3 * t], b = triangles[3 * t + 1], c = triangles[3 * t + 2];
     const area = (px[b] - px[a]) * (py[c] - py[a]) - (px[c] - px[a]) * (py[b] - py[a]);
     const isBack = area > 0;  // y runs down
@@ -165,7 +196,7 @@ class Picture {
     const flat = 0xff000000 | (color[2] * light) << 16 | (color[1] * light) << 8 | color[0] * light;
     const x0 = Math.max(0, Math.ceil(Math.min(px[a], px[b], px[c]) - 0.5)), x1 = Math.min(w - 1, Math.floor(Math.max(px[a], px[b], px[c]) - 0.5));
     const y0 = Math.max(0, Math.ceil(Math.min(py[a], py[b], py[c]) - 0.5)), y1 = Math.min(h - 1, Math.floor(Math.max(py[a], py[b], py[c]) - 0.5));
-    const s = 1 / area, tint = 0.8 + 0.2 * light, low = state.range[0], gain = 255 / (state.range[1] - low);
+    const s = 1 / area, tint = 0.8 + 0.2 * light;
     const stepA = (py[b] - py[c]) * s, stepB = (py[c] - py[a]) * s;
     for (let y = y0; y <= y1; ++y) {
       const dy = y + 0.5;
@@ -178,8 +209,8 @@ class Picture {
         if (z <= depth[i] || cutting && wa * side[a] + wb * side[b] + wc * side[c] > 0) continue;
         depth[i] = z;
         item[i] = 2 * t + (isBack ? 1 : 0);
-        if (values) {
-          const v = Math.max(0, Math.min(255, Math.round((wa * values[a] + wb * values[b] + wc * values[c] - low) * gain)));
+        if (tones) {
+          const v = Math.max(0, Math.min(255, Math.round(wa * tones[a] + wb * tones[b] + wc * tones[c])));
           pixels[i] = 0xff000000 | (ramp[3 * v + 2] * tint) << 16 | (ramp[3 * v + 1] * tint) << 8 | ramp[3 * v] * tint;
         } else pixels[i] = flat;
       }
@@ -239,9 +270,9 @@ function setUp(figure) {
   const second = element(figure, "div", {class: "controls"});
   const picture = new Picture(canvas, model);
   const state = {frame: Math.max(0, model.shown || 0), warp: model.warp || 0, apart: model.label ? 0.6 : 0, swing: 1, field: model.isModes ? "displacement" : model.frames.length ? "von_mises" : "", cut: null,
-                 hidden: new Set(), range: [0, 1], colorOf: null};
+                 hidden: new Set(), scale: null, colorOf: null};
   let waiting = false, playing = 0;
-  const ranges = {};
+  const scales = {};
   const labelColor = (t) => model.labelColors[model.label[t]];
 
   function sharpness(isMoving) {
@@ -256,7 +287,7 @@ function setUp(figure) {
     requestAnimationFrame(() => {
       waiting = false;
       sharpness(isMoving);
-      if (state.field) state.range = ranges[state.field] = ranges[state.field] || model.range(state.field);
+      if (state.field) state.scale = scales[state.field] = scales[state.field] || model.scale(state.field);
       picture.draw(state);
       tell();
     });
@@ -265,9 +296,11 @@ function setUp(figure) {
     legend.textContent = "";
     if (state.field) {
       const [name, unit] = model.isModes ? [fields[state.field][0] + ", of the largest", ""] : fields[state.field];
-      element(legend, "span", {}, withUnit(state.range[0], unit));
-      element(legend, "span", {class: "ramp"});
-      element(legend, "span", {}, withUnit(state.range[1], unit) + "  " + name);
+      const {ends, isSkewed} = state.scale, last = ends.length - 1, bar = element(legend, "span", {class: "scale"});
+      element(bar, "span", {class: "ramp"});
+      const ticks = element(bar, "span", {class: "ticks"});
+      for (const share of isSkewed ? [0, 0.25, 0.5, 0.75, 1] : [0, 1]) element(ticks, "span", {}, withUnit(ends[Math.round(share * last)], unit));
+      element(legend, "span", {}, name + (isSkewed ? ", by quantile: each colour covers as much" : ""));
     }
     const f = model.frames[state.frame];
     if (f) instant.textContent = f.step + (model.isModes ? "" : f.static ? " (static)" : ", " + withUnit(f.time, "s"));
@@ -307,13 +340,20 @@ function setUp(figure) {
   apart.onchange = () => draw();
   const cut = control(second, "cut", "select");
   for (const name of ["none", "x", "−x", "y", "−y", "z", "−z"]) element(cut, "option", {value: name}, name);
-  const place = element(second, "input", {type: "range", min: -1, max: 1, step: 0.005, value: 0, "aria-label": "place of the cut"});
+  const place = element(second, "input", {type: "range", min: -1, max: 1, step: "any", value: 0, "aria-label": "place of the cut"});
+  const hot = model.frames.length ? model.mostStressed(state.frame) : null;
   const setCut = (isMoving) => {
     const axis = "xyz".indexOf(cut.value.slice(-1));
     state.cut = cut.value === "none" ? null : {axis, sign: cut.value.length > 1 ? -1 : 1, at: Number(place.value) * model.extent[axis]};
     draw(isMoving);
   };
-  cut.onchange = () => setCut(); place.oninput = () => setCut(true); place.onchange = () => setCut();
+  // Begins in the middle of the most stressed part.
+  cut.onchange = () => {
+    const axis = "xyz".indexOf(cut.value.slice(-1));
+    if (hot && axis >= 0) place.value = hot[axis] / (model.extent[axis] || 1);
+    setCut();
+  };
+  place.oninput = () => setCut(true); place.onchange = () => setCut();
   const back = element(second, "button", {type: "button"}, "reset view");
   back.onclick = () => { picture.reset(); draw(); };
   const list = element(figure, "details");
@@ -367,6 +407,11 @@ function setUp(figure) {
     draw();
   };
   if (model.label) { choice.value = "label"; choice.onchange(); }
+  if (model.hides && hot) {  // along the horizontal axis that looks most towards the reader
+    const axis = Math.abs(model.axes[6]) >= Math.abs(model.axes[7]) ? 0 : 1;
+    cut.value = (model.axes[6 + axis] < 0 ? "−" : "") + "xyz"[axis];
+    cut.onchange();
+  }
   window.addEventListener("resize", () => draw());
   figure.hidden = false;
   draw();
