@@ -21,6 +21,7 @@ p { margin: 6px 0; max-width: 900px; }
 .verdict { border-left: 8px solid; padding: 8px 14px; margin: 10px 0; font-size: 16px; }
 .missed { color: #b34700; font-weight: bold; }
 .good { border-color: #009e73; background: #eef8f4; }
+.verdict.fair { border-color: #e69f00; background: #fdf7ea; }
 .bad { border-color: #d55e00; background: #fdf1ea; }
 .cards { display: flex; flex-wrap: wrap; gap: 10px; margin: 12px 0; }
 .card { border: 1px solid #ccc; border-top: 4px solid #888; padding: 6px 12px 8px; min-width: 150px; flex: 1; max-width: 240px; }
@@ -34,19 +35,21 @@ td.sum { border-top: 2px solid #bbb; }
 .card small { color: #555; display: block; }
 ul.warnings { list-style: none; padding: 0; }
 ul.warnings li { border-left: 8px solid #e69f00; background: #fdf7ea; padding: 6px 12px; margin: 6px 0; }
-table { border-collapse: collapse; margin: 8px 0 16px; font-size: 14px; }
+table { border-collapse: collapse; margin: 8px 0 16px; font-size: 14px; display: block; overflow-x: auto; max-width: 100%; }
 th { text-align: left; border-bottom: 2px solid #bbb; padding: 3px 14px 3px 0; vertical-align: bottom; }
 td { border-bottom: 1px solid #e4e4e4; padding: 3px 14px 3px 0; vertical-align: top; }
 table.numbers td + td, table.numbers th + th { text-align: right; }
 table.numbers td.text, table.numbers th.text { text-align: left; }
 td:first-child { white-space: nowrap; }
+ul.warnings ul { margin: 4px 0 0; padding-left: 18px; list-style: disc; } ul.warnings ul li { border: 0; background: none; padding: 0; margin: 2px 0; }
+ul.warnings details { margin: 4px 0 0; } ul.warnings summary { font-size: 14px; font-weight: normal; }
 figure { margin: 8px 0; break-inside: avoid; }
 figcaption { color: #555; font-size: 13px; max-width: 900px; }
 svg { max-width: 100%; height: auto; }
 .blocks { display: flex; flex-wrap: wrap; gap: 0 48px; align-items: flex-start; }
 .row { display: flex; flex-wrap: wrap; gap: 4px 20px; align-items: flex-start; }
 .row figure { flex: 1 1 480px; min-width: 0; max-width: 540px; }
-@media print { details::details-content { content-visibility: visible; display: block; } summary { list-style: none; } body { margin: 0; max-width: none; font-size: 12px; } h2 { break-after: avoid; } h3 { break-after: avoid; }
+@media print { table { display: table; } details::details-content { content-visibility: visible; display: block; } summary { list-style: none; } body { margin: 0; max-width: none; font-size: 12px; } h2 { break-after: avoid; } h3 { break-after: avoid; }
   .row figure { flex-basis: 300px; } .card, .verdict, ul.warnings li { -webkit-print-color-adjust: exact; print-color-adjust: exact; } }
 )";
 
@@ -66,17 +69,26 @@ std::string page(const std::string& title, const std::string& body_html) {
          embedded_text("charts.js") + embedded_text("turn.js") + "</script>\n</body>\n</html>\n";
 }
 
-std::string section(const std::string& title, const std::string& body_html) {
-  return body_html.empty() ? "" : "<section>\n<h2>" + escaped(title) + "</h2>\n" + body_html + "</section>\n";
+std::string section(const Section& section) {
+  if (section.body_html.empty()) return "";
+  const std::string mark = section.mark.empty() ? "" : "<p class=\"missed\">" + escaped(section.mark) + "</p>\n";
+  return "<section>\n<h2>" + escaped(section.title) + "</h2>\n" + mark + section.body_html + "</section>\n";
 }
 
 std::string heading(const std::string& title) { return "<h3>" + escaped(title) + "</h3>\n"; }
 
 std::string paragraph(const std::string& text) { return "<p>" + escaped(text) + "</p>\n"; }
 
-std::string figure(const std::string& drawing, const std::string& caption) {
+std::string figure(const std::string& drawing, const std::string& caption, const std::string& stamp) {
   if (drawing.empty()) return "";
-  return "<figure>\n" + drawing + (caption.empty() ? "" : "<figcaption>" + escaped(caption) + "</figcaption>\n") +
+  std::string stamped = drawing;
+  if (!stamp.empty())
+    stamped.insert(
+        stamped.rfind("</svg>"),
+        "<text x=\"99.5%\" y=\"98.5%\" text-anchor=\"end\" font-size=\"11\" font-weight=\"bold\" fill=\"#d55e00\" "
+        "stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\">" +
+            escaped(stamp) + "</text>\n");
+  return "<figure>\n" + stamped + (caption.empty() ? "" : "<figcaption>" + escaped(caption) + "</figcaption>\n") +
          "</figure>\n";
 }
 
@@ -122,9 +134,15 @@ std::string blocks(const std::string& blocks_html) {
 }
 
 std::string list(const std::vector<std::string>& items, const char* name) {
-  if (items.empty()) return "";
+  std::vector<std::string> safe;
+  for (const std::string& item : items) safe.push_back(escaped(item));
+  return html_list(safe, name);
+}
+
+std::string html_list(const std::vector<std::string>& items_html, const char* name) {
+  if (items_html.empty()) return "";
   std::string result = std::string("<ul class=\"") + name + "\">\n";
-  for (const std::string& item : items) result += "<li>" + escaped(item) + "</li>\n";
+  for (const std::string& item : items_html) result += "<li>" + item + "</li>\n";
   return result + "</ul>\n";
 }
 

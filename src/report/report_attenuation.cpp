@@ -51,9 +51,9 @@ std::string attenuation_part(const RunFolder& run, const Json& output, const Fre
   const double rule = -3.0 * number(output, "joints");
   plot.levels = {{rule, "rule of thumb"}, {0.0, ""}};
   return html::heading(text(output, "name") + ": from " + text(output, "entering") + " to " + text(output, "leaving")) +
-         html::figure(svg(plot),
-                      "Ratio of the maximax spectra; the handbooks' rule of thumb, -3 dB per bolted joint, gives " +
-                          ratio_text(rule) + " here" + silent) +
+         doubted_figure(run, svg(plot),
+                        "Ratio of the maximax spectra; the handbooks' rule of thumb, -3 dB per bolted joint, gives " +
+                            ratio_text(rule) + " here" + silent) +
          html::table(header, rows, true);
 }
 
@@ -62,7 +62,7 @@ std::string attenuation_part(const RunFolder& run, const Json& output, const Fre
 std::string attenuation_section(const RunFolder& run, const TimeAxis& time) {
   std::string body;
   for (const Json& output : run.outputs(Display::As::attenuation)) body += attenuation_part(run, output, time.judged());
-  return html::section("Through the joint", body);
+  return doubted_section(run, "Through the joint", body);
 }
 
 }  // namespace dygita

@@ -34,8 +34,9 @@ std::string loop_part(const RunFolder& run, const Json& output) {
                           true,
                           true});
   std::string body = html::heading(text(output, "name")) +
-                     html::figure(svg(plot), "Springs and sliders with the same curve of first loading are in " +
-                                                 stem(output) + "_backbone.csv.");
+                     doubted_figure(run, svg(plot),
+                                    "Springs and sliders with the same curve of first loading are in " + stem(output) +
+                                        "_backbone.csv.");
   const Table cycles = run.table(stem(output) + "_cycles.csv",
                                  {"amplitude", "force_amplitude", "secant", "loss", "loss_factor", "exponent"});
   Cells rows;
@@ -71,7 +72,7 @@ std::string condensed_section(const RunFolder& run) {
   std::string body;
   for (const Json& output : run.outputs(Display::As::loop)) body += loop_part(run, output);
   for (const Json& output : run.outputs(Display::As::frequencies)) body += superelement_part(run, output);
-  return html::section("Condensed models", body);
+  return doubted_section(run, "Condensed models", body);
 }
 
 }  // namespace dygita

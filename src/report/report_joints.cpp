@@ -1,9 +1,12 @@
-// Each joint: areas by state, forces, loops, works, maps.
+// What contacts did, in a table; of each joint that has changed areas by state, forces, loops, works, maps.
 #include <algorithm>
 #include <cmath>
 
 #include "base/log.hpp"
+#include "base/name_list.hpp"
+#include "drawing/quantities.hpp"
 #include "drawing/units.hpp"
+#include "report/contacts.hpp"
 #include "report/html.hpp"
 #include "report/report_parts.hpp"
 
@@ -111,7 +114,7 @@ std::string summary(const Table& t, const JointKind& kind) {
   return line + ".";
 }
 
-std::string loop(const Table& t, const std::string& title, const char* x, const char* y) {
+std::string loop(const RunFolder& run, const Table& t, const std::string& title, const char* x, const char* y) {
   const std::vector<double>&across = t.column(x), &up = t.column(y);
   const auto [low, high] = range(across);
   if (!(high - low > smallest_opening) || across.size() < 3 || largest(up) <= noise * largest(t.column("normal")))
@@ -121,10 +124,10 @@ std::string loop(const Table& t, const std::string& title, const char* x, const 
   Plot plot = small_plot(title, {quantity, "m"}, {std::string(y) + " force", "N"});
   plot.lines.push_back({"", across, up, {}, false, false, 1.2});
   plot.marks = {{across.front(), up.front(), "start"}, {across.back(), up.back(), "end"}};
-  return html::figure(svg(plot), title + ".");
+  return doubted_figure(run, svg(plot), title + ".");
 }
 
-std::string works(const Table& t, const TimeAxis& time) {
+std::string works(const RunFolder& run, const Table& t, const TimeAxis& time) {
   Plot plot = small_plot("Work of the joint", time.axis(), {"energy dissipated", "J"});
   time.shade(plot);
   const std::vector<double> places = time.places(t);
@@ -133,15 +136,32 @@ std::string works(const Table& t, const TimeAxis& time) {
       plot.lines.push_back({work == std::string("friction_work") ? "friction" : "yielding", places, t.column(work)});
   if (const std::vector<double> work = damping_work(t); largest(work) > 0.0) {
     plot.lines.push_back({"damping", places, work});
-    return html::figure(svg(plot), "Energy dissipated by the joint.");
+    return doubted_figure(run, svg(plot), "Energy dissipated by the joint.");
   }
-  return plot.lines.empty() ? "" : html::figure(svg(plot), "Energy dissipated by friction and yielding.");
+  return plot.lines.empty() ? "" : doubted_figure(run, svg(plot), "Energy dissipated by friction and yielding.");
 }
 
-std::string joint_part(const RunFolder& run, const Json& output, const TimeAxis& time) {
-  const Table t = run.table(text(output, "file"), {"normal", "shear", "opening", "slip", "plastic_opening", "open_area",
-                                                   "stick_area", "slip_area", "friction_work", "plastic_work"});
-  if (t.n_rows() == 0) return "";
+// In the dynamic steps, where there are any: opens, slides or yields; what has no such states always.
+bool has_changed(const RunFolder& run, const Table& t, const JointKind& kind) {
+  if (!kind.has_states) return true;
+  const Json& steps = run.record().at("steps");
+  const auto is_dynamic = [&](int step) { return text(steps.at(static_cast<size_t>(step)), "kind") == "dynamic"; };
+  const bool moves = std::any_of(t.step.begin(), t.step.end(), is_dynamic);
+  const std::vector<double>&open = t.column("open_area"), &stick = t.column("stick_area"),
+        &slip = t.column("slip_area");
+  double least = 1.0, most = 0.0, most_slip = 0.0;
+  for (size_t i = 0; i < open.size(); ++i) {
+    const double all = open[i] + stick[i] + slip[i];
+    if (!(all > 0.0) || (moves && !is_dynamic(t.step[i]))) continue;
+    least = std::min(least, open[i] / all);
+    most = std::max(most, open[i] / all);
+    most_slip = std::max(most_slip, slip[i] / all);
+  }
+  constexpr double seen = 0.01;  // of the area
+  return most - least > seen || most_slip > seen || largest(t.column("plastic_opening")) > smallest_opening;
+}
+
+std::string joint_part(const RunFolder& run, const Json& output, const Table& t, const TimeAxis& time) {
   const JointKind kind = kind_of(run, output);
   const bool yields = kind.yields;
   const std::vector<double> places = time.places(t);
@@ -161,25 +181,87 @@ std::string joint_part(const RunFolder& run, const Json& output, const TimeAxis&
   for (const Json& place : output.value("on", Json::array()))
     if (place.is_string()) on += (on.empty() ? "" : ", ") + place.get<std::string>();
   std::string body = html::heading(text(output, "name") + " on " + on) + html::paragraph(summary(t, kind));
-  body += html::row(
-      {html::figure(svg(force), force.lines.size() > 1 ? "Normal and shear force on side 1 against time."
+  body +=
+      html::row({doubted_figure(run, svg(force),
+                                force.lines.size() > 1 ? "Normal and shear force on side 1 against time."
                                                        : "Normal force on side 1 against time; shear is negligible."),
-       kind.has_states ? html::figure(svg(area), "Area of the joint in each state.") : "",
-       loop(t, "Normal force against opening", yields ? "plastic_opening" : "opening", "normal"),
-       loop(t, "Shear force against slip", "slip", "shear"), works(t, time)});
+                 kind.has_states ? doubted_figure(run, svg(area), "Area of the joint in each state.") : "",
+                 loop(run, t, "Normal force against opening", yields ? "plastic_opening" : "opening", "normal"),
+                 loop(run, t, "Shear force against slip", "slip", "shear"), works(run, t, time)});
   if (!run.scenes().is_object() || !run.scenes().contains("joints")) return body;
   for (const Json& joint : run.scenes()["joints"])
     for (const Json& place : output.value("on", Json::array()))
-      if (place.is_string() && place.get<std::string>() == text(joint, "name")) body += maps_of_joint(joint);
+      if (place.is_string() && place.get<std::string>() == text(joint, "name")) body += maps_of_joint(run, joint);
   return body;
+}
+
+std::vector<Cell> row_of(const Contact& c) {
+  const auto share = [](double of_one) { return Cell(std::isfinite(of_one) ? 100.0 * of_one : of_one, "%", 2); };
+  return {c.name + (c.slides() && c.parts() ? " (slides, parts)"
+                    : c.slides()            ? " (slides)"
+                    : c.parts()             ? " (parts)"
+                                            : ""),
+          Cell(c.at_rest, "N"),
+          Cell(c.lowest, "N"),
+          Cell(c.highest, "N"),
+          Cell(c.shear, "N"),
+          share(c.closed),
+          Cell(c.opening, "m", 2),
+          share(c.sliding),
+          Cell(c.slip, "m", 2),
+          share(c.friction_used)};
+}
+
+// Every contact, whether an output asks for it or not.
+std::string table_of_contacts(const Json& record) {
+  const std::vector<Contact> contacts = contacts_of(record);
+  if (contacts.empty()) return "";
+  constexpr size_t most_open = 15;
+  Cells rows;
+  for (const Contact& contact : contacts) rows.push_back(row_of(contact));
+  const std::vector<std::vector<std::string>> all = in_common_units(rows);
+  const auto table = [](auto first, auto last) {
+    return html::table({"contact", "pressed at rest", "pressed, lowest", "highest", "shear", "closed, least",
+                        "opens by", "slides, most", "slips by", "friction used"},
+                       {first, last}, true);
+  };
+  const auto middle = all.begin() + static_cast<long>(std::min(most_open, all.size()));
+  std::string body = html::heading(fmt::format("Every contact ({})", contacts.size())) + table(all.begin(), middle);
+  if (middle != all.end())
+    body += html::folded(fmt::format("The other {} contacts", all.end() - middle), table(middle, all.end()));
+  return body +
+         html::paragraph(
+             "Nearest to sliding first. At rest: at the end of the static steps before the motion; all else during the "
+             "motion, or at the end of the last static step where nothing moves. Closed: smallest share of the area; "
+             "slides: largest share of the closed area at once; opens by: the largest opening of points that were "
+             "closed "
+             "when the step began; slips by: the largest since then; friction used: shear over friction times what "
+             "presses. A contact slides, or parts, where all of it does at some instant.");
 }
 
 }  // namespace
 
 std::string joints_section(const RunFolder& run, const TimeAxis& time) {
-  std::string body;
-  for (const Json& output : run.outputs(Display::As::joint)) body += joint_part(run, output, time);
-  return html::section("Joints", body);
+  std::string parts;
+  std::vector<std::string> unchanged;
+  for (const Json& output : run.outputs(Display::As::joint)) {
+    const Table t =
+        run.table(text(output, "file"), {"normal", "shear", "opening", "slip", "plastic_opening", "open_area",
+                                         "stick_area", "slip_area", "friction_work", "plastic_work"});
+    if (t.n_rows() == 0) continue;
+    if (has_changed(run, t, kind_of(run, output)))
+      parts += joint_part(run, output, t, time);
+    else
+      unchanged.push_back(text(output, "name"));
+  }
+  std::string body = table_of_contacts(run.record());
+  if (const std::string table = table_of_joints(run); !table.empty())
+    body += html::heading("Joints that outputs are on") + table;
+  if (!unchanged.empty())
+    body += html::paragraph(
+        fmt::format("Without charts, since nothing opens, slides or yields: {}. Forces over time are in the tables.",
+                    list_of_names(unchanged)));
+  return doubted_section(run, "Joints", body + parts);
 }
 
 }  // namespace dygita

@@ -111,7 +111,7 @@ std::vector<std::string> colors_of(const Json& values, double high, bool is_stat
 
 }  // namespace
 
-std::string maps_of_joint(const Json& joint) {
+std::string maps_of_joint(const RunFolder& run, const Json& joint) {
   if (!joint.value("flat", false))
     return html::paragraph("'" + text(joint, "name") + "' is too curved to be drawn flat: no maps.");
   const Json& instants = joint.at("instants");
@@ -168,7 +168,7 @@ std::string maps_of_joint(const Json& joint) {
   caption += fmt::format(", {} by {}.", with_unit(joint.at("size").at(0).get<double>(), "m"),
                          with_unit(joint["size"].at(1).get<double>(), "m"));
   if (has_missed) caption += " *: after increments that have NOT CONVERGED.";
-  return html::figure(drawing, caption);
+  return doubted_figure(run, drawing, caption);
 }
 
 }  // namespace dygita

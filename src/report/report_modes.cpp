@@ -96,7 +96,7 @@ std::string modes_part(const RunFolder& run, const Json& output) {
 std::string modes_section(const RunFolder& run) {
   std::string body;
   for (const Json& output : run.outputs(Display::As::modes)) body += modes_part(run, output);
-  return html::section("Natural modes", body);
+  return doubted_section(run, "Natural modes", body);
 }
 
 }  // namespace dygita

@@ -108,7 +108,9 @@ double last_of(const Table& table, const char* column) {
              : table.columns[static_cast<size_t>(at - table.names.begin())].back();
 }
 
-std::string joints_table(const RunFolder& run) {
+}  // namespace
+
+std::string table_of_joints(const RunFolder& run) {
   Cells rows;
   for (const Json& output : run.outputs(Display::As::joint)) {
     const Table t = run.table(text(output, "file"), {"normal", "shear", "opening", "slip", "plastic_opening"});
@@ -132,12 +134,10 @@ std::string joints_table(const RunFolder& run) {
                     Cell(dissipated, "J")});
   }
   if (rows.empty()) return "";
-  return html::heading("Joints") + html::table({"joint", "pressed by up to", "pulled by up to", "shear", "opening",
-                                                "of it plastic", "slip", "dissipated"},
-                                               in_common_units(rows), true);
+  return html::table(
+      {"joint", "pressed by up to", "pulled by up to", "shear", "opening", "of it plastic", "slip", "dissipated"},
+      in_common_units(rows), true);
 }
-
-}  // namespace
 
 std::string peaks_section(const RunFolder& run, const TimeAxis& time, const ReportRequest& request) {
   Cells rows;
@@ -145,7 +145,7 @@ std::string peaks_section(const RunFolder& run, const TimeAxis& time, const Repo
   add_spectra(run, time, request, rows);
   std::string body;
   if (!rows.empty()) body = html::table({"name", "of", "largest", "when, at which frequency"}, in_common_units(rows));
-  return html::section("Peaks", body + joints_table(run));
+  return doubted_section(run, "Peaks", body);
 }
 
 std::string margins_section(const RunFolder& run) {
@@ -174,8 +174,8 @@ std::string margins_section(const RunFolder& run) {
                     "(" + where + ")"});
   }
   if (rows.empty()) return "";
-  return html::section(
-      "Stress against yield",
+  return doubted_section(
+      run, "Stress against yield",
       html::table({"part", "material", "yield", "largest von Mises", "margin", "volume beyond", "when", "where (mm)"},
                   in_common_units(rows), true) +
           html::paragraph(

@@ -22,7 +22,7 @@ double largest_of(const std::vector<double>& values) {
   return max;
 }
 
-std::string energy_figure(const Table& t, const TimeAxis& time) {
+std::string energy_figure(const RunFolder& run, const Table& t, const TimeAxis& time) {
   Plot plot{.title = "Where the energy is", .x = time.axis(), .y = {"energy", "J"}};
   time.shade(plot);
   plot.width = 820;
@@ -52,9 +52,10 @@ std::string energy_figure(const Table& t, const TimeAxis& time) {
   std::vector<double> given = all;
   for (size_t i = 0; i < given.size(); ++i) given[i] += t.column("balance")[i];
   plot.lines.push_back({"input: loads and initial velocities", places, given, "#000000", true, false, 1.6});
-  return html::figure(svg(plot),
-                      "Stored and dissipated energies, stacked, against the input of loads and initial velocities. The "
-                      "balance closes if the dashed line follows the top of the areas.");
+  return doubted_figure(
+      run, svg(plot),
+      "Stored and dissipated energies, stacked, against the input of loads and initial velocities. The "
+      "balance closes if the dashed line follows the top of the areas.");
 }
 
 // The tolerance lines of a convergence chart.
@@ -112,7 +113,7 @@ std::string energy_section(const RunFolder& run, const TimeAxis& time) {
     const Table t = run.table(text(output, "file"),
                               {"kinetic", "strain", "loads", "friction", "plastic", "damping", "scheme", "balance"});
     if (t.n_rows() == 0) continue;
-    body += energy_figure(t, time);
+    body += energy_figure(run, t, time);
     const double most = run.figure(&Figures::largest_energy);
     const auto percent = [&](Figure figure) {
       const double value = run.figure(figure);
@@ -136,7 +137,7 @@ std::string energy_section(const RunFolder& run, const TimeAxis& time) {
           percent(&Figures::static_imbalance), percent(&Figures::static_dissipation), percent(&Figures::static_gain));
     body += html::paragraph(told);
   }
-  return html::section("Energy", body);
+  return doubted_section(run, "Energy", body);
 }
 
 std::string convergence_section(const RunFolder& run) {

@@ -1,12 +1,13 @@
-// What a reader must know first: is the run good, by which figures, and every warning.
+// What a reader must know first: what the run shows, how sure it is, and every warning.
+#include <algorithm>
 #include <cmath>
 
 #include "base/log.hpp"
 #include "drawing/svg_text.hpp"
 #include "drawing/units.hpp"
+#include "report/findings.hpp"
 #include "report/html.hpp"
 #include "report/report_parts.hpp"
-#include "report/spectra.hpp"
 #include "result/limits.hpp"
 
 namespace dygita {
@@ -75,24 +76,6 @@ void doubt(Card& card, const Json& record) {
   card.note += "; NOT CONVERGED";
 }
 
-// The smallest margin against yield.
-void add_margin(const RunFolder& run, std::vector<Card>& cards) {
-  const Json* least = nullptr;
-  const Json parts = run.record().value("substructures", Json::array());
-  const auto margin = [](const Json& part) { return number(part.at("stress"), "margin"); };
-  for (const Json& part : parts)
-    if (part.contains("stress") && number(part["stress"], "von_mises") != 0.0 &&
-        (!least || !(margin(part) >= margin(*least))))
-      least = &part;
-  if (!least) return;
-  const double value = margin(*least);
-  cards.push_back({"smallest margin against yield",
-                   std::isfinite(value) ? plain_number(100.0 * value, 3) + "\u00a0%" : "not a number",
-                   "in '" + text(*least, "name") + "', yield / von Mises − 1",
-                   value >= limit::yield_margin ? Grade::fine : Grade::poor});
-  doubt(cards.back(), run.record());
-}
-
 // A figure, if the run has it: fine up to `good`, poor beyond `limit`.
 struct Judged {
   Figure figure;
@@ -114,7 +97,8 @@ void add_static_books(const RunFolder& run, std::vector<Card>& cards) {
                        one.note, Grade::poor});
 }
 
-std::vector<Card> cards_of(const RunFolder& run) {
+// How sure it is.
+std::vector<Card> trust_of(const RunFolder& run) {
   const Json& steps = run.record().at("steps");
   const bool has_motion =
       std::any_of(steps.begin(), steps.end(), [](const Json& step) { return text(step, "kind") == "dynamic"; });
@@ -152,7 +136,6 @@ std::vector<Card> cards_of(const RunFolder& run) {
   if (const double gain = run.figure(&Figures::energy_gain); gain > limit::energy_gain)
     cards.push_back({"numerical energy gain", percent(gain), whose, Grade::poor});
   add_static_books(run, cards);
-  add_margin(run, cards);
   return cards;
 }
 
@@ -172,43 +155,75 @@ std::string title_section(const RunFolder& run) {
   return "<h1>" + escaped(text(record, "problem")) + "</h1>\n<p class=\"under\">" + escaped(under) + "</p>\n";
 }
 
+namespace {
+
+std::string tiles(const std::vector<Card>& cards) {
+  if (cards.empty()) return "";
+  std::string body = "<div class=\"cards\">\n";
+  for (const Card& card : cards) body += card_html(card);
+  return body + "</div>\n";
+}
+
+std::string meaning_of_colors() {
+  return fmt::format(
+      "Green: fine. Amber: to be kept in mind (a mesh or time step error above {:g} %, a specification that is met by "
+      "less than the spectrum is uncertain or not judged over all of it, a preload of which less than {:.0f} % is "
+      "left, "
+      "a contact that slides or parts as a whole). Red: beyond the limit at which a run warns, a specification "
+      "exceeded, "
+      "a yield reached, a bolt that goes slack or has lost half. Errors of iteration, time step and mesh are in the "
+      "energy norm, in which lags add up: they choose tolerance, dt and mesh. What to report of a frequency is its own "
+      "error, of a stress or a force that of amplitudes (of static steps the mesh error), of a spectrum its band.",
+      limit::good_discretisation, 100.0 * limit::good_preload_kept);
+}
+
+// By how much what is told is off, by the run's own estimate.
+std::string told_of_trust(const RunFolder& run, const std::vector<Card>& trust) {
+  std::string text;
+  const double moving = run.figure(&Figures::mesh_amplitude_error), still = run.figure(&Figures::static_mesh_error);
+  if (const double error = std::isfinite(moving) ? moving : still; std::isfinite(error))
+    text = "Forces and stresses are uncertain by about " + percent(error) + ", by the run's own estimate.";
+  std::string beyond;
+  for (const Card& card : trust)
+    if (card.grade == Grade::poor) beyond += (beyond.empty() ? "" : ", ") + card.name + " " + card.value;
+  if (!beyond.empty())
+    text += (text.empty() ? "" : " ") + ("Beyond the limits of what can be relied on: " + beyond + ".");
+  return text;
+}
+
+Grade worst_of(const std::vector<Card>& cards) {
+  Grade worst = Grade::fine;
+  for (const Card& card : cards) worst = std::max(worst, card.grade);
+  return worst;
+}
+
+}  // namespace
+
 std::string verdict_section(const RunFolder& run, const ReportRequest& request) {
   const Json& record = run.record();
-  const bool is_good = text(record, "verdict") == "converged";
-  std::string body =
-      fmt::format("<p class=\"verdict {}\">{}</p>\n", is_good ? "good" : "bad", escaped(verdict_text(record)));
-
-  std::vector<Card> cards = cards_of(run);
-  std::vector<std::string> findings;
-  for (const Spectrum& spectrum : spectra_of(run, request)) {
-    if (!spectrum.specification) continue;
-    SpectrumVerdict found = verdict_of(spectrum, TimeAxis(record.at("steps")).judged());
-    doubt(found.card, record);
-    cards.push_back(std::move(found.card));
-    findings.push_back(std::move(found.sentence) +
-                       (steps_that_missed(record).empty() ? "" : " The run has NOT CONVERGED."));
+  const bool has_converged = text(record, "verdict") == "converged";
+  const std::vector<Card> trust = trust_of(run);
+  std::vector<Card> shown;
+  std::string words;
+  for (const Finding& finding : findings_of(run, request)) {
+    if (!finding.sentence.empty()) words += (words.empty() ? "" : " ") + finding.sentence;
+    shown.insert(shown.end(), finding.cards.begin(), finding.cards.end());
   }
-  if (!cards.empty()) {
-    body += "<div class=\"cards\">\n";
-    for (const Card& card : cards) body += card_html(card);
-    body += "</div>\n";
-    body += html::paragraph(fmt::format(
-        "Green: fine. Amber: caution (a mesh or time step error above {:g} %, a specification margin smaller than the "
-        "uncertainty, or a specification not judged over its whole range). Red: beyond the warning limit of a run, a "
-        "specification exceeded, a yield reached. Errors of iteration, time step and mesh are in the energy norm, in "
-        "which phase lags accumulate: use them to choose tolerance, dt and mesh. Report the frequency error with a "
-        "frequency, the amplitude error with a stress or force (in static steps the mesh error), and the band with a "
-        "spectrum.",
-        limit::good_discretisation));
-  }
-  body += html::list(findings);
-  std::vector<std::string> warnings;
-  if (record.contains("warnings"))
-    for (const Json& warning : record["warnings"])
-      if (warning.is_string()) warnings.push_back(warning.get<std::string>());
-  if (warnings.empty()) return html::section("Verdict", body + html::paragraph("No warnings."));
-  return html::section("Verdict", body + html::heading(counted(static_cast<double>(warnings.size()), "warning")) +
-                                      html::list(warnings, "warnings"));
+  for (Card& card : shown) doubt(card, record);
+  const std::string doubts = told_of_trust(run, trust), how_it_ended = verdict_text(record);
+  // How the run ended comes first where it is no good news, last where it is.
+  std::string body;
+  for (const std::string& part : {has_converged ? "" : how_it_ended, words, doubts, has_converged ? how_it_ended : ""})
+    if (!part.empty()) body += (body.empty() ? "" : "<br/>\n") + escaped(part);
+  const Grade worst = std::max(worst_of(shown), worst_of(trust));
+  static constexpr const char* styles[] = {"good", "fair", "bad"};
+  body = fmt::format("<p class=\"verdict {}\">{}</p>\n",
+                     styles[has_converged ? static_cast<int>(worst) : static_cast<int>(Grade::poor)], body);
+  body += tiles(shown);
+  if (!trust.empty()) body += html::heading("How sure it is") + tiles(trust);
+  if (!shown.empty() || !trust.empty())
+    body += html::folded("What the colours mean", html::paragraph(meaning_of_colors()));
+  return html::section("Verdict", body + warnings_part(record));
 }
 
 }  // namespace dygita

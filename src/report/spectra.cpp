@@ -196,6 +196,8 @@ SpectrumVerdict verdict_of(const Spectrum& s, const FrequencyRange& judged) {
   const std::string open = not_covered(s, judged);
   const double unsure = uncertainty(s, worst.frequency);
   SpectrumVerdict verdict;
+  verdict.worst = Excursion{worst.frequency, worst.frequency, worst.decibels, worst.frequency};
+  verdict.uncertain = unsure;
   Card& card = verdict.card;
   card.name = "'" + s.name + "' against its specification";
   card.value = decibels(worst.decibels);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,8 @@ std::string shade_unreliable(const FrequencyRange& judged, Plot& plot);
 struct SpectrumVerdict {
   std::string sentence;
   Card card;
+  std::optional<Excursion> worst = {};  // or nearest, where nothing is above; none: not judged
+  double uncertain = 0.0;               // dB, there
 };
 
 // Of a spectrum with a specification, at the frequencies that the record allows.

@@ -28,6 +28,8 @@ inline constexpr double slip_in_cells = 0.5;          // of a contact cell, alon
 inline constexpr double passing_in_cells = 0.01;      // of a cell, of released sides into each other
 inline constexpr double specification = 0.0;          // dB above it: exceeded
 inline constexpr double yield_margin = 0.0;           // yield / von Mises - 1, below it the material would yield
+inline constexpr double good_preload_kept = 0.9;      // of what its tightening gave, below it a card is amber
+inline constexpr double preload_kept = 0.5;           // of it, below it a card is red
 inline constexpr double bolt_stress = 1.2e9;          // Pa, on its area: yield of the strongest class, 12.9, and more
 inline constexpr double bolt_shortening = 0.01;       // m, the longest that load.shortening takes
 

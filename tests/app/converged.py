@@ -130,7 +130,7 @@ def everything_else(folder, is_marked, n):
         if section[0] in ("Histories", "Energy"):
             check(section[1].count('<rect class="missed"') >= drawings, f"section '{section[0]}': no red ranges")
     verdict = page.split("<h2>Verdict</h2>")[1].split("</section>")[0]
-    check(verdict.count("; NOT CONVERGED</small>") == 2, "cards of margin and specification")
+    check(verdict.count("; NOT CONVERGED</small>") == 4, "cards of specification, bolts, contacts and margin")
 
 
 for name, solver, expected in (("short", "latin{ max_iterations = 8 }", 1), ("whole", "latin{}", 0)):

@@ -254,6 +254,53 @@ TEST(ReportRuns, warns_of_a_part_that_would_yield) {
   EXPECT_NE(run.page.find("card poor\"><small>smallest margin against yield"), std::string::npos);
 }
 
+// A block of 10 mm, pressed by 2 kN and pushed by 200 N at first, then by 600 N: friction of 0.2 holds 400 N.
+const std::string pushed = R"(
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local function block(name, x, z, size) return substructure{ name = name, material = steel,
+  mesh = mesh.box{ size = { size, size, 10*mm }, origin = { x, x, z }, cells = { 2, 2, 2 } } } end
+local low, high, far = block("low", -5*mm, 0, 20*mm), block("high", 0, 10*mm, 10*mm), block("far", 0, 20*mm, 10*mm)
+local seat = interface.contact{ name = "seat", between = { low:face "zmax", high:face "zmin" }, friction = 0.2 }
+local lid = interface.contact{ name = "lid", between = { high:face "zmax", far:face "zmin" }, gap = 0.1*mm }
+local base = support.fixed{ name = "base", on = { low:face "zmin", far:face "zmax" } }
+local function push(x) return { load.pressure{ on = high:face "xmin", history = x }, load.pressure{ on = high:face "zmax", history = 20*MPa } } end
+local press = step.static{ name = "press", increments = 2, loads = push(2*MPa) }
+local shove = step.dynamic{ name = "shove", after = press, duration = 40*us, dt = 1*us, loads = push(6*MPa) }
+problem{ name = "pushed", substructures = { low, high, far }, interfaces = { seat, lid }, supports = { base }, steps = { press, shove }, outputs = {} }:run{}
+)";
+
+TEST(ReportRuns, watches_every_contact_without_being_asked) {
+  const Written run = run_and_read(pushed);
+  ASSERT_EQ(run.result->contacts.size(), 2u);
+  const ContactSummary& seat = run.result->contacts[0];
+  EXPECT_EQ(seat.name, "seat");
+  EXPECT_NEAR(seat.area, 1e-4, 1e-9);
+  EXPECT_EQ(seat.friction, 0.2);
+  ASSERT_EQ(seat.steps.size(), 2u);
+  // At rest by equilibrium: half of the friction is used.
+  const ContactStep& still = seat.steps[0];
+  for (const double pressed : {still.lowest, still.highest}) EXPECT_NEAR(pressed, 2000.0, 2e-3);
+  EXPECT_NEAR(still.shear, 200.0, 2e-3);
+  EXPECT_NEAR(still.friction_used.value(), 0.5, 1e-5);
+  EXPECT_LT(still.sliding.value(), 1.0);
+  // 600 N against 400 N of friction move 7.8 g by 20 um in 40 us, less what the blocks shear.
+  const ContactStep& moving = seat.steps[1];
+  EXPECT_EQ(moving.step, 1);
+  EXPECT_NEAR(moving.friction_used.value(), 1.0, 1e-3);  // less what spreads sideways
+  EXPECT_EQ(moving.sliding.value(), 1.0);
+  EXPECT_NEAR(moving.slip.value(), 0.5 * 200.0 / 7.8e-3 * std::pow(40e-6, 2), 5e-6);
+  // What never touches.
+  const ContactSummary& lid = run.result->contacts[1];
+  for (const ContactStep& step : lid.steps) {
+    EXPECT_EQ(step.highest, 0.0);
+    EXPECT_EQ(step.closed, 0.0);
+    EXPECT_EQ(step.opening, 0.0);
+    EXPECT_FALSE(step.slip || step.sliding || step.friction_used);
+  }
+  EXPECT_NE(run.page.find("1 of 1 contacts slides as a whole"), std::string::npos);
+  EXPECT_NE(run.page.find("Every contact (2)"), std::string::npos);
+}
+
 // A large mesh gives a page of bounded size: pictures and maps merge what is too fine to be seen.
 TEST(ReportRuns, stays_small_on_a_large_mesh) {
   const Written small = run_and_read(blocks(latin + "local steps = { hit('shock', nil, 1*us) }\n"));

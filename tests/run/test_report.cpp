@@ -201,6 +201,146 @@ TEST(Report, tells_verdict_what_was_computed_and_every_output) {
     EXPECT_EQ(page.find(from_elsewhere), std::string::npos) << from_elsewhere;
 }
 
+// A record of 20 ms, from 50 Hz on.
+Example long_record() {
+  Example run;
+  run.result.steps[1].increments = 20000;
+  return run;
+}
+
+std::string verdict_of_page(const std::string& page) {
+  const size_t from = page.find("<p class=\"verdict");
+  return page.substr(from, page.find("</p>", from) - from);
+}
+
+ContactSummary contact(const std::string& name, double sliding, double used) {
+  ContactSummary summary{name, 1e-4, 0.25, {}};
+  summary.steps.push_back({0, 900, 900, 10, 1.0, 0.0, 0.0, 1e-8, 0.05});
+  summary.steps.push_back({1, 500, 1200, 150, 0.75, 2e-7, sliding, 3e-6, used});
+  return summary;
+}
+
+TEST(Report, says_in_words_what_the_run_shows_and_its_tiles_agree) {
+  const Scratch scratch;
+  Example run = long_record();
+  run.result.figures.mesh_error = 5.0;
+  for (const auto& [name, last] : {std::pair{"M5 a", 9.5e3}, {"M5 b", 9.34e3}}) {
+    BoltSummary bolt;
+    bolt.name = name;
+    bolt.area = 5e-5;
+    bolt.tightened = bolt.highest = 1e4;
+    bolt.last = last;
+    bolt.lowest = 8.85e3;
+    run.result.bolts.push_back(bolt);
+  }
+  run.result.contacts = {contact("seat", 0.3, 0.6), contact("pad", 0.1, 0.2)};
+  const std::string red = verdict_of_page(run.write(scratch.path()));
+  expect_all(red, {"class=\"verdict bad\"", "&#39;srs&#39; exceeds its specification by 8.0\u00a0dB at 500\u00a0Hz",
+                   "All 2 bolts keep 93\u00a0% or more of their preload, at the lowest 88\u00a0% in the motion",
+                   "No contact slides as a whole (at most 60\u00a0% of the friction is used, in &#39;seat&#39;)",
+                   "Converged: all "});
+  run.result.tables[run.problem.outputs[1].get()].columns[1] = {5, 5, 5};
+  const std::string page = run.write(scratch.path());
+  expect_all(verdict_of_page(page),
+             {"class=\"verdict good\"", "&#39;srs&#39; stays below its specification, nearest by 6.0\u00a0dB"});
+  EXPECT_EQ(page.find("card poor"), std::string::npos);
+  EXPECT_EQ(page.find("card fair"), std::string::npos);
+}
+
+TEST(Report, of_a_bolt_that_has_come_loose_and_a_contact_that_slides_is_not_green) {
+  const Scratch scratch;
+  Example run = long_record();
+  run.problem.outputs.clear();
+  run.result.tables.clear();
+  run.result.figures.mesh_error = 5.0;
+  run.result.contacts = {contact("seat", 0.3, 0.6), contact("pad", 1.0, 1.0)};
+  expect_all(verdict_of_page(run.write(scratch.path())),
+             {"class=\"verdict fair\"", "1 of 2 contacts slides as a whole, by up to 3\u00a0µm: &#39;pad&#39;"});
+  BoltSummary bolt;
+  bolt.name = "M5";
+  bolt.tightened = 1e4;
+  bolt.last = 4e3;
+  bolt.lowest = -1.0;
+  run.result.bolts = {bolt};
+  expect_all(verdict_of_page(run.write(scratch.path())),
+             {"class=\"verdict bad\"",
+              "Bolt &#39;M5&#39; keeps 40\u00a0% of its preload; &#39;M5&#39; goes slack in the motion"});
+}
+
+TEST(Report, has_a_table_of_every_contact_those_that_slide_first) {
+  const Scratch scratch;
+  Example run;
+  run.result.contacts = {contact("seat", 0.3, 0.6), contact("pad", 1.0, 1.0), contact("rim", 0.0, 0.1)};
+  const std::string page = run.write(scratch.path());
+  expect_all(page, {"Every contact (3)",
+                    "<tr><td>pad (slides)</td><td>0.9\u00a0kN</td><td>0.5\u00a0kN</td><td>1.2\u00a0kN</td>"
+                    "<td>0.15\u00a0kN</td><td>75\u00a0%</td><td>200\u00a0nm</td><td>100\u00a0%</td><td>3\u00a0µm</td>"
+                    "<td>100\u00a0%</td></tr>"});
+  EXPECT_LT(page.find("<td>pad (slides)"), page.find("<td>seat</td>"));
+  EXPECT_LT(page.find("<td>seat</td>"), page.find("<td>rim</td>"));
+}
+
+TEST(Report, draws_no_chart_of_a_joint_that_stays_as_it_is) {
+  const Scratch scratch;
+  Example run;
+  Table& joint = run.result.tables[run.problem.outputs[2].get()];
+  for (const char* state : {"open_area", "slip_area"})
+    for (size_t c = 0; c < joint.names.size(); ++c)
+      if (joint.names[c] == state) joint.columns[c] = {1e-4, 0, 0, 0, 0};  // while it is tightened
+  for (size_t c = 0; c < joint.names.size(); ++c)
+    if (joint.names[c] == "stick_area") joint.columns[c] = {0, 1e-4, 1e-4, 1e-4, 1e-4};
+  const std::string page = run.write(scratch.path());
+  expect_all(page, {"<h2>Joints", "Without charts, since nothing opens, slides or yields: &#39;grip&#39;"});
+  EXPECT_EQ(page.find("It stays closed"), std::string::npos);
+  EXPECT_EQ(page.find("Force through the joint"), std::string::npos);
+}
+
+TEST(Report, tells_warnings_of_a_kind_together_and_the_first_three_kinds_in_full) {
+  const Scratch scratch;
+  Example run;
+  for (const char* name : {"a", "b", "c", "d"})
+    run.warnings.push_back(std::string("deck.lua:6: interface.bonded '") + name + "': 'core' and '" + name +
+                           "' pass into each other by up to 0.86 mm");
+  run.warnings.push_back("deck.lua:7: interface.bonded: 'core' and 'e' pass into each other by up to 0.5 mm");
+  for (const char* other : {"the mesh leaves 12 %", "the step is long", "the record is short", "a bolt is loose"})
+    run.warnings.push_back(other);
+  const std::string page = run.write(scratch.path());
+  EXPECT_EQ(test::xml_fault(page, void_elements), "");
+  expect_all(page, {"<h3>9 warnings of 5 kinds</h3>", "<summary>4 more of this kind</summary>",
+                    "<summary>2 further kinds of warnings</summary>"});
+  const size_t folded = page.find("2 further kinds");
+  for (const char* shown : {"the mesh leaves 12 %", "the step is long"}) EXPECT_LT(page.find(shown), folded) << shown;
+  for (const char* hidden : {"the record is short", "a bolt is loose"}) EXPECT_GT(page.find(hidden), folded) << hidden;
+}
+
+// Three directions of one place in one chart; what does not move in words.
+TEST(Report, draws_a_chart_a_place_and_says_which_direction_carries_only_rounding) {
+  const Scratch scratch;
+  Example run = long_record();
+  const auto add = [&](const std::string& name, double peak) {
+    GivenArguments spectrum = given_spectrum(name, "srs");
+    spectrum.outputs["of"] = run.problem.outputs[0];
+    run.add(make_output(spectrum),
+            {{"frequency", "maximax", "positive", "negative"},
+             {"Hz", "m/s^2", "m/s^2", "m/s^2"},
+             {{100, 500, 1000}, {1e-9 * peak, peak, peak}, {peak, peak, peak}, {peak, peak, peak}},
+             {}});
+  };
+  run.problem.outputs.erase(run.problem.outputs.begin() + 1);
+  add("unit x", 20.0);
+  add("unit y", 10.0);
+  add("unit z", 3e-14);
+  const std::string page = run.write(scratch.path());
+  EXPECT_EQ(test::xml_fault(page, void_elements), "");
+  expect_all(page,
+             {"Shock response spectra of acceleration, unit\"", "data-name=\"x (Q", "data-name=\"y (Q",
+              "Not drawn, since it carries nothing but rounding beside the largest of the run: &#39;unit z&#39;"});
+  EXPECT_EQ(page.find("data-name=\"z (Q"), std::string::npos);
+  // From the peak of 20 m/s^2 80 dB down.
+  const size_t at = page.find("data-y=\"", page.find("<h2>Shock response spectra"));
+  EXPECT_NEAR(std::stod(page.substr(at + 8)), 20e-4, 1e-9);
+}
+
 TEST(Report, is_a_function_of_the_folder) {
   const Scratch scratch;
   Example run;
@@ -210,13 +350,6 @@ TEST(Report, is_a_function_of_the_folder) {
   const auto files = nlohmann::json::parse(text_of(scratch.path() / "run.json"))["files"];
   for (const char* file : {"scenes.json", "report.html", "run.json"})
     EXPECT_EQ(std::count(files.begin(), files.end(), file), 1) << file;
-}
-
-// A record of 20 ms, from 50 Hz on.
-Example long_record() {
-  Example run;
-  run.result.steps[1].increments = 20000;
-  return run;
 }
 
 constexpr const char* card_of_srs = "\"><small>&#39;srs&#39; ";
@@ -313,8 +446,9 @@ TEST(Report, tells_first_what_matters) {
   const std::string page = run.write(scratch.path());
   EXPECT_EQ(test::xml_fault(page, void_elements), "");
   size_t last = 0;
-  for (const char* section : {"<h2>Verdict", "<h2>Parts", "<h2>The assembly", "<h2>Peaks", "<h2>Stress against yield",
-                              "<h2>Shock response spectra", "<h2>Joints", "<h2>Energy", "<h2>What was computed"}) {
+  for (const char* section :
+       {"<h2>Verdict", "<h2>Shock response spectra", "<h2>The assembly", "<h2>Stress against yield", "<h2>Joints",
+        "<h2>Peaks", "<h2>Parts", "<h2>Energy", "<h2>What was computed"}) {
     const size_t place = page.find(section);
     ASSERT_NE(place, std::string::npos) << section;
     EXPECT_GT(place, last) << section;
@@ -350,7 +484,7 @@ TEST(Report, splits_the_loss_of_a_bolt_and_keeps_to_one_unit_of_force) {
 TEST(Report, folds_long_tables_and_opens_them_in_print) {
   const Scratch scratch;
   Example run;
-  EXPECT_EQ(run.write(scratch.path()).find("<details>"), std::string::npos);
+  EXPECT_EQ(run.write(scratch.path()).find("<summary>Interfaces"), std::string::npos);
   for (int i = 0; i < 12; ++i) {
     auto more = std::make_shared<Interface>(*run.problem.interfaces[0]);
     more->name += std::to_string(i);
