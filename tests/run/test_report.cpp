@@ -318,7 +318,7 @@ TEST(Report, draws_a_chart_a_place_and_says_which_direction_carries_only_roundin
   const Scratch scratch;
   Example run = long_record();
   const auto add = [&](const std::string& name, double peak) {
-    GivenArguments spectrum = given_spectrum(name, "srs");
+    GivenArguments spectrum = given_spectrum("srs", name);
     spectrum.outputs["of"] = run.problem.outputs[0];
     run.add(make_output(spectrum),
             {{"frequency", "maximax", "positive", "negative"},
