@@ -133,23 +133,6 @@ Mat orthonormal(const Mat& x, const SparseMatrix& mass) {
   return x * (gram.vectors * gram.values.cwiseSqrt().cwiseInverse().asDiagonal());
 }
 
-// Orthogonal, k x k: its first columns are those of `wanted` (k x m) as far as they are independent.
-Mat led_by(const Mat& wanted) {
-  constexpr double left = 1e-6;
-  const Eigen::Index k = wanted.rows();
-  Mat candidates(k, wanted.cols() + k), basis(k, k);
-  candidates << wanted, Mat::Identity(k, k);
-  Eigen::Index n = 0;
-  for (Eigen::Index c = 0; c < candidates.cols() && n < k; ++c) {
-    Vec column = candidates.col(c);
-    for (int pass = 0; pass < 2; ++pass) column -= basis.leftCols(n) * (basis.leftCols(n).transpose() * column);
-    // The rest must find a basis: a unit vector may have little left.
-    if (column.norm() <= (c < wanted.cols() ? left * candidates.col(c).norm() : 1e-3 / std::sqrt(k))) continue;
-    basis.col(n++) = column.normalized();
-  }
-  return basis.leftCols(n);
-}
-
 std::vector<int> all_nodes(const Mesh& mesh) {
   std::vector<int> nodes(static_cast<size_t>(mesh.n_nodes()));
   std::iota(nodes.begin(), nodes.end(), 0);
@@ -157,6 +140,21 @@ std::vector<int> all_nodes(const Mesh& mesh) {
 }
 
 }  // namespace
+
+Mat WholeInertia::sorted(const Mat& of_vectors) const {
+  constexpr double nothing = 1e-3;
+  const Eigen::Index k = of_vectors.rows();
+  Mat candidates(k, 6 + k), basis(k, k);
+  candidates << of_vectors, Mat::Identity(k, k);
+  Eigen::Index n = 0;
+  for (Eigen::Index c = 0; c < candidates.cols() && n < k; ++c) {
+    Vec column = candidates.col(c);
+    for (int pass = 0; pass < 2; ++pass) column -= basis.leftCols(n) * (basis.leftCols(n).transpose() * column);
+    const double whole = c < 3 ? mass : c < 6 ? moments[c - 3] : 1.0 / static_cast<double>(k);
+    if (column.norm() > nothing * std::sqrt(whole)) basis.col(n++) = column.normalized();
+  }
+  return basis.leftCols(n);
+}
 
 WholeInertia whole_inertia(const LinearAssembly& assembly, const Problem& problem) {
   using Mat6 = Eigen::Matrix<double, 6, 6>;
@@ -193,7 +191,7 @@ Mat free_motions(const LinearAssembly& assembly, const Problem& problem, const W
   const SparseMatrix& elastic = assembly.springs.rows() > 0 ? assembly.cells : assembly.stiffness;
   const double highest = elastic.diagonal().cwiseQuotient(assembly.mass.diagonal()).maxCoeff();
   const Mat unresisted = motions * null_space(assembly.energies(motions) / highest, nothing_stored);
-  return unresisted * led_by(unresisted.transpose() * whole.momenta);
+  return unresisted * whole.sorted(unresisted.transpose() * whole.momenta);
 }
 
 }  // namespace dygita

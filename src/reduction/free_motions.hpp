@@ -11,6 +11,10 @@ struct WholeInertia {
   double mass = 0.0;                                   // kg
   Vec3 centre = Vec3::Zero(), moments = Vec3::Zero();  // m; kg m^2
   Mat momenta;                                         // n x 6: T^T M times the six motions of all nodes (eq. D15)
+
+  // k x k, orthogonal: combinations of k vectors that are orthonormal in the mass, given V^T momenta, the first of
+  // which moves along x, if any does, the next of the others along y, and so on.
+  Mat sorted(const Mat& of_vectors) const;
 };
 WholeInertia whole_inertia(const LinearAssembly& assembly, const Problem& problem);
 

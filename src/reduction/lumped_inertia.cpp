@@ -6,6 +6,7 @@
 
 #include "base/log.hpp"
 #include "fem/assembly.hpp"
+#include "fem/mass.hpp"
 #include "mesh/face_nodes.hpp"
 #include "mesh/jacobian.hpp"
 #include "mesh/shape_functions.hpp"
@@ -89,12 +90,14 @@ LumpedInertia lumped_inertia(const Mesh& mesh) {
 void doubt_lumped_inertia(const Problem& problem) {
   const bool is_tuned = problem.monolithic ? problem.monolithic->mass.is_tuned : problem.solver.mass.is_tuned;
   const bool moves =
-      std::any_of(problem.steps.begin(), problem.steps.end(), [](const StepPtr& step) { return !step->is_static; }) ||
-      std::any_of(problem.outputs.begin(), problem.outputs.end(),
-                  [](const OutputPtr& output) { return has_modes(*output); });
-  if (!moves || (is_tuned && !problem.explicit_dynamics)) return;
+      std::any_of(problem.steps.begin(), problem.steps.end(), [](const StepPtr& step) { return !step->is_static; });
+  const bool swings = std::any_of(problem.outputs.begin(), problem.outputs.end(),
+                                  [](const OutputPtr& output) { return has_modes(*output); });
+  if ((!moves && !swings) || (is_tuned && !problem.explicit_dynamics)) return;
   std::set<const Mesh*> told;
   for (const SubstructurePtr& part : problem.substructures) {
+    // Modes have the consistent mass of such cells; motions may not, where they are explicit.
+    if (!moves && has_consistent_mass(*part->mesh)) continue;
     if (part->mesh->condensed || !told.insert(part->mesh.get()).second) continue;
     const LumpedInertia lumped = lumped_inertia(*part->mesh);
     if (lumped.ratio < most || !is_slender(*part->mesh, lumped.axis) ||

@@ -112,6 +112,18 @@ Eigenmodes eigenmodes(const LinearAssembly& assembly, const Mat& motions, const 
   return modes;
 }
 
+// Modes of one frequency are any basis of theirs: they are told along x, y, z as far as they go (eq. D15).
+void sort_equal_modes(const WholeInertia& whole, Eigenmodes& modes) {
+  constexpr double equal = 1e-8;
+  const Eigen::Index n = modes.omegas.size();
+  for (Eigen::Index first = 0, end = 0; first < n; first = end) {
+    for (end = first + 1; end < n && modes.omegas[end] <= (1.0 + equal) * modes.omegas[first];) ++end;
+    if (end == first + 1 || modes.omegas[first] == 0.0) continue;
+    const Mat own = modes.vectors.middleCols(first, end - first);
+    modes.vectors.middleCols(first, end - first) = own * whole.sorted(own.transpose() * whole.momenta);
+  }
+}
+
 // Of each substructure's nodes: does it stand for a place, as amplitudes of a superelement do not?
 std::vector<char> places_of(const Problem& problem) {
   std::vector<char> is_place;
@@ -165,7 +177,8 @@ NormalModes normal_modes(const LinearAssembly& assembly, const Problem& problem,
                                  request.name, request.n, assembly.n()));
   const WholeInertia whole = whole_inertia(assembly, problem);
   const Mat motions = free_motions(assembly, problem, whole, "output.modes '" + request.name + "'");
-  const Eigenmodes eigen = eigenmodes(assembly, motions, request);
+  Eigenmodes eigen = eigenmodes(assembly, motions, request);
+  sort_equal_modes(whole, eigen);
   NormalModes modes;
   modes.n_free = static_cast<int>(motions.cols());
   modes.frequencies = eigen.omegas / (2 * std::numbers::pi);
