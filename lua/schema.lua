@@ -642,7 +642,7 @@ words[9] = {
           .. "or `tolerance` is reached" },
       { "static_steps", type = "choice", choices = { "automatic", "assembled", "iterated" }, default = "automatic",
         doc = "assembled: all parts in one system, refactorised as contact changes; a few tens of iterations for any connectivity. iterated: part "
-          .. "by part, as in dynamic steps. automatic: assembled where there are 10 parts or more, in steps of at most 5 increments, "
+          .. "by part, as in dynamic steps. automatic: assembled where 10 parts or more hang together, in steps of at most 5 increments, "
           .. "and where an increment part by part has not converged in 400 iterations" },
       { "plain", type = "boolean", default = false, doc = "iterates with full solves, to verify the condensed ones" },
     },

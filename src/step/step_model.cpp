@@ -10,6 +10,7 @@
 
 #include "base/log.hpp"
 #include "base/memory.hpp"
+#include "base/union_find.hpp"
 #include "exchange/rigid_motions.hpp"
 #include "law/law.hpp"
 #include "partition/all_pieces.hpp"
@@ -229,16 +230,29 @@ bool fits_in_one(const Problem& problem) {
 
 namespace {
 
-// Assembled increments cost ten factors or more each, iterated steps dense operators at their start and next to nothing
-// an increment, unless many parts are joined by contact alone. Forces and ties of the former agree to twelve
+// How many substructures hang on each other in a step, of those that do not: the most.
+size_t most_together(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces) {
+  const auto n = static_cast<int>(problem.substructures.size());
+  UnionFind groups(n);
+  for (const Surface& surface : surfaces)
+    if (surface.part_1 >= 0 && surface.part_2 >= 0 && takes_part(problem, step, surface))
+      groups.join(surface.part_1, surface.part_2);
+  std::vector<size_t> count(problem.substructures.size(), 0);
+  for (int i = 0; i < n; ++i) ++count[static_cast<size_t>(groups.root(i))];
+  return *std::max_element(count.begin(), count.end());
+}
+
+// Assembled increments cost some factors each, iterated steps dense operators at their start and next to nothing an
+// increment, unless many parts are joined by contact alone. Forces and ties of the former agree to twelve
 // digits at best.
-bool is_assembled(const Problem& problem, const Step& step) {
+bool is_assembled(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces) {
   constexpr int few_increments = 5;
   constexpr size_t many_parts = 10;
   const LatinSettings& asked = problem.solver;
   if (!step.is_static || asked.plain) return false;
   if (asked.static_steps != StaticSteps::automatic) return asked.static_steps == StaticSteps::assembled;
-  return problem.substructures.size() >= many_parts && step.increments <= few_increments && fits_in_one(problem);
+  return step.increments <= few_increments && fits_in_one(problem) &&
+         most_together(problem, step, surfaces) >= many_parts;
 }
 
 // Every rank holds such a system and solves it: what one process does is done as often, and passes nowhere.
@@ -279,7 +293,7 @@ void tell_equal_apart(const StepModel& model) {
 
 StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                           const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
-  const bool is_in_one = is_assembled(problem, step) && fits_every_rank(problem, step);
+  const bool is_in_one = is_assembled(problem, step, surfaces) && fits_every_rank(problem, step);
   StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true, is_in_one || ranks::is_alone());
   model.is_assembled = is_in_one;
   if (model.is_assembled && !ranks::is_alone()) {
@@ -307,7 +321,7 @@ StepModel make_assembled_model(const Problem& problem, const Step& step, const s
 StepSize predict_step(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                       const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
   StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true, true);
-  if (is_assembled(problem, step)) {
+  if (is_assembled(problem, step, surfaces)) {
     model.pieces = make_assembled_pieces(model, bodies);
     return {AssembledSystem(model).bytes(), model.n_q(), model.integration};
   }

@@ -104,5 +104,40 @@ TEST(AssembledStatics, have_the_same_bits_for_any_number_of_threads) {
   EXPECT_EQ(one.column("at_shank2", "normal"), two.column("at_shank2", "normal"));
 }
 
+// What has nothing in common is no assembly of many parts: four clamps of three each are solved as one of them.
+TEST(AssembledStatics, are_not_asked_for_by_many_copies_of_a_few_parts) {
+  const std::string copies = R"(
+local p = param{ n = 4, way = 0 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local parts, joints, floors, loads, outputs = {}, {}, {}, {}, { output.energy{} }
+for i = 1, p.n do
+  local function part(name, z, cells)
+    local made = substructure{ name = name .. i, material = steel, mesh = mesh.box{ origin = { i * 30*mm, 0, z }, size = { 10*mm, 10*mm, 5*mm }, cells = cells } }
+    parts[#parts + 1] = made return made
+  end
+  local low, middle, high = part("low", 0, { 3, 3, 2 }), part("middle", 5*mm, { 4, 4, 2 }), part("high", 10*mm, { 3, 3, 2 })
+  joints[#joints + 1] = interface.contact{ name = "lower" .. i, between = { low:face "zmax", middle:face "zmin" }, friction = 0.3 }
+  outputs[#outputs + 1] = output.joint{ name = "lower" .. i, on = joints[#joints] }
+  joints[#joints + 1] = interface.contact{ name = "upper" .. i, between = { middle:face "zmax", high:face "zmin" }, friction = 0.3 }
+  floors[#floors + 1] = support.fixed{ name = "floor" .. i, on = low:face "zmin" }
+  loads[#loads + 1] = load.pressure{ on = high:face "zmax", history = 20*MPa }
+  loads[#loads + 1] = load.traction{ on = high:face "xmin", x = 5*MPa }
+end
+problem{ name = "copies", substructures = parts, interfaces = joints, supports = floors, outputs = outputs,
+  steps = { step.static{ name = "press", loads = loads } }, solver = solver.latin{ static_steps = ({ [0] = "automatic", "assembled", "iterated" })[p.way] } }:run{}
+)";
+  const DeckRun one = run_text(copies, {{"n", "1"}}).at(0), four = run_text(copies).at(0);
+  const DeckRun together = run_text(copies, {{"way", "1"}}).at(0);
+  for (const char* joint : {"lower1", "lower4"})
+    for (const char* column : {"normal", "shear"}) {
+      EXPECT_LT(difference(four.column(joint, column), one.column("lower1", column)), 1e-6) << joint << " " << column;
+      EXPECT_LT(difference(together.column(joint, column), one.column("lower1", column)), 1e-6)
+          << joint << " " << column;
+    }
+  EXPECT_LT(four.result->mean_iterations, 1.5 * one.result->mean_iterations);
+  EXPECT_EQ(run_text(copies, {{"way", "2"}}).at(0).column("lower2", "shear"), four.column("lower2", "shear"));
+  EXPECT_NE(together.column("lower2", "shear"), four.column("lower2", "shear"));
+}
+
 }  // namespace
 }  // namespace dygita::test::assembled_tests
