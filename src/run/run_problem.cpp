@@ -254,10 +254,8 @@ void write_results(const Problem& problem, const RunRequest& request, RunSite& s
   identity.threads = thread_limit();
   identity.case_name = request.case_name;
   if (!site.writer) return;
-  site.unwritten.attempt([&] {
-    write_view(*site.writer, problem, site.directory);
-    write_run_files(*site.writer, problem, result, identity, warnings);
-  });
+  site.unwritten.attempt([&] { write_run_files(*site.writer, problem, result, identity, warnings); });
+  site.unwritten.attempt([&] { write_view(*site.writer, problem, site.directory); });
 }
 
 // The new results take their place; a run that has come to its end needs no checkpoint, another keeps its own.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "base/error.hpp"
 #include "law/law.hpp"
@@ -36,6 +37,8 @@ class Joining {
   bool holds(const Point& point, int d) const;
   Vec rates(const std::vector<Points>& velocity) const;
   std::vector<Points> answer(const Vec& impulse) const;
+  template <class Of>
+  double sum_by_piece(const JoinedRow& row, Of&& of) const;
   Vec compliance() const;
   Vec impulses(const Vec& rate) const;
   bool let_go(const Vec& impulse);
@@ -98,12 +101,25 @@ void Joining::add_point(int i) {
   }
 }
 
+// What each piece that is solved here has of a row, added piece by piece: on several ranks with the same bits.
+template <class Of>
+double Joining::sum_by_piece(const JoinedRow& row, Of&& of) const {
+  double all = 0.0, of_piece = 0.0;
+  for (size_t k = 0; k < row.nodes.size(); ++k) {
+    const auto& [piece, on] = row.nodes[k];
+    if (k > 0 && row.nodes[k - 1].first != piece) all += std::exchange(of_piece, 0.0);
+    if (model_.solves(piece)) of_piece += of(piece, on);
+  }
+  return all + of_piece;
+}
+
 // Of the rows, m/s; velocity: of the pieces here.
 Vec Joining::rates(const std::vector<Points>& velocity) const {
   std::vector<double> values(rows_.size(), 0.0);
   for (size_t i = 0; i < rows_.size(); ++i)
-    for (const auto& [piece, on] : rows_[i].nodes)
-      if (model_.solves(piece) && velocity[piece].cols() > 0) values[i] += on.along.dot(velocity[piece].col(on.node));
+    values[i] = sum_by_piece(rows_[i], [&](int piece, const NodeAlong& on) {
+      return velocity[piece].cols() > 0 ? on.along.dot(velocity[piece].col(on.node)) : 0.0;
+    });
   if (!ranks::is_alone()) values = ranks::shared(ranks::sums(values));
   return Eigen::Map<const Vec>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
@@ -127,11 +143,10 @@ std::vector<Points> Joining::answer(const Vec& impulse) const {
 Vec Joining::compliance() const {
   std::vector<double> values(rows_.size(), 0.0);
   for (size_t i = 0; i < rows_.size(); ++i)
-    for (const auto& [piece, on] : rows_[i].nodes) {
-      if (!model_.solves(piece)) continue;
+    values[i] = sum_by_piece(rows_[i], [&](int piece, const NodeAlong& on) {
       const Vec& masses = model_.pieces[piece]->node_masses();
-      if (on.node < masses.size() && masses[on.node] > 0.0) values[i] += on.along.squaredNorm() / masses[on.node];
-    }
+      return on.node < masses.size() && masses[on.node] > 0.0 ? on.along.squaredNorm() / masses[on.node] : 0.0;
+    });
   if (!ranks::is_alone()) values = ranks::shared(ranks::sums(values));
   Vec all = Eigen::Map<const Vec>(values.data(), static_cast<Eigen::Index>(values.size()));
   return (all.array() > 0.0).select(all, 1.0);

@@ -59,7 +59,7 @@ TEST_F(LoadRules, of_each_kind_act_on_what_they_can) {
   EXPECT_EQ(complaint_of(load("base_acceleration", {face})),
             in_shock +
                 "load.base_acceleration cannot act on face 'upper.zmax'\n"
-                "    load.base_acceleration acts on a support.fixed or a support.symmetry");
+                "    load.base_acceleration acts on a support.fixed or a support.held or a support.symmetry");
   EXPECT_EQ(complaint_of(load("release", {face})),
             in_shock + "load.release cannot act on face 'upper.zmax'\n    load.release acts on an interface");
   EXPECT_EQ(complaint_of(load("gravity", {face})), in_shock +
