@@ -72,7 +72,7 @@ elseif p.kind == 0 then
   along_z = support.held{ name = "z", on = b:face "zmin", z = true }
 else
   along_x = support.held{ name = "x", on = b:face "xmin", x = true }
-  along_y = support.held{ name = "y", on = b:region(function(x, y, z) return y < 1*um end), y = true }
+  along_y = support.held{ name = "y", on = b:where(function(x, y, z) return y < 1*um end), y = true }
   along_z = support.held{ name = "z", on = b:face "zmin", z = true }
 end
 local pull = step.static{ name = "pull", increments = 1, loads = { load.traction{ on = b:face "zmax", z = 10*MPa } } }

@@ -97,8 +97,9 @@ TEST(Unjoined, faces_apart_that_meet_as_if_they_touched_are_named) {
                          "as if in contact");
   };
   ASSERT_EQ(said("").size(), 1u);
-  EXPECT_NE(said("")[0].find("'lid' joins faces that are up to 1 mm apart as if in contact: gap = \"geometry\" includes"),
-            std::string::npos)
+  EXPECT_NE(
+      said("")[0].find("'lid' joins faces that are up to 1 mm apart as if in contact: gap = \"geometry\" includes"),
+      std::string::npos)
       << said("")[0];
   EXPECT_TRUE(said(", gap = \"geometry\"").empty());
   EXPECT_TRUE(said(", gap = 1*mm").empty());

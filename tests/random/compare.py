@@ -110,9 +110,11 @@ def differences(first, second, leave_out=lambda table, column: False):
         if leave_out(*name):
             continue
         pressed = [side.series.get((name[0], "normal"), ("", []))[1] for side in (first, second)] if name[1] == "slip" else []
+        is_unsure = False
         for row, (a, b) in enumerate(zip(values, others)):
-            # Sides that touch and do not press: round-off decides whether they count as closed, and slip is counted there.
-            if pressed and all(abs(of[row]) <= 1e-12 * scales["force"] for of in pressed):
+            # Sides that touch and do not press: round-off decides whether they count as closed, where slip is counted from then on.
+            is_unsure = is_unsure or bool(pressed) and all(abs(of[row]) <= 1e-12 * scales["force"] for of in pressed)
+            if is_unsure:
                 continue
             size = abs(a - b) / scales[kind]
             if math.isnan(size):

@@ -65,6 +65,8 @@ def check_condensed(trial):
     made = trial.program.run(trial.folder / "condense", deck.condensing(trial.scene, i), trial.latin())
     if made.code != 0:
         return fails(f"{trial.scene['parts'][i]['name']} cannot be condensed: exit {made.code} {made.refusal()}")
+    if not (results / "element.json").exists():
+        return undecided("not made: its faces have all of its nodes, which the run says")
     (folder / "condensed").mkdir(parents=True, exist_ok=True)
     for file in results.glob("element*"):
         shutil.copy(file, folder / "condensed")
