@@ -67,9 +67,10 @@ std::string warnings_part(const Json& record) {
     n += kind.warnings.size();
     (first.size() < n_in_full ? first : rest).push_back(item_of(kind));
   }
-  const std::string title = n == 1              ? "1 warning"
-                            : kinds.size() == n ? fmt::format("{} warnings", n)
-                                                : fmt::format("{} warnings of {} kinds", n, kinds.size());
+  const std::string title =
+      n == 1              ? "1 warning"
+      : kinds.size() == n ? fmt::format("{} warnings", n)
+                          : fmt::format("{} warnings of {} kind{}", n, kinds.size(), kinds.size() == 1 ? "" : "s");
   const std::string more =
       rest.size() == 1 ? "1 further kind of warning" : fmt::format("{} further kinds of warnings", rest.size());
   return html::heading(title) + html::html_list(first, "warnings") +
