@@ -366,4 +366,11 @@ std::string free_motion(const LinearAssembly& assembly, const Problem& problem, 
   return std::string(names[at % 6]) + " of substructure '" + problem.substructures[at / 6]->name + "'";
 }
 
+const Step* step_about(const Problem& problem, const StepPtr& named) {
+  const Step* step = named.get();
+  for (const StepPtr& other : problem.steps)
+    if (!named && other->is_static) step = other.get();
+  return step;
+}
+
 }  // namespace dygita

@@ -63,4 +63,7 @@ LinearAssembly linearise(const Instant& instant, bool ties_sliding);
 // nor the given nodes, thought to be held, resist; empty where there is none.
 std::string free_motion(const LinearAssembly& assembly, const Problem& problem, const std::vector<int>& held_nodes);
 
+// The step about whose end an assembly is linear: the one named, else the last static one; null: there is none.
+const Step* step_about(const Problem& problem, const StepPtr& named);
+
 }  // namespace dygita

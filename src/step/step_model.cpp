@@ -230,7 +230,7 @@ bool fits_in_one(const Problem& problem) {
 
 namespace {
 
-// How many substructures hang on each other in a step, of those that do not: the most.
+// The number of substructures in the largest group that interfaces connect in a step.
 size_t most_together(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces) {
   const auto n = static_cast<int>(problem.substructures.size());
   UnionFind groups(n);

@@ -222,6 +222,7 @@ def a_disk_that_is_full_at_once():
     if not shutil.which("unshare") or subprocess.run([*inside, 'mount -t tmpfs -o size=90k none "$0"', str(out)], capture_output=True, check=False).returncode != 0:
         print("a disk that is full at once: not tried, no file system may be mounted here")
         return
+    n_advised = 0
     for size in ("100k", "150k", "250k"):
         words = [PROGRAM, *map(str, deck_command(out, "--set", "us=100"))]
         done = subprocess.run([*inside, script.replace("SIZE", size), str(out), *words], capture_output=True, text=True, check=False,
@@ -229,7 +230,9 @@ def a_disk_that_is_full_at_once():
         output = done.stdout + done.stderr
         check("first: 2" in output and "No space left on device" in output, f"{size}: the disk was not full\n{output}")
         if "dygita continue" in output:
+            n_advised += 1
             check(done.returncode == 0, f"{size}: continue refuses what was advised\n{output}")
+    check(n_advised > 0, "a disk that is full at once: no size at which the run could go on later")
 
 
 def interrupted():

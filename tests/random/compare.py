@@ -112,11 +112,12 @@ def differences(first, second, leave_out=lambda table, column: False):
         pressed = [side.series.get((name[0], "normal"), ("", []))[1] for side in (first, second)] if name[1] == "slip" else []
         is_unsure = False
         for row, (a, b) in enumerate(zip(values, others)):
-            # Sides that touch and do not press: round-off decides whether they count as closed, where slip is counted from then on.
-            is_unsure = is_unsure or bool(pressed) and all(abs(of[row]) <= 1e-12 * scales["force"] for of in pressed)
+            size = abs(a - b) / scales[kind]
+            # Sides that touch and do not press: round-off decides whether they count as closed, and where it has decided otherwise
+            # slip is another from then on.
+            is_unsure = is_unsure or bool(pressed) and size > 1e-6 and all(abs(of[row]) <= 1e-12 * scales["force"] for of in pressed)
             if is_unsure:
                 continue
-            size = abs(a - b) / scales[kind]
             if math.isnan(size):
                 size = math.inf
             if kind not in found or size > found[kind].size:

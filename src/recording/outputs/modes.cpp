@@ -222,7 +222,7 @@ class ModesOutput final : public Output {
   }
 
   std::unique_ptr<Recorder> recorder(const Problem& problem, const FrameSink&) const override {
-    return std::make_unique<ModesRecorder>(columns(), problem, request_, step_of(problem));
+    return std::make_unique<ModesRecorder>(columns(), problem, request_, step_about(problem, after_));
   }
 
  private:
@@ -237,17 +237,9 @@ class ModesOutput final : public Output {
           "take a smaller 'n'");
   }
 
-  // The last static step where none is named; null: there is none.
-  const Step* step_of(const Problem& problem) const {
-    const Step* step = after_.get();
-    for (const StepPtr& other : problem.steps)
-      if (!after_ && other->is_static) step = other.get();
-    return step;
-  }
-
   // Whose supports hold.
   const Step* about(const Problem& problem) const {
-    const Step* step = step_of(problem);
+    const Step* step = step_about(problem, after_);
     return step ? step : problem.steps.front().get();
   }
 

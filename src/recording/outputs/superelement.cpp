@@ -142,7 +142,7 @@ class SuperelementOutput final : public Output {
                                      : "output.superelement takes faces or regions: where something is to be attached";
     });
     if (after_) check::listed(problem, who + " is made after step", *after_, problem.steps, "steps");
-    const Step* step = step_of(problem);
+    const Step* step = step_about(problem, after_);
     if (!step)
       check::fail(problem, origin, who + ": the problem has no static step",
                   "it is linearised about the state after one; or name another step with 'after'");
@@ -172,7 +172,7 @@ class SuperelementOutput final : public Output {
   std::vector<StudyFigure> study_figures() const override { return {{"frequency", StudyFigure::Of::lowest}}; }
 
   std::unique_ptr<Recorder> recorder(const Problem& problem, const FrameSink&) const override {
-    return std::make_unique<SuperelementRecorder>(columns(), problem, request_, step_of(problem));
+    return std::make_unique<SuperelementRecorder>(columns(), problem, request_, step_about(problem, after_));
   }
 
  private:
@@ -190,14 +190,6 @@ class SuperelementOutput final : public Output {
                     who + ": the nodes of " + check::describe(target) +
                         " are collinear and cannot define rotation about their line: six rigid motions are required",
                     "take motion = \"nodes\", or use a face, or a region whose nodes are not collinear");
-  }
-
-  // The last static step where none is named; null: there is none.
-  const Step* step_of(const Problem& problem) const {
-    const Step* step = after_.get();
-    for (const StepPtr& other : problem.steps)
-      if (!after_ && other->is_static) step = other.get();
-    return step;
   }
 
   SuperelementRequest request_;
