@@ -43,6 +43,7 @@ std::string word_of_failed() {
     n_failed += !word_of_failed().empty();
   if (office().tidy_up) office().tidy_up();
   transport().abort(code);
+  std::abort();  // not reached: the call above is virtual, which compilers do not take for an end
 }
 
 // Does rank 0 learn that another has failed?

@@ -157,13 +157,13 @@ Mat WholeInertia::sorted(const Mat& of_vectors) const {
 }
 
 WholeInertia whole_inertia(const LinearAssembly& assembly, const Problem& problem) {
-  using Mat6 = Eigen::Matrix<double, 6, 6>;
+  using SpatialInertia = Eigen::Matrix<double, 6, 6>;
   const auto& parts = problem.substructures;
   Vec3 near = Vec3::Zero();  // arms are short about it, wherever the assembly stands
   for (const SubstructurePtr& part : parts)
     near += (part->mesh->nodes.rowwise().mean() + part->place) / static_cast<double>(parts.size());
   Mat of_nodes(assembly.map.rows(), 6);
-  Mat6 inertia = Mat6::Zero();
+  SpatialInertia inertia = SpatialInertia::Zero();
   for (size_t p = 0; p < parts.size(); ++p) {
     const Mesh& mesh = *parts[p]->mesh;
     const Mat motions = rigid_motions_of(mesh, all_nodes(mesh), near - parts[p]->place, 1.0);
@@ -175,7 +175,7 @@ WholeInertia whole_inertia(const LinearAssembly& assembly, const Problem& proble
   whole.mass = inertia(0, 0);
   const Vec3 arm = Vec3(inertia(1, 5), inertia(2, 3), inertia(0, 4)) / whole.mass;
   whole.centre = near + arm;
-  Mat6 shift = Mat6::Identity();
+  SpatialInertia shift = SpatialInertia::Identity();
   for (int d = 0; d < 3; ++d) shift.block<3, 1>(0, 3 + d) = -Vec3::Unit(d).cross(arm);
   whole.moments = (shift.transpose() * inertia * shift).diagonal().tail<3>();
   whole.momenta = assembly.map.transpose() * (of_nodes * shift);
