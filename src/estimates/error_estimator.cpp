@@ -194,8 +194,9 @@ void ErrorEstimator::sample_stress(const Instant& instant) {
 void ErrorEstimator::accept(const Instant& instant) {
   strain_now_.reset();
   if (instant.is_static()) return accept_static(instant);
-  // Central differences of n substeps turn a motion by (w dt / n)^2 / 24 too much.
-  phase_factor_ = instant.fields ? 0.5 / std::pow(std::max(1, instant.iterations), 2) : instant.model.phase_factor();
+  // Central differences of n substeps.
+  phase_factor_ = instant.fields ? TimeScheme::lag_of_central_differences / std::pow(std::max(1, instant.iterations), 2)
+                                 : instant.model.phase_factor();
   dynamic_.interface_energy += instant.interface_energy;
   const Energies& energies = instant.state.energies;
   linked_.accept(instant);
@@ -226,11 +227,13 @@ ErrorEstimator::Estimate ErrorEstimator::dynamic_steps() const {
   const double turned = (steps2 > 0.0 ? 12.0 * mesh.dispersion / steps2 : 0.0) + 6.0 * lag_ / (dt_ * dt_);
   const double phase = bank_ ? bank_->phase_error(turned, mesh.of_all) / root : 0.0;
   const bool is_tuned = bank_ && bank_->is_tuned();
-  const double of_step = is_tuned ? 12.0 / 80.0 * steps2 : 1.0;  // of what (Q2) would have
+  const double lag = TimeScheme::frequency_lag(steps2, is_tuned);
+  // Of what (Q2) would have.
+  const double of_step = is_tuned && steps2 > 0.0 ? lag / TimeScheme::frequency_lag(steps2, false) : 1.0;
   estimate.mesh_amplitude = ratio(stress_energy_, energy);
   estimate.mesh = std::hypot(phase, estimate.mesh_amplitude);
   estimate.mesh_frequency = of_step * mesh.dispersion + mesh.of_all + 0.5 * frequency2 * lag_;
-  estimate.step_frequency = of_step * phase_factor_ * steps2 / 12.0;
+  estimate.step_frequency = phase_factor_ * lag;
   return estimate;
 }
 

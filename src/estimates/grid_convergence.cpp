@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "numerics/time_scheme.hpp"
 
 namespace dygita {
 
 namespace {
 
-constexpr double formal_order = 2.0, lowest_order = 0.9, highest_order = 2.5, no_order = 0.1;
+constexpr double formal_order = TimeScheme::order, lowest_order = 0.9, highest_order = 2.5, no_order = 0.1;
 constexpr double trusted = 1.25, doubted = 3.0;  // factors of safety
 
 using Values = std::vector<double>;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "numerics/time_scheme.hpp"
+
 namespace dygita {
 
 int OctaveSamples::add(const Vec& mass, const Vec& velocity, double* content2) {
@@ -36,8 +38,7 @@ void OctaveBank::add(std::span<const double> content2) {
     constexpr double quarter = std::numbers::pi / 2;
     const double content = std::sqrt(content2[i]), steps = std::exp2(i);
     octaves_[i].content = std::max(octaves_[i].content, content);
-    const double turned = is_tuned_ ? std::pow(quarter / steps, 5) / 80.0 : std::pow(quarter / steps, 3) / 12.0;
-    octaves_[i].phase += steps * turned * content;
+    octaves_[i].phase += steps * TimeScheme::phase_lag(quarter / steps, is_tuned_) * content;
     octaves_[i].turned += quarter * content;
   }
 }

@@ -43,7 +43,7 @@ class RoundsInVain {
 
 DirectPoints::DirectPoints(const StepModel& model, const State& start)
     : model_(&model),
-      increment_(increment_of(model.scheme, model.problem->solver.push_out)),
+      increment_{model.scheme, model.problem->solver.push_out},
       close_enough_(std::clamp(0.1 * model.problem->solver.tolerance, 1e-13, 1e-10)) {
   const NearDirect near = ranks::is_alone() ? NearDirect() : near_direct(*model.cut, model.exchange);
   if (model.has_explicit() && !ranks::is_alone()) find_motions(model, near);

@@ -42,9 +42,9 @@ void LocalStage::accept(State* state, std::vector<IncrementEnergy>* energy) {
   }
   for (const int at : model_->near.points()) {
     const Point& point = model_->exchange.points[at];
-    const double g = increment_at(point).g;
+    const Increment increment = increment_at(point);
     for (int i = point.first_port; i < point.end_port; ++i)
-      ports_[i].u += increment_.dt * (g * ports_[i].w_old + (1 - g) * ports_[i].w);
+      ports_[i].u += increment.motion(ports_[i].w_old, ports_[i].w);
   }
   if (!state) return;
   std::vector<Vec3> port_force;
@@ -121,16 +121,15 @@ double LocalStage::work_of_found(int i_point) {
     for (int d = 0; d < 3; ++d)
       if (const int i = model_->unknown(model_->exchange.ports[p], d); i >= 0)
         power += found_[i] * ports_[p].residual[d] / k_[i];
-  const double g = increment_at(point).g, before = std::exchange(points_left_[static_cast<size_t>(i_point)], power);
-  return increment_.dt * (g * before + (1 - g) * power);
+  return increment_at(point).motion(std::exchange(points_left_[static_cast<size_t>(i_point)], power), power);
 }
 
 double LocalStage::work_on_pieces(const Point& point) const {
   double work = 0.0;
-  const double g = increment_at(point).g;
+  const Increment increment = increment_at(point);
   const bool has_force_of_end = increment_.is_static || is_massless(point);
   for (int i = point.first_port; i < point.end_port; ++i) {
-    const Vec3 motion = increment_.dt * (g * ports_[i].w_old + (1 - g) * ports_[i].w);
+    const Vec3 motion = increment.motion(ports_[i].w_old, ports_[i].w);
     work += (has_force_of_end ? Vec3(0.5 * (ports_[i].f_old + ports_[i].f)) : ports_[i].f).dot(motion);
   }
   return work;

@@ -9,8 +9,8 @@
 namespace dygita {
 
 LocalStage::LocalStage(const StepModel& model, const State& start, const Vec& k) : model_(&model), k_(k), sums_(model) {
-  const Scheme& scheme = model.scheme;
-  increment_ = increment_of(scheme, model.problem->solver.push_out);
+  const TimeScheme& scheme = model.scheme;
+  increment_ = {scheme, model.problem->solver.push_out};
   const Exchange& exchange = model.exchange;
   // Up to the last one that is iterated here: none where all pieces are explicit.
   const int n_points = model.near.points().empty() ? 0 : model.near.points().back() + 1;

@@ -137,9 +137,7 @@ class LocalStage {
   // Points between nodes without mass take the force and the gap of the step's end (manual, eq. S7).
   bool is_massless(const Point& point) const;
   Increment increment_at(const Point& point) const {
-    Increment increment = increment_;
-    if (is_massless(point)) increment.g = 0.0;
-    return increment;
+    return is_massless(point) ? Increment{increment_.of_end(), increment_.push_out} : increment_;
   }
 
   const StepModel* model_;

@@ -127,7 +127,7 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
         direction = impedance;
         continue;
       }
-      const double k_step = std::hypot((1.0 - model.scheme.g) * impedance, mass / model.scheme.dt);
+      const double k_step = std::hypot(model.scheme.from_end(impedance), mass / model.scheme.dt);
       direction = has_schur ? std::pow(schur, 0.75) * std::pow(k_step, 0.25) : k_step;
     }
   }

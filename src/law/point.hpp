@@ -6,6 +6,7 @@
 #include <array>
 
 #include "law/memory.hpp"
+#include "numerics/time_scheme.hpp"
 
 namespace dygita {
 
@@ -28,10 +29,8 @@ struct LawState {
   LawState member(double share, const Mat3& frame) const;
 };
 
-// The increment: static steps have dt = 1, g = 0, rates are increments.
-struct Increment {
-  double dt = 1.0, g = 0.0;
-  bool is_static = true;
+// The increment: what its scheme says of rates and motions, and what the solver wants of contact.
+struct Increment : TimeScheme {
   double push_out = 0.0;  // b: share of a penetration thrown back per step
 };
 
@@ -62,13 +61,12 @@ struct Work {
   }
 };
 
-// Force (N) that works over an increment, of a law with the force of the step's end in static steps and the mean of the
-// step in dynamic ones; and the motion (m) of side 2 against side 1.
+// Force (N) of a law that works over an increment, and the motion (m) of side 2 against side 1.
 inline Vec3 working_force(const LawState& start, const LawState& end, const Increment& increment) {
-  return increment.is_static ? Vec3(0.5 * (start.force + end.force)) : end.force;
+  return increment.working(start.force, end.force);
 }
 inline Vec3 motion_of(const LawState& start, const LawState& end, const Increment& increment) {
-  return increment.dt * (increment.g * start.rate + (1 - increment.g) * end.rate);
+  return increment.motion(start.rate, end.rate);
 }
 
 // A law seen by small motions about a state.

@@ -13,8 +13,6 @@ namespace dygita {
 
 using std::numbers::pi;
 
-double Damping::ratio(double frequency) const { return mass / (4.0 * pi * frequency) + pi * frequency * stiffness; }
-
 Damping damping_of(double ratio, double frequency) { return {0.0, ratio / (pi * frequency)}; }
 
 Damping damping_of(const std::array<double, 2>& ratio, const std::array<double, 2>& frequency) {

@@ -8,16 +8,9 @@
 #include <vector>
 
 #include "material/elastic_tensor.hpp"
+#include "numerics/time_scheme.hpp"
 
 namespace dygita {
-
-struct Damping {
-  double mass = 0.0;       // 1/s
-  double stiffness = 0.0;  // s
-
-  // Of critical damping at a frequency (Hz) (manual, eq. D8).
-  double ratio(double frequency) const;
-};
 
 // Damping proportional to the stiffness with a ratio at a frequency (Hz) (manual, eq. D8).
 Damping damping_of(double ratio, double frequency);

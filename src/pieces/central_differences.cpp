@@ -15,17 +15,18 @@ ExplicitOperator::ExplicitOperator(const PieceSetup& setup) : stiffness(setup.bo
 
 CentralDifferences::CentralDifferences(PieceSetup setup, std::shared_ptr<const ExplicitOperator> op)
     : setup_(std::move(setup)), op_(std::move(op)), k_(Vec::Zero(n_rows())) {
-  CHECK(!setup_.scheme.is_static && why_not_explicit(*setup_.body, 1.0 - 2.0 * setup_.scheme.g).empty(),
+  CHECK(!setup_.scheme.is_static && why_not_explicit(*setup_.body, setup_.scheme.numerical_damping()).empty(),
         setup_.what + " cannot be explicit");
   const Vec& mass = node_masses();
   const size_t n = static_cast<size_t>(mass.size());
-  const double alpha = setup_.scheme.alpha(setup_.body->part->material.damping), dt = dt_ = setup_.scheme.dt;
-  keep_ = (1.0 / dt - 0.5 * alpha) / (1.0 / dt + 0.5 * alpha);
+  const Damping& damping = setup_.body->part->material.damping;
+  const double alpha = setup_.scheme.alpha(damping), beta = setup_.scheme.beta(damping);
+  dt_ = setup_.scheme.dt;
+  keep_ = setup_.scheme.inertia_of_start(damping) / setup_.mass_share();
   for (const double m : mass) inverse_.push_back(1.0 / (setup_.mass_share() * m));
   unknown_masses_ = mass.replicate(1, 3).transpose().reshaped();
   for (std::vector<double>* field : {&d_, &v_, &y_, &base_, &start_force_, &start_, &v_interval_})
     field->assign(4 * n, 0.0);
-  const double beta = setup_.scheme.beta(setup_.body->part->material.damping);
   if (alpha > 0.0 || beta > 0.0) v_old_.assign(4 * n, 0.0);
   if (beta > 0.0)
     for (std::vector<double>* field : {&elastic_, &damping_force_}) field->assign(4 * n, 0.0);

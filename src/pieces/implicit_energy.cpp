@@ -42,9 +42,9 @@ IncrementEnergy ImplicitPiece::static_works(const Vec& v_mean) {
 }
 
 IncrementEnergy ImplicitPiece::dynamic_works(const Vec& v_mean) {
-  const Scheme& scheme = op_.scheme();
+  const TimeScheme& scheme = op_.scheme();
   const PieceMass& mass = op_.mass();
-  const double g = scheme.g, dt = scheme.dt;
+  const double dt = scheme.dt;
   const double alpha = scheme.alpha(op_.damping()), beta = scheme.beta(op_.damping());
   PieceState& s = state_;
   IncrementEnergy energy;
@@ -52,7 +52,7 @@ IncrementEnergy ImplicitPiece::dynamic_works(const Vec& v_mean) {
   // What has no mass is in balance at both ends of the step, and its forces work with their mean.
   for (const int i : mass.massless()) energy.loads += 0.5 * dt * s.v[i] * (work_.force_old[i] - s.force[i]);
   const double flow =
-      beta > 0.0 || g != 0.5 ? v_mean.dot(g * work_.w_old + (1 - g) * s.w) / op_.c1() : 0.0;  // V_g . K V_g
+      beta > 0.0 || scheme.dissipates() ? v_mean.dot(scheme.mean(work_.w_old, s.w)) / op_.c1() : 0.0;  // V_g . K V_g
   if (alpha > 0.0) energy.damping += dt * alpha * v_mean.dot(mass.times(v_mean));
   energy.damping += dt * beta * flow;
   if (op_.has_motions() && alpha + beta > 0.0) energy.damping = damped_energy(v_mean);
@@ -65,12 +65,12 @@ IncrementEnergy ImplicitPiece::dynamic_works(const Vec& v_mean) {
     op_.apply_absorbing(v_mean, 1.0, drag);
     energy.damping += dt * v_mean.dot(drag);
   }
-  if (g != 0.5 && op_.has_motions()) {
-    energy.scheme = (0.5 - g) * change_with_motions(v_mean);
-  } else if (g != 0.5) {
+  if (scheme.dissipates() && op_.has_motions()) {
+    energy.scheme = scheme.loss(change_with_motions(v_mean));
+  } else if (scheme.dissipates()) {
     const Vec dv = s.v - work_.v_old;
     const double stiffness = mass.has_massless() ? dt * massive_flow(v_mean) : dt * dt * flow;
-    energy.scheme = (0.5 - g) * (stiffness + dv.dot(mass.times(dv)));
+    energy.scheme = scheme.loss(stiffness + dv.dot(mass.times(dv)));
   }
   // A support or a wall that was there before the step leaves what has no mass out of balance.
   for (const int i : mass.massless()) {
@@ -83,7 +83,7 @@ IncrementEnergy ImplicitPiece::dynamic_works(const Vec& v_mean) {
 // Energy (J) that the material's damping takes in an increment, of mean velocity v of the free unknowns; moving
 // supports count.
 double ImplicitPiece::damped_energy(const Vec& v) const {
-  const Scheme& scheme = op_.scheme();
+  const TimeScheme& scheme = op_.scheme();
   const double alpha = scheme.alpha(op_.damping()), beta = scheme.beta(op_.damping());
   const std::vector<double> held = held_mean_velocities();
   const Points nodal = op_.unknowns().expand(v, held);
@@ -127,23 +127,22 @@ void ImplicitPiece::add_work_of_motions(const Points& interface_force, double& w
   const std::vector<HeldDirection>& held = op_.held();
   const std::vector<double> reaction = held_forces(interface_force, means_of_increment());
   for (size_t i = 0; i < held.size(); ++i) {
-    const double mean = op_.scheme().is_static ? 0.5 * (state_.held_reaction[i] + reaction[i]) : reaction[i];
-    work += dt * held_mean_velocity(i) * mean;
+    work += dt * held_mean_velocity(i) * op_.scheme().working(state_.held_reaction[i], reaction[i]);
     work += dt * held_mean_velocity(i) * work_.held_load[i];
   }
   state_.held_reaction = reaction;
 }
 
 ImplicitPiece::Means ImplicitPiece::means_of_increment() const {
-  const Scheme& scheme = op_.scheme();
+  const TimeScheme& scheme = op_.scheme();
   // The displacement that K multiplies in the equation of the increment: U0 + c0 V0 + c1 V1.
-  const double old_share = op_.c0() - scheme.dt * scheme.g, new_share = op_.c1() - scheme.dt * (1 - scheme.g);
+  const double old_share = op_.c0() - scheme.from_start(scheme.dt), new_share = op_.c1() - scheme.from_end(scheme.dt);
   const FreeUnknowns& unknowns = op_.unknowns();
   std::vector<double> held(op_.held().size()), change(held.size(), 0.0);
   for (size_t i = 0; i < held.size(); ++i)
     held[i] = state_.held_u[i] + old_share * work_.held_v_old[i] + new_share * state_.held_v[i];
   Vec there = state_.u + old_share * work_.v_old + new_share * state_.v;
-  for (const int i : op_.mass().massless()) there[i] = state_.u[i] - scheme.g * scheme.dt * state_.v[i];
+  for (const int i : op_.mass().massless()) there[i] = state_.u[i] - scheme.from_start(scheme.dt) * state_.v[i];
   Means means{unknowns.expand(there, held), work_.nodal_force, {}, {}};
   if (scheme.is_static) return means;
   for (size_t i = 0; i < held.size(); ++i) change[i] = (state_.held_v[i] - work_.held_v_old[i]) / scheme.dt;

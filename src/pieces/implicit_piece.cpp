@@ -68,15 +68,14 @@ Points ImplicitPiece::after_jump(const Points& before, const Points& held) const
 }
 
 void ImplicitPiece::begin(const Points& force, const std::vector<double>& motion_velocity, double quiet) {
-  const Scheme& scheme = op_.scheme();
-  const double mass_factor = scheme.inverse_dt() - scheme.g * scheme.alpha(op_.damping());
+  const TimeScheme& scheme = op_.scheme();
+  const double mass_factor = scheme.inertia_of_start(op_.damping());
   const std::vector<HeldDirection>& held = op_.held();
   Work& work = work_;
   work.held_load.resize(held.size());
   for (size_t i = 0; i < held.size(); ++i) {
     const int node = held[i].node;
-    work.held_load[i] = held[i].direction.dot(
-        scheme.is_static ? Vec3(0.5 * (work.nodal_force.col(node) + force.col(node))) : Vec3(force.col(node)));
+    work.held_load[i] = held[i].direction.dot(scheme.working<Vec3>(work.nodal_force.col(node), force.col(node)));
   }
   work.nodal_force = force;
   work.v_old = state_.v;
@@ -85,15 +84,14 @@ void ImplicitPiece::begin(const Points& force, const std::vector<double>& motion
   work.residual = new_force - state_.p;
   if (!scheme.is_static) {
     work.residual += mass_factor * state_.momentum;
-    op_.apply_rates(state_.v, state_.held_v, -scheme.g, work.residual);
+    op_.apply_rates(state_.v, state_.held_v, -scheme.from_start(1.0), work.residual);
   }
-  // Loads work with the mean force of the increment: that of the step in dynamics, of both ends in statics.
   work.force_old = op_.mass().has_massless() ? state_.force : Vec();
-  state_.force = scheme.is_static ? Vec(0.5 * (state_.force + new_force)) : new_force;
+  state_.force = scheme.working(state_.force, new_force);
   work.x = work.residual;
   if (solves_for_change()) {  // less A V0, known without a product: W0 is c1 K V0
     work.x -= state_.w + op_.mass_share() * state_.momentum;
-    op_.apply_rates(state_.v, state_.held_v, -(1 - scheme.g), work.x);
+    op_.apply_rates(state_.v, state_.held_v, -scheme.from_end(1.0), work.x);
     if (op_.has_motions()) work.x += state_.held_pull;
   }
   work.held_v_old = state_.held_v;
@@ -126,8 +124,8 @@ void ImplicitPiece::resynchronise() {
 
 // W1 from the solved equation itself, then P by recurrence: no product by K.
 void ImplicitPiece::advance_forces(Eigen::Ref<const Vec> q, bool is_moved) {
-  const Scheme& scheme = op_.scheme();
-  const double g = scheme.g, dt = scheme.dt, c0 = op_.c0(), c1 = op_.c1();
+  const TimeScheme& scheme = op_.scheme();
+  const double c0 = op_.c0(), c1 = op_.c1();
   PieceState& s = state_;
   s.w = is_moved ? work_.residual : work_.w_old;
   for (int i = 0; i < n_rows() && is_moved; ++i) {
@@ -137,12 +135,12 @@ void ImplicitPiece::advance_forces(Eigen::Ref<const Vec> q, bool is_moved) {
   if (!scheme.is_static && is_moved) {
     s.momentum = op_.momentum(s.v, s.held_v);
     s.w -= op_.mass_share() * s.momentum;
-    op_.apply_rates(s.v, s.held_v, -(1 - g), s.w);
+    op_.apply_rates(s.v, s.held_v, -scheme.from_end(1.0), s.w);
   }
   if (op_.mass().has_massless())
     advance_massless();
   else
-    s.p += ((dt * g - c0) / c1) * work_.w_old + ((dt * (1 - g) + c0) / c1) * s.w;
+    s.p += ((scheme.from_start(scheme.dt) - c0) / c1) * work_.w_old + ((scheme.from_end(scheme.dt) + c0) / c1) * s.w;
 }
 
 IncrementEnergy ImplicitPiece::finish(Eigen::Ref<const Vec> given, const Points* interface_force) {
@@ -182,13 +180,11 @@ Vec ImplicitPiece::row_displacements() const {
 }
 
 double ImplicitPiece::held_mean_velocity(size_t i) const {
-  const double g = op_.scheme().g;
-  return g * work_.held_v_old[i] + (1 - g) * state_.held_v[i];
+  return op_.scheme().mean(work_.held_v_old[i], state_.held_v[i]);
 }
 
 Vec ImplicitPiece::mean_velocity() const {
-  const double g = op_.scheme().g;
-  Vec mean = g * work_.v_old + (1 - g) * state_.v;
+  Vec mean = op_.scheme().mean(work_.v_old, state_.v);
   for (const int i : op_.mass().massless()) mean[i] = state_.v[i];
   return mean;
 }
@@ -196,24 +192,23 @@ Vec ImplicitPiece::mean_velocity() const {
 // P holds K U: adds what `begin` expects of the velocities. W is c1 K V with all velocities, Z is without those of the
 // unknowns that have no mass.
 void ImplicitPiece::start_massless() {
-  const double g = op_.scheme().g;
+  const TimeScheme& scheme = op_.scheme();
   const PieceMass& mass = op_.mass();
   const Vec own = mass.of_massless(state_.v);
-  state_.z = g * op_.scheme().dt * (state_.w / op_.c1() - mass.massless_columns() * own);
+  state_.z = scheme.from_start(scheme.dt) * (state_.w / op_.c1() - mass.massless_columns() * own);
   state_.p += mass.end_factor().cwiseProduct(state_.z);
 }
 
 // P of the next increment from W = dt D K D V1: K U1 + D Z1 with Z = dt K G V, G being g, and 0 for massless unknowns
 // (manual, eq. S7).
 void ImplicitPiece::advance_massless() {
-  const double g = op_.scheme().g;
   const PieceMass& mass = op_.mass();
   PieceState& s = state_;
   const Vec end = s.w.cwiseQuotient(mass.end_factor());  // dt K D V1
   work_.change = s.z + end;
   s.p += s.z - mass.end_factor().cwiseProduct(s.z) + end;
   const Vec own = mass.of_massless(s.v);
-  s.z = g / (1 - g) * (end - op_.scheme().dt * (mass.massless_columns() * own));
+  s.z = op_.scheme().undoing(Vec(end - op_.scheme().dt * (mass.massless_columns() * own)));
   s.p += mass.end_factor().cwiseProduct(s.z);
 }
 
@@ -246,9 +241,8 @@ std::vector<double> ImplicitPiece::held_acceleration() const {
 Points ImplicitPiece::absorbing_force() const {
   Points force = Points::Zero(3, op_.unknowns().n_nodes());
   if (work_.v_old.size() != state_.v.size()) return force;
-  const double g = op_.scheme().g;
-  const Points mean =
-      interval_.n > 1 ? means().velocity : op_.unknowns().expand(g * work_.v_old + (1 - g) * state_.v, state_.held_v);
+  const Points mean = interval_.n > 1 ? means().velocity
+                                      : op_.unknowns().expand(op_.scheme().mean(work_.v_old, state_.v), state_.held_v);
   for (const auto& [node, impedance] : op_.absorbing()) force.col(node) = -impedance * mean.col(node);
   for (const auto& [node, other, impedance] : op_.setup().absorbing_pairs)
     force.col(node) -= impedance * mean.col(other);

@@ -86,7 +86,7 @@ double FreeBody::longest_step(const MassEdges& more) const {
     beta = std::sqrt(std::max(0.0, v.dot(next)));
     const double residual = beta * top.last_entry();
     if (residual <= close_enough * top.value() || i + 1 == most_products)
-      return top.value() + residual > 0.0 ? 2.0 / std::sqrt(top.value() + residual) : none;
+      return TimeScheme::longest_of_central_differences(top.value() + residual);
     before.swap(q);
     q = next / beta;
     v /= beta;
@@ -94,10 +94,8 @@ double FreeBody::longest_step(const MassEdges& more) const {
   return none;
 }
 
-// With stiffness damping taken at the velocity of the increment's start (manual, eq. S14).
 double damped(double longest, const Body& body) {
-  const double beta = body.part->material.damping.stiffness;
-  return std::isfinite(longest) ? std::sqrt(beta * beta + longest * longest) - beta : longest;
+  return TimeScheme::longest_damped(longest, body.part->material.damping);
 }
 
 // Where supports leave one direction alone and the body is long in it, no other waves travel than those along it.

@@ -4,7 +4,7 @@
 
 namespace dygita {
 
-PieceMass::PieceMass(const Body& body, const Scheme& scheme, const FreeUnknowns& unknowns)
+PieceMass::PieceMass(const Body& body, const TimeScheme& scheme, const FreeUnknowns& unknowns)
     : mass_(body.mass), lumped_(unknowns.size()) {
   for (int i = 0; i < unknowns.size(); ++i)
     lumped_[unknowns.position(i)] = mass_->lumped[unknowns.node_of_unknown()[i]];
@@ -47,7 +47,7 @@ void PieceMass::make_matrix(const FreeUnknowns& unknowns) {
     }
 }
 
-void PieceMass::make_massless(const Body& body, const Scheme& scheme, const FreeUnknowns& unknowns) {
+void PieceMass::make_massless(const Body& body, const TimeScheme& scheme, const FreeUnknowns& unknowns) {
   const StiffnessPtr stiffness = body.matrices->stiffness();
   const SparseMatrix& k = *stiffness;
   std::vector<Eigen::Triplet<double>> entries;
@@ -71,7 +71,7 @@ void PieceMass::make_massless(const Body& body, const Scheme& scheme, const Free
   }
   massless_columns_.resize(unknowns.size(), static_cast<Eigen::Index>(massless_.size()));
   massless_columns_.setFromTriplets(entries.begin(), entries.end());
-  end_factor_ = Vec::Constant(unknowns.size(), 1.0 - scheme.g);
+  end_factor_ = Vec::Constant(unknowns.size(), scheme.from_end(1.0));
   for (const int i : massless_) end_factor_[i] = 1.0;
 }
 

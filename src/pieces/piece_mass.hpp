@@ -3,14 +3,13 @@
 
 #include "pieces/body.hpp"
 #include "pieces/free_unknowns.hpp"
-#include "pieces/scheme.hpp"
 
 namespace dygita {
 
 class PieceMass {
  public:
   // unknowns: in their final order. A static step has no mass matrix and no nodes without mass.
-  PieceMass(const Body& body, const Scheme& scheme, const FreeUnknowns& unknowns);
+  PieceMass(const Body& body, const TimeScheme& scheme, const FreeUnknowns& unknowns);
 
   const Vec& lumped() const { return lumped_; }  // kg, of each unknown
   bool is_matrix() const { return matrix_.size() > 0; }
@@ -29,7 +28,7 @@ class PieceMass {
   const Vec& end_factor() const { return end_factor_; }                       // D: 1 - g, and 1 for them
 
  private:
-  void make_massless(const Body& body, const Scheme& scheme, const FreeUnknowns& unknowns);
+  void make_massless(const Body& body, const TimeScheme& scheme, const FreeUnknowns& unknowns);
   void make_matrix(const FreeUnknowns& unknowns);
 
   std::shared_ptr<const Mass> mass_;

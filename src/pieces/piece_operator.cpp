@@ -16,9 +16,7 @@ std::vector<std::pair<int, Mat3>> by_node(const std::unordered_map<int, Mat3>& i
 
 }  // namespace
 
-double PieceSetup::mass_share() const {
-  return scheme.inverse_dt() + (1 - scheme.g) * scheme.alpha(body->part->material.damping);
-}
+double PieceSetup::mass_share() const { return scheme.inertia_of_end(body->part->material.damping); }
 
 FreeUnknowns unknowns_of(const PieceSetup& setup) {
   return {setup.n_nodes(), setup.rows, setup.held, setup.condensed()};
@@ -62,7 +60,7 @@ Mat3 block_at(const SparseMatrix& matrix, int node, int e) {
 SparseMatrix matrix_without_rows(const PieceSetup& setup, const FreeUnknowns& unknowns) {
   const StiffnessPtr stiffness = setup.body->matrices->stiffness();
   const SparseMatrix& k = *stiffness;
-  const Scheme& scheme = setup.scheme;
+  const TimeScheme& scheme = setup.scheme;
   const Mass& mass = *setup.body->mass;
   const double mass_factor = setup.mass_share(), c1 = scheme.c1(setup.body->part->material.damping);
   const SparseMatrix* const full = !scheme.is_static && mass.full.size() > 0 ? &mass.full : nullptr;
@@ -82,7 +80,7 @@ SparseMatrix matrix_without_rows(const PieceSetup& setup, const FreeUnknowns& un
   a.reserve(count);
   const auto scale = [&](int at) {
     const bool is_massless = !scheme.is_static && !mass.is_massless.empty() && mass.is_massless[at];
-    return is_massless ? 1.0 / (1.0 - scheme.g) : 1.0;
+    return is_massless ? 1.0 / scheme.from_end(1.0) : 1.0;
   };
   for (int node = 0; node < unknowns.n_nodes(); ++node) {
     const auto [begin, end] = neighbours(node);
@@ -98,7 +96,7 @@ SparseMatrix matrix_without_rows(const PieceSetup& setup, const FreeUnknowns& un
         block.diagonal().array() += mass_factor * mass.matrix.valuePtr()[mass.matrix.outerIndexPtr()[node] + e / 3];
       else if (!scheme.is_static && other == node)
         block.diagonal().array() += mass_factor * mass.lumped[node];
-      if (damping) block += (1.0 - scheme.g) * block_at(*damping, node, e);
+      if (damping) block += scheme.from_end(block_at(*damping, node, e));
       if (!unknowns.is_plain(node)) block = (unknowns.basis(node).transpose() * block).eval();
       if (!unknowns.is_plain(other)) block = (block * unknowns.basis(other)).eval();
       for (int r = 0; r < unknowns.count(node); ++r)
@@ -108,9 +106,9 @@ SparseMatrix matrix_without_rows(const PieceSetup& setup, const FreeUnknowns& un
   }
   a.makeCompressed();
   for (const auto& [node, impedance] : by_node(setup.absorbing))
-    add_block(unknowns, node, node, (1 - scheme.g) * impedance, a);
+    add_block(unknowns, node, node, scheme.from_end(impedance), a);
   for (const auto& [node, other, impedance] : setup.absorbing_pairs)
-    add_block(unknowns, node, other, (1 - scheme.g) * impedance, a);
+    add_block(unknowns, node, other, scheme.from_end(impedance), a);
   return a;
 }
 
@@ -173,7 +171,8 @@ void PieceOperator::make_couplings() {
   for (int m = 0; m < setup_.n_motions; ++m) {
     if (unit[m].size() == 0) continue;
     coupling_[m] = stiffness_times(unit[m]);
-    for (const int i : mass_.massless()) coupling_[m][i] /= 1.0 - scheme().g;  // their force is that of the step's end
+    for (const int i : mass_.massless())
+      coupling_[m][i] /= scheme().from_end(1.0);  // their force is that of the step's end
     if (setup_.damping()) damping_coupling_[m] = unknowns_.restrict_nodal(damping_force(unit[m]));
     if (mass_.is_matrix()) mass_coupling_[m] = unknowns_.restrict_nodal(mass_.times_nodal(unit[m]));
   }
@@ -219,7 +218,7 @@ Vec PieceOperator::momentum(const Vec& v, const std::vector<double>& held_v) con
 Vec PieceOperator::pull_of_held(const std::vector<double>& held_v) const {
   const Points nodal = unknowns_.expand(Vec::Zero(n_free()), held_v);
   Vec pull = c1_ * stiffness_times(nodal);
-  if (setup_.damping()) pull += (1 - scheme().g) * unknowns_.restrict_nodal(damping_force(nodal));
+  if (setup_.damping()) pull += scheme().from_end(1.0) * unknowns_.restrict_nodal(damping_force(nodal));
   if (mass_.is_matrix()) pull += mass_share() * unknowns_.restrict_nodal(mass_.times_nodal(nodal));
   return pull;
 }
@@ -229,7 +228,7 @@ Vec PieceOperator::pull_of_motions(const std::vector<double>& motion_velocity) c
   for (size_t m = 0; m < coupling_.size(); ++m) {
     if (coupling_[m].size() > 0) pull += c1_ * motion_velocity[m] * coupling_[m];
     if (mass_coupling_[m].size() > 0) pull += mass_share() * motion_velocity[m] * mass_coupling_[m];
-    if (damping_coupling_[m].size() > 0) pull += (1 - scheme().g) * motion_velocity[m] * damping_coupling_[m];
+    if (damping_coupling_[m].size() > 0) pull += scheme().from_end(motion_velocity[m]) * damping_coupling_[m];
   }
   return pull;
 }

@@ -19,7 +19,7 @@ struct NodePairImpedance {
 // What a piece is in a step.
 struct PieceSetup {
   const Body* body = nullptr;
-  Scheme scheme;
+  TimeScheme scheme;
   std::vector<InterfaceRow> rows;
   std::unordered_map<int, Held> held;
   std::unordered_map<int, Mat3> absorbing;         // impedance of nodes (N s/m), dynamic steps
@@ -59,7 +59,7 @@ class PieceOperator {
   PieceOperator(PieceSetup setup, FreeUnknowns unknowns);
 
   const PieceSetup& setup() const { return setup_; }
-  const Scheme& scheme() const { return setup_.scheme; }
+  const TimeScheme& scheme() const { return setup_.scheme; }
   const Damping& damping() const { return setup_.body->part->material.damping; }
   const FreeUnknowns& unknowns() const { return unknowns_; }
   const std::vector<HeldDirection>& held() const { return unknowns_.held(); }

@@ -134,10 +134,10 @@ void InertialLaws::add_force(const Kick& kick, const SharedNodes& shared, const 
   if (points_.empty()) return;
   find_movers(kick, shared, inverse_mass, velocity, internal);
   for (const InertialPoint& at : points_) push(at, at.force);  // a first guess: those of the kick before
-  const Increment increment{kick.tau, 1.0 - kick.theta, false};
+  const Increment increment{TimeScheme::weighted(kick.tau, 1.0 - kick.theta)};
   for (int i = 0; i < most_sweeps && sweep(increment) > unchanged; ++i) {
   }
-  const Increment mean{kick.tau, 0.5, false};
+  const Increment mean{TimeScheme::implicit(kick.tau)};
   for (InertialPoint& at : points_) {
     const Point& point = (*all_)[at.point];
     LawState end = at.is_released ? at.start : at.law->advance(trial_at(at), increment, at.start, at.force);

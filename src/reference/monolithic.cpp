@@ -30,7 +30,7 @@ class MonolithicRun {
         start_time_(state.time),
         observer_(observer),
         i_step_(index_of(problem.steps, model.step)),
-        increment_(increment_of(model.scheme, 0.0)),
+        increment_{model.scheme},
         assembly_(model, before),
         rows_(model, assembly_),
         newton_(rows_, settings) {

@@ -176,7 +176,7 @@ Vec Joining::impulses(const Vec& rate) const {
 
 // Takes out the rows of laws that yield to their impulse when it comes within one increment. Were there any?
 bool Joining::let_go(const Vec& impulse) {
-  const Increment increment{model_.scheme.dt, model_.scheme.g, false};
+  const Increment increment{model_.scheme};
   const Vec y = model_.scheme.dt * compliance();
   std::vector<JoinedRow> kept;
   const size_t n_gone = gone_.size();

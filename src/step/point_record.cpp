@@ -9,10 +9,6 @@
 
 namespace dygita {
 
-Increment increment_of(const Scheme& scheme, double push_out) {
-  return {scheme.dt, scheme.g, scheme.is_static, push_out};
-}
-
 namespace {
 
 double first_gap(const Surface& surface, int point) {

@@ -8,7 +8,6 @@
 namespace dygita {
 
 // What an increment is to a law. push_out: b of the contact law.
-Increment increment_of(const Scheme& scheme, double push_out);
 
 // Vectors in the point's frame; members of one point share it.
 struct PointRecord {

@@ -185,7 +185,7 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
   model.problem = &problem;
   model.step = &step;
   model.surfaces = &surfaces;
-  if (!step.is_static) model.scheme = {false, step.dt, 0.5 * (1.0 - problem.numerical_damping())};
+  if (!step.is_static) model.scheme = TimeScheme::implicit(step.dt, problem.numerical_damping());
   model.conditions = make_conditions(problem, step, start, moved_nodes(problem, step, start, *cut));
   if (chooses_integration && !step.is_static) {
     model.integration = choose_integration(problem, step, bodies, *cut, model.conditions, surfaces);

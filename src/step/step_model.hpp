@@ -9,7 +9,6 @@
 #include "interfaces/loads.hpp"
 #include "interfaces/state.hpp"
 #include "pieces/piece.hpp"
-#include "pieces/scheme.hpp"
 #include "step/bodies.hpp"
 #include "step/integration.hpp"
 
@@ -23,7 +22,7 @@ struct StepModel {
   const Problem* problem = nullptr;
   const Step* step = nullptr;
   const std::vector<Surface>* surfaces = nullptr;
-  Scheme scheme;
+  TimeScheme scheme;
   Conditions conditions;
   CutPtr cut;
   Exchange exchange;

@@ -148,7 +148,7 @@ double growth(double part_of_longest, bool is_tuned = false, double beta = 0.0, 
   const Body& body = modelled.bodies[0];
   if (is_tuned) setup.tuned_speed = tuned_wave_speed(*body.part, {});
   const double longest = is_tuned ? longest_tuned_step(body, {}, setup.tuned_speed) : longest_explicit_step(body, {});
-  setup.scheme = {false, part_of_longest * longest, 0.5};
+  setup.scheme = TimeScheme::implicit(part_of_longest * longest);
   setup.keeps_lumped.assign(static_cast<size_t>(setup.n_nodes()), 0);
   setup.what = "cube";
   CentralDifferences piece(setup, std::make_shared<const ExplicitOperator>(setup));

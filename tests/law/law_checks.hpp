@@ -7,7 +7,7 @@
 
 namespace dygita {
 
-inline const Increment dynamic_step{1e-6, 0.5, false, 0.0};
+inline const Increment dynamic_step{TimeScheme::implicit(1e-6)};
 inline const Increment static_step{};
 
 inline Trial trial(const Vec3& s, const Vec3& y = Vec3(2e-3, 2e-3, 2e-3)) {

@@ -60,7 +60,7 @@ TEST_P(EveryLaw, declares_its_memory) {
 }
 
 TEST_P(EveryLaw, puts_no_force_where_it_does_not_act) {
-  const Increment increment{1e-6, 0.5, false};
+  const Increment increment = dynamic_step;
   LawState start = law->initial();
   start.rate = {-1.0, 2.0, 0.5};
   Trial t = trial({-1.0, 2.0, 0.5});

@@ -14,7 +14,7 @@ TEST(Viscous, has_the_force_of_the_mean_rate) {
   LawState start;
   start.rate = {0.3, -0.2, 0.1};
   for (const double g : {0.5, 0.4, 0.0}) {
-    const Increment increment{1e-6, g, false};
+    const Increment increment{TimeScheme::weighted(1e-6, g)};
     const Vec3 f = law->force(t, increment, start);
     const LawState end = law->advance(t, increment, start, f);
     const Vec3 mean = g * start.rate + (1 - g) * end.rate;
@@ -31,7 +31,7 @@ TEST(Viscous, two_masses_lose_their_relative_velocity_exponentially) {
   const LawPtr law = viscous(c, 0.0);
   double error = 0.0;
   for (const int n : {10, 20, 40}) {
-    const Increment increment{time / n, 0.5, false};
+    const Increment increment{TimeScheme::implicit(time / n)};
     LawState state;
     state.rate = {5.0, 1.0, 0.0};
     double work = 0.0;

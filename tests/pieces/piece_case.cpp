@@ -20,7 +20,7 @@ void PieceCase::make() {
   setup = {};
   setup.body = &body;
   setup.what = "substructure 'block' in step 'test'";
-  if (dt > 0.0) setup.scheme = {false, dt, g};
+  if (dt > 0.0) setup.scheme = TimeScheme::weighted(dt, g);
   hold();
   make_rows();
 }
@@ -111,7 +111,11 @@ void PieceCase::spread_rows() {
 }
 
 DensePiece::DensePiece(const PieceCase& of)
-    : scheme(of.setup.scheme), damping(of.damping), n(3 * of.n_nodes()), rows(Mat::Zero(n, of.n_rows())) {
+    : scheme(of.setup.scheme),
+      g(of.dt > 0.0 ? of.g : 0.0),
+      damping(of.damping),
+      n(3 * of.n_nodes()),
+      rows(Mat::Zero(n, of.n_rows())) {
   k = Mat(*of.body.matrices->stiffness());
   mass = z = Mat::Zero(n, n);
   for (int i = 0; i < of.n_nodes() && !scheme.is_static; ++i)
@@ -123,8 +127,8 @@ DensePiece::DensePiece(const PieceCase& of)
   for (const auto& [node, impedance] : of.setup.absorbing) z.block<3, 3>(3 * node, 3 * node) = impedance;
   for (int i = 0; i < of.n_rows(); ++i)
     for (const NodeAlong& on : of.setup.rows[i].nodes) rows.block<3, 1>(3 * on.node, i) += on.along;
-  end = Vec::Constant(n, 1.0 - scheme.g);
-  start = Vec::Constant(n, scheme.g);
+  end = Vec::Constant(n, 1.0 - g);
+  start = Vec::Constant(n, g);
   for (int i = 0; i < of.n_nodes(); ++i)
     if (!of.body.mass->is_massless.empty() && of.body.mass->is_massless[i] && !scheme.is_static) {
       end.segment<3>(3 * i).setOnes();
@@ -149,8 +153,8 @@ DensePiece::DensePiece(const PieceCase& of)
 
 Mat DensePiece::matrix() const {
   const double beta = scheme.beta(damping), alpha = scheme.alpha(damping);
-  return (scheme.inverse_dt() + (1 - scheme.g) * alpha) * mass + (1 - scheme.g) * z +
-         scheme.dt * Mat(end.asDiagonal() * k * end.asDiagonal()) + (1 - scheme.g) * beta * k;
+  return (scheme.inverse_dt() + (1 - g) * alpha) * mass + (1 - g) * z +
+         scheme.dt * Mat(end.asDiagonal() * k * end.asDiagonal()) + (1 - g) * beta * k;
 }
 
 Mat DensePiece::compliance(const Vec& directions) const {
@@ -175,7 +179,7 @@ Vec DensePiece::solve(const Vec& u0, const Vec& v0, const Vec& force, const Vec&
 }
 
 Vec DensePiece::rest(const Vec& u0, const Vec& v0) const {
-  const double beta = scheme.beta(damping), alpha = scheme.alpha(damping), g = scheme.g;
+  const double beta = scheme.beta(damping), alpha = scheme.alpha(damping);
   return (scheme.inverse_dt() - g * alpha) * (mass * v0) - g * (z * v0) - k * (u0 + g * beta * v0) -
          scheme.dt * end.cwiseProduct(k * start.cwiseProduct(v0));
 }

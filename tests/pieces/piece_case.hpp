@@ -78,7 +78,8 @@ class DensePiece {
   Vec mean_velocity(const Vec& v0, const Vec& v1) const { return start.cwiseProduct(v0) + end.cwiseProduct(v1); }
   Vec next_displacement(const Vec& u0, const Vec& v0, const Vec& v1) const;
 
-  Scheme scheme;
+  TimeScheme scheme;
+  double g;  // weight of the start
   Damping damping;
   int n;
   Mat k, mass, z, rows, held, free;

@@ -141,7 +141,7 @@ void expect_scheme(const Variant& variant, bool is_plain) {
     // What is left of the equation at the supports is their reaction.
     const Vec interface = dense.rows * (q - pair.k.cwiseProduct(dense.rows.transpose() * v1));
     const Vec left = dense.matrix() * v1 - dense.rest(pair.u, pair.v) - load - interface;
-    const Vec drag = dense.z * (dense.scheme.g * pair.v + (1 - dense.scheme.g) * v1);
+    const Vec drag = dense.z * (dense.g * pair.v + (1 - dense.g) * v1);
     if (dense.held.cols() > 0)
       expect_close(flat(pair.piece->reactions(nodal(interface))), dense.held * (dense.held.transpose() * left), 1e-7,
                    "reactions");
@@ -165,7 +165,7 @@ TEST(Increment, books_all_its_energy) {
     SCOPED_TRACE(variant.name);
     Pair pair(variant);
     const DensePiece& dense = *pair.dense;
-    const Scheme& scheme = dense.scheme;
+    const TimeScheme& scheme = dense.scheme;
     const auto stored = [&](const Vec& u, const Vec& v) {
       return 0.5 * u.dot(dense.k * u) + (scheme.is_static ? 0.0 : 0.5 * v.dot(dense.mass * v));
     };

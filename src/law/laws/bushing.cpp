@@ -77,14 +77,14 @@ class Bushing final : public Law, public PenaltyForm {
 Vec3 elongation_of(const Trial& trial) { return trial.jump + Vec3(trial.shortening, 0.0, 0.0); }
 
 Vec3 Bushing::force(const Trial& trial, const Increment& increment, const LawState& start) const {
-  const double g = increment.g, now = 1.0 - g, dt = increment.dt;
   const Vec3 elongation = elongation_of(trial);
   Vec3 force = Vec3::Zero();
   for (int d = 0; d < 3; ++d) {
     if (!(trial.y[d] > 0.0 || trial.is_given[d])) continue;
     const double k = trial.area * stiffness_[d], c = increment.is_static ? 0.0 : trial.area * damping_[d];
-    const double slope = now * (now * dt * k + c);
-    const double before = k * elongation[d] + (now * dt * k + c) * g * start.rate[d];
+    // Of the elongation's mean and of the mean rate, by which the elongation grows.
+    const double by_rate = increment.from_end(increment.dt) * k + c, slope = increment.from_end(by_rate);
+    const double before = k * elongation[d] + by_rate * increment.from_start(start.rate[d]);
     force[d] = (before + slope * trial.s[d]) / (1.0 + slope * trial.y[d]);
   }
   return force;

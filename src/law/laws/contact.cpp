@@ -17,7 +17,7 @@ namespace {
 double closing_speed(const Increment& increment, const LawState& start) {
   if (increment.is_static) return start.gap / increment.dt;
   const double gap = std::max(start.gap, increment.push_out * start.gap);
-  const double parting = increment.g / (1.0 - increment.g) * start.rate[0];
+  const double parting = increment.undoing(start.rate[0]);
   return parting > 0.0 ? std::max(gap / increment.dt, parting) : gap / increment.dt;
 }
 
@@ -89,7 +89,7 @@ LawState Contact::advance(const Trial& trial, const Increment& increment, const 
                           const Vec3& force) const {
   LawState end = start;
   end.rate = trial.s - trial.y.cwiseProduct(force);
-  const Vec3 moved = increment.dt * (increment.g * start.rate + (1.0 - increment.g) * end.rate);
+  const Vec3 moved = motion_of(start, end, increment);
   end.gap = start.gap + moved[0];
   end.force = force;
   const double limit = friction_ * std::abs(force[0]);

@@ -159,9 +159,8 @@ bool Iwan::slide(const LawMemory& start, const Vec2& motion, LawMemory& end) con
 Vec2 Iwan::force_of_sliders(const Trial& trial, const Increment& increment, const LawState& start) const {
   constexpr int most = 100;
   constexpr double exact = 1e-14;
-  const double g = increment.g, now = 1.0 - g, dt = increment.dt;
-  const Vec2 before = g * start.rate.tail<2>(), y = trial.y.tail<2>(), traction = traction_of(start.memory);
-  Vec2 s = trial.s.tail<2>(), rate = -before / now, weight = Vec2::Zero(), force = Vec2::Zero();
+  const Vec2 before = start.rate.tail<2>(), y = trial.y.tail<2>(), traction = traction_of(start.memory);
+  Vec2 s = trial.s.tail<2>(), rate = -increment.undoing(before), weight = Vec2::Zero(), force = Vec2::Zero();
   for (int d = 0; d < 2; ++d) {
     if (y[d] > 0.0)
       weight[d] = 1.0 / y[d];
@@ -172,14 +171,15 @@ Vec2 Iwan::force_of_sliders(const Trial& trial, const Increment& increment, cons
   }
   Answer answer;
   const auto residual_at = [&](const Vec2& at) {
-    answer = after(start.memory, dt * (before + now * at));
-    force = trial.area * (g * traction + now * answer.traction);
+    answer = after(start.memory, increment.motion(before, at));
+    force = trial.area * increment.mean(traction, answer.traction);
     return Vec2(at + y.cwiseProduct(force) - s);
   };
   const double rounding = 1e-2 * trial.area * slip_ * y.maxCoeff();
   Vec2 residual = residual_at(rate);
   for (int i = 0; i < most && residual.norm() > exact * (s.norm() + y.cwiseProduct(force).norm() + rounding); ++i) {
-    const Mat2 slope = Mat2::Identity() + trial.area * now * now * dt * Mat2(y.asDiagonal() * answer.slope);
+    const Mat2 slope = Mat2::Identity() + trial.area * increment.from_end(increment.from_end(increment.dt)) *
+                                              Mat2(y.asDiagonal() * answer.slope);
     Vec2 step = -slope.inverse() * residual;
     // The slope of the potential along the step: where it rises, the step goes too far.
     const double falls = std::abs(residual.cwiseProduct(weight).dot(step));
@@ -230,8 +230,7 @@ Work Iwan::work(const LawState& start, const LawState& end, const Increment& inc
   for (int i = 0; i < start.memory.n_vectors(); ++i) {
     const Vec2 first = start.memory.vector(i).tail<2>(), last = end.memory.vector(i).tail<2>();
     const Vec2 slid = motion - (last - first) / sliders_[static_cast<size_t>(i)].stiffness;
-    const double old = increment.is_static ? 0.0 : increment.g;
-    work.friction += area * (old * first + (1.0 - old) * last).dot(slid);
+    work.friction += area * increment.mean(first, last).dot(slid);
   }
   if (increment.is_static)
     work.given = work.stored + work.friction - working_force(start, end, increment).tail<2>().dot(motion);

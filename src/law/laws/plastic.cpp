@@ -73,11 +73,12 @@ double Plastic::rate_of_opening(const Trial& trial, const Increment& increment, 
   // A dynamic force is the mean of the increment: it hardens with the opening half way, and its work is then exact.
   const double half = increment.is_static ? 1.0 : 0.5;
   const double had = start.memory.scalar(hardening_opening), before = start.memory.scalar(opening_rate);
-  const double hardened = had + half * increment.g * increment.dt * std::abs(before);
+  const double hardened = had + half * increment.motion(std::abs(before), 0.0);
   const double limit = trial.area * (yield_ + hardening_ * hardened);
   const double excess = (compression_ ? std::abs(z) : z) - trial.y[0] * limit;
   if (excess <= 0.0 || trial.y[0] <= 0.0) return 0.0;
-  const double rate = excess / (1.0 + trial.y[0] * trial.area * hardening_ * half * (1.0 - increment.g) * increment.dt);
+  const double slope = trial.area * hardening_ * half * increment.from_end(increment.dt);
+  const double rate = excess / (1.0 + trial.y[0] * slope);
   return z < 0.0 ? -rate : rate;
 }
 
@@ -91,9 +92,9 @@ LawState Plastic::advance(const Trial& trial, const Increment& increment, const 
                           const Vec3& force) const {
   LawState end = held_end(trial, start, force);
   const double rate = rate_of_opening(trial, increment, start), before = start.memory.scalar(opening_rate);
-  end.plastic_opening += increment.dt * (increment.g * before + (1.0 - increment.g) * rate);
+  end.plastic_opening += increment.motion(before, rate);
   double& hardened = end.memory.scalar(hardening_opening);
-  hardened += increment.dt * (increment.g * std::abs(before) + (1.0 - increment.g) * std::abs(rate));
+  hardened += increment.motion(std::abs(before), std::abs(rate));
   end.memory.scalar(opening_rate) = increment.is_static ? 0.0 : rate;
   if (rate != 0.0) end.status = PointState::slip;
   return end;

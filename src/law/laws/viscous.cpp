@@ -38,8 +38,7 @@ class Viscous final : public Law {
     for (int d = 0; d < 3; ++d) {
       if (!(trial.y[d] > 0.0 || trial.is_given[d]) || !acts_on(d, increment.is_static)) continue;
       const double c = trial.area * coefficient_[d];
-      force[d] = c * (increment.g * start.rate[d] + (1.0 - increment.g) * trial.s[d]) /
-                 (1.0 + (1.0 - increment.g) * c * trial.y[d]);
+      force[d] = c * increment.mean(start.rate[d], trial.s[d]) / (1.0 + increment.from_end(c) * trial.y[d]);
     }
     return force;
   }
