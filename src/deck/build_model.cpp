@@ -53,7 +53,7 @@ Face face_of(const SubstructurePtr& part, const std::string& group, const Origin
   std::vector<std::string> known;
   for (const auto& [name, nodes] : part->mesh->point_groups) known.push_back(name);
   for (const auto& [name, facets] : faces) known.push_back(name);
-  if (part->mesh->condensed)
+  if (!part->mesh->has_cells())
     throw InputError(origin, fmt::format("superelement '{}' was condensed without face '{}'\n    {}", part->name, group,
                                          did_you_mean(group, known)));
   throw InputError(origin, fmt::format("substructure '{}' has no face '{}' in its mesh\n    {}", part->name, group,

@@ -230,7 +230,7 @@ void set_sides(const Declaration& d, Interface& interface) {
     return;
   }
   for (const InterfaceSide* side : {&one, &other})
-    if (!side->face && side->part->mesh->condensed && side->part->mesh->faces.empty())
+    if (!side->face && !side->part->mesh->has_cells() && side->part->mesh->faces.empty())
       throw InputError(fmt::format("superelement '{}' has points but no facets: name its face and the opposite face",
                                    side->part->name));
   for (const auto& [own, opposite] : {std::pair(&one, &other), std::pair(&other, &one)})

@@ -32,7 +32,7 @@ namespace {
 // What a mesh of matrices has in the place of a material: what search directions and comparisons of stiffness go by.
 Elastic material_like(const Mesh& mesh) {
   constexpr double poisson = 0.3, bar_speed = 5200.0;  // m/s, as metals have it
-  const double young = mesh.condensed->modulus(mesh.nodes);
+  const double young = mesh.inside->matrices()->modulus(mesh.nodes);
   return {"superelement", young, poisson, young / (bar_speed * bar_speed)};
 }
 
@@ -54,7 +54,7 @@ MeshPtr superelement_of(const LuaArguments& a) {
 
 // Nothing is known of its inside where it is held there.
 void check_free(const Substructure& part) {
-  if (part.velocity.isZero() || !part.mesh->condensed->resists(part.mesh->nodes, part.velocity)) return;
+  if (part.velocity.isZero() || !part.mesh->inside->resists(part.mesh->nodes, part.velocity)) return;
   throw InputError(fmt::format(
       "'velocity' of '{}': its matrices resist that motion because a support was condensed with it", part.name));
 }

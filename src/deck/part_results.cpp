@@ -28,7 +28,7 @@ int read_part(lua_State* L, const PartData& data, const Origin& origin) {
   if (std::find(of_stress.begin(), of_stress.end(), key) == of_stress.end())
     throw InputError(origin, fmt::format("result of substructure '{}' has no '{}'\n    {}", part.name, key,
                                          did_you_mean(key, {"mass", "von_mises", "margin", "volume_above_yield"})));
-  if (part.mesh->condensed)
+  if (!part.mesh->has_cells())
     throw InputError(origin,
                      fmt::format("superelement '{}' has no '{}': without cells it has no stress", part.name, key));
   if (!part.yield)

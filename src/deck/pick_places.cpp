@@ -47,7 +47,7 @@ Region region_of(const SubstructurePtr& part, lua_State* L, const Origin& origin
   Region region{part, {}};
   const Points& nodes = part->mesh->nodes;
   for (int i = 0; i < part->mesh->n_nodes(); ++i) {
-    if (part->mesh->condensed && !part->mesh->condensed->is_place(i)) continue;
+    if (!part->mesh->inside->is_place(i)) continue;
     const Vec3 x = nodes.col(i) + part->place;
     if (answers_true(L, 3, x, part->name, origin)) region.nodes.push_back(i);
   }

@@ -98,7 +98,7 @@ void ErrorEstimator::find_free_surfaces(const Instant& start) {
     const auto i = static_cast<size_t>(part);
     const PartView& view = views_->of(part);
     const Mesh& whole = *problem.substructures[i]->mesh;
-    if (view.is_empty() || whole.condensed) return;
+    if (view.is_empty() || !whole.has_cells()) return;
     if (boundary_[i].empty()) boundary_[i] = boundary_facets(whole);
     free_[i] = free_cells(view.mesh(), free_facets(start.model, part, boundary_[i]), view.all_nodes());
   });

@@ -25,11 +25,9 @@ struct RigidFrame {
   }
   // The same of a node of the body: where that is the turn of a rigid face, of its value.
   RigidMotion row(const Substructure& body, int node, const Vec3& d) const {
-    const CondensedBody* condensed = body.mesh->condensed.get();
-    if (!condensed || condensed->is_place(node)) return row(place_of_node(body, node), d);
+    if (body.mesh->inside->is_place(node)) return row(place_of_node(body, node), d);
     RigidMotion r = RigidMotion::Zero();
-    if (condensed->kinds[static_cast<size_t>(node)] == NodeKind::turn)
-      r.tail<3>() = condensed->size_of_turn(node) / size * d;
+    r.tail<3>() = body.mesh->inside->size_of_turn(node) / size * d;
     return r;
   }
   // The same of a port of the body along a direction of its point's frame.
@@ -39,7 +37,7 @@ struct RigidFrame {
     return sum;
   }
   Vec3 value(const RigidMotion& motion, const Substructure& body, int node) const {
-    if (!body.mesh->condensed) return displacement(motion, place_of_node(body, node));
+    if (body.mesh->inside->is_place(node)) return displacement(motion, place_of_node(body, node));
     return Vec3(row(body, node, Vec3::UnitX()).dot(motion), row(body, node, Vec3::UnitY()).dot(motion),
                 row(body, node, Vec3::UnitZ()).dot(motion));
   }
@@ -47,10 +45,9 @@ struct RigidFrame {
     return motion.head<3>() + Vec3(motion.tail<3>()).cross(x - centre) / size;
   }
 
-  // The same of what resists motions as a whole from inside a body without cells; 6 x how many.
-  Eigen::Matrix<double, 6, Eigen::Dynamic> resisted(const Substructure& body) const {
-    if (!body.mesh->condensed) return {6, 0};
-    Eigen::Matrix<double, 6, Eigen::Dynamic> rows = body.mesh->condensed->resisted_motions(body.mesh->nodes);
+  // The same of what resists motions as a whole from inside the body; 6 x how many.
+  ResistedMotions resisted(const Substructure& body) const {
+    ResistedMotions rows = body.mesh->inside->resisted_motions(body.mesh->nodes);
     for (Eigen::Index i = 0; i < rows.cols(); ++i) {
       const Vec3 a = rows.col(i).head<3>(), b = rows.col(i).tail<3>();
       rows.col(i) << a, (b + (body.place - centre).cross(a)) / size;
@@ -59,16 +56,9 @@ struct RigidFrame {
   }
   // Displacements (3 x nodes) of a body's nodes under a rigid motion.
   Points displacements(const RigidMotion& motion, const Substructure& body) const {
-    const Vec3 rotation = motion.tail<3>() / size;
-    const Points x = body.mesh->nodes.colwise() + (body.place - centre);
-    if (!body.mesh->condensed) {
-      Points moved(3, x.cols());
-      for (Eigen::Index i = 0; i < x.cols(); ++i) moved.col(i) = motion.head<3>() + rotation.cross(x.col(i));
-      return moved;
-    }
     // Of the mesh's own coordinates.
-    const Vec3 at_origin = motion.head<3>() + rotation.cross(body.place - centre);
-    return body.mesh->condensed->rigid_motion(body.mesh->nodes, at_origin, rotation);
+    return body.mesh->inside->rigid_motion(body.mesh->nodes, centre - body.place, motion.head<3>(),
+                                           motion.tail<3>() / size);
   }
 
   static Vec3 place_of_node(const Substructure& body, int node) { return body.mesh->nodes.col(node) + body.place; }

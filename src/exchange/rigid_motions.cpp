@@ -175,7 +175,7 @@ class Pinning {
       const Mat6 gram = own * own.transpose();
       const Substructure& body = *problem_.substructures[static_cast<size_t>(part)];
       for (int node = 0; node < body.mesh->n_nodes(); ++node) {
-        if (body.mesh->condensed && body.mesh->condensed->follower(node)) continue;  // it has no unknowns
+        if (body.mesh->inside->follower(node)) continue;  // it has no unknowns
         Mat3 square = square_of(part, node, gram);
         const double most = std::sqrt(std::max(0.0, square.trace()));
         if (most <= nearly * best) continue;

@@ -154,7 +154,7 @@ void see_cells(const Mesh& mesh, const CellBlock& block, const Elastic& material
 }  // namespace
 
 BodyMatrices assemble(const Mesh& mesh, const Elastic& material, SparseMatrix* memory) {
-  if (mesh.condensed) return {mesh.condensed->stiffness, mesh.condensed->node_masses()};
+  if (const CondensedBody* own = mesh.inside->matrices()) return {own->stiffness, own->node_masses()};
   CellSlots slots;
   const NodePattern pattern = node_pattern(mesh, &slots);
   const NodeOwners owners = node_owners(mesh);

@@ -33,10 +33,10 @@ namespace {
 // The rotation of its points as a whole, by least squares; at their middle.
 CellRotation rotation_of_points(const Mesh& mesh, const Points& displacement) {
   Vec3 middle = Vec3::Zero(), moved = Vec3::Zero();
-  const int n = mesh.condensed->n_nodes();
+  const int n = mesh.n_nodes();
   double n_places = 0.0;
   for (int node = 0; node < n; ++node)
-    if (mesh.condensed->is_place(node)) {
+    if (mesh.inside->is_place(node)) {
       middle += mesh.nodes.col(node);
       moved += displacement.col(node);
       n_places += 1.0;
@@ -46,7 +46,7 @@ CellRotation rotation_of_points(const Mesh& mesh, const Points& displacement) {
   Mat3 inertia = Mat3::Zero();
   Vec3 moment = Vec3::Zero();
   for (int node = 0; node < n; ++node) {
-    if (!mesh.condensed->is_place(node)) continue;
+    if (!mesh.inside->is_place(node)) continue;
     const Vec3 arm = mesh.nodes.col(node) - middle;
     inertia += arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose();
     moment += arm.cross(displacement.col(node) - moved);
@@ -57,7 +57,7 @@ CellRotation rotation_of_points(const Mesh& mesh, const Points& displacement) {
 }  // namespace
 
 CellRotation largest_rotation(const Mesh& mesh, const Points& displacement) {
-  if (mesh.condensed) return rotation_of_points(mesh, displacement);
+  if (!mesh.has_cells()) return rotation_of_points(mesh, displacement);
   CellRotation worst;
   for (const CellBlock& block : mesh.blocks)
     with_cell(block.type, [&](auto cell) {
@@ -77,7 +77,7 @@ CellRotation largest_rotation(const Mesh& mesh, const Points& displacement) {
 }
 
 double smallest_cell(const Mesh& mesh) {
-  if (mesh.condensed) return 0.0;
+  if (!mesh.has_cells()) return 0.0;
   double smallest = std::numeric_limits<double>::infinity();
   for (const CellBlock& block : mesh.blocks)
     for (int i = 0; i < block.n_cells(); ++i) {

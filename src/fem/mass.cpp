@@ -111,7 +111,7 @@ std::vector<Vec> lumping_energies(const Mesh& mesh, double density, const Points
 }
 
 bool has_consistent_mass(const Mesh& mesh) {
-  if (mesh.condensed) return true;
+  if (!mesh.has_cells()) return true;
   return std::any_of(mesh.blocks.begin(), mesh.blocks.end(),
                      [](const CellBlock& block) { return cell_shape(block.type).inertia == Inertia::consistent; });
 }

@@ -38,11 +38,11 @@ Json body(const Substructure& part, double volume) {
   const Elastic& material = part.material;
   const Points& nodes = part.mesh->nodes;
   const Vec3 low = nodes.rowwise().minCoeff() + part.place, high = nodes.rowwise().maxCoeff() + part.place;
-  if (part.mesh->condensed)
+  if (const CondensedBody* own = part.mesh->inside->matrices())
     return {{"mass", mass_of(part, volume)},
             {"low", {low[0], low[1], low[2]}},
             {"high", {high[0], high[1], high[2]}},
-            {"condensed", {{"rows", part.mesh->condensed->n_rows()}, {"valid_to", part.mesh->condensed->valid_to}}}};
+            {"condensed", {{"rows", own->n_rows()}, {"valid_to", own->valid_to}}}};
   Json json = {{"mass", material.density * volume},
                {"low", {low[0], low[1], low[2]}},
                {"high", {high[0], high[1], high[2]}},

@@ -165,7 +165,7 @@ void write_part(const PartFrame& frame_of_part, const Frame& frame, const std::f
     const CellShape& shape = cell_shape(block.type);
     for (int i = 0; i < block.n_cells(); ++i) cells.add(shape.vtk_type, {block.cell(i), shape.shape.nodes.size()}, 0);
   }
-  if (mesh.condensed)
+  if (!mesh.has_cells())
     for (const Facet& facet : boundary_facets(mesh)) cells.add(facet_shape(facet.type()).vtk_type, facet.nodes(), 0);
   cells.give_to(grid);
   add_field(grid, displacement_name, frame_of_part.displacement);

@@ -32,11 +32,11 @@ MeshPtr CondensedBuilder::finish(const Mat& stiffness, const Mat& mass, const Ma
   for (int node = 0; node < n_nodes(); ++node) mesh->nodes.col(node) = places_[static_cast<size_t>(node)];
   const SparseMatrix pattern = dense_pattern();
   body_->stiffness = on_nodes(stiffness, pattern);
-  body_->mass = on_nodes(mass, pattern);
+  body_->mass_matrix = on_nodes(mass, pattern);
   if (damping.size() > 0) body_->damping = on_nodes(damping, pattern);
   body_->find_carried(mesh->nodes);
   if (body_->mass_of_parts <= 0.0) body_->mass_of_parts = mass_of_translation(mesh->nodes);
-  mesh->condensed = body_;
+  mesh->inside = body_;
   mesh->digest = mesh_digest(*mesh);
   return mesh;
 }
@@ -100,7 +100,7 @@ double CondensedBuilder::mass_of_translation(const Points& x) const {
   double sum = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     const Vec moved = body_->rigid_motion(x, Vec3::Unit(axis), Vec3::Zero()).reshaped();
-    sum += moved.dot(body_->mass * moved) / 3.0;
+    sum += moved.dot(body_->mass_matrix * moved) / 3.0;
   }
   return sum;
 }

@@ -161,12 +161,12 @@ void check_rows(const std::vector<PointLine>& points, Eigen::Index n_rows, const
 // A body that moves freely weighs the same along all axes.
 void doubt_masses(const Mesh& mesh, const std::string& file) {
   constexpr double unlike = 0.01;
-  const CondensedBody& body = *mesh.condensed;
+  const CondensedBody& body = *mesh.inside->matrices();
   Vec3 masses;
   for (int axis = 0; axis < 3; ++axis) {
     if (body.resists(mesh.nodes, Vec3::Unit(axis))) return;
     const Vec moved = body.rigid_motion(mesh.nodes, Vec3::Unit(axis), Vec3::Zero()).reshaped();
-    masses[axis] = moved.dot(body.mass * moved);
+    masses[axis] = moved.dot(body.mass_matrix * moved);
   }
   if (masses.maxCoeff() - masses.minCoeff() > unlike * masses.maxCoeff())
     warn(fmt::format(

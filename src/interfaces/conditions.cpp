@@ -96,9 +96,8 @@ class ConditionsBuilder {
 
   Conditions build() {
     for (size_t part = 0; part < problem_.substructures.size(); ++part)
-      if (const CondensedBody* condensed = problem_.substructures[part]->mesh->condensed.get())
-        for (const auto& [node, direction] : condensed->held)
-          hold(static_cast<int>(part), node, direction, {}, nullptr, "", {});
+      for (const auto& [node, direction] : problem_.substructures[part]->mesh->inside->held)
+        hold(static_cast<int>(part), node, direction, {}, nullptr, "", {});
     for (const SupportPtr& support : supports_of(problem_, step_)) add_support(*support);
     for (const LoadPtr& load : step_.loads)
       for (const Effect& effect : load->effects())
@@ -139,8 +138,7 @@ class ConditionsBuilder {
 
   // A node of a rigid face is held at the face's point, and the face then does not turn. Answers the node that moves.
   int hold_turn(int part, int node, const Support* support) {
-    const CondensedBody* condensed = problem_.substructures[static_cast<size_t>(part)]->mesh->condensed.get();
-    const CondensedBody::Follower* own = condensed ? condensed->follower(node) : nullptr;
+    const Interior::Follower* own = problem_.substructures[static_cast<size_t>(part)]->mesh->inside->follower(node);
     if (!own) return node;
     for (int axis = 0; axis < 3 && own->turn >= 0; ++axis) hold(part, own->turn, Vec3::Unit(axis), {}, support, "", {});
     return own->point;
@@ -159,8 +157,7 @@ class ConditionsBuilder {
     const Mesh& mesh = *face.part->mesh;
     for (const PlacedFace& part : smooth_parts({&mesh, face.facets(), Vec3::Zero(), ""})) {
       const FaceNodes on_patch = face_nodes(mesh, part.facets);
-      if (mesh.condensed && mesh.condensed->follower(on_patch.nodes.front()))
-        refuse_rigid_face(support, "along normals");
+      if (mesh.inside->follower(on_patch.nodes.front())) refuse_rigid_face(support, "along normals");
       for (size_t i = 0; i < on_patch.nodes.size(); ++i)
         hold(part_of(face), on_patch.nodes[i], on_patch.normals.col(i), moves, &support, support.name, support.origin);
     }

@@ -78,10 +78,10 @@ void Loads::add(const NodalForces& forces, const TimeValue& value, const State& 
   const Points unit = forces.unit(on.loaded);
   const double size = unit.colwise().norm().sum();
   LoadPattern pattern{part_of(problem_, forces.on), {}, {value, value_reached(start, key, size)}, key, size};
-  const CondensedBody* condensed = problem_.substructures[static_cast<size_t>(pattern.part)]->mesh->condensed.get();
+  const Interior& inside = *problem_.substructures[static_cast<size_t>(pattern.part)]->mesh->inside;
   for (size_t i = 0; i < on.nodes.size(); ++i) {
     const Vec3 f = unit.col(static_cast<int>(i));
-    const CondensedBody::Follower* own = condensed ? condensed->follower(on.nodes[i]) : nullptr;
+    const Interior::Follower* own = inside.follower(on.nodes[i]);
     pattern.nodes.emplace_back(own ? own->point : on.nodes[i], f);
     if (own && own->turn >= 0) pattern.nodes.emplace_back(own->turn, own->arm.cross(f) / own->size);
   }
@@ -95,10 +95,8 @@ void Loads::add(const BodyForce& force, const LoadValue& value, const std::strin
     Points acceleration(3, part.mesh->n_nodes());
     for (int node = 0; node < part.mesh->n_nodes(); ++node)
       acceleration.col(node) = force.unit(part.mesh->nodes.col(node) + part.place);
-    // Gravity is uniform, and a motion as a whole is all that a body without cells knows of its inside.
-    if (const CondensedBody* condensed = part.mesh->condensed.get())
-      acceleration = condensed->rigid_motion(part.mesh->nodes, acceleration.col(0), Vec3::Zero());
-    const Points unit = inertia(static_cast<int>(i), acceleration);
+    const Points unit =
+        inertia(static_cast<int>(i), part.mesh->inside->acceleration(part.mesh->nodes, std::move(acceleration)));
     if (unit.isZero(0.0)) continue;
     for (int node = 0; node < part.mesh->n_nodes(); ++node) pattern.nodes.emplace_back(node, unit.col(node));
     patterns_.push_back(std::move(pattern));

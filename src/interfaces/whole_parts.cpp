@@ -21,7 +21,7 @@ constexpr size_t most_pieces = 64;  // that are held against each other, two by 
 std::string in_mm(const Vec3& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", 1e3 * x[0], 1e3 * x[1], 1e3 * x[2]); }
 
 // Boxes and bolts are made as wholes.
-bool is_from_file(const Mesh& mesh) { return !mesh.condensed && mesh.source.find('.') != std::string::npos; }
+bool is_from_file(const Mesh& mesh) { return mesh.has_cells() && mesh.source.find('.') != std::string::npos; }
 
 // Facets of a part that an interface joins to others of the same part.
 Joined joined_to_itself(const std::vector<Surface>& surfaces, int part) {

@@ -55,7 +55,7 @@ void CoarseCorrection::make_shapes(const StepModel& model, const Vec& k, const s
   const auto place = [&](const Tied& tied) {
     const Port& port = ports[tied.port];
     const Substructure& part = *model.cut->piece(port.piece).body;
-    if (port.trace && part.mesh->condensed)  // a rigid face has all its points at one node
+    if (port.trace && !part.mesh->has_cells())  // a rigid face has all its points at one node
       return Vec3((*model.surfaces)[static_cast<size_t>(port.side / 2)].facing.places.col(port.point));
     return Vec3(part.mesh->nodes.col(port.piece_node) + part.place);
   };

@@ -248,10 +248,10 @@ void refuse_apart(const PlacedFace& side_1, const PlacedFace& side_2) {
 namespace {
 
 // All nodes of a point are of one rigid face or of none: a face's facets are.
-const CondensedBody::Follower* follower_at(const CondensedBody& body, const SideTrace& trace, int i) {
-  const CondensedBody::Follower* first = body.follower(trace.share(i, 0).node);
+const Interior::Follower* follower_at(const Interior& body, const SideTrace& trace, int i) {
+  const Interior::Follower* first = body.follower(trace.share(i, 0).node);
   for (int k = 0; k < trace.n_shares(i); ++k) {
-    const CondensedBody::Follower* own = body.follower(trace.share(i, k).node);
+    const Interior::Follower* own = body.follower(trace.share(i, k).node);
     if ((own ? own->point : -1) != (first ? first->point : -1))
       throw InputError(
           "a point of it would move with two faces that a superelement has as a whole each\n    condense "
@@ -261,11 +261,12 @@ const CondensedBody::Follower* follower_at(const CondensedBody& body, const Side
 }
 
 bool follow(const Mesh& mesh, const Vec3& place, const Points& places, SideTrace& trace) {
-  const CondensedBody& body = *mesh.condensed;
+  const Interior& body = *mesh.inside;
+  if (body.followers.empty()) return false;
   SideTrace followed;
   bool has_followers = false;
   for (int i = 0; i < trace.n_points(); ++i) {
-    const CondensedBody::Follower* own = follower_at(body, trace, i);
+    const Interior::Follower* own = follower_at(body, trace, i);
     if (!own) {
       std::vector<SideTrace::Share> shares;
       for (int k = 0; k < trace.n_shares(i); ++k) shares.push_back(trace.share(i, k));
@@ -288,8 +289,8 @@ bool follow(const Mesh& mesh, const Vec3& place, const Points& places, SideTrace
 
 void follow_rigid_faces(const Mesh* mesh_1, const Vec3& place_1, const Mesh* mesh_2, const Vec3& place_2,
                         Facing& facing) {
-  const bool first = mesh_1 && mesh_1->condensed && follow(*mesh_1, place_1, facing.places, facing.side_1);
-  const bool second = mesh_2 && mesh_2->condensed && follow(*mesh_2, place_2, facing.places, facing.side_2);
+  const bool first = mesh_1 && follow(*mesh_1, place_1, facing.places, facing.side_1);
+  const bool second = mesh_2 && follow(*mesh_2, place_2, facing.places, facing.side_2);
   if (!first && !second) return;
   // Points that were nodes of both sides are those of the side that still has them.
   if (facing.carrier == 0 || (facing.carrier == 1 && first && !second) || (facing.carrier == 2 && second && !first))

@@ -60,7 +60,7 @@ struct SurfaceInBox {
       if (!kept.nodes.empty()) cells.push_back(std::move(kept));
     }
     // A facet that meets the box belongs to kept cells only, so that those alone tell the boundary.
-    for (const Facet& facet : body.mesh->condensed ? boundary_facets(*body.mesh) : boundary_facets(cells)) {
+    for (const Facet& facet : body.mesh->has_cells() ? boundary_facets(cells) : boundary_facets(*body.mesh)) {
       Box extent;
       for (const int node : facet.nodes()) extent.add(body.at(node));
       if (!extent.meets(box)) continue;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/fnv1a.hpp"
 #include "numerics/dense.hpp"
 
 namespace dygita {
@@ -33,18 +34,6 @@ SparseMatrix turned(const SparseMatrix& a, const Mat3& turn) {
 
 }  // namespace
 
-const CondensedBody::Follower* CondensedBody::follower(int node) const {
-  if (kinds[node] != NodeKind::follower) return nullptr;
-  return &*std::lower_bound(followers.begin(), followers.end(), node,
-                            [](const Follower& own, int at) { return own.node < at; });
-}
-
-double CondensedBody::size_of_turn(int node) const {
-  const auto own =
-      std::find_if(followers.begin(), followers.end(), [&](const Follower& one) { return one.turn == node; });
-  return own == followers.end() ? 1.0 : own->size;
-}
-
 int CondensedBody::n_rows() const {
   const auto n = 3 * (kinds.size() - followers.size()) - held.size() - absent.size();
   return static_cast<int>(n);
@@ -56,7 +45,9 @@ int CondensedBody::n_places() const {
   return n;
 }
 
-Points CondensedBody::rigid_motion(const Points& x, const Vec3& translation, const Vec3& rotation) const {
+Points CondensedBody::rigid_motion(const Points& x, const Vec3& about, const Vec3& at_point,
+                                   const Vec3& rotation) const {
+  const Vec3 translation = at_point - rotation.cross(about);  // at the origin
   Points motion = Points::Zero(3, n_nodes());
   for (int node = 0; node < n_nodes(); ++node)
     if (is_place(node)) motion.col(node) = translation + rotation.cross(x.col(node));
@@ -95,7 +86,7 @@ void CondensedBody::find_carried(const Points& x) {
 }
 
 Vec CondensedBody::node_masses() const {
-  const Vec diagonal = mass.diagonal();
+  const Vec diagonal = mass_matrix.diagonal();
   Vec masses = Vec::Zero(n_nodes());
   for (int node = 0; node < n_nodes(); ++node)
     if (kinds[node] == NodeKind::point) masses[node] = std::max(0.0, diagonal.segment<3>(3 * node).mean());
@@ -104,7 +95,7 @@ Vec CondensedBody::node_masses() const {
   return mass_of_parts / masses.sum() * masses;
 }
 
-Eigen::Matrix<double, 6, Eigen::Dynamic> CondensedBody::resisted_motions(const Points& x) const {
+ResistedMotions CondensedBody::resisted_motions(const Points& x) const {
   constexpr double nothing = 1e-7;  // of what the same motion without signs would meet
   using Mat6 = Eigen::Matrix<double, 6, 6>;
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -133,7 +124,7 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> CondensedBody::resisted_motions(const P
       if (row.norm() > 0.0) gram += row * row.transpose();
     }
   const EigenPairs eigen = symmetric_eigen(gram);
-  Eigen::Matrix<double, 6, Eigen::Dynamic> resisted(6, 0);
+  ResistedMotions resisted(6, 0);
   for (int i = 0; i < 6; ++i) {
     if (eigen.values[i] < nothing) continue;
     // a . t_centre + b . (rotation size), with t_centre = t_origin + rotation x centre.
@@ -142,12 +133,6 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> CondensedBody::resisted_motions(const P
     resisted.rightCols(1) << a, centre.cross(a) + size * b;
   }
   return resisted;
-}
-
-bool CondensedBody::resists(const Points& x, const Vec3& direction) const {
-  constexpr double nothing = 1e-6;
-  const Mat resisted = resisted_motions(x).topRows(3);
-  return (resisted.transpose() * direction).norm() > nothing * direction.norm();
 }
 
 double CondensedBody::modulus(const Points& x) const {
@@ -171,15 +156,20 @@ double CondensedBody::modulus(const Points& x) const {
   return moduli[moduli.size() / 2];
 }
 
-CondensedBody CondensedBody::turned(const Mat3& turn, const Points& x) const {
-  CondensedBody copy = *this;
-  for (SparseMatrix* matrix : {&copy.stiffness, &copy.mass, &copy.damping})
+std::shared_ptr<const Interior> CondensedBody::turned(const Mat3& turn, const Points& x) const {
+  auto copy = std::make_shared<CondensedBody>(*this);
+  for (SparseMatrix* matrix : {&copy->stiffness, &copy->mass_matrix, &copy->damping})
     if (matrix->size() > 0) *matrix = dygita::turned(*matrix, turn);
-  for (Follower& own : copy.followers) own.arm = turn * own.arm;
-  for (auto* list : {&copy.held, &copy.absent})
+  for (Follower& own : copy->followers) own.arm = turn * own.arm;
+  for (auto* list : {&copy->held, &copy->absent})
     for (auto& [node, direction] : *list) direction = turn * direction;
-  copy.find_carried(x);
+  copy->find_carried(x);
   return copy;
+}
+
+void CondensedBody::add_to(Fnv1a& digest) const {
+  for (const SparseMatrix* matrix : {&stiffness, &mass_matrix, &damping})
+    digest.add(matrix->valuePtr(), sizeof(double) * static_cast<size_t>(matrix->nonZeros()));
 }
 
 }  // namespace dygita

@@ -104,7 +104,7 @@ std::vector<Facet> boundary_facets(const std::vector<CellBlock>& blocks) {
 }
 
 std::vector<Facet> boundary_facets(const Mesh& mesh) {
-  if (!mesh.condensed) return boundary_facets(mesh.blocks);
+  if (mesh.has_cells()) return boundary_facets(mesh.blocks);
   std::vector<Facet> boundary;
   std::set<FacetKey> known;
   for (const auto& [name, facets] : mesh.faces)
@@ -161,8 +161,7 @@ MeshPtr turned_mesh(const Mesh& mesh, const Mat3& turn, const Vec3& shift) {
   turned->shape = mesh.shape_digest();
   turned->turn = turn * mesh.turn;
   turned->shift = turn * mesh.shift + shift;
-  if (mesh.condensed)
-    turned->condensed = std::make_shared<const CondensedBody>(mesh.condensed->turned(turn, turned->nodes));
+  turned->inside = mesh.inside->turned(turn, turned->nodes);
   turned->digest = mesh_digest(*turned);
   return turned;
 }
@@ -208,9 +207,7 @@ std::string mesh_digest(const Mesh& mesh) {
     digest.add(name);
     digest.add(nodes.data(), sizeof(int) * nodes.size());
   }
-  if (mesh.condensed)
-    for (const SparseMatrix* matrix : {&mesh.condensed->stiffness, &mesh.condensed->mass, &mesh.condensed->damping})
-      digest.add(matrix->valuePtr(), sizeof(double) * static_cast<size_t>(matrix->nonZeros()));
+  mesh.inside->add_to(digest);
   return digest.hexadecimal();
 }
 

@@ -53,13 +53,14 @@ struct Mesh {
   std::string shape;
   Mat3 turn = Mat3::Identity();
   Vec3 shift = Vec3::Zero();  // m
-  // Of a body that has matrices and no cells; null: of cells.
-  std::shared_ptr<const CondensedBody> condensed = nullptr;
+  std::shared_ptr<const Interior> inside = Interior::of_cells();
 
   // Equal for meshes that are one mesh, turned and moved.
   const std::string& shape_digest() const { return shape.empty() ? digest : shape; }
   int n_nodes() const { return static_cast<int>(nodes.cols()); }
   int n_cells() const;
+  // For what only cells have: stress, waves, a mass at each node.
+  bool has_cells() const { return !inside->matrices(); }
   // Memory of the nodes and of each block's cells.
   std::vector<std::span<const std::byte>> arrays() const;
 };

@@ -21,7 +21,7 @@ void materials(const Problem& problem) {
   for (const SupportPtr& support : all_supports(problem)) {
     if (!support->kind->absorbs()) continue;
     for (const FaceOrRegion& place : support->on)
-      if (part_of(place).mesh->condensed)
+      if (!part_of(place).mesh->has_cells())
         fail(problem, support->origin,
              describe(*support) + " is on superelement '" + part_of(place).name +
                  "', which has no material to give the wave impedance",
@@ -39,7 +39,7 @@ void cells(const Problem& problem) {
                                                             : nullptr;
   if (!what || !has_dynamic_step(problem)) return;
   for (const SubstructurePtr& part : problem.substructures)
-    if (part->mesh->condensed)
+    if (!part->mesh->has_cells())
       fail(problem, part->origin,
            std::string(what) + " requires a mesh: substructure '" + part->name +
                "' is a superelement, with a mass matrix",

@@ -69,7 +69,7 @@ void doubt_hardening(const Problem& problem, const Interface& interface) {
     if (parameter.unit != "Pa/m" || !value || *value <= 0.0) continue;
     const bool first = length_behind(interface.side_1) >= length_behind(interface.side_2);
     const Face& face = first ? interface.side_1 : interface.side_2;
-    if (face.part->mesh->condensed) continue;
+    if (!face.part->mesh->has_cells()) continue;
     const double length = length_behind(face), young = face.part->material.young(), modulus = *value * length;
     if (modulus >= 1e-3 * young) continue;
     doubt(problem, interface.origin,
@@ -118,7 +118,7 @@ void doubt_moduli(const Problem& problem) {
   for (const SubstructurePtr& part : problem.substructures) {
     const auto& material = part->material;
     const double speed = std::sqrt(material.young() / material.density);  // nan: there is no material
-    if (part->mesh->condensed) continue;
+    if (!part->mesh->has_cells()) continue;
     if (!(speed < slowest) || !told.insert(material.name).second) continue;
     doubt(problem, part->origin,
           fmt::format("a bar of material '{}' (young {:.4g} GPa, density {:.4g} kg/m^3) has a wave speed of {:.3g} "

@@ -218,7 +218,7 @@ void support_follows(const Problem& problem, const Load& load, const BaseMotion&
 // What was condensed with a support stands on ground that does not move.
 void doubt_inner_supports(const Problem& problem, const Load& load, const BaseMotion& motion) {
   for (const SubstructurePtr& part : problem.substructures)
-    if (part->mesh->condensed && part->mesh->condensed->resists(part->mesh->nodes, motion.direction))
+    if (part->mesh->inside->resists(part->mesh->nodes, motion.direction))
       doubt(problem, load.origin,
             load.path + " moves " + describe(*motion.on) + ", but the support condensed with superelement '" +
                 part->name + "' is at rest");
@@ -304,7 +304,7 @@ void superelements_feel(const Problem& problem, const Load& load) {
     const auto* force = std::get_if<BodyForce>(&effect);
     if (!force) continue;
     for (const SubstructurePtr& part : problem.substructures)
-      if (part->mesh->condensed && part->mesh->condensed->resists(part->mesh->nodes, force->unit(part->place)))
+      if (part->mesh->inside->resists(part->mesh->nodes, force->unit(part->place)))
         fail(problem, load.origin,
              force->name + ": its effect inside superelement '" + part->name +
                  "' is not known, since its matrices resist that motion because a support was condensed with it",

@@ -85,7 +85,7 @@ void doubt_damping(const Problem& problem, const Step& step, double highest) {
   for (const SubstructurePtr& part : problem.substructures) {
     if (!told.insert(part->material.name).second) continue;
     const Damping& damping = part->material.damping;
-    if (part->mesh->condensed) continue;
+    if (!part->mesh->has_cells()) continue;
     const double at = damping.ratio(f);
     if (at <= most_damping) continue;
     doubt(problem, part->origin,
@@ -100,7 +100,7 @@ void doubt_damping(const Problem& problem, const Step& step, double highest) {
 
 void doubt_superelements(const Problem& problem, const Content& content) {
   for (const SubstructurePtr& part : problem.substructures) {
-    const double valid_to = part->mesh->condensed ? part->mesh->condensed->valid_to : 0.0;
+    const double valid_to = part->mesh->inside->valid_to;
     if (valid_to > 0.0 && content.frequency > valid_to)
       say(problem, content, "superelement " + part->name,
           fmt::format("superelement '{}' is valid up to {}: above that it does not represent the body", part->name,
@@ -130,7 +130,7 @@ void resolution(const Problem& problem) {
     doubt_superelements(problem, *highest);
     if (size.empty())
       for (const SubstructurePtr& part : problem.substructures)
-        size.push_back(part->mesh->condensed ? 0.0 : cell_size(*part));
+        size.push_back(part->mesh->has_cells() ? cell_size(*part) : 0.0);
     size_t worst = 0;
     const auto cells = [&](size_t i) {
       if (size[i] == 0.0) return std::numeric_limits<double>::infinity();

@@ -30,7 +30,7 @@ std::vector<double> volumes(const Problem& problem) {
 }
 
 double mass_of(const Substructure& part, double volume) {
-  return part.mesh->condensed ? part.mesh->condensed->mass_of_parts : part.material.density * volume;
+  return part.mesh->inside->mass(part.material.density * volume);
 }
 
 }  // namespace dygita

@@ -31,7 +31,7 @@ std::vector<double> brought_frequencies(const Problem& problem) {
 }
 
 double phase_of_lumped_mass(const Problem& problem, const std::vector<double>& brought, const Substructure& part) {
-  if (part.mesh->condensed) return 0.0;
+  if (!part.mesh->has_cells()) return 0.0;
   const double h = std::cbrt(volume(*part.mesh) / part.mesh->n_cells()), speed = part.material.s_wave_speed();
   const double highest = speed / (fewest_cells_a_wavelength * h);
   double phase = 0.0;

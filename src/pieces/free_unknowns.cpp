@@ -8,21 +8,19 @@
 namespace dygita {
 
 FreeUnknowns::FreeUnknowns(int n_nodes, const std::vector<InterfaceRow>& rows,
-                           const std::unordered_map<int, Held>& held, const CondensedBody* condensed)
-    : special_(n_nodes, -1), count_(n_nodes, 3), first_(n_nodes), condensed_(condensed) {
+                           const std::unordered_map<int, Held>& held, const Interior& inside)
+    : special_(n_nodes, -1), count_(n_nodes, 3), first_(n_nodes), inside_(&inside) {
   std::unordered_map<int, std::vector<Vec3>> wanted;
   for (const InterfaceRow& row : rows)
     if (row.is_of_one_node()) wanted[row.nodes[0].node].push_back(row.nodes[0].along);
   for (const auto& [node, conditions] : held) wanted[node];
   std::unordered_map<int, std::vector<Vec3>> absent;  // directions without an unknown
-  if (condensed)
-    for (const auto& [node, direction] : condensed->absent) absent[node].push_back(direction);
+  for (const auto& [node, direction] : inside.absent) absent[node].push_back(direction);
   for (const auto& [node, directions] : absent) wanted[node];
-  if (condensed)
-    for (const CondensedBody::Follower& own : condensed->followers) {
-      wanted[own.node];
-      for (int d = 0; d < 3; ++d) absent[own.node].push_back(Vec3::Unit(d));
-    }
+  for (const Interior::Follower& own : inside.followers) {
+    wanted[own.node];
+    for (int d = 0; d < 3; ++d) absent[own.node].push_back(Vec3::Unit(d));
+  }
   for (const auto& [node, directions] : wanted) {
     Held basis;
     if (const auto it = held.find(node); it != held.end()) basis = it->second;
@@ -148,19 +146,19 @@ Points FreeUnknowns::expand(const Vec& free, const std::vector<double>& held) co
     nodal.col(node) = value;
   }
   for (size_t i = 0; i < held_.size(); ++i) nodal.col(held_[i].node) += held[i] * held_[i].direction;
-  if (condensed_) add_followers(nodal);
+  add_followers(nodal);
   return nodal;
 }
 
 void FreeUnknowns::add_followers(Points& nodal) const {
-  for (const CondensedBody::Follower& own : condensed_->followers) {
+  for (const Interior::Follower& own : inside_->followers) {
     nodal.col(own.node) = nodal.col(own.point);
     if (own.turn >= 0) nodal.col(own.node) += Vec3(nodal.col(own.turn)).cross(own.arm) / own.size;
   }
 }
 
 Points FreeUnknowns::expand(const Vec& free, const std::vector<double>& held, const std::vector<int>& nodes) const {
-  if (condensed_ && !condensed_->followers.empty()) return expand(free, held)(Eigen::all, nodes);
+  if (!inside_->followers.empty()) return expand(free, held)(Eigen::all, nodes);
   Points nodal(3, static_cast<Eigen::Index>(nodes.size()));
   for (size_t i = 0; i < nodes.size(); ++i) {
     const int node = nodes[i];

@@ -56,10 +56,10 @@ class Traces {
 class FreeUnknowns {
  public:
   // Of a node they are numbered from first(node) on, along the columns of its basis: the directions of rows of this
-  // node alone where they are orthonormal, so that such a row is one unknown. condensed: of a body without cells, which
-  // outlives this object; else null.
+  // node alone where they are orthonormal, so that such a row is one unknown. inside: of the body, outlives this
+  // object.
   FreeUnknowns(int n_nodes, const std::vector<InterfaceRow>& rows, const std::unordered_map<int, Held>& held,
-               const CondensedBody* condensed = nullptr);
+               const Interior& inside = *Interior::of_cells());
   // Those of a turned copy of the piece that `equal` belongs to, along the turned directions and in the same order, so
   // that matrices have the same entries (manual, equal substructures). held: of the copy, the turned ones.
   FreeUnknowns(const FreeUnknowns& equal, const Mat3& turn, const std::unordered_map<int, Held>& held);
@@ -110,7 +110,7 @@ class FreeUnknowns {
   std::vector<Mat3> bases_;
   std::vector<int> position_;
   std::vector<HeldDirection> held_;
-  const CondensedBody* condensed_ = nullptr;
+  const Interior* inside_;
 };
 
 }  // namespace dygita

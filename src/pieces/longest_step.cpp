@@ -125,7 +125,7 @@ double tuned_wave_speed(const Substructure& part, const HeldNodes& held) {
 }
 
 std::string why_not_explicit(const Body& body, double numerical_damping) {
-  if (body.part->mesh->condensed) return "a superelement has no mass of its own at each node";
+  if (!body.part->mesh->has_cells()) return "a superelement has no mass of its own at each node";
   if (numerical_damping != 0.0) return "'numerical_damping' belongs to the implicit scheme";
   if (!body.mass->is_massless.empty()) return "'massless_contact' gives nodes without mass";
   if (body.mass->least <= 0.0) return "it has a node without mass";

@@ -18,9 +18,7 @@ std::vector<std::pair<int, Mat3>> by_node(const std::unordered_map<int, Mat3>& i
 
 double PieceSetup::mass_share() const { return scheme.inertia_of_end(body->part->material.damping); }
 
-FreeUnknowns unknowns_of(const PieceSetup& setup) {
-  return {setup.n_nodes(), setup.rows, setup.held, setup.condensed()};
-}
+FreeUnknowns unknowns_of(const PieceSetup& setup) { return {setup.n_nodes(), setup.rows, setup.held, setup.inside()}; }
 
 namespace {
 

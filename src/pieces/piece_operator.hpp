@@ -35,11 +35,10 @@ struct PieceSetup {
 
   int n_nodes() const { return body->part->mesh->n_nodes(); }
   double mass_share() const;  // of M V1 in the equation of an increment, 1/s
-  const CondensedBody* condensed() const { return body->part->mesh->condensed.get(); }
-  // N s/m, 3n x 3n: that of a body without cells in a dynamic step; null: there is none.
+  const Interior& inside() const { return *body->part->mesh->inside; }
+  // N s/m, 3n x 3n: that inside of it in a dynamic step; null: there is none.
   const SparseMatrix* damping() const {
-    const CondensedBody* own = condensed();
-    return own && !scheme.is_static && own->damping.size() > 0 ? &own->damping : nullptr;
+    return !scheme.is_static && inside().damping.size() > 0 ? &inside().damping : nullptr;
   }
 };
 

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "base/union_find.hpp"
 #include "numerics/dense.hpp"
@@ -26,7 +25,7 @@ SparseMatrix diagonal_matrix(const Vec& values) {
 // Nodes of a mesh that its cells join, lump by lump. A body of matrices is one.
 std::vector<std::vector<int>> lumps_of(const Mesh& mesh) {
   UnionFind joined(mesh.n_nodes());
-  if (mesh.condensed)
+  if (!mesh.has_cells())
     for (int i = 1; i < mesh.n_nodes(); ++i) joined.join(0, i);
   for (const CellBlock& block : mesh.blocks) {
     const size_t n = cell_shape(block.type).shape.nodes.size();
@@ -42,20 +41,11 @@ std::vector<std::vector<int>> lumps_of(const Mesh& mesh) {
 
 // Translations along the axes and rotations about them through `centre`, by an angle of one over `size`, of some nodes
 // (all of a body of matrices): 3 n x 6.
-Mat rigid_motions_of(const Mesh& mesh, const std::vector<int>& nodes, const Vec3& centre, double size) {
-  const Points x = mesh.nodes(Eigen::all, nodes);
+Mat rigid_motions_of(const Mesh& mesh, const Points& x, const Vec3& centre, double size) {
   Mat motions(3 * x.cols(), 6);
   for (int d = 0; d < 3; ++d) {
-    const Vec3 turn = Vec3::Unit(d) / size;
-    if (mesh.condensed) {
-      motions.col(d) = mesh.condensed->rigid_motion(mesh.nodes, Vec3::Unit(d), Vec3::Zero()).reshaped();
-      motions.col(3 + d) = mesh.condensed->rigid_motion(mesh.nodes, -turn.cross(centre), turn).reshaped();
-      continue;
-    }
-    for (Eigen::Index i = 0; i < x.cols(); ++i) {
-      motions.block<3, 1>(3 * i, d) = Vec3::Unit(d);
-      motions.block<3, 1>(3 * i, 3 + d) = turn.cross(Vec3(x.col(i) - centre));
-    }
+    motions.col(d) = mesh.inside->rigid_motion(x, Vec3::Unit(d), Vec3::Zero()).reshaped();
+    motions.col(3 + d) = mesh.inside->rigid_motion(x, centre, Vec3::Zero(), Vec3::Unit(d) / size).reshaped();
   }
   return motions;
 }
@@ -65,7 +55,7 @@ Mat motions_of(const Mesh& mesh, const std::vector<int>& lump) {
   const Points x = mesh.nodes(Eigen::all, lump);
   const Vec3 centre = x.rowwise().mean();
   const double size = std::sqrt((x.colwise() - centre).colwise().squaredNorm().mean());
-  const Mat motions = rigid_motions_of(mesh, lump, centre, size > 0.0 ? size : 1.0);
+  const Mat motions = rigid_motions_of(mesh, x, centre, size > 0.0 ? size : 1.0);
   const EigenPairs gram = symmetric_eigen(motions.transpose() * motions);
   const auto rank = (gram.values.array() > 1e-12 * gram.values.tail(1)[0]).count();
   return motions * (gram.vectors.rightCols(rank) * gram.values.tail(rank).cwiseSqrt().cwiseInverse().asDiagonal());
@@ -133,12 +123,6 @@ Mat orthonormal(const Mat& x, const SparseMatrix& mass) {
   return x * (gram.vectors * gram.values.cwiseSqrt().cwiseInverse().asDiagonal());
 }
 
-std::vector<int> all_nodes(const Mesh& mesh) {
-  std::vector<int> nodes(static_cast<size_t>(mesh.n_nodes()));
-  std::iota(nodes.begin(), nodes.end(), 0);
-  return nodes;
-}
-
 }  // namespace
 
 Mat WholeInertia::sorted(const Mat& of_vectors) const {
@@ -166,7 +150,7 @@ WholeInertia whole_inertia(const LinearAssembly& assembly, const Problem& proble
   SpatialInertia inertia = SpatialInertia::Zero();
   for (size_t p = 0; p < parts.size(); ++p) {
     const Mesh& mesh = *parts[p]->mesh;
-    const Mat motions = rigid_motions_of(mesh, all_nodes(mesh), near - parts[p]->place, 1.0);
+    const Mat motions = rigid_motions_of(mesh, mesh.nodes, near - parts[p]->place, 1.0);
     auto own = of_nodes.middleRows(3 * assembly.first_node[p], motions.rows());
     own = assembly.nodal_masses[p] * motions;
     inertia += motions.transpose() * own;

@@ -261,16 +261,16 @@ void add_matrices(const Problem& problem, LinearAssembly& assembly) {
     const BodyMatrices& own = it->second;
     const SparseMatrix map = assembly.map.middleRows(3 * assembly.first_node[part], 3 * body.mesh->n_nodes());
     const SparseMatrix transposed = map.transpose();
-    const CondensedBody* condensed = body.mesh->condensed.get();
-    assembly.nodal_masses.push_back(condensed ? condensed->mass : by_axis(nodal_mass(body, own)));
+    const CondensedBody* matrices = body.mesh->inside->matrices();
+    assembly.nodal_masses.push_back(matrices ? matrices->mass_matrix : by_axis(nodal_mass(body, own)));
     const SparseMatrix k_map = own.stiffness * map, m_map = assembly.nodal_masses.back() * map;
     const SparseMatrix k = transposed * k_map, m = transposed * m_map;
     assembly.stiffness += k;
     assembly.mass += m;
     assembly.mass_of_parts += own.mass.sum();
-    if (condensed && condensed->damping.size() > 0) {
+    if (const SparseMatrix& inside = body.mesh->inside->damping; inside.size() > 0) {
       if (assembly.damping.rows() == 0) assembly.damping.resize(n, n);
-      const SparseMatrix c_map = condensed->damping * map;
+      const SparseMatrix c_map = inside * map;
       assembly.damping += SparseMatrix(transposed * c_map);
     }
     const Damping& damping = material.damping;

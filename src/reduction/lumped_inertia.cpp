@@ -98,7 +98,7 @@ void doubt_lumped_inertia(const Problem& problem) {
   for (const SubstructurePtr& part : problem.substructures) {
     // Modes have the consistent mass of such cells; motions may not, where they are explicit.
     if (!moves && has_consistent_mass(*part->mesh)) continue;
-    if (part->mesh->condensed || !told.insert(part->mesh.get()).second) continue;
+    if (!part->mesh->has_cells() || !told.insert(part->mesh.get()).second) continue;
     const LumpedInertia lumped = lumped_inertia(*part->mesh);
     if (lumped.ratio < most || !is_slender(*part->mesh, lumped.axis) ||
         is_kept_from_turning(problem, part, lumped.axis))

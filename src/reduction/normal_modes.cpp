@@ -128,8 +128,7 @@ void sort_equal_modes(const WholeInertia& whole, Eigenmodes& modes) {
 std::vector<char> places_of(const Problem& problem) {
   std::vector<char> is_place;
   for (const SubstructurePtr& part : problem.substructures)
-    for (int i = 0; i < part->mesh->n_nodes(); ++i)
-      is_place.push_back(!part->mesh->condensed || part->mesh->condensed->is_place(i));
+    for (int i = 0; i < part->mesh->n_nodes(); ++i) is_place.push_back(part->mesh->inside->is_place(i));
   return is_place;
 }
 

@@ -18,8 +18,7 @@ std::string held_inside(Eigen::Index n) {
 }
 
 // "  substructure 'launcher': superelement of 312 rows, 100 points and 4 modes, to be used up to 30 kHz, 2.1 kg".
-std::string condensed_line(const Substructure& part, const Vec3& size) {
-  const CondensedBody& body = *part.mesh->condensed;
+std::string condensed_line(const Substructure& part, const CondensedBody& body, const Vec3& size) {
   return fmt::format(
       "  substructure '{}': superelement of {} rows, {} points on {} faces{}{}, {:.4g} kg, {:.4g} x {:.4g} x "
       "{:.4g} mm\n",
@@ -46,7 +45,7 @@ std::string wave_lines(const Elastic& material) {
 std::string part_line(const Substructure& part) {
   const Points& nodes = part.mesh->nodes;
   const Vec3 size = 1e3 * (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff());
-  if (part.mesh->condensed) return condensed_line(part, size);
+  if (const CondensedBody* own = part.mesh->inside->matrices()) return condensed_line(part, *own, size);
   return fmt::format(
              "  substructure '{}': {} nodes, {} cells (worst shape {:.2g}), {}, {:.4g} kg, {:.4g} x {:.4g} x {:.4g} "
              "mm\n",

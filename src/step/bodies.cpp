@@ -165,7 +165,7 @@ using BodyKey = std::pair<std::string, MaterialKey>;
 
 // A mass has no directions: turned copies have the same. A mass matrix of its own has some.
 BodyKey mass_key(const Substructure& part) {
-  return {part.mesh->condensed ? part.mesh->digest : part.mesh->shape_digest(), part.material.key()};
+  return {part.mesh->has_cells() ? part.mesh->shape_digest() : part.mesh->digest, part.material.key()};
 }
 
 // Of which pieces the masses are known on all ranks: all where loads are laid on them; else those that give theirs to
@@ -209,9 +209,9 @@ Mass mass_of(const Problem& problem, const Body& body, const Vec& lumped, const 
   const Elastic& m = body.part->material;
   const bool has_massless = std::find(marked.begin(), marked.end(), 1) != marked.end();
   Mass mass{lumped, {}, {}};
-  if (mesh.condensed) {
+  if (const CondensedBody* own = mesh.inside->matrices()) {
     CHECK(!has_massless && !problem.mass().is_tuned, "refused by check_problem");
-    if (dt >= 0.0) mass.full = mesh.condensed->mass;
+    if (dt >= 0.0) mass.full = own->mass_matrix;
     mass.is_consistent = true;
     if (lumped.size() > 0) mass.all = mass.lumped.sum();
     return mass;

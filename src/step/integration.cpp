@@ -104,7 +104,6 @@ std::unordered_map<int, Held> held_of(const Cut& cut, int piece, const Condition
 // that of tetrahedra: at equal cost their consistent mass is more accurate in implicit increments (manual, explicit
 // substructures).
 bool loses_by_diagonal(const Mesh& mesh) {
-  if (mesh.condensed) return false;
   const auto has_no_middle = [](const LocalFacet& facet) {
     const FacetShape& shape = facet_shape(facet.type);
     return shape.n_corners == 4 && nodes_per_facet(facet.type) == 2 * shape.n_corners;

@@ -83,9 +83,9 @@ std::vector<InterfaceRow> rows_of(const StepModel& model, int piece, const std::
   double total_area = 0.0;
   for (const PortAt& at : ports) total_area += model.exchange.ports[at.port].area;
   const bool needs_reference = model.scheme.is_static && is_floating(body, held);
-  const double length = body.mesh->condensed ? extent_of(body).size().norm()
-                        : total_area > 0.0   ? volume(*body.mesh) / total_area
-                                             : 1.0;
+  const double length = !body.mesh->has_cells() ? extent_of(body).size().norm()
+                        : total_area > 0.0      ? volume(*body.mesh) / total_area
+                                                : 1.0;
   const ElasticTensor tensor = mean_tensor(body.material, *body.mesh);
   for (const PortAt& at : ports) {
     const Port& port = model.exchange.ports[at.port];
@@ -110,7 +110,7 @@ std::vector<InterfaceRow> rows_of(const StepModel& model, int piece, const std::
 // A static step has no mass that would bound what rounding does to soft motions, and nodes without mass have a
 // recurrence of their own.
 Precision precision_of(const StepModel& model, int part, const Body& body) {
-  if (model.scheme.is_static || !body.mass->is_massless.empty() || body.part->mesh->condensed)
+  if (model.scheme.is_static || !body.mass->is_massless.empty() || !body.part->mesh->has_cells())
     return Precision::double_precision;
   return stored_precision(model.problem->solver, 3.0 * model.problem->substructures[part]->mesh->n_nodes());
 }

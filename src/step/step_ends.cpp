@@ -174,8 +174,7 @@ bool take_up_motions(const StepModel& model, State& state) {
 }
 
 Points start_velocity(const Substructure& body) {
-  if (body.mesh->condensed) return body.mesh->condensed->rigid_motion(body.mesh->nodes, body.velocity, Vec3::Zero());
-  return body.velocity.replicate(1, body.mesh->n_nodes());
+  return body.mesh->inside->rigid_motion(body.mesh->nodes, body.velocity, Vec3::Zero());
 }
 
 bool are_thrown_apart(const Problem& problem) {
@@ -219,7 +218,7 @@ void start_step(StepModel& model, State& state) {
   // Superelements alone feel what stops or moves others of their rows.
   const bool may_jump =
       !is_static && std::any_of(model.problem->substructures.begin(), model.problem->substructures.end(),
-                                [](const SubstructurePtr& part) { return part->mesh->condensed; });
+                                [](const SubstructurePtr& part) { return !part->mesh->has_cells(); });
   std::vector<Points> had = may_jump ? state.velocity : std::vector<Points>();
   double fastest = 0.0, stopped = 0.0;  // m/s, of what supports take
   const auto give_to_pieces = [&] {

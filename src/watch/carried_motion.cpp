@@ -21,11 +21,10 @@ CarriedMotion::CarriedMotion(const Instant& start) {
           for (const auto& [k, other] : at_node.motion[j]) square_(i, k) += share * other;
         }
       }
-  for (const SubstructurePtr& part : model.problem->substructures)
-    if (part->mesh->condensed) {
-      const Eigen::Matrix3Xd resisted = part->mesh->condensed->resisted_motions(part->mesh->nodes).topRows<3>();
-      held += resisted * resisted.transpose();
-    }
+  for (const SubstructurePtr& part : model.problem->substructures) {
+    const Eigen::Matrix3Xd resisted = part->mesh->inside->resisted_motions(part->mesh->nodes).topRows<3>();
+    held += resisted * resisted.transpose();
+  }
   for (const Surface& surface : *model.surfaces)
     if (surface.wall && takes_part(*model.problem, *model.step, surface))
       held += surface.facing.normals * surface.facing.normals.transpose();

@@ -15,7 +15,7 @@ void LinkedParts::begin_step(const Instant& start) {
   for (int part = 0; part < ground_; ++part)
     if (const Mesh& mesh = *model.problem->substructures[static_cast<size_t>(part)]->mesh;
         !model.conditions.held[static_cast<size_t>(part)].empty() ||
-        (mesh.condensed && mesh.condensed->resisted_motions(mesh.nodes).cols() > 0))
+        mesh.inside->resisted_motions(mesh.nodes).cols() > 0)
       sets_.join(part, ground_);
   for (const SupportPtr& support : supports_of(*model.problem, *model.step))
     if (support->kind->absorbs())

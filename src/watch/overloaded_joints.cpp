@@ -73,10 +73,9 @@ struct Group {
 void add_part(const Instant& instant, int part, Group& group) {
   group.parts.push_back(part);
   const Points force = instant.model.external_force(part, instant.state);
-  const CondensedBody* condensed =
-      instant.model.problem->substructures[static_cast<size_t>(part)]->mesh->condensed.get();
+  const Interior& inside = *instant.model.problem->substructures[static_cast<size_t>(part)]->mesh->inside;
   for (int node = 0; node < force.cols(); ++node)
-    if (!condensed || condensed->is_place(node)) group.load += force.col(node);
+    if (inside.is_place(node)) group.load += force.col(node);
   for (const auto& [node, held] : instant.model.conditions.held[part])
     for (int j = 0; j < held.n; ++j)  // what only the program has pinned holds nothing
       if (held.support[j] || !held.motion[j].empty())

@@ -169,11 +169,11 @@ void PartViews::take(const Instant& instant, NodalField field) {
   prepare(instant.model.cut);
   nodes_.take(instant, field);
   for (size_t part = 0; part < problem_.substructures.size(); ++part) {
-    const CondensedBody* condensed = problem_.substructures[part]->mesh->condensed.get();
-    if (!condensed || views_[part].is_empty()) continue;
+    const Mesh& mesh = *problem_.substructures[part]->mesh;
+    if (mesh.has_cells() || views_[part].is_empty()) continue;
     std::vector<int> no_places;
-    for (int node = 0; node < condensed->n_nodes(); ++node)
-      if (!condensed->is_place(node)) no_places.push_back(node);
+    for (int node = 0; node < mesh.n_nodes(); ++node)
+      if (!mesh.inside->is_place(node)) no_places.push_back(node);
     nodes_.clear(static_cast<int>(part), no_places);
   }
 }

@@ -70,7 +70,7 @@ void SkinRecorder::prepare(const Instant& instant) {
 SkinRecorder::Layer SkinRecorder::layer_of(const PartView& view, const std::vector<int>& boundary) {
   Layer layer;
   const Mesh& mesh = view.mesh();
-  if (mesh.condensed) {  // never cut: its nodes as they are
+  if (!mesh.has_cells()) {  // never cut: its nodes as they are
     auto some = std::make_shared<Mesh>();
     some->nodes = mesh.nodes(Eigen::all, boundary);
     layer.mesh = some;

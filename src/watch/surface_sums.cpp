@@ -62,9 +62,8 @@ void add_support(Resultant& r, Vec3& tangential, const Instant& instant, const P
       nodes = std::get<Region>(on).nodes;
       normals = Points::Zero(3, nodes.size());
     }
-    if (const CondensedBody* condensed = body->mesh->condensed.get())  // a rigid face is held at its point
-      for (int& node : nodes)
-        if (const CondensedBody::Follower* own = condensed->follower(node)) node = own->point;
+    for (int& node : nodes)  // a rigid face is held at its point
+      if (const Interior::Follower* own = body->mesh->inside->follower(node)) node = own->point;
     const bool is_absorbing = support.kind->absorbs() && !instant.is_static();
     Points force = is_absorbing ? instant.absorbing_force(part) : instant.reactions(part);
     if (is_absorbing)

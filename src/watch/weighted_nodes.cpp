@@ -17,7 +17,7 @@ WeightedNodes weighted_nodes(const Problem& problem, const FaceOrRegion& place) 
     on.part = index_of(problem.substructures, region.part.get());
     on.nodes = region.nodes;
     const Mesh& mesh = *region.part->mesh;
-    const Vec volumes = mesh.condensed ? Vec(Vec::Ones(mesh.n_nodes())) : nodal_volumes(mesh);
+    const Vec volumes = mesh.has_cells() ? nodal_volumes(mesh) : Vec(Vec::Ones(mesh.n_nodes()));
     for (const int node : region.nodes) on.weights.push_back(volumes[node]);
   }
   return on;

@@ -219,9 +219,9 @@ TEST(SuperelementPart, reads_plain_matrices_with_points_in_any_order_of_rows) {
   std::vector<int> row_of(n);  // of each old row, in the new matrices
   for (int i = 0; i < n; ++i) row_of[order[i]] = i;
   const auto mixed = [&](const SparseMatrix& by_node) { return Mat(Mat(by_node)(order, order)); };
-  folder.write("k.mtx", matrix_text(mixed(mesh->condensed->stiffness), false));
-  folder.write("m.mtx", matrix_text(mixed(mesh->condensed->mass), true));
-  folder.write("c.mtx", matrix_text(mixed(mesh->condensed->damping), true));
+  folder.write("k.mtx", matrix_text(mixed(mesh->inside->matrices()->stiffness), false));
+  folder.write("m.mtx", matrix_text(mixed(mesh->inside->matrices()->mass_matrix), true));
+  folder.write("c.mtx", matrix_text(mixed(mesh->inside->damping), true));
   std::ostringstream points;
   points.precision(17);
   points << "# points of another program\nface;x;y;z;row_x;row_y;row_z\n";
@@ -246,7 +246,7 @@ TEST(SuperelementPart, may_have_its_inside_uncondensed) {
   const Folder folder;
   folder.condense(condensing);
   const MeshPtr mesh = read_superelement(folder.of("low.json"));
-  const Mat k = mesh->condensed->stiffness, m = mesh->condensed->mass;
+  const Mat k = mesh->inside->matrices()->stiffness, m = mesh->inside->matrices()->mass_matrix;
   // The lower face's rows count as inside: a motion as a whole moves them too.
   folder.write("k.mtx", matrix_text(k, true));
   folder.write("m.mtx", matrix_text(m, true));
@@ -262,9 +262,9 @@ TEST(SuperelementPart, may_have_its_inside_uncondensed) {
   }
   folder.write("points.csv", points.str());
   const MeshPtr open = read_matrices({folder.of("k.mtx"), folder.of("m.mtx"), {}, folder.of("points.csv")});
-  EXPECT_EQ(open->condensed->resisted_motions(open->nodes).cols(), 0);
+  EXPECT_EQ(open->inside->resisted_motions(open->nodes).cols(), 0);
   mass = 0.03 * 0.02 * 0.01 * 7800;
-  EXPECT_NEAR(open->condensed->mass_of_parts, mass, 1e-9 * mass);
+  EXPECT_NEAR(open->inside->matrices()->mass_of_parts, mass, 1e-9 * mass);
 }
 
 // --- faces that move as a whole
@@ -400,8 +400,8 @@ TEST(SuperelementPart, of_points_alone_is_attached_by_the_names_of_faces) {
   const Folder folder;
   folder.condense(condensing);
   const MeshPtr mesh = read_superelement(folder.of("low.json"));
-  folder.write("k.mtx", matrix_text(mesh->condensed->stiffness, true));
-  folder.write("m.mtx", matrix_text(mesh->condensed->mass, true));
+  folder.write("k.mtx", matrix_text(mesh->inside->matrices()->stiffness, true));
+  folder.write("m.mtx", matrix_text(mesh->inside->matrices()->mass_matrix, true));
   std::string points = "face,x,y,z\n";
   for (int node = 0; node < 18; ++node)
     points += std::string(mesh->nodes(2, node) > 0.005 ? "zmax" : "zmin") + "," + std::to_string(mesh->nodes(0, node)) +

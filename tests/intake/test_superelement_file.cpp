@@ -90,7 +90,7 @@ TEST_F(SuperelementFile, refuses_what_is_no_symmetric_matrix) {
 
 TEST_F(SuperelementFile, knows_its_mass_and_which_motions_nothing_resists) {
   const MeshPtr mesh = read_matrices(spring());
-  const CondensedBody& body = *mesh->condensed;
+  const CondensedBody& body = *mesh->inside->matrices();
   EXPECT_EQ(mesh->point_groups.at("end"), (std::vector<int>{0, 1}));
   EXPECT_EQ(body.n_rows(), 6);
   EXPECT_DOUBLE_EQ(body.mass_of_parts, 4.0);
@@ -106,16 +106,16 @@ TEST_F(SuperelementFile, turns_with_its_matrices) {
   const Mat3 quarter = Eigen::AngleAxisd(0.5 * 3.14159265358979323846, Vec3::UnitZ()).toRotationMatrix();
   const MeshPtr turned = turned_mesh(*mesh, quarter, Vec3::Zero());
   EXPECT_NEAR(turned->nodes(1, 1), 1.0, 1e-15);
-  EXPECT_NEAR(turned->condensed->stiffness.coeff(1, 1), 5.0, 1e-12);  // what was along x is along y
-  EXPECT_NEAR(turned->condensed->stiffness.coeff(0, 0), 1.0, 1e-12);
-  EXPECT_NEAR(turned->condensed->stiffness.coeff(4, 1), -5.0, 1e-12);
+  EXPECT_NEAR(turned->inside->matrices()->stiffness.coeff(1, 1), 5.0, 1e-12);  // what was along x is along y
+  EXPECT_NEAR(turned->inside->matrices()->stiffness.coeff(0, 0), 1.0, 1e-12);
+  EXPECT_NEAR(turned->inside->matrices()->stiffness.coeff(4, 1), -5.0, 1e-12);
   EXPECT_NE(turned->digest, mesh->digest);
 }
 
 // Rows that are no modes move with the body.
 TEST_F(SuperelementFile, carries_rows_without_a_point_along) {
   const MeshPtr mesh = read_matrices(spring("face;x;y;z;row_x;row_y;row_z\nend;0;0;0;1;2;3\n"));
-  const CondensedBody& body = *mesh->condensed;
+  const CondensedBody& body = *mesh->inside->matrices();
   const Points moved = body.rigid_motion(mesh->nodes, Vec3(1, 2, 3), Vec3::Zero());
   EXPECT_LT((moved.col(0) - Vec3(1, 2, 3)).norm(), 1e-12);
   EXPECT_LT((moved.col(1) - Vec3(1, 2, 3)).norm(), 1e-12);
@@ -177,8 +177,8 @@ TEST_F(SuperelementFile, reads_a_description_and_refuses_what_has_been_changed) 
       ", \"faces\": [{\"name\": \"side\", \"points\": [1, 2, 3], \"facets\": [{\"type\": 5, \"nodes\": [1, 2, 3]}]}]";
   const MeshPtr mesh = read_superelement(described(digest, nodes + faces));
   EXPECT_EQ(mesh->faces.at("side").size(), 1u);
-  EXPECT_EQ(mesh->condensed->held.size(), 3u);  // rows 0: a support was condensed with it
-  EXPECT_EQ(mesh->condensed->valid_to, 10.0);
+  EXPECT_EQ(mesh->inside->held.size(), 3u);  // rows 0: a support was condensed with it
+  EXPECT_EQ(mesh->inside->valid_to, 10.0);
   EXPECT_NE(told(described("0123", nodes + faces)).find("is not the stiffness that"), std::string::npos);
   EXPECT_NE(told(described(digest, nodes)).find("an entry is missing"), std::string::npos);
   EXPECT_NE(told(described(digest, "\"nodes\": [{\"place\": [0, 0, 0], \"rows\": [1, 2, 9]}]" + faces))

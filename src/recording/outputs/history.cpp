@@ -137,7 +137,8 @@ class HistoryOutput final : public Output {
     const bool is_of_stress =
         request_.what.quantity == Quantity::stress || request_.what.quantity == Quantity::von_mises;
     for (const Target& target : request_.on)
-      if (const auto place = check::place_of(target); place && is_of_stress && check::part_of(*place).mesh->condensed)
+      if (const auto place = check::place_of(target);
+          place && is_of_stress && !check::part_of(*place).mesh->has_cells())
         check::fail(
             problem, origin,
             known_as() + ": superelement '" + check::part_of(*place).name + "' has no stress, since it has no cells",
@@ -149,7 +150,7 @@ class HistoryOutput final : public Output {
   void doubt(const Problem& problem) const override {
     for (const Target& target : request_.on)
       if (const auto* region = std::get_if<Region>(&target);
-          region && region->part->mesh->condensed && !region->part->mesh->faces.empty())
+          region && !region->part->mesh->has_cells() && !region->part->mesh->faces.empty())
         check::doubt(problem, origin,
                      known_as() + " is a mean over nodes of superelement '" + region->part->name +
                          "', which weights each equally; in a mesh it weights them by volume");

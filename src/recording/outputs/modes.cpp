@@ -161,7 +161,7 @@ class ModesOutput final : public Output {
     if (after_) check::listed(problem, who + " is made after step", *after_, problem.steps, "steps");
     check_number(problem);
     for (const SubstructurePtr& part : problem.substructures)
-      if (part->mesh->condensed && !part->mesh->condensed->followers.empty())
+      if (!part->mesh->inside->followers.empty())
         check::fail(
             problem, origin,
             who + ": superelement '" + part->name + "' has faces that move as a whole, whose modes are not computed",

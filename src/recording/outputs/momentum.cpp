@@ -59,9 +59,9 @@ class MomentumOutput final : public Output {
     }
     for (const SubstructurePtr& part : problem.substructures) {
       const bool is_asked = of_.empty() || std::find(of_.begin(), of_.end(), part) != of_.end();
-      if (!is_asked || !part->mesh->condensed) continue;
+      if (!is_asked) continue;
       for (int axis = 0; axis < 3; ++axis)
-        if (part->mesh->condensed->resists(part->mesh->nodes, Vec3::Unit(axis)))
+        if (part->mesh->inside->resists(part->mesh->nodes, Vec3::Unit(axis)))
           check::fail(problem, origin,
                       known_as() + ": superelement '" + part->name +
                           "' contains a condensed support: its internal motion is unknown",
@@ -93,13 +93,13 @@ class MomentumOutput final : public Output {
       const SubstructurePtr& part = problem.substructures[i];
       const bool is_asked = of_.empty() || std::find(of_.begin(), of_.end(), part) != of_.end();
       const double density = part->material.density;
-      if (is_asked && part->mesh->condensed) {
-        const CondensedBody& body = *part->mesh->condensed;
+      const CondensedBody* matrices = part->mesh->inside->matrices();
+      if (is_asked && matrices) {
         WeighedPart& own = parts.emplace_back(WeighedPart{static_cast<int>(i), {}, {}});
         for (int d = 0; d < 3; ++d) {
-          const Points moved = body.rigid_motion(part->mesh->nodes, Vec3::Unit(d), Vec3::Zero());
+          const Points moved = matrices->rigid_motion(part->mesh->nodes, Vec3::Unit(d), Vec3::Zero());
           own.of_matrix[static_cast<size_t>(d)].resize(3, moved.cols());
-          own.of_matrix[static_cast<size_t>(d)].reshaped() = body.mass * moved.reshaped();
+          own.of_matrix[static_cast<size_t>(d)].reshaped() = matrices->mass_matrix * moved.reshaped();
         }
       } else if (is_asked)
         parts.push_back(

@@ -148,7 +148,7 @@ class SuperelementOutput final : public Output {
                   "it is linearised about the state after one; or name another step with 'after'");
     check_faces(problem, *step);
     for (const SubstructurePtr& part : problem.substructures)
-      if (part->mesh->condensed && !part->mesh->condensed->followers.empty())
+      if (!part->mesh->inside->followers.empty())
         check::fail(
             problem, origin,
             who + ": superelement '" + part->name + "' has faces that move as a whole, which cannot be condensed again",
