@@ -249,16 +249,23 @@ words[3] = {
 local part_arguments = words[3].call.arguments
 words[3][1] = {
   "superelement", makes = "substructure",
-  doc = "A part given by its matrices: from output.superelement or from another program, in SI. It takes part in interfaces, supports and "
+  doc = "A part given by its matrices: from output.superelement or from another program. It takes part in interfaces, supports and "
     .. "all steps; it has no stress, and no joint inside it opens or slides. Its faces are those with which it was condensed. `file`, or `stiffness`, `mass` and `points`.",
   arguments = {
     name_of "part",
     { "file", type = "file", doc = "the `<name>.json` that output.superelement has written, beside its matrices" },
-    { "stiffness", type = "file", doc = "N/m, in Matrix Market format: first the rows of the points, then those of modes" },
-    { "mass", type = "file", doc = "kg, the same rows" },
-    { "damping", type = "file", doc = "N s/m, the same rows; left out: none" },
-    { "points", type = "file", doc = "table (CSV) of the interface's points with a line of titles: face, x, y, z in metres; row_x, row_y, row_z, the numbers of their "
-      .. "rows, where these are not in the order of the table" },
+    { "stiffness", type = "file", doc = "symmetric, of points and modes: Matrix Market; Nastran's DMIG (`.pch`, `.bdf`) or OUTPUT4 as text (`.op4`); `.mtx` of Abaqus or CalculiX; "
+      .. "CalculiX's `.sti`, with the `.dof` beside it" },
+    { "mass", type = "file", doc = "the same rows (CalculiX: `.mas`)" },
+    { "damping", type = "file", doc = "the same rows; left out: none" },
+    { "points", type = "file", doc = "table (CSV) of the interface's points with a line of titles: face, x, y, z; node, the number of each, where the matrices name their rows "
+      .. "by nodes; else row_x, row_y, row_z, the numbers of their rows, where these are not in the order of the table" },
+    { "stiffness_name", type = "text", default_doc = "the only one that begins with K", doc = "of the matrix in a file of several (Nastran)" },
+    { "mass_name", type = "text", default_doc = "the only one that begins with M", doc = "the same" },
+    { "damping_name", type = "text", default_doc = "the only one that begins with B, C or D", doc = "the same" },
+    { "units", type = "choice", choices = { "m kg s", "mm t s", "mm kg ms", "in lbf s" }, default_doc = "`\"m kg s\"`, in Matrix Market format; others must say",
+      doc = "of length, mass and time (of length, force and time) in matrices and points" },
+    { "total_mass", type = "number", unit = "kg", range = { 1e-9, 1e9 }, doc = "of the body, to check the units: refused if the matrices are off by more than 1 %" },
     part_arguments[4], part_arguments[5],
   },
   one_of = { "file", "stiffness" },
@@ -814,6 +821,8 @@ words[10] = {
         doc = "rows of a face: its six mean motions, the face free to deform; its six motions as a rigid body; or three per node" },
       { "sliding", type = "choice", choices = { "tied", "free" }, default = "tied",
         doc = "contact points at their friction limit: tied, as after the first reversal, or free along their tangents" },
+      { "format", type = "choice", choices = { "matrix_market", "dmig" }, default = "matrix_market",
+        doc = "\"dmig\": `<name>.pch` for Nastran (GRID, SPOINT, DMIG), with `<name>_points.csv`, beside the others" },
       { "after", type = "object", kinds = { "step" }, default_doc = "the last static step", doc = "about the state at the end of this step, with its supports" },
     },
     one_of = { "up_to", "modes" },

@@ -2,6 +2,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <filesystem>
+#include <map>
 
 #include "base/log.hpp"
 #include "deck/build_model.hpp"
@@ -36,9 +37,16 @@ Elastic material_like(const Mesh& mesh) {
   return {"superelement", young, poisson, young / (bar_speed * bar_speed)};
 }
 
+// Of consistent systems: lengths, masses and times.
+const std::map<std::string, MatrixUnits> units_of = {{"m kg s", {}},
+                                                     {"mm t s", {1e-3, 1e3, 1.0}},
+                                                     {"mm kg ms", {1e-3, 1.0, 1e-3}},
+                                                     {"in lbf s", {0.0254, 4.4482216152605 / 0.0254, 1.0}}};
+
 MeshPtr superelement_of(const LuaArguments& a) {
   if (a.has("file")) {
-    for (const char* other : {"stiffness", "mass", "damping", "points"})
+    for (const char* other : {"stiffness", "mass", "damping", "points", "stiffness_name", "mass_name", "damping_name",
+                              "units", "total_mass"})
       if (a.has(other))
         throw InputError(fmt::format(
             "'file' already refers to all matrices: '{}' is for matrices from other programs, without 'file'", other));
@@ -49,6 +57,12 @@ MeshPtr superelement_of(const LuaArguments& a) {
       throw InputError(fmt::format("'stiffness' requires 'mass' and 'points': '{}' is missing", needed));
   MatrixFiles files{a.file("stiffness"), a.file("mass"), {}, a.file("points")};
   if (a.has("damping")) files.damping = a.file("damping");
+  for (const auto& [key, name] :
+       {std::pair("stiffness_name", &files.stiffness_name), std::pair("mass_name", &files.mass_name),
+        std::pair("damping_name", &files.damping_name)})
+    if (a.has(key)) *name = a.text(key);
+  if (a.has("units")) files.units = units_of.at(a.text("units"));
+  if (a.has("total_mass")) files.total_mass = a.number("total_mass");
   return read_matrices(files);
 }
 

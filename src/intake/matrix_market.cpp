@@ -21,7 +21,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr Eigen::Index most_rows = 8000;         // dense: some gigabytes
 constexpr std::uintmax_t most_bytes = 2u << 30;  // of a file
 
 }  // namespace
@@ -115,7 +114,17 @@ MatrixHeader header_of(std::string_view line, const std::string& file) {
   return {format == "array", symmetry == "symmetric"};
 }
 
-void check_matrix(const Mat& matrix, const std::string& file) {
+}  // namespace
+
+void refuse_large_matrix(long rows, const std::string& file) {
+  if (rows > most_matrix_rows)
+    throw InputError(
+        fmt::format("'{}' has {} rows: at most {} are allowed, since a condensed body is stored as a dense matrix\n    "
+                    "condense it to fewer points or modes",
+                    file, rows, most_matrix_rows));
+}
+
+void make_symmetric(Mat& matrix, const std::string& file) {
   constexpr double unlike = 1e-6;  // of the largest entry of the two rows
   if (!matrix.allFinite()) throw InputError(fmt::format("'{}' has an entry that is not finite", file));
   const Vec largest = matrix.cwiseAbs().rowwise().maxCoeff();
@@ -124,9 +133,8 @@ void check_matrix(const Mat& matrix, const std::string& file) {
       if (std::abs(matrix(i, j) - matrix(j, i)) > unlike * std::max(largest[i], largest[j]))
         throw InputError(fmt::format("'{}' is not symmetric: {:.9g} in row {}, column {}, but {:.9g} transposed", file,
                                      matrix(i, j), i + 1, j + 1, matrix(j, i)));
+  matrix = 0.5 * (matrix + matrix.transpose()).eval();
 }
-
-}  // namespace
 
 MatrixFile read_matrix_market(const std::string& file) {
   const std::string text = text_of_file(file);
@@ -138,11 +146,7 @@ MatrixFile read_matrix_market(const std::string& file) {
   const auto rows = scanner.next<long>("the number of rows"), columns = scanner.next<long>("the number of columns");
   if (rows != columns || rows < 1)
     throw InputError(fmt::format("'{}' is {} x {}: a square matrix is expected", file, rows, columns));
-  if (rows > most_rows)
-    throw InputError(
-        fmt::format("'{}' has {} rows: at most {} are allowed, since a condensed body is stored as a dense matrix\n    "
-                    "condense it to fewer points or modes",
-                    file, rows, most_rows));
+  refuse_large_matrix(rows, file);
   Mat matrix = Mat::Zero(rows, rows);
   if (header.is_array) {
     for (long j = 0; j < rows; ++j)
@@ -162,8 +166,7 @@ MatrixFile read_matrix_market(const std::string& file) {
     }
   }
   if (!scanner.is_at_end()) scanner.fail("the end of the matrix");
-  check_matrix(matrix, file);
-  matrix = 0.5 * (matrix + matrix.transpose()).eval();
+  make_symmetric(matrix, file);
   return {std::move(matrix), digest.hexadecimal()};
 }
 

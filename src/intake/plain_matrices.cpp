@@ -3,18 +3,15 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <map>
 #include <set>
-#include <sstream>
-#include <string_view>
 
 #include "base/error.hpp"
 #include "base/log.hpp"
-#include "base/names.hpp"
 #include "intake/condensed_builder.hpp"
+#include "intake/labelled_matrix.hpp"
 #include "intake/matrix_market.hpp"
+#include "intake/point_table.hpp"
 #include "intake/superelement_file.hpp"
 
 namespace dygita {
@@ -26,107 +23,6 @@ void check_sizes(const Mat& stiffness, const std::string& of, const Mat& other, 
     throw InputError(fmt::format("'{}' has {} rows and '{}' {}: they do not belong to one body", of, stiffness.rows(),
                                  of_other, other.rows()));
 }
-
-struct PointLine {
-  std::string face;
-  Vec3 place;
-  std::array<int, 3> rows;
-};
-
-std::vector<std::string> fields_of_line(std::string_view line) {
-  std::vector<std::string> fields;
-  const char separator = line.find(';') != std::string_view::npos   ? ';'
-                         : line.find(',') != std::string_view::npos ? ','
-                                                                    : '\t';
-  std::istringstream stream{std::string(line)};
-  for (std::string field; std::getline(stream, field, separator);) {
-    const size_t first = field.find_first_not_of(" \t\""), last = field.find_last_not_of(" \t\"");
-    fields.push_back(first == std::string::npos ? "" : field.substr(first, last - first + 1));
-  }
-  return fields;
-}
-
-class PointTable {
- public:
-  explicit PointTable(const std::string& file) : file_(file), text_(text_of_file(file)) {
-    std::istringstream stream(text_);
-    int number = 0;
-    for (std::string line; std::getline(stream, line);) {
-      ++number;
-      if (!line.empty() && line.back() == '\r') line.pop_back();
-      if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
-      if (line.find_first_not_of(" \t") == std::string::npos || line.front() == '#') continue;
-      if (columns_.empty())
-        read_titles(fields_of_line(line), number);
-      else
-        read_line(fields_of_line(line), number);
-    }
-    if (points_.empty()) throw InputError(fmt::format("'{}' has no point", file_));
-  }
-
-  const std::vector<PointLine>& points() const { return points_; }
-
- private:
-  void read_titles(const std::vector<std::string>& titles, int number) {
-    const std::vector<std::string> needed{"face", "x", "y", "z"}, rows{"row_x", "row_y", "row_z"};
-    std::vector<std::string> known = needed;
-    known.insert(known.end(), rows.begin(), rows.end());
-    for (size_t i = 0; i < titles.size(); ++i) {
-      const std::string title = in_lower_case(titles[i]);
-      if (std::find(known.begin(), known.end(), title) == known.end())
-        throw InputError(fmt::format("{}:{}: the first line must have titles, but '{}' is not one of them\n    {}",
-                                     file_, number, printable(titles[i]), did_you_mean(title, known)));
-      if (!columns_.emplace(title, i).second)
-        throw InputError(fmt::format("{}:{}: title '{}' comes twice", file_, number, title));
-    }
-    for (const std::string& title : needed)
-      if (!columns_.contains(title))
-        throw InputError(
-            fmt::format("{}:{}: column '{}' is missing: face, x, y, z are required, row_x, row_y, row_z optional",
-                        file_, number, title));
-    const auto n = std::count_if(rows.begin(), rows.end(), [&](const auto& title) { return columns_.contains(title); });
-    if (n != 0 && n != 3)
-      throw InputError(fmt::format("{}:{}: give all of row_x, row_y and row_z, or none", file_, number));
-  }
-
-  double number_at(const std::vector<std::string>& fields, const char* title, int line) const {
-    const std::string& field = fields[columns_.at(title)];
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value))
-      throw InputError(
-          fmt::format("{}:{}: '{}' of column '{}' is not a finite number", file_, line, printable(field), title));
-    return value;
-  }
-
-  void read_line(const std::vector<std::string>& fields, int line) {
-    if (fields.size() != columns_.size())
-      throw InputError(
-          fmt::format("{}:{}: {} columns, but the line of titles has {}", file_, line, fields.size(), columns_.size()));
-    PointLine point{fields[columns_.at("face")],
-                    {number_at(fields, "x", line), number_at(fields, "y", line), number_at(fields, "z", line)},
-                    {}};
-    const int own = 3 * static_cast<int>(points_.size());
-    for (int d = 0; d < 3; ++d) {
-      const std::string title = std::string("row_") + "xyz"[d];
-      if (!columns_.contains(title)) {
-        point.rows[static_cast<size_t>(d)] = own + d;
-        continue;
-      }
-      const double row = number_at(fields, title.c_str(), line);
-      if (row < 0.0 || row != std::floor(row) || row > 1e9)
-        throw InputError(
-            fmt::format("{}:{}: '{}' must be the number of a row, from 1, or 0 for none", file_, line, title));
-      point.rows[static_cast<size_t>(d)] = static_cast<int>(row) - 1;
-    }
-    if (point.face.empty()) throw InputError(fmt::format("{}:{}: the face has no name", file_, line));
-    points_.push_back(std::move(point));
-  }
-
-  std::string file_, text_;
-  std::map<std::string, size_t> columns_;
-  std::vector<PointLine> points_;
-};
 
 // Positive semidefinite but for rounding, by the Cholesky factors of the matrix scaled to a diagonal of ones.
 void check_definite(const Mat& matrix, const std::string& file, const char* what) {
@@ -175,30 +71,123 @@ void doubt_masses(const Mesh& mesh, const std::string& file) {
         file, masses[0], masses[1], masses[2]));
 }
 
+void check_mass(const Mesh& mesh, const MatrixFiles& files) {
+  constexpr double close = 0.01;
+  if (!files.total_mass) return;
+  for (int axis = 0; axis < 3; ++axis)
+    if (mesh.inside->resists(mesh.nodes, Vec3::Unit(axis)))
+      throw InputError(fmt::format(
+          "'{}' resists motions as a whole, because a support was condensed with the body: its mass cannot be "
+          "compared with 'total_mass'\n    leave that out, or condense the body free",
+          files.stiffness));
+  const double mass = mesh.inside->mass(0.0);
+  if (std::abs(mass - *files.total_mass) > close * *files.total_mass)
+    throw InputError(
+        fmt::format("'{}': the body weighs {:.6g} kg, but 'total_mass' is {:.6g} kg\n    do 'units' fit the matrices?",
+                    files.mass, mass, *files.total_mass));
+}
+
+// Stiffness, mass, damping with the same rows.
+struct BodyOfFiles {
+  LabelledMatrix stiffness, mass, damping;
+
+  std::array<LabelledMatrix*, 3> all() { return {&stiffness, &mass, &damping}; }
+};
+
+// Rows that one of them has and another has not are of zeros there.
+void join_rows(BodyOfFiles& body, const MatrixFiles& files) {
+  const bool has_names = !body.stiffness.rows.empty();
+  std::set<MatrixRow> joined;
+  for (const LabelledMatrix* one : body.all()) {
+    if (one->matrix.size() > 0 && one->rows.empty() == has_names)
+      throw InputError(
+          fmt::format("'{}' and the other matrices do not go together: those of one format name their rows "
+                      "by node, those of another only number them",
+                      files.stiffness));
+    joined.insert(one->rows.begin(), one->rows.end());
+  }
+  if (!has_names) return;
+  const std::vector<MatrixRow> rows(joined.begin(), joined.end());
+  refuse_large_matrix(static_cast<long>(rows.size()), files.stiffness);
+  for (LabelledMatrix* one : body.all()) {
+    if (one->matrix.size() == 0 || one->rows == rows) continue;
+    std::vector<Eigen::Index> place;
+    for (const MatrixRow& row : one->rows)
+      place.push_back(std::lower_bound(rows.begin(), rows.end(), row) - rows.begin());
+    Mat larger = Mat::Zero(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(rows.size()));
+    larger(place, place) = one->matrix;
+    *one = {std::move(larger), rows};
+  }
+}
+
+BodyOfFiles read_body(const MatrixFiles& files) {
+  BodyOfFiles body{read_matrix(files.stiffness, MatrixRole::stiffness, files.stiffness_name),
+                   read_matrix(files.mass, MatrixRole::mass, files.mass_name),
+                   {}};
+  if (files.damping) body.damping = read_matrix(*files.damping, MatrixRole::damping, files.damping_name);
+  for (const LabelledMatrix* one : body.all())
+    if (!files.units && one->matrix.size() > 0 && !one->is_matrix_market)
+      throw InputError(
+          fmt::format("'units' is missing: only matrices in Matrix Market format are in SI unless told, and "
+                      "those of '{}' and '{}' are not all in that",
+                      files.stiffness, files.mass));
+  join_rows(body, files);
+  const MatrixUnits units = files.units.value_or(MatrixUnits());
+  body.stiffness.matrix *= units.mass / (units.time * units.time);
+  body.mass.matrix *= units.mass;
+  body.damping.matrix *= units.mass / units.time;
+  return body;
+}
+
+// By the names of the matrices' rows, where they have some.
+void find_rows(std::vector<PointLine>& points, const std::vector<MatrixRow>& rows, const MatrixFiles& files) {
+  const bool has_numbers = points.front().node == 0;
+  if (rows.empty() && !has_numbers)
+    throw InputError(
+        fmt::format("'{}' has a column 'node', but the matrices only number their rows\n    give row_x, "
+                    "row_y and row_z, or rows in the order of the table",
+                    files.points));
+  if (!rows.empty() && has_numbers)
+    throw InputError(fmt::format("'{}' has no column 'node': '{}' names its rows by node, and the table must do so too",
+                                 files.points, files.stiffness));
+  if (rows.empty()) return;
+  for (PointLine& point : points)
+    for (int d = 0; d < 3; ++d) {
+      const MatrixRow wanted{point.node, d + 1};
+      const auto at = std::lower_bound(rows.begin(), rows.end(), wanted);
+      if (at == rows.end() || *at != wanted)
+        throw InputError(
+            fmt::format("{}:{}: the matrices have no row of node {} along {}\n    keep all three "
+                        "displacements of the points in what the body is reduced to",
+                        files.points, point.line, point.node, "xyz"[d]));
+      point.rows[static_cast<size_t>(d)] = static_cast<int>(at - rows.begin());
+    }
+}
+
 }  // namespace
 
 MeshPtr read_matrices(const MatrixFiles& files) {
-  const PointTable table(files.points);
-  const MatrixFile stiffness = read_matrix_market(files.stiffness), mass = read_matrix_market(files.mass);
-  MatrixFile damping;
-  check_sizes(stiffness.matrix, files.stiffness, mass.matrix, files.mass);
-  if (files.damping) {
-    damping = read_matrix_market(*files.damping);
-    check_sizes(stiffness.matrix, files.stiffness, damping.matrix, *files.damping);
-  }
-  check_rows(table.points(), stiffness.matrix.rows(), files);
-  check_definite(stiffness.matrix, files.stiffness, "stiffness");
-  check_definite(mass.matrix, files.mass, "mass");
-  if (files.damping) check_definite(damping.matrix, *files.damping, "damping");
+  std::vector<PointLine> points = read_points(files.points);
+  const BodyOfFiles body = read_body(files);
+  const Mat &stiffness = body.stiffness.matrix, &mass = body.mass.matrix, &damping = body.damping.matrix;
+  check_sizes(stiffness, files.stiffness, mass, files.mass);
+  if (files.damping) check_sizes(stiffness, files.stiffness, damping, *files.damping);
+  find_rows(points, body.stiffness.rows, files);
+  check_rows(points, stiffness.rows(), files);
+  check_definite(stiffness, files.stiffness, "stiffness");
+  check_definite(mass, files.mass, "mass");
+  if (files.damping) check_definite(damping, *files.damping, "damping");
   CondensedBuilder builder;
   auto mesh = std::make_shared<Mesh>();
   mesh->source = files.stiffness;
-  for (const PointLine& point : table.points()) {
-    const int node = builder.add(NodeKind::point, point.place, point.rows);
+  const double metres = files.units.value_or(MatrixUnits()).length;
+  for (const PointLine& point : points) {
+    const int node = builder.add(NodeKind::point, metres * point.place, point.rows);
     mesh->point_groups[point.face].push_back(node);
   }
-  const MeshPtr made = builder.finish(stiffness.matrix, mass.matrix, damping.matrix, std::move(mesh));
+  const MeshPtr made = builder.finish(stiffness, mass, damping, std::move(mesh));
   doubt_masses(*made, files.mass);
+  check_mass(*made, files);
   return made;
 }
 

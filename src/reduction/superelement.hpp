@@ -23,6 +23,7 @@ struct SuperelementRequest {
   int modes = 0;              // fixed-interface modes kept; 0: all up to twice `up_to`
   double up_to = 0.0;         // Hz, frequency up to which it is to be used
   bool ties_sliding = false;  // contact points at the limit of friction are tied along their tangents too
+  bool as_dmig = false;       // writes what Nastran reads, too
 };
 
 // Mass and stiffness of an assembly on its interface coordinates and modes (manual, eq. D1-D6). Rows: those of the

@@ -48,22 +48,6 @@ std::vector<int> nodes_on(const Target& target) {
   return face ? nodes_of(face->facets()) : std::get<Region>(target).nodes;
 }
 
-// Names of the faces: those of their meshes where these tell them apart.
-std::vector<std::string> face_names(const std::vector<Target>& on) {
-  std::vector<std::string> names;
-  for (const Target& target : on) {
-    const auto* face = std::get_if<Face>(&target);
-    const auto is_alike = [&](const Target& other) {
-      const auto* other_face = std::get_if<Face>(&other);
-      return face && other_face && face->group == other_face->group;
-    };
-    names.push_back(face && std::count_if(on.begin(), on.end(), is_alike) == 1 ? face->group : label(target));
-  }
-  for (size_t i = 0; i < names.size(); ++i)  // regions of as many nodes
-    if (std::count(names.begin(), names.end(), names[i]) > 1) names[i] += fmt::format(" {}", i + 1);
-  return names;
-}
-
 // Rows, from 1; 0: a support holds it, -1: rows before have it.
 class RowNumbers {
  public:
@@ -136,6 +120,21 @@ std::string whole_face_text(const Superelement& element, const RowNumbers& rows,
 }
 
 }  // namespace
+
+std::vector<std::string> face_names(const std::vector<Target>& on) {
+  std::vector<std::string> names;
+  for (const Target& target : on) {
+    const auto* face = std::get_if<Face>(&target);
+    const auto is_alike = [&](const Target& other) {
+      const auto* other_face = std::get_if<Face>(&other);
+      return face && other_face && face->group == other_face->group;
+    };
+    names.push_back(face && std::count_if(on.begin(), on.end(), is_alike) == 1 ? face->group : label(target));
+  }
+  for (size_t i = 0; i < names.size(); ++i)  // regions of as many nodes
+    if (std::count(names.begin(), names.end(), names[i]) > 1) names[i] += fmt::format(" {}", i + 1);
+  return names;
+}
 
 std::string superelement_description(const std::string& problem, const SuperelementRequest& request,
                                      const Superelement& element,

@@ -55,13 +55,18 @@ std::string introduction(const std::string& problem, const std::string& name, co
   return text;
 }
 
-std::string file_list(const std::string& name, const Superelement& element) {
+std::string file_list(const std::string& name, const Superelement& element, bool as_dmig) {
   std::string text = "## Files\n\n| file | content |\n| --- | --- |\n";
   text += fmt::format(
       "| `{0}_mass.mtx`, `{0}_stiffness.mtx` | symmetric, Matrix Market; SI: kg, N/m; where a row is a rotation in "
       "rad: kg m, kg m^2, N, N m |\n",
       name);
   if (element.damping.size() > 0) text += fmt::format("| `{}_damping.mtx` | the same: N s/m |\n", name);
+  if (as_dmig)
+    text += fmt::format(
+        "| `{0}.pch`, `{0}_points.csv` | the same matrices for Nastran, as DMIG: `K2GG = KAAX`, `M2GG = MAAX`{1}; and "
+        "the grid points of its rows |\n",
+        name, element.damping.size() > 0 ? ", `B2GG = BAAX`" : "");
   text +=
       fmt::format("| `{}.csv` | natural frequencies of the superelement itself, and their damping ratios |\n\n", name);
   text += fmt::format(
@@ -96,7 +101,8 @@ std::string matrix_market_text(const Mat& symmetric, const std::string& comment)
 std::vector<std::pair<std::string, std::string>> superelement_files(const std::string& problem,
                                                                     const SuperelementRequest& request,
                                                                     const Superelement& element) {
-  std::string page = introduction(problem, request.name, element) + file_list(file_name_of(request.name), element);
+  std::string page =
+      introduction(problem, request.name, element) + file_list(file_name_of(request.name), element, request.as_dmig);
   page += fmt::format(
       "## Rows\n\nA coordinate is {}. Rotations turn about the point given, the face's centroid. The force of an "
       "interface row works on "
@@ -140,6 +146,8 @@ std::vector<std::pair<std::string, std::string>> superelement_files(const std::s
   if (element.damping.size() > 0) add("damping", "N s/m", element.damping);
   const std::string described = superelement_description(problem, request, element, files);
   files.emplace_back(".json", described);
+  if (request.as_dmig)
+    for (auto& file : dmig_files(request, element)) files.push_back(std::move(file));
   files.emplace_back(".md", page);
   return files;
 }

@@ -21,7 +21,17 @@ std::string superelement_description(const std::string& problem, const Superelem
                                      const Superelement& element,
                                      const std::vector<std::pair<std::string, std::string>>& matrices);
 
-// Names (after the output's) and contents: _mass.mtx, _stiffness.mtx, _damping.mtx where there is any, .json and .md.
+// Names of the faces: those of their meshes where these tell them apart.
+std::vector<std::string> face_names(const std::vector<Target>& on);
+
+// What Nastran reads (suffix .pch): GRID points, SPOINTs for modes, and KAAX, MAAX, BAAX as symmetric DMIG of ten
+// digits in SI; and the table of the points with their numbers (_points.csv) that substructure.superelement takes
+// beside it. Source: MSC Nastran Quick Reference Guide, DMIG.
+std::vector<std::pair<std::string, std::string>> dmig_files(const SuperelementRequest& request,
+                                                            const Superelement& element);
+
+// Names (after the output's) and contents: _mass.mtx, _stiffness.mtx, _damping.mtx where there is any, .json and .md;
+// those for Nastran where they are asked for.
 std::vector<std::pair<std::string, std::string>> superelement_files(const std::string& problem,
                                                                     const SuperelementRequest& request,
                                                                     const Superelement& element);

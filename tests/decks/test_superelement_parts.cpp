@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "decks/engine.hpp"
+#include "intake/labelled_matrix.hpp"
 #include "intake/matrix_market.hpp"
 #include "intake/superelement_file.hpp"
 #include "reduction/superelement_files.hpp"
@@ -236,6 +237,31 @@ TEST(SuperelementPart, reads_plain_matrices_with_points_in_any_order_of_rows) {
                            "\", mass = \"" + folder.of("m.mtx") + "\", damping = \"" + folder.of("c.mtx") +
                            "\", points = \"" + folder.of("points.csv") + "\", place = place, velocity = velocity }";
   // A mean over points is one of all alike, and points have no normal.
+  const std::set<std::string> others{"below.x", "below.y", "below.z", "reaction.normal", "reaction.shear"};
+  expect_the_same(two_blocks(part), {}, "", others);
+  expect_the_same(two_blocks(part), {{"law", "2"}, {"turned", "1"}}, "monolithic", others);
+}
+
+// Out as DMIG and in again: numbers to ten digits, and the motion of the block itself.
+TEST(SuperelementPart, goes_to_nastran_and_comes_back_as_the_same) {
+  const Folder folder;
+  std::string exporting = condensing;
+  exporting.replace(exporting.find("motion = \"nodes\""), 16, "motion = \"nodes\", format = \"dmig\"");
+  folder.condense(exporting);
+  const std::pair<const char*, MatrixRole> matrices[] = {
+      {"stiffness", MatrixRole::stiffness}, {"mass", MatrixRole::mass}, {"damping", MatrixRole::damping}};
+  for (const auto& [what, role] : matrices) {
+    const Mat written = read_matrix_market(folder.of(std::string("low_") + what + ".mtx")).matrix;
+    const LabelledMatrix read = read_matrix(folder.of("low.pch"), role, "");
+    ASSERT_EQ(read.matrix.rows(), written.rows()) << what;
+    EXPECT_LE(((read.matrix - written).array().abs() - 5.1e-10 * written.array().abs()).maxCoeff(), 1e-89) << what;
+    EXPECT_EQ(read.rows.front().component, 1);
+    EXPECT_EQ(read.rows.back().component, 0);  // a mode is a scalar point
+  }
+  const std::string file = "\"" + folder.of("low.pch") + "\"";
+  const std::string part = "substructure.superelement{ name = \"low\", stiffness = " + file + ", mass = " + file +
+                           ", damping = " + file + ", points = \"" + folder.of("low_points.csv") +
+                           "\", units = \"m kg s\", total_mass = 0.0468, place = place, velocity = velocity }";
   const std::set<std::string> others{"below.x", "below.y", "below.z", "reaction.normal", "reaction.shear"};
   expect_the_same(two_blocks(part), {}, "", others);
   expect_the_same(two_blocks(part), {{"law", "2"}, {"turned", "1"}}, "monolithic", others);

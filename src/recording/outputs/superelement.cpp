@@ -89,6 +89,7 @@ SuperelementRequest request_of(const ModelArguments& a) {
   request.up_to = a.number_or("up_to", 0.0);
   request.modes = a.has("modes") ? a.integer("modes") : 0;
   request.ties_sliding = a.text("sliding") == "tied";
+  request.as_dmig = a.text("format") == "dmig";
   return request;
 }
 
@@ -136,7 +137,8 @@ class SuperelementOutput final : public Output {
   // It is taken about the end of a step, with that step's supports.
   void check(const Problem& problem) const override {
     const std::string who = known_as();
-    check::files_are_free(problem, *this, {".json", ".md", "_mass.mtx", "_stiffness.mtx", "_damping.mtx"});
+    check::files_are_free(problem, *this,
+                          {".json", ".md", "_mass.mtx", "_stiffness.mtx", "_damping.mtx", ".pch", "_points.csv"});
     check::is_on(problem, *this, request_.on, [](const Target& target) {
       return check::place_of(target) ? ""
                                      : "output.superelement takes faces or regions: where something is to be attached";
