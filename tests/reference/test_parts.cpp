@@ -147,7 +147,7 @@ TEST(InterfaceNewton, solves_contact_with_friction) {
     begin_point(of.model, point, Vec3::Zero(), 0, records.back());
   }
   newton.start(records);
-  const InterfaceNewton::Outcome outcome = newton.solve(records, increment_of(of.model.scheme, 0.0));
+  const InterfaceNewton::Outcome outcome = newton.solve(records, Increment{of.model.scheme});
   EXPECT_TRUE(outcome.converged);
   EXPECT_LE(outcome.residual, 1e-13);
   Vec force(assembly.n_rows());
