@@ -90,6 +90,7 @@ end
 
 local function hint_for(kinds, value)
   if bolts.is_bolt(value) then return hints.bolt end
+  if native.kind(value) == "model file" then return 'take one of its parts: file:part "name"' end
   if native.kind(value) == "mesh file" then return 'take one of its volumes: file:volume "name"' end
   return hints[kinds[1]]
 end

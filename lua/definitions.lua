@@ -169,6 +169,9 @@ local function put_method(entry)
     put("---@param %s %s # %s", parameter, type_of(a) .. or_table, text_of(a))
     if entry.makes then put("---@return %s", class_of(entry.makes) .. (entry.is_list and "[]" or "")) end
     put("function %s:%s(%s) end\n", holder, entry[1], parameter)
+  elseif not entry.arguments then
+    put("---@return %s", plain[entry.answers])
+    put("function %s:%s() end\n", holder, entry[1])
   else
     put("---@param arguments%s %s", needs_argument(entry.arguments) and "" or "?", arguments_of(entry.kind .. ":" .. entry[1]))
     if entry.makes then put("---@return %s", class_of(entry.makes)) end

@@ -162,6 +162,18 @@ words[1][3] = {
   },
 }
 
+words[1][4] = {
+  "abaqus", makes = "model file",
+  doc = "An .inp of Abaqus, CalculiX, PrePoMax, HyperMesh or FreeCAD, read by this program: parts, faces, regions and materials by the names of the file; "
+    .. "`file:part \"name\"` is one of its parts, `file:report()` what it has not used.",
+  arguments = {
+    { "file", type = "file", required = true, doc = "path, relative to the deck's folder" },
+    { "unit", type = "number", unit = "m", range = { 1e-9, 1000 }, default_doc = "1, or the length of `units`", doc = "length of one unit of the file: `unit = mm`" },
+    { "units", type = "text", doc = "consistent units of the file, which its materials need: length, mass or force, time, as \"mm t s\" (N, MPa), \"m kg s\", \"mm kg ms\", \"in lbf s\"" },
+    { "skip", type = "texts", or_single = true, default_doc = "none", doc = "types of elements that are left out, such as { \"S4R\" }; springs, masses and other elements between points always are" },
+  },
+}
+
 local function damping()
   return { "damping", type = "number", unit = "s", range = { 0, 0.01 }, default = 0,
       doc = "stiffness-proportional damping (a time, not a ratio), or { mass = (1/s), stiffness = (s) }",
@@ -880,6 +892,36 @@ local methods = {
     kind = "assembly", "parts", write = "assembly:parts \"bolt*\"", makes = "mesh", is_list = true,
     doc = "The list of all parts whose name, product or instance fits, in the order of the file; * stands for any text.",
     argument = { "pattern", type = "text", doc = "a name, or a pattern with *" },
+  },
+  {
+    kind = "model file", "part", write = "file:part \"name\"", makes = "mesh",
+    doc = "One part of a file of another program, by its name: the instance's, else that of the section's element set, `name[1]` ... where its cells hang together in several pieces.",
+    argument = { "name", type = "text", doc = "the part's name" },
+  },
+  {
+    kind = "model file", "parts", write = "file:parts \"BOLT*\"", makes = "mesh", is_list = true,
+    doc = "The list of all parts whose name, element set or instance fits, in the order of the file; * stands for any text.",
+    argument = { "pattern", type = "text", doc = "a name, or a pattern with *" },
+  },
+  {
+    kind = "model file", "material", write = "file:material \"name\"", makes = "material",
+    doc = "A material of the file, turned into SI by its `units`: isotropic, or with three planes of symmetry.",
+    argument = { "name", type = "text", doc = "the material's name" },
+    arguments = {
+      { "name", type = "text", required = true, doc = "the material's name, in `file:material{ name = \"EL\", density = 7850 }`" },
+      { "density", type = "number", unit = "kg/m^3", range = { 10, 100000 }, default_doc = "the file's", doc = "mass per volume" },
+      { "yield", type = "number", unit = "Pa", range = { 1e5, 1e11 }, doc = "yield stress that the run monitors, of an isotropic material" },
+      damping_time, damping_ratio, damping_frequency,
+    },
+  },
+  {
+    kind = "model file", "report", write = "file:report()", answers = "text",
+    doc = "Text: what of the file is read as something else, and each keyword that is not used, with its lines.",
+  },
+  {
+    kind = "substructure", "region", write = "part:region \"set\"", makes = "region",
+    doc = "The nodes of a named set of the file from which the part's mesh comes.",
+    argument = { "set", type = "text", doc = "the set's name" },
   },
   {
     kind = "substructure", "face", write = "part:face \"group\"", makes = "face",

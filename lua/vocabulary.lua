@@ -109,7 +109,10 @@ for _, entry in ipairs(schema.methods) do
     if native.kind(self) ~= entry.kind then fail(line, ("%s is called with a colon: %s"):format(entry[1], entry.write)) end
     local checked
     local by_table = entry.arguments and (not entry.argument or type((...)) == "table")
-    if by_table then checked = check.call(entry, line, ...) else checked = check.plain(entry, line, ...) end
+    if by_table then checked = check.call(entry, line, ...)
+    elseif not entry.argument then
+      if select("#", ...) > 0 then fail(line, ("%s is written %s"):format(entry[1], entry.write)) end
+    else checked = check.plain(entry, line, ...) end
     local answer = native.call(entry.path, self, checked, line)
     return answer
   end
@@ -206,7 +209,7 @@ local function undefined(name)
   local line = native.line()
   if environment.refused[name] then
     fail(line, ("'%s' is not there in a deck"):format(name),
-      "a deck reaches no file, system or program; files are read through mesh.gmsh, mesh.step and history.file")
+      "a deck reaches no file, system or program; files are read through mesh.gmsh, mesh.step, mesh.abaqus and history.file")
   end
   if habits[name] then fail(line, ("'%s' is not defined"):format(name), habits[name]) end
   local near_by = native.locals()  -- first: of two names as near, the deck's own

@@ -36,6 +36,8 @@ Face face_of(const SubstructurePtr& part, const std::string& group, const Origin
 void set_place(const std::vector<double>& place, Substructure& part);
 void doubt_size(const Substructure& part);
 Content build_superelement(const Declaration& declaration);
+Content build_abaqus(const Declaration& declaration);
+Damping damping_in(const LuaArguments& arguments);
 
 template <class T>
 std::shared_ptr<T> new_named(const Declaration& declaration) {

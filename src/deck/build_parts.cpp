@@ -133,6 +133,8 @@ Damping damping_by_ratio(const LuaArguments& a) {
   return damping_of({ratio.front(), ratio.back()}, {frequency[0], frequency[1]});
 }
 
+}  // namespace
+
 Damping damping_in(const LuaArguments& a) {
   if (a.has("damping_ratio")) return damping_by_ratio(a);
   if (a.has("damping_frequency")) throw InputError("'damping_frequency' requires 'damping_ratio', which is missing");
@@ -140,6 +142,8 @@ Damping damping_in(const LuaArguments& a) {
   const auto damping = a.settings("damping");
   return {damping.at("mass"), damping.at("stiffness")};
 }
+
+namespace {
 
 // Of the entry of a word, from all numbers of the declaration.
 Content build_material(const Declaration& d) {
@@ -298,6 +302,7 @@ const Builders& part_builders() {
         {"mesh.gmsh", build_gmsh},
         {"bolt.mesh", build_bolt_mesh},
         {"mesh.step", build_step_mesh},
+        {"mesh.abaqus", build_abaqus},
         {"substructure", build_substructure},
         {"substructure.superelement", build_superelement},
         {"param", build_parameters},

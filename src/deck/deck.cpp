@@ -91,8 +91,11 @@ void warn_of_unused(const DeckState& state) {
     for (const StepPart& part : assembly->parts())
       if (!taken.contains(part.name)) left += (left.empty() ? "'" : ", '") + part.name + "'";
     if (!left.empty())
-      warn(fmt::format("{}: meshed and never taken: {}; parts = {{ ... }} in mesh.step meshes those that it names",
-                       assembly->file(), left));
+      warn(
+          std::dynamic_pointer_cast<const StepAssembly>(assembly)
+              ? fmt::format("{}: meshed and never taken: {}; parts = {{ ... }} in mesh.step meshes those that it names",
+                            assembly->file(), left)
+              : fmt::format("{}: read and never taken: {}", assembly->file(), left));
   }
   if (state.outcome.n_runs == 0) warn(state.deck_name() + " runs no problem: nothing was computed");
 }

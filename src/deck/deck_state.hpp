@@ -8,7 +8,7 @@
 #include "deck/deck.hpp"
 #include "deck/lua_state.hpp"
 #include "deck/register.hpp"
-#include "intake/step_assembly.hpp"
+#include "foreign/foreign_meshes.hpp"
 #include "run/study.hpp"
 
 namespace dygita {
@@ -29,7 +29,8 @@ struct DeckState : LuaState {
   DeckOutcome outcome;
   Study study;
   std::set<std::string> parameters_read, signals_told;
-  std::map<std::shared_ptr<const StepAssembly>, std::set<std::string>> parts_taken;  // by the deck, names
+  std::map<std::shared_ptr<const NamedParts>, std::set<std::string>> parts_taken;  // by the deck, names
+  std::vector<std::shared_ptr<const ForeignMeshes>> model_files;
   std::vector<std::weak_ptr<const Interface>> without_friction;  // contacts for which the deck gives none
   Origin parameters_origin;
   bool has_parameters = false;   // param{} was called

@@ -8,6 +8,7 @@
 #include "deck/embedded_lua.hpp"
 #include "deck/find_interfaces.hpp"
 #include "deck/histories.hpp"
+#include "deck/model_files.hpp"
 #include "deck/pick_places.hpp"
 #include "deck/results.hpp"
 
@@ -146,9 +147,15 @@ int make(LuaState& lua, lua_State* L) {
   return 1;
 }
 
+// Of a CAD assembly, or of a file of another program.
+std::shared_ptr<const NamedParts> parts_in(const Object& self) {
+  if (self.kind == "assembly") return self.as<std::shared_ptr<const StepAssembly>>();
+  return self.as<std::shared_ptr<const ForeignMeshes>>();
+}
+
 // assembly:parts: a list of meshes.
 void push_parts(DeckState& state, lua_State* L, const Object& self, const std::string& pattern, const Origin& origin) {
-  const auto& assembly = self.as<std::shared_ptr<const StepAssembly>>();
+  const std::shared_ptr<const NamedParts> assembly = parts_in(self);
   std::vector<const StepPart*> parts;
   try {
     parts = assembly->parts(pattern);
@@ -164,7 +171,7 @@ void push_parts(DeckState& state, lua_State* L, const Object& self, const std::s
 }
 
 MeshPtr part_of(DeckState& state, const Object& self, const std::string& name, const Origin& origin) {
-  const auto& assembly = self.as<std::shared_ptr<const StepAssembly>>();
+  const std::shared_ptr<const NamedParts> assembly = parts_in(self);
   try {
     const StepPart& part = assembly->part(name);
     state.parts_taken[assembly].insert(part.name);
@@ -186,11 +193,18 @@ int call_method(LuaState& lua, lua_State* L) {
     const std::string name = lua_tostring(L, 3);
     push_object(
         L, {"mesh", method, name, self.id, volume_of(*self.as<std::shared_ptr<const GmshMeshes>>(), name, origin)});
-  } else if (method == "assembly:part") {
+  } else if (method == "assembly:part" || method == "model file:part") {
     const std::string name = lua_tostring(L, 3);
     push_object(L, {"mesh", method, name, self.id, part_of(state, self, name, origin)});
-  } else if (method == "assembly:parts") {
+  } else if (method == "assembly:parts" || method == "model file:parts") {
     push_parts(state, L, self, lua_tostring(L, 3), origin);
+  } else if (method == "model file:material") {
+    push_object(L, file_material(state, self, L, origin));
+  } else if (method == "model file:report") {
+    return push_text(L, self.as<std::shared_ptr<const ForeignMeshes>>()->report());
+  } else if (method == "substructure:region") {
+    const Region region = named_region(state, L, origin);
+    push_object(L, {"region", method, self.name, self.id, region});
   } else if (method == "substructure:face" && lua_istable(L, 3)) {
     const Face face = picked_face(state.folder, self.as<SubstructurePtr>(), L, origin);
     push_object(L, {"face", method, face.label(), self.id, face});

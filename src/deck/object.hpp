@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "foreign/foreign_meshes.hpp"
 #include "intake/gmsh_reader.hpp"
-#include "intake/step_assembly.hpp"
 #include "material/material.hpp"
 #include "model/model.hpp"
 #include "result/result.hpp"
@@ -40,10 +40,11 @@ struct PartData {
 
 using Content =
     std::variant<std::monostate, MeshPtr, std::shared_ptr<const GmshMeshes>, std::shared_ptr<const StepAssembly>,
-                 std::shared_ptr<const Material>, SubstructurePtr, Face, Region, InterfacePtr, SupportPtr, LoadPtr,
-                 std::shared_ptr<const History>, StepPtr, std::shared_ptr<const LatinSettings>,
-                 std::shared_ptr<const MonolithicSettings>, std::shared_ptr<const ExplicitSettings>, OutputPtr,
-                 std::shared_ptr<const Problem>, DeckResultPtr, OutputData, PartData, std::shared_ptr<const Series>>;
+                 std::shared_ptr<const ForeignMeshes>, std::shared_ptr<const Material>, SubstructurePtr, Face, Region,
+                 InterfacePtr, SupportPtr, LoadPtr, std::shared_ptr<const History>, StepPtr,
+                 std::shared_ptr<const LatinSettings>, std::shared_ptr<const MonolithicSettings>,
+                 std::shared_ptr<const ExplicitSettings>, OutputPtr, std::shared_ptr<const Problem>, DeckResultPtr,
+                 OutputData, PartData, std::shared_ptr<const Series>>;
 
 struct Object {
   std::string kind;  // "substructure", "face", "series"; the schema's `makes`

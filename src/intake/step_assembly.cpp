@@ -44,23 +44,6 @@ std::string line_of(const StepPart& part) {
                                           : fmt::format("the mesh of '{}'", part.copy_of));
 }
 
-void say_parts(const std::string& file, const std::vector<StepPart>& parts) {
-  Points corners(3, 2 * static_cast<Eigen::Index>(parts.size()));
-  for (size_t i = 0; i < parts.size(); ++i) {
-    corners.col(2 * static_cast<Eigen::Index>(i)) = parts[i].mesh->nodes.rowwise().minCoeff();
-    corners.col(2 * static_cast<Eigen::Index>(i) + 1) = parts[i].mesh->nodes.rowwise().maxCoeff();
-  }
-  say(fmt::format("{}: {} parts, {} in all", file, parts.size(), extent(corners)));
-  for (const StepPart& part : parts) {
-    say(line_of(part));
-    if (const double worst = worst_shape(*part.mesh); part.copy_of.empty() && worst < 0.0)
-      warn(
-          fmt::format("{}: part '{}' has cells that are inverted at a corner (worst shape {:.2g}, below 0): give it a "
-                      "smaller size or more cells around its holes ('round'), or tetrahedra",
-                      file, part.name, worst));
-  }
-}
-
 // Whole, one part after the other, with the nodes moved from one to the next.
 std::vector<StepPart> build_parts(MesherAnswer& all) {
   std::vector<StepPart> parts;
@@ -82,6 +65,23 @@ std::vector<StepPart> build_parts(MesherAnswer& all) {
 
 }  // namespace
 
+void say_parts(const std::string& file, const std::vector<StepPart>& parts) {
+  Points corners(3, 2 * static_cast<Eigen::Index>(parts.size()));
+  for (size_t i = 0; i < parts.size(); ++i) {
+    corners.col(2 * static_cast<Eigen::Index>(i)) = parts[i].mesh->nodes.rowwise().minCoeff();
+    corners.col(2 * static_cast<Eigen::Index>(i) + 1) = parts[i].mesh->nodes.rowwise().maxCoeff();
+  }
+  say(fmt::format("{}: {} parts, {} in all", file, parts.size(), extent(corners)));
+  for (const StepPart& part : parts) {
+    say(line_of(part));
+    if (const double worst = worst_shape(*part.mesh); part.copy_of.empty() && worst < 0.0)
+      warn(
+          fmt::format("{}: part '{}' has cells that are inverted at a corner (worst shape {:.2g}, below 0): give it a "
+                      "smaller size or more cells around its holes ('round'), or tetrahedra",
+                      file, part.name, worst));
+  }
+}
+
 bool SolidNames::fit(const std::string& pattern) const {
   return fits_pattern(name, pattern) || fits_pattern(product, pattern) || fits_pattern(instance, pattern);
 }
@@ -95,7 +95,8 @@ bool fits_pattern(const std::string& text, const std::string& pattern) {
   return false;
 }
 
-StepAssembly::StepAssembly(const StepOptions& options) : file_(options.file) {
+StepAssembly::StepAssembly(const StepOptions& options) {
+  file_ = options.file;
   GmshOptions plain;
   plain.file = options.file;
   check_options(plain);
@@ -110,7 +111,7 @@ StepAssembly::StepAssembly(const StepOptions& options) : file_(options.file) {
   say_parts(file_, parts_);
 }
 
-const StepPart& StepAssembly::part(const std::string& name) const {
+const StepPart& NamedParts::part(const std::string& name) const {
   std::vector<const StepPart*> found;
   for (const StepPart& part : parts_)
     if (part.name == name) return part;
@@ -127,7 +128,7 @@ const StepPart& StepAssembly::part(const std::string& name) const {
   return *found.front();
 }
 
-std::vector<const StepPart*> StepAssembly::parts(const std::string& pattern) const {
+std::vector<const StepPart*> NamedParts::parts(const std::string& pattern) const {
   std::vector<const StepPart*> found;
   for (const StepPart& part : parts_)
     if (part.fit(pattern)) found.push_back(&part);

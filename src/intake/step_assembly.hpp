@@ -40,13 +40,10 @@ struct StepPart : SolidNames {
   std::string copy_of;  // the part whose mesh it has, turned and moved; empty: its own
 };
 
-class StepAssembly {
+// The parts of a file, found by their names.
+class NamedParts {
  public:
-  // Reads and meshes; says what it found. Faces of a part are called as in the file, others surface1, surface2, ... in
-  // the order of the part's. Throws InputError: file missing or unreadable, gmsh without OpenCASCADE's documents (names
-  // would be empty), no solid, a name in `sizes` that no part has, a part that is to have hexahedra and cannot.
-  explicit StepAssembly(const StepOptions& options);
-
+  virtual ~NamedParts() = default;
   // The part of that name, product or instance. Throws InputError where there is none (with the closest) or more than
   // one.
   const StepPart& part(const std::string& name) const;
@@ -55,10 +52,21 @@ class StepAssembly {
   // Those whose name, product or instance fits a pattern with *, in the order of the file. Throws where there is none.
   std::vector<const StepPart*> parts(const std::string& pattern) const;
 
- private:
+ protected:
   std::string file_;
   std::vector<StepPart> parts_;
 };
+
+class StepAssembly : public NamedParts {
+ public:
+  // Reads and meshes; says what it found. Faces of a part are called as in the file, others surface1, surface2, ... in
+  // the order of the part's. Throws InputError: file missing or unreadable, gmsh without OpenCASCADE's documents (names
+  // would be empty), no solid, a name in `sizes` that no part has, a part that is to have hexahedra and cannot.
+  explicit StepAssembly(const StepOptions& options);
+};
+
+// Says the extent of all, and a line for each part; warns of cells that are inverted at a corner.
+void say_parts(const std::string& file, const std::vector<StepPart>& parts);
 
 // Does a text fit a pattern, whose * stands for any text?
 bool fits_pattern(const std::string& text, const std::string& pattern);

@@ -23,6 +23,7 @@ const std::map<std::string, std::set<std::string>> may_use = {
     {"law", {"base", "numerics", "signal", "material"}},
     {"intake", {"base", "ranks", "numerics", "mesh"}},
     {"mesher", {"base", "numerics", "mesh", "intake"}},
+    {"foreign", {"base", "ranks", "numerics", "mesh", "intake"}},
     {"model", {"base", "mesh", "signal", "material", "meeting", "law"}},
     {"interfaces", {"base", "numerics", "mesh", "meeting", "law", "model"}},
     {"partition", {"base", "ranks", "numerics", "mesh", "fem", "model", "interfaces"}},
@@ -50,8 +51,8 @@ const std::map<std::string, std::set<std::string>> may_use = {
      {"base", "ranks", "numerics", "mesh", "law", "model", "interfaces", "partition", "step", "latin", "reference",
       "persistence", "result", "watch", "reduction", "recording", "files", "drawing", "report"}},
     {"deck",
-     {"base", "ranks", "numerics", "mesh", "signal", "material", "law", "intake", "model", "result", "estimates",
-      "recording", "report", "run"}},
+     {"base", "ranks", "numerics", "mesh", "signal", "material", "law", "intake", "foreign", "model", "result",
+      "estimates", "recording", "report", "run"}},
     {"app", {"base", "ranks", "signal", "files", "report", "deck"}},
 };
 

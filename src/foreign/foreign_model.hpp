@@ -1,0 +1,85 @@
+// What a file of another program says of meshes, the same whichever program it is; and the parts made of it.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "intake/step_assembly.hpp"
+#include "mesh/mesh.hpp"
+
+namespace dygita {
+
+struct ForeignCell {
+  CellType type;
+  int first;       // of its nodes in the connectivity
+  int group = -1;  // of ForeignModel::groups
+  int file, line;  // where it is declared
+  long number;     // in the file
+};
+
+// Facets by their corners; -1: of a facet with three.
+struct ForeignFacet {
+  int cell;
+  std::array<int, 4> corners;
+};
+
+// What makes cells one part, as far as they hang together.
+struct ForeignGroup {
+  std::string name;                   // of its parts
+  std::string material, orientation;  // names; empty: none
+  std::string instance;               // empty: the file has none
+};
+
+struct NamedNodes {
+  std::string name;
+  std::vector<int> nodes;
+};
+
+struct NamedFacets {
+  std::string name;
+  std::vector<ForeignFacet> facets;
+  std::string where;  // "plate.inp:45"
+};
+
+// In the units of the file.
+struct ForeignMaterial {
+  std::string name, where;
+  std::string word;                      // "elastic" or "orthotropic"; empty: no elasticity
+  std::map<std::string, double> moduli;  // stresses, by the names of that word
+  std::map<std::string, double> ratios;
+  std::optional<double> density;
+  double mass_damping = 0.0, stiffness_damping = 0.0;
+  std::string doubt;  // why it is not the material of the file: "depends on temperature (plate.inp:12)"
+};
+
+struct ForeignModel {
+  std::string file;
+  std::vector<std::string> files;  // with those that it includes
+  std::vector<Vec3> nodes;         // m
+  std::vector<int> connectivity;   // nodes of cells, in the order of their types
+  std::vector<ForeignCell> cells;
+  std::vector<ForeignGroup> groups;
+  std::vector<NamedNodes> node_sets;
+  std::vector<NamedFacets> surfaces;
+  std::vector<ForeignMaterial> materials;
+  std::vector<std::string> told;    // what is read as something else, for the user at once
+  std::vector<std::string> unused;  // what is not used, line by line
+
+  const int* nodes_of(const ForeignCell& cell) const { return connectivity.data() + cell.first; }
+  std::string where(const ForeignCell& cell) const;
+};
+
+struct ForeignPart : StepPart {
+  int group = -1;
+  std::map<std::string, std::vector<int>> regions;  // nodes of the part by the names of sets
+};
+
+// The cells of each group by those that hang together: one part, or several that are called name[1], name[2], ...
+// Faces: surfaces, and sets that have all nodes of facets on the boundary, unless a surface has their name. Throws
+// InputError with the line of a cell that is inverted, flat or doubled. Adds to `told`.
+std::vector<ForeignPart> parts_of(ForeignModel& model);
+
+}  // namespace dygita

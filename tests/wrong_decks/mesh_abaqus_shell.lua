@@ -1,0 +1,1 @@
+local file = mesh.abaqus{ file = "skin.inp", unit = mm }

@@ -1,0 +1,1 @@
+local file = mesh.abaqus{ file = "plate.inp", units = "mm N" }
