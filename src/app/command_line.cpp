@@ -172,6 +172,18 @@ void add_view_options(CLI::App& command, ViewCommand& asked) {
       ->type_name("FILE");
 }
 
+void add_import_options(CLI::App& command, ImportOptions& asked) {
+  command.add_option("FILE", asked.file, "a model of Abaqus or CalculiX")->required()->type_name("FILE.inp");
+  command
+      .add_option("--units", asked.units, "units of the file: length, mass or force, time, as 'm kg s' or 'in lbf s'")
+      ->capture_default_str()
+      ->type_name("UNITS");
+  command.add_option("--skip", asked.skip, "comma-separated types of elements to leave out, as S4R")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("TYPES");
+}
+
 OptionRow row_of(const CLI::Option& option) {
   OptionRow row;
   row.is_positional = option.get_positional();
@@ -252,6 +264,8 @@ void declare_commands(CLI::App& app, Command& asked) {
       *app.add_subcommand("converge", "refine a deck repeatedly: orders of convergence, limits, the cheapest setting"),
       asked);
   add_srs_options(*app.add_subcommand("srs", "shock response spectrum of a CSV file"), asked.srs);
+  add_import_options(*app.add_subcommand("import", "print a deck that says what a file of another program says"),
+                     asked.importing);
   app.add_subcommand("schema", "the reference of the deck language, as Markdown")
       ->add_flag("--lua", asked.is_for_editors, "print definitions for editors, which then complete and check decks");
   add_report_options(*app.add_subcommand("report", "rewrite report.html of a run"), asked.report);

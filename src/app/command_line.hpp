@@ -12,6 +12,7 @@
 #include "deck/continue_run.hpp"
 #include "deck/converge.hpp"
 #include "deck/deck.hpp"
+#include "foreign/abaqus_deck.hpp"
 
 namespace dygita {
 
@@ -32,6 +33,7 @@ struct Command {
   ReportCommand report;
   ViewCommand view;
   ContinueOptions going_on;
+  ImportOptions importing;
   std::vector<std::string> vary, outputs;
   std::string aim, budget;
   std::string until, picture, repeats, checkpoint_every = "3min";

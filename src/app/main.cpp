@@ -140,6 +140,7 @@ int command_line(int argc, char** argv) {
   if (app.got_subcommand("check")) return run_or_check(asked, false);
   if (app.got_subcommand("continue")) return go_on(asked);
   if (app.got_subcommand("converge")) return converge_deck(asked);
+  if (app.got_subcommand("import")) std::fputs(deck_of_abaqus(asked.importing).c_str(), stdout);
   if (app.got_subcommand("srs")) write_srs(asked.srs);
   if (app.got_subcommand("report")) write_report(asked.report);
   if (app.got_subcommand("view")) start_view(asked.view);

@@ -18,11 +18,11 @@ const std::set<std::string> harmless = {"ELASTIC",      "DENSITY",      "DAMPING
                                         "CONDUCTIVITY", "SPECIFICHEAT", "DEPVAR"};
 
 // All numbers of a card's lines; `doubt`: where there are more lines than one set of numbers needs, by temperature.
-std::vector<double> numbers_of(const CardFile& file, const Card& card, size_t n, ForeignMaterial& material) {
+std::vector<double> numbers_of(const CardFile& file, const FileCard& card, size_t n, ForeignMaterial& material) {
   std::vector<double> numbers;
   size_t i = 0;
   for (; i < card.data.size() && numbers.size() < n; ++i) {
-    Fields fields(file, card.data[i]);
+    LineFields fields(file, card.data[i]);
     for (std::string_view field; numbers.size() < n && fields.next(field);)
       if (!field.empty()) numbers.push_back(fields.real_of(field, "a number"));
   }
@@ -54,7 +54,7 @@ void set_stiffnesses(const std::string& where, const std::vector<double>& d, For
                 material);
 }
 
-void read_elasticity(const CardFile& file, const Card& card, ForeignMaterial& material) {
+void read_elasticity(const CardFile& file, const FileCard& card, ForeignMaterial& material) {
   std::string type = in_capitals(card.option("TYPE"));
   std::erase(type, ' ');
   constexpr size_t n_isotropic = 2, n_orthotropic = 9;
@@ -72,8 +72,8 @@ void read_elasticity(const CardFile& file, const Card& card, ForeignMaterial& ma
   }
 }
 
-void read_behaviour(const CardFile& file, const Card& card, ForeignMaterial& material) {
-  const Fields fields(file, {"", card.file, card.line});
+void read_behaviour(const CardFile& file, const FileCard& card, ForeignMaterial& material) {
+  const LineFields fields(file, {"", card.file, card.line});
   if (card.keyword == "ELASTIC") read_elasticity(file, card, material);
   if (card.keyword == "DENSITY") material.density = numbers_of(file, card, 1, material)[0];
   if (card.keyword == "DAMPING") {
@@ -108,7 +108,7 @@ bool is_behaviour(const std::string& keyword) {
 std::vector<ForeignMaterial> abaqus_materials(const CardFile& file) {
   std::vector<ForeignMaterial> materials;
   bool is_open = false;
-  for (const Card& card : file.cards()) {
+  for (const FileCard& card : file.cards()) {
     if (card.keyword == "MATERIAL") {
       const std::string name = card.option("NAME");
       if (name.empty()) file.fail(card, "NAME = ... is expected");

@@ -17,7 +17,7 @@ namespace {
 // What generates or moves a mesh in ways that are not read: without it the mesh would be another.
 const char* const generators[] = {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "IMPORT", "SUBMODEL.MESH"};
 
-Vec3 vector_of(Fields& fields) {
+Vec3 vector_of(LineFields& fields) {
   const double x = fields.real("a coordinate"), y = fields.real("a coordinate"), z = fields.real("a coordinate");
   return {x, y, z};
 }
@@ -32,16 +32,16 @@ Vec3 cartesian(const std::string& system, const Vec3& x) {
 }
 
 // *SYSTEM: the origin, a point of axis 1, a point of the plane of axes 1 and 2.
-std::function<Vec3(const Vec3&)> system_of(const CardFile& file, const Card& card) {
+std::function<Vec3(const Vec3&)> system_of(const CardFile& file, const FileCard& card) {
   if (card.data.empty()) return [](const Vec3& x) { return x; };
-  Fields fields(file, card.data[0]);
+  LineFields fields(file, card.data[0]);
   const Vec3 origin = vector_of(fields);
   Mat3 axes = Mat3::Identity();
   if (!fields.is_at_end()) {
     const Vec3 one = vector_of(fields) - origin;
     Vec3 across = Vec3::UnitZ();
     if (card.data.size() > 1) {
-      Fields more(file, card.data[1]);
+      LineFields more(file, card.data[1]);
       across = one.cross(vector_of(more) - origin);
     }
     if (!(one.norm() > 0) || !(one.cross(across).norm() > 0))
@@ -54,15 +54,15 @@ std::function<Vec3(const Vec3&)> system_of(const CardFile& file, const Card& car
 }
 
 // *INSTANCE: moved first, then turned about a line by an angle in degrees.
-std::function<Vec3(const Vec3&)> placement_of(const CardFile& file, const Card& card) {
+std::function<Vec3(const Vec3&)> placement_of(const CardFile& file, const FileCard& card) {
   Vec3 shift = Vec3::Zero(), about = Vec3::Zero();
   Mat3 turn = Mat3::Identity();
   if (!card.data.empty()) {
-    Fields fields(file, card.data[0]);
+    LineFields fields(file, card.data[0]);
     shift = vector_of(fields);
   }
   if (card.data.size() > 1) {
-    Fields fields(file, card.data[1]);
+    LineFields fields(file, card.data[1]);
     about = vector_of(fields);
     const Vec3 axis = vector_of(fields) - about;
     const double angle = fields.real("an angle") * std::numbers::pi / 180;
@@ -70,6 +70,20 @@ std::function<Vec3(const Vec3&)> placement_of(const CardFile& file, const Card& 
     turn = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
   }
   return [=](const Vec3& x) -> Vec3 { return about + turn * (x + shift - about); };
+}
+
+// What the letters behind the name of a cell become.
+std::string meaning_here(const std::string& type) {
+  std::string meaning;
+  const auto add = [&](const char* text) { meaning += (meaning.empty() ? "" : "; ") + std::string(text); };
+  const std::string suffix = type.substr(type.find_last_of("0123456789") + 1);
+  const auto has = [&](char letter) { return suffix.find(letter) != std::string::npos; };
+  if (has('R')) add("full integration, reduced in the file");
+  if (has('H')) add("displacements alone, hybrid in the file");
+  if (has('M')) add("as they stand, modified in the file");
+  if (type.starts_with("C3D8") && !has('I'))
+    add("with incompatible modes (C3D8I), which the file's lack: softer in bending");
+  return meaning;
 }
 
 std::string known_instances(const std::map<std::string, AbaqusScope>& scopes, const std::string& name) {
@@ -114,8 +128,8 @@ AbaqusScope& AbaqusModel::scope_of(const PlacedCard& placed) {
 // Cards of a part count once for each of its instances.
 void AbaqusModel::place_cards() {
   AbaqusScope& whole = scopes_[""];
-  const std::vector<Card>& cards = file_.cards();
-  std::map<std::string, std::vector<const Card*>> parts;
+  const std::vector<FileCard>& cards = file_.cards();
+  std::map<std::string, std::vector<const FileCard*>> parts;
   for (size_t i = 0; i < cards.size(); ++i) {
     for (const char* generator : generators)
       if (cards[i].keyword == generator)
@@ -123,7 +137,7 @@ void AbaqusModel::place_cards() {
                    "it makes nodes or elements that the file does not list\n    write the mesh out as *NODE "
                    "and *ELEMENT");
     if (cards[i].keyword == "PART") {
-      std::vector<const Card*>& part = parts[in_capitals(cards[i].option("NAME"))];
+      std::vector<const FileCard*>& part = parts[in_capitals(cards[i].option("NAME"))];
       for (++i; i < cards.size() && cards[i].keyword != "ENDPART"; ++i) part.push_back(&cards[i]);
     } else if (cards[i].keyword == "INSTANCE") {
       place_instance(cards, i, parts);
@@ -135,9 +149,9 @@ void AbaqusModel::place_cards() {
     throw InputError(fmt::format("mesh file '{}' has parts and no *INSTANCE of any of them", file_.file()));
 }
 
-void AbaqusModel::place_instance(const std::vector<Card>& cards, size_t& i,
-                                 const std::map<std::string, std::vector<const Card*>>& parts) {
-  const Card& card = cards[i];
+void AbaqusModel::place_instance(const std::vector<FileCard>& cards, size_t& i,
+                                 const std::map<std::string, std::vector<const FileCard*>>& parts) {
+  const FileCard& card = cards[i];
   const std::string name = card.option("NAME"), part = card.option("PART");
   const auto found = parts.find(in_capitals(part));
   if (name.empty()) file_.fail(card, "NAME = ... is expected");
@@ -151,7 +165,7 @@ void AbaqusModel::place_instance(const std::vector<Card>& cards, size_t& i,
   scope->second.instance = name;
   places_[in_capitals(name)] = placement_of(file_, card);
   if (found != parts.end())
-    for (const Card* of_part : found->second) placed_.push_back({of_part, &scope->second});
+    for (const FileCard* of_part : found->second) placed_.push_back({of_part, &scope->second});
   for (++i; i < cards.size() && cards[i].keyword != "ENDINSTANCE"; ++i) placed_.push_back({&cards[i], &scope->second});
 }
 
@@ -171,16 +185,9 @@ void AbaqusModel::read_meshes() {
   }
   for (const auto& [type, n] : n_left_out_)
     model_.told.push_back(fmt::format("{} elements of type {} are no cells here and are left out", n, type));
-  const std::map<char, const char*> meanings = {{'R', "full integration, reduced in the file"},
-                                                {'I', "no incompatible modes: far stiffer in bending"},
-                                                {'H', "displacements alone, hybrid in the file"},
-                                                {'M', "as they stand, modified in the file"}};
-  for (const auto& [type, n] : n_by_suffix_) {
-    std::string meaning;
-    for (size_t k = type.find_last_of("0123456789") + 1; k < type.size(); ++k)
-      meaning += (meaning.empty() ? "" : "; ") + std::string(meanings.at(type[k]));
-    model_.told.push_back(fmt::format("{} elements of type {}: {}", n, type, meaning));
-  }
+  for (const auto& [type, n] : n_by_type_)
+    if (const std::string meaning = meaning_here(type); !meaning.empty())
+      model_.told.push_back(fmt::format("{} elements of type {}: {}", n, type, meaning));
 }
 
 void AbaqusModel::read_nodes(const PlacedCard& placed, const Place& system) {
@@ -191,7 +198,7 @@ void AbaqusModel::read_nodes(const PlacedCard& placed, const Place& system) {
   AbaqusSet* named = set.empty() ? nullptr : &placed.scope->node_sets[in_capitals(set)];
   if (named && named->name.empty()) named->name = set;
   for (const DataLine& line : placed.card->data) {
-    Fields fields(file_, line);
+    LineFields fields(file_, line);
     const long number = fields.whole("the number of a node");
     Vec3 x{fields.real_or(0.0), fields.real_or(0.0), fields.real_or(0.0)};
     if (!kind.empty() && kind != "R") x = cartesian(kind, x);
@@ -214,7 +221,7 @@ bool AbaqusModel::is_left_out(const PlacedCard& placed, const std::string& type)
     placed.scope->cell_sets.try_emplace(in_capitals(set), AbaqusSet{set, {}});
   for (const DataLine& line : placed.card->data) {
     // Numbers of further lines of one element do no harm: they name no cell either.
-    Fields fields(file_, line);
+    LineFields fields(file_, line);
     if (std::string_view number; fields.next(number) && is_whole(number))
       placed.scope->cells.emplace(fields.whole_of(number, "a number"), -1);
     ++n_left_out_[type];
@@ -223,7 +230,7 @@ bool AbaqusModel::is_left_out(const PlacedCard& placed, const std::string& type)
 }
 
 void AbaqusModel::read_elements(const PlacedCard& placed) {
-  const Card& card = *placed.card;
+  const FileCard& card = *placed.card;
   const std::string type = in_capitals(card.option("TYPE")), set = card.option("ELSET");
   std::string suffix;
   const AbaqusCell* cell = abaqus_cell(type, suffix);
@@ -238,7 +245,7 @@ void AbaqusModel::read_elements(const PlacedCard& placed) {
   const DataLine* first = nullptr;
   for (const DataLine& line : card.data) {
     if (numbers.empty()) first = &line;
-    Fields fields(file_, line);
+    LineFields fields(file_, line);
     for (std::string_view field; fields.next(field);)
       numbers.push_back(fields.whole_of(field, numbers.empty() ? "the number of an element" : "the number of a node"));
     if (numbers.size() > n_fields)
@@ -250,7 +257,7 @@ void AbaqusModel::read_elements(const PlacedCard& placed) {
   if (!numbers.empty())
     file_.fail(*first, fmt::format("element {} has {} nodes, and not the {} of a {}", numbers[0], numbers.size() - 1,
                                    n_fields - 1, type));
-  if (!suffix.empty()) n_by_suffix_[type] += static_cast<int>(model_.cells.size() - n_before);
+  n_by_type_[type] += static_cast<int>(model_.cells.size() - n_before);
   if (set.empty()) return;
   AbaqusSet& named = placed.scope->cell_sets[in_capitals(set)];
   if (named.name.empty()) named.name = set;

@@ -25,7 +25,7 @@ struct AbaqusScope {
 };
 
 struct PlacedCard {
-  const Card* card;
+  const FileCard* card;
   AbaqusScope* scope;
 };
 
@@ -46,8 +46,8 @@ class AbaqusModel {
 
   // Nodes, or cells, of a field: a number, the name of a set, "instance.name". Throws InputError where it is none;
   // numbers of elements that are no cells answer nothing.
-  std::vector<int> nodes_of(const AbaqusScope& scope, const Fields& fields, std::string_view field) const;
-  std::vector<int> cells_of(const AbaqusScope& scope, const Fields& fields, std::string_view field) const;
+  std::vector<int> nodes_of(const AbaqusScope& scope, const LineFields& fields, std::string_view field) const;
+  std::vector<int> cells_of(const AbaqusScope& scope, const LineFields& fields, std::string_view field) const;
   // Facets of cells by a label, "S3" or "P3"; without one those on the outside of all of them.
   std::vector<ForeignFacet> facets_of(const std::vector<int>& cells, std::string_view label,
                                       const DataLine& line) const;
@@ -59,8 +59,8 @@ class AbaqusModel {
   using Kind = std::map<std::string, AbaqusSet> AbaqusScope::*;
 
   void place_cards();
-  void place_instance(const std::vector<Card>& cards, size_t& i,
-                      const std::map<std::string, std::vector<const Card*>>& parts);
+  void place_instance(const std::vector<FileCard>& cards, size_t& i,
+                      const std::map<std::string, std::vector<const FileCard*>>& parts);
   void read_meshes();
   void read_nodes(const PlacedCard& placed, const Place& system);
   void read_elements(const PlacedCard& placed);
@@ -75,7 +75,8 @@ class AbaqusModel {
   void group_the_rest();
   void name_groups();
   void list_unused();
-  std::vector<int> found(const AbaqusScope& scope, const Fields& fields, std::string_view field, bool is_node) const;
+  std::vector<int> found(const AbaqusScope& scope, const LineFields& fields, std::string_view field,
+                         bool is_node) const;
 
   AbaqusOptions options_;
   CardFile file_;
@@ -83,7 +84,7 @@ class AbaqusModel {
   std::map<std::string, AbaqusScope> scopes_;  // by the instance in capitals
   std::map<std::string, Place> places_;        // of instances
   std::vector<PlacedCard> placed_;
-  std::map<std::string, int> n_by_suffix_, n_left_out_;
+  std::map<std::string, int> n_by_type_, n_left_out_;
   std::vector<std::pair<AbaqusScope*, std::string>> element_sets_;  // of each cell, where it is declared
   std::vector<int> element_set_of_cell_;
 };

@@ -42,7 +42,7 @@ ForeignFacet facet_by_number(const ForeignModel& model, int cell, const std::vec
 
 }  // namespace
 
-std::vector<int> AbaqusModel::found(const AbaqusScope& scope, const Fields& fields, std::string_view field,
+std::vector<int> AbaqusModel::found(const AbaqusScope& scope, const LineFields& fields, std::string_view field,
                                     bool is_node) const {
   const auto& numbers = is_node ? scope.nodes : scope.cells;
   const auto& sets = is_node ? scope.node_sets : scope.cell_sets;
@@ -63,16 +63,18 @@ std::vector<int> AbaqusModel::found(const AbaqusScope& scope, const Fields& fiel
                           is_node ? "nodes" : "elements", printable(name), did_you_mean(name, names_of(sets))));
 }
 
-std::vector<int> AbaqusModel::nodes_of(const AbaqusScope& scope, const Fields& fields, std::string_view field) const {
+std::vector<int> AbaqusModel::nodes_of(const AbaqusScope& scope, const LineFields& fields,
+                                       std::string_view field) const {
   return found(scope, fields, field, true);
 }
 
-std::vector<int> AbaqusModel::cells_of(const AbaqusScope& scope, const Fields& fields, std::string_view field) const {
+std::vector<int> AbaqusModel::cells_of(const AbaqusScope& scope, const LineFields& fields,
+                                       std::string_view field) const {
   return found(scope, fields, field, false);
 }
 
 void AbaqusModel::read_range(const PlacedCard& placed, const DataLine& line, Kind kind, std::vector<int>& items) {
-  Fields fields(file_, line);
+  LineFields fields(file_, line);
   const AbaqusScope& scope = scope_of(placed);
   const auto& numbers = kind == &AbaqusScope::node_sets ? scope.nodes : scope.cells;
   const long first = fields.whole("the first number"), last = fields.whole("the last number");
@@ -90,7 +92,7 @@ void AbaqusModel::read_range(const PlacedCard& placed, const DataLine& line, Kin
 }
 
 void AbaqusModel::read_set(const PlacedCard& placed, Kind kind, const char* option) {
-  const Card& card = *placed.card;
+  const FileCard& card = *placed.card;
   const std::string name = card.option(option);
   if (name.empty()) file_.fail(card, fmt::format("{} = NAME is expected", option));
   const bool is_node = kind == &AbaqusScope::node_sets;
@@ -102,7 +104,7 @@ void AbaqusModel::read_set(const PlacedCard& placed, Kind kind, const char* opti
       read_range(placed, line, kind, items);
       continue;
     }
-    Fields fields(file_, line);
+    LineFields fields(file_, line);
     for (std::string_view field; fields.next(field);) {
       if (field.empty()) continue;
       const std::vector<int> more = is_node ? nodes_of(scope, fields, field) : cells_of(scope, fields, field);
@@ -120,9 +122,9 @@ void AbaqusModel::finish_sets() {
     for (auto& [name, set] : scope.cell_sets) sort_once(set.items);
     for (auto& [name, set] : scope.node_sets) sort_once(set.items);
   }
-  // Sets of instances first: of one name, the assembly's counts.
-  for (auto scope = scopes_.rbegin(); scope != scopes_.rend(); ++scope)
-    for (const auto& [name, set] : scope->second.node_sets) model_.node_sets.push_back({set.name, set.items});
+  // The assembly's first: of one name, they count.
+  for (const auto& [key, scope] : scopes_)
+    for (const auto& [name, set] : scope.node_sets) model_.node_sets.push_back({set.name, set.items});
 }
 
 std::vector<ForeignFacet> AbaqusModel::facets_of(const std::vector<int>& cells, std::string_view label,
@@ -154,7 +156,7 @@ std::vector<ForeignFacet> AbaqusModel::facets_of(const std::vector<int>& cells, 
 }
 
 void AbaqusModel::read_surface(const PlacedCard& placed) {
-  const Card& card = *placed.card;
+  const FileCard& card = *placed.card;
   const std::string name = card.option("NAME"), type = in_capitals(card.option("TYPE"));
   if (name.empty()) file_.fail(card, "NAME = ... is expected");
   if (type != "NODE" && type != "ELEMENT" && !type.empty()) {
@@ -162,10 +164,10 @@ void AbaqusModel::read_surface(const PlacedCard& placed) {
     return;
   }
   const AbaqusScope& scope = scope_of(placed);
-  NamedFacets surface{name, {}, file_.where(card)};
-  NamedNodes of_nodes{name, {}};
+  ForeignFace surface{name, {}, file_.where(card)};
+  ForeignSet of_nodes{name, {}};
   for (const DataLine& line : card.data) {
-    Fields fields(file_, line);
+    LineFields fields(file_, line);
     std::string_view what, label;
     if (!fields.next(what) || what.empty()) file_.fail(line, "the number or the set of elements or nodes is expected");
     if (type == "NODE") {
@@ -185,10 +187,10 @@ void AbaqusModel::read_surface(const PlacedCard& placed) {
 }
 
 void AbaqusModel::read_section(const PlacedCard& placed) {
-  const Card& card = *placed.card;
+  const FileCard& card = *placed.card;
   const std::string name = card.option("ELSET");
   if (name.empty()) file_.fail(card, "ELSET = NAME is expected");
-  const Fields at(file_, {name, card.file, card.line});
+  const LineFields at(file_, {name, card.file, card.line});
   const auto g = static_cast<int>(model_.groups.size());
   model_.groups.push_back({name, card.option("MATERIAL"), card.option("ORIENTATION"), placed.scope->instance});
   for (const int cell : cells_of(scope_of(placed), at, name)) model_.cells[static_cast<size_t>(cell)].group = g;
@@ -201,7 +203,8 @@ void AbaqusModel::group_the_rest() {
   for (size_t c = 0; c < model_.cells.size(); ++c) {
     if (model_.cells[c].group >= 0) continue;
     const auto& [scope, set] = element_sets_[static_cast<size_t>(element_set_of_cell_[c])];
-    const auto [group, is_new] = group_of.try_emplace({scope, in_capitals(set)}, static_cast<int>(model_.groups.size()));
+    const auto [group, is_new] =
+        group_of.try_emplace({scope, in_capitals(set)}, static_cast<int>(model_.groups.size()));
     if (is_new) model_.groups.push_back({set.empty() ? "cells" : set, "", "", scope->instance});
     model_.cells[c].group = group->second;
     ++n_cells;
@@ -221,8 +224,8 @@ void AbaqusModel::name_groups() {
 }
 
 void AbaqusModel::list_unused() {
-  std::map<std::string, std::vector<const Card*>> others;
-  for (const Card& card : file_.cards())
+  std::map<std::string, std::vector<const FileCard*>> others;
+  for (const FileCard& card : file_.cards())
     if (!used.contains(card.keyword)) others[card.keyword].push_back(&card);
   for (const auto& [keyword, cards] : others) {
     std::string lines;

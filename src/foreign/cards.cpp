@@ -72,7 +72,7 @@ bool is_whole(std::string_view field) {
   return !field.empty() && std::all_of(field.begin(), field.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-std::string Card::option(const std::string& name) const {
+std::string FileCard::option(const std::string& name) const {
   const auto found = options.find(name);
   return found == options.end() ? "" : found->second;
 }
@@ -102,7 +102,7 @@ std::string CardFile::where(int file, int line) const {
   return fmt::format("{}:{}", files_[static_cast<size_t>(file)], line);
 }
 
-void CardFile::fail(const Card& card, const std::string& what) const {
+void CardFile::fail(const FileCard& card, const std::string& what) const {
   throw InputError(fmt::format("{}: {}: {}", where(card), card.written, what));
 }
 
@@ -123,7 +123,7 @@ int CardFile::load(const std::string& file, const std::string& asked_at) {
 
 void CardFile::add_keyword(const std::string& text, int file, int line) {
   const std::vector<std::string> pieces = pieces_of(text);
-  Card card;
+  FileCard card;
   card.written = printable(std::string(without_blanks_around(pieces[0].substr(0, longest_shown))));
   card.keyword = in_capitals(without_blanks(pieces[0])).substr(1);
   card.file = file;
@@ -155,7 +155,7 @@ void CardFile::add(const std::string& file, const std::string& asked_at, int dep
     std::string whole(text);
     while (whole.back() == ',' && lines.next_said(text)) whole += text;
     add_keyword(whole, lines.file, first);
-    const Card& card = cards_.back();
+    const FileCard& card = cards_.back();
     const bool is_listed = card.keyword == "NODE" || card.keyword == "ELEMENT" || card.keyword == "INCLUDE";
     const std::string input = is_listed ? card.option("INPUT") : "", at = where(card);
     if (card.keyword == "INCLUDE") {
@@ -168,7 +168,7 @@ void CardFile::add(const std::string& file, const std::string& asked_at, int dep
 
 CardFile::CardFile(const std::string& file) { add(file, "", 0); }
 
-bool Fields::next(std::string_view& field) {
+bool LineFields::next(std::string_view& field) {
   if (is_at_end()) return false;
   const size_t end = std::min(rest_.find(','), rest_.size());
   field = without_blanks_around(rest_.substr(0, end));
@@ -176,24 +176,24 @@ bool Fields::next(std::string_view& field) {
   return true;
 }
 
-bool Fields::is_at_end() const { return without_blanks_around(rest_).empty(); }
+bool LineFields::is_at_end() const { return without_blanks_around(rest_).empty(); }
 
-std::string_view Fields::needed(const char* what) {
+std::string_view LineFields::needed(const char* what) {
   std::string_view field;
   if (!next(field) || field.empty()) file_.fail(line_, fmt::format("{} is expected, not the end of the line", what));
   return field;
 }
 
-long Fields::whole(const char* what) { return whole_of(needed(what), what); }
-double Fields::real(const char* what) { return real_of(needed(what), what); }
-std::string Fields::name(const char* what) { return unquoted(needed(what)); }
+long LineFields::whole(const char* what) { return whole_of(needed(what), what); }
+double LineFields::real(const char* what) { return real_of(needed(what), what); }
+std::string LineFields::name(const char* what) { return unquoted(needed(what)); }
 
-double Fields::real_or(double otherwise) {
+double LineFields::real_or(double otherwise) {
   std::string_view field;
   return next(field) && !field.empty() ? real_of(field, "a number") : otherwise;
 }
 
-long Fields::whole_of(std::string_view field, const char* what) const {
+long LineFields::whole_of(std::string_view field, const char* what) const {
   long value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error != std::errc() || end != field.data() + field.size())
@@ -201,7 +201,7 @@ long Fields::whole_of(std::string_view field, const char* what) const {
   return value;
 }
 
-double Fields::real_of(std::string_view field, const char* what) const {
+double LineFields::real_of(std::string_view field, const char* what) const {
   const std::string_view given = field;
   if (field.starts_with('+')) field.remove_prefix(1);
   double value = 0.0;

@@ -14,7 +14,7 @@ struct DataLine {
   int file, line;
 };
 
-struct Card {
+struct FileCard {
   std::string keyword;                         // capitals without blanks: "SOLIDSECTION"
   std::string written;                         // "*Solid Section"
   std::map<std::string, std::string> options;  // names in capitals without blanks; empty: a word without a value
@@ -34,13 +34,13 @@ class CardFile {
   CardFile& operator=(const CardFile&) = delete;
 
   const std::string& file() const { return files_[0]; }
-  const std::vector<Card>& cards() const { return cards_; }
+  const std::vector<FileCard>& cards() const { return cards_; }
   const std::vector<std::string>& files() const { return files_; }
 
   // "plate.inp:45", for messages.
   std::string where(int file, int line) const;
-  std::string where(const Card& card) const { return where(card.file, card.line); }
-  [[noreturn]] void fail(const Card& card, const std::string& what) const;
+  std::string where(const FileCard& card) const { return where(card.file, card.line); }
+  [[noreturn]] void fail(const FileCard& card, const std::string& what) const;
   [[noreturn]] void fail(const DataLine& line, const std::string& what) const;
 
  private:
@@ -51,13 +51,13 @@ class CardFile {
 
   std::vector<std::string> files_;
   std::deque<std::string> texts_;
-  std::vector<Card> cards_;
+  std::vector<FileCard> cards_;
 };
 
-// Fields of a line between commas, without the blanks around them.
-class Fields {
+// LineFields of a line between commas, without the blanks around them.
+class LineFields {
  public:
-  Fields(const CardFile& file, const DataLine& line) : file_(file), line_(line), rest_(line_.text) {}
+  LineFields(const CardFile& file, const DataLine& line) : file_(file), line_(line), rest_(line_.text) {}
 
   // False at the end of the line; a comma there opens no field.
   bool next(std::string_view& field);

@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/names.hpp"
-#include "foreign/abaqus_model.hpp"
+#include "foreign/abaqus_steps.hpp"
 
 namespace dygita {
 
@@ -24,6 +24,7 @@ std::string text_of_report(const ForeignModel& model) {
 
 std::shared_ptr<const ForeignMeshes> ForeignMeshes::of_abaqus(const ForeignOptions& options) {
   AbaqusModel read({options.file, options.unit, options.skip});
+  analysis_of(read);  // names what loads and supports list by numbers
   return std::shared_ptr<const ForeignMeshes>(new ForeignMeshes(std::move(read.model()), options));
 }
 

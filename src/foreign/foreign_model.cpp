@@ -66,6 +66,7 @@ class PartMaker {
     number_nodes(cells, *mesh);
     add_cells(cells, *mesh);
     check(cells, *mesh, name);
+    part.file_nodes = nodes_;
     add_places(*mesh, part);
     mesh->digest = mesh_digest(*mesh);
     for (const int node : nodes_) local_[static_cast<size_t>(node)] = -1;
@@ -130,18 +131,18 @@ class PartMaker {
     std::unordered_map<FacetKey, Facet, FacetKeyHash> boundary;
     const std::vector<Facet> facets = boundary_facets(mesh.blocks);
     for (const Facet& facet : facets) boundary.emplace(facet_key(facet), facet);
-    for (const NamedFacets& surface : model_.surfaces) add_surface(surface, boundary, mesh, part.name);
-    for (const NamedNodes& set : model_.node_sets) {
+    for (const ForeignFace& surface : model_.surfaces) add_surface(surface, boundary, mesh, part.name);
+    for (const ForeignSet& set : model_.node_sets) {
       std::vector<int> own;
       for (const int node : set.nodes)
         if (const int local = local_[static_cast<size_t>(node)]; local >= 0) own.push_back(local);
       if (own.empty()) continue;
       if (!mesh.faces.contains(set.name)) add_face_of_nodes(set.name, own, facets, mesh);
-      part.regions[set.name] = std::move(own);
+      part.regions.try_emplace(set.name, std::move(own));
     }
   }
 
-  void add_surface(const NamedFacets& surface, const std::unordered_map<FacetKey, Facet, FacetKeyHash>& boundary,
+  void add_surface(const ForeignFace& surface, const std::unordered_map<FacetKey, Facet, FacetKeyHash>& boundary,
                    Mesh& mesh, const std::string& part) {
     std::vector<Facet> facets;
     std::unordered_set<FacetKey, FacetKeyHash> known;  // a facet that is listed twice is there once

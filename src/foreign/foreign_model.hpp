@@ -33,12 +33,12 @@ struct ForeignGroup {
   std::string instance;               // empty: the file has none
 };
 
-struct NamedNodes {
+struct ForeignSet {
   std::string name;
   std::vector<int> nodes;
 };
 
-struct NamedFacets {
+struct ForeignFace {
   std::string name;
   std::vector<ForeignFacet> facets;
   std::string where;  // "plate.inp:45"
@@ -62,8 +62,8 @@ struct ForeignModel {
   std::vector<int> connectivity;   // nodes of cells, in the order of their types
   std::vector<ForeignCell> cells;
   std::vector<ForeignGroup> groups;
-  std::vector<NamedNodes> node_sets;
-  std::vector<NamedFacets> surfaces;
+  std::vector<ForeignSet> node_sets;
+  std::vector<ForeignFace> surfaces;
   std::vector<ForeignMaterial> materials;
   std::vector<std::string> told;    // what is read as something else, for the user at once
   std::vector<std::string> unused;  // what is not used, line by line
@@ -74,6 +74,7 @@ struct ForeignModel {
 
 struct ForeignPart : StepPart {
   int group = -1;
+  std::vector<int> file_nodes;                      // the model's number of each node, increasing
   std::map<std::string, std::vector<int>> regions;  // nodes of the part by the names of sets
 };
 

@@ -53,7 +53,7 @@ const std::map<std::string, std::set<std::string>> may_use = {
     {"deck",
      {"base", "ranks", "numerics", "mesh", "signal", "material", "law", "intake", "foreign", "model", "result",
       "estimates", "recording", "report", "run"}},
-    {"app", {"base", "ranks", "signal", "files", "report", "deck"}},
+    {"app", {"base", "ranks", "signal", "foreign", "files", "report", "deck"}},
 };
 
 // Third-party headers that everybody may include; the others belong to one module.

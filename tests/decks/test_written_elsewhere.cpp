@@ -3,6 +3,7 @@
 
 #include "decks/engine.hpp"
 #include "foreign/abaqus_blocks.hpp"
+#include "foreign/abaqus_deck.hpp"
 #include "foreign/written_file.hpp"
 
 namespace dygita::test::written_elsewhere_tests {
@@ -36,6 +37,63 @@ TEST(WrittenElsewhere, cells_of_every_shape_are_uniformly_pressed) {
     EXPECT_NEAR(run.column("corner", "y").back(), 4.5e-6, 4.5e-6 * 1e-7);
     EXPECT_NEAR(run.column("stress", "von_mises").back(), 100e6, 1e2);
   }
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const size_t at = text.find(what);
+  if (at == std::string::npos) throw std::runtime_error("no " + what + " in\n" + text);
+  return text.replace(at, what.size(), by);
+}
+
+// The same block, pressed by what its file says.
+TEST(WrittenElsewhere, imported_decks_press_as_their_file_says) {
+  const WrittenFile inp(AbaqusBlock(abaqus_shapes()[1], 2).text() + steel +
+                            "*BOUNDARY\nX0, 1\nY0, 2\nZ0, 3\n*STEP\n*STATIC\n*DSLOAD\nTOP, P, 100.\n*END STEP\n",
+                        "block.inp");
+  const std::string deck =
+      replaced(deck_of_abaqus({inp.path(), "mm t s", {}}), "output.vtk{ frames = 1 }",
+               "output.history{ name = \"top\", on = part_e:face \"TOP\", quantity = \"displacement\" }");
+  const DeckRun run = run_text(deck).at(0);
+  EXPECT_NEAR(run.column("top", "z").back(), -1e-5, 1e-5 * 1e-7);       // p L / E
+  EXPECT_NEAR(run.column("top", "x").back(), 0.3 * 5e-6, 1e-5 * 1e-4);  // nu p L / 2 E, the mean of the face
+}
+
+// Lengthwise a clamped bar of nu = 0 has sqrt(E / rho) / 4 L = 12.5 kHz.
+TEST(WrittenElsewhere, imported_decks_have_the_modes_that_their_file_asks_for) {
+  std::string text = "*NODE\n";
+  const auto node = [](int i, int j, int k) { return 1 + i + 3 * (j + 3 * k); };
+  for (int k = 0; k <= 20; ++k)
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) text += fmt::format("{}, {}, {}, {}\n", node(i, j, k), 5 * i, 5 * j, 5 * k);
+  text += "*ELEMENT, TYPE=C3D20R, ELSET=BAR\n";
+  constexpr int at[20][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2},
+                             {0, 2, 2}, {1, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}, {1, 0, 2}, {2, 1, 2},
+                             {1, 2, 2}, {0, 1, 2}, {0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {0, 2, 1}};
+  for (int k = 0; k < 10; ++k) {
+    text += std::to_string(k + 1);
+    for (const auto& step : at) text += fmt::format(", {}", node(step[0], step[1], 2 * k + step[2]));
+    text += "\n";
+  }
+  const WrittenFile inp(
+      text +
+          "*SOLID SECTION, ELSET=BAR, MATERIAL=M\n*MATERIAL, NAME=M\n*ELASTIC\n200000., 0.\n*DENSITY\n8.E-9\n"
+          "*NSET, NSET=FOOT, GENERATE\n1, 9\n*BOUNDARY\nFOOT, 1, 3\n*STEP\n*FREQUENCY\n8\n*END STEP\n",
+      "bar.inp");
+  const DeckRun run = run_text(deck_of_abaqus({inp.path(), "mm t s", {}})).at(0);
+  double nearest = 1e9;
+  for (const double f : run.column("modes", "frequency")) nearest = std::min(nearest, std::abs(f - 12500.0));
+  EXPECT_LT(nearest, 12500 * 1e-4);
+  EXPECT_EQ(run.column("modes", "frequency").size(), 8u);
+}
+
+TEST(WrittenElsewhere, imported_decks_stop_where_something_is_not_translated) {
+  const WrittenFile inp(AbaqusBlock(abaqus_shapes()[0], 1).text() + steel +
+                            "*BOUNDARY\nZ0, 1, 3\n*STEP\n*STATIC\n*TEMPERATURE\nALL, 300.\n*END STEP\n",
+                        "hot.inp");
+  const std::string deck = deck_of_abaqus({inp.path(), "mm t s", {}});
+  EXPECT_THROW(run_text(deck), InputError);
+  const size_t stop = deck.find("error(");
+  EXPECT_EQ(run_text(deck.substr(0, stop) + deck.substr(deck.find('\n', stop))).size(), 1u);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ TEST(Cards, have_keywords_without_blanks_options_and_lines_of_data) {
       "** a comment\n*Solid  Section, Elset = \"my bolt\",\n Material=Steel\n*NODE\n 1, 0.,0.\n\n2\n");
   const CardFile file(written.path());
   ASSERT_EQ(file.cards().size(), 2u);
-  const Card& section = file.cards()[0];
+  const FileCard& section = file.cards()[0];
   EXPECT_EQ(section.keyword, "SOLIDSECTION");
   EXPECT_EQ(section.written, "*Solid  Section");
   EXPECT_EQ(section.option("ELSET"), "my bolt");
@@ -50,7 +50,7 @@ TEST(Cards, that_include_themselves_or_no_file_are_refused) {
 TEST(Cards, have_numbers_with_the_exponents_of_fortran) {
   const WrittenFile written("*A\n 1.5d+3, +2, -1.E-2, .5D2, nan, 1x\n");
   const CardFile file(written.path());
-  Fields fields(file, file.cards()[0].data[0]);
+  LineFields fields(file, file.cards()[0].data[0]);
   EXPECT_EQ(fields.real("a number"), 1500.0);
   EXPECT_EQ(fields.real("a number"), 2.0);
   EXPECT_EQ(fields.real("a number"), -0.01);

@@ -1,0 +1,369 @@
+#include "foreign/abaqus_steps.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/error.hpp"
+
+namespace dygita {
+
+namespace {
+
+// Says nothing of the motion that is computed: what is printed, headings, what has been read with the mesh, and what
+// matters with temperatures alone.
+const std::set<std::string> silent = {"NODE",
+                                      "ELEMENT",
+                                      "NSET",
+                                      "ELSET",
+                                      "SURFACE",
+                                      "SOLIDSECTION",
+                                      "MATERIAL",
+                                      "ELASTIC",
+                                      "DENSITY",
+                                      "DAMPING",
+                                      "PART",
+                                      "ENDPART",
+                                      "INSTANCE",
+                                      "ENDINSTANCE",
+                                      "SYSTEM",
+                                      "ASSEMBLY",
+                                      "ENDASSEMBLY",
+                                      "HEADING",
+                                      "PREPRINT",
+                                      "END",
+                                      "NODEPRINT",
+                                      "NODEFILE",
+                                      "NODEOUTPUT",
+                                      "ELPRINT",
+                                      "ELFILE",
+                                      "ELEMENTOUTPUT",
+                                      "CONTACTPRINT",
+                                      "CONTACTFILE",
+                                      "CONTACTOUTPUT",
+                                      "OUTPUT",
+                                      "ENERGYOUTPUT",
+                                      "RESTART",
+                                      "MONITOR",
+                                      "TIMEPOINTS",
+                                      "FILEFORMAT",
+                                      "PRINT",
+                                      "FACEPRINT",
+                                      "SECTIONPRINT",
+                                      "EXPANSION",
+                                      "CONDUCTIVITY",
+                                      "SPECIFICHEAT",
+                                      "ORIENTATION",
+                                      "SURFACEINTERACTION",
+                                      "SURFACEBEHAVIOR",
+                                      "FRICTION",
+                                      "ENDSTEP",
+                                      "PHYSICALCONSTANTS",
+                                      "CONTROLS",
+                                      "USERMATERIAL",
+                                      "DEPVAR",
+                                      "PLASTIC",
+                                      "CREEP",
+                                      "HYPERELASTIC",
+                                      "HYPERFOAM",
+                                      "CYCLICHARDENING",
+                                      "DEFORMATIONPLASTICITY"};
+
+using Mask = std::array<bool, 3>;
+constexpr double rough = 1000;  // coefficient of friction: the largest of a deck, with which nothing slides
+
+class AnalysisReader {
+ public:
+  explicit AnalysisReader(AbaqusModel& model) : model_(model), file_(model.file()) {}
+
+  AbaqusAnalysis read() {
+    for (const PlacedCard& placed : model_.cards()) {
+      try {
+        read(placed);
+      } catch (const InputError& error) {
+        analysis_.untranslated.emplace_back(error.what());
+      }
+    }
+    return std::move(analysis_);
+  }
+
+ private:
+  void read(const PlacedCard& placed) {
+    const FileCard& card = *placed.card;
+    const std::string& word = card.keyword;
+    if (word == "STEP") return begin_step(card);
+    if (word == "BOUNDARY") return read_boundary(placed);
+    if (word == "CLOAD") return read_forces(placed);
+    if (word == "DLOAD" || word == "DSLOAD") return read_pressures(placed);
+    if (word == "AMPLITUDE") return read_amplitude(card);
+    if (word == "TIE" || word == "CONTACTPAIR") return read_joint(card);
+    if (word == "STATIC" || word == "DYNAMIC" || word == "FREQUENCY") return read_procedure(card);
+    if (word == "INITIALCONDITIONS" && in_capitals(card.option("TYPE")) == "TEMPERATURE") return;  // no load by itself
+    if (word == "TRANSFORM") return note_transform(placed);
+    if (!silent.contains(word)) leave(card, "a deck has no word for it");
+  }
+
+  void leave(const FileCard& card, const std::string& why) {
+    analysis_.untranslated.push_back(fmt::format("{}: {}: {}", file_.where(card), card.written, why));
+  }
+
+  std::vector<AbaqusAction>& actions() {
+    return analysis_.steps.empty() ? analysis_.before : analysis_.steps.back().actions;
+  }
+
+  void begin_step(const FileCard& card) {
+    AbaqusStep step;
+    step.where = file_.where(card);
+    step.is_perturbation = card.has("PERTURBATION");
+    if (card.has("NLGEOM") && in_capitals(card.option("NLGEOM")) != "NO")
+      analysis_.remarks.push_back(fmt::format(
+          "{}: NLGEOM: displacements are small in this program, and the run warns where they are not", step.where));
+    analysis_.steps.push_back(step);
+  }
+
+  void read_procedure(const FileCard& card) {
+    if (analysis_.steps.empty()) file_.fail(card, "it stands before the first *STEP");
+    AbaqusStep& step = analysis_.steps.back();
+    step.procedure = card.keyword;
+    step.is_explicit = card.has("EXPLICIT");
+    if (!card.data.empty()) {
+      LineFields fields(file_, card.data[0]);
+      for (std::string_view field; fields.next(field);)
+        step.numbers.push_back(field.empty() ? 0.0 : fields.real_of(field, "a number"));
+    }
+  }
+
+  void note_transform(const PlacedCard& placed) {
+    const std::string set = placed.card->option("NSET");
+    const DataLine line{set, placed.card->file, placed.card->line};
+    for (const int node : model_.nodes_of(*placed.scope, LineFields(file_, line), set)) turned_.insert(node);
+  }
+
+  // The OP of a card, which holds for its kind in the step.
+  void note_op(const FileCard& card, bool AbaqusStep::*drops) {
+    if (analysis_.steps.empty() || in_capitals(card.option("OP")) != "NEW") return;
+    analysis_.steps.back().*drops = true;
+  }
+
+  // A set by its own name, or a new one for what a card lists by numbers.
+  std::string place_of(const std::string& prefix, const DataLine& line, std::vector<int> nodes) {
+    const std::string file = line.file == 0 ? "" : fmt::format("{}.", line.file);
+    std::string name = fmt::format("{} {}{}", prefix, file, line.line);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    model_.model().node_sets.push_back({name, std::move(nodes)});
+    return name;
+  }
+
+  struct Listed {
+    DataLine line;
+    std::string set;
+    std::vector<int> nodes;
+  };
+  // Lines of a card by what they say: those of one saying and no set are one place.
+  using Sayings = std::map<std::pair<std::string, std::array<double, 6>>, Listed>;
+
+  void note(Sayings& sayings, const PlacedCard& placed, const DataLine& line, std::string_view field,
+            const std::array<double, 6>& says) {
+    const std::vector<int> nodes = model_.nodes_of(*placed.scope, LineFields(file_, line), field);
+    const std::string set = is_whole(field) || !placed.scope->instance.empty() ? "" : std::string(field);
+    Listed& listed = sayings.try_emplace({set, says}, Listed{line, set, {}}).first->second;
+    listed.nodes.insert(listed.nodes.end(), nodes.begin(), nodes.end());
+  }
+
+  std::string name_of_set(const PlacedCard& placed, const std::string& set) {
+    const auto found = placed.scope->node_sets.find(in_capitals(set));
+    return found == placed.scope->node_sets.end() ? "" : found->second.name;
+  }
+
+  void add_actions(const PlacedCard& placed, AbaqusAction::Kind kind, const std::string& prefix,
+                   const Sayings& sayings) {
+    for (const auto& [key, listed] : sayings) {
+      const auto& says = key.second;
+      AbaqusAction action{kind, "", {says[3], says[4], says[5]}, {says[0] != 0, says[1] != 0, says[2] != 0}, "", "", 0};
+      if (kind == AbaqusAction::Kind::held && !action.value.isZero(0.0)) action.kind = AbaqusAction::Kind::moved;
+      action.where = file_.where(listed.line.file, listed.line.line);
+      action.amplitude = placed.card->option("AMPLITUDE");
+      const bool is_whole_node = action.kind == AbaqusAction::Kind::held && action.along == Mask{true, true, true};
+      for (const int node : listed.nodes)
+        if (turned_.contains(node) && !is_whole_node)
+          throw InputError(fmt::format("{}: {}: in axes of *TRANSFORM", action.where, placed.card->written));
+      action.place = listed.set.empty() ? "" : name_of_set(placed, listed.set);
+      if (action.place.empty()) action.place = place_of(prefix, listed.line, listed.nodes);
+      std::set<int> once(listed.nodes.begin(), listed.nodes.end());
+      action.n_nodes = static_cast<int>(once.size());
+      actions().push_back(action);
+    }
+  }
+
+  // Directions of each node of a card together: a node that is held along x in one line and along y in another is one
+  // that is held along both.
+  void read_boundary(const PlacedCard& placed) {
+    const FileCard& card = *placed.card;
+    note_op(card, &AbaqusStep::drops_supports);
+    for (const char* option : {"FIXED", "SUBMODEL", "BASEMOTION", "LOADCASE", "MASSFLOW"})
+      if (card.has(option)) return leave(card, option);
+    if (const std::string type = in_capitals(card.option("TYPE")); !type.empty() && type != "DISPLACEMENT")
+      return leave(card, "TYPE = " + type);
+    std::map<std::string, std::array<double, 6>> by_field;
+    std::map<std::string, const DataLine*> line_of;
+    std::vector<std::string> order;
+    for (const DataLine& line : card.data) {
+      LineFields fields(file_, line);
+      std::string_view what, first, last, value;
+      fields.next(what);
+      fields.next(first);
+      if (!fields.next(last) || last.empty()) last = first;
+      const auto [from, to] = directions(fields, first, last);
+      const double by = fields.next(value) && !value.empty() ? fields.real_of(value, "a displacement") : 0.0;
+      const auto [known, is_new] = by_field.try_emplace(std::string(what), std::array<double, 6>{});
+      if (is_new) order.emplace_back(what);
+      line_of.try_emplace(std::string(what), &line);
+      for (long d = from; d <= std::min(to, 3L); ++d) {
+        known->second[static_cast<size_t>(d) - 1] = 1;
+        known->second[static_cast<size_t>(d) + 2] = by;
+      }
+    }
+    Sayings sayings;
+    for (const std::string& what : order)
+      if (by_field.at(what)[0] + by_field.at(what)[1] + by_field.at(what)[2] > 0)
+        note(sayings, placed, *line_of.at(what), what, by_field.at(what));
+    add_actions(placed, AbaqusAction::Kind::held, "boundary", sayings);
+  }
+
+  std::pair<long, long> directions(const LineFields& fields, std::string_view first, std::string_view last) const {
+    constexpr long last_rotation = 6;
+    const std::string word = in_capitals(first);
+    if (word == "ENCASTRE" || word == "PINNED") return {1, 3};
+    for (const auto& [name, d] : {std::pair("XSYMM", 1L), std::pair("YSYMM", 2L), std::pair("ZSYMM", 3L)})
+      if (word == name) return {d, d};
+    const long from = fields.whole_of(first, "a direction 1 ... 6"), to = fields.whole_of(last, "a direction 1 ... 6");
+    if (from < 1 || to < from || to > last_rotation)
+      fields.fail(fmt::format("*BOUNDARY: directions {} to {}: displacements are 1 to 3", from, to));
+    return {from, to};
+  }
+
+  void read_forces(const PlacedCard& placed) {
+    note_op(*placed.card, &AbaqusStep::drops_loads);
+    for (const char* option : {"FOLLOWER", "LOADCASE", "OMEGA0", "SUBMODEL", "SECTOR"})
+      if (placed.card->has(option)) return leave(*placed.card, option);
+    Sayings sayings;
+    for (const DataLine& line : placed.card->data) {
+      LineFields fields(file_, line);
+      std::string_view what;
+      fields.next(what);
+      const long d = fields.whole("a direction");
+      const double by = fields.real("a force");
+      if (d < 1 || d > 3) fields.fail(fmt::format("*CLOAD: direction {}: forces are along 1 to 3", d));
+      std::array<double, 6> says{};
+      says[static_cast<size_t>(d) - 1] = 1;
+      says[static_cast<size_t>(d) + 2] = by;
+      if (by != 0.0) note(sayings, placed, line, what, says);
+    }
+    add_actions(placed, AbaqusAction::Kind::force, "cload", sayings);
+  }
+
+  void read_pressures(const PlacedCard& placed) {
+    const FileCard& card = *placed.card;
+    note_op(card, &AbaqusStep::drops_loads);
+    std::map<double, ForeignFace> by_value;
+    for (const DataLine& line : card.data) {
+      LineFields fields(file_, line);
+      std::string_view what, label;
+      fields.next(what);
+      fields.next(label);
+      const double by = fields.real("a load");
+      const std::string kind = in_capitals(label);
+      if (kind == "GRAV") {
+        add_gravity(placed, fields, what, by, line);
+        continue;
+      }
+      const bool is_surface = card.keyword == "DSLOAD";
+      if (is_surface ? kind != "P" : kind.size() != 2 || kind[0] != 'P' || !is_whole(kind.substr(1)))
+        fields.fail(fmt::format("{}: a load '{}' has no word in a deck", card.written, kind));
+      AbaqusAction action{AbaqusAction::Kind::pressure,      "", {by, 0, 0}, {}, card.option("AMPLITUDE"),
+                          file_.where(line.file, line.line), 0};
+      if (is_surface) {
+        action.place = std::string(what);
+        actions().push_back(action);
+        continue;
+      }
+      auto [known, is_new] = by_value.try_emplace(by);
+      if (is_new) {
+        known->second = {fmt::format("dload {}", line.line), {}, action.where};
+        if (line.file > 0) known->second.name = fmt::format("dload {}.{}", line.file, line.line);
+        action.place = known->second.name;
+        actions().push_back(action);
+      }
+      const auto facets = model_.facets_of(model_.cells_of(*placed.scope, fields, what), label, line);
+      known->second.facets.insert(known->second.facets.end(), facets.begin(), facets.end());
+    }
+    for (auto& [value, facets] : by_value) model_.model().surfaces.push_back(std::move(facets));
+  }
+
+  void add_gravity(const PlacedCard& placed, LineFields& fields, std::string_view what, double by,
+                   const DataLine& line) {
+    if (model_.cells_of(*placed.scope, fields, what).size() != model_.model().cells.size())
+      fields.fail("*DLOAD: GRAV on some of the cells: load.gravity acts on all");
+    Vec3 along{fields.real("a direction"), fields.real("a direction"), fields.real("a direction")};
+    actions().push_back({AbaqusAction::Kind::gravity,
+                         "",
+                         by * along.normalized(),
+                         {},
+                         placed.card->option("AMPLITUDE"),
+                         file_.where(line.file, line.line),
+                         0});
+  }
+
+  void read_amplitude(const FileCard& card) {
+    for (const char* option : {"TIME", "VALUE", "DEFINITION", "USER"})
+      if (card.has(option) && in_capitals(card.option(option)) != "TABULAR" &&
+          in_capitals(card.option(option)) != "STEPTIME")
+        return leave(card, fmt::format("{} = {}", option, card.option(option)));
+    std::vector<double>& numbers = analysis_.amplitudes[in_capitals(card.option("NAME"))];
+    for (const DataLine& line : card.data) {
+      LineFields fields(file_, line);
+      for (std::string_view field; fields.next(field);)
+        if (!field.empty()) numbers.push_back(fields.real_of(field, "a time or a value"));
+    }
+  }
+
+  void read_joint(const FileCard& card) {
+    AbaqusJoint joint;
+    joint.is_tie = card.keyword == "TIE";
+    joint.where = file_.where(card);
+    joint.is_adjusted = card.has("ADJUST");
+    if (card.has("CYCLICSYMMETRY") || card.has("MULTISTAGE")) return leave(card, "cyclic symmetry");
+    if (!joint.is_tie) joint.friction = friction_of(card.option("INTERACTION"));
+    for (const DataLine& line : card.data) {
+      LineFields fields(file_, line);
+      joint.one = fields.name("a surface");
+      joint.other = fields.name("a surface");
+      analysis_.joints.push_back(joint);
+    }
+  }
+
+  // *FRICTION below the *SURFACE INTERACTION of that name.
+  double friction_of(const std::string& interaction) const {
+    bool is_it = false;
+    for (const FileCard& card : file_.cards()) {
+      if (card.keyword == "SURFACEINTERACTION") is_it = in_capitals(card.option("NAME")) == in_capitals(interaction);
+      if (!is_it || card.keyword != "FRICTION" || card.data.empty()) continue;
+      LineFields fields(file_, card.data[0]);
+      return std::min(fields.real("a coefficient of friction"), rough);
+    }
+    return 0.0;
+  }
+
+  AbaqusModel& model_;
+  const CardFile& file_;
+  AbaqusAnalysis analysis_;
+  std::set<int> turned_;  // nodes in axes of *TRANSFORM
+};
+
+}  // namespace
+
+AbaqusAnalysis analysis_of(AbaqusModel& model) { return AnalysisReader(model).read(); }
+
+}  // namespace dygita

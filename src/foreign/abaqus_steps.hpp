@@ -1,0 +1,51 @@
+// What an .inp asks for beside its meshes: supports, loads, joints and steps, in the units of the file; and what it
+// asks for that no deck says.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "foreign/abaqus_model.hpp"
+
+namespace dygita {
+
+struct AbaqusAction {
+  enum class Kind { held, moved, force, pressure, gravity };
+  Kind kind;
+  std::string place;  // a set of nodes or a face of the model; empty: everywhere
+  Vec3 value;         // of gravity, a force on each node, a motion; [0] of a pressure
+  std::array<bool, 3> along = {};
+  std::string amplitude;  // its name; empty: none
+  std::string where;      // "plate.inp:45"
+  int n_nodes = 0;        // of the place
+};
+
+struct AbaqusStep {
+  std::string procedure, where;  // "STATIC"; empty: none that is known
+  std::vector<double> numbers;   // of its line of data
+  bool is_perturbation = false, is_explicit = false;
+  bool drops_supports = false, drops_loads = false;  // OP = NEW
+  std::vector<AbaqusAction> actions;
+};
+
+struct AbaqusJoint {
+  bool is_tie = false, is_adjusted = false;
+  std::string one, other;  // faces
+  double friction = 0.0;
+  std::string where;
+};
+
+struct AbaqusAnalysis {
+  std::vector<AbaqusAction> before;  // the first step
+  std::vector<AbaqusStep> steps;
+  std::vector<AbaqusJoint> joints;
+  std::map<std::string, std::vector<double>> amplitudes;  // times and values in turns, by names in capitals
+  std::vector<std::string> remarks;                       // what is said otherwise
+  std::vector<std::string> untranslated;                  // "plate.inp:45: *SPRING: ..."
+};
+
+// Nodes and facets that a card lists by numbers become sets of the model, called by the card and the line of the first
+// of them: "boundary 45". What cannot be read is untranslated, and no error.
+AbaqusAnalysis analysis_of(AbaqusModel& model);
+
+}  // namespace dygita

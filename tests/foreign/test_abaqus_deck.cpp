@@ -1,0 +1,105 @@
+// The deck that says what an .inp says, and what it leaves to its reader.
+#include <gtest/gtest.h>
+
+#include "foreign/abaqus_blocks.hpp"
+#include "foreign/abaqus_deck.hpp"
+#include "foreign/lua_text.hpp"
+#include "foreign/written_file.hpp"
+
+namespace dygita {
+namespace {
+
+const std::string steel =
+    "*SOLID SECTION, ELSET=E, MATERIAL=STEEL\n*MATERIAL, NAME=STEEL\n*ELASTIC\n200000., 0.3\n*DENSITY\n8.E-9\n";
+
+std::string imported(const std::string& rest, const std::string& units = "mm t s") {
+  const WrittenFile written(AbaqusBlock(abaqus_shapes()[0], 2).text() + steel + rest, "block.inp");
+  return deck_of_abaqus({written.path(), units, {}});
+}
+
+void expect_in(const std::string& text, const std::string& what) {
+  EXPECT_NE(text.find(what), std::string::npos) << "no\n" << what << "\nin\n" << text;
+}
+
+TEST(AbaqusDeck, has_supports_loads_and_steps_by_the_names_and_lines_of_the_file) {
+  const std::string deck = imported(
+      "*BOUNDARY\nX0, 1, 3\nY0, 2\n*STEP\n*STATIC\n*CLOAD\n7, 3, -2.5\n10, 3, -2.5\n*DSLOAD\nTOP, P, 3.\n*END STEP\n");
+  expect_in(
+      deck,
+      "local units = \"mm t s\"\nlocal length, force, pressure, acceleration, time = 0.001, 1, 1e+06, 0.001, 1\n");
+  expect_in(deck, "local part_e = substructure{ name = \"E\", mesh = file:part \"E\", material = material_steel }");
+  expect_in(deck, "support.fixed{ name = \"support_x0\", on = { part_e:region \"X0\" } }");
+  expect_in(deck, "support.held{ name = \"support_y0\", on = { part_e:region \"Y0\" }, y = true }");
+  expect_in(deck, "load.force{ on = { part_e:region \"cload ");  // both nodes: their sum
+  expect_in(deck, "\" }, z = -5*force }");
+  expect_in(deck, "load.pressure{ on = { part_e:face \"TOP\" }, history = 3*pressure }");
+  expect_in(deck, "step.static{ name = \"step_1\", loads = { load_cload_");
+  EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
+  EXPECT_EQ(deck.find("error("), std::string::npos) << deck;
+}
+
+TEST(AbaqusDeck, stops_where_something_is_not_translated_and_says_the_line) {
+  const std::string deck =
+      imported("*SPRING, ELSET=E\n3\n10.\n*STEP, NLGEOM\n*STATIC\n*TEMPERATURE\nALL, 300.\n*END STEP\n");
+  expect_in(deck, "-- NOT TRANSLATED: ");
+  expect_in(deck, ": *SPRING: a deck has no word for it\n");
+  expect_in(deck, ": NLGEOM: displacements are small in this program");
+  expect_in(deck, ": *TEMPERATURE: ");
+  expect_in(deck, "error(\"some lines of ");
+}
+
+TEST(AbaqusDeck, does_not_guess_what_a_line_means) {
+  for (const char* card :
+       {"*CLOAD\nE, 4, 1.\n", "*CLOAD\n7, 7, 1.\n", "*DLOAD\nE, P2NU, 1.\n", "*DLOAD\nE, CENTRIF, 1.\n",
+        "*BOUNDARY, TYPE=VELOCITY\nX0, 1\n", "*BOUNDARY, FIXED\nX0, 1\n", "*BOUNDARY\nX0, 11, 11, 5.\n",
+        "*CLOAD, AMPLITUDE=A\n7, 1, 1.\n", "*CLOAD, FOLLOWER\n7, 1, 1.\n", "*EQUATION\n2\n7,1,1.,10,1,-1.\n",
+        "*DLOAD\n100, GRAV, 9810., 0., 0., -1.\n", "*CLOAD\nNOWHERE, 1, 1.\n"}) {
+    SCOPED_TRACE(card);
+    expect_in(imported("*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n" + std::string(card) + "*END STEP\n"), "NOT TRANSLATED");
+  }
+  expect_in(imported("*TRANSFORM, NSET=X0, TYPE=C\n0,0,0,0,0,1\n*BOUNDARY\nX0, 1\n*STEP\n*STATIC\n*END STEP\n"),
+            "in axes of *TRANSFORM");
+}
+
+TEST(AbaqusDeck, has_steps_of_motion_modes_and_amplitudes) {
+  const std::string moves = imported(
+      "*AMPLITUDE, NAME=A\n0., 0., 1e-3, 2.\n*BOUNDARY\nX0, 1, 3\n*STEP\n*DYNAMIC, DIRECT\n1.e-5, 1.04e-4\n"
+      "*CLOAD, AMPLITUDE=a\n7, 1, 3.\n*END STEP\n");
+  expect_in(moves, "history.piecewise{ times = { 0*time, 0.001*time }, values = { 0*force, 6*force } }");
+  expect_in(moves, "step.dynamic{ name = \"step_1\", loads = { load_cload_");
+  expect_in(moves, "duration = 0.000104*time, dt = 9.454545454545454e-06*time }");
+  const std::string modes = imported("*BOUNDARY\nX0, 1, 3\n*STEP\n*FREQUENCY\n7\n*END STEP\n");
+  expect_in(modes, "steps = { rest_1 }, outputs = { output.modes{ name = \"modes\", n = 7 } }");
+  EXPECT_EQ(modes.find("NOT TRANSLATED"), std::string::npos) << modes;
+}
+
+TEST(AbaqusDeck, holds_a_place_once_in_all_directions_that_several_lines_hold) {
+  const std::string deck =
+      imported("*BOUNDARY\nX0, 1\n*BOUNDARY\nX0, 3\n*STEP\n*STATIC\n*BOUNDARY\nX0, 2\n*END STEP\n");
+  expect_in(deck, "support.held{ name = \"support_x0\", on = { part_e:region \"X0\" }, x = true, z = true }");
+  expect_in(deck, "support.fixed{ name = \"support_x0_2\", on = { part_e:region \"X0\" } }");
+  expect_in(deck, "supports = { support_x0_2 } }  -- ");
+}
+
+TEST(AbaqusDeck, takes_the_end_of_an_amplitude_in_a_static_step) {
+  const std::string deck = imported(
+      "*AMPLITUDE, NAME=A\n0., 0., 2., 8., 3., 100.\n*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n0.1, 1.5\n"
+      "*CLOAD, AMPLITUDE=A\n7, 1, 3.\n*END STEP\n");
+  expect_in(deck, "x = 18*force");  // 3 x 6
+  expect_in(deck, "the amplitude 'A' is 6 at the end of its step");
+  EXPECT_EQ(deck.find("error("), std::string::npos) << deck;
+}
+
+TEST(LuaText, is_what_lua_reads_back) {
+  EXPECT_EQ(lua_quoted("a \"b\"\\\n"), "\"a \\\"b\\\"\\\\\\010\"");
+  EXPECT_EQ(lua_number(0.1), "0.1");
+  EXPECT_EQ(std::stod(lua_number(1.0 / 3.0)), 1.0 / 3.0);
+  EXPECT_EQ(deck_name_of("..a/b:c."), "a_b_c");
+  EXPECT_EQ(deck_name_of(""), "unnamed");
+  LuaNames names;
+  EXPECT_EQ(names.of("part", "Left Side"), "part_left_side");
+  EXPECT_EQ(names.of("part", "left-side"), "part_left_side_2");
+}
+
+}  // namespace
+}  // namespace dygita
