@@ -194,10 +194,13 @@ class DeckWriter {
       return leave(fmt::format("{}: surfaces '{}' and '{}' are on {} and {} parts, not on one each", joint.where,
                                joint.one, joint.other, one.size(), other.size()));
     const std::string name = names_.of(joint.is_tie ? "tie" : "contact", joint.one + "_" + joint.other);
-    const std::string more = joint.is_tie ? ""
-                             : joint.is_adjusted
-                                 ? fmt::format(", friction = {}, closed = true", lua_number(joint.friction))
-                                 : fmt::format(", friction = {}, gap = \"geometry\"", lua_number(joint.friction));
+    const std::string more =
+        joint.is_tie ? "" : fmt::format(", friction = {}, gap = \"geometry\"", lua_number(joint.friction));
+    if (joint.is_adjusted && !joint.is_tie)
+      leave(
+          fmt::format("{}: ADJUST moves nodes that are near onto the other surface; where all of it is meant to touch, "
+                      "closed = true takes the place of the gap",
+                      joint.where));
     put("local {} = interface.{}{{ name = {}, between = {{ {}, {} }}{} }}  -- {}", name,
         joint.is_tie ? "bonded" : "contact", lua_quoted(name), one[0], other[0], more, joint.where);
     interfaces_.push_back(name);
@@ -333,6 +336,8 @@ class DeckWriter {
     const bool is_dynamic = step.procedure == "DYNAMIC";
     if ((step.drops_supports || step.drops_loads) && !loads.empty())
       leave(fmt::format("{}: OP = NEW after steps with loads", step.where));
+    if (step.is_perturbation && step.procedure == "STATIC" && analysis_.steps.size() > 1)
+      leave(fmt::format("{}: a static perturbation about the step before", step.where));
     if (step.drops_supports) supports.clear();
     if (step.drops_loads) loads.clear();
     if (!loads.empty() && !step.actions.empty() && step.procedure != "FREQUENCY")

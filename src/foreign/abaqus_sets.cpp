@@ -193,7 +193,15 @@ void AbaqusModel::read_section(const PlacedCard& placed) {
   const LineFields at(file_, {name, card.file, card.line});
   const auto g = static_cast<int>(model_.groups.size());
   model_.groups.push_back({name, card.option("MATERIAL"), card.option("ORIENTATION"), placed.scope->instance});
-  for (const int cell : cells_of(scope_of(placed), at, name)) model_.cells[static_cast<size_t>(cell)].group = g;
+  int n_others = 0;
+  for (const int cell : cells_of(scope_of(placed), at, name)) {
+    int& group = model_.cells[static_cast<size_t>(cell)].group;
+    n_others += group >= 0;
+    group = g;
+  }
+  if (n_others > 0)
+    model_.told.push_back(
+        fmt::format("{}: {} cells of '{}' have a section already: this one counts", file_.where(card), n_others, name));
 }
 
 // Cells without a section, by the set in which they are declared.

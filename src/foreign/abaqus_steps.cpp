@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/names.hpp"
 
 namespace dygita {
 
@@ -70,6 +71,24 @@ const std::set<std::string> silent = {"NODE",
                                       "CYCLICHARDENING",
                                       "DEFORMATIONPLASTICITY"};
 
+// Options that are read, or that say nothing of the motion.
+const std::map<std::string, std::set<std::string>> options_of = {
+    {"BOUNDARY", {"OP", "AMPLITUDE", "TYPE"}},
+    {"CLOAD", {"OP", "AMPLITUDE"}},
+    {"DLOAD", {"OP", "AMPLITUDE"}},
+    {"DSLOAD", {"OP", "AMPLITUDE"}},
+    {"AMPLITUDE", {"NAME", "TIME", "VALUE", "DEFINITION"}},
+    {"STATIC", {"DIRECT", "SOLVER"}},
+    {"DYNAMIC", {"DIRECT", "SOLVER", "EXPLICIT", "ALPHA"}},
+    {"FREQUENCY", {"SOLVER", "STORAGE", "GLOBAL", "EIGENSOLVER"}},
+    {"STEP", {"NLGEOM", "PERTURBATION", "INC", "INCF", "NAME", "UNSYMM"}},
+    {"TIE", {"NAME", "POSITIONTOLERANCE", "ADJUST", "TYPE", "CYCLICSYMMETRY", "MULTISTAGE"}},
+    {"CONTACTPAIR", {"INTERACTION", "TYPE", "ADJUST", "SMALLSLIDING"}},
+    {"SOLIDSECTION", {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS"}},
+    {"FRICTION", {}},
+    {"SURFACEBEHAVIOR", {"PRESSURE-OVERCLOSURE"}},
+    {"SURFACEINTERACTION", {"NAME"}}};
+
 using Mask = std::array<bool, 3>;
 constexpr double rough = 1000;  // coefficient of friction: the largest of a deck, with which nothing slides
 
@@ -92,6 +111,9 @@ class AnalysisReader {
   void read(const PlacedCard& placed) {
     const FileCard& card = *placed.card;
     const std::string& word = card.keyword;
+    if (const auto known = options_of.find(word); known != options_of.end())
+      for (const auto& [option, value] : card.options)
+        if (!known->second.contains(option)) leave(card, printable(option) + " is not read");
     if (word == "STEP") return begin_step(card);
     if (word == "BOUNDARY") return read_boundary(placed);
     if (word == "CLOAD") return read_forces(placed);
@@ -202,8 +224,6 @@ class AnalysisReader {
   void read_boundary(const PlacedCard& placed) {
     const FileCard& card = *placed.card;
     note_op(card, &AbaqusStep::drops_supports);
-    for (const char* option : {"FIXED", "SUBMODEL", "BASEMOTION", "LOADCASE", "MASSFLOW"})
-      if (card.has(option)) return leave(card, option);
     if (const std::string type = in_capitals(card.option("TYPE")); !type.empty() && type != "DISPLACEMENT")
       return leave(card, "TYPE = " + type);
     std::map<std::string, std::array<double, 6>> by_field;
@@ -246,8 +266,6 @@ class AnalysisReader {
 
   void read_forces(const PlacedCard& placed) {
     note_op(*placed.card, &AbaqusStep::drops_loads);
-    for (const char* option : {"FOLLOWER", "LOADCASE", "OMEGA0", "SUBMODEL", "SECTOR"})
-      if (placed.card->has(option)) return leave(*placed.card, option);
     Sayings sayings;
     for (const DataLine& line : placed.card->data) {
       LineFields fields(file_, line);
@@ -335,7 +353,7 @@ class AnalysisReader {
     joint.where = file_.where(card);
     joint.is_adjusted = card.has("ADJUST");
     if (card.has("CYCLICSYMMETRY") || card.has("MULTISTAGE")) return leave(card, "cyclic symmetry");
-    if (!joint.is_tie) joint.friction = friction_of(card.option("INTERACTION"));
+    if (!joint.is_tie) note_interaction(card.option("INTERACTION"), joint);
     for (const DataLine& line : card.data) {
       LineFields fields(file_, line);
       joint.one = fields.name("a surface");
@@ -344,16 +362,22 @@ class AnalysisReader {
     }
   }
 
-  // *FRICTION below the *SURFACE INTERACTION of that name.
-  double friction_of(const std::string& interaction) const {
+  // *FRICTION and *SURFACE BEHAVIOR below the *SURFACE INTERACTION of that name.
+  void note_interaction(const std::string& interaction, AbaqusJoint& joint) {
     bool is_it = false;
     for (const FileCard& card : file_.cards()) {
       if (card.keyword == "SURFACEINTERACTION") is_it = in_capitals(card.option("NAME")) == in_capitals(interaction);
+      if (is_it && card.keyword == "SURFACEBEHAVIOR") {
+        const std::string kind = in_capitals(card.option("PRESSURE-OVERCLOSURE"));
+        joint.is_tie = kind == "TIED";
+        if (kind != "HARD")
+          analysis_.remarks.push_back(fmt::format("{}: {} contact is {} here", file_.where(card), printable(kind),
+                                                  joint.is_tie ? "a bond" : "hard"));
+      }
       if (!is_it || card.keyword != "FRICTION" || card.data.empty()) continue;
       LineFields fields(file_, card.data[0]);
-      return std::min(fields.real("a coefficient of friction"), rough);
+      joint.friction = std::min(fields.real("a coefficient of friction"), rough);
     }
-    return 0.0;
   }
 
   AbaqusModel& model_;

@@ -52,7 +52,8 @@ TEST(AbaqusDeck, does_not_guess_what_a_line_means) {
   for (const char* card :
        {"*CLOAD\nE, 4, 1.\n", "*CLOAD\n7, 7, 1.\n", "*DLOAD\nE, P2NU, 1.\n", "*DLOAD\nE, CENTRIF, 1.\n",
         "*BOUNDARY, TYPE=VELOCITY\nX0, 1\n", "*BOUNDARY, FIXED\nX0, 1\n", "*BOUNDARY\nX0, 11, 11, 5.\n",
-        "*CLOAD, AMPLITUDE=A\n7, 1, 1.\n", "*CLOAD, FOLLOWER\n7, 1, 1.\n", "*EQUATION\n2\n7,1,1.,10,1,-1.\n",
+        "*CLOAD, AMPLITUDE=A\n7, 1, 1.\n", "*CLOAD, FOLLOWER\n7, 1, 1.\n",
+        "*CLOAD, AMPLITUDE=A, TIME DELAY=1.\n7, 1, 1.\n", "*EQUATION\n2\n7,1,1.,10,1,-1.\n",
         "*DLOAD\n100, GRAV, 9810., 0., 0., -1.\n", "*CLOAD\nNOWHERE, 1, 1.\n"}) {
     SCOPED_TRACE(card);
     expect_in(imported("*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n" + std::string(card) + "*END STEP\n"), "NOT TRANSLATED");
@@ -79,6 +80,32 @@ TEST(AbaqusDeck, holds_a_place_once_in_all_directions_that_several_lines_hold) {
   expect_in(deck, "support.held{ name = \"support_x0\", on = { part_e:region \"X0\" }, x = true, z = true }");
   expect_in(deck, "support.fixed{ name = \"support_x0_2\", on = { part_e:region \"X0\" } }");
   expect_in(deck, "supports = { support_x0_2 } }  -- ");
+}
+
+TEST(AbaqusDeck, joins_surfaces_as_their_interaction_says) {
+  const std::string two =
+      "*NODE\n901,0,0,20\n902,20,0,20\n903,20,20,20\n904,0,20,20\n905,0,0,30\n906,20,0,30\n907,20,20,30\n908,0,20,30\n"
+      "*ELEMENT, TYPE=C3D8, ELSET=LID\n900,901,902,903,904,905,906,907,908\n*SURFACE, NAME=UNDER\nLID, S1\n"
+      "*SOLID SECTION, ELSET=LID, MATERIAL=STEEL\n*CONTACT PAIR, INTERACTION=I\nunder, top\n*SURFACE INTERACTION, "
+      "NAME=i\n";
+  const std::string hard = imported(
+      two + "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1e7\n*FRICTION\n0.2, 1e6\n*STEP\n*STATIC\n*END STEP\n");
+  expect_in(hard,
+            "interface.contact{ name = \"contact_under_top\", between = { part_lid:face \"UNDER\", part_e:face \"TOP\" "
+            "}, friction = 0.2, gap = \"geometry\" }");
+  expect_in(hard, "LINEAR contact is hard here");
+  const std::string tied = imported(
+      two + "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TIED\n1e7\n*FRICTION\n1e30, 1e6\n*STEP\n*STATIC\n*END STEP\n");
+  expect_in(tied, "interface.bonded{ name = \"tie_under_top\"");
+}
+
+TEST(AbaqusDeck, leaves_perturbations_about_other_steps_to_its_reader) {
+  const std::string step = "*STATIC\n*CLOAD\n7, 1, 1.\n*END STEP\n";
+  expect_in(imported("*BOUNDARY\nX0, 1, 3\n*STEP\n" + step + "*STEP, PERTURBATION\n" + step),
+            "a static perturbation about");
+  expect_in(imported("*BOUNDARY\nX0, 1, 3\n*STEP\n" + step + "*STEP\n" + step),
+            "it changes what earlier steps have loaded");
+  EXPECT_EQ(imported("*BOUNDARY\nX0, 1, 3\n*STEP, PERTURBATION\n" + step).find("NOT TRANSLATED"), std::string::npos);
 }
 
 TEST(AbaqusDeck, takes_the_end_of_an_amplitude_in_a_static_step) {
