@@ -611,6 +611,8 @@ words[8] = {
     arguments = {
       name_of "step", after,
       { "increments", type = "integer", range = { 1, 100000 }, default = 1, doc = "number of increments" },
+      { "inertia_relief", type = "boolean", default = false,
+        doc = "loads accelerate what no support and no interface holds, as a rigid body, and its inertia balances them: a rocket under thrust, an assembly hung up freely" },
       loads, step_supports,
     },
   },

@@ -27,6 +27,7 @@ Content build_static(const Declaration& d) {
   auto step = new_step(d);
   step->is_static = true;
   step->increments = d.arguments.integer("increments");
+  step->inertia_relief = d.arguments.boolean("inertia_relief");
   return StepPtr(step);
 }
 

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "base/log.hpp"
-#include "exchange/rigid_frame.hpp"
 #include "law/law.hpp"
 #include "numerics/pairs_below.hpp"
 
@@ -252,34 +251,12 @@ class Pinning {
   std::map<std::pair<int, int>, std::vector<int>> points_at_;  // by part and node
 };
 
-// Throws where the loads (3 x nodes of each body, N) drive one of the free motions.
-void check_unloaded(const Problem& problem, const Step& step, const std::vector<RigidFrame>& frames,
-                    const std::vector<Points>& force, const Mat& free) {
-  const int n = static_cast<int>(frames.size());
-  Vec work = Vec::Zero(free.cols());
-  for (int i = 0; i < n; ++i)
-    if (!force[i].isZero(0.0))
-      for (Eigen::Index m = 0; m < free.cols(); ++m)
-        work[m] += frames[i]
-                       .displacements(free.col(m).segment<6>(6 * i), *problem.substructures[i])
-                       .cwiseProduct(force[i])
-                       .sum();
-  if (work.isZero(0.0)) return;
-  const Vec driven = free * work.normalized();
-  int part = 0;
-  double largest = 0.0, scale = 0.0;
-  for (int i = 0; i < n; ++i)
-    if (driven.segment<6>(6 * i).norm() > largest) {
-      largest = driven.segment<6>(6 * i).norm();
-      part = i;
-    }
-  for (int i = 0; i < n; ++i) scale += force[i].colwise().norm().sum() * largest;
-  if (work.norm() > 1e-7 * scale)
-    throw InputError(
-        step.origin,
-        fmt::format("static step '{}': {} of substructure '{}' is loaded, but no support or interface holds it",
-                    step.name, describe(driven.segment<6>(6 * part)), problem.substructures[part]->name) +
-            what_lets_go(problem, *problem.substructures[part]));
+// Which of the motions (6 n x m) moves a body most, for `work` of the loads on each: the body, and how far.
+std::pair<int, double> most_driven(const Vec& driven) {
+  std::pair<int, double> most{0, 0.0};
+  for (int i = 0; 6 * i < driven.size(); ++i)
+    if (const double own = driven.segment<6>(6 * i).norm(); own > most.second) most = {i, own};
+  return most;
 }
 
 // Names for as many motions as a body (6 x n) has: those that they are nearest to.
@@ -296,45 +273,104 @@ std::vector<std::string> names_of(const Mat& motions) {
   return names;
 }
 
+// Of free motions those of the whole as one rigid body, orthonormal, where all six are free; none where something holds
+// it.
+Mat motions_of_whole(const FreeMotions& free) {
+  Vec3 centre = Vec3::Zero();
+  for (const RigidFrame& frame : free.frames) centre += frame.centre / static_cast<double>(free.frames.size());
+  const Mat whole = orthonormal(free.of_whole(centre));
+  const Mat within = free.columns.transpose() * whole;
+  constexpr double rounding = 1e-6;
+  return (within.transpose() * within - Mat::Identity(6, 6)).norm() < rounding ? Mat(free.columns * within) : Mat();
+}
+
+// Those of the motions that do not move a pin: one less. along: how each of them moves it.
+Mat without(const Mat& free, const Vec& along) {
+  const Vec moving = along.normalized();
+  Mat others(free.cols(), free.cols());
+  others.col(0) = moving;
+  others.rightCols(free.cols() - 1).setIdentity();
+  int last = 0;
+  moving.cwiseAbs().maxCoeff(&last);  // the unit vector nearest to it is left out
+  if (last < free.cols() - 1) others.col(last + 1) = Vec::Unit(free.cols(), free.cols() - 1);
+  return orthonormal(free * orthonormal(others).rightCols(free.cols() - 1));
+}
+
 }  // namespace
 
-void pin_free_motions(const Problem& problem, const Step& step, const Exchange& exchange,
-                      const std::vector<Points>& force, Conditions& conditions) {
+Mat FreeMotions::of_whole(const Vec3& centre) const {
+  Mat whole(6 * static_cast<Eigen::Index>(frames.size()), 6);
+  for (size_t i = 0; i < frames.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      const auto row = 6 * static_cast<Eigen::Index>(i);
+      const Vec3 axis = Vec3::Unit(k);
+      whole.block<6, 1>(row, k) << axis, Vec3::Zero();
+      whole.block<6, 1>(row, 3 + k) << axis.cross(frames[i].centre - centre), frames[i].size * axis;
+    }
+  return whole;
+}
+
+FreeMotions find_free_motions(const Problem& problem, const Exchange& exchange, const Conditions& conditions) {
   const int n = static_cast<int>(problem.substructures.size());
-  std::vector<RigidFrame> frames;
-  for (const SubstructurePtr& part : problem.substructures) frames.emplace_back(extent_of(*part));
-  const Blocks gram = constraint_gram(problem, exchange, conditions, frames);
+  FreeMotions free;
+  for (const SubstructurePtr& part : problem.substructures) free.frames.emplace_back(extent_of(*part));
+  const Blocks gram = constraint_gram(problem, exchange, conditions, free.frames);
   // Each body's scale: how often it is constrained; a motion nothing resists has a vanishing eigenvalue.
   Vec weight(6 * n);
   for (int i = 0; i < n; ++i)
     weight.segment<6>(6 * i).setConstant(1.0 / std::sqrt(std::max(1.0, gram.at({i, i}).trace())));
   const EigenPairs eigen = pairs_below(scaled(gram, weight), 1e-9);
-  if (eigen.values.size() == 0) return;
-  Mat free = orthonormal(weight.asDiagonal() * eigen.vectors);
-  check_unloaded(problem, step, frames, force, free);
-  const Pinning pinning(problem, exchange, conditions, frames);
-  std::map<int, Mat> unconstrained;  // by part, a column a motion
-  while (free.cols() > 0) {
-    const Pin pin = pinning.best(free);
+  free.columns = Mat(6 * n, 0);
+  if (eigen.values.size() > 0) free.columns = orthonormal(weight.asDiagonal() * eigen.vectors);
+  free.whole = Mat(6 * n, 0);
+  if (free.columns.cols() >= 6)
+    if (const Mat whole = motions_of_whole(free); whole.size() > 0) free.whole = whole;
+  return free;
+}
+
+void check_unloaded(const Problem& problem, const Step& step, const FreeMotions& free, const Vec& work, double forces) {
+  if (work.isZero(0.0)) return;
+  const Vec driven = free.columns * work.normalized();
+  const auto [part, largest] = most_driven(driven);
+  if (work.norm() <= 1e-7 * forces * largest) return;
+  throw InputError(
+      step.origin,
+      fmt::format("static step '{}': {} of substructure '{}' is loaded, but no support or interface holds it",
+                  step.name, describe(driven.segment<6>(6 * part)), problem.substructures[part]->name) +
+          what_lets_go(problem, *problem.substructures[part]) +
+          (free.whole.cols() > 0 ? "\n    nothing holds the assembly: add a support, or step.static{ inertia_relief = "
+                                   "true }, and the loads accelerate it"
+                                 : ""));
+}
+
+void pin_free_motions(const Problem& problem, const Step& step, const Exchange& exchange, const FreeMotions& motions,
+                      Conditions& conditions) {
+  const Pinning pinning(problem, exchange, conditions, motions.frames);
+  Mat free = motions.columns, whole = motions.whole;
+  const auto hold = [&](const Pin& pin) {
     CHECK(pin.node >= 0, "no node can be pinned against a free rigid motion");
     // Of the free motions one moves the pin, and the others, across it, do not.
-    const Vec moving = pinning.along(pin, free).normalized();
-    Mat& own = unconstrained[pin.part];
-    own.conservativeResize(6, own.cols() + 1);
-    own.rightCols(1) = (free * moving).segment<6>(6 * pin.part);
-    Mat others(free.cols(), free.cols());
-    others.col(0) = moving;
-    others.rightCols(free.cols() - 1).setIdentity();
-    int last = 0;
-    moving.cwiseAbs().maxCoeff(&last);  // the unit vector nearest to it is left out
-    if (last < free.cols() - 1) others.col(last + 1) = Vec::Unit(free.cols(), free.cols() - 1);
-    free = orthonormal(free * orthonormal(others).rightCols(free.cols() - 1));
+    free = without(free, pinning.along(pin, free));
     Held& held = conditions.held[pin.part][pin.node];
     held.directions.col(held.n) = held.given.col(held.n) = pin.direction;
     ++held.n;
+  };
+  // An assembly that nothing holds is free on purpose; parts that move against it are named.
+  while (whole.cols() > 0) {
+    const Pin pin = pinning.best(whole);
+    hold(pin);
+    whole = without(whole, pinning.along(pin, whole));
+  }
+  std::map<int, Mat> unconstrained;  // by part, a column a motion
+  while (free.cols() > 0) {
+    const Pin pin = pinning.best(free);
+    Mat& own = unconstrained[pin.part];
+    own.conservativeResize(6, own.cols() + 1);
+    own.rightCols(1) = (free * pinning.along(pin, free).normalized()).segment<6>(6 * pin.part);
+    hold(pin);
   }
   std::map<int, std::vector<std::string>> names;
-  for (const auto& [part, motions] : unconstrained) names[part] = names_of(motions);
+  for (const auto& [part, all] : unconstrained) names[part] = names_of(all);
   warn_of_unconstrained(problem, step, names);
 }
 

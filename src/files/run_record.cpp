@@ -129,6 +129,13 @@ Json sharing(const Sharing& shared) {
   return {{"of_each", of_each}, {"pieces", pieces}};
 }
 
+Json inertia_relief(const RigidAcceleration& acceleration) {
+  const auto vector = [](const Vec3& v) { return Json{v[0], v[1], v[2]}; };
+  return {{"centre_of_mass", vector(acceleration.centre)},
+          {"acceleration", vector(acceleration.linear)},
+          {"angular_acceleration", vector(acceleration.angular)}};
+}
+
 Json steps(const Problem& problem, const RunResult& result) {
   Json list = Json::array();
   for (size_t i = 0; i < result.steps.size(); ++i) {
@@ -140,6 +147,9 @@ Json steps(const Problem& problem, const RunResult& result) {
                  {"iterations", step.iterations},
                  {"worst_indicator", step.worst_indicator},
                  {"seconds", step.seconds}};
+    if (i < result.free.size() && result.free[i].is_whole) json["is_free"] = true;
+    if (i < result.free.size() && result.free[i].relief)
+      json["inertia_relief"] = inertia_relief(*result.free[i].relief);
     if (i < problem.steps.size()) {
       const bool has_length = problem.steps[i]->is_static || problem.steps[i]->dt > 0.0;
       if (has_length) json["asked_increments"] = problem.steps[i]->n_increments();

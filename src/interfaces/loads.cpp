@@ -165,9 +165,33 @@ void Loads::keep_as_laid(const InertiaForce& inertia, const InertiaForce& of_sta
 
 void Loads::evaluate(int increment) {
   values_.clear();
-  for (const LoadPattern& pattern : patterns_)
-    values_.push_back(step_.is_static ? pattern.value.at_static(increment, step_.increments)
-                                      : pattern.value.mean(step_.dt * increment, step_.dt * (increment + 1)));
+  for (size_t i = 0; i + opposed_.motions.size() < patterns_.size(); ++i) {
+    const LoadValue& value = patterns_[i].value;
+    values_.push_back(step_.is_static ? value.at_static(increment, step_.increments)
+                                      : value.mean(step_.dt * increment, step_.dt * (increment + 1)));
+  }
+  if (opposed_.motions.empty()) return;
+  const Vec of_motions = accelerations();
+  for (const int motion : opposed_.motions) values_.push_back(-of_motions[motion]);
+}
+
+void Loads::oppose(const std::vector<std::vector<Points>>& inertia, Mat accelerations) {
+  CHECK(step_.is_static && opposed_.motions.empty(), "inertia opposes the loads of a static step, once");
+  opposed_.accelerations = std::move(accelerations);
+  for (size_t motion = 0; motion < inertia.size(); ++motion)
+    for (size_t part = 0; part < inertia[motion].size(); ++part) {
+      const Points& unit = inertia[motion][part];
+      if (unit.isZero(0.0)) continue;
+      LoadPattern pattern{static_cast<int>(part), {}, {{History::constant(0.0), true}, 0.0}, "", 0.0};
+      for (int node = 0; node < unit.cols(); ++node) pattern.nodes.emplace_back(node, unit.col(node));
+      patterns_.push_back(std::move(pattern));
+      opposed_.motions.push_back(static_cast<int>(motion));
+    }
+}
+
+Vec Loads::accelerations() const {
+  return opposed_.accelerations *
+         Eigen::Map<const Vec>(values_.data(), static_cast<Eigen::Index>(opposed_.accelerations.cols()));
 }
 
 void Loads::evaluate_mean(double t0, double t1) {

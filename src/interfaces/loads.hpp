@@ -37,6 +37,11 @@ class Loads {
   void evaluate_mean(double t0, double t1);
   const std::vector<LoadPattern>& patterns() const { return patterns_; }
   const std::vector<double>& values() const { return values_; }  // of each pattern, as last evaluated
+  // From now on inertia opposes the loads: of each motion the forces of a unit acceleration, 3 x n_nodes of each
+  // substructure, and by how much a unit of each pattern so far accelerates it (motions x patterns). Static steps only.
+  void oppose(const std::vector<std::vector<Points>>& inertia, Mat accelerations);
+  // Of those motions, as last evaluated.
+  Vec accelerations() const;
   // Adds the forces (3 x n_nodes, N) on a substructure, as last evaluated.
   void add_forces(int part, Points& force) const;
 
@@ -64,6 +69,10 @@ class Loads {
   const Step& step_;
   std::vector<LoadPattern> patterns_;
   std::vector<double> values_;  // of each pattern
+  struct {
+    std::vector<int> motions;  // of each of the last patterns, that of the inertia which it is
+    Mat accelerations;         // of motions, by a unit of each of the patterns before
+  } opposed_;
   std::vector<std::pair<const Interface*, LoadValue>> shortenings_, preloads_;
   std::vector<std::pair<const Interface*, double>> releases_;
   std::map<std::string, double> motions_reached_;

@@ -240,6 +240,7 @@ void StepRun::solve_increment(int increment) {
   const Goal goal = goal_of(has_start);
   const Best best = leads(1) ? follow(increment, goal) : answer(increment, goal);
   finish_increment(at_.q);
+  model_.mean.take_off(model_.pieces, model_.here);
   if (best.outcome.eta > settings_.tolerance) note_missed(best.missed);
   accept_increment(increment, best.iterations, best.outcome.eta);
 }

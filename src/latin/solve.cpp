@@ -84,6 +84,7 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
     if (!figures.stopped_by && !run.is_left_unsolved()) end_step(model, state);
     figures.steps.push_back(run.figures());
     figures.steps.back().seconds = lap();
+    figures.free.push_back(model.what_is_free());
     run.add_to(figures);
     if (figures.stopped_by) break;
   }

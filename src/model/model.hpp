@@ -88,6 +88,7 @@ struct Step : Named {
   bool is_static = false;
   std::shared_ptr<const Step> after;  // null: from the undeformed state
   int increments = 1;                 // static
+  bool inertia_relief = false;        // static: loads accelerate what nothing holds
   double duration = 0.0, dt = 0.0;    // dynamic, s
   std::vector<LoadPtr> loads;
   std::optional<std::vector<SupportPtr>> supports;  // replaces the problem's in this step

@@ -173,6 +173,19 @@ IncrementEnergy ImplicitPiece::finish(Eigen::Ref<const Vec> given, const Points*
   return energy;
 }
 
+// Displacement and velocity are one in a static increment.
+void ImplicitPiece::add_free_motion(const Points& motion) {
+  const Vec free = op_.unknowns().restrict_nodal(motion);
+  state_.u += free;
+  state_.v += free;
+  const std::vector<HeldDirection>& held = op_.held();
+  for (size_t i = 0; i < held.size(); ++i) {
+    const double along = held[i].direction.dot(motion.col(held[i].node));
+    state_.held_u[i] += along;
+    state_.held_v[i] += along;
+  }
+}
+
 Vec ImplicitPiece::row_displacements() const {
   Vec u = op_.at_rows(state_.u);
   if (op_.has_held_rows()) u += op_.held_at_rows(state_.held_u);

@@ -43,6 +43,8 @@ class ImplicitPiece : public Piece {
   void begin(const Points& force, const std::vector<double>& motion_velocity, double quiet) override;
   void interface_velocity(Eigen::Ref<const Vec> q, Eigen::Ref<Vec> velocity) override;
   IncrementEnergy finish(Eigen::Ref<const Vec> q, const Points* interface_force) override;
+  // Adds a motion (3 x n_nodes, m) that nothing resists to the last increment of a static step.
+  void add_free_motion(const Points& motion);
 
   Points displacement() const override { return op_.unknowns().expand(state_.u, state_.held_u); }
   Points velocity() const override { return op_.unknowns().expand(state_.v, state_.held_v); }

@@ -81,6 +81,7 @@ void Runner::run_step(const Step& step) {
   }
   figures_.steps.push_back(run.figures());
   figures_.steps.back().seconds = seconds_since(start);
+  figures_.free.push_back(model.what_is_free());
   figures_.seconds["substeps and output"] += seconds_since(start);
   std::optional<double>& hourglass = figures_.own.hourglass_energy;
   hourglass = std::max(hourglass.value_or(0.0), 100.0 * run.hourglass_share());

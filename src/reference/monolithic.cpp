@@ -253,6 +253,7 @@ void MonolithicRun::solve_increment(int increment) {
   if (loose_ && outcome.converged) leave_loose_parts(outcome);
   lap(seconds_.newton);
   finish_increment();
+  model_.mean.take_off(model_.pieces, model_.here);
   lap(seconds_.backward);
   accept_increment(increment, outcome);
   lap(seconds_.accept);
@@ -298,6 +299,7 @@ void MonolithicSteps::run(const Step& step, State& state, Observer& observer, So
   if (!figures.stopped_by) end_step(model, state);
   figures.steps.push_back(run.figures());
   figures.steps.back().seconds = seconds_since(start);
+  figures.free.push_back(model.what_is_free());
   run.add_to(figures);
 }
 

@@ -58,6 +58,22 @@ std::string loads_of(const Json& step) {
   return result.empty() ? "none" : result;
 }
 
+std::string vector_of(const Json& three, const char* unit) {
+  std::string all;
+  for (const Json& one : three) all += (all.empty() ? "" : ", ") + plain_number(one.get<double>());
+  return "(" + all + ") " + unit;
+}
+
+// "; free in space, accelerated by (0, 0, 12) m/s^2 at its centre of mass and (0, 3, 0) rad/s^2".
+std::string free_of(const Json& step) {
+  const std::string is_free = step.value("is_free", false) ? "; free in space" : "";
+  if (!step.contains("inertia_relief")) return is_free;
+  const Json& relief = step["inertia_relief"];
+  return (is_free.empty() ? "; inertia relief: " : is_free + ", ") + "accelerated by " +
+         vector_of(relief.at("acceleration"), "m/s^2") + " at its centre of mass and " +
+         vector_of(relief.at("angular_acceleration"), "rad/s^2");
+}
+
 std::string length_of(const Json& step) {
   const double n = number(step, "increments"), asked = number(step, "asked_increments"), dt = number(step, "dt");
   std::string result = count(n) + (asked > n ? " of " + count(asked) : "") + (n == 1.0 ? " increment" : " increments");
@@ -111,7 +127,7 @@ std::string computed_section(const RunFolder& run) {
     rows.clear();
   };
   for (const Json& step : record.at("steps"))
-    rows.push_back({text(step, "name"), text(step, "kind"), length_of(step), loads_of(step)});
+    rows.push_back({text(step, "name"), text(step, "kind"), length_of(step), loads_of(step) + free_of(step)});
   flush("Steps", {"step", "kind", "length", "loads"});
   for (const Json& interface : record.value("interfaces", Json::array()))
     rows.push_back({text(interface, "name"), text(interface, "kind"),

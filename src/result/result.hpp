@@ -162,6 +162,7 @@ struct RunResult {
   Figures figures;
   std::shared_ptr<const Scenes> scenes;  // what the report draws; null: nobody recorded it
   std::vector<PartStress> stresses;      // of the substructures whose material has a yield, in their order
+  std::vector<FreeStep> free;            // of the steps
 
   const Findings& findings_of(const Output& output) const;  // empty where it told nothing
 };

@@ -62,6 +62,7 @@ void summarise(const Problem& problem, const SolverFigures& figures, RunResult& 
   result.seconds = figures.seconds;
   result.pieces = figures.pieces;
   result.sharing = figures.sharing;
+  result.free = figures.free;
   static_cast<OwnFigures&>(result.figures) = figures.own;
   result.figures.factor_memory = figures.factor_bytes / 1e6;
   result.figures.gap_difference = figures.gap_difference;
@@ -74,6 +75,14 @@ std::string mass_of(const StepSummary& step) {
     text = step.tuned_parts.size() == step.explicit_parts.size() ? ", tuned mass"
                                                                  : ", tuned mass in " + list_of_names(step.tuned_parts);
   return step.diagonal_parts.empty() ? text : text + ", diagonal mass in cells of order two";
+}
+
+std::string what_is_free(const FreeStep& step) {
+  const auto vector = [](const Vec3& v) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", v[0], v[1], v[2]); };
+  if (step.relief)
+    return fmt::format("; accelerated by {} m/s^2 and {} rad/s^2", vector(step.relief->linear),
+                       vector(step.relief->angular));
+  return step.is_whole ? "; nothing holds the assembly" : "";
 }
 
 void say_summary(const Problem& problem, const RunResult& result, const std::filesystem::path& directory,
@@ -89,6 +98,8 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
     if (!step.explicit_parts.empty())
       line += fmt::format("; explicit{}: {}, {} substep{} of each dt", mass_of(step),
                           list_of_names(step.explicit_parts), step.substeps, step.substeps == 1 ? "" : "s");
+    if (const auto i = static_cast<size_t>(&step - result.steps.data()); i < result.free.size())
+      line += what_is_free(result.free[i]);
     if (step.increments_not_converged > 0)
       line += fmt::format("; {} NOT CONVERGED (worst indicator {:.1e})", step.increments_not_converged,
                           step.worst_indicator);

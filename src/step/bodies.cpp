@@ -154,10 +154,12 @@ void move_inside(const Mesh& mesh, const std::vector<char>& marked, Mass& mass) 
 
 // Loads on all of a substructure are laid on every rank.
 bool has_body_forces(const Problem& problem) {
-  for (const StepPtr& step : problem.steps)
+  for (const StepPtr& step : problem.steps) {
+    if (step->inertia_relief) return true;
     for (const LoadPtr& load : step->loads)
       for (const Effect& effect : load->effects())
         if (std::holds_alternative<BodyForce>(effect)) return true;
+  }
   return false;
 }
 

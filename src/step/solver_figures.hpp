@@ -22,6 +22,18 @@ struct Missed {
   std::optional<double> halving;  // iterations in which it did, lately
 };
 
+// Of an assembly as one rigid body.
+struct RigidAcceleration {
+  Vec3 centre = Vec3::Zero();                          // m, of mass
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  // m/s^2, of the centre; rad/s^2
+};
+
+// What a static step has left free.
+struct FreeStep {
+  bool is_whole = false;                    // nothing holds the assembly
+  std::optional<RigidAcceleration> relief;  // by the loads, in the last increment; none: inertia is not asked for
+};
+
 // What a run was, step by step.
 struct StepFigures {
   int increments = 0, not_converged = 0;
@@ -85,6 +97,7 @@ struct SolverFigures {
   OwnFigures own;                   // for the run record
   Sharing sharing;
   std::map<std::string, double> seconds;  // by phase: set up, linear, iterate, output
+  std::vector<FreeStep> free;             // of the steps
 };
 
 }  // namespace dygita

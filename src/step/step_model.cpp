@@ -11,7 +11,6 @@
 #include "base/log.hpp"
 #include "base/memory.hpp"
 #include "base/union_find.hpp"
-#include "exchange/rigid_motions.hpp"
 #include "law/law.hpp"
 #include "partition/all_pieces.hpp"
 #include "step/assembled_system.hpp"
@@ -38,6 +37,10 @@ State initial_state(const Problem& problem, const std::vector<Surface>& surfaces
     state.released.push_back(0);
   }
   return state;
+}
+
+FreeStep StepModel::what_is_free() const {
+  return {mean.is_whole_free(), relief ? std::optional(relief->acceleration(*loads)) : std::nullopt};
 }
 
 std::vector<double> StepModel::motion_velocities(int increment) const {
@@ -177,6 +180,23 @@ NodeMotions moved_nodes(const Problem& problem, const Step& step, const State& s
   return moved;
 }
 
+// What is free to move, and where it is pinned, is a matter of the substructures.
+void free_motions_of(StepModel& model, const std::vector<Surface>& surfaces, const std::vector<Body>& bodies) {
+  const Problem& problem = *model.problem;
+  const Step& step = *model.step;
+  const Exchange exchange = make_exchange(problem, step, *no_cut(problem), surfaces, model.conditions);
+  FreeMotions free = find_free_motions(problem, exchange, model.conditions);
+  if (step.inertia_relief) {
+    if (free.columns.cols() == 0)
+      warn(fmt::format("{}static step '{}': 'inertia_relief' has nothing to do: supports and interfaces hold all parts",
+                       step.origin.prefix(), step.name));
+    model.relief.emplace(problem, free, inertia_of(*model.cut, bodies, {}), *model.loads);
+  }
+  check_loads(problem, step, free, *model.loads);
+  pin_free_motions(problem, step, exchange, free, model.conditions);
+  model.mean = MeanMotion(std::move(free), model.cut, bodies);
+}
+
 StepModel make_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                      const std::vector<Body>& bodies, const State& start, const CutPtr& cut, bool chooses_integration,
                      bool solves_all) {
@@ -193,15 +213,7 @@ StepModel make_model(const Problem& problem, const Step& step, const std::vector
   }
   model.loads = std::make_unique<Loads>(problem, step, start, inertia_of(*cut, bodies, model.integration.is_explicit),
                                         model.has_explicit() ? inertia_of(*cut, bodies, {}) : InertiaForce());
-  if (step.is_static) {
-    std::vector<Points> force;
-    model.loads->evaluate(step.increments - 1);
-    for (size_t i = 0; i < problem.substructures.size(); ++i)
-      force.push_back(model.external_force(static_cast<int>(i), start));
-    // What is free to move, and where it is pinned, is a matter of the substructures.
-    pin_free_motions(problem, step, make_exchange(problem, step, *no_cut(problem), surfaces, model.conditions), force,
-                     model.conditions);
-  }
+  if (step.is_static) free_motions_of(model, surfaces, bodies);
   const std::vector<char>& is_explicit = model.integration.is_explicit;
   const Reach reach =
       solves_all ? Reach() : Reach(problem, step, *cut, surfaces, is_explicit, solved_everywhere(model));

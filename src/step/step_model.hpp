@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "exchange/exchange.hpp"
@@ -11,6 +12,7 @@
 #include "pieces/piece.hpp"
 #include "step/bodies.hpp"
 #include "step/integration.hpp"
+#include "step/mean_motion.hpp"
 
 namespace dygita {
 
@@ -58,6 +60,8 @@ struct StepModel {
   // By how much the time scheme turns a motion, of what trapezoidal steps of the deck's dt would (manual, eq. Q2):
   // explicit increments turn it half as much, but contact in them adds its own.
   double phase_factor() const;
+  // What a static step has to tell of what is free, once its last increment is done.
+  FreeStep what_is_free() const;
   // Velocities of all motions at the end of an increment.
   std::vector<double> motion_velocities(int increment) const;
   // Velocity of a held direction of a port, from the motions' velocities.
@@ -82,6 +86,8 @@ struct StepModel {
     std::vector<std::pair<int, Vec3>> nodes;
   };
   std::vector<std::vector<PieceLoad>> piece_loads;  // of each piece
+  MeanMotion mean;                                  // of what is free in a static step
+  std::optional<InertiaRelief> relief;              // of its loads, where it asks for that
 };
 
 // May one system of all parts solve the static steps of a problem: does the deck leave it to the program, and is it

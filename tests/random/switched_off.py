@@ -9,7 +9,7 @@ import compare
 import geometry
 
 SWITCHED_OFF = [
-    ("left free in a static step", "*", "where a free motion is left depends on the place and the orientation of the scene, by 1e-3 of the motion"),
+    ("friction alone may hold a part", "*", "where a gap closes or an interference opens in a static step such a part comes to rest anywhere that friction allows, by 1e-2 of the motion"),
     ("unlike meshes", "points", "cells as large as the overlap: which face has the points changes as much as cells of half the size do"),
     ("on the verge of tipping", "*", "no answer is the right one; for good"),
     ("friction in a ring", "*", "three parts joined in a ring: laws that meet there share their force in a way that is not unique, and with it what slides and what yields; for good"),
@@ -47,7 +47,8 @@ def traits(scene):
         "dragged over friction": any(load["kind"] == "displacement" for step in statics for load in step["loads"]),
         "motion about a preload": bool(statics) and len(statics) < len(scene["steps"]),
         "on the verge of tipping": bool(statics) and any(verges(scene, load) for load in loads),
-        "left free in a static step": bool(statics) and is_left_free(scene),
+        "left free in a static step": bool(statics) and len(held_parts(scene)) < len(scene["parts"]),
+        "friction alone may hold a part": bool(statics) and may_be_held_by_friction_alone(scene),
         "tie between unlike velocities": any(parts[joint["a"][0]]["velocity"] != parts[joint["b"][0]]["velocity"] for joint in joints if joint["law"] != "contact"),
         "driven at a joint": any(meets(parts, *load["on"], joint) for load in loads if load["kind"] in ("velocity", "displacement") for joint in joints),
         "held at a joint with friction": any(meets(parts, part, face, joint) for support in scene["supports"] for part, face in support["on"]
@@ -92,14 +93,20 @@ def is_pressed(scene, joint):
     return all(any(load["kind"] == "pressure" and load["on"] in behind and load["value"] > 0 for load in step["loads"]) for step in scene["steps"] if step["kind"] == "static")
 
 
-def is_left_free(scene):
-    """Is a part, or are several together, held by no more than contact that is smooth or not pressed, dampers and smooth walls?"""
+def held_parts(scene):
+    """Those that more holds, alone or together, than contact that is smooth or not pressed, dampers and smooth walls."""
     held = {side[0] for support in scene["supports"] for side in support["on"] if support["kind"] != "wall" or support["args"]["friction"]}
     holding = [{joint["a"][0], joint["b"][0]} for joint in scene["joints"] if joint["law"] in ("bonded", "plastic")
                or joint["law"] == "contact" and joint["args"]["friction"] and is_pressed(scene, joint)]
     while any(len(pair & held) == 1 for pair in holding):
         held |= set().union(*(pair for pair in holding if pair & held))
-    return len(held) < len(scene["parts"])
+    return held
+
+
+def may_be_held_by_friction_alone(scene):
+    """Is there a gap, or an interference, at a contact with friction of a part that nothing else holds?"""
+    held = held_parts(scene)
+    return any(joint["law"] == "contact" and joint["args"]["friction"] and joint["args"].get("gap") and not is_pressed(scene, joint) and not {joint["a"][0], joint["b"][0]} <= held for joint in scene["joints"])
 
 
 def why_off(scene_traits, relation, switched_on=()):
