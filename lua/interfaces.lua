@@ -90,7 +90,8 @@ local function declare_all(entry, given, line)
       if pair.doubt ~= "" and not given.closed and (given.gap or 0) == 0 then
         native.warn(line, ("%s: '%s' and '%s' %s; %s"):format(entry.path, name_of(one), name_of(other), pair.doubt,
           entry.path == "interface.contact" and "gap = \"geometry\" keeps the actual gap, closed = true confirms contact"
-          or "move them together by 'place' or 'origin'"))
+          or "move them together by 'place' or 'origin'"), "gap", pair.largest,
+          ("'%s' and '%s' (%.2g mm)"):format(name_of(one), name_of(other), 1e3 * pair.largest))
       end
     end
   end

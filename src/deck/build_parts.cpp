@@ -206,12 +206,13 @@ const char* cure_of_gap(bool knows_gaps) {
 }
 
 void warn_of_gap(const Declaration& d, const Interface& interface, const std::string& who_1, const std::string& who_2,
-                 const std::string& doubt) {
+                 const GapDoubt& doubt) {
   const bool has_gap = d.arguments.has("gap") && (!d.arguments.is_number("gap") || d.arguments.number("gap") != 0.0);
   const bool is_closed = d.arguments.has("closed") && d.arguments.boolean("closed");
-  if (!doubt.empty() && !has_gap && !is_closed)
-    warn(fmt::format("{}{} '{}': '{}' and '{}' {}; {}", d.origin.prefix(), d.path, interface.name, who_1, who_2, doubt,
-                     cure_of_gap(d.arguments.has("gap"))));
+  if (!doubt.text.empty() && !has_gap && !is_closed)
+    warn(fmt::format("{}{} '{}': '{}' and '{}' {}; {}", d.origin.prefix(), d.path, interface.name, who_1, who_2,
+                     doubt.text, cure_of_gap(d.arguments.has("gap"))),
+         kind_of(doubt, interface.side_1.part->name, interface.side_2.part->name));
 }
 
 // Faces that are named meet where they are near, within a distance that the assembly gives: not less than their own.
@@ -222,7 +223,7 @@ void set_named_faces(const Declaration& d, const Face& one, const Face& other, I
   const GapDoubt doubt =
       doubt_of_gap(interface.side_1, interface.side_2, interface.within.value_or(default_share_of_size * size));
   // Where 'within' is larger than what facets hide, the check of the whole problem tells it.
-  if (!interface.within || doubt.is_hidden) warn_of_gap(d, interface, one.label(), other.label(), doubt.text);
+  if (!interface.within || doubt.is_hidden) warn_of_gap(d, interface, one.label(), other.label(), doubt);
 }
 
 // The faces, found where parts are given.
@@ -248,7 +249,7 @@ void set_sides(const Declaration& d, Interface& interface) {
   say(fmt::format("{} '{}': '{}' and '{}' touch on {}", d.path, interface.name, one.label(), other.label(),
                   describe(found.touching)));
   warn_of_gap(d, interface, one.label(), other.label(),
-              doubt_of_gap(interface.side_1, interface.side_2, found.touching.within).text);
+              doubt_of_gap(interface.side_1, interface.side_2, found.touching.within));
 }
 
 // The law of a word, from all numbers and truth values of the declaration.

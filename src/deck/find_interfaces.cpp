@@ -36,17 +36,17 @@ int touching_pairs(LuaState& lua, lua_State* L) {
   const auto interfaces = list_at<InterfacePtr>(L, 2);
   const double within = lua_tonumber(L, 3);
   std::vector<TouchingPair> pairs;
-  std::vector<std::string> doubts;
+  std::vector<GapDoubt> doubts;
   {
     const LuaState::Pause pause(lua);
     pairs = all_touching(parts, interfaces, within > 0.0 ? std::optional(within) : std::nullopt);
     for (const auto& [part_1, part_2, found] : pairs)
-      doubts.push_back(doubt_of_gap(found.side_1, found.side_2, found.touching.within).text);
+      doubts.push_back(doubt_of_gap(found.side_1, found.side_2, found.touching.within));
   }
   lua_createtable(L, static_cast<int>(pairs.size()), 0);
   for (size_t p = 0; p < pairs.size(); ++p) {
     const TouchingPair& pair = pairs[p];
-    lua_createtable(L, 2, 5);
+    lua_createtable(L, 2, 6);
     lua_pushinteger(L, pair.part_1 + 1);
     lua_rawseti(L, -2, 1);
     lua_pushinteger(L, pair.part_2 + 1);
@@ -59,8 +59,12 @@ int touching_pairs(LuaState& lua, lua_State* L) {
     lua_setfield(L, -2, "within");
     lua_pushstring(L, describe(pair.found.touching).c_str());
     lua_setfield(L, -2, "text");
-    lua_pushstring(L, doubts[p].c_str());
+    // What facets can hide is told of the interface itself, as that of faces which a deck names.
+    const GapDoubt& doubt = doubts[p];
+    lua_pushstring(L, doubt.is_hidden ? "" : doubt.text.c_str());
     lua_setfield(L, -2, "doubt");
+    lua_pushnumber(L, doubt.largest);
+    lua_setfield(L, -2, "largest");
     lua_rawseti(L, -2, static_cast<lua_Integer>(p) + 1);
   }
   return 1;

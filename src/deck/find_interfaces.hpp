@@ -5,8 +5,8 @@
 
 namespace dygita {
 
-// touching(parts, interfaces, within, line): a list of { i, j, face_1, face_2, within, text } for each two parts of the
-// list that touch beside their interfaces; within (m) 0: by the facets.
+// touching(parts, interfaces, within, line): a list of { i, j, face_1, face_2, within, text, doubt, largest } for each
+// two parts of the list that touch beside their interfaces; within (m) 0: by the facets.
 int touching_pairs(LuaState& lua, lua_State* L);
 
 // sides(interface, parts): its two substructures as they are in the list, nil where not.

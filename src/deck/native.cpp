@@ -3,6 +3,7 @@
 
 #include "base/log.hpp"
 #include "base/names.hpp"
+#include "base/warnings.hpp"
 #include "deck/build_model.hpp"
 #include "deck/deck_state.hpp"
 #include "deck/embedded_lua.hpp"
@@ -69,7 +70,11 @@ int fail_on_value(LuaState& state, lua_State* L) {
 }
 
 int warn_at(LuaState& state, lua_State* L) {
-  warn(state.origin(static_cast<int>(lua_tointeger(L, 1))).prefix() + lua_tostring(L, 2));
+  const std::string message = state.origin(static_cast<int>(lua_tointeger(L, 1))).prefix() + lua_tostring(L, 2);
+  if (lua_gettop(L) > 2)
+    warn(message, {lua_tostring(L, 3), lua_tonumber(L, 4), lua_tostring(L, 5), true});
+  else
+    warn(message);
   return 0;
 }
 

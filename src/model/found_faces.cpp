@@ -129,7 +129,12 @@ GapDoubt doubt_of_gap(const Face& side_1, const Face& side_2, double within) {
                       "over {:.4g} mm^2)",
                       is_apart ? "are apart by up to" : "overlap by up to", 1e3 * largest, 1e3 * gaps.mean,
                       1e6 * gaps.area),
-          largest <= 2.0 * gaps.bend};
+          largest, largest <= 2.0 * gaps.bend};
+}
+
+KindOfWarning kind_of(const GapDoubt& doubt, const std::string& who_1, const std::string& who_2) {
+  return {doubt.is_hidden ? "gap within facets" : "gap", doubt.largest,
+          fmt::format("'{}' and '{}' ({:.2g} mm)", who_1, who_2, 1e3 * doubt.largest), !doubt.is_hidden};
 }
 
 }  // namespace dygita

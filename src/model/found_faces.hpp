@@ -1,6 +1,7 @@
 // Faces of interfaces that a deck declares between whole parts: those that touch.
 #pragma once
 
+#include "base/warnings.hpp"
 #include "meeting/touching.hpp"
 #include "model/model.hpp"
 
@@ -39,8 +40,11 @@ std::string describe(const Touching& touching);
 // each other, beyond what facets leave between round surfaces; empty where they do.
 struct GapDoubt {
   std::string text;
+  double largest = 0.0;    // m
   bool is_hidden = false;  // facets are as far off their round surfaces
 };
+// Doubts of one kind are told together.
+KindOfWarning kind_of(const GapDoubt& doubt, const std::string& who_1, const std::string& who_2);
 GapDoubt doubt_of_gap(const Face& side_1, const Face& side_2, double within);
 
 }  // namespace dygita

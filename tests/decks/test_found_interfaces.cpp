@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/warnings.hpp"
 #include "decks/deck_prints.hpp"
 
 namespace dygita::test {
@@ -192,6 +193,7 @@ local fit = interface.contact{ name = "fit", between = { round(inner), round(out
 )";
     testing::internal::CaptureStderr();
     run_text(text);
+    tell_warnings();
     return testing::internal::GetCapturedStderr();
   };
   const std::string said = said_of("20*um", "0");
@@ -200,6 +202,29 @@ local fit = interface.contact{ name = "fit", between = { round(inner), round(out
   EXPECT_NE(said_of("-20*um", "0").find("are apart by up to 0.02"), std::string::npos);
   for (const auto& [over, gap] : {std::pair{"20*um", "-20*um"}, {"0", "0"}})
     EXPECT_EQ(said_of(over, gap).find("is neglected"), std::string::npos) << over;
+}
+
+// Two shafts in their hubs, found: each is told once, and both together.
+TEST(FoundInterfaces, of_round_faces_tell_what_is_left_out_once) {
+  const std::string text = R"(
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local file = mesh.gmsh{ file = ")" +
+                           std::string(DYGITA_SOURCE_DIR) +
+                           R"(/tests/decks/drawn_rings.geo", set = { over = 8*um, n = 4 }, order = 2 }
+for i = 1, 2 do for _, name in ipairs{ "inner", "outer" } do
+  substructure{ name = name .. i, mesh = file:volume(name), material = steel, place = { 0, 0, 100*mm * i } }
+end end
+local fits = interface.contact{ between = "all touching" }
+assert(#fits == 2)
+)";
+  testing::internal::CaptureStderr();
+  run_text(text);
+  tell_warnings();
+  const std::string said = testing::internal::GetCapturedStderr();
+  const size_t first = said.find("overlap by up to 0.008 mm, which is neglected");
+  EXPECT_NE(first, std::string::npos) << said;
+  EXPECT_EQ(said.find("is neglected", first + 40), std::string::npos) << said;
+  EXPECT_NE(said.find("\n    the worst of 2 of this kind; the other: 'inner"), std::string::npos) << said;
 }
 
 }  // namespace
