@@ -50,12 +50,14 @@ Eigen::Matrix<double, 6, 1> across(const Eigen::Matrix<double, 6, 1>& stress, co
 // an edge or a corner. c is such that its integral over the cell is none, so that resultants stay.
 double fall(int n_opposite) { return n_opposite == 1 ? 5.0 : n_opposite == 2 ? 4.0 : 3.0; }
 
+// at_nodes: d, 6 x n.
 template <class Cell>
 double surface_error(const ElasticTensor& tensor, const Nodes<Cell::n_nodes>& x,
-                     const CornerStress<Cell::n_nodes>& stress, unsigned facets) {
+                     const CornerStress<Cell::n_nodes>& stress, unsigned facets, Tensors& at_nodes) {
   constexpr int n = Cell::n_nodes, n_points = LinearCell<Cell>::n_points;
   const LinearCell<Cell>& table = LinearCell<Cell>::table();
   Eigen::Matrix<double, 6, n_points> error = Eigen::Matrix<double, 6, n_points>::Zero();
+  at_nodes = Tensors::Zero(6, n);
   for (size_t k = 0; k < Cell::row.facets.size(); ++k) {
     if (!(facets >> k & 1u)) continue;
     const LocalFacet& facet = Cell::row.facets[k];
@@ -69,6 +71,7 @@ double surface_error(const ElasticTensor& tensor, const Nodes<Cell::n_nodes>& x,
       const Vec3 normal = (jacobian.inverse().transpose() * (table.slopes[a].transpose() * is_on)).normalized();
       traction.col(a) = across(stress.col(a), normal);
     }
+    at_nodes += traction;
     const double c = fall(n - n_on);
     const Eigen::Matrix<double, 1, n_points> distance = is_on.transpose() * table.inside.values;
     error += (traction * table.inside.values) * (c * distance.array() - (c - 1.0)).matrix().asDiagonal();
@@ -116,9 +119,9 @@ std::vector<FreeCell> free_cells(const Mesh& mesh, const FacetKeys& facets, cons
   return cells;
 }
 
-Vec surface_errors(const Mesh& mesh, const Elastic& material, const std::vector<FreeCell>& cells,
-                   const std::vector<Tensors>& stress) {
-  Vec energies = Vec::Zero(static_cast<Eigen::Index>(cells.size()));
+SurfaceErrors surface_errors(const Mesh& mesh, const Elastic& material, const std::vector<FreeCell>& cells,
+                             const std::vector<Tensors>& stress) {
+  SurfaceErrors errors{Vec::Zero(static_cast<Eigen::Index>(cells.size())), std::vector<Tensors>(cells.size())};
   parallel_for(
       static_cast<int>(cells.size()),
       [&](int i) {
@@ -128,13 +131,14 @@ Vec surface_errors(const Mesh& mesh, const Elastic& material, const std::vector<
           using Cell = decltype(cell);
           constexpr int n = Cell::n_nodes;
           if constexpr (n == Cell::row.n_corners)
-            energies[i] = surface_error<Cell>(
-                tensor_in(material, block, at.cell), gather<n>(mesh.nodes, block.cell(at.cell)),
-                stress[static_cast<size_t>(at.block)].template middleCols<n>(n * at.cell), at.facets);
+            errors.energies[i] =
+                surface_error<Cell>(tensor_in(material, block, at.cell), gather<n>(mesh.nodes, block.cell(at.cell)),
+                                    stress[static_cast<size_t>(at.block)].template middleCols<n>(n * at.cell),
+                                    at.facets, errors.at_nodes[static_cast<size_t>(i)]);
         });
       },
       Schedule::evenly);
-  return energies;
+  return errors;
 }
 
 }  // namespace dygita

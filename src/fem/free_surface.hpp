@@ -20,10 +20,14 @@ struct FreeCell {
 // enough of their surface. node_of: of each node of the mesh its number in the keys.
 std::vector<FreeCell> free_cells(const Mesh& mesh, const FacetKeys& facets, const std::vector<int>& node_of);
 
-// J, of each of them: 1/2 of the integral of d : C^-1 : d, with d the stress that cancels the traction at its free
-// facets and has no resultant within the cell. stress: at the cells' nodes, column by column in the order of each
-// block's, Pa. Manual, eq. Q13.
-Vec surface_errors(const Mesh& mesh, const Elastic& material, const std::vector<FreeCell>& cells,
-                   const std::vector<Tensors>& stress);
+struct SurfaceErrors {
+  Vec energies;                   // J, of each cell: 1/2 of the integral of d : C^-1 : d
+  std::vector<Tensors> at_nodes;  // Pa, of each cell: d at its nodes, 6 x nodes
+};
+
+// Of each of them, with d the stress that cancels the traction at its free facets and has no resultant within the cell.
+// stress: at the cells' nodes, column by column in the order of each block's, Pa. Manual, eq. Q13.
+SurfaceErrors surface_errors(const Mesh& mesh, const Elastic& material, const std::vector<FreeCell>& cells,
+                             const std::vector<Tensors>& stress);
 
 }  // namespace dygita

@@ -88,10 +88,10 @@ StressError stress_error(const Mesh& mesh, const Elastic& material, const Points
   if (of_order_two) smooth = recovered_stress(mesh, material, displacement);
 
   StressError error{{}, {}, Vec::Zero(mesh.n_nodes())};
-  const Vec left = surface_errors(mesh, material, free, of_cells);
+  const SurfaceErrors left = surface_errors(mesh, material, free, of_cells);
   for (const CellBlock& block : mesh.blocks) error.at_surface.emplace_back(Vec::Zero(block.n_cells()));
   for (size_t i = 0; i < free.size(); ++i)
-    error.at_surface[static_cast<size_t>(free[i].block)][free[i].cell] = left[static_cast<Eigen::Index>(i)];
+    error.at_surface[static_cast<size_t>(free[i].block)][free[i].cell] = left.energies[static_cast<Eigen::Index>(i)];
   for (size_t b = 0; b < mesh.blocks.size(); ++b)
     with_cell(mesh.blocks[b].type, [&](auto cell) {
       using Cell = decltype(cell);
@@ -109,7 +109,12 @@ StressError stress_error(const Mesh& mesh, const Elastic& material, const Points
       };
       parallel_for(block.n_cells(), compute, Schedule::evenly);
       error.of_cells.push_back(std::move(energy));
-      const Vec corners = von_mises(of_cells[b]);
+      Vec corners = von_mises(of_cells[b]);
+      for (size_t i = 0; i < free.size(); ++i) {
+        if (free[i].block != static_cast<int>(b)) continue;
+        auto of_cell = corners.segment<n>(n * free[i].cell);
+        of_cell = (of_cell.cwiseAbs2() + von_mises(left.at_nodes[i]).cwiseAbs2()).cwiseSqrt().eval();
+      }
       for (size_t i = 0; i < block.nodes.size(); ++i) {
         double& at_node = error.at_nodes[block.nodes[i]];
         at_node = std::max(at_node, corners[static_cast<Eigen::Index>(i)]);

@@ -8,7 +8,8 @@ namespace dygita {
 struct StressError {
   std::vector<Vec> of_cells;    // J, 1/2 of the integral of (s* - s) : C^-1 : (s* - s), of each cell of each block
   std::vector<Vec> at_surface;  // J, of the same cells: what is left of traction at free facets
-  Vec at_nodes;                 // Pa, largest von Mises stress of s* - s among the cells at each node
+  // Pa, at each node the largest among its cells of the root of squares of von Mises stresses: of s* - s, and of d.
+  Vec at_nodes;
 
   double energy() const;  // J, of all
 };

@@ -69,7 +69,7 @@ int components_of(const std::string& field) {
   return field == "stress" ? 6 : field == "von_mises" || field == "stress_error" ? 1 : 3;
 }
 
-void fill_part(const Mesh& mesh, const NodalMotion& motion, PartFrame& frame) {
+void fill_part(const Mesh& mesh, const NodalMotion& motion, const std::vector<FreeCell>& free, PartFrame& frame) {
   const Elastic& material = frame.part->material;
   const auto wants = [&](const char* name) {
     return std::any_of(frame.fields.begin(), frame.fields.end(), [&](const NamedField& f) { return f.name == name; });
@@ -82,7 +82,7 @@ void fill_part(const Mesh& mesh, const NodalMotion& motion, PartFrame& frame) {
     if (name == "velocity") values = motion.velocity;
     if (name == "acceleration") values = motion.acceleration;
     if (name == "stress") values = stress;
-    if (name == "stress_error") values = stress_error(mesh, material, motion.displacement).at_nodes.transpose();
+    if (name == "stress_error") values = stress_error(mesh, material, motion.displacement, free).at_nodes.transpose();
     if (name == "von_mises") values = von_mises(stress).transpose();
   }
 }

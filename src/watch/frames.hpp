@@ -1,6 +1,7 @@
 // Frames for ParaView of an instant.
 #pragma once
 
+#include "fem/free_surface.hpp"
 #include "result/frame.hpp"
 #include "watch/followed_motion.hpp"
 
@@ -14,8 +15,9 @@ Frame make_frame(const Instant& instant, const std::vector<std::string>& fields,
 struct NodalMotion {
   Points displacement, velocity, acceleration;
 };
-// The fields that a substructure's frame names at all nodes of its mesh, or of a part of it.
-void fill_part(const Mesh& mesh, const NodalMotion& motion, PartFrame& frame);
+// The fields that a substructure's frame names at all nodes of its mesh, or of a part of it. free: cells of that at
+// whose facets nothing acts.
+void fill_part(const Mesh& mesh, const NodalMotion& motion, const std::vector<FreeCell>& free, PartFrame& frame);
 // Components of a field of substructures; of none that is here it has no columns.
 int components_of(const std::string& field);
 

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <sstream>
 
+#include "watch/free_facets.hpp"
+
 namespace dygita {
 
 void PartFrames::fill(const Instant& instant) {
   if (!ranks::any(begun_.has_value())) return;
   views_.prepare(instant.model.cut);
   share();
+  find_free_cells(instant);
   std::vector<NodalMotion> motion(begun_->parts.size());
   const auto take = [&](const char* name, NodalField field, Points NodalMotion::*to) {
     const std::vector<NamedField>& wanted = begun_->parts.front().fields;
@@ -28,11 +31,26 @@ void PartFrames::fill(const Instant& instant) {
   sink_(whole);
 }
 
+void PartFrames::find_free_cells(const Instant& instant) {
+  if (step_ == instant.model.step) return;
+  step_ = instant.model.step;
+  free_.assign(begun_->parts.size(), {});
+  const std::vector<NamedField>& wanted = begun_->parts.front().fields;
+  if (std::none_of(wanted.begin(), wanted.end(), [](const NamedField& f) { return f.name == "stress_error"; })) return;
+  for (int part = 0; part < static_cast<int>(free_.size()); ++part) {
+    const PartView& view = views_.of(part);
+    const Mesh& whole = *problem_.substructures[static_cast<size_t>(part)]->mesh;
+    if (view.is_empty() || whole.condensed) continue;
+    free_[static_cast<size_t>(part)] =
+        free_cells(view.mesh(), free_facets(instant.model, part, boundary_facets(whole)), view.all_nodes());
+  }
+}
+
 // Of a part that several ranks have, the nodes of the cells that are here.
 void PartFrames::fill_part_here(int part, const NodalMotion& motion) {
   PartFrame& frame = begun_->parts[static_cast<size_t>(part)];
   const PartView& view = views_.of(part);
-  if (!view.is_empty()) fill_part(view.mesh(), motion, frame);
+  if (!view.is_empty()) fill_part(view.mesh(), motion, free_[static_cast<size_t>(part)], frame);
   const std::vector<int> ranks = ranks_of(views_.cut(), part);
   if (ranks.size() == 1) return;
   frame.ranks = ranks;

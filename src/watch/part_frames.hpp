@@ -23,6 +23,7 @@ class PartFrames : public Observer {
  private:
   void fill(const Instant& instant);
   void share();  // what rank 0 has begun
+  void find_free_cells(const Instant& instant);
   void fill_part_here(int part, const NodalMotion& motion);
 
   const Problem& problem_;
@@ -30,6 +31,9 @@ class PartFrames : public Observer {
   Sink sink_;
   std::optional<Frame> begun_;
   std::vector<PartView::Shown> shown_;  // of the parts that several ranks have
+  // Cells at whose facets nothing acts in the step at hand, of each part, where the frames show stress errors.
+  const Step* step_ = nullptr;
+  std::vector<std::vector<FreeCell>> free_;
 };
 
 }  // namespace dygita
