@@ -104,7 +104,6 @@ void MeanMotion::take_off(const std::vector<std::unique_ptr<Piece>>& pieces, con
 
 InertiaRelief::InertiaRelief(const Problem& problem, const FreeMotions& free, const InertiaForce& inertia,
                              Loads& loads) {
-  const Eigen::Index n_free = free.columns.cols();
   const int n_parts = static_cast<int>(problem.substructures.size());
   // Masses against motions as a whole about the origin.
   const auto masses_against = [&](const std::vector<std::vector<Points>>& forces, const Mat& motions) {
@@ -132,12 +131,10 @@ InertiaRelief::InertiaRelief(const Problem& problem, const FreeMotions& free, co
   centre_ = Vec3(at_origin(1, 5), at_origin(2, 3), at_origin(0, 4)) / at_origin(0, 0);
   const Mat motions = free.of_whole(centre_);
   whole_ = inverse_of_masses(masses_against(forces_of(motions), motions)) * masses_against(forces, motions);
-  if (n_free == 0) return;
   loads.oppose(forces, inverse * work_of_patterns(problem, free, loads));
 }
 
 RigidAcceleration InertiaRelief::acceleration(const Loads& loads) const {
-  if (whole_.cols() == 0) return {centre_};
   const RigidMotion motion = whole_ * loads.accelerations();
   return {centre_, motion.head<3>(), motion.tail<3>()};
 }

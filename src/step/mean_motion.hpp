@@ -34,7 +34,7 @@ class MeanMotion {
   Mat inverse_;  // of the motions' kinetic energies, twice; 1/kg
 };
 
-// The inertia of what is free opposes the loads of a static step.
+// The inertia of what is free, something at least, opposes the loads of a static step.
 class InertiaRelief {
  public:
   InertiaRelief(const Problem& problem, const FreeMotions& free, const InertiaForce& inertia, Loads& loads);

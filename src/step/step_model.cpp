@@ -186,12 +186,11 @@ void free_motions_of(StepModel& model, const std::vector<Surface>& surfaces, con
   const Step& step = *model.step;
   const Exchange exchange = make_exchange(problem, step, *no_cut(problem), surfaces, model.conditions);
   FreeMotions free = find_free_motions(problem, exchange, model.conditions);
-  if (step.inertia_relief) {
-    if (free.columns.cols() == 0)
-      warn(fmt::format("{}static step '{}': 'inertia_relief' has nothing to do: supports and interfaces hold all parts",
-                       step.origin.prefix(), step.name));
+  if (step.inertia_relief && free.columns.cols() > 0)
     model.relief.emplace(problem, free, inertia_of(*model.cut, bodies, {}), *model.loads);
-  }
+  else if (step.inertia_relief)
+    warn(fmt::format("{}static step '{}': 'inertia_relief' has nothing to do: supports and interfaces hold all parts",
+                     step.origin.prefix(), step.name));
   check_loads(problem, step, free, *model.loads);
   pin_free_motions(problem, step, exchange, free, model.conditions);
   model.mean = MeanMotion(std::move(free), model.cut, bodies);
