@@ -104,9 +104,10 @@ def held_parts(scene):
 
 
 def may_be_held_by_friction_alone(scene):
-    """Is there a gap, or an interference, at a contact with friction of a part that nothing else holds?"""
+    """Have parts that nothing else holds a contact with a gap, or an interference, and one with friction?"""
     held = held_parts(scene)
-    return any(joint["law"] == "contact" and joint["args"]["friction"] and joint["args"].get("gap") and not is_pressed(scene, joint) and not {joint["a"][0], joint["b"][0]} <= held for joint in scene["joints"])
+    contacts = [joint["args"] for joint in scene["joints"] if joint["law"] == "contact" and not {joint["a"][0], joint["b"][0]} <= held]
+    return any(args.get("gap") for args in contacts) and any(args["friction"] for args in contacts)
 
 
 def why_off(scene_traits, relation, switched_on=()):
