@@ -69,6 +69,12 @@ void add_run_options(CLI::App& command, Command& asked) {
   command.add_option("--out", asked.deck.out, "folder of the results, out/<problem>/<case>")
       ->capture_default_str()
       ->type_name("DIR");
+  command
+      .add_option("--from", asked.deck.from,
+                  "start static steps from those of an earlier run, out/<problem>/<case>: a finished tightening serves "
+                  "other shocks")
+      ->excludes(repeats)
+      ->type_name("DIR");
   add_threads(command, asked.deck.threads);
   command.add_flag("--no-frames", asked.has_no_frames, "write no frames for ParaView, only tables and run.json");
   command.add_flag("--no-state", asked.has_no_state, "write no state file; the run cannot be continued later");

@@ -38,8 +38,7 @@ DeckOutcome continue_run(const ContinueOptions& options) {
       deck, {[&](const Problem& problem, const RunRequest& request) { return continuation.run(problem, request); },
              check_report});
   if (!continuation.is_done() && !outcome.interrupted)
-    throw InputError(
-        fmt::format("the deck no longer runs problem '{}', case '{}' any more", state.problem, state.case_name));
+    throw InputError(fmt::format("the deck no longer runs problem '{}', case '{}'", state.problem, state.case_name));
   if (continuation.ends_early()) {
     say("the deck has further cases that have not been computed; execution ends here");
     outcome.interrupted = false;

@@ -164,7 +164,10 @@ DeckResultPtr compute(DeckState& state, std::shared_ptr<const Problem> problem, 
     return std::make_shared<const DeckResult>(DeckResult{problem, hollow_result(*problem), true, case_name});
   }
   RunRequest request = request_of(state, *problem, case_name);
-  if (start_from) request.start_from = start_from->run;
+  if (start_from)
+    request.start_from = start_from->run;
+  else
+    request.from = state.options.from;
   auto run = state.engine.run(*problem, request);
   return std::make_shared<const DeckResult>(DeckResult{problem, std::move(run), false, case_name});
 }

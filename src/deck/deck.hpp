@@ -33,8 +33,9 @@ struct DeckOptions {
   bool write_frames = true;         // those of output.vtk
   bool write_state = true;          // what continue_run needs
   double checkpoint_every = 180.0;  // s between two times that a run is brought to the disk; 0: never
-  bool is_study = true;  // the table of several cases, and cases checked cold; not while one of them is continued
-  std::string solver;    // --solver: an expression that takes the place of every problem's solver; empty: the deck's
+  bool is_study = true;        // the table of several cases, and cases checked cold; not while one of them is continued
+  std::filesystem::path from;  // --from: folder of an earlier run, whose static steps are started from; empty: none
+  std::string solver;  // --solver: an expression that takes the place of every problem's solver; empty: the deck's
 };
 
 struct DeckOutcome {

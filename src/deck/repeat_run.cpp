@@ -14,6 +14,7 @@ DeckOutcome repeat_run(DeckOptions options, const std::filesystem::path& record)
   options.solver = repetition.solver();
   options.write_frames = options.write_frames && repetition.has_frames();
   options.write_state = options.write_state && repetition.has_state();
+  options.from = repetition.from();
   std::error_code ignored;
   if (!std::filesystem::exists(options.path, ignored))
     throw InputError(
@@ -24,7 +25,7 @@ DeckOutcome repeat_run(DeckOptions options, const std::filesystem::path& record)
       options, {[&](const Problem& problem, const RunRequest& request) { return repetition.run(problem, request); },
                 check_report});
   if (!repetition.is_done() && !outcome.interrupted)
-    throw InputError(fmt::format("the deck no longer runs {} any more", repetition.label()));
+    throw InputError(fmt::format("the deck no longer runs {}", repetition.label()));
   if (!repetition.differing().empty())
     outcome.differing = fmt::format(
         "deck, parameters and meshes match those of {}, but these tables differ (history files are not compared and "

@@ -276,6 +276,12 @@ std::vector<RecordedPiece> read_recorded_pieces(const std::filesystem::path& dir
   return pieces;
 }
 
+Json options(const RunIdentity& identity) {
+  Json json = {{"frames", identity.has_frames}, {"state", identity.has_state}};
+  if (!identity.from.empty()) json["from"] = identity.from;
+  return json;
+}
+
 std::string run_record(const Problem& problem, const RunResult& result, const RunIdentity& identity,
                        const std::vector<std::string>& warnings, const std::vector<std::string>& files) {
   Json json = {
@@ -286,7 +292,7 @@ std::string run_record(const Problem& problem, const RunResult& result, const Ru
       {"warnings", warnings},
       {"deck", {{"path", identity.deck_path}, {"digest", identity.deck_digest}}},
       {"parameters", object(identity.parameters)},
-      {"options", {{"frames", identity.has_frames}, {"state", identity.has_state}}},
+      {"options", options(identity)},
       {"solver", solver(problem, identity)},
       {"substructures", substructures(problem, result, identity)},
       {"interfaces", interfaces_record(problem)},

@@ -26,6 +26,7 @@ struct RunIdentity {
       libraries;  // name, version, beside those that output itself can name
   std::string case_name = "base";
   bool has_frames = true, has_state = true;  // else --no-frames, --no-state
+  std::string from;                          // --from, absolute; empty: none
 };
 
 // "0.1.0"

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -69,6 +70,16 @@ class InterfaceFields {
   std::int64_t file_end_ = 0;
   std::unique_ptr<FieldParts> parts_;  // then nothing else is kept
   bool has_failed_ = false;
+};
+
+// Fields of another case or run that the iteration of the first `n_steps` steps starts from; null: none.
+struct StartFields {
+  StartFields(const InterfaceFields* of = nullptr, size_t n = std::numeric_limits<size_t>::max())
+      : fields(of), n_steps(n) {}
+  const InterfaceFields* of_step(size_t i_step) const { return i_step < n_steps ? fields : nullptr; }
+
+  const InterfaceFields* fields;
+  size_t n_steps;
 };
 
 }  // namespace dygita

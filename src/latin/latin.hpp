@@ -7,12 +7,12 @@
 
 namespace dygita {
 
-// Runs every step, each from the state the last one left. `start_from`: interface fields of an earlier case, where the
-// iteration of each increment starts (null: from the increment before). `trail`: replayed as far as it has entries,
-// appended from there on (null: none). Throws InputError and NumericalError where nothing has been computed before;
-// else they end the run, and the figures hold them. Not converging is a result. plan: pieces and how they are shared
-// out.
-SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceFields* start_from = nullptr,
-                    Trail* trail = nullptr, const SharePlan& plan = {});
+// Runs every step, each from the state the last one left. `start_from`: interface fields of an earlier case or run,
+// where the iteration of each increment starts (null: from the increment before). `trail`: replayed as far as it has
+// entries, appended from there on (null: none). Throws InputError and NumericalError where nothing has been computed
+// before; else they end the run, and the figures hold them. Not converging is a result. plan: pieces and how they are
+// shared out.
+SolverFigures solve(const Problem& problem, Observer& observer, StartFields start_from = {}, Trail* trail = nullptr,
+                    const SharePlan& plan = {});
 
 }  // namespace dygita

@@ -46,7 +46,7 @@ void share_on_machine(const Problem& problem, const Cut& cut) {
 
 }  // namespace
 
-SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceFields* start_from, Trail* kept_trail,
+SolverFigures solve(const Problem& problem, Observer& observer, StartFields start_from, Trail* kept_trail,
                     const SharePlan& plan) {
   using clock = std::chrono::steady_clock;
   auto start = clock::now();
@@ -70,12 +70,13 @@ SolverFigures solve(const Problem& problem, Observer& observer, const InterfaceF
     if (ranks::any(interrupt_requested())) break;
     StepModel model = make_step_model(problem, *step, surfaces, bodies, state, cut);
     if (ranks::any(interrupt_requested())) break;  // the factorisation may have taken long
-    const StepSettings settings = step_settings(problem, model, start_from != nullptr);
+    const InterfaceFields* const start_fields = start_from.of_step(figures.steps.size());
+    const StepSettings settings = step_settings(problem, model, start_fields != nullptr);
     start_step(model, state);
     if (step == problem.steps.back()) give_up_matrices(bodies);
     const Vec k = search_directions(model, problem.solver.search_direction, settings.window);
     fix_search_directions(model, k);
-    RunFiles files{state, observer, start_from, *kept, trail};
+    RunFiles files{state, observer, start_fields, *kept, trail};
     if (may_go_in_one(problem, model))
       files.pieces_in_one = [&bodies](const StepModel& of) { return make_assembled_pieces(of, bodies); };
     StepRun run(settings, model, k, files);

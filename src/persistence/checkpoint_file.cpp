@@ -61,10 +61,11 @@ void code_entry(Coder& code, TrailEntry& entry) {
 
 template <class Coder>
 void code_identity(Coder& code, CheckpointIdentity& identity, std::string& state) {
-  int flags = (identity.has_start ? 1 : 0) + (identity.has_frames ? 0 : 2);
+  int flags = (identity.has_start ? 1 : 0) + (identity.has_frames ? 0 : 2) + (identity.from.empty() ? 0 : 4);
   code(state), code(identity.kernels), code(identity.purpose), code_number(code, flags);
   identity.has_start = (flags & 1) != 0;
   identity.has_frames = (flags & 2) == 0;
+  if ((flags & 4) != 0) code(identity.from);
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ struct CheckpointIdentity {
   std::string purpose;     // what a continued run was asked for; empty: a run of the deck
   bool has_start = false;  // the iteration started from another case's fields
   bool has_frames = true;  // else --no-frames
+  std::string from;        // folder of the run that its static steps started from; empty: none
 };
 
 // As bytes, and back. Throws InputError (damaged).

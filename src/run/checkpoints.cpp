@@ -37,9 +37,12 @@ std::string purpose_of(const Problem& problem, const RunRequest& request) {
 CheckpointIdentity identity_of(const Problem& problem, const RunRequest& request) {
   RunState state = identity_of_run(problem, request);
   state.interrupted = true;
-  return {std::move(state), request.identity.kernels, purpose_of(problem, request),
+  return {std::move(state),
+          request.identity.kernels,
+          purpose_of(problem, request),
           request.start_from && request.start_from->converged && request.start_from->interface_fields,
-          request.write_frames};
+          request.write_frames,
+          request.from.string()};
 }
 
 // What an attempt at the same has left, that was killed.

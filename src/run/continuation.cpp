@@ -24,31 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-RunState state_in(const fs::path& run) {
-  std::error_code ignored;
-  if (!fs::is_directory(run, ignored))
-    throw InputError(fmt::format("no folder '{}'\n    a run's folder is out/<problem>/<case>", run.string()));
-  if (fs::exists(run / state_file_name, ignored)) {
-    RunState state = read_state(run / state_file_name);
-    if (state.steps.empty() || state.efforts.empty())
-      throw InputError(fmt::format("'{}' describes no step: it is damaged\n    run the deck again",
-                                   (run / state_file_name).string()));
-    return state;
-  }
-  const auto recorded = read_run_record(run);
-  if (!recorded)
-    throw InputError(
-        fmt::format("'{}' is not the folder of a run: there is no {} in it\n    a run's folder is out/<problem>/<case>",
-                    run.string(), state_file_name));
-  throw InputError(
-      recorded->solver == "latin"
-          ? fmt::format(
-                "'{}' keeps no {}: the run used --no-state, or an earlier version wrote it\n    run the deck again",
-                run.string(), state_file_name)
-          : fmt::format("'{}' was computed by solver.{}, which stores nothing to continue from\n    run the deck again",
-                        run.string(), recorded->solver));
-}
-
 // The folder of a problem stands for the case of it that was stopped or killed.
 fs::path unfinished_case(const fs::path& folder) {
   std::error_code ignored;
@@ -213,6 +188,7 @@ std::shared_ptr<const RunResult> Continuation::resume(const Problem& problem, co
   going_on.checkpoint = checkpoint_;
   going_on.pieces = kept_pieces(problem, *state_);
   const CheckpointIdentity& identity = *resumed_;
+  going_on.from = identity.from;
   if (!identity.has_start) going_on.start_from = nullptr;
   if (identity.has_start && (!request.start_from || !request.start_from->interface_fields))
     throw InputError("the run started from another case's fields, which are missing: run the deck again");

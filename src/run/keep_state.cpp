@@ -42,6 +42,31 @@ std::string list_efforts(const std::vector<Effort>& efforts) {
 
 }  // namespace
 
+RunState state_in(const std::filesystem::path& run) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(run, ignored))
+    throw InputError(fmt::format("no folder '{}'\n    a run's folder is out/<problem>/<case>", run.string()));
+  if (std::filesystem::exists(run / state_file_name, ignored)) {
+    RunState state = read_state(run / state_file_name);
+    if (state.steps.empty() || state.efforts.empty())
+      throw InputError(fmt::format("'{}' describes no step: it is damaged\n    run the deck again",
+                                   (run / state_file_name).string()));
+    return state;
+  }
+  const auto recorded = read_run_record(run);
+  if (!recorded)
+    throw InputError(
+        fmt::format("'{}' is not the folder of a run: there is no {} in it\n    a run's folder is out/<problem>/<case>",
+                    run.string(), state_file_name));
+  throw InputError(
+      recorded->solver == "latin"
+          ? fmt::format(
+                "'{}' keeps no {}: the run used --no-state, or an earlier version wrote it\n    run the deck again",
+                run.string(), state_file_name)
+          : fmt::format("'{}' was computed by solver.{}, which stores nothing to continue from\n    run the deck again",
+                        run.string(), recorded->solver));
+}
+
 const InterfaceFields* start_of(const RunRequest& request) {
   if (request.continues) return request.continues->fields.get();
   if (!request.start_from) return nullptr;

@@ -5,6 +5,9 @@
 
 namespace dygita {
 
+// The state in a run's folder. Throws InputError: none, or damaged.
+RunState state_in(const std::filesystem::path& run);
+
 // Interface fields that the iteration starts from: of the run continued, or of the case to start from; null: none.
 const InterfaceFields* start_of(const RunRequest& request);
 

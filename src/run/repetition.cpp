@@ -72,6 +72,7 @@ Repetition::Repetition(const fs::path& record)
     if (const auto options = json.find("options"); options != json.end()) {  // earlier versions have none
       has_frames_ = options->value("frames", true);
       has_state_ = options->value("state", true);
+      from_ = options->value("from", std::string());
     }
     for (const auto& [name, value] : json.at("parameters").items())
       settings_.emplace_back(name, fmt::format("{}", value.get<double>()));

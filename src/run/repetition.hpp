@@ -24,6 +24,7 @@ class Repetition {
   // Those of its files that the run was told to leave out are left out again.
   bool has_frames() const { return has_frames_; }
   bool has_state() const { return has_state_; }
+  const std::filesystem::path& from() const { return from_; }  // of --from; empty: none
 
   // Throws InputError: deck or meshes have changed; and what run_problem throws.
   std::shared_ptr<const RunResult> run(const Problem& problem, const RunRequest& request);
@@ -37,7 +38,7 @@ class Repetition {
   void check_same(const RunRequest& request) const;
   void compare_tables(const std::filesystem::path& folder);
 
-  std::filesystem::path folder_, deck_;
+  std::filesystem::path folder_, deck_, from_;
   std::string differing_;
   std::string problem_, case_, deck_digest_, solver_, kernels_, version_;
   std::vector<std::pair<std::string, std::string>> settings_;

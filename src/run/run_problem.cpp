@@ -23,6 +23,7 @@
 #include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
 #include "run/checkpoints.hpp"
+#include "run/earlier_run.hpp"
 #include "run/frame_files.hpp"
 #include "run/keep_state.hpp"
 #include "run/part_lines.hpp"
@@ -144,7 +145,7 @@ constexpr std::size_t memory_for_results = 4 * heap_growth, memory_of_thread = s
 
 // What LATIN is given besides the problem.
 struct Given {
-  const InterfaceFields* start_from;
+  StartFields start_from;
   Trail* trail;
   const SharePlan& plan;
 };
@@ -198,6 +199,7 @@ struct RunSite {
   std::shared_ptr<CheckpointFile> checkpoint;  // rank 0's
   std::shared_ptr<Trail> part;                 // another's part of it
   std::unique_ptr<RunWriter> writer;           // null: nothing is written
+  std::optional<EarlierRun> earlier;           // whose static steps these start from
   SharePlan plan;
   Unwritten unwritten;
   bool is_kept = true;  // false: what is in the folder reaches further
@@ -229,8 +231,10 @@ std::shared_ptr<RunResult> compute(const Problem& declared, const RunRequest& re
     if (pass == 0) site.part = part_of_checkpoint(site.checkpoint.get(), request.checkpoint_every);
     std::optional<FrameFiles> files;
     if (has_frames && (pass > 0 || tolerances.size() == 1)) files.emplace(site.writer.get(), site.unwritten);
-    const Given given{before ? before->interface_fields.get() : start_of(request),
-                      ranks::is_first() ? site.checkpoint.get() : site.part.get(), site.plan};
+    const StartFields start = before         ? StartFields(before->interface_fields.get())
+                              : site.earlier ? site.earlier->fields_for(declared)
+                                             : StartFields(start_of(request));
+    const Given given{start, ranks::is_first() ? site.checkpoint.get() : site.part.get(), site.plan};
     result = sweep(problem, given, files ? &*files : nullptr, ranks::any(site.writer != nullptr));
     share_result(problem, *result);
     if (before) add_pass(*before, *result);
@@ -286,6 +290,13 @@ void settle(const RunRequest& request, const RunResult& result, RunSite& site) {
   }
 }
 
+void start_from_earlier(const Problem& problem, RunRequest& request, RunSite& site) {
+  site.earlier.emplace(request.from, site.directory);
+  request.from = site.earlier->folder();
+  request.identity.from = request.from.string();
+  if (request.pieces.empty()) request.pieces = site.earlier->pieces_for(problem);
+}
+
 // What the user is to know of a run that did not come to its end. Throws the error that ended it.
 void tell_stop(const RunResult& result, const RunSite& site) {
   const std::string folder = site.directory.string();
@@ -324,8 +335,9 @@ std::shared_ptr<const RunResult> run_problem(const Problem& declared, const RunR
                   declared.substructures.size(), declared.interfaces.size(), declared.steps.size()));
   for (const std::string& line : base_lines(declared)) say(line);
   RunSite site(declared, asked);
-  site.plan = plan_of(declared, asked, site.directory);
   RunRequest request = asked;
+  if (!asked.from.empty()) start_from_earlier(declared, request, site);
+  site.plan = plan_of(declared, request, site.directory);
   request.pieces = site.plan.n_pieces;
   Problem problem = declared;  // with the tolerance of the pass
   std::shared_ptr<RunResult> result;

@@ -37,6 +37,8 @@ struct RunRequest {
   std::vector<int> pieces;          // of each substructure, those of the run that is continued; empty: as it comes
   RunIdentity identity;
   std::shared_ptr<const RunResult> start_from;  // an earlier case: the iteration starts from its interface fields
+  // Folder of an earlier run, whose fields the iteration of the first static steps starts from; empty: none.
+  std::filesystem::path from;
 };
 
 // Computes and writes; says what it does in a few lines. Throws InputError, NumericalError.

@@ -33,6 +33,18 @@ if(NOT left STREQUAL ${run})
   message(SEND_ERROR "beside the run lie '${left}'")
 endif()
 
+# A finished tightening serves another shock.
+set(clamp ${SOURCE_DIR}/tests/app/stopped.lua --quiet --no-frames)
+expect(0 "results in" run ${clamp} --set us=10 --out ${out}/first)
+set(earlier ${out}/first/stopped/base)
+expect(0 "static 'tighten': 4 increments, 1.0 iterations each" run ${clamp} --from ${earlier} --out ${out}/second)
+expect(2 "would replace those it starts from" run ${clamp} --from ${earlier} --out ${out}/first)
+expect(2 "no folder '${out}/none'" run ${clamp} --from ${out}/none --out ${out}/second)
+expect(2 "solver.monolithic has no interface fields to start from" run ${clamp} --solver monolithic --from ${earlier} --out ${out}/second)
+expect(2 "substructure 1 is 'foot' there and 'specimen' here" run ${SOURCE_DIR}/decks/crush.lua --quiet --from ${earlier} --out ${out}/second)
+expect(0 "which has other loads" run ${clamp} --set preload=0 --set us=10 --from ${earlier} --out ${out}/second)
+file(REMOVE_RECURSE ${out}/first ${out}/second)
+
 # One case of a study: the others are read, nothing is checked cold once more, the study's table stays.
 expect(0 "study of 'lap'" run ${SOURCE_DIR}/decks/study_friction.lua --set cases=3 --set n=2 --set increments=4 --quiet --out ${out})
 file(READ ${out}/lap/study.csv before)

@@ -2,9 +2,12 @@
 be, byte by byte.
 
 kill_and_continue.py PROGRAM DECK [--set NAME=VALUE]... [--kills N] [--seed N] [--signals KILL,INT,TERM] [--cut N] [--refine TOLERANCE]
+                     [--earlier NAME=VALUE]
 
 --cut N: instead of killing, N times the checkpoint of an interrupted run is cut off at a random byte, or spoiled there,
 as a crash of the machine while it is written would.
+
+--earlier NAME=VALUE: all runs start from an earlier one with that setting (dygita run --from).
 """
 
 import argparse
@@ -37,12 +40,13 @@ class Kills:
         self.asked = asked
         self.random = random.Random(asked.seed)
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="dygita_kills_"))
-        self.failures, self.refined = [], None
+        self.failures, self.refined, self.earlier = [], None, None
         self.kinds = {"before anything": 0, "without a record": 0, "with a record": 0, "after the end": 0}
 
     def command(self, out):
         settings = [word for s in self.asked.set for word in ("--set", s)]
-        return [self.asked.program, "run", self.asked.deck, *settings, "--quiet", "--threads", "1", "--out", str(out)]
+        earlier = [] if self.earlier is None else ["--from", str(self.earlier)]
+        return [self.asked.program, "run", self.asked.deck, *settings, *earlier, "--quiet", "--threads", "1", "--out", str(out)]
 
     def going_on(self, run):
         return [self.asked.program, "continue", str(run), "--quiet", "--threads", "1"]
@@ -61,6 +65,11 @@ class Kills:
         except subprocess.TimeoutExpired:
             process.send_signal(number)
         return process.wait() not in (0, 1)
+
+    def run_earlier(self):
+        folder = self.folder / "earlier"
+        self.let_be([*self.command(folder), "--set", self.asked.earlier])
+        self.earlier = next(folder.rglob("run.json")).parent
 
     def reference(self):
         start = time.monotonic()
@@ -154,6 +163,8 @@ class Kills:
         raise RuntimeError("the run was not stopped before its end, or has kept no checkpoint")
 
     def run(self):
+        if self.asked.earlier:
+            self.run_earlier()
         self.reference()
         if self.asked.cut:
             whole = self.interrupted()
@@ -176,6 +187,7 @@ def main():
     parser.add_argument("--cut", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--signals", default="KILL")
+    parser.add_argument("--earlier", default="", metavar="NAME=VALUE")
     parser.add_argument("--refine", default="", help="--tolerance of a continuation after some of the kills")
     return Kills(parser.parse_args()).run()
 
