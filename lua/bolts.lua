@@ -2,6 +2,7 @@
 local native = ...
 local placement = native.module "placement"
 local interfaces = native.module "interfaces"
+local holes = native.module "holes"
 local bolts = {}
 
 -- In mm: pitch (ISO 261), height of the head and width across flats (ISO 4014, 4017), height of the nut (ISO 4032,
@@ -105,18 +106,55 @@ local function declare(given, meshes, line, like)
   return bolt
 end
 
+local function check_given(entry, given, line)
+  if given.hardening ~= 0 and not given.yield then
+    native.fail(line, entry.path .. ": 'hardening' goes with 'yield', which is missing")
+  end
+  if given.around % 12 ~= 0 then
+    native.fail(line, ("%s: 'around' = %d is no multiple of 12"):format(entry.path, given.around)
+      .. "\n    hexagon and square grid have their corners at nodes: 12, 24, 36, ...")
+  end
+end
+
+-- The bolt's z along `towards`, its z = 0 at `head`.
+local function place_at(head, towards)
+  local turn
+  if towards[3] < -0.9999999 then
+    turn = placement.rotation({ 1, 0, 0 }, math.pi, { 0, 0, 0 })
+  else
+    turn = placement.rotation({ -towards[2], towards[1], 0 }, math.acos(math.min(1, towards[3])), { 0, 0, 0 })
+  end
+  return placement.shortest(turn and placement.after(placement.translation(head), turn) or placement.translation(head))
+end
+
+-- One bolt for each hole through the parts; those of one grip are copies of the first.
+local function through(entry, given, line)
+  local list, first = {}, {}
+  for i, hole in ipairs(holes.through(given, sizes[given.size][1] * 1e-3, entry.path, line)) do
+    local own = {}
+    for key, value in pairs(given) do own[key] = value end
+    own.name, own.place = ("%s[%d]"):format(given.name, i), place_at(hole.head, hole.towards)
+    own.grip = math.floor(hole.grip * 1e7 + 0.5) / 1e7  -- round-off of the file makes no other bolt
+    local like = first[own.grip]
+    list[i] = declare(own, like and made[like].meshes or meshes_of(own, line), line, like)
+    first[own.grip] = like or list[i]
+  end
+  native.say(("%s '%s': %d %s bolts, grip %s"):format(entry.path, given.name, #list, given.size, (function()
+    local grips = {}
+    for grip in pairs(first) do grips[#grips + 1] = ("%.4g mm"):format(grip * 1e3) end
+    table.sort(grips)
+    return table.concat(grips, ", ")
+  end)()))
+  return bolts.list(list, given.name)
+end
+
 function bolts.constructor(entry, call)
   return function(...)
     local line = native.line()
     local given = call(entry, line, ...)
-    if given.hardening ~= 0 and not given.yield then
-      native.fail(line, entry.path .. ": 'hardening' goes with 'yield', which is missing")
-    end
-    if given.around % 12 ~= 0 then
-      native.fail(line, ("%s: 'around' = %d is no multiple of 12"):format(entry.path, given.around)
-        .. "\n    hexagon and square grid have their corners at nodes: 12, 24, 36, ...")
-    end
-    local bolt = declare(given, meshes_of(given, line), line)
+    check_given(entry, given, line)
+    local bolt
+    if entry.is_through then bolt = through(entry, given, line) else bolt = declare(given, meshes_of(given, line), line) end
     return bolt
   end
 end

@@ -312,6 +312,20 @@ words.pattern = {
 }
 
 local bolts = native.module "bolts"
+local bolt_material = { "material", type = "object", kinds = { "material" }, required = true, doc = "of all its parts" }
+local function bolt_size() return { "size", type = "choice", choices = bolts.sizes, required = true, doc = "of the thread" } end
+local function of_bolts()
+  return { "washer", type = "boolean", default = true, doc = "under head and nut" },
+    { "friction", type = "number", range = { 0, 1000 }, usual = friction.usual, default = 0.15, doc = "of the washers against head and nut" },
+    { "shank", type = "choice", choices = { "stress", "nominal" }, default = "stress",
+      doc = "diameter of the shank: of the thread's stress area (ISO 898-1), for bolts threaded over their grip, or nominal" },
+    { "yield", type = "number", unit = "Pa", range = { 1e3, 1e11 }, doc = "the shank's interface is then interface.plastic, else bonded" },
+    { "hardening", type = "number", unit = "Pa/m", range = { 0, 1e17 }, default = 0, doc = "of it" },
+    { "around", type = "integer", range = { 12, 240 }, default = 12, doc = "cells around the shank, a multiple of 12; lengths of cells follow" },
+    { "order", type = "integer", range = { 1, 2 }, default = 1, doc = "of the shape functions: hex8, or hex20 with round edges" },
+    { "integration", type = "choice", choices = { "implicit", "automatic", "explicit" }, default_doc = "as the solver has it", doc = "as of a substructure" }
+end
+
 words.bolt = {
   name = "bolt", doc = "Standard bolts, meshed: parts, faces and interfaces at once.",
   {
@@ -320,20 +334,29 @@ words.bolt = {
       .. "the nut at -grip. Its own interfaces join its parts; the deck must join it to the clamped parts.",
     arguments = {
       { "name", type = "name", required = true, doc = "of the bolt: its parts are `name head`, `name nut`, `name washer 1`, `name washer 2`, the shank's interface `name`" },
-      { "size", type = "choice", choices = bolts.sizes, required = true, doc = "of the thread" },
+      bolt_size(),
       { "grip", type = "number", unit = "m", range = { 1e-4, 2 }, required = true, doc = "clamped thickness, without the washers" },
-      { "material", type = "object", kinds = { "material" }, required = true, doc = "of all its parts" },
+      bolt_material,
       { "place", type = "placement", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "as of a substructure",
         fields = words[3].call.arguments[4].fields },
-      { "washer", type = "boolean", default = true, doc = "under head and nut" },
-      { "friction", type = "number", range = { 0, 1000 }, usual = friction.usual, default = 0.15, doc = "of the washers against head and nut" },
-      { "shank", type = "choice", choices = { "stress", "nominal" }, default = "stress",
-        doc = "diameter of the shank: of the thread's stress area (ISO 898-1), for bolts threaded over their grip, or nominal" },
-      { "yield", type = "number", unit = "Pa", range = { 1e3, 1e11 }, doc = "the shank's interface is then interface.plastic, else bonded" },
-      { "hardening", type = "number", unit = "Pa/m", range = { 0, 1e17 }, default = 0, doc = "of it" },
-      { "around", type = "integer", range = { 12, 240 }, default = 12, doc = "cells around the shank, a multiple of 12; lengths of cells follow" },
-      { "order", type = "integer", range = { 1, 2 }, default = 1, doc = "of the shape functions: hex8, or hex20 with round edges" },
-      { "integration", type = "choice", choices = { "implicit", "automatic", "explicit" }, default_doc = "as the solver has it", doc = "as of a substructure" },
+      of_bolts(),
+    },
+  },
+  {
+    "through", makes = "list of bolts", is_bolt = true, is_through = true,
+    doc = "Hexagon bolts as of bolt.hex, `name[1]` ..., one in each round hole that runs through the parts: axis, grip and places come from the meshes. "
+      .. "In the order of x, then y, then z of the heads.",
+    arguments = {
+      { "name", type = "name", required = true, doc = "of the bolts: `name[1]`, `name[2]`, ..." },
+      bolt_size(),
+      { "parts", type = "objects", kinds = { "substructure" }, at_least = 1, required = true,
+        doc = "clamped parts, the first under the head; of the others each hole may pass some" },
+      { "radius", type = "number", unit = "m", range = { 1e-4, 0.5 }, default_doc = "any that the thread passes with up to 30 % to spare",
+        doc = "of the holes, within two per cent" },
+      { "where", type = "function", doc = "function(x, y, z), in metres, true for the end of a hole under the head: those holes alone" },
+      { "head", type = "vector", default_doc = "z, else y, else x", doc = "of a single part: direction towards the heads" },
+      { "n", type = "integer", range = { 1, 10000 }, doc = "how many holes there must be" },
+      bolt_material, of_bolts(),
     },
   },
 }

@@ -3,6 +3,7 @@
 #include "base/log.hpp"
 #include "deck/deck_state.hpp"
 #include "deck/object.hpp"
+#include "mesh/find_holes.hpp"
 #include "model/found_faces.hpp"
 
 namespace dygita {
@@ -27,6 +28,14 @@ void push_face(lua_State* L, const Face& face, int parts, int i) {
   const int id = the_object_at(L, -1).id;
   lua_pop(L, 1);
   push_object(L, {"face", "substructure:face", face.label(), id, face});
+}
+
+void push_point(lua_State* L, const Vec3& x) {
+  lua_createtable(L, 3, 0);
+  for (int d = 0; d < 3; ++d) {
+    lua_pushnumber(L, x[d]);
+    lua_rawseti(L, -2, d + 1);
+  }
 }
 
 }  // namespace
@@ -67,6 +76,31 @@ int touching_pairs(LuaState& lua, lua_State* L) {
     lua_setfield(L, -2, "largest");
     lua_rawseti(L, -2, static_cast<lua_Integer>(p) + 1);
   }
+  return 1;
+}
+
+int holes_of_parts(LuaState& lua, lua_State* L) {
+  const auto parts = list_at<SubstructurePtr>(L, 1);
+  std::vector<std::vector<Hole>> holes;
+  {
+    const LuaState::Pause pause(lua);
+    for (const SubstructurePtr& part : parts) holes.push_back(find_holes(*part->mesh, part->place));
+  }
+  lua_newtable(L);
+  lua_Integer n = 0;
+  for (size_t part = 0; part < parts.size(); ++part)
+    for (const Hole& hole : holes[part]) {
+      lua_createtable(L, 0, 4);
+      lua_pushinteger(L, static_cast<lua_Integer>(part) + 1);
+      lua_setfield(L, -2, "part");
+      lua_pushnumber(L, hole.radius);
+      lua_setfield(L, -2, "radius");
+      push_point(L, hole.low);
+      lua_setfield(L, -2, "low");
+      push_point(L, hole.high);
+      lua_setfield(L, -2, "high");
+      lua_rawseti(L, -2, ++n);
+    }
   return 1;
 }
 

@@ -54,7 +54,7 @@ local file = mesh.step{ file = ")" +
                     R"(", size = 9*mm, round = 8 }
 local lower = substructure{ name = "lower", mesh = file:part "lower", material = steel }
 local upper = substructure{ name = "upper", mesh = file:part "upper", material = steel }
-local screw = bolt.hex{ name = "screw", size = "M8", grip = 18*mm, material = steel, place = { -20*mm, 0, 18*mm } }
+local function screw() return bolt.hex{ name = "screw", size = "M8", grip = 18*mm, material = steel, place = { -20*mm, 0, 18*mm } } end
 local screws = )" + pattern +
                     R"(
 local contacts = interface.contact{ between = "all touching", friction = 0.2 }
@@ -71,9 +71,11 @@ problem{ name = "joint", substructures = { lower, upper, screws.parts }, interfa
 )")
         .at(0);
   };
-  const DeckRun line = run("pattern.line{ n = 2, step = { 40*mm, 0, 0 }, of = screw }");
-  const DeckRun circle = run("pattern.circle{ n = 2, axis = { 0, 0, 1 }, of = screw }");
-  for (const DeckRun* each : {&line, &circle}) {
+  const DeckRun line = run("pattern.line{ n = 2, step = { 40*mm, 0, 0 }, of = screw() }");
+  const DeckRun circle = run("pattern.circle{ n = 2, axis = { 0, 0, 1 }, of = screw() }");
+  const DeckRun through =
+      run("bolt.through{ name = 'screw', size = 'M8', parts = { upper, lower }, material = steel }");
+  for (const DeckRun* each : {&line, &circle, &through}) {
     EXPECT_TRUE(each->result->converged);
     ASSERT_EQ(each->result->bolts.size(), 2u);
     EXPECT_EQ(each->result->bolts[0].name, "screw[1]");
@@ -86,6 +88,36 @@ problem{ name = "joint", substructures = { lower, upper, screws.parts }, interfa
     EXPECT_NEAR(each->column("contact1", "normal").back(), -(first + second), 5.0);
   }
   EXPECT_NEAR(line.result->bolts[0].last, circle.result->bolts[0].last, 20.0);
+  for (const int i : {0, 1}) EXPECT_NEAR(line.result->bolts[i].last, through.result->bolts[i].last, 0.1) << i;
+}
+
+// Holes of few cells, curved or not, in parts that stand anywhere; the head is on the side of the first part.
+TEST(Bolts, find_the_holes_that_they_go_through_whatever_the_mesh) {
+  for (const std::string mesh : {"round = 5", "round = 6", "round = 8", "round = 16", "round = 6, order = 1"})
+    for (const bool turned : {false, true})
+      run_text(steel + R"(
+local place = )" +
+               std::string(turned ? "{ translate = { 1, 2, 3 }, rotate = { axis = { 1, 2, 3 }, angle = 50*deg } }"
+                                  : "{ 0, 0, 0 }") +
+               R"(
+local file = mesh.step{ file = ")" +
+               (std::filesystem::path(DYGITA_SOURCE_DIR) / "meshes" / "joint.step").string() + R"(", size = 9*mm, )" +
+               mesh + R"( }
+local lower = substructure{ name = "lower", mesh = file:part "lower", material = steel, place = place }
+local upper = substructure{ name = "upper", mesh = file:part "upper", material = steel, place = place }
+local down = bolt.through{ name = "down", size = "M8", parts = { upper, lower }, material = steel, n = 2 }
+local up = bolt.through{ name = "up", size = "M8", parts = { lower, upper }, material = steel, n = 2 }
+local half = bolt.through{ name = "half", size = "M8", parts = { upper }, material = steel, n = 2 }
+for i = 1, 2 do
+  local d, u, h = interface.contact{ name = "d" .. i, between = { upper, down[i].washers[1] } }, interface.contact{ name = "u" .. i, between = { lower, up[i].washers[1] } },
+    interface.contact{ name = "h" .. i, between = { upper, half[i].washers[2] } }
+end
+local one = bolt.through{ name = "one", size = "M8", parts = { upper, lower }, material = steel,
+  where = function(x, y, z) return )" +
+               (turned ? "x > 1" : "x > 0") +
+               R"( end }
+assert(#one == 1, "the places of heads are those of the parts")
+)");
 }
 
 // A box from CAD on its bracket: every contact found, every bolt at its force, and the shock begun.

@@ -1,0 +1,140 @@
+-- Holes that run through parts one behind the other: where bolts go.
+local native = ...
+local holes = {}
+
+local function sub(a, b) return { a[1] - b[1], a[2] - b[2], a[3] - b[3] } end
+local function dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
+local function along(a, t, u) return { a[1] + t * u[1], a[2] + t * u[2], a[3] + t * u[3] } end
+local function unit(a)
+  local length = math.sqrt(dot(a, a))
+  return { a[1] / length, a[2] / length, a[3] / length }
+end
+
+local function name_of(part) return (select(3, native.kind(part))) end
+local function in_mm(x) return ("%.4g mm"):format(x * 1e3) end
+local function micrometres(x)
+  local whole = math.floor(x * 1e6 + 0.5)
+  return whole == 0 and 0 or whole
+end
+local function at_mm(x) return ("(%.7g, %.7g, %.7g) mm"):format(micrometres(x[1]) / 1e3, micrometres(x[2]) / 1e3, micrometres(x[3]) / 1e3) end
+
+local parallel = math.cos(2 * math.pi / 180)
+local beside, apart = 0.1, 0.02  -- of the diameter of the thread: axes from each other, parts along the axis
+
+-- Where `hole` lies along the line through `from` along `u`, m: its lower and upper end; nil: not on that line.
+local function range_on(hole, from, u, diameter)
+  local axis = unit(sub(hole.high, hole.low))
+  if math.abs(dot(axis, u)) < parallel then return nil end
+  local to_low, to_high = sub(hole.low, from), sub(hole.high, from)
+  local low, high = dot(to_low, u), dot(to_high, u)
+  local off = sub(to_low, along({ 0, 0, 0 }, low, u))
+  if dot(off, off) > (beside * diameter) ^ 2 then return nil end
+  return math.min(low, high), math.max(low, high)
+end
+
+-- The holes of other parts that go on from `first`, of the first part. Answers the chain: head (m), direction towards
+-- it, grip (m), the parts in turn; or nothing and what the nearest hole on the same line misses.
+local function chain_from(first, all, diameter)
+  local u, from = unit(sub(first.high, first.low)), first.low
+  local low, high = range_on(first, from, u, diameter)
+  local chain, used, near_by = { first }, { [first] = true }, nil
+  local below, above = 0, 0
+  local found = true
+  while found do
+    found = false
+    for _, hole in ipairs(all) do
+      local from_low, to_high = nil, nil
+      if not used[hole] and hole.part ~= first.part then from_low, to_high = range_on(hole, from, u, diameter) end
+      if from_low then
+        local gap_above, gap_below = from_low - high, low - to_high
+        if math.abs(gap_above) <= apart * diameter then
+          high, above, found = to_high, above + 1, true
+        elseif math.abs(gap_below) <= apart * diameter then
+          low, below, found = from_low, below + 1, true
+        elseif not near_by or math.max(gap_above, gap_below) < near_by.gap then
+          near_by = { gap = math.max(gap_above, gap_below), hole = hole }
+        end
+        if found then
+          used[hole], chain[#chain + 1] = true, hole
+          break
+        end
+      end
+    end
+  end
+  return { low = along(from, low, u), high = along(from, high, u), u = u, grip = high - low, holes = chain, above = above, below = below,
+           near_by = near_by }
+end
+
+local function list_of(found, parts)
+  local texts, count = {}, {}
+  for _, hole in ipairs(found) do
+    local text = ("'%s' %s"):format(name_of(parts[hole.part]), in_mm(2 * hole.radius))
+    if not count[text] then texts[#texts + 1] = text end
+    count[text] = (count[text] or 0) + 1
+  end
+  for i, text in ipairs(texts) do texts[i] = count[text] > 1 and ("%s (%d)"):format(text, count[text]) or text end
+  return #texts > 0 and "holes all around have the diameters: " .. table.concat(texts, ", ") or "no part has a round hole that ends in planes"
+end
+
+-- given: parts, the first under the head; radius (m) or nil; head: direction, or nil; where: a function of the hole's
+-- end at the head, or nil. diameter: of the thread, m. Answers a list of { head, towards, grip }.
+function holes.through(given, diameter, path, line)
+  local parts, all = given.parts, native.holes(given.parts)
+  local function fail(text, hint) native.fail(line, path .. ": " .. text .. (hint and "\n    " .. hint or "")) end
+  local fitting = {}
+  for _, hole in ipairs(all) do
+    local d = 2 * hole.radius
+    local fits = d > 0.999 * diameter and d < 1.3 * diameter
+    if given.radius then fits = math.abs(hole.radius - given.radius) < 0.02 * given.radius end
+    if fits then fitting[#fitting + 1] = hole end
+  end
+  local which = given.radius and ("of %s diameter"):format(in_mm(2 * given.radius)) or ("for %s (diameter %s to %s)"):format(given.size, in_mm(diameter), in_mm(1.3 * diameter))
+  local chains, left = {}, nil
+  for _, hole in ipairs(fitting) do
+    if hole.part == 1 then
+      local chain = chain_from(hole, fitting, diameter)
+      if chain.above > 0 and chain.below > 0 then
+        fail(("the hole at %s goes on at both sides of '%s', the first of 'parts'"):format(at_mm(hole.low), name_of(parts[1])),
+          "the first part is the one under the head")
+      end
+      local up = chain.above == 0
+      if #parts == 1 then
+        local axis = given.head or (math.abs(chain.u[3]) > 0.01 and { 0, 0, 1 }) or (math.abs(chain.u[2]) > 0.01 and { 0, 1, 0 }) or { 1, 0, 0 }
+        up = dot(axis, chain.u) > 0
+      end
+      local one = { head = up and chain.high or chain.low, grip = chain.grip, towards = up and chain.u or { -chain.u[1], -chain.u[2], -chain.u[3] } }
+      if given.where and not given.where(one.head[1], one.head[2], one.head[3]) then
+        one = nil
+      elseif #parts > 1 and #chain.holes == 1 then
+        left = left or { hole = hole, near_by = chain.near_by }
+        one = nil
+      end
+      chains[#chains + 1] = one
+    end
+  end
+  if #chains == 0 then
+    local hint = list_of(all, parts)
+    if left and left.near_by then
+      hint = ("the hole of '%s' at %s and that of '%s' are %s apart along their axis"):format(name_of(parts[1]), at_mm(left.hole.low),
+        name_of(parts[left.near_by.hole.part]), in_mm(left.near_by.gap))
+    elseif left then
+      hint = ("the hole of '%s' at %s goes on in no other part; %s"):format(name_of(parts[1]), at_mm(left.hole.low), hint)
+    end
+    fail(("no hole %s goes through %s"):format(which, #parts > 1 and "these parts" or ("'%s'"):format(name_of(parts[1]))), hint)
+  end
+  table.sort(chains, function(a, b)
+    for i = 1, 3 do
+      local p, q = micrometres(a.head[i]), micrometres(b.head[i])
+      if p ~= q then return p < q end
+    end
+    return false
+  end)
+  if given.n and given.n ~= #chains then
+    local places = {}
+    for i, one in ipairs(chains) do places[i] = at_mm(one.head) end
+    fail(("%d holes %s go through these parts, and n = %d"):format(#chains, which, given.n), "heads at " .. table.concat(places, ", "))
+  end
+  return chains
+end
+
+return holes
