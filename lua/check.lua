@@ -253,6 +253,42 @@ function types.specification(call, _, value, label)
   return flat
 end
 
+-- Pairs that rise in both numbers, left as one flat list.
+function types.pairs(call, argument, value, label)
+  local pair_of, flat = "{ " .. argument.of[1] .. ", " .. argument.of[2] .. " }", {}
+  local n = check_list(call, value, label, "a list of " .. pair_of)
+  if n == 0 then fail(call, ("'%s' is empty"):format(label), "a list of " .. pair_of) end
+  for i = 1, n do
+    local point = ("%s[%d]"):format(label, i)
+    if type(value[i]) ~= "table" then wrong_type(call, point, pair_of, value[i]) end
+    if check_list(call, value[i], point, pair_of) ~= 2 then fail(call, ("'%s' must be %s, got %d numbers"):format(point, pair_of, #value[i])) end
+    for j = 1, 2 do
+      local number = types.number(call, {}, value[i][j], ("%s[%d]"):format(point, j))
+      local before = i == 1 and 0 or value[i - 1][j]
+      if not (j == 1 and number > before or j == 2 and number >= before) then
+        fail(call, ("'%s[%d]' = %g is not more than %g"):format(point, j, number, before), "both rise from (0, 0), which is no point of the list")
+      end
+      flat[#flat + 1] = number
+    end
+  end
+  return flat
+end
+
+-- How rough faces give way: one of three laws along the normal. Answers a flat table of numbers by the names of the law.
+function types.compliance(call, argument, value, label)
+  local given, flat, n = types.table(call, argument, value, label), {}, 0
+  for _, key in ipairs { "normal", "curve", "asperities" } do
+    if given[key] then n = n + 1 end
+  end
+  if n ~= 1 then fail(call, ("'%s' has %s of 'normal', 'curve' and 'asperities'"):format(label, n == 0 and "none" or "more than one"), "give one of them") end
+  flat.normal, flat.tangential = given.normal, given.tangential
+  for i = 1, #(given.curve or {}), 2 do
+    flat[("approach[%d]"):format((i + 1) // 2)], flat[("pressure[%d]"):format((i + 1) // 2)] = given.curve[i], given.curve[i + 1]
+  end
+  for key, number in pairs(given.asperities or {}) do flat["asperities." .. key] = number end
+  return flat
+end
+
 function types.settings(call, argument, value, label)
   if type(value) ~= "table" then wrong_type(call, label, "a table of numbers by name, as { size = 2*mm }", value) end
   local settings = {}

@@ -25,7 +25,7 @@ local function grouped(type_text) return type_text:find("|", 1, true) and "(" ..
 local plain = {
   number = "number", integer = "integer", boolean = "boolean", name = "string", text = "string", file = "string",
   vector = "dygita.vector", counts = "dygita.counts", numbers = "number[]", texts = "string|string[]", settings = "table<string, number>",
-  specification = "string|number[][]", value = "dygita.value", ["function"] = "fun(x: number, y: number, z: number): boolean?",
+  specification = "string|number[][]", pairs = "number[][]", value = "dygita.value", ["function"] = "fun(x: number, y: number, z: number): boolean?",
 }
 
 local type_of
@@ -40,7 +40,7 @@ function type_of(a)
   local text = plain[a.type]
   if a.type == "choice" then text = union(a.choices, function(word) return ('"%s"'):format(word) end) end
   if a.type == "choices" then text = grouped(union(a.choices, function(word) return ('"%s"'):format(word) end)) .. "[]" end
-  if a.type == "table" then text = inline_table(a.fields) end
+  if a.type == "table" or a.type == "compliance" then text = inline_table(a.fields) end
   if a.type == "placement" then text = "dygita.vector|" .. inline_table(a.fields) end
   if a.type == "orientation" then
     text = "[dygita.vector, dygita.vector]|(fun(x: number, y: number, z: number): dygita.vector, dygita.vector)|" .. inline_table(a.fields)

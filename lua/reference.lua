@@ -10,7 +10,7 @@ local function number(x) return ("%g"):format(x) end
 
 local function type_of(argument)
   local names = { vector = "{ x, y, z }", placement = "{ x, y, z } or table", orientation = "{ axis1, axis2 }, function(x, y, z) or table", counts = "{ nx, ny, nz }", numbers = "list of numbers", name = "text",
-                  settings = "table of numbers", specification = "file or list of { frequency, level }", value = "number, history or function(t)", integer = "whole number",
+                  settings = "table of numbers", compliance = "table", pairs = "list of pairs", specification = "file or list of { frequency, level }", value = "number, history or function(t)", integer = "whole number",
                   choice = "text", choices = "list of texts" }
   local text = names[argument.type] or argument.type
   if argument.kinds then text = table.concat(argument.kinds, " or ") end
@@ -40,15 +40,20 @@ local function allowed(argument)
   return ("%s to %s"):format(number(range[1]), number(argument.later_above or range[2]))
 end
 
+local function rows_of(name, fields)
+  for _, f in ipairs(fields or {}) do
+    put("| `%s.%s` | %s | %s | %s | %s | %s |", name, f[1], type_of(f), f.unit or "", default_of(f), allowed(f), f.doc)
+    rows_of(name .. "." .. f[1], f.fields)
+  end
+end
+
 local function table_of(arguments)
   if #arguments == 0 then return end
   put "| argument | type | unit | default | plausible | meaning |"
   put "| --- | --- | --- | --- | --- | --- |"
   for _, a in ipairs(arguments) do
     put("| `%s` | %s | %s | %s | %s | %s |", a[1], type_of(a), a.unit or "", default_of(a), allowed(a), a.doc)
-    for _, f in ipairs(a.fields or {}) do
-      put("| `%s.%s` | %s | %s | %s | %s | %s |", a[1], f[1], type_of(f), f.unit or "", default_of(f), allowed(f), f.doc)
-    end
+    rows_of(a[1], a.fields)
   end
   put ""
 end

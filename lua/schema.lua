@@ -17,7 +17,9 @@
 --   numbers               a list of numbers, `at_least`, `at_most`; `or_single`: one alone needs no list
 --   settings              a table of numbers by name
 --   specification         a file, or a list of { frequency, level }
+--   pairs                 a list of pairs of numbers that rise, named by `of`
 --   table                 a table of the named `fields`
+--   compliance            the same, of rough faces
 --   orientation           two axes, a function of a place, or a table of the named `fields`
 --   value                 a number, a history or a function of time
 --   between               two sides, each one of the `kinds`; `or_word`: a word allowed instead
@@ -373,6 +375,18 @@ words[4] = {
       name_unless_all(), between(all_touching), of_parts, except, friction_of_contact,
       { "gap", type = "number", unit = "m", range = { -0.01, 0.01 }, usual = usual_gap, default = 0, or_word = "geometry",
         doc = "initial gap; a negative one is an interference; \"geometry\": the actual distance, point by point, for non-matching meshes" },
+      { "compliance", type = "compliance", default_doc = "none",
+        doc = "rough faces, whose asperities give way under pressure before the bodies touch all over: one of `normal`, `curve` and `asperities`",
+        fields = {
+          { "normal", type = "number", unit = "Pa/m", range = { 1e3, 1e18 }, doc = "pressure per approach of the faces" },
+          { "curve", type = "pairs", of = { "approach", "pressure" }, doc = "pairs of approach (m) and pressure (Pa) from (0, 0) on, straight in between and beyond the last" },
+          { "asperities", type = "table", doc = "elastic tips, their heights spread evenly", fields = {
+            { "radius", type = "number", unit = "m", range = { 1e-9, 1 }, required = true, doc = "of the tips" },
+            { "density", type = "number", unit = "1/m^2", range = { 1, 1e18 }, required = true, doc = "tips per area" },
+            { "height", type = "number", unit = "m", range = { 1e-9, 1e-2 }, required = true, doc = "between the highest tip and the lowest" } } },
+          { "tangential", type = "number", unit = "Pa/m", range = { 1e3, 1e18 }, default_doc = "2 (1 - nu)/(2 - nu) of the normal slope (Mindlin)",
+            doc = "traction per tangential displacement below the limit of friction" },
+        } },
       { "closed", type = "boolean", default = false, doc = "confirms that the faces touch, whatever lies between their facets: the gap is 0" },
       within(), points(),
     },

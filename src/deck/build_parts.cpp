@@ -1,6 +1,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <array>
 
 #include "base/log.hpp"
 #include "deck/build_model.hpp"
@@ -10,6 +11,7 @@
 #include "intake/geo_script.hpp"
 #include "intake/mesh_file.hpp"
 #include "law/law.hpp"
+#include "law/rough_contact.hpp"
 #include "mesh/bolt.hpp"
 #include "mesh/box.hpp"
 #include "mesh/mesh_limits.hpp"
@@ -252,6 +254,42 @@ void set_sides(const Declaration& d, Interface& interface) {
               doubt_of_gap(interface.side_1, interface.side_2, found.touching.within));
 }
 
+// Elastic constants of two faces against each other: 1/E* of both, and the tangential slope over the normal one of
+// their asperities (Mindlin). Throws InputError where a part has not two constants; cure: what to give instead.
+std::array<double, 2> contact_constants(const Interface& interface, const std::string& what, const std::string& cure) {
+  double normal = 0.0, tangential = 0.0;
+  for (const Face* face : {&interface.side_1, &interface.side_2}) {
+    const Elastic& material = face->part->material;
+    if (face->part->mesh->condensed || !material.is_isotropic())
+      throw InputError(fmt::format("'{}' needs Young's modulus and Poisson's ratio of '{}', which has none\n    {}",
+                                   what, face->part->name, cure));
+    const double poisson = *material.constant("poisson");
+    normal += (1.0 - poisson * poisson) / material.young();
+    tangential += (2.0 - poisson) / material.shear_modulus();
+  }
+  return {1.0 / normal, 4.0 * normal / tangential};
+}
+
+// What the law is given of `compliance`.
+void add_compliance(const Declaration& d, const Interface& interface, std::map<std::string, double>& of_law) {
+  std::map<std::string, double> given = d.arguments.settings("compliance");
+  if (given.contains("asperities.radius")) {
+    const double height = given["asperities.height"];
+    const double modulus = contact_constants(interface, "compliance.asperities", "give compliance.normal")[0];
+    of_law["coefficient"] =
+        coefficient_of_asperities(given["asperities.radius"], given["asperities.density"], modulus, height);
+    of_law["height"] = height;
+  }
+  for (const auto& [name, value] : given)
+    if (!name.starts_with("asperities.")) of_law[name] = value;
+  if (const auto friction = of_law.find("friction"); friction == of_law.end() || friction->second == 0.0) {
+    if (given.contains("tangential"))
+      throw InputError("'compliance.tangential' acts within the limit of 'friction', which is 0");
+  } else if (!given.contains("tangential")) {
+    of_law["ratio"] = contact_constants(interface, "compliance", "give compliance.tangential")[1];
+  }
+}
+
 // The law of a word, from all numbers and truth values of the declaration.
 Content build_interface(const Declaration& d) {
   auto interface = new_named<Interface>(d);
@@ -277,6 +315,7 @@ Content build_interface(const Declaration& d) {
       (interface->has_gap_of_geometry || d.arguments.number("gap") != 0.0))
     throw InputError(d.origin,
                      fmt::format("{} '{}': 'closed' and 'gap' contradict each other", d.path, interface->name));
+  if (d.arguments.has("compliance")) add_compliance(d, *interface, of_law);
   const auto entry = std::find_if(law_table().begin(), law_table().end(),
                                   [&](const LawEntry& law) { return law.word == d.arguments.word(); });
   const bool rubs = std::find(entry->arguments.begin(), entry->arguments.end(), "friction") != entry->arguments.end();

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/names.hpp"
 #include "law/law.hpp"
+#include "law/law_arguments.hpp"
 
 namespace dygita {
 
@@ -54,6 +55,7 @@ LawPtr recorded_law(const std::string& word, const Json& object) {
     if (entry.word != word) continue;
     LawArguments arguments;
     for (const std::string& name : entry.arguments) {
+      if (is_optional(name)) continue;
       const auto found = object.find(name);
       if (found == object.end() || (!found->is_number() && !found->is_boolean())) return nullptr;
       arguments[name] = found->is_boolean() ? (found->get<bool>() ? 1.0 : 0.0) : found->get<double>();

@@ -57,12 +57,16 @@ double mass_at(const StepModel& model, const Port& port, const NodeAreas& areas)
   return port.area * sum / weights;
 }
 
-// N/m, of the laws at each port that are springs: zero elsewhere.
+// N/m, of the laws at each port that are springs: zero elsewhere. Those that are springs under pressure alone are taken
+// where rough faces are pressed at all.
 std::vector<Vec3> stiffness_of_laws(const StepModel& model) {
+  constexpr double pressed = 5e-6;  // m
   std::vector<Vec3> stiffness(model.exchange.ports.size(), Vec3::Zero());
   for (const Point& point : model.exchange.points) {
     if (!point.law) continue;
-    const Vec3 of_law = point.area * point.law->tangent(point.law->initial(), true).stiffness;
+    LawState state = point.law->initial();
+    state.gap = -pressed;
+    const Vec3 of_law = point.area * point.law->tangent(state, true).stiffness;
     for (int p = point.first_port; p < point.end_port; ++p) stiffness[static_cast<size_t>(p)] = of_law;
   }
   return stiffness;

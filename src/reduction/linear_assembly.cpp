@@ -43,6 +43,12 @@ Mat3 frame_of(const Vec3& normal) {
   return frame;
 }
 
+// Counts a point of contact by what it does along the normal and the tangents.
+void count_contact(const Tangent& tangent, LinearAssembly& assembly) {
+  const auto carries = [&](int d) { return tangent.holds[d] || tangent.stiffness[d] > 0.0; };
+  ++(!carries(0) ? assembly.n_open : carries(1) && carries(2) ? assembly.n_tied : assembly.n_normal);
+}
+
 // A point between faces that do not match: each direction of its law is a sum over nodes.
 void add_spread_point(const Instant& instant, int s, int i, bool ties_sliding, LinearAssembly& assembly) {
   const Surface& surface = (*instant.model.surfaces)[s];
@@ -59,9 +65,7 @@ void add_spread_point(const Instant& instant, int s, int i, bool ties_sliding, L
                                sign * (trace->block(i, k).transpose() * frame.col(d)));
     assembly.sums.push_back(std::move(sum));
   }
-  const auto n_held = std::count(tangent.holds.begin(), tangent.holds.end(), true);
-  if (surface.declared_law().shown().gap)
-    ++(n_held == 3 ? assembly.n_tied : n_held > 0 ? assembly.n_normal : assembly.n_open);
+  if (surface.declared_law().shown().gap) count_contact(tangent, assembly);
 }
 
 // Interfaces and walls: what each point does at this instant.
@@ -87,7 +91,7 @@ void add_surfaces(const Instant& instant, bool ties_sliding, LinearAssembly& ass
       if (!tangent.damping.isZero(0.0) || !tangent.stiffness.isZero(0.0))
         assembly.springs_of_laws.push_back(
             {{a, b}, frame, surface.facing.areas[i] * tangent.damping, surface.facing.areas[i] * tangent.stiffness});
-      if (is_contact) ++(n_held == 3 ? assembly.n_tied : n_held > 0 ? assembly.n_normal : assembly.n_open);
+      if (is_contact) count_contact(tangent, assembly);
     }
   }
 }

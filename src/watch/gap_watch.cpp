@@ -12,10 +12,13 @@ namespace dygita {
 
 namespace {
 
-// The deepest penetration of an interface's points that are here, m.
+// The deepest penetration of an interface's points that are here, m. Where asperities give way there is none.
 double depth_of(const Instant& instant, int surface) {
   double depth = 0.0;
-  instant.for_each_point_here(surface, [&](const LawState& point) { depth = std::max(depth, -point.gap); });
+  const Law& law = (*instant.model.surfaces)[static_cast<size_t>(surface)].declared_law();
+  instant.for_each_point_here(surface, [&](const LawState& point) {
+    if (point.gap < -depth && law.tangent(point, true).stiffness[0] == 0.0) depth = -point.gap;
+  });
   return depth;
 }
 

@@ -259,7 +259,8 @@ std::string value_for(const Argument& a, const Declared& declared, Random& rando
     const auto choice = [&] { return "\"" + one_of(a.choices, random) + "\""; };
     return a.type == "choices" ? list_of(few, choice) : choice();
   }
-  if (!a.fields.empty() && (a.type == "table" || chance(0.3, random))) return table_of(a, declared, random);
+  if (!a.fields.empty() && (a.type == "table" || a.type == "compliance" || chance(0.3, random)))
+    return table_of(a, declared, random);
   if (a.type == "boolean") return chance(0.5, random) ? "true" : "false";
   if (a.type == "name" || a.type == "text") return fmt::format("\"n{}\"", random() % 100);
   if (a.type == "file") return chance(0.7, random) ? "\"shock_in_g.csv\"" : "\"no.csv\"";
@@ -269,6 +270,7 @@ std::string value_for(const Argument& a, const Declared& declared, Random& rando
   if (a.type == "numbers") return a.may_be_single && chance(0.4, random) ? number() : list_of(few, number);
   if (a.type == "settings") return "{ n" + std::to_string(random() % 10) + " = " + number() + " }";
   if (a.type == "specification") return "{ { 100, 10 }, { " + number() + ", 20 } }";
+  if (a.type == "pairs") return "{ { 1e-6, " + number() + " }, { 2e-6, 1e8 } }";
   if (a.type == "value") return time_value(a, random);
   if (a.type == "between") return list_of(2, object);
   if (a.type == "object") return object();

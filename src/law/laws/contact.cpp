@@ -5,6 +5,7 @@
 
 #include "law/friction_disc.hpp"
 #include "law/law.hpp"
+#include "law/rough_contact.hpp"
 
 namespace dygita {
 
@@ -159,7 +160,10 @@ void Contact::move(SpringPoint& point, const Vec3& jump) const {
 namespace laws {
 
 LawEntry contact() {
-  return {"contact", {"friction", "gap"}, [](const LawArguments& a) -> LawPtr {
+  std::vector<std::string> arguments = {"friction", "gap"};
+  arguments.insert(arguments.end(), compliance_arguments().begin(), compliance_arguments().end());
+  return {"contact", arguments, [](const LawArguments& a) -> LawPtr {
+            if (is_rough(a)) return make_rough_contact(a);
             return std::make_shared<Contact>(a.at("friction"), a.at("gap"));
           }};
 }
