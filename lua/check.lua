@@ -120,8 +120,9 @@ function types.number(call, argument, value, label)
   if argument.or_table and type(value) == "table" then
     return check.arguments(call, argument.or_table, value, label .. ".")
   end
-  if argument.or_word and value == argument.or_word then return value end
-  local wanted = of_unit("a number", argument.unit) .. (argument.or_word and ' or "' .. argument.or_word .. '"' or "")
+  if argument.or_word and value == argument.or_word or argument.or_function and type(value) == "function" then return value end
+  local wanted = of_unit("a number", argument.unit) .. (argument.or_function and ", a function of x, y, z" or "")
+    .. (argument.or_word and ' or "' .. argument.or_word .. '"' or "")
   if type(value) ~= "number" then wrong_type(call, label, wanted, value) end
   return check_number(call, argument, value, label)
 end

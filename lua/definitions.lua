@@ -55,6 +55,7 @@ function type_of(a)
   end
   assert(text, "lua/definitions.lua knows no type '" .. tostring(a.type) .. "'")
   if a.or_word then text = ('%s|"%s"'):format(text, a.or_word) end
+  if a.or_function then text = text .. "|(fun(x: number, y: number, z: number): number)" end
   if a.or_table then text = text .. "|" .. inline_table(a.or_table) end
   return text
 end

@@ -18,6 +18,7 @@ local function type_of(argument)
   if argument.exactly then text = ("list of %d: %s"):format(argument.exactly, text)
   elseif argument.or_single then text = text .. ", or a list"
   elseif argument.type == "objects" or argument.type == "except" then text = "list of " .. text end
+  if argument.or_function then text = text .. ", function(x, y, z)" end
   if argument.or_word then text = ('%s or "%s"'):format(text, argument.or_word) end
   if argument.or_table then text = text .. " or table" end
   return text

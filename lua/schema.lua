@@ -8,7 +8,7 @@
 -- An argument: { name, type, unit, range = { smallest, largest }, default, required, doc, ... }; `usual` = { smallest, largest,
 -- text } warns beyond it. The types:
 -- `with`: another argument that must be given too.
---   number, integer       `or_word`: a word allowed instead; `or_table`: a table of named numbers allowed instead
+--   number, integer       `or_word`: a word allowed instead; `or_function`: a function of x, y, z; `or_table`: a table of named numbers allowed instead
 --   boolean, choice       `choices`
 --   choices               a list of `choices`
 --   name                  text that may become a file name
@@ -373,8 +373,9 @@ words[4] = {
     "contact", makes = "interface", doc = "Unilateral contact with Coulomb friction.",
     arguments = {
       name_unless_all(), between(all_touching), of_parts, except, friction_of_contact,
-      { "gap", type = "number", unit = "m", range = { -0.01, 0.01 }, usual = usual_gap, default = 0, or_word = "geometry",
-        doc = "initial gap; a negative one is an interference; \"geometry\": the actual distance, point by point, for non-matching meshes" },
+      { "gap", type = "number", unit = "m", range = { -0.01, 0.01 }, usual = usual_gap, default = 0, or_word = "geometry", or_function = true,
+        doc = "initial gap; a negative one is an interference; \"geometry\": the actual distance, point by point, for non-matching meshes; a function: the gap (m) "
+          .. "at a place, added to that distance (crowned, wavy, measured faces)" },
       { "compliance", type = "compliance", default_doc = "none",
         doc = "rough faces, whose asperities give way under pressure before the bodies touch all over: one of `normal`, `curve` and `asperities`",
         fields = {
@@ -535,6 +536,17 @@ words[6] = {
     "gravity", makes = "load", doc = "A uniform acceleration field on every substructure.",
     arguments = { components("acceleration", "m/s^2", { -1e7, 1e7 }, usual_acceleration) },
     one_of = { "x", "y", "z" },
+  },
+  {
+    "mode", makes = "load",
+    doc = "Forces in the shape of a mode that `output.modes` has found in an earlier step of the run: mass times shape, whose largest displacement is one, times an acceleration. "
+      .. "With `output.backbone` in static steps; with a release in a dynamic step the mode rings.",
+    arguments = {
+      { "mode", type = "object", kinds = { "output.modes" }, required = true, doc = "the modes" },
+      { "number", type = "integer", range = { 1, 2000 }, required = true, doc = "which of them, as in its table; those at 0 Hz come first" },
+      { "parts", type = "objects", kinds = { "substructure" }, at_least = 1, required = true, doc = "the parts that are loaded: all, for the mode alone" },
+      { "value", type = "value", unit = "m/s^2", range = { -1e7, 1e7 }, required = true, doc = "acceleration where the shape is largest" },
+    },
   },
   {
     "shortening", makes = "load",
@@ -891,6 +903,17 @@ words[10] = {
       { "sliding", type = "choice", choices = { "tied", "free" }, default = "tied",
         doc = "contact points at the limit of their friction: tied, as the first reversal makes them, or free along their tangents" },
       { "after", type = "object", kinds = { "step" }, default_doc = "the last static step", doc = "about the state at the end of this step, with its supports" },
+    },
+  },
+  {
+    "backbone", makes = "output",
+    doc = "Frequency and damping of a mode against its amplitude, by quasi-static modal analysis: of static steps in which `load.mode` pushes the assembly, a row an increment of the first loading, friction and contact as they are. "
+      .. "Damping is that of friction by Masing's rule; `cycle_damping` that of a whole cycle, where the steps go on to the opposite load and back. Columns: acceleration, displacement (m/s^2, m, where the shape is largest), frequency (Hz), damping (ratio).",
+    arguments = {
+      name_of "output",
+      { "mode", type = "object", kinds = { "output.modes" }, required = true, doc = "the modes" },
+      { "number", type = "integer", range = { 1, 2000 }, required = true, doc = "which of them" },
+      { "steps", type = "objects", kinds = { "step" }, at_least = 1, or_single = true, required = true, doc = "the static steps with the load, in their order" },
     },
   },
   {

@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <cmath>
 #include <string_view>
 
 namespace dygita {
@@ -117,6 +118,19 @@ std::array<Vec3, 2> LuaArguments::two_vectors_at(const char* key, const Vec3& x)
                     "{{ 1, 0, 0 }}, {{ 0, 1, 0 }}",
                     key, x[0], x[1], x[2]));
   return vectors;
+}
+
+double LuaArguments::number_at(const char* key, const Vec3& x) const {
+  push(key);
+  for (const double coordinate : x) lua_pushnumber(L_, coordinate);
+  lua_call(L_, 3, 1);
+  const bool is_right = lua_type(L_, -1) == LUA_TNUMBER && std::isfinite(lua_tonumber(L_, -1));
+  const double value = lua_tonumber(L_, -1);
+  lua_pop(L_, 1);
+  if (!is_right)
+    throw InputError(
+        fmt::format("'{}': the function must answer a finite number at ({:g}, {:g}, {:g}) m", key, x[0], x[1], x[2]));
+  return value;
 }
 
 const Object& LuaArguments::object(const char* key) const {

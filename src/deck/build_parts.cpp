@@ -14,6 +14,7 @@
 #include "law/rough_contact.hpp"
 #include "mesh/bolt.hpp"
 #include "mesh/box.hpp"
+#include "mesh/face_nodes.hpp"
 #include "mesh/mesh_limits.hpp"
 #include "model/extent.hpp"
 #include "model/found_faces.hpp"
@@ -290,6 +291,35 @@ void add_compliance(const Declaration& d, const Interface& interface, std::map<s
   }
 }
 
+// The gap that a function of the deck adds at the nodes of both sides (m), and what it is like on the first.
+void set_form(const Declaration& d, Interface& interface) {
+  constexpr double most = 0.01;
+  double least = 1e300, largest = -1e300, sum = 0.0, area = 0.0;
+  for (const int side : {0, 1}) {
+    const Face& face = side == 0 ? interface.side_1 : interface.side_2;
+    const FaceNodes of_face = face_nodes(*face.part->mesh, face.facets());
+    for (size_t i = 0; i < of_face.nodes.size(); ++i) {
+      const Vec3 x = face.part->mesh->nodes.col(of_face.nodes[i]) + face.part->place;
+      const double gap = d.arguments.number_at("gap", x);
+      if (std::abs(gap) > most)
+        throw InputError(
+            d.origin, fmt::format("{} '{}': 'gap' is {:g} mm at ({:g}, {:g}, {:g}) m, and gaps are below {:g} mm\n    "
+                                  "the function answers in m: was a unit forgotten?",
+                                  d.path, interface.name, 1e3 * gap, x[0], x[1], x[2], 1e3 * most));
+      interface.form[static_cast<size_t>(side)][of_face.nodes[i]] = gap;
+      if (side == 1) continue;
+      const double own = of_face.areas[static_cast<Eigen::Index>(i)];
+      least = std::min(least, gap);
+      largest = std::max(largest, gap);
+      sum += own * gap;
+      area += own;
+    }
+  }
+  if (area > 0.0)
+    say(fmt::format("{} '{}': 'gap' adds {:.4g} to {:.4g} um, {:.4g} um on average", d.path, interface.name,
+                    1e6 * least, 1e6 * largest, 1e6 * sum / area));
+}
+
 // The law of a word, from all numbers and truth values of the declaration.
 Content build_interface(const Declaration& d) {
   auto interface = new_named<Interface>(d);
@@ -309,6 +339,7 @@ Content build_interface(const Declaration& d) {
   if (d.arguments.has("gap") && !d.arguments.is_number("gap")) {
     interface->has_gap_of_geometry = true;
     of_law["gap"] = 0.0;
+    if (d.arguments.is_function("gap")) set_form(d, *interface);
   }
   of_law.erase("closed");
   if (d.arguments.has("closed") && d.arguments.boolean("closed") &&

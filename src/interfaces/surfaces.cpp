@@ -220,6 +220,15 @@ class Rings {
   std::vector<double> areas_;   // m^2, of each interface: of the larger of both sides
 };
 
+// What the deck adds to the gaps of the places, by the nodes that the points move with.
+void add_form(const Interface& interface, Facing& facing) {
+  const auto& form = interface.form[facing.carrier == 2 ? 1 : 0];
+  const SideTrace& side = facing.carrier == 2 ? facing.side_2 : facing.side_1;
+  for (int i = 0; i < facing.n_points() && !form.empty(); ++i)
+    for (int k = 0; k < side.n_shares(i); ++k)
+      facing.gaps[i] += side.share(i, k).weight * form.at(side.share(i, k).node);
+}
+
 // Gaps of the places mean nothing where facets of round faces are as far off.
 void check_gap_of_geometry(const Interface& interface, const Facing& facing) {
   const double largest = facing.gaps.size() > 0 ? facing.gaps.cwiseAbs().maxCoeff() : 0.0;
@@ -239,7 +248,10 @@ Facing facing_of(const Problem& problem, int i, const std::vector<std::optional<
   const Interface& interface = *problem.interfaces[i];
   Facing facing =
       meetings[i]->facing(interface.law->is_tie() ? rings.closed_by(i) : std::function<bool(const Vec3&)>());
-  if (interface.has_gap_of_geometry) check_gap_of_geometry(interface, facing);
+  if (interface.has_gap_of_geometry) {
+    add_form(interface, facing);
+    check_gap_of_geometry(interface, facing);
+  }
   return facing;
 }
 

@@ -106,7 +106,8 @@ class Law {
   }
 };
 
-// A law of the table: its word, the arguments that it takes, all of them, and how it is made of them.
+// A law of the table: its word, the arguments that it takes, all of them (law_arguments.hpp says which need not be
+// given), and how it is made of them.
 struct LawEntry {
   std::string word;
   std::vector<std::string> arguments;
@@ -116,7 +117,7 @@ struct LawEntry {
 // Every law there is: one entry for each file of laws/, in the order of their names. CMake writes this function.
 const std::vector<LawEntry>& law_table();
 
-// A law of an entry with every argument 1, to ask what holds for all of them.
+// A law of an entry with every argument 1 that must be given, to ask what holds for all of them.
 LawPtr example_of(const LawEntry& entry);
 
 // The law of a word; CHECKs that there is one, and that the arguments are those it takes.

@@ -1,5 +1,6 @@
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "law/law.hpp"
@@ -81,8 +82,12 @@ void interferences_are_closed_in_a_static_step(const Problem& problem) {
                      first.name),
          "put a step.static before it to press the parts apart");
   };
-  for (const InterfacePtr& interface : problem.interfaces)
+  for (const InterfacePtr& interface : problem.interfaces) {
     check_gap(interface->origin, describe(*interface), interface->law->initial().gap);
+    double least = 0.0;
+    for (const auto& [node, gap] : interface->form[0]) least = std::min(least, gap);
+    check_gap(interface->origin, describe(*interface), least);
+  }
   for (const SupportPtr& support : all_supports(problem))
     if (const LawPtr law = support->kind->law()) check_gap(support->origin, describe(*support), law->initial().gap);
 }

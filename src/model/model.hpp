@@ -1,9 +1,11 @@
 // What a deck declared: plain, checked, immutable. Objects refer to each other by shared pointers to const.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <variant>
 #include <vector>
 
@@ -64,6 +66,8 @@ struct Interface : Named {
   Carrier points = Carrier::automatic;
   std::optional<double> within;      // m, how far apart the faces may be; else by the size of the assembly
   bool has_gap_of_geometry = false;  // the initial gap is that of the places, else the law's
+  // m, added to the gap of the places, by the nodes of either side; none: nothing is.
+  std::array<std::unordered_map<int, double>, 2> form;
 };
 using InterfacePtr = std::shared_ptr<const Interface>;
 

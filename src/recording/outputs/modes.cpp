@@ -1,4 +1,5 @@
 // output.modes: natural frequencies and shapes about the end of a step.
+#include <algorithm>
 #include <limits>
 #include <map>
 
@@ -7,6 +8,7 @@
 #include "model/check.hpp"
 #include "model/effects.hpp"
 #include "model/load.hpp"
+#include "model/mode_forces.hpp"
 #include "recording/output_table.hpp"
 #include "recording/recorder.hpp"
 #include "reduction/lumped_inertia.hpp"
@@ -70,15 +72,27 @@ std::map<std::string, double> values_of(const NormalModes& modes) {
   return values;
 }
 
+// What later steps of the run take of the modes.
+struct ForLater {
+  bool is_expected = false, is_alone = true;  // a run goes, on one process
+  NormalModesPtr modes;
+  std::vector<const Substructure*> parts;
+  std::vector<Mat> mass_times_shapes;  // kg, of each part: 3 x its nodes rows, a column a mode
+};
+
 class ModesRecorder : public TableRecorder {
  public:
   // step: about whose end; null: about the unloaded assembly.
-  ModesRecorder(const Columns& columns, const Problem& problem, const ModesRequest& request, const Step* step)
+  ModesRecorder(const Columns& columns, const Problem& problem, const ModesRequest& request, const Step* step,
+                ForLater& later)
       : TableRecorder(columns),
         problem_(problem),
         request_(request),
+        later_(later),
         i_step_(step ? index_of(problem.steps, step) : -1) {
     doubt_lumped_inertia(problem);
+    later_ = ForLater();
+    later_.is_expected = true;
   }
 
   void begin_step(const Instant& start) override {
@@ -105,15 +119,28 @@ class ModesRecorder : public TableRecorder {
   // What is wrong with them does not stop a run that has other outputs: it is said, and nothing is written.
   void make(const Instant& instant, const std::string& about) {
     try {
-      auto modes =
-          std::make_shared<NormalModes>(normal_modes(linearise(instant, request_.ties_sliding), problem_, request_));
+      const LinearAssembly assembly = linearise(instant, request_.ties_sliding);
+      auto modes = std::make_shared<NormalModes>(normal_modes(assembly, problem_, request_));
       modes->about = about;
       modes->missed = missed_;
       modes_ = std::move(modes);
+      keep_for_later(instant, assembly);
     } catch (const InputError& error) {
       warn(error.what());
     } catch (const NumericalError& error) {
       warn(error.what());
+    }
+  }
+
+  void keep_for_later(const Instant& instant, const LinearAssembly& assembly) {
+    later_.modes = modes_;
+    later_.is_alone = instant.distant == nullptr;
+    later_.parts.clear();
+    later_.mass_times_shapes.clear();
+    for (size_t p = 0; p < problem_.substructures.size(); ++p) {
+      const int first = modes_->first_node[p], n = modes_->first_node[p + 1] - first;
+      later_.parts.push_back(problem_.substructures[p].get());
+      later_.mass_times_shapes.emplace_back(assembly.nodal_masses[p] * modes_->shapes.middleRows(3 * first, 3 * n));
     }
   }
 
@@ -133,6 +160,7 @@ class ModesRecorder : public TableRecorder {
 
   const Problem& problem_;
   const ModesRequest& request_;
+  ForLater& later_;
   const int i_step_;
   int missed_ = 0;  // increments so far that have not converged
   NormalModesPtr modes_;
@@ -148,7 +176,7 @@ ModesRequest modes_request(const ModelArguments& a) {
   return request;
 }
 
-class ModesOutput final : public Output {
+class ModesOutput final : public Output, public ModeShapes {
  public:
   explicit ModesOutput(const ModelArguments& a) : Output(a), request_(modes_request(a)), after_(a.step("after")) {}
 
@@ -222,10 +250,40 @@ class ModesOutput final : public Output {
   }
 
   std::unique_ptr<Recorder> recorder(const Problem& problem, const FrameSink&) const override {
-    return std::make_unique<ModesRecorder>(columns(), problem, request_, step_about(problem, after_));
+    return std::make_unique<ModesRecorder>(columns(), problem, request_, step_about(problem, after_), *later_);
   }
 
+  Points shape(const Substructure& part, int number) const override {
+    const int p = place_of(part, number);
+    if (p < 0) return Points::Zero(3, part.mesh->n_nodes());
+    const NormalModes& modes = *later_->modes;
+    const int first = modes.first_node[static_cast<size_t>(p)], n = part.mesh->n_nodes();
+    return modes.shapes.col(number - 1).segment(3 * first, 3 * n).reshaped(3, n);
+  }
+  Points mass_times_shape(const Substructure& part, int number) const override {
+    const int p = place_of(part, number);
+    if (p < 0) return Points::Zero(3, part.mesh->n_nodes());
+    return later_->mass_times_shapes[static_cast<size_t>(p)].col(number - 1).reshaped(3, part.mesh->n_nodes());
+  }
+  double generalised_mass(int number) const override { return later_->modes->generalised_masses[number - 1]; }
+  double frequency(int number) const override { return later_->modes->frequencies[number - 1]; }
+
  private:
+  // Of a part in what is kept; -1 before a run.
+  int place_of(const Substructure& part, int number) const {
+    if (!later_->is_expected) return -1;
+    if (!later_->is_alone)
+      throw InputError(origin, known_as() + ": one process alone loads parts in the shape of a mode");
+    if (!later_->modes)
+      throw NumericalError(known_as() + ": a step asks for mode " + std::to_string(number) +
+                           " before there is one; likely cause: the step comes before the end of that about which the "
+                           "modes are, or they could not be computed");
+    if (number > later_->modes->n())
+      throw NumericalError(known_as() + fmt::format(": a step asks for mode {} of {}", number, later_->modes->n()));
+    const auto at = std::find(later_->parts.begin(), later_->parts.end(), &part);
+    return at == later_->parts.end() ? -1 : static_cast<int>(at - later_->parts.begin());
+  }
+
   // What would else be found when the steps have been solved.
   void check_number(const Problem& problem) const {
     int n_nodes = 0;
@@ -245,6 +303,7 @@ class ModesOutput final : public Output {
 
   ModesRequest request_;
   StepPtr after_;
+  std::unique_ptr<ForLater> later_ = std::make_unique<ForLater>();
 };
 
 }  // namespace
