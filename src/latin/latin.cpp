@@ -112,7 +112,7 @@ void StepRun::iterate_assembled(int increment, const Goal& goal, Best& best, boo
   bool has_left = !leaves;
   best.outcome = {};
   if (at_.velocity.size() != at_.q.size()) at_.velocity = Vec::Zero(at_.q.size());
-  assembled_->begin();
+  assembled_->begin(goal.tolerance);
   bool is_balanced = is_answered_;  // V is the answer to q
   is_answered_ = false;
   if (at_.q.size() == 0) {

@@ -1,5 +1,6 @@
 // The tangents of the local stage (manual, eq. U1-U3).
 #include "latin/local_stage.hpp"
+#include "law/law.hpp"
 #include "law/law_slope.hpp"
 
 namespace dygita {
@@ -81,9 +82,14 @@ Tangents LocalStage::tangents(bool sticks, bool follows, double least, const Tan
   const std::vector<Point>& points = model_->exchange.points;
   Tangents tangents;
   std::vector<LawTangent> of_law(points.size());
+  std::vector<bool> gives_way(points.size(), false);
+  for (const Preload& preload : preloads_)
+    for (const int i : preload.points) gives_way[static_cast<size_t>(i)] = true;
   for (size_t i = 0; i < points.size(); ++i) {
-    of_law[i] = law_tangent(i, sticks, follows, least, bounds);
-    tangents.points.push_back(point_tangent(points[i], of_law[i].stiffness, of_law[i].following, bounds.stiffest));
+    TangentBounds own = bounds;
+    if (points[i].law && points[i].law->is_tie() && !gives_way[i]) own.stiffest = bounds.tie;
+    of_law[i] = law_tangent(i, sticks, follows, least, own);
+    tangents.points.push_back(point_tangent(points[i], of_law[i].stiffness, of_law[i].following, bounds.tie));
   }
   if (prescribed_.size() > 0) return tangents;
   for (const Preload& preload : preloads_)

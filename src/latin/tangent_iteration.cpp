@@ -1,6 +1,7 @@
 #include "latin/tangent_iteration.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "law/law_slope.hpp"
 
@@ -55,7 +56,8 @@ void TangentIteration::take_usual_factor() {
   tangents_ = {};
 }
 
-void TangentIteration::begin() {
+void TangentIteration::begin(double tolerance) {
+  tolerance_ = tolerance;
   steps_.begin();
   tangents_ = {};
 }
@@ -66,10 +68,22 @@ double TangentIteration::distance(const Vec& velocity, const Vec& q, const std::
   return sums.force_distance + sums.velocity_distance;
 }
 
+// Where a soft part lies between stiff ones, ties between unlike meshes have tractions that hardly move their sides:
+// the stiffer the tie, the fewer iterations these take. Its motion carries rounding, which is to leave forces that
+// agree to a tenth of the tolerance.
+void TangentIteration::choose_tie(const Outcome& outcome) {
+  constexpr double rounding = 2e-16, least = TangentBounds{}.stiffest, most = 1e6;
+  const double motion = outcome.size - outcome.force_size;  // W, as the forces are
+  const double own = motion > 0.0 ? 0.1 * tolerance_ / rounding * std::sqrt(outcome.force_size / motion) : most;
+  if (own >= tie_ && own < 100.0 * tie_) return;
+  tie_ = std::pow(10.0, std::floor(std::log10(std::clamp(own, least, most)) + 1e-9));
+}
+
 // How many points have turned since the last factor.
 int TangentIteration::take_tangents() {
   TangentBounds bounds;
   bounds.softest = steps_.softest();
+  bounds.tie = tie_;
   Tangents now = local_->tangents(steps_.is_first(), steps_.follows(), least_, bounds);
   const Changed count = changed(now, tangents_, k_);
   if (bounds.softest == factorised_softest_ && count.other == 0) {
@@ -87,6 +101,7 @@ void TangentIteration::advance(const Outcome& outcome, Vec& velocity, Vec& q) {
   const double before =
       steps_.begin_step([&](const std::vector<double>& limits) { return distance(velocity, q, limits); },
                         [&] { return local_->normal_trials(); }, outcome.eta);
+  choose_tie(outcome);
   const int n_changed = take_tangents();
   // W_hat and F_hat, from the image.
   Vec to_velocity = velocity + (image_ - q).cwiseQuotient(2.0 * k_);

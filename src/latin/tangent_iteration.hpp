@@ -18,8 +18,8 @@ class TangentIteration {
 
   // The usual linear stage: velocities for data q, F = q - k V.
   void linear_stage(const Vec& q, Vec& velocity);
-  // Forgets the increment before.
-  void begin();
+  // Forgets the increment before. tolerance: of the indicator, which rounding is to leave within reach.
+  void begin(double tolerance);
   // One iteration: from fields to those closer to a solution, in balance on return; the local stage's last `run` was of
   // these. outcome: their indicator.
   void advance(const Outcome& outcome, Vec& velocity, Vec& q);
@@ -33,6 +33,7 @@ class TangentIteration {
 
  private:
   double distance(const Vec& velocity, const Vec& q, const std::vector<double>& limits);
+  void choose_tie(const Outcome& outcome);
   int take_tangents();
   void take_usual_factor();
 
@@ -41,6 +42,8 @@ class TangentIteration {
   Vec k_, image_;
   double least_;
   double factorised_softest_ = 0.0;
+  double tolerance_ = 0.0;
+  double tie_ = 0.0;  // stiffness of ties, for TangentBounds
   TangentSteps steps_;
   Tangents tangents_;  // of the factor, of none where it is the usual one
   bool has_usual_factor_ = false;

@@ -5,10 +5,11 @@
 
 namespace dygita {
 
-// Between what slopes of a law are kept, in its search directions: ties are that much stiffer, open points that much
-// softer. Neither moves the solution, since a tangent only multiplies the distance of the two stages.
+// Between what slopes of a law are kept, in its search directions: what sticks is that much stiffer, open points that
+// much softer. None of them moves the solution, since a tangent only multiplies the distance of the two stages.
+// tie: of ties, which stay ties.
 struct TangentBounds {
-  double stiffest = 1e3, softest = 1e-3;
+  double stiffest = 1e3, softest = 1e-3, tie = 1e3;
 };
 
 // Force of a law (N); with a limit, tangential forces are those that the normal trial (m/s; static m) `limit` allows.

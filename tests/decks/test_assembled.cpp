@@ -104,6 +104,36 @@ TEST(AssembledStatics, have_the_same_bits_for_any_number_of_threads) {
   EXPECT_EQ(one.column("at_shank2", "normal"), two.column("at_shank2", "normal"));
 }
 
+// Tractions of ties between unlike meshes that hardly move a stiff side come with the stiffness of the tie, which is to
+// be that of the stiff side a thousand times over, not of the core.
+TEST(AssembledStatics, solve_a_soft_core_glued_between_stiff_parts_in_as_few_iterations_as_a_linear_problem_is_worth) {
+  const std::string panel = R"(
+local p = param{ monolithic = 0 }
+local stiff = material.elastic{ name = "aluminium", young = 71*GPa, poisson = 0.33, density = 2800 }
+local soft = material.elastic{ name = "honeycomb", young = 520*MPa, poisson = 0.3, density = 60 }
+local function part(name, metal, at, size, cells)
+  return substructure{ name = name, material = metal, mesh = mesh.box{ origin = at, size = size, cells = cells } }
+end
+local skin = part("skin", stiff, { 0, 0, -1*mm }, { 40*mm, 20*mm, 1*mm }, { 7, 4, 1 })
+local core = part("core", soft, { 0, 0, 0 }, { 30*mm, 20*mm, 18*mm }, { 4, 3, 3 })
+local edge = part("edge", stiff, { 30*mm, 0, 0 }, { 10*mm, 20*mm, 18*mm }, { 3, 5, 5 })
+local cover = part("cover", stiff, { 0, 0, 18*mm }, { 40*mm, 20*mm, 1*mm }, { 9, 5, 1 })
+local glue = interface.bonded{ name = "glue", between = "all touching", of = { skin, core, edge, cover } }
+problem{ name = "panel", substructures = { skin, core, edge, cover }, interfaces = { glue },
+  supports = { support.fixed{ name = "frame", on = edge:face "xmax" } },
+  steps = { step.static{ name = "pull", loads = { load.traction{ on = cover:face "zmax", z = 1*MPa } } } },
+  solver = p.monolithic == 1 and solver.monolithic{} or solver.latin{ static_steps = "assembled" },
+  outputs = { output.energy{}, output.history{ name = "tip", on = cover:face "xmin", quantity = "displacement" },
+    output.joint{ name = "seam", on = glue["core/edge"] } } }:run{}
+)";
+  const DeckRun latin = run_text(panel).at(0), monolithic = run_text(panel, {{"monolithic", "1"}}).at(0);
+  EXPECT_TRUE(latin.result->converged);
+  EXPECT_LE(latin.result->mean_iterations, 5.0);
+  EXPECT_LT(difference(latin.column("tip", "z"), monolithic.column("tip", "z")), 1e-7);
+  for (const char* column : {"normal", "shear"})
+    EXPECT_LT(difference(latin.column("seam", column), monolithic.column("seam", column)), 1e-6) << column;
+}
+
 // What has nothing in common is no assembly of many parts: four clamps of three each are solved as one of them.
 TEST(AssembledStatics, are_not_asked_for_by_many_copies_of_a_few_parts) {
   const std::string copies = R"(
