@@ -711,7 +711,7 @@ words[9] = {
         doc = "dB: the run is computed in passes, each ten times tighter, from a tolerance of 1e-3, until no output.srs changes by this much "
           .. "or `tolerance` is reached" },
       { "static_steps", type = "choice", choices = { "automatic", "assembled", "iterated" }, default = "automatic",
-        doc = "assembled: all parts in one system, refactorised as contact changes; a few tens of iterations for any connectivity. iterated: part "
+        doc = "assembled: all parts in one system, refactorised where contact changes much; a few tens of iterations for any connectivity. iterated: part "
           .. "by part, as in dynamic steps. automatic: assembled where 10 parts or more hang together, in steps of at most 5 increments, "
           .. "and where an increment part by part has not converged in 400 iterations" },
       { "plain", type = "boolean", default = false, doc = "iterates with full solves, to verify the condensed ones" },

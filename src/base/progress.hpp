@@ -15,13 +15,19 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   // Says that `done` of `total` increments are finished; `detail` is free text ("t = 12.0 us, 5 iterations").
-  // On a terminal the line is rewritten at most ten times a second; in a log a line at each tenth of the work.
+  // On a terminal the line is rewritten at most ten times a second; in a log a line at each tenth of the work, and
+  // where that takes long every ten seconds.
   void update(int done, const std::string& detail);
+  // The same of what goes on within the increment at hand: would a line be written now, and one.
+  bool is_due() const;
+  void tell(const std::string& detail);
 
  private:
+  void write(const std::string& text);
+
   std::string label_;
   int total_;
-  int last_tenth_ = 0;
+  int done_ = 0, last_tenth_ = 0;
   bool is_terminal_;
   bool line_is_open_ = false;
   std::chrono::steady_clock::time_point start_, last_;

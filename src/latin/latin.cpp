@@ -64,10 +64,6 @@ void StepRun::inner_iterations() {
   }
 }
 
-void StepRun::heed_interrupt(int iteration, int every) {
-  if (iteration % every == every - 1 && ranks::any(interrupt_requested())) throw LeftUnsolved();
-}
-
 // Both stages in turn, until the goal is reached.
 void StepRun::iterate(int increment, const Goal& goal, Best& best) {
   if (assembled_ && !goes_part_by_part_) return iterate_assembled(increment, goal, best);
@@ -90,6 +86,7 @@ void StepRun::iterate(int increment, const Goal& goal, Best& best) {
       best.outcome = outcome;
       best.q = at_.q;
     }
+    tell_iteration(best);
     const bool is_lost = goal.furthest > 0.0 && model_.n_q() > 0 && !(largest_velocity() <= goal.furthest);
     if (outcome.eta <= goal.tolerance || is_lost || persistence.ends(i + 1, best.outcome.eta)) {
       best.missed = persistence.missed(increment, settings_.tolerance);
@@ -132,6 +129,7 @@ void StepRun::iterate_assembled(int increment, const Goal& goal, Best& best, boo
       best.outcome = outcome;
       best.q = at_.q;
     }
+    tell_iteration(best);
     if (!has_left && outcome.eta <= std::max(goal.tolerance, nearly)) {
       has_left = true;
       Carried now{at_.velocity, at_.q, outcome};
@@ -230,6 +228,7 @@ StepRun::Best StepRun::answer(int increment, const Goal& goal, bool goes_over_ag
 
 // One time step: forward once, iterate on the interfaces alone, backward once.
 void StepRun::solve_increment(int increment) {
+  told_.clear();
   if (increment > 0) stop_loose_parts();
   begin_increment(increment, true);
   const bool has_start = (!assembled_ || files_.start_from) && predict(increment, at_.q);
@@ -246,10 +245,16 @@ void StepRun::solve_increment(int increment) {
 }
 
 void StepRun::run() {
+  progress_.emplace(model_.step->name, model_.step->n_increments());
+  if (assembled_) watch(*assembled_);
+  run_increments();
+  progress_.reset();
+}
+
+void StepRun::run_increments() {
   const int n = model_.step->n_increments();
   files_.kept.begin_step(model_.near.kept_runs());
   files_.observer.begin_step(instant(-1, 0, 0.0));
-  Progress progress(model_.step->name, n);
   for (int i = 0; i < n && !ranks::any(interrupt_requested()); i += settings_.window) {
     const int last = std::min(i + settings_.window, n);
     try {
@@ -263,7 +268,7 @@ void StepRun::run() {
       is_left_unsolved_ = true;
       return;
     }
-    progress.update(last, describe_progress());
+    progress_->update(last, describe_progress());
   }
   if (distant_) distant_->complete_all();
   if (assembled_) share_first(files_.state);

@@ -18,6 +18,7 @@ void StepRun::begin_in_one(int increment) {
     pieces_in_one_ = files_.pieces_in_one(model_);
     model_.pieces.swap(pieces_in_one_);
     in_one_.emplace(model_, local_, local_.k(), settings_.assembly_size);
+    watch(*in_one_);
     model_.pieces.swap(pieces_in_one_);
   }
   const std::vector<double> motions = model_.motion_velocities(increment);

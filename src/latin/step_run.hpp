@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "base/thread_choice.hpp"
 #include "latin/anderson.hpp"
 #include "latin/coarse_correction.hpp"
@@ -91,8 +92,12 @@ class StepRun {
   void coarse_correction(Vec& q, Vec& velocity);
   void inner_iterations();
   void iterate(int increment, const Goal& goal, Best& best);
-  // An increment may take minutes: the user who stops the run does not wait for it. Throws LeftUnsolved.
+  // An increment may take minutes: the user who stops the run does not wait for it, and hears how far it is. Throws
+  // LeftUnsolved.
   static void heed_interrupt(int iteration, int every);
+  void tell_iteration(const Best& best);
+  void tell(const std::string& doing);  // and what takes long at the moment
+  void watch(TangentIteration& iteration);
   // The same in other ways, from where the increment began (other_way.cpp): in one system what is solved piece by
   // piece; and where what is best is no solution at all.
   bool can_go_in_one() const;
@@ -111,6 +116,7 @@ class StepRun {
   std::vector<double> begin_pieces(int increment);
   void finish_increment(const Vec& q);
   void solve_increment(int increment);
+  void run_increments();
   Best answer(int increment, const Goal& goal, bool goes_over_again = false);
 
   // The trail (follow.cpp): an increment gone over again, up to where its interiors are finished; what an increment
@@ -240,6 +246,8 @@ class StepRun {
   std::optional<LooseMotions> loose_;  // of static steps
   bool goes_part_by_part_ = false;     // though all pieces are in one system
   bool is_left_unsolved_ = false;      // the increment at hand, since the user has stopped the run
+  std::optional<Progress> progress_;   // while it runs
+  std::string told_;                   // how far the increment at hand is
   bool is_answered_ = false;           // the velocities at hand are the linear stage's answer to q
   DirectPoints direct_;
   CutPulls pulls_;

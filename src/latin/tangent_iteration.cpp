@@ -36,7 +36,7 @@ TangentIteration::TangentIteration(const StepModel& model, LocalStage& local, co
 
 void TangentIteration::linear_stage(const Vec& q, Vec& velocity) {
   if (!has_usual_factor_) take_usual_factor();
-  system_.stop_following();
+  system_.set_own();
   velocity = Vec::Zero(q.size());
   Vec force = q;
   system_.solve(velocity, force);
@@ -53,13 +53,14 @@ void TangentIteration::take_usual_factor() {
   }
   system_.set_tangents(std::move(tangents));
   has_usual_factor_ = true;
-  tangents_ = {};
+  factorised_ = {};
 }
 
 void TangentIteration::begin(double tolerance) {
   tolerance_ = tolerance;
   steps_.begin();
-  tangents_ = {};
+  before_ = {};
+  most_since_ = static_cast<int>(system_.unknowns_of_points().size()) / 8;
 }
 
 double TangentIteration::distance(const Vec& velocity, const Vec& q, const std::vector<double>& limits) {
@@ -79,22 +80,44 @@ void TangentIteration::choose_tie(const Outcome& outcome) {
   tie_ = std::pow(10.0, std::floor(std::log10(std::clamp(own, least, most)) + 1e-9));
 }
 
-// How many points have turned since the last factor.
+// How many points have turned since the iteration before.
 int TangentIteration::take_tangents() {
   TangentBounds bounds;
   bounds.softest = steps_.softest();
   bounds.tie = tie_;
   Tangents now = local_->tangents(steps_.is_first(), steps_.follows(), least_, bounds);
-  const Changed count = changed(now, tangents_, k_);
-  if (bounds.softest == factorised_softest_ && count.other == 0) {
-    system_.set_following(now);
-    return 0;
-  }
-  factorised_softest_ = bounds.softest;
+  n_turned_ = changed(now, before_, k_).turned;
+  const Changed since = changed(now, factorised_, k_);
+  before_ = std::move(now);
+  n_since_ = since.turned;
+  if (bounds.softest == factorised_softest_ && since.other == 0)
+    system_.set_following(before_);
+  else if (since.turned <= most_since_ && n_spent_ < system_.most_products())
+    system_.set_other_tangents(before_, k_);
+  else
+    factorise();
+  // Of many points a few turn to and fro as long as nothing is exact.
+  constexpr int few_of = 1000;
+  return n_turned_ * few_of > static_cast<int>(before_.points.size()) ? n_turned_ : 0;
+}
+
+void TangentIteration::factorise() {
   has_usual_factor_ = false;
-  system_.set_tangents(now);
-  tangents_ = std::move(now);
-  return count.turned;
+  factorised_ = {};  // of none, should it fail
+  factorised_softest_ = steps_.softest();
+  system_.set_tangents(before_);
+  factorised_ = before_;
+  n_since_ = n_spent_ = 0;
+}
+
+// From the fields at hand to those that the tangents lead to. False: they were not found.
+bool TangentIteration::solve(Vec& velocity, Vec& force) {
+  const bool is_found = system_.solve(velocity, force);
+  if (system_.has_others()) n_spent_ += system_.n_products();
+  if (is_found || !system_.has_others()) return is_found;
+  most_since_ = n_since_ / 2;
+  factorise();
+  return system_.solve(velocity, force);
 }
 
 void TangentIteration::advance(const Outcome& outcome, Vec& velocity, Vec& q) {
@@ -106,7 +129,7 @@ void TangentIteration::advance(const Outcome& outcome, Vec& velocity, Vec& q) {
   // W_hat and F_hat, from the image.
   Vec to_velocity = velocity + (image_ - q).cwiseQuotient(2.0 * k_);
   Vec force = image_ - k_.cwiseProduct(to_velocity);
-  if (!system_.solve(to_velocity, force)) return steps_.cannot_follow(outcome.eta);
+  if (!solve(to_velocity, force)) return steps_.cannot_follow(outcome.eta);
   const Vec to_q = force + k_.cwiseProduct(to_velocity);
   const auto that_far = [&](double share) {
     return distance(velocity + share * (to_velocity - velocity), q + share * (to_q - q), steps_.limits());
@@ -119,7 +142,7 @@ void TangentIteration::advance(const Outcome& outcome, Vec& velocity, Vec& q) {
 
 void TangentIteration::finish(const Vec& velocity, const Vec& q) {
   Vec own = velocity, force = q - k_.cwiseProduct(velocity);
-  system_.stop_following();
+  system_.set_own();
   system_.solve(own, force);
   system_.set_velocities();
 }

@@ -16,6 +16,8 @@ class TangentIteration {
   // k: search directions, length n_q. The step's pieces are assembled ones. size: of the assembly, m.
   TangentIteration(const StepModel& model, LocalStage& local, const Vec& k, double size);
 
+  // As AssembledSystem has it.
+  void be_watched(std::function<void(const std::string&)> watch) { system_.be_watched(std::move(watch)); }
   // The usual linear stage: velocities for data q, F = q - k V.
   void linear_stage(const Vec& q, Vec& velocity);
   // Forgets the increment before. tolerance: of the indicator, which rounding is to leave within reach.
@@ -29,12 +31,16 @@ class TangentIteration {
   // Gives the pieces the velocities of fields in balance.
   void finish(const Vec& velocity, const Vec& q);
   double bytes() const { return system_.bytes(); }
+  // Points that answered otherwise in the last iteration than in the one before.
+  int n_turned() const { return n_turned_; }
   const Vec& k() const { return k_; }
 
  private:
   double distance(const Vec& velocity, const Vec& q, const std::vector<double>& limits);
   void choose_tie(const Outcome& outcome);
   int take_tangents();
+  void factorise();
+  bool solve(Vec& velocity, Vec& force);
   void take_usual_factor();
 
   LocalStage* local_;
@@ -45,7 +51,12 @@ class TangentIteration {
   double tolerance_ = 0.0;
   double tie_ = 0.0;  // stiffness of ties, for TangentBounds
   TangentSteps steps_;
-  Tangents tangents_;  // of the factor, of none where it is the usual one
+  Tangents before_;      // of the last iteration; of none at the first
+  Tangents factorised_;  // of the factor, of none where it is the usual one
+  int n_turned_ = 0;
+  int n_since_ = 0;     // points that have turned since
+  int n_spent_ = 0;     // products beside it
+  int most_since_ = 0;  // with so many a solve beside the factor may take fewer products than that costs
   bool has_usual_factor_ = false;
 };
 

@@ -21,12 +21,14 @@ int threads_for(double operations) { return operations < operations_for_threads 
 
 }  // namespace
 
-void subtract_square(int n, int k, const double* b, int stride_b, double beta, double* a, int stride) {
+void subtract_square(int n, int k, const double* b, int stride_b, double beta, double* a, int stride,
+                     const Watch& watch) {
   if (n == 0) return;
   // The longest columns come first, so that threads end together.
   parallel_for(
       blocks_of(n),
       [&](int block) {
+        if (watch) watch();
         const int j = block * block_columns, w = std::min(block_columns, n - j), below = n - j - w;
         cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, w, k, -1.0, b + j, stride_b, beta, entry(a, stride, j, j),
                     stride);
@@ -37,8 +39,9 @@ void subtract_square(int n, int k, const double* b, int stride_b, double beta, d
       Schedule::as_free, threads_for(static_cast<double>(n) * n * k));
 }
 
-int factorise_columns(int n_rows, int n_columns, double* a, int stride) {
+int factorise_columns(int n_rows, int n_columns, double* a, int stride, const Watch& watch) {
   for (int j = 0; j < n_columns; j += block_columns) {
+    if (watch) watch();
     const int w = std::min(block_columns, n_columns - j), below = n_rows - j - w, right = n_columns - j - w;
     double* const corner = entry(a, stride, j, j);
     int info = 0;

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "base/parallel.hpp"
-#include "numerics/dense_blocks.hpp"
 #include "numerics/elimination_tree.hpp"
 #include "numerics/scratch_pages.hpp"
 
@@ -36,16 +35,19 @@ struct Whole {
   const std::vector<int>& order;
   const int n_interior;
   const std::vector<SupernodeView>& supernodes;
+  const Watch& watch;
   const EliminationTree tree;
   std::vector<int> position;    // of an unknown in the factor
   std::vector<double*> update;  // of each supernode whose parent is still to come, n_below x n_below
   Mat schur;
 
-  Whole(const SparseMatrix& of, const std::vector<int>& in, int n, const std::vector<SupernodeView>& all)
+  Whole(const SparseMatrix& of, const std::vector<int>& in, int n, const std::vector<SupernodeView>& all,
+        const Watch& meanwhile)
       : matrix(of),
         order(in),
         n_interior(n),
         supernodes(all),
+        watch(meanwhile),
         tree(all, n),
         position(in.size()),
         update(all.size(), nullptr) {
@@ -160,8 +162,8 @@ class Fronts {
     if (!children.empty() && !is_into_schur) clear(update, m);
     for (const int child : children) take_child(s, child, update);
     double* panel = panel_.doubles();
-    if (const int pivot = factorise_columns(height, k, panel, height); pivot >= 0) return s.first + pivot;
-    subtract_square(m, k, panel + k, height, children.empty() && !is_into_schur ? 0.0 : 1.0, update, m);
+    if (const int pivot = factorise_columns(height, k, panel, height, whole_.watch); pivot >= 0) return s.first + pivot;
+    subtract_square(m, k, panel + k, height, children.empty() && !is_into_schur ? 0.0 : 1.0, update, m, whole_.watch);
     const auto lowest = std::find_if(children.begin(), children.end(), [&](int child) { return is_own_[child]; });
     if (lowest != children.end()) top_ = whole_.update[*lowest];
     if (is_into_schur || m == 0) return -1;
@@ -239,13 +241,13 @@ std::optional<Mat> eliminate_side_by_side(Whole& whole, const KeepSupernode& kee
 }  // namespace
 
 Eliminated eliminate(const SparseMatrix& matrix, const std::vector<int>& order, int n_interior,
-                     const std::vector<SupernodeView>& supernodes, const KeepSupernode& keep) {
+                     const std::vector<SupernodeView>& supernodes, const KeepSupernode& keep, const Watch& watch) {
   if (thread_limit() > 1 && !is_in_team()) {
-    Whole whole(matrix, order, n_interior, supernodes);
+    Whole whole(matrix, order, n_interior, supernodes, watch);
     if (std::optional<Mat> schur = eliminate_side_by_side(whole, keep)) return {std::move(*schur), -1};
     // Which pivot one thread meets first is what is to be told.
   }
-  Whole whole(matrix, order, n_interior, supernodes);
+  Whole whole(matrix, order, n_interior, supernodes, watch);
   const int pivot = Fronts(whole, range(0, static_cast<int>(supernodes.size()))).run(keep);
   return {pivot < 0 ? std::move(whole.schur) : Mat(), pivot};
 }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "numerics/dense_blocks.hpp"
 #include "numerics/packed_factor.hpp"
 #include "numerics/types.hpp"
 
@@ -25,6 +26,6 @@ using KeepSupernode = std::function<void(const SupernodeView&, int place)>;
 // them; their values are not read. Threads take subtrees, and share the large fronts above them; which operations go
 // into an entry, and in which order, depends only on the sparsity pattern.
 Eliminated eliminate(const SparseMatrix& matrix, const std::vector<int>& order, int n_interior,
-                     const std::vector<SupernodeView>& supernodes, const KeepSupernode& keep);
+                     const std::vector<SupernodeView>& supernodes, const KeepSupernode& keep, const Watch& watch = {});
 
 }  // namespace dygita

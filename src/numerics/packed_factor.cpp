@@ -58,8 +58,10 @@ void PackedFactor::add(const SupernodeView& s, int place) {
   }
 }
 
-void PackedFactor::forward_one(double* x) const {
-  for (const Block& b : blocks_) {
+void PackedFactor::forward_one(double* x, const std::vector<char>* reach) const {
+  for (size_t s = 0; s < blocks_.size(); ++s) {
+    if (reach && !(*reach)[s]) continue;
+    const Block& b = blocks_[s];
     double* y = workspace(b.n_columns + b.n_below);
     std::copy_n(x + b.first, b.n_columns, y);
     std::fill_n(y + b.n_columns, b.n_below + Panels::height, 0.0);
@@ -71,8 +73,9 @@ void PackedFactor::forward_one(double* x) const {
   }
 }
 
-void PackedFactor::backward_one(double* x) const {
+void PackedFactor::backward_one(double* x, const std::vector<char>* reach) const {
   for (size_t s = blocks_.size(); s-- > 0;) {
+    if (reach && !(*reach)[s]) continue;
     const Block& b = blocks_[s];
     const int n_rows = b.n_columns + b.n_below;
     double* y = workspace(n_rows);

@@ -32,6 +32,10 @@ class PackedFactor {
   void forward(Eigen::Ref<Mat> x) const;
   // L^T x' = x over the packed columns, with what the rows below hold given.
   void backward(Eigen::Ref<Mat> x) const;
+  // The same of one right-hand side where it reaches alone: supernodes, of all in order of their places, that are to be
+  // gone through. The unknowns of the others stay as they are.
+  void forward(Vec& x, const std::vector<char>& reach) const { forward_one(x.data(), &reach); }
+  void backward(Vec& x, const std::vector<char>& reach) const { backward_one(x.data(), &reach); }
 
   double bytes() const {
     return panels_.bytes() + static_cast<double>(below_.size() * sizeof(int) + blocks_.size() * sizeof(Block));
@@ -46,8 +50,9 @@ class PackedFactor {
     int place;
   };
   static size_t last_panel(const Block& b) { return b.first_panel + (b.n_columns - 1) / Panels::width; }
-  void forward_one(double* x) const;
-  void backward_one(double* x) const;
+  // reach: null, all of them.
+  void forward_one(double* x, const std::vector<char>* reach = nullptr) const;
+  void backward_one(double* x, const std::vector<char>* reach = nullptr) const;
   // Up to 16 columns side by side.
   void forward_many(Eigen::Ref<Mat> x) const;
   void backward_many(Eigen::Ref<Mat> x) const;

@@ -1,12 +1,26 @@
 #include "numerics/repeated_factor.hpp"
 
+#include <algorithm>
+#include <atomic>
+#include <mutex>
 #include <new>
 
 #include "base/error.hpp"
 #include "numerics/cholmod_workspace.hpp"
+#include "numerics/elimination_tree.hpp"
 #include "numerics/fronts.hpp"
 
 namespace dygita {
+
+namespace {
+
+// Multiplications and additions together.
+double operations_of(const SupernodeView& s) {
+  const double k = s.n_columns, m = s.n_below;
+  return k * (k * k / 3.0 + m * (k + m));
+}
+
+}  // namespace
 
 RepeatedFactor::RepeatedFactor(const SparseMatrix& pattern, const std::vector<int>& node_of_dof,
                                const std::string& what)
@@ -14,6 +28,7 @@ RepeatedFactor::RepeatedFactor(const SparseMatrix& pattern, const std::vector<in
   order_ = analyse(*cholmod_, pattern, node_of_dof, std::vector<char>(node_of_dof.size(), 0), what);
   const int n = static_cast<int>(order_.size());
   for (size_t s = 0; s < cholmod_->n_supernodes(); ++s) supernodes_.push_back(cholmod_->supernode(s, n));
+  for (const SupernodeView& s : supernodes_) operations_ += operations_of(s);
 }
 
 RepeatedFactor::~RepeatedFactor() = default;
@@ -25,14 +40,22 @@ double RepeatedFactor::bytes() const {
   return sum;
 }
 
-double RepeatedFactor::operations() const { return cholmod_->common.fl; }
-
-bool RepeatedFactor::factorise(const SparseMatrix& matrix) {
+bool RepeatedFactor::factorise(const SparseMatrix& matrix, const std::function<void(double)>& watch) {
   factor_.clear();
+  std::mutex telling;
+  std::atomic<double> done = 0.0;
+  const auto keep = [&](const SupernodeView& supernode, int place) {
+    factor_.add(supernode, place);
+    done = done + operations_of(supernode);
+  };
+  const auto tell = [&] {
+    const std::scoped_lock lock(telling);
+    watch(std::min(1.0, done / operations_));
+  };
   try {
-    const auto keep = [&](const SupernodeView& supernode, int place) { factor_.add(supernode, place); };
     const bool is_positive =
-        eliminate(matrix, order_, static_cast<int>(order_.size()), supernodes_, keep).not_positive < 0;
+        eliminate(matrix, order_, static_cast<int>(order_.size()), supernodes_, keep, watch ? Watch(tell) : Watch())
+            .not_positive < 0;
     factor_.arrange();
     return is_positive;
   } catch (const std::bad_alloc&) {
@@ -46,6 +69,31 @@ Mat RepeatedFactor::solve(const Mat& b) const {
   factor_.backward(x);
   Mat answer(b.rows(), b.cols());
   answer(order_, Eigen::all) = x;
+  return answer;
+}
+
+// Supernodes of the unknowns and all above them, by their places.
+std::vector<char> RepeatedFactor::reach_of(const std::vector<int>& unknowns) const {
+  const int n = static_cast<int>(order_.size());
+  const EliminationTree tree(supernodes_, n);
+  std::vector<int> position(order_.size()), supernode_of(order_.size());
+  for (int i = 0; i < n; ++i) position[static_cast<size_t>(order_[i])] = i;
+  std::vector<char> is_reached(supernodes_.size(), 0), reach;
+  for (size_t s = 0; s < supernodes_.size(); ++s)
+    std::fill_n(supernode_of.begin() + supernodes_[s].first, supernodes_[s].n_columns, static_cast<int>(s));
+  for (const int unknown : unknowns) is_reached[supernode_of[position[unknown]]] = 1;
+  for (const int s : tree.order) {
+    if (is_reached[s] && tree.parent[s] >= 0) is_reached[tree.parent[s]] = 1;
+    reach.push_back(is_reached[s]);
+  }
+  return reach;
+}
+
+Vec RepeatedFactor::solve(const Vec& b, const std::vector<char>& reach) const {
+  Vec x = b(order_), answer(b.size());
+  factor_.forward(x, reach);
+  factor_.backward(x, reach);
+  answer(order_) = x;
   return answer;
 }
 

@@ -1,6 +1,7 @@
 // A sparse Cholesky factor computed again and again for matrices of one pattern: ordered once.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,12 +23,17 @@ class RepeatedFactor {
   ~RepeatedFactor();
   RepeatedFactor(RepeatedFactor&&) noexcept;
 
-  double bytes() const;       // of the factor, once computed
-  double operations() const;  // of one factorisation
+  double bytes() const;                              // of the factor, once computed
+  double operations() const { return operations_; }  // of one factorisation
   // matrix: of the pattern given. false: it is not positive definite. Throws NumericalError when out of memory.
-  bool factorise(const SparseMatrix& matrix);
+  // watch: hears meanwhile how much of the work is done, 0 to 1; one call at a time, on any thread. What it throws ends
+  // the work, and there is no factor then.
+  bool factorise(const SparseMatrix& matrix, const std::function<void(double)>& watch = {});
   // A^-1 b of the matrix last factorised; several right-hand sides are columns.
   Mat solve(const Mat& b) const;
+  // What b of these unknowns alone reaches, and A^-1 b of such a b: right at these unknowns, elsewhere anything.
+  std::vector<char> reach_of(const std::vector<int>& unknowns) const;
+  Vec solve(const Vec& b, const std::vector<char>& reach) const;
 
  private:
   std::unique_ptr<Cholmod> cholmod_;  // the pattern of the factor
@@ -35,6 +41,7 @@ class RepeatedFactor {
   std::vector<SupernodeView> supernodes_;
   PackedFactor factor_;
   std::unique_ptr<KeepScratch> scratch_ = std::make_unique<KeepScratch>();
+  double operations_ = 0.0;
   std::string what_;
 };
 

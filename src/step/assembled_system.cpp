@@ -1,33 +1,23 @@
 #include "step/assembled_system.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 
 #include "base/error.hpp"
 #include "numerics/dense.hpp"
-#include "numerics/gmres.hpp"
 #include "step/make_pieces.hpp"
 
 namespace dygita {
 
-namespace {
-
-// The motion (m) by which a preload gives way.
-double way_of(const PreloadTangent& preload, const Vec& velocity) {
-  double amount = 0.0;
-  for (const auto& [unknown, value] : preload.column) amount += value * velocity[unknown];
-  return amount / preload.stiffness;
-}
-
-}  // namespace
-
 AssembledSystem::AssembledSystem(const StepModel& model) : model_(&model), first_{0} {
   for (size_t i = 0; i < model.pieces.size(); ++i) pieces_.push_back(&assembled_piece(model, static_cast<int>(i)));
-  put_pieces_together();
+  const SparseMatrix stiffness = pieces_together();
   find_points();
-  make_pattern();
+  make_pattern(stiffness);
 }
 
-void AssembledSystem::put_pieces_together() {
+SparseMatrix AssembledSystem::pieces_together() {
   std::vector<SparseMatrix> of_pieces;
   std::vector<int> counts;
   for (const AssembledPiece* piece : pieces_) {
@@ -35,13 +25,19 @@ void AssembledSystem::put_pieces_together() {
     first_.push_back(first_.back() + piece->op().n_free());
     for (Eigen::Index r = 0; r < own.rows(); ++r) counts.push_back(own.outerIndexPtr()[r + 1] - own.outerIndexPtr()[r]);
   }
-  stiffness_.resize(first_.back(), first_.back());
-  stiffness_.reserve(counts);
+  SparseMatrix together(first_.back(), first_.back());
+  together.reserve(counts);
   for (size_t i = 0; i < pieces_.size(); ++i)
     for (Eigen::Index r = 0; r < of_pieces[i].rows(); ++r)
       for (SparseMatrix::InnerIterator entry(of_pieces[i], r); entry; ++entry)
-        stiffness_.insertBackUncompressed(first_[i] + r, first_[i] + entry.col()) = entry.value();
-  stiffness_.makeCompressed();
+        together.insertBackUncompressed(first_[i] + r, first_[i] + entry.col()) = entry.value();
+  together.makeCompressed();
+  return together;
+}
+
+Eigen::Map<const SparseMatrix> AssembledSystem::stiffness() const {
+  return {matrix_.rows(),          matrix_.cols(),          matrix_.nonZeros(),
+          matrix_.outerIndexPtr(), matrix_.innerIndexPtr(), stiffness_values_.data()};
 }
 
 void AssembledSystem::find_points() {
@@ -76,7 +72,7 @@ AssembledSystem::PointTraces AssembledSystem::traces_of(const std::vector<int>& 
 }
 
 // The pieces' entries, and all that a point may ever couple.
-void AssembledSystem::make_pattern() {
+void AssembledSystem::make_pattern(const SparseMatrix& stiffness) {
   const int n = first_.back();
   std::vector<std::vector<int>> points_at(n);
   for (size_t i = 0; i < points_.size(); ++i)
@@ -84,7 +80,7 @@ void AssembledSystem::make_pattern() {
   std::vector<int> columns, starts{0}, own, nodes;
   for (int r = 0; r < n; ++r) {
     own.clear();
-    for (SparseMatrix::InnerIterator entry(stiffness_, r); entry; ++entry) own.push_back(static_cast<int>(entry.col()));
+    for (SparseMatrix::InnerIterator entry(stiffness, r); entry; ++entry) own.push_back(static_cast<int>(entry.col()));
     for (const int i : points_at[r]) own.insert(own.end(), points_[i].unknowns.begin(), points_[i].unknowns.end());
     std::sort(own.begin(), own.end());
     own.erase(std::unique(own.begin(), own.end()), own.end());
@@ -96,7 +92,7 @@ void AssembledSystem::make_pattern() {
                                            columns.data(), zeros.data());
   for (int r = 0; r < n; ++r) {
     int at = starts[r];
-    for (SparseMatrix::InnerIterator entry(stiffness_, r); entry; ++entry) {
+    for (SparseMatrix::InnerIterator entry(stiffness, r); entry; ++entry) {
       while (columns[at] < entry.col()) ++at;
       matrix_.valuePtr()[at] = entry.value();
     }
@@ -114,6 +110,7 @@ void AssembledSystem::make_pattern() {
     }
   }
   stiffness_values_.assign(matrix_.valuePtr(), matrix_.valuePtr() + columns.size());
+  diagonal_ = matrix_.diagonal();
   for (const AssembledPiece* piece : pieces_) {
     const int before = nodes.empty() ? 0 : nodes.back() + 1;
     for (const int node : piece->op().unknowns().node_of_unknown()) nodes.push_back(before + node);
@@ -122,10 +119,10 @@ void AssembledSystem::make_pattern() {
 }
 
 double AssembledSystem::bytes() const {
-  const double entries = static_cast<double>(matrix_.nonZeros()), own = static_cast<double>(stiffness_.nonZeros());
+  const double entries = static_cast<double>(matrix_.nonZeros());
   double of_points = 0.0;
   for (const PointTraces& point : points_) of_points += static_cast<double>(point.entries.size());
-  return (factor_ ? factor_->bytes() : 0.0) + 20.0 * entries + 12.0 * own + 4.0 * of_points;
+  return (factor_ ? factor_->bytes() : 0.0) + 20.0 * entries + 4.0 * of_points;
 }
 
 void AssembledSystem::add_tangents() {
@@ -156,11 +153,14 @@ void AssembledSystem::answer_preloads() {
 
 void AssembledSystem::set_tangents(Tangents tangents) {
   tangents_ = std::move(tangents);
-  is_following_ = std::any_of(tangents_.points.begin(), tangents_.points.end(),
-                              [](const PointTangent& point) { return point.following.size() > 0; });
+  set_own();
+  is_following_ = tangents_.follow();
   if (!factor_) return;
   add_tangents();
-  if (!factor_->factorise(matrix_))
+  const auto tell = [&](double share) {
+    if (watch_) watch_(fmt::format("factor {:.0f} %", 100.0 * share));
+  };
+  if (!factor_->factorise(matrix_, tell))
     throw NumericalError("static step '" + model_->step->name +
                          "': the system is not positive definite: an unconstrained rigid motion, or a cell of almost "
                          "no volume");
@@ -201,52 +201,16 @@ Vec AssembledSystem::tangent_times(const Vec& velocity) const {
     force(point.unknowns) += answer;
   }
   for (const PreloadTangent& preload : tangents_.preloads) {
-    const double way = way_of(preload, velocity);
+    const double way = preload.way(velocity);
     for (const auto& [unknown, value] : preload.column) force[unknown] -= way * value;
   }
   return force;
 }
 
-// What friction adds to it.
-Vec AssembledSystem::following_times(const Vec& velocity) const {
-  std::vector<double> way(tangents_.points.size(), 0.0);
-  for (const PreloadTangent& preload : tangents_.preloads)
-    for (const int i : preload.points) way[i] = way_of(preload, velocity);
-  Vec force = Vec::Zero(velocity.size()), own;
-  for (size_t i = 0; i < way.size(); ++i) {
-    const PointTangent& point = tangents_.points[i];
-    if (point.following.size() == 0) continue;
-    own = velocity(point.unknowns);
-    own = point.following * (point.normal.dot(own) - point.normal_stiffness * way[i]);
-    force(point.unknowns) += own;
-  }
-  return force;
-}
-
-void AssembledSystem::set_following(const Tangents& tangents) {
-  is_following_ = false;
-  for (size_t i = 0; i < tangents.points.size(); ++i) {
-    PointTangent& point = tangents_.points[i];
-    point.normal = tangents.points[i].normal;
-    point.following = tangents.points[i].following;
-    point.normal_stiffness = tangents.points[i].normal_stiffness;
-    is_following_ = is_following_ || point.following.size() > 0;
-  }
-}
-
-Vec AssembledSystem::balanced(const Vec& right_hand_side) const {
-  Vec x = factor_->solve(right_hand_side);
+Vec AssembledSystem::balanced(const Vec& right_hand_side, const std::vector<char>* reach) const {
+  Vec x = reach ? factor_->solve(right_hand_side, *reach) : Vec(factor_->solve(right_hand_side));
   if (yielding_.size() > 0) x += answers_ * solve_dense(yielding_, columns_.transpose() * x);
   return x;
-}
-
-// z = N (V - W_hat). to_image: V - W_hat as it is without (manual, eq. U7).
-std::optional<Vec> AssembledSystem::what_follows(const Vec& to_image) const {
-  constexpr double precision = 1e-3;
-  constexpr int most = 30;
-  const GmresSystem system = {[&](const Vec& z) { return Vec(z + following_times(at_rows(balanced(from_rows(z))))); },
-                              [](const Vec& z) { return z; }};
-  return gmres(system, following_times(to_image), precision, most);
 }
 
 bool AssembledSystem::solve(Vec& velocity, Vec& force) {
@@ -256,22 +220,23 @@ bool AssembledSystem::solve(Vec& velocity, Vec& force) {
     loads.segment(first_[i], pieces_[i]->op().n_free()) = pieces_[i]->right_hand_side();
     if (const Vec* own = pieces_[i]->moved_rows()) held.segment(model_->offset[i], own->size()) = *own;
   }
+  n_products_ = 0;
   Vec at_rest = force + tangent_times(velocity - held);
-  if (is_following_) {
-    const std::optional<Vec> more = what_follows(at_rows(balanced(loads + from_rows(at_rest))) + held - velocity);
+  if (is_following_ || has_others_) {
+    const std::optional<Vec> more = what_others_add(at_rows(balanced(loads + from_rows(at_rest))) + held - velocity);
     if (!more) return false;
     at_rest -= *more;
   }
   const auto missing = [&] {
     velocity = at_rows(x_) + held;
     force = at_rest - tangent_times(velocity - held);
-    return Vec(loads + from_rows(force) - stiffness_ * x_);
+    return Vec(loads + from_rows(force) - stiffness() * x_);
   };
   x_ = balanced(loads + from_rows(at_rest));
   x_ += balanced(missing());  // ties are stiff beside the cells: what rounding left, once
   const Vec left = missing();
   // Rounding of motions beside which the forces are nothing is no imbalance.
-  const double moved = 1e-5 * stiffness_.diagonal().cwiseProduct(x_).cwiseAbs().maxCoeff();
+  const double moved = 1e-5 * diagonal_.cwiseProduct(x_).cwiseAbs().maxCoeff();
   const double size = std::max({from_rows(force).cwiseAbs().maxCoeff(), loads.cwiseAbs().maxCoeff(), moved});
   imbalance_ = size > 0.0 ? left.cwiseAbs().maxCoeff() / size : 0.0;
   return true;

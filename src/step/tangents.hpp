@@ -1,6 +1,7 @@
 // The local stage as the linear one sees it: how the forces of the laws answer to the velocities (manual, eq. U1-U3).
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -25,11 +26,23 @@ struct PreloadTangent {
   std::vector<std::pair<int, double>> column;  // unknown in the assembled q, N s/m
   double stiffness = 0.0;
   std::vector<int> points;
+
+  // The motion (m) by which it gives way.
+  double way(const Vec& velocity) const {
+    double amount = 0.0;
+    for (const auto& [unknown, value] : column) amount += value * velocity[unknown];
+    return amount / stiffness;
+  }
 };
 
 struct Tangents {
   std::vector<PointTangent> points;  // as in the exchange; of all of them
   std::vector<PreloadTangent> preloads;
+
+  bool follow() const {
+    return std::any_of(points.begin(), points.end(),
+                       [](const PointTangent& point) { return point.following.size() > 0; });
+  }
 };
 
 }  // namespace dygita

@@ -117,6 +117,46 @@ TEST(RepeatedFactor, solves_one_matrix_after_the_other_with_the_same_bits_on_any
   }
 }
 
+TEST(RepeatedFactor, answers_where_it_is_asked_through_what_lies_between_alone) {
+  const Lattice of = lattice(large);
+  RepeatedFactor factor(of.matrix, of.node_of_dof, "lattice");
+  ASSERT_TRUE(factor.factorise(of.matrix));
+  const std::vector<int> asked = {0, 1, 2, of.size() / 2, of.size() - 1};
+  const std::vector<char> reach = factor.reach_of(asked);
+  const auto n_reached = std::count(reach.begin(), reach.end(), 1);
+  EXPECT_GT(n_reached, 0);
+  EXPECT_LT(n_reached, static_cast<long>(reach.size()) / 2);
+  Vec b = Vec::Zero(of.size());
+  for (const int i : asked) b[i] = 1.0 + i;
+  const Vec whole = factor.solve(b), part = factor.solve(b, reach);
+  for (const int i : asked) EXPECT_EQ(part[i], whole[i]) << i;
+}
+
+TEST(RepeatedFactor, tells_how_far_it_is_and_is_ended_by_who_hears_it) {
+  const Lattice of = lattice(large);
+  for (const int n : {1, 2}) {
+    Threads threads;
+    threads.use(n);
+    RepeatedFactor factor(of.matrix, of.node_of_dof, "lattice");
+    std::vector<double> told;
+    ASSERT_TRUE(factor.factorise(of.matrix, [&](double share) { told.push_back(share); }));
+    ASSERT_GT(told.size(), 10U);
+    EXPECT_LT(told.front(), 0.1);
+    EXPECT_GT(told.back(), 0.5);
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_LE(told.back(), 1.0);
+    size_t n_heard = 0;
+    const auto stop = [&](double) {
+      if (++n_heard == told.size() / 2) throw std::runtime_error("stopped");
+    };
+    EXPECT_THROW(factor.factorise(of.matrix, stop), std::runtime_error);
+    EXPECT_LT(n_heard, told.size());
+    ASSERT_TRUE(factor.factorise(of.matrix)) << "and serves again";
+    const Vec b = Vec::Ones(of.size());
+    EXPECT_LT((of.matrix * Vec(factor.solve(b)) - b).norm(), 1e-12 * b.norm());
+  }
+}
+
 TEST(RepeatedFactor, says_that_a_matrix_is_not_positive_definite_and_takes_the_next_one) {
   const Lattice of = lattice(6);
   SparseMatrix broken = of.matrix;
