@@ -261,7 +261,7 @@ std::array<double, 2> contact_constants(const Interface& interface, const std::s
   double normal = 0.0, tangential = 0.0;
   for (const Face* face : {&interface.side_1, &interface.side_2}) {
     const Elastic& material = face->part->material;
-    if (face->part->mesh->condensed || !material.is_isotropic())
+    if (!face->part->mesh->has_cells() || !material.is_isotropic())
       throw InputError(fmt::format("'{}' needs Young's modulus and Poisson's ratio of '{}', which has none\n    {}",
                                    what, face->part->name, cure));
     const double poisson = *material.constant("poisson");

@@ -299,15 +299,15 @@ Mat without(const Mat& free, const Vec& along) {
 }  // namespace
 
 Mat FreeMotions::of_whole(const Vec3& centre) const {
-  Mat whole(6 * static_cast<Eigen::Index>(frames.size()), 6);
+  Mat motions(6 * static_cast<Eigen::Index>(frames.size()), 6);
   for (size_t i = 0; i < frames.size(); ++i)
     for (int k = 0; k < 3; ++k) {
       const auto row = 6 * static_cast<Eigen::Index>(i);
       const Vec3 axis = Vec3::Unit(k);
-      whole.block<6, 1>(row, k) << axis, Vec3::Zero();
-      whole.block<6, 1>(row, 3 + k) << axis.cross(frames[i].centre - centre), frames[i].size * axis;
+      motions.block<6, 1>(row, k) << axis, Vec3::Zero();
+      motions.block<6, 1>(row, 3 + k) << axis.cross(frames[i].centre - centre), frames[i].size * axis;
     }
-  return whole;
+  return motions;
 }
 
 FreeMotions find_free_motions(const Problem& problem, const Exchange& exchange, const Conditions& conditions) {

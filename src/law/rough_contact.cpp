@@ -142,7 +142,7 @@ std::vector<LawRemark> RoughContact::remarks() const {
 // damping the way is longer than the increment's (eq. L13).
 double RoughContact::working_pressure(double from, double to, const Increment& increment) const {
   if (increment.is_static) return curve_.pressure(to);
-  return curve_.mean(from, from + 2.0 * (1.0 - increment.g) * (to - from));
+  return curve_.mean(from, from + 2.0 * increment.from_end(to - from));
 }
 
 // Of approach + (its change by the pressure) = that without pressure, which rises with the approach: Newton's method
@@ -150,9 +150,9 @@ double RoughContact::working_pressure(double from, double to, const Increment& i
 double RoughContact::approach_after(const Trial& trial, const Increment& increment, const LawState& start) const {
   constexpr int most = 100;
   constexpr double exact = 1e-15, rounding = 2e-16;
-  const double g = increment.g, now = 1.0 - g, from = -start.gap;
-  const double free = from - increment.dt * (g * start.rate[0] + now * trial.s[0]);
-  const double answer = increment.dt * now * trial.y[0] * trial.area;  // m/Pa
+  const double from = -start.gap;
+  const double free = from - increment.motion(start.rate[0], trial.s[0]);
+  const double answer = increment.dt * increment.from_end(trial.y[0]) * trial.area;  // m/Pa
   if (answer <= 0.0) return free;
   // Farther back than the start only against less pressure than that has.
   const double back = increment.is_static ? std::min(free, 0.0) : std::min(from, free - answer * curve_.pressure(from));
@@ -162,10 +162,11 @@ double RoughContact::approach_after(const Trial& trial, const Increment& increme
     const double residual = approach - free + answer * pressure;
     if (std::abs(residual) <= rounding * (std::abs(free) + answer * pressure)) break;
     (residual > 0.0 ? high : low) = approach;
-    const double way = 2.0 * now * (approach - from), size = std::max(std::abs(approach), std::abs(from));
+    const double way = 2.0 * increment.from_end(approach - from), size = std::max(std::abs(approach), std::abs(from));
     double slope = curve_.slope(approach);
     if (!increment.is_static)
-      slope = std::abs(way) > 1e-6 * size ? 2.0 * now * (curve_.pressure(from + way) - pressure) / way : now * slope;
+      slope = increment.from_end(std::abs(way) > 1e-6 * size ? 2.0 * (curve_.pressure(from + way) - pressure) / way
+                                                             : slope);
     const double before = approach, next = approach - residual / (1.0 + answer * slope);
     approach = next > low && next < high ? next : 0.5 * (low + high);
     if (std::abs(approach - before) <= exact * size) break;
@@ -194,27 +195,28 @@ Vec2 RoughContact::tangential_force(const Trial& trial, const Increment& increme
                                     const Tangential& t, double limit) const {
   Vec2 force = Vec2::Zero();
   if (!(t.slope > 0.0) || !(limit > 0.0)) return force;
-  const double g = increment.g, now = 1.0 - g, dt = increment.dt, k = trial.area * t.slope;
+  const double k = trial.area * t.slope;
+  const Vec2 answer = increment.dt * increment.from_end<Vec2>(trial.y.tail<2>());  // m/N
   std::array<bool, 2> acts{};
   Vec2 free = Vec2::Zero();  // elongation without a force
   for (const int d : {0, 1}) {
     acts[d] = trial.y[d + 1] > 0.0 || trial.is_given[d + 1];
     if (!acts[d]) continue;
-    const double moved = dt * (g * start.rate[d + 1] + now * trial.s[d + 1]);
+    const double moved = increment.motion(start.rate[d + 1], trial.s[d + 1]);
     free[d] = t.left[d] + moved;
-    force[d] = k * (t.left[d] + now * moved) / (1.0 + k * now * now * dt * trial.y[d + 1]);
+    force[d] = k * (t.left[d] + increment.from_end(moved)) / (1.0 + k * increment.from_end(answer[d]));
   }
-  const Vec2 answer = dt * now * trial.y.tail<2>();  // m/N
   if (t.slope * (free - answer.cwiseProduct(force)).norm() <= limit) return force;
   // It slides: the traction at the end is the limit, along the elongation that there would be.
-  const Vec2 before = g * k * t.left;
+  const Vec2 before = k * increment.from_start(t.left);
+  const double slides = trial.area * increment.from_end(limit);
   Vec2 s = free - answer.cwiseProduct(before);
   for (const int d : {0, 1})
     if (!acts[d]) s[d] = 0.0;
   const GivenRates given{{trial.is_given[1], trial.is_given[2]}, Vec2::Zero()};
-  const Vec2 along = project_on_disc(s, trial.area * now * limit * answer, 1.0, given).force;
+  const Vec2 along = project_on_disc(s, slides * answer, 1.0, given).force;
   for (const int d : {0, 1})
-    if (acts[d]) force[d] = before[d] + trial.area * now * limit * along[d];
+    if (acts[d]) force[d] = before[d] + slides * along[d];
   return force;
 }
 
@@ -253,7 +255,7 @@ LawState RoughContact::advance(const Trial& trial, const Increment& increment, c
   Vec2 last = Vec2::Zero();
   if (force[0] < 0.0) {
     if (friction_ > 0.0) end.slip.tail<2>() += moved.tail<2>();
-    if (t.slope > 0.0) last = (force.tail<2>() / (trial.area * t.slope) - increment.g * t.left) / (1.0 - increment.g);
+    if (t.slope > 0.0) last = increment.end_of<Vec2>(force.tail<2>() / (trial.area * t.slope), t.left);
     const bool slides = t.slope * last.norm() >= (1.0 - 1e-9) * limit;
     end.status = slides ? PointState::slip : PointState::stick;
   }
@@ -270,11 +272,11 @@ Work RoughContact::work(const LawState& start, const LawState& end, const Increm
     return work;
   }
   const Vec3 motion = motion_of(start, end, increment);
-  const double g = increment.g, limit = friction_ * -end.force[0] / area;
+  const double limit = friction_ * -end.force[0] / area;
   const Tangential t = tangential_after(start.memory, -end.gap, curve_.slope(-end.gap), limit, increment.is_static);
   if (end.force[0] < 0.0 && t.slope > 0.0) {
     const Vec2 traction = end.force.tail<2>() / area;
-    const Vec2 last = (traction / t.slope - g * t.left) / (1.0 - g);
+    const Vec2 last = increment.end_of<Vec2>(traction / t.slope, t.left);
     const Vec2 slid = motion.tail<2>() - (last - t.left);
     const double before =
         increment.is_static ? 0.5 * t.slope * t.changed.squaredNorm() : tangential_energy(start.memory);

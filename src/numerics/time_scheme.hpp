@@ -53,6 +53,11 @@ class TimeScheme {
   X motion(const X& start, const X& end) const {
     return dt * (g_ * start + (1.0 - g_) * end);
   }
+  // The end of what has this mean.
+  template <class X>
+  X end_of(const X& mean, const X& start) const {
+    return (mean - g_ * start) / (1.0 - g_);
+  }
   // Velocity of the end, the other way, that takes back what the start's moves.
   template <class X>
   X undoing(const X& start) const {

@@ -40,7 +40,7 @@ void PartFrames::find_free_cells(const Instant& instant) {
   for (int part = 0; part < static_cast<int>(free_.size()); ++part) {
     const PartView& view = views_.of(part);
     const Mesh& whole = *problem_.substructures[static_cast<size_t>(part)]->mesh;
-    if (view.is_empty() || whole.condensed) continue;
+    if (view.is_empty() || !whole.has_cells()) continue;
     free_[static_cast<size_t>(part)] =
         free_cells(view.mesh(), free_facets(instant.model, part, boundary_facets(whole)), view.all_nodes());
   }

@@ -122,7 +122,7 @@ local glue = interface.bonded{ name = "glue", between = "all touching", of = { s
 problem{ name = "panel", substructures = { skin, core, edge, cover }, interfaces = { glue },
   supports = { support.fixed{ name = "frame", on = edge:face "xmax" } },
   steps = { step.static{ name = "pull", loads = { load.traction{ on = cover:face "zmax", z = 1*MPa } } } },
-  solver = p.monolithic == 1 and solver.monolithic{} or solver.latin{ static_steps = "assembled" },
+  solver = p.monolithic == 1 and solver.monolithic{} or solver.latin{ static_steps = "assembled", static_tolerance = 1e-10 },
   outputs = { output.energy{}, output.history{ name = "tip", on = cover:face "xmin", quantity = "displacement" },
     output.joint{ name = "seam", on = glue["core/edge"] } } }:run{}
 )";

@@ -200,8 +200,9 @@ TEST(StaticYield, creates_no_energy_in_one_increment) {
       // A gap that stays open, or a rest: percentages of what the tolerance leaves of the 1e-5 J of a tightened bolt.
       if (run.figure("largest energy [J]") < 1e-12) continue;
       const std::map<std::string, double> figures = run.figures();
-      if (const auto found = figures.find("energy created by the scheme, static [%]"); found != figures.end())
+      if (const auto found = figures.find("energy created by the scheme, static [%]"); found != figures.end()) {
         EXPECT_LT(found->second, 1e-3) << name;
+      }
       const auto motion = figures.find("energy of the motion [J]");
       if (motion != figures.end() && motion->second <= 1.01e-7 * run.figure("largest energy [J]"))
         EXPECT_LT(run.figure("energy created by the scheme [%]"), limit::energy_gain) << name;  // no warning

@@ -320,8 +320,18 @@ struct Done {
     result.figures.largest_penetration = 1e-9;
     result.figures.mesh_error = std::nan("");
     result.seconds = {{"factor", 0.5}};
-    identity = {"crush.lua",         "feed", {{"mu", 0.3}}, "latin{ window = 5 }",
-                {{"punch", "beef"}}, 2,      "generic",     {{"gmsh", "4.8.4"}}};
+    identity = {"crush.lua",
+                "feed",
+                {{"mu", 0.3}},
+                "latin{ window = 5 }",
+                {{"punch", "beef"}},
+                2,
+                "generic",
+                {{"gmsh", "4.8.4"}},
+                "base",
+                true,
+                true,
+                ""};
   }
 
   void add_output(const OutputPtr& output, const std::string& column, const std::string& unit) {

@@ -72,7 +72,7 @@ TEST(RoughContact, throws_a_mass_back_as_fast_as_it_came) {
   for (const LawArguments& of : {tips, spring, curve}) {
     const LawPtr law = rough(of, 0.0, 3e-6);
     for (const double dt : {1e-7, 1e-6, 5e-6}) {
-      const Increment increment{dt, 0.5, false};
+      const Increment increment{TimeScheme::implicit(dt)};
       LawState state = law->initial();
       state.rate[0] = -v;
       double deepest = 0.0, stored = 0.0;
@@ -148,7 +148,7 @@ TEST(RoughContact, stores_or_loses_exactly_what_works_on_it) {
   for (const LawArguments& of : {tips, spring, curve})
     for (const double g : {0.5, 0.4}) {
       const LawPtr law = rough(of, 0.4);
-      const Increment increment{1e-6, g, false};
+      const Increment increment{TimeScheme::weighted(1e-6, g)};
       LawState state = pressed(*law, 4e-6);
       double worked = 0.0, booked = 0.0, rubbed = 0.0;
       for (int i = 0; i < 4000; ++i) {
