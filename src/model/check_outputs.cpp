@@ -2,6 +2,7 @@
 
 #include "base/names.hpp"
 #include "model/check.hpp"
+#include "model/load.hpp"
 #include "model/output.hpp"
 #include "model/own_files.hpp"
 
@@ -36,6 +37,11 @@ void files_are_free(const Problem& problem, const Output& output, const std::vec
 
 void outputs(const Problem& problem) {
   for (const OutputPtr& output : problem.outputs) output->check(problem);
+  for (const StepPtr& step : problem.steps)
+    for (const LoadPtr& load : step->loads)
+      if (const OutputPtr of = load->made_of())
+        listed(problem, fmt::format("{} of step '{}' is made of", load->path, step->name), *of, problem.outputs,
+               "outputs");
 }
 
 }  // namespace dygita::check

@@ -39,6 +39,8 @@ class Load {
   virtual std::optional<Complaint> complaint(const Step& step) const = 0;
   // What it does. Two effects of one name on one place are one value given twice.
   virtual std::vector<Effect> effects() const = 0;
+  // An output of the run that it is made of; none: it is known before.
+  virtual OutputPtr made_of() const { return nullptr; }
   // What else it is made of, for the record of a run: "direction", three numbers.
   using Settings = std::vector<std::pair<std::string, std::vector<double>>>;
   virtual Settings settings() const = 0;

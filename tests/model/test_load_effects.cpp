@@ -4,10 +4,22 @@
 #include <set>
 
 #include "model/assembly.hpp"
+#include "model/mode_forces.hpp"
+#include "model/output_double.hpp"
 
 namespace dygita {
 
 namespace {
+
+// What load.mode is given in place of a run's modes.
+class ModesOfNothing final : public OutputDouble, public ModeShapes {
+ public:
+  using OutputDouble::OutputDouble;
+  Points shape(const Substructure& part, int) const override { return Points::Zero(3, part.mesh->n_nodes()); }
+  Points mass_times_shape(const Substructure& part, int number) const override { return shape(part, number); }
+  double generalised_mass(int) const override { return 1.0; }
+  double frequency(int) const override { return 0.0; }
+};
 
 class LoadEffects : public Assembly {
  protected:
@@ -89,9 +101,12 @@ TEST_F(LoadEffects, are_there_for_every_load_of_the_table_with_words_of_their_ow
   for (const LoadEntry& entry : load_table()) {
     EXPECT_TRUE(words.insert(entry.word).second) << entry.word;
     GivenArguments arguments("load." + entry.word, {"deck.lua", 40});
-    for (const char* key : {"history", "by", "at", "force", "x"})
+    for (const char* key : {"history", "by", "at", "force", "x", "value", "number"})
       arguments.values_of_time[key] = {History::constant(1.0), true};
     for (const char* key : {"direction", "axis"}) arguments.lists[key] = {0, 0, 1};
+    arguments.parts = {upper};
+    arguments.words["name"] = "modes";
+    arguments.outputs["mode"] = std::make_shared<ModesOfNothing>(arguments);
     for (const Target& target :
          std::vector<Target>{top, Region{upper, {0, 1}}, InterfacePtr(shank), SupportPtr(base)}) {
       arguments.on = {target};

@@ -35,6 +35,7 @@ class ModeLoad final : public Load {
     }
     return all;
   }
+  OutputPtr made_of() const override { return modes_; }
   Settings settings() const override { return {{"number", {static_cast<double>(number_)}}}; }
 
  private:
