@@ -99,7 +99,7 @@ local function declare(given, meshes, line, like)
   local fields = {
     name = name, parts = list, interfaces = joined, shank = shank, head = head, nut = nut, washers = { upper, lower },
     upper = upper and face(upper, "lower") or face(head, "bearing"), lower = lower and face(lower, "upper") or face(nut, "bearing"),
-    top = face(head, "end"), tip = face(nut, "end"), diameter = meshes.diameter, area = math.pi / 4 * meshes.diameter ^ 2,
+    grip = given.grip, top = face(head, "end"), tip = face(nut, "end"), diameter = meshes.diameter, area = math.pi / 4 * meshes.diameter ^ 2,
   }
   local bolt = setmetatable({}, answering(fields, ("bolt '%s'"):format(name)))
   made[bolt] = { given = given, meshes = meshes, roles = roles, parts = list, interfaces = joined }
@@ -130,6 +130,7 @@ end
 -- One bolt for each hole through the parts; those of one grip are copies of the first.
 local function through(entry, given, line)
   local list, first = {}, {}
+  local texts, count = {}, {}
   for i, hole in ipairs(holes.through(given, sizes[given.size][1] * 1e-3, entry.path, line)) do
     local own = {}
     for key, value in pairs(given) do own[key] = value end
@@ -138,13 +139,18 @@ local function through(entry, given, line)
     local like = first[own.grip]
     list[i] = declare(own, like and made[like].meshes or meshes_of(own, line), line, like)
     first[own.grip] = like or list[i]
+    local text = ("grip %.4g mm through %s"):format(own.grip * 1e3, holes.parts_of(hole, given.parts))
+    if not count[text] then texts[#texts + 1] = text end
+    count[text] = (count[text] or 0) + 1
   end
-  native.say(("%s '%s': %d %s bolts, grip %s"):format(entry.path, given.name, #list, given.size, (function()
-    local grips = {}
-    for grip in pairs(first) do grips[#grips + 1] = ("%.4g mm"):format(grip * 1e3) end
-    table.sort(grips)
-    return table.concat(grips, ", ")
-  end)()))
+  native.say(("%s '%s': %d %s bolt%s"):format(entry.path, given.name, #list, given.size, #list > 1 and "s" or ""))
+  for i, text in ipairs(texts) do
+    if i > 12 then
+      native.say(("  and %d more"):format(#texts - 12))
+      break
+    end
+    native.say(("  %d with %s"):format(count[text], text))
+  end
   return bolts.list(list, given.name)
 end
 

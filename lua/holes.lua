@@ -19,7 +19,9 @@ end
 local function at_mm(x) return ("(%.7g, %.7g, %.7g) mm"):format(micrometres(x[1]) / 1e3, micrometres(x[2]) / 1e3, micrometres(x[3]) / 1e3) end
 
 local parallel = math.cos(2 * math.pi / 180)
-local beside, apart = 0.1, 0.02  -- of the diameter of the thread: axes from each other, parts along the axis
+-- Of the diameter of the thread: axes from each other, and parts along the axis, where facets of bent faces pass into
+-- each other or stay apart.
+local beside, apart = 0.1, 0.1
 
 -- Where `hole` lies along the line through `from` along `u`, m: its lower and upper end; nil: not on that line.
 local function range_on(hole, from, u, diameter)
@@ -76,8 +78,28 @@ local function list_of(found, parts)
   return #texts > 0 and "holes all around have the diameters: " .. table.concat(texts, ", ") or "no part has a round hole that ends in planes"
 end
 
+-- Refuses parts that no chain passes: a bolt would stand in them.
+local function check_all_are_passed(chains, parts, fail)
+  local is_passed = {}
+  for _, chain in ipairs(chains) do
+    for _, hole in ipairs(chain.holes) do is_passed[hole.part] = true end
+  end
+  for i, part in ipairs(parts) do
+    if not is_passed[i] then
+      local nearest
+      for _, chain in ipairs(chains) do
+        local near_by = chain.near_by
+        if near_by and near_by.hole.part == i and (not nearest or near_by.gap < nearest) then nearest = near_by.gap end
+      end
+      fail(("no bolt passes '%s', which is among 'parts'"):format(name_of(part)), nearest
+        and ("its hole is on the line of others, and %s %s along it"):format(in_mm(math.abs(nearest)), nearest < 0 and "within them" or "apart from them")
+        or "it has no hole on the line of the others that the thread fits: leave it out, or say its 'radius'")
+    end
+  end
+end
+
 -- given: parts, the first under the head; radius (m) or nil; head: direction, or nil; where: a function of the hole's
--- end at the head, or nil. diameter: of the thread, m. Answers a list of { head, towards, grip }.
+-- end at the head, or nil. diameter: of the thread, m. Answers a list of { head, towards, grip, holes }.
 function holes.through(given, diameter, path, line)
   local parts, all = given.parts, native.holes(given.parts)
   local function fail(text, hint) native.fail(line, path .. ": " .. text .. (hint and "\n    " .. hint or "")) end
@@ -89,7 +111,7 @@ function holes.through(given, diameter, path, line)
     if fits then fitting[#fitting + 1] = hole end
   end
   local which = given.radius and ("of %s diameter"):format(in_mm(2 * given.radius)) or ("for %s (diameter %s to %s)"):format(given.size, in_mm(diameter), in_mm(1.3 * diameter))
-  local chains, left = {}, nil
+  local chains, left, n_elsewhere = {}, nil, 0
   for _, hole in ipairs(fitting) do
     if hole.part == 1 then
       local chain = chain_from(hole, fitting, diameter)
@@ -102,15 +124,18 @@ function holes.through(given, diameter, path, line)
         local axis = given.head or (math.abs(chain.u[3]) > 0.01 and { 0, 0, 1 }) or (math.abs(chain.u[2]) > 0.01 and { 0, 1, 0 }) or { 1, 0, 0 }
         up = dot(axis, chain.u) > 0
       end
-      local one = { head = up and chain.high or chain.low, grip = chain.grip, towards = up and chain.u or { -chain.u[1], -chain.u[2], -chain.u[3] } }
+      local one = { holes = chain.holes, near_by = chain.near_by, head = up and chain.high or chain.low, grip = chain.grip, towards = up and chain.u or { -chain.u[1], -chain.u[2], -chain.u[3] } }
       if given.where and not given.where(one.head[1], one.head[2], one.head[3]) then
-        one = nil
+        one, n_elsewhere = nil, n_elsewhere + 1
       elseif #parts > 1 and #chain.holes == 1 then
         left = left or { hole = hole, near_by = chain.near_by }
         one = nil
       end
       chains[#chains + 1] = one
     end
+  end
+  if #chains == 0 and n_elsewhere > 0 and not left then
+    fail(("'where' is true at none of the %d holes %s"):format(n_elsewhere, which), "it is asked with the end of a hole at the head, in metres")
   end
   if #chains == 0 then
     local hint = list_of(all, parts)
@@ -122,6 +147,7 @@ function holes.through(given, diameter, path, line)
     end
     fail(("no hole %s goes through %s"):format(which, #parts > 1 and "these parts" or ("'%s'"):format(name_of(parts[1]))), hint)
   end
+  if not given.where then check_all_are_passed(chains, parts, fail) end
   table.sort(chains, function(a, b)
     for i = 1, 3 do
       local p, q = micrometres(a.head[i]), micrometres(b.head[i])
@@ -135,6 +161,13 @@ function holes.through(given, diameter, path, line)
     fail(("%d holes %s go through these parts, and n = %d"):format(#chains, which, given.n), "heads at " .. table.concat(places, ", "))
   end
   return chains
+end
+
+-- "'bracket', 'pad'", the parts that a chain passes, from the head on.
+function holes.parts_of(chain, parts)
+  local passed = {}
+  for i, hole in ipairs(chain.holes) do passed[i] = ("'%s'"):format(name_of(parts[hole.part])) end
+  return table.concat(passed, ", ")
 end
 
 return holes

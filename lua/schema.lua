@@ -1066,6 +1066,7 @@ local fields = {
     { "top", kind = "face", doc = "the free face of the head" },
     { "tip", kind = "face", doc = "the free face of the nut, with the end of the shank" },
     { "diameter", kind = "number", doc = "of the shank (m)" },
+    { "grip", kind = "number", doc = "clamped thickness, without the washers (m)" },
     { "area", kind = "number", doc = "of the shank's section (m^2)" },
   },
   ["list of bolts"] = {

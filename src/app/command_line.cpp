@@ -74,7 +74,9 @@ void add_run_options(CLI::App& command, Command& asked) {
                   "start static steps from those of an earlier run, out/<problem>/<case>: a finished tightening serves "
                   "other shocks")
       ->excludes(repeats)
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(CLI::Validator(
+          [](std::string& given) { return std::string(given.empty() ? "the folder has no name" : ""); }, "", "folder"));
   add_threads(command, asked.deck.threads);
   command.add_flag("--no-frames", asked.has_no_frames, "write no frames for ParaView, only tables and run.json");
   command.add_flag("--no-state", asked.has_no_state, "write no state file; the run cannot be continued later");

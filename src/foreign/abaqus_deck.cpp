@@ -62,11 +62,11 @@ class DeckWriter {
     for (const std::string& line : analysis_.remarks) text += "-- " + one_line(line) + "\n";
     for (const std::string& line : analysis_.untranslated) text += "-- NOT TRANSLATED: " + one_line(line) + "\n";
     if (!analysis_.untranslated.empty())
-      text +=
-          fmt::format("error({}, 0)\n",
-                      lua_quoted(fmt::format("{} of {} are not translated: read the comments, complete the deck, "
-                                             "then delete this line",
-                                             analysis_.untranslated.size() == 1 ? "one line" : "some lines", name)));
+      text += fmt::format("error({}, 0)\n",
+                          lua_quoted(fmt::format("{0} of {2} {1} not translated: read the comments, complete the deck, "
+                                                 "then delete this line",
+                                                 analysis_.untranslated.size() == 1 ? "one line" : "some lines",
+                                                 analysis_.untranslated.size() == 1 ? "is" : "are", name)));
     return text + "\n";
   }
 
@@ -171,11 +171,23 @@ class DeckWriter {
     return {common.size(), n_facets};
   }
 
-  // "part_a:face "TOP"" of each part that has it.
-  std::vector<std::string> places(const std::string& name, bool is_face) const {
+  // Of an instance "I1", or one of its pieces "I1[2]".
+  static bool is_of(const ForeignPart& part, const std::string& instance) {
+    return in_capitals(part.name.substr(0, part.name.find('['))) == in_capitals(instance);
+  }
+
+  // "part_a:face "TOP"" of each part that has it; of "I1.TOP" those of the instance I1.
+  std::vector<std::string> places(const std::string& given, bool is_face) const {
     std::vector<std::string> found;
+    const size_t dot = given.find('.');
+    const std::string instance = dot == std::string::npos ? "" : given.substr(0, dot);
+    const bool is_of_one =
+        std::any_of(parts_.begin(), parts_.end(), [&](const ForeignPart& part) { return is_of(part, instance); });
+    const std::string name = is_of_one ? known_face(given.substr(dot + 1)) : given;
     for (size_t i = 0; i < parts_.size(); ++i)
-      if (is_face ? parts_[i].mesh->faces.contains(name) : parts_[i].regions.contains(name))
+      if (is_of_one && !is_of(parts_[i], instance))
+        continue;
+      else if (is_face ? parts_[i].mesh->faces.contains(name) : parts_[i].regions.contains(name))
         found.push_back(fmt::format("{}:{} {}", part_names_[i], is_face ? "face" : "region", lua_quoted(name)));
     return found;
   }

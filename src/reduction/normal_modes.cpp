@@ -27,6 +27,22 @@ std::vector<int> holding_rows(Mat x) {
   return rows;
 }
 
+// Motions that the stiffness resists by its rounding alone leave the iteration no digits for the others, which it then
+// takes for none.
+void check_all_are_found(const LinearAssembly& assembly, const Modes& elastic, int n_free,
+                         const ModesRequest& request) {
+  const auto n_found = static_cast<int>(elastic.values.size());
+  const bool is_short = request.n == 0 ? elastic.is_all : n_free + n_found < request.n;
+  if (!is_short || n_free + n_found >= assembly.n() - assembly.springs.rows()) return;
+  const double last =
+      n_found > 0 ? std::sqrt(std::max(0.0, elastic.values[n_found - 1])) / (2 * std::numbers::pi) : 0.0;
+  throw NumericalError(fmt::format(
+      "output.modes '{}': {} modes were found, the last at {:.3g} Hz, and the others are lost in rounding: "
+      "something is held by next to nothing, as rigid motions are by matrices with few digits\n    hold it, "
+      "or give its matrices with all their digits",
+      request.name, n_free + n_found, last));
+}
+
 // x <- K^-1 x for forces that leave the free motions N alone, displacements orthogonal to N in the mass (eq. D14). One
 // factor: springs at as many unknowns as there are free motions hold the assembly and carry nothing.
 class FreeAssembly {
@@ -104,6 +120,7 @@ Eigenmodes eigenmodes(const LinearAssembly& assembly, const Mat& motions, const 
     wanted.up_to = std::pow(2 * std::numbers::pi * request.up_to, 2);
     elastic = lowest_modes(
         assembly.n(), [&](Eigen::Ref<Mat> x) { held.solve(x); }, assembly.mass, 0.0, wanted, what);
+    check_all_are_found(assembly, elastic, n_free, request);
   }
   const auto n_first = request.n == 0 ? n_free : std::min(request.n, n_free);
   Eigenmodes modes{Vec::Zero(n_first + elastic.values.size()), Mat(assembly.n(), n_first + elastic.values.size())};

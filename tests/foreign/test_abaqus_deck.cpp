@@ -99,6 +99,21 @@ TEST(AbaqusDeck, joins_surfaces_as_their_interaction_says) {
   expect_in(tied, "interface.bonded{ name = \"tie_under_top\"");
 }
 
+// Surfaces of a part are called by its instances, each with the surface of its own.
+TEST(AbaqusDeck, joins_surfaces_of_parts_by_their_instances) {
+  const WrittenFile written(
+      "*PART, NAME=P\n*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
+      "*ELEMENT, TYPE=C3D8, ELSET=E\n1,1,2,3,4,5,6,7,8\n*SOLID SECTION, ELSET=E, MATERIAL=STEEL\n"
+      "*SURFACE, NAME=LOW\nE, S1\n*SURFACE, NAME=HIGH\nE, S2\n*END PART\n*ASSEMBLY, NAME=A\n"
+      "*INSTANCE, NAME=under, PART=P\n*END INSTANCE\n*INSTANCE, NAME=over, PART=P\n0.,0.,1.\n*END INSTANCE\n"
+      "*TIE, NAME=T\nUNDER.high, over.LOW\n*END ASSEMBLY\n*MATERIAL, NAME=STEEL\n*ELASTIC\n200000., 0.3\n"
+      "*STEP\n*STATIC\n*END STEP\n",
+      "stack.inp");
+  const std::string deck = deck_of_abaqus({written.path(), "mm t s", {}});
+  expect_in(deck, "between = { part_under:face \"HIGH\", part_over:face \"LOW\" } }");
+  EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
+}
+
 TEST(AbaqusDeck, leaves_perturbations_about_other_steps_to_its_reader) {
   const std::string step = "*STATIC\n*CLOAD\n7, 1, 1.\n*END STEP\n";
   expect_in(imported("*BOUNDARY\nX0, 1, 3\n*STEP\n" + step + "*STEP, PERTURBATION\n" + step),
