@@ -1,3 +1,5 @@
+// One writer of one text: parts, joints, supports, loads and steps share the names that they have been given, so it is
+// not split.
 #include "foreign/abaqus_deck.hpp"
 
 #include <spdlog/fmt/fmt.h>

@@ -92,7 +92,7 @@ class StepRun {
   void coarse_correction(Vec& q, Vec& velocity);
   void inner_iterations();
   void iterate(int increment, const Goal& goal, Best& best);
-  // An increment may take minutes: the user who stops the run does not wait for it, and hears how far it is. Throws
+  // An increment may take minutes: the user who stops the run does not wait for it, and sees how far it is. Throws
   // LeftUnsolved.
   static void heed_interrupt(int iteration, int every);
   void tell_iteration(const Best& best);

@@ -1,4 +1,4 @@
-// What a static increment says while it lasts, and hears: it may take minutes.
+// Progress and interrupts within a static increment, which may take minutes.
 #include <spdlog/fmt/fmt.h>
 
 #include "latin/step_run.hpp"

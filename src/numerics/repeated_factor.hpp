@@ -26,7 +26,7 @@ class RepeatedFactor {
   double bytes() const;                              // of the factor, once computed
   double operations() const { return operations_; }  // of one factorisation
   // matrix: of the pattern given. false: it is not positive definite. Throws NumericalError when out of memory.
-  // watch: hears meanwhile how much of the work is done, 0 to 1; one call at a time, on any thread. What it throws ends
+  // watch: is called with how much of the work is done, 0 to 1; one call at a time, on any thread. What it throws ends
   // the work, and there is no factor then.
   bool factorise(const SparseMatrix& matrix, const std::function<void(double)>& watch = {});
   // A^-1 b of the matrix last factorised; several right-hand sides are columns.

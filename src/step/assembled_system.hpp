@@ -17,7 +17,8 @@ class AssembledSystem {
   // The step's pieces are assembled ones (make_assembled_pieces); orders the system, factorises nothing. Throws
   // NumericalError where it is too large.
   explicit AssembledSystem(const StepModel& model);
-  // watch: hears what takes long, meanwhile ("factor 40 %"), one call at a time, on any thread; what it throws ends it.
+  // watch: is called with what takes long at the moment ("factor 40 %"), one call at a time, on any thread; what it
+  // throws ends it.
   void be_watched(std::function<void(const std::string&)> watch) { watch_ = std::move(watch); }
 
   // Of each point of the exchange, as tangents have them.

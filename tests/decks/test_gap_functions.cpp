@@ -70,7 +70,7 @@ TEST(GapFunctions, are_turned_with_the_bars_and_meet_unlike_meshes) {
   expect_hertz(line_of(run_text(crowned, {{"unlike", "1"}}, 1).at(0)), 1.0, 0.04);
 }
 
-// A stiffness without end is exact contact.
+// An infinite stiffness is exact contact.
 TEST(GapFunctions, go_with_rough_faces) {
   const Line exact = line_of(run_text(crowned, {}, 1).at(0)),
              stiff = line_of(run_text(crowned, {{"rough", "1"}}, 1).at(0));

@@ -206,7 +206,7 @@ TEST(RoughContact, is_the_same_spring_in_explicit_steps) {
   }
 }
 
-// Asperities grow stiffer without end, an explicit step does not: beyond the cells' stiffness they are straight.
+// Asperities grow stiffer without limit, an explicit step does not: beyond the cells' stiffness they are straight.
 TEST(RoughContact, is_bounded_by_the_cells_in_explicit_steps) {
   const LawPtr law = rough(tips);
   SpringPoint point = spring_point(*law, law->initial(), of_area, of_area * 2.5 * pressure_of_tips(5e-6) / 5e-6);
