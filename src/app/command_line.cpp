@@ -248,7 +248,8 @@ void add_hidden_pages(CLI::App& app) {
 const std::vector<ExitMeaning>& exit_meanings() {
   static const std::vector<ExitMeaning> meanings = {
       {done, "done"},
-      {not_converged, "computed and written, but some increments did not converge"},
+      {not_converged,
+       "computed and written, but some increments did not converge, or the energy balance is open by more than 20 %"},
       {wrong_input, "the deck, a mesh or the command line is wrong; the message says where"},
       {failed, "the computation failed"},
       {broken, "a bug: please report it with the deck"},

@@ -127,6 +127,16 @@ View view_from(const Box& box, double turn) {
   return view;
 }
 
+// Of the diagonals of the parts' boxes.
+double largest_part(const std::vector<SubstructurePtr>& parts) {
+  double largest = 0.0;
+  for (const SubstructurePtr& part : parts) {
+    const Box box = extent_of({part});
+    largest = std::max(largest, (box.high - box.low).norm());
+  }
+  return largest;
+}
+
 // From the side that hides the fewest parts; all parts are seen?
 std::pair<View, bool> clearest_view_of(const std::vector<SubstructurePtr>& parts) {
   const Box box = extent_of(parts);
@@ -198,7 +208,10 @@ Picture make_picture(const std::vector<SubstructurePtr>& parts, const View& view
   ItemBuffer buffer = buffer_of(skin, view, p);
   std::vector<char> seen = buffer.seen(picture.n_facets);
   const Skin fine = skin;
-  for (double size = view.size / std::sqrt(4.0 * most_facets); n_seen(seen) > most_facets; size *= 1.25) {
+  // Each part keeps some facets: of thousands of parts more are drawn.
+  const double largest_useful = 2.0 * largest_part(parts);
+  for (double size = view.size / std::sqrt(4.0 * most_facets); n_seen(seen) > most_facets && size < largest_useful;
+       size *= 1.25) {
     skin = merged(fine, size);
     p = projected(skin.position, view);
     buffer = buffer_of(skin, view, p);

@@ -284,6 +284,13 @@ Mat motions_of_whole(const FreeMotions& free) {
   return (within.transpose() * within - Mat::Identity(6, 6)).norm() < rounding ? Mat(free.columns * within) : Mat();
 }
 
+// What a motion that nothing resists falls below, of bodies of unit weight. Rounded coordinates resist by some 1e-10; a
+// row of n bodies, the most flexible way of joining them, bends with (1.9 / n)^4 and must stay above.
+double least_resistance(int bodies) {
+  constexpr double rounding = 1e-14, of_coordinates = 1e-9;
+  return std::clamp(0.01 * std::pow(1.9 / bodies, 4), rounding, of_coordinates);
+}
+
 // Those of the motions that do not move a pin: one less. along: how each of them moves it.
 Mat without(const Mat& free, const Vec& along) {
   const Vec moving = along.normalized();
@@ -319,7 +326,7 @@ FreeMotions find_free_motions(const Problem& problem, const Exchange& exchange, 
   Vec weight(6 * n);
   for (int i = 0; i < n; ++i)
     weight.segment<6>(6 * i).setConstant(1.0 / std::sqrt(std::max(1.0, gram.at({i, i}).trace())));
-  const EigenPairs eigen = pairs_below(scaled(gram, weight), 1e-9);
+  const EigenPairs eigen = pairs_below(scaled(gram, weight), least_resistance(n));
   free.columns = Mat(6 * n, 0);
   if (eigen.values.size() > 0) free.columns = orthonormal(weight.asDiagonal() * eigen.vectors);
   free.whole = Mat(6 * n, 0);

@@ -2,6 +2,8 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <map>
 
 #include "base/error.hpp"
 #include "intake/mesh_file.hpp"
@@ -62,18 +64,28 @@ TaggedSurface read_surface(const std::string& name, const std::vector<int>& enti
   return surface;
 }
 
+// The entities of each physical group. gmsh goes through all entities for each group that it is asked for.
+std::map<int, std::vector<int>> entities_of_groups(int dimension) {
+  std::map<int, std::vector<int>> result;
+  for (const int entity : gmsh_tags(dimension)) {
+    std::vector<int> groups;
+    gmsh::model::getPhysicalGroupsForEntity(dimension, entity, groups);
+    for (const int group : groups) result[std::abs(group)].push_back(entity);
+  }
+  return result;
+}
+
 // Physical groups of a dimension: name and entities; without any, each entity is a group, "volume3" or "surface7".
 std::vector<std::pair<std::string, std::vector<int>>> groups(int dimension) {
   const char* word = dimension == 3 ? "volume" : "surface";
   std::vector<std::pair<std::string, std::vector<int>>> result;
   GmshEntities physical;
   gmsh::model::getPhysicalGroups(physical, dimension);
+  std::map<int, std::vector<int>> entities = entities_of_groups(dimension);
   for (const auto& group : physical) {
     std::string name;
-    std::vector<int> entities;
     gmsh::model::getPhysicalName(dimension, group.second, name);
-    gmsh::model::getEntitiesForPhysicalGroup(dimension, group.second, entities);
-    result.emplace_back(name.empty() ? word + std::to_string(group.second) : name, entities);
+    result.emplace_back(name.empty() ? word + std::to_string(group.second) : name, entities[group.second]);
   }
   if (physical.empty())
     for (const int tag : gmsh_tags(dimension)) result.push_back({word + std::to_string(tag), {tag}});

@@ -5,6 +5,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
+#include <set>
+#include <tuple>
 
 #include "base/overloaded.hpp"
 #include "law/law.hpp"
@@ -69,17 +71,19 @@ int common_direction(const PrescribedMotion& a, const PrescribedMotion& b) {
   return -1;
 }
 
+constexpr const char* in_one = "give their sum in one load; a history may be a function(t)";
+
 // Two loads of a step. A value given twice: which would the next step start from? A motion, a bolt: who is to decide?
 class Competition {
  public:
   Competition(const Problem& problem, const Step& step, const Load& a, const Load& b)
-      : problem_(problem), who_("step '" + step.name + "': "), a_(a), b_(b) {}
+      : problem_(problem), step_(step), a_(a), b_(b) {}
 
-  void check() const {
-    for (const Effect& of_a : a_.effects())
-      for (const Effect& of_b : b_.effects())
+  void check(const std::vector<Effect>& effects_of_a, const std::vector<Effect>& effects_of_b) const {
+    for (const Effect& of_a : effects_of_a)
+      for (const Effect& of_b : effects_of_b)
         std::visit(
-            overloaded{[&](const NodalForces& a) { meet(a, of_b); }, [&](const BodyForce& a) { meet(a, of_b); },
+            overloaded{[](const NodalForces&) {}, [&](const BodyForce& a) { meet(a, of_b); },
                        [&](const PrescribedMotion& a) { meet(a, of_b); }, [&](const BaseMotion& a) { meet(a, of_b); },
                        [&](const Tightening&) { meet_at_bolt(of_a, of_b); },
                        [&](const Release&) { meet_at_bolt(of_a, of_b); }},
@@ -87,12 +91,6 @@ class Competition {
   }
 
  private:
-  void meet(const NodalForces& a, const Effect& other) const {
-    const auto* b = std::get_if<NodalForces>(&other);
-    if (b && a.name == b->name && same_target(target_of(a.on), target_of(b->on)))
-      twice(" on " + describe(target_of(b->on)));
-  }
-
   void meet(const BodyForce& a, const Effect& other) const {
     const auto* b = std::get_if<BodyForce>(&other);
     if (b && a.name == b->name) twice("");
@@ -103,7 +101,7 @@ class Competition {
     const int d = b ? common_direction(a, *b) : -1;
     if (d < 0 || !one_in_other(a.on, b->on)) return;
     fail(problem_, b_.origin,
-         who_ + a_.path + " and " + b_.path + " both prescribe the motion of " + describe(target_of(b->on)) +
+         who() + a_.path + " and " + b_.path + " both prescribe the motion of " + describe(target_of(b->on)) +
              " along " + "xyz"[d]);
   }
 
@@ -119,20 +117,36 @@ class Competition {
     if (a.index() == b.index())
       twice(" on " + describe(*bolt), is_force ? "one force per step: apply the other in a separate step" : in_one);
     if (is_force)
-      fail(problem_, b_.origin, who_ + a_.path + " and " + b_.path + " are both on " + describe(*bolt),
+      fail(problem_, b_.origin, who() + a_.path + " and " + b_.path + " are both on " + describe(*bolt),
            "a preload finds the shortening for its force: keep one of the two, or apply them in separate steps");
   }
 
   [[noreturn]] void twice(const std::string& where, const std::string& hint = in_one) const {
-    fail(problem_, b_.origin, who_ + "two " + b_.path + where, hint);
+    fail(problem_, b_.origin, who() + "two " + b_.path + where, hint);
   }
 
-  static constexpr const char* in_one = "give their sum in one load; a history may be a function(t)";
+  std::string who() const { return "step '" + step_.name + "': "; }
 
   const Problem& problem_;
-  std::string who_;
+  const Step& step_;
   const Load& a_;
   const Load& b_;
+};
+
+// Forces of a step at nodes, by name and place: thousands of faces are not compared in pairs.
+class ForcesOnNodes {
+ public:
+  void add(const Problem& problem, const Step& step, const Load& load, const std::vector<Effect>& effects) {
+    for (const Effect& effect : effects) {
+      const auto* forces = std::get_if<NodalForces>(&effect);
+      if (!forces || taken_.emplace(forces->name, &part_of(forces->on), nodes_at(forces->on)).second) continue;
+      fail(problem, load.origin,
+           "step '" + step.name + "': two " + load.path + " on " + describe(target_of(forces->on)), in_one);
+    }
+  }
+
+ private:
+  std::set<std::tuple<std::string, const Substructure*, std::vector<int>>> taken_;
 };
 
 // Mean outward normal of a face.
@@ -316,15 +330,19 @@ void superelements_feel(const Problem& problem, const Load& load) {
 
 void loads(const Problem& problem) {
   for (const StepPtr& step : problem.steps) {
+    std::vector<std::vector<Effect>> effects;
+    ForcesOnNodes forces;
     for (size_t i = 0; i < step->loads.size(); ++i) {
       const Load& load = *step->loads[i];
       targets_fit(problem, *step, load);
       fits_step(problem, *step, load);
+      effects.push_back(load.effects());
       for (size_t j = 0; j < i; ++j) {
         if (step->loads[j] == step->loads[i])
           fail(problem, load.origin, "step '" + step->name + "': one " + load.path + " is listed twice");
-        Competition(problem, *step, *step->loads[j], load).check();
+        Competition(problem, *step, *step->loads[j], load).check(effects[j], effects[i]);
       }
+      forces.add(problem, *step, load, effects.back());
       supports_leave_motions_free(problem, *step, load);
       supports_follow(problem, load);
       superelements_feel(problem, load);

@@ -35,6 +35,21 @@ Mat start(Eigen::Index size, Eigen::Index n) {
   return x;
 }
 
+// Inverse iteration of the columns of x to the space that the sweeps change no more; false where they still do: pairs
+// on both sides of the limit lie close to each other.
+bool settle(const Ldlt& above, Mat& x) {
+  constexpr int least = 6, most = 200;
+  constexpr double settled = 1e-12;
+  double change = 1.0;
+  for (int sweep = 0; sweep < most && (sweep < least || change > settled); ++sweep) {
+    const Mat y = above.solve(x);
+    const Mat next = Eigen::HouseholderQR<Mat>(y).householderQ() * Mat::Identity(x.rows(), x.cols());
+    change = (next - x * (x.transpose() * next)).norm();
+    x = next;
+  }
+  return change <= 1e-6;
+}
+
 }  // namespace
 
 EigenPairs pairs_below(const SparseMatrix& a, double limit) {
@@ -47,10 +62,7 @@ EigenPairs pairs_below(const SparseMatrix& a, double limit) {
   const Ldlt above(shifted(a, limit));
   if (above.info() != Eigen::Success || 2 * n > size) return dense_pairs(a, limit);
   Mat x = start(size, n);
-  for (int sweep = 0; sweep < 6; ++sweep) {
-    const Mat y = above.solve(x);
-    x = Eigen::HouseholderQR<Mat>(y).householderQ() * Mat::Identity(size, n);
-  }
+  if (!settle(above, x)) return dense_pairs(a, limit);
   const Mat ax = ColumnMatrix(a) * x;
   const EigenPairs small_pairs = symmetric_eigen(x.transpose() * ax);
   if (small_pairs.values[n - 1] >= limit) return dense_pairs(a, limit);

@@ -63,6 +63,9 @@ std::string verdict_text(const Json& record) {
     return fmt::format("Converged: {} reached {}.",
                        increments == 1.0 ? "the one increment" : fmt::format("all {} increments", increments),
                        tolerance.empty() ? "what the solver asks for" : "the tolerance of " + tolerance);
+  if (steps_that_missed(record).empty())
+    return "NOT to be relied on: the energy balance is open, although every increment has converged. Use a smaller "
+           "tolerance or smaller increments; if that does not close it, please report the deck.";
   return fmt::format(
       "NOT converged: {} missed the tolerance{}. Do not rely on later results until these increments converge: use "
       "more iterations, a smaller dt or more static increments.",

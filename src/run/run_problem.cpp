@@ -22,6 +22,7 @@
 #include "reduction/lumped_inertia.hpp"
 #include "reference/explicit.hpp"
 #include "reference/monolithic.hpp"
+#include "result/limits.hpp"
 #include "run/checkpoints.hpp"
 #include "run/earlier_run.hpp"
 #include "run/frame_files.hpp"
@@ -67,6 +68,12 @@ void summarise(const Problem& problem, const SolverFigures& figures, RunResult& 
   static_cast<OwnFigures&>(result.figures) = figures.own;
   result.figures.factor_memory = figures.factor_bytes / 1e6;
   result.figures.gap_difference = figures.gap_difference;
+}
+
+// A balance that is open by this much makes every figure doubtful, though each increment has converged.
+bool can_be_relied_on(const Figures& figures) {
+  return std::max(figures.energy_imbalance.value_or(0.0), figures.static_imbalance.value_or(0.0)) <=
+         limit::energy_lost_sight_of;
 }
 
 // What is not lumped of explicit substructures.
@@ -180,6 +187,7 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const Given& given, Fra
   if (!ranks::is_first()) return result;
   summarise(problem, figures, *result);
   collector.finish(*result);
+  result->converged &= can_be_relied_on(result->figures);
   watch.finish();
   return result;
 }

@@ -163,3 +163,13 @@ if(NOT tables OR half)
   message(SEND_ERROR "a full disk left tables '${tables}' and half a file '${half}'")
 endif()
 file(REMOVE_RECURSE ${out})
+
+# Each increment has converged to what was asked, and the energy balance says that it is no answer.
+expect(1 run ${CMAKE_CURRENT_LIST_DIR}/loose_row.lua --quiet --no-state --out ${out})
+file(READ ${out}/row/base/run.json record)
+file(READ ${out}/row/base/report.html page)
+if(NOT err MATCHES "balance is open by 2[0-9]" OR NOT record MATCHES "\"verdict\": \"not converged\"" OR
+   NOT page MATCHES "NOT to be relied on: the energy balance is open")
+  message(SEND_ERROR "an open balance: ${err}")
+endif()
+file(REMOVE_RECURSE ${out})

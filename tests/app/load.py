@@ -1,6 +1,6 @@
 """Runs that are long, wide, large or many: memory, open files and time over the run, and what is there to read meanwhile.
 
-load.py PROGRAM [--only steps,frames,substructures,unknowns,problems] [--small]
+load.py PROGRAM [--only steps,frames,substructures,sheet,faces,unknowns,problems] [--small]
 
 Each load is compared with a smaller one of its kind: what grows faster than it may is a failure. --small takes seconds
 (each change), without it minutes (before a release).
@@ -92,6 +92,39 @@ for i = 1, p.n do
     steps = { step.dynamic{ name = "s", duration = 20*us, dt = 1*us, loads = { load.pressure{ on = t:face "zmax", history = (1 + i)*MPa } } } },
     outputs = { output.energy{}, output.joint{ name = "joint", on = seam }, output.vtk{ frames = 4 } } }:run{}
 end
+"""
+
+# Blocks in a square of side x side, bonded to their neighbours one by one.
+SHEET = """
+local p = param{ side = 10 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local cube = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 1, 1, 1 } }
+local blocks, seams, held = {}, {}, {}
+local function bond(a, b) seams[#seams + 1] = interface.bonded{ name = "seam " .. #seams, between = { a, b } } end
+for i = 1, p.side do
+  blocks[i] = {}
+  for j = 1, p.side do
+    blocks[i][j] = substructure{ name = ("block %d %d"):format(i, j), material = steel, mesh = cube, place = { (10 * i)*mm, (10 * j)*mm, 0 } }
+    if i > 1 then bond(blocks[i - 1][j]:face "xmax", blocks[i][j]:face "xmin") end
+    if j > 1 then bond(blocks[i][j - 1]:face "ymax", blocks[i][j]:face "ymin") end
+  end
+  held[i] = blocks[i][1]:face "ymin"
+end
+local all = {}
+for _, row in ipairs(blocks) do for _, block in ipairs(row) do all[#all + 1] = block end end
+problem{ name = "load", substructures = all, interfaces = seams, supports = { support.fixed{ name = "edge", on = held } },
+  steps = { step.static{ name = "press", loads = { load.pressure{ on = all[#all]:face "zmax", history = 3*MPa } } } } }:run{}
+"""
+
+# A strip of n cells, each with a named face on its top, and a pressure on each of them.
+FACES = """
+local p = param{ n = 100 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local strip = substructure{ name = "strip", material = steel, mesh = mesh.gmsh{ file = "strip" .. p.n .. ".msh" }:volume "body" }
+local loads = {}
+for i = 1, p.n do loads[i] = load.pressure{ on = strip:face("top" .. i), history = 1*kPa } end
+problem{ name = "load", substructures = { strip }, supports = { support.fixed{ name = "floor", on = strip:face "bottom" } },
+  steps = { step.static{ name = "press", loads = loads } } }:run{}
 """
 
 
@@ -197,6 +230,43 @@ def unknowns(program, small):
     at_most("processor time of twice as many unknowns, over that of one", many.seconds / few.seconds, 4)
 
 
+def sheet(program, small):
+    side = 20 if small else 54
+    few, many = Watched(program, SHEET, side=side // 2), Watched(program, SHEET, side=side)
+    at_most("processor time of four times as many parts, over that of one", many.seconds / few.seconds, 8)
+    at_most("memory of four times as many parts, over that of one", many.largest / few.largest, 6)
+
+
+def strip(n):
+    """A mesh of n cubes in a row whose upper faces have names of their own."""
+
+    def node(i, j, k):
+        return 1 + 4 * i + 2 * j + k
+
+    def square(name, *nodes):
+        return [2, 3, name, *nodes]
+
+    elements = [square(i + 1, node(i, 0, 1), node(i + 1, 0, 1), node(i + 1, 1, 1), node(i, 1, 1)) for i in range(n)]
+    elements += [square(n + 1, node(i, 0, 0), node(i, 1, 0), node(i + 1, 1, 0), node(i + 1, 0, 0)) for i in range(n)]
+    elements += [[3, 5, n + 2] + [node(i + di, j, k) for k in (0, 1) for di, j in ((0, 0), (1, 0), (1, 1), (0, 1))] for i in range(n)]
+    names = [f'2 {i + 1} "top{i + 1}"' for i in range(n)] + [f'2 {n + 1} "bottom"', f'3 {n + 2} "body"']
+    nodes = [f"{node(i, j, k)} {i * 0.01} {j * 0.01} {k * 0.01}" for i in range(n + 1) for j in (0, 1) for k in (0, 1)]
+    cells = [f"{number + 1} {kind} 2 {name} {name} {' '.join(map(str, of))}" for number, (_, kind, name, *of) in enumerate(elements)]
+    sections = {"MeshFormat": ["2.2 0 8"], "PhysicalNames": [str(len(names)), *names], "Nodes": [str(len(nodes)), *nodes],
+                "Elements": [str(len(cells)), *cells]}
+    text = "".join(f"${title}\n" + "\n".join(lines) + f"\n$End{title}\n" for title, lines in sections.items())
+    (FOLDER / f"strip{n}.msh").write_text(text)
+
+
+def faces(program, small):
+    n = 1200 if small else 5000
+    for size in (n // 4, n):
+        strip(size)
+    few, many = Watched(program, FACES, n=n // 4), Watched(program, FACES, n=n)
+    at_most("processor time of four times as many named faces and loads, over that of one", many.seconds / few.seconds, 8)
+    at_most("memory of four times as many named faces, over that of one", many.largest / few.largest, 6)
+
+
 def problems(program, small):
     n = 20 if small else 100
     few, many = Watched(program, PROBLEMS, n=n // 5), Watched(program, PROBLEMS, n=n)
@@ -208,7 +278,7 @@ def problems(program, small):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
-    parser.add_argument("--only", default="steps,frames,substructures,unknowns,problems")
+    parser.add_argument("--only", default="steps,frames,substructures,sheet,faces,unknowns,problems")
     parser.add_argument("--small", action="store_true")
     asked = parser.parse_args()
     for name in asked.only.split(","):

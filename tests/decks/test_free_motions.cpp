@@ -52,6 +52,26 @@ problem{ name = "on_wall", substructures = parts, interfaces = { seam }, support
               moved("low", low:where(function() return true end)), moved("high", high:where(function() return true end)) } }:run{}
 )";
 
+// A row of bonded blocks, held at one end and pulled at the other: so long that it bends under next to nothing.
+TEST(FreeMotion, of_a_long_row_of_bonded_blocks_is_none_and_it_stretches_by_hooke) {
+  const std::string row = R"(
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0, density = 7800 }
+local cube = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 1, 1, 1 } }
+local parts, seams = {}, {}
+for i = 1, 700 do
+  parts[i] = substructure{ name = "p" .. i, mesh = cube, material = steel, place = { (i - 1)*10*mm, 0, 0 } }
+  if i > 1 then seams[i - 1] = interface.bonded{ name = "seam" .. i, between = { parts[i - 1]:face "xmax", parts[i]:face "xmin" } } end
+end
+problem{ name = "row", substructures = parts, interfaces = seams, supports = { support.fixed{ name = "end", on = parts[1]:face "xmin" } },
+  steps = { step.static{ name = "pull", loads = { load.pressure{ on = parts[#parts]:face "xmax", history = -1*MPa } } } },
+  outputs = { output.history{ name = "tip", on = parts[#parts]:face "xmax", quantity = "displacement" } } }:run{}
+)";
+  const auto [run, warned] = heard(row, {}, solvers[1]);
+  EXPECT_EQ(warned.find("unconstrained"), std::string::npos) << warned;
+  EXPECT_EQ(warned.find("balance"), std::string::npos) << warned;
+  EXPECT_NEAR(last(run, "tip")[0], 1e6 * 7.0 / 210e9, 1e-6 * 1e6 * 7.0 / 210e9);
+}
+
 TEST(FreeMotion, left_free_is_the_same_wherever_it_is_and_however_it_is_described) {
   const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(1, 2, -0.5).normalized()).toRotationMatrix();
   const DeckRun right = run_text(on_wall, {}, 1, solvers[0])[0];

@@ -315,6 +315,15 @@ TEST(JointMap, does_not_lay_a_tube_flat) {
   EXPECT_FALSE(make_joint_map(tube).is_flat);
 }
 
+// Each cube keeps its facets however coarse the picture: it ends, with more than were asked for.
+TEST(Picture, of_more_parts_than_facets_are_wanted_is_made_all_the_same) {
+  std::vector<SubstructurePtr> parts;
+  for (int i = 0; i < 7; ++i)
+    for (int j = 0; j < 7; ++j) parts.push_back(box(2, 1.0, Vec3(1.5 * i, 1.5 * j, 0.0)));
+  const Picture picture = picture_of(parts, 60);
+  for (int part = 0; part < 49; ++part) EXPECT_GT(of_part(picture, part), 0) << part;
+}
+
 TEST(JointMap, tells_the_state_of_most_points_and_the_more_severe_of_equals) {
   EXPECT_EQ(state_of_cell({0, 1, 1, 2}, {0, 1, 2, 3}), 1);
   EXPECT_EQ(state_of_cell({0, 1, 2}, {1, 2}), 2);

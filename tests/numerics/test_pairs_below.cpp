@@ -1,6 +1,9 @@
 // Free motions of many bodies: what a sparse factor counts and finds, a dense solution has too.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "numerics/pairs_below.hpp"
 
 namespace dygita {
@@ -41,6 +44,16 @@ TEST(PairsBelow, are_one_a_chain_that_nothing_holds_and_span_what_the_dense_ones
     const Mat dense = symmetric_eigen(Mat(a)).vectors.leftCols(n / 50);
     EXPECT_NEAR((dense.transpose() * pairs.vectors).norm(), std::sqrt(n / 50), 1e-9);  // the same space
   }
+}
+
+// The chain's own vibrations lie on both sides of the limit: the slowest to settle.
+TEST(PairsBelow, are_found_where_others_lie_just_above_the_limit) {
+  const SparseMatrix a = chains(700, 700, false);
+  const auto exact = [](int k) { return 2.0 - 2.0 * std::cos(k * std::numbers::pi / 700); };
+  const EigenPairs pairs = pairs_below(a, 0.5 * (exact(2) + exact(3)));
+  ASSERT_EQ(pairs.values.size(), 3);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(pairs.values[k], exact(k), 1e-12);
+  EXPECT_LT((a * pairs.vectors - pairs.vectors * pairs.values.asDiagonal()).norm(), 1e-10);
 }
 
 }  // namespace
