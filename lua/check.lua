@@ -3,6 +3,8 @@
 local native = ...
 local placement = native.module "placement"
 local bolts = native.module "bolts"
+local frames = native.module "frames"
+local interfaces = native.module "interfaces"
 local check = {}
 
 local hints = {
@@ -10,6 +12,7 @@ local hints = {
   region = "a region is part:where(function(x, y, z) return boolean end)",
   bolt = "a bolt is made of parts and interfaces: bolt.parts, bolt.interfaces, bolt.shank",
   mesh = 'a mesh is mesh.box{ ... } or file:volume "name"',
+  frame = "a frame is frame{ origin = ..., axis = ..., x = ... }",
 }
 
 local function message(call, text, hint) return call.path .. ": " .. text .. (hint and "\n    " .. hint or "") end
@@ -24,6 +27,7 @@ local function describe(value)
     return article(is_own_kind and path or kind) .. (name ~= "" and " '" .. name .. "'" or "")
   end
   if bolts.is_bolt(value) then return ("a bolt '%s'"):format(value.name) end
+  if frames.is_frame(value) then return "a frame" end
   if type(value) == "number" then return ("the number %g"):format(value) end
   if type(value) == "string" then return ('the text "%s"'):format(value) end
   if type(value) == "boolean" then return tostring(value) end
@@ -57,6 +61,10 @@ local function check_number(call, argument, value, label)
   end
   return value
 end
+
+-- A table of named members, not a list.
+local function is_named(value) return type(value) == "table" and type(next(value)) == "string" end
+local function is_list(value) return type(value) == "table" and not native.kind(value) and not bolts.is_bolt(value) and not frames.is_frame(value) end
 
 -- A list without holes of at most `limit` items.
 local function check_list(call, value, label, wanted)
@@ -115,6 +123,39 @@ local function check_name(call, _, value, label)
 end
 
 local types = { name = check_name, object = check_object }
+
+function types.frame(call, _, value, label)
+  if not frames.is_frame(value) then wrong_type(call, label, "a frame", value, hints.frame) end
+  return value
+end
+
+-- Directions by name: some of the axes, as "xyz", or named vectors. Answers a list of { name, vector }.
+function types.directions(call, _, value, label)
+  local list = {}
+  if type(value) == "string" then
+    local axes = { x = { 1, 0, 0 }, y = { 0, 1, 0 }, z = { 0, 0, 1 } }
+    for letter in value:gmatch "." do
+      if not axes[letter] then
+        fail(call, ("'%s' = \"%s\" is unknown"):format(label, value), 'it is some of the axes, as "xyz" or "xz", or named directions, { axial = { 0, 0, 1 } }')
+      end
+      list[#list + 1], axes[letter] = { letter, axes[letter] }, nil
+    end
+    return list
+  end
+  if not is_named(value) then wrong_type(call, label, 'axes as "xyz", or named directions { axial = { 0, 0, 1 } }', value) end
+  local names = {}
+  for name in pairs(value) do names[#names + 1] = check_name(call, nil, name, label) end
+  table.sort(names)
+  for i, name in ipairs(names) do list[i] = { name, types.vector(call, {}, value[name], label .. "." .. name) } end
+  return list
+end
+
+-- By the names of directions, what an argument may also say for all.
+local function by_name(call, argument, value, label)
+  local checked = {}
+  for name, one in pairs(value) do checked[name] = types[argument.type](call, argument, one, label .. "." .. tostring(name)) end
+  return { by_name = checked }
+end
 
 function types.number(call, argument, value, label)
   if argument.or_table and type(value) == "table" then
@@ -337,7 +378,19 @@ function types.table(call, argument, value, label)
   return check.arguments(call, argument.fields, value, label .. ".")
 end
 
--- Two sides of an interface, or a word for all.
+-- A side of several interfaces: parts by name, or a list.
+local function parts_of(call, value, label)
+  local list = types.objects(call, { kinds = { "substructure" }, at_least = 1, or_single = true, or_names = true }, value, label)
+  return list
+end
+
+-- Does `between` say more than two faces or parts: a word for all, names, lists?
+local function is_of_many(value)
+  if not is_list(value) then return type(value) == "string" end
+  return type(value[1]) == "string" or type(value[2]) == "string" or is_list(value[1]) or is_list(value[2])
+end
+
+-- Two sides of an interface; two lists of parts, side by side; or a word for all.
 function types.between(call, argument, value, label)
   if argument.or_word and value == argument.or_word then return value end
   local wanted = "two faces or parts { one, other }" .. (argument.or_word and (' or "%s"'):format(argument.or_word) or "")
@@ -347,6 +400,10 @@ function types.between(call, argument, value, label)
   if type(value) ~= "table" then wrong_type(call, label, wanted, value, hints.face) end
   local n = check_list(call, value, label, wanted)
   if n ~= 2 then fail(call, ("'%s' must be %s, got %d of them"):format(label, wanted, n), hints.face) end
+  local has_face = native.kind(value[1]) == "face" or native.kind(value[2]) == "face"
+  if argument.or_word and is_of_many(value) and not has_face then
+    return { parts_of(call, value[1], label .. "[1]"), parts_of(call, value[2], label .. "[2]"), are_lists = true }
+  end
   for i = 1, 2 do check_object(call, argument, value[i], ("%s[%d]"):format(label, i)) end
   if value[1] == value[2] then
     fail(call, ("'%s' has %s twice: an interface joins two parts"):format(label, describe(value[1])))
@@ -359,12 +416,18 @@ function types.except(call, _, value, label)
   local items, n = {}, check_list(call, value, label, "a list of parts, pairs of parts and interfaces")
   for i = 1, n do
     local item, place = value[i], ("%s[%d]"):format(label, i)
-    if type(item) ~= "table" and not native.kind(item) then
+    if type(item) == "string" then
+      table.move(parts_of(call, item, place), 1, #parts_of(call, item, place), #items + 1, items)
+    elseif type(item) ~= "table" and not native.kind(item) then
       wrong_type(call, place, "a substructure, a pair of them { one, other }, or an interface", item)
     elseif native.kind(item) then
-      items[i] = check_object(call, { kinds = { "substructure", "interface" } }, item, place)
+      items[#items + 1] = check_object(call, { kinds = { "substructure", "interface" } }, item, place)
+    elseif #item == 2 and is_of_many(item) then
+      for _, one in ipairs(parts_of(call, item[1], place .. "[1]")) do
+        for _, other in ipairs(parts_of(call, item[2], place .. "[2]")) do items[#items + 1] = { one, other } end
+      end
     else
-      items[i] = types.objects(call, { kinds = { "substructure" }, exactly = 2 }, item, place)
+      items[#items + 1] = types.objects(call, { kinds = { "substructure" }, exactly = 2 }, item, place)
     end
   end
   return items
@@ -385,8 +448,27 @@ local function flattened(call, value, n, label, what)
   return flat
 end
 
+-- With the parts in the place of names and patterns, each once.
+local function with_named(call, value, label)
+  local list, is_there = {}, {}
+  for _, item in ipairs(value) do is_there[item] = true end
+  for i, item in ipairs(value) do
+    if type(item) ~= "string" then list[#list + 1] = item end
+    for _, part in ipairs(type(item) == "string" and interfaces.named(item) or {}) do
+      if not is_there[part] then list[#list + 1], is_there[part] = part, true end
+    end
+    if type(item) == "string" and #interfaces.named(item) == 0 then
+      local known = interfaces.names()
+      fail(call, ("'%s': no part declared before is called \"%s\""):format(#value > 1 and ("%s[%d]"):format(label, i) or label, item),
+        #known > 0 and native.did_you_mean(item, known) .. "; * stands for any text" or "parts are declared before they are named")
+    end
+  end
+  return list
+end
+
 function types.objects(call, argument, value, label)
   local what = one_of(argument.kinds)
+  if argument.or_names and type(value) == "string" then value = { value } end
   if bolts.is_bolt(value) then wrong_type(call, label, one_of(argument.kinds, true), value, hints.bolt) end
   if native.kind(value) and argument.or_single then return { check_object(call, argument, value, label) } end
   if type(value) ~= "table" and argument.or_single then
@@ -394,6 +476,7 @@ function types.objects(call, argument, value, label)
   end
   local of_what = ("a list { ... } of %ss"):format(what)
   value = flattened(call, value, check_list(call, value, label, of_what), label, of_what)
+  if argument.or_names then value = with_named(call, value, label) end
   local n = #value
   if argument.exactly and n ~= argument.exactly then
     fail(call, ("'%s' must be %d %ss, got %d"):format(label, argument.exactly, what, n), hints[argument.kinds[1]])
@@ -441,7 +524,7 @@ end
 -- Is what is required elsewhere left out, given what another argument says?
 local function is_excused(argument, given)
   local unless = argument.required_unless
-  return unless and type(given[unless[1]]) == "string"
+  return unless and is_of_many(given[unless[1]])
 end
 
 -- The checked copy of `given`, defaults filled in.
@@ -455,7 +538,8 @@ function check.arguments(call, arguments, given, prefix)
       if argument.with and given[argument.with] == nil then
         fail(call, ("'%s%s' needs '%s'"):format(prefix, key, argument.with), argument.doc)
       end
-      checked[key] = types[argument.type](call, argument, value, prefix .. key)
+      local one = argument.by_direction and is_named(value) and by_name or types[argument.type]
+      checked[key] = one(call, argument, value, prefix .. key)
     elseif argument.required and not is_excused(argument, given) then
       fail(call, ("'%s%s' is missing"):format(prefix, key), of_unit(key, argument.unit) .. ": " .. argument.doc)
     else
@@ -478,6 +562,7 @@ function check.call(entry, line, ...)
     for _, key in ipairs(entry.one_of) do is_given = is_given or checked[key] ~= nil end
     if not is_given then fail(call, "give at least one of " .. table.concat(entry.one_of, ", ")) end
   end
+  if checked.frame and entry.makes ~= "frame" then frames.apply(entry, checked, line) end
   return checked
 end
 

@@ -26,6 +26,7 @@ local plain = {
   number = "number", integer = "integer", boolean = "boolean", name = "string", text = "string", file = "string",
   vector = "dygita.vector", counts = "dygita.counts", numbers = "number[]", texts = "string|string[]", settings = "table<string, number>",
   specification = "string|number[][]", pairs = "number[][]", value = "dygita.value", ["function"] = "fun(x: number, y: number, z: number): boolean?",
+  frame = "dygita.frame", directions = "string|table<string, dygita.vector>", table = "table<string, dygita.output>",
 }
 
 local type_of
@@ -38,6 +39,7 @@ end
 
 function type_of(a)
   local text = plain[a.type]
+  if a.type == "table" then text = nil end
   if a.type == "choice" then text = union(a.choices, function(word) return ('"%s"'):format(word) end) end
   if a.type == "choices" then text = grouped(union(a.choices, function(word) return ('"%s"'):format(word) end)) .. "[]" end
   if a.type == "table" or a.type == "compliance" then text = inline_table(a.fields) end
@@ -46,14 +48,16 @@ function type_of(a)
     text = "[dygita.vector, dygita.vector]|(fun(x: number, y: number, z: number): dygita.vector, dygita.vector)|" .. inline_table(a.fields)
   end
   if a.kinds then
-    local one = union(a.kinds, class_of)
+    local one = union(a.kinds, class_of) .. (a.or_names and "|string" or "")
     if a.type == "object" then text = one
     elseif a.type == "except" then text = ("(%s|[%s, %s])[]"):format(one, class_of "substructure", class_of "substructure")
     elseif a.exactly then text = "[" .. (one .. ", "):rep(a.exactly - 1) .. one .. "]"
     else text = grouped(one) .. "[]" end
-    if a.or_single then text = one .. "|" .. text end
+    if a.or_single or a.or_names then text = one .. "|" .. text end
+    if a.type == "between" and a.or_word then text = text .. ("|[string|%s|%s[], string|%s|%s[]]"):format(class_of "substructure", class_of "substructure", class_of "substructure", class_of "substructure") end
   end
   assert(text, "lua/definitions.lua knows no type '" .. tostring(a.type) .. "'")
+  if a.by_direction then text = ("%s|table<string, %s>"):format(text, text) end
   if a.or_word then text = ('%s|"%s"'):format(text, a.or_word) end
   if a.or_function then text = text .. "|(fun(x: number, y: number, z: number): number)" end
   if a.or_table then text = text .. "|" .. inline_table(a.or_table) end
@@ -106,11 +110,14 @@ local function put_constructor(path, entry)
   put ""
   if not entry.expands then
     put("---@class %s%s %s", made, made:find(":", 1, true) and "," or ":", arguments_of(path))
+    if path == entry.makes then
+      for _, field in ipairs(schema.fields[path] or {}) do put("---@field %s %s # %s", field[1], plain[field.kind], field.doc) end
+    end
     put ""
   end
   put_doc(entry)
   put("---@param arguments%s %s", needs_argument(entry.arguments) and "" or "?", arguments_of(path))
-  put("---@return %s", entry.expands and class_of "substructure" .. "[]|" .. class_of "list of bolts" or class_of(path))
+  put("---@return %s", entry.expands and class_of "substructure" .. "[]|" .. class_of "list of bolts" or class_of(path) .. (entry.or_list and "|" .. class_of(entry.or_list) or ""))
   put("function %s(arguments) end\n", path)
 end
 
@@ -145,6 +152,7 @@ local function put_kinds()
     end
   end
   add "list of bolts"
+  add "list of spectra"
   for _, entry in ipairs(schema.methods) do
     add(entry.kind)
     if entry.makes then add(entry.makes) end
@@ -152,7 +160,7 @@ local function put_kinds()
   for _, kind in ipairs(known) do
     if kind ~= "result" and kind ~= "history" then put("---@class %s", class_of(kind)) end
     for _, field in ipairs(schema.fields[kind] or {}) do
-      put("---@field %s %s # %s", field[1], (field.kind == "number" or field.kind == "text") and plain[field.kind] or class_of(field.kind) .. (field.is_list and "[]" or ""), field.doc)
+      put("---@field %s %s # %s", field[1], plain[field.kind] or class_of(field.kind) .. (field.is_list and "[]" or ""), field.doc)
     end
     if kind ~= "result" and kind ~= "history" then put "" end
   end

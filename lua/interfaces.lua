@@ -32,6 +32,21 @@ end
 
 local function name_of(object) return (select(3, native.kind(object))) end
 
+-- The parts declared so far whose names fit; * stands for any text.
+function interfaces.named(pattern)
+  local fits, list = "^" .. pattern:gsub("[%^%$%(%)%%%.%[%]%+%-%?]", "%%%0"):gsub("%*", ".*") .. "$", {}
+  for _, part in ipairs(parts) do
+    if name_of(part):find(fits) then list[#list + 1] = part end
+  end
+  return list
+end
+
+function interfaces.names()
+  local names = {}
+  for i, part in ipairs(parts) do names[i] = name_of(part) end
+  return names
+end
+
 -- The answer to "all touching": a list whose interfaces are found by name, too.
 local named = {}
 function named.__index(list, key)
@@ -68,16 +83,41 @@ local function exceptions(given, among)
   end
 end
 
+-- Of the sides { one, other }, lists of parts: all of them in the order of the deck, and which pairs are asked for, with
+-- the part of the first side first.
+local function side_by_side(sides)
+  local is_on, among = { {}, {} }, {}
+  for i = 1, 2 do
+    for _, part in ipairs(sides[i]) do is_on[i][part] = true end
+  end
+  for _, part in ipairs(parts) do
+    if is_on[1][part] or is_on[2][part] then among[#among + 1] = part end
+  end
+  return among, function(one, other)
+    if is_on[1][one] and is_on[2][other] then return true, false end
+    return is_on[1][other] and is_on[2][one], true
+  end
+end
+
 local function declare_all(entry, given, line)
-  local among = given.of or parts
+  local among, asked = given.of or parts, function() return true, false end
+  local what = ("\"%s\""):format(all)
+  if given.between ~= all then
+    among, asked = side_by_side(given.between)
+    what = ("between %d and %d parts"):format(#given.between[1], #given.between[2])
+  end
   if #among < 2 then fail(entry, line, ("\"%s\" finds interfaces among parts, and %d are declared before"):format(all, #among)) end
   local is_left, left = exceptions(given, among), {}
   local list, lines, joined = setmetatable({}, named), {}, {}
   for _, pair in ipairs(native.touching(among, declared, given.within or 0, line)) do
     local one, other = among[pair[1]], among[pair[2]]
+    local is_asked, is_other_way = asked(one, other)
+    if is_other_way then one, other, pair.face_1, pair.face_2 = other, one, pair.face_2, pair.face_1 end
     joined[one], joined[other] = true, true
     local name = name_of(one) .. "/" .. name_of(other)
-    if is_left(one, other) then
+    if not is_asked then
+      -- of one side both
+    elseif is_left(one, other) then
       left[#left + 1] = name
     else
       local copy = {}
@@ -96,10 +136,10 @@ local function declare_all(entry, given, line)
     end
   end
   if #list == 0 then
-    fail(entry, line, ("no two of %d parts touch where they have no interface yet"):format(#among),
+    fail(entry, line, ("no two of %d parts touch where they have no interface yet"):format(#among) .. (given.between ~= all and ", one of each side" or ""),
       "'within' sets how far apart touching faces may be; overlapping parts do not touch: dygita check reports them")
   end
-  if not given.of then
+  if not given.of and given.between == all then
     for _, interface in ipairs(declared) do
       for _, part in ipairs{ native.sides(interface, among) } do joined[part] = true end
     end
@@ -109,7 +149,7 @@ local function declare_all(entry, given, line)
       end
     end
   end
-  native.say(("%s \"%s\": %d pairs of parts touch%s"):format(entry.path, all, #list,
+  native.say(("%s %s: %d pairs of parts touch%s"):format(entry.path, what, #list,
     #left > 0 and "; left alone: " .. table.concat(left, ", ") or ""))
   for _, text in ipairs(lines) do native.say(text) end
   for _, interface in ipairs(list) do
@@ -120,12 +160,14 @@ local function declare_all(entry, given, line)
 end
 
 function interfaces.declare(entry, given, line)
-  if given.between == all then
+  for _, key in ipairs(of_all) do
+    if given[key] and given.between ~= all and not (key == "except" and given.between.are_lists) then
+      fail(entry, line, ("'%s' goes with between = \"%s\""):format(key, all))
+    end
+  end
+  if given.between == all or given.between.are_lists then
     local list = declare_all(entry, given, line)
     return list
-  end
-  for _, key in ipairs(of_all) do
-    if given[key] then fail(entry, line, ("'%s' goes with between = \"%s\""):format(key, all)) end
   end
   local interface = native.make(entry.path, "interface", given, line)
   interfaces.note(interface)

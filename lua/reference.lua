@@ -11,9 +11,9 @@ local function number(x) return ("%g"):format(x) end
 local function type_of(argument)
   local names = { vector = "{ x, y, z }", placement = "{ x, y, z } or table", orientation = "{ axis1, axis2 }, function(x, y, z) or table", counts = "{ nx, ny, nz }", numbers = "list of numbers", name = "text",
                   settings = "table of numbers", compliance = "table", pairs = "list of pairs", specification = "file or list of { frequency, level }", value = "number, history or function(t)", integer = "whole number",
-                  choice = "text", choices = "list of texts" }
+                  choice = "text", choices = "list of texts", directions = "text, or { x, y, z } by name" }
   local text = names[argument.type] or argument.type
-  if argument.kinds then text = table.concat(argument.kinds, " or ") end
+  if argument.kinds then text = table.concat(argument.kinds, " or ") .. (argument.or_names and " or name" or "") end
   if argument.type == "numbers" and argument.or_single then return "number or list of numbers" end
   if argument.exactly then text = ("list of %d: %s"):format(argument.exactly, text)
   elseif argument.or_single then text = text .. ", or a list"
@@ -21,6 +21,7 @@ local function type_of(argument)
   if argument.or_function then text = text .. ", function(x, y, z)" end
   if argument.or_word then text = ('%s or "%s"'):format(text, argument.or_word) end
   if argument.or_table then text = text .. " or table" end
+  if argument.by_direction then text = text .. ", or by direction" end
   return text
 end
 
@@ -88,12 +89,12 @@ put "## param\n"
 put("`param{ mu = 0.2, n = 4 }` declares, once in a deck, the numbers that the command line may override: `--set mu=0.3`, "
   .. "`--set tighten=0.04*mm`. It returns them by name.\n")
 
-for _, kind in ipairs { "bolt", "list of bolts" } do
+for _, kind in ipairs { "bolt", "list of bolts", "frame" } do
   put("## What a %s has\n", kind)
   put "| written | kind | meaning |"
   put "| --- | --- | --- |"
   for _, field in ipairs(schema.fields[kind]) do
-    put("| `%s.%s` | %s | %s |", kind == "bolt" and "bolt" or "bolts", field[1], (field.is_list and "list of " or "") .. field.kind, field.doc)
+    put("| `%s.%s` | %s | %s |", kind == "list of bolts" and "bolts" or kind, field[1], (field.is_list and "list of " or "") .. field.kind, field.doc)
   end
   put ""
 end

@@ -24,6 +24,9 @@
 --   value                 a number, a history or a function of time
 --   between               two sides, each one of the `kinds`; `or_word`: a word allowed instead
 --   except                a list of parts, pairs of parts and interfaces
+--   directions            some of the axes, as "xyz", or vectors by name
+--   frame                 a frame: `in_frame` says of the other arguments what it turns them as
+-- `by_direction`: also a table by the names of directions; `or_names` (of objects): names of parts and patterns for them.
 --   object, objects       one of, or a list of, the `kinds`: a kind ("face") or a constructor ("interface.plastic");
 --                         of objects `at_least`, `exactly`; `or_single`: one alone needs no list; lists in the list count as their items
 
@@ -33,25 +36,28 @@ local function name_of(what)
   return { "name", type = "name", required = true, doc = "name of the " .. what .. ", for messages and files" }
 end
 
+local function frame(doc) return { "frame", type = "frame", default_doc = "the axes of the deck", doc = doc } end
+
 local function between(word)
   return { "between", type = "between", kinds = { "face", "substructure" }, exactly = 2, or_word = word, required = true,
            doc = "the two faces, or parts, of which the faces that touch are found; the first is side 1, on which resultants are counted"
-             .. (word and (". \"%s\": a list of interfaces, `first/second`, one for each two parts that touch where they have no interface yet"):format(word) or "") }
+             .. (word and (". \"%s\": a list of interfaces, `first/second`, one for each two parts that touch where they have no interface yet; the same between names of parts "
+               .. "(* stands for any text) or lists, { \"board*\", { \"standoff*\", lid } }: one of each side"):format(word) or "") }
 end
 
 local all_touching = "all touching"
 
 -- What may be said of all interfaces of an assembly at once.
 local function of_all()
-  return { "of", type = "objects", kinds = { "substructure" }, at_least = 1, default_doc = "all declared before",
-           doc = ("with \"%s\": the parts of the assembly"):format(all_touching) },
+  return { "of", type = "objects", kinds = { "substructure" }, at_least = 1, or_names = true, default_doc = "all declared before",
+           doc = ("with \"%s\": the parts of the assembly, or names of them (* stands for any text)"):format(all_touching) },
     { "except", type = "except", kinds = { "substructure", "interface" }, default_doc = "none",
-      doc = ("with \"%s\": parts, pairs of parts { a, b } and interfaces whose pairs of parts are left alone"):format(all_touching) }
+      doc = ("with \"%s\", names or lists: parts, pairs of parts { a, b } (or their names) and interfaces whose pairs of parts are left alone"):format(all_touching) }
 end
 local of_parts, except = of_all()
 local function name_unless_all()
   return { "name", type = "name", required = true, required_unless = { "between", all_touching },
-           doc = ("name of the interface, for messages; with \"%s\" before those of the parts"):format(all_touching) }
+           doc = ("name of the interface, for messages; with \"%s\", names or lists before those of the parts"):format(all_touching) }
 end
 
 -- What may be said where the meshes of two faces do not match.
@@ -70,11 +76,16 @@ local function on(kinds, doc)
 end
 
 local function component(axis, what, unit, range, usual)
-  return { axis, type = "value", unit = unit, range = range, usual = usual, doc = what .. " along " .. axis }
+  return { axis, in_frame = "component", type = "value", unit = unit, range = range, usual = usual, doc = what .. " along " .. axis }
 end
 
 local function components(what, unit, range, usual)
   return component("x", what, unit, range, usual), component("y", what, unit, range, usual), component("z", what, unit, range, usual)
+end
+
+local function components_in_frame(...)
+  local x, y, z = components(...)
+  return x, y, z, frame "along whose axes x, y and z are"
 end
 
 -- A bolted joint for the hand formula of VDI 2230.
@@ -233,7 +244,7 @@ words[3] = {
       name_of "part",
       { "mesh", type = "object", kinds = { "mesh" }, required = true, doc = "its body" },
       { "material", type = "object", kinds = { "material" }, required = true, doc = "what it is made of" },
-      { "place", type = "placement", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 },
+      { "place", in_frame = "place", type = "placement", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 },
         doc = "translation of the mesh, { x, y, z }, or { translate = ..., rotate = { axis, angle, about } }: turned first, then moved",
         fields = {
           { "translate", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "translation" },
@@ -243,6 +254,7 @@ words[3] = {
             { "about", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "a point of the axis" },
           } },
         } },
+      frame "in which `place` is meant, with the mesh in it",
       { "velocity", type = "vector", unit = "m/s", range = { -20000, 20000 }, usual = usual_velocity, default = { 0, 0, 0 },
         doc = "velocity at the start of the first dynamic step" },
       { "orientation", type = "orientation", default_doc = "along x, y, z",
@@ -280,9 +292,24 @@ words[3][1] = {
     { "units", type = "choice", choices = { "m kg s", "mm t s", "mm kg ms", "in lbf s" }, default_doc = "`\"m kg s\"`, in Matrix Market format; others must say",
       doc = "of length, mass and time (of length, force and time) in matrices and points" },
     { "total_mass", type = "number", unit = "kg", range = { 1e-9, 1e9 }, doc = "of the body, to check the units: refused if the matrices are off by more than 1 %" },
-    part_arguments[4], part_arguments[5],
+    part_arguments[4], part_arguments[5], part_arguments[6],
   },
   one_of = { "file", "stiffness" },
+}
+
+words.frame = {
+  name = "frame",
+  doc = "A frame of places: an origin and three axes at right angles. Whatever has an argument `frame` then means its places, directions and components in it.",
+  call = {
+    makes = "frame", doc = "Where something has coordinates of its own. `f.x`, `f.y`, `f.z` and `f.origin` are its axes and its origin in the axes of the deck.",
+    arguments = {
+      { "origin", in_frame = "point", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "its origin" },
+      { "axis", type = "vector", default = { 0, 0, 1 }, doc = "its z axis; the length does not matter" },
+      { "x", type = "vector", default_doc = "x, or y where the axis is along x", doc = "direction of its x axis, of which what lies across `axis` counts" },
+      { "angle", type = "number", range = { -7, 7 }, default = 0, doc = "by which x and y are then turned about `axis`, in radians: `17*deg`" },
+      frame "in which all this is meant",
+    },
+  },
 }
 
 local function pattern_of(n_doc)
@@ -339,8 +366,9 @@ words.bolt = {
       bolt_size(),
       { "grip", type = "number", unit = "m", range = { 1e-4, 2 }, required = true, doc = "clamped thickness, without the washers" },
       bolt_material,
-      { "place", type = "placement", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "as of a substructure",
+      { "place", in_frame = "place", type = "placement", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "as of a substructure",
         fields = words[3].call.arguments[4].fields },
+      frame "in which `place` is meant; the bolt then stands along its z",
       of_bolts(),
     },
   },
@@ -351,12 +379,13 @@ words.bolt = {
     arguments = {
       { "name", type = "name", required = true, doc = "of the bolts: `name[1]`, `name[2]`, ..." },
       bolt_size(),
-      { "parts", type = "objects", kinds = { "substructure" }, at_least = 1, required = true,
-        doc = "clamped parts, the first under the head; of the others each hole may pass some" },
+      { "parts", type = "objects", kinds = { "substructure" }, at_least = 1, or_names = true, required = true,
+        doc = "clamped parts, or names of them (* stands for any text), the first under the head; of the others each hole may pass some" },
       { "radius", type = "number", unit = "m", range = { 1e-4, 0.5 }, default_doc = "any that the thread passes with up to 30 % to spare",
         doc = "of the holes, within two per cent" },
-      { "where", type = "function", doc = "function(x, y, z), in metres, true for the end of a hole under the head: those holes alone" },
-      { "head", type = "vector", default_doc = "z, else y, else x", doc = "of a single part: direction towards the heads" },
+      { "where", in_frame = "function", type = "function", doc = "function(x, y, z), in metres, true for the end of a hole under the head: those holes alone" },
+      frame "of `where` and `head`",
+      { "head", in_frame = "direction", type = "vector", default_doc = "z, else y, else x", doc = "of a single part: direction towards the heads" },
       { "n", type = "integer", range = { 1, 10000 }, doc = "how many holes there must be" },
       bolt_material, of_bolts(),
     },
@@ -496,12 +525,12 @@ words[6] = {
   },
   {
     "traction", makes = "load", doc = "Force per area, in fixed directions.",
-    arguments = { on({ "face" }, "loaded faces"), components("traction", "Pa", { -1e11, 1e11 }) },
+    arguments = { on({ "face" }, "loaded faces"), components_in_frame("traction", "Pa", { -1e11, 1e11 }) },
     one_of = { "x", "y", "z" },
   },
   {
     "force", makes = "load", doc = "A total force, spread evenly over the combined area of all faces of `on`, or over the nodes of its regions.",
-    arguments = { on({ "face", "region" }, "loaded faces or nodes"), components("force", "N", { -1e10, 1e10 }) },
+    arguments = { on({ "face", "region" }, "loaded faces or nodes"), components_in_frame("force", "N", { -1e10, 1e10 }) },
     one_of = { "x", "y", "z" },
   },
   {
@@ -509,9 +538,10 @@ words[6] = {
     doc = "A moment about an axis, right-handed, spread over a face as tractions around the axis that grow with the radius.",
     arguments = {
       on({ "face" }, "twisted faces: each gets the torque"),
-      { "axis", type = "vector", required = true, doc = "direction of the axis; its length does not matter" },
-      { "through", type = "vector", unit = "m", range = { -1000, 1000 }, default_doc = "the centroid of the face", doc = "a point of the axis" },
+      { "axis", in_frame = "direction", type = "vector", required = true, doc = "direction of the axis; its length does not matter" },
+      { "through", in_frame = "point", type = "vector", unit = "m", range = { -1000, 1000 }, default_doc = "the centroid of the face", doc = "a point of the axis" },
       { "history", type = "value", unit = "N m", range = { -1e9, 1e9 }, required = true, doc = "the torque" },
+      frame "of `axis` and `through`",
     },
   },
   {
@@ -528,13 +558,14 @@ words[6] = {
     "base_acceleration", makes = "load", doc = "Acceleration of a support, as on a shaker or a shock table.",
     arguments = {
       on({ "support" }, "driven supports"),
-      { "direction", type = "vector", required = true, doc = "direction; its length does not matter" },
+      { "direction", in_frame = "direction", type = "vector", required = true, doc = "direction; its length does not matter" },
+      frame "of `direction`",
       { "history", type = "value", unit = "m/s^2", range = { -1e9, 1e9 }, usual = usual_acceleration, required = true, doc = "the acceleration" },
     },
   },
   {
     "gravity", makes = "load", doc = "A uniform acceleration field on every substructure.",
-    arguments = { components("acceleration", "m/s^2", { -1e7, 1e7 }, usual_acceleration) },
+    arguments = { components_in_frame("acceleration", "m/s^2", { -1e7, 1e7 }, usual_acceleration) },
     one_of = { "x", "y", "z" },
   },
   {
@@ -785,7 +816,8 @@ words[10] = {
       name_of "output",
       on({ "face", "region", "interface", "support" }, "where; `pressure` requires an interface or a wall"),
       { "quantity", type = "choice", choices = quantities, required = true, doc = "what" },
-      { "direction", type = "vector", doc = "its component along this direction; its length does not matter" },
+      { "direction", in_frame = "direction", type = "vector", doc = "its component along this direction; its length does not matter" },
+      frame "of `direction`",
     },
   },
   {
@@ -802,30 +834,39 @@ words[10] = {
     },
   },
   {
-    "srs", makes = "output",
-    doc = "Shock response spectrum of a history. Columns: frequency, maximax, positive, negative, primary, residual.",
+    "srs", makes = "output", of_motion = true, or_list = "list of spectra",
+    doc = "Shock response spectrum of a history. Columns: frequency, maximax, positive, negative, primary, residual. With `on` those of a place along several directions: "
+      .. "a list of outputs, whose spectra are called `name x`, `name y`, ... and answer by their directions, `list.x`, as their histories do, `list.histories.x`.",
     arguments = spectrum({
       name_of "output",
-      { "of", type = "object", kinds = { "output.history" }, required = true, doc = "an acceleration with a direction" },
-      { "specification", type = "specification", unit = "m/s^2", doc = "specification for the maximax in report.html: a CSV of frequency "
-        .. "(Hz) and level (m/s^2; or units in brackets in its header, [g] or (g)), or { {100, 20*g0}, {1000, 500*g0} }; log-log in between; judged from 1/record length to half the sampling rate" },
+      { "of", type = "object", kinds = { "output.history" }, doc = "an acceleration with a direction" },
+      { "on", type = "objects", kinds = { "face", "region" }, at_least = 1, or_single = true, doc = "instead of `of`: where the acceleration is taken" },
+      { "directions", in_frame = "directions", type = "directions", with = "on", default_doc = "\"xyz\"",
+        doc = "along which: some of the axes, or vectors by name, as { axial = { 0, 0, 1 } }" },
+      frame "of `directions`: with \"xyz\", its axes",
+      { "specification", by_direction = true, type = "specification", unit = "m/s^2", doc = "specification for the maximax in report.html: a CSV of frequency "
+        .. "(Hz) and level (m/s^2; or units in brackets in its header, [g] or (g)), or { {100, 20*g0}, {1000, 500*g0} }; log-log in between; judged from 1/record length to half the sampling rate; with `on` one for all, or by directions, { axial = ... }" },
+      { "margin", by_direction = true, type = "number", unit = "dB", range = { 0, 60 }, with = "specification", default_doc = "0",
+        doc = "that the spectrum is to keep below its specification" },
       { "judge", type = "choice", choices = { "maximax", "primary" }, default = "maximax",
         doc = "the column compared with the specification, whose band is estimated; primary: the response during the record only" },
     }, 12),
+    one_of = { "of", "on" },
   },
   {
-    "srs_field", makes = "output",
+    "srs_field", makes = "output", of_motion = true,
     doc = "Shock response spectra at every node of faces, for ParaView: <name>.pvd, whose time is the frequency (Hz). Columns of "
       .. "<name>.csv: frequency, highest and mean maximax over the nodes.",
     arguments = spectrum({
       name_of "output",
       on({ "face" }, "faces"),
-      { "direction", type = "vector", default_doc = "the axis of largest maximax, node by node",
+      { "direction", in_frame = "direction", type = "vector", default_doc = "the axis of largest maximax, node by node",
         doc = "of the acceleration; its length does not matter" },
+      frame "of `direction`",
     }, 3),
   },
   {
-    "attenuation", makes = "output",
+    "attenuation", makes = "output", of_motion = true,
     doc = "Shock attenuation across a joint: maximax spectra of the histories before and after it and their ratio by band. Columns: "
       .. "frequency, entering, leaving, ratio (dB); with _x, _y, _z for histories without a direction.",
     arguments = spectrum({
@@ -952,7 +993,7 @@ local methods = {
   },
   {
     kind = "assembly", "parts", write = "assembly:parts \"bolt*\"", makes = "mesh", is_list = true,
-    doc = "The list of all parts whose name, product or instance fits, in the order of the file; * stands for any text.",
+    doc = "The list of all parts whose name, product or instance fits, in the order of the file; * stands for any text. `mesh.name` is the part's name.",
     argument = { "pattern", type = "text", doc = "a name, or a pattern with *" },
   },
   {
@@ -991,21 +1032,26 @@ local methods = {
       .. "part's boundary.",
     argument = { "group", type = "text", doc = "the group's name" },
     arguments = {
-      { "normal", type = "vector", doc = "instead of a name, `part:face{ normal = { 0, 0, 1 }, at = 18*mm }`: facets whose outward normal is "
+      frame "of the places and directions",
+      { "normal", in_frame = "direction", type = "vector", doc = "instead of a name, `part:face{ normal = { 0, 0, 1 }, at = 18*mm }`: facets whose outward normal is "
         .. "this, within two degrees" },
-      { "at", type = "number", unit = "m", range = { -1000, 1000 }, doc = "where along the normal: all nodes of the facet lie in that plane" },
+      { "at", in_frame = "height", type = "number", unit = "m", range = { -1000, 1000 }, doc = "where along the normal: all nodes of the facet lie in that plane" },
       { "cylinder", type = "boolean", default = false, doc = "facets on a cylinder" },
       { "radius", type = "number", unit = "m", range = { 1e-6, 1000 }, doc = "of the cylinder, within two per cent" },
-      { "axis", type = "vector", doc = "of the cylinder, within two degrees" },
-      { "low", type = "vector", unit = "m", range = { -1000, 1000 }, doc = "lowest corner of a box that the facets lie in; with `high`" },
-      { "high", type = "vector", unit = "m", range = { -1000, 1000 }, doc = "highest corner of the box" },
-      { "where", type = "function", doc = "function(x, y, z), in metres, true at every node of the facets" },
+      { "axis", in_frame = "direction", type = "vector", doc = "of the cylinder, within two degrees" },
+      { "low", in_frame = "corner", type = "vector", unit = "m", range = { -1000, 1000 }, doc = "lowest corner of a box that the facets lie in; with `high`" },
+      { "high", in_frame = "corner", type = "vector", unit = "m", range = { -1000, 1000 }, doc = "highest corner of the box" },
+      { "where", in_frame = "function", type = "function", doc = "function(x, y, z), in metres, true at every node of the facets" },
     },
   },
   {
-    kind = "substructure", "where", write = "part:where(function(x, y, z) return boolean end)", makes = "region",
+    kind = "substructure", "where", write = "part:where(function(x, y, z) return boolean end)", makes = "region", unwraps = "where",
     doc = "The nodes at which the function returns true; near(a, b) compares coordinates with a tolerance.",
     argument = { "function", type = "function", doc = "function(x, y, z), in metres" },
+    arguments = {
+      { "where", in_frame = "function", type = "function", required = true, doc = "the function, in `part:where{ frame = f, where = function(x, y, z) ... end }`" },
+      frame "of x, y and z",
+    },
   },
   {
     kind = "history", "shifted", write = "signal:shifted(t)", makes = "history",
@@ -1049,7 +1095,7 @@ local reading = {
   { "result.converged", "whether every increment converged" },
 }
 
-for _, name in ipairs { "pattern", "bolt" } do words[#words + 1], words[name] = words[name], nil end
+for _, name in ipairs { "frame", "pattern", "bolt" } do words[#words + 1], words[name] = words[name], nil end
 
 -- What the deck reads of what is no single object.
 local fields = {
@@ -1068,6 +1114,16 @@ local fields = {
     { "diameter", kind = "number", doc = "of the shank (m)" },
     { "grip", kind = "number", doc = "clamped thickness, without the washers (m)" },
     { "area", kind = "number", doc = "of the shank's section (m^2)" },
+  },
+  frame = {
+    { "x", kind = "vector", doc = "its x axis, in the axes of the deck" },
+    { "y", kind = "vector", doc = "its y axis" },
+    { "z", kind = "vector", doc = "its z axis" },
+    { "origin", kind = "vector", doc = "its origin (m)" },
+  },
+  ["list of spectra"] = {
+    { "histories", kind = "table", doc = "the histories, by direction" },
+    { "[string]", kind = "output", doc = "the spectrum along a direction, by its name" },
   },
   ["list of bolts"] = {
     { "parts", kind = "substructure", is_list = true, doc = "those of all bolts of a pattern; `bolts[1]` is one bolt" },

@@ -10,6 +10,8 @@ local arithmetic = native.module "arithmetic"
 local placement = native.module "placement"
 local interfaces = native.module "interfaces"
 local bolts = native.module "bolts"
+local frames = native.module "frames"
+local spectra = native.module "spectra"
 
 local function fail(line, text, hint) native.fail(line, text .. (hint and "\n    " .. hint or "")) end
 
@@ -21,6 +23,11 @@ local function keys_of(...)
   return keys
 end
 
+local of_motion = {}  -- outputs that need a dynamic step, by their paths
+for _, word in ipairs(schema.words) do
+  for _, entry in ipairs(word) do of_motion[word.name .. "." .. entry[1]] = entry.of_motion end
+end
+
 -- Not a tail call anywhere below: native.line looks for the deck's line through these frames.
 local function constructor(entry)
   return function(...)
@@ -30,6 +37,12 @@ local function constructor(entry)
       local made = interfaces.declare(entry, arguments, line)
       return made
     end
+    if entry.makes == "frame" or entry.path == "output.srs" then
+      local made
+      if entry.makes == "frame" then made = frames.make(entry, arguments, line) else made = spectra.declare(entry, arguments, line) end
+      return made
+    end
+    if entry.path == "problem" then spectra.leave_out(arguments, of_motion, line) end
     local other = entry.path == "problem" and command_line.solver(line)
     if other then  -- the deck's own is kept as used
       arguments.solver_of_deck, arguments.solver = arguments.solver, other
@@ -109,7 +122,9 @@ for _, entry in ipairs(schema.methods) do
     if native.kind(self) ~= entry.kind then fail(line, ("%s is called with a colon: %s"):format(entry[1], entry.write)) end
     local checked
     local by_table = entry.arguments and (not entry.argument or type((...)) == "table")
-    if by_table then checked = check.call(entry, line, ...)
+    if by_table then
+      checked = check.call(entry, line, ...)
+      if entry.unwraps then checked = checked[entry.unwraps] end
     elseif not entry.argument then
       if select("#", ...) > 0 then fail(line, ("%s is written %s"):format(entry[1], entry.write)) end
     else checked = check.plain(entry, line, ...) end
@@ -148,6 +163,7 @@ local function read(object, key)
   end
   local arguments = native.arguments(object)
   local value = arguments[key]
+  if value == nil and key == "name" and kind == "mesh" and name ~= "" then return name end
   if value ~= nil and path == "param" then native.note_parameter(key) end
   if type(value) == "table" then return table.move(value, 1, #value, 1, {}) end
   if value ~= nil then return value end

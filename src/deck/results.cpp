@@ -8,7 +8,9 @@
 
 #include "base/names.hpp"
 #include "deck/part_results.hpp"
+#include "model/check.hpp"
 #include "model/output.hpp"
+#include "result/hollow_result.hpp"
 
 namespace dygita {
 
@@ -65,6 +67,21 @@ int push_value(lua_State* L, double value) {
   return 1;
 }
 
+// Spectra, and the accelerations that they are of.
+bool needs_motion(const Output& output) {
+  const std::optional<HistoryKind> history = output.history();
+  return output.highest_frequency() || (history && history->quantity == "acceleration");
+}
+
+// What a problem without motion leaves out: nan.
+OutputData left_out(const DeckResultPtr& result, const OutputPtr& output) {
+  auto asked = std::make_shared<Problem>(*result->problem);
+  asked->outputs = {output};
+  const auto none =
+      std::make_shared<const DeckResult>(DeckResult{asked, hollow_result(*asked), true, result->case_name});
+  return {none, output, &none->run->tables.at(output.get())};
+}
+
 // result[output].
 int push_output_data(lua_State* L, const DeckResultPtr& result, const Object& key, const Origin& origin) {
   const auto& output = key.as<OutputPtr>();
@@ -76,6 +93,10 @@ int push_output_data(lua_State* L, const DeckResultPtr& result, const Object& ke
   if (output->columns().empty()) {
     throw InputError(origin,
                      "output." + output->word + " provides no data to the deck\n    its frames are ParaView files");
+  }
+  if (needs_motion(*output) && !check::has_dynamic_step(*result->problem)) {
+    push_object(L, {"data", key.path, output->name, -1, left_out(result, output)});
+    return 1;
   }
   const auto& listed = result->problem->outputs;
   if (index_of(listed, output.get()) >= 0) {

@@ -35,24 +35,42 @@ std::string uncertain(double decibels) {
   return decibels > 0.05 ? fmt::format(" (uncertain by {:.1f}\u00a0dB)", decibels) : "";
 }
 
+// "exceeds its specification by 6.3 dB at 100 Hz", "stays below its specification by 1.2 dB at 2 kHz, of 3 dB asked".
+std::string told_of_miss(const SpectrumVerdict& verdict) {
+  const Excursion& at = *verdict.worst;
+  const std::string where = " at " + with_unit(at.at, "Hz") + uncertain(verdict.uncertain);
+  if (verdict.is_above()) return fmt::format("exceeds its specification by {:.1f}\u00a0dB", at.worst) + where;
+  return fmt::format("stays below its specification by {:.1f}\u00a0dB{}, of the {:g}\u00a0dB that are asked", -at.worst,
+                     where, verdict.margin);
+}
+
+// What of the margins that are asked is kept: " and keep the 3 dB that are asked".
+std::string told_of_margins(const std::vector<JudgedSpectrum>& judged) {
+  double least = 1e300, most = 0.0;
+  for (const JudgedSpectrum& one : judged) {
+    least = std::min(least, one.verdict.margin);
+    most = std::max(most, one.verdict.margin);
+  }
+  if (!(most > 0.0)) return "";
+  return (judged.size() == 1 ? " and keeps the " : " and keep the ") +
+         (least == most ? fmt::format("{:g}\u00a0dB", most) : "margins") + " that are asked";
+}
+
 std::string told_of_spectra(const std::vector<JudgedSpectrum>& judged) {
   const auto n_above = static_cast<size_t>(std::count_if(
-      judged.begin(), judged.end(), [](const JudgedSpectrum& one) { return one.verdict.card.grade == Grade::poor; }));
+      judged.begin(), judged.end(), [](const JudgedSpectrum& one) { return !one.verdict.is_margin_kept(); }));
   const JudgedSpectrum& worst = judged.front();
   const Excursion& at = *worst.verdict.worst;
   if (n_above == 0)
     return fmt::format(
-        "{} below {} specification, {}{:.1f}\u00a0dB at {}{}.",
+        "{} below {} specification{}, {}{:.1f}\u00a0dB at {}{}.",
         judged.size() == 1 ? "'" + worst.name + "' stays" : fmt::format("All {} spectra stay", judged.size()),
-        judged.size() == 1 ? "its" : "their", judged.size() == 1 ? "nearest by " : "nearest '" + worst.name + "' by ",
-        -at.worst, with_unit(at.at, "Hz"), uncertain(worst.verdict.uncertain));
+        judged.size() == 1 ? "its" : "their", told_of_margins(judged),
+        judged.size() == 1 ? "nearest by " : "nearest '" + worst.name + "' by ", -at.worst, with_unit(at.at, "Hz"),
+        uncertain(worst.verdict.uncertain));
   std::string told;
-  for (size_t i = 0; i < std::min(n_above, most_named); ++i) {
-    const Excursion& one = *judged[i].verdict.worst;
-    told += fmt::format("{}'{}'{} by {:.1f}\u00a0dB at {}{}", i > 0 ? ", " : "", judged[i].name,
-                        i > 0 ? "" : " exceeds its specification", one.worst, with_unit(one.at, "Hz"),
-                        uncertain(judged[i].verdict.uncertain));
-  }
+  for (size_t i = 0; i < std::min(n_above, most_named); ++i)
+    told += fmt::format("{}'{}' {}", i > 0 ? "; " : "", judged[i].name, told_of_miss(judged[i].verdict));
   told += further(n_above, most_named, "");
   const size_t below = judged.size() - n_above;
   return told + (below == 0   ? "."
@@ -74,7 +92,7 @@ Finding of_spectra(const RunFolder& run, const ReportRequest& request) {
       judged.push_back(std::move(one));
   }
   std::stable_sort(judged.begin(), judged.end(), [](const JudgedSpectrum& a, const JudgedSpectrum& b) {
-    return a.verdict.worst->worst > b.verdict.worst->worst;
+    return a.verdict.worst->worst + a.verdict.margin > b.verdict.worst->worst + b.verdict.margin;
   });
   if (!judged.empty()) finding.sentence = told_of_spectra(judged);
   finding.sentence += finding.sentence.empty() && !not_judged.empty() ? not_judged.substr(1) : not_judged;

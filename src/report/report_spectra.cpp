@@ -24,13 +24,21 @@ std::vector<double> scaled(const std::vector<double>& values, double factor) {
   return result;
 }
 
-void add_specification(const Specification& s, Plot& plot) {
+void add_bands(const Specification& s, Plot& plot) {
   for (const double band : {6.0, 3.0}) {
     const double factor = std::pow(10.0, band / 20.0);
     plot.bands.push_back({fmt::format("±{:.0f} dB", band), s.frequency, scaled(s.level, 1.0 / factor),
                           scaled(s.level, factor), "#555555", 0.16});
   }
-  plot.lines.push_back({"specification", s.frequency, s.level, "#000000", true, false, 1.8});
+}
+
+// The specification and, thinner, what its margin leaves.
+void add_specification(const Spectrum& s, const std::string& name, const std::string& color, Plot& plot) {
+  const Specification& of = *s.specification;
+  plot.lines.push_back({name, of.frequency, of.level, color, true, false, 1.8});
+  if (s.margin > 0.0)
+    plot.lines.push_back({fmt::format("{} − {:g} dB", name, s.margin), of.frequency,
+                          scaled(of.level, std::pow(10.0, -s.margin / 20.0)), color, true, false, 0.9});
 }
 
 constexpr size_t most_shaded = 3;  // spectra in one figure
@@ -98,6 +106,17 @@ std::string common_start(const std::vector<Spectrum>& spectra) {
   return spectra.size() < 2 || end == std::string::npos ? "" : start.substr(0, end + 1);
 }
 
+// The least that is drawn of a spectrum, with what is shaded.
+double lowest_of(const Spectrum& s) {
+  double low = 1e300;
+  for (size_t i = 0; i < s.level().size(); ++i) {
+    const bool has_band = s.band.n_rows() == s.table.n_rows();
+    const double level = s.level()[i] / (has_band ? std::pow(10.0, s.band.column("all")[i] / 20.0) : 1.0);
+    if (level > 0.0) low = std::min(low, level);
+  }
+  return low;
+}
+
 // The axis by what matters: from the peak to 80 dB below, the specification in sight.
 void set_axes(const Group& group, Plot& plot) {
   plot.x.from = group.spectra.front().frequency().front();
@@ -107,8 +126,7 @@ void set_axes(const Group& group, Plot& plot) {
     plot.x.from = std::min(*plot.x.from, s.frequency().front());
     plot.x.to = std::max(*plot.x.to, s.frequency().back());
     peak = std::max(peak, peak_of(s));
-    for (const double level : s.level())
-      if (level > 0.0) low = std::min(low, level);
+    low = std::min(low, lowest_of(s));
     if (!s.specification) continue;
     for (const double level : s.specification->level) {
       peak = std::max(peak, level);
@@ -132,17 +150,28 @@ void add_lines(const Group& group, Plot& plot) {
           {side, group.spectra[0].frequency(), group.spectra[0].table.column(side), {}, true, false, 1.0});
 }
 
-// Each once.
+bool are_alike(const Spectrum& a, const Spectrum& b) {
+  return a.margin == b.margin && a.specification->frequency == b.specification->frequency &&
+         a.specification->level == b.specification->level;
+}
+
+// Each once: one with its bands, several in the colours of their spectra.
 void add_specifications(const Group& group, Plot& plot) {
-  std::vector<std::shared_ptr<const Specification>> drawn;
-  for (const Spectrum& s : group.spectra) {
-    if (!s.specification) continue;
-    const bool is_new = std::none_of(drawn.begin(), drawn.end(), [&](const auto& d) {
-      return d->frequency == s.specification->frequency && d->level == s.specification->level;
-    });
-    if (!is_new) continue;
-    add_specification(*s.specification, plot);
-    drawn.push_back(s.specification);
+  const std::string start = common_start(group.spectra);
+  std::vector<size_t> drawn;
+  for (size_t i = 0; i < group.spectra.size(); ++i) {
+    const bool is_new = group.spectra[i].specification && std::none_of(drawn.begin(), drawn.end(), [&](size_t d) {
+                          return are_alike(group.spectra[d], group.spectra[i]);
+                        });
+    if (is_new) drawn.push_back(i);
+  }
+  for (const size_t i : drawn) {
+    const Spectrum& s = group.spectra[i];
+    if (drawn.size() == 1) add_bands(*s.specification, plot);
+    if (drawn.size() == 1)
+      add_specification(s, "specification", "#000000", plot);
+    else
+      add_specification(s, "specification " + s.name.substr(start.size()), series_color(static_cast<int>(i)), plot);
   }
 }
 

@@ -139,7 +139,9 @@ std::vector<Spectrum> spectra_of(const RunFolder& run, const ReportRequest& requ
                       number(output, "q_factor"),
                       run.table(text(output, "file"), {"maximax", "positive", "negative", judged}),
                       specification_of(output, request, deck_has_some),
+                      0.0,
                       {}};
+    if (output.contains("specification")) spectrum.margin = output["specification"].value("margin", 0.0);
     spectrum.judged = judged;
     if (output.contains("band")) spectrum.band = run.table(text(output, "band"), {"all"});
     if (spectrum.table.n_rows() > 0) spectra.push_back(std::move(spectrum));
@@ -187,6 +189,19 @@ std::vector<Excursion> excursions(const Spectrum& spectrum, const FrequencyRange
   return found;
 }
 
+bool SpectrumVerdict::is_above() const { return worst && worst->worst > limit::specification; }
+bool SpectrumVerdict::is_margin_kept() const { return worst && worst->worst <= limit::specification - margin; }
+
+namespace {
+
+// What of the margin that is asked is there: ", where 3 dB are asked".
+std::string asked_margin(const SpectrumVerdict& verdict) {
+  if (!(verdict.margin > 0.0)) return "";
+  return fmt::format(", where {:g}\u00a0dB of margin are asked", verdict.margin);
+}
+
+}  // namespace
+
 SpectrumVerdict verdict_of(const Spectrum& s, const FrequencyRange& judged) {
   const Exceedance worst = largest_exceedance(*s.specification, s.frequency(), s.level(), judged);
   if (!worst.is_known) return not_judged(s, judged);
@@ -198,17 +213,21 @@ SpectrumVerdict verdict_of(const Spectrum& s, const FrequencyRange& judged) {
   SpectrumVerdict verdict;
   verdict.worst = Excursion{worst.frequency, worst.frequency, worst.decibels, worst.frequency};
   verdict.uncertain = unsure;
+  verdict.margin = s.margin;
   Card& card = verdict.card;
   card.name = "'" + s.name + "' against its specification";
   card.value = decibels(worst.decibels);
-  card.note = "at " + hertz(worst.frequency);
+  card.note =
+      "at " + hertz(worst.frequency) + (s.margin > 0.0 ? fmt::format(", {:g}\u00a0dB of margin asked", s.margin) : "");
   std::string& line = verdict.sentence;
   if (above.empty()) {
-    line = fmt::format("Spectrum '{}' is below its specification over the judged range, closest at {} with {}", s.name,
-                       hertz(worst.frequency), decibels(worst.decibels));
-    if (-worst.decibels < unsure) card.grade = Grade::fair;
+    line = fmt::format("Spectrum '{}' is below its specification over the judged range, closest at {} with {}{}",
+                       s.name, hertz(worst.frequency), decibels(worst.decibels), asked_margin(verdict));
+    if (-worst.decibels - s.margin < unsure) card.grade = Grade::fair;
+    if (!verdict.is_margin_kept()) card.grade = Grade::poor;
   } else {
-    line = fmt::format("Spectrum '{}' exceeds its specification by up to {}", s.name, listed(above));
+    line = fmt::format("Spectrum '{}' exceeds its specification by up to {}{}", s.name, listed(above),
+                       asked_margin(verdict));
     card.grade = Grade::poor;
     if (above.front().from < above.front().to)
       card.note += ", above from " + range_text(above.front().from, above.front().to);

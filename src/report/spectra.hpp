@@ -19,7 +19,8 @@ struct Spectrum {
   double q_factor;
   Table table;
   std::shared_ptr<const Specification> specification;
-  Table band;  // dB, what iteration, time step, mesh and the end of the record leave; empty: not known
+  double margin = 0.0;  // dB, to be kept below the specification
+  Table band;           // dB, what iteration, time step, mesh and the end of the record leave; empty: not known
   std::string judged = "maximax";  // the column that is held against the specification
 
   const std::vector<double>& frequency() const { return table.columns.front(); }
@@ -53,6 +54,10 @@ struct SpectrumVerdict {
   Card card;
   std::optional<Excursion> worst = {};  // or nearest, where nothing is above; none: not judged
   double uncertain = 0.0;               // dB, there
+  double margin = 0.0;                  // dB, asked
+
+  bool is_above() const;  // its specification
+  bool is_margin_kept() const;
 };
 
 // Of a spectrum with a specification, at the frequencies that the record allows.

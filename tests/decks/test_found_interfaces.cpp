@@ -44,10 +44,18 @@ const std::string all_at_once = R"(
 local all = interface.contact{ between = "all touching", friction = 0.3 }
 assert(#all == 2 and all["plate/block"] == all[1] and all["block/lid"] == all[2]))";
 
+// The first side comes first, whatever the order of the deck; pairs of one side are left alone.
+const std::string by_names = R"(
+local upper = interface.contact{ between = { { lid, "plate" }, "bl*k" }, except = { { "plate", block } }, friction = 0.3 }
+assert(#upper == 1 and upper["lid/block"] == upper[1])
+local lower = interface.contact{ name = "low", between = { "*", { block } }, friction = 0.3 }
+assert(#lower == 1 and lower["plate/block"] == lower[1])
+local all = { lower[1], upper[1] })";
+
 TEST(FoundInterfaces, give_what_the_named_faces_give) {
   for (const std::string cells : {"{ 4, 4, 4 }", "{ 7, 7, 5 }"}) {
     const DeckRun named = run_text(tower(cells, "1", on_top, by_face)).at(0);
-    for (const std::string& found : {by_part, all_at_once}) {
+    for (const std::string& found : {by_part, all_at_once, by_names}) {
       const DeckRun run = run_text(tower(cells, "1", on_top, found)).at(0);
       EXPECT_TRUE(run.result->converged);
       for (const char* column : {"x", "y", "z"})

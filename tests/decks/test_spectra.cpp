@@ -101,6 +101,82 @@ local solver = p.spectra > 0 and solver.latin{ tolerance = p.tolerance, spectra 
 problem{ name = "hit", substructures = { low, up }, interfaces = { touch }, steps = { shot }, outputs = { a, srs }, solver = solver }:run{}
 )";
 
+// All that a deck places and directs, in a frame that is turned, tilted and moved by the parameters.
+const char* const in_a_frame = R"(
+local p = param{ turn = 0, tilt = 0, away = 0, duration = 1*ms }
+local site = frame{ origin = { p.away, -p.away, 0 }, axis = { math.sin(p.tilt), 0, math.cos(p.tilt) }, x = { math.cos(p.tilt), 0, -math.sin(p.tilt) } }
+local f = frame{ frame = site, origin = { 0.1, 0.05, 0 }, angle = p.turn }
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 8000 }
+local function slab(name, z)
+  return substructure{ name = name, material = steel, frame = f, place = { 0, 0, z }, mesh = mesh.box{ size = { 40*mm, 20*mm, 10*mm }, cells = { 4, 2, 1 } } }
+end
+local low, high = slab("low", 0), slab("high", 10*mm)
+local bond = interface.bonded{ name = "bond", between = { low, high } }
+local bolt = bolt.hex{ name = "bolt", size = "M6", grip = 10*mm, material = steel, frame = f, place = { 20*mm, 10*mm, 10*mm } }
+local head = bolt.head:face{ frame = f, normal = { 0, 0, 1 }, at = 15.6*mm }
+local right = high:face{ frame = f, low = { 40*mm, 0, 10*mm }, high = { 40*mm, 20*mm, 20*mm } }
+local tip = high:where{ frame = f, where = function(x, y, z) return near(x, 40*mm) and near(y, 0) end }
+local base = support.fixed{ name = "base", on = low:face{ frame = f, normal = { -1, 0, 0 }, at = 0 } }
+local ramp = history.ramp{ to = -20, duration = 1 }
+local push = step.static{ name = "push", loads = { load.force{ on = right, x = 100, z = ramp, frame = f }, load.gravity{ x = 5, y = function(t) return 3*t end, frame = f },
+  load.torque{ on = right, axis = { 1, 0, 0 }, through = { 40*mm, 0, 0 }, history = 0.1, frame = f }, load.traction{ on = right, y = 1*kPa, frame = f } } }
+local steps = { push }
+if p.duration > 0 then steps[2] = step.dynamic{ name = "shock", after = push, duration = p.duration, dt = 20*us, loads = {
+  load.base_acceleration{ on = base, direction = { 0.2, 0, 1 }, frame = f, history = history.half_sine{ peak = 100*g0, duration = 0.2*ms } } } } end
+local u = {}
+for _, axis in ipairs{ "x", "y", "z" } do
+  u[#u + 1] = output.history{ name = axis, on = tip, quantity = "displacement", frame = f, direction = { axis == "x" and 1 or 0, axis == "y" and 1 or 0, axis == "z" and 1 or 0 } }
+end
+local tip_spectra = output.srs{ name = "tip", on = right, frame = f, directions = { radial = { 1, 0, 0 }, axial = { 0, 0, 1 } }, from = 1*kHz,
+  specification = { radial = { { 1000, 100*g0 }, { 1e4, 100*g0 } }, axial = { { 1000, 5000*g0 }, { 1e4, 5000*g0 } } }, margin = { axial = 3 } }
+local global = output.srs{ name = "global", on = right, directions = "xz", from = 1*kHz }
+local result = problem{ name = "turned", substructures = { low, high }, interfaces = { bond }, supports = { base }, steps = steps, outputs = { u, tip_spectra, global } }:run{}
+print(("exceedance: %g dB"):format(result[tip_spectra.axial].exceedance), result[tip_spectra.histories.axial].max, result[global.z].maximax.max)
+)";
+
+TEST(Frame, moves_a_whole_scene_and_changes_nothing_in_it) {
+  const char* const tight = "latin{ tolerance = 1e-9, static_tolerance = 1e-11 }";
+  const DeckRun still = run_text(in_a_frame, {}, 1, tight).at(0);
+  const DeckRun moved = run_text(in_a_frame, {{"turn", "0.7"}, {"tilt", "-0.4"}, {"away", "0.3"}}, 1, tight).at(0);
+  const double most = largest(still.column("z", "displacement"));  // y moves by a thousandth of it
+  for (const char* axis : {"x", "y", "z"}) {
+    const std::vector<double>&at_rest = still.column(axis, "displacement"),
+          &turned = moved.column(axis, "displacement");
+    EXPECT_LT(difference(at_rest, turned) * largest(at_rest), 1e-6 * most) << axis;
+  }
+  for (const char* name : {"tip axial", "tip radial"})
+    EXPECT_LT(largest_move(still.table(name), moved.table(name)), 1e-3) << name;
+  // Along the axes of the deck it is another motion, and without a frame they are those of the part at rest.
+  EXPECT_LT(largest_move(still.table("global z"), still.table("tip axial")), 1e-12);
+  EXPECT_GT(largest_move(moved.table("global z"), moved.table("tip axial")), 0.5);
+}
+
+TEST(Spectrum, of_each_direction_has_a_specification_and_a_margin_of_its_own) {
+  const DeckRun run = run_text(in_a_frame, {}, 1).at(0);
+  const auto said = [&](const std::string& name) {
+    std::string text;
+    for (const std::string& line : run.findings(name).lines) text += line + "\n";
+    return text;
+  };
+  EXPECT_NE(said("tip axial").find("asked 5000 g and 3 dB of margin"), std::string::npos) << said("tip axial");
+  EXPECT_NE(said("tip radial").find("asked 100 g"), std::string::npos) << said("tip radial");
+  EXPECT_EQ(said("tip radial").find("margin"), std::string::npos);
+}
+
+TEST(Spectrum, of_a_problem_without_motion_is_left_out_with_a_warning_and_reads_as_nan) {
+  testing::internal::CaptureStderr();
+  testing::internal::CaptureStdout();
+  const DeckRun run = run_text(in_a_frame, {{"duration", "0"}}, 1).at(0);
+  const std::string printed = testing::internal::GetCapturedStdout(), warned = testing::internal::GetCapturedStderr();
+  EXPECT_TRUE(run.result->converged);
+  EXPECT_NE(warned.find("problem 'turned' has no dynamic step: its spectra are left out, and read as nan: 'tip axial', "
+                        "'tip radial', 'global x', 'global z'"),
+            std::string::npos)
+      << warned;
+  EXPECT_EQ(run.problem.outputs.size(), 3u);  // the displacements
+  EXPECT_NE(printed.find("exceedance: nan dB"), std::string::npos) << printed;
+}
+
 TEST(Passes, stop_where_the_spectra_stand_still) {
   const DeckRun tight = run_text(crush_with_spectra, {{"spectra", "0"}, {"tolerance", "1e-10"}}, 1).at(0);
   const DeckRun passes = run_text(crush_with_spectra, {{"spectra", "0.1"}, {"tolerance", "1e-8"}}, 1).at(0);

@@ -272,6 +272,8 @@ std::string value_for(const Argument& a, const Declared& declared, Random& rando
   if (a.type == "specification") return "{ { 100, 10 }, { " + number() + ", 20 } }";
   if (a.type == "pairs") return "{ { 1e-6, " + number() + " }, { 2e-6, 1e8 } }";
   if (a.type == "value") return time_value(a, random);
+  if (a.type == "frame") return "frame{ angle = " + number() + ", origin = " + list_of(3, number) + " }";
+  if (a.type == "directions") return chance(0.5, random) ? "\"xyz\"" : "{ up = " + list_of(3, number) + " }";
   if (a.type == "between") return list_of(2, object);
   if (a.type == "object") return object();
   if (a.type == "objects" || a.type == "except")

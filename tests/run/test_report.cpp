@@ -371,6 +371,38 @@ TEST(Report, says_by_how_much_a_spectrum_leaves_its_specification) {
               "Specification: other.csv", std::string("card fine") + card_of_srs});
 }
 
+// The page of a run whose specification asks for a margin, dB.
+std::string page_with_margin(const std::filesystem::path& folder, double margin, std::vector<double> maximax) {
+  Example run = long_record();
+  run.result.figures.mesh_error = 5.0;
+  run.result.tables[run.problem.outputs[1].get()].columns[1] = std::move(maximax);
+  run.write(folder);
+  auto record = nlohmann::json::parse(text_of(folder / "run.json"));
+  record["outputs"][1]["specification"]["margin"] = margin;
+  std::ofstream(folder / "run.json") << record;
+  return report_html(folder);
+}
+
+TEST(Report, holds_a_spectrum_against_the_margin_that_is_asked) {
+  const Scratch scratch;
+  const std::string missed = page_with_margin(scratch.path(), 3.0, {5, 9, 8});
+  expect_all(
+      missed,
+      {"class=\"verdict bad\"",
+       "&#39;srs&#39; stays below its specification by 0.9\u00a0dB at 500\u00a0Hz, of the 3\u00a0dB that are asked",
+       "closest at 500\u00a0Hz with −0.9\u00a0dB, where 3\u00a0dB of margin are asked", "specification − 3 dB",
+       std::string("card poor") + card_of_srs});
+  const std::string kept = page_with_margin(scratch.path(), 3.0, {5, 5, 5});
+  expect_all(
+      kept,
+      {"class=\"verdict good\"",
+       "&#39;srs&#39; stays below its specification and keeps the 3\u00a0dB that are asked, nearest by 6.0\u00a0dB",
+       std::string("card fine") + card_of_srs});
+  expect_all(page_with_margin(scratch.path(), 3.0, {5, 25, 8}),
+             {"&#39;srs&#39; exceeds its specification by 8.0\u00a0dB at 500\u00a0Hz"});
+  EXPECT_EQ(page_with_margin(scratch.path(), 0.0, {5, 9, 8}).find("are asked"), std::string::npos);
+}
+
 TEST(Report, judges_a_spectrum_only_where_the_record_allows_it) {
   const Scratch scratch;
   Example run = long_record();

@@ -38,6 +38,7 @@ class SrsOutput final : public Output {
         of_(a.output("of")),
         srs_(srs_settings(a)),
         specification_(a.specification("specification")),
+        margin_(a.number_or("margin", 0.0)),
         judged_(a.has("judge") ? a.text("judge") : "maximax") {
     srs_.watches_end = true;
     if (specification_ && srs_.quantity != SrsQuantity::absolute_acceleration)
@@ -74,6 +75,7 @@ class SrsOutput final : public Output {
     if (!specification_) return notes;
     Notes against = {
         {"source", specification_->source}, {"frequency", specification_->frequency}, {"level", specification_->level}};
+    if (margin_ > 0.0) against.push_back({"margin", margin_});
     if (const Exceedance worst = exceedance(table, findings); worst.is_known)
       against.push_back({"exceedance", Notes{{"decibels", worst.decibels}, {"frequency", worst.frequency}}});
     const FrequencyRange judged = judged_range(findings);
@@ -157,9 +159,10 @@ class SrsOutput final : public Output {
     findings.figures["frequency of the largest exceedance of '" + name + "' [Hz]"] = worst.frequency;
     const double asked = specification_->level_at(worst.frequency);
     findings.lines.push_back(
-        fmt::format("spectrum '{}': {:.1f} dB {} its specification at {:.4g} Hz: {:.4g} g, asked {:.4g} g{}{}", name,
+        fmt::format("spectrum '{}': {:.1f} dB {} its specification at {:.4g} Hz: {:.4g} g, asked {:.4g} g{}{}{}", name,
                     std::abs(worst.decibels), worst.decibels > 0.0 ? "above" : "below", worst.frequency,
                     asked * std::pow(10.0, worst.decibels / 20.0) / standard_gravity, asked / standard_gravity,
+                    margin_ > 0.0 ? fmt::format(" and {:g} dB of margin", margin_) : "",
                     not_judged(table, findings, worst), not_covered(table)));
   }
 
@@ -205,6 +208,7 @@ class SrsOutput final : public Output {
   OutputPtr of_;
   SrsSettings srs_;
   std::shared_ptr<const Specification> specification_;
+  double margin_;       // dB, to be kept below it
   std::string judged_;  // the column that is held against it, and that the band is of
 };
 

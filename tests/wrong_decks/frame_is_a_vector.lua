@@ -1,0 +1,5 @@
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local cube = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 1, 1, 1 } }
+local low = substructure{ name = "low", mesh = cube, material = steel }
+local high = substructure{ name = "high", mesh = cube, material = steel, place = { 0, 0, 10*mm } }
+local push = load.force{ on = low:face "zmax", z = 1*kN, frame = { 0, 0, 1 } }
