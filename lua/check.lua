@@ -5,6 +5,7 @@ local placement = native.module "placement"
 local bolts = native.module "bolts"
 local frames = native.module "frames"
 local interfaces = native.module "interfaces"
+local ensembles = native.module "ensembles"
 local check = {}
 
 local hints = {
@@ -28,6 +29,7 @@ local function describe(value)
   end
   if bolts.is_bolt(value) then return ("a bolt '%s'"):format(value.name) end
   if frames.is_frame(value) then return "a frame" end
+  if ensembles.is_distribution(value) then return "a distribution" end
   if type(value) == "number" then return ("the number %g"):format(value) end
   if type(value) == "string" then return ('the text "%s"'):format(value) end
   if type(value) == "boolean" then return tostring(value) end
@@ -339,6 +341,15 @@ function types.settings(call, argument, value, label)
     settings[key] = types.number(call, argument, number, label .. "." .. key)
   end
   return settings
+end
+
+-- Distributions by the names of parameters.
+function types.distributions(call, _, value, label)
+  if type(value) ~= "table" or native.kind(value) then
+    wrong_type(call, label, "a table of distributions by name, as { mu = uniform(0.1, 0.3) }", value)
+  end
+  local vary = ensembles.check_vary(function(text) fail(call, text) end, value, label)
+  return vary
 end
 
 types["function"] = function(call, _, value, label)

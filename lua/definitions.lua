@@ -25,7 +25,8 @@ local function grouped(type_text) return type_text:find("|", 1, true) and "(" ..
 local plain = {
   number = "number", integer = "integer", boolean = "boolean", name = "string", text = "string", file = "string",
   vector = "dygita.vector", counts = "dygita.counts", numbers = "number[]", texts = "string|string[]", settings = "table<string, number>",
-  specification = "string|number[][]", pairs = "number[][]", value = "dygita.value", ["function"] = "fun(x: number, y: number, z: number): boolean?",
+  specification = "string|number[][]", pairs = "number[][]", value = "dygita.value", distributions = "table<string, dygita.distribution|number[]|{ [1]: dygita.distribution|number[], each: table }>",
+  ["function"] = "fun(x: number, y: number, z: number): boolean?",
   frame = "dygita.frame", directions = "string|table<string, dygita.vector>", table = "table<string, dygita.output>",
 }
 
@@ -38,7 +39,7 @@ local function inline_table(fields)
 end
 
 function type_of(a)
-  local text = plain[a.type]
+  local text = a.signature or plain[a.type]
   if a.type == "table" then text = nil end
   if a.type == "choice" then text = union(a.choices, function(word) return ('"%s"'):format(word) end) end
   if a.type == "choices" then text = grouped(union(a.choices, function(word) return ('"%s"'):format(word) end)) .. "[]" end
@@ -255,6 +256,21 @@ for _, word in ipairs(schema.words) do
 end
 
 put_methods()
+
+put "---@class dygita.distribution"
+put "---@operator mul(number): dygita.distribution"
+put "---@operator div(number): dygita.distribution"
+put "---@operator unm: dygita.distribution\n"
+for _, entry in ipairs(schema.distributions) do
+  put("--- %s", entry.doc)
+  local names = {}
+  for i, a in ipairs(entry.arguments) do
+    put("---@param %s number # %s", a[1], a.doc)
+    names[i] = a[1]
+  end
+  put "---@return dygita.distribution"
+  put("function %s(%s) end\n", entry[1], table.concat(names, ", "))
+end
 
 put "--- The numbers of the deck that the command line may override: `--set mu=0.3`. Once in a deck."
 put "---@generic T: table"

@@ -10,7 +10,7 @@ local function number(x) return ("%g"):format(x) end
 
 local function type_of(argument)
   local names = { vector = "{ x, y, z }", placement = "{ x, y, z } or table", orientation = "{ axis1, axis2 }, function(x, y, z) or table", counts = "{ nx, ny, nz }", numbers = "list of numbers", name = "text",
-                  settings = "table of numbers", compliance = "table", pairs = "list of pairs", specification = "file or list of { frequency, level }", value = "number, history or function(t)", integer = "whole number",
+                  settings = "table of numbers", compliance = "table", pairs = "list of pairs", distributions = "table of distributions", specification = "file or list of { frequency, level }", value = "number, history or function(t)", integer = "whole number",
                   choice = "text", choices = "list of texts", directions = "text, or { x, y, z } by name" }
   local text = names[argument.type] or argument.type
   if argument.kinds then text = table.concat(argument.kinds, " or ") .. (argument.or_names and " or name" or "") end
@@ -81,6 +81,17 @@ for _, word in ipairs(schema.words) do
     put("Not built yet: `%s.%s`.\n", word.name, table.concat(word.later, ("`, `%s."):format(word.name)))
   end
 end
+
+put "## Distributions\n"
+put "What `vary` of an ensemble takes. Numbers scale them: `uniform(0.7, 1.3)*30*kN`.\n"
+put "| written | meaning |"
+put "| --- | --- |"
+for _, entry in ipairs(schema.distributions) do
+  local texts = {}
+  for i, a in ipairs(entry.arguments) do texts[i] = ("%s: %s"):format(a[1], a.doc) end
+  put("| `%s` | %s %s |", entry.write, entry.doc, table.concat(texts, "; "))
+end
+put ""
 
 put "## Methods\n"
 for _, entry in ipairs(schema.methods) do entry_of(("`%s`"):format(entry.write), entry) end

@@ -22,6 +22,7 @@
 --   compliance            the same, of rough faces
 --   orientation           two axes, a function of a place, or a table of the named `fields`
 --   value                 a number, a history or a function of time
+--   distributions         a table of distributions, lists of numbers or { distribution, each = list } by name
 --   between               two sides, each one of the `kinds`; `or_word`: a word allowed instead
 --   except                a list of parts, pairs of parts and interfaces
 --   directions            some of the axes, as "xyz", or vectors by name
@@ -980,6 +981,35 @@ words[11] = {
   },
 }
 
+words[12] = {
+  name = "ensemble", doc = "One problem many times, with parameters that scatter from unit to unit.",
+  call = {
+    makes = "ensemble", doc = "Members whose parameters are drawn from distributions. They differ in numbers of laws, loads, gaps and velocities alone.",
+    arguments = {
+      { "n", type = "integer", range = { 2, 100000 }, default_doc = "required; of \"corners\" 2^parameters", doc = "number of members" },
+      { "seed", type = "integer", range = { 0, 1e9 }, default = 1, doc = "of the draw: the same seed gives the same members" },
+      { "method", type = "choice", choices = { "latin hypercube", "sobol", "corners" }, default = "latin hypercube",
+        doc = "how values are spread: each of n equal strata of every parameter once; a sequence that fills evenly; or all combinations of the "
+          .. "bounds, without P95/50 (of normal and lognormal ones the quantiles 2.5 % and 97.5 %)" },
+      { "vary", type = "distributions", required = true, doc = "the parameters: a distribution, a list of equally likely numbers, or { distribution, "
+        .. "each = bolts }, which draws a value for each item of the list" },
+      { "of", type = "function", required = true, signature = "fun(v: table): dygita.problem", doc = "function(v) that returns the problem with the parameters v.name (with `each` a list)" },
+    },
+  },
+}
+
+-- Called with plain numbers.
+local distributions = {
+  { "uniform", write = "uniform(low, high)", doc = "Every value between two bounds is equally likely.",
+    arguments = { { "low", doc = "lowest value" }, { "high", doc = "highest value" } } },
+  { "normal", write = "normal(mean, deviation)", doc = "The normal distribution.",
+    arguments = { { "mean", doc = "mean" }, { "deviation", doc = "standard deviation" } } },
+  { "lognormal", write = "lognormal(median, deviation)", doc = "The logarithm is normal: factors of the median, never below zero.",
+    arguments = { { "median", doc = "median" }, { "deviation", doc = "standard deviation of the natural logarithm: 0.25 is about 25 %" } } },
+  { "triangular", write = "triangular(low, likeliest, high)", doc = "Rises from the lowest value to the likeliest, falls to the highest.",
+    arguments = { { "low", doc = "lowest value" }, { "likeliest", doc = "likeliest value" }, { "high", doc = "highest value" } } },
+}
+
 local methods = {
   {
     kind = "mesh file", "volume", write = "file:volume \"name\"", makes = "mesh",
@@ -1077,6 +1107,19 @@ local methods = {
         .. "iterations and the difference of the answers" },
     },
   },
+  {
+    kind = "ensemble", "run", write = "ensemble:run{}", makes = "ensemble result",
+    doc = "Computes all members, writes out/<problem>/<case>/ and returns what they come to.",
+    arguments = {
+      { "case", type = "name", default = "ensemble", doc = "name for its folder; members are `case_1`, `case_2`, ..." },
+      { "members", type = "boolean", default = false, doc = "writes the folder of each member, too" },
+    },
+  },
+  {
+    kind = "sample", "quantile", write = "sample:quantile(0.05)", answers = "number",
+    doc = "The value that this share of the members stays below, linear between them.",
+    argument = { "share", type = "number", range = { 0, 1 }, required = true, doc = "from 0 to 1" },
+  },
 }
 
 local reading = {
@@ -1093,6 +1136,12 @@ local reading = {
   { "result.iterations", "iterations of all steps, a whole number" },
   { "result.mean_iterations", "iterations per increment" },
   { "result.converged", "whether every increment converged" },
+  { "ensemble[output].p95_50, .median, .lowest, .highest, .spread", "of an ensemble's result: series of a spectrum (its first column; others as `ensemble[output].primary.p95_50`); p95_50: the level that 95 % of the units stay below with 50 % confidence; spread: standard deviation in dB" },
+  { "ensemble[output].normal.median, .lowest, .highest", "the same of a column of another output, row by row" },
+  { "ensemble[output].normal.last, .first, .max, .min", "a sample: one number a member; .median, .mean, .deviation, .min, .max, [i], #, :quantile(share)" },
+  { "ensemble.drives[output]", "what drives its figures: a list of { figure, parameter, correlation, low, high, share }, the strongest first; prints as text; of a spectrum `.mu:at(f)` is the rank correlation with parameter mu" },
+  { "ensemble[i], #ensemble", "the result of member i; the number of members" },
+  { "ensemble.converged", "whether all members converged: statistics leave out those that did not" },
 }
 
 for _, name in ipairs { "frame", "pattern", "bolt" } do words[#words + 1], words[name] = words[name], nil end
@@ -1131,4 +1180,4 @@ local fields = {
     { "shanks", kind = "interface", is_list = true, doc = "the shank of each" },
   },
 }
-return { words = words, methods = methods, reading = reading, fields = fields }
+return { words = words, methods = methods, reading = reading, fields = fields, distributions = distributions }

@@ -12,6 +12,7 @@ local interfaces = native.module "interfaces"
 local bolts = native.module "bolts"
 local frames = native.module "frames"
 local spectra = native.module "spectra"
+local ensembles = native.module "ensembles"
 
 local function fail(line, text, hint) native.fail(line, text .. (hint and "\n    " .. hint or "")) end
 
@@ -128,6 +129,10 @@ for _, entry in ipairs(schema.methods) do
     elseif not entry.argument then
       if select("#", ...) > 0 then fail(line, ("%s is written %s"):format(entry[1], entry.write)) end
     else checked = check.plain(entry, line, ...) end
+    if entry.path == "ensemble:run" then
+      local result = ensembles.run(self, checked, line)
+      return result
+    end
     local answer = native.call(entry.path, self, checked, line)
     return answer
   end
@@ -202,6 +207,7 @@ local function param(...)
   return parameters
 end
 words.param = param
+for _, entry in ipairs(schema.distributions) do words[entry[1]] = ensembles.constructor(entry) end
 
 local globals = {}
 for _, members in ipairs { environment.functions, units, words } do

@@ -149,13 +149,18 @@ Content build_problem(const Declaration& d) {
   return std::shared_ptr<const Problem>(problem);
 }
 
+// Its members are problems that its function makes when it runs.
+Content build_ensemble(const Declaration&) { return std::monostate(); }
+
 }  // namespace
 
 const Builders& study_builders() {
   static const Builders builders = [] {
     Builders all = {
-        {"step.static", build_static},           {"step.dynamic", build_dynamic},     {"solver.latin", build_latin},
-        {"solver.monolithic", build_monolithic}, {"solver.explicit", build_explicit}, {"problem", build_problem},
+        {"step.static", build_static},       {"step.dynamic", build_dynamic},
+        {"solver.latin", build_latin},       {"solver.monolithic", build_monolithic},
+        {"solver.explicit", build_explicit}, {"problem", build_problem},
+        {"ensemble", build_ensemble},
     };
     for (const OutputEntry& output : output_table()) all.emplace("output." + output.word, build_output);
     return all;

@@ -153,23 +153,30 @@ RunRequest request_of(const DeckState& state, const Problem& problem, const std:
   return request;
 }
 
+// A case as problem:run{} asks for it.
+struct AskedCase {
+  std::string name;
+  DeckResultPtr start_from;  // null: from scratch
+  bool is_quiet = false;     // a member of an ensemble, which leaves no folder of its own
+};
+
 // Runs or checks one problem while the deck's clock is stopped.
-DeckResultPtr compute(DeckState& state, std::shared_ptr<const Problem> problem, const std::string& case_name,
-                      const DeckResultPtr& start_from) {
+DeckResultPtr compute(DeckState& state, std::shared_ptr<const Problem> problem, const AskedCase& asked) {
   const LuaState::Pause pause(state);
   if (!state.is_solving) {
-    std::string report = state.engine.check(*problem);
+    std::string report = state.n_members > 1 ? "" : state.engine.check(*problem);  // of members the first tells all
     while (!report.empty() && report.back() == '\n') report.pop_back();
     if (!report.empty()) say(report);
-    return std::make_shared<const DeckResult>(DeckResult{problem, hollow_result(*problem), true, case_name});
+    return std::make_shared<const DeckResult>(DeckResult{problem, hollow_result(*problem), true, asked.name});
   }
-  RunRequest request = request_of(state, *problem, case_name);
-  if (start_from)
-    request.start_from = start_from->run;
+  RunRequest request = request_of(state, *problem, asked.name);
+  if (asked.is_quiet) request.write_files = request.write_frames = request.write_state = false;
+  if (asked.start_from)
+    request.start_from = asked.start_from->run;
   else
     request.from = state.options.from;
   auto run = state.engine.run(*problem, request);
-  return std::make_shared<const DeckResult>(DeckResult{problem, std::move(run), false, case_name});
+  return std::make_shared<const DeckResult>(DeckResult{problem, std::move(run), false, asked.name});
 }
 
 // The same case from scratch, not written, to tell what starting from another saved and whether the answers agree.
@@ -213,9 +220,9 @@ void note_case(DeckState& state, const DeckResult& result, const std::string& ca
 
 // What the engine finds wrong and has no line for is told at the line that runs it.
 DeckResultPtr compute_at(const Origin& origin, DeckState& state, std::shared_ptr<const Problem> problem,
-                         const std::string& case_name, const DeckResultPtr& start_from) {
+                         const AskedCase& asked) {
   try {
-    return compute(state, problem, case_name, start_from);
+    return compute(state, problem, asked);
   } catch (const InputError& error) {
     const std::string message = error.what();
     if (message.rfind(state.deck_name() + ":", 0) == 0) throw;
@@ -254,8 +261,11 @@ int run_from_deck(DeckState& state, lua_State* L) {
   const LuaArguments arguments(L, 3, "run", origin, state.folder);
   const DeckResultPtr start_from =
       arguments.has("start_from") ? arguments.object("start_from").as<DeckResultPtr>() : nullptr;
-  DeckResultPtr result = compute_at(origin, state, problem, case_name, start_from);
-  note_case(state, *result, case_name, arguments, start_from);
+  const bool is_member = arguments.has("member");
+  const bool is_quiet = is_member && arguments.text("member") == "quiet";
+  if (is_member) ++state.n_members;
+  DeckResultPtr result = compute_at(origin, state, problem, {case_name, start_from, is_quiet});
+  if (!is_member) note_case(state, *result, case_name, arguments, start_from);
   if (!result->run->converged) state.outcome.not_converged.push_back(label);
   if (result->run->interrupted) throw DeckStopped();
   push_object(L, {"result", "result", problem->name, -1, result});

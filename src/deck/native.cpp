@@ -7,6 +7,7 @@
 #include "deck/build_model.hpp"
 #include "deck/deck_state.hpp"
 #include "deck/embedded_lua.hpp"
+#include "deck/ensembles.hpp"
 #include "deck/find_interfaces.hpp"
 #include "deck/histories.hpp"
 #include "deck/model_files.hpp"
@@ -123,7 +124,8 @@ int note_parameter(LuaState& lua, lua_State* L) {
 
 int is_data(LuaState&, lua_State* L) {
   const std::string& what = the_object_at(L, 1).kind;
-  lua_pushboolean(L, what == "result" || what == "data" || what == "part data" || what == "series");
+  lua_pushboolean(L, what == "result" || what == "data" || what == "part data" || what == "series" ||
+                         is_of_ensemble(the_object_at(L, 1)));
   return 1;
 }
 
@@ -194,6 +196,7 @@ int call_method(LuaState& lua, lua_State* L) {
   const Origin origin = state.origin(static_cast<int>(lua_tointeger(L, 4)));
   if (method == "problem:run") return run_from_deck(state, L);
   if (self.kind == "history") return move_history(L, method);
+  if (self.kind == "sample") return quantile_of_sample(L);
   if (method == "mesh file:volume") {
     const std::string name = lua_tostring(L, 3);
     push_object(
@@ -296,6 +299,11 @@ void push_native(DeckState& state) {
                                        {"holes", guarded<holes_of_parts>},
                                        {"sides", guarded<sides_of_interface>},
                                        {"say", guarded<say_line>},
+                                       {"check_distribution", guarded<check_distribution>},
+                                       {"draw", guarded<draw_members>},
+                                       {"difference_of_members", guarded<compare_members>},
+                                       {"let_go", guarded<let_go_of_fields>},
+                                       {"conclude", guarded<conclude_ensemble>},
                                        {"read", guarded<read>},
                                        {"at", guarded<at>},
                                        {"compile", guarded<compile>},

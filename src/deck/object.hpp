@@ -25,11 +25,28 @@ struct DeckResult {
 };
 using DeckResultPtr = std::shared_ptr<const DeckResult>;
 
+// What members of an ensemble come to (ensembles.hpp).
+struct EnsembleResult;
+using EnsembleResultPtr = std::shared_ptr<const EnsembleResult>;
+
 // result[output].
 struct OutputData {
   DeckResultPtr result;
   OutputPtr output;
-  const Table* table = nullptr;  // in *result->run
+  const Table* table = nullptr;    // in *result->run
+  EnsembleResultPtr members = {};  // of an ensemble, whose statistics the result has; null: a run's own
+  std::string column = {};         // then: the one that the table is of; empty: the first, or none
+};
+
+// One number a member.
+struct Sample {
+  std::string name;  // "bolt.normal.last", for messages
+  std::vector<double> values;
+};
+
+// ensemble.drives.
+struct Drives {
+  EnsembleResultPtr of;
 };
 
 // result[part].
@@ -44,7 +61,7 @@ using Content =
                  InterfacePtr, SupportPtr, LoadPtr, std::shared_ptr<const History>, StepPtr,
                  std::shared_ptr<const LatinSettings>, std::shared_ptr<const MonolithicSettings>,
                  std::shared_ptr<const ExplicitSettings>, OutputPtr, std::shared_ptr<const Problem>, DeckResultPtr,
-                 OutputData, PartData, std::shared_ptr<const Series>>;
+                 OutputData, PartData, std::shared_ptr<const Series>, EnsembleResultPtr, Sample, Drives>;
 
 struct Object {
   std::string kind;  // "substructure", "face", "series"; the schema's `makes`

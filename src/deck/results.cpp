@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/names.hpp"
+#include "deck/ensembles.hpp"
 #include "deck/part_results.hpp"
 #include "model/check.hpp"
 #include "model/output.hpp"
@@ -166,7 +167,7 @@ bool push_finding(lua_State* L, const OutputData& data, const std::string& key) 
   for (const auto& [part, table] : findings.parts) {
     if (part != key) continue;
     push_object(L, {"data", "output." + data.output->word, data.output->name, -1,
-                    OutputData{data.result, data.output, &table}});
+                    OutputData{data.result, data.output, &table, data.members, data.members ? part : ""}});
     return true;
   }
   const auto value = findings.values.find(key);
@@ -181,10 +182,11 @@ int read_output(lua_State* L, const OutputData& data, const Origin& origin) {
     return 1;
   }
   const std::vector<std::string> columns = value_columns(data);
-  if (columns.size() == 1 && (row_asked(L) || key_text(L) != columns[0])) {
+  if (columns.size() == 1 && !data.members && (row_asked(L) || key_text(L) != columns[0])) {
     return read_series(L, series_of(data, columns[0]), origin);
   }
   const std::string key = key_text(L);
+  if (data.members && push_sample(L, data, key, origin)) return 1;
   if (push_finding(L, data, key)) return 1;
   if (std::find(columns.begin(), columns.end(), key) != columns.end()) {
     push_series(L, series_of(data, key));
@@ -221,6 +223,7 @@ int read_data(lua_State* L, const Origin& origin) {
   const Object& object = the_object_at(L, 1);
   if (object.kind == "result") return read_result(L, object, origin);
   if (object.kind == "data") return read_output(L, object.as<OutputData>(), origin);
+  if (is_of_ensemble(object)) return read_ensemble(L, object, origin);
   if (object.kind == "part data") return read_part(L, object.as<PartData>(), origin);
   return read_series(L, *object.as<std::shared_ptr<const Series>>(), origin);
 }
@@ -231,6 +234,8 @@ int length_of(lua_State* L, const Origin& origin) {
     lua_pushinteger(L, static_cast<lua_Integer>(object.as<std::shared_ptr<const Series>>()->values.size()));
   } else if (object.kind == "data") {
     lua_pushinteger(L, object.as<OutputData>().table->n_rows());
+  } else if (is_of_ensemble(object)) {
+    lua_pushinteger(L, length_in_ensemble(object, origin));
   } else {
     throw InputError(origin, fmt::format("{} has no length", object.label()));
   }

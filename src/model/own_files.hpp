@@ -11,7 +11,8 @@ inline constexpr const char *record = "run.json", *report = "report.html", *scen
                             *energy = "energy.csv", *convergence = "convergence.csv", *bolts = "bolts.csv",
                             *state = "state.dygita", *checkpoint = "checkpoint.dygita", *study_table = "study.csv",
                             *study_figure = "study.svg", *converge_table = "converge.csv",
-                            *converge_figure = "converge.svg";
+                            *converge_figure = "converge.svg", *ensemble = "ensemble.json",
+                            *members = "ensemble_members.csv", *drives = "ensemble_drives.csv";
 }
 
 struct OwnFile {
@@ -30,6 +31,9 @@ inline constexpr OwnFile own_files[] = {{own_file::record, "the record of the ru
                                         {own_file::bolts, "the table of all tightened interfaces"},
                                         {own_file::state, "the state that a run is continued from"},
                                         {own_file::checkpoint, "the checkpoint of the run"},
+                                        {own_file::ensemble, "the record of an ensemble"},
+                                        {own_file::members, "the table of an ensemble's members"},
+                                        {own_file::drives, "the table of what drives an ensemble"},
                                         {own_file::study_table, "the table of the study", true},
                                         {own_file::study_figure, "the figure of the study", true},
                                         {own_file::converge_table, "the table of a convergence study", true},

@@ -1,0 +1,19 @@
+// What an ensemble leaves in its folder.
+#pragma once
+
+#include <filesystem>
+
+#include "estimates/ensemble.hpp"
+
+namespace dygita {
+
+// Of each output <output>.csv, its columns' statistics row by row, of spectra <output>_drives.csv and <output>.svg;
+// ensemble_members.csv, a row a member; ensemble_drives.csv; ensemble.json, last. Throws InputError where it cannot
+// write.
+void write_ensemble(const std::filesystem::path& folder, const Ensemble& ensemble,
+                    const std::vector<OutputScatter>& scatter);
+
+// For the screen: of each spectrum how far P95/50 is above its specification, or its spread, and what drives it.
+std::vector<std::string> ensemble_lines(const Ensemble& ensemble, const std::vector<OutputScatter>& scatter);
+
+}  // namespace dygita

@@ -1,0 +1,205 @@
+// Ensembles: members are what they would be alone, and what they come to is what mathematics says.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "decks/deck_prints.hpp"
+#include "estimates/scatter.hpp"
+
+namespace dygita::test::ensembles_tests {
+namespace {
+
+// What a deck prints: the number after "name: ".
+struct Printed {
+  std::string text;
+  double operator[](const std::string& name) const { return PrintedRun{{}, text}.number(name); }
+};
+
+Printed printed_by(const std::string& deck, const Settings& settings = {}) {
+  testing::internal::CaptureStdout();
+  try {
+    run_text(deck, settings, 1);
+  } catch (...) {
+    std::cout << testing::internal::GetCapturedStdout();
+    throw;
+  }
+  Printed printed{testing::internal::GetCapturedStdout()};
+  std::cout << printed.text;
+  return printed;
+}
+
+// A bar that is hit: linear, so that its spectra have the logarithms of the pulse but for a constant.
+const std::string linear_bar = R"(
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0, density = 7800 }
+local bar = substructure{ name = "bar", material = steel, mesh = mesh.box{ size = { 100*mm, 10*mm, 10*mm }, cells = { 10, 1, 1 } } }
+local a = output.history{ name = "a", on = bar:face "xmin", quantity = "acceleration", direction = { 1, 0, 0 } }
+local srs = output.srs{ name = "srs", of = a, q_factor = 10, from = 10*kHz, to = 40*kHz, specification = { { 1*kHz, 1e5 }, { 100*kHz, 1e5 } } }
+local drawn = {}
+local function hit(v)
+  drawn[#drawn + 1] = { v.peak, v.idle }
+  return problem{ name = "bar", substructures = { bar }, outputs = { a, srs },
+    steps = { step.dynamic{ name = "hit", duration = 300*us, dt = 1*us,
+      loads = { load.pressure{ on = bar:face "xmax", history = history.half_sine{ peak = v.peak, duration = 20*us } } } } } }
+end
+local r = ensemble{ n = 12, seed = 3, vary = { peak = lognormal(50, 0.3)*MPa, idle = uniform(0, 1) }, of = hit }:run{}
+)";
+
+TEST(Ensemble, the_limit_of_a_linear_bar_is_that_of_its_pulse) {
+  const Printed printed = printed_by(linear_bar + R"(
+local logs = {}
+for i = 1, #r do print(("peak %d: %.17g"):format(i, drawn[i][1])) end
+for i, f in ipairs{ 10*kHz, 20*kHz, 40*kHz } do
+  print(("base %d: %.17g"):format(i, r[1][srs].maximax:at(f) / drawn[1][1]))
+  print(("limit %d: %.17g"):format(i, r[srs].p95_50:at(f)))
+  print(("median %d: %.17g"):format(i, r[srs].median:at(f)))
+  print(("highest %d: %.17g"):format(i, r[srs].maximax.highest:at(f)))
+  print(("spread %d: %.17g"):format(i, r[srs].spread:at(f)))
+  print(("mu %d: %.17g"):format(i, r.drives[srs].peak:at(f)))
+end
+print(("driver is peak: %d"):format(r.drives[srs][1].parameter == "peak" and 1 or 0))
+print(("correlation of it: %.17g"):format(r.drives[srs][1].correlation))
+print(("sample: %.17g, members: %d"):format(r[a].max:quantile(1) / r[a].max.max, #r))
+)");
+  std::vector<double> logs, peaks;
+  for (int i = 1; i <= 12; ++i) {
+    peaks.push_back(printed["peak " + std::to_string(i)]);
+    logs.push_back(std::log(peaks.back()));
+  }
+  // Each of twelve strata of the logarithm once: its mean is the median's within a third of a stratum.
+  EXPECT_NEAR(sample_mean(logs), std::log(50e6), 0.03);
+  for (const std::string i : {"1", "2", "3"}) {
+    const double base = printed["base " + i];
+    EXPECT_NEAR(
+        printed["limit " + i] / (base * std::exp(sample_mean(logs) + tolerance_factor(12) * sample_deviation(logs))),
+        1.0, 1e-6);
+    EXPECT_NEAR(printed["median " + i] / (base * sample_quantile(peaks, 0.5)), 1.0, 1e-6);
+    EXPECT_NEAR(printed["highest " + i] / (base * sample_quantile(peaks, 1.0)), 1.0, 1e-6);
+    EXPECT_NEAR(printed["spread " + i], 20.0 / std::log(10.0) * sample_deviation(logs), 1e-5);
+    EXPECT_NEAR(printed["mu " + i], 1.0, 1e-12);
+  }
+  EXPECT_EQ(printed["driver is peak"], 1.0);
+  EXPECT_NEAR(printed["correlation of it"], 1.0, 1e-12);
+  EXPECT_EQ(printed["sample"], 1.0);
+  EXPECT_EQ(printed["members"], 12.0);
+  EXPECT_NE(printed.text.find("P95/50 exceeds its specification by"), std::string::npos);
+  EXPECT_NE(printed.text.find("100 % of the spread there is peak"), std::string::npos);
+}
+
+// Two blocks pressed together and shaken: each member again alone, at the parameters that it drew.
+const std::string blocks = R"(
+local p = param{ explicit = 0 }
+local metal = material.elastic{ name = "metal", young = 70*GPa, poisson = 0.3, density = 2700 }
+local function block(name, z) return substructure{ name = name, material = metal,
+  mesh = mesh.box{ size = { 20*mm, 20*mm, 10*mm }, cells = { 4, 4, 2 }, origin = { 0, 0, z } } } end
+local low, up = block("low", 0), block("up", 10*mm)
+local drawn, of_members, j = {}, {}, nil
+local function joint(v)
+  local c = interface.contact{ name = "c", between = { low:face "zmax", up:face "zmin" }, friction = v.mu }
+  local clamp = load.pressure{ on = up:face "zmax", history = v.clamp }
+  local press = step.static{ name = "press", loads = { clamp } }
+  local shake = step.dynamic{ name = "shake", after = press, duration = 60*us, dt = 1*us,
+    loads = { clamp, load.traction{ on = up:face "zmax", x = history.half_sine{ peak = 0.4*v.clamp, duration = 40*us } } } }
+  j = output.joint{ name = "j", on = c }
+  of_members[#of_members + 1] = j
+  drawn[#drawn + 1] = { mu = v.mu, clamp = v.clamp }
+  return problem{ name = "blocks", substructures = { low, up }, interfaces = { c }, supports = { support.fixed{ name = "base", on = low:face "zmin" } },
+    steps = { press, shake }, outputs = { j, output.energy{} },
+    solver = solver.latin{ tolerance = 1e-8, static_tolerance = 1e-10, integration = p.explicit == 1 and "explicit" or "implicit" } }
+end
+local r = ensemble{ n = 5, seed = 2, vary = { mu = uniform(0.1, 0.4), clamp = normal(20, 4)*MPa }, of = joint }:run{}
+for i = 1, #r do
+  local alone = joint(drawn[i]):run{ case = "alone " .. i }
+  local worst = 0
+  for _, column in ipairs{ "normal", "shear", "slip", "friction_work" } do
+    local a, b, size = r[i][of_members[i]][column], alone[j][column], 0
+    for row = 1, #b do size = math.max(size, math.abs(b[row])) end
+    for row = 1, #b do worst = math.max(worst, math.abs(a[row] - b[row]) / size) end
+  end
+  print(("worst %d: %.3g"):format(i, worst))
+  print(("slip %d: %.6g, own: %.6g"):format(i, alone[j].slip.last, drawn[i].mu))
+end
+print(("slips of members: %.6g"):format(r[j].slip.last.max - r[j].slip.last.min))
+print(("median of slips: %.6g, by rows: %.6g"):format(r[j].slip.last.median, r[j].slip.median.last))
+)";
+
+void expect_members_alone(const Printed& printed) {
+  for (int i = 1; i <= 5; ++i) EXPECT_LT(printed["worst " + std::to_string(i)], 1e-5) << i;
+  EXPECT_GT(printed["slips of members"], 1e-8);  // they do differ
+  EXPECT_NEAR(printed["median of slips"] / printed["by rows"], 1.0, 1e-5);
+}
+
+TEST(Ensemble, each_member_is_what_it_is_alone) { expect_members_alone(printed_by(blocks)); }
+
+TEST(Ensemble, each_explicit_member_is_what_it_is_alone) {
+  expect_members_alone(printed_by(blocks, {{"explicit", "1"}}));
+}
+
+TEST(Ensemble, draws_for_each_item_of_a_list_and_of_lists_and_corners) {
+  const std::string start = R"(
+local cube = substructure{ name = "cube", material = material.elastic{ name = "m", young = 200*GPa, poisson = 0, density = 7800 },
+  mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 1, 1, 1 } } }
+local u = output.history{ name = "u", on = cube:face "zmax", quantity = "displacement", direction = { 0, 0, 1 } }
+local function of(pressure)
+  return problem{ name = "cube", substructures = { cube }, supports = { support.fixed{ name = "base", on = cube:face "zmin" } }, outputs = { u },
+    steps = { step.static{ name = "push", loads = { load.pressure{ on = cube:face "zmax", history = pressure } } } } }
+end
+)";
+  const Printed each = printed_by(start + R"(
+local r = ensemble{ n = 4, vary = { p = { uniform(1, 2)*MPa, each = { "a", "b", "c" } }, q = { 1, 3 } },
+  of = function(v) return of((v.p[1] + v.p[2] + v.p[3]) * v.q) end }:run{}
+print(("lowest: %.9g, highest: %.9g"):format(-r[u].last.max / (10*mm) * 200*GPa, -r[u].last.min / (10*mm) * 200*GPa))
+print(r.drives[u])
+)");
+  EXPECT_GT(each["lowest"], 3e6);
+  EXPECT_LT(each["lowest"], 6e6);
+  EXPECT_GT(each["highest"], 9e6);
+  EXPECT_LT(each["highest"], 18e6);
+  EXPECT_NE(each.text.find("u.displacement largest: q, rank correlation"), std::string::npos);
+  const Printed corners = printed_by(start + R"(
+local r = ensemble{ method = "corners", vary = { a = uniform(1, 2)*MPa, b = triangular(1, 2, 5) }, of = function(v) return of(v.a * v.b) end }:run{}
+print(("lowest: %.9g, highest: %.9g, members: %d"):format(-r[u].last.max / (10*mm) * 200*GPa, -r[u].last.min / (10*mm) * 200*GPa, #r))
+)");
+  EXPECT_NEAR(corners["lowest"], 1e6, 1.0);
+  EXPECT_NEAR(corners["highest"], 10e6, 10.0);
+  EXPECT_EQ(corners["members"], 4.0);
+}
+
+TEST(Ensemble, writes_its_statistics) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("dygita_ensemble_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "bar.lua") << linear_bar;
+  set_progress_enabled(false);
+  DeckOptions options;
+  options.path = folder / "bar.lua";
+  options.out = folder / "out";
+  run_deck(options, Engine{run_problem, check_report});
+  const std::filesystem::path own = folder / "out" / "bar" / "ensemble";
+  const auto lines = [&](const char* name) {
+    std::ifstream file(own / name);
+    std::vector<std::string> all;
+    for (std::string line; std::getline(file, line);) all.push_back(line);
+    return all;
+  };
+  EXPECT_EQ(lines("srs.csv").at(0).rfind("frequency [Hz],maximax median [m/s^2],maximax lowest [m/s^2],maximax highest "
+                                         "[m/s^2],maximax p95_50 [m/s^2],maximax spread [dB],positive median [m/s^2]",
+                                         0),
+            0u);
+  EXPECT_EQ(lines("srs_drives.csv").at(0), "frequency [Hz],idle,peak");
+  EXPECT_EQ(lines("a.csv").at(0),
+            "time [s],step,acceleration median [m/s^2],acceleration lowest [m/s^2],acceleration highest [m/s^2]");
+  EXPECT_EQ(lines("ensemble_members.csv").size(), 13u);
+  EXPECT_EQ(lines("ensemble_members.csv").at(0).rfind("member,idle,peak,", 0), 0u);
+  EXPECT_EQ(lines("ensemble_drives.csv").at(0), "figure,parameter,rank_correlation,lowest,highest,share");
+  EXPECT_NE(lines("srs.svg").at(0).find("<svg"), std::string::npos);
+  std::ostringstream record;
+  record << std::ifstream(own / "ensemble.json").rdbuf();
+  EXPECT_NE(record.str().find("\"method\": \"latin hypercube\""), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder / "out" / "bar" / "ensemble_01"));  // members on request only
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace dygita::test::ensembles_tests
