@@ -60,7 +60,7 @@ for i, f in ipairs{ 10*kHz, 20*kHz, 40*kHz } do
 end
 print(("driver is peak: %d"):format(r.drives[srs][1].parameter == "peak" and 1 or 0))
 print(("correlation of it: %.17g"):format(r.drives[srs][1].correlation))
-print(("sample: %.17g, members: %d"):format(r[a].max:quantile(1) / r[a].max.max, #r))
+print(("sample: %.17g, how many: %d"):format(r[a].max:quantile(1) / r[a].max.max, #r))
 )");
   std::vector<double> logs, peaks;
   for (int i = 1; i <= 12; ++i) {
@@ -82,7 +82,7 @@ print(("sample: %.17g, members: %d"):format(r[a].max:quantile(1) / r[a].max.max,
   EXPECT_EQ(printed["driver is peak"], 1.0);
   EXPECT_NEAR(printed["correlation of it"], 1.0, 1e-12);
   EXPECT_EQ(printed["sample"], 1.0);
-  EXPECT_EQ(printed["members"], 12.0);
+  EXPECT_EQ(printed["how many"], 12.0);
   EXPECT_NE(printed.text.find("P95/50 exceeds its specification by"), std::string::npos);
   EXPECT_NE(printed.text.find("100 % of the spread there is peak"), std::string::npos);
 }
@@ -159,11 +159,11 @@ print(r.drives[u])
   EXPECT_NE(each.text.find("u.displacement largest: q, rank correlation"), std::string::npos);
   const Printed corners = printed_by(start + R"(
 local r = ensemble{ method = "corners", vary = { a = uniform(1, 2)*MPa, b = triangular(1, 2, 5) }, of = function(v) return of(v.a * v.b) end }:run{}
-print(("lowest: %.9g, highest: %.9g, members: %d"):format(-r[u].last.max / (10*mm) * 200*GPa, -r[u].last.min / (10*mm) * 200*GPa, #r))
+print(("lowest: %.9g, highest: %.9g, how many: %d"):format(-r[u].last.max / (10*mm) * 200*GPa, -r[u].last.min / (10*mm) * 200*GPa, #r))
 )");
   EXPECT_NEAR(corners["lowest"], 1e6, 1.0);
   EXPECT_NEAR(corners["highest"], 10e6, 10.0);
-  EXPECT_EQ(corners["members"], 4.0);
+  EXPECT_EQ(corners["how many"], 4.0);
 }
 
 TEST(Ensemble, writes_its_statistics) {
