@@ -39,8 +39,7 @@ local function inline_table(fields)
 end
 
 function type_of(a)
-  local text = a.signature or plain[a.type]
-  if a.type == "table" then text = nil end
+  local text = a.signature or (a.type ~= "table" and plain[a.type] or nil)
   if a.type == "choice" then text = union(a.choices, function(word) return ('"%s"'):format(word) end) end
   if a.type == "choices" then text = grouped(union(a.choices, function(word) return ('"%s"'):format(word) end)) .. "[]" end
   if a.type == "table" or a.type == "compliance" then text = inline_table(a.fields) end
