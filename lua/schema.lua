@@ -176,16 +176,27 @@ words[1][3] = {
   },
 }
 
+local function model_file_arguments(skipped, others)
+  return {
+    { "file", type = "file", required = true, doc = "path, relative to the deck's folder" },
+    { "unit", type = "number", unit = "m", range = { 1e-9, 1000 }, default_doc = "1, or the length of `units`", doc = "length of one unit of the file: `unit = mm`" },
+    { "units", type = "text", doc = "consistent units of the file, which its materials need: length, mass or force, time, as \"mm t s\" (N, MPa), \"m kg s\", \"mm kg ms\", \"in lbf s\"" },
+    { "skip", type = "texts", or_single = true, default_doc = "none", doc = ("types of elements that are left out, such as { \"%s\" }; %s and other elements between points always are"):format(skipped, others) },
+  }
+end
+
 words[1][4] = {
   "abaqus", makes = "model file",
   doc = "An .inp of Abaqus, CalculiX, PrePoMax, HyperMesh or FreeCAD, read by this program: parts, faces, regions and materials by the names of the file; "
     .. "`file:part \"name\"` is one of its parts, `file:report()` what it has not used.",
-  arguments = {
-    { "file", type = "file", required = true, doc = "path, relative to the deck's folder" },
-    { "unit", type = "number", unit = "m", range = { 1e-9, 1000 }, default_doc = "1, or the length of `units`", doc = "length of one unit of the file: `unit = mm`" },
-    { "units", type = "text", doc = "consistent units of the file, which its materials need: length, mass or force, time, as \"mm t s\" (N, MPa), \"m kg s\", \"mm kg ms\", \"in lbf s\"" },
-    { "skip", type = "texts", or_single = true, default_doc = "none", doc = "types of elements that are left out, such as { \"S4R\" }; springs, masses and other elements between points always are" },
-  },
+  arguments = model_file_arguments("S4R", "springs, masses"),
+}
+
+words[1][5] = {
+  "nastran", makes = "model file",
+  doc = "A .bdf, .nas, .dat or .fem of Nastran, read by this program: parts by PSOLID, regions by SET, names from the comments of HyperMesh, Femap, Patran, ANSA and Simcenter; "
+    .. "`file:part \"name\"` is one of its parts, `file:report()` what it has not used.",
+  arguments = model_file_arguments("CQUAD4", "CONM2, RBE2, RBE3, CBUSH"),
 }
 
 local function damping()

@@ -231,7 +231,7 @@ local function undefined(name)
   local line = native.line()
   if environment.refused[name] then
     fail(line, ("'%s' is not there in a deck"):format(name),
-      "a deck reaches no file, system or program; files are read through mesh.gmsh, mesh.step, mesh.abaqus and history.file")
+      "a deck reaches no file, system or program; files are read through mesh.gmsh, mesh.step, mesh.abaqus, mesh.nastran and history.file")
   end
   if habits[name] then fail(line, ("'%s' is not defined"):format(name), habits[name]) end
   local near_by = native.locals()  -- first: of two names as near, the deck's own

@@ -181,7 +181,9 @@ void add_view_options(CLI::App& command, ViewCommand& asked) {
 }
 
 void add_import_options(CLI::App& command, ImportOptions& asked) {
-  command.add_option("FILE", asked.file, "a model of Abaqus or CalculiX")->required()->type_name("FILE.inp");
+  command.add_option("FILE", asked.file, "a model of Abaqus or CalculiX (.inp) or Nastran (.bdf, .nas, .dat, .fem)")
+      ->required()
+      ->type_name("FILE");
   command
       .add_option("--units", asked.units, "units of the file: length, mass or force, time, as 'm kg s' or 'in lbf s'")
       ->capture_default_str()

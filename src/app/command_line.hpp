@@ -12,7 +12,7 @@
 #include "deck/continue_run.hpp"
 #include "deck/converge.hpp"
 #include "deck/deck.hpp"
-#include "foreign/abaqus_deck.hpp"
+#include "foreign/imported_deck.hpp"
 
 namespace dygita {
 

@@ -74,7 +74,9 @@ int run_or_check(Command& asked, bool solves) {
   if (!asked.repeats.empty()) return exit_code(repeat_run(asked.deck, asked.repeats), when_stopped);
   if (asked.deck.path.empty()) throw InputError("dygita run: which deck? dygita run DECK.lua, or --repeat run.json");
   const Engine engine{run_problem, CheckWithPicture(asked.picture)};
-  return exit_code(solves ? run_deck(asked.deck, engine) : check_deck(asked.deck, engine), when_stopped);
+  const DeckOutcome outcome = solves ? run_deck(asked.deck, engine) : check_deck(asked.deck, engine);
+  if (outcome.n_runs == 0 && !outcome.interrupted) return wrong_input;  // the deck's warning says so
+  return exit_code(outcome, when_stopped);
 }
 
 int converge_deck(Command& asked) {
@@ -140,7 +142,7 @@ int command_line(int argc, char** argv) {
   if (app.got_subcommand("check")) return run_or_check(asked, false);
   if (app.got_subcommand("continue")) return go_on(asked);
   if (app.got_subcommand("converge")) return converge_deck(asked);
-  if (app.got_subcommand("import")) std::fputs(deck_of_abaqus(asked.importing).c_str(), stdout);
+  if (app.got_subcommand("import")) std::fputs(imported_deck(asked.importing).c_str(), stdout);
   if (app.got_subcommand("srs")) write_srs(asked.srs);
   if (app.got_subcommand("report")) write_report(asked.report);
   if (app.got_subcommand("view")) start_view(asked.view);

@@ -374,6 +374,7 @@ const Builders& part_builders() {
         {"bolt.mesh", build_bolt_mesh},
         {"mesh.step", build_step_mesh},
         {"mesh.abaqus", build_abaqus},
+        {"mesh.nastran", build_nastran},
         {"substructure", build_substructure},
         {"substructure.superelement", build_superelement},
         {"param", build_parameters},

@@ -42,9 +42,9 @@ std::shared_ptr<const Material> made_of(FileMaterial given, const LuaArguments* 
   const bool has_density = a && a->has("density");
   if (!has_density && !given.density)
     throw InputError(
-        fmt::format("material '{}' has no *DENSITY\n    file:material{{ name = \"{}\", density = 7850 }} "
+        fmt::format("material '{}' has no {}\n    file:material{{ name = \"{}\", density = 7850 }} "
                     "gives it one",
-                    given.name, given.name));
+                    given.name, given.density_word, given.name));
   given.numbers["density"] = has_density ? a->number("density") : *given.density;
   check_plausible(given);
   const auto entry = std::find_if(material_table().begin(), material_table().end(),
@@ -64,9 +64,9 @@ std::shared_ptr<const Material> made_of(FileMaterial given, const LuaArguments* 
   return material;
 }
 
-}  // namespace
+using Reader = std::shared_ptr<const ForeignMeshes> (*)(const ForeignOptions&);
 
-Content build_abaqus(const Declaration& d) {
+Content build_model_file(const Declaration& d, const char* word, Reader read) {
   const LuaArguments& a = d.arguments;
   ForeignOptions options;
   options.file = a.file("file");
@@ -79,16 +79,21 @@ Content build_abaqus(const Declaration& d) {
   std::error_code ignored;
   const std::uintmax_t size = std::filesystem::file_size(options.file, ignored);
   const auto bytes = ignored ? size_t{0} : static_cast<size_t>(bytes_per_byte_of_file * static_cast<double>(size));
-  d.lua.reserve("mesh.abaqus", bytes);
+  d.lua.reserve(word, bytes);
   std::shared_ptr<const ForeignMeshes> file;
   {
     const LuaState::Pause pause(d.lua);
-    file = ForeignMeshes::of_abaqus(options);
+    file = read(options);
   }
   d.lua.hold_reserved(file, bytes);
   DeckState::of(d.lua).model_files.push_back(file);
   return file;
 }
+
+}  // namespace
+
+Content build_abaqus(const Declaration& d) { return build_model_file(d, "mesh.abaqus", ForeignMeshes::of_abaqus); }
+Content build_nastran(const Declaration& d) { return build_model_file(d, "mesh.nastran", ForeignMeshes::of_nastran); }
 
 Object file_material(DeckState& state, const Object& self, lua_State* L, const Origin& origin) {
   const auto& file = *self.as<std::shared_ptr<const ForeignMeshes>>();

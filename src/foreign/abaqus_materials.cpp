@@ -33,27 +33,6 @@ std::vector<double> numbers_of(const CardFile& file, const FileCard& card, size_
   return numbers;
 }
 
-void set_constants(const std::vector<double>& c, ForeignMaterial& material) {
-  material.word = "orthotropic";
-  material.moduli = {{"e1", c[0]}, {"e2", c[1]}, {"e3", c[2]}, {"g12", c[6]}, {"g13", c[7]}, {"g23", c[8]}};
-  material.ratios = {{"nu12", c[3]}, {"nu13", c[4]}, {"nu23", c[5]}};
-}
-
-// Stiffnesses D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323 as engineering constants.
-void set_stiffnesses(const std::string& where, const std::vector<double>& d, ForeignMaterial& material) {
-  Mat3 stiffness;
-  stiffness << d[0], d[1], d[3], d[1], d[2], d[4], d[3], d[4], d[5];
-  const Eigen::LLT<Mat3> factor(stiffness);
-  if (factor.info() != Eigen::Success) {
-    material.doubt = fmt::format("its stiffness is not positive definite ({})", where);
-    return;
-  }
-  const Mat3 s = factor.solve(Mat3::Identity());
-  set_constants({1 / s(0, 0), 1 / s(1, 1), 1 / s(2, 2), -s(0, 1) / s(0, 0), -s(0, 2) / s(0, 0), -s(1, 2) / s(1, 1),
-                 d[6], d[7], d[8]},
-                material);
-}
-
 void read_elasticity(const CardFile& file, const FileCard& card, ForeignMaterial& material) {
   std::string type = in_capitals(card.option("TYPE"));
   std::erase(type, ' ');
@@ -104,6 +83,26 @@ bool is_behaviour(const std::string& keyword) {
 }
 
 }  // namespace
+
+void set_constants(const std::vector<double>& c, ForeignMaterial& material) {
+  material.word = "orthotropic";
+  material.moduli = {{"e1", c[0]}, {"e2", c[1]}, {"e3", c[2]}, {"g12", c[6]}, {"g13", c[7]}, {"g23", c[8]}};
+  material.ratios = {{"nu12", c[3]}, {"nu13", c[4]}, {"nu23", c[5]}};
+}
+
+void set_stiffnesses(const std::string& where, const std::vector<double>& d, ForeignMaterial& material) {
+  Mat3 stiffness;
+  stiffness << d[0], d[1], d[3], d[1], d[2], d[4], d[3], d[4], d[5];
+  const Eigen::LLT<Mat3> factor(stiffness);
+  if (factor.info() != Eigen::Success) {
+    material.doubt = fmt::format("its stiffness is not positive definite ({})", where);
+    return;
+  }
+  const Mat3 s = factor.solve(Mat3::Identity());
+  set_constants({1 / s(0, 0), 1 / s(1, 1), 1 / s(2, 2), -s(0, 1) / s(0, 0), -s(0, 2) / s(0, 0), -s(1, 2) / s(1, 1),
+                 d[6], d[7], d[8]},
+                material);
+}
 
 std::vector<ForeignMaterial> abaqus_materials(const CardFile& file) {
   std::vector<ForeignMaterial> materials;

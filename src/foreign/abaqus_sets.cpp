@@ -13,8 +13,6 @@ namespace dygita {
 
 namespace {
 
-constexpr size_t most_lines_told = 12;
-
 // What the reader of meshes uses, and what says nothing of the structure.
 const std::set<std::string> used = {"NODE",         "ELEMENT",  "NSET",        "ELSET",       "SURFACE",
                                     "SOLIDSECTION", "MATERIAL", "ELASTIC",     "DENSITY",     "DAMPING",
@@ -236,11 +234,9 @@ void AbaqusModel::list_unused() {
   for (const FileCard& card : file_.cards())
     if (!used.contains(card.keyword)) others[card.keyword].push_back(&card);
   for (const auto& [keyword, cards] : others) {
-    std::string lines;
-    for (size_t i = 0; i < std::min(cards.size(), most_lines_told); ++i)
-      lines += (i == 0 ? "" : ", ") + file_.where(*cards[i]);
-    if (cards.size() > most_lines_told) lines += fmt::format(" and {} more", cards.size() - most_lines_told);
-    model_.unused.push_back(fmt::format("{}: {}", cards[0]->written, lines));
+    std::vector<std::string> places;
+    for (const FileCard* card : cards) places.push_back(file_.where(*card));
+    model_.unused.push_back(fmt::format("{}: {}", cards[0]->written, few_of(places)));
   }
 }
 

@@ -130,7 +130,7 @@ class AnalysisReader {
     analysis_.untranslated.push_back(fmt::format("{}: {}: {}", file_.where(card), card.written, why));
   }
 
-  std::vector<AbaqusAction>& actions() {
+  std::vector<FileAction>& actions() {
     return analysis_.steps.empty() ? analysis_.before : analysis_.steps.back().actions;
   }
 
@@ -199,15 +199,14 @@ class AnalysisReader {
     return found == placed.scope->node_sets.end() ? "" : found->second.name;
   }
 
-  void add_actions(const PlacedCard& placed, AbaqusAction::Kind kind, const std::string& prefix,
-                   const Sayings& sayings) {
+  void add_actions(const PlacedCard& placed, FileAction::Kind kind, const std::string& prefix, const Sayings& sayings) {
     for (const auto& [key, listed] : sayings) {
       const auto& says = key.second;
-      AbaqusAction action{kind, "", {says[3], says[4], says[5]}, {says[0] != 0, says[1] != 0, says[2] != 0}, "", "", 0};
-      if (kind == AbaqusAction::Kind::held && !action.value.isZero(0.0)) action.kind = AbaqusAction::Kind::moved;
+      FileAction action{kind, "", {says[3], says[4], says[5]}, {says[0] != 0, says[1] != 0, says[2] != 0}, "", "", 0};
+      if (kind == FileAction::Kind::held && !action.value.isZero(0.0)) action.kind = FileAction::Kind::moved;
       action.where = file_.where(listed.line.file, listed.line.line);
       action.amplitude = placed.card->option("AMPLITUDE");
-      const bool is_whole_node = action.kind == AbaqusAction::Kind::held && action.along == Mask{true, true, true};
+      const bool is_whole_node = action.kind == FileAction::Kind::held && action.along == Mask{true, true, true};
       for (const int node : listed.nodes)
         if (turned_.contains(node) && !is_whole_node)
           throw InputError(fmt::format("{}: {}: in axes of *TRANSFORM", action.where, placed.card->written));
@@ -249,7 +248,7 @@ class AnalysisReader {
     for (const std::string& what : order)
       if (by_field.at(what)[0] + by_field.at(what)[1] + by_field.at(what)[2] > 0)
         note(sayings, placed, *line_of.at(what), what, by_field.at(what));
-    add_actions(placed, AbaqusAction::Kind::held, "boundary", sayings);
+    add_actions(placed, FileAction::Kind::held, "boundary", sayings);
   }
 
   std::pair<long, long> directions(const LineFields& fields, std::string_view first, std::string_view last) const {
@@ -279,7 +278,7 @@ class AnalysisReader {
       says[static_cast<size_t>(d) + 2] = by;
       if (by != 0.0) note(sayings, placed, line, what, says);
     }
-    add_actions(placed, AbaqusAction::Kind::force, "cload", sayings);
+    add_actions(placed, FileAction::Kind::force, "cload", sayings);
   }
 
   void read_pressures(const PlacedCard& placed) {
@@ -300,8 +299,8 @@ class AnalysisReader {
       const bool is_surface = card.keyword == "DSLOAD";
       if (is_surface ? kind != "P" : kind.size() != 2 || kind[0] != 'P' || !is_whole(kind.substr(1)))
         fields.fail(fmt::format("{}: a load '{}' has no word in a deck", card.written, kind));
-      AbaqusAction action{AbaqusAction::Kind::pressure,      "", {by, 0, 0}, {}, card.option("AMPLITUDE"),
-                          file_.where(line.file, line.line), 0};
+      FileAction action{FileAction::Kind::pressure,        "", {by, 0, 0}, {}, card.option("AMPLITUDE"),
+                        file_.where(line.file, line.line), 0};
       if (is_surface) {
         action.place = std::string(what);
         actions().push_back(action);
@@ -325,7 +324,7 @@ class AnalysisReader {
     if (model_.cells_of(*placed.scope, fields, what).size() != model_.model().cells.size())
       fields.fail("*DLOAD: GRAV on some of the cells: load.gravity acts on all");
     Vec3 along{fields.real("a direction"), fields.real("a direction"), fields.real("a direction")};
-    actions().push_back({AbaqusAction::Kind::gravity,
+    actions().push_back({FileAction::Kind::gravity,
                          "",
                          by * along.normalized(),
                          {},

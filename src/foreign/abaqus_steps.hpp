@@ -6,26 +6,16 @@
 #include <vector>
 
 #include "foreign/abaqus_model.hpp"
+#include "foreign/file_actions.hpp"
 
 namespace dygita {
-
-struct AbaqusAction {
-  enum class Kind { held, moved, force, pressure, gravity };
-  Kind kind;
-  std::string place;  // a set of nodes or a face of the model; empty: everywhere
-  Vec3 value;         // of gravity, a force on each node, a motion; [0] of a pressure
-  std::array<bool, 3> along = {};
-  std::string amplitude;  // its name; empty: none
-  std::string where;      // "plate.inp:45"
-  int n_nodes = 0;        // of the place
-};
 
 struct AbaqusStep {
   std::string procedure, where;  // "STATIC"; empty: none that is known
   std::vector<double> numbers;   // of its line of data
   bool is_perturbation = false, is_explicit = false;
   bool drops_supports = false, drops_loads = false;  // OP = NEW
-  std::vector<AbaqusAction> actions;
+  std::vector<FileAction> actions;
 };
 
 struct AbaqusJoint {
@@ -36,7 +26,7 @@ struct AbaqusJoint {
 };
 
 struct AbaqusAnalysis {
-  std::vector<AbaqusAction> before;  // the first step
+  std::vector<FileAction> before;  // the first step
   std::vector<AbaqusStep> steps;
   std::vector<AbaqusJoint> joints;
   std::map<std::string, std::vector<double>> amplitudes;  // times and values in turns, by names in capitals

@@ -18,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int deepest_include = 20;
-constexpr size_t most_files = 1000;
 constexpr size_t longest_shown = 40;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\0'; }
@@ -30,8 +28,6 @@ std::string without_blanks(std::string_view text) {
     if (!is_space(c)) kept += c;
   return kept;
 }
-
-std::string shown(std::string_view field) { return printable(std::string(field.substr(0, longest_shown))); }
 
 // The value of an option as a name: quotes around it go.
 std::string unquoted(std::string_view value) {
@@ -55,6 +51,15 @@ std::vector<std::string> pieces_of(std::string_view text) {
 }
 
 }  // namespace
+
+std::string shown(std::string_view field) { return printable(std::string(field.substr(0, longest_shown))); }
+
+std::string few_of(const std::vector<std::string>& places) {
+  constexpr size_t most = 12;
+  std::string text;
+  for (size_t i = 0; i < std::min(places.size(), most); ++i) text += (i == 0 ? "" : ", ") + places[i];
+  return places.size() <= most ? text : text + fmt::format(" and {} more", places.size() - most);
+}
 
 std::string in_capitals(std::string_view text) {
   std::string capitals(text);

@@ -80,6 +80,14 @@ class LineFields {
   std::string_view rest_;
 };
 
+// Of files that include files.
+inline constexpr int deepest_include = 20;
+inline constexpr size_t most_files = 1000;
+
+// A field of a stranger's file, for a message.
+std::string shown(std::string_view field);
+// "plate.inp:5, plate.inp:9 and 30 more".
+std::string few_of(const std::vector<std::string>& places);
 std::string in_capitals(std::string_view text);
 std::string_view without_blanks_around(std::string_view text);
 // Is the field a whole number, as of a node?

@@ -8,6 +8,7 @@
 #include "base/log.hpp"
 #include "base/names.hpp"
 #include "foreign/abaqus_steps.hpp"
+#include "foreign/nastran_cases.hpp"
 
 namespace dygita {
 
@@ -28,6 +29,12 @@ std::shared_ptr<const ForeignMeshes> ForeignMeshes::of_abaqus(const ForeignOptio
   return std::shared_ptr<const ForeignMeshes>(new ForeignMeshes(std::move(read.model()), options));
 }
 
+std::shared_ptr<const ForeignMeshes> ForeignMeshes::of_nastran(const ForeignOptions& options) {
+  NastranModel read({options.file, options.unit, options.skip});
+  analysis_of(read);
+  return std::shared_ptr<const ForeignMeshes>(new ForeignMeshes(std::move(read.model()), options));
+}
+
 ForeignMeshes::ForeignMeshes(ForeignModel model, const ForeignOptions& options) : units_(options.units) {
   constexpr double equal = 1e-9;
   if (units_ && std::abs(units_->length / options.unit - 1.0) > equal)
@@ -39,6 +46,8 @@ ForeignMeshes::ForeignMeshes(ForeignModel model, const ForeignOptions& options) 
     parts_.push_back(std::move(part));
   }
   materials_ = std::move(model.materials);
+  elasticity_ = model.elasticity;
+  density_ = model.density;
   report_ = text_of_report(model);
   say_parts(file_, parts_);
   for (const std::string& line : model.told) say("  " + line);
@@ -62,13 +71,14 @@ FileMaterial ForeignMeshes::material(const std::string& name) const {
   if (!found->doubt.empty())
     throw InputError(fmt::format("{}: material '{}': {}\n    declare it as material.elastic or material.orthotropic",
                                  found->where, name, found->doubt));
-  if (found->word.empty()) throw InputError(fmt::format("{}: material '{}' has no *ELASTIC", found->where, name));
+  if (found->word.empty())
+    throw InputError(fmt::format("{}: material '{}' has no {}", found->where, name, elasticity_));
   if (!units_)
     throw InputError(
         fmt::format("material '{}' of '{}' requires the units of the file, which it does not state\n    as in units = "
                     "\"mm t s\" beside 'file'",
                     name, file_));
-  FileMaterial material{name, found->word, found->ratios, {}};
+  FileMaterial material{name, found->word, found->ratios, {}, density_};
   for (const auto& [key, value] : found->moduli) material.numbers[key] = value * units_->stress();
   if (found->density) material.density = *found->density * units_->density();
   material.mass_damping = found->mass_damping / units_->time;

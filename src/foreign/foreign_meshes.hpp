@@ -18,6 +18,7 @@ struct FileMaterial {
   std::string name, word;
   std::map<std::string, double> numbers;
   std::optional<double> density;                       // kg/m^3
+  std::string density_word;                            // of the file: "*DENSITY"
   double mass_damping = 0.0, stiffness_damping = 0.0;  // 1/s, s
 };
 
@@ -25,6 +26,9 @@ class ForeignMeshes : public NamedParts {
  public:
   // An .inp of Abaqus, CalculiX and others. Says what it found. Throws InputError with file and line.
   static std::shared_ptr<const ForeignMeshes> of_abaqus(const ForeignOptions& options);
+
+  // A .bdf, .nas or .dat of Nastran.
+  static std::shared_ptr<const ForeignMeshes> of_nastran(const ForeignOptions& options);
 
   // Throws InputError: unknown (with the closest), without elasticity, not that of the file, no units.
   FileMaterial material(const std::string& name) const;
@@ -39,7 +43,7 @@ class ForeignMeshes : public NamedParts {
   std::map<MeshPtr, std::map<std::string, std::vector<int>>> regions_;
   std::vector<ForeignMaterial> materials_;
   std::optional<FileUnits> units_;
-  std::string report_;
+  std::string report_, elasticity_, density_;
 };
 
 }  // namespace dygita

@@ -55,8 +55,16 @@ struct ForeignMaterial {
   std::string doubt;  // why it is not the material of the file: "depends on temperature (plate.inp:12)"
 };
 
+// Engineering constants e1, e2, e3, nu12, nu13, nu23, g12, g13, g23 of an orthotropic material.
+void set_constants(const std::vector<double>& constants, ForeignMaterial& material);
+// Of stiffnesses D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323; a doubt where they are not positive
+// definite.
+void set_stiffnesses(const std::string& where, const std::vector<double>& d, ForeignMaterial& material);
+
 struct ForeignModel {
   std::string file;
+  // What the file calls elasticity and density, for messages.
+  const char *elasticity = "*ELASTIC", *density = "*DENSITY";
   std::vector<std::string> files;  // with those that it includes
   std::vector<Vec3> nodes;         // m
   std::vector<int> connectivity;   // nodes of cells, in the order of their types

@@ -4,6 +4,7 @@
 #include "decks/engine.hpp"
 #include "foreign/abaqus_blocks.hpp"
 #include "foreign/abaqus_deck.hpp"
+#include "foreign/nastran_blocks.hpp"
 #include "foreign/written_file.hpp"
 
 namespace dygita::test::written_elsewhere_tests {
@@ -56,6 +57,47 @@ TEST(WrittenElsewhere, imported_decks_press_as_their_file_says) {
   const DeckRun run = run_text(deck).at(0);
   EXPECT_NEAR(run.column("top", "z").back(), -1e-5, 1e-5 * 1e-7);       // p L / E
   EXPECT_NEAR(run.column("top", "x").back(), 0.3 * 5e-6, 1e-5 * 1e-4);  // nu p L / 2 E, the mean of the face
+}
+
+// The same of Nastran, every shape, with nodes in a cylinder and a turned box and supports in the axes of the latter.
+TEST(WrittenElsewhere, cells_of_every_shape_of_nastran_are_uniformly_pressed) {
+  for (const NastranShape& shape : nastran_shapes()) {
+    SCOPED_TRACE(fmt::format("{} {}", shape.name, shape.shape.edges.size()));
+    const WrittenFile bdf(NastranBlock(shape, 3).text(), "block.bdf");
+    const std::string part = "part_psolid_1";
+    const std::string deck = replaced(
+        imported_deck({bdf.path(), "mm t s", {}}), "output.vtk{ frames = 1 }",
+        "output.history{ name = \"corner\", on = " + part +
+            ":where(function(x, y, z) return near(x, 30*mm) and near(y, 30*mm) and near(z, 30*mm) end), quantity = "
+            "\"displacement\" }, output.history{ name = \"stress\", on = " +
+            part + ":where(function(x, y, z) return z > 29*mm end), quantity = \"von_mises\" }");
+    const DeckRun run = run_text(deck).at(0);
+    EXPECT_NEAR(run.column("corner", "z").back(), -1.5e-5, 1.5e-5 * 1e-7);  // p L / E
+    EXPECT_NEAR(run.column("corner", "x").back(), 4.5e-6, 4.5e-6 * 1e-7);   // nu p L / E
+    EXPECT_NEAR(run.column("corner", "y").back(), 4.5e-6, 4.5e-6 * 1e-7);
+    EXPECT_NEAR(run.column("stress", "von_mises").back(), 100e6, 1e2);
+  }
+}
+
+// A cube of a ply's constants whose axes lie in a cylinder about the z axis: pulled along z, which is axis 3, it gives
+// way along x as nu31 of the outward direction says. The element is on the x axis, where outward is x.
+TEST(WrittenElsewhere, imported_orthotropic_cells_have_the_axes_of_their_cylinder) {
+  const WrittenFile bdf(
+      "CORD2C,5,,0.,0.,0.,0.,0.,1.\n,0.,1.,0.\nPSOLID,1,1,5\nMAT11,1,140000.,10000.,9000.,.3,.28,.4,5000.\n,4500.,3000."
+      ","
+      "1.6-9\nGRID,1,,1000.,-.5,0.\nGRID,2,,1001.,-.5,0.\nGRID,3,,1001.,.5,0.\nGRID,4,,1000.,.5,0.\nGRID,5,,1000.,-.5,"
+      "1.\n"
+      "GRID,6,,1001.,-.5,1.\nGRID,7,,1001.,.5,1.\nGRID,8,,1000.,.5,1.\nCHEXA,1,1,1,2,3,4,5,6\n,7,8\n"
+      "SPC1,1,1,1,4,5,8\nSPC1,1,2,1,2,5,6\nSPC1,1,3,1,THRU,4\nPLOAD4,2,1,-9.,,,,5,7\n",
+      "ply.bdf");
+  const std::string deck =
+      replaced(imported_deck({bdf.path(), "mm t s", {}}), "output.vtk{ frames = 1 }",
+               "output.history{ name = \"corner\", on = part_psolid_1:where(function(x, y, z) return "
+               "x > 1.0005 and y > 0 and z > 0.5*mm end), quantity = \"displacement\" }");
+  const DeckRun run = run_text(deck).at(0);
+  EXPECT_NEAR(run.column("corner", "z").back(), 1e-6, 1e-6 * 1e-6);                    // 9 / 9000 mm
+  EXPECT_NEAR(run.column("corner", "x").back(), -0.28 / 140 * 9 * 1e-6, 1e-6 * 1e-6);  // nu13 / e1
+  EXPECT_NEAR(run.column("corner", "y").back(), -0.4 / 10 * 9 * 1e-6, 1e-6 * 1e-6);    // nu23 / e2
 }
 
 // Lengthwise a clamped bar of nu = 0 has sqrt(E / rho) / 4 L = 12.5 kHz.

@@ -2,6 +2,7 @@
 // for nodes and faces: nothing here comes from the program's own tables.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -43,6 +44,17 @@ class AbaqusBlock {
       for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) fill({i, j, k});
   }
+
+  struct Cell {
+    std::vector<int> numbers;  // its own, its nodes
+  };
+  struct TopFacet {
+    int cell;                          // its number
+    std::vector<int> corners, others;  // on the facet in turn, and off it
+  };
+  const std::vector<Cell>& cells() const { return cells_; }
+  const std::vector<TopFacet>& top() const { return top_facets_; }
+  const std::map<int, std::array<double, 3>>& places() const { return places_; }
 
   std::string text() const {
     std::ostringstream text;
@@ -108,6 +120,7 @@ class AbaqusBlock {
       const Place &a = corners[static_cast<size_t>(edge[0]) - 1], &b = corners[static_cast<size_t>(edge[1]) - 1];
       numbers.push_back(number({(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2}));
     }
+    cells_.push_back({numbers});
     constexpr size_t on_a_line = 12;
     for (size_t i = 0; i < numbers.size(); ++i)
       elements_ << numbers[i] << (i + 1 == numbers.size() ? "\n" : i % on_a_line == on_a_line - 1 ? ",\n " : ", ");
@@ -115,7 +128,14 @@ class AbaqusBlock {
       bool is_on_top = true;
       for (const int corner : shape_.faces[k])
         is_on_top = is_on_top && std::abs(corners[static_cast<size_t>(corner) - 1][2] - 10.0 * n_) < 1e-9;
-      if (is_on_top) top_ << own << ", S" << k + 1 << "\n";
+      if (!is_on_top) continue;
+      top_ << own << ", S" << k + 1 << "\n";
+      TopFacet facet{own, {}, {}};
+      for (const int corner : shape_.faces[k]) facet.corners.push_back(numbers[static_cast<size_t>(corner)]);
+      for (int a = 1; a <= shape_.n_corners; ++a)
+        if (std::find(shape_.faces[k].begin(), shape_.faces[k].end(), a) == shape_.faces[k].end())
+          facet.others.push_back(numbers[static_cast<size_t>(a)]);
+      top_facets_.push_back(facet);
     }
   }
 
@@ -124,6 +144,8 @@ class AbaqusBlock {
   std::map<std::array<long, 3>, int> numbers_;
   std::map<int, Place> places_;
   std::ostringstream elements_, top_;
+  std::vector<Cell> cells_;
+  std::vector<TopFacet> top_facets_;
 };
 
 }  // namespace dygita

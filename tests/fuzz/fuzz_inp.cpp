@@ -1,6 +1,5 @@
 // Meshes of other programs, which this one reads itself: .inp.
-#include "foreign/foreign_meshes.hpp"
-#include "fuzz/target.hpp"
+#include "fuzz/model_file.hpp"
 
 namespace dygita::fuzz {
 
@@ -13,15 +12,7 @@ void read_as_inp(const std::string& file, const std::optional<FileUnits>& units)
     options.units = units;
     if (units) options.unit = units->length;
     options.skip = {"S4"};
-    const auto read = ForeignMeshes::of_abaqus(options);
-    for (const StepPart& part : read->parts()) {
-      demand(part.mesh->nodes.allFinite() && volume(*part.mesh) > 0.0, "a part has a volume");
-      const auto* regions = read->regions(part.mesh);
-      demand(regions != nullptr, "a part has its regions");
-      for (const auto& [name, nodes] : *regions)
-        for (const int node : nodes) demand(node >= 0 && node < part.mesh->n_nodes(), "regions have nodes of the part");
-    }
-    for (const char* name : {"STEEL", "M"}) attempt([&] { read->material(name); });
+    check_model(*ForeignMeshes::of_abaqus(options));
   });
 }
 
