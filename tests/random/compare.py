@@ -9,6 +9,7 @@ import variations
 JOINT_COLUMNS = {"normal": "force", "shear": "force", "slip": "length",
                  "friction_work": "energy", "plastic_work": "energy", "damping_work": "energy"}
 ENERGIES = ("kinetic", "strain", "loads", "friction", "plastic", "damping", "scheme")
+ROUGHLY_NONE = 1e-9    # of the largest force: runs are iterated to 1e-10
 VECTORS = {"u": "length", "v": "speed", "p": "momentum", "r": "force"}
 
 
@@ -109,13 +110,15 @@ def differences(first, second, leave_out=lambda table, column: False):
             return None, f"rows of {name[0]}: {len(values)} and {len(others)}"
         if leave_out(*name):
             continue
-        pressed = [side.series.get((name[0], "normal"), ("", []))[1] for side in (first, second)] if name[1] == "slip" else []
+        pressed, rubbed = ([side.series.get((name[0], column), ("", []))[1] for side in (first, second)] if name[1] == "slip" else [] for column in ("normal", "friction_work"))
         is_unsure = False
         for row, (a, b) in enumerate(zip(values, others)):
             size = abs(a - b) / scales[kind]
             # Sides that touch and do not press: round-off decides whether they count as closed, and where it has decided otherwise
             # slip is another from then on.
-            is_unsure = is_unsure or bool(pressed) and size > 1e-6 and all(abs(of[row]) <= 1e-12 * scales["force"] for of in pressed)
+            is_unsure = is_unsure or bool(pressed) and size > 1e-6 and all(abs(of[row]) <= ROUGHLY_NONE * scales["force"] for of in pressed)
+            # So it is where a point slides under no force beside one that carries: no work is done by what differs.
+            is_unsure = is_unsure or bool(rubbed) and size > 1e-6 and abs(rubbed[0][row] - rubbed[1][row]) <= 1e-9 * abs(a - b) * max(abs(of[row]) for of in pressed)
             if is_unsure:
                 continue
             if math.isnan(size):
