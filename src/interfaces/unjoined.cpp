@@ -13,6 +13,7 @@
 #include "base/warnings.hpp"
 #include "interfaces/whole_parts.hpp"
 #include "law/law.hpp"
+#include "meeting/touching.hpp"
 #include "mesh/face_nodes.hpp"
 #include "model/check.hpp"
 #include "model/load.hpp"
@@ -187,6 +188,13 @@ void doubt_same_place(const Problem& problem) {
     }
 }
 
+// m, how far the facets of an interface are off the round surfaces between the corners, those with straight edges
+// beside curved ones too.
+double bend_of(const Interface& interface) {
+  const auto outside = [](const Face& face) { return Outside(*face.part->mesh, face.part->place, face.facets()); };
+  return find_touching(outside(interface.side_1), outside(interface.side_2), interface.within).bend;
+}
+
 }  // namespace
 
 std::string face_with(const Substructure& part, const Facet& facet) {
@@ -236,6 +244,10 @@ std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Su
     pair.neighbours = find_neighbours(body_1, body_2, pair.reach);
     if (pair.neighbours.intrusion && pair.neighbours.intrusion->depth <= 1.5 * interference)
       pair.neighbours.intrusion = {};
+    if (!pair.neighbours.intrusion || pair.neighbours.intrusion->depth <= pair.offset) return;
+    for (const Surface& surface : surfaces)
+      if (std::min(surface.part_1, surface.part_2) == i && std::max(surface.part_1, surface.part_2) == j)
+        pair.offset = std::max(pair.offset, bend_of(*surface.interface));
   });
   std::erase_if(pairs, [](const Unjoined& pair) {
     const Neighbours& found = pair.neighbours;
