@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include "meeting/facet_functions.hpp"
 #include "mesh/shape_functions.hpp"
 
 namespace dygita {
@@ -35,27 +36,11 @@ bool goes_linearly(FacetType type, const Eigen::Ref<const Points>& x) {
 }  // namespace
 
 FacetValues facet_values(FacetType type, const Vec2& xi) {
-  const double r = xi[0], s = xi[1];
-  if (type == FacetType::tri3) return Vec3(1 - r - s, r, s);
-  if (type == FacetType::quad4)
-    return 0.25 * Eigen::Vector4d((1 - r) * (1 - s), (1 + r) * (1 - s), (1 + r) * (1 + s), (1 - r) * (1 + s));
-  return shape_functions(type).values({r, s, 0.0});
+  return with_facet(type, [&](auto shape) -> FacetValues { return shape.values(xi[0], xi[1]); });
 }
 
 FacetSlopes facet_slopes(FacetType type, const Vec2& xi) {
-  const double r = xi[0], s = xi[1];
-  FacetSlopes slopes;
-  if (type == FacetType::tri3) {
-    slopes.resize(3, 2);
-    slopes << -1, -1, 1, 0, 0, 1;
-  } else if (type == FacetType::quad4) {
-    slopes.resize(4, 2);
-    slopes << s - 1, r - 1, 1 - s, -1 - r, 1 + s, 1 + r, -1 - s, 1 - r;
-    slopes *= 0.25;
-  } else {
-    slopes = shape_functions(type).slopes({r, s, 0.0}).leftCols<2>();
-  }
-  return slopes;
+  return with_facet(type, [&](auto shape) -> FacetSlopes { return shape.slopes(xi[0], xi[1]); });
 }
 
 FacetMap::FacetMap(FacetType type, const Points& x, const Vec3& origin, const Eigen::Matrix<double, 3, 2>& along)
@@ -74,21 +59,28 @@ FacetMap::FacetMap(FacetType type, const Points& x, const Vec3& origin, const Ei
 
 Vec2 FacetMap::inverse(const Vec2& p) const {
   if (is_affine_) return start_ + back_ * (p - at_start_);
-  Vec2 xi = start_;
-  for (int i = 0; i < most_steps; ++i) {
-    const Vec2 off = flat_.lazyProduct(facet_values(type_, xi)) - p;
-    const Eigen::Matrix2d slopes = flat_.lazyProduct(facet_slopes(type_, xi));
-    const Vec2 step = slopes.inverse() * off;
-    xi -= step;
-    if (step.cwiseAbs().maxCoeff() < converged) break;
-  }
-  return xi;
+  return with_facet(type_, [&](auto shape) {
+    using Values = typename decltype(shape)::Values;
+    const auto flat = flat_.leftCols<Values::RowsAtCompileTime>();
+    Vec2 xi = start_;
+    for (int i = 0; i < most_steps; ++i) {
+      const Vec2 off = flat * shape.values(xi[0], xi[1]) - p;
+      const Eigen::Matrix2d slopes = flat * shape.slopes(xi[0], xi[1]);
+      const Vec2 step = slopes.inverse() * off;
+      xi -= step;
+      if (step.cwiseAbs().maxCoeff() < converged) break;
+    }
+    return xi;
+  });
 }
 
 Vec3 FacetMap::normal(const Vec2& xi) const {
   if (is_affine_) return normal_;
-  const Eigen::Matrix<double, 3, 2> tangents = x_.lazyProduct(facet_slopes(type_, xi));
-  return tangents.col(0).cross(tangents.col(1)).normalized();
+  return with_facet(type_, [&](auto shape) -> Vec3 {
+    const auto slopes = shape.slopes(xi[0], xi[1]);
+    const Eigen::Matrix<double, 3, 2> tangents = x_.leftCols<decltype(slopes)::RowsAtCompileTime>() * slopes;
+    return tangents.col(0).cross(tangents.col(1)).normalized();
+  });
 }
 
 }  // namespace dygita

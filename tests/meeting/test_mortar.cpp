@@ -7,9 +7,11 @@
 #include <ctime>
 #include <numbers>
 
+#include "meeting/facet_map.hpp"
 #include "meeting/mortar.hpp"
 #include "mesh/box.hpp"
 #include "mesh/expect_input_error.hpp"
+#include "mesh/shape_functions.hpp"
 
 namespace dygita {
 namespace {
@@ -86,6 +88,32 @@ void expect_consistent_loads(const Facing& facing, const SideTrace& trace, const
 }
 
 // By hand: one square on two halves of it.
+TEST(FacetMap, has_the_functions_that_the_table_of_facets_declares) {
+  for (const FacetShape& shape : facet_shapes)
+    for (int i = 0; i < 20; ++i) {
+      const Vec2 xi(pseudo_random(2 * i), pseudo_random(2 * i + 1));
+      const ShapeFunctions& declared = shape_functions(shape.type);
+      const Vec3 at(xi[0], xi[1], 0.0);
+      EXPECT_LT((facet_values(shape.type, xi) - declared.values(at)).cwiseAbs().maxCoeff(), 1e-14);
+      EXPECT_LT((facet_slopes(shape.type, xi) - declared.slopes(at).leftCols<2>()).cwiseAbs().maxCoeff(), 1e-14);
+    }
+}
+
+TEST(FacetMap, finds_the_point_of_a_curved_facet_that_is_projected_on_a_place) {
+  for (const FacetShape& shape : facet_shapes) {
+    Points x(3, static_cast<Eigen::Index>(shape.shape.nodes.size()));
+    for (int a = 0; a < x.cols(); ++a)
+      x.col(a) = vector_of(shape.shape.nodes[static_cast<size_t>(a)]) +
+                 0.05 * Vec3(pseudo_random(3 * a), pseudo_random(3 * a + 1), pseudo_random(3 * a + 2));
+    const FacetMap map(shape.type, x, Vec3::Zero(), Eigen::Matrix<double, 3, 2>::Identity());
+    for (int i = 0; i < 20; ++i) {
+      const Vec2 xi = 0.3 * Vec2(1 + pseudo_random(2 * i), 1 + pseudo_random(2 * i + 1));
+      const Vec3 at = x * shape_functions(shape.type).values({xi[0], xi[1], 0.0});
+      EXPECT_LT((map.inverse(at.head<2>()) - xi).norm(), 1e-13);
+    }
+  }
+}
+
 TEST(Mortar, of_a_square_on_two_rectangles_has_the_rows_of_the_dual_functions) {
   const Mesh lower = *box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1), {1, 1, 1});
   const Mesh upper = *box_mesh(Vec3(0, 0, 1), Vec3(1, 1, 1), {2, 1, 1});
