@@ -10,6 +10,11 @@ namespace dygita {
 namespace {
 
 void add_limits(CLI::App& command, double& time_limit, double& memory_limit, MeshLimits& meshes) {
+  constexpr double most_kept = 1e9;
+  meshes.cache = most_kept;
+  command.add_flag_callback(
+      "--no-cache", [&meshes] { meshes.cache = 0.0; },
+      "mesh every CAD file anew and keep no mesh in the folder .dygita beside the deck");
   command.add_option("--time-limit", time_limit, "time limit (s) of deck code")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -85,6 +90,7 @@ void add_run_options(CLI::App& command, Command& asked) {
 
 void add_check_options(CLI::App& command, Command& asked) {
   add_deck_options(command, asked);
+  add_threads(command, asked.deck.threads);
   command
       .add_option("--picture", asked.picture,
                   "draw parts, named faces and interfaces: .svg, or .html for a view that rotates")

@@ -5,6 +5,7 @@
 #include "base/fnv1a.hpp"
 #include "base/log.hpp"
 #include "base/names.hpp"
+#include "base/team.hpp"
 #include "base/threads.hpp"
 #include "deck/arguments.hpp"
 #include "deck/deck_state.hpp"
@@ -105,6 +106,7 @@ DeckOutcome execute(const DeckOptions& options, const Engine& engine, bool solve
   const std::string text =
       ranks::shared(options.text || !ranks::is_first() ? options.text.value_or("") : text_of(options.path));
   set_mesh_limits(options.meshes);
+  if (options.threads > 0) set_thread_limit(options.threads);
   set_mesh_folder(options.path.parent_path().string());
   DeckState state(options, engine, solves);
   state.deck_digest = digest_of(text);

@@ -12,11 +12,13 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/memory.hpp"
 #include "base/progress.hpp"
+#include "intake/mesh_cache.hpp"
 #include "ranks/ranks.hpp"
 
 namespace dygita {
@@ -197,7 +199,14 @@ std::string run_mesher(MesherTask task, const std::string& file) {
 }
 
 // Of several ranks the first has the file meshed, and all get what it was answered, or throw what it threw.
-std::string run_mesher_once(const MesherTask& task, const std::string& file) {
+std::string run_mesher_once(const MesherTask& task, const std::string& file, std::optional<MeshCache>& cache) {
+  if (ranks::is_first()) cache.emplace(task, file, deck_folder());
+  std::string kept = cache ? cache->find() : "";
+  kept = ranks::shared(std::move(kept));
+  if (!kept.empty()) {
+    say(fmt::format("{}: meshed before; the mesh is taken from {}", file, MeshCache::folder_name));
+    return kept;
+  }
   if (ranks::is_alone()) return run_mesher(task, file);
   std::string answer, error;
   if (ranks::is_first()) {
@@ -215,9 +224,15 @@ std::string run_mesher_once(const MesherTask& task, const std::string& file) {
 }  // namespace
 
 MesherAnswer ask_mesher(const MesherTask& task, const std::string& file) {
-  MesherAnswer answer = answer_of(run_mesher_once(task, file), file);
+  std::optional<MeshCache> cache;  // of the first rank
+  const std::string bytes = run_mesher_once(task, file, cache);
+  MesherAnswer answer = answer_of(bytes, file);
   for (const std::string& warning : answer.warnings) warn(warning);
   if (!answer.error.empty()) throw InputError(answer.error);
+  if (cache) {
+    answer.libraries.push_back(mesher_program());
+    cache->keep(bytes, answer.libraries);
+  }
   return answer;
 }
 

@@ -221,6 +221,7 @@ MesherAnswer read_answer(const std::string& bytes) {
   answer.error = json.at("error");
   answer.warnings = json.at("warnings").get<std::vector<std::string>>();
   if (!answer.error.empty()) return answer;
+  if (json.contains("libraries")) answer.libraries = json["libraries"].get<std::vector<std::string>>();
   answer.model = model_of(json.at("model"));
   for (const Json& solid : json.at("solids")) {
     answer.solids.push_back({solid.at("name"), solid.at("product"), solid.at("instance")});
@@ -262,6 +263,7 @@ std::string to_bytes(const MesherAnswer& answer) {
   Json json = {{"error", answer.error}, {"warnings", answer.warnings}};
   if (!answer.error.empty()) return bytes_of(json);
   json["model"] = json_of(answer.model);
+  json["libraries"] = answer.libraries;
   json["solids"] = Json::array();
   for (size_t i = 0; i < answer.solids.size(); ++i) {
     const SolidNames& solid = answer.solids[i];

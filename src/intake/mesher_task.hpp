@@ -36,6 +36,7 @@ struct MesherAnswer {
   std::vector<SolidNames> solids;                    // of an assembly, one for each volume of the model
   std::vector<std::optional<SolidCopy>> copies;      // of each of them; a copy has neither cells nor facets
   std::vector<std::vector<TaggedSurface>> surfaces;  // of each of them, called after it: "bolt1.head"
+  std::vector<std::string> libraries;                // files that it was made with
 };
 
 std::string to_bytes(const MesherTask& task);

@@ -9,6 +9,7 @@ namespace dygita {
 struct MeshLimits {
   double time = 1800.0;              // s, elapsed, for each file
   double box_memory = 0.0;           // bytes, for each box; 0: all that the machine has
+  double cache = 0.0;                // bytes that meshes of CAD may take beside a deck; 0: none is kept there
   std::vector<std::string> trusted;  // files that may run programs and write files
 };
 

@@ -1,4 +1,5 @@
 // dygita-mesher: reads a task from standard input, answers on standard output. Started by dygita (mesh/mesher_process).
+#include <link.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -16,6 +17,17 @@ namespace dygita {
 
 namespace {
 
+std::vector<std::string> loaded_libraries() {
+  std::vector<std::string> paths;
+  dl_iterate_phdr(
+      [](dl_phdr_info* info, size_t, void* all) {
+        if (info->dlpi_name[0] == '/') static_cast<std::vector<std::string>*>(all)->emplace_back(info->dlpi_name);
+        return 0;
+      },
+      &paths);
+  return paths;
+}
+
 MesherAnswer answer_to(const MesherTask& task) {
   MesherAnswer answer;
   try {
@@ -30,6 +42,7 @@ MesherAnswer answer_to(const MesherTask& task) {
     answer.error = file + ": gmsh requires more memory than this machine has\n    use larger cells, or check 'unit'";
   }
   answer.warnings = take_warnings();
+  answer.libraries = loaded_libraries();
   return answer;
 }
 
