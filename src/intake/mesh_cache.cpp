@@ -1,6 +1,5 @@
 #include "intake/mesh_cache.hpp"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <spdlog/fmt/fmt.h>
 #include <sys/stat.h>
