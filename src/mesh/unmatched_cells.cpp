@@ -98,6 +98,7 @@ std::string more(int n, const char* what) { return n > 1 ? fmt::format(" ({} {} 
 
 // The boundary of a mesh, each facet by its corners.
 struct BoundaryPolygons {
+  static constexpr double level = 1e-4;  // of a facet's size, off its plane
   std::vector<Facet> facets;
   std::vector<Polygon> polygons;
   std::vector<Vec3> normals, middles;
@@ -120,9 +121,12 @@ struct BoundaryPolygons {
     }
   }
 
+  // Where what lies on facet i meets it.
+  Box around(size_t i) const { return boxes[i].grown(2.0 * level * std::sqrt(areas[i])); }
+
   // m^2, that facets i and j have in common where they lie on each other.
   double common_area(size_t i, size_t j) const {
-    constexpr double level = 1e-4, on_the_spot = 1e-7, parallel = 1e-3, least = 1e-3, opposed_enough = -0.8;
+    constexpr double on_the_spot = 1e-7, parallel = 1e-3, least = 1e-3, opposed_enough = -0.8;
     const double smaller = std::min(areas[i], areas[j]), size = std::sqrt(smaller);
     if (smaller == 0.0 || !boxes[i].grown(level * size).meets(boxes[j])) return 0.0;
     const double cosine = normals[i].dot(normals[j]), sine = normals[i].cross(normals[j]).norm();
@@ -187,8 +191,9 @@ std::optional<Seam> find_seam(const Mesh& mesh, const std::unordered_set<FacetKe
   std::vector<Found> found(boundary.facets.size());
   parallel_for(static_cast<int>(found.size()), [&](int j) {
     std::vector<int> near;
+    const Box within = boundary.around(static_cast<size_t>(j));
     grid.for_each_near(boundary.polygons[static_cast<size_t>(j)], [&](int i) {
-      if (i < j) near.push_back(i);
+      if (i < j && within.meets(boundary.boxes[static_cast<size_t>(i)])) near.push_back(i);
     });
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
