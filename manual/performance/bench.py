@@ -17,10 +17,11 @@ import kernels  # noqa: E402
 import ranks  # noqa: E402
 import scaling  # noqa: E402
 import scene_runs  # noqa: E402
+import statics  # noqa: E402
 from measure import Machine, processor, read_rows  # noqa: E402
 from page import table  # noqa: E402
 
-PARTS = {"headline": headline, "kernels": kernels, "scenes": scene_runs, "scaling": scaling, "ranks": ranks}
+PARTS = {"headline": headline, "kernels": kernels, "scenes": scene_runs, "statics": statics, "scaling": scaling, "ranks": ranks}
 
 
 def arguments():
@@ -49,7 +50,8 @@ def rows_of(part, folder):
 
 def section_of(part, folder, rows):
     module = PARTS[part]
-    module.figure(rows, folder)
+    if hasattr(module, "figure"):
+        module.figure(rows, folder)
     return headline.section(rows, read_rows(folder / "tolerance.csv")) if part == "headline" else module.section(rows)
 
 

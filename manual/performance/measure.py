@@ -25,6 +25,7 @@ class DeckRun:
     folder: Path
     peak_bytes: int
     share: float        # processor time over elapsed time and threads: well under 1 on one thread, the machine was busy
+    processor: float = 0.0    # seconds
 
     @property
     def shock(self):
@@ -87,7 +88,7 @@ class Machine:
         _, peak, used = self.run(command, limit)
         elapsed = time.monotonic() - began
         record = next(out.glob("*/*/run.json"))
-        return DeckRun(json.loads(record.read_text()), record.parent, peak, used / elapsed / threads)
+        return DeckRun(json.loads(record.read_text()), record.parent, peak, used / elapsed / threads, used)
 
     def side_by_side(self, n, deck, settings=None, solver=None, limit=600, threads=1):
         """Seconds until n processes have all computed a deck; of one thread: what the machine has for n threads in these minutes."""

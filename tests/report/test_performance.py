@@ -11,6 +11,7 @@ sys.path[:0] = [str(MANUAL / "performance"), str(MANUAL / "verification")]
 import headline  # noqa: E402
 import measure  # noqa: E402
 import scene_runs  # noqa: E402
+import statics  # noqa: E402
 
 
 def pair(threads, latin, linear, **more):
@@ -46,6 +47,13 @@ class Scenes(unittest.TestCase):
                 {"scene": "a", "settings": "n=1", "dofs": 10, "threads": 2, "all [s]": 2.0, "two processes [s]": 5.0},
                 {"scene": "a", "settings": "n=2", "dofs": 20, "threads": 2, "all [s]": 2.0, "two processes [s]": ""}]
         self.assertEqual(scene_runs.speed_up(rows), [("a", 10, 2.0, 1.6)])
+
+
+class Statics(unittest.TestCase):
+    def test_a_fast_box_that_has_not_converged_misses_the_goal(self):
+        row = {"scene": statics.BOX, "processor [s]": 9.0, "not converged": 0}
+        self.assertEqual([[goal[2] for goal in statics.goals([row | more])] for more in ({}, {"processor [s]": 11.0}, {"not converged": 1})], [[True], [False], [False]])
+        self.assertEqual(statics.goals([row | {"scene": "another"}]), [])
 
 
 class Rows(unittest.TestCase):
