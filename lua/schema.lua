@@ -999,8 +999,8 @@ words[12] = {
     arguments = {
       { "n", type = "integer", range = { 2, 100000 }, default_doc = "required; of \"corners\" 2^parameters", doc = "number of members" },
       { "seed", type = "integer", range = { 0, 1e9 }, default = 1, doc = "of the draw: the same seed gives the same members" },
-      { "method", type = "choice", choices = { "latin hypercube", "sobol", "corners" }, default = "latin hypercube",
-        doc = "how values are spread: each of n equal strata of every parameter once; a sequence that fills evenly; or all combinations of the "
+      { "method", type = "choice", choices = { "latin hypercube", "random", "sobol", "corners" }, default = "latin hypercube",
+        doc = "how values are spread: each of n equal strata of every parameter once; independently; a sequence that fills evenly; or all combinations of the "
           .. "bounds, without P95/50 (of normal and lognormal ones the quantiles 2.5 % and 97.5 %)" },
       { "vary", type = "distributions", required = true, doc = "the parameters: a distribution, a list of equally likely numbers, or { distribution, "
         .. "each = bolts }, which draws a value for each item of the list" },

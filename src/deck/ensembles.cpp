@@ -36,7 +36,9 @@ Distribution::Kind kind_of(const std::string& name) {
 }
 
 Design design_of(const std::string& method) {
-  return method == "corners" ? Design::corners : method == "sobol" ? Design::sobol : Design::latin_hypercube;
+  if (method == "corners") return Design::corners;
+  if (method == "random") return Design::random;
+  return method == "sobol" ? Design::sobol : Design::latin_hypercube;
 }
 
 std::string text_in(lua_State* L, int table, const char* key) {
@@ -203,6 +205,7 @@ int conclude_ensemble(LuaState& lua, lua_State* L) {
   state.n_members = 0;
   state.declared.mark_used(the_object_at(L, 1).id);
   each_of(L, 2, "problems", [&](size_t) { state.declared.mark_used(the_object_at(L, -1).id); });
+  const LuaState::Pause pause(state);
   found->scatter = scatter_of(found->ensemble);
   found->statistics = statistics_of(*found);
   const std::string problem = found->ensemble.members.front().problem->name;

@@ -37,7 +37,7 @@ std::vector<double> numbered(int n) {
   return numbers;
 }
 
-void add_columns(const std::vector<const Table*>& tables, bool is_sample, OutputScatter& scatter) {
+void add_columns(const std::vector<const Table*>& tables, std::optional<double> factor, OutputScatter& scatter) {
   const Table& first = *tables.front();
   bool have_same_rows = true, have_same_abscissa = true;
   for (const Table* table : tables) {
@@ -55,7 +55,7 @@ void add_columns(const std::vector<const Table*>& tables, bool is_sample, Output
     std::vector<const std::vector<double>*> values;
     for (const Table* table : tables) values.push_back(&table->columns[i]);
     scatter.columns.emplace_back(first.names[i], scatter_of(abscissa, at, first.step, values,
-                                                            {first.names[i], first.units[i]}, is_spectrum, is_sample));
+                                                            {first.names[i], first.units[i]}, is_spectrum, factor));
   }
 }
 
@@ -125,13 +125,15 @@ std::vector<OutputScatter> scatter_of(const Ensemble& ensemble) {
   std::vector<OutputScatter> all;
   if (members.empty()) return all;
   const FiguresOfMembers figures = figures_of(members);
+  std::optional<double> factor;
+  if (ensemble.is_sample() && members.size() > 1) factor = tolerance_factor(static_cast<int>(members.size()));
   for (const OutputPtr& output : members.front()->problem->outputs) {
     std::vector<const Table*> tables;
     for (const EnsembleMember* member : members)
       if (const Table* table = table_of(*member, output->name)) tables.push_back(table);
     if (tables.size() < members.size()) continue;
     OutputScatter scatter{output, {}, {}, {}};
-    add_columns(tables, ensemble.is_sample(), scatter);
+    add_columns(tables, factor, scatter);
     add_drives(ensemble, members, figures, scatter);
     if (scatter.is_spectrum) add_drives_at(ensemble, members, tables, scatter);
     all.push_back(std::move(scatter));

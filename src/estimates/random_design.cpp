@@ -101,6 +101,14 @@ PointList latin_hypercube(size_t n, size_t k, std::uint64_t seed) {
   return points;
 }
 
+PointList random_points(size_t n, size_t k, std::uint64_t seed) {
+  PointList points(n, std::vector<double>(k));
+  Uniform uniform(seed);
+  for (std::vector<double>& point : points)
+    for (double& x : point) x = uniform();
+  return points;
+}
+
 PointList sobol(size_t n, size_t k, std::uint64_t seed) {
   PointList points(n, std::vector<double>(k));
   Uniform uniform(seed);
@@ -173,6 +181,7 @@ std::vector<std::vector<double>> design_points(Design design, int n, int k, std:
   CHECK(n > 0 && k > 0, "a design has points and parameters");
   if (design == Design::corners) return corners(static_cast<size_t>(k));
   if (design == Design::latin_hypercube) return latin_hypercube(static_cast<size_t>(n), static_cast<size_t>(k), seed);
+  if (design == Design::random) return random_points(static_cast<size_t>(n), static_cast<size_t>(k), seed);
   CHECK(k <= most_sobol_parameters, "more parameters than Sobol's sequence has here");
   return sobol(static_cast<size_t>(n), static_cast<size_t>(k), seed);
 }

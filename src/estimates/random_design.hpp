@@ -26,13 +26,13 @@ struct Distribution {
   std::string complaint() const;
 };
 
-enum class Design { latin_hypercube, sobol, corners };
+enum class Design { latin_hypercube, random, sobol, corners };
 
 inline constexpr int most_sobol_parameters = 21, most_corner_parameters = 10;
 
 // n points of the unit cube of k dimensions, the same for a seed on every machine; corners are 2^k points, 0 or 1.
-// Latin hypercube: each of n equal strata of each parameter has one point. Sobol: the sequence with a random shift,
-// whose first points stay what they are as n grows.
+// Latin hypercube: each of n equal strata of each parameter has one point. Random: independent ones. Sobol: the
+// sequence with a random shift, whose first points stay what they are as n grows.
 std::vector<std::vector<double>> design_points(Design design, int n, int k, std::uint64_t seed);
 
 // The order in which points follow each other closely, from the first on.

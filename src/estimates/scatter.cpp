@@ -19,7 +19,7 @@ double normal_share(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 // P(mean + k s >= quantile of the units) of n standard normal values: the mean is normal, s^2 that of chi squared, and
 // both are independent. Simpson's rule over s.
 double confidence_of(double k, int n, double z) {
-  constexpr int intervals = 4000;
+  constexpr int intervals = 800;
   const double nu = n - 1.0, reach = 12.0 / std::sqrt(2.0 * nu);
   const double from = std::max(0.0, 1.0 - reach), to = 1.0 + reach, h = (to - from) / intervals;
   const double log_scale = std::log(2.0) + 0.5 * nu * std::log(0.5 * nu) - std::lgamma(0.5 * nu);
@@ -59,7 +59,7 @@ double tolerance_factor(int n, double share, double confidence) {
   double low = -1.0, high = 1.0;
   while (confidence_of(low, n, z) > confidence) low *= 2.0;
   while (confidence_of(high, n, z) < confidence) high *= 2.0;
-  for (int i = 0; i < 60; ++i) {
+  while (high - low > 1e-13 * (1.0 + std::abs(low))) {
     const double middle = 0.5 * (low + high);
     (confidence_of(middle, n, z) < confidence ? low : high) = middle;
   }
@@ -115,16 +115,14 @@ RankCorrelation rank_correlation(const std::vector<double>& x, const std::vector
 
 Table scatter_of(const Column& abscissa, const std::vector<double>& at, const std::vector<int>& step,
                  const std::vector<const std::vector<double>*>& members, const Column& column, bool is_level,
-                 bool has_limit) {
+                 std::optional<double> factor) {
   const std::string& unit = column.unit;
   Columns columns = {abscissa, {"median", unit}, {"lowest", unit}, {"highest", unit}};
-  if (is_level && has_limit) columns.push_back({"p95_50", unit});
+  if (is_level && factor) columns.push_back({"p95_50", unit});
   if (is_level) columns.push_back({"spread", "dB"});
   Table table = empty_table(columns);
   table.step = step;
   table.columns[0] = at;
-  const auto n = static_cast<int>(members.size());
-  const double k = is_level && has_limit && n > 1 ? tolerance_factor(n) : not_a_number;
   for (size_t row = 0; row < at.size(); ++row) {
     std::vector<double> values, logarithms;
     for (const std::vector<double>* of : members) values.push_back((*of)[row]);
@@ -132,7 +130,7 @@ Table scatter_of(const Column& abscissa, const std::vector<double>& at, const st
     const double spread = sample_deviation(logarithms);
     std::vector<double> found = {sample_quantile(values, 0.5), sample_quantile(values, 0.0),
                                  sample_quantile(values, 1.0)};
-    if (is_level && has_limit) found.push_back(std::exp(sample_mean(logarithms) + k * spread));
+    if (is_level && factor) found.push_back(std::exp(sample_mean(logarithms) + *factor * spread));
     if (is_level) found.push_back(20.0 / std::log(10.0) * spread);
     for (size_t i = 0; i < found.size(); ++i) table.columns[i + 1].push_back(found[i]);
   }

@@ -2,6 +2,7 @@
 // the spread (manual, eq. N4, N5).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "result/result.hpp"
@@ -25,9 +26,9 @@ struct RankCorrelation {
 RankCorrelation rank_correlation(const std::vector<double>& x, const std::vector<double>& y);
 
 // Row by row over the members' tables: median, lowest, highest; of levels (spectra: amplitudes above zero) also p95_50
-// and spread, the standard deviation in dB. `has_limit`: the members are a sample, of which p95_50 can tell.
+// and spread, the standard deviation in dB. factor: of p95_50; none: the members are no sample.
 Table scatter_of(const Column& abscissa, const std::vector<double>& at, const std::vector<int>& step,
                  const std::vector<const std::vector<double>*>& members, const Column& column, bool is_level,
-                 bool has_limit);
+                 std::optional<double> factor);
 
 }  // namespace dygita

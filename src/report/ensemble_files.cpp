@@ -129,7 +129,9 @@ std::string ensemble_chart(const Ensemble& ensemble, const OutputScatter& scatte
 }
 
 const char* name_of(Design design) {
-  return design == Design::corners ? "corners" : design == Design::sobol ? "sobol" : "latin hypercube";
+  if (design == Design::corners) return "corners";
+  if (design == Design::random) return "random";
+  return design == Design::sobol ? "sobol" : "latin hypercube";
 }
 
 std::string ensemble_record(const Ensemble& ensemble, const std::vector<OutputScatter>& scatter) {

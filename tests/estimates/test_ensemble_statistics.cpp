@@ -151,6 +151,18 @@ TEST(Design, sobol_points_integrate_in_every_pair_of_dimensions) {
     }
 }
 
+TEST(Design, random_points_are_uniform_and_independent) {
+  constexpr int n = 20000;
+  const auto points = design_points(Design::random, n, 2, 5);
+  double product = 0.0, square = 0.0;
+  for (const auto& point : points) {
+    product += (2.0 * point[0] - 1.0) * (2.0 * point[1] - 1.0) / n;
+    square += std::pow(2.0 * point[0] - 1.0, 2) / n;
+  }
+  EXPECT_NEAR(product, 0.0, 4.0 / (3.0 * std::sqrt(n)));
+  EXPECT_NEAR(square, 1.0 / 3.0, 4.0 * 0.3 / std::sqrt(n));
+}
+
 TEST(Design, corners_are_all_of_them) {
   const auto points = design_points(Design::corners, 1, 3, 0);
   EXPECT_EQ(std::set<std::vector<double>>(points.begin(), points.end()).size(), 8u);
