@@ -12,6 +12,7 @@
 #include "base/names.hpp"
 #include "base/progress.hpp"
 #include "base/warnings.hpp"
+#include "base/work.hpp"
 #include "deck/repeat_run.hpp"
 #include "ranks/ranks.hpp"
 
@@ -44,6 +45,8 @@ int fail(const char* message, int code) {
 }
 
 int exit_code(const DeckOutcome& outcome, const char* when_stopped) {
+  if (outcome.interrupted && work_was_interrupted())
+    return say_error("stopped; nothing was solved, meshes that were finished are kept: start it again", stopped);
   if (outcome.interrupted) return say_error(when_stopped, stopped);
   for (const std::string& name : outcome.not_converged) say_error(("not converged: " + name).c_str(), not_converged);
   if (!outcome.differing.empty()) return say_error(outcome.differing.c_str(), not_converged);
@@ -123,6 +126,7 @@ void join_ranks(int argc, char** argv) {
     throw InputError(fmt::format(
         "dygita {}: cannot run on several MPI ranks\n    mpirun starts only dygita run and dygita continue", command));
   refuse_folders_of_their_own();
+  set_interrupts_heeded(false);
   if (ranks::is_first()) return;
   be_silent();
   set_progress_enabled(false);

@@ -7,6 +7,7 @@
 
 #include "base/names.hpp"
 #include "base/warnings.hpp"
+#include "base/work.hpp"
 
 namespace dygita {
 
@@ -28,6 +29,7 @@ void keep(const std::string& message, bool is_serious) {
   kept_warnings.insert(
       is_serious ? kept_warnings.begin() + static_cast<std::ptrdiff_t>(n_serious++) : kept_warnings.end(), message);
   if (is_silent) return;
+  leave_progress_line();
   std::fputs(("warning: " + printable(message) + "\n").c_str(), stderr);
 }
 
@@ -64,6 +66,7 @@ void tell(bool is_serious) {
 void say(const std::string& line) {
   const std::scoped_lock lock(log_mutex);
   if (is_silent) return;
+  leave_progress_line();
   std::fputs((printable(line) + "\n").c_str(), stdout);
   std::fflush(stdout);
 }

@@ -17,7 +17,9 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/memory.hpp"
+#include "base/names.hpp"
 #include "base/progress.hpp"
+#include "base/work.hpp"
 #include "intake/mesh_cache.hpp"
 #include "ranks/ranks.hpp"
 
@@ -86,9 +88,14 @@ class Process {
     posix_spawn_file_actions_adddup2(&actions, in_.read_end(), 0);
     posix_spawn_file_actions_adddup2(&actions, out_.write_end(), 1);
     posix_spawn_file_actions_adddup2(&actions, errors_.write_end(), 2);
+    // A group of its own: Ctrl-C is for the program that waits, which ends it.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     std::string name = program;
     char* const arguments[] = {name.data(), nullptr};
-    const int failed = posix_spawn(&id_, program.c_str(), &actions, nullptr, arguments, environ);
+    const int failed = posix_spawn(&id_, program.c_str(), &actions, &attributes, arguments, environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (failed != 0) throw InputError(fmt::format("cannot start {}: {}", program, std::strerror(failed)));
     in_.close_end(0);
@@ -175,6 +182,19 @@ void set_mesh_folder(const std::string& folder) { deck_folder() = folder; }
 
 namespace {
 
+// The last line of those that say what the mesher does, taken out of what it has written; empty: none is whole yet.
+std::string take_told(std::string& errors) {
+  constexpr size_t longest = 200;
+  std::string told;
+  for (size_t begin; (begin = errors.find(told_mark)) != std::string::npos;) {
+    const size_t end = errors.find('\n', begin);
+    if (end == std::string::npos) break;
+    told = errors.substr(begin + 1, std::min(end - begin - 1, longest));
+    errors.erase(begin, end + 1 - begin);
+  }
+  return printable(told);
+}
+
 // What it answers, as bytes.
 std::string run_mesher(MesherTask task, const std::string& file) {
   using Clock = std::chrono::steady_clock;
@@ -184,10 +204,16 @@ std::string run_mesher(MesherTask task, const std::string& file) {
   Process mesher(mesher_program());
   const auto start = Clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  const bool is_over =
-      mesher.converse(to_bytes(task), [&] { return seconds() < mesh_limits().time && !interrupt_requested(); });
+  Work work("meshing " + fs::path(file).filename().string(), 0, Work::Interrupts::wait);
+  std::string doing = "reading";
+  const bool is_over = mesher.converse(to_bytes(task), [&] {
+    if (std::string told = take_told(mesher.errors); !told.empty()) doing = std::move(told);
+    work.tell(doing);
+    return seconds() < mesh_limits().time && !interrupt_requested();
+  });
   if (!is_over) {
     mesher.end();
+    if (interrupt_requested() && ranks::is_alone()) throw Interrupted();
     if (interrupt_requested()) throw InputError(fmt::format("{}: stopped while gmsh was meshing it", file));
     throw InputError(
         fmt::format("{}: gmsh has taken {:g} s to read and mesh it, and was stopped\n    infinite loop? "

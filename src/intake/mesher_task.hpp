@@ -29,6 +29,9 @@ struct SolidCopy {
   Vec3 shift = Vec3::Zero();
 };
 
+// Before each line on the mesher's standard error that says what it does.
+inline constexpr char told_mark = '\x1e';
+
 struct MesherAnswer {
   std::string error;                  // not empty: there is nothing else
   std::vector<std::string> warnings;  // said to the user

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "base/parallel.hpp"
+#include "base/work.hpp"
 #include "interfaces/check_preloads.hpp"
 #include "interfaces/whole_parts.hpp"
 #include "law/law.hpp"
@@ -272,7 +273,14 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
   const int n = static_cast<int>(problem.interfaces.size());
   std::vector<std::optional<Meeting>> meetings(static_cast<size_t>(n));
   const double within = n > 0 ? default_within(problem) : 0.0;
-  parallel_for(n, [&](int i) { meetings[i].emplace(meeting_of(*problem.interfaces[i], within)); });
+  {
+    Work work("points of interfaces", n);
+    parallel_for(n, [&](int i) {
+      work.tell("'" + problem.interfaces[i]->name + "'");
+      meetings[i].emplace(meeting_of(*problem.interfaces[i], within));
+      work.done("'" + problem.interfaces[i]->name + "'");
+    });
+  }
   const Rings rings(problem, meetings);
   std::vector<Facing> facings(static_cast<size_t>(n));
   parallel_for(n, [&](int i) { facings[i] = facing_of(problem, i, meetings, rings); });

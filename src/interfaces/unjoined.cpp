@@ -11,6 +11,7 @@
 
 #include "base/parallel.hpp"
 #include "base/warnings.hpp"
+#include "base/work.hpp"
 #include "interfaces/whole_parts.hpp"
 #include "law/law.hpp"
 #include "meeting/touching.hpp"
@@ -222,6 +223,7 @@ std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Su
       const double near = reach * size + std::min(flight_of(problem, i, j), longest_flight * size);
       if (boxes[i].grown(near).meets(boxes[j].grown(near))) pairs.push_back({i, j, size, near, {}});
     }
+  Work work("parts near each other", static_cast<int>(pairs.size()));
   parallel_for(static_cast<int>(pairs.size()), [&](int k) {
     Unjoined& pair = pairs[static_cast<size_t>(k)];
     const int i = pair.part_1, j = pair.part_2;
@@ -244,6 +246,8 @@ std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Su
     pair.neighbours = find_neighbours(body_1, body_2, pair.reach);
     if (pair.neighbours.intrusion && pair.neighbours.intrusion->depth <= 1.5 * interference)
       pair.neighbours.intrusion = {};
+    work.done(fmt::format("'{}' and '{}'", problem.substructures[static_cast<size_t>(i)]->name,
+                          problem.substructures[static_cast<size_t>(j)]->name));
     if (!pair.neighbours.intrusion || pair.neighbours.intrusion->depth <= pair.offset) return;
     for (const Surface& surface : surfaces)
       if (std::min(surface.part_1, surface.part_2) == i && std::max(surface.part_1, surface.part_2) == j)

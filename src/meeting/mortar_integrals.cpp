@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/parallel.hpp"
+#include "base/work.hpp"
 #include "meeting/facet_map.hpp"
 #include "meeting/part_functions.hpp"
 #include "numerics/dense.hpp"
@@ -271,7 +272,10 @@ std::vector<Coupling> couple(const FaceInSpace& face, const FaceInSpace& other, 
   const SegmentFinder finder(face, other, reach);
   const Integrator integrator(face, other, finder);
   std::vector<std::vector<Coupling>> of_facets(face.facets.size());
-  parallel_for(static_cast<int>(of_facets.size()), [&](int i) { of_facets[i] = integrator.of_facet(i); });
+  parallel_for(static_cast<int>(of_facets.size()), [&](int i) {
+    heed_interrupt();
+    of_facets[i] = integrator.of_facet(i);
+  });
   std::vector<Coupling> couplings;
   for (std::vector<Coupling>& some : of_facets) std::move(some.begin(), some.end(), std::back_inserter(couplings));
   return couplings;

@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 
+#include "base/work.hpp"
 #include "meeting/overlap.hpp"
 #include "meeting/sagitta.hpp"
 #include "meeting/true_gaps.hpp"
@@ -261,8 +262,11 @@ std::vector<NearNode> find_near_nodes(const SurfaceInBox& a, const SurfaceInBox&
   std::vector<NearNode> near;
   if (b.facets.empty()) return near;
   BoxGrid grid(b.boxes, b.mean_size() + reach);
+  std::vector<char> is_joined;
+  for (size_t j = 0; j < b.facets.size(); ++j) is_joined.push_back(b.is_joined(j) ? 1 : 0);
   std::unordered_set<int> seen;
   for (size_t i = 0; i < a.facets.size(); ++i) {
+    heed_interrupt();
     if (a.is_joined(i)) continue;
     for (const int node : a.facets[i].corners()) {
       if (a.body.joined_nodes.contains(node)) continue;
@@ -270,7 +274,7 @@ std::vector<NearNode> find_near_nodes(const SurfaceInBox& a, const SurfaceInBox&
       std::optional<NearNode> best;
       grid.for_each_meeting(Box{x, x}.grown(reach), [&](int k) {
         const auto j = static_cast<size_t>(k);
-        if (b.is_joined(j) || a.normals[i].dot(b.normals[j]) > -0.5) return;
+        if (is_joined[j] || a.normals[i].dot(b.normals[j]) > -0.5) return;
         const Nearest nearest = nearest_on(b, b.facets[j], x);
         const Vec3 apart = x - nearest.place;
         const double gap = apart.dot(b.normals[j]);

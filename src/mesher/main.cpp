@@ -2,6 +2,7 @@
 #include <link.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <iterator>
@@ -16,6 +17,15 @@
 namespace dygita {
 
 namespace {
+
+bool write_all(int stream, const std::string& bytes) {
+  for (size_t done = 0; done < bytes.size();) {
+    const ssize_t n = write(stream, bytes.data() + done, bytes.size() - done);
+    if (n <= 0) return false;
+    done += static_cast<size_t>(n);
+  }
+  return true;
+}
 
 std::vector<std::string> loaded_libraries() {
   std::vector<std::string> paths;
@@ -46,16 +56,15 @@ MesherAnswer answer_to(const MesherTask& task) {
   return answer;
 }
 
-bool write_all(int stream, const std::string& bytes) {
-  for (size_t done = 0; done < bytes.size();) {
-    const ssize_t n = write(stream, bytes.data() + done, bytes.size() - done);
-    if (n <= 0) return false;
-    done += static_cast<size_t>(n);
-  }
-  return true;
-}
-
 }  // namespace
+
+void tell(const std::string& doing) {
+  using Clock = std::chrono::steady_clock;
+  static Clock::time_point last;
+  if (Clock::now() - last < std::chrono::milliseconds(100)) return;
+  last = Clock::now();
+  write_all(STDERR_FILENO, told_mark + doing + "\n");
+}
 
 }  // namespace dygita
 

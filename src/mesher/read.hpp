@@ -9,4 +9,7 @@ namespace dygita {
 MesherAnswer read_file(const GmshOptions& options, const std::string& path);
 MesherAnswer read_assembly(const StepOptions& options);
 
+// Tells the program that waits what goes on, at most ten times a second: a line on standard error.
+void tell(const std::string& doing);
+
 }  // namespace dygita

@@ -75,9 +75,28 @@ void show_meshed(const std::vector<Solid>& solids) {
   gmsh::option::setNumber("Mesh.MeshOnlyVisible", 1);
 }
 
-// Sizes of entities, by dimension and tag, as gmsh asks for them.
+// What gmsh works on, by the entity that it asks a size for.
+class Told {
+ public:
+  void add(const std::pair<int, int>& entity, int solid) { solid_of_[entity] = solid; }
+  void tell_of(const std::vector<Solid>& solids, const std::pair<int, int>& entity) {
+    const auto solid = solid_of_.find(entity);
+    if (solid == solid_of_.end() || entity == last_) return;
+    last_ = entity;
+    constexpr const char* what[] = {"points", "lines", "faces", "inside"};
+    tell(fmt::format("{} of '{}', solid {} of {}", what[std::clamp(entity.first, 0, 3)],
+                     solids[static_cast<size_t>(solid->second)].part.name, solid->second + 1, solids.size()));
+  }
+
+ private:
+  std::map<std::pair<int, int>, int> solid_of_;
+  std::pair<int, int> last_;
+};
+
+// Sizes of entities, by dimension and tag, as gmsh asks for them. Of `solids`, which outlive the mesh.
 void set_sizes(const StepOptions& options, const std::vector<Solid>& solids, double unit) {
   std::map<std::pair<int, int>, double> size_of;
+  Told told;
   for (const Solid& solid : solids) {
     GmshEntities all = {{3, solid.tag}}, boundary;
     gmsh::model::getBoundary(all, boundary, false, false, true);  // down to the points
@@ -89,7 +108,10 @@ void set_sizes(const StepOptions& options, const std::vector<Solid>& solids, dou
       gmsh::model::getBoundary({{dimension, tag}}, curves, false, false);
       all.insert(all.end(), curves.begin(), curves.end());
     }
-    for (const auto& entity : all) size_of[entity] = solid.size;
+    for (const auto& entity : all) {
+      size_of[entity] = solid.size;
+      told.add(entity, static_cast<int>(&solid - solids.data()));
+    }
   }
   const auto on_contacts = options.sizes.find("contacts");
   if (is_finer_at_contacts(options)) {
@@ -105,7 +127,9 @@ void set_sizes(const StepOptions& options, const std::vector<Solid>& solids, dou
   }
   gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
   gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", options.cells_a_turn);
-  gmsh::model::mesh::setSizeCallback([size_of = std::move(size_of)](int dimension, int tag, double, double, double) {
+  gmsh::model::mesh::setSizeCallback([size_of = std::move(size_of), told = std::move(told), &solids](
+                                         int dimension, int tag, double, double, double) mutable {
+    told.tell_of(solids, {dimension, tag});
     const auto found = size_of.find({dimension, tag});
     return found == size_of.end() ? 1e22 : found->second;
   });
@@ -116,7 +140,10 @@ void mesh_solids(const StepOptions& options, const std::vector<Solid>& solids, d
   gmsh::option::setNumber("Mesh.SecondOrderIncomplete", options.is_complete ? 0 : 1);
   show_meshed(solids);
   gmsh::model::mesh::generate(3);
-  if (options.order > 1) gmsh::model::mesh::setOrder(options.order);
+  if (options.order > 1) {
+    tell("nodes of order two");
+    gmsh::model::mesh::setOrder(options.order);
+  }
 }
 
 TaggedModel tagged(const StepOptions& options, const std::vector<Solid>& solids, double unit) {
@@ -172,6 +199,7 @@ void open(const StepOptions& options) {
   gmsh::option::setNumber("Geometry.OCCImportLabels", 1);
   // OpenCASCADE's tolerances are made for millimetres.
   gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
+  tell("reading");
   gmsh::open(options.file);
 }
 

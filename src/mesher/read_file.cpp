@@ -47,6 +47,7 @@ void load(const GmshOptions& options, const std::string& path, const GmshSession
       refuse_hopeless(
           options.file, [&](int) { return *options.size / unit; }, unit);
     gmsh::option::setNumber("Mesh.SecondOrderIncomplete", options.is_complete ? 0 : 1);
+    tell("lines, faces and bodies");
     gmsh::model::mesh::generate(3);
     if (options.order > 1) gmsh::model::mesh::setOrder(options.order);
   });

@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "base/work.hpp"
 #include "meeting/neighbours.hpp"
 #include "meeting/true_gaps.hpp"
 #include "model/meeting.hpp"
@@ -88,8 +89,10 @@ std::vector<TouchingPair> all_touching(const std::vector<SubstructurePtr>& parts
     return *known;
   };
   std::vector<TouchingPair> pairs;
-  for (int i = 0; i < n; ++i)
+  Work work("parts that touch", n);
+  for (int i = 0; i < n; work.done("'" + parts[static_cast<size_t>(i++)]->name + "'"))
     for (int j = i + 1; j < n; ++j) {
+      heed_interrupt();
       const double smaller = std::min(boxes[i].size().norm(), boxes[j].size().norm());
       if (!boxes[i].grown(within.value_or(0.0) + 0.05 * smaller).meets(boxes[j])) continue;
       if (outside(i).facets.empty() || outside(j).facets.empty()) continue;  // superelements of points alone

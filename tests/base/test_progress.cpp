@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <csignal>
+#include <memory>
 
 #include "base/progress.hpp"
+#include "base/work.hpp"
 
 namespace dygita {
 
@@ -29,6 +31,49 @@ TEST(Progress, is_silent_when_disabled) {
   set_progress_enabled(false);
   EXPECT_EQ(progress_of(20), "");
   set_progress_enabled(true);
+}
+
+TEST(Work, says_nothing_that_is_over_soon) {
+  testing::internal::CaptureStderr();
+  {
+    Work work("meshing", 3);
+    for (const char* solid : {"plate", "bolt", "nut"}) work.done(solid);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Work, ends_where_the_user_wants_it_and_it_may) {
+  heed_interrupt();
+  request_interrupt();
+  EXPECT_NO_THROW(heed_interrupt()) << "without work";
+  {
+    Work work("points of interfaces", 2);
+    EXPECT_THROW(heed_interrupt(), Interrupted);
+    EXPECT_THROW(work.tell("joint"), Interrupted);
+    EXPECT_THROW(work.done("joint"), Interrupted);
+    {
+      Work within("results", 0, Work::Interrupts::wait);
+      EXPECT_NO_THROW(heed_interrupt());
+    }
+    EXPECT_THROW(heed_interrupt(), Interrupted);
+    set_interrupts_heeded(false);
+    EXPECT_NO_THROW(work.tell("joint"));
+    set_interrupts_heeded(true);
+  }
+  EXPECT_NO_THROW(heed_interrupt()) << "once the work is done";
+  withdraw_interrupt();
+  Work work("points of interfaces", 2);
+  EXPECT_NO_THROW(work.done("joint"));
+}
+
+TEST(Work, may_end_in_any_order) {
+  auto first = std::make_unique<Work>("one"), second = std::make_unique<Work>("other");
+  request_interrupt();
+  first.reset();
+  EXPECT_THROW(heed_interrupt(), Interrupted);
+  second.reset();
+  EXPECT_NO_THROW(heed_interrupt());
+  withdraw_interrupt();
 }
 
 TEST(Interrupt, sets_a_flag_instead_of_killing) {
