@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/log.hpp"
@@ -62,6 +63,31 @@ bool holds(const Vec3& normal, const Vec3& point, const Bolt& bolt) {
   return std::abs(normal.dot(bolt.axis)) < along && std::abs(normal.dot(bolt.centre - point)) < 0.2 * bolt.radius;
 }
 
+using Boxes = std::vector<std::array<Vec3, 8>>;
+
+// Corners of each part's bounding box.
+Boxes boxes_of(const Problem& problem) {
+  Boxes boxes;
+  for (const SubstructurePtr& part : problem.substructures) {
+    if (part->mesh->n_nodes() == 0) continue;
+    const Vec3 low = part->mesh->nodes.rowwise().minCoeff() + part->place,
+               high = part->mesh->nodes.rowwise().maxCoeff() + part->place;
+    boxes.emplace_back();
+    for (unsigned i = 0; i < 8; ++i)
+      boxes.back()[i] = {i & 1u ? high[0] : low[0], i & 2u ? high[1] : low[1], i & 4u ? high[2] : low[2]};
+  }
+  return boxes;
+}
+
+// Parts that lie on both sides of a plane.
+size_t n_cut(const Boxes& boxes, const Vec3& normal, const Vec3& point) {
+  return static_cast<size_t>(std::count_if(boxes.begin(), boxes.end(), [&](const std::array<Vec3, 8>& corners) {
+    const auto is_above = [&](const Vec3& x) { return normal.dot(x - point) > 0.0; };
+    return std::any_of(corners.begin(), corners.end(), is_above) &&
+           !std::all_of(corners.begin(), corners.end(), is_above);
+  }));
+}
+
 // Normals of planes that hold the axis of a bolt.
 std::vector<Vec3> normals_at(const Bolt& bolt, const std::vector<Bolt>& bolts) {
   std::vector<Vec3> normals = {Vec3::UnitY(), Vec3::UnitX(), Vec3::UnitZ()};
@@ -86,15 +112,17 @@ std::optional<CutPlane> plane_through_bolts(const Problem& problem, const View& 
   const std::vector<Bolt> bolts = bolts_of(problem);
   const Vec3 sight = view.axes.row(2).transpose();
   std::optional<CutPlane> best;
-  size_t most = 0;
+  std::pair<size_t, size_t> most{0, 0};  // bolts, parts
+  const Boxes boxes = boxes_of(problem);
   for (const Bolt& bolt : bolts)
     for (const Vec3& normal : normals_at(bolt, bolts)) {
       if (std::abs(normal.dot(sight)) < smallest_facing || !holds(normal, bolt.centre, bolt)) continue;
       std::vector<std::string> held;
       for (const Bolt& other : bolts)
         if (holds(normal, bolt.centre, other)) held.push_back("'" + other.name + "'");
-      if (held.size() <= most) continue;
-      most = held.size();
+      const std::pair own{held.size(), n_cut(boxes, normal, bolt.centre)};
+      if (own <= most) continue;
+      most = own;
       best = CutPlane{normal.dot(sight) > 0.0 ? normal : Vec3(-normal), bolt.centre, "through "};
       for (size_t i = 0; i < std::min(held.size(), most_named); ++i) best->text += (i > 0 ? ", " : "") + held[i];
       if (held.size() > most_named) best->text += fmt::format(" and {} more", held.size() - most_named);

@@ -15,7 +15,7 @@ struct CutPlane {
 };
 
 // The plane that holds the axes of the most bolts, which are the interfaces that some step tightens, and is seen from
-// where the view is; of equals the first. None where no bolt is.
+// where the view is; of equals the one that cuts the most parts. None where no bolt is.
 std::optional<CutPlane> plane_through_bolts(const Problem& problem, const View& view);
 
 // "the plane y = 12 mm"; "a plane" where its normal is no axis.

@@ -1,4 +1,4 @@
-// Equal parts of a pattern, upper[1] to upper[24], shown as one.
+// Equal parts, upper[1] to upper[24], screw 1 to screw 6, shown as one.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct PartGroup {
 };
 
 // Parts (of run.json) that are called stem[i], in the order of the first of each, with the same material and mesh:
-// one group.
+// one group. So are three or more whose names differ by numbers alone.
 std::vector<PartGroup> part_groups(const Json& parts);
 
 // The group of each part.

@@ -218,7 +218,12 @@ std::string table_of_contacts(const Json& record) {
   if (contacts.empty()) return "";
   constexpr size_t most_open = 15;
   Cells rows;
-  for (const Contact& contact : contacts) rows.push_back(row_of(contact));
+  double opens = 0.0;
+  for (const Contact& contact : contacts) opens = std::fmax(opens, contact.opening);
+  for (Contact contact : contacts) {
+    if (is_rounding(contact.opening, opens)) contact.opening = 0.0;
+    rows.push_back(row_of(contact));
+  }
   const std::vector<std::vector<std::string>> all = in_common_units(rows);
   const auto table = [](auto first, auto last) {
     return html::table({"contact", "pressed at rest", "pressed, lowest", "highest", "shear", "closed, least",

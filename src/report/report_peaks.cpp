@@ -174,15 +174,24 @@ std::string margins_section(const RunFolder& run) {
                     "(" + where + ")"});
   }
   if (rows.empty()) return "";
+  constexpr size_t most_open = 15;
+  const std::vector<std::vector<std::string>> all = in_common_units(rows);
+  const auto table = [](auto first, auto last) {
+    return html::table(
+        {"part", "material", "yield", "largest von Mises", "margin", "volume beyond", "when", "where (mm)"},
+        {first, last}, true);
+  };
+  const auto middle = all.begin() + static_cast<long>(std::min(most_open, all.size()));
+  std::string body = table(all.begin(), middle);
+  if (middle != all.end())
+    body += html::folded(fmt::format("The other {} parts", all.end() - middle), table(middle, all.end()));
   return doubted_section(
       run, "Stress against yield",
-      html::table({"part", "material", "yield", "largest von Mises", "margin", "volume beyond", "when", "where (mm)"},
-                  in_common_units(rows), true) +
-          html::paragraph(
-              "Margin: yield / von Mises − 1; the material model stays elastic beyond yield. Stresses are nodal "
-              "averages; at edges, corners and contact rims they are mesh-dependent, so check the volume beyond "
-              "yield." +
-              (unwatched.empty() ? "" : " Not monitored, since their material has no yield: " + unwatched + ".")));
+      body + html::paragraph(
+                 "Margin: yield / von Mises − 1; the material model stays elastic beyond yield. Stresses are nodal "
+                 "averages; at edges, corners and contact rims they are mesh-dependent, so check the volume beyond "
+                 "yield." +
+                 (unwatched.empty() ? "" : " Not monitored, since their material has no yield: " + unwatched + ".")));
 }
 
 }  // namespace dygita

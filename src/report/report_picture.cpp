@@ -1,7 +1,8 @@
-// The assembly as SVG: facets back to front, by part or by von Mises stress, the undeformed outline over it.
+// The assembly as SVG: facets back to front, by part or by von Mises stress, the undeformed outline over it. Longer
+// than most, since all of it draws the same facets.
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <complex>
 
 #include "base/log.hpp"
 #include "drawing/svg_text.hpp"
@@ -111,39 +112,78 @@ std::string drawn(const std::vector<DrawnFacet>& facets, const std::vector<std::
   return result;
 }
 
-// A number on each part (one for equal ones), at the facet nearest to the middle of what is seen of it.
-std::string numbers(const std::vector<DrawnFacet>& facets, size_t n_parts) {
+// What is seen of a part, px, and where its number goes: the facet nearest to the middle of it.
+struct SeenPart {
+  size_t part = 0;
+  double area = 0.0, n = 0.0, nearest = 1e300;
+  std::complex<double> sum = 0.0, place = 0.0;
+};
+
+std::vector<SeenPart> seen_of(const std::vector<DrawnFacet>& facets, size_t n_parts) {
   const auto middle = [](const DrawnFacet& facet) {
-    std::array<double, 2> sum{0.0, 0.0};
-    for (size_t k = 0; k < 2 * facet.n; ++k)
-      sum[k % 2] += 0.1 * (*facet.list)[facet.first + k].get<double>() / static_cast<double>(facet.n);
-    return sum;
+    std::complex<double> sum{0.0, 0.0};
+    for (size_t k = facet.first; k < facet.first + 2 * facet.n; k += 2)
+      sum += std::complex((*facet.list)[k].get<double>(), (*facet.list)[k + 1].get<double>());
+    return 0.1 / static_cast<double>(facet.n) * sum;
   };
-  std::vector<std::array<double, 3>> sum(n_parts, {0.0, 0.0, 0.0});
-  for (const DrawnFacet& facet : facets) {
-    if (facet.part < 0 || facet.part >= static_cast<int>(n_parts)) continue;
-    const std::array<double, 2> at = middle(facet);
-    std::array<double, 3>& of_part = sum[static_cast<size_t>(facet.part)];
-    of_part = {of_part[0] + at[0], of_part[1] + at[1], of_part[2] + 1.0};
-  }
-  std::vector<double> nearest(n_parts, 1e300);
-  std::vector<std::array<double, 2>> place(n_parts);
-  for (const DrawnFacet& facet : facets) {
-    if (facet.part < 0 || facet.part >= static_cast<int>(n_parts)) continue;
-    const auto p = static_cast<size_t>(facet.part);
-    const std::array<double, 2> at = middle(facet);
-    const double distance = std::hypot(at[0] - sum[p][0] / sum[p][2], at[1] - sum[p][1] / sum[p][2]);
-    if (distance >= nearest[p]) continue;
-    nearest[p] = distance;
-    place[p] = at;
-  }
+  std::vector<SeenPart> seen(n_parts);
+  const auto each = [&](const auto& visit) {
+    for (const DrawnFacet& facet : facets)
+      if (facet.part >= 0 && facet.part < static_cast<int>(n_parts))
+        visit(facet, middle(facet), seen[static_cast<size_t>(facet.part)]);
+  };
+  each([](const DrawnFacet& facet, const std::complex<double>& at, SeenPart& of) {
+    of.part = static_cast<size_t>(facet.part);
+    of.area += area_of(facet);
+    of.sum += at;
+    of.n += 1.0;
+  });
+  each([](const DrawnFacet&, const std::complex<double>& at, SeenPart& of) {
+    const double distance = std::abs(at - of.sum / of.n);
+    if (distance >= of.nearest) return;
+    of.nearest = distance;
+    of.place = at;
+  });
+  std::erase_if(seen, [](const SeenPart& one) { return one.n == 0.0; });
+  return seen;
+}
+
+// A number on each part (one for equal ones), the largest first: one that would cover another is left out.
+std::string numbers(const std::vector<DrawnFacet>& facets, size_t n_parts) {
+  std::vector<SeenPart> seen = seen_of(facets, n_parts), placed;
+  std::stable_sort(seen.begin(), seen.end(), [](const SeenPart& a, const SeenPart& b) { return a.area > b.area; });
   std::string result;
-  for (size_t p = 0; p < n_parts; ++p)
-    if (nearest[p] < 1e300)
-      result += fmt::format(
-          "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" font-weight=\"bold\" fill=\"#111111\" stroke=\"#ffffff\" "
-          "stroke-width=\"3\" paint-order=\"stroke\">{}</text>\n",
-          coordinate(place[p][0]), coordinate(place[p][1] + 4.0), p + 1);
+  for (const SeenPart& one : seen) {
+    const auto covers = [&](const SeenPart& other) {
+      return std::abs((one.place - other.place).real()) < 18.0 && std::abs((one.place - other.place).imag()) < 12.0;
+    };
+    if (std::any_of(placed.begin(), placed.end(), covers)) continue;
+    placed.push_back(one);
+    result += fmt::format(
+        "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" font-weight=\"bold\" fill=\"#111111\" stroke=\"#ffffff\" "
+        "stroke-width=\"3\" paint-order=\"stroke\">{}</text>\n",
+        coordinate(one.place.real()), coordinate(one.place.imag() + 4.0), one.part + 1);
+  }
+  return result;
+}
+
+// "screw 1 ×4".
+std::string short_name(const PartGroup& group, const Json& parts) {
+  return group.n > 1 ? fmt::format("{} ×{}", text(parts[group.first], "name"), group.n) : group.name;
+}
+
+// Names of the colours, in three columns from `low` on.
+std::string legend_of(const Json& parts, double width, double low, double row) {
+  const std::vector<PartGroup> groups = part_groups(parts);
+  std::string result;
+  for (size_t i = 0; i < groups.size(); ++i) {
+    const double x = 20.0 + (width - 20.0) / 3 * static_cast<double>(i % 3), y = low + row * static_cast<double>(i / 3);
+    result += fmt::format(
+        "<rect x=\"{}\" y=\"{}\" width=\"14\" height=\"14\" fill=\"{}\"/><text x=\"{}\" y=\"{}\">{}</text>\n",
+        coordinate(x), coordinate(y), pale(series_color(static_cast<int>(i))), coordinate(x + 20.0),
+        coordinate(y + 12.0),
+        escaped((groups.size() > 1 ? fmt::format("{} ", i + 1) : "") + short_name(groups[i], parts)));
+  }
   return result;
 }
 
@@ -157,21 +197,17 @@ std::string by_part(const Json& picture, const Json& parts) {
   std::vector<std::string> colors;
   for (const DrawnFacet& facet : facets)
     colors.push_back(shaded(pale(series_color(facet.part)), 10 * (facet.light / 10)));
-  const double width = number(picture, "width"), height = number(picture, "height"), row = 20.0;
+  const double width = number(picture, "width"), height = number(picture, "height");
+  // Beside another with the same long list, the cut has none.
+  constexpr size_t most_twice = 12;
+  const bool has_legend = !picture.value("cut", false) || groups.size() <= most_twice;
+  const double row = has_legend ? 20.0 : 0.0;
   std::string result = open_svg(width, height + row * (static_cast<double>(groups.size() + 2) / 3),
                                 "The assembly, a colour for each part");
   result += "<g transform=\"scale(0.1)\" stroke-width=\"8\" stroke-linejoin=\"round\">\n" + drawn(facets, colors) +
             lines(picture.at("edges"), "stroke=\"#333333\" stroke-width=\"9\"") + "</g>\n" + axes_of(picture, height);
   if (groups.size() > 1) result += numbers(facets, groups.size());
-  for (size_t i = 0; i < groups.size(); ++i) {
-    const double x = 20.0 + (width - 20.0) / 3 * static_cast<double>(i % 3),
-                 y = height + row * static_cast<double>(i / 3);
-    result += fmt::format(
-        "<rect x=\"{}\" y=\"{}\" width=\"14\" height=\"14\" fill=\"{}\"/><text x=\"{}\" y=\"{}\">{}</text>\n",
-        coordinate(x), coordinate(y), pale(series_color(static_cast<int>(i))), coordinate(x + 20.0),
-        coordinate(y + 12.0),
-        escaped(groups.size() > 1 ? fmt::format("{} {}", i + 1, groups[i].name) : groups[i].name));
-  }
+  if (has_legend) result += legend_of(parts, width, height, row);
   return result + "</svg>\n";
 }
 

@@ -49,8 +49,15 @@ std::vector<Kind> kinds_of(const Json& record) {
   return kinds;
 }
 
+// A line of the log each.
+std::string with_breaks(const std::string& text) {
+  const size_t end = text.find("\n    ");
+  return end == std::string::npos ? escaped(text)
+                                  : escaped(text.substr(0, end)) + "<br/>\n" + with_breaks(text.substr(end + 5));
+}
+
 std::string item_of(const Kind& kind) {
-  std::string item = escaped(kind.warnings.front());
+  std::string item = with_breaks(kind.warnings.front());
   if (kind.warnings.size() == 1) return item;
   const std::vector<std::string> others(kind.warnings.begin() + 1, kind.warnings.end());
   return item + "\n" + html::folded(fmt::format("{} more of this kind", others.size()), html::list(others));

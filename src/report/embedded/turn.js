@@ -411,6 +411,7 @@ function setUp(figure) {
     const axis = Math.abs(model.axes[6]) >= Math.abs(model.axes[7]) ? 0 : 1;
     cut.value = (model.axes[6 + axis] < 0 ? "−" : "") + "xyz"[axis];
     cut.onchange();
+    if (model.parts.length > 12) { place.value = 0; setCut(); }  // of many parts the most stressed is a bolt at an edge
   }
   window.addEventListener("resize", () => draw());
   figure.hidden = false;
