@@ -1,8 +1,8 @@
-"""Draws the pictures of manual/tutorial/cad-to-verdict.md from decks/electronics_box.lua, with headless Chromium.
+"""Draws the pictures of manual/tutorial/cad-to-verdict.md from decks/electronics_box.lua and decks/instrument_unit.lua, with headless Chromium.
 
     python3 manual/tutorial/pictures.py [build/release/dygita] [folder of a run, to draw that one]
 
-Writes manual/pictures/box_*.png.
+Writes manual/pictures/box_*.png and unit_*.png; of a folder those of its problem.
 """
 
 import pathlib
@@ -12,13 +12,18 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-DECK = "decks/electronics_box.lua"
+PICTURES = ROOT / "manual/pictures"
 # Of each picture the section of the report, what of it is hidden, width and height.
-SECTIONS = {
+BOX = {
     "verdict": ("", "", 1120, 740),
     "assembly": ("The assembly", "figure:not(:nth-of-type(2)):not(:nth-of-type(6)) { display: none }", 1120, 720),
     "spectra": ("Shock response spectra", "figure:nth-of-type(n+2) { display: none }", 1120, 620),
     "bolts": ("Bolts", "details { display: none }", 1120, 640),
+}
+UNIT = {
+    "verdict": ("", "h3, ul.warnings, details, .cards ~ .cards { display: none }", 1120, 640),
+    "assembly": ("The assembly", "figure:nth-of-type(n+3) { display: none }", 1120, 680),
+    "spectra": ("Shock response spectra", "section > p { display: none }", 1120, 520),
 }
 
 
@@ -37,22 +42,33 @@ def part_of(report, title):
     return head + "<body>" + next(s for s in sections if f"<h2>{title}" in s) + "</body></html>"
 
 
+def draw_sections(run, prefix, sections, work):
+    report = (run / "report.html").read_text()
+    for name, (title, hidden, width, height) in sections.items():
+        (work / "part.html").write_text(part_of(report, title).replace("</style>", hidden + "</style>", 1))
+        screenshot(work / "part.html", PICTURES / f"{prefix}_{name}.png", width, height, work)
+
+
+def draw_check(program, work):
+    subprocess.run([program, "check", "decks/electronics_box.lua", "--picture", work / "box.svg"], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    drawing = (work / "box.svg").read_text()
+    width, height = (int(float(x)) for x in re.search(r'width="([\d.]+)" height="([\d.]+)"', drawing).groups())
+    screenshot(work / "box.svg", PICTURES / "box_check.png", min(width, 1100), min(height, 960), work)
+
+
 def main():
     program = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release/dygita").resolve()
-    pictures = ROOT / "manual/pictures"
+    given = pathlib.Path(sys.argv[2]).resolve() if len(sys.argv) > 2 else None
     with tempfile.TemporaryDirectory() as work:
         work = pathlib.Path(work)
-        subprocess.run([program, "check", DECK, "--picture", work / "box.svg"], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-        drawing = (work / "box.svg").read_text()
-        width, height = (int(float(x)) for x in re.search(r'width="([\d.]+)" height="([\d.]+)"', drawing).groups())
-        screenshot(work / "box.svg", pictures / "box_check.png", min(width, 1100), min(height, 960), work)
-        run = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else work / "electronics_box/base"
-        if len(sys.argv) <= 2:
-            subprocess.run([program, "run", DECK, "--out", work, "--quiet", "--no-frames", "--no-state"], cwd=ROOT, check=True)
-        report = (run / "report.html").read_text()
-        for name, (title, hidden, width, height) in SECTIONS.items():
-            (work / "part.html").write_text(part_of(report, title).replace("</style>", hidden + "</style>", 1))
-            screenshot(work / "part.html", pictures / f"box_{name}.png", width, height, work)
+        for problem, prefix, sections in (("electronics_box", "box", BOX), ("instrument_unit", "unit", UNIT)):
+            if given and given.parent.name != problem:
+                continue
+            if prefix == "box":
+                draw_check(program, work)
+            if not given:
+                subprocess.run([program, "run", f"decks/{problem}.lua", "--out", work, "--quiet", "--no-frames", "--no-state"], cwd=ROOT, check=True)
+            draw_sections(given or work / problem / "base", prefix, sections, work)
 
 
 main()

@@ -136,6 +136,21 @@ TEST(Bolts, hold_a_box_of_electronics_from_cad) {
   EXPECT_NEAR(run.column("base", "velocity").back(), velocity, 0.03 * velocity);
 }
 
+// A unit of 28 solids from CAD in the coordinates of its launcher, coarse and without motion: eight bolts found by
+// their holes have their forces, and what four of them clamp is pressed by these.
+TEST(Bolts, hold_a_unit_of_28_solids_from_cad) {
+  const PrintedRun unit = run_printing("instrument_unit.lua", {{"order", "1"}, {"duration", "0"}});
+  const DeckRun& run = unit.runs.at(0);
+  EXPECT_EQ(run.problem.substructures.size(), 28u + 8u * 4u);
+  EXPECT_EQ(run.problem.interfaces.size(), 83u);
+  EXPECT_TRUE(run.result->converged);
+  ASSERT_EQ(run.result->bolts.size(), 8u);
+  for (const BoltSummary& bolt : run.result->bolts)
+    EXPECT_NEAR(bolt.tightened, bolt.name.starts_with("M6") ? 8000.0 : 5000.0, 5.0) << bolt.name;
+  EXPECT_NEAR(run.column("unit on pedestal", "normal").back(), -4.0 * 5000.0, 20.0);
+  EXPECT_TRUE(is_finite(run));
+}
+
 // Plates and a bolt with washers, turned as a whole: twelve points of each washer have equal areas, and which of them
 // take in their neighbours may not depend on rounding.
 TEST(Bolts, tightened_are_the_same_however_the_scene_stands_in_space) {
