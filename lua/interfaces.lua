@@ -127,7 +127,8 @@ local function declare_all(entry, given, line)
       copy.of, copy.except = nil, nil
       list[#list + 1] = native.make(entry.path, "interface", copy, line)
       lines[#lines + 1] = ("  '%s': %s"):format(copy.name, pair.text)
-      if pair.doubt ~= "" and not given.closed and (given.gap or 0) == 0 then
+      local is_told_there = pair.is_known and entry.path == "interface.contact"
+      if pair.doubt ~= "" and not is_told_there and not given.closed and (given.gap or 0) == 0 then
         native.warn(line, ("%s: '%s' and '%s' %s; %s"):format(entry.path, name_of(one), name_of(other), pair.doubt,
           entry.path == "interface.contact" and "gap = \"geometry\" keeps the actual gap, closed = true confirms contact"
           or "move them together by 'place' or 'origin'"), "gap", pair.largest,

@@ -416,7 +416,7 @@ words[4] = {
       name_unless_all(), between(all_touching), of_parts, except, friction_of_contact,
       { "gap", type = "number", unit = "m", range = { -0.01, 0.01 }, usual = usual_gap, default = 0, or_word = "geometry", or_function = true,
         doc = "initial gap; a negative one is an interference; \"geometry\": the actual distance, point by point, for non-matching meshes; a function: the gap (m) "
-          .. "at a place, added to that distance (crowned, wavy, measured faces)" },
+          .. "at a place, added to that distance (crowned, wavy, measured faces); where 0, cylinders around one axis keep the gap that is drawn" },
       { "compliance", type = "compliance", default_doc = "none",
         doc = "rough faces, whose asperities give way under pressure before the bodies touch all over: one of `normal`, `curve` and `asperities`",
         fields = {
@@ -429,7 +429,7 @@ words[4] = {
           { "tangential", type = "number", unit = "Pa/m", range = { 1e3, 1e18 }, default_doc = "2 (1 - nu)/(2 - nu) of the normal slope (Mindlin)",
             doc = "traction per tangential displacement below the limit of friction" },
         } },
-      { "closed", type = "boolean", default = false, doc = "confirms that the faces touch, whatever lies between their facets: the gap is 0" },
+      { "closed", type = "boolean", default = false, doc = "confirms that the faces touch, whatever lies between them: the gap is 0" },
       within(), points(),
     },
   },

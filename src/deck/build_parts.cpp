@@ -208,14 +208,20 @@ const char* cure_of_gap(bool knows_gaps) {
                     : "move them together by 'place' or 'origin'";
 }
 
-void warn_of_gap(const Declaration& d, const Interface& interface, const std::string& who_1, const std::string& who_2,
-                 const GapDoubt& doubt) {
-  const bool has_gap = d.arguments.has("gap") && (!d.arguments.is_number("gap") || d.arguments.number("gap") != 0.0);
+// A gap of round surfaces is taken from them where the deck says none; others are told.
+void settle_gap(const Declaration& d, const std::string& who_1, const std::string& who_2, const GapDoubt& doubt,
+                Interface& interface) {
+  const bool knows_gaps = d.arguments.has("gap");
+  const bool has_gap = knows_gaps && (!d.arguments.is_number("gap") || d.arguments.number("gap") != 0.0);
   const bool is_closed = d.arguments.has("closed") && d.arguments.boolean("closed");
-  if (!doubt.text.empty() && !has_gap && !is_closed)
-    warn(fmt::format("{}{} '{}': '{}' and '{}' {}; {}", d.origin.prefix(), d.path, interface.name, who_1, who_2,
-                     doubt.text, cure_of_gap(d.arguments.has("gap"))),
-         kind_of(doubt, interface.side_1.part->name, interface.side_2.part->name));
+  if (doubt.is_empty() || has_gap || is_closed) return;
+  const bool is_kept = knows_gaps && doubt.is_known;
+  if (!is_kept && doubt.is_slight) return;
+  interface.has_gap_of_geometry = interface.is_gap_drawn = is_kept;
+  warn(fmt::format("{}{} '{}': '{}' and '{}' {}; {}", d.origin.prefix(), d.path, interface.name, who_1, who_2,
+                   is_kept ? doubt.kept() : doubt.neglected(),
+                   is_kept ? "closed = true starts the interface closed" : cure_of_gap(knows_gaps)),
+       kind_of(doubt, is_kept, interface.side_1.part->name, interface.side_2.part->name));
 }
 
 // Faces that are named meet where they are near, within a distance that the assembly gives: not less than their own.
@@ -223,10 +229,11 @@ void set_named_faces(const Declaration& d, const Face& one, const Face& other, I
   interface.side_1 = with_facets(one, other, interface.within);
   interface.side_2 = with_facets(other, one, interface.within);
   const double size = std::max(extent_of(*one.part).size().norm(), extent_of(*other.part).size().norm());
-  const GapDoubt doubt =
-      doubt_of_gap(interface.side_1, interface.side_2, interface.within.value_or(default_share_of_size * size));
+  const double within = interface.within.value_or(default_share_of_size * size);
+  const GapDoubt doubt = doubt_of_gap(interface.side_1, interface.side_2, within);
   // Where 'within' is larger than what facets hide, the check of the whole problem tells it.
-  if (!interface.within || doubt.is_hidden) warn_of_gap(d, interface, one.label(), other.label(), doubt);
+  if (!interface.within || doubt.is_hidden || (doubt.is_known && d.arguments.has("gap")))
+    settle_gap(d, one.label(), other.label(), doubt, interface);
 }
 
 // The faces, found where parts are given.
@@ -251,8 +258,8 @@ void set_sides(const Declaration& d, Interface& interface) {
   interface.within = found.touching.within;
   say(fmt::format("{} '{}': '{}' and '{}' touch on {}", d.path, interface.name, one.label(), other.label(),
                   describe(found.touching)));
-  warn_of_gap(d, interface, one.label(), other.label(),
-              doubt_of_gap(interface.side_1, interface.side_2, found.touching.within));
+  settle_gap(d, one.label(), other.label(), doubt_of_gap(interface.side_1, interface.side_2, found.touching.within),
+             interface);
 }
 
 // Elastic constants of two faces against each other: 1/E* of both, and the tangential slope over the normal one of

@@ -55,7 +55,7 @@ int touching_pairs(LuaState& lua, lua_State* L) {
   lua_createtable(L, static_cast<int>(pairs.size()), 0);
   for (size_t p = 0; p < pairs.size(); ++p) {
     const TouchingPair& pair = pairs[p];
-    lua_createtable(L, 2, 6);
+    lua_createtable(L, 2, 7);
     lua_pushinteger(L, pair.part_1 + 1);
     lua_rawseti(L, -2, 1);
     lua_pushinteger(L, pair.part_2 + 1);
@@ -70,8 +70,10 @@ int touching_pairs(LuaState& lua, lua_State* L) {
     lua_setfield(L, -2, "text");
     // What facets can hide is told of the interface itself, as that of faces which a deck names.
     const GapDoubt& doubt = doubts[p];
-    lua_pushstring(L, doubt.is_hidden ? "" : doubt.text.c_str());
+    lua_pushstring(L, doubt.is_hidden ? "" : doubt.neglected().c_str());
     lua_setfield(L, -2, "doubt");
+    lua_pushboolean(L, doubt.is_known);
+    lua_setfield(L, -2, "is_known");
     lua_pushnumber(L, doubt.largest);
     lua_setfield(L, -2, "largest");
     lua_rawseti(L, -2, static_cast<lua_Integer>(p) + 1);

@@ -11,6 +11,7 @@
 #include "base/parallel.hpp"
 #include "base/work.hpp"
 #include "interfaces/check_preloads.hpp"
+#include "interfaces/gaps_of_places.hpp"
 #include "interfaces/whole_parts.hpp"
 #include "law/law.hpp"
 #include "meeting/mortar.hpp"
@@ -221,27 +222,6 @@ class Rings {
   std::vector<double> areas_;   // m^2, of each interface: of the larger of both sides
 };
 
-// What the deck adds to the gaps of the places, by the nodes that the points move with.
-void add_form(const Interface& interface, Facing& facing) {
-  const auto& form = interface.form[facing.carrier == 2 ? 1 : 0];
-  const SideTrace& side = facing.carrier == 2 ? facing.side_2 : facing.side_1;
-  for (int i = 0; i < facing.n_points() && !form.empty(); ++i)
-    for (int k = 0; k < side.n_shares(i); ++k)
-      facing.gaps[i] += side.share(i, k).weight * form.at(side.share(i, k).node);
-}
-
-// Gaps of the places mean nothing where facets of round faces are as far off.
-void check_gap_of_geometry(const Interface& interface, const Facing& facing) {
-  const double largest = facing.gaps.size() > 0 ? facing.gaps.cwiseAbs().maxCoeff() : 0.0;
-  if (facing.sagitta <= 0.1 * largest || facing.sagitta < 1e-12) return;
-  throw InputError(interface.origin,
-                   fmt::format("interface '{}': 'gap' = \"geometry\": the facets of '{}' and '{}' are up to {:.3g} mm "
-                               "off the round face they represent, the largest gap between them is {:.3g} mm\n    "
-                               "declare the gap as a length, or refine the mesh",
-                               interface.name, interface.side_1.label(), interface.side_2.label(), 1e3 * facing.sagitta,
-                               1e3 * largest));
-}
-
 // The points of an interface. Where bodies are tied in a ring around a line, one of the ties leaves it to the others:
 // tied once too often, it would not converge well (manual, eq. J5).
 Facing facing_of(const Problem& problem, int i, const std::vector<std::optional<Meeting>>& meetings,
@@ -249,10 +229,7 @@ Facing facing_of(const Problem& problem, int i, const std::vector<std::optional<
   const Interface& interface = *problem.interfaces[i];
   Facing facing =
       meetings[i]->facing(interface.law->is_tie() ? rings.closed_by(i) : std::function<bool(const Vec3&)>());
-  if (interface.has_gap_of_geometry) {
-    add_form(interface, facing);
-    check_gap_of_geometry(interface, facing);
-  }
+  if (interface.has_gap_of_geometry) take_gaps_of_places(problem, interface, facing);
   return facing;
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/work.hpp"
 #include "meeting/neighbours.hpp"
+#include "meeting/round_surfaces.hpp"
 #include "meeting/true_gaps.hpp"
 #include "model/meeting.hpp"
 
@@ -123,21 +124,37 @@ std::string describe(const Touching& touching) {
   return text + ")";
 }
 
-GapDoubt doubt_of_gap(const Face& side_1, const Face& side_2, double within) {
-  const TrueGaps gaps = true_gaps(placed(side_1), placed(side_2), within);
-  if (!gaps.is_told()) return {};
-  const bool is_apart = gaps.most + gaps.least > 0.0;
-  const double largest = is_apart ? gaps.most : -gaps.least;
-  return {fmt::format("{} {:.2g} mm, which is neglected: the interface starts closed (a gap of {:.2g} mm on average "
-                      "over {:.4g} mm^2)",
-                      is_apart ? "are apart by up to" : "overlap by up to", 1e3 * largest, 1e3 * gaps.mean,
-                      1e6 * gaps.area),
-          largest, largest <= 2.0 * gaps.bend};
+std::string GapDoubt::neglected() const {
+  return is_empty() || is_slight ? "" : apart + ", which is neglected: the interface starts closed " + on_average;
 }
 
-KindOfWarning kind_of(const GapDoubt& doubt, const std::string& who_1, const std::string& who_2) {
-  return {doubt.is_hidden ? "gap within facets" : "gap", doubt.largest,
-          fmt::format("'{}' and '{}' ({:.2g} mm)", who_1, who_2, 1e3 * doubt.largest), !doubt.is_hidden};
+std::string GapDoubt::kept() const { return apart + ", which is kept, as that of the round surfaces " + on_average; }
+
+GapDoubt doubt_of_gap(const Face& side_1, const Face& side_2, double within) {
+  constexpr double most_interference = 0.01;  // of a radius: no fit is tighter
+  TrueGaps gaps = true_gaps(placed(side_1), placed(side_2), within);
+  if (gaps.area == 0.0) return {};
+  const RoundFace round_1(placed(side_1)), round_2(placed(side_2));
+  const std::optional<double> even = round_1.even_gap(round_2);
+  const bool is_slight = !gaps.is_told();
+  if (is_slight && !even) return {};
+  if (even) gaps.mean = gaps.least = gaps.most = *even;
+  const bool is_apart = gaps.most + gaps.least > 0.0;
+  GapDoubt doubt;
+  doubt.largest = is_apart ? gaps.most : -gaps.least;
+  doubt.apart = fmt::format("{} {:.2g} mm", is_apart ? "are apart by up to" : "overlap by up to", 1e3 * doubt.largest);
+  doubt.on_average = fmt::format("(a gap of {:.2g} mm on average over {:.4g} mm^2)", 1e3 * gaps.mean, 1e6 * gaps.area);
+  doubt.is_hidden = doubt.largest <= 2.0 * gaps.bend;
+  doubt.is_slight = is_slight;
+  doubt.is_known = even && *even > -most_interference * std::min(round_1.least_radius(), round_2.least_radius());
+  return doubt;
+}
+
+KindOfWarning kind_of(const GapDoubt& doubt, bool is_kept, const std::string& who_1, const std::string& who_2) {
+  return {is_kept           ? "gap of round surfaces"
+          : doubt.is_hidden ? "gap within facets"
+                            : "gap",
+          doubt.largest, fmt::format("'{}' and '{}' ({:.2g} mm)", who_1, who_2, 1e3 * doubt.largest), !doubt.is_hidden};
 }
 
 }  // namespace dygita

@@ -39,12 +39,18 @@ std::string describe(const Touching& touching);
 // What to say of faces that are taken for touching, within a distance (m), and do not: how far they are apart, or in
 // each other, beyond what facets leave between round surfaces; empty where they do.
 struct GapDoubt {
-  std::string text;
+  std::string apart, on_average;
   double largest = 0.0;    // m
   bool is_hidden = false;  // facets are as far off their round surfaces
+  bool is_slight = false;  // facets may hide all of it
+  bool is_known = false;   // cylinders around one axis, or such spheres: the gap is the same all around
+
+  bool is_empty() const { return apart.empty(); }
+  std::string neglected() const;
+  std::string kept() const;
 };
 // Doubts of one kind are told together.
-KindOfWarning kind_of(const GapDoubt& doubt, const std::string& who_1, const std::string& who_2);
+KindOfWarning kind_of(const GapDoubt& doubt, bool is_kept, const std::string& who_1, const std::string& who_2);
 GapDoubt doubt_of_gap(const Face& side_1, const Face& side_2, double within);
 
 }  // namespace dygita

@@ -66,6 +66,7 @@ struct Interface : Named {
   Carrier points = Carrier::automatic;
   std::optional<double> within;      // m, how far apart the faces may be; else by the size of the assembly
   bool has_gap_of_geometry = false;  // the initial gap is that of the places, else the law's
+  bool is_gap_drawn = false;         // taken from round surfaces without a word in the deck
   // m, added to the gap of the places, by the nodes of either side; none: nothing is.
   std::array<std::unordered_map<int, double>, 2> form;
 };

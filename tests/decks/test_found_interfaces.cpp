@@ -186,7 +186,7 @@ end
 }
 
 // A quarter of a shaft in a hub, 20 um larger than its hole or as large: faces named, nothing said of a gap.
-TEST(FoundInterfaces, of_round_faces_that_are_named_say_an_interference_that_is_left_out) {
+TEST(FoundInterfaces, of_round_faces_that_are_named_say_an_interference_that_is_drawn) {
   const auto said_of = [](const std::string& over, const std::string& gap) {
     const std::string text = R"(
 local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
@@ -205,15 +205,17 @@ local fit = interface.contact{ name = "fit", between = { round(inner), round(out
     return testing::internal::GetCapturedStderr();
   };
   const std::string said = said_of("20*um", "0");
-  EXPECT_NE(said.find("overlap by up to 0.02"), std::string::npos) << said;
+  EXPECT_NE(said.find("overlap by up to 0.02 mm, which is kept, as that of the round surfaces"), std::string::npos)
+      << said;
   EXPECT_NE(said.find("(a gap of -0.02 mm on average over 62.8"), std::string::npos) << said;
   EXPECT_NE(said_of("-20*um", "0").find("are apart by up to 0.02"), std::string::npos);
   for (const auto& [over, gap] : {std::pair{"20*um", "-20*um"}, {"0", "0"}})
-    EXPECT_EQ(said_of(over, gap).find("is neglected"), std::string::npos) << over;
+    for (const char* told : {"is neglected", "is kept"})
+      EXPECT_EQ(said_of(over, gap).find(told), std::string::npos) << over;
 }
 
 // Two shafts in their hubs, found: each is told once, and both together.
-TEST(FoundInterfaces, of_round_faces_tell_what_is_left_out_once) {
+TEST(FoundInterfaces, of_round_faces_tell_what_is_kept_once) {
   const std::string text = R"(
 local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
 local file = mesh.gmsh{ file = ")" +
@@ -229,9 +231,9 @@ assert(#fits == 2)
   run_text(text);
   tell_warnings();
   const std::string said = testing::internal::GetCapturedStderr();
-  const size_t first = said.find("overlap by up to 0.008 mm, which is neglected");
+  const size_t first = said.find("overlap by up to 0.008 mm, which is kept");
   EXPECT_NE(first, std::string::npos) << said;
-  EXPECT_EQ(said.find("is neglected", first + 40), std::string::npos) << said;
+  EXPECT_EQ(said.find("is kept", first + 40), std::string::npos) << said;
   EXPECT_NE(said.find("\n    the worst of 2 of this kind; the other: 'inner"), std::string::npos) << said;
 }
 

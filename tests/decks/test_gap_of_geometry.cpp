@@ -2,6 +2,7 @@
 // force or by a bolt beside it, then hit. Every way to compute it sees the same gap.
 #include <gtest/gtest.h>
 
+#include "base/warnings.hpp"
 #include "deck/continue_run.hpp"
 #include "decks/engine.hpp"
 #include "files/csv.hpp"
@@ -118,6 +119,72 @@ TEST(GapOfGeometry, is_known_to_a_run_that_goes_on) {
   const Table a = read_csv(whole / "joint.csv", {"press", "hit"}), b = read_csv(part / "joint.csv", {"press", "hit"});
   for (const char* column : {"normal", "opening"}) EXPECT_LT(difference(a.column(column), b.column(column)), 1e-6);
   fs::remove_all(folder);
+}
+
+// A quarter of a shaft in a hub, larger than its hole by `over`, drawn: nothing is said of a gap.
+std::string rings(const std::string& interface, const std::string& steps) {
+  return R"(
+local p = param{ over = 20*um, order = 1, n = 8 }
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local file = mesh.gmsh{ file = ")" +
+         std::string(DYGITA_SOURCE_DIR) +
+         R"(/tests/decks/drawn_rings.geo", set = { over = p.over, n = p.n }, order = p.order }
+local function part(name) return substructure{ name = name, mesh = file:volume(name), material = steel } end
+local inner, outer = part "inner", part "outer"
+local function round(of) local face = of:face{ cylinder = true, radius = 20*mm } return face end
+local fit = interface.contact{ name = "fit", friction = 0, )" +
+         interface + R"( }
+local function low(of, n) return of:face{ normal = n, at = 0 } end
+local planes = {}
+for _, n in ipairs{ { -1, 0, 0 }, { 0, -1, 0 }, { 0, 0, -1 } } do planes[#planes + 1] = low(inner, n); planes[#planes + 1] = low(outer, n) end
+problem{ name = "rings", substructures = { inner, outer }, interfaces = { fit }, supports = { support.symmetry{ name = "planes", on = planes } },
+  outputs = { output.history{ name = "p", on = fit, quantity = "pressure" } }, steps = )" +
+         steps + " }:run{}\n";
+}
+
+constexpr const char* named = "between = { round(inner), round(outer) }";
+constexpr const char* pressed = R"({ step.static{ name = "s", increments = 2 } })";
+
+// Lame: p = E delta / b (1 - a^2/b^2)(c^2/b^2 - 1) / (2 (c^2/b^2 - a^2/b^2)), of plane stress; a, b, c = 10, 20, 30 mm.
+double lame(double over) {
+  const double inner = 0.25, outer = 2.25;
+  return 210e9 * over / 0.02 * (1 - inner) * (outer - 1) / (2 * (outer - inner));
+}
+
+double pressure_of(const Settings& settings, const std::string& interface) {
+  return run_text(rings(interface, pressed), settings).at(0).column("p", "pressure").back();
+}
+
+TEST(GapOfRoundSurfaces, is_the_interference_that_is_drawn_however_coarse_the_facets) {
+  for (const auto& [order, n, within] : {std::tuple{"1", "8", 0.02}, {"1", "16", 0.005}, {"2", "8", 0.002}})
+    for (const char* over : {"20*um", "0.5*um"}) {
+      const double right = lame(std::string(over) == "20*um" ? 20e-6 : 0.5e-6);
+      const double found = pressure_of({{"order", order}, {"n", n}, {"over", over}}, named);
+      std::cout << "  order " << order << ", n " << n << ", " << over << ": " << found / right - 1 << "\n";
+      EXPECT_NEAR(found, right, within * right);
+    }
+  EXPECT_NEAR(pressure_of({{"order", "2"}}, std::string(named) + ", gap = 'geometry'"), lame(20e-6),
+              0.002 * lame(20e-6));
+}
+
+TEST(GapOfRoundSurfaces, is_open_where_a_clearance_is_drawn_and_closed_where_the_deck_says_so) {
+  EXPECT_EQ(pressure_of({{"over", "-20*um"}}, named), 0.0);
+  EXPECT_NEAR(pressure_of({{"over", "20*um"}}, std::string(named) + ", closed = true"), 0.0, 1e-3 * lame(20e-6));
+  // Equal radii: what it was, to the bit.
+  EXPECT_EQ(pressure_of({{"over", "0"}, {"order", "2"}}, named),
+            pressure_of({{"over", "0"}, {"order", "2"}}, std::string(named) + ", closed = true"));
+}
+
+TEST(GapOfRoundSurfaces, is_no_interference_where_the_first_step_is_dynamic) {
+  testing::internal::CaptureStderr();
+  const DeckRun run =
+      run_text(rings(named, R"({ step.dynamic{ name = "d", duration = 1*us, dt = 0.1*us } })"), {}).at(0);
+  tell_warnings();
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("overlap by up to 0.02 mm, which is left out, since the first step is dynamic"),
+            std::string::npos)
+      << said;
+  EXPECT_NEAR(run.column("p", "pressure").back(), 0.0, 1e-6 * lame(20e-6));
 }
 
 }  // namespace

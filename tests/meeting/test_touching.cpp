@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <functional>
 
+#include "meeting/round_surfaces.hpp"
 #include "meeting/touching.hpp"
 #include "meeting/true_gaps.hpp"
 #include "mesh/box.hpp"
@@ -182,6 +185,82 @@ TEST(TrueGaps, of_planes_are_told_to_the_last_digit) {
     EXPECT_NEAR(gaps.apart, gap > 1e-3 ? 16.0 : 0.0, 1e-12);
     EXPECT_NEAR(gaps.into, gap < -1e-3 ? 16.0 : 0.0, 1e-12);
   }
+}
+
+PlacedFace face_where(const Mesh& mesh, const std::function<bool(const Vec3& middle, const Vec3& normal)>& is_in) {
+  PlacedFace face{&mesh, {}, Vec3::Zero(), ""};
+  for (const Facet& facet : boundary_facets(mesh)) {
+    Vec3 middle = Vec3::Zero();
+    for (const int node : facet.corners()) middle += mesh.nodes.col(node) / static_cast<double>(facet.corners().size());
+    if (is_in(middle, facet_area_vector(mesh.nodes, facet).normalized())) face.facets.push_back(facet);
+  }
+  return face;
+}
+
+// Wherever the nodes are, and whatever lies between them.
+TEST(RoundSurfaces, of_cylinders_and_balls_are_known_between_the_nodes) {
+  const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()).toRotationMatrix();
+  const Vec3 shift(3, -40, 7);
+  const auto around = [](const Vec3& x) { return Vec3(x[0], x[1], 0.0); };
+  Mesh shaft = *tube(5, 10, 16), hole = *tube(10.001, 20, 11, 0.3);
+  const auto turned = [&](Mesh& mesh) {
+    for (int i = 0; i < mesh.n_nodes(); ++i) mesh.nodes.col(i) = turn * mesh.nodes.col(i) + shift;
+  };
+  PlacedFace outside = face_where(shaft, [&](const Vec3& x, const Vec3& n) { return n.dot(around(x)) > 5.0; });
+  PlacedFace inside = face_where(hole, [&](const Vec3& x, const Vec3& n) { return n.dot(around(x)) < -5.0; });
+  turned(shaft);
+  turned(hole);
+  const auto one = RoundSurface::through(outside), other = RoundSurface::through(inside);
+  ASSERT_TRUE(one && other);
+  EXPECT_NEAR(one->radius(), 10.0, 1e-9);
+  EXPECT_NEAR(other->radius(), 10.001, 1e-9);
+  EXPECT_NEAR(one->even_gap(*other).value_or(0.0), 1e-3, 1e-9);
+  EXPECT_NEAR(other->even_gap(*one).value_or(0.0), 1e-3, 1e-9);
+  const Vec3 x = turn * Vec3(9.3, 2.1, 1.7) + shift, out = turn * Vec3(0.8, 0.6, 0.0);
+  const double there = one->along(x, out).value_or(0.0);
+  EXPECT_NEAR(around(turn.transpose() * (x + there * out - shift)).norm(), 10.0, 1e-9);
+  EXPECT_NEAR(one->normal(x).dot(turn * around(Vec3(9.3, 2.1, 0)).normalized()), 1.0, 1e-12);
+  EXPECT_LT(other->normal(x).dot(one->normal(x)), -0.999) << "out of the body, into the hole";
+
+  Mesh ball = *box_mesh({-1, -1, -1}, {2, 2, 2}, {6, 6, 6});
+  for (int i = 0; i < ball.n_nodes(); ++i) {  // what lies at z > 0.5 rises to a cap
+    Vec3 node = ball.nodes.col(i);
+    if (node[2] > 0.9) ball.nodes(2, i) = std::sqrt(25.0 - node.head<2>().squaredNorm()) - 4.0;
+  }
+  const PlacedFace cap =
+      face_where(ball, [](const Vec3& middle, const Vec3& n) { return n[2] > 0.8 && middle[2] > 0.0; });
+  const auto sphere = RoundSurface::through(cap);
+  ASSERT_TRUE(sphere);
+  EXPECT_NEAR(sphere->radius(), 5.0, 1e-9);
+  EXPECT_NEAR(sphere->along(Vec3(0.1, 0.05, 0.9), Vec3::UnitZ()).value_or(0.0), std::sqrt(25 - 0.0125) - 4.9, 1e-9);
+}
+
+// A plate whose edges are chamfered, and a waved one.
+TEST(RoundSurfaces, are_no_chamfers_and_no_waves) {
+  const auto bent = [](int n, const std::function<double(double)>& height) {
+    auto mesh = std::make_shared<Mesh>(*box_mesh({0, 0, -1}, {12, 2, 1}, {n, 2, 1}));
+    for (int i = 0; i < mesh->n_nodes(); ++i)
+      if (mesh->nodes(2, i) > -0.5) mesh->nodes(2, i) = height(mesh->nodes(0, i));
+    return mesh;
+  };
+  const auto top = [](const Mesh& mesh) {
+    return face_where(mesh, [](const Vec3&, const Vec3& n) { return n[2] > 0.5; });
+  };
+  const MeshPtr chamfered = bent(12, [](double x) { return -0.4 * std::max(0.0, 1.0 - std::min(x, 12.0 - x)); });
+  const MeshPtr waved = bent(12, [](double x) { return 0.05 * std::sin(x); });
+  const MeshPtr few = bent(3, [](double x) { return -0.1 * std::max(0.0, 1.0 - std::min(x, 12.0 - x)); });
+  Mesh narrow = *few;  // chamfers a quarter as wide as what is between them: concyclic all the same
+  for (int i = 0; i < narrow.n_nodes(); ++i) {
+    const double x = narrow.nodes(0, i);
+    narrow.nodes(0, i) = x < 1.0 ? 3.0 : x > 11.0 ? 9.0 : x;
+  }
+  EXPECT_FALSE(RoundSurface::through(top(*chamfered)));
+  EXPECT_FALSE(RoundSurface::through(top(*waved)));
+  EXPECT_FALSE(RoundSurface::through(top(narrow)));
+  EXPECT_TRUE(RoundSurface::through(top(*bent(3, [](double x) { return std::sqrt(900.0 - (x - 6) * (x - 6)); }))));
+  const auto flat = RoundSurface::through(top(*bent(4, [](double x) { return 0.1 * x; })));
+  ASSERT_TRUE(flat);
+  EXPECT_EQ(flat->radius(), 0.0);
 }
 
 TEST(Touching, the_distance_of_bodies_is_told_with_its_place) {

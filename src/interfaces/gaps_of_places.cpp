@@ -1,0 +1,65 @@
+#include "interfaces/gaps_of_places.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+#include "base/warnings.hpp"
+#include "meeting/round_surfaces.hpp"
+
+namespace dygita {
+
+namespace {
+
+// What the deck adds to the gaps of the places, by the nodes that the points move with.
+void add_form(const Interface& interface, Facing& facing) {
+  const auto& form = interface.form[facing.carrier == 2 ? 1 : 0];
+  const SideTrace& side = facing.carrier == 2 ? facing.side_2 : facing.side_1;
+  for (int i = 0; i < facing.n_points() && !form.empty(); ++i)
+    for (int k = 0; k < side.n_shares(i); ++k)
+      facing.gaps[i] += side.share(i, k).weight * form.at(side.share(i, k).node);
+}
+
+std::string who(const Interface& interface) {
+  return fmt::format("interface '{}': {}", interface.name,
+                     interface.is_gap_drawn ? "no 'gap' is given" : "'gap' = \"geometry\"");
+}
+
+}  // namespace
+
+// Gaps of the places mean nothing where facets of round faces are as far off; those of surfaces that are known between
+// the nodes hold there too, if they change little from one node to the next (manual, eq. J6). One that a deck does not
+// ask for is no interference in a step that would throw the parts apart.
+void take_gaps_of_places(const Problem& problem, const Interface& interface, Facing& facing) {
+  constexpr double of_largest = 0.1, of_round = 0.01, rounding = 1e-12;
+  const Vec of_facets = facing.gaps;
+  add_form(interface, facing);
+  const auto largest = [&] { return facing.n_points() > 0 ? facing.gaps.cwiseAbs().maxCoeff() : 0.0; };
+  double off = facing.sagitta, allowed = of_largest;
+  if (off > allowed * largest() && off > rounding)
+    if (const auto round = round_gaps(placed(interface.side_1), placed(interface.side_2), facing)) {
+      facing.gaps += round->gaps - of_facets;
+      off = std::max(round->bend, round->off);
+      allowed = of_round;
+    }
+  if (off > allowed * largest() && off > rounding)
+    throw InputError(
+        interface.origin,
+        fmt::format("{}: the facets of '{}' and '{}' are up to {:.3g} mm off the round face they represent, "
+                    "the largest gap between them is {:.3g} mm\n    {}, or refine the mesh",
+                    who(interface), interface.side_1.label(), interface.side_2.label(), 1e3 * off, 1e3 * largest(),
+                    interface.is_gap_drawn ? "closed = true starts the interface closed; declare the gap"
+                                           : "declare the gap as a length"));
+  if (!interface.is_gap_drawn || problem.steps.empty() || problem.steps.front()->is_static) return;
+  const double least = facing.n_points() > 0 ? facing.gaps.minCoeff() : 0.0;
+  facing.gaps = facing.gaps.cwiseMax(0.0);
+  if (-least > of_largest * largest())
+    warn(fmt::format(
+             "{}{}: '{}' and '{}' overlap by up to {:.2g} mm, which is left out, since the first step is dynamic; "
+             "put a step.static before it to press them apart",
+             interface.origin.prefix(), who(interface), interface.side_1.label(), interface.side_2.label(),
+             -1e3 * least),
+         {"interference left out", -least, "'" + interface.name + "'"});
+}
+
+}  // namespace dygita
