@@ -309,6 +309,21 @@ words[3][1] = {
   one_of = { "file", "stiffness" },
 }
 
+words[3][2] = {
+  "rigid", makes = "substructure",
+  doc = "A body that does not deform, as a box on its feet: a mass and its inertia behind faces of other parts. Its faces have the names of those in `on` (with the part in front where two have one name); "
+    .. "an interface joins each to the face that it lies on: `interface.bonded{ name = \"feet\", between = { panel:face \"feet\", box:face \"feet\" } }`.",
+  arguments = {
+    name_of "part",
+    on({ "face" }, "faces of parts that it touches; they are stiff as far as they are joined to it"),
+    { "mass", type = "number", unit = "kg", range = { 1e-9, 1e9 }, required = true, doc = "of the body" },
+    { "inertia", type = "numbers", unit = "kg m^2", at_least = 3, at_most = 6, required = true,
+      doc = "moments about its centre of mass { xx, yy, zz }, or with { ..., xy, xz, yz }, the products with their minus, as the matrix has them" },
+    { "at", type = "vector", unit = "m", range = { -1000, 1000 }, required = true, doc = "its centre of mass" },
+    part_arguments[5],
+  },
+}
+
 words.frame = {
   name = "frame",
   doc = "A frame of places: an origin and three axes at right angles. Whatever has an argument `frame` then means its places, directions and components in it.",

@@ -35,6 +35,7 @@ Face face_of(const SubstructurePtr& part, const std::string& group, const Origin
 // What all kinds of substructures have: their place, and doubts of a size that tells a wrong unit.
 void set_place(const std::vector<double>& place, Substructure& part);
 void doubt_size(const Substructure& part);
+Content build_rigid(const Declaration& declaration);
 Content build_superelement(const Declaration& declaration);
 Content build_abaqus(const Declaration& declaration);
 Content build_nastran(const Declaration& declaration);

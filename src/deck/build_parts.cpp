@@ -383,6 +383,7 @@ const Builders& part_builders() {
         {"mesh.abaqus", build_abaqus},
         {"mesh.nastran", build_nastran},
         {"substructure", build_substructure},
+        {"substructure.rigid", build_rigid},
         {"substructure.superelement", build_superelement},
         {"param", build_parameters},
     };

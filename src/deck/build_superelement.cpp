@@ -1,11 +1,13 @@
-// substructure.superelement, and what it has in common with other substructures.
+// substructure.superelement and .rigid, and what they have in common with other substructures.
 #include <spdlog/fmt/fmt.h>
 
+#include <Eigen/Eigenvalues>
 #include <filesystem>
 #include <map>
 
 #include "base/log.hpp"
 #include "deck/build_model.hpp"
+#include "intake/condensed_builder.hpp"
 #include "intake/superelement_file.hpp"
 
 namespace dygita {
@@ -31,10 +33,9 @@ void set_place(const std::vector<double>& place, Substructure& part) {
 namespace {
 
 // What a mesh of matrices has in the place of a material: what search directions and comparisons of stiffness go by.
-Elastic material_like(const Mesh& mesh) {
+Elastic material_like(double young, const char* name) {
   constexpr double poisson = 0.3, bar_speed = 5200.0;  // m/s, as metals have it
-  const double young = mesh.inside->matrices()->modulus(mesh.nodes);
-  return {"superelement", young, poisson, young / (bar_speed * bar_speed)};
+  return {name, young, poisson, young / (bar_speed * bar_speed)};
 }
 
 // Of consistent systems: lengths, masses and times.
@@ -101,11 +102,65 @@ Content build_superelement(const Declaration& d) {
     part->mesh = superelement_of(d.arguments);
   }
   d.lua.hold_reserved(part->mesh, bytes);
-  part->material = material_like(*part->mesh);
+  part->material = material_like(part->mesh->inside->matrices()->modulus(part->mesh->nodes), "superelement");
   set_place(d.arguments.numbers("place"), *part);
   part->velocity = d.arguments.vector("velocity");
   check_free(*part);
   doubt_size(*part);
+  return SubstructurePtr(part);
+}
+
+namespace {
+
+// xx, yy, zz, and xy, xz, yz: the integrals of products of coordinates with a minus.
+Mat3 inertia_in(const LuaArguments& a) {
+  std::vector<double> given = a.numbers("inertia");
+  if (given.size() != 3 && given.size() != 6)
+    throw InputError(fmt::format("'inertia' has 3 moments xx, yy, zz, or 6 with xy, xz, yz, not {}", given.size()));
+  given.resize(6, 0.0);
+  Mat3 inertia;
+  inertia << given[0], given[3], given[4], given[3], given[1], given[5], given[4], given[5], given[2];
+  const Vec3 principal = Eigen::SelfAdjointEigenSolver<Mat3>(inertia).eigenvalues();
+  constexpr double round_off = 1e-6;
+  if (!(principal[0] > 0) || principal[2] > (1 + round_off) * (principal[0] + principal[1]))
+    throw InputError(fmt::format(
+        "'inertia' has the principal moments {:.4g}, {:.4g} and {:.4g} kg m^2, which no body has\n    all are above 0, "
+        "and none is more than the sum of the two others",
+        principal[0], principal[1], principal[2]));
+  return inertia;
+}
+
+RigidBody::Side side_on(const Face& face, const std::string& name) {
+  RigidBody::Side side{name, face.facets(), {}};
+  const std::vector<int> nodes = nodes_of(side.facets);
+  side.places.resize(3, static_cast<long>(nodes.size()));
+  for (size_t i = 0; i < nodes.size(); ++i)
+    side.places.col(static_cast<long>(i)) = face.part->mesh->nodes.col(nodes[i]) + face.part->place;
+  for (Facet& facet : side.facets)
+    for (int& node : facet.nodes())
+      node = static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+  return side;
+}
+
+}  // namespace
+
+Content build_rigid(const Declaration& d) {
+  const LuaArguments& a = d.arguments;
+  auto part = new_named<Substructure>(d);
+  RigidBody body{a.number("mass"), inertia_in(a), a.vector("at"), {}};
+  std::vector<Face> faces;
+  for (const FaceOrRegion& place : a.places("on")) faces.push_back(std::get<Face>(place));
+  double young = 0.0;
+  for (const Face& face : faces) {
+    const bool is_alone =
+        std::count_if(faces.begin(), faces.end(), [&](const Face& other) { return other.group == face.group; }) == 1;
+    if (face.facets().empty()) throw InputError(fmt::format("'on': '{}' has points and no facets", face.label()));
+    body.sides.push_back(side_on(face, is_alone ? face.group : face.label()));
+    young = std::max(young, face.part->material.young());
+  }
+  part->mesh = rigid_body(body);
+  part->material = material_like(young, "rigid");
+  part->velocity = a.vector("velocity");
   return SubstructurePtr(part);
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "mesh/turned_facet.hpp"
 
 namespace dygita {
 
@@ -103,6 +104,31 @@ double CondensedBuilder::mass_of_translation(const Points& x) const {
     sum += moved.dot(body_->mass_matrix * moved) / 3.0;
   }
   return sum;
+}
+
+MeshPtr rigid_body(const RigidBody& given) {
+  double size = 0.0;
+  for (const RigidBody::Side& side : given.sides)
+    size = std::max(size, (side.places.colwise() - given.at).colwise().norm().maxCoeff());
+  if (!(size > 0)) throw InputError("its faces have no extent about its centre");
+  CondensedBuilder builder;
+  auto mesh = std::make_shared<Mesh>();
+  mesh->source = "rigid";
+  const int point = builder.add(NodeKind::point, given.at, {0, 1, 2});
+  const int turn = builder.add(NodeKind::turn, given.at, {3, 4, 5});
+  for (const RigidBody::Side& side : given.sides) {
+    const int first = builder.n_nodes();
+    for (const auto& place : side.places.colwise()) builder.add_follower(place, point, turn, size);
+    for (Facet facet : side.facets) {
+      for (int& node : facet.nodes()) node += first;
+      mesh->faces[side.name].push_back(turned_facet(facet));
+    }
+  }
+  Mat mass = Mat::Zero(6, 6);
+  mass.topLeftCorner<3, 3>() = given.mass * Mat3::Identity();
+  mass.bottomRightCorner<3, 3>() = given.inertia / (size * size);
+  builder.body().mass_of_parts = given.mass;
+  return builder.finish(Mat::Zero(6, 6), mass, Mat(), std::move(mesh));
 }
 
 }  // namespace dygita

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -34,5 +35,20 @@ class CondensedBuilder {
   std::vector<Vec3> places_;
   std::vector<std::array<int, 3>> rows_;
 };
+
+// A body that does not deform: a mass with its inertia, and facets that move with it.
+struct RigidBody {
+  struct Side {
+    std::string name;
+    std::vector<Facet> facets;  // outward from what it touches: they are turned round
+    Points places;              // 3 x n, m, of their nodes
+  };
+  double mass;   // kg
+  Mat3 inertia;  // kg m^2, about `at`
+  Vec3 at;       // m, its centre of mass
+  std::vector<Side> sides;
+};
+// Its six motions are those of its centre. Throws InputError where its facets have no extent about that.
+MeshPtr rigid_body(const RigidBody& given);
 
 }  // namespace dygita

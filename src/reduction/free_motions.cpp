@@ -77,7 +77,7 @@ SparseMatrix motions_of_lumps(const LinearAssembly& assembly, const Problem& pro
     for (const auto& [lump, motions] : own->second) {
       for (Eigen::Index m = 0; m < motions.cols(); ++m)
         for (size_t i = 0; i < lump.size(); ++i)
-          for (int d = 0; d < 3; ++d)
+          for (int d = 0; d < 3 && !mesh.inside->follower(lump[i]); ++d)
             entries.emplace_back(3 * (assembly.first_node[part] + lump[i]) + d, column + static_cast<int>(m),
                                  motions(3 * static_cast<Eigen::Index>(i) + d, m));
       column += static_cast<int>(motions.cols());

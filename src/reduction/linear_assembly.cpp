@@ -128,7 +128,29 @@ Mat free_basis(const std::vector<int>& nodes, const std::vector<const NodeCondit
   return basis;
 }
 
-void make_map(LinearAssembly& assembly) {
+// Nodes of rigid faces from the unknowns of the point and the turn that they follow.
+void make_followers(const Problem& problem, LinearAssembly& assembly) {
+  Triplets entries;
+  const auto add = [&](int row, int from, double factor) {
+    for (SparseMatrix::InnerIterator e(assembly.map, from); e; ++e)
+      entries.emplace_back(row, static_cast<int>(e.col()), factor * e.value());
+  };
+  for (size_t part = 0; part < problem.substructures.size(); ++part)
+    for (const Interior::Follower& own : problem.substructures[part]->mesh->inside->followers) {
+      const int first = assembly.first_node[part];
+      for (int d = 0; d < 3; ++d) {
+        const int row = 3 * (first + own.node) + d, j = (d + 1) % 3, k = (d + 2) % 3;
+        add(row, 3 * (first + own.point) + d, 1.0);
+        if (own.turn < 0) continue;
+        add(row, 3 * (first + own.turn) + j, own.arm[k] / own.size);
+        add(row, 3 * (first + own.turn) + k, -own.arm[j] / own.size);
+      }
+    }
+  assembly.followers.resize(assembly.map.rows(), assembly.map.cols());
+  assembly.followers.setFromTriplets(entries.begin(), entries.end());
+}
+
+void make_map(const Problem& problem, LinearAssembly& assembly) {
   const int n_nodes = assembly.first_node.back();
   Places places(n_nodes);
   for (const NodeCondition& condition : assembly.conditions)
@@ -138,6 +160,9 @@ void make_map(LinearAssembly& assembly) {
   for (int i = 0; i < n_nodes; ++i) nodes[places.of(i)].push_back(i);
   for (const NodeCondition& condition : assembly.conditions)
     conditions[places.of(condition.node[0])].push_back(&condition);
+  for (size_t part = 0; part < problem.substructures.size(); ++part)
+    for (const Interior::Follower& own : problem.substructures[part]->mesh->inside->followers)
+      nodes[assembly.first_node[part] + own.node].clear();  // they have no unknowns, and no condition
   Triplets entries;
   int n = 0;
   for (int place = 0; place < n_nodes; ++place) {
@@ -311,7 +336,8 @@ LinearAssembly linearise(const Instant& instant, bool ties_sliding) {
     assembly.first_node.push_back(assembly.first_node.back() + part->mesh->n_nodes());
   add_surfaces(instant, ties_sliding, assembly);
   add_supports(instant, assembly);
-  make_map(assembly);
+  make_map(problem, assembly);
+  make_followers(problem, assembly);
   add_matrices(problem, assembly);
   return assembly;
 }

@@ -37,6 +37,7 @@ struct LinearAssembly {
   // square is its energy.
   SparseMatrix cells, springs;
   SparseMatrix map;                   // 3 x (all nodes) rows: displacements of the nodes from the unknowns
+  SparseMatrix followers;             // the same of nodes that move with a rigid face, which the map leaves out
   std::vector<int> first_node;        // of each substructure, and the number of all nodes
   std::vector<int> place_of_unknown;  // unknowns of one place are contiguous
   std::vector<NodeCondition> conditions;

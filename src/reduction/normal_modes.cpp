@@ -199,6 +199,7 @@ NormalModes normal_modes(const LinearAssembly& assembly, const Problem& problem,
   modes.n_free = static_cast<int>(motions.cols());
   modes.frequencies = eigen.omegas / (2 * std::numbers::pi);
   modes.shapes = assembly.map * eigen.vectors;
+  modes.shapes += assembly.followers * eigen.vectors;
   const Vec scales = scale_shapes(problem, modes.shapes);
   modes.generalised_masses = scales.cwiseAbs2();
   const Mat momenta = eigen.vectors.transpose() * whole.momenta;

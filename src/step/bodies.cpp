@@ -238,8 +238,9 @@ Mass mass_of(const Problem& problem, const Body& body, const Vec& lumped, const 
 
 // Does nothing but explicit increments have to do with the body, as far as that can be said before they are chosen?
 bool may_do_without_matrix(const Problem& problem, const Substructure& part) {
-  return !problem.monolithic && !problem.explicit_dynamics && problem.numerical_damping() == 0.0 &&
-         !problem.mass().is_moved_from_contact && asked_of(problem, part) != IntegrationChoice::implicitly &&
+  return part.mesh->has_cells() && !problem.monolithic && !problem.explicit_dynamics &&
+         problem.numerical_damping() == 0.0 && !problem.mass().is_moved_from_contact &&
+         asked_of(problem, part) != IntegrationChoice::implicitly &&
          std::none_of(problem.steps.begin(), problem.steps.end(), [](const StepPtr& step) { return step->is_static; });
 }
 

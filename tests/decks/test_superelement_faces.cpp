@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "decks/engine.hpp"
 #include "reduction/superelement.hpp"
@@ -131,6 +132,113 @@ problem{ name = "rod", substructures = { rod }, supports = {}, steps = { step.st
   double nearest = 1e9;
   for (const double other : e.frequencies) nearest = std::min(nearest, std::abs(other - f));
   EXPECT_LT(nearest, 2e-3 * f);
+}
+
+// A clamped beam of steel (nu = 0) with a rigid body on its end, whose centre is `ahead` of the end.
+std::vector<DeckRun> beam_with_body(const std::string& ahead, const std::string& steps, const std::string& outputs,
+                                    const std::string& solver = "") {
+  return run_text(R"(
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0, density = 7800 }
+local beam = substructure{ name = "beam", material = steel, mesh = mesh.box{ size = { 300*mm, 10*mm, 10*mm }, cells = { 15, 1, 1 }, order = 2 } }
+local box = substructure.rigid{ name = "box", on = beam:face "xmax", mass = 2, inertia = { 4e-3, 2e-3, 3e-3 }, at = { 300*mm + )" +
+                  ahead + R"(, 5*mm, 5*mm } }
+local feet = interface.bonded{ name = "feet", between = { beam:face "xmax", box:face "xmax" } }
+local root = support.fixed{ name = "root", on = beam:face "xmin" }
+)" + steps + R"(
+problem{ name = "beam", substructures = { beam, box }, interfaces = { feet }, supports = { root }, steps = steps, )" +
+                  solver + "outputs = { " + outputs + R"( } }:run{}
+)");
+}
+
+constexpr double e_i = 200e9 * 1e-8 / 12, beam_length = 0.3, beam_mass = 7800 * 0.3e-4, box_mass = 2,
+                 box_inertia = 2e-3;
+
+// Of a clamped beam with a mass and its inertia on the end: zero at its natural frequencies (rad/s), without shear.
+double characteristic(double omega) {
+  const double x = beam_length * std::pow(omega * omega * beam_mass / beam_length / e_i, 0.25);
+  const double m = box_mass / beam_mass, j = box_inertia / (beam_mass * beam_length * beam_length);
+  const double c = std::cos(x), s = std::sin(x), ch = std::cosh(x), sh = std::sinh(x);
+  return 1 + c * ch + x * m * (c * sh - s * ch) - x * x * x * j * (ch * s + sh * c) +
+         x * x * x * x * m * j * (1 - c * ch);
+}
+
+double natural_frequency(double low, double high) {
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (characteristic(low) * characteristic(middle) <= 0 ? high : low) = middle;
+  }
+  return low / (2 * std::numbers::pi);
+}
+
+// Its weight bends the beam at its centre of mass, which may be ahead of the end.
+TEST(RigidBodies, hang_on_a_beam_by_their_weight_and_its_arm) {
+  for (const char* ahead : {"0", "60*mm"})
+    for (const char* solver : {"", "solver = solver.monolithic{}, "}) {
+      const DeckRun run =
+          beam_with_body(ahead, "local steps = { step.static{ name = 'hang', loads = { load.gravity{ z = -g0 } } } }",
+                         "output.history{ name = 'end', on = beam:face 'xmax', quantity = 'displacement' }", solver)
+              .at(0);
+      const double w = box_mass * 9.80665, l = beam_length, arm = std::string(ahead) == "0" ? 0.0 : 0.06;
+      const double area = 1e-4, shear = 200e9 / 2;
+      const double expected = w * l * l * l / (3 * e_i) + w * arm * l * l / (2 * e_i) + w * l / (area * shear * 5 / 6) +
+                              beam_mass * 9.80665 * l * l * l / (8 * e_i);
+      EXPECT_NEAR(run.column("end", "z").back(), -expected, 5e-4 * expected) << ahead << " " << solver;
+    }
+}
+
+TEST(RigidBodies, give_a_beam_the_frequencies_of_a_mass_and_its_inertia) {
+  const DeckRun run =
+      beam_with_body("0", "local steps = { step.static{ name = 'rest' } }", "output.modes{ name = 'modes', n = 4 }")
+          .at(0);
+  const std::vector<double>& found = run.column("modes", "frequency");
+  const double first = natural_frequency(10, 400);
+  std::printf("%.4f Hz of %.4f\n", found[1], first);
+  // About y the inertia is 2e-3, about z 3e-3: the bending along z (about y) is the faster one.
+  EXPECT_NEAR(found[1], first, 1e-3 * first);
+  EXPECT_LT(found[0], found[1]);
+}
+
+// Let go, it swings with that frequency.
+TEST(RigidBodies, swing_in_time_as_their_mode_does) {
+  const double f = natural_frequency(10, 400), period = 1 / f;
+  const DeckRun run =
+      beam_with_body(
+          "0",
+          "local bend = step.static{ name = 'bend', loads = { load.force{ on = beam:face 'xmax', z = 10 } } }\n"
+          "local steps = { bend, step.dynamic{ name = 'swing', after = bend, duration = " +
+              std::to_string(period) + ", dt = " + std::to_string(period) + " / 80 } }",
+          "output.history{ name = 'end', on = beam:face 'xmax', quantity = 'displacement' }")
+          .at(0);
+  const std::vector<double>&time = run.column("end", "time"), &z = run.column("end", "z");
+  std::vector<double> crossings;
+  for (size_t i = 1; i < z.size(); ++i)
+    if (z[i - 1] * z[i] < 0) crossings.push_back(time[i - 1] + (time[i] - time[i - 1]) * z[i - 1] / (z[i - 1] - z[i]));
+  ASSERT_EQ(crossings.size(), 2u);
+  std::printf("half a period %.6f s of %.6f\n", crossings[1] - crossings[0], period / 2);
+  EXPECT_NEAR(crossings[1] - crossings[0], period / 2, 5e-3 * period / 2);
+}
+
+// Free in space, pushed for a while through the common centre of mass: all move with the impulse over the whole mass.
+TEST(RigidBodies, share_the_momentum_of_a_push) {
+  const DeckRun run = run_text(R"(
+local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0.3, density = 7800 }
+local block = substructure{ name = "block", material = steel, mesh = mesh.box{ size = { 40*mm, 40*mm, 40*mm }, cells = { 3, 3, 3 } } }
+local box = substructure.rigid{ name = "box", on = block:face "zmax", mass = 1.5, inertia = { 1e-3, 1e-3, 1e-3 }, at = { 20*mm, 20*mm, 70*mm } }
+local feet = interface.bonded{ name = "feet", between = { block:face "zmax", box:face "zmax" } }
+local push = step.dynamic{ name = "push", duration = 0.4*ms, dt = 2*us,
+                           loads = { load.force{ on = block:face "zmin", z = history.half_sine{ peak = 1*kN, duration = 0.2*ms } } } }
+problem{ name = "pushed", substructures = { block, box }, interfaces = { feet }, steps = { push },
+         outputs = { output.momentum{ name = "all" }, output.momentum{ name = "box", of = box } } }:run{}
+)")
+                          .at(0);
+  const double impulse = 1000 * 0.2e-3 * 2 / std::numbers::pi, block_mass = 7800 * 64e-6;
+  EXPECT_NEAR(run.column("all", "z").back(), impulse, 1e-4 * impulse);
+  EXPECT_NEAR(run.column("all", "x").back(), 0.0, 1e-6 * impulse);  // the tolerance of the iterations
+  const std::vector<double>& of_box = run.column("box", "z");
+  double mean = 0.0;
+  const size_t n = of_box.size() / 2;
+  for (size_t i = of_box.size() - n; i < of_box.size(); ++i) mean += of_box[i] / static_cast<double>(n);
+  EXPECT_NEAR(mean, impulse * 1.5 / (1.5 + block_mass), 0.02 * impulse);  // it rings against the block
 }
 
 }  // namespace

@@ -188,12 +188,6 @@ class ModesOutput final : public Output, public ModeShapes {
                   "the problem's own name and 'interfaces' are those of the run's frames");
     if (after_) check::listed(problem, who + " is made after step", *after_, problem.steps, "steps");
     check_number(problem);
-    for (const SubstructurePtr& part : problem.substructures)
-      if (!part->mesh->inside->followers.empty())
-        check::fail(
-            problem, origin,
-            who + ": superelement '" + part->name + "' has faces that move as a whole, whose modes are not computed",
-            "condense it with motion = \"nodes\"");
     for (const SupportPtr& support : supports_of(problem, *about(problem)))
       if (support->kind->absorbs())
         check::fail(problem, origin,
