@@ -12,7 +12,7 @@
 #include "base/names.hpp"
 #include "base/progress.hpp"
 #include "base/warnings.hpp"
-#include "base/work.hpp"
+#include "base/task.hpp"
 #include "deck/repeat_run.hpp"
 #include "ranks/ranks.hpp"
 
@@ -45,7 +45,7 @@ int fail(const char* message, int code) {
 }
 
 int exit_code(const DeckOutcome& outcome, const char* when_stopped) {
-  if (outcome.interrupted && work_was_interrupted())
+  if (outcome.interrupted && task_was_interrupted())
     return say_error("stopped; nothing was solved, meshes that were finished are kept: start it again", stopped);
   if (outcome.interrupted) return say_error(when_stopped, stopped);
   for (const std::string& name : outcome.not_converged) say_error(("not converged: " + name).c_str(), not_converged);

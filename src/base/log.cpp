@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/names.hpp"
+#include "base/task.hpp"
 #include "base/warnings.hpp"
-#include "base/work.hpp"
 
 namespace dygita {
 

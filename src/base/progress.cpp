@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "base/work.hpp"
+#include "base/task.hpp"
 
 namespace dygita {
 
@@ -17,8 +17,8 @@ namespace {
 
 volatile std::sig_atomic_t progress_enabled = 1, interrupt_flag = 0;
 std::atomic<bool> interrupts_are_heeded = true, was_interrupted = false, line_is_open = false;
-std::mutex work_mutex;
-Work* at_work = nullptr;  // begun last of those that go on, with the mutex held
+std::mutex task_mutex;
+Task* at_task = nullptr;  // begun last of those that go on, with the mutex held
 
 constexpr double on_terminal = 0.1, in_log = 10.0;  // s, between two lines
 
@@ -46,16 +46,16 @@ void leave_progress_line() {
 }
 
 void heed_interrupt() {
-  const std::scoped_lock lock(work_mutex);
-  if (!at_work) return;
-  if (interrupt_requested() && interrupts_are_heeded && at_work->may_end_) throw Interrupted();
-  const std::scoped_lock its(at_work->mutex_);
-  at_work->write_if_due();
+  const std::scoped_lock lock(task_mutex);
+  if (!at_task) return;
+  if (interrupt_requested() && interrupts_are_heeded && at_task->may_end_) throw Interrupted();
+  const std::scoped_lock its(at_task->mutex_);
+  at_task->write_if_due();
 }
 
 Interrupted::Interrupted() { was_interrupted = true; }
 
-bool work_was_interrupted() { return was_interrupted; }
+bool task_was_interrupted() { return was_interrupted; }
 
 void set_interrupts_heeded(bool heeded) { interrupts_are_heeded = heeded; }
 
@@ -107,7 +107,7 @@ void Progress::tell(const std::string& detail) {
                     seconds(std::chrono::steady_clock::now() - start_), detail));
 }
 
-Work::Work(std::string label, int total, Interrupts interrupts)
+Task::Task(std::string label, int total, Interrupts interrupts)
     : around_(nullptr),
       label_(std::move(label)),
       total_(total),
@@ -115,20 +115,20 @@ Work::Work(std::string label, int total, Interrupts interrupts)
       is_terminal_(isatty(STDERR_FILENO) != 0),
       start_(std::chrono::steady_clock::now()),
       last_(start_) {
-  const std::scoped_lock lock(work_mutex);
-  around_ = std::exchange(at_work, this);
+  const std::scoped_lock lock(task_mutex);
+  around_ = std::exchange(at_task, this);
 }
 
 // Not always the last one ends first: ranks may be threads of one process.
-Work::~Work() {
-  const std::scoped_lock lock(work_mutex);
-  Work** link = &at_work;
+Task::~Task() {
+  const std::scoped_lock lock(task_mutex);
+  Task** link = &at_task;
   while (*link != this) link = &(*link)->around_;
   *link = around_;
   leave_progress_line();
 }
 
-void Work::done(const std::string& what) {
+void Task::done(const std::string& what) {
   {
     const std::scoped_lock lock(mutex_);
     ++done_;
@@ -138,7 +138,7 @@ void Work::done(const std::string& what) {
   heed_interrupt();
 }
 
-void Work::tell(const std::string& doing) {
+void Task::tell(const std::string& doing) {
   {
     const std::scoped_lock lock(mutex_);
     doing_ = doing;
@@ -147,7 +147,7 @@ void Work::tell(const std::string& doing) {
   heed_interrupt();
 }
 
-void Work::write_if_due() {
+void Task::write_if_due() {
   const auto now = std::chrono::steady_clock::now();
   if (!progress_enabled || seconds(now - last_) < (is_terminal_ ? on_terminal : in_log)) return;
   last_ = now;

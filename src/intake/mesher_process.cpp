@@ -19,7 +19,7 @@
 #include "base/memory.hpp"
 #include "base/names.hpp"
 #include "base/progress.hpp"
-#include "base/work.hpp"
+#include "base/task.hpp"
 #include "intake/mesh_cache.hpp"
 #include "ranks/ranks.hpp"
 
@@ -204,11 +204,11 @@ std::string run_mesher(MesherTask task, const std::string& file) {
   Process mesher(mesher_program());
   const auto start = Clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  Work work("meshing " + fs::path(file).filename().string(), 0, Work::Interrupts::wait);
+  Task meshing("meshing " + fs::path(file).filename().string(), 0, Task::Interrupts::wait);
   std::string doing = "reading";
   const bool is_over = mesher.converse(to_bytes(task), [&] {
     if (std::string told = take_told(mesher.errors); !told.empty()) doing = std::move(told);
-    work.tell(doing);
+    meshing.tell(doing);
     return seconds() < mesh_limits().time && !interrupt_requested();
   });
   if (!is_over) {

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "base/parallel.hpp"
-#include "base/work.hpp"
+#include "base/task.hpp"
 #include "interfaces/check_preloads.hpp"
 #include "interfaces/gaps_of_places.hpp"
 #include "interfaces/whole_parts.hpp"
@@ -251,11 +251,11 @@ std::vector<Surface> make_surfaces(const Problem& problem) {
   std::vector<std::optional<Meeting>> meetings(static_cast<size_t>(n));
   const double within = n > 0 ? default_within(problem) : 0.0;
   {
-    Work work("points of interfaces", n);
+    Task task("points of interfaces", n);
     parallel_for(n, [&](int i) {
-      work.tell("'" + problem.interfaces[i]->name + "'");
+      task.tell("'" + problem.interfaces[i]->name + "'");
       meetings[i].emplace(meeting_of(*problem.interfaces[i], within));
-      work.done("'" + problem.interfaces[i]->name + "'");
+      task.done("'" + problem.interfaces[i]->name + "'");
     });
   }
   const Rings rings(problem, meetings);

@@ -10,8 +10,8 @@
 #include <unordered_set>
 
 #include "base/parallel.hpp"
+#include "base/task.hpp"
 #include "base/warnings.hpp"
-#include "base/work.hpp"
 #include "interfaces/whole_parts.hpp"
 #include "law/law.hpp"
 #include "meeting/touching.hpp"
@@ -223,7 +223,7 @@ std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Su
       const double near = reach * size + std::min(flight_of(problem, i, j), longest_flight * size);
       if (boxes[i].grown(near).meets(boxes[j].grown(near))) pairs.push_back({i, j, size, near, {}});
     }
-  Work work("parts near each other", static_cast<int>(pairs.size()));
+  Task task("parts near each other", static_cast<int>(pairs.size()));
   parallel_for(static_cast<int>(pairs.size()), [&](int k) {
     Unjoined& pair = pairs[static_cast<size_t>(k)];
     const int i = pair.part_1, j = pair.part_2;
@@ -246,7 +246,7 @@ std::vector<Unjoined> find_unjoined(const Problem& problem, const std::vector<Su
     pair.neighbours = find_neighbours(body_1, body_2, pair.reach);
     if (pair.neighbours.intrusion && pair.neighbours.intrusion->depth <= 1.5 * interference)
       pair.neighbours.intrusion = {};
-    work.done(fmt::format("'{}' and '{}'", problem.substructures[static_cast<size_t>(i)]->name,
+    task.done(fmt::format("'{}' and '{}'", problem.substructures[static_cast<size_t>(i)]->name,
                           problem.substructures[static_cast<size_t>(j)]->name));
     if (!pair.neighbours.intrusion || pair.neighbours.intrusion->depth <= pair.offset) return;
     for (const Surface& surface : surfaces)

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "base/parallel.hpp"
-#include "base/work.hpp"
+#include "base/task.hpp"
 #include "meeting/facet_map.hpp"
 #include "meeting/part_functions.hpp"
 #include "numerics/dense.hpp"

@@ -6,7 +6,7 @@
 #include <map>
 #include <span>
 
-#include "base/work.hpp"
+#include "base/task.hpp"
 #include "meeting/overlap.hpp"
 #include "meeting/sagitta.hpp"
 #include "meeting/true_gaps.hpp"

@@ -2,7 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "base/work.hpp"
+#include "base/task.hpp"
 #include "meeting/neighbours.hpp"
 #include "meeting/round_surfaces.hpp"
 #include "meeting/true_gaps.hpp"
@@ -90,8 +90,8 @@ std::vector<TouchingPair> all_touching(const std::vector<SubstructurePtr>& parts
     return *known;
   };
   std::vector<TouchingPair> pairs;
-  Work work("parts that touch", n);
-  for (int i = 0; i < n; work.done("'" + parts[static_cast<size_t>(i++)]->name + "'"))
+  Task task("parts that touch", n);
+  for (int i = 0; i < n; task.done("'" + parts[static_cast<size_t>(i++)]->name + "'"))
     for (int j = i + 1; j < n; ++j) {
       heed_interrupt();
       const double smaller = std::min(boxes[i].size().norm(), boxes[j].size().norm());

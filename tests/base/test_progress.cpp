@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "base/progress.hpp"
-#include "base/work.hpp"
+#include "base/task.hpp"
 
 namespace dygita {
 
@@ -33,41 +33,41 @@ TEST(Progress, is_silent_when_disabled) {
   set_progress_enabled(true);
 }
 
-TEST(Work, says_nothing_that_is_over_soon) {
+TEST(Task, says_nothing_that_is_over_soon) {
   testing::internal::CaptureStderr();
   {
-    Work work("meshing", 3);
-    for (const char* solid : {"plate", "bolt", "nut"}) work.done(solid);
+    Task task("meshing", 3);
+    for (const char* solid : {"plate", "bolt", "nut"}) task.done(solid);
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(Work, ends_where_the_user_wants_it_and_it_may) {
+TEST(Task, ends_where_the_user_wants_it_and_it_may) {
   heed_interrupt();
   request_interrupt();
   EXPECT_NO_THROW(heed_interrupt()) << "without work";
   {
-    Work work("points of interfaces", 2);
+    Task task("points of interfaces", 2);
     EXPECT_THROW(heed_interrupt(), Interrupted);
-    EXPECT_THROW(work.tell("joint"), Interrupted);
-    EXPECT_THROW(work.done("joint"), Interrupted);
+    EXPECT_THROW(task.tell("joint"), Interrupted);
+    EXPECT_THROW(task.done("joint"), Interrupted);
     {
-      Work within("results", 0, Work::Interrupts::wait);
+      Task within("results", 0, Task::Interrupts::wait);
       EXPECT_NO_THROW(heed_interrupt());
     }
     EXPECT_THROW(heed_interrupt(), Interrupted);
     set_interrupts_heeded(false);
-    EXPECT_NO_THROW(work.tell("joint"));
+    EXPECT_NO_THROW(task.tell("joint"));
     set_interrupts_heeded(true);
   }
   EXPECT_NO_THROW(heed_interrupt()) << "once the work is done";
   withdraw_interrupt();
-  Work work("points of interfaces", 2);
-  EXPECT_NO_THROW(work.done("joint"));
+  Task task("points of interfaces", 2);
+  EXPECT_NO_THROW(task.done("joint"));
 }
 
-TEST(Work, may_end_in_any_order) {
-  auto first = std::make_unique<Work>("one"), second = std::make_unique<Work>("other");
+TEST(Task, may_end_in_any_order) {
+  auto first = std::make_unique<Task>("one"), second = std::make_unique<Task>("other");
   request_interrupt();
   first.reset();
   EXPECT_THROW(heed_interrupt(), Interrupted);

@@ -1,4 +1,4 @@
-// Work without increments, which says what it does and ends where the user wants it.
+// What goes on without increments says what it does and ends where the user wants it.
 #pragma once
 
 #include <chrono>
@@ -8,17 +8,17 @@
 
 namespace dygita {
 
-// Work without increments: meshes, the search of contacts, outputs. Says nothing unless it takes a while: a line in
-// place on a terminal, gone at the end, a line every ten seconds in a log. Any thread may tell.
-class Work {
+// Something without increments: meshes, the search of contacts, outputs. Says nothing unless it takes a while: a line
+// in place on a terminal, gone at the end, a line every ten seconds in a log. Any thread may tell.
+class Task {
  public:
   // May the user end it, or has it to come to its end?
   enum class Interrupts { end_it, wait };
 
-  explicit Work(std::string label, int total = 0, Interrupts interrupts = Interrupts::end_it);
-  ~Work();
-  Work(const Work&) = delete;
-  Work& operator=(const Work&) = delete;
+  explicit Task(std::string label, int total = 0, Interrupts interrupts = Interrupts::end_it);
+  ~Task();
+  Task(const Task&) = delete;
+  Task& operator=(const Task&) = delete;
 
   // Another of `total` is done, `what` is its name; or what goes on. Both heed_interrupt().
   void done(const std::string& what);
@@ -29,7 +29,7 @@ class Work {
   void write_if_due();
 
   std::mutex mutex_;
-  Work* around_;  // the work that this one is part of
+  Task* around_;  // the one that this is part of
   std::string label_, doing_;
   int total_, done_ = 0;
   bool may_end_, is_terminal_;
@@ -42,7 +42,7 @@ class Interrupted : public std::exception {
   Interrupted();
   const char* what() const noexcept override { return "stopped by the user"; }
 };
-bool work_was_interrupted();  // has one been thrown?
+bool task_was_interrupted();  // has one been thrown?
 
 // Throws Interrupted where the user wants to stop and the work at hand may end; else has it say again what goes on,
 // where that is due. For loops whose bodies are short. Of several ranks none may leave the others waiting: there they
