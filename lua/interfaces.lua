@@ -21,9 +21,10 @@ end
 function interfaces.forget_part(part) forget(parts, part) end
 function interfaces.forget(interface) forget(declared, interface) end
 
--- Those that were found for a problem are its own: the next case of a study finds them anew. Those that a deck declares
--- one by one hold for all that follow.
+-- Those of "all touching" are their problem's own: the next case of a study finds them anew. Those that a deck declares
+-- one by one or by names hold for all that follow, until the same line declares them again.
 local found = setmetatable({}, { __mode = "k" })
+local by_names = {}  -- by the line
 function interfaces.note_problem(of)
   for _, interface in ipairs(of or {}) do
     if found[interface] then forget(declared, interface) end
@@ -100,6 +101,7 @@ local function side_by_side(sides)
 end
 
 local function declare_all(entry, given, line)
+  for _, interface in ipairs(by_names[line] or {}) do forget(declared, interface) end
   local among, asked = given.of or parts, function() return true, false end
   local what = ("\"%s\""):format(all)
   if given.between ~= all then
@@ -154,9 +156,10 @@ local function declare_all(entry, given, line)
     #left > 0 and "; left alone: " .. table.concat(left, ", ") or ""))
   for _, text in ipairs(lines) do native.say(text) end
   for _, interface in ipairs(list) do
-    found[interface] = true
+    found[interface] = given.between == all or nil
     interfaces.note(interface)
   end
+  if given.between ~= all then by_names[line] = list end
   return list
 end
 

@@ -320,7 +320,7 @@ words[3][2] = {
     { "inertia", type = "numbers", unit = "kg m^2", at_least = 3, at_most = 6, required = true,
       doc = "moments about its centre of mass { xx, yy, zz }, or with { ..., xy, xz, yz }, the products with their minus, as the matrix has them" },
     { "at", type = "vector", unit = "m", range = { -1000, 1000 }, required = true, doc = "its centre of mass" },
-    part_arguments[5],
+    part_arguments[6],
   },
 }
 

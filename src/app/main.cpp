@@ -11,8 +11,8 @@
 #include "base/log.hpp"
 #include "base/names.hpp"
 #include "base/progress.hpp"
-#include "base/warnings.hpp"
 #include "base/task.hpp"
+#include "base/warnings.hpp"
 #include "deck/repeat_run.hpp"
 #include "ranks/ranks.hpp"
 

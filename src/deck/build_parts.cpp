@@ -208,13 +208,17 @@ const char* cure_of_gap(bool knows_gaps) {
                     : "move them together by 'place' or 'origin'";
 }
 
+// Does the deck say what is to be taken for the gap?
+bool has_gap_of_its_own(const Declaration& d) {
+  return (d.arguments.has("gap") && (!d.arguments.is_number("gap") || d.arguments.number("gap") != 0.0)) ||
+         (d.arguments.has("closed") && d.arguments.boolean("closed"));
+}
+
 // A gap of round surfaces is taken from them where the deck says none; others are told.
 void settle_gap(const Declaration& d, const std::string& who_1, const std::string& who_2, const GapDoubt& doubt,
                 Interface& interface) {
   const bool knows_gaps = d.arguments.has("gap");
-  const bool has_gap = knows_gaps && (!d.arguments.is_number("gap") || d.arguments.number("gap") != 0.0);
-  const bool is_closed = d.arguments.has("closed") && d.arguments.boolean("closed");
-  if (doubt.is_empty() || has_gap || is_closed) return;
+  if (doubt.is_empty() || has_gap_of_its_own(d)) return;
   const bool is_kept = knows_gaps && doubt.is_known;
   if (!is_kept && doubt.is_slight) return;
   interface.has_gap_of_geometry = interface.is_gap_drawn = is_kept;
@@ -225,14 +229,19 @@ void settle_gap(const Declaration& d, const std::string& who_1, const std::strin
 }
 
 // Faces that are named meet where they are near, within a distance that the assembly gives: not less than their own.
+// Round ones that are apart meet all around.
 void set_named_faces(const Declaration& d, const Face& one, const Face& other, Interface& interface) {
+  const bool is_given = interface.within.has_value();
   interface.side_1 = with_facets(one, other, interface.within);
   interface.side_2 = with_facets(other, one, interface.within);
   const double size = std::max(extent_of(*one.part).size().norm(), extent_of(*other.part).size().norm());
   const double within = interface.within.value_or(default_share_of_size * size);
-  const GapDoubt doubt = doubt_of_gap(interface.side_1, interface.side_2, within);
+  if (!is_given && d.arguments.has("gap") && !has_gap_of_its_own(d))
+    if (const double apart = 2.0 * clearance_of_round(interface.side_1, interface.side_2); apart > within)
+      interface.within = apart;
+  const GapDoubt doubt = doubt_of_gap(interface.side_1, interface.side_2, interface.within.value_or(within));
   // Where 'within' is larger than what facets hide, the check of the whole problem tells it.
-  if (!interface.within || doubt.is_hidden || (doubt.is_known && d.arguments.has("gap")))
+  if (!is_given || doubt.is_hidden || (doubt.is_known && d.arguments.has("gap")))
     settle_gap(d, one.label(), other.label(), doubt, interface);
 }
 

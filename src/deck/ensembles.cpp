@@ -130,7 +130,7 @@ void tell(const EnsembleResult& found, const std::filesystem::path& folder, bool
     warn(fmt::format("ensemble '{}': {} of {} members did not converge and are left out of its statistics",
                      ensemble.name, ensemble.members.size() - n, ensemble.members.size()));
   for (const std::string& line : ensemble_lines(ensemble, found.scatter)) say("  " + line);
-  if (!writes) return;
+  if (!writes) return;  // nor where one member alone is continued: the others are not what it has become
   write_ensemble(folder, ensemble, found.scatter);
   say("  tables and charts: " + folder.string());
 }
@@ -211,7 +211,7 @@ int conclude_ensemble(LuaState& lua, lua_State* L) {
   const std::string problem = found->ensemble.members.front().problem->name;
   if (state.is_solving)
     tell(*found, state.options.out / file_name_of(problem) / file_name_of(found->ensemble.name),
-         state.options.write_files);
+         state.options.write_files && state.options.is_study);
   push_object(L, {"ensemble result", "ensemble result", found->ensemble.name, -1, EnsembleResultPtr(std::move(found))});
   return 1;
 }

@@ -19,7 +19,7 @@ double normal_share(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 // P(mean + k s >= quantile of the units) of n standard normal values: the mean is normal, s^2 that of chi squared, and
 // both are independent. Simpson's rule over s.
 double confidence_of(double k, int n, double z) {
-  constexpr int intervals = 800;
+  constexpr int intervals = 4000;
   const double nu = n - 1.0, reach = 12.0 / std::sqrt(2.0 * nu);
   const double from = std::max(0.0, 1.0 - reach), to = 1.0 + reach, h = (to - from) / intervals;
   const double log_scale = std::log(2.0) + 0.5 * nu * std::log(0.5 * nu) - std::lgamma(0.5 * nu);

@@ -45,20 +45,30 @@ std::map<long, double> NastranLoads::factors_of(long set) const {
 std::vector<FileAction> NastranLoads::of_set(long set, std::vector<std::string>& untranslated) {
   const std::map<long, double> factors = factors_of(set);
   const BulkFile& file = model_.file();
-  bool has_any = false;
+  std::set<long> seen;
   for (const BulkCard& card : file.cards()) {
     const bool is_said = card.name == "FORCE" || card.name == "FORCE1" || card.name == "PLOAD4" || card.name == "GRAV";
     if (!is_said && !other_loads.contains(card.name)) continue;
     try {
       const auto factor = factors.find(BulkFields(file, card).whole(1, "the number of a set"));
       if (factor == factors.end()) continue;
-      has_any = true;
+      seen.insert(factor->first);
       if (is_said) add_card(card, factor->second);  // other_loads are listed with the cards that no deck says
     } catch (const InputError& error) {
       untranslated.emplace_back(error.what());
     }
   }
-  if (!has_any) untranslated.push_back(fmt::format("{}: there is no load {} that a case asks for", file.file(), set));
+  if (seen.empty())
+    untranslated.push_back(fmt::format("{}: there is no load {} that a case asks for", file.file(), set));
+  for (const auto& [number, factor] : factors)
+    if (number != set && !seen.contains(number) && !seen.empty())
+      untranslated.push_back(
+          fmt::format("{}: LOAD {} sums load {}, which the file does not have", file.file(), set, number));
+  const auto n_sums = std::count_if(file.cards().begin(), file.cards().end(), [&](const BulkCard& card) {
+    return card.name == "LOAD" && BulkFields(file, card).whole(1, "the number of a set") == set;
+  });
+  if (n_sums > 1 || (n_sums == 1 && seen.contains(set)))
+    untranslated.push_back(fmt::format("{}: LOAD {} and another load have the same number", file.file(), set));
   pass_on_to_feet(untranslated);
   return actions();
 }
@@ -109,9 +119,10 @@ void NastranLoads::add_pressure(const BulkCard& card, double factor) {
     const Vec3 traction = factor * by * (axes.axes * along.normalized());
     says = {traction[0], traction[1], traction[2], 0};
   }
-  Pressed& pressed = pressures_[says];
-  pressed.facets.push_back(facet);
-  if (!pressed.card) pressed.card = &card;
+  auto corners = facet.corners;
+  std::sort(corners.begin(), corners.end());
+  Pressed& pressed = pressures_.try_emplace({facet.cell, corners}, Pressed{facet, {}, &card}).first->second;
+  for (size_t i = 0; i < says.size(); ++i) pressed.says[i] += says[i];
 }
 
 void NastranLoads::add_gravity(const BulkCard& card, double factor) {
@@ -164,6 +175,24 @@ void NastranLoads::pass_on_to_feet(std::vector<std::string>& untranslated) {
   }
 }
 
+// Facets under one pressure, or one traction, in the order of the cards; what several cards say of a facet is summed.
+std::map<NastranLoads::Says, NastranLoads::PressedAlike> NastranLoads::pressed_alike() const {
+  std::vector<const Pressed*> all;
+  for (const auto& [facet, pressed] : pressures_) all.push_back(&pressed);
+  std::stable_sort(all.begin(), all.end(), [](const Pressed* a, const Pressed* b) {
+    return std::pair(a->card->file, a->card->line) < std::pair(b->card->file, b->card->line);
+  });
+  std::map<Says, PressedAlike> alike;
+  for (const Pressed* one : all)
+    for (const Says& says : {Says{one->says[0], one->says[1], one->says[2], 0.0}, Says{0.0, 0.0, 0.0, one->says[3]}}) {
+      if (says == Says{}) continue;
+      PressedAlike& own = alike[says];
+      own.facets.push_back(one->facet);
+      if (!own.card) own.card = one->card;
+    }
+  return alike;
+}
+
 std::vector<FileAction> NastranLoads::actions() {
   const BulkFile& file = model_.file();
   std::vector<FileAction> actions;
@@ -184,7 +213,7 @@ std::vector<FileAction> NastranLoads::actions() {
     actions.push_back({Kind::force, add_place(model_.model(), *of.first, of.second), force, nonzero(force), "",
                        file.where(*of.first), static_cast<int>(of.second.size())});
   }
-  for (auto& [says, pressed] : pressures_) {
+  for (auto& [says, pressed] : pressed_alike()) {
     const Vec3 traction(says[0], says[1], says[2]);
     const bool is_pressure = traction.isZero(0.0);
     std::string name = fmt::format("pload4 {}{}", pressed.card->file == 0 ? "" : fmt::format("{}.", pressed.card->file),

@@ -35,11 +35,18 @@ class NastranLoads {
   std::vector<NastranSpider>& spiders_;
   std::set<int> of_cells_;
   std::map<int, Loaded> forces_;
+  using Says = std::array<double, 4>;  // a traction, and a pressure
   struct Pressed {
+    ForeignFacet facet;
+    Says says;
+    const BulkCard* card;  // the first
+  };
+  struct PressedAlike {
     std::vector<ForeignFacet> facets;
     const BulkCard* card = nullptr;
   };
-  std::map<std::array<double, 4>, Pressed> pressures_;  // a traction, and a pressure
+  std::map<Says, PressedAlike> pressed_alike() const;
+  std::map<std::pair<int, std::array<int, 4>>, Pressed> pressures_;  // by the facet: cell and corners, sorted
   Vec3 gravity_ = Vec3::Zero();
   const BulkCard* of_gravity_ = nullptr;
 };

@@ -130,6 +130,13 @@ std::string GapDoubt::neglected() const {
 
 std::string GapDoubt::kept() const { return apart + ", which is kept, as that of the round surfaces " + on_average; }
 
+double clearance_of_round(const Face& side_1, const Face& side_2) {
+  constexpr double most = 0.1;  // of a radius: faces further apart are not made to meet
+  const RoundFace round_1(placed(side_1)), round_2(placed(side_2));
+  const double even = round_1.even_gap(round_2).value_or(0.0);
+  return even < most * std::min(round_1.least_radius(), round_2.least_radius()) ? std::max(0.0, even) : 0.0;
+}
+
 GapDoubt doubt_of_gap(const Face& side_1, const Face& side_2, double within) {
   constexpr double most_interference = 0.01;  // of a radius: no fit is tighter
   TrueGaps gaps = true_gaps(placed(side_1), placed(side_2), within);

@@ -51,6 +51,8 @@ struct GapDoubt {
 };
 // Doubts of one kind are told together.
 KindOfWarning kind_of(const GapDoubt& doubt, bool is_kept, const std::string& who_1, const std::string& who_2);
+// m, between cylinders around one axis, or such spheres, that are apart; else 0.
+double clearance_of_round(const Face& side_1, const Face& side_2);
 GapDoubt doubt_of_gap(const Face& side_1, const Face& side_2, double within);
 
 }  // namespace dygita

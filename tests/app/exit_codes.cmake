@@ -187,3 +187,6 @@ if(NOT err MATCHES "balance is open by 2[0-9]" OR NOT record MATCHES "\"verdict\
   message(SEND_ERROR "an open balance: ${err}")
 endif()
 file(REMOVE_RECURSE ${out})
+
+# The statistics that a deck reads are not known where it is only checked.
+expect(0 check ${SOURCE_DIR}/decks/flanges_ensemble.lua --set n=3)

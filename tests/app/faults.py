@@ -336,13 +336,13 @@ def decks_that_take_long():
     folder.mkdir()
     for name, text, expected, says in (
             ("number", "print(string.find(1234567890123456789, ('.-'):rep(30) .. 'x'))", 2, "too many repetitions"),
-            ("number_as_pattern", "print(('12'):rep(9):find(12))", 0, "1\t2"),
+            ("number_as_pattern", "print(('12'):rep(9):find(12))", 2, "1\t2"),
             ("searches", "local s = ('a'):rep(30000) for i = 1, 1e6 do s:find('a-b') end", 2, "and was stopped"),
             ("sparse", "local t = {} for k = 61, 3, -1 do t[1 << k] = 1 end for i = 1, 5 do t[i] = 1 end table.remove(t, 1)", 2, "sparse.lua:1: deck code has run for 1 s and was stopped"),
             ("long_numbers", "local a = ('1'):rep(50000000) for i = 1, 1e7 do local x = tonumber(a, 10) end", 2, "and was stopped"),
-            ("doubled", "local h = history.constant{ value = 1 } for i = 1, 60 do h = h + h end print(h(0))", 0, "1.1529215046068e+18"),
+            ("doubled", "local h = history.constant{ value = 1 } for i = 1, 60 do h = h + h end print(h(0))", 2, "1.1529215046068e+18"),
             ("long_name", "material.elastic{ [('a'):rep(20000000)] = 1 }", 2, "known: damping"),
-            ("escapes", "print('a\\27[2J\\7\\194\\155b\\tc')", 0, "a\\x1b[2J\\x07\\xc2\\x9bb\tc"),
+            ("escapes", "print('a\\27[2J\\7\\194\\155b\\tc')", 2, "a\\x1b[2J\\x07\\xc2\\x9bb\tc"),
             ("escapes_in_an_error", "error('a\\27[2Jb')", 2, "a\\x1b[2Jb")):
         (folder / f"{name}.lua").write_text(text)
         start = time.monotonic()

@@ -237,6 +237,24 @@ assert(#fits == 2)
   EXPECT_NE(said.find("\n    the worst of 2 of this kind; the other: 'inner"), std::string::npos) << said;
 }
 
+// A pair that is declared by names before a study is the deck's, for all of its cases.
+TEST(FoundInterfaces, by_names_hold_for_all_cases_that_follow) {
+  const std::string study = R"(
+local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
+local cube = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 1, 1, 1 } }
+local parts = {}
+for i, name in ipairs{ "low", "mid", "up" } do parts[i] = substructure{ name = name, mesh = cube, material = steel, place = { 0, 0, i*10*mm } } end
+local glue = interface.bonded{ name = "glue", between = { "mid", "up" } }
+for i, mu in ipairs{ 0.1, 0.2 } do
+  local rest = interface.contact{ between = "all touching", friction = mu }
+  assert(#rest == 1)
+  problem{ name = "study", substructures = parts, interfaces = { glue, rest }, supports = { support.fixed{ name = "base", on = parts[1]:face "zmin" } },
+    steps = { step.static{ name = "press", loads = { load.pressure{ on = parts[3]:face "zmax", history = 1*MPa } } } } }:run{ case = "case" .. i }
+end
+)";
+  EXPECT_EQ(run_text(study).size(), 2u);
+}
+
 }  // namespace
 
 }  // namespace dygita::test

@@ -175,6 +175,24 @@ TEST(GapOfRoundSurfaces, is_open_where_a_clearance_is_drawn_and_closed_where_the
             pressure_of({{"over", "0"}, {"order", "2"}}, std::string(named) + ", closed = true"));
 }
 
+// A pressure q in the bore widens the inner ring by 2 q a^2 b / (E (b^2 - a^2)); what the clearance leaves of it
+// presses.
+TEST(GapOfRoundSurfaces, is_closed_all_around_by_a_pressure_however_wide_it_is) {
+  const std::string press =
+      "{ step.static{ name = 's', loads = { load.pressure{ on = inner:face{ cylinder = true, "
+      "radius = 10*mm }, history = 1500*MPa } } } }";
+  for (const auto& [over, apart] : {std::pair{"-20*um", 20e-6}, {"-60*um", 60e-6}}) {
+    const double b = 0.02 - apart, widened = 2 * 1500e6 * 1e-4 * b / (210e9 * (b * b - 1e-4));
+    const double right = lame(widened - apart);
+    const double found = run_text(rings(named, press), {{"order", "2"}, {"n", "12"}, {"over", over}})
+                             .at(0)
+                             .column("p", "pressure")
+                             .back();
+    std::cout << "  " << apart << ": " << found / right - 1 << "\n";
+    EXPECT_NEAR(found, right, 0.006 * right);
+  }
+}
+
 TEST(GapOfRoundSurfaces, is_no_interference_where_the_first_step_is_dynamic) {
   testing::internal::CaptureStderr();
   const DeckRun run =

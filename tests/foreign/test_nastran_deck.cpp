@@ -49,6 +49,23 @@ TEST(NastranDeck, has_a_problem_for_each_subcase_by_the_names_and_lines_of_the_f
   EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
 }
 
+TEST(NastranDeck, sums_what_several_cards_say_of_one_face) {
+  const std::string press = "PLOAD4,10,2,5.,,,,9,11\n", held = "SPC1,1,123,1,2,3,4\n";
+  expect_in(imported("", held + press + press), "history = 10*pressure }");
+  expect_in(imported("", held + press + "PLOAD4,10,2,-3.,,,,9,11\n"), "history = 2*pressure }");
+  const std::string both = imported("", held + press + "PLOAD4,10,2,4.,,,,9,11\n,0,1.,0.,0.\n");
+  expect_in(both, "history = 5*pressure }");
+  expect_in(both, "x = 4*pressure");
+  expect_in(imported("SOL 101\nCEND\nSPC = 1\nLOAD = 12\n",
+                     held + press + "PLOAD4,11,2,5.,,,,9,11\nLOAD,12,1.,1.,10,1.,11\n"),
+            "history = 10*pressure }");
+  const std::string summed = "SOL 101\nCEND\nSPC = 1\nLOAD = 12\n";
+  expect_in(imported(summed, held + press + "LOAD,12,1.,1.,10,1.,77\n"),
+            "LOAD 12 sums load 77, which the file does not have");
+  expect_in(imported(summed, held + press + "LOAD,12,1.,1.,10\nLOAD,12,1.,1.,10\n"),
+            "LOAD 12 and another load have the same number");
+}
+
 TEST(NastranDeck, holds_nodes_in_the_axes_of_the_file) {
   // Axes 1, 2, 3 of system 5 are y, z, x; those of system 6 are turned by 45 degrees about z.
   const std::string deck = imported(

@@ -1,0 +1,1 @@
+local file = mesh.nastran{ file = "wedge.bdf", units = "mm N" }
