@@ -84,6 +84,7 @@ struct Judged {
   const std::vector<double>* level = nullptr;  // P95/50; of corners the envelope
   std::string level_name;
   std::optional<Specification> specification;
+  double margin = 0.0;  // dB, that is asked for
   FrequencyRange range;
 };
 
@@ -104,6 +105,7 @@ Judged judged_spectrum(const Ensemble& ensemble, const OutputScatter& scatter) {
     found.specification = Specification{std::get<std::vector<double>>(note_called(own, "frequency")->value),
                                         std::get<std::vector<double>>(note_called(own, "level")->value),
                                         std::get<std::string>(note_called(own, "source")->value)};
+    if (const Note* margin = note_called(own, "margin")) found.margin = std::get<double>(margin->value);
     const auto& range = std::get<std::vector<double>>(note_called(own, "judged")->value);
     found.range = {range[0], range[1]};
   }
@@ -123,7 +125,13 @@ std::string ensemble_chart(const Ensemble& ensemble, const OutputScatter& scatte
   if (of.specification) {
     PlotLine line{.name = "specification", .x = of.specification->frequency, .y = of.specification->level};
     line.is_dashed = true;
+    PlotLine below = line;
     plot.lines.push_back(std::move(line));
+    if (of.margin > 0.0) {
+      below.name = fmt::format("specification - {:g} dB", of.margin);
+      for (double& level : below.y) level *= std::pow(10.0, -of.margin / 20.0);
+      plot.lines.push_back(std::move(below));
+    }
   }
   return svg(plot);
 }
@@ -197,6 +205,12 @@ std::string drive_at(const OutputScatter& scatter, size_t row, size_t n) {
                      scatter.drives_at.names[best]);
 }
 
+// Whether the margin that is asked for is kept; empty: none is asked for.
+std::string of_margin(double margin, double decibels) {
+  if (!(margin > 0.0)) return "";
+  return fmt::format("; {:g} dB of margin are asked for{}", margin, decibels > -margin ? ", which it misses" : "");
+}
+
 // Held against its specification, or where its spread is widest.
 std::string spectrum_line(const Ensemble& ensemble, const OutputScatter& scatter) {
   const Judged of = judged_spectrum(ensemble, scatter);
@@ -205,9 +219,10 @@ std::string spectrum_line(const Ensemble& ensemble, const OutputScatter& scatter
   if (of.specification) {
     const Exceedance worst = largest_exceedance(*of.specification, of.table->columns[0], *of.level, of.range);
     if (worst.is_known)
-      return fmt::format("{}{} {} its specification by {:.1f} dB at {}{}", who, of.level_name,
+      return fmt::format("{}{} {} its specification by {:.1f} dB at {}{}{}", who, of.level_name,
                          worst.decibels > 0.0 ? "exceeds" : "stays below", std::abs(worst.decibels),
-                         frequency_text(worst.frequency), drive_at(scatter, row_at(*of.table, worst.frequency), n));
+                         frequency_text(worst.frequency), of_margin(of.margin, worst.decibels),
+                         drive_at(scatter, row_at(*of.table, worst.frequency), n));
   }
   const std::vector<double>& spread = of.table->column("spread");
   size_t at = 0;

@@ -35,7 +35,7 @@ const std::string linear_bar = R"(
 local steel = material.elastic{ name = "steel", young = 200*GPa, poisson = 0, density = 7800 }
 local bar = substructure{ name = "bar", material = steel, mesh = mesh.box{ size = { 100*mm, 10*mm, 10*mm }, cells = { 10, 1, 1 } } }
 local a = output.history{ name = "a", on = bar:face "xmin", quantity = "acceleration", direction = { 1, 0, 0 } }
-local srs = output.srs{ name = "srs", of = a, q_factor = 10, from = 10*kHz, to = 40*kHz, specification = { { 1*kHz, 1e5 }, { 100*kHz, 1e5 } } }
+local srs = output.srs{ name = "srs", of = a, q_factor = 10, from = 10*kHz, to = 40*kHz, specification = { { 1*kHz, 1e5 }, { 100*kHz, 1e5 } }, margin = 2 }
 local drawn = {}
 local function hit(v)
   drawn[#drawn + 1] = { v.peak, v.idle }
@@ -84,6 +84,7 @@ print(("sample: %.17g, how many: %d"):format(r[a].max:quantile(1) / r[a].max.max
   EXPECT_EQ(printed["sample"], 1.0);
   EXPECT_EQ(printed["how many"], 12.0);
   EXPECT_NE(printed.text.find("P95/50 exceeds its specification by"), std::string::npos);
+  EXPECT_NE(printed.text.find("2 dB of margin are asked for, which it misses"), std::string::npos);
   EXPECT_NE(printed.text.find("100 % of the spread there is peak"), std::string::npos);
 }
 
