@@ -192,7 +192,7 @@ class CaseReader {
     }
     for (const NastranSpider& spider : spiders_)
       if (!spider.is_said)
-        analysis_.untranslated.push_back(fmt::format("{}: {}: a deck has no word for what hangs on it",
+        analysis_.untranslated.push_back(fmt::format("{}: {}: a deck has no word for what is attached to it",
                                                      file_.where(*spider.card), spider.card->name));
   }
 

@@ -7,9 +7,9 @@
 
 namespace dygita::limit {
 
-inline constexpr double energy_imbalance = 0.5;       // %, of the largest energy
-inline constexpr double energy_lost_sight_of = 20.0;  // %, of the largest energy: nothing computed is an answer
-inline constexpr double strain_at_rest = 1e-11;       // 2 Pa in steel: with less, all over, nothing has happened
+inline constexpr double energy_imbalance = 0.5;  // %, of the largest energy
+inline constexpr double open_balance = 20.0;     // %, of it: beyond, the run counts as not converged
+inline constexpr double strain_at_rest = 1e-11;  // 2 Pa in steel: with less, all over, nothing has happened
 inline constexpr double strain_of_carrying =
     1e-6;                                   // of a displacement over the size: the same of what moves as a whole
 inline constexpr double energy_gain = 0.5;  // %

@@ -73,7 +73,7 @@ void summarise(const Problem& problem, const SolverFigures& figures, RunResult& 
 // A balance that is open by this much makes every figure doubtful, though each increment has converged.
 bool can_be_relied_on(const Figures& figures) {
   return std::max(figures.energy_imbalance.value_or(0.0), figures.static_imbalance.value_or(0.0)) <=
-         limit::energy_lost_sight_of;
+         limit::open_balance;
 }
 
 // What is not lumped of explicit substructures.
