@@ -16,7 +16,7 @@ Eigen::Matrix<double, Cell::n_nodes, 1> shape_integrals(const Nodes<Cell::n_node
   ();
   Eigen::Matrix<double, Cell::n_nodes, 1> integrals = Eigen::Matrix<double, Cell::n_nodes, 1>::Zero();
   for (int i = 0; i < shapes.n_points; ++i) {
-    const double jacobian = (x * shapes.slopes[i]).eval().determinant();
+    const double jacobian = jacobian_at(shapes, x, i).determinant();
     integrals += jacobian * shapes.weights[i] * shapes.values.col(i);
   }
   return integrals;
@@ -27,7 +27,7 @@ MassMatrix<Cell::n_nodes> consistent_mass(const Nodes<Cell::n_nodes>& x, double 
   const auto& shapes = Cell::mass_shapes();
   MassMatrix<Cell::n_nodes> mass = MassMatrix<Cell::n_nodes>::Zero();
   for (int i = 0; i < shapes.n_points; ++i) {
-    const double share = (x * shapes.slopes[i]).eval().determinant() * shapes.weights[i];
+    const double share = jacobian_at(shapes, x, i).determinant() * shapes.weights[i];
     mass += density * share * shapes.values.col(i) * shapes.values.col(i).transpose();
   }
   return mass;
@@ -43,7 +43,7 @@ Eigen::Matrix<double, Cell::n_nodes, 1> node_volumes(const Nodes<Cell::n_nodes>&
     const auto& shapes = Cell::mass_shapes();
     double volume = 0.0;
     for (int i = 0; i < shapes.n_points; ++i) {
-      const double share = (x * shapes.slopes[i]).eval().determinant() * shapes.weights[i];
+      const double share = jacobian_at(shapes, x, i).determinant() * shapes.weights[i];
       squares += share * shapes.values.col(i).cwiseAbs2();
       volume += share;
     }

@@ -19,7 +19,7 @@ Vec3 mean_rotation(const Nodes<Cell::n_nodes>& x, const Nodes<Cell::n_nodes>& u)
   double volume = 0.0;
   for (int i = 0; i < shapes.n_points; ++i) {
     const auto point = point_in_cell(shapes, x, i);
-    gradient += point.volume * (u * point.gradient);
+    gradient += point.volume * u.lazyProduct(point.gradient);
     volume += point.volume;
   }
   gradient /= volume;

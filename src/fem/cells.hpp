@@ -113,22 +113,27 @@ inline void check_point_volume(double volume) {
 namespace dygita {
 
 // What a type's kernels are, `words` before each: `template` compiles them, `extern template` leaves that to another
-// source. The loops of cells of order two are long, and the compiler takes its time over them: compiled once.
-#define DYGITA_KERNELS_OF(words, type)                                                           \
-  words struct Cell<CellType::type>;                                                             \
-  words struct ShapedCell<CellType::type>;                                                       \
-  words Eigen::Matrix<double, Cell<CellType::type>::n, 1> shape_integrals<Cell<CellType::type>>( \
-      const Nodes<Cell<CellType::type>::n>&);                                                    \
-  words Eigen::Matrix<double, Cell<CellType::type>::n, 1> node_volumes<Cell<CellType::type>>(    \
-      const Nodes<Cell<CellType::type>::n>&);                                                    \
-  words MassMatrix<Cell<CellType::type>::n> consistent_mass<Cell<CellType::type>>(               \
-      const Nodes<Cell<CellType::type>::n>&, double);
+// source: the compiler takes its time over them.
+#define DYGITA_KERNELS_OF(words, type)                                                                 \
+  words struct Cell<CellType::type>;                                                                   \
+  words struct ShapedCell<CellType::type>;                                                             \
+  words Eigen::Matrix<double, Cell<CellType::type>::n_nodes, 1> shape_integrals<Cell<CellType::type>>( \
+      const Nodes<Cell<CellType::type>::n_nodes>&);                                                    \
+  words Eigen::Matrix<double, Cell<CellType::type>::n_nodes, 1> node_volumes<Cell<CellType::type>>(    \
+      const Nodes<Cell<CellType::type>::n_nodes>&);                                                    \
+  words MassMatrix<Cell<CellType::type>::n_nodes> consistent_mass<Cell<CellType::type>>(               \
+      const Nodes<Cell<CellType::type>::n_nodes>&, double);
+#define DYGITA_LINEAR_KERNELS(words) \
+  DYGITA_KERNELS_OF(words, tet4)     \
+  DYGITA_KERNELS_OF(words, prism6)   \
+  DYGITA_KERNELS_OF(words, hex8)
 #define DYGITA_QUADRATIC_KERNELS(words) \
   DYGITA_KERNELS_OF(words, tet10)       \
   DYGITA_KERNELS_OF(words, hex20)       \
   DYGITA_KERNELS_OF(words, hex27)       \
   DYGITA_KERNELS_OF(words, prism15)     \
   DYGITA_KERNELS_OF(words, prism18)
+DYGITA_LINEAR_KERNELS(extern template)
 DYGITA_QUADRATIC_KERNELS(extern template)
 
 }  // namespace dygita

@@ -67,18 +67,18 @@ double surface_error(const ElasticTensor& tensor, const Nodes<Cell::n_nodes>& x,
     CornerStress<n> traction = CornerStress<n>::Zero();
     for (int i = 0; i < n_on; ++i) {
       const int a = facet.nodes[static_cast<size_t>(i)];
-      const Mat3 jacobian = x * table.slopes[a];
+      const Mat3 jacobian = x.lazyProduct(table.slopes[a]);
       const Vec3 normal = (jacobian.inverse().transpose() * (table.slopes[a].transpose() * is_on)).normalized();
       traction.col(a) = across(stress.col(a), normal);
     }
     at_nodes += traction;
     const double c = fall(n - n_on);
-    const Eigen::Matrix<double, 1, n_points> distance = is_on.transpose() * table.inside.values;
-    error += (traction * table.inside.values) * (c * distance.array() - (c - 1.0)).matrix().asDiagonal();
+    const Eigen::Matrix<double, 1, n_points> distance = is_on.transpose().lazyProduct(table.inside.values);
+    error += traction.lazyProduct(table.inside.values) * (c * distance.array() - (c - 1.0)).matrix().asDiagonal();
   }
   double energy = 0.0;
   for (int i = 0; i < n_points; ++i) {
-    const double volume = (x * table.inside.slopes[i]).eval().determinant() * table.inside.weights[i];
+    const double volume = jacobian_at(table.inside, x, i).determinant() * table.inside.weights[i];
     energy += volume * tensor.energy_density(error.col(i));
   }
   return energy;

@@ -45,7 +45,7 @@ Geometry geometry_of(const Nodes<8>& x) {
   Geometry cell;
   Mat3 mean = Mat3::Zero();  // the Jacobian at the centre is the mean over the points
   for (int i = 0; i < 8; ++i) {
-    const Mat3 jacobian = x.lazyProduct(shapes.slopes[i]);
+    const Mat3 jacobian = jacobian_at(shapes, x, i);
     mean += jacobian / 8;
     // Adjugate by cross products, one division.
     const Vec3 r0 = jacobian.row(0), r1 = jacobian.row(1), r2 = jacobian.row(2);
@@ -248,7 +248,7 @@ CornerStress<8> Hex8::stress(const Nodes<8>& x, const ElasticTensor& tensor, con
 MassMatrix<8> Hex8::tuned_mass(const Nodes<8>& x, double density, const WaveTuning& tuning) {
   const auto& table = shapes();
   Mat3 jacobian = Mat3::Zero();
-  for (int i = 0; i < 8; ++i) jacobian += x * table.slopes[i] / 8.0;  // at the centre
+  for (int i = 0; i < 8; ++i) jacobian += jacobian_at(table, x, i) / 8.0;  // at the centre
   Vec3 s;
   for (int d = 0; d < 3; ++d) s[d] = std::sqrt(1.0 - 2.0 / 3.0 * tuning.share(2.0 * jacobian.col(d).norm()));
   MassMatrix<8> mass = MassMatrix<8>::Zero();
@@ -257,7 +257,7 @@ MassMatrix<8> Hex8::tuned_mass(const Nodes<8>& x, double density, const WaveTuni
     Eigen::Matrix<double, 8, 1> values;
     for (int a = 0; a < 8; ++a)
       values[a] = (Vec3::Ones() + table.points.col(a).cwiseSign().cwiseProduct(corner).cwiseProduct(s)).prod() / 8.0;
-    const double volume = (x * table.slopes[i]).eval().determinant() * table.weights[i];
+    const double volume = jacobian_at(table, x, i).determinant() * table.weights[i];
     mass += density * volume * values * values.transpose();
   }
   return mass;

@@ -59,8 +59,8 @@ CornerStress<Cell<cell_type>::n> Cell<cell_type>::stress(const Nodes<n>& x, cons
   const auto& shapes = Cell::recovery_shapes();
   Eigen::Matrix<double, 6, Cell::n_recovery_points> at_points;
   for (int i = 0; i < shapes.n_points; ++i)
-    at_points.col(i) = tensor.stress(displacement * point_in_cell(shapes, x, i).gradient);
-  return at_points * Cell::to_nodes();
+    at_points.col(i) = tensor.stress(displacement.lazyProduct(point_in_cell(shapes, x, i).gradient));
+  return at_points.lazyProduct(Cell::to_nodes());
 }
 
 template <CellType cell_type>

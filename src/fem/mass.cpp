@@ -98,8 +98,8 @@ std::vector<Vec> lumping_energies(const Mesh& mesh, double density, const Points
           const Nodes<n> beside = v.colwise() - v.col(0);  // rounding of what is carried along
           double twice = node_volumes<Cell>(x).dot(beside.colwise().squaredNorm().transpose());
           for (int k = 0; k < shapes.n_points; ++k) {
-            const double volume = (x * shapes.slopes[k]).eval().determinant() * shapes.weights[k];
-            twice -= volume * (beside * shapes.values.col(k)).squaredNorm();
+            const double volume = jacobian_at(shapes, x, k).determinant() * shapes.weights[k];
+            twice -= volume * beside.lazyProduct(shapes.values.col(k)).squaredNorm();
           }
           energy[i] = 0.5 * density * twice;
         };

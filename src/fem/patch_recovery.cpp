@@ -42,8 +42,8 @@ void sample_block(const Mesh& mesh, const CellBlock& block, const Elastic& mater
     const ElasticTensor tensor = tensor_in(material, block, i);
     for (int k = 0; k < shapes.n_points; ++k) {
       const int at = first + i * shapes.n_points + k;
-      samples.places.col(at) = x * shapes.values.col(k);
-      samples.stress.col(at) = tensor.stress(u * point_in_cell(shapes, x, k).gradient);
+      samples.places.col(at) = x.lazyProduct(shapes.values.col(k));
+      samples.stress.col(at) = tensor.stress(u.lazyProduct(point_in_cell(shapes, x, k).gradient));
     }
   };
   parallel_for(block.n_cells(), compute, Schedule::evenly);

@@ -40,15 +40,22 @@ struct PointInCell {
   double volume;                         // share of the cell's volume, m^3
 };
 
+// d x_p / d xi_q at quadrature point `i`. Term by term here as in all products with shape functions: Eigen's blocked
+// product, its choice at these sizes, takes longer to compile and to run.
+template <int n, int g>
+Mat3 jacobian_at(const ShapeTable<n, g>& shapes, const Nodes<n>& x, int i) {
+  return x.lazyProduct(shapes.slopes[i]);
+}
+
 // Gradients and volume at quadrature point `i` of the cell with nodes `x`; the volume of an inverted map is negative.
 template <int n, int g>
 PointInCell<n> point_in_cell(const ShapeTable<n, g>& shapes, const Nodes<n>& x, int i) {
-  const Mat3 jacobian = x * shapes.slopes[i];  // d x_p / d xi_q
+  const Mat3 jacobian = jacobian_at(shapes, x, i);
   Mat3 inverse;
   double determinant;
   bool is_invertible;
   jacobian.computeInverseAndDetWithCheck(inverse, determinant, is_invertible, 0.0);
-  return {shapes.slopes[i] * inverse, determinant * shapes.weights[i]};
+  return {shapes.slopes[i].lazyProduct(inverse), determinant * shapes.weights[i]};
 }
 
 }  // namespace dygita

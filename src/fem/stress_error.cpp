@@ -17,7 +17,7 @@ double cell_energy(const ElasticTensor& tensor, const Nodes<Cell::n_nodes>& x, c
   const auto& shapes = Cell::mass_shapes();  // a quadratic, as products of shape functions are
   double energy = 0.0;
   for (int i = 0; i < shapes.n_points; ++i)
-    energy += point_in_cell(shapes, x, i).volume * tensor.energy_density(d * shapes.values.col(i));
+    energy += point_in_cell(shapes, x, i).volume * tensor.energy_density(d.lazyProduct(shapes.values.col(i)));
   return energy;
 }
 
@@ -36,8 +36,8 @@ double energy_against(const ElasticTensor& tensor, const Nodes<Cell::n_nodes>& x
   double energy = 0.0;
   for (int i = 0; i < shapes.n_points; ++i) {
     const auto point = point_in_cell(shapes, x, i);
-    energy += point.volume *
-              tensor.energy_density(smooth * shapes.values.col(i) - tensor.stress(displacement * point.gradient));
+    energy += point.volume * tensor.energy_density(smooth.lazyProduct(shapes.values.col(i)) -
+                                                   tensor.stress(displacement.lazyProduct(point.gradient)));
   }
   return energy;
 }

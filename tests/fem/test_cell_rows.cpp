@@ -36,7 +36,7 @@ TEST(CellRows, lump_to_positive_masses_of_the_right_total) {
   for_each_cell([](auto cell) {
     using Cell = decltype(cell);
     const auto x = distorted_nodes<Cell>();
-    const auto volumes = node_volumes<Cell>(x);
+    const Vec volumes = node_volumes<Cell>(x);
     double volume = 0.0;
     for (int i = 0; i < Cell::n_mass_points; ++i) volume += point_in_cell(Cell::mass_shapes(), x, i).volume;
     EXPECT_GT(volumes.minCoeff(), 0.0);
@@ -49,15 +49,15 @@ TEST(CellRows, tune_masses_that_are_symmetric_and_below_the_lumped_ones) {
     using Cell = decltype(cell);
     const Elastic material = material_of(3.0, 0.3, 2.0);
     const auto x = distorted_nodes<Cell>();
-    const auto lumped = (material.density * node_volumes<Cell>(x)).eval();
+    const Vec lumped = material.density * Vec(node_volumes<Cell>(x));
     if (Cell::row.inertia == Inertia::consistent) {  // has the consistent one, whatever the step
-      const auto mass = Cell::tuned_mass(x, material.density, {material.p_wave_speed(), 1e-4});
-      EXPECT_EQ(mass, consistent_mass<Cell>(x, material.density));
-      EXPECT_GT(symmetric_eigen(Mat(mass)).values.minCoeff(), 0.0);
+      const Mat mass = Cell::tuned_mass(x, material.density, {material.p_wave_speed(), 1e-4});
+      EXPECT_EQ(mass, Mat(consistent_mass<Cell>(x, material.density)));
+      EXPECT_GT(symmetric_eigen(mass).values.minCoeff(), 0.0);
       return;
     }
     for (const double dt : {1e-4, 10.0}) {
-      auto mass = Cell::tuned_mass(x, material.density, {material.p_wave_speed(), dt});
+      Mat mass = Cell::tuned_mass(x, material.density, {material.p_wave_speed(), dt});
       EXPECT_LT((mass - mass.transpose()).norm(), 1e-14 * mass.norm());
       mass.diagonal().setZero();
       EXPECT_LT((mass.rowwise().sum() - lumped).maxCoeff(), 0.0);
@@ -70,10 +70,10 @@ TEST(CellRows, tune_masses_that_are_symmetric_and_below_the_lumped_ones) {
 TEST(CellRows, carry_stress_from_the_points_to_the_nodes) {
   for_each_cell([](auto cell) {
     using Cell = decltype(cell);
-    const auto& to_nodes = Cell::to_nodes();
+    const Mat to_nodes = Cell::to_nodes();
     EXPECT_LT((to_nodes.colwise().sum().array() - 1.0).abs().maxCoeff(), 1e-13);
     if (Cell::n_recovery_points < 4) return;
-    const auto found = (Cell::recovery_shapes().points * to_nodes).eval();
+    const Mat found = Mat(Cell::recovery_shapes().points) * to_nodes;
     for (int a = 0; a < Cell::n_nodes; ++a)
       EXPECT_LT((found.col(a) - vector_of(Cell::row.shape.nodes[a])).norm(), 1e-13);
   });
