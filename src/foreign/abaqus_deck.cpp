@@ -178,23 +178,24 @@ class AbaqusDeck : public ImportedDeck {
     put("local {} = step.static{{ name = {}, supports = {{ {} }} }}  -- without loads", rest, lua_quoted(rest),
         comma_list(supports));
     const int n = step.numbers.empty() ? 10 : static_cast<int>(std::clamp(step.numbers[0], 1.0, 2000.0));
-    modes_.push_back({rest, fmt::format("output.modes{{ name = \"modes\", n = {} }}", n), supports});
+    modes_.push_back({rest, fmt::format("n = {}", n), supports});
   }
 
   void write_problems(const std::vector<std::string>& supports_before) {
     const std::string name = deck_name_of(std::filesystem::path(options_.file).stem().string());
     if (!steps_.empty())
       write_problem(name, all_supports_.empty() ? supports_before : all_supports_, steps_, "output.vtk{ frames = 1 }");
-    for (size_t i = 0; i < modes_.size(); ++i)
-      write_problem(modes_.size() + steps_.size() == 1
-                        ? name
-                        : fmt::format("{} modes{}", name, i == 0 ? "" : fmt::format(" {}", i + 1)),
-                    modes_[i].supports, {modes_[i].rest}, modes_[i].output);
+    for (size_t i = 0; i < modes_.size(); ++i) {
+      const std::string own = modes_.size() + steps_.size() == 1
+                                  ? name
+                                  : fmt::format("{} modes{}", name, i == 0 ? "" : fmt::format(" {}", i + 1));
+      write_problem(own, modes_[i].supports, {modes_[i].rest}, modes_of(own, modes_[i].asked));
+    }
     if (steps_.empty() && modes_.empty()) leave("the file has no step that a deck can say");
   }
 
   struct Modes {
-    std::string rest, output;
+    std::string rest, asked;
     std::vector<std::string> supports;
   };
 

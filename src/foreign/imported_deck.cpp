@@ -236,6 +236,10 @@ std::string ImportedDeck::text_of(const FileAction& action, const std::string& o
                      is_whole ? "" : by);
 }
 
+std::string ImportedDeck::modes_of(const std::string& problem, const std::string& asked) {
+  return fmt::format("output.modes{{ name = \"{}\", {} }}", problem == "modes" ? "natural modes" : "modes", asked);
+}
+
 void ImportedDeck::write_problem(const std::string& name, const std::vector<std::string>& supports,
                                  const std::vector<std::string>& steps, const std::string& output) {
   put("\nproblem{{ name = {}, substructures = {{ {} }}, interfaces = {{ {} }},\n         supports = {{ {} }}, steps = "

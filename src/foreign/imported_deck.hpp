@@ -48,6 +48,8 @@ class ImportedDeck {
   void add(const std::vector<FileAction>& actions, std::vector<std::string>& supports, std::vector<std::string>& loads);
   void write_problem(const std::string& name, const std::vector<std::string>& supports,
                      const std::vector<std::string>& steps, const std::string& output);
+  // Frames of modes are called by their output, and none as those of the problem itself.
+  static std::string modes_of(const std::string& problem, const std::string& asked);
   std::string head() const;
 
   // "part_a:face "TOP"" of each part that has it; of "I1.TOP" those of the instance I1.

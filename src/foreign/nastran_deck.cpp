@@ -91,8 +91,7 @@ class NastranDeck : public ImportedDeck {
     const std::string step = names_.of(is_modes ? "rest" : "step", std::to_string(++n_steps_));
     put("local {} = step.static{{ name = {}, loads = {{ {} }} }}{}", step, lua_quoted(step), comma_list(loads),
         one.where.empty() ? "" : "  -- " + one.where);
-    write_problem(name, supports, {step},
-                  is_modes ? "output.modes{ name = \"modes\", " + one.modes + " }" : "output.vtk{ frames = 1 }");
+    write_problem(name, supports, {step}, is_modes ? modes_of(name, one.modes) : "output.vtk{ frames = 1 }");
   }
 
   NastranModel& read_;

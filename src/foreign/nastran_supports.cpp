@@ -43,8 +43,16 @@ void NastranSupports::hold(int node, const std::string& components, double by, c
       fields.fail(fmt::format("components 1 ... 6 are expected, not '{}'", printable(components)));
     if (c == '0') continue;
     const auto d = static_cast<size_t>(c - '1');
+    if (d >= 3 && by != 0.0) fields.fail(fmt::format("a rotation of {:g} is enforced, which no deck says", by));
+    const double before = d < 3 ? held.by[static_cast<long>(d)] : 0.0;
+    if (held.along[d] && before != by)
+      fields.fail(
+          fmt::format("node {} is moved by {:g} along {} here, and by {:g} by {} of line {}: which of them holds?",
+                      model_.places().grids()[static_cast<size_t>(node)].number, by, c, before, held.cards[d]->name,
+                      held.cards[d]->line));
     held.along[d] = true;
-    if (d < 3 && by != 0.0) held.by[static_cast<long>(d)] = by;
+    held.cards[d] = &card;
+    if (d < 3) held.by[static_cast<long>(d)] = by;
   }
 }
 
@@ -147,7 +155,13 @@ void NastranSupports::pass_on_to_feet(std::vector<std::string>& untranslated) {
   for (const auto& [foot, held] : of_feet) {
     Held& one = held_[foot];
     if (!one.card) one.card = held.card;
-    for (size_t d = 0; d < held.along.size(); ++d) one.along[d] = one.along[d] || held.along[d];
+    for (size_t d = 0; d < held.along.size(); ++d) {
+      if (d < 3 && held.along[d] && one.by[static_cast<long>(d)] != 0.0)
+        untranslated.push_back(fmt::format("{}: {}: node {} is moved, and held by a centre around which it stands",
+                                           model_.file().where(*one.cards[d]), one.cards[d]->name,
+                                           model_.places().grids()[static_cast<size_t>(foot)].number));
+      one.along[d] = one.along[d] || held.along[d];
+    }
   }
 }
 

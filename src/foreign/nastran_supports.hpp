@@ -24,6 +24,7 @@ class NastranSupports {
     std::array<bool, 6> along = {};
     Vec3 by = Vec3::Zero();  // in the axes of the node
     const BulkCard* card = nullptr;
+    std::array<const BulkCard*, 6> cards = {};  // that said so of each direction
   };
   void add_card(const BulkCard& card);
   void hold(int node, const std::string& components, double by, const BulkCard& card, const BulkFields& fields);

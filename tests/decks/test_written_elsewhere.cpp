@@ -4,6 +4,7 @@
 #include "decks/engine.hpp"
 #include "foreign/abaqus_blocks.hpp"
 #include "foreign/abaqus_deck.hpp"
+#include "foreign/imported_deck.hpp"
 #include "foreign/nastran_blocks.hpp"
 #include "foreign/written_file.hpp"
 
@@ -44,6 +45,20 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   const size_t at = text.find(what);
   if (at == std::string::npos) throw std::runtime_error("no " + what + " in\n" + text);
   return text.replace(at, what.size(), by);
+}
+
+// The frames of the modes and those of the problem are files of one folder.
+TEST(WrittenElsewhere, imported_modes_run_whatever_the_file_is_called) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / ("dygita_modes_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "modes.bdf")
+      << "SOL 103\nCEND\nSPC = 1\nMETHOD = 4\nBEGIN BULK\nPSOLID,1,1\nMAT1,1,200000.,,.3,7.8-9\n"
+         "GRID,1,,0.,0.,0.\nGRID,2,,10.,0.,0.\nGRID,3,,0.,10.,0.\nGRID,4,,0.,0.,10.\n"
+         "CTETRA,1,1,1,2,3,4\nSPC1,1,123,1,2,3\nEIGRL,4,,,2\nENDDATA\n";
+  const DeckRun run = run_text(imported_deck({(folder / "modes.bdf").string(), "mm t s", {}})).at(0);
+  fs::remove_all(folder);
+  EXPECT_EQ(run.column("natural modes", "frequency").size(), 2u);
 }
 
 // The same block, pressed by what its file says.

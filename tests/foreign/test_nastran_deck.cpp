@@ -111,6 +111,23 @@ TEST(NastranDeck, does_not_guess_what_a_card_means) {
   expect_in(imported("SOL 112\nCEND\n", ""), "SOL 112: statics (101) and modes (103) are read");
 }
 
+// Two cards that move a node by different values have no order: neither is taken in silence.
+TEST(NastranDeck, stops_where_cards_hold_one_direction_at_unlike_values) {
+  const std::string control = "SOL 101\nCEND\nSPC = 1\n", held = "SPC1,1,123,1,2,3,4\n";
+  for (const char* more :
+       {"SPC,1,9,3,.1\nSPC,1,9,3,.2\n", "SPC,1,9,3,.1\nSPC1,1,3,9\n", "SPC1,1,3,9\nSPC,1,9,3,.1\n"}) {
+    const std::string deck = imported(control, held + more);
+    expect_in(deck, "node 9 is moved by ");
+    expect_in(deck, "of line 31: which of them holds?");
+    expect_in(deck, "error(\"");
+  }
+  expect_in(imported(control, held + "SPC,1,9,6,.1\n"), "a rotation of 0.1 is enforced, which no deck says");
+  expect_in(imported(control, "RBE2,90,21,123,1,2\nSPC1,1,123456,21\nSPC,1,1,3,.1\n"), "and held by a centre");
+  const std::string twice = imported(control, held + "SPC,1,9,3,.1\nSPC,1,9,3,.1\nSPC1,1,12,1\n");
+  expect_in(twice, "load.displacement{");
+  EXPECT_EQ(twice.find("NOT TRANSLATED"), std::string::npos) << twice;
+}
+
 TEST(NastranDeck, has_modes_by_number_or_up_to_a_frequency) {
   const std::string control = "SOL 103\nCEND\nSPC = 1\nMETHOD = 4\n", support = "SPC1,1,123,1,2,3,4\n";
   expect_in(imported(control, support + "EIGRL,4,,,12\n"), "outputs = { output.modes{ name = \"modes\", n = 12 } }");
