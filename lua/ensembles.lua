@@ -105,19 +105,33 @@ local function columns_of(vary)
   return names, drawn
 end
 
--- What `of` is given: the parameters by name. `read` notes which it asks for.
-local function values_of(vary, row, read)
+-- One number for each item of 'each'. What lies beyond must not read as nothing: a law would take its default.
+local function drawn_list(name, list, who)
+  return setmetatable(list, {
+    __metatable = "list",
+    __index = function(_, key)
+      who.text = nil
+      fail(native.line(), ("'%s[%s]': '%s' is drawn for %d items of its 'each'"):format(name, tostring(key), name, #list),
+        ("its values are %s[1] to %s[%d]"):format(name, name, #list))
+    end,
+    __newindex = function(_, key) fail(native.line(), ("'%s[%s]' of a member is drawn, and cannot be assigned"):format(name, tostring(key))) end,
+  })
+end
+
+-- What `of` is given: the parameters by name. `read` notes which it asks for; a wrong name is no matter of `who` drew.
+local function values_of(vary, row, read, who)
   local values, at = {}, 0
   for _, key in ipairs(vary[1]) do
     local list = {}
     for i = 1, vary[key].n or 1 do at = at + 1; list[i] = row[at] end
-    values[key] = vary[key].n and list or list[1]
+    values[key] = vary[key].n and drawn_list(key, list, who) or list[1]
   end
   return setmetatable({}, {
     __metatable = false,
     __index = function(_, key)
       read[key] = true
       if values[key] ~= nil then return values[key] end
+      who.text = nil
       fail(native.line(), ("the ensemble does not vary '%s'"):format(tostring(key)), native.did_you_mean(tostring(key), vary[1]))
     end,
     __newindex = function(_, key) fail(native.line(), ("'%s' of a member is drawn, and cannot be assigned"):format(tostring(key))) end,
@@ -142,10 +156,24 @@ local function size_of(given, n_columns, line)
   return n
 end
 
-local function problems_of(given, rows, line)
+-- "member 3 of 16 draws mu = -0.04": for the message of what a member's problem cannot be. Those below zero come first.
+local function told(names, drawn, row, i, n)
+  local most, below, others, hint = 6, {}, {}, ""
+  for j, name in ipairs(names) do
+    local list = row[j] < 0 and below or others
+    list[#list + 1] = ("%s = %.6g"):format(name, row[j])
+    if row[j] < 0 and drawn[j].kind == "normal" then hint = ": a normal law reaches below zero, which a lognormal one does not" end
+  end
+  local values = table.move(others, 1, #others, #below + 1, below)
+  local more = #values > most and (", and %d more"):format(#values - most) or ""
+  return ("member %d of %d draws %s%s%s"):format(i, n, table.concat(values, ", ", 1, math.min(#values, most)), more, hint)
+end
+
+local function problems_of(given, rows, names, drawn, line)
   local problems, read = {}, {}
   for i, row in ipairs(rows) do
-    local problem = given.of(values_of(given.vary, row, read))
+    local who = { text = told(names, drawn, row, i, #rows) }
+    local problem = native.call_member(given.of, values_of(given.vary, row, read, who), who)
     if native.kind(problem) ~= "problem" then
       fail(line, "ensemble: 'of' must return a problem", "as in of = function(v) return problem{ ... } end, which is not run")
     end
@@ -168,7 +196,7 @@ function ensembles.run(self, asked, line)
   local names, drawn = columns_of(given.vary)
   local n = size_of(given, #names, line)
   local rows, tour = native.draw(given.method, n, given.seed, drawn)
-  local problems = problems_of(given, rows, line)
+  local problems = problems_of(given, rows, names, drawn, line)
   local digits, members, last = ("%d"):format(#("%d"):format(n)), {}, nil
   local label = asked.case .. "_%0" .. digits .. "d"
   for _, i in ipairs(tour) do
@@ -180,6 +208,7 @@ function ensembles.run(self, asked, line)
   native.let_go(last)
   local result = native.conclude(self, {
     case = asked.case, method = given.method, seed = given.seed, names = names, rows = rows, members = members, problems = problems,
+    keeps_members = asked.members,
   }, line)
   return result
 end

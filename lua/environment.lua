@@ -103,6 +103,15 @@ local function ordered_pairs(t)
   return in_order(t)
 end
 
+-- Of lists beyond whose end reading is an error, too, which their metatable says.
+local function items(t)
+  if type(t) ~= "table" or getmetatable(t) ~= "list" then return ipairs(t) end
+  return function(list, i)
+    local value = rawget(list, i + 1)
+    if value ~= nil then return i + 1, value end
+  end, t, 0
+end
+
 -- A table that can be read and not written; `what` opens the message. call: what it does when it is called itself; nil:
 -- nothing.
 local function read_only(members, what, call)
@@ -150,7 +159,7 @@ return {
   read_only = read_only,
   functions = {
     math = read_only(safe_math, "math"), string = read_only(safe_string, "string"), table = read_only(safe_table, "table"),
-    ipairs = ipairs, pairs = ordered_pairs, next = next, select = select, type = type, tonumber = tonumber, tostring = tostring,
+    ipairs = items, pairs = ordered_pairs, next = next, select = select, type = type, tonumber = tonumber, tostring = tostring,
     error = raise, assert = assert_value, print = native.print, near = near,
   },
   refused = {

@@ -22,6 +22,10 @@ const OutputScatter& scatter_at_key(lua_State* L, const EnsembleResult& of, cons
   const OutputScatter* found = scatter_of_output(of, key->name);
   const std::string name = key->as<OutputPtr>()->name;
   if (!found) found = scatter_of_output(of, name);
+  if (!found && of.ensemble.counted().empty())
+    throw InputError(origin, fmt::format("none of the {} members of ensemble '{}' converged, so it has no statistics\n"
+                                         "    what a member came to is read by its number, result[1][{}]",
+                                         of.members.size(), of.ensemble.name, name));
   if (!found)
     throw InputError(origin,
                      fmt::format("{} has no table in all members of ensemble '{}'", key->label(), of.ensemble.name));

@@ -121,16 +121,20 @@ void take_members(lua_State* L, EnsembleResult& found) {
   });
 }
 
-void tell(const EnsembleResult& found, const std::filesystem::path& folder, bool writes) {
+void tell(const EnsembleResult& found, const std::filesystem::path& folder, bool writes, bool keeps_members) {
   const Ensemble& ensemble = found.ensemble;
   const size_t n = ensemble.counted().size();
   say(fmt::format("ensemble '{}' of problem '{}': {} members, {} iterations", ensemble.name,
                   ensemble.members.front().problem->name, ensemble.members.size(), found.statistics->run->iterations));
-  if (n < ensemble.members.size())
+  if (n == 0)
+    warn(fmt::format("ensemble '{}': none of its {} members converged, so it has no statistics", ensemble.name,
+                     ensemble.members.size()));
+  else if (n < ensemble.members.size())
     warn(fmt::format("ensemble '{}': {} of {} members did not converge and are left out of its statistics",
                      ensemble.name, ensemble.members.size() - n, ensemble.members.size()));
   for (const std::string& line : ensemble_lines(ensemble, found.scatter)) say("  " + line);
   if (!writes) return;  // nor where one member alone is continued: the others are not what it has become
+  drop_members_before(folder, ensemble, keeps_members);
   write_ensemble(folder, ensemble, found.scatter);
   say("  tables and charts: " + folder.string());
 }
@@ -173,6 +177,25 @@ int draw_members(LuaState&, lua_State* L) {
   return 2;
 }
 
+int call_member(LuaState& state, lua_State* L) {
+  const auto told = [&](const std::exception& error) {
+    std::string text = error.what();
+    if (lua_getfield(L, 3, "text") == LUA_TSTRING) text += std::string("\n    ") + lua_tostring(L, -1);
+    lua_pop(L, 1);
+    return text;
+  };
+  lua_pushvalue(L, 1);
+  lua_pushvalue(L, 2);
+  try {
+    state.call(1, 1);
+  } catch (const DeckScriptError& error) {
+    throw DeckScriptError(told(error));
+  } catch (const InputError& error) {
+    throw InputError(told(error));
+  }
+  return 1;
+}
+
 int compare_members(LuaState&, lua_State* L) {
   using ProblemPtr = std::shared_ptr<const Problem>;
   const std::string what =
@@ -205,13 +228,16 @@ int conclude_ensemble(LuaState& lua, lua_State* L) {
   state.n_members = 0;
   state.declared.mark_used(the_object_at(L, 1).id);
   each_of(L, 2, "problems", [&](size_t) { state.declared.mark_used(the_object_at(L, -1).id); });
+  lua_getfield(L, 2, "keeps_members");
+  const bool keeps_members = lua_toboolean(L, -1) != 0;
+  lua_pop(L, 1);
   const LuaState::Pause pause(state);
   found->scatter = scatter_of(found->ensemble);
   found->statistics = statistics_of(*found);
   const std::string problem = found->ensemble.members.front().problem->name;
   if (state.is_solving)
     tell(*found, state.options.out / file_name_of(problem) / file_name_of(found->ensemble.name),
-         state.options.write_files && state.options.is_study);
+         state.options.write_files && state.options.is_study, keeps_members);
   push_object(L, {"ensemble result", "ensemble result", found->ensemble.name, -1, EnsembleResultPtr(std::move(found))});
   return 1;
 }

@@ -19,11 +19,14 @@ struct EnsembleResult {
 int check_distribution(LuaState& state, lua_State* L);
 //   draw(method, n, seed, distributions): a list of values a member; the order in which neighbours follow each other
 int draw_members(LuaState& state, lua_State* L);
+//   call_member(of, values, who): of(values); the message of what it throws ends with who.text, where there is one
+int call_member(LuaState& state, lua_State* L);
 //   difference_of_members(problem, other): what may not differ, or nothing
 int compare_members(LuaState& state, lua_State* L);
 //   let_go(result): of fields and pictures, which only the case that starts from it needs
 int let_go_of_fields(LuaState& state, lua_State* L);
-//   conclude(ensemble, { case, method, seed, names, rows, members, problems }, line): its result, written
+//   conclude(ensemble, { case, method, seed, names, rows, members, problems, keeps_members },
+//   line): its result, written
 int conclude_ensemble(LuaState& state, lua_State* L);
 
 // Is the object an ensemble's result, what drives it, or a sample?

@@ -301,6 +301,7 @@ void push_native(DeckState& state) {
                                        {"say", guarded<say_line>},
                                        {"check_distribution", guarded<check_distribution>},
                                        {"draw", guarded<draw_members>},
+                                       {"call_member", guarded<call_member>},
                                        {"difference_of_members", guarded<compare_members>},
                                        {"let_go", guarded<let_go_of_fields>},
                                        {"conclude", guarded<conclude_ensemble>},

@@ -58,6 +58,14 @@ Manifest::Manifest(fs::path directory) : directory_(std::move(directory)) {
   write_text(directory_ / file_name, title);
 }
 
+void Manifest::clear(const fs::path& directory) {
+  std::error_code error;
+  if (!fs::is_regular_file(directory / file_name, error)) return;
+  remove_listed(directory);
+  remove_file(directory / file_name);
+  fs::remove(directory, error);  // fails, as it should, if not empty
+}
+
 void Manifest::check_there() const {
   if (std::error_code error; !fs::exists(directory_ / file_name, error))
     throw InputError("'" + directory_.string() + "' was removed or emptied while the run wrote there");

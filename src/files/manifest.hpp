@@ -19,6 +19,10 @@ class Manifest {
   // where it cannot write.
   explicit Manifest(std::filesystem::path directory);
 
+  // Removes what a manifest in `directory` lists, the manifest, and the directory where this leaves it empty; nothing
+  // where there is none.
+  static void clear(const std::filesystem::path& directory);
+
   // To be called before a file is written, so that a run which is killed leaves nothing unlisted. `relative` to the
   // directory.
   void add(const std::filesystem::path& relative);

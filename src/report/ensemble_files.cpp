@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "base/log.hpp"
 #include "base/names.hpp"
+#include "base/plain_file.hpp"
 #include "drawing/svg_plot.hpp"
 #include "files/csv.hpp"
 #include "files/files.hpp"
+#include "files/manifest.hpp"
 #include "model/output.hpp"
 #include "result/case_summary.hpp"
 #include "signal/specification.hpp"
@@ -237,18 +240,36 @@ std::string spectrum_line(const Ensemble& ensemble, const OutputScatter& scatter
 void write_ensemble(const std::filesystem::path& folder, const Ensemble& ensemble,
                     const std::vector<OutputScatter>& scatter) {
   make_directory(folder);
+  Manifest written(folder);
+  const auto write = [&](const std::string& name, const std::string& text) {
+    written.add(name);
+    write_text(folder / name, text);
+  };
   for (const OutputScatter& one : scatter) {
     if (one.columns.empty()) continue;
     const std::string name = file_name_of(one.output->name);
-    write_text(folder / (name + ".csv"),
-               csv_text(side_by_side(one), names_of_steps(*ensemble.members.front().problem)));
+    write(name + ".csv", csv_text(side_by_side(one), names_of_steps(*ensemble.members.front().problem)));
     if (!one.is_spectrum) continue;
-    write_text(folder / (name + "_drives.csv"), csv_text(one.drives_at, {}));
-    write_text(folder / (name + ".svg"), ensemble_chart(ensemble, one));
+    write(name + "_drives.csv", csv_text(one.drives_at, {}));
+    write(name + ".svg", ensemble_chart(ensemble, one));
   }
-  write_text(folder / own_file::members, members_csv(ensemble));
-  write_text(folder / own_file::drives, drives_csv(scatter));
-  write_text(folder / own_file::ensemble, ensemble_record(ensemble, scatter));
+  write(own_file::members, members_csv(ensemble));
+  write(own_file::drives, drives_csv(scatter));
+  write(own_file::ensemble, ensemble_record(ensemble, scatter));
+}
+
+void drop_members_before(const std::filesystem::path& folder, const Ensemble& ensemble, bool keeps_members) {
+  if (is_no_file(folder / own_file::ensemble)) return;
+  std::ifstream file(folder / own_file::ensemble);
+  const Json before = Json::parse(file, nullptr, false);
+  if (!before.is_object() || !before.contains("members") || !before["members"].is_array()) return;
+  for (const Json& member : before["members"]) {
+    if (!member.is_object() || !member.contains("name") || !member["name"].is_string()) continue;
+    const std::string name = member["name"];
+    const bool is_own = std::any_of(ensemble.members.begin(), ensemble.members.end(),
+                                    [&](const EnsembleMember& own) { return own.name == name; });
+    if (!(is_own && keeps_members)) Manifest::clear(folder.parent_path() / file_name_of(name));
+  }
 }
 
 std::vector<std::string> ensemble_lines(const Ensemble& ensemble, const std::vector<OutputScatter>& scatter) {

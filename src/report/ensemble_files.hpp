@@ -8,10 +8,14 @@
 namespace dygita {
 
 // Of each output <output>.csv, its columns' statistics row by row, of spectra <output>_drives.csv and <output>.svg;
-// ensemble_members.csv, a row a member; ensemble_drives.csv; ensemble.json, last. Throws InputError where it cannot
-// write.
+// ensemble_members.csv, a row a member; ensemble_drives.csv; ensemble.json, last; what an
+// earlier ensemble wrote there goes. Throws InputError where it cannot write.
 void write_ensemble(const std::filesystem::path& folder, const Ensemble& ensemble,
                     const std::vector<OutputScatter>& scatter);
+
+// Removes the folders, beside `folder`, of the members of the ensemble that was written there before, but for those of
+// `ensemble` where it keeps its members' folders: what no run of ours wrote there stays.
+void drop_members_before(const std::filesystem::path& folder, const Ensemble& ensemble, bool keeps_members);
 
 // For the screen: of each spectrum how far P95/50 is above its specification, or its spread, and what drives it.
 std::vector<std::string> ensemble_lines(const Ensemble& ensemble, const std::vector<OutputScatter>& scatter);

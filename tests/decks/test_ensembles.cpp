@@ -194,16 +194,75 @@ print(("covered: %d"):format(covered))
   EXPECT_NEAR(printed["covered"], 250.0, 3.5 * deviation);
 }
 
-TEST(Ensemble, writes_its_statistics) {
+// A folder of its own, where a deck runs as a user runs it.
+std::filesystem::path own_folder() {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("dygita_ensemble_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
-  std::ofstream(folder / "bar.lua") << linear_bar;
+  return folder;
+}
+
+void run_in(const std::filesystem::path& folder, const std::string& text) {
+  std::ofstream(folder / "bar.lua") << text;
   set_progress_enabled(false);
   DeckOptions options;
   options.path = folder / "bar.lua";
   options.out = folder / "out";
+  options.threads = 1;
   run_deck(options, Engine{run_problem, check_report});
+}
+
+// What a smaller ensemble of other outputs leaves of the one before: nothing but what somebody else put there.
+TEST(Ensemble, leaves_nothing_of_an_earlier_one_in_its_folder) {
+  const std::filesystem::path folder = own_folder(), out = folder / "out" / "cube";
+  const auto run = [&](const std::string& how) {
+    run_in(folder, R"(
+local cube = substructure{ name = "cube", material = material.elastic{ name = "m", young = 200*GPa, poisson = 0, density = 7800 },
+  mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 1, 1, 1 } } }
+local function ensemble_of(n, name)
+  local u = output.history{ name = name, on = cube:face "zmax", quantity = "displacement", direction = { 0, 0, 1 } }
+  return ensemble{ n = n, vary = { p = uniform(1, 2)*MPa }, of = function(v) return problem{ name = "cube", substructures = { cube },
+    supports = { support.fixed{ name = "base", on = cube:face "zmin" } }, outputs = { u },
+    steps = { step.static{ name = "push", loads = { load.pressure{ on = cube:face "zmax", history = v.p } } } } } end }
+end
+)" + how);
+  };
+  run("ensemble_of(12, 'u'):run{ members = true }");
+  EXPECT_TRUE(std::filesystem::exists(out / "ensemble" / "u.csv"));
+  EXPECT_TRUE(std::filesystem::exists(out / "ensemble_12" / "run.json"));
+  EXPECT_TRUE(std::filesystem::exists(out / "ensemble_07" / "run.json"));
+  std::ofstream(out / "ensemble_12" / "notes.txt") << "mine";
+  std::ofstream(out / "ensemble" / "notes.txt") << "mine";
+  run("ensemble_of(11, 'w'):run{ members = true }");
+  EXPECT_FALSE(std::filesystem::exists(out / "ensemble" / "u.csv"));
+  EXPECT_TRUE(std::filesystem::exists(out / "ensemble" / "w.csv"));
+  EXPECT_TRUE(std::filesystem::exists(out / "ensemble" / "notes.txt"));
+  EXPECT_TRUE(std::filesystem::exists(out / "ensemble_07" / "run.json"));
+  EXPECT_FALSE(std::filesystem::exists(out / "ensemble_12" / "run.json"));
+  EXPECT_TRUE(std::filesystem::exists(out / "ensemble_12" / "notes.txt"));
+  run("ensemble_of(3, 'w'):run{}");
+  EXPECT_FALSE(std::filesystem::exists(out / "ensemble_07"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Ensemble, without_a_member_that_converged_says_so) {
+  std::string deck = blocks.substr(0, blocks.find("for i = 1, #r"));
+  deck.replace(deck.find("tolerance = 1e-8"), 16, "max_iterations = 2, tolerance = 1e-8");
+  try {
+    printed_by(deck + "print(r[j].slip.last.median)");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("none of the 5 members of ensemble 'ensemble' converged, so it has no "
+                        "statistics"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Ensemble, writes_its_statistics) {
+  const std::filesystem::path folder = own_folder();
+  run_in(folder, linear_bar);
   const std::filesystem::path own = folder / "out" / "bar" / "ensemble";
   const auto lines = [&](const char* name) {
     std::ifstream file(own / name);
