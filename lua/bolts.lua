@@ -116,15 +116,21 @@ local function check_given(entry, given, line)
   end
 end
 
--- The bolt's z along `towards`, its z = 0 at `head`.
-local function place_at(head, towards)
+-- The bolt's z along `towards`, its z = 0 at `head`; its corners turn with the axes of `frame`, nil: the deck's.
+local function place_at(head, towards, frame)
+  local from = placement.translation(head)
+  if frame then
+    local x, y, z = frame.x, frame.y, frame.z
+    from = { x[1], y[1], z[1], x[2], y[2], z[2], x[3], y[3], z[3], head[1], head[2], head[3] }
+    towards = holes.along_axes(frame, towards)
+  end
   local turn
   if towards[3] < -0.9999999 then
     turn = placement.rotation({ 1, 0, 0 }, math.pi, { 0, 0, 0 })
   else
     turn = placement.rotation({ -towards[2], towards[1], 0 }, math.acos(math.min(1, towards[3])), { 0, 0, 0 })
   end
-  return placement.shortest(turn and placement.after(placement.translation(head), turn) or placement.translation(head))
+  return placement.shortest(turn and placement.after(from, turn) or from)
 end
 
 -- One bolt for each hole through the parts; those of one grip are copies of the first.
@@ -134,7 +140,7 @@ local function through(entry, given, line)
   for i, hole in ipairs(holes.through(given, sizes[given.size][1] * 1e-3, entry.path, line)) do
     local own = {}
     for key, value in pairs(given) do own[key] = value end
-    own.name, own.place = ("%s[%d]"):format(given.name, i), place_at(hole.head, hole.towards)
+    own.name, own.place = ("%s[%d]"):format(given.name, i), place_at(hole.head, hole.towards, given.frame)
     own.grip = math.floor(hole.grip * 1e7 + 0.5) / 1e7  -- round-off of the file makes no other bolt
     local like = first[own.grip]
     list[i] = declare(own, like and made[like].meshes or meshes_of(own, line), line, like)

@@ -105,7 +105,7 @@ end
 -- Turns what a call says in its `frame` into the axes of the deck, in place.
 function frames.apply(entry, given, line)
   local p, names, kinds = made[given.frame], {}, {}
-  given.frame = nil
+  if not entry.keeps_frame then given.frame = nil end
   for _, argument in ipairs(entry.arguments) do
     local key, kind = argument[1], argument.in_frame
     if kind then names[#names + 1] = "'" .. key .. "'" end
@@ -114,7 +114,7 @@ function frames.apply(entry, given, line)
       kinds[kind] = true
     end
   end
-  if not next(kinds) then
+  if not next(kinds) and not entry.keeps_frame then
     native.fail(line, ("%s: 'frame' turns %s, and none is given"):format(entry.path, table.concat(names, ", ")))
   end
   if kinds.corner and given.low and given.high then turn_box(p, given) end

@@ -10,6 +10,12 @@ local function unit(a)
   return { a[1] / length, a[2] / length, a[3] / length }
 end
 
+-- Components along the axes of a frame; nil: the deck's.
+function holes.along_axes(frame, v)
+  if not frame then return v end
+  return { dot(v, frame.x), dot(v, frame.y), dot(v, frame.z) }
+end
+
 local function name_of(part) return (select(3, native.kind(part))) end
 local function in_mm(x) return ("%.4g mm"):format(x * 1e3) end
 local function micrometres(x)
@@ -121,10 +127,15 @@ function holes.through(given, diameter, path, line)
       end
       local up = chain.above == 0
       if #parts == 1 then
-        local axis = given.head or (math.abs(chain.u[3]) > 0.01 and { 0, 0, 1 }) or (math.abs(chain.u[2]) > 0.01 and { 0, 1, 0 }) or { 1, 0, 0 }
-        up = dot(axis, chain.u) > 0
+        local u = holes.along_axes(given.frame, chain.u)
+        local along_first = math.abs(u[3]) > 0.01 and u[3] or math.abs(u[2]) > 0.01 and u[2] or u[1]
+        up = (given.head and dot(given.head, chain.u) or along_first) > 0
       end
       local one = { holes = chain.holes, near_by = chain.near_by, head = up and chain.high or chain.low, grip = chain.grip, towards = up and chain.u or { -chain.u[1], -chain.u[2], -chain.u[3] } }
+      if #parts > 1 and given.head and dot(unit(given.head), one.towards) < 0.01 then
+        fail(("'head' points away from the head of the bolt at %s"):format(at_mm(one.head)),
+          ("of several 'parts' the first, '%s', is the one under the head: 'head' is for a single part"):format(name_of(parts[1])))
+      end
       if given.where and not given.where(one.head[1], one.head[2], one.head[3]) then
         one, n_elsewhere = nil, n_elsewhere + 1
       elseif #parts > 1 and #chain.holes == 1 then
@@ -149,8 +160,9 @@ function holes.through(given, diameter, path, line)
   end
   if not given.where then check_all_are_passed(chains, parts, fail) end
   table.sort(chains, function(a, b)
+    local of_a, of_b = holes.along_axes(given.frame, a.head), holes.along_axes(given.frame, b.head)
     for i = 1, 3 do
-      local p, q = micrometres(a.head[i]), micrometres(b.head[i])
+      local p, q = micrometres(of_a[i]), micrometres(of_b[i])
       if p ~= q then return p < q end
     end
     return false

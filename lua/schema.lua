@@ -400,9 +400,9 @@ words.bolt = {
     },
   },
   {
-    "through", makes = "list of bolts", is_bolt = true, is_through = true,
+    "through", makes = "list of bolts", is_bolt = true, is_through = true, keeps_frame = true,
     doc = "Hexagon bolts as of bolt.hex, `name[1]` ..., one in each round hole that runs through the parts: axis, grip and places come from the meshes. "
-      .. "In the order of x, then y, then z of the heads.",
+      .. "In the order of x, then y, then z of the heads, along the axes of `frame`.",
     arguments = {
       { "name", type = "name", required = true, doc = "of the bolts: `name[1]`, `name[2]`, ..." },
       bolt_size(),
@@ -411,7 +411,7 @@ words.bolt = {
       { "radius", type = "number", unit = "m", range = { 1e-4, 0.5 }, default_doc = "any that the thread passes with up to 30 % to spare",
         doc = "of the holes, within two per cent" },
       { "where", in_frame = "function", type = "function", doc = "function(x, y, z), in metres, true for the end of a hole under the head: those holes alone" },
-      frame "of `where` and `head`",
+      frame "of `where` and `head`; its axes are those that the bolts' hexagons and order turn with",
       { "head", in_frame = "direction", type = "vector", default_doc = "z, else y, else x", doc = "of a single part: direction towards the heads" },
       { "n", type = "integer", range = { 1, 10000 }, doc = "how many holes there must be" },
       bolt_material, of_bolts(),

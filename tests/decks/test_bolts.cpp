@@ -1,6 +1,8 @@
 // bolt.hex: standard bolts, their stiffness, and patterns of them.
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "decks/deck_prints.hpp"
@@ -118,6 +120,40 @@ local one = bolt.through{ name = "one", size = "M8", parts = { upper, lower }, m
                R"( end }
 assert(#one == 1, "the places of heads are those of the parts")
 )");
+}
+
+// In the axes of their frame bolts are the same wherever the scene stands: hexagon, order and the head of a single
+// part.
+TEST(Bolts, turn_with_their_frame) {
+  const auto run = [](const std::string& frame) {
+    return run_text(steel + "local site = frame{" + frame + R"(}
+local turn = { translate = site.origin, rotate = { axis = { 1, 2, 3 }, angle = )" +
+                    (frame.empty() ? "0" : "50*deg") + R"( } }
+local file = mesh.step{ file = ")" +
+                    (std::filesystem::path(DYGITA_SOURCE_DIR) / "meshes" / "joint.step").string() +
+                    R"(", size = 12*mm, round = 6, order = 1 }
+local lower = substructure{ name = "lower", mesh = file:part "lower", material = steel, place = turn }
+local upper = substructure{ name = "upper", mesh = file:part "upper", material = steel, place = turn }
+local screws = bolt.through{ name = "screw", size = "M8", parts = { upper, lower }, material = steel, friction = 0.2, frame = site }
+local contacts = interface.contact{ between = "all touching", friction = 0.2 }
+local base = support.fixed{ name = "base", on = lower:face{ frame = site, normal = { -1, 0, 0 }, at = 40*mm } }
+local tighten = step.static{ name = "tighten", loads = { load.preload{ on = screws[1].shank, force = 12*kN } } }
+problem{ name = "joint", substructures = { lower, upper, screws.parts }, interfaces = { contacts, screws.interfaces }, supports = { base }, steps = { tighten },
+  outputs = { output.history{ name = "tip", frame = site, on = screws[1].tip, quantity = "displacement", direction = { 1, 0, 0 } } },
+  solver = solver.monolithic{ tolerance = 1e-10 } }:run{}
+)")
+        .at(0);
+  };
+  const DeckRun straight = run("");
+  const double as_drawn = straight.column("tip", "displacement").back();
+  // Axes of the frame: those of the deck, turned by 50 degrees about (1, 2, 3).
+  const Eigen::Matrix3d q = Eigen::AngleAxisd(50.0 * pi / 180.0, Eigen::Vector3d(1, 2, 3).normalized()).matrix();
+  const DeckRun turned = run(
+      fmt::format("origin = {{ 1, 2, 3 }}, axis = {{ {:.17g}, {:.17g}, {:.17g} }}, x = {{ {:.17g}, {:.17g}, {:.17g} }}",
+                  q(0, 2), q(1, 2), q(2, 2), q(0, 0), q(1, 0), q(2, 0)));
+  EXPECT_TRUE(straight.result->converged && turned.result->converged);
+  EXPECT_GT(std::abs(as_drawn), 1e-8);
+  EXPECT_NEAR(turned.column("tip", "displacement").back(), as_drawn, 1e-6 * std::abs(as_drawn));
 }
 
 // A box from CAD on its bracket: every contact found, every bolt at its force, and the shock begun.
