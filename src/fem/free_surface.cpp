@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "fem/cell_loop.hpp"
 #include "fem/cell_tensor.hpp"
@@ -84,6 +85,42 @@ double surface_error(const ElasticTensor& tensor, const Nodes<Cell::n_nodes>& x,
   return energy;
 }
 
+// The linear cell with the same corners and facets.
+CellType linear_type(CellType type) {
+  const int n = cell_shape(type).n_corners;
+  const auto found = std::find_if(std::begin(cell_shapes), std::end(cell_shapes), [n](const CellShape& row) {
+    return row.n_corners == n && nodes_per_cell(row.type) == n;
+  });
+  CHECK(found != std::end(cell_shapes), "every cell of order two has a linear one of its corners");
+  return found->type;
+}
+
+// Cells of order two see their surface by the cells behind it. Where none is, as in a bar of one cell across, every
+// corner lies on two free facets.
+bool has_surface_all_around(CellType type, unsigned facets) {
+  const CellShape& shape = cell_shape(type);
+  if (shape.n_corners == 4) return false;  // a bar has several of them across
+  constexpr int most_corners = 8;
+  std::array<int, most_corners> n_facets{};
+  for (size_t k = 0; k < shape.facets.size(); ++k)
+    for (int a = 0; a < facet_shape(shape.facets[k].type).n_corners; ++a)
+      n_facets[static_cast<size_t>(shape.facets[k].nodes[static_cast<size_t>(a)])] +=
+          static_cast<int>(facets >> k & 1u);
+  return std::all_of(n_facets.begin(), n_facets.begin() + shape.n_corners, [](int n) { return n >= 2; });
+}
+
+// At all nodes of a cell, from its corners.
+template <class Cell>
+Tensors at_all_nodes(CellType type, const Tensors& at_corners) {
+  const int n = nodes_per_cell(type);
+  if (n == Cell::n_nodes) return at_corners;
+  Tensors all(6, n);
+  for (int a = 0; a < n; ++a)
+    all.col(a) = at_corners *
+                 shape_functions(Cell::type).values(vector_of(cell_shape(type).shape.nodes[static_cast<size_t>(a)]));
+  return all;
+}
+
 }  // namespace
 
 std::vector<FreeCell> free_cells(const Mesh& mesh, const FacetKeys& facets, const std::vector<int>& node_of) {
@@ -98,12 +135,12 @@ std::vector<FreeCell> free_cells(const Mesh& mesh, const FacetKeys& facets, cons
   for (size_t b = 0; b < mesh.blocks.size(); ++b) {
     const CellBlock& block = mesh.blocks[b];
     const CellShape& shape = cell_shape(block.type);
-    if (nodes_per_cell(block.type) > shape.n_corners) continue;
+    const bool is_of_order_two = nodes_per_cell(block.type) > shape.n_corners;
     for (int i = 0; i < block.n_cells(); ++i) {
       FreeCell cell{static_cast<int>(b), i};
       const auto is_free = [&](const LocalFacet& facet) {
         std::array<int, most_facet_corners> corners{};
-        const auto n = static_cast<size_t>(nodes_per_facet(facet.type));
+        const auto n = static_cast<size_t>(facet_shape(facet.type).n_corners);
         for (size_t a = 0; a < n; ++a) {
           const auto node = static_cast<size_t>(block.cell(i)[facet.nodes[a]]);
           if (!is_on[node]) return false;
@@ -113,6 +150,7 @@ std::vector<FreeCell> free_cells(const Mesh& mesh, const FacetKeys& facets, cons
       };
       for (size_t k = 0; k < shape.facets.size(); ++k)
         if (is_free(shape.facets[k])) cell.facets |= 1u << k;
+      if (is_of_order_two && !has_surface_all_around(block.type, cell.facets)) continue;
       if (cell.facets) cells.push_back(cell);
     }
   }
@@ -127,14 +165,17 @@ SurfaceErrors surface_errors(const Mesh& mesh, const Elastic& material, const st
       [&](int i) {
         const FreeCell& at = cells[static_cast<size_t>(i)];
         const CellBlock& block = mesh.blocks[static_cast<size_t>(at.block)];
-        with_cell(block.type, [&](auto cell) {
+        const int n_nodes = nodes_per_cell(block.type);
+        with_cell(linear_type(block.type), [&](auto cell) {
           using Cell = decltype(cell);
           constexpr int n = Cell::n_nodes;
-          if constexpr (n == Cell::row.n_corners)
-            errors.energies[i] =
-                surface_error<Cell>(tensor_in(material, block, at.cell), gather<n>(mesh.nodes, block.cell(at.cell)),
-                                    stress[static_cast<size_t>(at.block)].template middleCols<n>(n * at.cell),
-                                    at.facets, errors.at_nodes[static_cast<size_t>(i)]);
+          if constexpr (n == Cell::row.n_corners) {
+            Tensors& at_nodes = errors.at_nodes[static_cast<size_t>(i)];
+            errors.energies[i] = surface_error<Cell>(
+                tensor_in(material, block, at.cell), gather<n>(mesh.nodes, block.cell(at.cell)),
+                stress[static_cast<size_t>(at.block)].template middleCols<n>(n_nodes * at.cell), at.facets, at_nodes);
+            at_nodes = at_all_nodes<Cell>(block.type, at_nodes);
+          }
         });
       },
       Schedule::evenly);

@@ -16,8 +16,9 @@ struct FreeCell {
   unsigned facets = 0;
 };
 
-// The linear cells that have facets among these, block after block; the recovered stress of cells of order two tells
-// enough of their surface. node_of: of each node of the mesh its number in the keys.
+// The linear cells that have facets among these, block after block. Of cells of order two those alone that have no cell
+// behind their surface, as in a bar of one cell across: else the recovered stress tells enough. node_of: of each node
+// of the mesh its number in the keys.
 std::vector<FreeCell> free_cells(const Mesh& mesh, const FacetKeys& facets, const std::vector<int>& node_of);
 
 struct SurfaceErrors {
