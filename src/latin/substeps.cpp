@@ -1,62 +1,131 @@
 // Steps with explicit pieces: the time step of the deck is made of increments that they are stable with, each solved as
 // any other. Where a point connects explicit pieces alone nothing is iterated.
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 
-#include "latin/step_run.hpp"
-#include "step/step_ends.hpp"
+#include "fem/mass.hpp"
+#include "latin/cut_pulls.hpp"
+#include "latin/direct_points.hpp"
+#include "latin/increments.hpp"
 
 namespace dygita {
 
-// Pieces that a cut leaves with a common mass are pulled at before any of them moves. first: what else comes before.
-template <class First>
-void StepRun::share_pulls(First&& first) {
-  if (pulls_.is_empty()) return;
-  for_each_piece([&](Piece&, int i) {
-    if (pulls_.has(i)) first(*explicit_[i], i);
-  });
-  pulls_.share(piece_threads_.threads());
+namespace {
+
+class Substeps final : public Increments {
+ public:
+  Substeps(Iteration& iteration, StepBooks& books);
+  void solve(int increment, int last) override;
+  double gap_difference() const override { return direct_.gap_difference(); }
+
+ private:
+  void run_through(int increment);
+  void begin_substep(int increment, int substep);
+  template <class First>
+  void share_pulls(First&& first);
+  void begin_explicit(int i, const std::vector<double>& motions);
+  Best solve_substep(int increment, int substep, bool is_led);
+  void finish_piece(Piece& piece, int i);
+  void book_stored_energy(int i);
+  void finish_substep(int substep);
+  void add_forces();
+  void show_mean_forces();
+
+  Iteration& iteration_;
+  StepData& step_;
+  StepBooks& books_;
+  Follow follow_;
+  DirectPoints direct_;
+  CutPulls pulls_;
+  std::vector<ExplicitPiece*> explicit_;  // null: implicit
+  PieceLoops::InTurn telling_;
+  bool is_all_direct_;                    // of the pieces here and all points: nothing is iterated
+  std::vector<std::vector<Vec3>> force_;  // N, of the surfaces' points, summed over the substeps of a time step
+};
+
+// Which substructures are explicit, and how.
+void describe(const StepModel& model, StepFigures& figures) {
+  for (size_t i = 0; i < model.integration.parts.size(); ++i) {
+    const Integration::Part& part = model.integration.parts[i];
+    if (!part.is_explicit) continue;
+    const Substructure& body = *model.problem->substructures[i];
+    figures.explicit_parts.push_back(body.name);
+    if (has_consistent_mass(*body.mesh)) figures.diagonal_parts.push_back(body.name);
+    if (part.is_tuned) figures.tuned_parts.push_back(body.name);
+    if (model.problem->mass().is_chosen) figures.phases.emplace_back(body.name, part.phase);
+    figures.stable_step = figures.stable_step > 0.0 ? std::min(figures.stable_step, part.longest) : part.longest;
+  }
 }
 
-void StepRun::begin_explicit(int i, const std::vector<double>& motions) {
+Substeps::Substeps(Iteration& iteration, StepBooks& books)
+    : iteration_(iteration),
+      step_(iteration.step()),
+      books_(books),
+      follow_(iteration),
+      direct_(step_.model, step_.files.state),
+      pulls_(step_.model),
+      telling_(step_.loops.in_turn(direct_.border_pieces())) {
+  const StepModel& model = step_.model;
+  for (const auto& piece : model.pieces) explicit_.push_back(piece->as_explicit());
+  is_all_direct_ = model.n_q() == 0 && !model.problem->solver.plain &&
+                   std::all_of(model.here.begin(), model.here.end(), [&](int i) { return explicit_[i] != nullptr; });
+  describe(model, books.figures());
+  step_.loops.threads = ThreadChoice::measured();
+}
+
+// Pieces that a cut leaves with a common mass are pulled at before any of them moves. first: what else comes before.
+template <class First>
+void Substeps::share_pulls(First&& first) {
+  if (pulls_.is_empty()) return;
+  step_.loops.for_each([&](Piece&, int i) {
+    if (pulls_.has(i)) first(*explicit_[i], i);
+  });
+  pulls_.share(step_.loops.threads.threads());
+}
+
+void Substeps::begin_explicit(int i, const std::vector<double>& motions) {
   if (pulls_.has(i))
     explicit_[i]->begin_motion(motions);
   else
-    explicit_[i]->begin(model_.loads->values(), motions);
+    explicit_[i]->begin(step_.model.loads->values(), motions);
 }
 
-void StepRun::begin_substep(int increment, int substep) {
-  const Stopwatch watch(books_.seconds.forward);
-  const std::vector<double> motions = model_.motion_velocities(substep);
-  model_.loads->evaluate_mean(substep * model_.scheme.dt, (substep + 1) * model_.scheme.dt);
-  const double quiet = indicator_.quiet(settings_.tolerance);
-  share_pulls([&](ExplicitPiece& piece, int) { piece.begin_pull(model_.loads->values()); });
+void Substeps::begin_substep(int increment, int substep) {
+  const Stopwatch watch(step_.seconds.forward);
+  const std::vector<double> motions = step_.model.motion_velocities(substep);
+  step_.model.loads->evaluate_mean(substep * step_.model.scheme.dt, (substep + 1) * step_.model.scheme.dt);
+  const double quiet = step_.indicator.quiet(step_.settings.tolerance);
+  share_pulls([&](ExplicitPiece& piece, int) { piece.begin_pull(step_.model.loads->values()); });
   const auto begin = [&](Piece& piece, int i) {
     if (explicit_[i])
       begin_explicit(i, motions);
     else
-      piece.begin(model_.piece_force(i, files_.state), motions, quiet);
+      piece.begin(step_.model.piece_force(i, step_.files.state), motions, quiet);
   };
-  for_each_piece(telling_.border, begin);
+  step_.loops.for_each(telling_.border, begin);
   direct_.tell();
-  for_each_piece(telling_.interior, begin);
+  step_.loops.for_each(telling_.interior, begin);
   // Implicit pieces are solved for though no interface asks them.
-  for_each_group([&](const std::vector<Piece*>& group, const std::vector<int>&) { group.front()->forward(group); });
-  if (model_.n_q() > 0) local_.begin(increment, motions, true);
-  const Stopwatch laws(books_.seconds.local);
-  direct_.solve(motions, piece_threads_.threads());
+  step_.loops.for_each_group(
+      [&](const std::vector<Piece*>& group, const std::vector<int>&) { group.front()->forward(group); });
+  if (step_.model.n_q() > 0) step_.local.begin(increment, motions, true);
+  const Stopwatch laws(step_.seconds.local);
+  direct_.solve(motions, step_.loops.threads.threads());
 }
 
 // A time step in which nothing is iterated: a piece ends one increment and begins the next, and does what else there is
 // to it, before the threads meet.
-void StepRun::run_through(int increment) {
-  const int n = model_.n_substeps();
+void Substeps::run_through(int increment) {
+  const int n = step_.model.n_substeps();
   for (int i = 0; i <= n; ++i) {
     const bool begins = i < n;
     const int substep = increment * n + i;
-    const std::vector<double> motions = begins ? model_.motion_velocities(substep) : std::vector<double>();
-    if (begins) model_.loads->evaluate_mean(substep * model_.scheme.dt, (substep + 1) * model_.scheme.dt);
+    const std::vector<double> motions = begins ? step_.model.motion_velocities(substep) : std::vector<double>();
+    if (begins)
+      step_.model.loads->evaluate_mean(substep * step_.model.scheme.dt, (substep + 1) * step_.model.scheme.dt);
     {
-      const Stopwatch watch(books_.seconds.forward);
+      const Stopwatch watch(step_.seconds.forward);
       const auto end_last = [&](Piece& piece, int at) {
         if (i == 0) piece.begin_interval();
         if (i > 0) finish_piece(piece, at);
@@ -64,7 +133,7 @@ void StepRun::run_through(int increment) {
       if (begins)
         share_pulls([&](ExplicitPiece& piece, int at) {
           end_last(piece, at);
-          piece.begin_pull(model_.loads->values());
+          piece.begin_pull(step_.model.loads->values());
         });
       const auto pass = [&](Piece& piece, int at) {
         if (!begins || !pulls_.has(at)) end_last(piece, at);
@@ -73,36 +142,36 @@ void StepRun::run_through(int increment) {
         else
           book_stored_energy(at);
       };
-      for_each_piece(telling_.border, pass);
+      step_.loops.for_each(telling_.border, pass);
       if (begins) direct_.tell();
-      for_each_piece(telling_.interior, pass);
+      step_.loops.for_each(telling_.interior, pass);
     }
     if (!begins) break;
-    const Stopwatch laws(books_.seconds.local);
-    direct_.solve(motions, piece_threads_.threads());
+    const Stopwatch laws(step_.seconds.local);
+    direct_.solve(motions, step_.loops.threads.threads());
   }
-  keep(at_.q);
+  books_.keep(step_.at.q);
 }
 
-StepRun::Best StepRun::solve_substep(int increment, int substep, bool is_led) {
+Best Substeps::solve_substep(int increment, int substep, bool is_led) {
   begin_substep(increment, substep);
-  Best best{at_.q, {0.0}};
+  Best best{step_.at.q, {0.0}};
   best.iterations = 1;
-  if (model_.n_q() > 0) {
-    const Goal goal = goal_of(predict(substep, at_.q));
-    best = is_led ? follow(increment, goal) : answer(increment, goal);
+  if (step_.model.n_q() > 0) {
+    const Goal goal = step_.goal(iteration_.predict(substep));
+    best = follow_.solve(increment, goal, is_led);
   }
   finish_substep(substep);
   return best;
 }
 
-void StepRun::finish_piece(Piece& piece, int i) {
+void Substeps::finish_piece(Piece& piece, int i) {
   // Explicit pieces have heard of the direct points' force from these.
-  const bool needs_force = piece.has_motions() && (model_.n_q() > 0 || !explicit_[i]);
-  const Points held = needs_force ? local_.held_force(i) : Points();
+  const bool needs_force = piece.has_motions() && (step_.model.n_q() > 0 || !explicit_[i]);
+  const Points held = needs_force ? step_.local.held_force(i) : Points();
   const IncrementEnergy energy =
-      piece.finish(at_.q.segment(model_.near.start(i), piece.n_rows()), needs_force ? &held : nullptr);
-  IncrementEnergy& sum = books_.energy[i];
+      piece.finish(step_.at.q.segment(step_.model.near.start(i), piece.n_rows()), needs_force ? &held : nullptr);
+  IncrementEnergy& sum = step_.energy[i];
   sum.loads += energy.loads;
   sum.damping += energy.damping;
   sum.scheme += energy.scheme;
@@ -110,56 +179,57 @@ void StepRun::finish_piece(Piece& piece, int i) {
   sum.strain = energy.strain;
 }
 
-void StepRun::book_stored_energy(int i) {
+void Substeps::book_stored_energy(int i) {
   const IncrementEnergy stored = explicit_[i]->stored_energy();
-  books_.energy[i].kinetic = stored.kinetic;
-  books_.energy[i].strain = stored.strain;
+  step_.energy[i].kinetic = stored.kinetic;
+  step_.energy[i].strain = stored.strain;
 }
 
-void StepRun::finish_substep(int substep) {
+void Substeps::finish_substep(int substep) {
   {
-    const Stopwatch watch(books_.seconds.backward);
-    for_each_group([&](const std::vector<Piece*>& group, const std::vector<int>&) { group.front()->backward(group); });
-    for_each_piece([&](Piece& piece, int i) { finish_piece(piece, i); });
+    const Stopwatch watch(step_.seconds.backward);
+    step_.loops.for_each_group(
+        [&](const std::vector<Piece*>& group, const std::vector<int>&) { group.front()->backward(group); });
+    step_.loops.for_each([&](Piece& piece, int i) { finish_piece(piece, i); });
   }
-  const Stopwatch watch(books_.seconds.accept);
-  if (model_.n_q() > 0) {
-    local_.accept(files_.state, books_.of_points);
+  const Stopwatch watch(step_.seconds.accept);
+  if (step_.model.n_q() > 0) {
+    step_.local.accept(step_.files.state, step_.of_points);
     add_forces();
-    keep(at_.q);
-  } else if ((substep + 1) % model_.n_substeps() == 0) {
-    keep(at_.q);
+    books_.keep(step_.at.q);
+  } else if ((substep + 1) % step_.model.n_substeps() == 0) {
+    books_.keep(step_.at.q);
   }
 }
 
 // Forces that outputs show are means over the time step of the deck.
-void StepRun::add_forces() {
-  if (model_.n_substeps() == 1) return;
-  const std::vector<SurfaceState>& surfaces = files_.state.surfaces;
-  books_.force.resize(surfaces.size());
+void Substeps::add_forces() {
+  if (step_.model.n_substeps() == 1) return;
+  const std::vector<SurfaceState>& surfaces = step_.files.state.surfaces;
+  force_.resize(surfaces.size());
   for (size_t s = 0; s < surfaces.size(); ++s) {
-    books_.force[s].resize(surfaces[s].points.size(), Vec3::Zero());
-    for (size_t i = 0; i < surfaces[s].points.size(); ++i) books_.force[s][i] += surfaces[s].points[i].force;
+    force_[s].resize(surfaces[s].points.size(), Vec3::Zero());
+    for (size_t i = 0; i < surfaces[s].points.size(); ++i) force_[s][i] += surfaces[s].points[i].force;
   }
 }
 
-void StepRun::show_mean_forces() {
-  for (size_t s = 0; s < books_.force.size(); ++s)
-    for (size_t i = 0; i < books_.force[s].size(); ++i) {
-      files_.state.surfaces[s].points[i].force = books_.force[s][i] / model_.n_substeps();
-      books_.force[s][i].setZero();
+void Substeps::show_mean_forces() {
+  for (size_t s = 0; s < force_.size(); ++s)
+    for (size_t i = 0; i < force_[s].size(); ++i) {
+      step_.files.state.surfaces[s].points[i].force = force_[s][i] / step_.model.n_substeps();
+      force_[s][i].setZero();
     }
 }
 
-void StepRun::solve_interval(int increment) {
+void Substeps::solve(int increment, int /*last*/) {
   if (!is_all_direct_)
-    for_each_piece([&](Piece& piece, int) {
-      if (piece.is_explicit() || model_.n_substeps() > 1) piece.begin_interval();
+    step_.loops.for_each([&](Piece& piece, int) {
+      if (piece.is_explicit() || step_.model.n_substeps() > 1) piece.begin_interval();
     });
   direct_.begin_interval(increment);
-  books_.energy.assign(model_.pieces.size(), {});
-  books_.of_points.assign(model_.pieces.size(), {});
-  const int n = model_.n_substeps();
+  step_.energy.assign(step_.model.pieces.size(), {});
+  step_.of_points.assign(step_.model.pieces.size(), {});
+  const int n = step_.model.n_substeps();
   int iterations = 0;
   double eta = 0.0, interface_energy = 0.0;
   const auto begun = std::chrono::steady_clock::now();
@@ -167,32 +237,36 @@ void StepRun::solve_interval(int increment) {
     run_through(increment);
     iterations = n;
   } else {
-    const bool is_led = model_.n_q() > 0 && leads(n);
+    const bool is_led = step_.model.n_q() > 0 && follow_.leads(n);
     for (int i = 0; i < n; ++i) {
       const Best best = solve_substep(increment, increment * n + i, is_led);
       iterations += best.iterations;
-      if (best.outcome.eta > settings_.tolerance) note_missed(best.missed);
+      if (best.outcome.eta > step_.settings.tolerance) books_.note_missed(best.missed);
       eta = std::max(eta, best.outcome.eta);
-      interface_energy += model_.scheme.dt * at_.sums.force_distance;
+      interface_energy += step_.model.scheme.dt * step_.at.sums.force_distance;
     }
   }
-  piece_threads_.note(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
-  if (const double change = direct_.take_change(); change > settings_.tolerance) {
+  step_.loops.threads.note(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
+  if (const double change = direct_.take_change(); change > step_.settings.tolerance) {
     eta = std::max(eta, change);
-    note_missed({increment, iterations, change, settings_.tolerance, false, {}});
+    books_.note_missed({increment, iterations, change, step_.settings.tolerance, false, {}});
   }
   {
-    const Stopwatch watch(books_.seconds.accept);
+    const Stopwatch watch(step_.seconds.accept);
     if (!is_all_direct_)
-      for_each_piece([&](Piece&, int i) {
+      step_.loops.for_each([&](Piece&, int i) {
         if (explicit_[i]) book_stored_energy(i);
       });
     show_mean_forces();
-    direct_.show(files_.state, books_.energy, piece_threads_.threads());
-    if (distant_) distant_->forget();
+    direct_.show(step_.files.state, step_.energy, step_.loops.threads.threads());
   }
-  files_.state.time = time_of(increment);
-  accept_interval(increment, iterations, eta, interface_energy);
+  books_.accept_interval(increment, iterations, eta, interface_energy);
+}
+
+}  // namespace
+
+std::unique_ptr<Increments> substeps(Iteration& iteration, StepBooks& books) {
+  return std::make_unique<Substeps>(iteration, books);
 }
 
 }  // namespace dygita

@@ -1,0 +1,74 @@
+// What improves V and the image within an iteration with constant search directions.
+#include <algorithm>
+
+#include "latin/coarse_correction.hpp"
+#include "latin/iteration.hpp"
+
+namespace dygita {
+
+namespace {
+
+// Balance of tied substructures against their rigid motions.
+class BalanceTies final : public Strategy {
+ public:
+  BalanceTies(StepData& step, CoarseCorrection coarse) : step_(step), coarse_(std::move(coarse)) {}
+  bool corrects() const override { return true; }
+  void correct() override {
+    const Stopwatch watch(step_.seconds.interface);
+    if (step_.files.trail) step_.at.uncorrected = step_.at.q;
+    coarse_.correct(step_.at.q, step_.at.velocity);
+  }
+
+ private:
+  StepData& step_;
+  CoarseCorrection coarse_;
+};
+
+// Both stages in turn from the fields at hand on, the pieces by their rough operators: the image then knows what came
+// back from the neighbourhood of each point. Fields and indicator stay those of the last iteration.
+class InnerIterations final : public Strategy {
+ public:
+  explicit InnerIterations(StepData& step) : step_(step) {}
+  void after_local_stage() override {
+    Iterate& at = step_.at;
+    const NearUnknowns& near = step_.model.near;
+    for (int n = 0; n < step_.settings.n_inner; ++n) {
+      {
+        const Stopwatch watch(step_.seconds.interface);
+        velocity_.resize(at.velocity.size());
+        step_.loops.for_each([&](Piece& piece, int i) {
+          const int first = near.start(i), n_rows = piece.n_rows();
+          auto velocity = velocity_.segment(first, n_rows);
+          piece.rough_change(at.image.segment(first, n_rows) - at.q.segment(first, n_rows), velocity);
+          velocity += at.velocity.segment(first, n_rows);
+        });
+      }
+      const Stopwatch watch(step_.seconds.local);
+      step_.model.near.exchange({velocity_.data()});
+      step_.local.answer(velocity_, at.image, image_);
+      at.image.swap(image_);
+    }
+  }
+
+ private:
+  StepData& step_;
+  Vec velocity_, image_;
+};
+
+}  // namespace
+
+std::unique_ptr<Strategy> balance_ties(Iteration& iteration, const Vec& k) {
+  StepData& step = iteration.step();
+  if (!step.settings.has_correction) return nullptr;
+  CoarseCorrection coarse(step.model, k);
+  if (coarse.is_empty()) return nullptr;
+  return std::make_unique<BalanceTies>(step, std::move(coarse));
+}
+
+std::unique_ptr<Strategy> iterate_roughly(Iteration& iteration) {
+  StepData& step = iteration.step();
+  if (!step.iterates_roughly) return nullptr;
+  return std::make_unique<InnerIterations>(step);
+}
+
+}  // namespace dygita

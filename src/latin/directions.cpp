@@ -1,0 +1,68 @@
+#include "latin/directions.hpp"
+
+#include <algorithm>
+
+namespace dygita {
+
+ConstantDirections::ConstantDirections(StepData& step, Stages& stages)
+    : step_(step),
+      stages_(stages),
+      anderson_(step.settings.of_increment.depth, step.settings.of_increment.n_problems,
+                step.settings.of_increment.relaxation, step.weight, InterfaceSums(step.model)) {}
+
+void ConstantDirections::begin(double /*tolerance*/) {
+  anderson_.begin();
+  step_.at.uncorrected.resize(0);
+}
+
+void ConstantDirections::linear_stage(int /*n*/, bool is_told) {
+  stages_.linear_stage(step_.at.q, step_.at.velocity, is_told);
+}
+
+void ConstantDirections::advance(const Outcome& /*outcome*/) {
+  const Stopwatch watch(step_.seconds.accelerate);
+  anderson_.advance(step_.own(step_.at.q), step_.own(step_.at.image));
+}
+
+void TangentDirections::begin(double tolerance) {
+  Iterate& at = step_.at;
+  carried_.reset();
+  has_left_ = !loose_ || loose_->is_resting();
+  if (at.velocity.size() != at.q.size()) at.velocity = Vec::Zero(at.q.size());
+  system_.begin(tolerance);
+  is_balanced_ = at.is_answered;
+  at.is_answered = false;
+}
+
+// V comes with the data, of which there may be none.
+void TangentDirections::linear_stage(int n, bool /*is_told*/) {
+  if (n == 0 && step_.at.q.size() == 0) stages_.linear_stage(step_.at.q, step_.at.velocity);
+  is_balanced_ |= n > 0 || step_.at.q.size() == 0;
+}
+
+bool TangentDirections::settles(const Goal& goal, const Outcome& outcome, Best& best) {
+  constexpr double nearly = 1e-6;  // of the indicator: rounding of what loose parts are carried along ends it there
+  if (has_left_ || outcome.eta > std::max(goal.tolerance, nearly)) return false;
+  has_left_ = true;
+  Carried now{step_.at.velocity, step_.at.q, outcome};
+  if (!loose_->leave()) return false;
+  if (outcome.eta <= goal.tolerance) carried_ = std::move(now);
+  best.outcome = {};
+  return true;
+}
+
+void TangentDirections::advance(const Outcome& outcome) {
+  const Stopwatch watch(step_.seconds.interface);
+  system_.advance(outcome, step_.at.velocity, step_.at.q);
+}
+
+void TangentDirections::end(bool is_solved, Best& best) {
+  if (is_solved || !carried_) return;
+  Iterate& at = step_.at;
+  at.velocity = carried_->velocity;
+  best.q = at.q = carried_->q;
+  best.outcome = carried_->outcome;
+  at.sums = stages_.local_stage(at.velocity, at.q, at.image);
+}
+
+}  // namespace dygita
