@@ -111,7 +111,7 @@ local function check_given(entry, given, line)
     native.fail(line, entry.path .. ": 'hardening' goes with 'yield', which is missing")
   end
   if given.around % 12 ~= 0 then
-    native.fail(line, ("%s: 'around' = %d is no multiple of 12"):format(entry.path, given.around)
+    native.fail(line, ("%s: 'around' = %d is not a multiple of 12"):format(entry.path, given.around)
       .. "\n    hexagon and square grid have their corners at nodes: 12, 24, 36, ...")
   end
 end

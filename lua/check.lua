@@ -79,7 +79,7 @@ local function check_list(call, value, label, wanted)
     n = n + 1
   end
   for i = 1, n do
-    if value[i] == nil then fail(call, ("'%s' has nothing at place %d"):format(label, i), "is a name misspelt?") end
+    if value[i] == nil then fail(call, ("'%s' has no value at place %d"):format(label, i), "is a name misspelt?") end
   end
   return n
 end
@@ -519,7 +519,7 @@ local function check_known(call, arguments, given, prefix)
   end
   for key in pairs(given) do
     if type(key) ~= "string" then
-      fail(call, ("arguments are named: %s stands alone at place %s"):format(describe(given[key]), tostring(key)),
+      fail(call, ("arguments need names: %s at place %s has none"):format(describe(given[key]), tostring(key)),
         native.did_you_mean("", known) .. (type(given[key]) == "number" and "; decimals take a point" or ""))
     end
     if not is_known[key] then unknown[#unknown + 1] = key end

@@ -38,7 +38,7 @@ function operators.__unm(a) return (scaled(a, -1)) end
 for event, what in pairs { __add = "added to", __sub = "subtracted", __pow = "raised to a power", __mod = "divided", __idiv = "divided" } do
   operators[event] = function() refuse(what) end
 end
-function operators.__index(_, key) fail(native.line(), ("a distribution has no '%s'"):format(tostring(key)), "its values are those that 'of' is given") end
+function operators.__index(_, key) fail(native.line(), ("a distribution has no '%s'"):format(tostring(key)), "'of' receives its values") end
 function operators.__newindex() fail(native.line(), "a distribution does not change once declared") end
 
 -- uniform(a, b) and the rest, from their entries in the schema.
@@ -150,9 +150,9 @@ local function size_of(given, n_columns, line)
     end
     return given.n
   end
-  if n_columns > 10 then fail(line, ("ensemble: \"corners\" of %d parameters are too many"):format(n_columns), "10 at most, which have 1024 corners") end
+  if n_columns > 10 then fail(line, ("ensemble: \"corners\" takes 10 parameters at most, got %d"):format(n_columns), "10 parameters have 1024 corners") end
   local n = 2 ^ n_columns // 1 | 0
-  if given.n and given.n ~= n then fail(line, ("ensemble: %d parameters have %d corners, 'n' = %d"):format(n_columns, n, given.n), "leave 'n' out") end
+  if given.n and given.n ~= n then fail(line, ("ensemble: %d parameters have %d corners, 'n' = %d"):format(n_columns, n, given.n), "omit 'n'") end
   return n
 end
 

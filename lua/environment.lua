@@ -129,7 +129,7 @@ local function read_only(members, what, call)
       local known = {}
       for name in pairs(members) do known[#known + 1] = name end
       table.sort(known)
-      native.fail(native.line(), ("%s is not called itself, but one of its members: %s.%s"):format(what, what,
+      native.fail(native.line(), ("%s cannot be called; call one of its members: %s.%s"):format(what, what,
         table.concat(known, (", %s."):format(what))))
     end,
     __pairs = function()

@@ -115,7 +115,7 @@ function frames.apply(entry, given, line)
     end
   end
   if not next(kinds) and not entry.keeps_frame then
-    native.fail(line, ("%s: 'frame' turns %s, and none is given"):format(entry.path, table.concat(names, ", ")))
+    native.fail(line, ("%s: 'frame' has no effect without %s"):format(entry.path, table.concat(names, ", ")))
   end
   if kinds.corner and given.low and given.high then turn_box(p, given) end
   if kinds.component then turn_components(p, given, line) end

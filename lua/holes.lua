@@ -97,9 +97,9 @@ local function check_all_are_passed(chains, parts, fail)
         local near_by = chain.near_by
         if near_by and near_by.hole.part == i and (not nearest or near_by.gap < nearest) then nearest = near_by.gap end
       end
-      fail(("no bolt passes '%s', which is among 'parts'"):format(name_of(part)), nearest
-        and ("its hole is on the line of others, and %s %s along it"):format(in_mm(math.abs(nearest)), nearest < 0 and "within them" or "apart from them")
-        or "it has no hole on the line of the others that the thread fits: leave it out, or say its 'radius'")
+      fail(("no bolt passes through '%s', one of 'parts'"):format(name_of(part)), nearest
+        and ("its hole lies on the axis of others, %s %s along it"):format(in_mm(math.abs(nearest)), nearest < 0 and "within them" or "apart from them")
+        or "none of its holes on that axis fits the thread: omit the part, or give 'radius'")
     end
   end
 end
@@ -122,7 +122,7 @@ function holes.through(given, diameter, path, line)
     if hole.part == 1 then
       local chain = chain_from(hole, fitting, diameter)
       if chain.above > 0 and chain.below > 0 then
-        fail(("the hole at %s goes on at both sides of '%s', the first of 'parts'"):format(at_mm(hole.low), name_of(parts[1])),
+        fail(("the hole at %s continues on both sides of '%s', the first of 'parts'"):format(at_mm(hole.low), name_of(parts[1])),
           "the first part is the one under the head")
       end
       local up = chain.above == 0
@@ -146,7 +146,7 @@ function holes.through(given, diameter, path, line)
     end
   end
   if #chains == 0 and n_elsewhere > 0 and not left then
-    fail(("'where' is true at none of the %d holes %s"):format(n_elsewhere, which), "it is asked with the end of a hole at the head, in metres")
+    fail(("'where' rejects all %d holes %s"):format(n_elsewhere, which), "it receives the end of each hole at the head, in metres")
   end
   if #chains == 0 then
     local hint = list_of(all, parts)
@@ -154,7 +154,7 @@ function holes.through(given, diameter, path, line)
       hint = ("the hole of '%s' at %s and that of '%s' are %s apart along their axis"):format(name_of(parts[1]), at_mm(left.hole.low),
         name_of(parts[left.near_by.hole.part]), in_mm(left.near_by.gap))
     elseif left then
-      hint = ("the hole of '%s' at %s goes on in no other part; %s"):format(name_of(parts[1]), at_mm(left.hole.low), hint)
+      hint = ("the hole of '%s' at %s continues in no other part; %s"):format(name_of(parts[1]), at_mm(left.hole.low), hint)
     end
     fail(("no hole %s goes through %s"):format(which, #parts > 1 and "these parts" or ("'%s'"):format(name_of(parts[1]))), hint)
   end

@@ -108,7 +108,7 @@ local function declare_all(entry, given, line)
     among, asked = side_by_side(given.between)
     what = ("between %d and %d parts"):format(#given.between[1], #given.between[2])
   end
-  if #among < 2 then fail(entry, line, ("\"%s\" finds interfaces among parts, and %d are declared before"):format(all, #among)) end
+  if #among < 2 then fail(entry, line, ("\"%s\" needs two parts or more declared before it, got %d"):format(all, #among)) end
   local is_left, left = exceptions(given, among), {}
   local list, lines, joined = setmetatable({}, named), {}, {}
   for _, pair in ipairs(native.touching(among, declared, given.within or 0, line)) do
@@ -139,7 +139,7 @@ local function declare_all(entry, given, line)
     end
   end
   if #list == 0 then
-    fail(entry, line, ("no two of %d parts touch where they have no interface yet"):format(#among) .. (given.between ~= all and ", one of each side" or ""),
+    fail(entry, line, ("no two of %d parts touch without an interface already"):format(#among) .. (given.between ~= all and ", one of each side" or ""),
       "'within' sets how far apart touching faces may be; overlapping parts do not touch: dygita check reports them")
   end
   if not given.of and given.between == all then

@@ -19,13 +19,13 @@ local function check_names(entry, given, line)
     local of_names = type(given[key]) == "table" and given[key].by_name or {}
     for name in pairs(of_names) do
       if not is_known[name] then
-        fail(entry, line, ("'%s' has '%s', which is no direction of the spectra"):format(key, name), native.did_you_mean(name, names))
+        fail(entry, line, ("'%s' has '%s', which is not a direction of the spectra"):format(key, name), native.did_you_mean(name, names))
       end
     end
   end
   for _, name in ipairs(names) do
     if of_direction(given.margin, name) and not of_direction(given.specification, name) then
-      fail(entry, line, ("'margin' holds for '%s', which has no specification"):format(name), "give a margin to those alone that have one")
+      fail(entry, line, ("'margin' needs a specification for '%s'"):format(name), "give margins only to directions with a specification")
     end
   end
 end
@@ -87,7 +87,7 @@ function spectra.leave_out(given, of_motion, line)
   if #left == 0 then return end
   given.outputs, given.left_out = kept, left  -- which are used so
   local told = table.concat(names, ", ", 1, math.min(#names, 6)) .. (#names > 6 and (" and %d more"):format(#names - 6) or "")
-  native.warn(line, ("problem '%s' has no dynamic step: its spectra are left out, and read as nan: %s"):format(given.name, told))
+  native.warn(line, ("problem '%s' has no dynamic step: its spectra are omitted and read as nan: %s"):format(given.name, told))
 end
 
 return spectra

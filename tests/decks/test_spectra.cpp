@@ -169,7 +169,7 @@ TEST(Spectrum, of_a_problem_without_motion_is_left_out_with_a_warning_and_reads_
   const DeckRun run = run_text(in_a_frame, {{"duration", "0"}}, 1).at(0);
   const std::string printed = testing::internal::GetCapturedStdout(), warned = testing::internal::GetCapturedStderr();
   EXPECT_TRUE(run.result->converged);
-  EXPECT_NE(warned.find("problem 'turned' has no dynamic step: its spectra are left out, and read as nan: 'tip axial', "
+  EXPECT_NE(warned.find("problem 'turned' has no dynamic step: its spectra are omitted and read as nan: 'tip axial', "
                         "'tip radial', 'global x', 'global z'"),
             std::string::npos)
       << warned;
