@@ -6,10 +6,10 @@
 // True errors: of the iteration against a tolerance of 1e-11 (dynamic steps only); of the time step against the same
 // mesh with dt / 16; of the mesh against cells 8 times shorter and the same dt, on the fine mesh. In scenes.lua against
 // dt / 4 and against cells 3 times shorter, frequencies and amplitudes apart: the time of the finer run is stretched
-// until its velocities are nearest.
+// until its velocities are nearest; for the frequencies, until what both hold about the mean frequency is.
 #include <cstdio>
 
-#include "decks/spectra.hpp"
+#include "decks/apart.hpp"
 
 namespace {
 
@@ -65,59 +65,6 @@ SpectraRun run_scene(int scene, int n, int finer) {
                      0.0, 0.0);
 }
 
-std::vector<const dygita::Table*> velocities(const SpectraRun& run) {
-  std::vector<const dygita::Table*> tables;
-  for (const dygita::OutputPtr& output : run.problem.outputs)
-    if (output->name.front() == 'v') tables.push_back(&run.result->tables.at(output.get()));
-  return tables;
-}
-
-// A column of a table at a time, by straight lines; nothing beyond its end.
-std::optional<double> at_time(const dygita::Table& table, double t) {
-  const std::vector<double>&time = table.column("time"), &value = table.columns.back();
-  const auto after = std::lower_bound(time.begin(), time.end(), t);
-  if (after == time.end()) return std::nullopt;
-  const auto i = static_cast<size_t>(after - time.begin());
-  if (i == 0) return value.front();
-  const double share = (t - time[i - 1]) / (time[i] - time[i - 1]);
-  return (1 - share) * value[i - 1] + share * value[i];
-}
-
-// Relative distance of two runs' velocities, the time of the other stretched.
-double distance(const std::vector<const dygita::Table*>& run, const std::vector<const dygita::Table*>& other,
-                double stretch) {
-  double error = 0.0, all = 0.0;
-  for (size_t k = 0; k < run.size(); ++k) {
-    const std::vector<double>& time = run[k]->column("time");
-    for (size_t i = 0; i < time.size(); ++i) {
-      if (run[k]->step[i] != run[k]->step.back()) continue;
-      const std::optional<double> exact = at_time(*other[k], stretch * time[i]);
-      if (!exact) continue;
-      error += std::pow(run[k]->columns.back()[i] - *exact, 2);
-      all += std::pow(*exact, 2);
-    }
-  }
-  return std::sqrt(error / all);
-}
-
-// What frequencies are off by, and what is left of the distance then.
-struct Apart {
-  double frequency = 0.0, amplitude = 0.0;
-};
-
-Apart apart(const SpectraRun& run, const SpectraRun& other) {
-  const auto own = velocities(run), exact = velocities(other);
-  Apart best{0.0, distance(own, exact, 1.0)};
-  for (const double step : {2e-3, 1e-4}) {
-    const Apart near = best;
-    for (int i = -100; i <= 100; ++i) {
-      const double off = near.frequency + i * step;
-      if (const double left = distance(own, exact, 1.0 + off); left < best.amplitude) best = {off, left};
-    }
-  }
-  return {std::abs(best.frequency), best.amplitude};
-}
-
 // Means over the frequencies of all spectra.
 void bands(const char* scene, const char* column, const SpectraRun& run, const SpectraRun& better, double of_all) {
   double band = 0.0, truth = 0.0;
@@ -137,7 +84,8 @@ void study_motion(const char* name, int scene) {
   const SpectraRun run = run_scene(scene, 1, 1), in_time = run_scene(scene, 1, finer_dt),
                    in_space = run_scene(scene, finer_mesh, 1);
   const dygita::Figures& figures = run.result->figures;
-  const Apart time = apart(run, in_time), space = apart(run, in_space);
+  const double mean = figures.mean_frequency.value();
+  const Apart time = apart(run, in_time, mean, true), space = apart(run, in_space, mean, false);
   line(name, "frequency", "time step", figures.step_frequency_error.value(), 100 * of_all(finer_dt) * time.frequency);
   line(name, "frequency", "mesh", figures.mesh_frequency_error.value(), 100 * of_all(finer_mesh) * space.frequency);
   line(name, "amplitude", "mesh", figures.mesh_amplitude_error.value(), 100 * of_all(finer_mesh) * space.amplitude);

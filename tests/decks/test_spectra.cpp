@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "decks/spectra.hpp"
+#include "decks/apart.hpp"
 #include "estimates/spectrum_band.hpp"
 
 namespace dygita::test::spectra_tests {
@@ -66,6 +66,28 @@ TEST(SpectrumBand, warns_where_little_is_known_and_only_there) {
   const std::string said = testing::internal::GetCapturedStderr();
   EXPECT_NE(said.find("spectrum 'srs_below' is uncertain by about"), std::string::npos) << said;
   EXPECT_EQ(said.find("spectrum 'srs_above' is uncertain by about"), std::string::npos) << said;
+}
+
+SpectraRun scene(const char* number, const char* n, const char* finer) {
+  return run_spectra(std::filesystem::path(DYGITA_SOURCE_DIR) / "tests/bench/scenes.lua",
+                     {{"scene", number}, {"n", n}, {"finer", finer}}, {}, 0.0, 0.0);
+}
+
+// Scenes of which the motion holds one frequency or many; the trapezoidal rule lags by (w dt)^2/12, the mesh by what
+// cells three times shorter show.
+TEST(Frequency, is_estimated_within_two_of_the_truth) {
+  for (const char* number : {"1", "3", "5", "7", "9", "10", "11", "12", "13"}) {
+    const SpectraRun run = scene(number, "1", "1"), in_time = scene(number, "1", "4"),
+                     in_space = scene(number, "3", "1");
+    const Figures& figures = run.result->figures;
+    const double mean = figures.mean_frequency.value(),
+                 step = 16.0 / 15.0 * 100.0 * apart(run, in_time, mean, true).frequency,
+                 mesh = 9.0 / 8.0 * 100.0 * apart(run, in_space, mean, false).frequency;
+    EXPECT_GT(figures.step_frequency_error.value(), 0.5 * step) << number;
+    EXPECT_LT(figures.step_frequency_error.value(), 2.0 * step) << number;
+    EXPECT_GT(figures.mesh_frequency_error.value(), 0.5 * mesh) << number;
+    EXPECT_LT(figures.mesh_frequency_error.value(), 2.0 * mesh) << number;
+  }
 }
 
 TEST(SpectrumBand, is_the_wider_the_less_there_is) {
