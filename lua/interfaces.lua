@@ -100,6 +100,28 @@ local function side_by_side(sides)
   end
 end
 
+-- Of the pairs that were asked for and have no interface, how far the nearest are apart.
+local function nearest_of(among, asked, is_left)
+  local number, has_interface, pairs_asked = {}, {}, {}
+  for i, part in ipairs(among) do number[part], has_interface[i] = i, {} end
+  for _, interface in ipairs(declared) do
+    local one, other = native.sides(interface, among)
+    if one and other then
+      local i, j = number[one], number[other]
+      has_interface[i][j], has_interface[j][i] = true, true
+    end
+  end
+  for i, one in ipairs(among) do
+    for j = i + 1, #among do
+      if asked(one, among[j]) and not is_left(one, among[j]) and not has_interface[i][j] then
+        pairs_asked[#pairs_asked + 1], pairs_asked[#pairs_asked + 2] = i, j
+      end
+    end
+  end
+  local text = native.nearest_apart(among, pairs_asked)
+  return text
+end
+
 local function declare_all(entry, given, line)
   for _, interface in ipairs(by_names[line] or {}) do forget(declared, interface) end
   local among, asked = given.of or parts, function() return true, false end
@@ -139,8 +161,9 @@ local function declare_all(entry, given, line)
     end
   end
   if #list == 0 then
+    local nearest = nearest_of(among, asked, is_left)
     fail(entry, line, ("no two of %d parts touch without an interface already"):format(#among) .. (given.between ~= all and ", one of each side" or ""),
-      "'within' sets how far apart touching faces may be; overlapping parts do not touch: dygita check reports them")
+      (nearest ~= "" and nearest .. "\n    " or "") .. "'within' sets how far apart touching faces may be; overlapping parts do not touch: dygita check reports them")
   end
   if not given.of and given.between == all then
     for _, interface in ipairs(declared) do

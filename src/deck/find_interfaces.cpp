@@ -81,6 +81,23 @@ int touching_pairs(LuaState& lua, lua_State* L) {
   return 1;
 }
 
+int nearest_parts(LuaState& lua, lua_State* L) {
+  const auto parts = list_at<SubstructurePtr>(L, 1);
+  std::vector<std::array<int, 2>> pairs(lua_rawlen(L, 2) / 2);
+  for (size_t i = 0; i < 2 * pairs.size(); ++i) {
+    lua_rawgeti(L, 2, static_cast<lua_Integer>(i) + 1);
+    pairs[i / 2][i % 2] = static_cast<int>(lua_tointeger(L, -1)) - 1;
+    lua_pop(L, 1);
+  }
+  std::string text;
+  {
+    const LuaState::Pause pause(lua);
+    text = nearest_apart(parts, pairs);
+  }
+  lua_pushstring(L, text.c_str());
+  return 1;
+}
+
 int holes_of_parts(LuaState& lua, lua_State* L) {
   const auto parts = list_at<SubstructurePtr>(L, 1);
   std::vector<std::vector<Hole>> holes;

@@ -9,6 +9,9 @@ namespace dygita {
 // two parts of the list that touch beside their interfaces; within (m) 0: by the facets.
 int touching_pairs(LuaState& lua, lua_State* L);
 
+// nearest_apart(parts, pairs): of pairs of their numbers, one after the other, which are nearest: where none touches.
+int nearest_parts(LuaState& lua, lua_State* L);
+
 // holes(parts): a list of { part, low, high, radius } (m), the round holes of each part (mesh/find_holes.hpp).
 int holes_of_parts(LuaState& lua, lua_State* L);
 

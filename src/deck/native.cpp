@@ -296,6 +296,7 @@ void push_native(DeckState& state) {
                                        {"extremes", guarded<extremes_of_history>},
                                        {"call", guarded<call_method>},
                                        {"touching", guarded<touching_pairs>},
+                                       {"nearest_apart", guarded<nearest_parts>},
                                        {"holes", guarded<holes_of_parts>},
                                        {"sides", guarded<sides_of_interface>},
                                        {"say", guarded<say_line>},

@@ -2,6 +2,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+
 #include "base/task.hpp"
 #include "meeting/neighbours.hpp"
 #include "meeting/round_surfaces.hpp"
@@ -109,6 +111,32 @@ std::vector<TouchingPair> all_touching(const std::vector<SubstructurePtr>& parts
       pairs.push_back({i, j, found_between({parts[i], {}}, {parts[j], {}}, std::move(touching))});
     }
   return pairs;
+}
+
+std::string nearest_apart(const std::vector<SubstructurePtr>& parts, const std::vector<std::array<int, 2>>& pairs) {
+  std::vector<std::pair<double, std::array<int, 2>>> by_boxes;  // no two parts are nearer than their boxes
+  for (const auto& [i, j] : pairs) {
+    const Box a = box_of(*parts[static_cast<size_t>(i)]), b = box_of(*parts[static_cast<size_t>(j)]);
+    by_boxes.push_back({(a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0).norm(), {i, j}});
+  }
+  std::sort(by_boxes.begin(), by_boxes.end());
+  std::optional<Separation> nearest;
+  std::array<int, 2> who{};
+  for (const auto& [distance, pair] : by_boxes) {
+    if (nearest && nearest->distance <= distance) break;
+    heed_interrupt();
+    const Outside one = outside_of({parts[static_cast<size_t>(pair[0])], {}}),
+                  other = outside_of({parts[static_cast<size_t>(pair[1])], {}});
+    if (one.facets.empty() || other.facets.empty()) continue;
+    const Separation apart = separation(one, other);
+    if (nearest && nearest->distance <= apart.distance) continue;
+    nearest = apart;
+    who = pair;
+  }
+  if (!nearest) return "";
+  return fmt::format("nearest are '{}' and '{}', {:.4g} mm apart, from {} to {}",
+                     parts[static_cast<size_t>(who[0])]->name, parts[static_cast<size_t>(who[1])]->name,
+                     1e3 * nearest->distance, at(nearest->place_1), at(nearest->place_2));
 }
 
 std::string describe(const Touching& touching) {

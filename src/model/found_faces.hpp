@@ -1,6 +1,8 @@
 // Faces of interfaces that a deck declares between whole parts: those that touch.
 #pragma once
 
+#include <array>
+
 #include "base/warnings.hpp"
 #include "meeting/touching.hpp"
 #include "model/model.hpp"
@@ -32,6 +34,10 @@ struct TouchingPair {
 // Every pair of parts that touch where no interface of theirs has the facets already.
 std::vector<TouchingPair> all_touching(const std::vector<SubstructurePtr>& parts,
                                        const std::vector<InterfacePtr>& interfaces, std::optional<double> within);
+
+// Of pairs of parts that touch nowhere, by their numbers in the list, how far the nearest two are apart, and where;
+// empty where none has facets.
+std::string nearest_apart(const std::vector<SubstructurePtr>& parts, const std::vector<std::array<int, 2>>& pairs);
 
 // "1200 mm^2 on 2 surfaces, gaps -0.01 to 0.02 mm between facets, within 0.05 mm".
 std::string describe(const Touching& touching);
