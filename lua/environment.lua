@@ -103,9 +103,11 @@ local function ordered_pairs(t)
   return in_order(t)
 end
 
--- Of lists beyond whose end reading is an error, too, which their metatable says.
-local function items(t)
-  if type(t) ~= "table" or getmetatable(t) ~= "list" then return ipairs(t) end
+-- Of lists beyond whose end reading is an error, too, which their metatable says: for decks and for this program's own
+-- loops over what decks give.
+local plain_ipairs = ipairs
+function ipairs(t)
+  if type(t) ~= "table" or getmetatable(t) ~= "list" then return plain_ipairs(t) end
   return function(list, i)
     local value = rawget(list, i + 1)
     if value ~= nil then return i + 1, value end
@@ -159,7 +161,7 @@ return {
   read_only = read_only,
   functions = {
     math = read_only(safe_math, "math"), string = read_only(safe_string, "string"), table = read_only(safe_table, "table"),
-    ipairs = items, pairs = ordered_pairs, next = next, select = select, type = type, tonumber = tonumber, tostring = tostring,
+    ipairs = ipairs, pairs = ordered_pairs, next = next, select = select, type = type, tonumber = tonumber, tostring = tostring,
     error = raise, assert = assert_value, print = native.print, near = near,
   },
   refused = {
