@@ -62,6 +62,8 @@ local turns = {
   end,
   corner = function(_, x) return x end,
   component = function(_, value) return value end,
+  motion = function(_, value) return value end,
+  held = function(_, value) return value end,
 }
 
 -- A box in the frame is none along the axes of the deck.
@@ -102,6 +104,29 @@ local function turn_components(p, given, line)
   end
 end
 
+-- Axes of the deck along which nodes are held or driven that are so along some axes of the frame. Where the deck's axes
+-- span more than these, nodes would be free aslant of them.
+local function axes_of_deck(entry, p, is_given, line)
+  local is_on, n_given, n_on = {}, 0, 0
+  for i = 1, 3 do
+    for j = 1, 3 do is_on[i] = is_on[i] or is_given[j] and math.abs(p[3 * i - 3 + j]) > 1e-12 end
+    n_given, n_on = n_given + (is_given[i] and 1 or 0), n_on + (is_on[i] and 1 or 0)
+  end
+  if n_on > n_given then
+    native.fail(line, ("%s: along these axes of the frame alone nodes would stay free aslant of the deck's axes"):format(entry.path)
+      .. "\n    give x, y and z that lie in one plane of the deck, or all of them; one direction aslant is held on a plane face by support.symmetry")
+  end
+  return is_on
+end
+
+local function turn_motion(entry, p, given, line)
+  local is_on = axes_of_deck(entry, p, { given.x ~= nil, given.y ~= nil, given.z ~= nil }, line)
+  turn_components(p, given, line)
+  for i, key in ipairs { "x", "y", "z" } do
+    if not is_on[i] then given[key] = nil end
+  end
+end
+
 -- Turns what a call says in its `frame` into the axes of the deck, in place.
 function frames.apply(entry, given, line)
   local p, names, kinds = made[given.frame], {}, {}
@@ -119,6 +144,11 @@ function frames.apply(entry, given, line)
   end
   if kinds.corner and given.low and given.high then turn_box(p, given) end
   if kinds.component then turn_components(p, given, line) end
+  if kinds.motion then turn_motion(entry, p, given, line) end
+  if kinds.held then
+    local is_on = axes_of_deck(entry, p, { given.x, given.y, given.z }, line)
+    given.x, given.y, given.z = is_on[1] or false, is_on[2] or false, is_on[3] or false
+  end
 end
 
 return frames

@@ -84,6 +84,13 @@ local function components(what, unit, range, usual)
   return component("x", what, unit, range, usual), component("y", what, unit, range, usual), component("z", what, unit, range, usual)
 end
 
+-- Of what is held or driven: the axes of the frame must span axes of the deck.
+local function motion_in_frame(...)
+  local x, y, z = components(...)
+  x.in_frame, y.in_frame, z.in_frame = "motion", "motion", "motion"
+  return x, y, z, frame "along whose axes x, y and z are: all three, or those of a plane of the deck"
+end
+
 local function components_in_frame(...)
   local x, y, z = components(...)
   return x, y, z, frame "along whose axes x, y and z are"
@@ -521,9 +528,10 @@ words[5] = {
     "held", makes = "support", doc = "No displacement along some of the axes x, y and z.",
     arguments = {
       name_of "support", on({ "face", "region" }, "what is held"),
-      { "x", type = "boolean", default = false, doc = "along x" },
-      { "y", type = "boolean", default = false, doc = "along y" },
-      { "z", type = "boolean", default = false, doc = "along z" },
+      { "x", in_frame = "held", type = "boolean", default = false, doc = "along x" },
+      { "y", in_frame = "held", type = "boolean", default = false, doc = "along y" },
+      { "z", in_frame = "held", type = "boolean", default = false, doc = "along z" },
+      frame "along whose axes x, y and z are: all three, or those of a plane of the deck",
     },
   },
   {
@@ -573,12 +581,12 @@ words[6] = {
   },
   {
     "velocity", makes = "load", doc = "Prescribed velocity; a direction left out is free.",
-    arguments = { on({ "face", "region" }, "driven faces or nodes"), components("velocity", "m/s", { -20000, 20000 }, usual_velocity) },
+    arguments = { on({ "face", "region" }, "driven faces or nodes"), motion_in_frame("velocity", "m/s", { -20000, 20000 }, usual_velocity) },
     one_of = { "x", "y", "z" },
   },
   {
     "displacement", makes = "load", doc = "Prescribed displacement; a direction left out is free.",
-    arguments = { on({ "face", "region" }, "driven faces or nodes"), components("displacement", "m", { -0.1, 0.1 }) },
+    arguments = { on({ "face", "region" }, "driven faces or nodes"), motion_in_frame("displacement", "m", { -0.1, 0.1 }) },
     one_of = { "x", "y", "z" },
   },
   {

@@ -452,6 +452,41 @@ problem{ name = "p", substructures = { low, high }, interfaces = { glue }, suppo
   }
 }
 
+// A cube that stands turned about z and is held and driven along its own axes: x and y by the frame, z free at its
+// ends.
+TEST(Frames, turn_what_is_held_and_driven) {
+  const auto run = [](const std::string& angle) {
+    return run_text("local site = frame{ angle = " + angle + R"( }
+local m = material.elastic{ name = "m", young = 200*GPa, poisson = 0.3, density = 7800 }
+local cube = substructure{ name = "cube", material = m, place = { rotate = { axis = { 0, 0, 1 }, angle = )" +
+                    angle + R"( } },
+  mesh = mesh.box{ size = { 10*mm, 10*mm, 10*mm }, cells = { 2, 2, 2 } } }
+local low = cube:face{ frame = site, normal = { -1, 0, 0 }, at = 0 }
+local high = cube:face{ frame = site, normal = { 1, 0, 0 }, at = 10*mm }
+local foot = support.held{ name = "foot", on = low, frame = site, x = true, y = true }
+local under = support.held{ name = "under", on = cube:face{ normal = { 0, 0, -1 }, at = 0 }, frame = site, z = true }
+local pull = step.static{ name = "pull", loads = { load.displacement{ on = high, frame = site, x = 10*um, y = 2*um } } }
+local go = step.dynamic{ name = "go", after = pull, duration = 2*us, dt = 0.1*us, loads = { load.velocity{ on = high, frame = site, x = 3, y = -0.5 } } }
+problem{ name = "cube", substructures = { cube }, supports = { foot, under }, steps = { pull, go },
+  outputs = { output.resultant{ name = "r", on = foot }, output.history{ name = "u", on = high, quantity = "displacement" } } }:run{}
+)")
+        .at(0);
+  };
+  const DeckRun straight = run("0"), turned = run("30*deg");
+  const double c = std::cos(M_PI / 6), s = std::sin(M_PI / 6);
+  for (const char* name : {"r", "u"}) {
+    const auto &x = straight.column(name, "x"), &y = straight.column(name, "y"), &z = straight.column(name, "z");
+    for (size_t i = 0; i < x.size(); ++i) {
+      const double size = 1e-6 * std::max(std::abs(x.back()), std::abs(x[i]));
+      EXPECT_NEAR(turned.column(name, "x")[i], c * x[i] - s * y[i], size) << name << i;
+      EXPECT_NEAR(turned.column(name, "y")[i], s * x[i] + c * y[i], size) << name << i;
+      EXPECT_NEAR(turned.column(name, "z")[i], z[i], size) << name << i;
+    }
+  }
+  EXPECT_NEAR(straight.column("u", "x").back(), 10e-6 + 3 * 2e-6, 1e-9);
+  EXPECT_NEAR(straight.column("u", "y").back(), 2e-6 - 0.5 * 2e-6, 1e-9);
+}
+
 // A bolt through a sleeve: tightened, once more by the same force, and loosened.
 TEST(Preload, of_nothing_loosens_once_and_of_the_same_force_raises_no_alarm) {
   const std::string bolted = R"(
