@@ -604,6 +604,27 @@ words[6] = {
     one_of = { "x", "y", "z" },
   },
   {
+    "spin", makes = "load",
+    doc = "Centrifugal forces on every substructure: what turns with a steady speed about an axis is pulled away from it, by density times speed squared times distance. "
+      .. "Static steps only; the stiffness that these forces bring or take is left out. The forces grow linearly over the step.",
+    arguments = {
+      { "speed", type = "number", unit = "rad/s", range = { 0, 1e6 }, required = true, doc = "`3000*2*math.pi/60` is 3000 turns a minute" },
+      { "axis", in_frame = "direction", type = "vector", required = true, doc = "direction of the axis; its length does not matter" },
+      { "through", in_frame = "point", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "a point of the axis" },
+      frame "of `axis` and `through`",
+    },
+  },
+  {
+    "temperature", makes = "load",
+    doc = "Parts are warmer or colder than they were made, each the same throughout: they grow, and are stressed where they cannot (-E expansion by, of a bar between walls). "
+      .. "Stresses in all results are without the free growth. List it in the steps that follow, too, or it goes away.",
+    arguments = {
+      { "parts", type = "objects", kinds = { "substructure" }, at_least = 1, required = true, doc = "which: of cells and a material that is the same in all directions" },
+      { "expansion", type = "number", unit = "1/K", range = { -1e-3, 1e-3 }, required = true, doc = "strain per kelvin: steel has 12e-6, aluminium 23e-6" },
+      { "by", type = "value", unit = "K", range = { -5000, 5000 }, required = true, doc = "temperature above the one without stress" },
+    },
+  },
+  {
     "mode", makes = "load",
     doc = "Forces in the shape of a mode that `output.modes` has found in an earlier step of the run: mass times shape, whose largest displacement is one, times an acceleration. "
       .. "With `output.backbone` in static steps; with a release in a dynamic step the mode rings.",

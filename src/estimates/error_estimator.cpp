@@ -9,6 +9,7 @@
 #include "estimates/mass_lag.hpp"
 #include "model/extent.hpp"
 #include "result/limits.hpp"
+#include "watch/growth.hpp"
 
 namespace dygita {
 
@@ -116,7 +117,7 @@ void ErrorEstimator::begin_step(const Instant& start) {
     PieceMotion& own = pieces_[static_cast<size_t>(i)];
     own.mass = masses_of(start, own.piece);
     own.directions = directions_of(start, own.piece);
-    own.start = start.piece_displacement(own.piece);
+    own.start = strained_piece(start, own.piece);
   });
   carried_.emplace(start);
   linked_.begin_step(start);
@@ -132,7 +133,8 @@ void ErrorEstimator::begin_step(const Instant& start) {
     lag_ += own / total_mass_;
   views_->take(start);
   for (size_t i = 0; i < start.model.problem->substructures.size(); ++i)
-    start_.push_back(views_->field(static_cast<int>(i)));
+    start_.push_back(without_growth(views_->field(static_cast<int>(i)), growth_at(start, static_cast<int>(i)),
+                                    views_->of(static_cast<int>(i)).mesh().nodes));
 }
 
 // Collective.

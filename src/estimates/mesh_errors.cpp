@@ -7,6 +7,7 @@
 #include "fem/mass.hpp"
 #include "fem/stress_error.hpp"
 #include "watch/free_facets.hpp"
+#include "watch/growth.hpp"
 
 namespace dygita {
 
@@ -41,7 +42,7 @@ ErrorEstimator::StressEnergies ErrorEstimator::stress_energies(const Instant& in
   const std::vector<double> errors =
       sums_of_pieces(cut, *views_, static_cast<int>(volume_.size()), 2, [&](int part, const Mesh& mesh) {
         const auto i = static_cast<size_t>(part);
-        Points u = views_->field(part);
+        Points u = without_growth(views_->field(part), growth_at(instant, part), mesh.nodes);
         if (!start_.empty()) u -= start_[i];
         StressError error = stress_error(mesh, problem.substructures[i]->material, u, free_[i]);
         return std::vector{std::move(error.of_cells), std::move(error.at_surface)};
@@ -52,7 +53,7 @@ ErrorEstimator::StressEnergies ErrorEstimator::stress_energies(const Instant& in
   std::vector<double> own_strains(here.size());
   parallel_for(static_cast<int>(here.size()), [&](int i) {
     const auto k = static_cast<size_t>(i);
-    Points u = instant.piece_displacement(here[k]);
+    Points u = strained_piece(instant, here[k]);
     if (!start_.empty()) u -= pieces_[k].start;
     const Points force = instant.model.pieces[static_cast<size_t>(here[k])]->quick_elastic_force(u);
     own_strains[k] = 0.5 * u.reshaped().dot(force.reshaped());

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
+#include <optional>
+#include <set>
 
 #include "base/error.hpp"
 #include "foreign/abaqus_steps.hpp"
@@ -36,7 +39,7 @@ class AbaqusDeck : public ImportedDeck {
  private:
   // Does a step ask for the mass?
   bool needs_density() const {
-    const auto is_gravity = [](const FileAction& action) { return action.kind == Kind::gravity; };
+    const auto is_gravity = [](const FileAction& action) { return action.is_everywhere(); };
     return std::any_of(analysis_.before.begin(), analysis_.before.end(), is_gravity) ||
            std::any_of(analysis_.steps.begin(), analysis_.steps.end(), [&](const AbaqusStep& step) {
              return step.procedure != "STATIC" || std::any_of(step.actions.begin(), step.actions.end(), is_gravity);
@@ -99,7 +102,7 @@ class AbaqusDeck : public ImportedDeck {
 
   void add_before(std::vector<std::string>& supports, std::vector<std::string>& loads) {
     for (const FileAction& action : analysis_.before) refuse_amplitude(action);
-    add(analysis_.before, supports, loads);
+    add_acting(analysis_.before, supports, loads);
   }
 
   void add_in(const AbaqusStep& step, std::vector<std::string>& supports, std::vector<std::string>& loads) {
@@ -108,7 +111,109 @@ class AbaqusDeck : public ImportedDeck {
       if (step.procedure == "STATIC") take_end_of_amplitude(step, action);
       if (step.procedure != "DYNAMIC") refuse_amplitude(action);
     }
-    add(actions, supports, loads);
+    add_acting(actions, supports, loads);
+    add_temperatures(step, loads);
+  }
+
+  // What a step says anew of a place takes the place of what steps before have said of it.
+  void add_acting(std::vector<FileAction> actions, std::vector<std::string>& supports,
+                  std::vector<std::string>& loads) {
+    const std::vector<Acting> before = acting_;
+    for (FileAction& action : actions)
+      if (action.kind == Kind::held && std::any_of(before.begin(), before.end(), [&](const Acting& one) {
+            return one.action.kind == Kind::moved && meet(one.action, action);
+          }))
+        action.kind = Kind::moved;  // back to where it was
+    for (const Acting& one : before)
+      if (!one.action.amplitude.empty())
+        leave(fmt::format("{}: its amplitude goes on into a later step", one.action.where));
+    std::vector<FileAction> held;
+    std::copy_if(actions.begin(), actions.end(), std::back_inserter(held),
+                 [](const FileAction& action) { return action.kind == Kind::held; });
+    add(held, supports, loads);
+    for (const FileAction& action : actions) {
+      if (action.kind == Kind::held) continue;
+      for (const Acting& one : before)
+        if (one.action.kind != action.kind || !meet(one.action, action))
+          continue;
+        else if (points_of(one.action) == points_of(action) && one.action.along == action.along)
+          drop([&](const Acting& other) { return other.name == one.name; }, loads);
+        else
+          leave(fmt::format("{}: it changes a part of what {} says", action.where, one.action.where));
+      const size_t n = loads.size();
+      add({action}, supports, loads);
+      for (size_t i = n; i < loads.size(); ++i) acting_.push_back({action, loads[i]});
+    }
+  }
+
+  template <class Which>
+  void drop(Which which, std::vector<std::string>& loads) {
+    for (const Acting& one : acting_)
+      if (which(one)) std::erase(loads, one.name);
+    std::erase_if(acting_, which);
+  }
+
+  // Nodes, or corners of facets, of the place of an action: none where it is everywhere.
+  std::set<int> points_of(const FileAction& action) const {
+    std::set<int> points;
+    if (!action.is_on_faces()) {
+      const std::vector<int> nodes = nodes_in(action.place);
+      points.insert(nodes.begin(), nodes.end());
+    }
+    for (const ForeignFace& face : model_.surfaces)
+      if (action.is_on_faces() && face.name == known_face(action.place))
+        for (const ForeignFacet& facet : face.facets) points.insert(facet.corners.begin(), facet.corners.end());
+    points.erase(-1);
+    return points;
+  }
+
+  // Faces meet in more than an edge.
+  bool meet(const FileAction& one, const FileAction& other) const {
+    if (one.is_everywhere()) return true;
+    bool has_common = one.is_on_faces();
+    for (size_t d = 0; d < 3; ++d) has_common = has_common || (one.along[d] && other.along[d]);
+    const std::set<int> points = points_of(one);
+    size_t n = 0;
+    for (const int point : points_of(other)) n += points.contains(point);
+    return has_common && n > (one.is_on_faces() ? 2u : 0u);
+  }
+
+  // One value for a part.
+  std::optional<double> temperature_of(const ForeignPart& part, const std::map<int, double>& of_nodes) const {
+    std::optional<double> common;
+    for (const int node : part.file_nodes) {
+      const auto own = of_nodes.find(node);
+      const double value = own == of_nodes.end() ? 0.0 : own->second;
+      if (common && *common != value) return std::nullopt;
+      common = value;
+    }
+    return common;
+  }
+
+  void add_temperatures(const AbaqusStep& step, std::vector<std::string>& loads) {
+    std::map<int, double> temperatures = step.temperatures;  // of other nodes as they were
+    temperatures.insert(analysis_.temperatures.begin(), analysis_.temperatures.end());
+    for (size_t i = 0; i < parts_.size() && !step.temperatures.empty(); ++i) {
+      const ForeignGroup& group = model_.groups[static_cast<size_t>(parts_[i].group)];
+      const auto material = std::find_if(model_.materials.begin(), model_.materials.end(), [&](const auto& one) {
+        return in_capitals(one.name) == in_capitals(group.material);
+      });
+      const std::string who = fmt::format("{}: *TEMPERATURE: ", step.temperatures_where);
+      const auto from = temperature_of(parts_[i], analysis_.temperatures), to = temperature_of(parts_[i], temperatures);
+      if (!from || !to) {
+        leave(who + fmt::format("part '{}' has several temperatures; load.temperature has one", parts_[i].name));
+      } else if (material == model_.materials.end() || !material->expansion) {
+        leave(who + fmt::format("material '{}' has no *EXPANSION that is one number", group.material));
+      } else if (!heated_.empty()) {
+        leave(who + "a second time");
+      } else if (*material->expansion != 0.0) {
+        const std::string name = names_.of("load", "temperature_" + parts_[i].name);
+        put("local {} = load.temperature{{ parts = {{ {} }}, expansion = {}, by = {} }}  -- {}", name, part_names_[i],
+            lua_number(*material->expansion), lua_number(*to - *from), step.temperatures_where);
+        loads.push_back(name);
+      }
+    }
+    if (!step.temperatures.empty()) heated_ = step.where;
   }
 
   void refuse_amplitude(const FileAction& action) {
@@ -134,15 +239,25 @@ class AbaqusDeck : public ImportedDeck {
     action.amplitude.clear();
   }
 
+  // OP = NEW, which is of one kind of loads.
+  void drop_old(const AbaqusStep& step, std::vector<std::string>& supports, std::vector<std::string>& loads) {
+    const auto is_moved = [](const Acting& one) { return one.action.kind == Kind::moved; };
+    const auto is_force = [](const Acting& one) { return one.action.kind == Kind::force; };
+    const auto n_forces = std::count_if(acting_.begin(), acting_.end(), is_force),
+               n_moved = std::count_if(acting_.begin(), acting_.end(), is_moved);
+    if (step.drops_supports) supports.clear(), drop(is_moved, loads);
+    if (!step.drops_loads) return;
+    if (n_forces > 0 && static_cast<size_t>(n_forces + n_moved) < acting_.size())
+      leave(fmt::format("{}: OP = NEW after forces and distributed loads", step.where));
+    drop([&](const Acting& one) { return !is_moved(one); }, loads);
+  }
+
   void write_step(const AbaqusStep& step, std::vector<std::string>& supports, std::vector<std::string>& loads) {
     const bool is_dynamic = step.procedure == "DYNAMIC";
-    if ((step.drops_supports || step.drops_loads) && !loads.empty())
-      leave(fmt::format("{}: OP = NEW after steps with loads", step.where));
     if (step.is_perturbation && step.procedure == "STATIC" && analysis_.steps.size() > 1)
       leave(fmt::format("{}: a static perturbation about the step before", step.where));
-    if (step.drops_supports) supports.clear();
-    if (step.drops_loads) loads.clear();
-    if (!loads.empty() && !step.actions.empty() && step.procedure != "FREQUENCY")
+    drop_old(step, supports, loads);
+    if (step.is_perturbation && !loads.empty() && !step.actions.empty() && step.procedure != "FREQUENCY")
       leave(fmt::format("{}: it changes what earlier steps have loaded or moved", step.where));
     add_in(step, supports, loads);
     if (step.procedure == "FREQUENCY") return note_modes(step, supports, loads);
@@ -194,6 +309,10 @@ class AbaqusDeck : public ImportedDeck {
     if (steps_.empty() && modes_.empty()) leave("the file has no step that a deck can say");
   }
 
+  struct Acting {
+    FileAction action;
+    std::string name;
+  };
   struct Modes {
     std::string rest, asked;
     std::vector<std::string> supports;
@@ -203,6 +322,8 @@ class AbaqusDeck : public ImportedDeck {
   AbaqusAnalysis analysis_;
   std::vector<std::string> steps_, all_supports_;
   std::vector<Modes> modes_;
+  std::vector<Acting> acting_;  // loads of files of the steps so far
+  std::string heated_;          // the step that has temperatures
   bool has_contact_ = false;
 };
 

@@ -55,6 +55,9 @@ void read_behaviour(const CardFile& file, const FileCard& card, ForeignMaterial&
   const LineFields fields(file, {"", card.file, card.line});
   if (card.keyword == "ELASTIC") read_elasticity(file, card, material);
   if (card.keyword == "DENSITY") material.density = numbers_of(file, card, 1, material)[0];
+  if (card.keyword == "EXPANSION" && card.data.size() == 1 &&
+      (!card.has("TYPE") || in_capitals(card.option("TYPE")) == "ISO"))
+    material.expansion = numbers_of(file, card, 1, material)[0];
   if (card.keyword == "DAMPING") {
     if (card.has("ALPHA")) material.mass_damping = fields.real_of(card.option("ALPHA"), "ALPHA");
     if (card.has("BETA")) material.stiffness_damping = fields.real_of(card.option("BETA"), "BETA");

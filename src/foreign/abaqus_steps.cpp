@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "base/error.hpp"
@@ -77,6 +78,7 @@ const std::map<std::string, std::set<std::string>> options_of = {
     {"CLOAD", {"OP", "AMPLITUDE"}},
     {"DLOAD", {"OP", "AMPLITUDE"}},
     {"DSLOAD", {"OP", "AMPLITUDE"}},
+    {"TEMPERATURE", {}},
     {"AMPLITUDE", {"NAME", "TIME", "VALUE", "DEFINITION"}},
     {"STATIC", {"DIRECT", "SOLVER"}},
     {"DYNAMIC", {"DIRECT", "SOLVER", "EXPLICIT", "ALPHA"}},
@@ -121,7 +123,9 @@ class AnalysisReader {
     if (word == "AMPLITUDE") return read_amplitude(card);
     if (word == "TIE" || word == "CONTACTPAIR") return read_joint(card);
     if (word == "STATIC" || word == "DYNAMIC" || word == "FREQUENCY") return read_procedure(card);
-    if (word == "INITIALCONDITIONS" && in_capitals(card.option("TYPE")) == "TEMPERATURE") return;  // no load by itself
+    if (word == "INITIALCONDITIONS" && in_capitals(card.option("TYPE")) == "TEMPERATURE")
+      return read_temperatures(placed, analysis_.temperatures);
+    if (word == "TEMPERATURE") return read_step_temperatures(placed);
     if (word == "TRANSFORM") return note_transform(placed);
     if (!silent.contains(word)) leave(card, "a deck has no word for it");
   }
@@ -292,8 +296,8 @@ class AnalysisReader {
       fields.next(label);
       const double by = fields.real("a load");
       const std::string kind = in_capitals(label);
-      if (kind == "GRAV") {
-        add_gravity(placed, fields, what, by, line);
+      if (kind == "GRAV" || kind == "CENTRIF") {
+        add_on_all(placed, fields, what, by, kind, line);
         continue;
       }
       const bool is_surface = card.keyword == "DSLOAD";
@@ -319,18 +323,45 @@ class AnalysisReader {
     for (auto& [value, facets] : by_value) model_.model().surfaces.push_back(std::move(facets));
   }
 
-  void add_gravity(const PlacedCard& placed, LineFields& fields, std::string_view what, double by,
-                   const DataLine& line) {
+  void add_on_all(const PlacedCard& placed, LineFields& fields, std::string_view what, double by,
+                  const std::string& kind, const DataLine& line) {
+    const bool is_spin = kind == "CENTRIF";
     if (model_.cells_of(*placed.scope, fields, what).size() != model_.model().cells.size())
-      fields.fail("*DLOAD: GRAV on some of the cells: load.gravity acts on all");
-    Vec3 along{fields.real("a direction"), fields.real("a direction"), fields.real("a direction")};
-    actions().push_back({FileAction::Kind::gravity,
-                         "",
-                         by * along.normalized(),
-                         {},
-                         placed.card->option("AMPLITUDE"),
-                         file_.where(line.file, line.line),
-                         0});
+      fields.fail(
+          fmt::format("*DLOAD: {} on some of the cells: load.{} acts on all", kind, is_spin ? "spin" : "gravity"));
+    const auto vector = [&](const char* of) { return Vec3{fields.real(of), fields.real(of), fields.real(of)}; };
+    FileAction action{is_spin ? FileAction::Kind::spin : FileAction::Kind::gravity,
+                      "",
+                      Vec3::Zero(),
+                      {},
+                      placed.card->option("AMPLITUDE"),
+                      file_.where(line.file, line.line),
+                      0};
+    if (is_spin) {
+      if (by < 0.0) fields.fail("*DLOAD: CENTRIF: the square of a speed is expected");
+      if (!action.amplitude.empty()) fields.fail("*DLOAD: CENTRIF with an amplitude has no word in a deck");
+      action.speed = std::sqrt(by);
+      action.through = vector("a coordinate");
+    }
+    action.value = (is_spin ? 1.0 : by) * vector("a direction").normalized();
+    actions().push_back(action);
+  }
+
+  void read_temperatures(const PlacedCard& placed, std::map<int, double>& temperatures) {
+    for (const DataLine& line : placed.card->data) {
+      LineFields fields(file_, line);
+      std::string_view what;
+      fields.next(what);
+      const double by = fields.real("a temperature");
+      for (const int node : model_.nodes_of(*placed.scope, LineFields(file_, line), what)) temperatures[node] = by;
+    }
+  }
+
+  void read_step_temperatures(const PlacedCard& placed) {
+    if (analysis_.steps.empty()) file_.fail(*placed.card, "it stands before the first *STEP");
+    AbaqusStep& step = analysis_.steps.back();
+    step.temperatures_where = file_.where(*placed.card);
+    read_temperatures(placed, step.temperatures);
   }
 
   void read_amplitude(const FileCard& card) {

@@ -16,6 +16,8 @@ struct AbaqusStep {
   bool is_perturbation = false, is_explicit = false;
   bool drops_supports = false, drops_loads = false;  // OP = NEW
   std::vector<FileAction> actions;
+  std::map<int, double> temperatures;  // of nodes of the model, K
+  std::string temperatures_where;
 };
 
 struct AbaqusJoint {
@@ -28,6 +30,7 @@ struct AbaqusJoint {
 struct AbaqusAnalysis {
   std::vector<FileAction> before;  // the first step
   std::vector<AbaqusStep> steps;
+  std::map<int, double> temperatures;  // of nodes of the model, K, without stress
   std::vector<AbaqusJoint> joints;
   std::map<std::string, std::vector<double>> amplitudes;  // times and values in turns, by names in capitals
   std::vector<std::string> remarks;                       // what is said otherwise

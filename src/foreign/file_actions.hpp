@@ -9,16 +9,19 @@
 namespace dygita {
 
 struct FileAction {
-  enum class Kind { held, moved, force, pressure, traction, gravity };
+  enum class Kind { held, moved, force, pressure, traction, gravity, spin };
   Kind kind;
   std::string place;  // a set of nodes or a face of the model; empty: everywhere
-  Vec3 value;         // of gravity, a traction, a force on each node, a motion; [0] of a pressure
+  Vec3 value;         // of gravity, a traction, a force on each node, a motion; [0] of a pressure; the axis of a spin
   std::array<bool, 3> along = {};
-  std::string amplitude;  // its name; empty: none
-  std::string where;      // "plate.inp:45"
-  int n_nodes = 0;        // of the place
+  std::string amplitude;        // its name; empty: none
+  std::string where;            // "plate.inp:45"
+  int n_nodes = 0;              // of the place
+  double speed = 0.0;           // rad in the unit of time, of a spin
+  Vec3 through = Vec3::Zero();  // the same, a point of its axis
 
   bool is_on_faces() const { return kind == Kind::pressure || kind == Kind::traction; }
+  bool is_everywhere() const { return kind == Kind::gravity || kind == Kind::spin; }
 };
 
 }  // namespace dygita

@@ -51,6 +51,7 @@ struct ForeignMaterial {
   std::map<std::string, double> moduli;  // stresses, by the names of that word
   std::map<std::string, double> ratios;
   std::optional<double> density;
+  std::optional<double> expansion;  // 1/K, where it is one number
   double mass_damping = 0.0, stiffness_damping = 0.0;
   std::string doubt;  // why it is not the material of the file: "depends on temperature (plate.inp:12)"
 };

@@ -149,13 +149,15 @@ void ImportedDeck::add(const std::vector<FileAction>& actions, std::vector<std::
     const bool is_held = action.kind == Kind::held, is_on_faces = action.is_on_faces();
     const std::string place = is_on_faces ? known_face(action.place) : action.place;
     const auto on = places(place, is_on_faces);
-    if (on.empty() && action.kind != Kind::gravity) {
+    if (on.empty() && !action.is_everywhere()) {
       leave(fmt::format("{}: '{}' is on no part", action.where, action.place));
       continue;
     }
     if (action.kind == Kind::force && n_nodes_of(place) != action.n_nodes)
       leave(fmt::format("{}: some nodes of '{}' are of no part, or of several", action.where, action.place));
-    const std::string name = names_.of(is_held ? "support" : "load", action.place.empty() ? "gravity" : action.place);
+    const std::string name = names_.of(is_held ? "support" : "load", !action.place.empty()       ? action.place
+                                                                     : action.kind == Kind::spin ? "spin"
+                                                                                                 : "gravity");
     put("local {} = {}  -- {}", name, text_of(action, comma_list(on), name), action.where);
     (is_held ? supports : loads).push_back(name);
     if (is_held) held_[name] = {nodes_in(place), action.along};
@@ -208,6 +210,14 @@ int ImportedDeck::n_nodes_of(const std::string& place) const {
   return n;
 }
 
+std::string ImportedDeck::spin_of(const FileAction& action) {
+  const Vec3 &axis = action.value, &x = action.through;
+  return fmt::format(
+      "load.spin{{ speed = {}/time, axis = {{ {}, {}, {} }}, through = {{ {}*length, {}*length, {}*length }} }}",
+      lua_number(action.speed), lua_number(axis[0]), lua_number(axis[1]), lua_number(axis[2]), lua_number(x[0]),
+      lua_number(x[1]), lua_number(x[2]));
+}
+
 std::string ImportedDeck::text_of(const FileAction& action, const std::string& on, const std::string& name) {
   std::string by;
   for (int d = 0; d < 3; ++d) {
@@ -226,6 +236,7 @@ std::string ImportedDeck::text_of(const FileAction& action, const std::string& o
   }
   const std::string on_list = fmt::format("on = {{ {} }}", on);
   if (action.kind == Kind::gravity) return fmt::format("load.gravity{{{} }}", by);
+  if (action.kind == Kind::spin) return spin_of(action);
   if (action.kind == Kind::pressure)
     return fmt::format("load.pressure{{ {}, history = {} }}", on_list, value_of(action.value[0], "pressure", action));
   if (action.kind == Kind::moved) return fmt::format("load.displacement{{ {}{} }}", on_list, by);

@@ -55,6 +55,7 @@ class ImportedDeck {
   // "part_a:face "TOP"" of each part that has it; of "I1.TOP" those of the instance I1.
   std::vector<std::string> places(const std::string& given, bool is_face) const;
   std::string known_face(const std::string& name) const;
+  std::vector<int> nodes_in(const std::string& place) const;  // of a set
 
   const ImportOptions& options_;
   ForeignModel& model_;
@@ -69,8 +70,8 @@ class ImportedDeck {
   std::pair<size_t, int> shared(const ForeignPart& one, const ForeignPart& other) const;
   // A place has one support: directions in which several lines hold it come together, with those held before.
   std::vector<FileAction> merged(const std::vector<FileAction>& actions, std::vector<std::string>& supports);
-  std::vector<int> nodes_in(const std::string& place) const;
   int n_nodes_of(const std::string& place) const;
+  static std::string spin_of(const FileAction& action);
   std::string text_of(const FileAction& action, const std::string& on, const std::string& name);
 
   FileUnits units_;

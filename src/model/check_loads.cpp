@@ -139,6 +139,7 @@ class ForcesOnNodes {
   void add(const Problem& problem, const Step& step, const Load& load, const std::vector<Effect>& effects) {
     for (const Effect& effect : effects) {
       const auto* forces = std::get_if<NodalForces>(&effect);
+      if (forces) target_exists(problem, load.origin, "step '" + step.name + "' loads", target_of(forces->on), {});
       if (!forces || taken_.emplace(forces->name, &part_of(forces->on), nodes_at(forces->on)).second) continue;
       fail(problem, load.origin,
            "step '" + step.name + "': two " + load.path + " on " + describe(target_of(forces->on)), in_one);

@@ -6,6 +6,7 @@
 #include "fem/assembly.hpp"
 #include "fem/stress_error.hpp"
 #include "law/law.hpp"
+#include "watch/growth.hpp"
 
 namespace dygita {
 
@@ -75,14 +76,15 @@ void fill_part(const Mesh& mesh, const NodalMotion& motion, const std::vector<Fr
     return std::any_of(frame.fields.begin(), frame.fields.end(), [&](const NamedField& f) { return f.name == name; });
   };
   frame.displacement = motion.displacement;
+  const Points strained = without_growth(motion.displacement, motion.growth, mesh.nodes);
   Tensors stress;
-  if (wants("stress") || wants("von_mises")) stress = nodal_stress(mesh, material, motion.displacement);
+  if (wants("stress") || wants("von_mises")) stress = nodal_stress(mesh, material, strained);
   for (auto& [name, values] : frame.fields) {
     if (name == "displacement") values = motion.displacement;
     if (name == "velocity") values = motion.velocity;
     if (name == "acceleration") values = motion.acceleration;
     if (name == "stress") values = stress;
-    if (name == "stress_error") values = stress_error(mesh, material, motion.displacement, free).at_nodes.transpose();
+    if (name == "stress_error") values = stress_error(mesh, material, strained, free).at_nodes.transpose();
     if (name == "von_mises") values = von_mises(stress).transpose();
   }
 }

@@ -14,6 +14,7 @@ Frame make_frame(const Instant& instant, const std::vector<std::string>& fields,
 // Motion of the nodes of a mesh, 3 x n_nodes each, m, m/s, m/s^2; empty where it is not wanted.
 struct NodalMotion {
   Points displacement, velocity, acceleration;
+  double growth = 0.0;  // strain that does not stress it
 };
 // The fields that a substructure's frame names at all nodes of its mesh, or of a part of it. free: cells of that at
 // whose facets nothing acts.

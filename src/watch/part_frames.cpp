@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "watch/free_facets.hpp"
+#include "watch/growth.hpp"
 
 namespace dygita {
 
@@ -25,7 +26,10 @@ void PartFrames::fill(const Instant& instant) {
   take("displacement", NodalField::displacement, &NodalMotion::displacement);
   take("velocity", NodalField::velocity, &NodalMotion::velocity);
   take("acceleration", NodalField::acceleration, &NodalMotion::acceleration);
-  for (size_t i = 0; i < motion.size(); ++i) fill_part_here(static_cast<int>(i), motion[i]);
+  for (size_t i = 0; i < motion.size(); ++i) {
+    motion[i].growth = growth_at(instant, static_cast<int>(i));
+    fill_part_here(static_cast<int>(i), motion[i]);
+  }
   const Frame whole = std::move(*begun_);
   begun_.reset();
   sink_(whole);

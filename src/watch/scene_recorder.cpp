@@ -4,6 +4,7 @@
 
 #include "base/parallel.hpp"
 #include "fem/assembly.hpp"
+#include "watch/growth.hpp"
 #include "watch/joint_scene_recorder.hpp"
 
 namespace dygita {
@@ -33,17 +34,25 @@ void SceneRecorder::keep_assembly(const Instant& instant, AssemblyScene& scene) 
   scene.time = instant.time();
   scene.displacement.resize(problem_.substructures.size());
   views_.take(instant);
-  for (size_t i = 0; i < scene.displacement.size(); ++i) scene.displacement[i] = views_.field(static_cast<int>(i));
+  std::vector<double>& growth = growth_[&scene];
+  growth.clear();
+  for (size_t i = 0; i < scene.displacement.size(); ++i) {
+    scene.displacement[i] = views_.field(static_cast<int>(i));
+    growth.push_back(growth_at(instant, static_cast<int>(i)));
+  }
 }
 
 void SceneRecorder::gather(AssemblyScene& scene) const {
   scene.von_mises.resize(scene.displacement.size());
+  const std::vector<double>& growth = growth_.at(&scene);
   parallel_for(static_cast<int>(scene.displacement.size()), [&](int i) {
     const PartView& view = views_.of(i);
     const Elastic& material = problem_.substructures[static_cast<size_t>(i)]->material;
     if (!view.is_empty())
       scene.von_mises[static_cast<size_t>(i)] =
-          von_mises(nodal_stress(view.mesh(), material, scene.displacement[static_cast<size_t>(i)]));
+          von_mises(nodal_stress(view.mesh(), material,
+                                 without_growth(scene.displacement[static_cast<size_t>(i)],
+                                                growth[static_cast<size_t>(i)], view.mesh().nodes)));
   });
   for (size_t i = 0; i < scene.displacement.size(); ++i)
     gather_part(static_cast<int>(i), scene.displacement[i], scene.von_mises[i]);
@@ -77,7 +86,7 @@ void SceneRecorder::finish(std::vector<JointScenes> joints, RunResult& result) {
   auto scenes = std::make_shared<Scenes>();
   for (AssemblyScene* scene : {&tightened_, &shocked_}) {
     if (scene->displacement.empty()) continue;
-    motion_.add(*scene);
+    motion_.add(*scene, growth_.at(scene));
     gather(*scene);
     scenes->assembly.push_back(std::move(*scene));
   }

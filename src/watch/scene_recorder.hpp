@@ -2,6 +2,7 @@
 // times per run at most.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "result/result.hpp"
@@ -30,8 +31,9 @@ class SceneRecorder : public Observer {
   PartViews& views_;
   SkinRecorder motion_;
   AssemblyScene tightened_, shocked_;  // of the views (part_views.hpp); without displacements: not met yet
-  double strain_energy_ = -1.0;        // J, of shocked_
-  int missed_ = 0;                     // increments so far that have not converged
+  std::map<const AssemblyScene*, std::vector<double>> growth_;  // of each part, strain that does not stress it
+  double strain_energy_ = -1.0;                                 // J, of shocked_
+  int missed_ = 0;                                              // increments so far that have not converged
 };
 
 }  // namespace dygita

@@ -5,6 +5,7 @@
 
 #include "base/parallel.hpp"
 #include "fem/assembly.hpp"
+#include "watch/growth.hpp"
 
 namespace dygita {
 
@@ -97,10 +98,11 @@ SkinRecorder::Layer SkinRecorder::layer_of(const PartView& view, const std::vect
 }
 
 // displacement: of the layer's nodes.
-SkinRecorder::PartFrame SkinRecorder::drawn(int part, const Points& displacement) const {
+SkinRecorder::PartFrame SkinRecorder::drawn(int part, const Points& displacement, double growth) const {
   const Layer& layer = layers_[static_cast<size_t>(part)];
   const Elastic& material = problem_.substructures[static_cast<size_t>(part)]->material;
-  const Vec stress = von_mises(nodal_stress(*layer.mesh, material, displacement));
+  const Vec stress =
+      von_mises(nodal_stress(*layer.mesh, material, without_growth(displacement, growth, layer.mesh->nodes)));
   PartFrame frame;
   for (const int node : layer.boundary) {
     for (int d = 0; d < 3; ++d) frame.displacement.push_back(static_cast<float>(displacement(d, node)));
@@ -120,11 +122,11 @@ void SkinRecorder::accept(const Instant& instant) {
   std::vector<PartFrame>& frame = drawn_.emplace_back(layers_.size());
   parallel_for(static_cast<int>(frame.size()), [&](int part) {
     if (layers_[static_cast<size_t>(part)].mesh)
-      frame[static_cast<size_t>(part)] = drawn(part, nodes_.displacement(part));
+      frame[static_cast<size_t>(part)] = drawn(part, nodes_.displacement(part), growth_at(instant, part));
   });
 }
 
-void SkinRecorder::add(const AssemblyScene& scene) {
+void SkinRecorder::add(const AssemblyScene& scene, const std::vector<double>& growth) {
   SkinFrame frame{scene.step, 0, scene.is_static, scene.time, {}, {}, scene.missed};
   for (size_t i = 0; i < problem_.steps.size(); ++i)
     if (problem_.steps[i]->name == scene.step) frame.i_step = static_cast<int>(i);
@@ -140,7 +142,7 @@ void SkinRecorder::add(const AssemblyScene& scene) {
   std::vector<PartFrame> parts(layers_.size());
   parallel_for(static_cast<int>(parts.size()), [&](int part) {
     const auto i = static_cast<size_t>(part);
-    if (layers_[i].mesh) parts[i] = drawn(part, scene.displacement[i](Eigen::all, layers_[i].in_view));
+    if (layers_[i].mesh) parts[i] = drawn(part, scene.displacement[i](Eigen::all, layers_[i].in_view), growth[i]);
   });
   drawn_.insert(drawn_.begin() + (at - motion_.frames.begin()), std::move(parts));
   motion_.frames.insert(at, std::move(frame));

@@ -17,7 +17,7 @@ class SkinRecorder {
   // All of these are collective: each rank draws the boundary nodes that its pieces own.
   void accept(const Instant& instant);
   // Fields that others kept of the views (part_views.hpp) join in, each at its instant unless there is a frame already.
-  void add(const AssemblyScene& scene);
+  void add(const AssemblyScene& scene, const std::vector<double>& growth);
   // On rank 0 the frames of all parts.
   SkinMotion take();
 
@@ -34,7 +34,7 @@ class SkinRecorder {
   };
   void prepare(const Instant& instant);
   static Layer layer_of(const PartView& view, const std::vector<int>& boundary);
-  PartFrame drawn(int part, const Points& displacement) const;
+  PartFrame drawn(int part, const Points& displacement, double growth) const;
   void append(int part, const PartFrame& own, SkinFrame& frame) const;
 
   const Problem& problem_;

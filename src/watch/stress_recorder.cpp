@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "fem/assembly.hpp"
+#include "watch/growth.hpp"
 
 namespace dygita {
 
@@ -150,7 +151,9 @@ void StressRecorder::meet(const Instant& instant, double stress, int node, Watch
 void StressRecorder::look_at_all(const Instant& instant, Watched& watched) {
   const PartView& view = view_of(watched);
   const Elastic& material = problem_.substructures[watched.peak.part]->material;
-  const Vec stress = von_mises(nodal_stress(view.mesh(), material, views_.field(watched.peak.part)));
+  const Points strained =
+      without_growth(views_.field(watched.peak.part), growth_at(instant, watched.peak.part), view.mesh().nodes);
+  const Vec stress = von_mises(nodal_stress(view.mesh(), material, strained));
   for (std::vector<double>& above : watched.above) above.push_back(0.0);
   for (int i = 0; i < static_cast<int>(stress.size()); ++i) {
     const int owner = view.owner(i);
@@ -163,7 +166,9 @@ void StressRecorder::look_at_all(const Instant& instant, Watched& watched) {
 
 void StressRecorder::look_at_hot(const Instant& instant, Watched& watched) {
   const Elastic& material = problem_.substructures[watched.peak.part]->material;
-  const Vec stress = von_mises(nodal_stress(watched.around, material, hot_.displacement(watched.peak.part)));
+  const Points strained =
+      without_growth(hot_.displacement(watched.peak.part), growth_at(instant, watched.peak.part), watched.around.nodes);
+  const Vec stress = von_mises(nodal_stress(watched.around, material, strained));
   for (const int i : watched.hot) meet(instant, stress[i], watched.node[i], watched);
 }
 

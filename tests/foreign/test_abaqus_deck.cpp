@@ -118,9 +118,47 @@ TEST(AbaqusDeck, leaves_perturbations_about_other_steps_to_its_reader) {
   const std::string step = "*STATIC\n*CLOAD\n7, 1, 1.\n*END STEP\n";
   expect_in(imported("*BOUNDARY\nX0, 1, 3\n*STEP\n" + step + "*STEP, PERTURBATION\n" + step),
             "a static perturbation about");
-  expect_in(imported("*BOUNDARY\nX0, 1, 3\n*STEP\n" + step + "*STEP\n" + step),
-            "it changes what earlier steps have loaded");
+  expect_in(
+      imported("*BOUNDARY\nX0, 1, 3\n*STEP\n*FREQUENCY\n3\n*END STEP\n*STEP\n" + step + "*STEP, PERTURBATION\n" + step),
+      "it changes what earlier steps have loaded");
   EXPECT_EQ(imported("*BOUNDARY\nX0, 1, 3\n*STEP, PERTURBATION\n" + step).find("NOT TRANSLATED"), std::string::npos);
+}
+
+TEST(AbaqusDeck, carries_loads_on_into_later_steps_until_they_are_said_anew) {
+  const auto deck_of = [](const std::string& later) {
+    return imported(
+        "*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n*CLOAD\n7, 1, 1.\n7, 2, 2.\n*DSLOAD\nTOP, P, 3.\n*END "
+        "STEP\n*STEP\n*STATIC\n" +
+        later + "*END STEP\n");
+  };
+  const auto loads_of = [](const std::string& deck) {
+    const size_t at = deck.find("after = step_1, loads = ");
+    return at == std::string::npos ? "" : deck.substr(at, deck.find('}', at) - at);
+  };
+  const std::string deck = deck_of("*CLOAD\n7, 2, 5.\n");
+  expect_in(deck, "y = 5*force }");
+  const std::string loads = loads_of(deck);
+  EXPECT_EQ(std::count(loads.begin(), loads.end(), ','), 3) << loads;  // 1 of the first, 5 in the place of 2, TOP
+  EXPECT_EQ(deck.find("NOT TRANSLATED"), std::string::npos) << deck;
+  expect_in(deck_of("*CLOAD\nX0, 2, 5.\nALL, 2, 1.\n"), "it changes a part of what ");
+  expect_in(deck_of("*CLOAD, OP=NEW\n7, 2, 5.\n"), "OP = NEW after forces and distributed loads");
+}
+
+TEST(AbaqusDeck, has_temperatures_of_parts_and_turning_ones) {
+  const std::string hot = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 293.\n*BOUNDARY\nX0, 1, 3\n*STEP\n*STATIC\n";
+  const auto deck_of = [&](const std::string& expansion, const std::string& load) {
+    const WrittenFile written(
+        AbaqusBlock(abaqus_shapes()[0], 2).text() + steel + expansion + hot + load + "*END STEP\n", "block.inp");
+    return deck_of_abaqus({written.path(), "mm t s", {}});
+  };
+  expect_in(deck_of("*EXPANSION\n1.2E-5\n", "*TEMPERATURE\nALL, 393.\n"),
+            "load.temperature{ parts = { part_e }, expansion = 1.2e-05, by = 100 }");
+  expect_in(deck_of("", "*TEMPERATURE\nALL, 393.\n"), "has no *EXPANSION that is one number");
+  expect_in(deck_of("*EXPANSION\n1.2E-5, 0.\n1.3E-5, 100.\n", "*TEMPERATURE\nALL, 393.\n"),
+            "has no *EXPANSION that is one number");
+  expect_in(deck_of("*EXPANSION\n1.2E-5\n", "*TEMPERATURE\nX0, 393.\n"), "has several temperatures");
+  expect_in(deck_of("", "*DLOAD\nE, CENTRIF, 9., 1., 2., 3., 0., 0., 5.\n"),
+            "load.spin{ speed = 3/time, axis = { 0, 0, 1 }, through = { 1*length, 2*length, 3*length } }");
 }
 
 TEST(AbaqusDeck, takes_the_end_of_an_amplitude_in_a_static_step) {

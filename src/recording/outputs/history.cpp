@@ -6,6 +6,7 @@
 #include "model/load.hpp"
 #include "recording/output_table.hpp"
 #include "recording/recorder.hpp"
+#include "watch/growth.hpp"
 #include "watch/surface_sums.hpp"
 #include "watch/weighted_nodes.hpp"
 
@@ -91,7 +92,9 @@ class HistoryRecorder : public TableRecorder {
     double mises = 0.0;
     for (const WeightedNodes& group : groups_) {
       const Substructure& part = *problem_.substructures[group.part];
-      const Tensors stress = nodal_stress(*part.mesh, part.material, instant.displacement(group.part));
+      const Points strained =
+          without_growth(instant.displacement(group.part), growth_at(instant, group.part), part.mesh->nodes);
+      const Tensors stress = nodal_stress(*part.mesh, part.material, strained);
       const Vec equivalent = is_von_mises ? von_mises(stress) : Vec();
       for (size_t i = 0; i < group.nodes.size(); ++i) {
         mean += group.weights[i] * stress.col(group.nodes[i]);
