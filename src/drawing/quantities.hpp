@@ -8,11 +8,11 @@
 namespace dygita {
 
 // A text, or a value (SI) with its unit. An empty text where a value is not known.
-class Cell {
+class TableCell {
  public:
-  Cell(std::string text) : text_(std::move(text)) {}
-  Cell(const char* text) : text_(text) {}
-  Cell(double value, std::string si_unit, int digits = 3)
+  TableCell(std::string text) : text_(std::move(text)) {}
+  TableCell(const char* text) : text_(text) {}
+  TableCell(double value, std::string si_unit, int digits = 3)
       : unit_(std::move(si_unit)), value_(value), digits_(digits), is_value_(true) {}
 
   bool is_value() const { return is_value_; }
@@ -28,7 +28,7 @@ class Cell {
   bool is_value_ = false;
 };
 
-using Cells = std::vector<std::vector<Cell>>;
+using Cells = std::vector<std::vector<TableCell>>;
 
 // Rows as texts: values of one unit are written in that of the largest of them, in their column or, for forces, in the
 // table. What is not finite is left empty.

@@ -84,12 +84,12 @@ std::string history_table(const Json& bolts, const Json& steps) {
   Cells rows;
   for (const Json& step : steps) {
     if (text(step, "kind") != "static") continue;
-    std::vector<Cell> row = {text(step, "name")};
+    std::vector<TableCell> row = {text(step, "name")};
     for (const Json& bolt : bolts) {
       const Json after = bolt.value("after_static", Json::array());
       row.push_back(rows.size() < after.size() && after[rows.size()].is_number()
-                        ? Cell(after[rows.size()].get<double>(), "N", 4)
-                        : Cell(""));
+                        ? TableCell(after[rows.size()].get<double>(), "N", 4)
+                        : TableCell(""));
     }
     rows.push_back(std::move(row));
   }

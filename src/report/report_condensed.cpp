@@ -42,8 +42,8 @@ std::string loop_part(const RunFolder& run, const Json& output) {
   Cells rows;
   for (int i = 0; i < cycles.n_rows(); ++i) {
     const auto at = [&](const char* column) { return cycles.column(column)[static_cast<size_t>(i)]; };
-    rows.push_back({std::to_string(i + 1), Cell(at("force_amplitude"), "N"), Cell(at("amplitude"), "m"),
-                    plain_number(at("secant")) + " N/m", Cell(at("loss"), "J"), plain_number(at("loss_factor")),
+    rows.push_back({std::to_string(i + 1), TableCell(at("force_amplitude"), "N"), TableCell(at("amplitude"), "m"),
+                    plain_number(at("secant")) + " N/m", TableCell(at("loss"), "J"), plain_number(at("loss_factor")),
                     std::isfinite(at("exponent")) ? plain_number(at("exponent")) : ""});
   }
   if (rows.empty()) return body + html::paragraph("No cycle was closed.");

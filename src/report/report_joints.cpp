@@ -195,20 +195,20 @@ std::string joint_part(const RunFolder& run, const Json& output, const Table& t,
   return body;
 }
 
-std::vector<Cell> row_of(const Contact& c) {
-  const auto share = [](double of_one) { return Cell(std::isfinite(of_one) ? 100.0 * of_one : of_one, "%", 2); };
+std::vector<TableCell> row_of(const Contact& c) {
+  const auto share = [](double of_one) { return TableCell(std::isfinite(of_one) ? 100.0 * of_one : of_one, "%", 2); };
   return {c.name + (c.slides() && c.parts() ? " (slides, parts)"
                     : c.slides()            ? " (slides)"
                     : c.parts()             ? " (parts)"
                                             : ""),
-          Cell(c.at_rest, "N"),
-          Cell(c.lowest, "N"),
-          Cell(c.highest, "N"),
-          Cell(c.shear, "N"),
+          TableCell(c.at_rest, "N"),
+          TableCell(c.lowest, "N"),
+          TableCell(c.highest, "N"),
+          TableCell(c.shear, "N"),
           share(c.closed),
-          Cell(c.opening, "m", 2),
+          TableCell(c.opening, "m", 2),
           share(c.sliding),
-          Cell(c.slip, "m", 2),
+          TableCell(c.slip, "m", 2),
           share(c.friction_used)};
 }
 

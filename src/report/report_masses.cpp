@@ -67,7 +67,7 @@ std::string table_of_parts(const Json& parts, const Box& whole) {
   Cells rows;
   for (const PartGroup& group : part_groups(parts)) {
     const Json& part = parts[group.first];
-    std::vector<Cell> row = {group.n > 1 ? group.name + ", each" : group.name, text(part, "material")};
+    std::vector<TableCell> row = {group.n > 1 ? group.name + ", each" : group.name, text(part, "material")};
     if (has_body) {
       Box box;
       add(part, box);
@@ -85,7 +85,8 @@ std::string table_of_parts(const Json& parts, const Box& whole) {
 }
 
 // "138 / 9 / 9 GPa" of a material with directions, "0.3 / 0.3 / 0.45"; the one number of others.
-Cell of_axes(const Json& part, const char* same, std::initializer_list<const char*> along, const std::string& si_unit) {
+TableCell of_axes(const Json& part, const char* same, std::initializer_list<const char*> along,
+                  const std::string& si_unit) {
   if (!part.contains(*along.begin())) return {number(part, same), si_unit};
   double largest = 0.0;
   for (const char* key : along) largest = std::max(largest, std::abs(number(part, key)));
@@ -111,10 +112,11 @@ std::string table_of_materials(const Json& parts) {
     double mass = 0.0;
     for (const Json& other : parts)
       if (text(other, "material") == text(part, "material")) mass += number(other, "mass");
-    rows.push_back({text(part, "material"), of_axes(part, "young", {"e1", "e2", "e3"}, "Pa"),
-                    of_axes(part, "poisson", {"nu12", "nu13", "nu23"}, ""), Cell(number(part, "density"), "kg/m^3", 4),
-                    std::isfinite(number(part, "yield")) ? Cell(number(part, "yield"), "Pa") : Cell("none given"),
-                    Cell(mass, "kg", 4)});
+    rows.push_back(
+        {text(part, "material"), of_axes(part, "young", {"e1", "e2", "e3"}, "Pa"),
+         of_axes(part, "poisson", {"nu12", "nu13", "nu23"}, ""), TableCell(number(part, "density"), "kg/m^3", 4),
+         std::isfinite(number(part, "yield")) ? TableCell(number(part, "yield"), "Pa") : TableCell("none given"),
+         TableCell(mass, "kg", 4)});
     if (has_axes) rows.back().insert(rows.back().begin() + 3, of_axes(part, "", {"g12", "g13", "g23"}, "Pa"));
   }
   std::vector<std::string> header = {"material", "Young's modulus", "Poisson's ratio",

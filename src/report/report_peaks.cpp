@@ -129,9 +129,9 @@ std::string table_of_joints(const RunFolder& run) {
     double dissipated = 0.0;
     for (const char* work : {"friction_work", "plastic_work", "damping_work"})
       if (const double value = last_of(t, work); std::isfinite(value)) dissipated += value;
-    rows.push_back({text(output, "name"), Cell(-low, "N"), Cell(high, "N"), Cell(largest("shear"), "N"),
-                    Cell(largest("opening"), "m"), Cell(largest("plastic_opening"), "m"), Cell(largest("slip"), "m"),
-                    Cell(dissipated, "J")});
+    rows.push_back({text(output, "name"), TableCell(-low, "N"), TableCell(high, "N"), TableCell(largest("shear"), "N"),
+                    TableCell(largest("opening"), "m"), TableCell(largest("plastic_opening"), "m"),
+                    TableCell(largest("slip"), "m"), TableCell(dissipated, "J")});
   }
   if (rows.empty()) return "";
   return html::table(
@@ -167,9 +167,9 @@ std::string margins_section(const RunFolder& run) {
     for (const Json& x : place)
       where += (where.empty() ? "" : ", ") + plain_number(1e3 * without_round_off(x.get<double>()));
     const bool moves = number(stress, "time") > 0.0;
-    rows.push_back({text(part, "name"), text(part, "material"), Cell(number(part, "yield"), "Pa"),
-                    Cell(number(stress, "von_mises"), "Pa"), Cell(100.0 * number(stress, "margin"), "%"),
-                    Cell(100.0 * number(stress, "volume_above_yield"), "%", 2),
+    rows.push_back({text(part, "name"), text(part, "material"), TableCell(number(part, "yield"), "Pa"),
+                    TableCell(number(stress, "von_mises"), "Pa"), TableCell(100.0 * number(stress, "margin"), "%"),
+                    TableCell(100.0 * number(stress, "volume_above_yield"), "%", 2),
                     text(stress, "step") + (moves ? ", " + with_unit(number(stress, "time"), "s") : ""),
                     "(" + where + ")"});
   }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -46,6 +47,34 @@ TEST(Floors, are_kept_by_every_include_of_the_sources) {
       ADD_FAILURE() << source.path << ": " << violation;
     }
   }
+}
+
+// Two types of one name in one namespace are one to the linker: which of their functions runs is then chance.
+TEST(Headers, do_not_name_two_types_alike) {
+  const std::regex opens("^namespace ([\\w:]+) \\{"), closes("^\\}  // namespace"),
+      names("^(?:class|struct|enum class|enum) (\\w+)(?: final)?(?: :[^:;][^;]*)? \\{");
+  std::map<std::string, std::string> first;
+  for (const Source& source : sources()) {
+    // The mesher is a program of its own.
+    if (source.module == "mesher" || fs::path(source.path).extension() != ".hpp") continue;
+    std::vector<std::string> inside;
+    std::istringstream lines(source.text);
+    for (std::string line; std::getline(lines, line);) {
+      std::smatch match;
+      if (std::regex_search(line, match, opens)) {
+        inside.push_back(match[1].str() + "::");
+      } else if (std::regex_search(line, closes) && !inside.empty()) {
+        inside.pop_back();
+      } else if (std::regex_search(line, match, names)) {
+        std::string name;
+        for (const std::string& space : inside) name += space;
+        const auto [other, is_new] = first.emplace(name + match[1].str(), source.path);
+        EXPECT_TRUE(is_new || other->second == source.path)
+            << other->first << ": " << other->second << " and " << source.path;
+      }
+    }
+  }
+  EXPECT_GT(first.size(), 500U);
 }
 
 // Each module's page says what it may include, and where to start: in files that are there.
