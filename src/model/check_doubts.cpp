@@ -8,6 +8,7 @@
 #include "law/law.hpp"
 #include "mesh/face_nodes.hpp"
 #include "model/check.hpp"
+#include "model/growth.hpp"
 #include "model/load.hpp"
 #include "model/output.hpp"
 
@@ -30,6 +31,9 @@ bool is_touched(const Problem& problem, const SubstructurePtr& part) {
         const auto place = place_of(target);
         if (place && &part_of(*place) == part.get()) return true;
       }
+      for (const Effect& effect : load->effects())  // of a load that chooses its own places
+        if (const auto* forces = std::get_if<NodalForces>(&effect); forces && &part_of(forces->on) == part.get())
+          return true;
     }
   }
   return false;
@@ -216,10 +220,15 @@ std::vector<Force> forces_of(const Load& load) {
   return forces;
 }
 
+// Warmth is the same load whatever the part's expansion is now.
+bool is_same(const Force& a, const Force& b) {
+  return a.name == b.name || (expansion_of(a.name) && expansion_of(b.name));
+}
+
 bool goes_on(const Force& force, const Step& step) {
   for (const LoadPtr& load : step.loads)
     for (const Force& other : forces_of(*load))
-      if (other.name == force.name && other.on.has_value() == force.on.has_value() &&
+      if (is_same(other, force) && other.on.has_value() == force.on.has_value() &&
           (!force.on || coincide(*force.on, *other.on)))
         return true;
   return false;
@@ -240,12 +249,17 @@ void doubt_dropped_loads(const Problem& problem, const Step& before, const Step&
     for (const Force& force : forces_of(*load)) {
       const double left = left_at_end(force.value, before);
       if (left == 0.0 || goes_on(force, step)) continue;
+      const bool is_growth = expansion_of(force.name).has_value();
+      const std::string where = !force.on   ? ""
+                                : is_growth ? " of '" + part_of(*force.on).name + "'"
+                                            : " on " + describe(target_of(*force.on));
       doubt(problem, load->origin,
             fmt::format("{}{} stands at {:.4g} {} at the end of step '{}' and is not listed in the dynamic step '{}', "
-                        "where it is released suddenly, which is itself a shock; list it there too, or with the value "
-                        "0 if the release is intended",
-                        force.name, force.on ? " on " + describe(target_of(*force.on)) : "", left, load->unit(),
-                        before.name, step.name));
+                        "where it is released suddenly, which is itself a shock; {}",
+                        is_growth ? load->path : force.name, where, left, load->unit(), before.name, step.name,
+                        load->complaint(step)
+                            ? "it acts in static steps only: a static step without it releases it slowly"
+                            : "list it there too, or with the value 0 if the release is intended"));
     }
 }
 
