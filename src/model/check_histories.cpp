@@ -162,7 +162,7 @@ class InStep {
     for (int i = 0; i < n; ++i)
       if ((v[i + 1] - v[i]) * v[n] < 0.0) return;  // has turned before
     const double slope = n * std::abs(v[n] - v[n - 1]) / largest;
-    if (ends_highest && slope > 0.05 && bend > 1e-6 * largest)
+    if (!step_.is_static && ends_highest && slope > 0.05 && bend > 1e-6 * largest)
       say(fmt::format(
           "has no peak within the step: it still rises at its end, {}, where it is {:.4g} {}; is a frequency "
           "in kHz, or an angle in degrees?",

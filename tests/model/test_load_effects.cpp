@@ -101,10 +101,9 @@ TEST_F(LoadEffects, are_there_for_every_load_of_the_table_with_words_of_their_ow
   for (const LoadEntry& entry : load_table()) {
     EXPECT_TRUE(words.insert(entry.word).second) << entry.word;
     GivenArguments arguments("load." + entry.word, {"deck.lua", 40});
-    for (const char* key : {"history", "by", "at", "force", "x", "value", "number"})
+    for (const char* key : {"history", "by", "at", "force", "x", "value", "number", "speed", "expansion"})
       arguments.values_of_time[key] = {History::constant(1.0), true};
     for (const char* key : {"direction", "axis", "through"}) arguments.lists[key] = {0, 0, 1};
-    for (const char* key : {"speed", "expansion"}) arguments.numbers[key] = 1.0;
     arguments.parts = {upper};
     arguments.words["name"] = "modes";
     arguments.outputs["mode"] = std::make_shared<ModesOfNothing>(arguments);
