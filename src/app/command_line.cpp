@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "app/command_pages.hpp"
+#include "base/plain_file.hpp"
 
 namespace dygita {
 
@@ -18,7 +19,9 @@ void add_limits(CLI::App& command, double& time_limit, double& memory_limit, Mes
   command.add_option("--time-limit", time_limit, "time limit (s) of deck code")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command.add_option("--memory-limit", memory_limit, "memory limit (MB) of deck data")
+  command
+      .add_option("--memory-limit", memory_limit,
+                  "memory limit (MB) of deck data, and size limit of a file that is read")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command.add_option("--mesh-time-limit", meshes.time, "time limit (s) for reading and meshing one file")
@@ -29,6 +32,16 @@ void add_limits(CLI::App& command, double& time_limit, double& memory_limit, Mes
                   "trust this mesh file: it may run programs and write files, as in gmsh itself")
       ->allow_extra_args(false)
       ->type_name("FILE");
+}
+
+// Of a command without a deck.
+void add_file_limit(CLI::App& command) {
+  command
+      .add_option_function<double>(
+          "--memory-limit", [](const double& limit) { set_file_limit(limit * (1 << 20)); },
+          "size limit (MB) of a file that is read")
+      ->check(CLI::PositiveNumber)
+      ->default_str("1024");
 }
 
 void add_checkpoints(CLI::App& command, std::string& every) {
@@ -165,6 +178,7 @@ void add_srs_options(CLI::App& command, SrsCommand& asked) {
   command.add_option("--per-octave", asked.settings.per_octave, "frequencies per octave")->capture_default_str();
   command.add_option("--column", asked.column, "name of the column of values (default: the first)")->type_name("NAME");
   command.add_option("--out", asked.out, "file to write (default: standard output)")->type_name("FILE");
+  add_file_limit(command);
 }
 
 void add_report_options(CLI::App& command, ReportCommand& asked) {
@@ -177,6 +191,7 @@ void add_report_options(CLI::App& command, ReportCommand& asked) {
       ->allow_extra_args(false)
       ->type_name("SPECTRUM=FILE.csv");
   command.add_option("--out", asked.out, "file to write (default: report.html in the folder)")->type_name("FILE");
+  add_file_limit(command);
 }
 
 void add_view_options(CLI::App& command, ViewCommand& asked) {
@@ -198,6 +213,7 @@ void add_import_options(CLI::App& command, ImportOptions& asked) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("TYPES");
+  add_file_limit(command);
 }
 
 OptionRow row_of(const CLI::Option& option) {

@@ -39,6 +39,13 @@ double resident_memory() { return bytes_in("/proc/self/status", "VmRSS:"); }
 
 double peak_memory() { return bytes_in("/proc/self/status", "VmHWM:"); }
 
+bool exceeds_memory(std::uint64_t bytes) {
+  constexpr std::uint64_t small = std::uint64_t{1} << 26;  // asked for often
+  if (bytes <= small) return false;
+  const double available = available_memory();
+  return available > 0.0 && static_cast<double>(bytes) > available;
+}
+
 void require_memory(std::size_t bytes) {
   void* const at = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (at == MAP_FAILED) throw std::bad_alloc();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace dygita {
 
@@ -29,6 +30,9 @@ double memory_of_machine();
 // Bytes of this process that are in memory now, and that were at most.
 double resident_memory();
 double peak_memory();
+
+// Is it more than the machine could give now? What a file says of its own length is a stranger's.
+bool exceeds_memory(std::uint64_t bytes);
 
 // Throws std::bad_alloc where so many bytes cannot be had now.
 void require_memory(std::size_t bytes);

@@ -1,7 +1,8 @@
-// Files in folders that may be anybody's: what is opened there to be read must have an end.
+// Files in folders that may be anybody's: what is opened there to be read must have an end, and not too far away.
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace dygita {
 
@@ -11,5 +12,17 @@ bool is_no_file(const std::filesystem::path& path);
 
 // Throws InputError where `is_no_file`.
 void require_file(const std::filesystem::path& path);
+
+// Bytes that a file may have to be read at once, from now on: --memory-limit.
+void set_file_limit(double bytes);
+
+// Throws InputError where `is_no_file`, or where the file is larger than that: before anything of it is read.
+void require_readable(const std::filesystem::path& path);
+
+// The text of a file. Throws InputError where it cannot be read, or is larger than may be.
+std::string text_of_file(const std::string& file);
+
+// What `errno` says of a file that could not be written.
+std::string reason_not_written(int error);
 
 }  // namespace dygita

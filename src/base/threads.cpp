@@ -3,6 +3,7 @@
 #include <pmmintrin.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <string>
 
@@ -11,6 +12,8 @@
 namespace dygita {
 
 void set_up_process(char** argv, const char* blas_kernels) {
+  // A write beyond the limit of a file's size fails, and is told, as any other that fails.
+  std::signal(SIGXFSZ, SIG_IGN);
   const bool has_kernels = !blas_kernels || std::getenv("OPENBLAS_CORETYPE");
   if (std::getenv("OPENBLAS_NUM_THREADS") && std::getenv("GLIBC_TUNABLES") && has_kernels) return;
   if (!has_kernels) setenv("OPENBLAS_CORETYPE", blas_kernels, 0);

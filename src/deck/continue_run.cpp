@@ -33,7 +33,7 @@ DeckOutcome continue_run(const ContinueOptions& options) {
   deck.write_state = options.write_state;
   deck.checkpoint_every = options.checkpoint_every;
   deck.out = continuation.out();
-  deck.is_study = continuation.resumes();  // its table, where the run was to make one
+  deck.is_study = continuation.resumes() && continuation.is_in_its_place();  // its table, where the run was to make one
   DeckOutcome outcome = run_deck(
       deck, {[&](const Problem& problem, const RunRequest& request) { return continuation.run(problem, request); },
              check_report});

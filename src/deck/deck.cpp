@@ -5,6 +5,7 @@
 #include "base/fnv1a.hpp"
 #include "base/log.hpp"
 #include "base/names.hpp"
+#include "base/plain_file.hpp"
 #include "base/team.hpp"
 #include "base/threads.hpp"
 #include "deck/arguments.hpp"
@@ -102,6 +103,7 @@ void warn_of_unused(const DeckState& state) {
 }
 
 DeckOutcome execute(const DeckOptions& options, const Engine& engine, bool solves) {
+  set_file_limit(options.memory_limit * (1 << 20));
   // All ranks run the same text.
   const std::string text =
       ranks::shared(options.text || !ranks::is_first() ? options.text.value_or("") : text_of(options.path));

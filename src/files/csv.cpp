@@ -88,6 +88,10 @@ Table parse_csv(std::istream& stream, const std::vector<std::string>& step_names
     }
   }
   if (is_marked) {
+    const std::vector<double>& marks = table.columns.back();
+    const auto other = std::find_if(marks.begin(), marks.end(), [](double mark) { return mark != 0.0 && mark != 1.0; });
+    if (other != marks.end())
+      throw InputError(fmt::format("line {}: 'converged' is {}, not 0 or 1", other - marks.begin() + 2, *other));
     table.converged = std::move(table.columns.back());
     table.names.pop_back(), table.units.pop_back(), table.columns.pop_back();
   }
@@ -97,6 +101,7 @@ Table parse_csv(std::istream& stream, const std::vector<std::string>& step_names
 Table read_csv(const std::filesystem::path& path, const std::vector<std::string>& step_names) {
   try {
     if (is_no_file(path)) throw InputError("is no file");
+    require_readable(path);
     std::ifstream file(path);
     if (!file) throw InputError("is missing");
     return parse_csv(file, step_names);

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
+#include "base/plain_file.hpp"
 
 namespace dygita {
 
@@ -21,7 +22,7 @@ void write_text(const fs::path& path, const std::string& text) {
   if (file && std::fclose(file) != 0 && is_good) is_good = false, reason = errno;
   if (!is_good) {
     fs::remove(temporary, error);
-    throw InputError("cannot write '" + path.string() + "': " + std::strerror(reason));
+    throw InputError("cannot write '" + path.string() + "': " + reason_not_written(reason));
   }
   fs::rename(temporary, path, error);
   if (error) throw InputError("cannot write '" + path.string() + "': " + error.message());

@@ -37,6 +37,7 @@ void remove_file(const fs::path& path) {
 
 void remove_listed(const fs::path& directory) {
   if (is_no_file(directory / Manifest::file_name)) return;
+  require_readable(directory / Manifest::file_name);
   std::ifstream list(directory / Manifest::file_name);
   std::set<fs::path, std::greater<>> parents;  // deepest first
   for (std::string line; std::getline(list, line);) {
@@ -78,7 +79,7 @@ void Manifest::add(const fs::path& relative) {
   std::ofstream list(directory_ / file_name, std::ios::app | std::ios::binary);
   list << relative.generic_string() << '\n';
   list.close();
-  if (!list) throw InputError("cannot write '" + (directory_ / file_name).string() + "': " + std::strerror(errno));
+  if (!list) throw InputError("cannot write '" + (directory_ / file_name).string() + "': " + reason_not_written(errno));
   files_.push_back(relative);
 }
 

@@ -20,15 +20,8 @@ namespace {
 
 std::optional<std::string> text_of(const fs::path& path) {
   require_file(path);
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  std::error_code error;
-  std::string text;
-  const auto size = fs::file_size(path, error);
-  if (!error) text.resize(size);
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<size_t>(file.gcount()));
-  return text;
+  if (!std::ifstream(path)) return std::nullopt;
+  return text_of_file(path.string());
 }
 
 }  // namespace
@@ -86,6 +79,7 @@ Table RunFolder::table(const std::string& file, const std::vector<std::string>& 
   try {
     if (read_.find(file) == read_.end()) {
       if (is_no_file(folder_ / file)) throw InputError("is no file");
+      require_readable(folder_ / file);
       std::ifstream stream(folder_ / file);
       if (!stream) throw InputError("is missing");
       std::vector<std::string> steps;

@@ -249,7 +249,7 @@ const char* verdict(const RunResult& result) {
 }
 
 std::optional<RecordedRun> read_run_record(const std::filesystem::path& directory) {
-  require_file(directory / "run.json");
+  require_readable(directory / "run.json");
   std::ifstream file(directory / "run.json");
   const Json json = Json::parse(file, nullptr, false);
   if (!file || json.is_discarded()) return std::nullopt;
@@ -263,6 +263,7 @@ std::optional<RecordedRun> read_run_record(const std::filesystem::path& director
 }
 
 std::vector<RecordedPiece> read_recorded_pieces(const std::filesystem::path& directory) {
+  require_readable(directory / "run.json");
   std::ifstream file(directory / "run.json");
   const Json json = Json::parse(file, nullptr, false);
   std::vector<RecordedPiece> pieces;

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "base/plain_file.hpp"
 #include "intake/matrix_market.hpp"
 
 namespace dygita {

@@ -3,9 +3,9 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
+
+#include "base/plain_file.hpp"
 
 namespace dygita {
 
@@ -15,8 +15,7 @@ namespace {
 std::string text_of(const std::string& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return "";
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return text_of_file(file);
 }
 
 // End of the string that opens at `at`, one past its closing quote.

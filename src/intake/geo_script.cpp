@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/plain_file.hpp"
 
 namespace dygita {
 
@@ -98,10 +98,7 @@ void check_merged(const std::filesystem::path& file, const std::vector<Token>& t
 }
 
 void check_geo(const std::filesystem::path& file, int depth, Checked& checked) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  const std::vector<Token> tokens = tokens_of(text.str());
+  const std::vector<Token> tokens = tokens_of(text_of_file(file.string()));
   for (size_t i = 0; i < tokens.size(); ++i) {
     const std::string& word = tokens[i].text;
     if (is_refused(word)) refuse(file, tokens[i].line, fmt::format("'{}' is refused", word));
@@ -121,6 +118,7 @@ void check_file(const std::filesystem::path& file, int depth, Checked& checked) 
   if (error || !std::filesystem::is_regular_file(known, error))
     throw InputError(fmt::format("{}: no such file, but a mesh file merges it", file.string()));
   if (checked.contains(known)) return;
+  require_readable(known);
   const std::filesystem::path options = file.string() + ".opt";
   if (std::filesystem::exists(options, error)) {
     throw InputError(

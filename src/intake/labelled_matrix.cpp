@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "base/plain_file.hpp"
 #include "intake/matrix_market.hpp"
 
 namespace dygita {

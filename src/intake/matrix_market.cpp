@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string_view>
 
@@ -16,27 +14,6 @@
 #include "base/plain_file.hpp"
 
 namespace dygita {
-
-namespace fs = std::filesystem;
-
-namespace {
-
-constexpr std::uintmax_t most_bytes = 2u << 30;  // of a file
-
-}  // namespace
-
-std::string text_of_file(const std::string& file) {
-  require_file(file);
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(file, error);
-  std::ifstream stream(file, std::ios::binary);
-  if (error || !stream) throw InputError(fmt::format("cannot read the file '{}'", file));
-  if (size > most_bytes) throw InputError(fmt::format("the file '{}' is larger than 2 GB", file));
-  std::string text(size, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(size));
-  if (!stream) throw InputError(fmt::format("cannot read the file '{}'", file));
-  return text;
-}
 
 namespace {
 

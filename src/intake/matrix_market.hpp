@@ -22,7 +22,4 @@ void refuse_large_matrix(long rows, const std::string& file);
 // Makes it exactly symmetric. Throws InputError where it is not finite, or not symmetric but for rounding.
 void make_symmetric(Mat& matrix, const std::string& file);
 
-// The text of a file. Throws InputError where it cannot be read, or is larger than 2 GB.
-std::string text_of_file(const std::string& file);
-
 }  // namespace dygita

@@ -9,8 +9,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
+#include "base/error.hpp"
+#include "base/plain_file.hpp"
 #include "base/sha256.hpp"
 #include "intake/mesh_file.hpp"
 #include "intake/mesh_secret.hpp"
@@ -41,8 +42,11 @@ int open_folder(const fs::path& folder) {
 }
 
 std::string bytes_in(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  try {
+    return text_of_file(file);
+  } catch (const InputError&) {  // the mesher says what is wrong with it
+    return "";
+  }
 }
 
 // A file of its own, no longer than the limit; empty: none.

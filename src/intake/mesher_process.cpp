@@ -18,6 +18,7 @@
 #include "base/log.hpp"
 #include "base/memory.hpp"
 #include "base/names.hpp"
+#include "base/plain_file.hpp"
 #include "base/progress.hpp"
 #include "base/task.hpp"
 #include "intake/mesh_cache.hpp"
@@ -198,6 +199,7 @@ std::string take_told(std::string& errors) {
 // What it answers, as bytes.
 std::string run_mesher(MesherTask task, const std::string& file) {
   using Clock = std::chrono::steady_clock;
+  require_readable(file);
   task.memory_limit = memory_of_machine();
   task.is_trusted = is_trusted_mesh(file);
   task.readable = readable_for(file, task.path);

@@ -9,8 +9,8 @@ namespace own_file {
 inline constexpr const char *record = "run.json", *report = "report.html", *scenes = "scenes.json",
                             *motion = "motion.json", *view = "view.py", *interfaces = "interfaces.pvd",
                             *energy = "energy.csv", *convergence = "convergence.csv", *bolts = "bolts.csv",
-                            *state = "state.dygita", *checkpoint = "checkpoint.dygita", *study_table = "study.csv",
-                            *study_figure = "study.svg", *converge_table = "converge.csv",
+                            *state = "state.dygita", *checkpoint = "checkpoint.dygita", *going_on = "continue.txt",
+                            *study_table = "study.csv", *study_figure = "study.svg", *converge_table = "converge.csv",
                             *converge_figure = "converge.svg", *ensemble = "ensemble.json",
                             *members = "ensemble_members.csv", *drives = "ensemble_drives.csv";
 }
@@ -31,6 +31,7 @@ inline constexpr OwnFile own_files[] = {{own_file::record, "the record of the ru
                                         {own_file::bolts, "the table of all tightened interfaces"},
                                         {own_file::state, "the state that a run is continued from"},
                                         {own_file::checkpoint, "the checkpoint of the run"},
+                                        {own_file::going_on, "the text that says how to continue the run"},
                                         {own_file::ensemble, "the record of an ensemble"},
                                         {own_file::members, "the table of an ensemble's members"},
                                         {own_file::drives, "the table of what drives an ensemble"},

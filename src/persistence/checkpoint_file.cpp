@@ -107,7 +107,7 @@ CheckpointFile::CheckpointFile(std::filesystem::path path, const CheckpointIdent
   if (!file_ || !put(file_.get(), checkpoint_magic, 8) || !put(file_.get(), &checkpoint_version, 4) ||
       !put(file_.get(), &byte_order, 4) || !put_record(file_.get(), header, sum_) || std::fflush(file_.get()) != 0 ||
       std::rename(temporary.c_str(), path_.c_str()) != 0)
-    throw InputError(fmt::format("cannot write '{}': {}", path_.string(), std::strerror(errno)));
+    throw InputError(fmt::format("cannot write '{}': {}", path_.string(), reason_not_written(errno)));
   entries_at_ = ftello(file_.get());
 }
 
@@ -205,6 +205,9 @@ TrailEntry CheckpointFile::take() {
   Decoder decoder(std::move(payload));
   code_entry(decoder, entry);
   if (!entry.runs.is_whole()) complete(entry);
+  if (!entry.q.allFinite() || !entry.uncorrected.allFinite())
+    throw InputError(
+        fmt::format("'{}' holds numbers that are not finite: it is damaged\n    run the deck again", path_.string()));
   ++number_;
   return entry;
 }
@@ -283,7 +286,7 @@ void CheckpointFile::fail(const char* what) {
   const auto kept = entries_at_ + std::max<std::int64_t>(0, (size - entries_at_) / 2);  // without its header it is none
   const bool is_cut = reason == ENOSPC && !error && ftruncate(fileno(file_.get()), kept) == 0;
   warn(fmt::format("the checkpoint '{}' cannot be {}: {}{}\n    the run continues; if stopped, it resumes from {}",
-                   path_.string(), what, std::strerror(reason),
+                   path_.string(), what, reason_not_written(reason),
                    is_cut ? "; half of its space is released for results" : "", is_cut ? "there" : "here"));
 }
 

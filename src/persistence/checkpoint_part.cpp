@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/plain_file.hpp"
 #include "persistence/record_chain.hpp"
 #include "ranks/ranks.hpp"
 
@@ -70,18 +71,19 @@ void CheckpointPart::open() {
   fs::create_directories(path_.parent_path(), error);
   errno = 0;
   if (fs::is_symlink(path_) || fs::is_symlink(path_.parent_path())) return fail("it is a link");
+  if (fs::hard_link_count(path_, error) > 1 && !error) return fail("it is a second name of another file");
   file_.reset(std::fopen(path_.c_str(), "r+b"));
   if (file_ && begins_with(file_.get(), head_)) {
     std::string payload;
     std::int64_t end = ftello(file_.get());
     for (std::uint64_t sum = 0; get_record(file_.get(), sum_, payload, sum); end = ftello(file_.get())) sum_ = sum;
     if (ftruncate(fileno(file_.get()), end) != 0 || fseeko(file_.get(), end, SEEK_SET) != 0)
-      return fail(std::strerror(errno));
+      return fail(reason_not_written(errno));
   } else {
     file_.reset(std::fopen(path_.c_str(), "w+b"));
     const std::string header = header_of(head_);
     if (!file_ || std::fwrite(header.data(), 1, header.size(), file_.get()) != header.size())
-      return fail(std::strerror(errno));
+      return fail(reason_not_written(errno));
   }
   const fs::space_info space = fs::space(path_.parent_path(), error);
   room_ = error ? std::numeric_limits<double>::infinity() : 0.5 * static_cast<double>(space.available) / ranks::count();
@@ -101,19 +103,19 @@ void CheckpointPart::leave(const TrailEntry& entry) {
   errno = 0;
   room_ -= static_cast<double>(encoder.bytes.size() + 16);
   if (room_ < 0.0) return fail("it has filled its share of half of the free space");
-  if (!put_record(file_.get(), encoder.bytes, sum_)) return fail(std::strerror(errno));
+  if (!put_record(file_.get(), encoder.bytes, sum_)) return fail(reason_not_written(errno));
   const auto now = std::chrono::steady_clock::now();
   if (now - flushed_ >= std::chrono::seconds(1)) {
     flushed_ = now;
-    if (std::fflush(file_.get()) != 0) return fail(std::strerror(errno));
+    if (std::fflush(file_.get()) != 0) return fail(reason_not_written(errno));
   }
   if (std::chrono::duration<double>(now - synced_).count() < every_) return;
   synced_ = now;
-  if (std::fflush(file_.get()) != 0 || fdatasync(fileno(file_.get())) != 0) fail(std::strerror(errno));
+  if (std::fflush(file_.get()) != 0 || fdatasync(fileno(file_.get())) != 0) fail(reason_not_written(errno));
 }
 
 // The results are not touched: the run continues without.
-void CheckpointPart::fail(const char* reason) {
+void CheckpointPart::fail(const std::string& reason) {
   has_failed_ = true;
   warn(fmt::format(
       "the checkpoint's part '{}' cannot be written: {}\n    the run continues; if stopped, it resumes from here",

@@ -36,7 +36,7 @@ class CheckpointPart final : public Trail {
 
  private:
   void open();
-  void fail(const char* reason);
+  void fail(const std::string& reason);
 
   std::filesystem::path path_;
   std::uint64_t head_, sum_ = 0, number_ = 0;

@@ -1,6 +1,7 @@
 #include "persistence/record_chain.hpp"
 
 #include "base/fnv1a.hpp"
+#include "base/memory.hpp"
 #include "persistence/open_file.hpp"
 
 namespace dygita {
@@ -30,7 +31,7 @@ bool get_record(std::FILE* file, std::uint64_t before, std::string& payload, std
   fseeko(file, 0, SEEK_END);
   const auto rest = static_cast<std::uint64_t>(ftello(file) - begin - 8);
   fseeko(file, begin + 8, SEEK_SET);
-  if (rest < length + 8) return false;
+  if (rest < length + 8 || exceeds_memory(length)) return false;
   payload.resize(length);
   return std::fread(payload.data(), 1, length, file) == length && std::fread(&sum, 8, 1, file) == 1 &&
          sum == chained_sum(before, payload);

@@ -2,12 +2,15 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 
 #include "base/error.hpp"
 #include "base/fnv1a.hpp"
+#include "base/memory.hpp"
 #include "base/plain_file.hpp"
 #include "persistence/open_file.hpp"
 #include "persistence/state_coder.hpp"
@@ -95,18 +98,22 @@ bool write_all(std::FILE* file, const RunState& state) {
 // What is read must be what was written; the fields are read once through, to know before anything is computed.
 void check_fields(std::FILE* file, std::int64_t begin, std::int64_t bytes) {
   Checksum sum;
-  std::vector<char> block(1 << 20);
-  bool is_good = fseeko(file, begin, SEEK_SET) == 0;
+  std::vector<double> block(1 << 17);
+  const auto most = static_cast<std::int64_t>(8 * block.size());
+  bool is_finite = true, is_good = fseeko(file, begin, SEEK_SET) == 0;
   for (std::int64_t left = bytes; left > 0 && is_good;) {
-    const size_t n = static_cast<size_t>(std::min<std::int64_t>(left, static_cast<std::int64_t>(block.size())));
+    const size_t n = static_cast<size_t>(std::min(left, most));
     is_good = std::fread(block.data(), 1, n, file) == n;
     sum.add(block.data(), n);
+    is_finite = is_finite && std::all_of(block.begin(), block.begin() + static_cast<std::ptrdiff_t>(n / 8),
+                                         [](double x) { return std::isfinite(x); });
     left -= static_cast<std::int64_t>(n);
   }
   std::uint64_t expected = 0;
   is_good = is_good && std::fread(&expected, 8, 1, file) == 1 && std::fgetc(file) == EOF;
   if (!is_good) throw InputError("it has the wrong length");
   if (expected != sum.value()) throw InputError("its checksum does not match");
+  if (!is_finite) throw InputError("it holds numbers that are not finite");
 }
 
 RunState read_all(OpenFile file, const std::filesystem::path& path) {
@@ -128,6 +135,7 @@ RunState read_all(OpenFile file, const std::filesystem::path& path) {
   if (length > (std::uint64_t{1} << 40) || file_length < start_of_header + static_cast<std::int64_t>(length))
     throw InputError("it is truncated");
   fseeko(file.get(), start_of_header, SEEK_SET);
+  if (exceeds_memory(length)) throw InputError("its header does not fit into memory");
   std::string header(length, '\0');
   get(header.data(), length), get(&expected, 8);
   Checksum sum;
@@ -203,7 +211,7 @@ void write_state(const std::filesystem::path& path, const RunState& state) {
   }
   const int reason = errno;
   is_good = std::fclose(file) == 0 && is_good;
-  if (!is_good) fail(std::strerror(reason ? reason : errno));
+  if (!is_good) fail(reason_not_written(reason ? reason : errno));
   std::error_code error;
   std::filesystem::rename(temporary, path, error);
   if (error) fail(error.message());

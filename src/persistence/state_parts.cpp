@@ -70,6 +70,7 @@ void check_part(const fs::path& path, const StatePart& part, const FieldSizes& s
         if (n > room) return false;
         q.resize(static_cast<Eigen::Index>(n));
         if (n > 0 && std::fread(q.data(), 8, n, file.get()) != n) return false;
+        if (!q.allFinite()) return false;
         sum.add(q.data(), 8 * n);
       }
     return std::fgetc(file.get()) == EOF && sum.value() == part.sum;
@@ -102,7 +103,7 @@ StatePart write_state_part(const fs::path& path, const InterfaceFields& kept, co
     }
   }
   is_good = is_good && std::fflush(file.get()) == 0;
-  if (!is_good) throw InputError(fmt::format("cannot write '{}': {}", path.string(), std::strerror(errno)));
+  if (!is_good) throw InputError(fmt::format("cannot write '{}': {}", path.string(), reason_not_written(errno)));
   part.sum = sum.value();
   return part;
 }

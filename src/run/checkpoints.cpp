@@ -8,6 +8,8 @@
 #include <new>
 
 #include "base/log.hpp"
+#include "files/files.hpp"
+#include "model/own_files.hpp"
 #include "ranks/ranks.hpp"
 #include "run/keep_state.hpp"
 #include "run/passes.hpp"
@@ -61,6 +63,19 @@ std::shared_ptr<CheckpointFile> left_in(const std::filesystem::path& path, const
   return nullptr;
 }
 
+// What a run that was killed cannot say: how it goes on. Not worth a warning where there is no room for it.
+void tell_how_to_go_on(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  const std::string command = "dygita continue " + shell_word(std::filesystem::absolute(folder, ignored).string());
+  std::string text = "This run has not come to its end. To continue it:\n    " + command + "\n";
+  if (!ranks::is_alone())
+    text += fmt::format("or on several ranks, as it was started:\n    mpirun -n {} {}\n", ranks::count(), command);
+  try {
+    write_text(folder / own_file::going_on, text);
+  } catch (const InputError&) {
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<CheckpointFile> checkpoint_of(const Problem& problem, const RunRequest& request,
@@ -77,6 +92,7 @@ std::shared_ptr<CheckpointFile> checkpoint_of(const Problem& problem, const RunR
   try {
     auto checkpoint = std::make_shared<CheckpointFile>(path, identity, request.checkpoint_every);
     checkpoint->expect(expected_entries(problem));
+    if (!request.continues) tell_how_to_go_on(folder);
     return checkpoint;
   } catch (const InputError& error) {
     warn(fmt::format("{}\n    the run continues, but cannot be resumed if it is killed", error.what()));
@@ -103,6 +119,7 @@ void remove_checkpoint(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::filesystem::remove(folder / checkpoint_file_name, ignored);
   std::filesystem::remove_all(parts_folder(folder / checkpoint_file_name), ignored);
+  std::filesystem::remove(folder / own_file::going_on, ignored);
 }
 
 void share_checkpoint(const std::filesystem::path& from, const std::filesystem::path& to) {
@@ -119,6 +136,7 @@ void share_checkpoint(const std::filesystem::path& from, const std::filesystem::
   for (const fs::directory_entry& part : fs::directory_iterator(from / parts, ignored))
     link(parts / part.path().filename());
   link(checkpoint_file_name);
+  if (fs::exists(from / own_file::going_on, ignored)) link(own_file::going_on);
 }
 
 std::string shell_word(const std::string& text) {

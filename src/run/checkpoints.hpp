@@ -14,7 +14,7 @@ std::shared_ptr<CheckpointFile> checkpoint_of(const Problem& problem, const RunR
 // Collective. Of another rank than the first: its part of the first's checkpoint (null: there is none); every: s.
 std::shared_ptr<Trail> part_of_checkpoint(const CheckpointFile* checkpoint, double every);
 
-// The file is gone: the run has come to its end, or another begins.
+// The file is gone, with what says how to continue: the run has come to its end, or another begins.
 void remove_checkpoint(const std::filesystem::path& folder);
 // It is in both folders, so that no instant has it in neither.
 void share_checkpoint(const std::filesystem::path& from, const std::filesystem::path& to);

@@ -114,6 +114,11 @@ void Continuation::open() {
   }
 }
 
+bool Continuation::is_in_its_place() const {
+  std::error_code ignored;
+  return fs::equivalent(out() / state_->problem / state_->case_name, options_.run, ignored);
+}
+
 fs::path Continuation::out() const { return fs::canonical(options_.run).parent_path().parent_path(); }
 
 // Rank 0 alone has the checkpoint, which it appends to; a state is read by all.
@@ -251,7 +256,14 @@ StepPtr Continuation::extended(const Step& step, double duration) const {
 std::shared_ptr<const RunResult> Continuation::result_of_other(const Problem& problem, const RunRequest& request) {
   const fs::path folder = out() / problem.name / request.case_name;
   const auto recorded = read_run_record(folder);
-  if (!recorded && resumes()) return run_problem(problem, request);  // what the run would have come to
+  if (!recorded && resumes()) {
+    if (!is_in_its_place())  // a folder that somebody named would say what is written beside it
+      throw InputError(fmt::format(
+          "the deck also runs problem '{}', case '{}', whose results would be written to '{}': '{}' is not "
+          "where that run was\n    give its folders their names: {}/{}",
+          problem.name, request.case_name, folder.string(), options_.run.string(), state_->problem, state_->case_name));
+    return run_problem(problem, request);  // what the run would have come to
+  }
   if (!recorded) {
     if (!is_done_)
       throw InputError(fmt::format(
@@ -271,7 +283,12 @@ std::shared_ptr<const RunResult> Continuation::result_of_other(const Problem& pr
   for (const StepPtr& step : problem.steps) steps.push_back(step->name);
   for (const OutputPtr& output : problem.outputs) {
     const fs::path file = folder / (file_name_of(output->name) + ".csv");
-    if (!output->columns().empty() && fs::exists(file)) result->tables[output.get()] = read_csv(file, steps);
+    if (output->columns().empty() || !fs::exists(file)) continue;
+    const Table& table = result->tables[output.get()] = read_csv(file, steps);
+    for (const Column& column : output->columns())
+      if (!table.has_column(column.name))
+        throw InputError(fmt::format("{} has no column '{}': it is not the table of output '{}'", file.string(),
+                                     column.name, output->name));
   }
   if (resumes() && recorded->converged && fs::exists(folder / state_file_name))
     result->interface_fields = read_state(folder / state_file_name).fields;

@@ -43,6 +43,8 @@ class Continuation {
   std::shared_ptr<const RunResult> run(const Problem& problem, const RunRequest& request);
   // The folder out/ of the run.
   std::filesystem::path out() const;
+  // Is its folder called as the run was, <problem>/<case>? Only then is anything written beside it.
+  bool is_in_its_place() const;
   bool has_frames() const { return !resumed_ || resumed_->has_frames; }
   bool is_done() const { return is_done_; }
   bool ends_early() const { return ends_early_; }

@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <fstream>
-#include <iterator>
 
 #include "base/fnv1a.hpp"
 #include "base/log.hpp"
@@ -17,9 +16,10 @@ namespace {
 
 std::string digest_of_file(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
   Fnv1a digest;
-  digest.add(text);
+  std::string block(1 << 16, '\0');
+  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
+    digest.add(block.data(), static_cast<size_t>(file.gcount()));
   return digest.hexadecimal();
 }
 
@@ -34,6 +34,8 @@ std::map<std::string, std::string> tables_in(const fs::path& folder) {
 
 // A table that is not there cannot be compared: that is not the same as one that is equal.
 void require_tables(const Json& record, const fs::path& folder) {
+  if (!record.at("files").is_array())
+    throw InputError(fmt::format("--repeat {}: the record does not list its files", folder.string()));
   for (const std::string name : record.at("files")) {
     const fs::path path = folder / name;
     std::error_code error;

@@ -16,6 +16,7 @@
 #include "files/bolt_table.hpp"
 #include "files/replacement.hpp"
 #include "latin/latin.hpp"
+#include "model/own_files.hpp"
 #include "numerics/blas_buffers.hpp"
 #include "recording/collector.hpp"
 #include "recording/part_watch.hpp"
@@ -306,6 +307,8 @@ void settle(const RunRequest& request, const RunResult& result, RunSite& site) {
   if (site.replacement && site.is_kept) {
     if (request.continues) remove_checkpoint(site.work);
     if (request.checkpoint && result.interrupted) share_checkpoint(site.directory, site.work);
+    std::error_code ignored;
+    std::filesystem::remove(site.directory / own_file::going_on, ignored);  // the new results have theirs
     site.replacement->commit(checkpoint_file_name);
   } else if (!site.replacement && site.checkpoint && !result.interrupted) {
     remove_checkpoint(site.directory);

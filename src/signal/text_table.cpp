@@ -87,7 +87,7 @@ bool has_unit(const Title& title) { return title.unit.has_value(); }
 
 std::vector<std::string> lines_of(const std::string& path, const std::string& what, bool may_be_pipe) {
   std::error_code error;
-  if (!may_be_pipe) require_file(path);
+  if (!may_be_pipe || std::filesystem::is_regular_file(path, error)) require_readable(path);
   std::ifstream file(path, std::ios::binary);
   if (!file || !(may_be_pipe || std::filesystem::is_regular_file(path, error)))
     throw InputError("cannot read the " + what + " '" + path + "'");

@@ -30,5 +30,31 @@ TEST(PlainFile, is_no_pipe_no_device_and_no_folder) {
   fs::remove_all(folder);
 }
 
+TEST(PlainFile, is_refused_by_its_size_before_it_is_read) {
+  const fs::path file = fs::temp_directory_path() / ("dygita_large_" + std::to_string(getpid()));
+  std::ofstream(file) << "1,2\n";
+  EXPECT_EQ(text_of_file(file.string()), "1,2\n");
+  fs::resize_file(file, std::uintmax_t{50} << 30);  // sparse
+  const auto message = [&] {
+    try {
+      text_of_file(file.string());
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(message(), "the file '" + file.string() +
+                           "' has 5.12e+04 MB; the limit is 1024 MB\n    --memory-limit raises the limit");
+  set_file_limit(100.0 * (1 << 30));
+  EXPECT_NO_THROW(require_readable(file));
+  set_file_limit(4.0);
+  fs::resize_file(file, 4);
+  EXPECT_EQ(text_of_file(file.string()), "1,2\n");
+  set_file_limit(3.0);
+  EXPECT_THROW(text_of_file(file.string()), InputError);
+  set_file_limit(1024.0 * (1 << 20));
+  fs::remove(file);
+}
+
 }  // namespace
 }  // namespace dygita
