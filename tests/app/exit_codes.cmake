@@ -168,7 +168,7 @@ file(REMOVE_RECURSE ${out})
 # A disk that is full, as the system tells of it: no file may grow beyond 10 kB, and frames do.
 execute_process(COMMAND sh -c "ulimit -f 20; trap '' XFSZ; exec \"$0\" run \"$1\" --set n=4 --quiet --no-state --out \"$2\"" ${DYGITA}
   ${SOURCE_DIR}/decks/crush.lua ${out} RESULT_VARIABLE code OUTPUT_QUIET ERROR_VARIABLE err)
-if(NOT code EQUAL 2 OR NOT err MATCHES "cannot write '.*vtu': the file would be larger than this process may write\n *the results that could be written are in")
+if(NOT code EQUAL 2 OR NOT err MATCHES "cannot write '.*vtu': the file would be larger than this process may write .ulimit -f.\n *the results that could be written are in")
   message(SEND_ERROR "a full disk: exit code ${code}\n${err}")
 endif()
 file(GLOB tables ${out}/*/*/energy.csv)
