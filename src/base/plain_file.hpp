@@ -1,4 +1,4 @@
-// Files in folders that may be anybody's: what is opened there to be read must have an end, and not too far away.
+// Files in folders that may be anybody's: what is read from there must be a regular file within a limit of size.
 #pragma once
 
 #include <filesystem>

@@ -37,6 +37,7 @@ void set_place(const std::vector<double>& place, Substructure& part);
 void doubt_size(const Substructure& part);
 Content build_rigid(const Declaration& declaration);
 Content build_superelement(const Declaration& declaration);
+Content build_interface(const Declaration& declaration);  // by the law of its word
 Content build_abaqus(const Declaration& declaration);
 Content build_nastran(const Declaration& declaration);
 Damping damping_in(const LuaArguments& arguments);

@@ -1,3 +1,5 @@
+// The steps of an input file, card by card: one reader, since what a step keeps of those before it (loads, supports,
+// amplitudes) is its state; hence longer than most.
 #include "foreign/abaqus_steps.hpp"
 
 #include <spdlog/fmt/fmt.h>

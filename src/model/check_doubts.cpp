@@ -220,7 +220,7 @@ std::vector<Force> forces_of(const Load& load) {
   return forces;
 }
 
-// Warmth is the same load whatever the part's expansion is now.
+// A temperature goes on whatever expansion the next step gives with it.
 bool is_same(const Force& a, const Force& b) {
   return a.name == b.name || (expansion_of(a.name) && expansion_of(b.name));
 }

@@ -1,3 +1,5 @@
+// The assembly at an instant as one linear system: what laws, supports and rigid faces leave free, and its matrices.
+// One file, since all of it fills the same maps from nodes to unknowns, in this order.
 #include "reduction/linear_assembly.hpp"
 
 #include <Eigen/Geometry>

@@ -370,7 +370,7 @@ def a_time_limit_of_the_clock():
 
 
 def a_kill_while_the_mesher_starts():
-    """A mesher whose dygita is killed before it has confined itself hears of it no more: it must not go on for ever."""
+    """A mesher whose dygita is killed before it has confined itself is never told: it must end by itself."""
     (FOLDER / "endless.geo").write_text('SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1};\nFor i In {1:1e18}\n  a = i;\nEndFor\n')
     deck = FOLDER / "endless_mesh.lua"
     deck.write_text('mesh.gmsh{ file = "endless.geo" }')

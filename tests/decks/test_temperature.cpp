@@ -85,6 +85,46 @@ problem{ name = "two", substructures = { one, two }, interfaces = { glue }, supp
   EXPECT_NEAR(last(run, "at two") / stress, 1.0, 1e-6);
 }
 
+// What a run says of a bar that is warm in a static step and in what follows, beside a loose one.
+std::string said_of(const std::string& loads, const std::string& next, const std::string& wall = "bar:face 'xmin'") {
+  testing::internal::CaptureStderr();
+  run_text(R"(
+local m = material.elastic{ name = "m", young = 200*GPa, poisson = 0.3, density = 7800 }
+local bar = substructure{ name = "bar", material = m, mesh = mesh.box{ size = { 100*mm, 20*mm, 10*mm }, cells = { 4, 2, 1 } } }
+local loose = substructure{ name = "loose", material = m, mesh = mesh.box{ origin = { 0, 1, 0 }, size = { 20*mm, 20*mm, 20*mm }, cells = { 1, 1, 1 } } }
+local wall = support.fixed{ name = "wall", on = { )" +
+           wall + R"( } }
+local function warm(part, expansion) return load.temperature{ parts = { part }, expansion = expansion, by = 100 } end
+local spin = load.spin{ speed = 10, axis = { 0, 0, 1 }, through = { 0, 0, 0 } }
+local rest = step.static{ name = "rest", loads = { )" +
+           loads + R"( } }
+problem{ name = "warm", substructures = { bar, loose }, supports = { wall },
+  steps = { rest, step.dynamic{ name = "wait", after = rest, duration = 4*us, dt = 1*us, loads = { )" +
+           next + R"( } } } }:run{}
+)");
+  return testing::internal::GetCapturedStderr();
+}
+
+bool says(const std::string& text, const char* words) { return text.find(words) != std::string::npos; }
+
+TEST(Temperature, touches_a_part_and_goes_on_with_another_expansion) {
+  const char *untouched = "load touches substructure 'loose'", *released = "released suddenly";
+  const std::string alone = said_of("warm(bar, 12e-6)", "");
+  EXPECT_TRUE(says(alone, untouched)) << alone;
+  EXPECT_TRUE(says(alone, "load.temperature of 'bar' stands at 100 K")) << alone;
+  EXPECT_TRUE(says(alone, "list it there too")) << alone;
+  const std::string both = said_of("warm(bar, 12e-6), warm(loose, 12e-6)", "warm(bar, 10e-6), warm(loose, 12e-6)");
+  EXPECT_FALSE(says(both, untouched)) << both;
+  EXPECT_FALSE(says(both, released)) << both;
+}
+
+TEST(Spin, that_a_dynamic_step_drops_is_not_to_be_listed_there) {
+  const std::string said = said_of("spin", "", "bar:face 'xmin', loose:face 'xmin'");
+  EXPECT_TRUE(says(said, "released suddenly")) << said;
+  EXPECT_TRUE(says(said, "acts in static steps only")) << said;
+  EXPECT_FALSE(says(said, "list it there too")) << said;
+}
+
 // A rod without contraction that turns about its end: rho w^2 L^3 / (3 E) longer, rho w^2 L^2 / 2 at the axis.
 TEST(Spin, stretches_a_rod) {
   const std::string rod = R"(

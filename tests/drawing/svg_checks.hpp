@@ -29,7 +29,7 @@ inline std::string xml_fault(const std::string& text, const std::vector<std::str
     if (text[i] != '<') continue;
     if (text.compare(i, 2, "<!") == 0) {
       i = text.find('>', i);
-      if (i == std::string::npos) return "a declaration without end";
+      if (i == std::string::npos) return "an unclosed declaration";
       continue;
     }
     size_t end = i + 1;
@@ -38,7 +38,7 @@ inline std::string xml_fault(const std::string& text, const std::vector<std::str
       if (text[end] == '"') is_quoted = !is_quoted;
       if (text[end] == '<') return "a bare < at " + text.substr(i, 60);
     }
-    if (end == text.size()) return "an element without end at " + text.substr(i, 60);
+    if (end == text.size()) return "an unclosed element at " + text.substr(i, 60);
     const bool is_end = text[i + 1] == '/', is_empty = text[end - 1] == '/';
     size_t name_end = i + 1 + (is_end ? 1 : 0);
     const size_t name_start = name_end;
@@ -54,7 +54,7 @@ inline std::string xml_fault(const std::string& text, const std::vector<std::str
       open.push_back(name);
       if (name == "style" || name == "script") {  // its text is no markup
         const size_t closed = text.find("</" + name + ">", end);
-        if (closed == std::string::npos) return "<" + name + "> without end";
+        if (closed == std::string::npos) return "<" + name + "> is not closed";
         end = closed - 1;
       }
     }

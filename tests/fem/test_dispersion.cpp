@@ -1,5 +1,5 @@
-// How fast plane waves run through endless lattices of cells of order two, with their consistent mass, with its scaled
-// diagonal, and in explicit increments (Bloch's theorem on one cube of cells).
+// How fast plane waves travel through infinite lattices of cells of order two, with their consistent mass, with its
+// scaled diagonal, and in explicit increments (Bloch's theorem on one cube of cells).
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -24,7 +24,7 @@ struct PhaseError {
   double p = 0.0, s = 0.0;  // rms over directions, relative
 };
 
-// A cube of edge 1, repeated without end: two nodes along an edge.
+// A cube of edge 1 in an infinite lattice: two nodes along an edge.
 class Lattice {
  public:
   explicit Lattice(CellType type)

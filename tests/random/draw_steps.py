@@ -41,7 +41,7 @@ def joined_faces(scene, part):
 
 
 def holding_loads(scene):
-    """A pressure on each part that hangs on one contact only, from behind; on a scene that stands on a wall from above."""
+    """A pressure on each part that one contact alone holds, from behind; on a scene that stands on a wall from above."""
     loads = []
     for i in range(len(scene["parts"])):
         own = [joint for joint in scene["joints"] if i in (joint["a"][0], joint["b"][0])]
