@@ -64,7 +64,7 @@ local function entry_of(title, entry)
   put("### %s\n", title)
   put("%s\n", entry.doc)
   if entry.argument then table_of { entry.argument } end
-  if entry.argument and entry.arguments then put "Instead, a table of:\n" end
+  if entry.argument and entry.arguments then put "Or a table:\n" end
   if entry.arguments then table_of(entry.arguments) end
   if entry.one_of then put("At least one of `%s`.\n", table.concat(entry.one_of, "`, `")) end
   if entry.later then put("Not built yet: `%s`.\n", table.concat(entry.later, "`, `")) end
@@ -83,7 +83,7 @@ for _, word in ipairs(schema.words) do
 end
 
 put "## Distributions\n"
-put "What `vary` of an ensemble takes. Numbers scale them: `uniform(0.7, 1.3)*30*kN`.\n"
+put "Values of `vary` in an ensemble. Numbers scale them: `uniform(0.7, 1.3)*30*kN`.\n"
 put "| written | meaning |"
 put "| --- | --- |"
 for _, entry in ipairs(schema.distributions) do
@@ -101,7 +101,7 @@ put("`param{ mu = 0.2, n = 4 }` declares, once in a deck, the numbers that the c
   .. "`--set tighten=0.04*mm`. It returns them by name.\n")
 
 for _, kind in ipairs { "bolt", "list of bolts", "frame" } do
-  put("## What a %s has\n", kind)
+  put("## Fields of a %s\n", kind)
   put "| written | kind | meaning |"
   put "| --- | --- | --- |"
   for _, field in ipairs(schema.fields[kind]) do

@@ -273,7 +273,7 @@ words[3] = {
             { "about", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "a point of the axis" },
           } },
         } },
-      frame "in which `place` is meant, with the mesh in it",
+      frame "of `place`; the mesh turns with it",
       { "velocity", type = "vector", unit = "m/s", range = { -20000, 20000 }, usual = usual_velocity, default = { 0, 0, 0 },
         doc = "velocity at the start of the first dynamic step" },
       { "orientation", type = "orientation", default_doc = "along x, y, z",
@@ -318,7 +318,7 @@ words[3][1] = {
 
 words[3][2] = {
   "rigid", makes = "substructure",
-  doc = "A body that does not deform, as a box on its feet: a mass and its inertia behind faces of other parts. Its faces have the names of those in `on` (with the part in front where two have one name); "
+  doc = "A rigid body, such as an equipment box on its feet: a mass and its inertia attached to faces of other parts. Its faces have the names of those in `on` (with the part in front where two have one name); "
     .. "an interface joins each to the face that it lies on: `interface.bonded{ name = \"feet\", between = { panel:face \"feet\", box:face \"feet\" } }`.",
   arguments = {
     name_of "part",
@@ -333,15 +333,15 @@ words[3][2] = {
 
 words.frame = {
   name = "frame",
-  doc = "A frame of places: an origin and three axes at right angles. Whatever has an argument `frame` then means its places, directions and components in it.",
+  doc = "A local coordinate system: an origin and three orthogonal axes. Places, directions and components of anything that takes it as `frame` are in its axes.",
   call = {
-    makes = "frame", doc = "Where something has coordinates of its own. `f.x`, `f.y`, `f.z` and `f.origin` are its axes and its origin in the axes of the deck.",
+    makes = "frame", doc = "A local coordinate system. `f.x`, `f.y`, `f.z` and `f.origin` are its axes and its origin in the axes of the deck.",
     arguments = {
       { "origin", in_frame = "point", type = "vector", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "its origin" },
       { "axis", type = "vector", default = { 0, 0, 1 }, doc = "its z axis; the length does not matter" },
       { "x", type = "vector", default_doc = "x, or y where the axis is along x", doc = "direction of its x axis, of which what lies across `axis` counts" },
       { "angle", type = "number", range = { -7, 7 }, default = 0, doc = "by which x and y are then turned about `axis`, in radians: `17*deg`" },
-      frame "in which all this is meant",
+      frame "in whose axes the other arguments are",
     },
   },
 }
@@ -351,8 +351,8 @@ local function pattern_of(n_doc)
            doc = "the part, or a bolt with all its parts; it is the first of the list" },
     { "n", type = "integer", range = { 1, 10000 }, required = true, doc = n_doc }
 end
-local circle_of, circle_n = pattern_of "how many, evenly around"
-local line_of, line_n = pattern_of "how many"
+local circle_of, circle_n = pattern_of "number of copies, evenly around the axis"
+local line_of, line_n = pattern_of "number of copies"
 
 words.pattern = {
   name = "pattern", doc = "Equal parts, as a list of substructures: one mesh for all.",
@@ -402,7 +402,7 @@ words.bolt = {
       bolt_material,
       { "place", in_frame = "place", type = "placement", unit = "m", range = { -1000, 1000 }, default = { 0, 0, 0 }, doc = "as of a substructure",
         fields = words[3].call.arguments[4].fields },
-      frame "in which `place` is meant; the bolt then stands along its z",
+      frame "of `place`; the bolt stands along its z axis",
       of_bolts(),
     },
   },
@@ -414,7 +414,7 @@ words.bolt = {
       { "name", type = "name", required = true, doc = "of the bolts: `name[1]`, `name[2]`, ..." },
       bolt_size(),
       { "parts", type = "objects", kinds = { "substructure" }, at_least = 1, or_names = true, required = true,
-        doc = "clamped parts, or names of them (* stands for any text), the first under the head; of the others each hole may pass some" },
+        doc = "clamped parts, or names of them (* stands for any text), the first under the head; a hole may pass only some of the others" },
       { "radius", type = "number", unit = "m", range = { 1e-4, 0.5 }, default_doc = "any that the thread passes with up to 30 % to spare",
         doc = "of the holes, within two per cent" },
       { "where", in_frame = "function", type = "function", doc = "function(x, y, z), in metres, true for the end of a hole under the head: those holes alone" },
@@ -440,7 +440,7 @@ words[4] = {
         doc = "initial gap; a negative one is an interference; \"geometry\": the actual distance, point by point, for non-matching meshes; a function: the gap (m) "
           .. "at a place, added to that distance (crowned, wavy, measured faces); where 0, cylinders around one axis keep the gap that is drawn" },
       { "compliance", type = "compliance", default_doc = "none",
-        doc = "rough faces, whose asperities give way under pressure before the bodies touch all over: one of `normal`, `curve` and `asperities`",
+        doc = "rough faces, whose asperities deform before the bodies are fully in contact: one of `normal`, `curve` and `asperities`",
         fields = {
           { "normal", type = "number", unit = "Pa/m", range = { 1e3, 1e18 }, doc = "pressure per approach of the faces" },
           { "curve", type = "pairs", of = { "approach", "pressure" }, doc = "pairs of approach (m) and pressure (Pa) from (0, 0) on, straight in between and beyond the last" },
@@ -495,14 +495,14 @@ words[4] = {
   },
   {
     "iwan", makes = "interface",
-    doc = "A lap joint that slips little by little (Segalman's four parameters): held along the normal, along the tangents elastic sliders side "
-      .. "by side, the weakest of which slip at once. Its limit does not depend on the normal force.",
+    doc = "A lap joint with microslip (Iwan's model with Segalman's four parameters): bonded along the normal; along the tangents, elastic sliders in "
+      .. "parallel that slip one after the other, the weakest at any load. Its limit does not depend on the normal force.",
     arguments = {
       name_of "interface", between(), within(), points(),
-      { "slip", type = "number", unit = "Pa", range = { 1, 1e11 }, required = true, doc = "traction at which all of it slips: force over area" },
-      { "stiffness", type = "number", unit = "Pa/m", range = { 1, 1e18 }, required = true, doc = "traction per relative displacement of a small motion" },
-      { "chi", type = "number", range = { -0.99, 0 }, required = true, doc = "the loss of a small cycle grows with the power 3 + chi of its amplitude" },
-      { "beta", type = "number", range = { 0, 1000 }, required = true, doc = "stiffness that goes at once where all slips, over that which went before" },
+      { "slip", type = "number", unit = "Pa", range = { 1, 1e11 }, required = true, doc = "traction at macroslip: force over area" },
+      { "stiffness", type = "number", unit = "Pa/m", range = { 1, 1e18 }, required = true, doc = "traction per relative displacement of a small motion: the initial stiffness" },
+      { "chi", type = "number", range = { -0.99, 0 }, required = true, doc = "the energy loss of a small cycle grows with its amplitude to the power 3 + chi" },
+      { "beta", type = "number", range = { 0, 1000 }, required = true, doc = "stiffness lost at macroslip over that lost before it" },
       { "sliders", type = "integer", range = { 2, 200 }, default = 30, doc = "bands of the distribution; more are smoother and cost more" },
     },
   },
@@ -605,8 +605,8 @@ words[6] = {
   },
   {
     "spin", makes = "load",
-    doc = "Centrifugal forces on every substructure: what turns with a steady speed about an axis is pulled away from it, by density times speed squared times distance. "
-      .. "Static steps only; the stiffness that these forces bring or take is left out. The forces grow linearly over the step.",
+    doc = "Centrifugal force on every substructure at a constant speed about an axis: per volume, density times speed squared times the distance from the axis. "
+      .. "Static steps only; stress stiffening and spin softening are neglected. The force is ramped linearly over the step.",
     arguments = {
       { "speed", type = "number", unit = "rad/s", range = { 0, 1e6 }, required = true, doc = "`3000*2*math.pi/60` is 3000 turns a minute" },
       { "axis", in_frame = "direction", type = "vector", required = true, doc = "direction of the axis; its length does not matter" },
@@ -616,12 +616,12 @@ words[6] = {
   },
   {
     "temperature", makes = "load",
-    doc = "Parts are warmer or colder than they were made, each the same throughout: they grow, and are stressed where they cannot (-E expansion by, of a bar between walls). "
-      .. "Stresses in all results are without the free growth. List it in the steps that follow, too, or it goes away.",
+    doc = "A uniform temperature change of parts: they expand, and are stressed where the expansion is constrained (a bar between walls: -E expansion by). "
+      .. "Stresses in the results exclude the free expansion. A later step that does not list it takes the parts back to their stress-free temperature.",
     arguments = {
       { "parts", type = "objects", kinds = { "substructure" }, at_least = 1, required = true, doc = "which: of cells and a material that is the same in all directions" },
-      { "expansion", type = "number", unit = "1/K", range = { -1e-3, 1e-3 }, required = true, doc = "strain per kelvin: steel has 12e-6, aluminium 23e-6" },
-      { "by", type = "value", unit = "K", range = { -5000, 5000 }, required = true, doc = "temperature above the one without stress" },
+      { "expansion", type = "number", unit = "1/K", range = { -1e-3, 1e-3 }, required = true, doc = "coefficient of thermal expansion: 12e-6 for steel, 23e-6 for aluminium" },
+      { "by", type = "value", unit = "K", range = { -5000, 5000 }, required = true, doc = "temperature above the stress-free one" },
     },
   },
   {
@@ -661,7 +661,7 @@ words[6] = {
   {
     "release", makes = "load", doc = "Releases an interface: separation.",
     arguments = {
-      on({ "interface" }, "what lets go"),
+      on({ "interface" }, "released interfaces"),
       { "at", type = "number", unit = "s", range = { 0, 100 }, required = true,
         doc = "when, from the start of the step (from 0 to 1 in a static one)" },
     },
@@ -748,7 +748,7 @@ words[8] = {
       name_of "step", after,
       { "increments", type = "integer", range = { 1, 100000 }, default = 1, doc = "number of increments" },
       { "inertia_relief", type = "boolean", default = false,
-        doc = "loads accelerate what no support and no interface holds, as a rigid body, and its inertia balances them: a rocket under thrust, an assembly hung up freely" },
+        doc = "inertia balances the loads on whatever nothing holds, which accelerates as a rigid body: a rocket under thrust, a free-free assembly" },
       loads, step_supports,
     },
   },
@@ -871,7 +871,7 @@ words[10] = {
     arguments = {
       name_of "output",
       on({ "face", "region", "interface", "support" }, "where; `pressure` requires an interface or a wall"),
-      { "quantity", type = "choice", choices = quantities, required = true, doc = "what" },
+      { "quantity", type = "choice", choices = quantities, required = true, doc = "recorded quantity" },
       { "direction", in_frame = "direction", type = "vector", doc = "its component along this direction; its length does not matter" },
       frame "of `direction`",
     },
@@ -886,7 +886,7 @@ words[10] = {
       .. "the velocity of their centre of gravity.",
     arguments = {
       name_of "output",
-      { "of", type = "objects", kinds = { "substructure" }, at_least = 1, or_single = true, default_doc = "all", doc = "which parts" },
+      { "of", type = "objects", kinds = { "substructure" }, at_least = 1, or_single = true, default_doc = "all", doc = "parts" },
     },
   },
   {
@@ -928,7 +928,7 @@ words[10] = {
     arguments = spectrum({
       name_of "output",
       { "entering", type = "object", kinds = { "output.history" }, required = true, doc = "acceleration before the joint" },
-      { "leaving", type = "object", kinds = { "output.history" }, required = true, doc = "acceleration behind it" },
+      { "leaving", type = "object", kinds = { "output.history" }, required = true, doc = "acceleration after the joint" },
       { "bands", type = "integer", range = { 1, 24 }, default = 1, doc = "bands per octave: 1, or 3 for thirds" },
       { "joints", type = "integer", range = { 1, 100 }, default = 1,
         doc = "bolted joints on the path, for comparison with the rule of thumb of -3 dB each" },
@@ -938,7 +938,7 @@ words[10] = {
     "joint", makes = "output",
     doc = "History of an interface: normal, shear (N), opening, slip, plastic_opening (m), open_area, stick_area, slip_area "
       .. "(m^2), friction_work, plastic_work, damping_work, stored_energy (J).",
-    arguments = { name_of "output", on({ "interface", "support.wall" }, "which") },
+    arguments = { name_of "output", on({ "interface", "support.wall" }, "interfaces or walls") },
   },
   {
     "footprint", makes = "output",
@@ -946,7 +946,7 @@ words[10] = {
       .. "spread_z (root mean square distance of the normal force from there, m), shear_x, shear_y, shear_z (the same of the tangential force).",
     arguments = {
       name_of "output",
-      on({ "interface", "support.wall" }, "which"),
+      on({ "interface", "support.wall" }, "interfaces or walls"),
       { "about", type = "vector", unit = "m", range = { -1000, 1000 }, default_doc = "the centre of pressure", doc = "origin of the distances; in a symmetric model, a point on the planes of symmetry" },
       { "direction", type = "vector", default_doc = "the modulus", doc = "of the tangential force; its length does not matter" },
     },
@@ -974,7 +974,7 @@ words[10] = {
       .. "as Matrix Market files, with a page that describes each row. Columns: frequency (Hz), damping (ratio) of its own modes.",
     arguments = {
       name_of "output",
-      on({ "face", "region" }, "where something is to be attached, pushed or measured"),
+      on({ "face", "region" }, "faces and regions that stay accessible: to attach, load or measure"),
       { "up_to", type = "number", unit = "Hz", range = { 0.01, 1e8 }, doc = "highest frequency of use: fixed-interface modes are kept up to twice that" },
       { "modes", type = "integer", range = { 1, 2000 }, doc = "number of modes to keep instead" },
       { "motion", type = "choice", choices = { "mean", "rigid", "nodes" }, default = "mean",
@@ -990,15 +990,15 @@ words[10] = {
   {
     "modes", makes = "output",
     doc = "Natural modes of the assembly about the end of a static step: ties closed, contacts as they stand there, supports of that step; without a static "
-      .. "step, of the unloaded assembly. Motions that nothing resists come first, at 0 Hz. Shapes for ParaView: <name>.pvd, whose time is the frequency (Hz). Columns: frequency (Hz), number, damping (ratio), generalised_mass "
+      .. "step, of the unloaded assembly. Rigid-body modes and mechanisms come first, at 0 Hz. Shapes for ParaView: <name>.pvd, whose time is the frequency (Hz). Columns: frequency (Hz), number, damping (ratio), generalised_mass "
       .. "(kg, of the shape whose largest displacement is one), participation_x, _y, _z, _about_x, _about_y, _about_z (about the axes through the centre "
       .. "of mass, m), effective_x ... effective_about_z (effective masses, kg, kg m^2).",
     arguments = {
       name_of "output",
-      { "n", type = "integer", range = { 1, 2000 }, default_doc = "10", doc = "how many, those at 0 Hz among them" },
+      { "n", type = "integer", range = { 1, 2000 }, default_doc = "10", doc = "number of modes, including those at 0 Hz" },
       { "up_to", type = "number", unit = "Hz", range = { 0.01, 1e8 }, doc = "or all up to this frequency" },
       { "sliding", type = "choice", choices = { "tied", "free" }, default = "tied",
-        doc = "contact points at the limit of their friction: tied, as the first reversal makes them, or free along their tangents" },
+        doc = "contact points at their friction limit: tied, as after the first reversal, or free along their tangents" },
       { "after", type = "object", kinds = { "step" }, default_doc = "the last static step", doc = "about the state at the end of this step, with its supports" },
     },
   },
@@ -1015,7 +1015,7 @@ words[10] = {
   },
   {
     "energy", makes = "output",
-    doc = "Balance of the whole. Columns: kinetic, strain, loads, friction, plastic, damping, scheme, balance, stored (J; in interfaces).",
+    doc = "Energy balance of the assembly. Columns: kinetic, strain, loads, friction, plastic, damping, scheme, balance, stored (J; in interfaces).",
     arguments = {},
   },
 }
@@ -1030,8 +1030,8 @@ words[11] = {
       { "interfaces", type = "objects", kinds = { "interface" }, default = {}, doc = "where parts meet" },
       { "supports", type = "objects", kinds = { "support" }, default = {}, doc = "what holds them" },
       { "steps", type = "objects", kinds = { "step" }, at_least = 1, required = true, doc = "in order" },
-      { "solver", type = "object", kinds = { "solver" }, default_doc = "solver.latin{}", doc = "how" },
-      { "outputs", type = "objects", kinds = { "output" }, default = {}, doc = "what is kept" },
+      { "solver", type = "object", kinds = { "solver" }, default_doc = "solver.latin{}", doc = "solution method" },
+      { "outputs", type = "objects", kinds = { "output" }, default = {}, doc = "requested results" },
     },
   },
 }
@@ -1164,7 +1164,7 @@ local methods = {
   },
   {
     kind = "ensemble", "run", write = "ensemble:run{}", makes = "ensemble result",
-    doc = "Computes all members, writes out/<problem>/<case>/ and returns what they come to.",
+    doc = "Computes all members, writes out/<problem>/<case>/ and returns their statistics.",
     arguments = {
       { "case", type = "name", default = "ensemble", doc = "name for its folder; members are `case_1`, `case_2`, ..." },
       { "members", type = "boolean", default = false, doc = "writes the folder of each member, too" },
@@ -1201,7 +1201,7 @@ local reading = {
 
 for _, name in ipairs { "frame", "pattern", "bolt" } do words[#words + 1], words[name] = words[name], nil end
 
--- What the deck reads of what is no single object.
+-- Fields that a deck can read of bolts, frames and lists.
 local fields = {
   bolt = {
     { "name", kind = "text", doc = "its name" },
