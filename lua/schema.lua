@@ -1014,6 +1014,21 @@ words[10] = {
     },
   },
   {
+    "ringdown", makes = "output",
+    doc = "Frequency and damping of a vibration that decays freely, against its amplitude: a band of the history in a dynamic step, seen through a window of 4.44 / (width of the band) that moves along it, "
+      .. "a row a period until the amplitude is a thousandth of the first. Columns: time (s), amplitude (of the history), frequency (Hz), damping (ratio).",
+    arguments = {
+      name_of "output",
+      { "of", type = "object", kinds = { "output.history" }, required = true, doc = "the history: one column, as with a `direction`" },
+      { "band", type = "numbers", unit = "Hz", range = { 1e-3, 1e8 }, at_least = 2, at_most = 2, doc = "lowest and highest frequency, which holds this vibration alone; at most a factor of three" },
+      { "mode", type = "object", kinds = { "output.modes" }, with = "number", doc = "instead of `band`: modes, one of which rings; the band goes half of the way to the next ones" },
+      { "number", type = "integer", range = { 1, 2000 }, with = "mode", doc = "which of them, as in their table" },
+      { "step", type = "object", kinds = { "step" }, default_doc = "the last dynamic step", doc = "the dynamic step" },
+      { "from", type = "number", unit = "s", range = { 0, 100 }, default = 0, doc = "when the free vibration begins, from the start of the step" },
+    },
+    one_of = { "band", "mode" },
+  },
+  {
     "energy", makes = "output",
     doc = "Energy balance of the assembly. Columns: kinetic, strain, loads, friction, plastic, damping, scheme, balance, stored (J; in interfaces).",
     arguments = {},

@@ -17,6 +17,7 @@ struct Display {
     loop,         // force against displacement, and its cycles
     frequencies,  // a list
     modes,        // with effective masses and shapes
+    amplitude,    // frequency and damping against it
     energy        // one on top of the other
   };
   As as;

@@ -1,8 +1,9 @@
-// Natural modes: frequencies, damping and effective masses, and what moves.
+// Natural modes: frequencies, damping and effective masses, what moves; how they go with amplitude.
 #include <algorithm>
 #include <cmath>
 
 #include "base/log.hpp"
+#include "drawing/svg_plot.hpp"
 #include "drawing/turning_file.hpp"
 #include "drawing/units.hpp"
 #include "report/html.hpp"
@@ -75,6 +76,30 @@ std::string pictures_of_shapes(const RunFolder& run, const std::string& name) {
   return html::row(figures);
 }
 
+// Frequency and damping against amplitude, side by side.
+std::string amplitude_part(const RunFolder& run, const Json& output) {
+  const Table table = run.table(text(output, "file"), {"frequency", "damping"});
+  if (table.n_rows() < 2) return "";
+  const std::string name = text(output, "name"), by = table.has_column("amplitude") ? "amplitude" : "acceleration";
+  const size_t column =
+      static_cast<size_t>(std::find(table.names.begin(), table.names.end(), by) - table.names.begin());
+  if (!table.has_column(by)) return "";
+  Plot frequency{.title = name + ": frequency", .x = {by, table.units[column], true}, .y = {"frequency", "Hz"}};
+  frequency.width = 530, frequency.height = 270;
+  Plot damping = frequency;
+  damping.title = name + ": damping";
+  damping.y = {"fraction of critical damping", "%"};
+  std::vector<double> percent = table.column("damping");
+  for (double& share : percent) share *= 100.0;
+  frequency.lines.push_back({"", table.column(by), table.column("frequency"), {}, false, table.n_rows() < 60});
+  damping.lines.push_back({"", table.column(by), percent, {}, false, table.n_rows() < 60});
+  const char* made = by == "amplitude"
+                         ? "A vibration that decays, period by period."
+                         : "Static steps in the shape of the mode; the acceleration is where it is largest.";
+  return html::heading(name) + html::paragraph(made) +
+         html::row({doubted_figure(run, svg(frequency)), doubted_figure(run, svg(damping))});
+}
+
 std::string modes_part(const RunFolder& run, const Json& output) {
   std::vector<std::string> columns = {"frequency", "damping", "generalised_mass"};
   for (const char* direction : of_direction) columns.push_back(std::string("effective_") + direction);
@@ -96,7 +121,10 @@ std::string modes_part(const RunFolder& run, const Json& output) {
 std::string modes_section(const RunFolder& run) {
   std::string body;
   for (const Json& output : run.outputs(Display::As::modes)) body += modes_part(run, output);
-  return doubted_section(run, "Natural modes", body);
+  std::string amplitudes;
+  for (const Json& output : run.outputs(Display::As::amplitude)) amplitudes += amplitude_part(run, output);
+  return doubted_section(run, "Natural modes", body) +
+         doubted_section(run, "Frequency and damping against amplitude", amplitudes);
 }
 
 }  // namespace dygita

@@ -1,7 +1,8 @@
 // Frequency and damping of a mode against its amplitude: a mass on Iwan's joints in closed form, by Masing's rule and
-// by a whole cycle; turned; what is refused.
+// by a whole cycle; as it rings down; turned; what is refused.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -12,7 +13,7 @@ namespace {
 
 // A cube between two lap joints, which holders have; the joints slip little by little along x and y.
 const std::string sandwich = R"(
-local p = param{ a = 400, n = 40, cycle = 0, turned = 0, number = 1, early = 0 }
+local p = param{ a = 400, n = 40, cycle = 0, turned = 0, number = 1, early = 0, ring = 0 }
 local steel = material.elastic{ name = "steel", young = 2000*GPa, poisson = 0, density = 7800 }
 local place = p.turned == 1 and { rotate = { axis = { 1, 2, 3 }, angle = 0.7 } } or nil
 local function box(name, z, height, n)
@@ -40,9 +41,17 @@ if p.cycle == 1 then
 end
 local made = {}
 for i = 2, #steps do made[#made + 1] = steps[i] end
+local outputs = { modes, output.backbone{ name = "backbone", mode = modes, number = number, steps = made } }
+if p.ring == 1 then    -- let go
+  steps[#steps + 1] = step.dynamic{ name = "ring", after = steps[#steps], duration = 25*ms, dt = 10*us }
+  local x = output.history{ name = "x", on = mid:face "xmax", quantity = "displacement", direction = { 1, 0, 0 } }
+  for _, made in ipairs{ x, output.ringdown{ name = "of mode", of = x, mode = modes, number = 1 }, output.ringdown{ name = "of band", of = x, band = { 600, 1700 } } } do
+    table.insert(outputs, made)
+  end
+end
 problem{ name = "sandwich", substructures = { low, mid, high }, interfaces = { lower, upper }, supports = { base, guide }, steps = steps,
   solver = solver.latin{ static_tolerance = 1e-11 },
-  outputs = { modes, output.backbone{ name = "backbone", mode = modes, number = number, steps = made } } }:run{}
+  outputs = outputs }:run{}
 )";
 
 constexpr double mass = 7.8e-3, area = 2e-4, stiffness = 2e9, slip = 2e4, chi = -0.5, beta = 0.1;
@@ -82,6 +91,36 @@ TEST(Backbone, of_a_whole_cycle_loses_what_Masing_has) {
   std::cout << "  " << cycle << " for " << damping(q) << "\n";
   EXPECT_NEAR(cycle, damping(q), 0.02 * damping(q));
   EXPECT_EQ(run.column("backbone", "displacement").size(), 60u);
+}
+
+// At a hundred times the cost.
+TEST(Backbone, is_what_a_ringdown_shows) {
+  const DeckRun run = run_text(sandwich, {{"ring", "1"}}, 1).at(0);
+  const std::vector<double>& q = run.column("backbone", "displacement");
+  for (const char* name : {"of mode", "of band"}) {
+    const std::vector<double>&amplitude = run.column(name, "amplitude"), &frequency = run.column(name, "frequency"),
+          &damping_found = run.column(name, "damping");
+    int n_compared = 0;
+    double off_frequency = 0.0, off_damping = 0.0;
+    for (size_t i = 0; i < amplitude.size(); ++i) {
+      if (amplitude[i] < 5e-7 || amplitude[i] > 2.6e-6) continue;
+      const auto right = static_cast<size_t>(std::lower_bound(q.begin(), q.end(), amplitude[i]) - q.begin());
+      ASSERT_TRUE(right > 0 && right < q.size());
+      const double share = (amplitude[i] - q[right - 1]) / (q[right] - q[right - 1]);
+      const auto at = [&](const char* column) {
+        const std::vector<double>& values = run.column("backbone", column);
+        return values[right - 1] + share * (values[right] - values[right - 1]);
+      };
+      off_frequency = std::max(off_frequency, std::abs(frequency[i] / at("frequency") - 1));
+      off_damping = std::max(off_damping, std::abs(damping_found[i] / damping(amplitude[i]) - 1));
+      ++n_compared;
+    }
+    std::cout << "  " << name << ": frequency off by " << off_frequency << ", damping by " << off_damping << ", in "
+              << n_compared << " periods\n";
+    EXPECT_GE(n_compared, 10);
+    EXPECT_LT(off_frequency, 0.005);
+    EXPECT_LT(off_damping, 0.1);
+  }
 }
 
 TEST(Backbone, is_the_same_turned) {

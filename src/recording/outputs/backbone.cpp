@@ -194,7 +194,7 @@ class BackboneOutput final : public Output {
 }  // namespace
 
 namespace outputs {
-OutputEntry backbone() { return {"backbone", new_output<BackboneOutput>, {Display::As::nothing, "", 0}}; }
+OutputEntry backbone() { return {"backbone", new_output<BackboneOutput>, {Display::As::amplitude, "", 0}}; }
 }  // namespace outputs
 
 }  // namespace dygita
