@@ -100,7 +100,7 @@ def estimates_section(rows):
              "`build/release/tests/effectivity scenes`) frequencies and amplitudes are apart, against dt/4 and cells 3 times shorter: the time of the finer run is "
              "stretched until its velocities are nearest, and what is left then is the amplitude's; for the frequencies, until "
              "what both runs hold about the mean frequency that the run tells is nearest. Contact touches, opens or "
-             "slides in impedance, block on bar, pushed block, cap on posts and falling block, which the run says: there "
+             "slides in impedance, block on bar, pushed block, cap on posts, lapped plates and falling block, which the run says: there "
              "a comparison of frequencies means little (what is left of the distance is as large as the motion in the "
              "last), and the estimates are orders of magnitude."]
     if rows is None:

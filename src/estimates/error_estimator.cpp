@@ -234,7 +234,9 @@ ErrorEstimator::Estimate ErrorEstimator::dynamic_steps() const {
   const double of_step = is_tuned && steps2 > 0.0 ? lag / TimeScheme::frequency_lag(steps2, false) : 1.0;
   estimate.mesh_amplitude = ratio(stress_energy_, energy);
   estimate.mesh = std::hypot(phase, estimate.mesh_amplitude);
-  estimate.mesh_frequency = of_step * mesh.dispersion + mesh.of_all + 0.5 * frequency2 * lag_;
+  estimate.mesh_dispersion = of_step * mesh.dispersion + 0.5 * frequency2 * lag_;
+  estimate.mesh_shift = mesh.of_all;
+  estimate.mesh_frequency = estimate.mesh_dispersion + estimate.mesh_shift;
   estimate.step_frequency = phase_factor_ * lag;
   return estimate;
 }

@@ -30,6 +30,9 @@ class ErrorEstimator {
     double velocity = 0.0;          // m/s, at which all mass would have the energy that the errors are relative to
     // Apart (eq. Q14): relative errors of the mean frequency, and of amplitudes, in energy norm.
     double step_frequency = 0.0, mesh_frequency = 0.0, mesh_amplitude = 0.0;
+    // Of mesh_frequency: what goes with the frequency, and what all frequencies have alike.
+    double mesh_dispersion = 0.0, mesh_shift = 0.0;
+    bool joints_change = false;  // in the shock contacts touch, open or slide, or laws yield: who watches them says so
   };
   Estimate static_steps() const { return static_; }
   Estimate dynamic_steps() const;

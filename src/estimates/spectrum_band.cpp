@@ -11,11 +11,45 @@ namespace {
 
 double decibels(double ratio) { return 20.0 * std::log10(ratio); }
 
-// Of the velocities, relative to those of the shock: all of the mesh error that is phase, and the square of the error
-// of stresses.
-double mesh_error_of_motion(const ErrorEstimator::Estimate& errors) {
+// A spectrum between its frequencies, dB: straight lines over their logarithms; at its ends as there.
+double level_at(const std::vector<double>& frequency, const std::vector<double>& level, double at) {
+  const auto after = std::lower_bound(frequency.begin(), frequency.end(), at);
+  if (after == frequency.begin()) return decibels(level.front());
+  if (after == frequency.end()) return decibels(level.back());
+  const auto i = static_cast<size_t>(after - frequency.begin());
+  const double share = std::log(at / frequency[i - 1]) / std::log(frequency[i] / frequency[i - 1]);
+  return (1.0 - share) * decibels(level[i - 1]) + share * decibels(level[i]);
+}
+
+// dB, by how much a spectrum changes where the frequencies of the motion move up or down by a share.
+double largest_within(const std::vector<double>& frequency, const std::vector<double>& level, size_t i, double share) {
+  double most = 0.0;
+  for (const double part : {-1.0, -0.5, 0.5, 1.0}) {
+    const double there = level_at(frequency, level, frequency[i] * std::pow(1.0 + share, part));
+    if (std::isfinite(there)) most = std::max(most, std::abs(there - decibels(level[i])));
+  }
+  return most;
+}
+
+double turns_of(double frequency, const ErrorEstimator::Estimate& errors) {
+  return errors.mean_frequency > 0.0 ? frequency / errors.mean_frequency : 1.0;
+}
+
+// Relative: the mesh moves frequencies by shares that rise with them, as in bending (manual, eq. Q15).
+double moved_at(double frequency, const ErrorEstimator::Estimate& errors) {
+  constexpr double most = 0.5;
+  return std::min(most, errors.mesh_shift + errors.mesh_dispersion * turns_of(frequency, errors));
+}
+
+// Relative to the level of the spectrum, of which errors of all velocities are a share `of_velocity`. Velocities are
+// off by the square of what stresses are, at the frequencies of the motion, also where next to nothing of it arrives. A
+// lag moves a spectrum and leaves nothing else, but lets parts meet otherwise.
+double mesh_error_beside(const ErrorEstimator::Estimate& errors, double frequency, double of_velocity) {
   const double amplitude2 = std::pow(errors.mesh_amplitude, 2);
-  return std::sqrt(std::max(0.0, std::pow(errors.mesh, 2) - amplitude2) + std::pow(amplitude2, 2));
+  if (!errors.joints_change)
+    return amplitude2 * std::max(1.0, of_velocity / std::max(1.0, turns_of(frequency, errors)));
+  const double phase2 = std::max(0.0, std::pow(errors.mesh, 2) - amplitude2);
+  return of_velocity * std::sqrt(phase2 + std::pow(amplitude2, 2));
 }
 
 constexpr size_t iteration_column = 1, time_step_column = 2, mesh_column = 3, all_column = 4, record_column = 5;
@@ -47,11 +81,16 @@ Table spectrum_band(const Table& spectrum, SrsQuantity quantity, const ErrorEsti
     const double w = 2.0 * std::numbers::pi * frequency[i];
     const double level = band_share * errors.velocity * std::pow(w, power);
     band.columns[0].push_back(frequency[i]);
-    const double parts[] = {errors.iteration, errors.time_step, mesh_error_of_motion(errors)};
-    for (int k = 0; k < 3; ++k) {
-      // A spectrum of nothing has no level to be relative to.
-      band.columns[k + 1].push_back(maximax[i] > 0.0 ? decibels(1.0 + level * parts[k] / maximax[i]) : 0.0);
+    if (maximax[i] <= 0.0) {  // a spectrum of nothing has no level to be relative to
+      for (const size_t k : {iteration_column, time_step_column, mesh_column}) band.columns[k].push_back(0.0);
+      continue;
     }
+    const double of_velocity = level / maximax[i];
+    band.columns[iteration_column].push_back(decibels(1.0 + of_velocity * errors.iteration));
+    band.columns[time_step_column].push_back(decibels(1.0 + of_velocity * errors.time_step));
+    band.columns[mesh_column].push_back(
+        std::hypot(largest_within(frequency, maximax, i, moved_at(frequency[i], errors)),
+                   decibels(1.0 + mesh_error_beside(errors, frequency[i], of_velocity))));
   }
   band.columns[record_column] = of_record;
   band.columns[record_column].resize(frequency.size(), 0.0);

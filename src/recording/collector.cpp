@@ -83,6 +83,9 @@ void Collector::watch(const Instant& instant) {
   now.energy = std::max({now.energy, energy_of(instant), left_by_tolerance * before_.strain});
   now.imbalance = std::max(now.imbalance, std::abs(e.balance() - before_.balance()));
   now.loss = std::max(now.loss, e.scheme - before_.scheme);
+  constexpr double much = 1e-3;
+  joints_give_ = joints_give_ || (!instant.is_static() &&
+                                  e.friction + e.plastic - before_.friction - before_.plastic > much * now.energy);
   now.gain = std::max(now.gain, before_.scheme - e.scheme);
   if (instant.fields) now.springs = std::max(now.springs, e.scheme - before_springs_);
 }
@@ -156,7 +159,8 @@ void Collector::finish_outputs(RunResult& result) {
     recorder->finish(table, result.findings[output]);
     if (!output->columns().empty()) result.tables[output] = std::move(table);
   }
-  const RunEnd end{problem_, result, parts_.errors().dynamic_steps(), parts_.errors().static_steps()};
+  RunEnd end{problem_, result, parts_.errors().dynamic_steps(), parts_.errors().static_steps()};
+  end.errors.joints_change = joints_give_ || contacts_change(problem_, result.contacts);
   for (const OutputPtr& output : problem_.outputs) {
     if (output->columns().empty()) continue;
     Table& table = result.tables[output.get()];
@@ -171,6 +175,7 @@ void Collector::finish_outputs(RunResult& result) {
 }
 
 void Collector::finish(RunResult& result) {
+  result.contacts = parts_.contacts().take();
   finish_outputs(result);
   result.convergence = std::move(convergence_);
   result.bolts = bolts_.take();
@@ -180,7 +185,6 @@ void Collector::finish(RunResult& result) {
   parts_.turned().finish(problem_, result);
   parts_.gaps().finish(result);
   result.stresses = parts_.stresses().take();
-  result.contacts = parts_.contacts().take();
   for (const PartStress& stress : result.stresses) {
     std::optional<double>& least = result.figures.yield_margin;
     if (!least || std::isnan(stress.margin()) || stress.margin() < *least) least = stress.margin();

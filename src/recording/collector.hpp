@@ -54,6 +54,7 @@ class Collector : public Observer {
   std::optional<bool> kind_;     // are they static?
   double before_springs_ = 0.0;  // J, the scheme's energy when the step began
   double largest_energy_ = 0.0;  // J
+  bool joints_give_ = false;     // in motion: they dissipate
   PartWatch& parts_;
   BoltRecorder bolts_;
 };

@@ -7,6 +7,8 @@
 
 namespace dygita {
 
+struct Problem;
+
 // Of a static step the state at its end; of a dynamic one the extremes over its increments.
 struct ContactStep {
   int step = -1;                        // index in problem.steps
@@ -25,5 +27,8 @@ struct ContactSummary {
   double friction = 0.0;
   std::vector<ContactStep> steps;  // those it has a part in
 };
+
+// What touches, lets go or slides in a shock does so when and where dt and mesh decide, which no estimate sees.
+bool contacts_change(const Problem& problem, const std::vector<ContactSummary>& contacts);
 
 }  // namespace dygita

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/names.hpp"
+#include "model/model.hpp"
 
 namespace dygita {
 
@@ -17,6 +18,16 @@ double BoltSummary::largest() const {
 std::optional<double> BoltSummary::loss() const {
   if (!(tightened > 0.1 * largest())) return std::nullopt;
   return 1.0 - last / tightened;
+}
+
+bool contacts_change(const Problem& problem, const std::vector<ContactSummary>& contacts) {
+  constexpr double rounding = 1e-12;  // m
+  for (const ContactSummary& contact : contacts)
+    for (const ContactStep& of : contact.steps)
+      if (!problem.steps[static_cast<size_t>(of.step)]->is_static &&
+          (of.opening > rounding || of.sliding.value_or(0.0) > 0.0 || (of.lowest <= 0.0 && of.highest > 0.0)))
+        return true;
+  return false;
 }
 
 bool Table::has_column(const std::string& name) const {

@@ -94,17 +94,6 @@ std::string what_is_free(const FreeStep& step) {
   return step.is_whole ? "; nothing holds the assembly" : "";
 }
 
-// What touches, lets go or slides in a shock does so when and where dt and mesh decide, which no estimate sees.
-bool contacts_change(const Problem& problem, const RunResult& result) {
-  constexpr double rounding = 1e-12;  // m
-  for (const ContactSummary& contact : result.contacts)
-    for (const ContactStep& of : contact.steps)
-      if (!problem.steps[static_cast<size_t>(of.step)]->is_static &&
-          (of.opening > rounding || of.sliding.value_or(0.0) > 0.0 || (of.lowest <= 0.0 && of.highest > 0.0)))
-        return true;
-  return false;
-}
-
 void say_summary(const Problem& problem, const RunResult& result, const std::filesystem::path& directory,
                  double seconds) {
   if (const std::string pieces = list_pieces(problem, result.pieces); !pieces.empty())
@@ -148,7 +137,7 @@ void say_summary(const Problem& problem, const RunResult& result, const std::fil
         "{:.2g} % (time "
         "step) and {:.2g} % (mesh), an amplitude by {:.2g} % (mesh), a spectrum by its band",
         figures.step_frequency_error.value(), *figures.mesh_frequency_error, figures.mesh_amplitude_error.value()));
-  if (figures.mesh_frequency_error && contacts_change(problem, result))
+  if (figures.mesh_frequency_error && contacts_change(problem, result.contacts))
     say("  contacts touch, open or slide in the shock, when and where dt and mesh decide: these errors are orders of "
         "magnitude there; compare with a finer run (dygita converge)");
   if (figures.static_mesh_error)

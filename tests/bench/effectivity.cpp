@@ -111,11 +111,26 @@ struct NamedScene {
   const char* name;
 };
 
-constexpr NamedScene motions[] = {
-    {1, "impedance"},        {2, "block on bar"},      {3, "shaken cantilever"},    {4, "pushed block"},
-    {5, "bracket"},          {6, "cap on posts"},      {7, "joint that yields"},    {8, "falling block"},
-    {9, "tet10 cantilever"}, {11, "hex20 cantilever"}, {10, "twisted bar 2 cells"}, {12, "twisted bar 1 cell"},
-    {13, "ring-down"},       {14, "two plates shaken"}};
+constexpr NamedScene motions[] = {{1, "impedance"},
+                                  {2, "block on bar"},
+                                  {3, "shaken cantilever"},
+                                  {4, "pushed block"},
+                                  {5, "bracket"},
+                                  {6, "cap on posts"},
+                                  {7, "joint that yields"},
+                                  {8, "falling block"},
+                                  {9, "tet10 cantilever"},
+                                  {11, "hex20 cantilever"},
+                                  {10, "twisted bar 2 cells"},
+                                  {12, "twisted bar 1 cell"},
+                                  {13, "ring-down"},
+                                  {14, "two plates shaken"},
+                                  {15, "board on standoffs"},
+                                  {16, "stepped bar"},
+                                  {17, "plate with a mass"},
+                                  {18, "lapped plates"},
+                                  {19, "bracket on feet"},
+                                  {20, "damped frame"}};
 constexpr NamedScene statics[] = {{21, "static torsion 1 cell"},
                                   {22, "static torsion 2 cells"},
                                   {23, "static torsion 4 cells"},

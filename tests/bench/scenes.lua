@@ -3,6 +3,8 @@
 local p = param{ scene = 1, n = 1, finer = 1 }
 local steel = material.elastic{ name = "steel", young = 210*GPa, poisson = 0.3, density = 7800 }
 local aluminium = material.elastic{ name = "aluminium", young = 70*GPa, poisson = 0.33, density = 2700 }
+local laminate = material.elastic{ name = "laminate", young = 20*GPa, poisson = 0.2, density = 3000 }
+local damped = material.elastic{ name = "damped", young = 70*GPa, poisson = 0.33, density = 2700, damping_ratio = 0.02, damping_frequency = 2*kHz }
 local function box(name, size, cells, more)
   more = more or {}
   for i = 1, 3 do cells[i] = cells[i] * p.n end
@@ -16,6 +18,7 @@ local function fixed(on) supports[#supports+1] = support.fixed{ name = "held", o
 local function shock(loads, after) steps[#steps+1] = step.dynamic{ name = "shock", after = after, duration = duration, dt = dt / p.finer, loads = loads } end
 local function see(on, direction) places[#places+1] = { on, direction } end
 local function at_x(part, x, y) return part:where(function(a, b) return near(a, x) and (not y or near(b, y)) end) end
+local function bonded(a, b) joints[#joints+1] = interface.bonded{ name = "bond " .. #joints, between = { a, b } } end
 local pulse, half = history.haversine, history.half_sine
 
 if p.scene == 1 then -- a pulse through a change of impedance
@@ -107,6 +110,67 @@ elseif p.scene == 14 then -- two plates pressed together on a shaken base
   steps[1] = step.static{ name = "press", increments = 2, loads = press }
   shock({ press[1], press[2], load.base_acceleration{ on = base, direction = Z, history = half{ peak = 1000, duration = 0.5*ms } } }, steps[1])
   see(b:face "xmax", Z)
+elseif p.scene == 15 then -- a board on four standoffs, bonded, on a shaken base
+  local base = box("base", { 60*mm, 40*mm, 10*mm }, { 6, 4, 1 })
+  local board = box("board", { 60*mm, 40*mm, 2*mm }, { 12, 8, 1 }, { of = laminate, at = { 0, 0, 20*mm } })
+  parts = { base, board }
+  for i, at in ipairs{ { 0, 0 }, { 55*mm, 0 }, { 0, 35*mm }, { 55*mm, 35*mm } } do
+    local standoff = box("standoff " .. i, { 5*mm, 5*mm, 10*mm }, { 1, 1, 2 }, { of = aluminium, at = { at[1], at[2], 10*mm } })
+    parts[#parts+1] = standoff
+    bonded(base:face "zmax", standoff:face "zmin") bonded(standoff:face "zmax", board:face "zmin")
+  end
+  dt, duration = 4*us, 2*ms
+  shock{ load.base_acceleration{ on = fixed(base:face "zmin"), direction = { 0.3, 0, 1 }, history = half{ peak = 5000, duration = 300*us } } }
+  see(at_x(board, 30*mm, 20*mm), Z) see(parts[3]:face "zmax", X)
+elseif p.scene == 16 then -- a pulse through a stepped bar, bonded
+  local a, b = box("a", { 8*mm, 8*mm, 60*mm }, { 2, 2, 15 }), box("b", { 4*mm, 4*mm, 60*mm }, { 1, 1, 15 }, { at = { 2*mm, 2*mm, 60*mm } })
+  parts = { a, b }
+  bonded(a:face "zmax", b:face "zmin")
+  shock{ load.pressure{ on = a:face "zmin", history = pulse{ peak = 50*MPa, duration = 15*us } } }
+  see(a:face "zmin", Z) see(b:face "zmax", Z)
+elseif p.scene == 17 then -- a plate held along one edge, with a mass on it that is struck
+  local a, b = box("a", { 60*mm, 60*mm, 3*mm }, { 10, 10, 1 }, { of = aluminium }), box("b", { 18*mm, 18*mm, 12*mm }, { 2, 2, 2 }, { at = { 30*mm, 24*mm, 3*mm } })
+  parts = { a, b }
+  bonded(a:face "zmax", b:face "zmin")
+  fixed(a:face "xmin")
+  dt, duration = 4*us, 2*ms
+  shock{ load.force{ on = b:face "zmax", z = half{ peak = 500, duration = 200*us }, y = half{ peak = 200, duration = 200*us } } }
+  see(b:face "zmax", Z) see(at_x(a, 60*mm, 0), Z)
+elseif p.scene == 18 then -- two lapped plates, pressed together, struck at the end of one
+  local a, b = box("a", { 50*mm, 12*mm, 4*mm }, { 10, 3, 2 }), box("b", { 50*mm, 12*mm, 4*mm }, { 10, 3, 2 }, { of = aluminium, at = { 35*mm, 0, 4*mm } })
+  local low, up = box("low", { 10*mm, 12*mm, 3*mm }, { 2, 3, 1 }, { at = { 37*mm, 0, -3*mm } }), box("up", { 10*mm, 12*mm, 3*mm }, { 2, 3, 1 }, { at = { 37*mm, 0, 8*mm } })
+  parts = { a, b, low, up }
+  bonded(a:face "zmin", low:face "zmax") bonded(b:face "zmax", up:face "zmin")
+  joints[#joints+1] = interface.contact{ name = "lap", between = { a:face "zmax", b:face "zmin" }, friction = 0.3 }
+  fixed(a:face "xmin")
+  local press = { load.pressure{ on = low:face "zmin", history = 30*MPa }, load.pressure{ on = up:face "zmax", history = 30*MPa } }
+  steps[1] = step.static{ name = "press", increments = 2, loads = press }
+  dt, duration = 2*us, 800*us
+  shock({ press[1], press[2], load.traction{ on = b:face "xmax", y = pulse{ peak = 1*MPa, duration = 80*us }, z = pulse{ peak = 1*MPa, duration = 80*us } } }, steps[1])
+  see(b:face "xmax", Z) see(a:face "xmax", Z)
+elseif p.scene == 19 then -- a bracket on two feet, held by a tightened rod, on a shaken base
+  local foot, flange = box("foot", { 40*mm, 12*mm, 4*mm }, { 10, 3, 1 }), box("flange", { 20*mm, 12*mm, 4*mm }, { 5, 3, 1 }, { of = aluminium, at = { 10*mm, 0, 14*mm } })
+  local left, right = box("left", { 4*mm, 12*mm, 10*mm }, { 1, 3, 3 }, { at = { 10*mm, 0, 4*mm } }), box("right", { 4*mm, 12*mm, 10*mm }, { 1, 3, 3 }, { at = { 26*mm, 0, 4*mm } })
+  local rod, web = box("rod", { 4*mm, 4*mm, 10*mm }, { 1, 1, 3 }, { at = { 18*mm, 4*mm, 4*mm } }), box("web", { 4*mm, 12*mm, 20*mm }, { 1, 3, 5 }, { of = aluminium, at = { 14*mm, 0, 18*mm } })
+  parts, joints = { foot, flange, left, right, rod, web }, { interface.bonded{ name = "shank", between = { rod:face "zmax", flange:face "zmin" } } }
+  bonded(foot:face "zmax", rod:face "zmin") bonded(flange:face "zmax", web:face "zmin")
+  for i, q in ipairs{ left, right } do
+    bonded(foot:face "zmax", q:face "zmin")
+    joints[#joints+1] = interface.contact{ name = "above " .. i, between = { q:face "zmax", flange:face "zmin" }, friction = 0.3 }
+  end
+  local base = fixed{ foot:face "xmin", foot:face "xmax" }
+  steps[1] = step.static{ name = "tighten", increments = 2, loads = { load.preload{ on = joints[1], force = 2*kN } } }
+  dt, duration = 2*us, 800*us
+  shock({ load.base_acceleration{ on = base, direction = { 1, 0, 1 }, history = half{ peak = 8000, duration = 120*us } } }, steps[1])
+  see(web:face "zmax", X) see(flange:face "zmax", Z)
+elseif p.scene == 20 then -- a damped frame of three bars on a shaken base
+  local left, right = box("left", { 6*mm, 6*mm, 60*mm }, { 1, 1, 8 }, { of = damped }), box("right", { 6*mm, 6*mm, 60*mm }, { 1, 1, 8 }, { of = damped, at = { 54*mm, 0, 0 } })
+  local top = box("top", { 60*mm, 6*mm, 6*mm }, { 10, 1, 1 }, { of = damped, at = { 0, 0, 60*mm } })
+  parts = { left, right, top }
+  bonded(top:face "zmin", left:face "zmax") bonded(top:face "zmin", right:face "zmax")
+  dt, duration = 10*us, 5*ms
+  shock{ load.base_acceleration{ on = fixed{ left:face "zmin", right:face "zmin" }, direction = { 1, 0.5, 0.3 }, history = half{ peak = 2000, duration = 500*us } } }
+  see(top:face "xmax", X) see(at_x(top, 30*mm), Z)
 elseif p.scene >= 21 then -- static: a square bar twisted (21, 22, 23) or bent (24, 25), one, two or four cells across
   local across = ({ 1, 2, 4, 1, 2 })[p.scene - 20]
   local a = box("a", { 60*mm, 8*mm, 8*mm }, { p.scene < 24 and 20 or 8, across, across })
