@@ -161,7 +161,8 @@ RunRequest request_of(const DeckState& state, const Problem& problem, const std:
 struct AskedCase {
   std::string name;
   DeckResultPtr start_from;  // null: from scratch
-  bool is_quiet = false;     // a member of an ensemble, which leaves no folder of its own
+  bool is_member = false;    // of an ensemble
+  bool is_quiet = false;     // leaves no folder of its own
 };
 
 // Runs or checks one problem while the deck's clock is stopped.
@@ -174,6 +175,7 @@ DeckResultPtr compute(DeckState& state, std::shared_ptr<const Problem> problem, 
     return std::make_shared<const DeckResult>(DeckResult{problem, hollow_result(*problem), true, asked.name});
   }
   RunRequest request = request_of(state, *problem, asked.name);
+  if (asked.is_member) request.shared = state.shared;
   if (asked.is_quiet) request.write_files = request.write_frames = request.write_state = false;
   if (asked.start_from)
     request.start_from = asked.start_from->run;
@@ -267,8 +269,8 @@ int run_from_deck(DeckState& state, lua_State* L) {
       arguments.has("start_from") ? arguments.object("start_from").as<DeckResultPtr>() : nullptr;
   const bool is_member = arguments.has("member");
   const bool is_quiet = is_member && arguments.text("member") == "quiet";
-  if (is_member) ++state.n_members;
-  DeckResultPtr result = compute_at(origin, state, problem, {case_name, start_from, is_quiet});
+  if (is_member && state.n_members++ == 0) state.shared = std::make_shared<OperatorsOfMembers>();
+  DeckResultPtr result = compute_at(origin, state, problem, {case_name, start_from, is_member, is_quiet});
   if (!is_member) note_case(state, *result, case_name, arguments, start_from);
   if (!result->run->converged) state.outcome.not_converged.push_back(label);
   if (result->run->interrupted) throw DeckStopped();

@@ -28,7 +28,8 @@ struct DeckState : LuaState {
   std::set<std::pair<std::string, std::string>> cases;  // problem and case names that ran
   DeckOutcome outcome;
   Study study;
-  int n_members = 0;  // of the ensemble at hand that have run, or were checked
+  int n_members = 0;                           // of the ensemble at hand that have run, or were checked
+  std::shared_ptr<OperatorsOfMembers> shared;  // among them
   std::set<std::string> parameters_read, signals_told;
   std::map<std::shared_ptr<const NamedParts>, std::set<std::string>> parts_taken;  // by the deck, names
   std::vector<std::shared_ptr<const ForeignMeshes>> model_files;

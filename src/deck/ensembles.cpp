@@ -226,6 +226,7 @@ int conclude_ensemble(LuaState& lua, lua_State* L) {
   lua_pop(L, 1);
   take_members(L, *found);
   state.n_members = 0;
+  state.shared = nullptr;
   state.declared.mark_used(the_object_at(L, 1).id);
   each_of(L, 2, "problems", [&](size_t) { state.declared.mark_used(the_object_at(L, -1).id); });
   lua_getfield(L, 2, "keeps_members");

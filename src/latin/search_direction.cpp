@@ -6,7 +6,7 @@
 
 #include "base/parallel_by_cost.hpp"
 #include "fem/cell_tensor.hpp"
-#include "law/law.hpp"
+#include "step/shared_operators.hpp"
 
 namespace dygita {
 
@@ -57,21 +57,6 @@ double mass_at(const StepModel& model, const Port& port, const NodeAreas& areas)
   return port.area * sum / weights;
 }
 
-// N/m, of the laws at each port that are springs: zero elsewhere. Those that are springs under pressure alone are taken
-// where rough faces are pressed at all.
-std::vector<Vec3> stiffness_of_laws(const StepModel& model) {
-  constexpr double pressed = 5e-6;  // m
-  std::vector<Vec3> stiffness(model.exchange.ports.size(), Vec3::Zero());
-  for (const Point& point : model.exchange.points) {
-    if (!point.law) continue;
-    LawState state = point.law->initial();
-    state.gap = -pressed;
-    const Vec3 of_law = point.area * point.law->tangent(state, true).stiffness;
-    for (int p = point.first_port; p < point.end_port; ++p) stiffness[static_cast<size_t>(p)] = of_law;
-  }
-  return stiffness;
-}
-
 // Of each piece that is solved here.
 std::vector<ElasticTensor> mean_tensors(const StepModel& model) {
   std::vector<ElasticTensor> tensors(static_cast<size_t>(model.cut->n_pieces()));
@@ -96,7 +81,7 @@ Vec search_directions(const StepModel& model, double multiplier, int n_window) {
   const NodeAreas areas = node_areas(model);
   const std::vector<ElasticTensor> tensors = mean_tensors(model);
   const std::vector<const Mat3*> frames = frames_of_ports(model.exchange);
-  const std::vector<Vec3> springs = model.scheme.is_static ? stiffness_of_laws(model) : std::vector<Vec3>();
+  const std::vector<Vec3> springs = law_springs(model);
   for (size_t p = 0; p < model.exchange.ports.size(); ++p) {
     const Port& port = model.exchange.ports[p];
     if (!model.solves(port.piece)) continue;

@@ -44,10 +44,18 @@ void share_on_machine(const Problem& problem, const Cut& cut) {
   dygita::share_on_machine(cut.arrays());
 }
 
+void make_operators(const Problem& problem, const std::vector<Surface>& surfaces, SharedOperators& operators,
+                    const SharePlan& plan) {
+  if (operators.are_made()) return;
+  const CutPtr cut = cut_into_pieces(problem, surfaces, plan);
+  share_on_machine(problem, *cut);
+  operators.make_for(problem, surfaces, cut);
+}
+
 }  // namespace
 
 SolverFigures solve(const Problem& problem, Observer& observer, StartFields start_from, Trail* kept_trail,
-                    const SharePlan& plan) {
+                    const Setting& setting) {
   using clock = std::chrono::steady_clock;
   auto start = clock::now();
   const auto lap = [&] {
@@ -58,9 +66,12 @@ SolverFigures solve(const Problem& problem, Observer& observer, StartFields star
   Trail* const trail = ranks::is_alone() ? kept_trail : ranks::any(kept_trail) ? &shared_trail : nullptr;
   const ranks::Traffic traffic_before = ranks::traffic();
   const std::vector<Surface> surfaces = make_surfaces(problem);
-  const CutPtr cut = cut_into_pieces(problem, surfaces, plan);
-  share_on_machine(problem, *cut);
-  const std::vector<Body> bodies = make_bodies(problem, surfaces, *cut);
+  SharedOperators own;
+  const bool shares = setting.shared && setting.shared->serve(problem, surfaces);
+  SharedOperators& operators = shares ? *setting.shared : own;
+  make_operators(problem, surfaces, operators, setting.plan);
+  const CutPtr& cut = operators.cut();
+  const std::vector<Body>& bodies = operators.bodies();
   State state = initial_state(problem, surfaces, *cut);
   auto kept = std::make_shared<InterfaceFields>(problem.solver.history_memory);
   SolverFigures figures;
@@ -68,12 +79,12 @@ SolverFigures solve(const Problem& problem, Observer& observer, StartFields star
   figures.seconds["assemble"] = lap();
   for (const StepPtr& step : problem.steps) {
     if (ranks::any(interrupt_requested())) break;
-    StepModel model = make_step_model(problem, *step, surfaces, bodies, state, cut);
+    StepModel model = make_step_model(problem, *step, surfaces, state, operators);
     if (ranks::any(interrupt_requested())) break;  // the factorisation may have taken long
     const InterfaceFields* const start_fields = start_from.of_step(figures.steps.size());
     const StepSettings settings = step_settings(problem, model, start_fields != nullptr);
     start_step(model, state);
-    if (step == problem.steps.back()) give_up_matrices(bodies);
+    if (step == problem.steps.back() && !shares) give_up_matrices(bodies);
     const Vec k = search_directions(model, problem.solver.search_direction, settings.window);
     fix_search_directions(model, k);
     RunFiles files{state, observer, start_fields, *kept, trail};
@@ -88,6 +99,7 @@ SolverFigures solve(const Problem& problem, Observer& observer, StartFields star
     figures.free.push_back(model.what_is_free());
     run.add_to(figures);
     if (figures.stopped_by) break;
+    if (shares) operators.keep(figures.steps.size() - 1, model);
   }
   tell_run(kept, figures);
   tell_ranks(surfaces, *cut, traffic_before, figures);

@@ -24,6 +24,8 @@ class CentralDifferences final : public ExplicitPiece {
  public:
   CentralDifferences(PieceSetup setup, std::shared_ptr<const ExplicitOperator> op);
 
+  const PieceSetup& setup() const { return setup_; }
+  const std::shared_ptr<const ExplicitOperator>& op() const { return op_; }
   const std::vector<InterfaceRow>& rows() const override { return setup_.rows; }
   const Vec& node_masses() const override { return setup_.body->mass->lumped; }
   const Vec& unknown_masses() const override { return unknown_masses_; }

@@ -11,12 +11,16 @@ FullPiece::FullPiece(PieceOperator op, std::optional<Condensation> condensation,
 
 void FullPiece::set_search_directions(const Vec& k) {
   ImplicitPiece::set_search_directions(k);
+  if (twin_ && twin_->factor_ && twin_->k_ == k) {
+    factor_ = twin_->factor_;
+    return;
+  }
   const PieceSetup& setup = op_.setup();
   const std::vector<char> no_interface(op_.n_free(), 0);
   const std::vector<int>& nodes = op_.unknowns().node_of_unknown();
-  factor_ = condensation_ ? std::make_unique<Factor>(op_.matrix(k), nodes, no_interface, setup.what)
-                          : std::make_unique<Factor>(op_.matrix(k), nodes, no_interface, setup.what, setup.precision,
-                                                     setup.storage_error);
+  factor_ = condensation_ ? std::make_shared<const Factor>(op_.matrix(k), nodes, no_interface, setup.what)
+                          : std::make_shared<const Factor>(op_.matrix(k), nodes, no_interface, setup.what,
+                                                           setup.precision, setup.storage_error);
 }
 
 void FullPiece::prepare(double /*quiet*/) { add_start_force(); }
@@ -70,7 +74,7 @@ Mat FullPiece::row_compliance(const std::vector<int>& columns) const {
 PieceFigures FullPiece::figures() const {
   PieceFigures figures = ImplicitPiece::figures();
   if (condensation_ && !is_shared_) figures.bytes += condensation_->factor->bytes();
-  if (factor_) figures.bytes += factor_->bytes();
+  if (factor_ && !(twin_ && twin_->factor_ == factor_)) figures.bytes += factor_->bytes();
   figures.is_mostly_interface = !condensation_;
   return figures;
 }

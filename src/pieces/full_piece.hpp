@@ -14,6 +14,8 @@ class FullPiece final : public ImplicitPiece {
   // condensation: of the plain path, whose vectors keep that factor's order; none: unknowns in the order of their
   // numbers.
   FullPiece(PieceOperator op, std::optional<Condensation> condensation, bool is_shared);
+  // twin: the same piece of another run, without a condensation.
+  FullPiece(PieceOperator op, const FullPiece& twin) : FullPiece(std::move(op), std::nullopt, true) { twin_ = &twin; }
 
   const Condensation* condensation() const override { return condensation_ ? &*condensation_ : nullptr; }
   void set_search_directions(const Vec& k) override;
@@ -29,7 +31,8 @@ class FullPiece final : public ImplicitPiece {
  private:
   std::optional<Condensation> condensation_;
   bool is_shared_;
-  std::unique_ptr<Factor> factor_;
+  const FullPiece* twin_ = nullptr;
+  std::shared_ptr<const Factor> factor_;
 };
 
 // The system is solved elsewhere, with other pieces' in it.

@@ -56,6 +56,8 @@ std::unique_ptr<ImplicitPiece> make_equal(const PieceSetup& setup, bool is_plain
 
 std::unique_ptr<ImplicitPiece> make_piece(const PieceSetup& setup, bool is_plain, const Twin& twin) {
   if (twin.piece && twin.piece->condensation()) return make_equal(setup, is_plain, twin);
+  if (const auto* full = twin.is_same ? dynamic_cast<const FullPiece*>(twin.piece) : nullptr)
+    return std::make_unique<FullPiece>(PieceOperator(setup, unknowns_of(setup)), *full);
   Layout layout(setup);
   FreeUnknowns& unknowns = layout.unknowns;
   if (unknowns.size() == 0) return std::make_unique<ImplicitPiece>(PieceOperator(setup, unknowns));

@@ -9,6 +9,7 @@ namespace dygita {
 struct Twin {
   const ImplicitPiece* piece = nullptr;
   Mat3 turn = Mat3::Identity();
+  bool is_same = false;  // it is this very piece, of another run
 };
 
 // A piece that answers to interface data: condensed, unless almost all of it is interface or the plain path is asked

@@ -178,6 +178,7 @@ std::shared_ptr<const RunResult> Continuation::run(const Problem& problem, const
   going_on.continues = state_;
   going_on.pieces = kept_pieces(problem, *state_);
   going_on.start_from = nullptr;
+  going_on.shared = nullptr;  // what changes may be more than members differ in
   take_folder(going_on);
   auto result = run_problem(changed(problem), going_on);
   is_done_ = true;

@@ -158,7 +158,7 @@ constexpr std::size_t memory_for_results = 4 * heap_growth, memory_of_thread = s
 struct Given {
   StartFields start_from;
   Trail* trail;
-  const SharePlan& plan;
+  Setting setting;
 };
 
 // Solves all steps once; tables and figures; scenes for the report where `keeps_scenes`. Of several ranks the first has
@@ -183,7 +183,7 @@ std::shared_ptr<RunResult> sweep(const Problem& problem, const Given& given, Fra
   const SolverFigures figures = problem.explicit_dynamics ? solve_explicit(problem, observers)
                                 : problem.monolithic
                                     ? solve_monolithic(problem, observers)
-                                    : solve(problem, observers, given.start_from, given.trail, given.plan);
+                                    : solve(problem, observers, given.start_from, given.trail, given.setting);
   reserve.release();
   parts.settle();
   result->interface_fields = figures.interface_fields;
@@ -231,6 +231,13 @@ void open_files(const Problem& declared, const RunRequest& request, bool is_firs
   if (is_first_pass) site.checkpoint = checkpoint_of(declared, request, site.work);
 }
 
+SharedOperators* shared_operators(const RunRequest& request, double tolerance) {
+  if (!request.shared) return nullptr;
+  std::shared_ptr<SharedOperators>& of_pass = (*request.shared)[tolerance];
+  if (!of_pass) of_pass = std::make_shared<SharedOperators>();
+  return of_pass.get();
+}
+
 // All passes over the steps; what is written meanwhile are frames.
 std::shared_ptr<RunResult> compute(const Problem& declared, const RunRequest& request, Problem& problem,
                                    RunSite& site) {
@@ -246,7 +253,8 @@ std::shared_ptr<RunResult> compute(const Problem& declared, const RunRequest& re
     const StartFields start = before         ? StartFields(before->interface_fields.get())
                               : site.earlier ? site.earlier->fields_for(declared)
                                              : StartFields(start_of(request));
-    const Given given{start, ranks::is_first() ? site.checkpoint.get() : site.part.get(), site.plan};
+    const Given given{start, ranks::is_first() ? site.checkpoint.get() : site.part.get(),
+                      Setting{site.plan, shared_operators(request, tolerances[pass])}};
     result = sweep(problem, given, files ? &*files : nullptr, ranks::any(site.writer != nullptr));
     share_result(problem, *result);
     if (before) add_pass(*before, *result);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -13,6 +14,10 @@
 #include "result/result.hpp"
 
 namespace dygita {
+
+class SharedOperators;
+// What members of an ensemble share, by the tolerance of a pass; the first member makes it.
+using OperatorsOfMembers = std::map<double, std::shared_ptr<SharedOperators>>;
 
 struct RunRequest {
   std::filesystem::path out = "out";  // files go to out/<problem>/<case_name>/
@@ -39,6 +44,7 @@ struct RunRequest {
   std::shared_ptr<const RunResult> start_from;  // an earlier case: the iteration starts from its interface fields
   // Folder of an earlier run, whose fields the iteration of the first static steps starts from; empty: none.
   std::filesystem::path from;
+  std::shared_ptr<OperatorsOfMembers> shared;  // with the other members; null: the run is by itself
 };
 
 // Computes and writes; says what it does in a few lines. Throws InputError, NumericalError.

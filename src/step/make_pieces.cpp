@@ -21,6 +21,7 @@
 #include "pieces/longest_step.hpp"
 #include "pieces/row_stiffness.hpp"
 #include "step/distant_piece.hpp"
+#include "step/shared_operators.hpp"
 
 namespace dygita {
 
@@ -184,18 +185,44 @@ std::vector<PieceSetup> setups_of(const StepModel& model, const std::vector<Body
   return setups;
 }
 
-// The first piece that another is equal to, and how the other is turned to it; none before it: -1.
+// The first piece that another is equal to, and how the other is turned to it; none before it: -1. Or what an earlier
+// run has of the piece itself.
 struct EqualTo {
   int piece = -1;
   Mat3 turn = Mat3::Identity();
+  const ImplicitPiece* same = nullptr;
+  std::shared_ptr<const ExplicitOperator> op = nullptr;
+
+  bool is_made() const { return same || op; }
 };
 
+// Empty: nothing of an earlier run is as this step would make it.
+std::vector<EqualTo> same_pieces(const StepModel& model, const std::vector<PieceSetup>& setups,
+                                 const StepOperators* earlier) {
+  if (!earlier || model.problem->solver.plain || earlier->springs != law_springs(model) ||
+      earlier->integration.is_explicit != model.integration.is_explicit ||
+      earlier->integration.n_substeps != model.integration.n_substeps)
+    return {};
+  std::vector<EqualTo> same(setups.size());
+  for (const int i : model.here) {
+    const Piece& piece = *earlier->pieces[static_cast<size_t>(i)];
+    if (model.integration.is_explicit_piece(i))
+      same[i].op = same_explicit(setups[i], piece);
+    else
+      same[i].same = same_implicit(setups[i], piece);
+  }
+  return same;
+}
+
 // Explicit ones are equal by their stiffness as it is, and by what tunes their mass.
-std::vector<EqualTo> twins_of(const StepModel& model, const std::vector<PieceSetup>& setups) {
+std::vector<EqualTo> twins_of(const StepModel& model, const std::vector<PieceSetup>& setups,
+                              const StepOperators* earlier = nullptr) {
   std::map<std::tuple<const StoredMatrices*, double, std::vector<char>>, int> known_explicit;
   std::map<const Mass*, std::vector<std::pair<int, FreeUnknowns>>> known;
-  std::vector<EqualTo> twins(setups.size());
+  std::vector<EqualTo> twins = same_pieces(model, setups, earlier);
+  twins.resize(setups.size());
   for (const int i : model.here) {
+    if (twins[i].is_made()) continue;
     const PieceSetup& setup = setups[i];
     if (model.integration.is_explicit_piece(i)) {
       const auto [at, is_new] =
@@ -206,7 +233,8 @@ std::vector<EqualTo> twins_of(const StepModel& model, const std::vector<PieceSet
     auto& before = known[setup.body->mass.get()];
     for (const auto& [first, unknowns] : before)
       if (const auto turn = turn_between(setups[first], unknowns, setup)) {
-        twins[i] = {first, *turn};
+        twins[i].piece = first;
+        twins[i].turn = *turn;
         break;
       }
     if (twins[i].piece < 0) before.emplace_back(i, unknowns_of(setup));
@@ -216,9 +244,9 @@ std::vector<EqualTo> twins_of(const StepModel& model, const std::vector<PieceSet
 
 }  // namespace
 
-Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies) {
+Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies, const StepOperators* earlier) {
   std::vector<PieceSetup> setups = setups_of(model, bodies);
-  const std::vector<EqualTo> twins = twins_of(model, setups);
+  const std::vector<EqualTo> twins = twins_of(model, setups, earlier);
   const int n = static_cast<int>(setups.size());
   std::vector<std::unique_ptr<ImplicitPiece>> built(n);
   std::vector<std::shared_ptr<const ExplicitOperator>> operators(n);
@@ -227,17 +255,22 @@ Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies) {
   // An implicit one costs a factor, of so many operations where its graph is that of a solid.
   std::vector<double> cost;
   for (const int i : model.here)
-    cost.push_back(model.integration.is_explicit_piece(i) || twins[i].piece >= 0 ? 0.0
-                                                                                 : std::pow(setups[i].n_nodes(), 2));
+    cost.push_back(model.integration.is_explicit_piece(i) || twins[i].piece >= 0 || twins[i].is_made()
+                       ? 0.0
+                       : std::pow(setups[i].n_nodes(), 2));
   for (const bool has_twin : {false, true})
     parallel_by_cost(cost, [&](int at) {
       const int i = model.here[at];
       if ((twins[i].piece >= 0) != has_twin) return;
       if (model.integration.is_explicit_piece(i))
-        operators[i] = has_twin ? operators[twins[i].piece] : std::make_shared<const ExplicitOperator>(setups[i]);
+        operators[i] = twins[i].op ? twins[i].op
+                       : has_twin  ? operators[twins[i].piece]
+                                   : std::make_shared<const ExplicitOperator>(setups[i]);
       else
         built[i] = make_piece(setups[i], model.problem->solver.plain,
-                              has_twin ? Twin{built[twins[i].piece].get(), twins[i].turn} : Twin());
+                              twins[i].same ? Twin{twins[i].same, Mat3::Identity(), true}
+                              : has_twin    ? Twin{built[twins[i].piece].get(), twins[i].turn}
+                                            : Twin());
     });
   Pieces pieces(std::make_move_iterator(built.begin()), std::make_move_iterator(built.end()));
   parallel_for(n, [&](int i) {

@@ -8,9 +8,10 @@ namespace dygita {
 
 using Pieces = std::vector<std::unique_ptr<Piece>>;
 
-// One of every body, factorised side by side on the threads at hand; those equal to an earlier one share its operator.
-// Throws NumericalError.
-Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies);
+// One of every body, factorised side by side on the threads at hand; those equal to an earlier one share its operator,
+// and those that an earlier run of the step has (null: none) share what it made. Throws NumericalError.
+struct StepOperators;
+Pieces make_pieces(const StepModel& model, const std::vector<Body>& bodies, const StepOperators* earlier);
 // For a solver that factorises them together.
 Pieces make_assembled_pieces(const StepModel& model, const std::vector<Body>& bodies);
 // A piece of the latter.

@@ -14,7 +14,7 @@
 #include "law/law.hpp"
 #include "partition/all_pieces.hpp"
 #include "step/assembled_system.hpp"
-#include "step/make_pieces.hpp"
+#include "step/shared_operators.hpp"
 
 namespace dygita {
 
@@ -300,10 +300,9 @@ void tell_equal_apart(const StepModel& model) {
   }
 }
 
-}  // namespace
-
-StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
-                          const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
+// All but the pieces.
+StepModel without_pieces(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                         const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
   const bool is_in_one = is_assembled(problem, step, surfaces) && fits_every_rank(problem, step);
   StepModel model = make_model(problem, step, surfaces, bodies, start, cut, true, is_in_one || ranks::is_alone());
   model.is_assembled = is_in_one;
@@ -313,11 +312,30 @@ StepModel make_step_model(const Problem& problem, const Step& step, const std::v
     model.unknowns = {};
     model.assembled_bodies = with_all_matrices(bodies);
   }
-  model.pieces = !model.is_assembled ? make_pieces(model, bodies)
+  return model;
+}
+
+void add_pieces(StepModel& model, const std::vector<Body>& bodies, const StepOperators* earlier) {
+  model.pieces = !model.is_assembled ? make_pieces(model, bodies, earlier)
                  : ranks::is_alone() ? make_assembled_pieces(model, bodies)
                                      : make_assembled_pieces(model, model.assembled_bodies);
   model.equal = group_equal(model.pieces);
   tell_equal_apart(model);
+}
+
+}  // namespace
+
+StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                          const std::vector<Body>& bodies, const State& start, const CutPtr& cut) {
+  StepModel model = without_pieces(problem, step, surfaces, bodies, start, cut);
+  add_pieces(model, bodies, nullptr);
+  return model;
+}
+
+StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                          const State& start, const SharedOperators& operators) {
+  StepModel model = without_pieces(problem, step, surfaces, operators.bodies(), start, operators.cut());
+  add_pieces(model, operators.bodies(), operators.of_step(static_cast<size_t>(index_of(problem.steps, &step))));
   return model;
 }
 

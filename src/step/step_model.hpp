@@ -98,6 +98,10 @@ bool fits_in_one(const Problem& problem);
 // NumericalError. In static steps that the solver assembles the pieces are not factorised.
 StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                           const std::vector<Body>& bodies, const State& start, const CutPtr& cut);
+// The same over what runs share.
+class SharedOperators;
+StepModel make_step_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
+                          const State& start, const SharedOperators& operators);
 // Builds only, for a solver that factorises the substructures together: one piece each.
 StepModel make_assembled_model(const Problem& problem, const Step& step, const std::vector<Surface>& surfaces,
                                const std::vector<Body>& bodies, const State& start);
